@@ -1,0 +1,2 @@
+//! The `robohive` command.
+fn main() {}
