@@ -1,1 +1,18 @@
-//! RoboHive.
+//! Physics that follows MuJoCo 3.12: a constant [`Model`], a changing [`Data`], and the stages of a step between them.
+//!
+//! # Conventions
+//! - SI units; world z up; angles in radians; quaternions w-x-y-z; matrices row-major.
+//! - Spatial vectors are rotation first. "Com-based" means expressed in the world orientation about the centre of
+//!   mass of the kinematic tree.
+//! - Arrays bear MuJoCo's names. Indices are `usize` in code; stored references are `i32`, -1 for none.
+//! - A stage takes the model, the stage structs it reads, and `&mut` the one it writes.
+//! - The same bits everywhere: transcendental functions come from [`math::ops`], sums have a fixed order, and no
+//!   multiply-add is fused.
+
+pub mod data;
+pub mod math;
+pub mod model;
+pub mod table;
+
+pub use data::Data;
+pub use model::Model;

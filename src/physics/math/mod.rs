@@ -1,0 +1,19 @@
+//! Small fixed-size algebra: vectors, quaternions, rotations, spatial vectors. Arrays by value, no allocation.
+
+pub mod ops;
+mod quat;
+mod spatial;
+mod vector;
+
+pub use quat::*;
+pub use spatial::*;
+pub use vector::*;
+
+/// A vector in space.
+pub type Vec3 = [f64; 3];
+/// A quaternion, w-x-y-z.
+pub type Quat = [f64; 4];
+/// A 3x3 matrix, row-major.
+pub type Mat3 = [f64; 9];
+/// A motion or force vector, rotation first.
+pub type Spatial = [f64; 6];

@@ -1,0 +1,10 @@
+//! The compiled model: arrays, options, and the enumerations their integers stand for.
+
+mod fields;
+mod names;
+mod options;
+mod types;
+
+pub use fields::Model;
+pub use options::*;
+pub use types::*;

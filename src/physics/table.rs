@@ -1,0 +1,210 @@
+//! Field tables: every array of `Model` and `Data` is declared once, and struct, allocation and reflection
+//! by name follow from that line.
+//!
+//! A row reads `name: type [rows; width]`: `width` is a constant (the element becomes `[type; width]`), or
+//! `[rows, n; width]` where `n` is a run-time size and the array is kept flat.
+
+/// A borrowed array with its element type, as reflection hands it out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Slice<'a> {
+    /// Truth values.
+    Bool(&'a [bool]),
+    /// Bytes and characters.
+    U8(&'a [u8]),
+    /// Integers and indices, -1 for none.
+    I32(&'a [i32]),
+    /// File-sized offsets.
+    I64(&'a [i64]),
+    /// Single precision: colours, mesh vertices, height fields.
+    F32(&'a [f32]),
+    /// Numbers of the computation.
+    F64(&'a [f64]),
+}
+
+impl Slice<'_> {
+    /// Number of scalars.
+    pub fn len(&self) -> usize {
+        match self {
+            Slice::Bool(s) => s.len(),
+            Slice::U8(s) => s.len(),
+            Slice::I32(s) => s.len(),
+            Slice::I64(s) => s.len(),
+            Slice::F32(s) => s.len(),
+            Slice::F64(s) => s.len(),
+        }
+    }
+
+    /// True when there is no scalar.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Every scalar widened to f64 (exact for all but 64-bit integers beyond 2^53).
+    pub fn to_f64(&self) -> Vec<f64> {
+        match self {
+            Slice::Bool(s) => s.iter().map(|&x| f64::from(u8::from(x))).collect(),
+            Slice::U8(s) => s.iter().map(|&x| f64::from(x)).collect(),
+            Slice::I32(s) => s.iter().map(|&x| f64::from(x)).collect(),
+            Slice::I64(s) => s.iter().map(|&x| x as f64).collect(),
+            Slice::F32(s) => s.iter().map(|&x| f64::from(x)).collect(),
+            Slice::F64(s) => s.to_vec(),
+        }
+    }
+
+    /// True for the two floating-point kinds.
+    pub fn is_float(&self) -> bool {
+        matches!(self, Slice::F32(_) | Slice::F64(_))
+    }
+}
+
+/// A scalar that fields are made of.
+pub trait Scalar: Copy + Default {
+    /// Wraps a slice with its type.
+    fn slice(s: &[Self]) -> Slice<'_>;
+    /// Converts flat f64 values, the common currency of injected arrays.
+    fn from_f64(x: f64) -> Self;
+}
+
+macro_rules! scalar {
+    ($t:ty, $v:ident, |$x:ident| $e:expr) => {
+        impl Scalar for $t {
+            fn slice(s: &[Self]) -> Slice<'_> {
+                Slice::$v(s)
+            }
+            fn from_f64($x: f64) -> Self {
+                $e
+            }
+        }
+    };
+}
+scalar!(bool, Bool, |x| x != 0.0);
+scalar!(u8, U8, |x| x as u8);
+scalar!(i32, I32, |x| x as i32);
+scalar!(i64, I64, |x| x as i64);
+scalar!(f32, F32, |x| x as f32);
+scalar!(f64, F64, |x| x);
+
+/// Storage of one field: `Vec<T>`, `Vec<[T; N]>`, `T` or `[T; N]`.
+pub trait Field {
+    /// All scalars in row-major order.
+    fn scalars(&self) -> Slice<'_>;
+    /// Allocates `rows` zero rows of `width` run-time columns (1 for fixed-width fields).
+    fn allocate(&mut self, rows: usize, width: usize);
+    /// Replaces the content by flat values; false when they do not fill whole rows.
+    fn assign(&mut self, values: &[f64]) -> bool;
+    /// Fixed columns of one row (1 for scalar rows).
+    const COLUMNS: usize;
+}
+
+impl<T: Scalar> Field for Vec<T> {
+    fn scalars(&self) -> Slice<'_> {
+        T::slice(self)
+    }
+    fn allocate(&mut self, rows: usize, width: usize) {
+        self.clear();
+        self.resize(rows * width, T::default());
+    }
+    fn assign(&mut self, values: &[f64]) -> bool {
+        self.clear();
+        self.extend(values.iter().map(|&x| T::from_f64(x)));
+        true
+    }
+    const COLUMNS: usize = 1;
+}
+
+impl<T: Scalar, const N: usize> Field for Vec<[T; N]> {
+    fn scalars(&self) -> Slice<'_> {
+        T::slice(self.as_flattened())
+    }
+    fn allocate(&mut self, rows: usize, width: usize) {
+        self.clear();
+        self.resize(rows * width, [T::default(); N]);
+    }
+    fn assign(&mut self, values: &[f64]) -> bool {
+        if !values.len().is_multiple_of(N) {
+            return false;
+        }
+        self.clear();
+        self.extend(values.chunks_exact(N).map(|row| std::array::from_fn(|i| T::from_f64(row[i]))));
+        true
+    }
+    const COLUMNS: usize = N;
+}
+
+macro_rules! field_type {
+    ($t:ty, [$rows:ident; $n:literal]) => { Vec<[$t; $n]> };
+    ($t:ty, [$rows:ident $(, $w:ident)? $(; $n:literal)?]) => { Vec<$t> };
+}
+
+macro_rules! field_shape {
+    ($m:expr, [$rows:ident]) => {
+        vec![$m.$rows]
+    };
+    ($m:expr, [$rows:ident; $n:literal]) => {
+        vec![$m.$rows, $n]
+    };
+    ($m:expr, [$rows:ident, $w:ident]) => {
+        vec![$m.$rows, $m.$w]
+    };
+    ($m:expr, [$rows:ident, $w:ident; $n:literal]) => {
+        vec![$m.$rows, $m.$w * $n]
+    };
+}
+
+macro_rules! field_width {
+    ($m:expr, [$rows:ident]) => {
+        1
+    };
+    ($m:expr, [$rows:ident; $n:literal]) => {
+        1
+    };
+    ($m:expr, [$rows:ident, $w:ident]) => {
+        $m.$w
+    };
+    ($m:expr, [$rows:ident, $w:ident; $n:literal]) => {
+        $m.$w * $n
+    };
+}
+
+macro_rules! field_rows {
+    ($m:expr, [$rows:ident $($rest:tt)*]) => {
+        $m.$rows
+    };
+}
+
+/// Declares one stage struct of `Data`: arrays whose row counts are sizes of the `Model`.
+macro_rules! stage {
+    ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident : $t:ident $shape:tt,)* }) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, Default)]
+        #[allow(non_snake_case)]
+        pub struct $name { $($(#[$doc])* pub $field: crate::table::field_type!($t, $shape),)* }
+
+        impl $name {
+            /// Zeroed arrays sized for `m`.
+            pub fn new(m: &crate::model::Model) -> Self {
+                let mut s = Self::default();
+                $(crate::table::Field::allocate(&mut s.$field, crate::table::field_rows!(m, $shape),
+                    crate::table::field_width!(m, $shape));)*
+                s
+            }
+
+            /// Calls `f(name, shape, values)` for every array, in declaration order.
+            pub fn visit(&self, m: &crate::model::Model, f: &mut dyn FnMut(&'static str, Vec<usize>, crate::table::Slice<'_>)) {
+                $(f(stringify!($field), crate::table::field_shape!(m, $shape), crate::table::Field::scalars(&self.$field));)*
+            }
+
+            /// Overwrites the array called `name`; `None` when there is none, `Some(false)` on a size mismatch.
+            pub fn assign(&mut self, name: &str, values: &[f64]) -> Option<bool> {
+                match name {
+                    $(stringify!($field) => Some(
+                        crate::table::Field::scalars(&self.$field).len() == values.len()
+                            && crate::table::Field::assign(&mut self.$field, values)),)*
+                    _ => None,
+                }
+            }
+        }
+    };
+}
+
+pub(crate) use {field_rows, field_shape, field_type, field_width, stage};
