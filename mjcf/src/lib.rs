@@ -1,1 +1,8 @@
 //! RoboHive.
+
+pub mod asset;
+pub mod bvh;
+pub mod image;
+pub mod mesh;
+pub mod principal;
+pub(crate) mod vector;

@@ -1,0 +1,303 @@
+//! Bounding volume hierarchies of meshes (leaf = face) and bodies (leaf = geom).
+//!
+//! A node's box encloses its leaves; the leaves are split at the median of the longest axis of that
+//! box. Nodes are numbered in preorder, the left child right after its parent, as `bvh_*` stores them.
+
+use crate::vector::{rotate, sub};
+
+/// Boxes thinner than this are inflated, and coordinates closer than this tie.
+const EPS: f64 = 1e-14;
+
+/// One element of a hierarchy.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Leaf {
+    /// What `bvh_nodeid` stores: face index in the mesh, or geom id.
+    pub id: i32,
+    /// Position the median split sorts by, and origin of `aabb` when `quat` is given.
+    pub pos: [f64; 3],
+    /// Orientation of `aabb`; `None` when the box is already in the hierarchy's frame.
+    pub quat: Option<[f64; 4]>,
+    /// Box of the element: centre, half sizes.
+    pub aabb: [f64; 6],
+    /// Whether the element takes part in collisions; others are left out.
+    pub collides: bool,
+}
+
+/// The `bvh_*` rows of one mesh or body; children are relative to the first row.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Bvh {
+    /// Depth of each node, root 0.
+    pub depth: Vec<i32>,
+    /// Left and right child, -1 for none.
+    pub child: Vec<[i32; 2]>,
+    /// Element of a leaf, -1 for inner nodes.
+    pub nodeid: Vec<i32>,
+    /// Box of each node: centre, half sizes.
+    pub aabb: Vec<[f64; 6]>,
+}
+
+struct Element<'a> {
+    leaf: &'a Leaf,
+    order: usize,
+    local: [f64; 3],
+}
+
+/// Hierarchy of `leaves` in the frame (`ipos`, `iquat`): the inertial frame of the body, or identity.
+pub fn build(leaves: &[Leaf], ipos: [f64; 3], iquat: [f64; 4]) -> Bvh {
+    let qinv = [iquat[0], -iquat[1], -iquat[2], -iquat[3]];
+    let mut elements: Vec<Element> = leaves
+        .iter()
+        .enumerate()
+        .filter(|(_, leaf)| leaf.collides)
+        .map(|(order, leaf)| Element { leaf, order, local: rotate(sub(leaf.pos, ipos), qinv) })
+        .collect();
+    let mut bvh = Bvh::default();
+    if !elements.is_empty() {
+        split(&mut bvh, &mut elements, 0, ipos, qinv);
+    }
+    bvh
+}
+
+fn split(bvh: &mut Bvh, elements: &mut [Element], depth: i32, ipos: [f64; 3], qinv: [f64; 4]) -> i32 {
+    let (lo, hi) = enclosing(elements, ipos, qinv);
+    let index = bvh.depth.len();
+    bvh.depth.push(depth);
+    bvh.child.push([-1, -1]);
+    bvh.nodeid.push(-1);
+    bvh.aabb.push([
+        (hi[0] + lo[0]) / 2.0,
+        (hi[1] + lo[1]) / 2.0,
+        (hi[2] + lo[2]) / 2.0,
+        (hi[0] - lo[0]) / 2.0,
+        (hi[1] - lo[1]) / 2.0,
+        (hi[2] - lo[2]) / 2.0,
+    ]);
+    if elements.len() == 1 {
+        bvh.nodeid[index] = elements[0].leaf.id;
+        return index as i32;
+    }
+    let axis = longest_axis(sub(hi, lo));
+    let median = elements.len() / 2;
+    let before = |a: &Element, b: &Element| {
+        let (x, y) = (a.local[axis], b.local[axis]);
+        if (x - y).abs() > EPS { x < y } else { a.order < b.order }
+    };
+    nth_element(elements, median, before);
+    let (left, right) = elements.split_at_mut(median);
+    let left = split(bvh, left, depth + 1, ipos, qinv);
+    let right = split(bvh, right, depth + 1, ipos, qinv);
+    bvh.child[index] = [left, right];
+    index as i32
+}
+
+/// Corners (min, max) of the box around all elements, at least `2 EPS` wide.
+fn enclosing(elements: &[Element], ipos: [f64; 3], qinv: [f64; 4]) -> ([f64; 3], [f64; 3]) {
+    let mut lo = [f64::MAX; 3];
+    let mut hi = [-f64::MAX; 3];
+    for element in elements {
+        let aabb = &element.leaf.aabb;
+        let min = [aabb[0] - aabb[3], aabb[1] - aabb[4], aabb[2] - aabb[5]];
+        let max = [aabb[0] + aabb[3], aabb[1] + aabb[4], aabb[2] + aabb[5]];
+        let Some(quat) = element.leaf.quat else {
+            for k in 0..3 {
+                lo[k] = lo[k].min(min[k]).min(max[k]);
+                hi[k] = hi[k].max(min[k]).max(max[k]);
+            }
+            continue;
+        };
+        for corner in 0..8 {
+            let pick = |k: usize| if corner >> k & 1 == 1 { max[k] } else { min[k] };
+            let turned = rotate([pick(0), pick(1), pick(2)], quat);
+            let pos = element.leaf.pos;
+            let moved = [
+                turned[0] + (pos[0] - ipos[0]),
+                turned[1] + (pos[1] - ipos[1]),
+                turned[2] + (pos[2] - ipos[2]),
+            ];
+            let local = rotate(moved, qinv);
+            for k in 0..3 {
+                lo[k] = lo[k].min(local[k]);
+                hi[k] = hi[k].max(local[k]);
+            }
+        }
+    }
+    for k in 0..3 {
+        if (lo[k] - hi[k]).abs() < EPS {
+            lo[k] -= EPS;
+            hi[k] += EPS;
+        }
+    }
+    (lo, hi)
+}
+
+/// First axis unless a later one is longer by `EPS`.
+fn longest_axis(edges: [f64; 3]) -> usize {
+    let mut axis = 0;
+    if edges[1] >= edges[0] + EPS {
+        axis = 1;
+    }
+    if edges[2] >= edges[axis] + EPS {
+        axis = 2;
+    }
+    axis
+}
+
+/// Moves the `nth` element into place with everything before it ordered before it.
+///
+/// Degenerate faces have positions that are not numbers, so `before` need not be a strict weak order;
+/// then the outcome depends on the sequence of comparisons, and that of LLVM's `std::nth_element`
+/// (quickselect, median of three) is kept.
+fn nth_element<T>(items: &mut [T], nth: usize, before: impl Fn(&T, &T) -> bool) {
+    const SELECTION_SORT_BELOW: usize = 7;
+    let (mut first, mut last) = (0, items.len());
+    'narrow: loop {
+        if nth == last || last - first < 2 {
+            return;
+        }
+        if last - first == 2 {
+            if before(&items[last - 1], &items[first]) {
+                items.swap(first, last - 1);
+            }
+            return;
+        }
+        if last - first == 3 {
+            sort3(items, first, first + 1, first + 2, &before);
+            return;
+        }
+        if last - first <= SELECTION_SORT_BELOW {
+            return selection_sort(&mut items[first..last], &before);
+        }
+        let mut pivot = first + (last - first) / 2;
+        let end = last - 1;
+        let mut swaps = sort3(items, first, pivot, end, &before);
+        let (mut i, mut j) = (first, end);
+        if !before(&items[i], &items[pivot]) {
+            // The first element ties with the pivot: look from the right for one that is smaller.
+            loop {
+                j -= 1;
+                if i == j {
+                    // Nothing is smaller: split off the elements that tie with the first one.
+                    i += 1;
+                    j = end;
+                    if !before(&items[first], &items[j]) {
+                        loop {
+                            if i == j {
+                                return;
+                            }
+                            if before(&items[first], &items[i]) {
+                                items.swap(i, j);
+                                i += 1;
+                                break;
+                            }
+                            i += 1;
+                        }
+                    }
+                    if i == j {
+                        return;
+                    }
+                    loop {
+                        while i < end && !before(&items[first], &items[i]) {
+                            i += 1;
+                        }
+                        j -= 1;
+                        while j > first && before(&items[first], &items[j]) {
+                            j -= 1;
+                        }
+                        if i >= j {
+                            break;
+                        }
+                        items.swap(i, j);
+                        i += 1;
+                    }
+                    if nth < i {
+                        return;
+                    }
+                    first = i;
+                    continue 'narrow;
+                }
+                if before(&items[j], &items[pivot]) {
+                    items.swap(i, j);
+                    swaps += 1;
+                    break;
+                }
+            }
+        }
+        i += 1;
+        if i < j {
+            loop {
+                while i < end && before(&items[i], &items[pivot]) {
+                    i += 1;
+                }
+                j -= 1;
+                while j > first && !before(&items[j], &items[pivot]) {
+                    j -= 1;
+                }
+                if i >= j {
+                    break;
+                }
+                items.swap(i, j);
+                swaps += 1;
+                if pivot == i {
+                    pivot = j;
+                }
+                i += 1;
+            }
+        }
+        if i != pivot && before(&items[pivot], &items[i]) {
+            items.swap(i, pivot);
+            swaps += 1;
+        }
+        if nth == i {
+            return;
+        }
+        if swaps == 0 && already_sorted(items, if nth < i { first..i } else { i..last }, &before) {
+            return;
+        }
+        if nth < i {
+            last = i;
+        } else {
+            first = i + 1;
+        }
+    }
+}
+
+fn already_sorted<T>(items: &[T], range: std::ops::Range<usize>, before: impl Fn(&T, &T) -> bool) -> bool {
+    items[range].windows(2).all(|pair| !before(&pair[1], &pair[0]))
+}
+
+/// Orders three elements, returns the number of swaps.
+fn sort3<T>(items: &mut [T], x: usize, y: usize, z: usize, before: impl Fn(&T, &T) -> bool) -> usize {
+    if !before(&items[y], &items[x]) {
+        if !before(&items[z], &items[y]) {
+            return 0;
+        }
+        items.swap(y, z);
+        if before(&items[y], &items[x]) {
+            items.swap(x, y);
+            return 2;
+        }
+        return 1;
+    }
+    if before(&items[z], &items[y]) {
+        items.swap(x, z);
+        return 1;
+    }
+    items.swap(x, y);
+    if before(&items[z], &items[y]) {
+        items.swap(y, z);
+        return 2;
+    }
+    1
+}
+
+fn selection_sort<T>(items: &mut [T], before: impl Fn(&T, &T) -> bool) {
+    for first in 0..items.len().saturating_sub(1) {
+        let mut least = first;
+        for i in first + 1..items.len() {
+            if before(&items[i], &items[least]) {
+                least = i;
+            }
+        }
+        items.swap(first, least);
+    }
+}

@@ -1,0 +1,340 @@
+//! Textures: from one image, from six, or computed.
+
+use super::builtin::{Builtin, Mark, paint_cube, paint_flat_image};
+use super::png::{self, Pixels};
+use crate::asset::AssetError;
+
+/// How a texture is mapped.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum TextureKind {
+    /// One image, by texture coordinates or projected.
+    Image2d,
+    /// Six faces around the object.
+    #[default]
+    Cube,
+    /// Six faces around the scene.
+    Skybox,
+}
+
+/// How pixel values encode light; the values are those of `mjtColorSpace`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Colorspace {
+    /// By the file, linear if it does not say.
+    #[default]
+    Auto = 0,
+    /// Proportional to light.
+    Linear = 1,
+    /// With the sRGB transfer function.
+    Srgb = 2,
+}
+
+/// An image file that was read but not decoded.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FileImage {
+    /// Contents.
+    pub bytes: Vec<u8>,
+    /// Path, for its extension and messages.
+    pub path: String,
+}
+
+/// What an `asset/texture` element says, with its files already read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextureSource {
+    /// Name for messages.
+    pub name: String,
+    /// Mapping.
+    pub kind: TextureKind,
+    /// Attribute `colorspace`.
+    pub colorspace: Colorspace,
+    /// Attribute `file`.
+    pub file: Option<FileImage>,
+    /// Attributes `fileright`, `fileleft`, `fileup`, `filedown`, `filefront`, `fileback`.
+    pub cubefiles: [Option<FileImage>; 6],
+    /// Attribute `content_type`, empty to go by the extension.
+    pub content_type: String,
+    /// Rows and columns of the grid of cube faces in `file`.
+    pub gridsize: [usize; 2],
+    /// Face symbols of the grid, row by row, out of `.RLUDFB`.
+    pub gridlayout: String,
+    /// Computed pattern.
+    pub builtin: Builtin,
+    /// Marks on a computed pattern.
+    pub mark: Mark,
+    /// First colour, [0, 1].
+    pub rgb1: [f64; 3],
+    /// Second colour.
+    pub rgb2: [f64; 3],
+    /// Colour of marks.
+    pub markrgb: [f64; 3],
+    /// Probability of a random dot.
+    pub random: f64,
+    /// Width of a computed texture in pixels.
+    pub width: usize,
+    /// Height of a computed image; cubes derive it.
+    pub height: usize,
+    /// Flip each image left to right.
+    pub hflip: bool,
+    /// Flip each image upside down.
+    pub vflip: bool,
+    /// Channels of images: 1, 3 or 4. Cubes and computed textures need 3.
+    pub nchannel: usize,
+}
+
+impl Default for TextureSource {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            kind: TextureKind::Cube,
+            colorspace: Colorspace::Auto,
+            file: None,
+            cubefiles: Default::default(),
+            content_type: String::new(),
+            gridsize: [1, 1],
+            gridlayout: "............".into(),
+            builtin: Builtin::None,
+            mark: Mark::None,
+            rgb1: [0.8; 3],
+            rgb2: [0.5; 3],
+            markrgb: [0.0; 3],
+            random: 0.01,
+            width: 0,
+            height: 0,
+            hflip: false,
+            vflip: false,
+            nchannel: 3,
+        }
+    }
+}
+
+/// The rows one texture contributes to a model.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct CompiledTexture {
+    /// `tex_width`.
+    pub width: usize,
+    /// `tex_height`; six times the width for a cube with distinct faces.
+    pub height: usize,
+    /// `tex_nchannel`.
+    pub nchannel: usize,
+    /// `tex_colorspace`.
+    pub colorspace: Colorspace,
+    /// `tex_data`: row-major from the top, faces in the order right, left, up, down, front, back.
+    pub data: Vec<u8>,
+}
+
+/// Largest texture in bytes.
+const MAX_BYTES: usize = 1 << 30;
+
+/// Compiles one texture.
+pub fn texture(source: &TextureSource) -> Result<CompiledTexture, AssetError> {
+    if ![1, 3, 4].contains(&source.nchannel) {
+        return Err(AssetError::unsupported(format!(
+            "texture '{}': {} channels",
+            source.name, source.nchannel
+        )));
+    }
+    match (source.builtin, &source.file, source.kind) {
+        (Builtin::None, Some(file), TextureKind::Image2d) => flat_file(source, file),
+        (Builtin::None, Some(file), _) => cube_from_one(source, file),
+        (Builtin::None, None, TextureKind::Image2d) => Err(AssetError::inconsistent(format!(
+            "texture '{}' of type 2d needs a file or a builtin",
+            source.name
+        ))),
+        (Builtin::None, None, _) => cube_from_six(source),
+        (_, _, TextureKind::Image2d) => computed(source, source.height),
+        _ => computed(source, source.width.saturating_mul(6)),
+    }
+}
+
+fn computed(source: &TextureSource, height: usize) -> Result<CompiledTexture, AssetError> {
+    let width = source.width;
+    three_channels(source)?;
+    if width == 0 || height == 0 {
+        return Err(AssetError::inconsistent(format!(
+            "texture '{}': a builtin needs positive width and height",
+            source.name
+        )));
+    }
+    let mut data = vec![0; byte_count(source, width, height, 3)?];
+    match source.kind {
+        TextureKind::Image2d => paint_flat_image(source, width, height, &mut data),
+        TextureKind::Cube | TextureKind::Skybox => paint_cube(source, width, &mut data),
+    }
+    Ok(CompiledTexture { width, height, nchannel: 3, colorspace: source.colorspace, data })
+}
+
+fn flat_file(source: &TextureSource, file: &FileImage) -> Result<CompiledTexture, AssetError> {
+    let image = load(source, file)?;
+    Ok(CompiledTexture {
+        width: image.width,
+        height: image.height,
+        nchannel: source.nchannel,
+        colorspace: resolve(source.colorspace, image.srgb),
+        data: image.data,
+    })
+}
+
+/// One image for all faces, or a grid of faces.
+fn cube_from_one(source: &TextureSource, file: &FileImage) -> Result<CompiledTexture, AssetError> {
+    three_channels(source)?;
+    let [rows, columns] = source.gridsize;
+    let fail = |why: &str| Err(AssetError::inconsistent(format!("texture '{}': {why}", source.name)));
+    if rows == 0 || columns == 0 || rows.saturating_mul(columns) > 12 {
+        return fail("gridsize must have 1 to 12 squares");
+    }
+    let image = load(source, file)?;
+    let width = image.width / columns;
+    if width != image.height / rows || image.width % columns != 0 || image.height % rows != 0 {
+        return fail("image size must be an integer multiple of gridsize with square cells");
+    }
+    let colorspace = resolve(source.colorspace, image.srgb);
+    if rows == 1 && columns == 1 {
+        return Ok(CompiledTexture { width, height: width, nchannel: 3, colorspace, data: image.data });
+    }
+    let mut faces = Faces::new(source, width)?;
+    for (cell, symbol) in source.gridlayout.chars().take(rows * columns).enumerate() {
+        if symbol == '.' {
+            continue;
+        }
+        let Some(face) = "RLUDFB".find(symbol) else {
+            return fail("gridlayout symbols must be among '.RLUDFB'");
+        };
+        let (top, left) = (width * (cell / columns), width * (cell % columns));
+        for row in 0..width {
+            let from = 3 * ((top + row) * image.width + left);
+            faces.row(face, row).copy_from_slice(&image.data[from..from + 3 * width]);
+        }
+        faces.loaded[face] = true;
+    }
+    Ok(faces.finish(source, colorspace))
+}
+
+fn cube_from_six(source: &TextureSource) -> Result<CompiledTexture, AssetError> {
+    three_channels(source)?;
+    let mut colorspace = source.colorspace;
+    let mut faces: Option<Faces> = None;
+    for (face, file) in source.cubefiles.iter().enumerate() {
+        let Some(file) = file else { continue };
+        let image = load(source, file)?;
+        colorspace = resolve(colorspace, image.srgb);
+        if image.width != image.height {
+            return Err(AssetError::inconsistent(format!("cube face '{}' is not square", file.path)));
+        }
+        let faces = match &mut faces {
+            Some(faces) if faces.width != image.width => {
+                return Err(AssetError::inconsistent(format!("cube face '{}' differs in size", file.path)));
+            }
+            Some(faces) => faces,
+            empty => empty.insert(Faces::new(source, image.width)?),
+        };
+        for (row, pixels) in image.data.chunks_exact(3 * image.width).enumerate() {
+            faces.row(face, row).copy_from_slice(pixels);
+        }
+        faces.loaded[face] = true;
+    }
+    match faces {
+        Some(faces) => Ok(faces.finish(source, colorspace)),
+        None => {
+            Err(AssetError::inconsistent(format!("texture '{}' has no builtin and no file", source.name)))
+        }
+    }
+}
+
+/// Six square images, one below the other.
+struct Faces {
+    width: usize,
+    data: Vec<u8>,
+    loaded: [bool; 6],
+}
+
+impl Faces {
+    fn new(source: &TextureSource, width: usize) -> Result<Self, AssetError> {
+        let bytes = byte_count(source, width, width.saturating_mul(6), 3)?;
+        Ok(Self { width, data: vec![0; bytes], loaded: [false; 6] })
+    }
+
+    fn row(&mut self, face: usize, row: usize) -> &mut [u8] {
+        let start = 3 * self.width * (face * self.width + row);
+        &mut self.data[start..start + 3 * self.width]
+    }
+
+    /// Faces without image get the first colour.
+    fn finish(mut self, source: &TextureSource, colorspace: Colorspace) -> CompiledTexture {
+        let blank = source.rgb1.map(|x| (255.0 * x) as u8);
+        let size = 3 * self.width * self.width;
+        for (face, pixels) in self.data.chunks_exact_mut(size).enumerate() {
+            if !self.loaded[face] {
+                pixels.chunks_exact_mut(3).for_each(|p| p.copy_from_slice(&blank));
+            }
+        }
+        CompiledTexture {
+            width: self.width,
+            height: 6 * self.width,
+            nchannel: 3,
+            colorspace,
+            data: self.data,
+        }
+    }
+}
+
+fn three_channels(source: &TextureSource) -> Result<(), AssetError> {
+    if source.nchannel == 3 {
+        return Ok(());
+    }
+    Err(AssetError::unsupported(format!(
+        "texture '{}': {} channels in a cube or builtin texture",
+        source.name, source.nchannel
+    )))
+}
+
+fn byte_count(
+    source: &TextureSource,
+    width: usize,
+    height: usize,
+    channels: usize,
+) -> Result<usize, AssetError> {
+    width
+        .checked_mul(height)
+        .and_then(|n| n.checked_mul(channels))
+        .filter(|&n| n > 0 && n <= MAX_BYTES)
+        .ok_or_else(|| {
+            AssetError::inconsistent(format!(
+                "texture '{}': {width}x{height} pixels are too many",
+                source.name
+            ))
+        })
+}
+
+fn resolve(colorspace: Colorspace, srgb: bool) -> Colorspace {
+    match (colorspace, srgb) {
+        (Colorspace::Auto, true) => Colorspace::Srgb,
+        (Colorspace::Auto, false) => Colorspace::Linear,
+        (given, _) => given,
+    }
+}
+
+fn load(source: &TextureSource, file: &FileImage) -> Result<Pixels, AssetError> {
+    let by_extension = || if file.path.to_ascii_lowercase().ends_with(".png") { "image/png" } else { "" };
+    let kind = if source.content_type.is_empty() { by_extension() } else { source.content_type.as_str() };
+    if kind != "image/png" {
+        return Err(AssetError::unsupported(format!("texture file '{}' is not PNG", file.path)));
+    }
+    let mut image = png::decode(&file.bytes, &file.path, source.nchannel)?;
+    let stride = source.nchannel * image.width;
+    if source.hflip {
+        for row in image.data.chunks_exact_mut(stride) {
+            for column in 0..image.width / 2 {
+                for channel in 0..source.nchannel {
+                    let mirror = source.nchannel * (image.width - 1 - column) + channel;
+                    row.swap(source.nchannel * column + channel, mirror);
+                }
+            }
+        }
+    }
+    if source.vflip {
+        for row in 0..image.height / 2 {
+            let (upper, lower) = image.data.split_at_mut((image.height - 1 - row) * stride);
+            upper[row * stride..(row + 1) * stride].swap_with_slice(&mut lower[..stride]);
+        }
+    }
+    Ok(image)
+}
