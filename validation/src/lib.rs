@@ -1,1 +1,3 @@
-//! RoboHive.
+//! Comparison of our physics and compiler with recorded MuJoCo runs.
+
+pub mod reference;

@@ -1,0 +1,161 @@
+//! Recorded MuJoCo runs (`reference/record.py`), read back as a `Model`, states and expected outputs.
+
+use dataset::{Array, NpzError, NpzReader};
+use physics::{Data, Model};
+use std::fmt;
+use std::path::Path;
+
+/// A recorded model: compiled arrays, forward passes of independent states, a rollout and its twin.
+pub struct Reference {
+    archive: NpzReader,
+}
+
+/// Why a reference cannot be used.
+#[derive(Debug)]
+pub enum ReferenceError {
+    /// The archive is damaged or lacks an array.
+    Archive(NpzError),
+    /// An array does not fit the model.
+    Shape(String),
+}
+
+impl fmt::Display for ReferenceError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ReferenceError::Archive(error) => error.fmt(f),
+            ReferenceError::Shape(name) => write!(f, "array {name:?} does not fit the model"),
+        }
+    }
+}
+
+impl std::error::Error for ReferenceError {}
+
+impl From<NpzError> for ReferenceError {
+    fn from(error: NpzError) -> Self {
+        ReferenceError::Archive(error)
+    }
+}
+
+impl Reference {
+    /// Reads an archive written by `record.py`.
+    ///
+    /// # Errors
+    /// The file is missing or no archive.
+    pub fn open(path: &Path) -> Result<Self, ReferenceError> {
+        Ok(Reference { archive: NpzReader::open(path)? })
+    }
+
+    /// The archive itself.
+    pub fn archive(&self) -> &NpzReader {
+        &self.archive
+    }
+
+    /// The model as MuJoCo compiled it.
+    ///
+    /// # Errors
+    /// An array is missing or of the wrong size.
+    pub fn model(&self) -> Result<Model, ReferenceError> {
+        let mut m = Model::default();
+        for name in self.archive.names() {
+            if let Some(size) = name.strip_prefix("size.") {
+                let value = self.archive.require(name)?.values.to_f64()[0];
+                match size {
+                    "flg_gravcomp" => m.flg_gravcomp = value != 0.0,
+                    "flg_surfacevel" => m.flg_surfacevel = value != 0.0,
+                    "flg_adhesion" => m.flg_adhesion = value != 0.0,
+                    _ => _ = m.set_size(size, value as usize),
+                }
+            }
+        }
+        m.allocate();
+        for name in self.archive.names() {
+            let Some((group, field)) = name.split_once('.') else { continue };
+            if !matches!(group, "model" | "opt" | "stat") {
+                continue;
+            }
+            let values = self.archive.require(name)?.values.to_f64();
+            let fits = match group {
+                "model" => m.assign(field, &values),
+                "opt" => m.opt.assign(field, &values),
+                _ => m.stat.assign(field, &values),
+            };
+            if fits == Some(false) {
+                return Err(ReferenceError::Shape(name.to_owned()));
+            }
+        }
+        Ok(m)
+    }
+
+    /// Number of recorded independent states.
+    ///
+    /// # Errors
+    /// The archive has no states.
+    pub fn states(&self) -> Result<usize, ReferenceError> {
+        Ok(self.archive.require("state.time")?.rows())
+    }
+
+    /// Sets the state and inputs of `d` to recorded row `row`.
+    ///
+    /// # Errors
+    /// An array is missing or of the wrong size.
+    pub fn set_state(&self, d: &mut Data, m: &Model, row: usize) -> Result<(), ReferenceError> {
+        d.reset(m);
+        for name in self.archive.names().filter_map(|n| n.strip_prefix("state.")) {
+            let values = self.state_row("state", name, row)?;
+            if d.assign(name, &values) == Some(false) {
+                return Err(ReferenceError::Shape(format!("state.{name}")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Row `row` of a stacked array `group.name`.
+    ///
+    /// # Errors
+    /// The array is missing or has no such row.
+    pub fn state_row(&self, group: &str, name: &str, row: usize) -> Result<Vec<f64>, ReferenceError> {
+        let array = self.archive.require(&format!("{group}.{name}"))?;
+        row_of(&array, row..row + 1).ok_or_else(|| ReferenceError::Shape(format!("{group}.{name}")))
+    }
+
+    /// Forward output `name` of state `row`: fixed-size, or cut out of a concatenation by `ncon` or `nefc`.
+    ///
+    /// # Errors
+    /// The array is missing or has no such row.
+    pub fn forward(&self, name: &str, row: usize) -> Result<Vec<f64>, ReferenceError> {
+        let counter = match name {
+            _ if name.starts_with("contact.") => "ncon",
+            _ if name.starts_with("efc_") => "nefc",
+            _ => return self.state_row("forward", name, row),
+        };
+        let counts = self.archive.require(&format!("forward.{counter}"))?.values.to_f64();
+        let start: f64 = counts[..row].iter().sum();
+        let range = start as usize..(start + counts[row]) as usize;
+        let array = self.archive.require(&format!("forward.{name}"))?;
+        row_of(&array, range).ok_or_else(|| ReferenceError::Shape(format!("forward.{name}")))
+    }
+
+    /// Injects the listed forward outputs of state `row` into `d`, contacts and rows included.
+    ///
+    /// # Errors
+    /// An array is missing or of the wrong size.
+    pub fn inject(&self, d: &mut Data, names: &[&str], row: usize) -> Result<(), ReferenceError> {
+        if names.iter().any(|n| n.starts_with("contact.")) {
+            d.con.contact.clear();
+        }
+        for name in names {
+            let values = self.forward(name, row)?;
+            if d.assign(name, &values) != Some(true) {
+                return Err(ReferenceError::Shape(format!("forward.{name}")));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Rows of a stacked array, flat.
+fn row_of(array: &Array, rows: std::ops::Range<usize>) -> Option<Vec<f64>> {
+    let width: usize = array.shape.iter().skip(1).product();
+    let values = array.values.to_f64();
+    values.get(rows.start * width..rows.end * width).map(<[f64]>::to_vec)
+}
