@@ -178,7 +178,9 @@ fn decode_values(bytes: &[u8], descr: &str, count: usize) -> Result<Values, Stri
         "<f4" => Values::F32(chunks(bytes, count)?.map(f32::from_le_bytes).collect()),
         "<f8" => Values::F64(chunks(bytes, count)?.map(f64::from_le_bytes).collect()),
         other => {
-            return Err(format!("dtype {other:?} is not read: use bool, uint8, int32, int64, float32 or float64"));
+            return Err(format!(
+                "dtype {other:?} is not read: use bool, uint8, int32, int64, float32 or float64"
+            ));
         }
     })
 }

@@ -44,7 +44,8 @@ impl NpzReader {
     pub fn open(path: &Path) -> Result<Self, NpzError> {
         let fail = |message: String| NpzError { path: path.to_owned(), member: String::new(), message };
         let file = std::fs::File::open(path).map_err(|e| fail(e.to_string()))?;
-        let mut reader = Self::read(std::io::BufReader::new(file)).map_err(|e| NpzError { path: path.to_owned(), ..e })?;
+        let mut reader =
+            Self::read(std::io::BufReader::new(file)).map_err(|e| NpzError { path: path.to_owned(), ..e })?;
         reader.path = path.to_owned();
         Ok(reader)
     }
@@ -59,7 +60,8 @@ impl NpzReader {
             member: member.to_owned(),
             message,
         };
-        let mut zip = zip::ZipArchive::new(source).map_err(|e| fail("", format!("not a numpy archive: {e}")))?;
+        let mut zip =
+            zip::ZipArchive::new(source).map_err(|e| fail("", format!("not a numpy archive: {e}")))?;
         let mut members = BTreeMap::new();
         for i in 0..zip.len() {
             let file = zip.by_index(i).map_err(|e| fail("", format!("member {i}: {e}")))?;
@@ -90,11 +92,11 @@ impl NpzReader {
     /// # Errors
     /// The member is not a readable array.
     pub fn get(&self, name: &str) -> Result<Option<Array>, NpzError> {
-        self.members
-            .get(name)
-            .map(|bytes| Array::decode(bytes))
-            .transpose()
-            .map_err(|message| NpzError { path: self.path.clone(), member: name.to_owned(), message })
+        self.members.get(name).map(|bytes| Array::decode(bytes)).transpose().map_err(|message| NpzError {
+            path: self.path.clone(),
+            member: name.to_owned(),
+            message,
+        })
     }
 
     /// Decodes an array that must be there.
