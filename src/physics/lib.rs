@@ -9,6 +9,7 @@
 //! - The same bits everywhere: transcendental functions come from [`math::ops`], sums have a fixed order, and no
 //!   multiply-add is fused.
 
+pub mod collision;
 pub mod data;
 pub mod math;
 pub mod model;
