@@ -119,7 +119,7 @@ def dense_jacobian(model, data):
     if not data.nefc:
         return np.zeros((0, model.nv))
     if not mujoco.mj_isSparse(model):
-        return data.efc_J.reshape(data.nefc, model.nv).copy()
+        return data.efc_J[:data.nefc * model.nv].reshape(data.nefc, model.nv).copy()
     dense = np.zeros((data.nefc, model.nv))
     mujoco.mju_sparse2dense(dense, data.efc_J, data.efc_J_rownnz, data.efc_J_rowadr, data.efc_J_colind)
     return dense

@@ -68,9 +68,12 @@ impl Reference {
             }
         }
         m.allocate();
+        // Arrays of features that are not simulated (flex, skin, plugin) are recorded too; `Model` lacks them.
+        let mut arrays = Vec::new();
+        m.visit(&mut |name, _, _| arrays.push(name));
         for name in self.archive.names() {
             let Some((group, field)) = name.split_once('.') else { continue };
-            if !matches!(group, "model" | "opt" | "stat") {
+            if !(matches!(group, "opt" | "stat") || group == "model" && arrays.contains(&field)) {
                 continue;
             }
             let values = self.archive.require(name)?.values.to_f64();
