@@ -77,6 +77,15 @@ impl Sources {
         Some(Position { path: source.path.clone(), line, column: before.chars().count() + 1 })
     }
 
+    /// The byte offset of a line and a column in characters, both from one.
+    pub fn offset(&self, file: u32, line: u32, column: u32) -> usize {
+        let Some(source) = self.get(file) else { return 0 };
+        let line = (line.max(1) as usize - 1).min(source.line_starts.len() - 1);
+        let start = source.line_starts[line] as usize;
+        let rest = &source.text[start..];
+        start + rest.char_indices().nth(column.max(1) as usize - 1).map_or(rest.len(), |(i, _)| i)
+    }
+
     /// The include attributes that led to the file of `loc`, innermost first.
     pub fn include_chain(&self, loc: Loc) -> Vec<Position> {
         let mut chain = Vec::new();

@@ -3,7 +3,10 @@
 pub mod asset;
 pub mod bvh;
 pub mod diagnostic;
+pub mod files;
 pub mod image;
+pub mod include;
 pub mod mesh;
 pub mod principal;
 pub(crate) mod vector;
+pub mod xml;

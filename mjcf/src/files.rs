@@ -1,0 +1,165 @@
+//! Where a model's files come from, and how MJCF paths combine.
+//!
+//! Paths are strings with `/` on every platform, so a model reads alike from disk and from memory (the
+//! browser). The combination rules are those of MuJoCo's file paths: an absolute right side wins, `.` and
+//! `dir/..` are folded without asking the disk.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Why a file could not be had.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum FileError {
+    /// No file has this path.
+    NotFound,
+    /// The path leads outside the directory that the model may read.
+    OutOfReach,
+    /// The path names a directory or a device.
+    NotAFile,
+    /// The file has this many bytes, more than the provider hands out.
+    TooLarge(u64),
+    /// Any other failure, in the words of the operating system.
+    Other(String),
+}
+
+impl fmt::Display for FileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            FileError::NotFound => f.write_str("file not found"),
+            FileError::OutOfReach => f.write_str("path leads outside the directory this model may read"),
+            FileError::NotAFile => f.write_str("path is not a regular file"),
+            FileError::TooLarge(bytes) => write!(f, "file has {bytes} bytes, more than may be read"),
+            FileError::Other(reason) => f.write_str(reason),
+        }
+    }
+}
+
+impl std::error::Error for FileError {}
+
+/// A source of bytes by path.
+pub trait FileProvider {
+    /// The content of the file at `path`.
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError>;
+
+    /// Whether `read` would find a file at `path`.
+    fn exists(&self, path: &str) -> bool;
+}
+
+/// Files of the machine, within one directory.
+#[derive(Debug, Clone)]
+pub struct Disk {
+    root: Option<PathBuf>,
+    max_bytes: u64,
+}
+
+impl Disk {
+    /// The whole file system: models of RoboHive climb several directories to shared assets.
+    pub fn everywhere() -> Self {
+        Self { root: None, max_bytes: 1 << 30 }
+    }
+
+    /// Only files that stand, symbolic links resolved, inside `root`.
+    pub fn within(root: impl Into<PathBuf>) -> Self {
+        Self { root: Some(root.into()), max_bytes: 1 << 30 }
+    }
+
+    fn reach(&self, path: &str) -> Result<PathBuf, FileError> {
+        let found = Path::new(path).canonicalize().map_err(io_error)?;
+        if let Some(root) = &self.root {
+            let root = root.canonicalize().map_err(io_error)?;
+            if !found.starts_with(root) {
+                return Err(FileError::OutOfReach);
+            }
+        }
+        Ok(found)
+    }
+}
+
+impl FileProvider for Disk {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError> {
+        let path = self.reach(path)?;
+        let facts = path.metadata().map_err(io_error)?;
+        if !facts.is_file() {
+            return Err(FileError::NotAFile);
+        }
+        if facts.len() > self.max_bytes {
+            return Err(FileError::TooLarge(facts.len()));
+        }
+        std::fs::read(path).map(Arc::from).map_err(io_error)
+    }
+
+    fn exists(&self, path: &str) -> bool {
+        self.reach(path).is_ok_and(|p| p.is_file())
+    }
+}
+
+fn io_error(error: std::io::Error) -> FileError {
+    match error.kind() {
+        std::io::ErrorKind::NotFound | std::io::ErrorKind::NotADirectory => FileError::NotFound,
+        _ => FileError::Other(error.to_string()),
+    }
+}
+
+/// Files held in memory, by folded path.
+#[derive(Debug, Clone, Default)]
+pub struct Memory {
+    files: BTreeMap<String, Arc<[u8]>>,
+}
+
+impl Memory {
+    /// Adds or replaces a file.
+    pub fn insert(&mut self, path: &str, content: impl Into<Arc<[u8]>>) {
+        self.files.insert(fold(path), content.into());
+    }
+}
+
+impl FileProvider for Memory {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError> {
+        self.files.get(&fold(path)).cloned().ok_or(FileError::NotFound)
+    }
+
+    fn exists(&self, path: &str) -> bool {
+        self.files.contains_key(&fold(path))
+    }
+}
+
+/// The path of `file` seen from directory `dir`, folded.
+pub fn join(dir: &str, file: &str) -> String {
+    if dir.is_empty() || is_absolute(file) {
+        return fold(file);
+    }
+    fold(&format!("{}/{file}", dir.trim_end_matches('/')))
+}
+
+/// Whether `path` starts at a root.
+pub fn is_absolute(path: &str) -> bool {
+    let drive = |b: &[u8]| b.len() > 2 && b[0].is_ascii_alphabetic() && b[1] == b':' && is_separator(b[2]);
+    path.bytes().next().is_some_and(is_separator) || drive(path.as_bytes())
+}
+
+/// The last component of `path`.
+pub fn base_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
+fn is_separator(byte: u8) -> bool {
+    matches!(byte, b'/' | b'\\')
+}
+
+/// `path` with `/` between components and without `.`, empty and `dir/..` components.
+pub fn fold(path: &str) -> String {
+    let root = if path.bytes().next().is_some_and(is_separator) { "/" } else { "" };
+    let mut kept: Vec<&str> = Vec::new();
+    for part in path.split(['/', '\\']) {
+        match part {
+            "" | "." => {}
+            ".." if kept.last().is_some_and(|last| *last != "..") => {
+                kept.pop();
+            }
+            _ => kept.push(part),
+        }
+    }
+    format!("{root}{}", kept.join("/"))
+}

@@ -1,0 +1,178 @@
+//! Replaces every `include` element by the children of the file it names.
+//!
+//! The root of an included file may have any name; its attributes are ignored. A relative path is tried from
+//! the main file's directory first, then from the including file's. A file may be included once, in the
+//! sense of MuJoCo 3.12: the check compares path strings, and a path found from the main directory is
+//! remembered as seen from the including one, so nested spellings of one file can repeat it. An include that
+//! would never end is always an error.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use crate::diagnostic::{Diagnostics, Loc, Sources};
+use crate::files::{FileProvider, fold, is_absolute, join};
+use crate::xml::{self, Element, Limits};
+
+/// Text replacements made in every file before it is parsed, in order.
+pub type Substitutions = [(String, String)];
+
+/// What expansion needs to know and what it fills.
+pub struct Expansion<'a> {
+    /// Where files come from.
+    pub files: &'a dyn FileProvider,
+    /// Template replacements.
+    pub substitutions: &'a Substitutions,
+    /// Bounds on depth, size and number.
+    pub limits: &'a Limits,
+    /// Receives every text read.
+    pub sources: &'a mut Sources,
+    /// Receives every finding.
+    pub diagnostics: &'a mut Diagnostics,
+}
+
+/// Progress through the includes of one model.
+struct State {
+    model_dir: String,
+    included: BTreeSet<String>,
+    open: Vec<String>,
+    count: usize,
+    bytes: usize,
+}
+
+impl Expansion<'_> {
+    /// Reads the file at `path` and everything it includes.
+    pub fn read(&mut self, path: &str) -> Option<Element> {
+        let path = fold(path);
+        match self.files.read(&path) {
+            Ok(bytes) => self.expand(&path, &bytes),
+            Err(e) => {
+                let file = self.sources.add(&path, Arc::from(""), None);
+                self.diagnostics.error(
+                    self.sources,
+                    Loc { file, offset: 0 },
+                    format!("cannot read model: {e}"),
+                );
+                None
+            }
+        }
+    }
+
+    /// Parses `bytes` as the main file and expands its includes as if it stood at `path`.
+    pub fn expand(&mut self, path: &str, bytes: &[u8]) -> Option<Element> {
+        let mut root = self.parse(path, bytes, None)?;
+        let model_dir = self.sources.get(root.loc.file)?.dir.clone();
+        let included = BTreeSet::from([path.to_string()]);
+        let mut state =
+            State { model_dir, included, open: vec![path.to_string()], count: 0, bytes: bytes.len() };
+        self.children(&mut root, "", 1, &mut state);
+        Some(root)
+    }
+
+    fn parse(&mut self, path: &str, bytes: &[u8], included_at: Option<Loc>) -> Option<Element> {
+        let replaced = substitute(bytes, self.substitutions);
+        let bytes = replaced.as_deref().unwrap_or(bytes);
+        xml::parse(path, bytes, included_at, self.limits, self.sources, self.diagnostics)
+    }
+
+    fn children(&mut self, parent: &mut Element, dir: &str, depth: usize, state: &mut State) {
+        let mut expanded = Vec::with_capacity(parent.children.len());
+        for mut child in std::mem::take(&mut parent.children) {
+            if child.name.eq_ignore_ascii_case("include") {
+                expanded.extend(self.include(&child, dir, depth, state));
+            } else {
+                self.children(&mut child, dir, depth + 1, state);
+                expanded.push(child);
+            }
+        }
+        parent.children = expanded;
+    }
+
+    fn include(&mut self, element: &Element, dir: &str, depth: usize, state: &mut State) -> Vec<Element> {
+        match self.try_include(element, dir, depth, state) {
+            Ok(children) => children,
+            Err((loc, message)) => {
+                self.diagnostics.error(self.sources, loc, message);
+                Vec::new()
+            }
+        }
+    }
+
+    fn try_include(
+        &mut self,
+        element: &Element,
+        dir: &str,
+        depth: usize,
+        state: &mut State,
+    ) -> Result<Vec<Element>, (Loc, String)> {
+        let fail = |loc: Loc, message: String| Err((loc, message));
+        if !element.children.is_empty() {
+            return fail(element.loc, "<include> cannot have children".into());
+        }
+        if let Some(other) = element.attributes.iter().find(|a| a.name != "file") {
+            return fail(other.loc, format!("unknown attribute '{}' of <include>", other.name));
+        }
+        let Some(attribute) = element.attribute("file") else {
+            return fail(element.loc, "<include> needs the attribute 'file'".into());
+        };
+        let loc = attribute.value_loc;
+        let place = self.locate(&attribute.value, element.loc.file, dir, &state.model_dir);
+        if state.open.contains(&place.path) {
+            return fail(loc, format!("'{}' includes itself", place.path));
+        }
+        if state.included.contains(&place.key) {
+            return fail(loc, format!("file '{}' is already included", place.key));
+        }
+        let bytes = match self.files.read(&place.path) {
+            Ok(bytes) => bytes,
+            Err(e) => return fail(loc, format!("cannot include '{}': {e}", place.path)),
+        };
+        state.count += 1;
+        state.bytes += bytes.len();
+        if state.count > self.limits.includes || state.bytes > self.limits.total_bytes {
+            return fail(loc, "included files exceed the limit on number or size".into());
+        }
+        let Some(mut root) = self.parse(&place.path, &bytes, Some(loc)) else { return Ok(Vec::new()) };
+        state.included.insert(place.remembered);
+        if root.children.is_empty() {
+            return fail(loc, format!("included file '{}' has no elements", place.path));
+        }
+        if depth + root.depth() > self.limits.depth {
+            return fail(loc, format!("elements are nested more than {} deep", self.limits.depth));
+        }
+        let next_dir = self.sources.get(root.loc.file).map_or(String::new(), |s| s.dir.clone());
+        state.open.push(place.path);
+        self.children(&mut root, &next_dir, depth, state);
+        state.open.pop();
+        Ok(root.children)
+    }
+
+    fn locate(&self, file: &str, including: u32, dir: &str, model_dir: &str) -> Place {
+        let file = fold(file);
+        let from_model = join(model_dir, &file);
+        if is_absolute(&file) || dir.is_empty() || self.files.exists(&from_model) {
+            return Place { path: from_model, remembered: join(dir, &file), key: file };
+        }
+        let including_dir = self.sources.get(including).map_or("", |s| s.dir.as_str());
+        let path = join(including_dir, &file);
+        Place { key: path.clone(), remembered: path.clone(), path }
+    }
+}
+
+/// Where an included file is and under which names the repetition check knows it.
+struct Place {
+    path: String,
+    key: String,
+    remembered: String,
+}
+
+fn substitute(bytes: &[u8], substitutions: &Substitutions) -> Option<Vec<u8>> {
+    let mut text = std::str::from_utf8(bytes).ok()?.to_string();
+    let mut changed = false;
+    for (from, to) in substitutions.iter().filter(|(from, _)| !from.is_empty()) {
+        if text.contains(from.as_str()) {
+            text = text.replace(from.as_str(), to);
+            changed = true;
+        }
+    }
+    changed.then(|| text.into_bytes())
+}

@@ -1,0 +1,303 @@
+//! XML text to an owned element tree with byte positions.
+//!
+//! A linear scan runs before the parser proper (roxmltree) and bounds what hostile text can cost: nesting,
+//! size, attributes per element, document type declarations. It also blanks comments and processing
+//! instructions in place, so their bytes need be neither well-formed nor UTF-8, as MuJoCo's parser allows,
+//! and offsets stay those of the file.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Diagnostics, Loc, Sources};
+
+/// One XML element.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Element {
+    /// Tag name.
+    pub name: String,
+    /// Attributes in text order.
+    pub attributes: Vec<Attribute>,
+    /// Child elements in text order; text between them is dropped.
+    pub children: Vec<Element>,
+    /// Position of the opening `<`.
+    pub loc: Loc,
+}
+
+/// One attribute of an element.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attribute {
+    /// Name as written.
+    pub name: String,
+    /// Value after reference resolution and white space normalisation.
+    pub value: String,
+    /// Position of the name.
+    pub loc: Loc,
+    /// Position of the first byte of the value.
+    pub value_loc: Loc,
+}
+
+impl Element {
+    /// The attribute of this name.
+    pub fn attribute(&self, name: &str) -> Option<&Attribute> {
+        self.attributes.iter().find(|a| a.name == name)
+    }
+
+    /// The value of the attribute of this name.
+    pub fn value(&self, name: &str) -> Option<&str> {
+        self.attribute(name).map(|a| a.value.as_str())
+    }
+
+    /// Children with this tag.
+    pub fn children_named<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Element> {
+        self.children.iter().filter(move |c| c.name == name)
+    }
+
+    /// The number of levels below and including this one.
+    pub fn depth(&self) -> usize {
+        1 + self.children.iter().map(Element::depth).max().unwrap_or(0)
+    }
+
+    /// The first element in document order, this one included, that satisfies `test`.
+    pub fn find_mut(&mut self, test: &dyn Fn(&Element) -> bool) -> Option<&mut Element> {
+        if test(self) {
+            return Some(self);
+        }
+        self.children.iter_mut().find_map(|c| c.find_mut(test))
+    }
+
+    /// Detaches and returns the first descendant in document order that satisfies `test`.
+    pub fn take(&mut self, test: &dyn Fn(&Element) -> bool) -> Option<Element> {
+        if let Some(i) = self.children.iter().position(test) {
+            return Some(self.children.remove(i));
+        }
+        self.children.iter_mut().find_map(|c| c.take(test))
+    }
+
+    /// Moves the body named `body` under the body named `parent`, as its last child.
+    ///
+    /// The tree is unchanged, and the reason returned, when either is absent or `parent` is inside `body`.
+    pub fn reparent_body(&mut self, body: &str, parent: &str) -> Result<(), String> {
+        let is = |name: &str, e: &Element| e.name == "body" && e.value("name") == Some(name);
+        let moved =
+            self.find_mut(&|e| is(body, e)).ok_or_else(|| format!("no body named '{body}' to move"))?;
+        if moved.find_mut(&|e| is(parent, e)).is_some() {
+            return Err(format!("body '{parent}' is part of the moved body '{body}'"));
+        }
+        if self.find_mut(&|e| is(parent, e)).is_none() {
+            return Err(format!("no body named '{parent}' to move '{body}' under"));
+        }
+        let moved = self.take(&|e| is(body, e));
+        if let (Some(parent), Some(moved)) = (self.find_mut(&|e| is(parent, e)), moved) {
+            parent.children.push(moved);
+        }
+        Ok(())
+    }
+}
+
+/// Bounds on what a text may cost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Levels of nested elements, includes counted through.
+    pub depth: usize,
+    /// Bytes of one text.
+    pub text_bytes: usize,
+    /// Bytes of all texts of a model together.
+    pub total_bytes: usize,
+    /// Attributes of one element.
+    pub attributes: usize,
+    /// Files included, counted with repetition.
+    pub includes: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { depth: 200, text_bytes: 64 << 20, total_bytes: 256 << 20, attributes: 128, includes: 4096 }
+    }
+}
+
+/// A text that could not become a tree: byte offset and reason.
+struct Fault {
+    offset: usize,
+    message: String,
+}
+
+fn fault<T>(offset: usize, message: impl Into<String>) -> Result<T, Fault> {
+    Err(Fault { offset, message: message.into() })
+}
+
+/// Parses the bytes of one file and registers them in `sources`.
+///
+/// The root element comes back, or nothing and at least one error in `diagnostics`.
+pub fn parse(
+    path: &str,
+    bytes: &[u8],
+    included_at: Option<Loc>,
+    limits: &Limits,
+    sources: &mut Sources,
+    diagnostics: &mut Diagnostics,
+) -> Option<Element> {
+    let mut scanned = bytes.to_vec();
+    let scan = scan(&mut scanned, limits);
+    let kept = if scan.is_ok() { &scanned[..] } else { &bytes[..bytes.len().min(limits.text_bytes)] };
+    let text: Arc<str> = String::from_utf8_lossy(kept).into();
+    let invalid = std::str::from_utf8(kept).err().map(|e| e.valid_up_to());
+    let file = sources.add(path, text.clone(), included_at);
+    let tree = scan.and_then(|()| match invalid {
+        Some(offset) => fault(offset, "text is not UTF-8"),
+        None => tree(&text, file, sources),
+    });
+    match tree {
+        Ok(root) => Some(root),
+        Err(Fault { offset, message }) => {
+            diagnostics.error(sources, Loc { file, offset: offset as u32 }, message);
+            None
+        }
+    }
+}
+
+/// Checks structure and limits in one pass and blanks everything but elements and text.
+fn scan(text: &mut [u8], limits: &Limits) -> Result<(), Fault> {
+    if text.len() > limits.text_bytes {
+        return fault(
+            0,
+            format!("text has {} bytes, more than the limit of {}", text.len(), limits.text_bytes),
+        );
+    }
+    if text.starts_with(b"\xEF\xBB\xBF") {
+        text[..3].fill(b' ');
+    }
+    if text.iter().all(|b| b.is_ascii_whitespace()) {
+        return fault(0, "file is empty");
+    }
+    let mut open: Vec<(usize, usize)> = Vec::new();
+    let mut at = 0;
+    while let Some(step) = text[at..].iter().position(|&b| b == b'<') {
+        let start = at + step;
+        at = match &text[start + 1..] {
+            [b'!', b'-', b'-', ..] => blank(text, start, b"-->", "comment is never closed")?,
+            [b'!', b'[', ..] => skip_past(text, start, b"]]>", "CDATA section is never closed")?,
+            [b'!', ..] => blank_doctype(text, start)?,
+            [b'?', ..] => blank(text, start, b"?>", "processing instruction is never closed")?,
+            [b'/', ..] => close_tag(text, start, &mut open)?,
+            _ => open_tag(text, start, &mut open, limits)?,
+        };
+    }
+    match open.pop() {
+        Some((start, end)) => fault(start, format!("<{}> is never closed", shown(&text[start + 1..end]))),
+        None => Ok(()),
+    }
+}
+
+fn skip_past(text: &[u8], start: usize, end: &[u8], message: &str) -> Result<usize, Fault> {
+    let found = text[start..].windows(end.len()).position(|w| w == end);
+    found.map(|i| start + i + end.len()).ok_or(Fault { offset: start, message: message.into() })
+}
+
+fn blank(text: &mut [u8], start: usize, end: &[u8], message: &str) -> Result<usize, Fault> {
+    let past = skip_past(text, start, end, message)?;
+    text[start..past].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
+    Ok(past)
+}
+
+/// A bare document type declaration is ignored; one with an internal subset could declare entities.
+fn blank_doctype(text: &mut [u8], start: usize) -> Result<usize, Fault> {
+    let past = skip_past(text, start, b">", "declaration is never closed")?;
+    if text[start..past].contains(&b'[') || text[start..].starts_with(b"<!ENTITY") {
+        return fault(start, "entity declarations are not supported in a model");
+    }
+    blank(text, start, b">", "declaration is never closed")
+}
+
+fn name_end(text: &[u8], start: usize) -> usize {
+    let stop = |b: &u8| b.is_ascii_whitespace() || matches!(b, b'/' | b'>' | b'<');
+    text[start..].iter().position(stop).map_or(text.len(), |i| start + i)
+}
+
+fn close_tag(text: &[u8], start: usize, open: &mut Vec<(usize, usize)>) -> Result<usize, Fault> {
+    let end = name_end(text, start + 2);
+    let name = &text[start + 2..end];
+    let Some((opened, opened_end)) = open.pop() else {
+        return fault(start, format!("</{}> closes nothing", shown(name)));
+    };
+    let expected = &text[opened + 1..opened_end];
+    if expected != name {
+        let line = 1 + text[..opened].iter().filter(|b| **b == b'\n').count();
+        let (name, expected) = (shown(name), shown(expected));
+        return fault(start, format!("</{name}> does not close <{expected}> opened on line {line}"));
+    }
+    skip_past(text, end, b">", "closing tag has no '>'")
+}
+
+fn open_tag(
+    text: &[u8],
+    start: usize,
+    open: &mut Vec<(usize, usize)>,
+    limits: &Limits,
+) -> Result<usize, Fault> {
+    let end = name_end(text, start + 1);
+    let mut at = end;
+    let mut attributes = 0;
+    loop {
+        match text.get(at) {
+            None | Some(b'<') => {
+                return fault(start, format!("<{} has no '>'", shown(&text[start + 1..end])));
+            }
+            Some(b'>') => break,
+            Some(&quote @ (b'"' | b'\'')) => {
+                let Some(length) = text[at + 1..].iter().position(|&b| b == quote) else {
+                    return fault(at, "attribute value has no closing quote");
+                };
+                attributes += 1;
+                at += length + 2;
+            }
+            Some(_) => at += 1,
+        }
+    }
+    if attributes > limits.attributes {
+        return fault(
+            start,
+            format!("element has {attributes} attributes, more than the limit of {}", limits.attributes),
+        );
+    }
+    if text[at - 1] != b'/' {
+        open.push((start, end));
+        if open.len() > limits.depth {
+            return fault(start, format!("elements are nested more than {} deep", limits.depth));
+        }
+    }
+    Ok(at + 1)
+}
+
+/// A name short enough for a message.
+fn shown(name: &[u8]) -> String {
+    String::from_utf8_lossy(&name[..name.len().min(40)]).into_owned()
+}
+
+fn tree(text: &str, file: u32, sources: &Sources) -> Result<Element, Fault> {
+    let document = roxmltree::Document::parse(text).map_err(|e| {
+        let message = e.to_string();
+        let message = message.rfind(" at ").map_or(message.as_str(), |i| &message[..i]);
+        Fault {
+            offset: sources.offset(file, e.pos().row, e.pos().col),
+            message: format!("not XML: {message}"),
+        }
+    })?;
+    Ok(owned(document.root_element(), file))
+}
+
+fn owned(node: roxmltree::Node, file: u32) -> Element {
+    let at = |offset: usize| Loc { file, offset: offset as u32 };
+    Element {
+        name: node.tag_name().name().to_string(),
+        attributes: node
+            .attributes()
+            .map(|a| Attribute {
+                name: a.name().to_string(),
+                value: a.value().to_string(),
+                loc: at(a.range().start),
+                value_loc: at(a.range_value().start),
+            })
+            .collect(),
+        children: node.children().filter(|c| c.is_element()).map(|c| owned(c, file)).collect(),
+        loc: at(node.range().start),
+    }
+}
