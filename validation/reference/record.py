@@ -159,7 +159,7 @@ def forward(model, states):
     return out
 
 
-def record(model, seed=0, states=STATES, steps=STEPS, motion_only=False):
+def record(model, seed=0, states=STATES, steps=STEPS):
     ctrl = controls(model, steps, seed)
     rows = {name: [] for name in INPUTS + ["time"]}
     every = max(1, steps // states)
@@ -174,10 +174,8 @@ def record(model, seed=0, states=STATES, steps=STEPS, motion_only=False):
     twin = rollout(model, ctrl, TWIN_OFFSET)[0]
     out = {"rollout.ctrl": ctrl, "rollout.qpos": qpos, "rollout.qvel": qvel, "rollout.act": act,
            "rollout.bad": np.int64(bad), "twin.qpos": twin}
-    if not motion_only:
-        rows = {k: np.array(v) for k, v in rows.items()}
-        out |= compiled(model) | {"state." + k: v for k, v in rows.items()} | forward(model, rows)
-    return out
+    rows = {k: np.array(v) for k, v in rows.items()}
+    return out | compiled(model) | {"state." + k: v for k, v in rows.items()} | forward(model, rows)
 
 
 def repair(folder):
@@ -219,7 +217,7 @@ def main():
     parser.add_argument("--list", type=Path, help="file with one model path a line")
     parser.add_argument("--old-python", help="an interpreter with mujoco==3.1.3, for models 3.12.0 does not parse")
     parser.add_argument("--only", default="", help="record only listed models whose path contains this")
-    parser.add_argument("--small", action="store_true", help="motion only: no compiled arrays, no forward passes")
+    parser.add_argument("--states", type=int, default=STATES, help="independent states to record")
     args = parser.parse_args()
     if mujoco.__version__ != "3.12.0":
         sys.exit(f"mujoco 3.12.0 is needed, this is {mujoco.__version__}")
@@ -238,7 +236,7 @@ def main():
             began = time.perf_counter()
             model = load(path, args.old_python)
             seconds = time.perf_counter() - began
-            arrays = record(model, motion_only=args.small) | {"compile_seconds": np.float64(seconds)}
+            arrays = record(model, states=args.states) | {"compile_seconds": np.float64(seconds)}
             np.savez_compressed(args.out / (name + ".npz"), **arrays)
             print("recorded", name, flush=True)
         except Exception as error:
