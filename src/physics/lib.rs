@@ -9,11 +9,15 @@
 //! - The same bits everywhere: transcendental functions come from [`math::ops`], sums have a fixed order, and no
 //!   multiply-add is fused.
 
+pub mod chain;
 pub mod collision;
 pub mod data;
 pub mod math;
 pub mod model;
 pub mod table;
+pub mod tendon;
+pub mod transmission;
+pub mod wrap;
 
 pub use data::Data;
 pub use model::Model;
