@@ -1,14 +1,25 @@
 //! Collision detection: from poses of geoms to contacts, in the order MuJoCo lists them
 //! (documentation: Computation, "Collision detection").
 //!
-//! Bodies that may touch come from a sweep ([`broad_phase`]); their geoms from bounding volumes; the points of
-//! contact from one function for each pair of geom types.
+//! Bodies that may touch come from a sweep ([`broad_phase`]); their geoms from bounding volumes ([`mid_phase`]);
+//! the points of contact from one function for each pair of geom types ([`pair_function`]); their friction and
+//! softness from both geoms ([`mixing`]).
 
+pub mod box_box;
+pub mod broad_phase;
+pub mod capsule;
+pub mod capsule_box;
 pub mod convex;
+pub mod hfield;
+pub mod mid_phase;
+pub mod mixing;
+pub mod plane;
+pub mod sphere;
 
-use crate::data::Kinematics;
+use crate::data::{Contacts, Kinematics};
 use crate::math::{Mat3, Vec3, column};
-use crate::model::{GeomType, Model};
+use crate::model::{GeomType, Model, disable};
+use broad_phase::{geoms, spheres_apart, types_match};
 
 /// What a narrow-phase function says about one point of contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -68,3 +79,189 @@ impl<'a> Shape<'a> {
 /// `bounds::MAXCONPAIR` of them. Arguments: model, poses, geoms, margin, working memory, result.
 pub type PairFunction =
     fn(&Model, &Kinematics, usize, usize, f64, &mut convex::ConvexScratch, &mut Vec<PreContact>);
+
+/// A pair function from one that sees only the two shapes.
+macro_rules! shapes {
+    ($function:path) => {
+        Some(|m, kin, g1, g2, margin, _, out| {
+            $function(&Shape::new(m, kin, g1), &Shape::new(m, kin, g2), margin, out)
+        })
+    };
+}
+
+/// The function for geoms of types `type1 <= type2`, if such geoms collide.
+pub fn pair_function(type1: i32, type2: i32) -> Option<PairFunction> {
+    const N: Option<PairFunction> = None;
+    const PS: Option<PairFunction> = shapes!(plane::plane_sphere);
+    const PC: Option<PairFunction> = shapes!(plane::plane_capsule);
+    const PE: Option<PairFunction> = shapes!(plane::plane_ellipsoid);
+    const PY: Option<PairFunction> = shapes!(plane::plane_cylinder);
+    const PB: Option<PairFunction> = shapes!(plane::plane_box);
+    const PM: Option<PairFunction> = shapes!(plane::plane_mesh);
+    const SS: Option<PairFunction> = shapes!(sphere::sphere_sphere);
+    const SC: Option<PairFunction> = shapes!(sphere::sphere_capsule);
+    const SY: Option<PairFunction> = shapes!(sphere::sphere_cylinder);
+    const SB: Option<PairFunction> = shapes!(sphere::sphere_box);
+    const CC: Option<PairFunction> = shapes!(capsule::capsule_capsule);
+    const CB: Option<PairFunction> = shapes!(capsule_box::capsule_box);
+    const BB: Option<PairFunction> = shapes!(box_box::box_box);
+    const HF: Option<PairFunction> = Some(hfield::height_field);
+    const CX: Option<PairFunction> = Some(convex::convex);
+    #[rustfmt::skip]
+    const TABLE: [[Option<PairFunction>; 8]; 8] = [
+        //               plane hfield sphere capsule ellipsoid cylinder box mesh
+        /* plane */     [N,    N,     PS,    PC,     PE,       PY,      PB, PM],
+        /* hfield */    [N,    N,     HF,    HF,     HF,       HF,      HF, HF],
+        /* sphere */    [N,    N,     SS,    SC,     CX,       SY,      SB, CX],
+        /* capsule */   [N,    N,     N,     CC,     CX,       CX,      CB, CX],
+        /* ellipsoid */ [N,    N,     N,     N,      CX,       CX,      CX, CX],
+        /* cylinder */  [N,    N,     N,     N,      N,        CX,      CX, CX],
+        /* box */       [N,    N,     N,     N,      N,        N,       BB, CX],
+        /* mesh */      [N,    N,     N,     N,      N,        N,       N,  CX],
+    ];
+    *TABLE.get(type1 as usize)?.get(type2 as usize)?
+}
+
+/// Working memory of collision detection, reused from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct CollisionScratch {
+    broad: broad_phase::BroadPhase,
+    stack: Vec<(usize, usize)>,
+    candidates: Vec<(usize, usize)>,
+    convex: convex::ConvexScratch,
+    points: Vec<PreContact>,
+}
+
+/// A geom type that can be part of a collision but has no pair function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnsupportedGeom {
+    /// Index of the geom.
+    pub geom: usize,
+}
+
+impl std::fmt::Display for UnsupportedGeom {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "geom {}: collisions of signed distance fields are not supported", self.geom)
+    }
+}
+
+impl std::error::Error for UnsupportedGeom {}
+
+/// Checks once that `collide` knows every geom type of the model that may collide.
+///
+/// # Errors
+/// The first geom whose type has no pair function.
+pub fn check(m: &Model) -> Result<(), UnsupportedGeom> {
+    let listed = |g: usize| m.pair_geom1.iter().chain(&m.pair_geom2).any(|&k| k as usize == g);
+    let collides = |g: usize| m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0 || listed(g);
+    match (0..m.ngeom).find(|&g| m.geom_type[g] > GeomType::Mesh.code() && collides(g)) {
+        Some(geom) => Err(UnsupportedGeom { geom }),
+        None => Ok(()),
+    }
+}
+
+/// Finds all contacts: predefined pairs and geoms of bodies that may touch, ordered by body pair, then by geom pair.
+pub fn collide(m: &Model, kin: &Kinematics, scratch: &mut CollisionScratch, con: &mut Contacts) {
+    con.contact.clear();
+    if m.opt.disableflags & (disable::CONSTRAINT | disable::CONTACT) != 0 || m.nbody < 2 {
+        return;
+    }
+    let mut broad = std::mem::take(&mut scratch.broad);
+    broad.run(m, kin);
+    let mut next = 0;
+    for &signature in &broad.pairs {
+        // Predefined pairs of this and earlier body pairs come first and hide the same geoms.
+        let start = next;
+        let mut merged = false;
+        while next < m.npair && m.pair_signature[next] as u32 <= signature {
+            merged = m.pair_signature[next] as u32 == signature;
+            predefined(m, kin, next, scratch, con);
+            next += 1;
+        }
+        if m.exclude_signature.binary_search_by_key(&signature, |&s| s as u32).is_ok() {
+            continue;
+        }
+        let hidden = if merged { start..next } else { 0..0 };
+        body_pair(m, kin, (signature >> 16) as usize, (signature & 0xffff) as usize, hidden, scratch, con);
+    }
+    for pair in next..m.npair {
+        predefined(m, kin, pair, scratch, con);
+    }
+    scratch.broad = broad;
+}
+
+/// Contacts of a predefined pair: no filter but the bounding spheres.
+fn predefined(m: &Model, kin: &Kinematics, pair: usize, scratch: &mut CollisionScratch, con: &mut Contacts) {
+    let (g1, g2) = (m.pair_geom1[pair] as usize, m.pair_geom2[pair] as usize);
+    let reach = mixing::margin(m, g1, g2, Some(pair)) + mixing::gap(m, g1, g2, Some(pair));
+    if !spheres_apart(m, kin, g1, g2, reach) {
+        narrow(m, kin, ordered(m, g1, g2), Some(pair), reach, scratch, con);
+    }
+}
+
+/// Contacts of the geoms of two bodies, except those `hidden` by predefined pairs.
+fn body_pair(
+    m: &Model,
+    kin: &Kinematics,
+    b1: usize,
+    b2: usize,
+    hidden: std::ops::Range<usize>,
+    scratch: &mut CollisionScratch,
+    con: &mut Contacts,
+) {
+    let mut candidates = std::mem::take(&mut scratch.candidates);
+    candidates.clear();
+    let single = m.body_geomnum[b1] == 1 && m.body_geomnum[b2] == 1;
+    let trees = m.body_bvhadr[b1] >= 0 && m.body_bvhadr[b2] >= 0;
+    if !single && trees && m.opt.disableflags & disable::MIDPHASE == 0 {
+        let found = |g1, g2| candidates.push(ordered(m, g1, g2));
+        mid_phase::descend(m, kin, b1, b2, &mut scratch.stack, found);
+        candidates.sort_unstable();
+    } else {
+        for g1 in geoms(m, b1) {
+            candidates.extend(geoms(m, b2).map(|g2| ordered(m, g1, g2)));
+        }
+    }
+    for &(g1, g2) in &candidates {
+        let reach = mixing::margin(m, g1, g2, None) + mixing::gap(m, g1, g2, None);
+        if geoms_match(m, g1, g2, hidden.clone()) && !spheres_apart(m, kin, g1, g2, reach) {
+            narrow(m, kin, (g1, g2), None, reach, scratch, con);
+        }
+    }
+    scratch.candidates = candidates;
+}
+
+/// The two geoms, the lower type first.
+fn ordered(m: &Model, g1: usize, g2: usize) -> (usize, usize) {
+    if m.geom_type[g1] > m.geom_type[g2] { (g2, g1) } else { (g1, g2) }
+}
+
+/// Contact types match and no predefined pair in `hidden` names the same geoms.
+fn geoms_match(m: &Model, g1: usize, g2: usize, mut hidden: std::ops::Range<usize>) -> bool {
+    let named = |k: usize| {
+        let pair = (m.pair_geom1[k] as usize, m.pair_geom2[k] as usize);
+        pair == (g1, g2) || pair == (g2, g1)
+    };
+    let (t1, a1) = (m.geom_contype[g1], m.geom_conaffinity[g1]);
+    let (t2, a2) = (m.geom_contype[g2], m.geom_conaffinity[g2]);
+    types_match(t1, a1, t2, a2) && !hidden.any(named)
+}
+
+/// Appends the contacts of one pair of geoms.
+fn narrow(
+    m: &Model,
+    kin: &Kinematics,
+    (g1, g2): (usize, usize),
+    pair: Option<usize>,
+    reach: f64,
+    scratch: &mut CollisionScratch,
+    con: &mut Contacts,
+) {
+    let Some(function) = pair_function(m.geom_type[g1], m.geom_type[g2]) else { return };
+    scratch.points.clear();
+    function(m, kin, g1, g2, reach, &mut scratch.convex, &mut scratch.points);
+    if !scratch.points.is_empty() {
+        let mixture = mixing::Mixture::new(m, g1, g2, pair);
+        con.contact.extend(scratch.points.iter().map(|p| mixture.contact([g1, g2], p)));
+    }
+}

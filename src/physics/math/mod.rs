@@ -1,10 +1,12 @@
 //! Small fixed-size algebra: vectors, quaternions, rotations, spatial vectors. Arrays by value, no allocation.
 
+mod eigen;
 pub mod ops;
 mod quat;
 mod spatial;
 mod vector;
 
+pub use eigen::principal_axes;
 pub use quat::*;
 pub use spatial::*;
 pub use vector::*;
