@@ -8,5 +8,6 @@ pub mod image;
 pub mod include;
 pub mod mesh;
 pub mod principal;
+pub mod spec;
 pub(crate) mod vector;
 pub mod xml;

@@ -1,0 +1,129 @@
+//! Compiler settings, sizes and statistics (XML reference: `compiler`, `size`, `statistic`).
+
+/// Whether body inertia comes from the geoms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[allow(missing_docs)]
+pub enum InertiaFromGeom {
+    False,
+    True,
+    #[default]
+    Auto,
+}
+
+/// Settings of the computation of actuator length ranges (`compiler/lengthrange`).
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct LengthRangeOptions {
+    pub mode: physics::model::LengthRangeMode,
+    pub useexisting: bool,
+    pub uselimit: bool,
+    pub accel: f64,
+    pub maxforce: f64,
+    pub timeconst: f64,
+    pub timestep: f64,
+    pub inttotal: f64,
+    pub interval: f64,
+    pub tolrange: f64,
+}
+
+impl Default for LengthRangeOptions {
+    fn default() -> Self {
+        Self {
+            mode: physics::model::LengthRangeMode::Muscle,
+            useexisting: true,
+            uselimit: false,
+            accel: 20.0,
+            maxforce: 0.0,
+            timeconst: 1.0,
+            timestep: 0.01,
+            inttotal: 10.0,
+            interval: 2.0,
+            tolrange: 0.05,
+        }
+    }
+}
+
+/// Compiler settings (`compiler`).
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct Compiler {
+    pub autolimits: bool,
+    pub boundmass: f64,
+    pub boundinertia: f64,
+    /// Total mass to scale to; not positive: off.
+    pub settotalmass: f64,
+    pub balanceinertia: bool,
+    pub fitaabb: bool,
+    pub degree: bool,
+    /// Rotation order, lower case about moving axes, upper case about fixed axes.
+    pub eulerseq: [u8; 3],
+    pub discardvisual: bool,
+    pub usethread: bool,
+    pub fusestatic: bool,
+    pub inertiafromgeom: InertiaFromGeom,
+    pub inertiagrouprange: [i32; 2],
+    pub saveinertial: bool,
+    pub alignfree: bool,
+    pub lengthrange: LengthRangeOptions,
+    /// Directory prefixes as written; the reader has applied them to asset files already.
+    pub meshdir: String,
+    pub texturedir: String,
+    pub strippath: bool,
+}
+
+impl Default for Compiler {
+    fn default() -> Self {
+        Self {
+            autolimits: true,
+            boundmass: 0.0,
+            boundinertia: 0.0,
+            settotalmass: -1.0,
+            balanceinertia: false,
+            fitaabb: false,
+            degree: true,
+            eulerseq: *b"xyz",
+            discardvisual: false,
+            usethread: true,
+            fusestatic: false,
+            inertiafromgeom: InertiaFromGeom::Auto,
+            inertiagrouprange: [0, 5],
+            saveinertial: false,
+            alignfree: false,
+            lengthrange: LengthRangeOptions::default(),
+            meshdir: String::new(),
+            texturedir: String::new(),
+            strippath: false,
+        }
+    }
+}
+
+/// Array sizes (`size`); `None` lets the compiler choose.
+#[derive(Clone, Debug, PartialEq, Default)]
+#[allow(missing_docs)]
+pub struct Size {
+    pub memory: Option<i64>,
+    pub njmax: Option<i32>,
+    pub nconmax: Option<i32>,
+    pub nstack: Option<i64>,
+    pub nuserdata: i32,
+    pub nkey: i32,
+    pub nuser_body: Option<i32>,
+    pub nuser_jnt: Option<i32>,
+    pub nuser_geom: Option<i32>,
+    pub nuser_site: Option<i32>,
+    pub nuser_cam: Option<i32>,
+    pub nuser_tendon: Option<i32>,
+    pub nuser_actuator: Option<i32>,
+    pub nuser_sensor: Option<i32>,
+}
+
+/// Statistics set by the file (`statistic`); `None` is computed at `qpos0`.
+#[derive(Clone, Debug, PartialEq, Default)]
+#[allow(missing_docs)]
+pub struct StatisticOverride {
+    pub meaninertia: Option<f64>,
+    pub meanmass: Option<f64>,
+    pub meansize: Option<f64>,
+    pub extent: Option<f64>,
+    pub center: Option<[f64; 3]>,
+}
