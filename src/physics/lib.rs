@@ -11,6 +11,7 @@
 
 pub mod chain;
 pub mod collision;
+pub mod constraint;
 pub mod data;
 pub mod math;
 pub mod model;
