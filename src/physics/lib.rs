@@ -9,12 +9,19 @@
 //! - The same bits everywhere: transcendental functions come from [`math::ops`], sums have a fixed order, and no
 //!   multiply-add is fused.
 
+pub mod activation;
+pub mod actuation;
 pub mod chain;
 pub mod collision;
-pub mod constraint;
 pub mod data;
+pub mod fluid;
+pub mod frame;
 pub mod math;
 pub mod model;
+pub mod muscle;
+pub mod passive;
+pub mod polynomial;
+pub mod reflected_load;
 pub mod table;
 pub mod tendon;
 pub mod transmission;

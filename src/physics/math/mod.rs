@@ -1,6 +1,5 @@
 //! Small fixed-size algebra: vectors, quaternions, rotations, spatial vectors. Arrays by value, no allocation.
 
-pub mod dense;
 mod eigen;
 pub mod ops;
 mod quat;
