@@ -1,21 +1,229 @@
-//! Contacts between convex geoms.
+//! Contacts and distances between convex geoms (documentation: Computation, "Convex collisions").
+//!
+//! GJK measures the distance of separated bodies, polytope expansion the depth of overlapping ones. A sphere or
+//! capsule is first taken as its point or segment: as long as that lies outside the other body, GJK alone gives the
+//! exact penetration.
 
-use super::PreContact;
+use super::epa::{Failure, Polytope};
+use super::gjk::{BEYOND, Limits, gjk};
+use super::multicontact::{Clipper, Witness};
+use super::support::{ConvexBody, Solid};
+use super::{PreContact, Shape};
 use crate::data::Kinematics;
-use crate::model::Model;
+use crate::math::{
+    Mat3, Vec3, add, add_scaled, cross, distance, dot, mul_mat, mul_mat_vec, normalize, quat_from_axis_angle,
+    quat_to_mat, scale, sub, transpose,
+};
+use crate::model::{Model, Options, disable};
+
+/// Angle by which geoms are rocked to find more contacts [rad].
+const ROCKING_ANGLE: f64 = 1e-3;
+/// Contacts nearer than this fraction of the smaller bounding radius are one contact.
+const SAME_CONTACT: f64 = 1e-3;
 
 /// Working memory of the convex algorithms, reused from call to call.
 #[derive(Clone, Debug, Default)]
-pub struct ConvexScratch {}
+pub struct ConvexScratch {
+    polytope: Polytope,
+    clipper: Clipper,
+    witness: Vec<Witness>,
+}
 
-/// Contacts of convex geoms `g1` and `g2` (documentation: Computation, "Convex collisions").
+impl Limits {
+    /// Limits of a model's options.
+    pub fn new(opt: &Options, cutoff: f64) -> Self {
+        let iterations = usize::try_from(opt.ccd_iterations).unwrap_or(0);
+        Limits { iterations, tolerance: opt.ccd_tolerance, cutoff }
+    }
+}
+
+/// Signed distance between two bodies, 0 when they touch or the depth could not be found, [`BEYOND`] past the
+/// cut-off. Leaves the nearest points in `scratch.witness`; several when `max_contacts` allows.
+fn measure(
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
+    limits: &Limits,
+    max_contacts: usize,
+    scratch: &mut ConvexScratch,
+) -> f64 {
+    scratch.witness.clear();
+    if let Some(dist) = measure_cores(a, b, limits, &mut scratch.witness) {
+        return dist;
+    }
+    let proximity = gjk(a, b, limits);
+    let inside = proximity.dist <= limits.tolerance && proximity.n > 1 && !proximity.separated;
+    let dist = if inside { 0.0 } else { proximity.dist };
+    scratch.witness.extend(proximity.nearest.map(|points| Witness { dist, points }));
+    if !inside {
+        return dist;
+    }
+    match scratch.polytope.penetration(a, b, limits, &proximity) {
+        Err(Failure::Broken) => scratch.witness.clear(),
+        Err(_) => {}
+        Ok(penetration) => {
+            scratch.witness.clear();
+            scratch.witness.push(Witness { dist: penetration.dist, points: penetration.nearest });
+            if max_contacts > 1 {
+                scratch.clipper.spread(a, b, &penetration, max_contacts, &mut scratch.witness);
+            }
+        }
+    }
+    scratch.witness.iter().map(|w| w.dist).reduce(|least, d| if d < least { d } else { least }).unwrap_or(0.0)
+}
+
+/// Distance by way of the points and segments within spheres and capsules; `None` without any, or when they are
+/// in the other body.
+fn measure_cores(
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
+    limits: &Limits,
+    witness: &mut Vec<Witness>,
+) -> Option<f64> {
+    let (mut core_a, mut core_b) = (a.core(), b.core());
+    if core_a.is_none() && core_b.is_none() {
+        return None;
+    }
+    let radius = [core_a.map_or(0.0, |c| c.1), core_b.map_or(0.0, |c| c.1)];
+    let widened = Limits { cutoff: limits.cutoff + (radius[0] + radius[1]), ..*limits };
+    let proximity = gjk(
+        core_a.as_mut().map_or(a, |core| &mut core.0),
+        core_b.as_mut().map_or(b, |core| &mut core.0),
+        &widened,
+    );
+    if proximity.dist <= limits.tolerance {
+        return None;
+    }
+    let Some([x1, x2]) = proximity.nearest else { return Some(BEYOND) };
+    let dist = proximity.dist - (radius[0] + radius[1]);
+    let (normal, _) = normalize(sub(x2, x1));
+    let points = [add_scaled(x1, normal, radius[0]), add_scaled(x2, normal, -radius[1])];
+    witness.push(Witness { dist, points });
+    Some(if dist > limits.cutoff { BEYOND } else { dist })
+}
+
+/// Appends the contacts of two overlapping bodies and returns how many there are. `margin` is how much the bodies
+/// are inflated together.
+pub fn penetration(
+    opt: &Options,
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
+    max_contacts: usize,
+    margin: f64,
+    scratch: &mut ConvexScratch,
+    out: &mut Vec<PreContact>,
+) -> usize {
+    let overlap = measure(a, b, &Limits::new(opt, 0.0), max_contacts, scratch) < 0.0;
+    if !overlap {
+        return 0;
+    }
+    out.extend(scratch.witness.iter().map(|w| {
+        let [x1, x2] = w.points;
+        PreContact {
+            dist: margin + w.dist,
+            pos: scale(add(x1, x2), 0.5),
+            normal: normalize(sub(x1, x2)).0,
+            tangent: [0.0; 3],
+        }
+    }));
+    scratch.witness.len()
+}
+
+/// Appends the contacts of convex geoms `g1` and `g2`.
 pub fn convex(
-    _m: &Model,
-    _kin: &Kinematics,
-    _g1: usize,
-    _g2: usize,
-    _margin: f64,
-    _scratch: &mut ConvexScratch,
-    _out: &mut Vec<PreContact>,
+    m: &Model,
+    kin: &Kinematics,
+    g1: usize,
+    g2: usize,
+    margin: f64,
+    scratch: &mut ConvexScratch,
+    out: &mut Vec<PreContact>,
 ) {
+    let bodies = [g1, g2].map(|g| ConvexBody::new(&Shape::new(m, kin, g), margin));
+    let [Some(mut a), Some(mut b)] = bodies else { return };
+    let many = m.opt.disableflags & disable::MULTICCD == 0;
+    let max_contacts = one_pass_contacts(&a, &b, many);
+    let first = out.len();
+    let found = penetration(&m.opt, &mut a, &mut b, max_contacts, margin, scratch, out);
+    if found == 1 && max_contacts == 1 && many && can_rock(&a) && can_rock(&b) {
+        let same = SAME_CONTACT * m.geom_rbound[g1].min(m.geom_rbound[g2]);
+        rock(&m.opt, &mut a, &mut b, margin, same, first, scratch, out);
+    }
+}
+
+/// How many contacts one pass may find: only polyhedra without margin give several.
+fn one_pass_contacts(a: &ConvexBody, b: &ConvexBody, many: bool) -> usize {
+    match (&a.solid, &b.solid) {
+        _ if a.margin > 0.0 || b.margin > 0.0 => 1,
+        (Solid::Box(_), Solid::Box(_)) => 8,
+        (Solid::Box(_) | Solid::Mesh(_), Solid::Box(_) | Solid::Mesh(_)) if many => 4,
+        _ => 1,
+    }
+}
+
+fn can_rock(body: &ConvexBody) -> bool {
+    !matches!(body.solid, Solid::Ellipsoid(_) | Solid::Sphere(_))
+}
+
+/// Turns the bodies against each other about the first contact, to and fro about both tangents, and appends the
+/// contacts that this brings out, with the depth of the first.
+fn rock(
+    opt: &Options,
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
+    margin: f64,
+    same: f64,
+    first: usize,
+    scratch: &mut ConvexScratch,
+    out: &mut Vec<PreContact>,
+) {
+    let PreContact { pos: pivot, normal, dist, .. } = out[first];
+    let (pose_a, pose_b) = ((a.pos, a.mat), (b.pos, b.mat));
+    for axis in tangents(normal) {
+        for angle in [-ROCKING_ANGLE, ROCKING_ANGLE] {
+            let turn = quat_to_mat(quat_from_axis_angle(axis, angle));
+            (a.pos, a.mat) = turned(pose_a, pivot, &turn);
+            (b.pos, b.mat) = turned(pose_b, pivot, &transpose(&turn));
+            let last = out.len();
+            if penetration(opt, a, b, 1, margin, scratch, out) > 0 {
+                let pos = out[last].pos;
+                if out[first..last].iter().any(|c| distance(c.pos, pos) <= same) {
+                    out.truncate(last);
+                } else {
+                    out[last].dist = dist;
+                }
+            }
+        }
+    }
+    (a.pos, a.mat) = pose_a;
+    (b.pos, b.mat) = pose_b;
+}
+
+/// Two unit vectors that make a right-handed frame with a unit normal.
+fn tangents(normal: Vec3) -> [Vec3; 2] {
+    let (normal, _) = normalize(normal);
+    let guess = if normal[1].abs() < 0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let (y, _) = normalize(sub(guess, scale(normal, dot(normal, guess))));
+    [y, cross(normal, y)]
+}
+
+/// A pose turned about a point.
+fn turned((pos, mat): (Vec3, Mat3), pivot: Vec3, turn: &Mat3) -> (Vec3, Mat3) {
+    let arm = sub(pivot, pos);
+    (sub(pos, sub(mul_mat_vec(turn, arm), arm)), mul_mat(turn, &mat))
+}
+
+/// Signed distance between two convex geoms, at most `limit`, and the segment between their nearest points where
+/// the search computed it.
+pub fn convex_distance(
+    m: &Model,
+    kin: &Kinematics,
+    g1: usize,
+    g2: usize,
+    limit: f64,
+    scratch: &mut ConvexScratch,
+) -> (f64, Option<[Vec3; 2]>) {
+    let bodies = [g1, g2].map(|g| ConvexBody::new(&Shape::new(m, kin, g), 0.0));
+    let [Some(mut a), Some(mut b)] = bodies else { return (limit, None) };
+    let dist = measure(&mut a, &mut b, &Limits::new(&m.opt, limit), 1, scratch);
+    (if dist < limit { dist } else { limit }, scratch.witness.first().map(|w| w.points))
 }

@@ -10,11 +10,16 @@ pub mod broad_phase;
 pub mod capsule;
 pub mod capsule_box;
 pub mod convex;
+pub mod epa;
+pub mod gjk;
 pub mod hfield;
 pub mod mid_phase;
 pub mod mixing;
+pub mod multicontact;
 pub mod plane;
+pub mod polyhedron;
 pub mod sphere;
+pub mod support;
 
 use crate::data::{Contacts, Kinematics};
 use crate::math::{Mat3, Vec3, column};
