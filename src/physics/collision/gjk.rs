@@ -93,13 +93,7 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits) -> Proximity
             let mut turned = simplex;
             match enclose_origin(a, b, &mut turned, &mut k, limits.iterations) {
                 Enclosure::Inside => {
-                    return Proximity {
-                        dist: 0.0,
-                        separated: false,
-                        simplex: turned,
-                        n: 4,
-                        nearest: None,
-                    };
+                    return Proximity { dist: 0.0, separated: false, simplex: turned, n: 4, nearest: None };
                 }
                 Enclosure::Outside => return apart(simplex),
                 Enclosure::Unknown => try_enclosing = false,
