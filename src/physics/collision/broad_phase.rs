@@ -166,12 +166,12 @@ fn spread_frame(m: &Model, kin: &Kinematics) -> Mat3 {
     quat_to_mat(quat)
 }
 
-/// Extent of the geoms of body `b` with their margins along the rows of `frame`: each geom lies in its box and in
-/// its bounding sphere.
+/// Extent of the colliding geoms of body `b` with their margins along the rows of `frame`: each lies in its box
+/// and in its bounding sphere.
 fn body_bounds(m: &Model, kin: &Kinematics, b: usize, frame: &Mat3) -> Bounds {
     let global = if overridden(m) { 0.5 * m.opt.o_margin } else { 0.0 };
     let mut bounds = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
-    for g in geoms(m, b) {
+    for g in geoms(m, b).filter(|&g| m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0) {
         let margin = if global != 0.0 { global } else { m.geom_margin[g] + m.geom_gap[g] };
         let [cx, cy, cz, sx, sy, sz] = m.geom_aabb[g];
         let (pos, mat, radius) = (kin.geom_xpos[g], &kin.geom_xmat[g], m.geom_rbound[g]);

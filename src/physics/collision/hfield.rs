@@ -1,17 +1,138 @@
-//! Contacts of a height field: each grid triangle, extended down to the base, is a convex prism.
+//! Contacts of a height field: each triangle of the grid, extended down to the base, is a convex prism
+//! (documentation: Computation, "Height fields").
 
-use super::{PreContact, convex::ConvexScratch};
+use super::convex::{ConvexScratch, penetration};
+use super::support::ConvexBody;
+use super::{PreContact, Shape};
 use crate::data::Kinematics;
+use crate::math::{Mat3, Vec3, add, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec, sub};
 use crate::model::Model;
+use crate::model::bounds::MAXCONPAIR;
 
-/// Height field and convex geom.
+/// A grid of heights in its own frame.
+struct Grid<'a> {
+    /// Half extent along x and y, height of the top, depth of the base.
+    size: [f64; 4],
+    rows: usize,
+    columns: usize,
+    heights: &'a [f32],
+    /// Rise of the surface that stands for the contact margin.
+    margin: f64,
+}
+
+impl<'a> Grid<'a> {
+    fn new(m: &'a Model, id: usize, margin: f64) -> Self {
+        let (rows, columns) = (m.hfield_nrow[id] as usize, m.hfield_ncol[id] as usize);
+        let start = m.hfield_adr[id] as usize;
+        let heights = &m.hfield_data[start..start + rows * columns];
+        Grid { size: m.hfield_size[id], rows, columns, heights, margin }
+    }
+
+    /// True when the box lies beyond the margin of the grid's own box.
+    fn misses(&self, min: Vec3, max: Vec3) -> bool {
+        let [sx, sy, top, base] = self.size;
+        let beyond = |i: usize, low: f64, high: f64| min[i] > high || max[i] < low;
+        beyond(0, -sx, sx) || beyond(1, -sy, sy) || beyond(2, -base, top)
+    }
+
+    /// Indices of the first and last grid line that enclose [min, max] along x (0) or y (1).
+    fn lines(&self, axis: usize, min: f64, max: f64) -> (usize, usize) {
+        let half = self.size[axis];
+        let last = (if axis == 0 { self.columns } else { self.rows }) - 1;
+        let index = |x: f64| (x + half) / (2.0 * half) * last as f64;
+        let inside = |x: f64| (x.max(0.0) as usize).min(last);
+        (inside(index(min).floor()), inside(index(max).ceil()))
+    }
+
+    /// Surface point at a grid node.
+    fn node(&self, row: usize, column: usize) -> Vec3 {
+        let [sx, sy, top, _] = self.size;
+        let dx = (2.0 * sx) / (self.columns - 1) as f64;
+        let dy = (2.0 * sy) / (self.rows - 1) as f64;
+        let height = f64::from(self.heights[row * self.columns + column]) * top;
+        [dx * column as f64 - sx, dy * row as f64 - sy, height + self.margin]
+    }
+
+    /// The prism under three surface points, base first.
+    fn prism(&self, surface: [Vec3; 3]) -> [Vec3; 6] {
+        let [a, b, c] = surface;
+        let foot = |p: Vec3| [p[0], p[1], -self.size[3]];
+        [foot(a), foot(b), foot(c), a, b, c]
+    }
+}
+
+/// Height field and convex geom: prisms row by row, each at most one contact.
 pub fn height_field(
-    _m: &Model,
-    _kin: &Kinematics,
-    _g1: usize,
-    _g2: usize,
-    _margin: f64,
-    _scratch: &mut ConvexScratch,
-    _out: &mut Vec<PreContact>,
+    m: &Model,
+    kin: &Kinematics,
+    g1: usize,
+    g2: usize,
+    margin: f64,
+    scratch: &mut ConvexScratch,
+    out: &mut Vec<PreContact>,
 ) {
+    let (field, shape) = (Shape::new(m, kin, g1), Shape::new(m, kin, g2));
+    let Some(id) = field.data() else { return };
+    let grid = Grid::new(m, id, margin);
+
+    // Bounding sphere, then bounding box of the geom, both in the frame of the height field.
+    let pos = mul_mat_t_vec(&field.mat, sub(shape.pos, field.pos));
+    let radius = m.geom_rbound[g2] + margin;
+    if grid.misses(pos.map(|x| x - radius), pos.map(|x| x + radius)) {
+        return;
+    }
+    let local = Shape { pos, mat: mul_mat_t_mat(&field.mat, &shape.mat), ..shape };
+    let Some(mut body) = ConvexBody::new(&local, 0.0) else { return };
+    let (min, max) = extent(&mut body);
+    if grid.misses(min.map(|x| x - margin), max.map(|x| x + margin)) {
+        return;
+    }
+    body.margin = margin;
+
+    let (first_column, last_column) = grid.lines(0, min[0], max[0]);
+    let (first_row, last_row) = grid.lines(1, min[1], max[1]);
+    let first = out.len();
+    for row in first_row..last_row {
+        // A strip of triangles: nodes alternate between the next row and this one.
+        let mut triangle = [[0.0; 3], grid.node(row + 1, first_column), grid.node(row, first_column)];
+        for column in first_column + 1..=last_column {
+            for node in [grid.node(row + 1, column), grid.node(row, column)] {
+                triangle = [triangle[1], triangle[2], node];
+                if triangle.iter().all(|p| p[2] < min[2]) {
+                    continue;
+                }
+                let mut prism = ConvexBody::prism(grid.prism(triangle));
+                let found = out.len();
+                penetration(&m.opt, &mut prism, &mut body, 1, 0.0, scratch, out);
+                for contact in &mut out[found..] {
+                    *contact = placed(contact, field.pos, &field.mat);
+                }
+                if out.len() - first >= MAXCONPAIR {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Smallest box around a body, from its support points.
+fn extent(body: &mut ConvexBody) -> (Vec3, Vec3) {
+    let (mut min, mut max) = ([0.0; 3], [0.0; 3]);
+    for i in 0..3 {
+        let mut dir = [0.0; 3];
+        dir[i] = 1.0;
+        max[i] = body.support_of_solid(dir)[i];
+        dir[i] = -1.0;
+        min[i] = body.support_of_solid(dir)[i];
+    }
+    (min, max)
+}
+
+/// A contact in a frame, seen from the world.
+fn placed(contact: &PreContact, pos: Vec3, mat: &Mat3) -> PreContact {
+    PreContact {
+        pos: add(mul_mat_vec(mat, contact.pos), pos),
+        normal: mul_mat_vec(mat, contact.normal),
+        ..*contact
+    }
 }

@@ -4,16 +4,9 @@
 use super::broad_phase::spheres_apart;
 use super::mixing;
 use crate::data::Kinematics;
-use crate::math::{Mat3, Vec3, add, column, dot, mul_mat_vec};
+use crate::math::{Mat3, Vec3, mul_mat_t_mat, mul_mat_t_vec, sub};
 use crate::model::Model;
 use crate::model::bounds::MAXVAL;
-
-/// A box in a frame: centre and half-sizes, and where the frame is.
-struct OrientedBox<'a> {
-    aabb: &'a [f64; 6],
-    pos: Vec3,
-    mat: &'a Mat3,
-}
 
 /// A tree of boxes: nodes `start..`, children counted from `start`.
 #[derive(Clone, Copy)]
@@ -88,8 +81,8 @@ pub fn descend(
 }
 
 fn geom_boxes_overlap(m: &Model, kin: &Kinematics, g1: usize, g2: usize, margin: f64) -> bool {
-    let of = |g: usize| OrientedBox { aabb: &m.geom_aabb[g], pos: kin.geom_xpos[g], mat: &kin.geom_xmat[g] };
-    boxes_overlap([of(g1), of(g2)], margin)
+    let (pos, mat) = (&kin.geom_xpos, &kin.geom_xmat);
+    Relation::new(pos[g1], &mat[g1], pos[g2], &mat[g2]).overlap(&m.geom_aabb[g1], &m.geom_aabb[g2], margin)
 }
 
 /// Which of the half-sizes are infinite: (some, all).
@@ -98,79 +91,43 @@ fn infinite(aabb: &[f64; 6]) -> (bool, bool) {
     (beyond(3) || beyond(4) || beyond(5), beyond(3) && beyond(4) && beyond(5))
 }
 
-/// Separating axis test along the six face normals, in the world.
-fn boxes_overlap(boxes: [OrientedBox; 2], margin: f64) -> bool {
-    let [(some1, all1), (some2, all2)] = [infinite(boxes[0].aabb), infinite(boxes[1].aabb)];
-    if all1 || all2 {
-        return true;
-    }
-    let centre = |b: &OrientedBox| add(mul_mat_vec(b.mat, [b.aabb[0], b.aabb[1], b.aabb[2]]), b.pos);
-    let centres = [centre(&boxes[0]), centre(&boxes[1])];
-    for (owner, skip) in [(0, some2), (1, some1)] {
-        if skip {
-            continue;
-        }
-        for k in 0..3 {
-            let axis = column(boxes[owner].mat, k);
-            let radius = |b: &OrientedBox| {
-                (b.aabb[3] * dot(column(b.mat, 0), axis)).abs()
-                    + (b.aabb[4] * dot(column(b.mat, 1), axis)).abs()
-                    + (b.aabb[5] * dot(column(b.mat, 2), axis)).abs()
-            };
-            let between = (dot(centres[1], axis) - dot(centres[0], axis)).abs();
-            if radius(&boxes[0]) + radius(&boxes[1]) + margin < between {
-                return false;
-            }
-        }
-    }
-    true
-}
-
-/// Products of the axes of two bodies, shared by all box pairs of their trees.
+/// Where one frame is, seen from another: shared by all box pairs of two trees.
 struct Relation {
-    /// `[box][owner of the axis][axis]`: box axes along the face normal.
-    product: [[[Vec3; 3]; 2]; 2],
-    /// Body position along the face normal.
-    offset: [[[f64; 3]; 2]; 2],
+    /// Second frame's axes (columns) in the first.
+    rot: Mat3,
+    /// From the first origin to the second, in the first frame and in the second.
+    offset: [Vec3; 2],
 }
 
 impl Relation {
     fn new(pos1: Vec3, mat1: &Mat3, pos2: Vec3, mat2: &Mat3) -> Self {
-        let (pos, mat) = ([pos1, pos2], [mat1, mat2]);
-        let along = |i: usize, j: usize, k: usize, l: usize| dot(column(mat[i], l), column(mat[j], k));
+        let between = sub(pos2, pos1);
         Relation {
-            product: std::array::from_fn(|i| {
-                std::array::from_fn(|j| std::array::from_fn(|k| std::array::from_fn(|l| along(i, j, k, l))))
-            }),
-            offset: std::array::from_fn(|i| {
-                std::array::from_fn(|j| std::array::from_fn(|k| dot(pos[i], column(mat[j], k))))
-            }),
+            rot: mul_mat_t_mat(mat1, mat2),
+            offset: [mul_mat_t_vec(mat1, between), mul_mat_t_vec(mat2, between)],
         }
     }
 
-    /// Separating axis test of two boxes in the frames of the bodies.
-    fn overlap(&self, aabb1: &[f64; 6], aabb2: &[f64; 6], margin: f64) -> bool {
-        let [(some1, all1), (some2, all2)] = [infinite(aabb1), infinite(aabb2)];
-        if all1 || all2 {
+    /// Separating axis test along the six face normals of two boxes; a box without end has no faces to test the
+    /// other against.
+    fn overlap(&self, a: &[f64; 6], b: &[f64; 6], margin: f64) -> bool {
+        let [(some_a, all_a), (some_b, all_b)] = [infinite(a), infinite(b)];
+        if all_a || all_b {
             return true;
         }
-        for (owner, skip) in [(0, some2), (1, some1)] {
-            if skip {
-                continue;
-            }
-            for k in 0..3 {
-                let project = |i: usize, b: &[f64; 6]| {
-                    let p = self.product[i][owner][k];
-                    let centre = b[0] * p[0] + b[1] * p[1] + b[2] * p[2] + self.offset[i][owner][k];
-                    (centre, (b[3] * p[0]).abs() + (b[4] * p[1]).abs() + (b[5] * p[2]).abs())
-                };
-                let (c1, r1) = project(0, aabb1);
-                let (c2, r2) = project(1, aabb2);
-                if r1 + r2 + margin < (c2 - c1).abs() {
-                    return false;
-                }
-            }
-        }
-        true
+        let r = &self.rot;
+        let apart_in_first = |k: usize| {
+            let (x, y, z) = (r[3 * k], r[3 * k + 1], r[3 * k + 2]);
+            let between = self.offset[0][k] + (b[0] * x + b[1] * y + b[2] * z) - a[k];
+            let radius = a[3 + k] + ((b[3] * x).abs() + (b[4] * y).abs() + (b[5] * z).abs());
+            radius + margin < between.abs()
+        };
+        let apart_in_second = |k: usize| {
+            let (x, y, z) = (r[k], r[3 + k], r[6 + k]);
+            let between = self.offset[1][k] + b[k] - (a[0] * x + a[1] * y + a[2] * z);
+            let radius = ((a[3] * x).abs() + (a[4] * y).abs() + (a[5] * z).abs()) + b[3 + k];
+            radius + margin < between.abs()
+        };
+        (some_b || !(0..3).any(apart_in_first)) && (some_a || !(0..3).any(apart_in_second))
     }
 }
