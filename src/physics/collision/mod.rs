@@ -10,6 +10,7 @@ pub mod broad_phase;
 pub mod capsule;
 pub mod capsule_box;
 pub mod convex;
+pub mod distance;
 pub mod epa;
 pub mod gjk;
 pub mod hfield;

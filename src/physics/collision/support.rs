@@ -258,17 +258,17 @@ impl<'a> ConvexBody<'a> {
             Solid::Segment(half) => segment(&self.mat, self.pos, half, dir),
             Solid::Sphere(radius) => add(scale(dir, radius), self.pos),
             Solid::Prism(ref corners) => prism(corners, dir),
-            Solid::Capsule(radius, half) => self.to_world(capsule(radius, half, self.to_local(dir))),
-            Solid::Ellipsoid(axes) => self.to_world(ellipsoid(axes, self.to_local(dir))),
-            Solid::Cylinder(radius, half) => self.to_world(cylinder(radius, half, self.to_local(dir))),
+            Solid::Capsule(radius, half) => self.to_world(capsule(radius, half, self.local(dir))),
+            Solid::Ellipsoid(axes) => self.to_world(ellipsoid(axes, self.local(dir))),
+            Solid::Cylinder(radius, half) => self.to_world(cylinder(radius, half, self.local(dir))),
             Solid::Box(half) => {
-                let local = self.to_local(dir);
+                let local = self.local(dir);
                 let corner: Vec3 = std::array::from_fn(|i| signed(half[i], local[i]));
                 self.vertex = (0..3).map(|i| i32::from(corner[i] > 0.0) << i).sum();
                 self.to_world(corner)
             }
             Solid::Mesh(mesh) => {
-                self.vertex = self.mesh_support(&mesh, self.to_local(dir));
+                self.vertex = self.mesh_support(&mesh, self.local(dir));
                 self.to_world(mesh.vertex(self.vertex))
             }
         }
@@ -286,7 +286,7 @@ impl<'a> ConvexBody<'a> {
         }
     }
 
-    fn to_local(&self, dir: Vec3) -> Vec3 {
+    fn local(&self, dir: Vec3) -> Vec3 {
         mul_mat_t_vec(&self.mat, dir)
     }
 }

@@ -1,0 +1,59 @@
+//! Signed distance between two geoms and the segment that spans it (documentation: `mj_geomDistance`).
+
+use super::convex::{ConvexScratch, convex_distance};
+use super::{PreContact, pair_function};
+use crate::data::Kinematics;
+use crate::math::{Vec3, add_scaled};
+use crate::model::{GeomType, Model};
+
+/// Reused memory of distance queries.
+#[derive(Clone, Debug, Default)]
+pub struct DistanceScratch {
+    convex: ConvexScratch,
+    points: Vec<PreContact>,
+}
+
+/// Signed distance between geoms `g1` and `g2`, at most `limit`, and the nearest points, from the first geom to the
+/// second; zeros where they are beyond the limit or the pair has no distance.
+pub fn geom_distance(
+    m: &Model,
+    kin: &Kinematics,
+    g1: usize,
+    g2: usize,
+    limit: f64,
+    scratch: &mut DistanceScratch,
+) -> (f64, [Vec3; 2]) {
+    let types = [m.geom_type[g1], m.geom_type[g2]];
+    let flip = types[0] > types[1];
+    let sorted = if flip { [types[1], types[0]] } else { types };
+    let Some(function) = pair_function(sorted[0], sorted[1]) else { return (limit, [[0.0; 3]; 2]) };
+    if is_convex_pair(sorted) {
+        let (dist, segment) = convex_distance(m, kin, g1, g2, limit, &mut scratch.convex);
+        return (dist, segment.unwrap_or_default());
+    }
+    let (low, high) = if flip { (g2, g1) } else { (g1, g2) };
+    scratch.points.clear();
+    function(m, kin, low, high, limit, &mut scratch.convex, &mut scratch.points);
+    let (mut dist, mut segment) = (limit, [[0.0; 3]; 2]);
+    for point in &scratch.points {
+        if point.dist < dist {
+            dist = point.dist;
+            let half = if flip { -0.5 * dist } else { 0.5 * dist };
+            segment = [add_scaled(point.pos, point.normal, -half), add_scaled(point.pos, point.normal, half)];
+        }
+    }
+    (dist, segment)
+}
+
+/// Pairs of types, the lower first, whose distance comes from GJK: those without an analytic pair function, and
+/// boxes, whose own function finds no distance.
+fn is_convex_pair([low, high]: [i32; 2]) -> bool {
+    const SPHERE: i32 = GeomType::Sphere.code();
+    const CAPSULE: i32 = GeomType::Capsule.code();
+    const CYLINDER: i32 = GeomType::Cylinder.code();
+    const BOX: i32 = GeomType::Box.code();
+    match (low, high) {
+        (SPHERE, SPHERE | CAPSULE | CYLINDER | BOX) | (CAPSULE, CAPSULE | BOX) => false,
+        _ => low >= SPHERE,
+    }
+}
