@@ -1,0 +1,93 @@
+//! Jacobian of the motion of a point of one body relative to a point of another, over the degrees of freedom that
+//! move either body.
+
+use crate::chain::{MergedChain, chain, com_offset, point_column};
+use crate::data::{Com, Velocity};
+use crate::math::{
+    Spatial, Vec3, add, add_scaled, cross, cross_motion, linear, move_motion, rotational, scale, sub,
+};
+use crate::model::{JointType, Model};
+
+/// A sparse Jacobian difference: column `i` belongs to degree of freedom `dof[i]`, in increasing order.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Difference {
+    /// Degrees of freedom.
+    pub dof: Vec<i32>,
+    /// Columns of the translational part.
+    pub translation: Vec<Vec3>,
+    /// Columns of the rotational part.
+    pub rotation: Vec<Vec3>,
+}
+
+/// A point fixed to a body.
+#[derive(Clone, Copy)]
+pub(super) struct BodyPoint {
+    pub body: usize,
+    pub point: Vec3,
+}
+
+impl Difference {
+    /// Jacobian of point `b` minus that of point `a`. Degrees of freedom that move both bodies are left out when
+    /// `skip_common`, as they cannot move one point of contact relative to itself.
+    pub fn difference(&mut self, m: &Model, com: &Com, a: BodyPoint, b: BodyPoint, skip_common: bool) {
+        self.dof.clear();
+        self.translation.clear();
+        self.rotation.clear();
+        let (from_a, from_b) = (com_offset(m, com, a.body, a.point), com_offset(m, com, b.body, b.point));
+        for (dof, moves) in MergedChain::new(m, a.body, b.body) {
+            let axis = rotational(&com.cdof[dof]);
+            let (t, r) = match moves {
+                [true, true] if skip_common => break,
+                [true, true] => {
+                    (sub(point_column(com, dof, from_b), point_column(com, dof, from_a)), [0.0; 3])
+                }
+                [true, false] => (scale(point_column(com, dof, from_a), -1.0), scale(axis, -1.0)),
+                [false, _] => (point_column(com, dof, from_b), axis),
+            };
+            self.dof.push(dof as i32);
+            self.translation.push(t);
+            self.rotation.push(r);
+        }
+        self.dof.reverse();
+        self.translation.reverse();
+        self.rotation.reverse();
+    }
+}
+
+/// Time derivative of the point's Jacobian times the velocity: acceleration of the point, and angular acceleration
+/// of the body, that would remain if `qacc` were zero.
+pub(super) fn jacobian_dot_velocity(
+    m: &Model,
+    qvel: &[f64],
+    com: &Com,
+    vel: &Velocity,
+    at: BodyPoint,
+) -> (Vec3, Vec3) {
+    let origin = com.subtree_com[m.body_rootid[at.body] as usize];
+    let offset = sub(at.point, origin);
+    let speed = linear(&move_motion(&vel.cvel[at.body], origin, at.point));
+    let (mut translation, mut rotation) = ([0.0; 3], [0.0; 3]);
+    for i in chain(m, at.body) {
+        let rate = axis_rate(m, com, vel, i);
+        let (turn, axis) = (rotational(&rate), rotational(&com.cdof[i]));
+        let column = add(add(linear(&rate), cross(turn, offset)), cross(axis, speed));
+        translation = add_scaled(translation, column, qvel[i]);
+        rotation = add_scaled(rotation, turn, qvel[i]);
+    }
+    (translation, rotation)
+}
+
+/// Rate of motion axis `dof`; axes of quaternion joints are fixed in the body that they move.
+fn axis_rate(m: &Model, com: &Com, vel: &Velocity, dof: usize) -> Spatial {
+    let joint = m.dof_jntid[dof] as usize;
+    let rotates = match JointType::from_code(m.jnt_type[joint]) {
+        Some(JointType::Ball) => true,
+        Some(JointType::Free) => dof as i32 >= m.jnt_dofadr[joint] + 3,
+        _ => false,
+    };
+    if rotates {
+        cross_motion(&vel.cvel[m.dof_bodyid[dof] as usize], &com.cdof[dof])
+    } else {
+        vel.cdof_dot[dof]
+    }
+}

@@ -1,0 +1,201 @@
+//! Impedance, stiffness and damping of rows, and with them the regularisation `R` and its inverse `D`
+//! (MuJoCo documentation, Modeling, "Solver parameters").
+
+use super::diagonal::block_length;
+use crate::data::{Constraints, Contacts};
+use crate::math::dense::norm_slice;
+use crate::math::ops;
+use crate::model::bounds::{MAXIMP, MINIMP, MINVAL};
+use crate::model::{ConstraintType, EqType, Model, disable};
+
+/// `solref` in place of one whose entries have mixed signs.
+const DEFAULT_SOLREF: [f64; 2] = [0.02, 1.0];
+
+/// Computes `efc_KBIP`, `efc_R`, `efc_D` and the `mu` of frictional contacts, then makes `efc_diagA` agree with `R`.
+pub(super) fn impedance(m: &Model, con: &mut Contacts, efc: &mut Constraints) {
+    efc.efc_R.clear();
+    efc.efc_R.resize(efc.nefc, 0.0);
+    efc.efc_KBIP.clear();
+    efc.efc_KBIP.resize(efc.nefc, [0.0; 4]);
+    let mut i = 0;
+    while i < efc.nefc {
+        let length = block_length(m, con, efc, i);
+        block(m, con, efc, i, length);
+        cone_regularisation(m, con, efc, i, length);
+        i += length;
+    }
+    efc.efc_D.clear();
+    efc.efc_D.extend(efc.efc_R.iter().map(|r| 1.0 / r));
+    for i in 0..efc.nefc {
+        let impedance = efc.efc_KBIP[i][2];
+        efc.efc_diagA[i] = efc.efc_R[i] * impedance / (1.0 - impedance);
+    }
+}
+
+/// Sets `R` and `KBIP` of the `length` rows of one constraint.
+fn block(m: &Model, con: &Contacts, efc: &mut Constraints, first: usize, length: usize) {
+    let SolverParameters { solref, solreffriction, solimp } = solver_parameters(m, con, efc, first);
+    let (imp, slope) = curve(&solimp, violation(m, efc, first, length), efc.efc_margin[first]);
+    for j in 0..length {
+        let i = first + j;
+        efc.efc_R[i] = ((1.0 - imp) * efc.efc_diagA[i] / imp).max(MINVAL);
+        let kind = ConstraintType::from_code(efc.efc_type[i]);
+        let tangential = kind == Some(ConstraintType::ContactElliptic) && j > 0;
+        let friction =
+            matches!(kind, Some(ConstraintType::FrictionDof | ConstraintType::FrictionTendon)) || tangential;
+        let reference = if tangential && solreffriction != [0.0; 2] { solreffriction } else { solref };
+        let [k, b] = spring_damper(reference, solimp[1]);
+        efc.efc_KBIP[i] = [if friction { 0.0 } else { k }, b, imp, slope];
+    }
+}
+
+/// Stiffness and damping: from time constant and damping ratio when positive, else given directly with a minus sign.
+fn spring_damper(solref: [f64; 2], width: f64) -> [f64; 2] {
+    let [r0, r1] = solref;
+    [
+        if r0 > 0.0 {
+            1.0 / (width * width * r0 * r0 * r1 * r1).max(MINVAL)
+        } else {
+            -r0 / (width * width).max(MINVAL)
+        },
+        if r1 > 0.0 { 2.0 / (width * r0).max(MINVAL) } else { -r1 / width.max(MINVAL) },
+    ]
+}
+
+/// What the impedance curve is evaluated at: the distance, or its norm for constraints of several dimensions.
+fn violation(m: &Model, efc: &Constraints, first: usize, length: usize) -> f64 {
+    let several = efc.efc_type[first] == ConstraintType::Equality.code()
+        && matches!(
+            EqType::from_code(m.eq_type[efc.efc_id[first] as usize]),
+            Some(EqType::Weld | EqType::Connect)
+        );
+    if several { norm_slice(&efc.efc_pos[first..first + length]) } else { efc.efc_pos[first] }
+}
+
+struct SolverParameters {
+    solref: [f64; 2],
+    solreffriction: [f64; 2],
+    solimp: [f64; 5],
+}
+
+/// Parameters of the element that made row `i`, made consistent.
+fn solver_parameters(m: &Model, con: &Contacts, efc: &Constraints, i: usize) -> SolverParameters {
+    let id = efc.efc_id[i] as usize;
+    let (mut solref, mut solreffriction, mut solimp) = match ConstraintType::from_code(efc.efc_type[i]) {
+        Some(ConstraintType::FrictionDof) => (m.dof_solref[id], [0.0; 2], m.dof_solimp[id]),
+        Some(ConstraintType::FrictionTendon) => (m.tendon_solref_fri[id], [0.0; 2], m.tendon_solimp_fri[id]),
+        Some(ConstraintType::LimitJoint) => (m.jnt_solref[id], [0.0; 2], m.jnt_solimp[id]),
+        Some(ConstraintType::LimitTendon) => (m.tendon_solref_lim[id], [0.0; 2], m.tendon_solimp_lim[id]),
+        Some(ConstraintType::Equality) | None => (m.eq_solref[id], [0.0; 2], m.eq_solimp[id]),
+        Some(
+            ConstraintType::ContactFrictionless
+            | ConstraintType::ContactPyramidal
+            | ConstraintType::ContactElliptic,
+        ) => {
+            let c = &con.contact[id];
+            (c.solref, c.solreffriction, c.solimp)
+        }
+    };
+    let mixed = |r: [f64; 2]| (r[0] > 0.0) != (r[1] > 0.0);
+    if mixed(solref) {
+        solref = DEFAULT_SOLREF;
+    }
+    if mixed(solreffriction) {
+        solreffriction = [0.0; 2];
+    }
+    if m.opt.disableflags & disable::REFSAFE == 0 {
+        for r in [&mut solref, &mut solreffriction] {
+            if r[0] > 0.0 {
+                r[0] = r[0].max(2.0 * m.opt.timestep);
+            }
+        }
+    }
+    for k in [0, 1, 3] {
+        solimp[k] = solimp[k].clamp(MINIMP, MAXIMP);
+    }
+    solimp[2] = solimp[2].max(0.0);
+    solimp[4] = solimp[4].max(1.0);
+    SolverParameters { solref, solreffriction, solimp }
+}
+
+/// Impedance and its derivative at distance `pos`: a sigmoid of two power segments that meet at the midpoint.
+fn curve(solimp: &[f64; 5], pos: f64, margin: f64) -> (f64, f64) {
+    let [least, most, width, midpoint, exponent] = *solimp;
+    if least == most || width <= MINVAL {
+        return (0.5 * (least + most), 0.0);
+    }
+    let signed = (pos - margin) / width;
+    let (x, sign) = if signed < 0.0 { (-signed, -1.0) } else { (signed, 1.0) };
+    if x >= 1.0 || x <= 0.0 {
+        return (if x >= 1.0 { most } else { least }, 0.0);
+    }
+    let (y, slope) = if exponent == 1.0 {
+        (x, 1.0)
+    } else if x <= midpoint {
+        let a = 1.0 / power(midpoint, exponent - 1.0);
+        (a * power(x, exponent), exponent * a * power(x, exponent - 1.0))
+    } else {
+        let b = 1.0 / power(1.0 - midpoint, exponent - 1.0);
+        (1.0 - b * power(1.0 - x, exponent), exponent * b * power(1.0 - x, exponent - 1.0))
+    };
+    (least + y * (most - least), slope * sign * (most - least) / width)
+}
+
+/// `a` to the power `b`, exact for the usual powers 1 and 2.
+fn power(a: f64, b: f64) -> f64 {
+    if b == 1.0 {
+        a
+    } else if b == 2.0 {
+        a * a
+    } else {
+        ops::pow(a, b)
+    }
+}
+
+/// Rescales `R` of frictional contacts so that friction is `impratio` times as firm as the normal, and sets `mu` of
+/// the regularised cone.
+fn cone_regularisation(m: &Model, con: &mut Contacts, efc: &mut Constraints, i: usize, length: usize) {
+    let kind = ConstraintType::from_code(efc.efc_type[i]);
+    if !matches!(kind, Some(ConstraintType::ContactPyramidal | ConstraintType::ContactElliptic)) {
+        return;
+    }
+    let contact = &mut con.contact[efc.efc_id[i] as usize];
+    let friction = contact.friction;
+    let r = &mut efc.efc_R[i..i + length];
+    r[1] = r[0] / m.opt.impratio.max(MINVAL);
+    contact.mu = friction[0] * (r[1] / r[0]).sqrt();
+    if kind == Some(ConstraintType::ContactElliptic) {
+        for j in 1..length - 1 {
+            r[j + 1] = r[1] * friction[0] * friction[0] / (friction[j] * friction[j]);
+        }
+    } else {
+        let edge = 2.0 * contact.mu * contact.mu * r[0];
+        r.fill(edge);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curve_is_continuous_and_its_slope_is_its_derivative() {
+        let solimp = [0.8, 0.97, 0.01, 0.3, 3.0];
+        for pos in [-0.012, -0.008, -0.003, -0.001, 0.002, 0.0029, 0.0031, 0.007] {
+            let h = 1e-8;
+            let (value, slope) = curve(&solimp, pos, 0.0);
+            let difference = (curve(&solimp, pos + h, 0.0).0 - curve(&solimp, pos - h, 0.0).0) / (2.0 * h);
+            assert!((0.8..=0.97).contains(&value));
+            assert!((slope - difference).abs() < 1e-5, "{pos}: {slope} {difference}");
+        }
+        assert_eq!(curve(&solimp, 0.0, 0.0), (0.8, 0.0));
+        assert_eq!(curve(&solimp, -0.02, 0.0), (0.97, 0.0));
+    }
+
+    #[test]
+    fn spring_and_damper_are_critical_at_ratio_one() {
+        let [k, b] = spring_damper([0.02, 1.0], 0.9);
+        assert!((b * b / (4.0 * k) - 1.0).abs() < 1e-12);
+        assert_eq!(spring_damper([-100.0, -5.0], 1.0), [100.0, 5.0]);
+    }
+}

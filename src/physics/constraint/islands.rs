@@ -1,0 +1,219 @@
+//! Constraint islands: trees that rows couple, found as the components of a graph whose vertices are kinematic
+//! trees and whose edges are constraints (MuJoCo documentation, Computation, "Constraint islands").
+
+use crate::data::{Constraints, Contacts, Islands};
+use crate::model::{ConstraintType, EqType, Model, ObjType, disable};
+
+/// Memory of island discovery.
+#[derive(Clone, Debug, Default)]
+pub struct IslandScratch {
+    /// Union-find parent of each tree; -1 for a tree without constraints.
+    parent: Vec<i32>,
+    /// A tree of each row.
+    row_tree: Vec<i32>,
+    /// Fill counts.
+    filled: Vec<i32>,
+}
+
+/// Finds the islands of all rows and the orders of trees, degrees of freedom and rows sorted by island.
+pub fn find_islands(
+    m: &Model,
+    con: &Contacts,
+    efc: &Constraints,
+    island: &mut Islands,
+    scratch: &mut IslandScratch,
+) {
+    (island.nisland, island.nidof) = (0, 0);
+    if m.opt.disableflags & disable::ISLAND != 0 || efc.nefc == 0 {
+        return;
+    }
+    scratch.parent.clear();
+    scratch.parent.resize(m.ntree, -1);
+    scratch.row_tree.clear();
+    for i in 0..efc.nefc {
+        let same = i > 0 && efc.efc_type[i] == efc.efc_type[i - 1] && efc.efc_id[i] == efc.efc_id[i - 1];
+        let tree =
+            if same { scratch.row_tree[i - 1] } else { unite_row(m, con, efc, i, &mut scratch.parent) };
+        scratch.row_tree.push(tree);
+    }
+    number_islands(m, &mut scratch.parent, island);
+    sort_trees(m, island, &mut scratch.filled);
+    sort_dofs(m, island, &mut scratch.filled);
+    sort_rows(efc, island, scratch);
+}
+
+/// Unites the trees that row `i` touches; returns one of them.
+fn unite_row(m: &Model, con: &Contacts, efc: &Constraints, i: usize, parent: &mut [i32]) -> i32 {
+    let id = efc.efc_id[i] as usize;
+    let pair = |a: i32, b: i32, parent: &mut [i32]| {
+        unite(parent, a, b);
+        if a >= 0 { a } else { b }
+    };
+    match ConstraintType::from_code(efc.efc_type[i]) {
+        Some(ConstraintType::FrictionDof) => pair(m.dof_treeid[id], -1, parent),
+        Some(ConstraintType::LimitJoint) => pair(m.dof_treeid[m.jnt_dofadr[id] as usize], -1, parent),
+        Some(
+            ConstraintType::ContactFrictionless
+            | ConstraintType::ContactPyramidal
+            | ConstraintType::ContactElliptic,
+        ) => {
+            let [a, b] = con.contact[id].geom.map(|g| m.body_treeid[m.geom_bodyid[g as usize] as usize]);
+            pair(a, b, parent)
+        }
+        Some(ConstraintType::Equality)
+            if matches!(EqType::from_code(m.eq_type[id]), Some(EqType::Connect | EqType::Weld)) =>
+        {
+            let site = m.eq_objtype[id] == ObjType::Site.code();
+            let [a, b] = [m.eq_obj1id[id], m.eq_obj2id[id]]
+                .map(|o| m.body_treeid[if site { m.site_bodyid[o as usize] } else { o } as usize]);
+            pair(a, b, parent)
+        }
+        _ => unite_columns(m, efc, i, parent),
+    }
+}
+
+/// Unites the trees of the non-zero columns of row `i`; returns the first.
+fn unite_columns(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> i32 {
+    let start = efc.efc_J_rowadr[i] as usize;
+    let (mut first, mut previous) = (-1, -1);
+    for k in start..start + efc.efc_J_rownnz[i] as usize {
+        let tree = m.dof_treeid[efc.efc_J_colind[k] as usize];
+        if tree == previous || !m.is_sparse() && efc.efc_J[k] == 0.0 {
+            continue;
+        }
+        unite(parent, tree, previous);
+        previous = tree;
+        first = if first < 0 { tree } else { first };
+    }
+    first
+}
+
+/// Puts two trees in one component, smaller root first; -1 stands for what does not move.
+fn unite(parent: &mut [i32], a: i32, b: i32) {
+    let (a, b) = (if a < 0 { b } else { a }, if b < 0 { a } else { b });
+    let (Ok(a), Ok(b)) = (usize::try_from(a), usize::try_from(b)) else { return };
+    for tree in [a, b] {
+        if parent[tree] < 0 {
+            parent[tree] = tree as i32;
+        }
+    }
+    let (ra, rb) = (root(parent, a), root(parent, b));
+    parent[ra.max(rb)] = ra.min(rb) as i32;
+}
+
+/// Root of a tree's component, halving the path on the way.
+fn root(parent: &mut [i32], mut tree: usize) -> usize {
+    while parent[tree] as usize != tree {
+        parent[tree] = parent[parent[tree] as usize];
+        tree = parent[tree] as usize;
+    }
+    tree
+}
+
+/// Numbers components by their smallest tree.
+fn number_islands(m: &Model, parent: &mut [i32], island: &mut Islands) {
+    island.tree_island.clear();
+    for tree in 0..m.ntree {
+        let id = if parent[tree] < 0 {
+            -1
+        } else {
+            island.nidof += m.tree_dofnum[tree] as usize;
+            match root(parent, tree) {
+                r if r == tree => {
+                    island.nisland += 1;
+                    island.nisland as i32 - 1
+                }
+                r => island.tree_island[r],
+            }
+        };
+        island.tree_island.push(id);
+    }
+}
+
+/// Counts members of each island.
+fn count(members: &[i32], n: usize, counts: &mut Vec<i32>) {
+    counts.clear();
+    counts.resize(n, 0);
+    for &i in members {
+        if i >= 0 {
+            counts[i as usize] += 1;
+        }
+    }
+}
+
+/// Running sums: where each island starts.
+fn starts(counts: &[i32], out: &mut Vec<i32>) {
+    out.clear();
+    let mut sum = 0;
+    for n in counts {
+        out.push(sum);
+        sum += n;
+    }
+}
+
+/// Members sorted by island, those of none last; `place` is called with (member, sorted index).
+fn sort_members(
+    members: &[i32],
+    starts: &[i32],
+    free: i32,
+    filled: &mut Vec<i32>,
+    mut place: impl FnMut(usize, i32),
+) {
+    filled.clear();
+    filled.extend_from_slice(starts);
+    let mut last = free;
+    for (i, &id) in members.iter().enumerate() {
+        let next = usize::try_from(id).map_or(&mut last, |id| &mut filled[id]);
+        place(i, *next);
+        *next += 1;
+    }
+}
+
+fn sort_trees(m: &Model, island: &mut Islands, filled: &mut Vec<i32>) {
+    count(&island.tree_island, island.nisland, &mut island.island_ntree);
+    starts(&island.island_ntree, &mut island.island_itreeadr);
+    let constrained = island.island_ntree.iter().sum();
+    island.map_itree2tree.clear();
+    island.map_itree2tree.resize(m.ntree, 0);
+    let order = &mut island.map_itree2tree;
+    sort_members(&island.tree_island, &island.island_itreeadr, constrained, filled, |tree, at| {
+        order[at as usize] = tree as i32;
+    });
+}
+
+fn sort_dofs(m: &Model, island: &mut Islands, filled: &mut Vec<i32>) {
+    island.dof_island.clear();
+    island.dof_island.extend(m.dof_treeid.iter().map(|&t| island.tree_island[t as usize]));
+    count(&island.dof_island, island.nisland, &mut island.island_nv);
+    starts(&island.island_nv, &mut island.island_idofadr);
+    for map in [&mut island.map_dof2idof, &mut island.map_idof2dof] {
+        map.clear();
+        map.resize(m.nv, 0);
+    }
+    let (forward, backward) = (&mut island.map_dof2idof, &mut island.map_idof2dof);
+    sort_members(&island.dof_island, &island.island_idofadr, island.nidof as i32, filled, |dof, at| {
+        forward[dof] = at;
+        backward[at as usize] = dof as i32;
+    });
+    island.island_dofadr.clear();
+    island.island_dofadr.extend(island.island_idofadr.iter().map(|&at| island.map_idof2dof[at as usize]));
+}
+
+fn sort_rows(efc: &Constraints, island: &mut Islands, scratch: &mut IslandScratch) {
+    let n = island.nisland;
+    island.efc_island.clear();
+    island.efc_island.extend(scratch.row_tree.iter().map(|&t| island.tree_island[t as usize]));
+    count(&island.efc_island, n, &mut island.island_nefc);
+    count(&island.efc_island[..efc.ne], n, &mut island.island_ne);
+    count(&island.efc_island[efc.ne..efc.ne + efc.nf], n, &mut island.island_nf);
+    starts(&island.island_nefc, &mut island.island_iefcadr);
+    for map in [&mut island.map_efc2iefc, &mut island.map_iefc2efc] {
+        map.clear();
+        map.resize(efc.nefc, 0);
+    }
+    let (forward, backward) = (&mut island.map_efc2iefc, &mut island.map_iefc2efc);
+    sort_members(&island.efc_island, &island.island_iefcadr, 0, &mut scratch.filled, |row, at| {
+        forward[row] = at;
+        backward[at as usize] = row as i32;
+    });
+}

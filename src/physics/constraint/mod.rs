@@ -1,0 +1,64 @@
+//! Constraint rows: what must hold (equality), what resists (friction loss), what may not be crossed (limits,
+//! contacts), and the parameters that make each row soft (MuJoCo documentation, Computation, "Constraint model").
+//!
+//! Rows come in that order; the Jacobian is kept in compressed rows. A row is a mass-spring-damper in its own
+//! direction: `reference` gives the acceleration it asks for, `impedance` how firmly it asks.
+
+mod contacts;
+mod diagonal;
+mod difference;
+mod equality;
+mod friction_loss;
+mod impedance;
+mod islands;
+mod limits;
+mod reference;
+mod rows;
+
+pub use diagonal::{HalfJacobian, half_jacobian};
+pub use islands::{IslandScratch, find_islands};
+pub use reference::reference;
+pub use rows::{mul_jacobian, mul_jacobian_transposed};
+
+use crate::data::{Com, Constraints, Contacts, Inertia, Kinematics, State, Tendons};
+use crate::model::{Model, disable, enable};
+use difference::Difference;
+
+/// Memory that constraint stages reuse from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct ConstraintScratch {
+    chain: Difference,
+    columns: Vec<i32>,
+    values: Vec<f64>,
+    half: HalfJacobian,
+}
+
+/// Builds all rows of this configuration with their impedance; sets `efc_address`, `mu` and `exclude` of contacts.
+#[allow(clippy::too_many_arguments)]
+pub fn make_constraint(
+    m: &Model,
+    state: &State,
+    kin: &Kinematics,
+    com: &Com,
+    ten: &Tendons,
+    inertia: &Inertia,
+    con: &mut Contacts,
+    efc: &mut Constraints,
+    scratch: &mut ConstraintScratch,
+) {
+    rows::clear(m, efc);
+    if m.opt.disableflags & disable::CONSTRAINT != 0 {
+        return;
+    }
+    equality::equality(m, state, kin, com, ten, efc, scratch);
+    friction_loss::friction_loss(m, ten, efc);
+    limits::limits(m, state, ten, efc, scratch);
+    contacts::contacts(m, com, con, efc, scratch);
+    diagonal::approximate(m, con, efc);
+    impedance::impedance(m, con, efc);
+    if m.opt.enableflags & enable::DIAGEXACT != 0 {
+        half_jacobian(m, inertia, efc, &mut scratch.half);
+        diagonal::exact(&scratch.half, efc);
+        impedance::impedance(m, con, efc);
+    }
+}
