@@ -11,20 +11,30 @@
 
 pub mod activation;
 pub mod actuation;
+pub mod bias;
+pub mod camera;
 pub mod chain;
 pub mod collision;
+pub mod com;
+pub mod constraint;
+pub mod contact_force;
 pub mod data;
 pub mod fluid;
 pub mod frame;
+pub mod inertia;
+pub mod jacobian;
+pub mod kinematics;
 pub mod math;
 pub mod model;
 pub mod muscle;
 pub mod passive;
 pub mod polynomial;
 pub mod reflected_load;
+pub mod rne_post;
 pub mod table;
 pub mod tendon;
 pub mod transmission;
+pub mod velocity;
 pub mod wrap;
 
 pub use data::Data;

@@ -1,13 +1,16 @@
 //! Small fixed-size algebra: vectors, quaternions, rotations, spatial vectors. Arrays by value, no allocation.
 
+pub mod dense;
 mod eigen;
 pub mod ops;
 mod quat;
+mod sparse;
 mod spatial;
 mod vector;
 
 pub use eigen::principal_axes;
 pub use quat::*;
+pub use sparse::*;
 pub use spatial::*;
 pub use vector::*;
 
