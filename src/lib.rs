@@ -1,1 +1,4 @@
 //! RoboHive.
+pub use physics;
+pub use mjcf;
+pub use dataset;

@@ -30,6 +30,8 @@ pub mod muscle;
 pub mod passive;
 pub mod polynomial;
 pub mod reflected_load;
+pub mod set_const;
+pub mod statistic;
 pub mod rne_post;
 pub mod table;
 pub mod tendon;

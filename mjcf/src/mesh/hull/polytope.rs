@@ -19,8 +19,6 @@ pub(super) struct Facet {
     pub neighbors: Vec<usize>,
     /// Borders with neighbours, as far as either side is not simplicial.
     pub ridges: Vec<usize>,
-    /// Whether the facet ever had a ridge.
-    pub ridged: bool,
     /// Outward unit normal, once computed.
     pub normal: Option<[f64; 3]>,
     pub offset: f64,
@@ -466,10 +464,8 @@ impl<'a> Polytope<'a> {
         };
         self.ridges.push(ridge);
         let id = self.ridges.len() - 1;
-        for facet in [owner, neighbor] {
-            self.facets[facet].ridges.push(id);
-            self.facets[facet].ridged = true;
-        }
+        self.facets[owner].ridges.push(id);
+        self.facets[neighbor].ridges.push(id);
     }
 
     /// Fills `Vertex::neighbors` from the facets.
