@@ -1,4 +1,4 @@
 //! RoboHive.
-pub use physics;
-pub use mjcf;
 pub use dataset;
+pub use mjcf;
+pub use physics;

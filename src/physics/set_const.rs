@@ -4,10 +4,12 @@
 //! The compiler calls this last; tasks that edit masses, poses or lengths of a model call it again.
 
 use crate::data::Data;
+use crate::jacobian::Jacobian;
 use crate::math::{add, mul_inertia, mul_mat_t_vec, mul_mat_vec, quat_conj, quat_mul, spatial_dot, sub};
 use crate::model::bounds::MINVAL;
-use crate::model::{EqType, GainType, JointType, Model, ObjType, SameFrame, SleepPolicy, TrackMode, TrnType, WrapType};
-use crate::jacobian::Jacobian;
+use crate::model::{
+    EqType, GainType, JointType, Model, ObjType, SameFrame, SleepPolicy, TrackMode, TrnType, WrapType,
+};
 use crate::reflected_load::Driven;
 use crate::{camera, com, inertia, kinematics, statistic, tendon, transmission};
 use std::fmt;
@@ -125,8 +127,9 @@ fn reflecting_actuators(m: &mut Model) {
     m.jnt_actuatorid.fill(-1);
     m.tendon_actuatorid.fill(-1);
     for i in 0..m.nactuator {
-        let passive =
-            m.actuator_damping[i] != 0.0 || m.actuator_dampingpoly[i] != [0.0; 2] || m.actuator_armature[i] != 0.0;
+        let passive = m.actuator_damping[i] != 0.0
+            || m.actuator_dampingpoly[i] != [0.0; 2]
+            || m.actuator_armature[i] != 0.0;
         let target = m.actuator_trnid[i][0] as usize;
         let slot = match TrnType::from_code(m.actuator_trntype[i]) {
             Some(TrnType::Joint | TrnType::Jointinparent) if passive => &mut m.jnt_actuatorid[target],
@@ -140,7 +143,8 @@ fn reflecting_actuators(m: &mut Model) {
 fn trees(m: &mut Model) {
     for b in 0..m.nbody {
         let weld = m.body_weldid[b] as usize;
-        m.body_treeid[b] = if m.body_dofnum[weld] > 0 { m.dof_treeid[m.body_dofadr[weld] as usize] } else { -1 };
+        m.body_treeid[b] =
+            if m.body_dofnum[weld] > 0 { m.dof_treeid[m.body_dofadr[weld] as usize] } else { -1 };
     }
     m.tree_bodynum.fill(0);
     m.tree_dofnum.fill(0);

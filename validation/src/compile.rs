@@ -14,7 +14,10 @@ pub struct Exception {
 
 /// Fields that need not be equal.
 pub const EXCEPTIONS: &[Exception] = &[
-    Exception { field: "mesh_graph", reason: "order of hull facets: MuJoCo's comes from Qhull's pivoting; the vertex set is compared" },
+    Exception {
+        field: "mesh_graph",
+        reason: "order of hull facets: MuJoCo's comes from Qhull's pivoting; the vertex set is compared",
+    },
     Exception { field: "mesh_polynormal", reason: "order of hull polygons, which follows the facets" },
     Exception { field: "mesh_polyvert", reason: "order of hull polygons, which follows the facets" },
     Exception { field: "mesh_polyvertadr", reason: "order of hull polygons, which follows the facets" },
@@ -66,7 +69,11 @@ pub fn compare_compiled(m: &Model, reference: &Reference) -> Result<CompileRepor
             continue;
         }
         let field = name.split_once('.').map_or("", |(_, field)| field);
-        let list = if EXCEPTIONS.iter().any(|e| e.field == field) { &mut report.excepted } else { &mut report.differences };
+        let list = if EXCEPTIONS.iter().any(|e| e.field == field) {
+            &mut report.excepted
+        } else {
+            &mut report.differences
+        };
         list.push(worst);
     }
     report.differences.sort_by(|a, b| b.error.total_cmp(&a.error));

@@ -5,5 +5,4 @@ pub mod compile;
 
 pub mod reference;
 
-
 pub mod tolerance;

@@ -6,10 +6,8 @@ use robohive_validation::reference::Reference;
 use std::path::{Path, PathBuf};
 
 fn references() -> Vec<PathBuf> {
-    let folder = std::env::var_os("ROBOHIVE_REFERENCES").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own"),
-        PathBuf::from,
-    );
+    let folder = std::env::var_os("ROBOHIVE_REFERENCES")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own"), PathBuf::from);
     let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
     files.sort();
     files
@@ -18,11 +16,38 @@ fn references() -> Vec<PathBuf> {
 #[test]
 fn derived_quantities_are_restored() {
     let derived = [
-        "body_sameframe", "geom_sameframe", "site_sameframe", "body_subtreemass", "body_treeid", "tree_bodyadr",
-        "tree_bodynum", "tree_dofadr", "tree_dofnum", "tree_sleep_policy", "tendon_treenum", "tendon_treeid",
-        "ten_J_rownnz", "ten_J_rowadr", "ten_J_colind", "body_invweight0", "dof_invweight0", "dof_M0", "dof_length",
-        "tendon_length0", "tendon_invweight0", "tendon_lengthspring", "actuator_length0", "actuator_acc0", "eq_data",
-        "cam_pos0", "cam_poscom0", "cam_mat0", "light_pos0", "light_poscom0", "light_dir0", "jnt_actuatorid",
+        "body_sameframe",
+        "geom_sameframe",
+        "site_sameframe",
+        "body_subtreemass",
+        "body_treeid",
+        "tree_bodyadr",
+        "tree_bodynum",
+        "tree_dofadr",
+        "tree_dofnum",
+        "tree_sleep_policy",
+        "tendon_treenum",
+        "tendon_treeid",
+        "ten_J_rownnz",
+        "ten_J_rowadr",
+        "ten_J_colind",
+        "body_invweight0",
+        "dof_invweight0",
+        "dof_M0",
+        "dof_length",
+        "tendon_length0",
+        "tendon_invweight0",
+        "tendon_lengthspring",
+        "actuator_length0",
+        "actuator_acc0",
+        "eq_data",
+        "cam_pos0",
+        "cam_poscom0",
+        "cam_mat0",
+        "light_pos0",
+        "light_poscom0",
+        "light_dir0",
+        "jnt_actuatorid",
     ];
     for path in references() {
         let reference = Reference::open(&path).unwrap();

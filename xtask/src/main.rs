@@ -11,7 +11,10 @@ struct Check {
 
 const CHECKS: &[Check] = &[
     Check { name: "format", cargo: &["fmt", "--all", "--check"] },
-    Check { name: "lint", cargo: &["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"] },
+    Check {
+        name: "lint",
+        cargo: &["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"],
+    },
     Check { name: "test", cargo: &["test", "--release", "--workspace"] },
     Check { name: "docs", cargo: &["doc", "--release", "--workspace", "--no-deps"] },
 ];
