@@ -1,4 +1,1 @@
 //! RoboHive.
-pub use dataset;
-pub use mjcf;
-pub use physics;

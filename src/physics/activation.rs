@@ -31,7 +31,7 @@ pub fn activation_rates(m: &Model, act: &[f64], ctrl: impl Fn(usize) -> f64, act
             Some(DynType::Muscle) => {
                 act_dot[last] = muscle::activation_rate(ctrl(first_input), act[last], prm)
             }
-            // The others are refused by `model::unsupported`.
+            // The others are refused by `actuation::check`.
             Some(DynType::None | DynType::Dcmotor | DynType::Pid | DynType::User) | None => {}
         }
     }

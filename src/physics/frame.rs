@@ -62,14 +62,22 @@ impl Frame {
         self.moved(m, com, &cvel[self.body])
     }
 
-    /// Acceleration of the frame in world orientation, as an observer moving along would differentiate: the
-    /// spatial acceleration plus `w × v`.
+    /// Acceleration of the frame in world orientation, as an observer moving along would differentiate; zero on
+    /// bodies without degrees of freedom.
     pub fn acceleration(&self, m: &Model, com: &Com, cvel: &[Spatial], cacc: &[Spatial]) -> Spatial {
         if m.body_dofnum[m.body_weldid[self.body] as usize] == 0 {
             return [0.0; 6];
         }
-        let (v, a) = (self.moved(m, com, &cvel[self.body]), self.moved(m, com, &cacc[self.body]));
-        spatial(rotational(&a), add(linear(&a), cross(rotational(&v), linear(&v))))
+        observed(&self.moved(m, com, &cvel[self.body]), &self.moved(m, com, &cacc[self.body]))
+    }
+
+    /// The same in the orientation of the frame.
+    pub fn local_acceleration(&self, m: &Model, com: &Com, cvel: &[Spatial], cacc: &[Spatial]) -> Spatial {
+        if m.body_dofnum[m.body_weldid[self.body] as usize] == 0 {
+            return [0.0; 6];
+        }
+        let local = |motion: &Spatial| self.local(&self.moved(m, com, motion));
+        observed(&local(&cvel[self.body]), &local(&cacc[self.body]))
     }
 
     /// A com-based motion of the body, seen at the origin of the frame.
@@ -82,4 +90,9 @@ impl Frame {
     pub fn local(&self, v: &Spatial) -> Spatial {
         spatial(mul_mat_t_vec(&self.mat, rotational(v)), mul_mat_t_vec(&self.mat, linear(v)))
     }
+}
+
+/// Acceleration of a point that moves along, from spatial velocity and acceleration: `w × v` is added.
+fn observed(v: &Spatial, a: &Spatial) -> Spatial {
+    spatial(rotational(a), add(linear(a), cross(rotational(v), linear(v))))
 }

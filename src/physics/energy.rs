@@ -1,0 +1,52 @@
+//! Mechanical energy (documentation: Computation, "Energy").
+
+use crate::data::{Inertia, Kinematics, State, Tendons};
+use crate::math::{dot, norm};
+use crate::model::{JointType, Model, disable};
+use crate::passive::{shift, tendon_stretch, turn};
+use crate::polynomial::Polynomial;
+
+/// Potential energy: weight of all bodies, joint springs, tendon springs [J].
+pub fn potential(m: &Model, state: &State, kin: &Kinematics, ten: &Tendons) -> f64 {
+    let enabled = |flag: i32| m.opt.disableflags & flag == 0;
+    let mut energy = 0.0;
+    if enabled(disable::GRAVITY) {
+        (1..m.nbody).for_each(|b| energy -= m.body_mass[b] * dot(m.opt.gravity, kin.xipos[b]));
+    }
+    if enabled(disable::SPRING) {
+        (0..m.njnt).for_each(|j| energy += joint_spring(m, state, j));
+        for t in 0..m.ntendon {
+            let law = Polynomial { linear: m.tendon_stiffness[t], poly: m.tendon_stiffnesspoly[t] };
+            energy += law.potential(tendon_stretch(m, ten, t));
+        }
+    }
+    energy
+}
+
+fn joint_spring(m: &Model, state: &State, j: usize) -> f64 {
+    let law = Polynomial { linear: m.jnt_stiffness[j], poly: m.jnt_stiffnesspoly[j] };
+    let q = m.jnt_qposadr[j] as usize;
+    if law.is_zero() {
+        return 0.0;
+    }
+    match JointType::from_code(m.jnt_type[j]) {
+        Some(JointType::Free) => {
+            law.potential(norm(shift(m, state, q))) + law.potential(norm(turn(m, state, q + 3)))
+        }
+        Some(JointType::Ball) => law.potential(norm(turn(m, state, q))),
+        Some(JointType::Slide | JointType::Hinge) | None => law.potential(state.qpos[q] - m.qpos_spring[q]),
+    }
+}
+
+/// Kinetic energy, from the lower triangle of the joint-space inertia [J].
+pub fn kinetic(m: &Model, state: &State, inertia: &Inertia) -> f64 {
+    let v = &state.qvel;
+    let mut twice = 0.0;
+    for i in 0..m.nv {
+        let start = m.M_rowadr[i] as usize;
+        let diagonal = start + m.M_rownnz[i] as usize - 1;
+        let below: f64 = (start..diagonal).map(|k| inertia.M[k] * v[m.M_colind[k] as usize]).sum();
+        twice += v[i] * (inertia.M[diagonal] * v[i] + 2.0 * below);
+    }
+    0.5 * twice
+}

@@ -1,0 +1,186 @@
+//! Nearest surface along a ray (documentation: programming, `mj_ray`).
+//!
+//! Every shape is met in its own frame. A ray `origin + x · direction` is not normalised: distances count in
+//! lengths of `direction`.
+
+mod hfield;
+mod mesh;
+mod primitive;
+
+use crate::data::Kinematics;
+use crate::math::{Mat3, Vec3, mul_mat_t_vec, mul_mat_vec, normalize, sub};
+use crate::model::{GeomType, Model};
+
+/// A half line.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Where it starts.
+    pub origin: Vec3,
+    /// Where it goes; its length is the unit of distance.
+    pub direction: Vec3,
+}
+
+/// Intersection of a ray with a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance along the ray, in lengths of its direction.
+    pub distance: f64,
+    /// Outward unit normal of the surface, world frame.
+    pub normal: Vec3,
+}
+
+/// Which geoms a ray can hit. Invisible geoms (alpha zero) are never hit.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RayFilter {
+    /// Geom groups that can be hit; `None` for all.
+    pub groups: Option<[bool; 6]>,
+    /// Passes through geoms of static bodies.
+    pub skip_static: bool,
+    /// Body whose geoms are passed through.
+    pub exclude_body: Option<usize>,
+}
+
+impl Ray {
+    /// Point at distance `x`.
+    fn at(&self, x: f64) -> Vec3 {
+        std::array::from_fn(|k| self.origin[k] + x * self.direction[k])
+    }
+
+    /// The ray in the frame at `pos` with orientation `mat`.
+    fn local(&self, pos: Vec3, mat: &Mat3) -> Ray {
+        Ray {
+            origin: mul_mat_t_vec(mat, sub(self.origin, pos)),
+            direction: mul_mat_t_vec(mat, self.direction),
+        }
+    }
+}
+
+/// Intersection in the frame of a shape; the normal has any length.
+#[derive(Clone, Copy, Debug)]
+struct LocalHit {
+    distance: f64,
+    normal: Vec3,
+}
+
+/// Keeps the nearer of two intersections, the first one when they are equally far.
+fn keep_nearer(best: &mut Option<LocalHit>, candidate: LocalHit) {
+    if best.is_none_or(|b| candidate.distance < b.distance) {
+        *best = Some(candidate);
+    }
+}
+
+/// Nearest visible geom that `ray` hits, and where.
+pub fn ray(m: &Model, kin: &Kinematics, ray: Ray, filter: RayFilter) -> Option<(usize, Hit)> {
+    let mut best: Option<(usize, Hit)> = None;
+    for geom in (0..m.ngeom).filter(|&g| passes(m, g, filter)) {
+        if let Some(hit) = ray_geom(m, kin, geom, ray)
+            && best.is_none_or(|(_, b)| hit.distance < b.distance)
+        {
+            best = Some((geom, hit));
+        }
+    }
+    best
+}
+
+/// Where `ray` hits geom `geom`.
+pub fn ray_geom(m: &Model, kin: &Kinematics, geom: usize, ray: Ray) -> Option<Hit> {
+    let (pos, mat, size) = (kin.geom_xpos[geom], &kin.geom_xmat[geom], m.geom_size[geom]);
+    let data = usize::try_from(m.geom_dataid[geom]).ok();
+    match (GeomType::from_code(m.geom_type[geom])?, data) {
+        (GeomType::Mesh, Some(mesh)) => {
+            let local = ray.local(pos, mat);
+            primitive::cuboid(size, local).and_then(|_| mesh::mesh(m, mesh, local)).map(|hit| hit.global(mat))
+        }
+        (GeomType::Hfield, Some(field)) => {
+            hfield::hfield(m, field, ray.local(pos, mat)).map(|hit| hit.global(mat))
+        }
+        (shape, _) => ray_shape(shape, size, pos, mat, ray),
+    }
+}
+
+/// Where `ray` hits a primitive shape of half-sizes `size` at a pose; `None` for shapes that need more data.
+pub fn ray_shape(shape: GeomType, size: Vec3, pos: Vec3, mat: &Mat3, ray: Ray) -> Option<Hit> {
+    let local = ray.local(pos, mat);
+    let hit = match shape {
+        GeomType::Plane => primitive::plane(size, local),
+        GeomType::Sphere => primitive::sphere(size[0] * size[0], local),
+        GeomType::Capsule => primitive::capsule(size, local),
+        GeomType::Ellipsoid => primitive::ellipsoid(size, local),
+        GeomType::Cylinder => primitive::cylinder(size, local),
+        GeomType::Box => primitive::cuboid(size, local),
+        GeomType::Mesh | GeomType::Hfield | GeomType::Sdf | GeomType::None => None,
+    };
+    hit.map(|hit| hit.global(mat))
+}
+
+impl LocalHit {
+    fn global(self, mat: &Mat3) -> Hit {
+        Hit { distance: self.distance, normal: mul_mat_vec(mat, normalize(self.normal).0) }
+    }
+}
+
+fn passes(m: &Model, geom: usize, filter: RayFilter) -> bool {
+    let body = m.geom_bodyid[geom] as usize;
+    let alpha = match usize::try_from(m.geom_matid[geom]) {
+        Ok(material) => m.mat_rgba[material][3],
+        Err(_) => m.geom_rgba[geom][3],
+    };
+    let group = m.geom_group[geom].clamp(0, 5) as usize;
+    filter.exclude_body != Some(body)
+        && alpha != 0.0
+        && !(filter.skip_static && m.body_weldid[body] == 0)
+        && filter.groups.is_none_or(|groups| groups[group])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::{add_scaled, dot, norm};
+
+    const UPRIGHT: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+
+    /// Implicit function of each solid, negative inside.
+    fn outside(shape: GeomType, s: Vec3, p: Vec3) -> f64 {
+        let radial = p[0].hypot(p[1]);
+        match shape {
+            GeomType::Sphere => norm(p) - s[0],
+            GeomType::Capsule => radial.hypot(p[2] - p[2].clamp(-s[1], s[1])) - s[0],
+            GeomType::Ellipsoid => norm([p[0] / s[0], p[1] / s[1], p[2] / s[2]]) - 1.0,
+            GeomType::Cylinder => (radial - s[0]).max(p[2].abs() - s[1]),
+            _ => (0..3).map(|k| p[k].abs() - s[k]).fold(f64::MIN, f64::max),
+        }
+    }
+
+    #[test]
+    fn rays_end_on_the_first_surface_and_see_it_from_outside() {
+        let shapes =
+            [GeomType::Sphere, GeomType::Capsule, GeomType::Ellipsoid, GeomType::Cylinder, GeomType::Box];
+        let (size, origin) = ([0.3, 0.5, 0.4], [1.0, -0.7, 0.9]);
+        for shape in shapes {
+            let mut hits = 0;
+            for k in 0..400 {
+                let target = [
+                    0.013 * f64::from(k % 20) - 0.13,
+                    0.021 * f64::from(k / 20) - 0.2,
+                    0.002 * f64::from(k) - 0.4,
+                ];
+                let ray = Ray { origin, direction: sub(target, origin) };
+                let march =
+                    (0..4000).map(|i| f64::from(i) * 5e-4).find(|&x| outside(shape, size, ray.at(x)) <= 0.0);
+                match ray_shape(shape, size, [0.0; 3], &UPRIGHT, ray) {
+                    Some(hit) => {
+                        hits += 1;
+                        let surface = add_scaled(origin, ray.direction, hit.distance);
+                        assert!(outside(shape, size, surface).abs() < 1e-12, "{shape:?}");
+                        assert!(march.is_none_or(|x| (x - hit.distance).abs() < 6e-4), "{shape:?}");
+                        assert!(
+                            dot(hit.normal, ray.direction) < 0.0 && (norm(hit.normal) - 1.0).abs() < 1e-12
+                        );
+                    }
+                    None => assert_eq!(march, None, "{shape:?}"),
+                }
+            }
+            assert!(hits > 100, "{shape:?} {hits}");
+        }
+    }
+}

@@ -1,0 +1,147 @@
+//! Sensors (documentation: XML reference, `sensor`). Each is read in the stage whose results it needs: positions,
+//! velocities, or accelerations and forces.
+
+mod acceleration;
+mod contact;
+mod distance;
+mod pinhole;
+mod position;
+mod rangefinder;
+mod velocity;
+mod zone;
+
+pub use acceleration::AccelerationInputs;
+pub use position::PositionInputs;
+pub use velocity::VelocityInputs;
+
+use crate::collision::PreContact;
+use crate::collision::convex::ConvexScratch;
+use crate::data::{Constraints, Sensors};
+use crate::model::{ConstraintType, DataType, Model, SensorType, Stage, disable};
+use crate::momentum::subtree_momentum;
+use std::fmt;
+
+/// Working memory of sensors, reused from step to step.
+#[derive(Clone, Debug, Default)]
+pub struct SensorScratch {
+    convex: ConvexScratch,
+    points: Vec<PreContact>,
+    matches: Vec<contact::Match>,
+}
+
+/// A sensor that is not simulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct UnsupportedSensor {
+    /// Index of the sensor.
+    pub sensor: usize,
+    /// What it would need.
+    pub feature: &'static str,
+}
+
+impl fmt::Display for UnsupportedSensor {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "sensor {}: {} not supported", self.sensor, self.feature)
+    }
+}
+
+impl std::error::Error for UnsupportedSensor {}
+
+/// Checks once that every sensor of the model can be read. A `user` sensor reads zero.
+///
+/// # Errors
+/// The first sensor that cannot.
+pub fn check(m: &Model) -> Result<(), UnsupportedSensor> {
+    for sensor in 0..m.nsensor {
+        let feature = match SensorType::from_code(m.sensor_type[sensor]) {
+            Some(SensorType::Tactile) => "tactile sensors are",
+            Some(SensorType::Plugin) => "sensor plugins are",
+            None => "this type of sensor is",
+            Some(_) if m.sensor_history[sensor][0] > 0 => "delay, interval and history of sensors are",
+            Some(_) => continue,
+        };
+        return Err(UnsupportedSensor { sensor, feature });
+    }
+    Ok(())
+}
+
+/// True when some sensor of type in `types` exists and sensors are on.
+fn any_of(m: &Model, types: &[SensorType]) -> bool {
+    m.opt.disableflags & disable::SENSOR == 0
+        && m.sensor_type.iter().any(|&code| types.iter().any(|t| t.code() == code))
+}
+
+/// True when some sensor reads body accelerations or the forces between bodies.
+pub fn needs_body_forces(m: &Model) -> bool {
+    use SensorType::{Accelerometer, Force, Frameangacc, Framelinacc, Torque};
+    any_of(m, &[Accelerometer, Force, Torque, Framelinacc, Frameangacc])
+}
+
+/// Reads the sensors of the position stage.
+pub fn position_sensors(m: &Model, inputs: &PositionInputs, scratch: &mut SensorScratch, out: &mut Sensors) {
+    each(m, Stage::Pos, &mut out.sensordata, |i, kind, data| {
+        position::read(m, inputs, i, kind, scratch, data);
+    });
+}
+
+/// Computes momenta of subtrees if sensors need them, then reads the sensors of the velocity stage.
+pub fn velocity_sensors(m: &Model, inputs: &VelocityInputs, out: &mut Sensors) {
+    if any_of(m, &[SensorType::Subtreelinvel, SensorType::Subtreeangmom]) {
+        subtree_momentum(m, inputs.kin, inputs.com, inputs.vel, out);
+    }
+    let Sensors { sensordata, subtree_linvel, subtree_angmom, .. } = out;
+    each(m, Stage::Vel, sensordata, |i, kind, data| {
+        velocity::read(m, inputs, [subtree_linvel, subtree_angmom], i, kind, data);
+    });
+}
+
+/// Reads the sensors of the acceleration stage; body accelerations and forces must be up to date in `out` if
+/// [`needs_body_forces`].
+pub fn acceleration_sensors(
+    m: &Model,
+    inputs: &AccelerationInputs,
+    scratch: &mut SensorScratch,
+    out: &mut Sensors,
+) {
+    let Sensors { sensordata, cacc, cfrc_int, .. } = out;
+    each(m, Stage::Acc, sensordata, |i, kind, data| {
+        acceleration::read(m, inputs, cacc, cfrc_int, i, kind, scratch, data);
+    });
+}
+
+/// Calls `read` on every sensor of a stage and applies its cut-off.
+fn each(
+    m: &Model,
+    stage: Stage,
+    sensordata: &mut [f64],
+    mut read: impl FnMut(usize, SensorType, &mut [f64]),
+) {
+    if m.opt.disableflags & disable::SENSOR != 0 {
+        return;
+    }
+    for i in (0..m.nsensor).filter(|&i| m.sensor_needstage[i] == stage.code()) {
+        let Some(kind) = SensorType::from_code(m.sensor_type[i]) else { continue };
+        let first = m.sensor_adr[i] as usize;
+        let data = &mut sensordata[first..first + m.sensor_dim[i] as usize];
+        data.fill(0.0);
+        read(i, kind, data);
+        cut_off(m, i, kind, data);
+    }
+}
+
+/// Limits a reading to the cut-off: real values on both sides, positive ones above.
+fn cut_off(m: &Model, i: usize, kind: SensorType, data: &mut [f64]) {
+    let cutoff = m.sensor_cutoff[i];
+    if cutoff <= 0.0 || matches!(kind, SensorType::Contact | SensorType::Geomfromto) {
+        return;
+    }
+    match DataType::from_code(m.sensor_datatype[i]) {
+        Some(DataType::Real) => data.iter_mut().for_each(|x| *x = x.clamp(-cutoff, cutoff)),
+        Some(DataType::Positive) => data.iter_mut().for_each(|x| *x = x.min(cutoff)),
+        Some(DataType::Axis | DataType::Quaternion) | None => {}
+    }
+}
+
+/// First limit row of element `id`.
+fn limit_row(efc: &Constraints, kind: ConstraintType, id: usize) -> Option<usize> {
+    (efc.ne + efc.nf..efc.nefc).find(|&r| efc.efc_type[r] == kind.code() && efc.efc_id[r] as usize == id)
+}
