@@ -14,6 +14,7 @@ pub mod distance;
 pub mod epa;
 pub mod gjk;
 pub mod hfield;
+pub mod hull;
 pub mod mid_phase;
 pub mod mixing;
 pub mod multicontact;

@@ -2,13 +2,13 @@
 //!
 //! The normal is the plane's z axis; the distance is that of surface points from the plane.
 
+use super::hull::MeshHull;
 use super::{PreContact, Shape};
 use crate::math::{
     Vec3, add, add_scaled, column, cross, distance, dot, mul_mat_t_vec, mul_mat_vec, normalize,
 };
 use crate::math::{scale, sub};
 use crate::model::bounds::MINVAL;
-use crate::model::{GeomType, Model};
 
 /// Contact at signed distance `dist` from a plane, of surface point `point`.
 fn at_point(normal: Vec3, dist: f64, point: Vec3) -> PreContact {
@@ -132,17 +132,14 @@ pub fn plane_ellipsoid(plane: &Shape, ellipsoid: &Shape, margin: f64, out: &mut 
 const MAX_PLANE_MESH: usize = 3;
 /// Further contacts keep this distance from the first, in units of the bounding radius.
 const PLANE_MESH_SPACING: f64 = 0.3;
-/// Meshes with fewer vertices are searched one by one (documentation: `mjMESH_HILLCLIMB_MIN`).
-const HILL_CLIMB_MIN: usize = 10;
-
 /// Plane and convex hull of a mesh: the deepest vertex, then its neighbours below the margin.
 pub fn plane_mesh(plane: &Shape, mesh: &Shape, margin: f64, out: &mut Vec<PreContact>) {
-    let Some(hull) = Hull::new(mesh) else { return };
+    let Some(hull) = mesh.data().map(|id| MeshHull::new(mesh.m, id)) else { return };
     let normal = plane.axis();
     let down = mul_mat_t_vec(&mesh.mat, scale(normal, -1.0));
-    let world = |v: usize| add(mul_mat_vec(&mesh.mat, hull.vertex(v)), mesh.pos);
+    let world = |v: usize| add(mul_mat_vec(&mesh.mat, hull.vertex(v as i32)), mesh.pos);
 
-    let deepest = hull.deepest(down);
+    let deepest = hull.farthest_from_first(down);
     let point = world(deepest.vertex);
     let dist = dot(normal, sub(point, plane.pos));
     if dist > margin {
@@ -155,8 +152,8 @@ pub fn plane_mesh(plane: &Shape, mesh: &Shape, margin: f64, out: &mut Vec<PreCon
     // Depth along `down` that reaches the margin, measured from the centre of the mesh.
     let threshold = dot(normal, sub(mesh.pos, plane.pos)) - margin;
     let mut count = 1;
-    let mut consider = |v: usize| {
-        if dot(down, hull.vertex(v)) > threshold {
+    let mut add_deep = |v: usize| {
+        if hull.height(v, down) > threshold {
             let point = world(v);
             if distance(point, first.pos) >= spacing {
                 out.push(at_point(normal, dot(normal, sub(point, plane.pos)), point));
@@ -165,85 +162,9 @@ pub fn plane_mesh(plane: &Shape, mesh: &Shape, margin: f64, out: &mut Vec<PreCon
         }
         count < MAX_PLANE_MESH
     };
-    match hull.graph {
-        None => {
-            let _ = (0..hull.vertices.len()).filter(|&v| v != deepest.vertex).all(&mut consider);
-        }
-        Some(graph) => {
-            let _ = graph.neighbours(deepest.index).map(|v| graph.global(v)).all(&mut consider);
-        }
-    }
-}
-
-/// Vertices of a mesh and the edge graph of its convex hull, if it was built.
-struct Hull<'a> {
-    vertices: &'a [[f32; 3]],
-    graph: Option<HullGraph<'a>>,
-}
-
-/// A vertex that a search found.
-struct Found {
-    /// Index among the vertices of the mesh.
-    vertex: usize,
-    /// Index the neighbourhood search starts from: in the hull, or in the mesh when that has few vertices.
-    index: usize,
-}
-
-impl<'a> Hull<'a> {
-    fn new(mesh: &Shape<'a>) -> Option<Self> {
-        let (m, id): (&Model, usize) = (mesh.m, mesh.data()?);
-        debug_assert!(mesh.kind == GeomType::Mesh);
-        let start = m.mesh_vertadr[id] as usize;
-        let vertices = &m.mesh_vert[start..start + m.mesh_vertnum[id] as usize];
-        let graph = usize::try_from(m.mesh_graphadr[id]).ok().map(|adr| HullGraph(&m.mesh_graph[adr..]));
-        Some(Hull { vertices, graph })
-    }
-
-    fn vertex(&self, v: usize) -> Vec3 {
-        self.vertices[v].map(f64::from)
-    }
-
-    /// The vertex farthest along `dir`: by hill climbing on the graph from the first hull vertex, or by search.
-    fn deepest(&self, dir: Vec3) -> Found {
-        let Some(graph) = self.graph.filter(|_| self.vertices.len() >= HILL_CLIMB_MIN) else {
-            let mut best = (0, -1e10);
-            for v in 0..self.vertices.len() {
-                let along = dot(dir, self.vertex(v));
-                if along > best.1 {
-                    best = (v, along);
-                }
-            }
-            return Found { vertex: best.0, index: best.0 };
-        };
-        let along = |local: usize| dot(dir, self.vertex(graph.global(local)));
-        let (mut best, mut farthest) = (0, along(0));
-        loop {
-            let start = best;
-            for v in graph.neighbours(start) {
-                let reach = along(v);
-                if reach > farthest {
-                    (best, farthest) = (v, reach);
-                }
-            }
-            if best == start {
-                return Found { vertex: graph.global(best), index: best };
-            }
-        }
-    }
-}
-
-/// The integers of `mesh_graph` for one mesh: number of hull vertices, number of faces, start of each vertex's
-/// edge list, mesh index of each hull vertex, edge lists ended by -1.
-#[derive(Clone, Copy)]
-struct HullGraph<'a>(&'a [i32]);
-
-impl<'a> HullGraph<'a> {
-    fn global(self, local: usize) -> usize {
-        self.0[2 + self.0[0] as usize + local] as usize
-    }
-
-    fn neighbours(self, local: usize) -> impl Iterator<Item = usize> + 'a {
-        let edges = 2 + 2 * self.0[0] as usize + self.0[2 + local] as usize;
-        self.0[edges..].iter().take_while(|&&v| v >= 0).map(|&v| v as usize)
-    }
+    // `all` stops when there are enough.
+    let _ = match hull.graph() {
+        None => (0..hull.vertices()).filter(|&v| v != deepest.vertex).all(&mut add_deep),
+        Some(graph) => graph.neighbours(deepest.start).map(|h| graph.vertex(h)).all(&mut add_deep),
+    };
 }

@@ -1,7 +1,8 @@
 //! Faces and edges of boxes and meshes near a support feature.
 
 use super::gjk::Vertex;
-use super::support::{ConvexBody, MeshHull, Solid};
+use super::hull::MeshHull;
+use super::support::{ConvexBody, Solid};
 use crate::math::{Vec3, dot, mul_mat_t_vec, mul_mat_vec, normalize, scale, sub};
 
 /// Cosine of the angle, about 5.1 degrees, within which two normals count as parallel.

@@ -1,136 +1,13 @@
 //! Support mappings of convex shapes: the farthest point of a shape in a direction
 //! (van den Bergen, Collision Detection in Interactive 3D Environments, section 4.3).
-//!
-//! A mesh is the convex hull of its vertices. Small ones are searched in full; larger ones by hill climbing on the
-//! graph of the hull, from the better of the last answer and a vertex tabulated for the direction's octant.
 
 use super::Shape;
+use super::hull::{Farthest, MeshHull};
 use crate::math::{Mat3, Vec3, add, mul_mat_t_vec, mul_mat_vec, scale};
+use crate::model::GeomType;
 use crate::model::bounds::MINVAL;
-use crate::model::{GeomType, Model};
 
-/// Meshes with fewer vertices are searched in full.
-const HILL_CLIMB_MIN: usize = 10;
-/// A component of a unit direction beyond this leaves the middle cell of the table of extremal vertices.
-const EXTREMA_CELL: f64 = 0.4;
 const MINVAL2: f64 = MINVAL * MINVAL;
-
-/// The mesh of a geom: vertices, the graph of their hull, and its polygons.
-#[derive(Clone, Copy, Debug)]
-pub struct MeshHull<'a> {
-    /// Vertices in the geom frame [m].
-    vert: &'a [[f32; 3]],
-    graph: Option<HullGraph<'a>>,
-    /// Index of the mesh.
-    mesh: usize,
-    m: &'a Model,
-}
-
-/// Hull vertices, which have numbers of their own, and their neighbours in lists ended by -1.
-#[derive(Clone, Copy, Debug)]
-struct HullGraph<'a> {
-    edge_start: &'a [i32],
-    vertex: &'a [i32],
-    neighbour: &'a [i32],
-    extrema: &'a [i32; 27],
-}
-
-impl<'a> HullGraph<'a> {
-    fn new(m: &'a Model, mesh: usize) -> Option<Self> {
-        let start = usize::try_from(m.mesh_graphadr[mesh]).ok()?;
-        let graph = &m.mesh_graph[start..];
-        let n = graph[0] as usize;
-        Some(HullGraph {
-            edge_start: &graph[2..2 + n],
-            vertex: &graph[2 + n..2 + 2 * n],
-            neighbour: &graph[2 + 2 * n..],
-            extrema: &m.mesh_extrema[mesh],
-        })
-    }
-}
-
-impl<'a> MeshHull<'a> {
-    fn new(m: &'a Model, mesh: usize) -> Self {
-        let (start, count) = (m.mesh_vertadr[mesh] as usize, m.mesh_vertnum[mesh] as usize);
-        let graph = if count < HILL_CLIMB_MIN { None } else { HullGraph::new(m, mesh) };
-        MeshHull { vert: &m.mesh_vert[start..start + count], graph, mesh, m }
-    }
-
-    /// True when the polygons of the hull are known.
-    pub fn has_polygons(&self) -> bool {
-        self.m.mesh_polynum[self.mesh] > 0
-    }
-
-    /// Vertex `v` in the geom frame.
-    pub fn vertex(&self, v: i32) -> Vec3 {
-        self.vert[v as usize].map(f64::from)
-    }
-
-    /// Polygons around vertex `v`.
-    pub fn polygons_at(&self, v: i32) -> &'a [i32] {
-        let k = self.m.mesh_vertadr[self.mesh] as usize + v as usize;
-        let start = self.m.mesh_polymapadr[k] as usize;
-        &self.m.mesh_polymap[start..start + self.m.mesh_polymapnum[k] as usize]
-    }
-
-    /// Vertices of polygon `p`, counter-clockwise seen from outside.
-    pub fn polygon(&self, p: i32) -> &'a [i32] {
-        let k = self.m.mesh_polyadr[self.mesh] as usize + p as usize;
-        let start = self.m.mesh_polyvertadr[k] as usize;
-        &self.m.mesh_polyvert[start..start + self.m.mesh_polyvertnum[k] as usize]
-    }
-
-    /// Outward normal of polygon `p` in the geom frame.
-    pub fn polygon_normal(&self, p: i32) -> Vec3 {
-        self.m.mesh_polynormal[self.m.mesh_polyadr[self.mesh] as usize + p as usize]
-    }
-
-    fn height(&self, v: usize, dir: Vec3) -> f64 {
-        let [x, y, z] = self.vert[v];
-        dir[0] * f64::from(x) + dir[1] * f64::from(y) + dir[2] * f64::from(z)
-    }
-
-    /// Farthest of all vertices; the last answer wins ties.
-    fn search(&self, dir: Vec3, last: Option<usize>) -> usize {
-        let (mut best, mut top) = match last {
-            Some(v) => (v, self.height(v, dir)),
-            None => (0, -f64::from(f32::MAX)),
-        };
-        for v in 0..self.vert.len() {
-            let h = self.height(v, dir);
-            if h > top {
-                (best, top) = (v, h);
-            }
-        }
-        best
-    }
-
-    /// Farthest hull vertex, in the numbering of the graph.
-    fn climb(&self, graph: &HullGraph, dir: Vec3, last: Option<usize>) -> usize {
-        let height = |h: usize| self.height(graph.vertex[h] as usize, dir);
-        let cell = |x: f64| 1 + usize::from(x > EXTREMA_CELL) - usize::from(x < -EXTREMA_CELL);
-        let seed = graph.extrema[9 * cell(dir[0]) + 3 * cell(dir[1]) + cell(dir[2])] as usize;
-        let mut best = match last {
-            Some(v) if height(seed) > height(v) => seed,
-            Some(v) => v,
-            None => seed,
-        };
-        let mut top = height(best);
-        loop {
-            let from = best;
-            for &next in &graph.neighbour[graph.edge_start[from] as usize..] {
-                let Ok(next) = usize::try_from(next) else { break };
-                let h = height(next);
-                if h > top {
-                    (best, top) = (next, h);
-                }
-            }
-            if best == from {
-                return best;
-            }
-        }
-    }
-}
 
 /// What a body is before it is placed and inflated; lengths in metres, axes along z.
 #[derive(Clone, Copy, Debug)]
@@ -169,7 +46,7 @@ pub struct ConvexBody<'a> {
     /// Vertex of the last support point of a box or mesh; -1 before and for other shapes.
     vertex: i32,
     /// The same in the numbering of the hull graph.
-    hull_vertex: Option<usize>,
+    farthest: Option<Farthest>,
 }
 
 impl<'a> ConvexBody<'a> {
@@ -190,7 +67,7 @@ impl<'a> ConvexBody<'a> {
 
     /// A solid at a pose.
     pub fn placed(solid: Solid<'a>, pos: Vec3, mat: Mat3, margin: f64) -> Self {
-        ConvexBody { solid, pos, mat, margin, vertex: -1, hull_vertex: None }
+        ConvexBody { solid, pos, mat, margin, vertex: -1, farthest: None }
     }
 
     /// A column of a height field, corners of the base first.
@@ -268,20 +145,10 @@ impl<'a> ConvexBody<'a> {
                 self.to_world(corner)
             }
             Solid::Mesh(mesh) => {
-                self.vertex = self.mesh_support(&mesh, self.local(dir));
+                let found = mesh.farthest(self.local(dir), self.farthest);
+                self.farthest = Some(found);
+                self.vertex = found.vertex as i32;
                 self.to_world(mesh.vertex(self.vertex))
-            }
-        }
-    }
-
-    /// Farthest vertex of a mesh; remembers where a climb ended.
-    fn mesh_support(&mut self, mesh: &MeshHull, dir: Vec3) -> i32 {
-        match &mesh.graph {
-            None => mesh.search(dir, usize::try_from(self.vertex).ok()) as i32,
-            Some(graph) => {
-                let v = mesh.climb(graph, dir, self.hull_vertex);
-                self.hull_vertex = Some(v);
-                graph.vertex[v]
             }
         }
     }
