@@ -1,1 +1,4 @@
 //! RoboHive.
+pub use dataset;
+pub use mjcf;
+pub use physics;

@@ -77,6 +77,11 @@ impl Array {
         Array { shape, values: Values::F64(values) }
     }
 
+    /// An integer scalar.
+    pub fn scalar_i64(value: i64) -> Self {
+        Array { shape: vec![], values: Values::I64(vec![value]) }
+    }
+
     /// Number of rows: the first axis, or one for a scalar.
     pub fn rows(&self) -> usize {
         self.shape.first().copied().unwrap_or(1)

@@ -35,6 +35,8 @@ pub mod ray;
 pub mod reflected_load;
 pub mod rne_post;
 pub mod sensor;
+pub mod set_const;
+pub mod statistic;
 pub mod table;
 pub mod tendon;
 pub mod transmission;

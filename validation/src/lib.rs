@@ -1,3 +1,8 @@
 //! Comparison of our physics and compiler with recorded MuJoCo runs.
 
+pub mod compare;
+pub mod compile;
+
 pub mod reference;
+
+pub mod tolerance;

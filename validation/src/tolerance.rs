@@ -1,0 +1,26 @@
+//! The tolerances, in one place, each with the reason for its size.
+
+/// Integer arrays of a compiled model are equal. Floats: libraries round transcendental functions differently, and
+/// inertias sum thousands of mesh triangles in the order of our own code; both stay near 1e-13.
+pub const COMPILE_RELATIVE: f64 = 1e-9;
+/// Components that are zero up to rounding are compared absolutely; model quantities are of order one in SI units.
+pub const COMPILE_ABSOLUTE: f64 = 1e-12;
+
+/// One stage with upstream injected: a few hundred roundings of 1e-16 and one division by a pivot.
+pub const STAGE: f64 = 1e-10;
+
+/// Whole forward pass: the solver stops at a relative improvement of 1e-8, so equal decisions leave rounding
+/// amplified by the condition number of the Hessian.
+pub const QACC: f64 = 1e-8;
+
+/// One step from a re-synchronised state: position changes are `qacc` times the square of the time step.
+pub const STEP: f64 = 1e-9;
+
+/// A rollout follows MuJoCo when it stays within this factor of MuJoCo's divergence from its own twin, started
+/// 1e-12 away: our roundings differ in every step, the twin's only in the first.
+pub const TWIN_FACTOR: f64 = 10.0;
+/// Or within this many metres or radians: 500 steps of rounding noise on a model that does not amplify it.
+pub const ROLLOUT_ABSOLUTE: f64 = 1e-9;
+
+/// Share of a field's largest component below which a component counts as noise of cancellation.
+pub const NOISE_FLOOR: f64 = 1e-3;
