@@ -38,3 +38,9 @@ pub struct TupleEntry {
     pub objname: String,
     pub prm: f64,
 }
+
+impl Default for TupleEntry {
+    fn default() -> Self {
+        Self { objtype: ObjType::Unknown, objname: String::new(), prm: 0.0 }
+    }
+}

@@ -29,6 +29,20 @@ pub struct Inertial {
     pub fullinertia: Option<[f64; 6]>,
 }
 
+impl Default for Inertial {
+    fn default() -> Self {
+        Self {
+            loc: crate::diagnostic::Loc::NONE,
+            mass: 0.0,
+            pos: [0.0; 3],
+            quat: [1.0, 0.0, 0.0, 0.0],
+            alt: None,
+            inertia: [0.0; 3],
+            fullinertia: None,
+        }
+    }
+}
+
 elements! {
     /// A body with what is fixed to it, in file order within each kind.
     Body {

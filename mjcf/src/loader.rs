@@ -1,0 +1,138 @@
+//! From a path or a text to a checked [`Spec`], with every edit a program may ask for in between.
+
+use std::sync::Arc;
+
+use crate::diagnostic::{Diagnostics, Sources};
+use crate::files::{Disk, FileProvider};
+use crate::include::Expansion;
+use crate::read;
+use crate::schema::{check, root::MUJOCO};
+use crate::spec::Spec;
+use crate::xml::{Element, Limits};
+
+/// Reads models; the default reads from the whole disk and changes nothing.
+#[derive(Clone)]
+pub struct Loader {
+    files: Arc<dyn FileProvider + Send + Sync>,
+    limits: Limits,
+    substitutions: Vec<(String, String)>,
+    moves: Vec<(String, String)>,
+}
+
+impl Default for Loader {
+    fn default() -> Self {
+        Self {
+            files: Arc::new(Disk::everywhere()),
+            limits: Limits::default(),
+            substitutions: Vec::new(),
+            moves: Vec::new(),
+        }
+    }
+}
+
+/// A model as its text describes it.
+#[derive(Debug, Clone)]
+pub struct Parsed {
+    /// The elements.
+    pub spec: Spec,
+    /// The texts that they came from.
+    pub sources: Sources,
+    /// What was ignored or assumed; no errors.
+    pub warnings: Diagnostics,
+}
+
+impl Loader {
+    /// Reads files from `files` instead of the disk.
+    pub fn files(mut self, files: impl FileProvider + Send + Sync + 'static) -> Self {
+        self.files = Arc::new(files);
+        self
+    }
+
+    /// Replaces `from` by `to` in the text of every file, as templates such as `OBJECT_NAME` ask for.
+    pub fn substitute(mut self, from: &str, to: &str) -> Self {
+        self.substitutions.push((from.into(), to.into()));
+        self
+    }
+
+    /// Moves the body `body` under the body `parent` before anything is read.
+    pub fn reparent(mut self, body: &str, parent: &str) -> Self {
+        self.moves.push((body.into(), parent.into()));
+        self
+    }
+
+    /// Bounds what a text may cost.
+    pub fn limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// The files that models are read from.
+    pub fn provider(&self) -> &dyn FileProvider {
+        &*self.files
+    }
+
+    /// Reads the model at `path` and all it includes.
+    pub fn parse(&self, path: &str) -> Result<Parsed, Diagnostics> {
+        self.finish(|expansion| expansion.read(path))
+    }
+
+    /// Reads a model from text; relative paths are sought from the provider's top.
+    pub fn parse_text(&self, text: &str) -> Result<Parsed, Diagnostics> {
+        self.finish(|expansion| expansion.expand("<text>", text.as_bytes()))
+    }
+
+    fn finish(
+        &self,
+        read: impl FnOnce(&mut Expansion<'_>) -> Option<Element>,
+    ) -> Result<Parsed, Diagnostics> {
+        let (mut sources, mut diagnostics) = (Sources::default(), Diagnostics::default());
+        let mut expansion = Expansion {
+            files: &*self.files,
+            substitutions: &self.substitutions,
+            limits: &self.limits,
+            sources: &mut sources,
+            diagnostics: &mut diagnostics,
+        };
+        let Some(mut root) = read(&mut expansion) else { return Err(diagnostics) };
+        self.edit(&mut root, &sources, &mut diagnostics);
+        let spec = interpret(&root, &*self.files, &sources, &mut diagnostics);
+        match spec.filter(|_| !diagnostics.has_errors()) {
+            Some(spec) => Ok(Parsed { spec, sources, warnings: diagnostics }),
+            None => Err(diagnostics),
+        }
+    }
+
+    fn edit(&self, root: &mut Element, sources: &Sources, diagnostics: &mut Diagnostics) {
+        for (body, parent) in &self.moves {
+            if let Err(message) = root.reparent_body(body, parent) {
+                diagnostics.error(sources, root.loc, message);
+            }
+        }
+    }
+}
+
+/// Checks a tree and reads it.
+fn interpret(
+    root: &Element,
+    files: &dyn FileProvider,
+    sources: &Sources,
+    diagnostics: &mut Diagnostics,
+) -> Option<Spec> {
+    match root.name.as_str() {
+        "mujoco" => {}
+        "mujocoinclude" => {
+            diagnostics.warning(sources, root.loc, "root element <mujocoinclude> is read as <mujoco>");
+        }
+        "robot" => {
+            diagnostics.error(sources, root.loc, "this is URDF: only MJCF is supported");
+            return None;
+        }
+        other => {
+            let message = format!("root element <{other}> is not <mujoco>");
+            diagnostics.error(sources, root.loc, message);
+            return None;
+        }
+    }
+    check::check(root, &MUJOCO, sources, diagnostics);
+    Some(read::read(root, files, sources, diagnostics))
+}

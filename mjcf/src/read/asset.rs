@@ -1,0 +1,147 @@
+//! `asset`, and where the files of assets are.
+
+use super::Reader;
+use crate::files::{base_name, is_absolute, join};
+use crate::schema::asset::{HFIELD_ROWS, MATERIAL_ROWS, MESH_ROWS, ROLES, TEXTURE_ROWS};
+use crate::spec::{Hfield, Material, Mesh, Texture};
+use crate::xml::{Attribute, Element};
+
+/// Sides of a cube texture in the order of `Texture::cubefiles`.
+const SIDES: [&str; 6] = ["fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"];
+
+/// Heights of a height field given in the text.
+const MAX_HEIGHTS: i64 = 100_000_000;
+
+impl Reader<'_> {
+    pub(super) fn asset(&mut self, section: &Element) {
+        for element in &section.children {
+            match element.name.as_str() {
+                "mesh" => self.mesh(element),
+                "hfield" => self.hfield(element),
+                "texture" => self.texture(element),
+                "material" => self.material(element),
+                // Refused by the structural check.
+                _ => {}
+            }
+        }
+    }
+
+    /// What to open for an asset, and the path that the model records.
+    ///
+    /// A relative name is sought from the main file through `dir`; when nothing is there, it is taken from the
+    /// directory of the file that holds the element, without `dir`. `strippath` keeps the last component and
+    /// seeks from the main file only.
+    fn asset_file(&self, attribute: &Attribute, dir: &str) -> (String, String) {
+        let from_model = |file: &str| join(&self.model_dir, &join(dir, file));
+        let name = attribute.value.as_str();
+        if name.is_empty() {
+            return (String::new(), String::new());
+        }
+        if self.spec.compiler.strippath {
+            let name = base_name(name);
+            return (from_model(name), name.to_string());
+        }
+        if is_absolute(name) || self.files.exists(&from_model(name)) {
+            return (from_model(name), join("", name));
+        }
+        let including = self.sources.get(attribute.loc.file);
+        match including.filter(|s| s.included_at.is_some()) {
+            Some(source) => {
+                let path = join(&source.dir, name);
+                (path.clone(), path)
+            }
+            None => (from_model(name), join("", name)),
+        }
+    }
+
+    fn mesh(&mut self, element: &Element) {
+        let class = self.class_of(element, "class", 0);
+        let mut mesh = Mesh { loc: element.loc, ..self.classes.get(class).mesh.clone() };
+        self.rows(element, &MESH_ROWS, &mut mesh);
+        if let Some(file) = element.attribute("file") {
+            (mesh.file, mesh.path) = self.asset_file(file, &self.spec.compiler.meshdir);
+        }
+        if let Some(limit) =
+            element.attribute("maxhullvert").filter(|_| mesh.maxhullvert != -1 && mesh.maxhullvert < 4)
+        {
+            self.error(limit.value_loc, "attribute 'maxhullvert' of <mesh> must be -1 or at least 4");
+        }
+        if let Some(builtin) = element.attribute("builtin").filter(|a| a.value != "none") {
+            self.unsupported(builtin.loc, "generated meshes");
+        }
+        self.spec.meshes.push(mesh);
+    }
+
+    fn hfield(&mut self, element: &Element) {
+        let mut hfield = Hfield { loc: element.loc, ..Hfield::default() };
+        self.rows(element, &HFIELD_ROWS, &mut hfield);
+        let given = std::mem::take(&mut hfield.userdata);
+        if let Some(file) = element.attribute("file") {
+            (hfield.file, hfield.path) = self.asset_file(file, &self.spec.compiler.meshdir);
+        } else if hfield.nrow > 0 && hfield.ncol > 0 {
+            let cells = i64::from(hfield.nrow) * i64::from(hfield.ncol);
+            if cells > MAX_HEIGHTS {
+                self.error(element.loc, format!("<hfield> has {cells} points, more than {MAX_HEIGHTS}"));
+            } else if given.is_empty() {
+                hfield.userdata = vec![0.0; cells as usize];
+            } else if given.len() as i64 != cells {
+                self.error(element.loc, format!("<hfield> has {} heights for {cells} points", given.len()));
+            } else {
+                // The text runs from the far row to the near one, data from the near row on.
+                hfield.userdata = given.chunks(hfield.ncol as usize).rev().flatten().copied().collect();
+            }
+        }
+        self.spec.hfields.push(hfield);
+    }
+
+    fn texture(&mut self, element: &Element) {
+        let mut texture = Texture { loc: element.loc, ..Texture::default() };
+        self.rows(element, &TEXTURE_ROWS, &mut texture);
+        let dir = self.spec.compiler.texturedir.clone();
+        if let Some(file) = element.attribute("file") {
+            (texture.file, texture.path) = self.asset_file(file, &dir);
+        }
+        for (side, attribute) in SIDES.iter().enumerate() {
+            if let Some(file) = element.attribute(attribute) {
+                texture.cubefiles[side] = self.asset_file(file, &dir).0;
+            }
+        }
+        if let Some(layout) = element.attribute("gridlayout") {
+            let cells = i64::from(texture.gridsize[0]) * i64::from(texture.gridsize[1]);
+            if layout.value.len() as i64 != cells || layout.value.len() > 12 {
+                self.error(
+                    layout.value_loc,
+                    format!("attribute 'gridlayout' must have {cells} letters, at most 12"),
+                );
+            } else {
+                texture.gridlayout = format!("{:.<12}", layout.value);
+            }
+        }
+        self.spec.textures.push(texture);
+    }
+
+    fn material(&mut self, element: &Element) {
+        let class = self.class_of(element, "class", 0);
+        let mut material = Material { loc: element.loc, ..self.classes.get(class).material.clone() };
+        self.rows(element, &MATERIAL_ROWS, &mut material);
+        self.layers(element, &mut material);
+        self.spec.materials.push(material);
+    }
+
+    /// The textures of a material by role.
+    pub(super) fn layers(&mut self, element: &Element, material: &mut Material) {
+        for layer in element.children_named("layer") {
+            if element.attribute("texture").is_some() {
+                self.error(
+                    layer.loc,
+                    "<material> takes the attribute 'texture' or <layer> elements, not both",
+                );
+                return;
+            }
+            let role = layer.attribute("role").and_then(|role| self.keyword(layer, role, ROLES));
+            if let Some(role) = role {
+                material.textures[role as usize] = layer.value("texture").unwrap_or_default().to_string();
+            }
+        }
+    }
+}

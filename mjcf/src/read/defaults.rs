@@ -1,0 +1,112 @@
+//! Default classes: a class starts as a copy of the enclosing one, and an element starts as a copy of its
+//! class, so that an attribute with fewer numbers than its arity keeps the class's for the rest.
+
+use std::collections::BTreeMap;
+
+use super::Reader;
+use crate::schema::asset::{MATERIAL_ROWS, MESH_ROWS};
+use crate::schema::constraint::{EQUALITY_ROWS, PAIR_ROWS, TENDON_LOOKS, TENDON_ROWS};
+use crate::schema::tree::{CAMERA_ROWS, GEOM_ROWS, JOINT_ROWS, LIGHT_ROWS, SITE_ROWS};
+use crate::spec::{Actuator, Camera, Equality, Geom, Joint, Light, Material, Mesh, Pair, Site, Tendon};
+use crate::xml::Element;
+
+/// Index of a class in [`Classes`]; the top-level class is 0.
+pub(super) type ClassId = usize;
+
+/// One element of each kind that has defaults.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Class {
+    pub joint: Joint,
+    pub geom: Geom,
+    pub site: Site,
+    pub camera: Camera,
+    pub light: Light,
+    pub mesh: Mesh,
+    pub material: Material,
+    pub pair: Pair,
+    pub equality: Equality,
+    pub tendon: Tendon,
+    pub actuator: Actuator,
+}
+
+/// All classes of a model.
+#[derive(Debug)]
+pub(super) struct Classes {
+    list: Vec<Class>,
+    names: BTreeMap<String, ClassId>,
+}
+
+impl Default for Classes {
+    fn default() -> Self {
+        Self { list: vec![Class::default()], names: BTreeMap::from([("main".into(), 0)]) }
+    }
+}
+
+impl Classes {
+    pub fn get(&self, id: ClassId) -> &Class {
+        &self.list[id]
+    }
+}
+
+impl Reader<'_> {
+    /// A `default` section at the top adds to the class `main`.
+    pub(super) fn top_default(&mut self, section: &Element) {
+        if let Some(name) = section.attribute("class").filter(|n| n.value != "main") {
+            let message =
+                format!("top-level default class '{}' is read as 'main': it cannot be renamed", name.value);
+            self.diagnostics.warning(self.sources, name.loc, message);
+        }
+        self.default_class(section, 0);
+    }
+
+    fn default_class(&mut self, section: &Element, id: ClassId) {
+        for element in section.children.iter().filter(|e| e.name != "default") {
+            self.default_element(element, id);
+        }
+        for nested in section.children_named("default") {
+            let name = nested.value("class").unwrap_or_default();
+            if name.is_empty() {
+                self.error(nested.loc, "a nested default class needs a name");
+                continue;
+            }
+            self.classes.list.push(self.classes.list[id].clone());
+            let child = self.classes.list.len() - 1;
+            // A repeated name is an error of the structural check; the first one stands.
+            self.classes.names.entry(name.to_string()).or_insert(child);
+            self.default_class(nested, child);
+        }
+    }
+
+    fn default_element(&mut self, element: &Element, id: ClassId) {
+        let mut class = std::mem::take(&mut self.classes.list[id]);
+        match element.name.as_str() {
+            "mesh" => self.default_rows(element, &MESH_ROWS, &mut class.mesh),
+            "material" => {
+                self.default_rows(element, &MATERIAL_ROWS, &mut class.material);
+                self.layers(element, &mut class.material);
+            }
+            "joint" => self.default_rows(element, &JOINT_ROWS, &mut class.joint),
+            "geom" => self.default_rows(element, &GEOM_ROWS, &mut class.geom),
+            "site" => self.default_rows(element, &SITE_ROWS, &mut class.site),
+            "camera" => self.default_rows(element, &CAMERA_ROWS, &mut class.camera),
+            "light" => self.default_rows(element, &LIGHT_ROWS, &mut class.light),
+            "pair" => self.default_rows(element, &PAIR_ROWS, &mut class.pair),
+            "equality" => self.default_rows(element, &EQUALITY_ROWS, &mut class.equality),
+            "tendon" => {
+                self.default_rows(element, &TENDON_ROWS, &mut class.tendon);
+                self.default_rows(element, &TENDON_LOOKS, &mut class.tendon);
+                self.spring_length(element, &mut class.tendon);
+            }
+            // What remains are the actuators; anything else is an error of the structural check.
+            _ => self.actuator_parameters(element, &mut class.actuator, true),
+        }
+        self.classes.list[id] = class;
+    }
+
+    /// The class that an element names, or the one in force.
+    pub(super) fn class_of(&mut self, element: &Element, attribute: &str, in_force: ClassId) -> ClassId {
+        // An unknown class is an error of the structural check.
+        let named = element.value(attribute).and_then(|name| self.classes.names.get(name));
+        named.copied().unwrap_or(in_force)
+    }
+}
