@@ -2,7 +2,6 @@
 
 pub mod compare;
 pub mod compile;
-
 pub mod reference;
-
+pub mod stages;
 pub mod tolerance;

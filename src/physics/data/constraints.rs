@@ -187,6 +187,20 @@ rows! {
     }
 }
 
+impl Constraints {
+    /// The Jacobian as a dense `nefc * nv` matrix.
+    pub fn dense_jacobian(&self, nv: usize) -> Vec<f64> {
+        let mut dense = vec![0.0; self.nefc * nv];
+        for row in 0..self.nefc {
+            let start = self.efc_J_rowadr[row] as usize;
+            for k in start..start + self.efc_J_rownnz[row] as usize {
+                dense[row * nv + self.efc_J_colind[k] as usize] = self.efc_J[k];
+            }
+        }
+        dense
+    }
+}
+
 /// What the constraint solver did, per island (documentation: `mjSolverStat`).
 #[derive(Clone, Debug, Default)]
 pub struct SolverStatistics {

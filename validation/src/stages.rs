@@ -1,0 +1,290 @@
+//! Every stage alone: MuJoCo's upstream arrays go in, our stage runs, its outputs are compared.
+
+use crate::compare::{Worst, compare, exact, relative};
+use crate::reference::{Reference, ReferenceError};
+use crate::tolerance::STAGE;
+use physics::{
+    Data, Model, actuation, bias, camera, collision, com, constraint, inertia, kinematics, passive, tendon,
+    transmission, velocity,
+};
+
+/// One stage: the recorded arrays it reads, how it runs, and the arrays it writes.
+struct Stage {
+    name: &'static str,
+    reads: &'static [&'static str],
+    run: fn(&Model, &mut Data),
+    writes: &'static [&'static str],
+}
+
+/// Contacts as recorded; the friction cone's `mu` and the row address belong to the rows.
+macro_rules! contacts {
+    ($($more:literal),*) => {
+        &[
+            "contact.dist", "contact.pos", "contact.frame", "contact.includemargin", "contact.friction",
+            "contact.solref", "contact.solreffriction", "contact.solimp", "contact.adhesion", "contact.dim",
+            "contact.geom", $($more),*
+        ]
+    };
+}
+
+const STAGES: &[Stage] = &[
+    Stage {
+        name: "kinematics",
+        reads: &[],
+        run: |m, d| kinematics::kinematics(m, &d.state, &mut d.kin),
+        writes: &[
+            "xpos",
+            "xquat",
+            "xmat",
+            "xipos",
+            "ximat",
+            "xanchor",
+            "xaxis",
+            "geom_xpos",
+            "geom_xmat",
+            "site_xpos",
+            "site_xmat",
+        ],
+    },
+    Stage {
+        name: "com",
+        reads: &["xmat", "xipos", "ximat", "xanchor", "xaxis"],
+        run: |m, d| com::com_pos(m, &d.kin, &mut d.com),
+        writes: &["subtree_com", "cdof", "cinert"],
+    },
+    Stage {
+        name: "cameras",
+        reads: &["xpos", "xquat", "xmat", "xipos", "ximat", "subtree_com"],
+        run: |m, d| camera::cameras_and_lights(m, &d.com, &mut d.kin),
+        writes: &["cam_xpos", "cam_xmat", "light_xpos", "light_xdir"],
+    },
+    Stage {
+        name: "tendon",
+        reads: &["xpos", "xmat", "geom_xpos", "geom_xmat", "site_xpos", "subtree_com", "cdof"],
+        run: |m, d| tendon::tendon(m, &d.state, &d.kin, &d.com, &mut d.ten),
+        writes: &["ten_wrapadr", "ten_wrapnum", "ten_J", "ten_length"],
+    },
+    Stage {
+        name: "inertia",
+        reads: &["cinert", "cdof", "ten_J"],
+        run: |m, d| {
+            inertia::make_inertia(m, &d.com, &d.ten, &mut d.inertia);
+            inertia::factor_inertia(m, &mut d.inertia);
+        },
+        writes: &["crb", "M", "qLD", "qLDiagInv"],
+    },
+    Stage {
+        name: "collision",
+        reads: &["xpos", "xquat", "xmat", "xipos", "ximat", "geom_xpos", "geom_xmat"],
+        run: |m, d| collision::collide(m, &d.kin, &mut collision::CollisionScratch::default(), &mut d.con),
+        writes: contacts!(),
+    },
+    Stage {
+        name: "rows",
+        reads: contacts!(
+            "xpos",
+            "xquat",
+            "xmat",
+            "geom_xpos",
+            "geom_xmat",
+            "site_xpos",
+            "site_xmat",
+            "subtree_com",
+            "cdof",
+            "ten_J",
+            "ten_length",
+            "M",
+            "qLD",
+            "qLDiagInv",
+            "cvel",
+            "cdof_dot"
+        ),
+        run: constraint_rows,
+        writes: &[
+            "efc_type",
+            "efc_id",
+            "efc_J",
+            "efc_pos",
+            "efc_margin",
+            "efc_frictionloss",
+            "efc_diagA",
+            "efc_KBIP",
+            "efc_D",
+            "efc_R",
+            "efc_vel",
+            "efc_aref",
+            "contact.mu",
+            "contact.efc_address",
+        ],
+    },
+    Stage {
+        name: "transmission",
+        reads: &[
+            "xpos",
+            "xquat",
+            "xmat",
+            "site_xpos",
+            "site_xmat",
+            "subtree_com",
+            "cdof",
+            "ten_J",
+            "ten_length",
+        ],
+        run: |m, d| {
+            transmission::transmission(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.efc, &mut d.trn)
+        },
+        writes: &["actuator_length", "moment_rownnz", "moment_rowadr", "moment_colind", "actuator_moment"],
+    },
+    Stage {
+        name: "velocity",
+        reads: &[
+            "subtree_com",
+            "cdof",
+            "ten_J",
+            "moment_rownnz",
+            "moment_rowadr",
+            "moment_colind",
+            "actuator_moment",
+        ],
+        run: |m, d| {
+            tendon::tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
+            transmission::actuator_velocity(m, &d.state, &d.trn, &mut d.vel.actuator_velocity);
+            velocity::com_vel(m, &d.state, &d.com, &mut d.vel);
+        },
+        writes: &["ten_velocity", "actuator_velocity", "cvel", "cdof_dot"],
+    },
+    Stage {
+        name: "passive",
+        reads: contacts!(
+            "xpos",
+            "xquat",
+            "xmat",
+            "xipos",
+            "ximat",
+            "geom_xpos",
+            "geom_xmat",
+            "subtree_com",
+            "cdof",
+            "cinert",
+            "ten_J",
+            "ten_length",
+            "ten_velocity",
+            "cvel"
+        ),
+        run: |m, d| passive::passive(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.vel, &mut d.passive),
+        writes: &[
+            "qfrc_spring",
+            "qfrc_damper",
+            "qfrc_gravcomp",
+            "qfrc_fluid",
+            "qfrc_adhesion",
+            "qfrc_passive",
+        ],
+    },
+    Stage {
+        name: "bias",
+        reads: &["xpos", "xmat", "subtree_com", "cdof", "cinert", "cvel", "cdof_dot", "ten_J"],
+        run: |m, d| {
+            bias::bias(m, &d.state, &d.kin, &d.com, &d.ten, &mut d.vel, &mut bias::RneScratch::default())
+        },
+        writes: &["qfrc_bias"],
+    },
+    Stage {
+        name: "actuation",
+        reads: &[
+            "actuator_length",
+            "moment_rownnz",
+            "moment_rowadr",
+            "moment_colind",
+            "actuator_moment",
+            "actuator_velocity",
+            "ten_velocity",
+            "qfrc_gravcomp",
+            "qfrc_passive",
+        ],
+        run: |m, d| actuation::actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation),
+        writes: &["act_dot", "actuator_force", "qfrc_actuator"],
+    },
+];
+
+fn constraint_rows(m: &Model, d: &mut Data) {
+    let mut scratch = constraint::ConstraintScratch::default();
+    // Without a row yet: `exclude` and the address are outputs.
+    d.con.contact.iter_mut().for_each(|c| c.efc_address = -1);
+    let Data { state, kin, com, ten, inertia, con, efc, vel, .. } = d;
+    constraint::make_constraint(m, state, kin, com, ten, inertia, con, efc, &mut scratch);
+    constraint::reference(m, state, kin, com, vel, con, efc);
+}
+
+/// The worst component of each stage output over all recorded states.
+pub struct StageReport {
+    /// Stage, state and worst component of every output.
+    pub outputs: Vec<(&'static str, usize, Worst)>,
+}
+
+impl StageReport {
+    /// Outputs outside the tolerance, as state and component, worst first.
+    pub fn outside(&self) -> Vec<(usize, &Worst)> {
+        let mut list: Vec<_> = self
+            .outputs
+            .iter()
+            .filter(|(_, _, w)| w.error > STAGE)
+            .map(|(_, state, w)| (*state, w))
+            .collect();
+        list.sort_by(|a, b| b.1.error.total_cmp(&a.1.error));
+        list
+    }
+}
+
+/// Runs every stage on every recorded state, with the recorded model.
+///
+/// # Errors
+/// The reference lacks an array.
+pub fn compare_stages(reference: &Reference) -> Result<StageReport, ReferenceError> {
+    let m = reference.model()?;
+    let mut d = Data::new(&m);
+    let mut report = StageReport { outputs: Vec::new() };
+    for row in 0..reference.states()? {
+        for stage in STAGES {
+            reference.set_state(&mut d, &m, row)?;
+            reference.inject(&mut d, stage.reads, row)?;
+            (stage.run)(&m, &mut d);
+            for &field in stage.writes {
+                let worst = compare_field(&m, &d, reference, field, row)?;
+                keep_worst(&mut report, stage.name, row, worst);
+            }
+        }
+    }
+    Ok(report)
+}
+
+fn compare_field(
+    m: &Model,
+    d: &Data,
+    reference: &Reference,
+    field: &str,
+    row: usize,
+) -> Result<Worst, ReferenceError> {
+    let theirs = reference.forward(field, row)?;
+    let mut ours = Vec::new();
+    let mut float = true;
+    if field == "efc_J" {
+        ours = d.efc.dense_jacobian(m.nv);
+    } else {
+        d.visit(m, &mut |name, _, values| {
+            if name == field {
+                ours = values.to_f64();
+                float = values.is_float();
+            }
+        });
+    }
+    Ok(compare(field, &ours, &theirs, if float { relative } else { exact }))
+}
+
+fn keep_worst(report: &mut StageReport, stage: &'static str, row: usize, worst: Worst) {
+    match report.outputs.iter_mut().find(|(s, _, w)| *s == stage && w.field == worst.field) {
+        Some(entry) if worst.error > entry.2.error => *entry = (stage, row, worst),
+        Some(_) => {}
+        None => report.outputs.push((stage, row, worst)),
+    }
+}
