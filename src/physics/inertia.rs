@@ -3,7 +3,7 @@
 //! (Featherstone 2008, sections 6.2 composite rigid bodies, 6.5 sparse factorisation).
 
 use crate::data::{Com, Inertia, Tendons};
-use crate::math::{add_scaled_slice, dot_sparse, mul_inertia, scatter_scaled, spatial_dot};
+use crate::math::{LowerRows, add_scaled_slice, mul_inertia, spatial_dot};
 use crate::model::Model;
 use crate::reflected_load::Driven;
 use crate::tendon;
@@ -100,33 +100,14 @@ pub fn factor(m: &Model, matrix: &mut [f64], diag_inv: &mut [f64]) {
     }
 }
 
+/// The pattern of `M`.
+fn pattern(m: &Model) -> LowerRows<'_> {
+    LowerRows { rownnz: &m.M_rownnz, rowadr: &m.M_rowadr, colind: &m.M_colind }
+}
+
 /// `x <- (L'DL)^-1 x`.
 pub fn solve_ld(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
-    solve_transposed(m, ld, x);
-    for (x, inv) in x.iter_mut().zip(diag_inv) {
-        *x *= inv;
-    }
-    for i in 0..m.nv {
-        let at = off_diagonal(m, i);
-        if !at.is_empty() {
-            x[i] -= dot_sparse(&ld[at.clone()], &m.M_colind[at], x);
-        }
-    }
-}
-
-/// `x <- L^-T x`.
-fn solve_transposed(m: &Model, ld: &[f64], x: &mut [f64]) {
-    for i in (0..m.nv).rev() {
-        let at = off_diagonal(m, i);
-        if x[i] != 0.0 {
-            scatter_scaled(&ld[at.clone()], &m.M_colind[at], -x[i], x);
-        }
-    }
-}
-
-fn off_diagonal(m: &Model, dof: usize) -> Range<usize> {
-    let at = row(m, dof);
-    at.start..at.end - 1
+    pattern(m).solve_ldl(ld, diag_inv, x);
 }
 
 /// `x <- M^-1 x`.
@@ -136,7 +117,7 @@ pub fn solve(m: &Model, inertia: &Inertia, x: &mut [f64]) {
 
 /// `x <- D^-1/2 L^-T x`, the half of `solve` whose squared norm is `x' M^-1 x`.
 pub fn solve_half(m: &Model, inertia: &Inertia, x: &mut [f64]) {
-    solve_transposed(m, &inertia.qLD, x);
+    pattern(m).solve_transposed(&inertia.qLD, x);
     for (x, inv) in x.iter_mut().zip(&inertia.qLDiagInv) {
         *x *= inv.sqrt();
     }
@@ -144,16 +125,7 @@ pub fn solve_half(m: &Model, inertia: &Inertia, x: &mut [f64]) {
 
 /// `out = M v` for a symmetric matrix on the pattern of `M`.
 pub fn mul_inertia_matrix(m: &Model, matrix: &[f64], v: &[f64], out: &mut [f64]) {
-    for i in 0..m.nv {
-        let at = off_diagonal(m, i);
-        let mut sum = matrix[at.end] * v[i];
-        for k in at.rev() {
-            let j = m.M_colind[k] as usize;
-            sum += matrix[k] * v[j];
-            out[j] += matrix[k] * v[i];
-        }
-        out[i] = sum;
-    }
+    pattern(m).mul_symmetric(matrix, v, out);
 }
 
 /// `M` as a dense symmetric matrix, row-major, `nv * nv`.

@@ -114,7 +114,7 @@ fn subtree(m: &Model, b: usize) -> impl Iterator<Item = usize> {
 }
 
 /// Rate of motion axis `dof`; axes of ball and free rotations turn with their own body.
-fn axis_rate(m: &Model, com: &Com, vel: &Velocity, dof: usize) -> crate::math::Spatial {
+pub fn axis_rate(m: &Model, com: &Com, vel: &Velocity, dof: usize) -> crate::math::Spatial {
     let j = m.dof_jntid[dof] as usize;
     let rotation = match JointType::from_code(m.jnt_type[j]) {
         Some(JointType::Ball) => true,

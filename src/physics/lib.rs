@@ -37,6 +37,7 @@ pub mod rne_post;
 pub mod sensor;
 pub mod set_const;
 pub mod statistic;
+pub mod solver;
 pub mod table;
 pub mod tendon;
 pub mod transmission;

@@ -1,12 +1,16 @@
 //! Constraint rows, islands and solver from recorded inputs of the stage alone, against recorded outputs.
 
 use physics::constraint::{ConstraintScratch, IslandScratch, find_islands, make_constraint, reference};
+use physics::solver::{SolverScratch, solve};
 use physics::{Data, Model};
 use robohive_validation::reference::Reference;
 use std::path::{Path, PathBuf};
 
 /// Relative difference of rows: sums of a few products, in the same order.
 const ROW: f64 = 1e-10;
+
+/// Relative difference of solutions: both stop at a tolerance of 1e-8 in scaled cost or gradient.
+const SOLUTION: f64 = 1e-8;
 
 const INPUTS: [&str; 20] = [
     "xpos",
@@ -140,4 +144,50 @@ fn rows_agree() {
         println!("{} {worst:?}", path.file_stem().unwrap().display());
     }
     assert!(rows > 100);
+}
+
+#[test]
+fn solver_agrees() {
+    let mut iterations = 0;
+    for (path, r) in references() {
+        let m = r.model().unwrap();
+        let mut worst = [0.0_f64; 3];
+        let mut exact = 0;
+        let mut scratch = SolverScratch::default();
+        let states = r.states().unwrap();
+        for row in 0..states {
+            let mut d = constrained(&r, &m, row);
+            solve(
+                &m,
+                &d.state,
+                &d.inertia,
+                &d.con,
+                &mut d.efc,
+                &d.island,
+                &mut d.acc,
+                &mut d.solver,
+                &mut scratch,
+            );
+            let theirs = r.forward("solver_niter", row).unwrap();
+            for (k, &n) in d.solver.solver_niter.iter().enumerate().take(theirs.len()) {
+                assert_eq!(f64::from(n), theirs[k], "{path:?} state {row} island {k}");
+                iterations += n;
+            }
+            if d.efc.nefc > 0 {
+                assert_eq!(
+                    values(&d, &m, "efc_state"),
+                    r.forward("efc_state", row).unwrap(),
+                    "{path:?} {row}"
+                );
+            }
+            exact += usize::from(d.acc.qacc == r.forward("qacc", row).unwrap());
+            for (name, worst) in ["qacc", "qfrc_constraint", "efc_force"].iter().zip(&mut worst) {
+                let e = difference(&values(&d, &m, name), &r.forward(name, row).unwrap());
+                assert!(e < SOLUTION, "{path:?} {row} {name} {e}");
+                *worst = worst.max(e);
+            }
+        }
+        println!("{} {worst:?} {exact}/{states}", path.file_stem().unwrap().display());
+    }
+    assert!(iterations > 100);
 }

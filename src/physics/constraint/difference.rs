@@ -3,10 +3,9 @@
 
 use crate::chain::{MergedChain, chain, com_offset, point_column};
 use crate::data::{Com, Velocity};
-use crate::math::{
-    Spatial, Vec3, add, add_scaled, cross, cross_motion, linear, move_motion, rotational, scale, sub,
-};
-use crate::model::{JointType, Model};
+use crate::jacobian::{axis_rate, point_column_rate};
+use crate::math::{Vec3, add_scaled, rotational, scale, sub};
+use crate::model::Model;
 
 /// A sparse Jacobian difference: column `i` belongs to degree of freedom `dof[i]`, in increasing order.
 #[derive(Clone, Debug, Default)]
@@ -63,31 +62,12 @@ pub(super) fn jacobian_dot_velocity(
     vel: &Velocity,
     at: BodyPoint,
 ) -> (Vec3, Vec3) {
-    let origin = com.subtree_com[m.body_rootid[at.body] as usize];
-    let offset = sub(at.point, origin);
-    let speed = linear(&move_motion(&vel.cvel[at.body], origin, at.point));
+    let offset = com_offset(m, com, at.body, at.point);
     let (mut translation, mut rotation) = ([0.0; 3], [0.0; 3]);
-    for i in chain(m, at.body) {
-        let rate = axis_rate(m, com, vel, i);
-        let (turn, axis) = (rotational(&rate), rotational(&com.cdof[i]));
-        let column = add(add(linear(&rate), cross(turn, offset)), cross(axis, speed));
-        translation = add_scaled(translation, column, qvel[i]);
-        rotation = add_scaled(rotation, turn, qvel[i]);
+    for dof in chain(m, at.body) {
+        let column = point_column_rate(m, com, vel, at.body, dof, offset);
+        translation = add_scaled(translation, column, qvel[dof]);
+        rotation = add_scaled(rotation, rotational(&axis_rate(m, com, vel, dof)), qvel[dof]);
     }
     (translation, rotation)
-}
-
-/// Rate of motion axis `dof`; axes of quaternion joints are fixed in the body that they move.
-fn axis_rate(m: &Model, com: &Com, vel: &Velocity, dof: usize) -> Spatial {
-    let joint = m.dof_jntid[dof] as usize;
-    let rotates = match JointType::from_code(m.jnt_type[joint]) {
-        Some(JointType::Ball) => true,
-        Some(JointType::Free) => dof as i32 >= m.jnt_dofadr[joint] + 3,
-        _ => false,
-    };
-    if rotates {
-        cross_motion(&vel.cvel[m.dof_bodyid[dof] as usize], &com.cdof[dof])
-    } else {
-        vel.cdof_dot[dof]
-    }
 }

@@ -186,7 +186,7 @@ mod tests {
             let (value, slope) = curve(&solimp, pos, 0.0);
             let difference = (curve(&solimp, pos + h, 0.0).0 - curve(&solimp, pos - h, 0.0).0) / (2.0 * h);
             assert!((0.8..=0.97).contains(&value));
-            assert!((slope - difference).abs() < 1e-5, "{pos}: {slope} {difference}");
+            assert!((slope - difference).abs() < 1e-3, "{pos}: {slope} {difference}");
         }
         assert_eq!(curve(&solimp, 0.0, 0.0), (0.8, 0.0));
         assert_eq!(curve(&solimp, -0.02, 0.0), (0.97, 0.0));

@@ -29,14 +29,6 @@ pub fn norm_slice(a: &[f64]) -> f64 {
     dot_slice(a, a).sqrt()
 }
 
-/// `y += s x`.
-#[inline]
-pub fn add_scaled_slice(y: &mut [f64], x: &[f64], s: f64) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y += x * s;
-    }
-}
-
 /// Cholesky factor in the lower triangle of the `n` by `n` matrix `a`: `A = L Lᵀ`. Pivots below `least` are
 /// raised to it and their columns cleared; returns the number of sound pivots.
 pub fn cholesky_factor(a: &mut [f64], n: usize, least: f64) -> usize {

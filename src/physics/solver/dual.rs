@@ -1,0 +1,176 @@
+//! The dual problem: forces that minimise `½ fᵀ (A + R) f + fᵀ b` within their cones, with `A = J M⁻¹ Jᵀ`
+//! (MuJoCo documentation, Computation, "Dual problem").
+
+use crate::constraint::{HalfJacobian, half_jacobian};
+use crate::data::{Constraints, Contact, Inertia};
+use crate::math::dense::{dot_slice, norm_slice};
+use crate::model::bounds::MINVAL;
+use crate::model::{ConstraintState, ConstraintType, Model};
+
+/// Changes of cost above this undo the step that made them.
+const RISE: f64 = 1e-10;
+
+/// Memory of the dual solvers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Dual {
+    half: HalfJacobian,
+    row: Vec<f64>,
+    /// `A + R`, full.
+    ar: Vec<f64>,
+    /// Starts of row blocks in the order they are visited.
+    pub blocks: Vec<usize>,
+    /// Forces before the last extrapolation, and after it.
+    pub before: Vec<f64>,
+    pub extrapolated: Vec<f64>,
+}
+
+impl Dual {
+    /// Computes `A + R` from `A = Y Yᵀ`. Rows of different islands share no column, so their product is zero.
+    pub fn project(&mut self, m: &Model, inertia: &Inertia, efc: &Constraints) {
+        let n = efc.nefc;
+        half_jacobian(m, inertia, efc, &mut self.half);
+        self.row.clear();
+        self.row.resize(m.nv, 0.0);
+        self.ar.clear();
+        self.ar.resize(n * n, 0.0);
+        for i in 0..n {
+            let (columns, values) = self.half.row(i);
+            columns.iter().zip(values).for_each(|(&c, &x)| self.row[c] = x);
+            for k in 0..=i {
+                let (others, entries) = self.half.row(k);
+                let product = others.iter().zip(entries).fold(0.0, |sum, (&c, x)| sum + x * self.row[c]);
+                self.ar[i * n + k] = product;
+                self.ar[k * n + i] = product;
+            }
+            self.ar[i * (n + 1)] += efc.efc_R[i];
+            columns.iter().for_each(|&c| self.row[c] = 0.0);
+        }
+    }
+
+    /// Row `i` of `A + R`.
+    pub fn row(&self, efc: &Constraints, i: usize) -> &[f64] {
+        &self.ar[i * efc.nefc..(i + 1) * efc.nefc]
+    }
+
+    /// Gradient of the cost by the forces of rows `i..i + dim`, without regularisation if `bare`.
+    pub fn residual(&self, efc: &Constraints, i: usize, dim: usize, bare: bool) -> [f64; 6] {
+        let mut out = [0.0; 6];
+        for (j, out) in out[..dim].iter_mut().enumerate() {
+            *out = efc.efc_b[i + j] + dot_slice(self.row(efc, i + j), &efc.efc_force);
+            if bare {
+                *out -= efc.efc_R[i + j] * efc.efc_force[i + j];
+            }
+        }
+        out
+    }
+
+    /// Diagonal block of rows `i..i + dim`, without regularisation (and safely positive) if `bare`.
+    pub fn block(&self, efc: &Constraints, i: usize, dim: usize, bare: bool) -> [f64; 36] {
+        let mut out = [0.0; 36];
+        for j in 0..dim {
+            out[j * dim..(j + 1) * dim].copy_from_slice(&self.row(efc, i + j)[i..i + dim]);
+            if bare {
+                out[j * (dim + 1)] = (out[j * (dim + 1)] - efc.efc_R[i + j]).max(1e-10);
+            }
+        }
+        out
+    }
+
+    /// Reciprocal of a diagonal entry, without regularisation if `bare`.
+    pub fn inverse_diagonal(&self, efc: &Constraints, i: usize, bare: bool) -> f64 {
+        let diagonal = self.row(efc, i)[i];
+        1.0 / if bare { (diagonal - efc.efc_R[i]).max(MINVAL) } else { diagonal }
+    }
+
+    /// `fᵀ (A + R) f / 2 + fᵀ b` of all rows.
+    pub fn cost(&self, efc: &Constraints) -> f64 {
+        let linear = dot_slice(&efc.efc_force, &efc.efc_b);
+        let product: Vec<f64> = (0..efc.nefc).map(|i| dot_slice(self.row(efc, i), &efc.efc_force)).collect();
+        linear + 0.5 * dot_slice(&efc.efc_force, &product)
+    }
+}
+
+/// Elliptic contact that begins at row `i`.
+pub(super) fn elliptic<'a>(efc: &Constraints, contacts: &'a [Contact], i: usize) -> Option<&'a Contact> {
+    (efc.efc_type[i] == ConstraintType::ContactElliptic.code()).then(|| &contacts[efc.efc_id[i] as usize])
+}
+
+/// Change of cost from `old` to `force` with quadratic term `a`; forces that raise it are put back.
+pub(super) fn cost_change(a: &[f64], force: &mut [f64], old: &[f64], residual: &[f64]) -> f64 {
+    let dim = force.len();
+    let mut delta = [0.0; 6];
+    for j in 0..dim {
+        delta[j] = force[j] - old[j];
+    }
+    let delta = &delta[..dim];
+    let change = if dim == 1 {
+        0.5 * delta[0] * delta[0] * a[0] + delta[0] * residual[0]
+    } else {
+        let product = (0..dim).fold(0.0, |s, j| s + delta[j] * dot_slice(&a[j * dim..(j + 1) * dim], delta));
+        0.5 * product + dot_slice(delta, &residual[..dim])
+    };
+    if change > RISE {
+        force.copy_from_slice(&old[..dim]);
+        return 0.0;
+    }
+    change
+}
+
+/// Scales tangential forces onto the friction ellipsoid of a normal force; into it when `inside` is enough.
+pub(super) fn project_ellipsoid(tangential: &mut [f64], normal: f64, mu: &[f64], inside: bool) {
+    let s = tangential.iter().zip(mu).fold(0.0, |s, (f, mu)| s + f * f / (mu * mu));
+    let limit = normal * normal;
+    if !inside || s > limit {
+        let scale = (limit / s.max(MINVAL)).sqrt();
+        tangential.iter_mut().for_each(|f| *f *= scale);
+    }
+}
+
+/// Sets `efc_state` of the listed rows from their forces.
+pub(super) fn update_states(efc: &mut Constraints, contacts: &[Contact], rows: &[i32]) {
+    let mut at = 0;
+    while at < rows.len() {
+        let i = rows[at] as usize;
+        let (state, dim) = match elliptic(efc, contacts, i) {
+            Some(contact) => (cone_state(efc, contact, i), contact.dim as usize),
+            None => (scalar_state(efc, i), 1),
+        };
+        efc.efc_state[i..i + dim].fill(state.code());
+        at += dim;
+    }
+}
+
+fn scalar_state(efc: &Constraints, i: usize) -> ConstraintState {
+    let (force, loss) = (efc.efc_force[i], efc.efc_frictionloss[i]);
+    if i < efc.ne {
+        ConstraintState::Quadratic
+    } else if i < efc.ne + efc.nf {
+        if force <= -loss {
+            ConstraintState::Linearpos
+        } else if force >= loss {
+            ConstraintState::Linearneg
+        } else {
+            ConstraintState::Quadratic
+        }
+    } else if force <= 0.0 {
+        ConstraintState::Satisfied
+    } else {
+        ConstraintState::Quadratic
+    }
+}
+
+fn cone_state(efc: &Constraints, contact: &Contact, i: usize) -> ConstraintState {
+    let (dim, mu) = (contact.dim as usize, contact.mu);
+    let mut tangential = [0.0; 5];
+    for j in 1..dim {
+        tangential[j - 1] = efc.efc_force[i + j] / contact.friction[j - 1];
+    }
+    let (n, t) = (efc.efc_force[i] / mu, norm_slice(&tangential[..dim - 1]));
+    if mu * n >= t {
+        ConstraintState::Satisfied
+    } else if n + mu * t <= 0.0 {
+        ConstraintState::Quadratic
+    } else {
+        ConstraintState::Cone
+    }
+}

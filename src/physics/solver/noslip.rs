@@ -1,0 +1,110 @@
+//! Removal of slip after the main solver: Gauss-Seidel sweeps over friction forces without regularisation, normal
+//! forces fixed (MuJoCo documentation, Computation, "Noslip solver").
+
+use super::dual::{Dual, cost_change, elliptic, update_states};
+use super::friction_force::friction_force;
+use crate::data::{Constraints, Contact};
+use crate::math::dense::dot_slice;
+use crate::model::bounds::MINVAL;
+use crate::model::{ConstraintType, Model};
+
+/// Improves the friction forces of the listed rows; returns the number of sweeps.
+pub(super) fn noslip(
+    m: &Model,
+    dual: &Dual,
+    efc: &mut Constraints,
+    contacts: &[Contact],
+    rows: &[i32],
+) -> i32 {
+    let scale = 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64);
+    let mut sweeps = 0;
+    while sweeps < m.opt.noslip_iterations {
+        let mut improvement = 0.0;
+        if sweeps == 0 {
+            for &i in rows {
+                let force = efc.efc_force[i as usize];
+                improvement += 0.5 * force * force * efc.efc_R[i as usize];
+            }
+        }
+        let mut at = 0;
+        while at < rows.len() {
+            let i = rows[at] as usize;
+            at += 1;
+            if i < efc.ne {
+                continue;
+            }
+            if i < efc.ne + efc.nf {
+                improvement -= friction_loss(dual, efc, i);
+            } else if efc.efc_type[i] == ConstraintType::ContactPyramidal.code() {
+                let edges = 2 * (contacts[efc.efc_id[i] as usize].dim as usize - 1);
+                for j in (i..i + edges).step_by(2) {
+                    improvement -= opposite_edges(dual, efc, j);
+                }
+                at += edges - 1;
+            } else if let Some(contact) = elliptic(efc, contacts, i) {
+                improvement -= tangential(dual, efc, contact, i);
+                at += contact.dim as usize - 1;
+            }
+        }
+        sweeps += 1;
+        if improvement * scale < m.opt.noslip_tolerance {
+            break;
+        }
+    }
+    update_states(efc, contacts, rows);
+    sweeps
+}
+
+/// Best force within the friction loss; returns the change of cost.
+fn friction_loss(dual: &Dual, efc: &mut Constraints, i: usize) -> f64 {
+    let (residual, inverse) = (dual.residual(efc, i, 1, true)[0], dual.inverse_diagonal(efc, i, true));
+    let (old, loss) = (efc.efc_force[i], efc.efc_frictionloss[i]);
+    let force = old - residual * inverse;
+    efc.efc_force[i] = if force < -loss {
+        -loss
+    } else if force > loss {
+        loss
+    } else {
+        force
+    };
+    let delta = efc.efc_force[i] - old;
+    0.5 * delta * delta / inverse + delta * residual
+}
+
+/// Best difference between the forces of two opposite pyramid edges, their sum fixed; returns the change of cost.
+fn opposite_edges(dual: &Dual, efc: &mut Constraints, j: usize) -> f64 {
+    let residual = dual.residual(efc, j, 2, true);
+    let a = dual.block(efc, j, 2, true);
+    let old = [efc.efc_force[j], efc.efc_force[j + 1]];
+    let b = [residual[0] - dot_slice(&a[..2], &old), residual[1] - dot_slice(&a[2..4], &old)];
+    let middle = 0.5 * (old[0] + old[1]);
+    let (curvature, slope) = (a[0] + a[3] - a[1] - a[2], middle * (a[0] - a[3]) + b[0] - b[1]);
+    let y = if curvature < MINVAL { 0.0 } else { -slope / curvature };
+    let force = if y < -middle {
+        [0.0, 2.0 * middle]
+    } else if y > middle {
+        [2.0 * middle, 0.0]
+    } else {
+        [middle + y, middle - y]
+    };
+    efc.efc_force[j..j + 2].copy_from_slice(&force);
+    cost_change(&a, &mut efc.efc_force[j..j + 2], &old, &residual)
+}
+
+/// Best tangential forces of an elliptic contact; returns the change of cost.
+fn tangential(dual: &Dual, efc: &mut Constraints, contact: &Contact, i: usize) -> f64 {
+    let n = contact.dim as usize - 1;
+    let residual = dual.residual(efc, i + 1, n, true);
+    let a = dual.block(efc, i + 1, n, true);
+    let (mut old, mut b) = ([0.0; 5], [0.0; 5]);
+    old[..n].copy_from_slice(&efc.efc_force[i + 1..i + 1 + n]);
+    for j in 0..n {
+        b[j] = residual[j] - dot_slice(&a[j * n..(j + 1) * n], &old[..n]);
+    }
+    if efc.efc_force[i] < MINVAL {
+        efc.efc_force[i + 1..i + 1 + n].fill(0.0);
+    } else {
+        friction_force(&mut efc.efc_force[i..i + 1 + n], &a, &b, &contact.friction);
+    }
+    cost_change(&a, &mut efc.efc_force[i + 1..i + 1 + n], &old[..n], &residual)
+}

@@ -1,0 +1,180 @@
+//! The part of a constraint problem that one island holds: its degrees of freedom, its rows, and the blocks of the
+//! inertia and the Jacobian that belong to them, renumbered from zero.
+
+use super::rows::Rows;
+use crate::data::{Constraints, Contacts, Inertia};
+use crate::math::dense::dot_slice;
+use crate::math::{LowerRows, add_scaled_slice, dot_sparse, scatter_scaled};
+use crate::model::Model;
+
+/// Inertia, Jacobian and row parameters of an island, or of the whole model.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Problem {
+    /// Degrees of freedom.
+    pub nv: usize,
+    /// Row parameters.
+    pub rows: Rows,
+    /// The Jacobian is stored in full rows.
+    pub dense: bool,
+    /// Jacobian: full rows, or entries of compressed rows.
+    pub jacobian: Vec<f64>,
+    /// Start of each compressed row, and the end of the last.
+    pub row_start: Vec<usize>,
+    /// Columns of compressed rows.
+    pub columns: Vec<i32>,
+    /// Non-zeros of each inertia row.
+    inertia_rownnz: Vec<i32>,
+    /// Start of each inertia row.
+    inertia_rowadr: Vec<i32>,
+    /// Columns of the inertia.
+    inertia_colind: Vec<i32>,
+    /// Inertia, lower triangle.
+    pub inertia: Vec<f64>,
+    /// Its L'DL factor.
+    factor: Vec<f64>,
+    /// Reciprocal of D.
+    inverse_diagonal: Vec<f64>,
+}
+
+/// Selection of an island: its degrees of freedom and rows, and the sorted index of every degree of freedom.
+#[derive(Clone, Copy)]
+pub(super) struct Selection<'a> {
+    pub dofs: &'a [i32],
+    pub rows: &'a [i32],
+    /// Sorted index of each degree of freedom of the model.
+    pub sorted: &'a [i32],
+    /// Sorted index of the first degree of freedom selected.
+    pub first: i32,
+}
+
+impl Problem {
+    /// Extracts the selected part.
+    pub fn gather(&mut self, m: &Model, inertia: &Inertia, efc: &Constraints, con: &Contacts, s: Selection) {
+        self.nv = s.dofs.len();
+        self.dense = !m.is_sparse();
+        self.rows.gather(efc, &con.contact, s.rows);
+        self.gather_inertia(m, inertia, s);
+        if self.dense {
+            self.gather_dense(efc, s);
+        } else {
+            self.gather_sparse(efc, s);
+        }
+    }
+
+    fn gather_inertia(&mut self, m: &Model, inertia: &Inertia, s: Selection) {
+        self.inertia_rownnz.clear();
+        self.inertia_rowadr.clear();
+        self.inertia_colind.clear();
+        self.inertia.clear();
+        self.factor.clear();
+        self.inverse_diagonal.clear();
+        for &dof in s.dofs {
+            let dof = dof as usize;
+            let start = m.M_rowadr[dof] as usize;
+            let range = start..start + m.M_rownnz[dof] as usize;
+            self.inertia_rownnz.push(m.M_rownnz[dof]);
+            self.inertia_rowadr.push(self.inertia.len() as i32);
+            self.inertia_colind
+                .extend(m.M_colind[range.clone()].iter().map(|&c| s.sorted[c as usize] - s.first));
+            self.inertia.extend_from_slice(&inertia.M[range.clone()]);
+            self.factor.extend_from_slice(&inertia.qLD[range]);
+            self.inverse_diagonal.push(inertia.qLDiagInv[dof]);
+        }
+    }
+
+    fn gather_dense(&mut self, efc: &Constraints, s: Selection) {
+        self.jacobian.clear();
+        self.jacobian.resize(s.rows.len() * self.nv, 0.0);
+        for (out, &row) in self.jacobian.chunks_exact_mut(self.nv).zip(s.rows) {
+            let start = efc.efc_J_rowadr[row as usize] as usize;
+            for k in start..start + efc.efc_J_rownnz[row as usize] as usize {
+                out[(s.sorted[efc.efc_J_colind[k] as usize] - s.first) as usize] = efc.efc_J[k];
+            }
+        }
+    }
+
+    fn gather_sparse(&mut self, efc: &Constraints, s: Selection) {
+        self.jacobian.clear();
+        self.columns.clear();
+        self.row_start.clear();
+        self.row_start.push(0);
+        for &row in s.rows {
+            let start = efc.efc_J_rowadr[row as usize] as usize;
+            let range = start..start + efc.efc_J_rownnz[row as usize] as usize;
+            self.columns
+                .extend(efc.efc_J_colind[range.clone()].iter().map(|&c| s.sorted[c as usize] - s.first));
+            self.jacobian.extend_from_slice(&efc.efc_J[range]);
+            self.row_start.push(self.jacobian.len());
+        }
+    }
+
+    /// The inertia's structure.
+    pub fn inertia_rows(&self) -> LowerRows<'_> {
+        LowerRows { rownnz: &self.inertia_rownnz, rowadr: &self.inertia_rowadr, colind: &self.inertia_colind }
+    }
+
+    /// Columns and entries of inertia row `i`, diagonal last.
+    pub fn inertia_row(&self, i: usize) -> (&[i32], &[f64]) {
+        let start = self.inertia_rowadr[i] as usize;
+        let range = start..start + self.inertia_rownnz[i] as usize;
+        (&self.inertia_colind[range.clone()], &self.inertia[range])
+    }
+
+    /// Full row `i`.
+    #[inline]
+    pub fn dense_row(&self, i: usize) -> &[f64] {
+        &self.jacobian[i * self.nv..(i + 1) * self.nv]
+    }
+
+    /// Columns and entries of compressed row `i`.
+    #[inline]
+    pub fn sparse_row(&self, i: usize) -> (&[i32], &[f64]) {
+        let range = self.row_start[i]..self.row_start[i + 1];
+        (&self.columns[range.clone()], &self.jacobian[range])
+    }
+
+    /// `out = J v`.
+    pub fn mul_jacobian(&self, v: &[f64], out: &mut [f64]) {
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = if self.dense {
+                dot_slice(self.dense_row(i), v)
+            } else {
+                let (columns, values) = self.sparse_row(i);
+                dot_sparse(values, columns, v)
+            };
+        }
+    }
+
+    /// `out = Jᵀ f`.
+    pub fn mul_jacobian_transposed(&self, f: &[f64], out: &mut [f64]) {
+        out.fill(0.0);
+        for (i, &f) in f.iter().enumerate() {
+            if f == 0.0 {
+                continue;
+            }
+            if self.dense {
+                add_scaled_slice(out, self.dense_row(i), f);
+            } else {
+                let (columns, values) = self.sparse_row(i);
+                scatter_scaled(values, columns, f, out);
+            }
+        }
+    }
+
+    /// `out = M v`.
+    pub fn mul_inertia(&self, v: &[f64], out: &mut [f64]) {
+        self.inertia_rows().mul_symmetric(&self.inertia, v, out);
+    }
+
+    /// Solves `M x = x` in place.
+    pub fn solve_inertia(&self, x: &mut [f64]) {
+        self.inertia_rows().solve_ldl(&self.factor, &self.inverse_diagonal, x);
+    }
+
+    /// Sum of the diagonal of `M`.
+    pub fn inertia_trace(&self) -> f64 {
+        let diagonal =
+            |i: usize| self.inertia[(self.inertia_rowadr[i] + self.inertia_rownnz[i] - 1) as usize];
+        (0..self.nv).map(diagonal).sum()
+    }
+}

@@ -1,0 +1,240 @@
+//! Sparse Cholesky factor `H = Lᵀ L` in compressed rows, found from the last row to the first: on a kinematic tree
+//! this order makes no fill (Featherstone 2008, section 6.5; Davis 2006, chapter 4).
+
+use super::problem::Problem;
+
+const NONE: usize = usize::MAX;
+
+/// Structure of the factor of `M + Jᵀ D J`, and memory of its computation. Values are kept by the caller.
+#[derive(Clone, Debug, Default)]
+pub(super) struct SparseCholesky {
+    n: usize,
+    /// Start of each row.
+    start: Vec<usize>,
+    /// One past the diagonal, the last entry of each row.
+    end: Vec<usize>,
+    /// Columns, increasing within a row.
+    columns: Vec<usize>,
+    /// Entries of the Jacobian by column: start of each column.
+    entry_start: Vec<usize>,
+    /// Row and place of each.
+    entries: Vec<(usize, usize)>,
+    mark: Vec<usize>,
+    /// First row whose parent in the elimination tree is this one, and the next such row.
+    child: Vec<usize>,
+    sibling: Vec<usize>,
+    /// Rows whose next entry to eliminate lies in this column, and that entry.
+    waiting: Vec<usize>,
+    next: Vec<usize>,
+    at: Vec<usize>,
+    dense: Vec<f64>,
+}
+
+impl SparseCholesky {
+    /// Finds the structure for the pattern of `p`.
+    pub fn analyse(&mut self, p: &Problem) {
+        self.n = p.nv;
+        self.list_columns(p);
+        for v in [&mut self.mark, &mut self.child, &mut self.sibling] {
+            v.clear();
+            v.resize(p.nv, NONE);
+        }
+        self.start.clear();
+        self.start.resize(p.nv, 0);
+        self.end.clone_from(&self.start);
+        self.columns.clear();
+        for r in (0..p.nv).rev() {
+            self.analyse_row(p, r);
+        }
+        self.dense.clear();
+        self.dense.resize(p.nv, 0.0);
+    }
+
+    /// Lists the Jacobian's entries by column.
+    fn list_columns(&mut self, p: &Problem) {
+        self.entry_start.clear();
+        self.entry_start.resize(p.nv + 1, 0);
+        for &c in &p.columns {
+            self.entry_start[c as usize + 1] += 1;
+        }
+        for c in 0..p.nv {
+            self.entry_start[c + 1] += self.entry_start[c];
+        }
+        self.entries.clear();
+        self.entries.resize(p.columns.len(), (0, 0));
+        self.at.clear();
+        self.at.extend_from_slice(&self.entry_start[..p.nv]);
+        for i in 0..p.rows.len() {
+            for k in p.row_start[i]..p.row_start[i + 1] {
+                let at = &mut self.at[p.columns[k] as usize];
+                self.entries[*at] = (i, k);
+                *at += 1;
+            }
+        }
+    }
+
+    /// Columns of row `r`: those of the matrix, and of rows that are eliminated into it.
+    fn analyse_row(&mut self, p: &Problem, r: usize) {
+        let first = self.columns.len();
+        self.mark[r] = r;
+        let Self { columns, mark, .. } = self;
+        let mut add = |c: usize, columns: &mut Vec<usize>| {
+            if c < r && mark[c] != r {
+                mark[c] = r;
+                columns.push(c);
+            }
+        };
+        for &c in p.inertia_row(r).0 {
+            add(c as usize, columns);
+        }
+        for &(i, _) in &self.entries[self.entry_start[r]..self.entry_start[r + 1]] {
+            for &c in p.sparse_row(i).0 {
+                add(c as usize, columns);
+            }
+        }
+        let mut child = self.child[r];
+        while child != NONE {
+            for k in self.start[child]..self.end[child] {
+                add(columns[k], columns);
+            }
+            child = self.sibling[child];
+        }
+        self.columns[first..].sort_unstable();
+        if let Some(&parent) = self.columns[first..].last() {
+            self.sibling[r] = self.child[parent];
+            self.child[parent] = r;
+        }
+        self.columns.push(r);
+        (self.start[r], self.end[r]) = (first, self.columns.len());
+    }
+
+    /// Assembles `M + Jᵀ D J` row by row and factors it at once; returns the rank.
+    pub fn factorize(&mut self, p: &Problem, active: &[f64], values: &mut Vec<f64>, least: f64) -> usize {
+        values.clear();
+        values.resize(self.columns.len(), 0.0);
+        for v in [&mut self.waiting, &mut self.next, &mut self.at] {
+            v.clear();
+            v.resize(self.n, NONE);
+        }
+        let mut rank = self.n;
+        for r in (0..self.n).rev() {
+            self.assemble_row(p, active, r);
+            self.eliminate_into(r, values);
+            let (start, diagonal) = (self.start[r], self.end[r] - 1);
+            let pivot = self.dense[r];
+            rank -= usize::from(pivot < least);
+            let root = pivot.max(least).sqrt();
+            let inverse = 1.0 / root;
+            for k in start..diagonal {
+                values[k] = self.dense[self.columns[k]] * inverse;
+                self.dense[self.columns[k]] = 0.0;
+            }
+            values[diagonal] = root;
+            self.dense[r] = 0.0;
+            self.wait(r, diagonal);
+        }
+        rank
+    }
+
+    /// Puts row `r` of the matrix in `dense`.
+    fn assemble_row(&mut self, p: &Problem, active: &[f64], r: usize) {
+        for &(i, at) in &self.entries[self.entry_start[r]..self.entry_start[r + 1]] {
+            let scale = p.jacobian[at] * active[i];
+            if scale == 0.0 {
+                continue;
+            }
+            for k in p.row_start[i]..=at {
+                self.dense[p.columns[k] as usize] += p.jacobian[k] * scale;
+            }
+        }
+        let (columns, values) = p.inertia_row(r);
+        for (&c, x) in columns.iter().zip(values) {
+            self.dense[c as usize] += x;
+        }
+    }
+
+    /// Subtracts the contributions of all later rows with an entry in column `r`.
+    fn eliminate_into(&mut self, r: usize, values: &[f64]) {
+        let mut row = self.waiting[r];
+        while row != NONE {
+            let (at, following) = (self.at[row], self.next[row]);
+            let scale = values[at];
+            for k in self.start[row]..=at {
+                self.dense[self.columns[k]] -= scale * values[k];
+            }
+            self.wait(row, at);
+            row = following;
+        }
+    }
+
+    /// Queues `row` at the column before entry `at`.
+    fn wait(&mut self, row: usize, at: usize) {
+        if at > self.start[row] {
+            let column = self.columns[at - 1];
+            self.at[row] = at - 1;
+            self.next[row] = self.waiting[column];
+            self.waiting[column] = row;
+        }
+    }
+
+    /// Solves `Lᵀ L x = x` in place.
+    pub fn solve(&self, values: &[f64], x: &mut [f64]) {
+        for i in (0..self.n).rev() {
+            let (start, diagonal) = (self.start[i], self.end[i] - 1);
+            x[i] /= values[diagonal];
+            for k in start..diagonal {
+                x[self.columns[k]] -= values[k] * x[i];
+            }
+        }
+        for i in 0..self.n {
+            let (start, diagonal) = (self.start[i], self.end[i] - 1);
+            let mut sum = x[i];
+            for k in start..diagonal {
+                sum -= values[k] * x[self.columns[k]];
+            }
+            x[i] = sum / values[diagonal];
+        }
+    }
+
+    /// Rank-one update `Lᵀ L ± v vᵀ` by Givens rotations; the pattern of `v` is one of the Jacobian's rows.
+    /// Returns the rank.
+    pub fn update(
+        &mut self,
+        values: &mut [f64],
+        columns: &[i32],
+        v: &[f64],
+        plus: bool,
+        least: f64,
+    ) -> usize {
+        let Some(&last) = columns.last() else { return self.n };
+        for (&c, &x) in columns.iter().zip(v) {
+            self.dense[c as usize] = x;
+        }
+        let mut rank = self.n;
+        for row in (0..=last as usize).rev() {
+            let x = self.dense[row];
+            if x == 0.0 {
+                continue;
+            }
+            self.dense[row] = 0.0;
+            let (start, at) = (self.start[row], self.end[row] - 1);
+            let diagonal = values[at];
+            let mut square = if plus { diagonal * diagonal + x * x } else { diagonal * diagonal - x * x };
+            if square < least {
+                square = least;
+                rank -= 1;
+            }
+            let root = square.sqrt();
+            values[at] = root;
+            let (c, s) = (diagonal / root, -x / root);
+            let signed = if plus { -s } else { s };
+            for k in start..at {
+                let (other, value) = (&mut self.dense[self.columns[k]], &mut values[k]);
+                let rotated = c * *value + signed * *other;
+                *other = s * *value + c * *other;
+                *value = rotated;
+            }
+        }
+        rank
+    }
+}
