@@ -100,8 +100,8 @@ fn cube_gradient(source: &TextureSource, width: usize, image: &mut [u8]) {
             let x = (2 * column) as f64 / (width as f64 - 1.0) - 1.0;
             let y = 1.0 - (2 * row) as f64 / (width as f64 - 1.0);
             let distance = (1.0 + x * x + y * y).sqrt();
-            let side = libm::asin(y / distance) / QUARTER;
-            let up = 1.0 - libm::acos(1.0 / distance) / QUARTER;
+            let side = physics::math::ops::asin(y / distance) / QUARTER;
+            let up = 1.0 - physics::math::ops::acos(1.0 / distance) / QUARTER;
             let pixel = row * width + column;
             for horizontal in [0, 1, 4, 5] {
                 put(image, horizontal * face + pixel, blend(source.rgb1, source.rgb2, side));

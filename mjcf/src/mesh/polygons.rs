@@ -3,6 +3,8 @@
 //! Triangles are coplanar when their normals fall into the same cell of a grid in polar angles. The
 //! order of the polygons is that in which LLVM's hash map enumerates the cells.
 
+use physics::math::ops;
+
 use super::hash_order::HashOrder;
 use crate::vector::{cross, dot, sub};
 
@@ -96,7 +98,7 @@ fn cell([a, b, c]: [[f64; 3]; 3]) -> Option<(f64, f64)> {
         let inclination = if n[2] < 0.0 { (std::f64::consts::PI / CELL).round() } else { 0.0 };
         return Some((0.0, inclination));
     }
-    Some(((libm::atan2(n[1], n[0]) / CELL).round(), (libm::acos(n[2]) / CELL).round()))
+    Some(((ops::atan2(n[1], n[0]) / CELL).round(), (ops::acos(n[2]) / CELL).round()))
 }
 
 /// Directed boundary edges of the triangles of one cell. Triangles arrive in any order, so there are
