@@ -1,9 +1,11 @@
 //! Everything that changes while a model moves, grouped by the stage that writes it.
 
 mod constraints;
+mod scratch;
 mod stages;
 
 pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStatistics};
+pub use scratch::Scratch;
 pub use stages::*;
 
 use crate::model::Model;
@@ -48,6 +50,8 @@ pub struct Data {
     pub implicit: Implicit,
     /// Solver statistics.
     pub solver: SolverStatistics,
+    /// Working memory.
+    pub scratch: Scratch,
 }
 
 impl Data {

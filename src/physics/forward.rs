@@ -1,0 +1,190 @@
+//! Forward dynamics and the time step: the order of all stages (MuJoCo documentation, Computation, "Forward
+//! dynamics" and "Simulation pipeline").
+
+use crate::actuation::actuation;
+use crate::bias::bias;
+use crate::camera::cameras_and_lights;
+use crate::collision::collide;
+use crate::com::com_pos;
+use crate::constraint::{find_islands, make_constraint, reference};
+use crate::data::Data;
+use crate::inertia::{factor_inertia, make_inertia, solve};
+use crate::integrate::{euler, runge_kutta};
+use crate::jacobian::apply_user_wrenches;
+use crate::kinematics::kinematics;
+use crate::model::{Integrator, Model, enable};
+use crate::passive::passive;
+use crate::rne_post::rne_post_constraint;
+use crate::sensor::{self, AccelerationInputs, PositionInputs, VelocityInputs};
+use crate::tendon::{tendon, tendon_velocity};
+use crate::transmission::{actuator_velocity, transmission};
+use crate::validity::{check_acceleration, check_state};
+use crate::velocity::com_vel;
+use crate::{energy, solver};
+
+pub use crate::validity::StepError;
+
+/// Computes everything that follows from the state and the inputs, up to accelerations and sensors.
+///
+/// # Errors
+/// The model uses what is not simulated.
+pub fn forward(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    evaluate(m, d, true)
+}
+
+/// Advances the simulation by one time step.
+///
+/// # Errors
+/// A state or input is not finite or too large; `d` keeps it for inspection.
+pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    check_state(m, d)?;
+    evaluate(m, d, true)?;
+    check_acceleration(m, d)?;
+    if m.opt.integrator == Integrator::Rk4.code() {
+        return runge_kutta(m, d);
+    }
+    euler(m, d);
+    Ok(())
+}
+
+/// First half of a step: all that does not depend on controls and applied forces.
+///
+/// # Errors
+/// As `step`.
+pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    check_state(m, d)?;
+    position(m, d);
+    position_sensors(m, d);
+    velocity(m, d);
+    velocity_sensors(m, d);
+    Ok(())
+}
+
+/// Second half of a step, after inputs have been set; always with Euler's method.
+///
+/// # Errors
+/// As `step`.
+pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    check_state(m, d)?;
+    acceleration(m, d);
+    acceleration_sensors(m, d);
+    check_acceleration(m, d)?;
+    euler(m, d);
+    Ok(())
+}
+
+/// `forward`, with or without sensors.
+pub(crate) fn evaluate(m: &Model, d: &mut Data, sensors: bool) -> Result<(), StepError> {
+    position(m, d);
+    if sensors {
+        position_sensors(m, d);
+    }
+    velocity(m, d);
+    if sensors {
+        velocity_sensors(m, d);
+    }
+    acceleration(m, d);
+    if sensors {
+        acceleration_sensors(m, d);
+    }
+    Ok(())
+}
+
+/// What depends on positions: poses, inertia, contacts, constraint rows, lengths.
+fn position(m: &Model, d: &mut Data) {
+    let s = &mut d.scratch;
+    kinematics(m, &d.state, &mut d.kin);
+    com_pos(m, &d.kin, &mut d.com);
+    cameras_and_lights(m, &d.com, &mut d.kin);
+    tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
+    make_inertia(m, &d.com, &d.ten, &mut d.inertia);
+    factor_inertia(m, &mut d.inertia);
+    collide(m, &d.kin, &mut s.collision, &mut d.con);
+    make_constraint(
+        m,
+        &d.state,
+        &d.kin,
+        &d.com,
+        &d.ten,
+        &d.inertia,
+        &mut d.con,
+        &mut d.efc,
+        &mut s.constraint,
+    );
+    find_islands(m, &d.con, &d.efc, &mut d.island, &mut s.island);
+    transmission(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.efc, &mut d.trn);
+}
+
+/// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.
+fn velocity(m: &Model, d: &mut Data) {
+    tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
+    actuator_velocity(m, &d.state, &d.trn, &mut d.vel.actuator_velocity);
+    com_vel(m, &d.state, &d.com, &mut d.vel);
+    passive(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.vel, &mut d.passive);
+    reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc);
+    bias(m, &d.state, &d.kin, &d.com, &d.ten, &mut d.vel, &mut d.scratch.rne);
+}
+
+/// What depends on inputs too: actuation, and accelerations without and with constraints.
+fn acceleration(m: &Model, d: &mut Data) {
+    actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
+    for dof in 0..m.nv {
+        d.acc.qfrc_smooth[dof] = d.passive.qfrc_passive[dof] - d.vel.qfrc_bias[dof]
+            + d.state.qfrc_applied[dof]
+            + d.actuation.qfrc_actuator[dof];
+    }
+    apply_user_wrenches(m, &d.kin, &d.com, &d.state.xfrc_applied, &mut d.acc.qfrc_smooth);
+    d.acc.qacc_smooth.copy_from_slice(&d.acc.qfrc_smooth);
+    solve(m, &d.inertia, &mut d.acc.qacc_smooth);
+    solver::solve(
+        m,
+        &d.state,
+        &d.inertia,
+        &d.con,
+        &mut d.efc,
+        &d.island,
+        &mut d.acc,
+        &mut d.solver,
+        &mut d.scratch.solver,
+    );
+}
+
+fn position_sensors(m: &Model, d: &mut Data) {
+    let inputs = PositionInputs {
+        time: d.time,
+        state: &d.state,
+        kin: &d.kin,
+        com: &d.com,
+        ten: &d.ten,
+        trn: &d.trn,
+        inertia: &d.inertia,
+        efc: &d.efc,
+    };
+    sensor::position_sensors(m, &inputs, &mut d.scratch.sensor, &mut d.sensor);
+    let on = m.opt.enableflags & enable::ENERGY != 0;
+    d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
+}
+
+fn velocity_sensors(m: &Model, d: &mut Data) {
+    let inputs =
+        VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
+    sensor::velocity_sensors(m, &inputs, &mut d.sensor);
+    if m.opt.enableflags & enable::ENERGY != 0 {
+        d.energy[1] = energy::kinetic(m, &d.state, &d.inertia);
+    }
+}
+
+fn acceleration_sensors(m: &Model, d: &mut Data) {
+    if sensor::needs_body_forces(m) {
+        rne_post_constraint(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
+    }
+    let inputs = AccelerationInputs {
+        kin: &d.kin,
+        com: &d.com,
+        con: &d.con,
+        efc: &d.efc,
+        vel: &d.vel,
+        actuation: &d.actuation,
+    };
+    sensor::acceleration_sensors(m, &inputs, &mut d.scratch.sensor, &mut d.sensor);
+}
