@@ -1,6 +1,8 @@
 //! Constraint rows, islands and solver from recorded inputs of the stage alone, against recorded outputs.
 
 use physics::constraint::{ConstraintScratch, IslandScratch, find_islands, make_constraint, reference};
+use physics::inertia::mul_inertia_matrix;
+use physics::model::{Jacobian, Solver, disable};
 use physics::solver::{SolverScratch, solve};
 use physics::{Data, Model};
 use robohive_validation::reference::Reference;
@@ -11,6 +13,12 @@ const ROW: f64 = 1e-10;
 
 /// Relative difference of solutions: both stop at a tolerance of 1e-8 in scaled cost or gradient.
 const SOLUTION: f64 = 1e-8;
+
+/// Relative difference of dense and sparse solutions, which stop in the same iteration.
+const STORAGE: f64 = 1e-9;
+
+/// Relative residual of the equation of motion: the gradient at which the solver stops.
+const STATIONARY: f64 = 1e-6;
 
 const INPUTS: [&str; 20] = [
     "xpos",
@@ -151,6 +159,7 @@ fn solver_agrees() {
     let mut iterations = 0;
     for (path, r) in references() {
         let m = r.model().unwrap();
+        let warm = m.opt.disableflags & disable::WARMSTART == 0;
         let mut worst = [0.0_f64; 3];
         let mut exact = 0;
         let mut scratch = SolverScratch::default();
@@ -173,7 +182,12 @@ fn solver_agrees() {
                 assert_eq!(f64::from(n), theirs[k], "{path:?} state {row} island {k}");
                 iterations += n;
             }
-            if d.efc.nefc > 0 {
+            // Dual states on the surface of a cone are decided by rounding, and a cold start sets none.
+            if d.efc.nefc > 0
+                && m.opt.solver != Solver::Pgs.code()
+                && warm
+                && m.opt.noslip_iterations * m.opt.cone == 0
+            {
                 assert_eq!(
                     values(&d, &m, "efc_state"),
                     r.forward("efc_state", row).unwrap(),
@@ -190,4 +204,34 @@ fn solver_agrees() {
         println!("{} {worst:?} {exact}/{states}", path.file_stem().unwrap().display());
     }
     assert!(iterations > 100);
+}
+
+/// Dense and sparse storage make the same motion, and Gauss's principle holds: the constraint force accounts for
+/// the acceleration it causes.
+#[test]
+fn storage_does_not_matter() {
+    let mut moved = 0.0_f64;
+    for (path, r) in references() {
+        let mut m = r.model().unwrap();
+        for row in 0..r.states().unwrap() {
+            let solved = [Jacobian::Dense, Jacobian::Sparse].map(|storage| {
+                m.opt.jacobian = storage.code();
+                let mut d = constrained(&r, &m, row);
+                let mut scratch = SolverScratch::default();
+                let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
+                solve(&m, state, inertia, con, efc, island, acc, solver, &mut scratch);
+                d.acc
+            });
+            let e = difference(&solved[0].qacc, &solved[1].qacc);
+            assert!(e < STORAGE, "{path:?} {row} {e}");
+            let change: Vec<f64> =
+                solved[0].qacc.iter().zip(&solved[0].qacc_smooth).map(|(a, b)| a - b).collect();
+            let mut force = vec![0.0; m.nv];
+            mul_inertia_matrix(&m, &r.forward("M", row).unwrap(), &change, &mut force);
+            let e = difference(&force, &solved[0].qfrc_constraint);
+            assert!(e < STATIONARY, "{path:?} {row} {e}");
+            moved = change.iter().fold(moved, |a, x| a.max(x.abs()));
+        }
+    }
+    assert!(moved > 1.0);
 }
