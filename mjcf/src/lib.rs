@@ -2,6 +2,7 @@
 
 pub mod asset;
 pub mod bvh;
+pub mod compile;
 pub mod diagnostic;
 pub mod files;
 pub mod image;

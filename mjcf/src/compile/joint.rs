@@ -1,0 +1,158 @@
+//! Joints and their degrees of freedom.
+
+use super::body::BodyNode;
+use super::frame::{EPS, Pose, direction};
+use super::{Log, push_user, resolve_limited, title};
+use crate::spec::{Compiler, Joint};
+use crate::vector::normalize;
+use physics::Model;
+use physics::math::Vec3;
+use physics::model::JointType;
+use std::f64::consts::PI;
+
+/// A joint in the frame of its body, angles in radians.
+pub(super) struct JointNode<'s> {
+    pub spec: &'s Joint,
+    pub pos: Vec3,
+    pub axis: Vec3,
+    pub limited: bool,
+    pub range: [f64; 2],
+    pub actfrclimited: bool,
+    pub reference: f64,
+    pub springref: f64,
+}
+
+/// Number of positions and of velocities of a joint type.
+pub(super) fn dimensions(kind: JointType) -> (usize, usize) {
+    match kind {
+        JointType::Free => (7, 6),
+        JointType::Ball => (4, 3),
+        JointType::Slide | JointType::Hinge => (1, 1),
+    }
+}
+
+/// Compiles a joint that stands in `frame`.
+pub(super) fn compile<'s>(
+    spec: &'s Joint,
+    frame: Option<&Pose>,
+    settings: &Compiler,
+) -> Result<JointNode<'s>, String> {
+    let kind = spec.kind;
+    let [timeconst, dampratio] = spec.springdamper;
+    if (timeconst != 0.0 || dampratio != 0.0) && (timeconst <= 0.0 || dampratio <= 0.0) {
+        return Err("springdamper values must be positive".into());
+    }
+    let limited =
+        kind != JointType::Free && resolve_limited(spec.limited, spec.range, settings.autolimits, "")?;
+    let mut range = spec.range;
+    if limited {
+        check_range(kind, range)?;
+        if settings.degree && matches!(kind, JointType::Hinge | JointType::Ball) {
+            range = range.map(|x| x * (PI / 180.0));
+        }
+    }
+    let scalar = matches!(kind, JointType::Hinge | JointType::Slide);
+    let actfrclimited =
+        scalar && resolve_limited(spec.actfrclimited, spec.actfrcrange, settings.autolimits, "actuatorfrc")?;
+    if actfrclimited && spec.actfrcrange[0] >= spec.actfrcrange[1] {
+        return Err("actuatorfrcrange[0] must be smaller than actuatorfrcrange[1]".into());
+    }
+    let mut axis = match frame {
+        _ if !scalar => [0.0, 0.0, 1.0],
+        Some(frame) => direction(frame.quat, spec.axis),
+        None => spec.axis,
+    };
+    if normalize(&mut axis) < EPS {
+        return Err("axis has no length".into());
+    }
+    let pos = match frame {
+        _ if kind == JointType::Free => [0.0; 3],
+        Some(frame) => frame.point(spec.pos),
+        None => spec.pos,
+    };
+    let unit = if kind == JointType::Hinge && settings.degree { PI / 180.0 } else { 1.0 };
+    let (reference, springref) = (spec.ref_ * unit, spec.springref * unit);
+    Ok(JointNode { spec, pos, axis, limited, range, actfrclimited, reference, springref })
+}
+
+fn check_range(kind: JointType, range: [f64; 2]) -> Result<(), String> {
+    if kind == JointType::Ball {
+        return if range[0] == 0.0 { Ok(()) } else { Err("range[0] of a ball joint must be 0".into()) };
+    }
+    if range[0] >= range[1] { Err("range[0] must be smaller than range[1]".into()) } else { Ok(()) }
+}
+
+/// Appends the joints of `body` and their degrees of freedom.
+pub(super) fn fill(m: &mut Model, body: &BodyNode, id: usize, log: &mut Log) {
+    let mut parent_dof = last_dof_above(m, id);
+    for node in &body.joints {
+        let spec = node.spec;
+        let joint = m.jnt_type.len();
+        let (nq, nv) = dimensions(spec.kind);
+        m.jnt_type.push(spec.kind.code());
+        m.jnt_group.push(spec.group);
+        m.jnt_limited.push(node.limited);
+        m.jnt_actfrclimited.push(node.actfrclimited);
+        m.jnt_actgravcomp.push(spec.actgravcomp);
+        m.jnt_qposadr.push(m.qpos0.len() as i32);
+        m.jnt_dofadr.push(m.dof_bodyid.len() as i32);
+        m.jnt_bodyid.push(id as i32);
+        m.jnt_pos.push(node.pos);
+        m.jnt_axis.push(node.axis);
+        m.jnt_stiffness.push(spec.stiffness[0]);
+        m.jnt_stiffnesspoly.push([spec.stiffness[1], spec.stiffness[2]]);
+        m.jnt_range.push(node.range);
+        m.jnt_actfrcrange.push(spec.actfrcrange);
+        m.jnt_solref.push(spec.solref_limit);
+        m.jnt_solimp.push(spec.solimp_limit);
+        m.jnt_margin.push(spec.margin);
+        let user = push_user(&mut m.jnt_user, &spec.userdata, m.nuser_jnt, "nuser_jnt");
+        log.check(spec.loc, &title("joint", &spec.name), user);
+        fill_reference(m, body, node);
+        for _ in 0..nv {
+            m.dof_parentid.push(parent_dof);
+            parent_dof = m.dof_bodyid.len() as i32;
+            m.dof_bodyid.push(id as i32);
+            m.dof_jntid.push(joint as i32);
+            m.dof_solref.push(spec.solref_friction);
+            m.dof_solimp.push(spec.solimp_friction);
+            m.dof_frictionloss.push(spec.frictionloss);
+            m.dof_armature.push(spec.armature);
+            m.dof_damping.push(spec.damping[0]);
+            m.dof_dampingpoly.push([spec.damping[1], spec.damping[2]]);
+        }
+        debug_assert_eq!(m.qpos0.len(), m.jnt_qposadr[joint] as usize + nq);
+    }
+}
+
+/// Positions of the joint at the reference and at the spring's rest.
+fn fill_reference(m: &mut Model, body: &BodyNode, node: &JointNode) {
+    match node.spec.kind {
+        JointType::Free => {
+            m.qpos0.extend(body.pose.pos);
+            m.qpos0.extend(body.pose.quat);
+            m.qpos_spring.extend(body.pose.pos);
+            m.qpos_spring.extend(body.pose.quat);
+        }
+        JointType::Ball => {
+            m.qpos0.extend([1.0, 0.0, 0.0, 0.0]);
+            m.qpos_spring.extend([1.0, 0.0, 0.0, 0.0]);
+        }
+        JointType::Slide | JointType::Hinge => {
+            m.qpos0.push(node.reference);
+            m.qpos_spring.push(node.springref);
+        }
+    }
+}
+
+/// The last degree of freedom of the nearest ancestor that has any, -1 for none.
+fn last_dof_above(m: &Model, id: usize) -> i32 {
+    let mut b = id;
+    while b > 0 {
+        b = m.body_parentid[b] as usize;
+        if m.body_dofnum[b] > 0 {
+            return m.body_dofadr[b] + m.body_dofnum[b] - 1;
+        }
+    }
+    -1
+}

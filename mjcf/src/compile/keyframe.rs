@@ -1,0 +1,72 @@
+//! Keyframes: missing parts are the reference configuration, short ones are completed from it.
+
+use super::{Log, title};
+use crate::diagnostic::Loc;
+use crate::spec::{Key, Spec};
+use physics::Model;
+use physics::model::JointType;
+
+/// Appends the keyframes of the file, and empty ones up to `size/nkey`.
+pub(super) fn fill(m: &mut Model, spec: &Spec, log: &mut Log) {
+    let (nq, nv, nu) = (m.qpos0.len(), m.dof_bodyid.len(), m.actuator_ctrllimited.len());
+    let na: i32 = m.actuator_actnum.iter().sum();
+    let mocap: Vec<usize> = (0..m.body_mocapid.len()).filter(|&b| m.body_mocapid[b] >= 0).collect();
+    let mpos0: Vec<f64> = mocap.iter().flat_map(|&b| m.body_pos[b]).collect();
+    let mquat0: Vec<f64> = mocap.iter().flat_map(|&b| m.body_quat[b]).collect();
+    let empty = Key::default();
+    let count = spec.keys.len().max(spec.size.nkey.max(0) as usize);
+    for key in spec.keys.iter().chain(std::iter::repeat(&empty)).take(count) {
+        m.key_time.push(key.time);
+        let mut part = Part { loc: key.loc, what: title("keyframe", &key.name), log };
+        let mut qpos = part.complete(&key.qpos, &m.qpos0, "qpos");
+        let mut mquat = part.complete(&key.mquat, &mquat0, "mquat");
+        m.key_qvel.extend(part.complete(&key.qvel, &vec![0.0; nv], "qvel"));
+        m.key_act.extend(part.complete(&key.act, &vec![0.0; na as usize], "act"));
+        m.key_mpos.extend(part.complete(&key.mpos, &mpos0, "mpos"));
+        m.key_ctrl.extend(part.complete(&key.ctrl, &vec![0.0; nu], "ctrl"));
+        normalize_rotations(m, &mut qpos[..nq]);
+        mquat.chunks_exact_mut(4).for_each(normalize);
+        m.key_qpos.extend(qpos);
+        m.key_mquat.extend(mquat);
+    }
+}
+
+struct Part<'a, 'b> {
+    loc: Loc,
+    what: String,
+    log: &'a mut Log<'b>,
+}
+
+impl Part<'_, '_> {
+    /// `given`, continued by `default`.
+    fn complete(&mut self, given: &[f64], default: &[f64], name: &str) -> Vec<f64> {
+        if given.len() > default.len() {
+            let message =
+                format!("{}: {name} has {} values, {} expected", self.what, given.len(), default.len());
+            self.log.error(self.loc, message);
+            return default.to_vec();
+        }
+        let mut values = default.to_vec();
+        values[..given.len()].copy_from_slice(given);
+        values
+    }
+}
+
+fn normalize_rotations(m: &Model, qpos: &mut [f64]) {
+    for joint in 0..m.jnt_type.len() {
+        let start = match JointType::from_code(m.jnt_type[joint]) {
+            Some(JointType::Free) => m.jnt_qposadr[joint] as usize + 3,
+            Some(JointType::Ball) => m.jnt_qposadr[joint] as usize,
+            _ => continue,
+        };
+        normalize(&mut qpos[start..start + 4]);
+    }
+}
+
+fn normalize(quat: &mut [f64]) {
+    let mut q = [quat[0], quat[1], quat[2], quat[3]];
+    if crate::vector::normalize(&mut q) == 0.0 {
+        q = [1.0, 0.0, 0.0, 0.0];
+    }
+    quat.copy_from_slice(&q);
+}

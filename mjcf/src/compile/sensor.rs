@@ -1,0 +1,220 @@
+//! Sensors: references, dimension, stage and kind of data (XML reference, `sensor`).
+
+use super::lookup::Lookup;
+use super::{Log, push_user, title};
+use crate::spec::{Sensor, Spec};
+use physics::Model;
+use physics::model::{DataType, GeomType, JointType, ObjType, SensorType, Stage};
+
+/// Appends all sensors; history buffers follow those of the actuators.
+pub(super) fn fill(m: &mut Model, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+    for sensor in &spec.sensors {
+        let what = title("sensor", &sensor.name);
+        let before = log.diagnostics.list.len();
+        let object = reference(sensor.objtype, &sensor.objname, sensor, lookup, &what, log);
+        let base = reference(sensor.reftype, &sensor.refname, sensor, lookup, &what, log);
+        if log.diagnostics.list.len() == before {
+            let result = fill_sensor(m, sensor, object, base);
+            log.check(sensor.loc, &what, result);
+        }
+    }
+}
+
+fn reference(kind: ObjType, name: &str, sensor: &Sensor, lookup: &Lookup, what: &str, log: &mut Log) -> i32 {
+    match kind {
+        ObjType::Unknown => -1,
+        _ if name.is_empty() => {
+            log.error(sensor.loc, format!("{what}: the sensorised object has no name"));
+            -1
+        }
+        _ => lookup.require(kind, name, sensor.loc, what, log).map_or(-1, |id| id as i32),
+    }
+}
+
+fn fill_sensor(m: &mut Model, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+    check(m, sensor, object, base)?;
+    let user = sensor.kind == SensorType::User;
+    let datatype = if user { sensor.datatype } else { datatype(sensor.kind) };
+    let needstage = if user { sensor.needstage } else { needstage(sensor.kind) };
+    let dim = dimension(m, sensor, object)?;
+    let angular = datatype == DataType::Quaternion
+        || (datatype == DataType::Axis && sensor.kind != SensorType::Geomnormal);
+    if sensor.cutoff > 0.0 && angular {
+        return Err("cutoff does not apply to directions".into());
+    }
+    m.sensor_type.push(sensor.kind.code());
+    m.sensor_datatype.push(datatype.code());
+    m.sensor_needstage.push(needstage.code());
+    m.sensor_objtype.push(sensor.objtype.code());
+    m.sensor_objid.push(object);
+    m.sensor_reftype.push(sensor.reftype.code());
+    m.sensor_refid.push(base);
+    m.sensor_intprm.push(sensor.intprm);
+    m.sensor_dim.push(dim);
+    m.sensor_adr.push(m.nsensordata as i32);
+    m.nsensordata += dim as usize;
+    m.sensor_cutoff.push(sensor.cutoff);
+    m.sensor_noise.push(sensor.noise);
+    m.sensor_history.push([sensor.nsample, sensor.interp]);
+    m.sensor_historyadr.push(if sensor.nsample > 0 { m.nhistory as i32 } else { -1 });
+    m.nhistory += if sensor.nsample > 0 { (2 + sensor.nsample + sensor.nsample * dim) as usize } else { 0 };
+    m.sensor_delay.push(sensor.delay);
+    m.sensor_interval.push(sensor.interval);
+    push_user(&mut m.sensor_user, &sensor.userdata, m.nuser_sensor, "nuser_sensor")
+}
+
+/// Which objects a sensor may be attached to.
+fn check(m: &Model, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+    use SensorType::*;
+    if sensor.noise < 0.0 || sensor.cutoff < 0.0 || sensor.interval[0] < 0.0 {
+        return Err("noise, cutoff and interval cannot be negative".into());
+    }
+    let [period, phase] = sensor.interval;
+    if phase > 0.0 || (period > 0.0 && phase <= -period) {
+        return Err("the phase of interval must lie in (-period, 0]".into());
+    }
+    if sensor.delay > 0.0 && sensor.nsample <= 0 {
+        return Err("delay needs a history buffer (nsample)".into());
+    }
+    let on = |kinds: &[ObjType]| {
+        if kinds.contains(&sensor.objtype) {
+            Ok(())
+        } else {
+            Err(format!("cannot be attached to {:?}", sensor.objtype))
+        }
+    };
+    let spatial = [ObjType::Body, ObjType::Xbody, ObjType::Geom, ObjType::Site, ObjType::Camera];
+    let joint = || m.jnt_type.get(object as usize).copied().and_then(JointType::from_code);
+    match sensor.kind {
+        Touch | Accelerometer | Velocimeter | Gyro | Force | Torque | Magnetometer => on(&[ObjType::Site]),
+        Camprojection => {
+            on(&[ObjType::Site])?;
+            let sized = m.cam_resolution.get(base as usize).is_some_and(|r| r[0] != 0 && r[1] != 0);
+            if sized { Ok(()) } else { Err("the camera needs a resolution".into()) }
+        }
+        Rangefinder => {
+            on(&[ObjType::Site, ObjType::Camera])?;
+            check_fields(sensor.intprm[0], 6)
+        }
+        Jointpos | Jointvel | Jointactfrc => {
+            on(&[ObjType::Joint])?;
+            let scalar = matches!(joint(), Some(JointType::Slide | JointType::Hinge));
+            if scalar { Ok(()) } else { Err("the joint must be a slide or hinge".into()) }
+        }
+        Ballquat | Ballangvel => {
+            on(&[ObjType::Joint])?;
+            if joint() == Some(JointType::Ball) { Ok(()) } else { Err("the joint must be a ball".into()) }
+        }
+        Jointlimitpos | Jointlimitvel | Jointlimitfrc => {
+            on(&[ObjType::Joint])?;
+            let limited = m.jnt_limited.get(object as usize) == Some(&true);
+            if limited { Ok(()) } else { Err("the joint must be limited".into()) }
+        }
+        Tendonpos | Tendonvel | Tendonactfrc => on(&[ObjType::Tendon]),
+        Tendonlimitpos | Tendonlimitvel | Tendonlimitfrc => {
+            on(&[ObjType::Tendon])?;
+            let limited = m.tendon_limited.get(object as usize) == Some(&true);
+            if limited { Ok(()) } else { Err("the tendon must be limited".into()) }
+        }
+        Actuatorpos | Actuatorvel | Actuatorfrc => on(&[ObjType::Actuator]),
+        Framepos | Framequat | Framexaxis | Frameyaxis | Framezaxis | Framelinvel | Frameangvel
+        | Framelinacc | Frameangacc => {
+            on(&spatial)?;
+            let based = sensor.reftype == ObjType::Unknown || spatial.contains(&sensor.reftype);
+            if based { Ok(()) } else { Err("the reference must have a frame".into()) }
+        }
+        Subtreecom | Subtreelinvel | Subtreeangmom => on(&[ObjType::Body]),
+        Insidesite => {
+            on(&spatial)?;
+            if sensor.reftype == ObjType::Site { Ok(()) } else { Err("needs a site".into()) }
+        }
+        Geomdist | Geomnormal | Geomfromto => check_distance(m, sensor, object, base),
+        Contact => {
+            on(&[ObjType::Site, ObjType::Body, ObjType::Xbody, ObjType::Geom, ObjType::Unknown])?;
+            check_fields(sensor.intprm[0], 7)?;
+            if !(0..=3).contains(&sensor.intprm[1]) || sensor.intprm[2] <= 0 {
+                return Err("reduce must be 0 to 3 and num positive".into());
+            }
+            Ok(())
+        }
+        EPotential | EKinetic | Clock => Ok(()),
+        User => match (sensor.datatype, sensor.dim) {
+            (DataType::Axis, dim) if dim != 3 => Err("an axis has dim 3".into()),
+            (DataType::Quaternion, dim) if dim != 4 => Err("a quaternion has dim 4".into()),
+            (_, dim) if dim < 0 => Err("dim cannot be negative".into()),
+            _ => Ok(()),
+        },
+        Tactile | Plugin => Err("tactile and plugin sensors are not supported".into()),
+    }
+}
+
+fn check_fields(fields: i32, count: u32) -> Result<(), String> {
+    if fields > 0 && fields < 1 << count { Ok(()) } else { Err(format!("invalid data fields {fields:#b}")) }
+}
+
+fn check_distance(m: &Model, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+    let ends = [(sensor.objtype, object), (sensor.reftype, base)];
+    if ends.iter().any(|(kind, _)| !matches!(kind, ObjType::Body | ObjType::Geom)) {
+        return Err("must be attached to a body or geom".into());
+    }
+    if ends[0] == ends[1] {
+        return Err("both ends are the same".into());
+    }
+    let field = |(kind, id): &(ObjType, i32)| {
+        *kind == ObjType::Geom && m.geom_type.get(*id as usize) == Some(&GeomType::Hfield.code())
+    };
+    if ends.iter().any(field) { Err("height fields have no distance sensors".into()) } else { Ok(()) }
+}
+
+fn datatype(kind: SensorType) -> DataType {
+    use SensorType::*;
+    match kind {
+        Touch | Insidesite => DataType::Positive,
+        Framexaxis | Frameyaxis | Framezaxis | Geomnormal => DataType::Axis,
+        Ballquat | Framequat => DataType::Quaternion,
+        _ => DataType::Real,
+    }
+}
+
+fn needstage(kind: SensorType) -> Stage {
+    use SensorType::*;
+    match kind {
+        Touch | Accelerometer | Force | Torque | Actuatorfrc | Jointactfrc | Tendonactfrc | Jointlimitfrc
+        | Tendonlimitfrc | Framelinacc | Frameangacc | Contact | Tactile => Stage::Acc,
+        Velocimeter | Gyro | Jointvel | Tendonvel | Actuatorvel | Ballangvel | Jointlimitvel
+        | Tendonlimitvel | Framelinvel | Frameangvel | Subtreelinvel | Subtreeangmom => Stage::Vel,
+        _ => Stage::Pos,
+    }
+}
+
+fn dimension(m: &Model, sensor: &Sensor, object: i32) -> Result<i32, String> {
+    use SensorType::*;
+    let id = object as usize;
+    Ok(match sensor.kind {
+        Actuatorpos | Actuatorvel | Actuatorfrc => m.actuator_outnum[id],
+        Touch | Jointpos | Jointvel | Tendonpos | Tendonvel | Jointactfrc | Tendonactfrc | Jointlimitpos
+        | Jointlimitvel | Jointlimitfrc | Tendonlimitpos | Tendonlimitvel | Tendonlimitfrc | Geomdist
+        | Insidesite | EPotential | EKinetic | Clock => 1,
+        Camprojection => 2,
+        Accelerometer | Velocimeter | Gyro | Force | Torque | Magnetometer | Ballangvel | Framepos
+        | Framexaxis | Frameyaxis | Framezaxis | Framelinvel | Frameangvel | Framelinacc | Frameangacc
+        | Subtreecom | Subtreelinvel | Subtreeangmom | Geomnormal => 3,
+        Ballquat | Framequat => 4,
+        Geomfromto => 6,
+        Contact => sensor.intprm[2] * fields_size(sensor.intprm[0], &[1, 3, 3, 1, 3, 3, 3]),
+        Rangefinder => {
+            let size = fields_size(sensor.intprm[0], &[1, 3, 3, 3, 3, 1]);
+            match sensor.objtype {
+                ObjType::Camera => size * m.cam_resolution[id][0] * m.cam_resolution[id][1],
+                _ => size,
+            }
+        }
+        User => sensor.dim,
+        Tactile | Plugin => return Err("tactile and plugin sensors are not supported".into()),
+    })
+}
+
+/// Numbers in the data fields selected by the bits of `fields`.
+fn fields_size(fields: i32, sizes: &[i32]) -> i32 {
+    sizes.iter().enumerate().filter(|(bit, _)| fields >> bit & 1 == 1).map(|(_, size)| size).sum()
+}

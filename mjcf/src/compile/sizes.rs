@@ -1,0 +1,137 @@
+//! Sizes of the model, from the arrays that were filled row by row.
+
+use super::Log;
+use crate::diagnostic::Loc;
+use crate::spec::{Body, Spec};
+use physics::Model;
+use physics::model::EqType;
+
+/// Widths of user data: as the file says, else the longest row.
+pub(super) fn set_user_widths(m: &mut Model, spec: &Spec) {
+    let size = &spec.size;
+    let mut longest = [0; 5];
+    let mut pending: Vec<&Body> = vec![&spec.world];
+    while let Some(body) = pending.pop() {
+        let mut see = |k: usize, len: usize| longest[k] = len.max(longest[k]);
+        see(0, body.userdata.len());
+        body.joints.iter().for_each(|e| see(1, e.userdata.len()));
+        body.geoms.iter().for_each(|e| see(2, e.userdata.len()));
+        body.sites.iter().for_each(|e| see(3, e.userdata.len()));
+        body.cameras.iter().for_each(|e| see(4, e.userdata.len()));
+        pending.extend(&body.bodies);
+    }
+    let width = |given: Option<i32>, longest: usize| match given {
+        Some(n) if n >= 0 => n as usize,
+        _ => longest,
+    };
+    m.nuser_body = width(size.nuser_body, longest[0]);
+    m.nuser_jnt = width(size.nuser_jnt, longest[1]);
+    m.nuser_geom = width(size.nuser_geom, longest[2]);
+    m.nuser_site = width(size.nuser_site, longest[3]);
+    m.nuser_cam = width(size.nuser_cam, longest[4]);
+    let most = |lengths: &mut dyn Iterator<Item = usize>| lengths.max().unwrap_or(0);
+    m.nuser_tendon = width(size.nuser_tendon, most(&mut spec.tendons.iter().map(|e| e.userdata.len())));
+    m.nuser_actuator = width(size.nuser_actuator, most(&mut spec.actuators.iter().map(|e| e.userdata.len())));
+    m.nuser_sensor = width(size.nuser_sensor, most(&mut spec.sensors.iter().map(|e| e.userdata.len())));
+}
+
+/// Sets every size that the filled arrays determine.
+pub(super) fn set(m: &mut Model, spec: &Spec) {
+    m.nq = m.qpos0.len();
+    m.nv = m.dof_bodyid.len();
+    m.nu = m.actuator_ctrllimited.len();
+    m.nactuator = m.actuator_trntype.len();
+    m.nout = m.actuator_gear.len();
+    m.na = m.actuator_actnum.iter().sum::<i32>() as usize;
+    m.nbody = m.body_parentid.len();
+    m.nbvh = m.bvh_depth.len();
+    m.nbvhstatic = m.nbvh;
+    m.njnt = m.jnt_type.len();
+    m.ntree = m.dof_parentid.iter().filter(|&&p| p < 0).count();
+    m.ngeom = m.geom_type.len();
+    m.nsite = m.site_type.len();
+    m.ncam = m.cam_mode.len();
+    m.nlight = m.light_mode.len();
+    m.nmesh = m.mesh_vertadr.len();
+    m.nmeshvert = m.mesh_vert.len();
+    m.nmeshnormal = m.mesh_normal.len();
+    m.nmeshtexcoord = m.mesh_texcoord.len();
+    m.nmeshface = m.mesh_face.len();
+    m.nmeshgraph = m.mesh_graph.len();
+    m.nmeshpoly = m.mesh_polynormal.len();
+    m.nmeshpolyvert = m.mesh_polyvert.len();
+    m.nmeshpolymap = m.mesh_polymap.len();
+    m.nhfield = m.hfield_size.len();
+    m.nhfielddata = m.hfield_data.len();
+    m.ntex = m.tex_type.len();
+    m.ntexdata = m.tex_data.len();
+    m.nmat = m.mat_rgba.len();
+    m.npair = m.pair_dim.len();
+    m.nexclude = m.exclude_signature.len();
+    m.neq = m.eq_type.len();
+    m.ntendon = m.tendon_adr.len();
+    m.nwrap = m.wrap_type.len();
+    m.nsensor = m.sensor_type.len();
+    m.nnumeric = m.numeric_adr.len();
+    m.nnumericdata = m.numeric_data.len();
+    m.ntext = m.text_adr.len();
+    m.ntextdata = m.text_data.len();
+    m.ntuple = m.tuple_adr.len();
+    m.ntupledata = m.tuple_objtype.len();
+    m.nkey = m.key_time.len();
+    m.nmocap = m.body_mocapid.iter().filter(|&&id| id >= 0).count();
+    m.nnames = m.names.len();
+    m.nnames_map = m.names_map.len();
+    m.npaths = m.paths.len();
+    m.nuserdata = spec.size.nuserdata.max(0) as usize;
+    m.njmax = spec.size.njmax.unwrap_or(-1) as usize;
+    m.nconmax = spec.size.nconmax.unwrap_or(-1) as usize;
+    m.npolygonmax = largest(&m.mesh_polyvertnum);
+    m.nmeshdegmax = largest(&m.mesh_polymapnum);
+    m.nemax = m.eq_type.iter().map(|&kind| rows(kind)).sum();
+}
+
+fn largest(counts: &[i32]) -> usize {
+    counts.iter().copied().max().unwrap_or(0).max(0) as usize
+}
+
+/// Constraint rows of an equality.
+fn rows(kind: i32) -> usize {
+    match EqType::from_code(kind) {
+        Some(EqType::Connect) => 3,
+        Some(EqType::Weld) => 7,
+        _ => 1,
+    }
+}
+
+/// Room for what `set_const` computes.
+pub(super) fn allocate_derived(m: &mut Model) {
+    m.body_invweight0 = vec![[0.0; 2]; m.nbody];
+    m.dof_invweight0 = vec![0.0; m.nv];
+    m.dof_M0 = vec![0.0; m.nv];
+    m.dof_length = vec![0.0; m.nv];
+    m.tendon_length0 = vec![0.0; m.ntendon];
+    m.tendon_invweight0 = vec![0.0; m.ntendon];
+    m.actuator_acc0 = vec![0.0; m.nout];
+    m.actuator_length0 = vec![0.0; m.nout];
+    m.cam_poscom0 = vec![[0.0; 3]; m.ncam];
+    m.cam_pos0 = vec![[0.0; 3]; m.ncam];
+    m.cam_mat0 = vec![[0.0; 9]; m.ncam];
+    m.light_poscom0 = vec![[0.0; 3]; m.nlight];
+    m.light_pos0 = vec![[0.0; 3]; m.nlight];
+    m.light_dir0 = vec![[0.0; 3]; m.nlight];
+}
+
+/// Every array must have the size that the table of fields says.
+pub(super) fn check(m: &Model, log: &mut Log) {
+    let mut wrong = Vec::new();
+    m.visit(&mut |name, shape, values| {
+        let expected: usize = shape.iter().product();
+        if values.len() != expected {
+            wrong.push(format!("{name} has {} values, {expected} expected", values.len()));
+        }
+    });
+    for message in wrong {
+        log.error(Loc::NONE, format!("inconsistent model: {message}"));
+    }
+}

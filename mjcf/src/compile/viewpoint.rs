@@ -1,0 +1,198 @@
+//! Sites, cameras and lights: things with a place in a body and no mass.
+
+use super::body::{BodyNode, same_frame_in_body};
+use super::frame::{EPS, Pose, direction, resolve};
+use super::lookup::Lookup;
+use super::{Log, geom, push_user, shape, title};
+use crate::spec::{Camera, Compiler, Light, Site, Spec};
+use crate::vector::normalize;
+use physics::Model;
+use physics::math::Vec3;
+use physics::model::{GeomType, ObjType};
+use std::f64::consts::PI;
+
+/// A site in the frame of its body.
+pub(super) struct SiteNode<'s> {
+    pub spec: &'s Site,
+    pub pose: Pose,
+    pub size: Vec3,
+}
+
+/// A camera in the frame of its body.
+pub(super) struct CameraNode<'s> {
+    pub spec: &'s Camera,
+    pub pose: Pose,
+    intrinsic: [f32; 4],
+    fovy: f64,
+}
+
+/// A light in the frame of its body.
+pub(super) struct LightNode<'s> {
+    pub spec: &'s Light,
+    pub pos: Vec3,
+    pub dir: Vec3,
+}
+
+/// Compiles sites, cameras and lights of a body.
+pub(super) fn compile<'s>(body: &mut BodyNode<'s>, model: &'s Spec, frames: &[Pose], log: &mut Log) {
+    let settings = &model.compiler;
+    let frame = |index: Option<usize>| index.and_then(|i| frames.get(i));
+    for s in &body.spec.sites {
+        let node = compile_site(s, frame(s.frame), settings);
+        body.sites.extend(log.check(s.loc, &title("site", &s.name), node));
+    }
+    for c in &body.spec.cameras {
+        let node = compile_camera(c, frame(c.frame), settings, model.visual.map.znear);
+        body.cameras.extend(log.check(c.loc, &title("camera", &c.name), node));
+    }
+    for l in &body.spec.lights {
+        let node = compile_light(l, frame(l.frame));
+        body.lights.extend(log.check(l.loc, &title("light", &l.name), node));
+    }
+}
+
+fn compile_site<'s>(
+    spec: &'s Site,
+    frame: Option<&Pose>,
+    settings: &Compiler,
+) -> Result<SiteNode<'s>, String> {
+    if matches!(
+        spec.kind,
+        GeomType::Mesh | GeomType::Hfield | GeomType::Plane | GeomType::None | GeomType::Sdf
+    ) {
+        return Err("a site cannot be a mesh, height field or plane".into());
+    }
+    let (mut pose, size) = match spec.fromto {
+        Some(fromto) => geom::stretched(spec.kind, spec.pos, fromto, spec.size)?,
+        None => (Pose { pos: spec.pos, quat: resolve(spec.quat, spec.alt, settings)? }, spec.size),
+    };
+    if let Some(frame) = frame {
+        pose = frame.then(&pose);
+    }
+    normalize(&mut pose.quat);
+    shape::check_size(spec.kind, size)?;
+    Ok(SiteNode { spec, pose, size })
+}
+
+fn compile_camera<'s>(
+    spec: &'s Camera,
+    frame: Option<&Pose>,
+    settings: &Compiler,
+    znear: f32,
+) -> Result<CameraNode<'s>, String> {
+    let mut pose = Pose { pos: spec.pos, quat: resolve(spec.quat, spec.alt, settings)? };
+    if let Some(frame) = frame {
+        pose = frame.then(&pose);
+    }
+    normalize(&mut pose.quat);
+    if spec.fovy >= 180.0 {
+        return Err(format!("fovy must be below 180 degrees, is {}", spec.fovy));
+    }
+    let given = [spec.focal_length, spec.focal_pixel, spec.principal_length, spec.principal_pixel];
+    let sensor = spec.sensor_size[0] > 0.0 && spec.sensor_size[1] > 0.0;
+    if !sensor && given.iter().flatten().any(|&x| x != 0.0) {
+        return Err("focal length and principal point require sensorsize".into());
+    }
+    if !sensor {
+        let intrinsic = [znear, znear, spec.intrinsic[2], spec.intrinsic[3]];
+        return Ok(CameraNode { spec, pose, intrinsic, fovy: spec.fovy });
+    }
+    if spec.resolution.iter().any(|&r| r <= 0) {
+        return Err("sensorsize requires a positive resolution".into());
+    }
+    let length = |pixels: [f32; 2], length: [f32; 2], k: usize| {
+        let density = spec.resolution[k] as f32 / spec.sensor_size[k];
+        if pixels[k] != 0.0 { pixels[k] / density } else { length[k] }
+    };
+    let intrinsic = [
+        length(spec.focal_pixel, spec.focal_length, 0),
+        length(spec.focal_pixel, spec.focal_length, 1),
+        length(spec.principal_pixel, spec.principal_length, 0),
+        length(spec.principal_pixel, spec.principal_length, 1),
+    ];
+    let half_angle = libm::atan2f(spec.sensor_size[1] / 2.0, intrinsic[1]);
+    Ok(CameraNode { spec, pose, intrinsic, fovy: f64::from(half_angle) * 360.0 / PI })
+}
+
+fn compile_light<'s>(spec: &'s Light, frame: Option<&Pose>) -> Result<LightNode<'s>, String> {
+    let (mut pos, mut dir) = (spec.pos, spec.dir);
+    if let Some(frame) = frame {
+        pos = frame.point(pos);
+        dir = direction(frame.quat, dir);
+    }
+    if normalize(&mut dir) < EPS {
+        return Err("direction has no length".into());
+    }
+    if !(0.0..=1.0).contains(&spec.softness) {
+        return Err("softness must be between 0 and 1".into());
+    }
+    Ok(LightNode { spec, pos, dir })
+}
+
+/// Appends the sites of `body`.
+pub(super) fn fill_sites(m: &mut Model, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+    for node in &body.sites {
+        let spec = node.spec;
+        let what = title("site", &spec.name);
+        m.site_type.push(spec.kind.code());
+        m.site_bodyid.push(id as i32);
+        m.site_matid.push(lookup.reference(ObjType::Material, &spec.material, spec.loc, &what, log));
+        m.site_group.push(spec.group);
+        m.site_sameframe.push(same_frame_in_body(node.pose, body.inertial).code() as u8);
+        m.site_size.push(node.size);
+        m.site_pos.push(node.pose.pos);
+        m.site_quat.push(node.pose.quat);
+        let user = push_user(&mut m.site_user, &spec.userdata, m.nuser_site, "nuser_site");
+        log.check(spec.loc, &what, user);
+        m.site_rgba.push(spec.rgba);
+    }
+}
+
+/// Appends the cameras of `body`.
+pub(super) fn fill_cameras(m: &mut Model, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+    for node in &body.cameras {
+        let spec = node.spec;
+        let what = title("camera", &spec.name);
+        m.cam_mode.push(spec.mode.code());
+        m.cam_bodyid.push(id as i32);
+        m.cam_targetbodyid.push(lookup.reference(ObjType::Body, &spec.targetbody, spec.loc, &what, log));
+        m.cam_pos.push(node.pose.pos);
+        m.cam_quat.push(node.pose.quat);
+        m.cam_projection.push(spec.proj.code());
+        m.cam_fovy.push(node.fovy);
+        m.cam_ipd.push(spec.ipd);
+        m.cam_resolution.push(spec.resolution);
+        m.cam_output.push(spec.output);
+        m.cam_sensorsize.push(spec.sensor_size);
+        m.cam_intrinsic.push(node.intrinsic);
+        let user = push_user(&mut m.cam_user, &spec.userdata, m.nuser_cam, "nuser_cam");
+        log.check(spec.loc, &what, user);
+    }
+}
+
+/// Appends the lights of `body`.
+pub(super) fn fill_lights(m: &mut Model, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+    for node in &body.lights {
+        let spec = node.spec;
+        let what = title("light", &spec.name);
+        m.light_mode.push(spec.mode.code());
+        m.light_bodyid.push(id as i32);
+        m.light_targetbodyid.push(lookup.reference(ObjType::Body, &spec.targetbody, spec.loc, &what, log));
+        m.light_type.push(spec.kind.code());
+        m.light_texid.push(lookup.reference(ObjType::Texture, &spec.texture, spec.loc, &what, log));
+        m.light_castshadow.push(spec.castshadow);
+        m.light_bulbradius.push(spec.bulbradius);
+        m.light_intensity.push(spec.intensity);
+        m.light_range.push(spec.range);
+        m.light_active.push(spec.active);
+        m.light_pos.push(node.pos);
+        m.light_dir.push(node.dir);
+        m.light_attenuation.push(spec.attenuation);
+        m.light_cutoff.push(spec.cutoff);
+        m.light_softness.push(spec.softness);
+        m.light_exponent.push(spec.exponent);
+        m.light_ambient.push(spec.ambient);
+        m.light_diffuse.push(spec.diffuse);
+        m.light_specular.push(spec.specular);
+    }
+}
