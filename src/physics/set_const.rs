@@ -248,7 +248,7 @@ fn sleep_policies(m: &mut Model) -> Result<(), SetConstError> {
 }
 
 /// Degrees of freedom that each tendon length can depend on, ascending.
-fn tendon_columns(m: &Model, tendon: usize) -> Vec<i32> {
+pub fn tendon_columns(m: &Model, tendon: usize) -> Vec<i32> {
     let mut columns = Vec::new();
     for w in path(m, tendon) {
         if m.wrap_type[w] == WrapType::Joint.code() {

@@ -141,7 +141,8 @@ fn fill_equality(m: &mut Model, equality: &Equality, lookup: &Lookup, log: &mut 
     m.eq_type.push(equality.kind.code());
     m.eq_obj1id.push(first as i32);
     m.eq_obj2id.push(second);
-    m.eq_objtype.push(equality.objtype.code());
+    let by_name = matches!(equality.kind, EqType::Connect | EqType::Weld);
+    m.eq_objtype.push(if by_name { kind } else { ObjType::Unknown }.code());
     m.eq_active0.push(equality.active);
     m.eq_solref.push(equality.solref);
     m.eq_solimp.push(equality.solimp);

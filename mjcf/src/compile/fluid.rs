@@ -5,6 +5,7 @@
 
 use super::frame::EPS;
 use physics::math::Vec3;
+use physics::math::ops;
 use physics::model::GeomType;
 use std::f64::consts::PI;
 
@@ -50,7 +51,7 @@ const SLOPE: [f64; 15] = [
 /// Integral of added mass along the semiaxis `x`.
 fn kappa(x: f64, y: f64, z: f64) -> f64 {
     let (ix, iy, iz) = (1.0 / (x * x), 1.0 / (y * y), 1.0 / (z * z));
-    let scale = libm::pow(x * x * x * y * z, 0.4);
+    let scale = ops::pow(x * x * x * y * z, 0.4);
     let mut sum = 0.0;
     for i in 0..15 {
         let l = scale * POINT[i];

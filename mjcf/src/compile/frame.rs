@@ -2,6 +2,7 @@
 
 use crate::spec::{Compiler, Frame, Orientation};
 use crate::vector::{apply, compose, cross, dot, matrix, normalize, rotate, sub};
+use physics::math::ops;
 use physics::math::{Quat, Vec3};
 use std::f64::consts::PI;
 
@@ -75,7 +76,7 @@ pub(super) fn resolve(quat: Quat, alt: Option<Orientation>, settings: &Compiler)
                 return Err("axisangle has no axis".into());
             }
             let half = radians(angle) / 2.0;
-            let (s, c) = (libm::sin(half), libm::cos(half));
+            let (s, c) = (ops::sin(half), ops::cos(half));
             Ok([c, s * axis[0], s * axis[1], s * axis[2]])
         }
         Some(Orientation::XyAxes(a)) => from_xy([a[0], a[1], a[2]], [a[3], a[4], a[5]]),
@@ -141,8 +142,8 @@ pub(super) fn minimal_rotation(v: Vec3) -> Quat {
     if s < 1e-10 {
         axis = [1.0, 0.0, 0.0];
     }
-    let half = libm::atan2(s, v[2]) / 2.0;
-    let (sine, cosine) = (libm::sin(half), libm::cos(half));
+    let half = ops::atan2(s, v[2]) / 2.0;
+    let (sine, cosine) = (ops::sin(half), ops::cos(half));
     [cosine, axis[0] * sine, axis[1] * sine, axis[2] * sine]
 }
 
@@ -155,8 +156,8 @@ fn from_euler(angles: Vec3, sequence: &[u8; 3]) -> Result<Quat, String> {
             b'z' => 3,
             _ => return Err("eulerseq has a letter other than x, y, z, X, Y, Z".into()),
         };
-        let mut turn = [libm::cos(angle / 2.0), 0.0, 0.0, 0.0];
-        turn[axis] = libm::sin(angle / 2.0);
+        let mut turn = [ops::cos(angle / 2.0), 0.0, 0.0, 0.0];
+        turn[axis] = ops::sin(angle / 2.0);
         quat = if letter.is_ascii_lowercase() { compose(quat, turn) } else { compose(turn, quat) };
     }
     normalize(&mut quat);

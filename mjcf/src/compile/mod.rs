@@ -30,8 +30,9 @@ mod viewpoint;
 
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::FileProvider;
-use crate::spec::{Limited, Spec};
+use crate::spec::{Limited, Spec, StatisticOverride};
 use physics::Model;
+use physics::set_const::set_const;
 
 /// Where findings of the compile go.
 struct Log<'a> {
@@ -91,7 +92,23 @@ pub fn compile(
     diagnostics: &mut Diagnostics,
 ) -> Option<Model> {
     let log = &mut Log { sources, diagnostics };
-    compile_static(spec, files, log)
+    let mut m = compile_static(spec, files, log)?;
+    if let Err(error) = set_const(&mut m) {
+        log.error(Loc::NONE, error.to_string());
+        return None;
+    }
+    override_statistic(&mut m, &spec.stat);
+    Some(m)
+}
+
+/// Statistics that the file gives replace the computed ones.
+fn override_statistic(m: &mut Model, given: &StatisticOverride) {
+    let stat = &mut m.stat;
+    stat.meaninertia = given.meaninertia.unwrap_or(stat.meaninertia);
+    stat.meanmass = given.meanmass.unwrap_or(stat.meanmass);
+    stat.meansize = given.meansize.unwrap_or(stat.meansize);
+    stat.extent = given.extent.unwrap_or(stat.extent);
+    stat.center = given.center.unwrap_or(stat.center);
 }
 
 /// Everything that needs no simulation.

@@ -4,6 +4,7 @@
 //! approximation and its shell inertia the difference of two solids (XML reference, `geom/shellinertia`).
 
 use physics::math::Vec3;
+use physics::math::ops;
 use physics::model::GeomType;
 use physics::model::bounds::MAXVAL;
 use std::f64::consts::PI;
@@ -42,8 +43,8 @@ pub(super) fn volume(kind: GeomType, s: Vec3, shell: bool) -> f64 {
         (GeomType::Ellipsoid, false) => 4.0 * PI * s[0] * s[1] * s[2] / 3.0,
         (GeomType::Ellipsoid, true) => {
             let p = 1.6075;
-            let sum = libm::pow(s[0] * s[1], p) + libm::pow(s[1] * s[2], p) + libm::pow(s[2] * s[0], p);
-            4.0 * PI * libm::pow(sum / 3.0, 1.0 / p)
+            let sum = ops::pow(s[0] * s[1], p) + ops::pow(s[1] * s[2], p) + ops::pow(s[2] * s[0], p);
+            4.0 * PI * ops::pow(sum / 3.0, 1.0 / p)
         }
         (GeomType::Hfield | GeomType::Box, false) => s[0] * s[1] * s[2] * 8.0,
         (GeomType::Hfield | GeomType::Box, true) => 8.0 * (s[0] * s[1] + s[1] * s[2] + s[2] * s[0]),

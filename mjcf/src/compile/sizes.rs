@@ -86,13 +86,7 @@ pub(super) fn set(m: &mut Model, spec: &Spec) {
     m.nuserdata = spec.size.nuserdata.max(0) as usize;
     m.njmax = spec.size.njmax.unwrap_or(-1) as usize;
     m.nconmax = spec.size.nconmax.unwrap_or(-1) as usize;
-    m.npolygonmax = largest(&m.mesh_polyvertnum);
-    m.nmeshdegmax = largest(&m.mesh_polymapnum);
     m.nemax = m.eq_type.iter().map(|&kind| rows(kind)).sum();
-}
-
-fn largest(counts: &[i32]) -> usize {
-    counts.iter().copied().max().unwrap_or(0).max(0) as usize
 }
 
 /// Constraint rows of an equality.
@@ -106,6 +100,19 @@ fn rows(kind: i32) -> usize {
 
 /// Room for what `set_const` computes.
 pub(super) fn allocate_derived(m: &mut Model) {
+    m.body_subtreemass = vec![0.0; m.nbody];
+    m.body_treeid = vec![-1; m.nbody];
+    m.tree_bodyadr = vec![0; m.ntree];
+    m.tree_bodynum = vec![0; m.ntree];
+    m.tree_dofadr = vec![0; m.ntree];
+    m.tree_dofnum = vec![0; m.ntree];
+    m.jnt_actuatorid = vec![-1; m.njnt];
+    m.tendon_actuatorid = vec![-1; m.ntendon];
+    m.tendon_treenum = vec![0; m.ntendon];
+    m.tendon_treeid = vec![[-1; 2]; m.ntendon];
+    m.ten_J_rownnz = vec![0; m.ntendon];
+    m.ten_J_rowadr = vec![0; m.ntendon];
+    m.ten_J_colind = vec![0; m.nJten];
     m.body_invweight0 = vec![[0.0; 2]; m.nbody];
     m.dof_invweight0 = vec![0.0; m.nv];
     m.dof_M0 = vec![0.0; m.nv];

@@ -1,11 +1,12 @@
-//! Sparsity patterns: inertia matrix (M lower, D symmetric), subtree dofs (B), tendon Jacobian, actuator moment.
+//! Sparsity patterns: inertia matrix (M lower, D symmetric), subtree dofs (B), and the sizes of tendon Jacobian and
+//! actuator moment.
 //!
 //! The inertia of a tree couples a degree of freedom with its ancestors only (Featherstone, "Rigid Body Dynamics
 //! Algorithms", section 8.5); rows of simple bodies are diagonal.
 
-use super::fixed::{path, wrap_body};
 use physics::Model;
-use physics::model::{JointType, TrnType, WrapType};
+use physics::model::{JointType, TrnType};
+use physics::set_const::{tendon_columns, tendon_entries};
 
 /// Fills all patterns and their sizes.
 pub(super) fn fill(m: &mut Model) {
@@ -19,7 +20,7 @@ pub(super) fn fill(m: &mut Model) {
     symmetric_rows(m);
     subtree_rows(m);
     maps(m);
-    tendon_rows(m);
+    m.nJten = tendon_entries(m);
     m.nJmom = moment_size(m);
 }
 
@@ -133,39 +134,6 @@ fn entries(address: i32, count: i32) -> std::ops::Range<usize> {
     address as usize..(address + count) as usize
 }
 
-/// Degrees of freedom that can change the length of a spatial tendon, increasing.
-fn spatial_dofs(m: &Model, tendon: usize) -> Vec<i32> {
-    let mut used = vec![false; m.nv];
-    for wrap in path(m, tendon) {
-        let mut body = wrap_body(m, wrap);
-        while body > 0 {
-            let b = body as usize;
-            if m.body_dofnum[b] > 0 {
-                used[entries(m.body_dofadr[b], m.body_dofnum[b])].fill(true);
-            }
-            body = m.body_parentid[b];
-        }
-    }
-    (0..m.nv).filter(|&dof| used[dof]).map(|dof| dof as i32).collect()
-}
-
-/// Columns of a tendon's Jacobian row.
-fn tendon_dofs(m: &Model, tendon: usize) -> Vec<i32> {
-    let path = path(m, tendon);
-    if m.wrap_type[path.start] != WrapType::Joint.code() {
-        return spatial_dofs(m, tendon);
-    }
-    let mut dofs: Vec<i32> = path.map(|wrap| m.jnt_dofadr[m.wrap_objid[wrap] as usize]).collect();
-    dofs.sort_unstable();
-    dofs
-}
-
-fn tendon_rows(m: &mut Model) {
-    let rows: Vec<Vec<i32>> = (0..m.ntendon).map(|tendon| tendon_dofs(m, tendon)).collect();
-    (m.ten_J_rownnz, m.ten_J_rowadr, m.ten_J_colind) = compress(&rows);
-    m.nJten = m.ten_J_colind.len();
-}
-
 /// Elements that the actuator moment can have.
 fn moment_size(m: &Model) -> usize {
     (0..m.nactuator)
@@ -180,7 +148,7 @@ fn moment_size(m: &Model) -> usize {
                     Some(JointType::Ball) => 3,
                     Some(JointType::Slide | JointType::Hinge) | None => 1,
                 },
-                Some(TrnType::Tendon) => m.ten_J_rownnz[id] as usize,
+                Some(TrnType::Tendon) => tendon_columns(m, id).len(),
                 Some(TrnType::Slidercrank) => {
                     let (a, b) = (chain(m, m.site_bodyid[id]), chain(m, m.site_bodyid[reference as usize]));
                     a.len() + b.iter().filter(|dof| !a.contains(dof)).count()

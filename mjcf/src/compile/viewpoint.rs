@@ -8,6 +8,7 @@ use crate::spec::{Camera, Compiler, Light, Site, Spec};
 use crate::vector::normalize;
 use physics::Model;
 use physics::math::Vec3;
+use physics::math::ops;
 use physics::model::{GeomType, ObjType};
 use std::f64::consts::PI;
 
@@ -110,7 +111,7 @@ fn compile_camera<'s>(
         length(spec.principal_pixel, spec.principal_length, 0),
         length(spec.principal_pixel, spec.principal_length, 1),
     ];
-    let half_angle = libm::atan2f(spec.sensor_size[1] / 2.0, intrinsic[1]);
+    let half_angle = ops::atan2(f64::from(spec.sensor_size[1] / 2.0), f64::from(intrinsic[1])) as f32;
     Ok(CameraNode { spec, pose, intrinsic, fovy: f64::from(half_angle) * 360.0 / PI })
 }
 
