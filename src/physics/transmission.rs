@@ -46,6 +46,7 @@ pub fn transmission(
             (Some(TrnType::Slidercrank), None) | (Some(TrnType::Undefined) | None, _) => rows.finish(0.0),
         }
     }
+    rows.clear_rest();
 }
 
 /// Velocities of all actuators: moments times joint velocities.
@@ -95,6 +96,12 @@ impl Rows<'_> {
     fn finish(&mut self, length: f64) {
         self.trn.actuator_length[self.out] = length;
         self.trn.moment_rownnz[self.out] = self.next as i32 - self.trn.moment_rowadr[self.out];
+    }
+
+    /// Zeroes the room that sparser rows left over.
+    fn clear_rest(self) {
+        self.trn.moment_colind[self.next..].fill(0);
+        self.trn.actuator_moment[self.next..].fill(0.0);
     }
 
     /// Ends a row whose entries were pushed in decreasing order.

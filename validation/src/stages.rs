@@ -4,8 +4,8 @@ use crate::compare::{Worst, compare, exact, relative};
 use crate::reference::{Reference, ReferenceError};
 use crate::tolerance::STAGE;
 use physics::{
-    Data, Model, actuation, bias, camera, collision, com, constraint, inertia, kinematics, passive, tendon,
-    transmission, velocity,
+    Data, Model, actuation, bias, camera, collision, com, constraint, energy, inertia, kinematics, momentum,
+    passive, sensor, tendon, transmission, velocity,
 };
 
 /// One stage: the recorded arrays it reads, how it runs, and the arrays it writes.
@@ -119,7 +119,9 @@ const STAGES: &[Stage] = &[
     },
     Stage {
         name: "transmission",
-        reads: &[
+        reads: contacts!(
+            "contact.efc_address",
+            "contact.exclude",
             "xpos",
             "xquat",
             "xmat",
@@ -129,8 +131,12 @@ const STAGES: &[Stage] = &[
             "cdof",
             "ten_J",
             "ten_length",
-        ],
+            "M",
+            "qLD",
+            "qLDiagInv"
+        ),
         run: |m, d| {
+            constraint_rows(m, d);
             transmission::transmission(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.efc, &mut d.trn)
         },
         writes: &["actuator_length", "moment_rownnz", "moment_rowadr", "moment_colind", "actuator_moment"],
@@ -205,6 +211,48 @@ const STAGES: &[Stage] = &[
         run: |m, d| actuation::actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation),
         writes: &["act_dot", "actuator_force", "qfrc_actuator"],
     },
+    Stage {
+        name: "sensors",
+        reads: contacts!(
+            "contact.efc_address",
+            "contact.exclude",
+            "xpos",
+            "xquat",
+            "xmat",
+            "xipos",
+            "ximat",
+            "geom_xpos",
+            "geom_xmat",
+            "site_xpos",
+            "site_xmat",
+            "cam_xpos",
+            "cam_xmat",
+            "subtree_com",
+            "cdof",
+            "M",
+            "ten_length",
+            "ten_velocity",
+            "actuator_length",
+            "actuator_velocity",
+            "actuator_force",
+            "qfrc_actuator",
+            "cvel",
+            "cacc",
+            "cfrc_int",
+            "ne",
+            "nf",
+            "nl",
+            "nefc",
+            "efc_type",
+            "efc_id",
+            "efc_pos",
+            "efc_margin",
+            "efc_vel",
+            "efc_force"
+        ),
+        run: sensors,
+        writes: &["sensordata", "energy", "subtree_linvel", "subtree_angmom"],
+    },
 ];
 
 fn constraint_rows(m: &Model, d: &mut Data) {
@@ -214,6 +262,18 @@ fn constraint_rows(m: &Model, d: &mut Data) {
     let Data { state, kin, com, ten, inertia, con, efc, vel, .. } = d;
     constraint::make_constraint(m, state, kin, com, ten, inertia, con, efc, &mut scratch);
     constraint::reference(m, state, kin, com, vel, con, efc);
+}
+
+fn sensors(m: &Model, d: &mut Data) {
+    let Data { time, state, kin, com, ten, trn, inertia, con, efc, vel, actuation, sensor: out, .. } = d;
+    let mut scratch = sensor::SensorScratch::default();
+    let inputs = sensor::PositionInputs { time: *time, state, kin, com, ten, trn, inertia, efc };
+    sensor::position_sensors(m, &inputs, &mut scratch, out);
+    sensor::velocity_sensors(m, &sensor::VelocityInputs { state, kin, com, trn, vel, efc }, out);
+    let inputs = sensor::AccelerationInputs { kin, com, con, efc, vel, actuation };
+    sensor::acceleration_sensors(m, &inputs, &mut scratch, out);
+    momentum::subtree_momentum(m, kin, com, vel, out);
+    d.energy = [energy::potential(m, state, kin, ten), energy::kinetic(m, state, inertia)];
 }
 
 /// The worst component of each stage output over all recorded states.
