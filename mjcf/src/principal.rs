@@ -50,7 +50,8 @@ fn largest_off_diagonal(d: &[f64; 9]) -> (usize, usize, usize) {
 
 /// Bubble sort; each swap is a quarter turn of the axes.
 fn sort_decreasing(values: &mut [f64; 3], quat: &mut [f64; 4]) {
-    const HALF_SQRT: f64 = 0.707106781186548;
+    // MuJoCo's fifteen digits of 1/sqrt(2): orientations of compiled meshes depend on them.
+    const HALF_SQRT: f64 = 707106781186548e-15;
     for lead in [0, 1, 0] {
         if values[lead] + EPS < values[lead + 1] {
             values.swap(lead, lead + 1);

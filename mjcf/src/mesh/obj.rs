@@ -32,9 +32,7 @@ pub(super) fn decode(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
             _ => {}
         }
     }
-    for polygon in &polygons {
-        triangulate(polygon, &mut mesh);
-    }
+    polygons.iter().for_each(|polygon| triangulate(polygon, &mut mesh));
     for v in mesh.texcoord.iter_mut().skip(1).step_by(2) {
         *v = 1.0 - *v;
     }
@@ -86,28 +84,75 @@ fn corner(word: &str, counts: [usize; 3]) -> Option<Corner> {
     (corner[0] >= 0).then_some(corner)
 }
 
-/// A quad is cut along its shorter diagonal, anything larger is fanned from its first corner.
+/// Cuts a polygon into triangles by clipping ears, beginning with its first corner; a convex polygon
+/// becomes a fan. What is left when no ear is found is dropped.
 fn triangulate(polygon: &[Corner], mesh: &mut RawMesh) {
-    if polygon.len() == 4 && squared_distance(mesh, polygon, 1, 3) <= squared_distance(mesh, polygon, 0, 2) {
-        push_triangle(mesh, [polygon[0], polygon[1], polygon[3]]);
-        push_triangle(mesh, [polygon[1], polygon[2], polygon[3]]);
-        return;
+    let mut rest: Vec<(Corner, [f32; 2])> = flatten(polygon, mesh);
+    let area: f32 =
+        (0..rest.len()).map(|k| 0.5 * turn([0.0; 2], rest[k].1, rest[(k + 1) % rest.len()].1)).sum();
+    let mut start = 0;
+    let mut tries = rest.len();
+    while rest.len() > 3 && tries > 0 {
+        let n = rest.len();
+        start %= n;
+        let ear = [0, 1, 2].map(|k| rest[(start + k) % n]);
+        let [a, b, c] = ear.map(|(_, p)| p);
+        let reflex = turn(a, b, c) * area < 0.0;
+        if reflex || (3..n).any(|k| inside(rest[(start + k) % n].1, [a, b, c])) {
+            start += 1;
+            tries -= 1;
+            continue;
+        }
+        push_triangle(mesh, ear.map(|(corner, _)| corner));
+        rest.remove((start + 1) % n);
+        tries = n - 1;
     }
-    for k in 1..polygon.len() - 1 {
-        push_triangle(mesh, [polygon[0], polygon[k], polygon[k + 1]]);
+    if let [a, b, c] = rest[..] {
+        push_triangle(mesh, [a.0, b.0, c.0]);
     }
 }
 
-/// Infinite when a vertex does not exist; the index check of the compiler reports it.
-fn squared_distance(mesh: &RawMesh, polygon: &[Corner], a: usize, b: usize) -> f32 {
-    let vertex = |c: Corner| mesh.vert.get(3 * c[0] as usize..3 * c[0] as usize + 3);
-    match (vertex(polygon[a]), vertex(polygon[b])) {
-        (Some(a), Some(b)) => {
-            let [x, y, z] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-            x * x + y * y + z * z
+/// Corners with the two coordinates in which the first proper corner is widest. Vertices that do not
+/// exist are at the origin; the index check of the compiler reports them.
+fn flatten(polygon: &[Corner], mesh: &RawMesh) -> Vec<(Corner, [f32; 2])> {
+    let vertex = |c: Corner| -> [f32; 3] {
+        let at = 3 * c[0] as usize;
+        mesh.vert.get(at..at + 3).map_or([0.0; 3], |v| [v[0], v[1], v[2]])
+    };
+    let n = polygon.len();
+    let normals = (0..n).map(|k| {
+        let [a, b, c] = [0, 1, 2].map(|j| vertex(polygon[(k + j) % n]));
+        let [e, f] = [std::array::from_fn(|j| b[j] - a[j]), std::array::from_fn(|j| c[j] - b[j])];
+        let (e, f): ([f32; 3], [f32; 3]) = (e, f);
+        [e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0]].map(f32::abs)
+    });
+    let proper = normals.into_iter().find(|c| c.iter().any(|&x| x > f32::EPSILON));
+    let [x, y, z] = proper.unwrap_or([1.0, 0.0, 0.0]);
+    let axes = if x > y && x > z {
+        [1, 2]
+    } else if z > x && z > y {
+        [0, 1]
+    } else {
+        [0, 2]
+    };
+    polygon.iter().map(|&c| (c, axes.map(|axis| vertex(c)[axis]))).collect()
+}
+
+/// Twice the signed area of the triangle `a b c`.
+fn turn(a: [f32; 2], b: [f32; 2], c: [f32; 2]) -> f32 {
+    (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
+}
+
+/// Whether a horizontal ray from the point crosses the triangle's outline an odd number of times.
+fn inside(p: [f32; 2], triangle: [[f32; 2]; 3]) -> bool {
+    let mut odd = false;
+    for k in 0..3 {
+        let (a, b) = (triangle[k], triangle[(k + 2) % 3]);
+        if (a[1] > p[1]) != (b[1] > p[1]) && p[0] < (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1]) + a[0] {
+            odd = !odd;
         }
-        _ => f32::INFINITY,
     }
+    odd
 }
 
 fn push_triangle(mesh: &mut RawMesh, corners: [Corner; 3]) {

@@ -96,7 +96,7 @@ fn check(raw: RawMesh, name: &str) -> Result<Arrays, AssetError> {
         return Err(AssetError::inconsistent(format!("mesh '{name}' has fewer than 4 vertices")));
     }
     let multiple = |length: usize, of: usize, what: &str| {
-        if length % of == 0 {
+        if length.is_multiple_of(of) {
             return Ok(());
         }
         Err(AssetError::inconsistent(format!(

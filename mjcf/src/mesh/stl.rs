@@ -62,7 +62,7 @@ fn text(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
         }
         welded.push(vertex, path)?;
     }
-    if welded.face.len() % 3 != 0 {
+    if !welded.face.len().is_multiple_of(3) {
         return Err(AssetError::truncated(format!("STL file '{path}' ends inside a facet")));
     }
     check_face_count(welded.face.len() / 3, path)?;

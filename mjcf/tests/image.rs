@@ -1,0 +1,130 @@
+//! Textures and height fields: layouts, flips, normalisation, and files that lie.
+
+use robohive_mjcf::asset::AssetErrorKind;
+use robohive_mjcf::image::{
+    Builtin, Colorspace, FileImage, HfieldSource, Mark, TextureKind, TextureSource, hfield, texture,
+};
+
+/// PNG with `width` pixels per row of 8-bit samples; `color` is the PNG colour type.
+fn png_file(width: u32, rows: &[&[u8]], color: png::ColorType, srgb: bool) -> FileImage {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, rows.len() as u32);
+    encoder.set_color(color);
+    encoder.set_depth(png::BitDepth::Eight);
+    if srgb {
+        encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    }
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&rows.concat()).unwrap();
+    writer.finish().unwrap();
+    FileImage { bytes, path: "image.png".into() }
+}
+
+#[test]
+fn image_keeps_pixels_and_flips_them() {
+    let file = png_file(2, &[&[1, 2, 3, 4, 5, 6], &[7, 8, 9, 10, 11, 12]], png::ColorType::Rgb, true);
+    let plain = TextureSource { kind: TextureKind::Image2d, file: Some(file), ..TextureSource::default() };
+    let straight = texture(&plain).unwrap();
+    assert_eq!((straight.width, straight.height, straight.nchannel), (2, 2, 3));
+    assert_eq!(straight.colorspace, Colorspace::Srgb);
+    assert_eq!(straight.data, (1..=12).collect::<Vec<u8>>());
+    let turned = texture(&TextureSource { hflip: true, vflip: true, ..plain.clone() }).unwrap();
+    assert_eq!(turned.data, [10, 11, 12, 7, 8, 9, 4, 5, 6, 1, 2, 3]);
+    let grey = texture(&TextureSource { nchannel: 1, ..plain.clone() }).unwrap();
+    assert_eq!(grey.data, [1, 4, 7, 10]);
+    let alpha = texture(&TextureSource { nchannel: 4, ..plain }).unwrap();
+    assert_eq!(alpha.data[..8], [1, 2, 3, 255, 4, 5, 6, 255]);
+}
+
+#[test]
+fn grid_is_cut_into_cube_faces() {
+    let rows: [&[u8]; 2] = [&[1; 6], &[2; 6]];
+    let file = png_file(2, &rows, png::ColorType::Rgb, false);
+    let source = TextureSource {
+        file: Some(file),
+        gridsize: [2, 2],
+        gridlayout: "R.DU".into(),
+        rgb1: [1.0, 0.5, 0.0],
+        ..TextureSource::default()
+    };
+    let cube = texture(&source).unwrap();
+    assert_eq!((cube.width, cube.height, cube.colorspace), (1, 6, Colorspace::Linear));
+    let blank = [255, 127, 0];
+    let faces: Vec<&[u8]> = cube.data.chunks(3).collect();
+    assert_eq!(faces, [&[1; 3], &blank, &[2; 3], &[2; 3], &blank, &blank]);
+    let wrong = TextureSource { gridsize: [1, 2], ..source };
+    assert_eq!(texture(&wrong).unwrap_err().kind, AssetErrorKind::Inconsistent);
+}
+
+#[test]
+fn checker_has_four_squares_and_marks() {
+    let source = TextureSource {
+        kind: TextureKind::Image2d,
+        builtin: Builtin::Checker,
+        mark: Mark::Cross,
+        rgb1: [1.0, 0.0, 0.0],
+        rgb2: [0.0, 1.0, 0.0],
+        markrgb: [0.0, 0.0, 1.0],
+        width: 4,
+        height: 4,
+        ..TextureSource::default()
+    };
+    let letters: String = texture(&source)
+        .unwrap()
+        .data
+        .chunks(3)
+        .map(|p| ['R', 'G', 'B'][p.iter().position(|&x| x == 255).unwrap()])
+        .collect();
+    assert_eq!(letters, "RRBGRRBGBBBBGGBR");
+}
+
+#[test]
+fn random_marks_have_the_given_density() {
+    let source = TextureSource {
+        builtin: Builtin::Flat,
+        mark: Mark::Random,
+        rgb1: [0.0; 3],
+        rgb2: [0.0; 3],
+        markrgb: [1.0; 3],
+        random: 0.25,
+        width: 64,
+        ..TextureSource::default()
+    };
+    let data = texture(&source).unwrap().data;
+    let share = data.iter().filter(|&&x| x == 255).count() as f64 / data.len() as f64;
+    assert!((share - 0.25).abs() < 0.01, "{share}");
+}
+
+#[test]
+fn height_fields_are_scaled_to_unit_range() {
+    let file = png_file(2, &[&[10, 20], &[30, 60]], png::ColorType::Grayscale, false);
+    let source =
+        HfieldSource { file: Some((file.bytes, file.path)), size: [1.0; 4], ..HfieldSource::default() };
+    let field = hfield(source).unwrap();
+    assert_eq!((field.nrow, field.ncol), (2, 2));
+    // Images are stored top down, fields bottom up.
+    assert_eq!(field.data, [0.4, 1.0, 0.0, 0.2]);
+    let flat =
+        HfieldSource { nrow: 1, ncol: 2, elevation: vec![3.0; 2], size: [1.0; 4], ..HfieldSource::default() };
+    assert_eq!(hfield(flat).unwrap().data, [0.0, 0.0]);
+}
+
+#[test]
+fn lying_images_are_errors() {
+    let whole = png_file(2, &[&[1; 6], &[2; 6]], png::ColorType::Rgb, false);
+    let with = |bytes: Vec<u8>, path: &str| {
+        let file = Some(FileImage { bytes, path: path.into() });
+        texture(&TextureSource { kind: TextureKind::Image2d, file, ..TextureSource::default() })
+            .unwrap_err()
+            .kind
+    };
+    for length in 0..whole.bytes.len() - 12 {
+        let kind = with(whole.bytes[..length].to_vec(), "x.png");
+        assert!(matches!(kind, AssetErrorKind::Malformed | AssetErrorKind::Truncated));
+    }
+    assert_eq!(with(whole.bytes, "x.jpg"), AssetErrorKind::Unsupported);
+    let field: Vec<u8> = [i32::MAX, i32::MAX].iter().flat_map(|x| x.to_le_bytes()).collect();
+    let source =
+        HfieldSource { file: Some((field, "x.bin".into())), size: [1.0; 4], ..HfieldSource::default() };
+    assert_eq!(hfield(source).unwrap_err().kind, AssetErrorKind::Truncated);
+}
