@@ -91,7 +91,7 @@ pub(crate) fn evaluate(m: &Model, d: &mut Data, sensors: bool) -> Result<(), Ste
 }
 
 /// What depends on positions: poses, inertia, contacts, constraint rows, lengths.
-fn position(m: &Model, d: &mut Data) {
+pub(crate) fn position(m: &Model, d: &mut Data) {
     let s = &mut d.scratch;
     kinematics(m, &d.state, &mut d.kin);
     com_pos(m, &d.kin, &mut d.com);
@@ -116,7 +116,7 @@ fn position(m: &Model, d: &mut Data) {
 }
 
 /// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.
-fn velocity(m: &Model, d: &mut Data) {
+pub(crate) fn velocity(m: &Model, d: &mut Data) {
     tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
     actuator_velocity(m, &d.state, &d.trn, &mut d.vel.actuator_velocity);
     com_vel(m, &d.state, &d.com, &mut d.vel);
@@ -126,7 +126,7 @@ fn velocity(m: &Model, d: &mut Data) {
 }
 
 /// What depends on inputs too: actuation, and accelerations without and with constraints.
-fn acceleration(m: &Model, d: &mut Data) {
+pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
     for dof in 0..m.nv {
         d.acc.qfrc_smooth[dof] = d.passive.qfrc_passive[dof] - d.vel.qfrc_bias[dof]

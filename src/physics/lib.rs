@@ -27,6 +27,7 @@ pub mod inertia;
 pub mod integrate;
 pub mod jacobian;
 pub mod kinematics;
+pub mod length_range;
 pub mod math;
 pub mod model;
 pub mod momentum;

@@ -1,0 +1,21 @@
+//! Length ranges of muscles, measured anew, against those MuJoCo compiled.
+
+use physics::length_range::{LengthRangeOptions, set_length_ranges};
+use robohive_validation::reference::Reference;
+use std::path::Path;
+
+#[test]
+fn muscle_ranges_agree() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own/elbow.npz");
+    let mut m = Reference::open(&path).unwrap().model().unwrap();
+    let theirs = std::mem::take(&mut m.actuator_lengthrange);
+    m.actuator_lengthrange = vec![[0.0; 2]; m.nout];
+    set_length_ranges(&mut m, &LengthRangeOptions::default()).unwrap();
+    assert_eq!(m.nout, 6);
+    for (ours, theirs) in m.actuator_lengthrange.iter().zip(&theirs) {
+        assert!(theirs[1] > theirs[0] + 0.01);
+        for k in 0..2 {
+            assert!((ours[k] - theirs[k]).abs() < 1e-9, "{ours:?} {theirs:?}");
+        }
+    }
+}
