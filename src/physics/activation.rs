@@ -31,7 +31,7 @@ pub fn activation_rates(m: &Model, act: &[f64], ctrl: impl Fn(usize) -> f64, act
             Some(DynType::Muscle) => {
                 act_dot[last] = muscle::activation_rate(ctrl(first_input), act[last], prm)
             }
-            // The others are refused by `actuation::check`.
+            // The others are refused by `validity::check_model`.
             Some(DynType::None | DynType::Dcmotor | DynType::Pid | DynType::User) | None => {}
         }
     }

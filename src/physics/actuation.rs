@@ -11,57 +11,9 @@ use crate::model::{BiasType, DynType, GainType, JointType, Model, TrnType, disab
 use crate::muscle::Muscle;
 use crate::passive::has_gravity_compensation;
 use crate::transmission::moment;
-use std::fmt;
 
 /// Value of `actuator_ctrlspec` for an orientation given as a quaternion.
 const QUATERNION_INPUT: i32 = 2;
-
-/// An actuator that is not simulated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnsupportedActuator {
-    /// Index of the actuator.
-    pub actuator: usize,
-    /// What it would need.
-    pub feature: &'static str,
-}
-
-impl fmt::Display for UnsupportedActuator {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "actuator {}: {} not supported", self.actuator, self.feature)
-    }
-}
-
-impl std::error::Error for UnsupportedActuator {}
-
-/// Checks once that every actuator of the model can be simulated.
-///
-/// # Errors
-/// The first actuator that cannot.
-pub fn check(m: &Model) -> Result<(), UnsupportedActuator> {
-    for actuator in 0..m.nactuator {
-        let feature = match (
-            DynType::from_code(m.actuator_dyntype[actuator]),
-            GainType::from_code(m.actuator_gaintype[actuator]),
-            BiasType::from_code(m.actuator_biastype[actuator]),
-            TrnType::from_code(m.actuator_trntype[actuator]),
-        ) {
-            (Some(DynType::Dcmotor), ..)
-            | (_, Some(GainType::Dcmotor), ..)
-            | (_, _, Some(BiasType::Dcmotor), _) => "dcmotor is",
-            (Some(DynType::Pid), ..) | (_, Some(GainType::Pid), ..) => "pid is",
-            (Some(DynType::User), ..) | (_, Some(GainType::User), ..) | (_, _, Some(BiasType::User), _) => {
-                "user dynamics, gain and bias are"
-            }
-            (None, ..) | (_, None, ..) | (_, _, None, _) | (.., None | Some(TrnType::Undefined)) => {
-                "its type is"
-            }
-            _ if m.actuator_history[actuator][0] > 0 => "delay and history of controls are",
-            _ => continue,
-        };
-        return Err(UnsupportedActuator { actuator, feature });
-    }
-    Ok(())
-}
 
 /// Computes rates of activation, actuator forces, and their sum in joint space.
 pub fn actuation(
@@ -140,7 +92,7 @@ fn gain(m: &Model, i: usize, length: f64, velocity: f64) -> f64 {
         Some(GainType::Fixed) => prm[0],
         Some(GainType::Affine) => prm[0] + prm[1] * length + prm[2] * velocity,
         Some(GainType::Muscle) => muscle(m, i, prm).gain(length, velocity),
-        // The others are refused by `check`.
+        // The others are refused by `validity::check_model`.
         Some(GainType::Dcmotor | GainType::So3 | GainType::Pid | GainType::User) | None => 0.0,
     }
 }

@@ -9,7 +9,7 @@ use crate::math::{
     Mat3, Quat, Vec3, add, column, cross, dot, mul_mat_t_vec, mul_mat_vec, ops, quat_conj, quat_difference,
     quat_mul, quat_normalize, quat_rotate, quat_to_velocity, rotational, row, scale, sub,
 };
-use crate::model::{Cone, JointType, Model, TrnType};
+use crate::model::{Cone, JointType, Model, TrnType, disable};
 use crate::tendon;
 
 /// Computes lengths and moments of all actuators.
@@ -49,8 +49,12 @@ pub fn transmission(
     rows.clear_rest();
 }
 
-/// Velocities of all actuators: moments times joint velocities.
+/// Velocities of all actuators: moments times joint velocities; zero when actuation is disabled.
 pub fn actuator_velocity(m: &Model, state: &State, trn: &Transmission, velocity: &mut [f64]) {
+    if m.opt.disableflags & disable::ACTUATION != 0 {
+        velocity.fill(0.0);
+        return;
+    }
     for out in 0..m.nout {
         velocity[out] = moment(trn, out).map(|(dof, value)| value * state.qvel[dof]).sum();
     }
