@@ -1,4 +1,6 @@
-//! RoboHive.
+//! MJCF to [`physics::Model`]: text, element tree, typed `Spec`, compiled arrays.
+//!
+//! [`load`] does it all; [`Loader`] also edits the tree, reads from memory and bounds what a text may cost.
 
 pub mod asset;
 pub mod bvh;
@@ -15,3 +17,5 @@ pub mod schema;
 pub mod spec;
 pub(crate) mod vector;
 pub mod xml;
+
+pub use loader::{Loaded, Loader, Parsed, load, load_str, parse_str};

@@ -1,7 +1,10 @@
-//! From a path or a text to a checked [`Spec`], with every edit a program may ask for in between.
+//! From a path or a text to a [`Model`], with every edit a program may ask for in between.
 
 use std::sync::Arc;
 
+use physics::Model;
+
+use crate::compile::compile;
 use crate::diagnostic::{Diagnostics, Sources};
 use crate::files::{Disk, FileProvider};
 use crate::include::Expansion;
@@ -41,6 +44,30 @@ pub struct Parsed {
     pub warnings: Diagnostics,
 }
 
+/// A model ready for physics.
+#[derive(Debug, Clone)]
+pub struct Loaded {
+    /// The model.
+    pub model: Model,
+    /// What was ignored or assumed; no errors.
+    pub warnings: Diagnostics,
+}
+
+/// Loads the model at `path`.
+pub fn load(path: &str) -> Result<Loaded, Diagnostics> {
+    Loader::default().load(path)
+}
+
+/// Loads a model from text.
+pub fn load_str(text: &str) -> Result<Loaded, Diagnostics> {
+    Loader::default().load_str(text)
+}
+
+/// Reads a model from text without compiling it.
+pub fn parse_str(text: &str) -> Result<Parsed, Diagnostics> {
+    Loader::default().parse_str(text)
+}
+
 impl Loader {
     /// Reads files from `files` instead of the disk.
     pub fn files(mut self, files: impl FileProvider + Send + Sync + 'static) -> Self {
@@ -77,8 +104,26 @@ impl Loader {
     }
 
     /// Reads a model from text; relative paths are sought from the provider's top.
-    pub fn parse_text(&self, text: &str) -> Result<Parsed, Diagnostics> {
+    pub fn parse_str(&self, text: &str) -> Result<Parsed, Diagnostics> {
         self.finish(|expansion| expansion.expand("<text>", text.as_bytes()))
+    }
+
+    /// Reads and compiles the model at `path`.
+    pub fn load(&self, path: &str) -> Result<Loaded, Diagnostics> {
+        self.compile(self.parse(path)?)
+    }
+
+    /// Reads and compiles a model from text.
+    pub fn load_str(&self, text: &str) -> Result<Loaded, Diagnostics> {
+        self.compile(self.parse_str(text)?)
+    }
+
+    fn compile(&self, parsed: Parsed) -> Result<Loaded, Diagnostics> {
+        let Parsed { spec, sources, warnings: mut diagnostics } = parsed;
+        match compile(&spec, &*self.files, &sources, &mut diagnostics) {
+            Some(model) => Ok(Loaded { model, warnings: diagnostics }),
+            None => Err(diagnostics),
+        }
     }
 
     fn finish(

@@ -66,7 +66,7 @@ pub(super) fn frame_poses(frames: &[Frame], settings: &Compiler) -> Vec<Result<P
 }
 
 /// The quaternion that `quat` or the alternative gives, in MuJoCo's order of operations.
-pub(super) fn resolve(quat: Quat, alt: Option<Orientation>, settings: &Compiler) -> Result<Quat, String> {
+pub(crate) fn resolve(quat: Quat, alt: Option<Orientation>, settings: &Compiler) -> Result<Quat, String> {
     let radians = |x: f64| if settings.degree { x / 180.0 * PI } else { x };
     match alt {
         None => Ok(quat),

@@ -12,7 +12,7 @@ mod custom;
 mod discard;
 mod fixed;
 mod fluid;
-mod frame;
+pub(crate) mod frame;
 mod fuse;
 mod geom;
 mod inertia;

@@ -15,7 +15,7 @@ use crate::xml::{Attribute, Element};
 struct Names {
     declared: BTreeMap<Space, BTreeMap<String, Loc>>,
     used: Vec<(Space, String, Loc)>,
-    /// Objects come from elsewhere, so a name may be declared where this tree does not show it.
+    /// A refused element would have made objects, so that names may be missing.
     open: bool,
 }
 
@@ -47,10 +47,10 @@ impl Check<'_> {
 
     fn element(&mut self, element: &Element, kind: &'static ElementType, defaults: bool) {
         if let Some(feature) = kind.unsupported {
+            self.names.open = true;
             let message = format!("<{}> is not supported: {feature} are not simulated", element.name);
             return self.error(element.loc, message, None);
         }
-        self.names.open |= kind.tag == "attach";
         self.attributes(element, kind, defaults);
         for rule in kind.rules.iter().filter(|r| !defaults || matches!(r, Rule::Exclusive(_))) {
             self.rule(element, rule);

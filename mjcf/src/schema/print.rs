@@ -37,7 +37,7 @@ fn write_element(
     }
     path.push(element.tag);
     for child in element.children {
-        write_element(out, child.element, level + 1, defaults || child.defaults, path)?;
+        write_element(out, child.element, level + 1, child.defaults, path)?;
     }
     path.pop();
     Ok(())
