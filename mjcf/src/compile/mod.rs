@@ -32,6 +32,7 @@ use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::FileProvider;
 use crate::spec::{Limited, Spec, StatisticOverride};
 use physics::Model;
+use physics::length_range::set_length_ranges;
 use physics::set_const::set_const;
 
 /// Where findings of the compile go.
@@ -94,6 +95,10 @@ pub fn compile(
     let log = &mut Log { sources, diagnostics };
     let mut m = compile_static(spec, files, log)?;
     if let Err(error) = set_const(&mut m) {
+        log.error(Loc::NONE, error.to_string());
+        return None;
+    }
+    if let Err(error) = set_length_ranges(&mut m, &spec.compiler.lengthrange) {
         log.error(Loc::NONE, error.to_string());
         return None;
     }

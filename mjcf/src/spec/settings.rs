@@ -1,5 +1,7 @@
 //! Compiler settings, sizes and statistics (XML reference: `compiler`, `size`, `statistic`).
 
+pub use physics::length_range::LengthRangeOptions;
+
 /// Whether body inertia comes from the geoms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[allow(missing_docs)]
@@ -8,39 +10,6 @@ pub enum InertiaFromGeom {
     True,
     #[default]
     Auto,
-}
-
-/// Settings of the computation of actuator length ranges (`compiler/lengthrange`).
-#[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
-pub struct LengthRangeOptions {
-    pub mode: physics::model::LengthRangeMode,
-    pub useexisting: bool,
-    pub uselimit: bool,
-    pub accel: f64,
-    pub maxforce: f64,
-    pub timeconst: f64,
-    pub timestep: f64,
-    pub inttotal: f64,
-    pub interval: f64,
-    pub tolrange: f64,
-}
-
-impl Default for LengthRangeOptions {
-    fn default() -> Self {
-        Self {
-            mode: physics::model::LengthRangeMode::Muscle,
-            useexisting: true,
-            uselimit: false,
-            accel: 20.0,
-            maxforce: 0.0,
-            timeconst: 1.0,
-            timestep: 0.01,
-            inttotal: 10.0,
-            interval: 2.0,
-            tolrange: 0.05,
-        }
-    }
 }
 
 /// Compiler settings (`compiler`).
