@@ -3,7 +3,9 @@
 
 use super::mixing::overridden;
 use crate::data::Kinematics;
-use crate::math::{Mat3, Vec3, add, add_scaled, column, dot, mul_mat_vec, principal_axes, quat_to_mat, row};
+use crate::math::{
+    Mat3, Vec3, add, add_scaled, column, dot, mul_mat, mul_mat_vec, principal_axes, quat_to_mat,
+};
 use crate::math::{scale, sub};
 use crate::model::{GeomType, Model, disable};
 
@@ -173,18 +175,15 @@ fn body_bounds(m: &Model, kin: &Kinematics, b: usize, frame: &Mat3) -> Bounds {
     let mut bounds = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
     for g in geoms(m, b).filter(|&g| m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0) {
         let margin = if global != 0.0 { global } else { m.geom_margin[g] + m.geom_gap[g] };
-        let [cx, cy, cz, sx, sy, sz] = m.geom_aabb[g];
         let (pos, mat, radius) = (kin.geom_xpos[g], &kin.geom_xmat[g], m.geom_rbound[g]);
-        let centre = add(mul_mat_vec(mat, [cx, cy, cz]), pos);
+        let sphere = mul_mat_vec(frame, pos);
+        let [cx, cy, cz, sx, sy, sz] = m.geom_aabb[g];
+        let centre = mul_mat_vec(frame, add(mul_mat_vec(mat, [cx, cy, cz]), pos));
+        let axes = mul_mat(frame, mat);
         for j in 0..3 {
-            let axis = row(frame, j);
-            let middle = dot(centre, axis);
-            let half = (sx * dot(column(mat, 0), axis)).abs()
-                + (sy * dot(column(mat, 1), axis)).abs()
-                + (sz * dot(column(mat, 2), axis)).abs();
-            let sphere = dot(pos, axis);
-            bounds.min[j] = bounds.min[j].min((sphere - radius).max(middle - half) - margin);
-            bounds.max[j] = bounds.max[j].max((sphere + radius).min(middle + half) + margin);
+            let half = (sx * axes[3 * j]).abs() + (sy * axes[3 * j + 1]).abs() + (sz * axes[3 * j + 2]).abs();
+            bounds.min[j] = bounds.min[j].min((sphere[j] - radius).max(centre[j] - half) - margin);
+            bounds.max[j] = bounds.max[j].max((sphere[j] + radius).min(centre[j] + half) + margin);
         }
     }
     bounds

@@ -3,9 +3,10 @@
 
 use super::{IDENTITY, Mat3, Quat, Vec3, mul_mat, mul_mat_t_mat, quat_mul, quat_normalize, quat_to_mat};
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 const EPS: f64 = 1e-12;
+/// sin 45°, with the digits MuJoCo has: the last bit decides whether bodies that just touch are paired.
+#[allow(clippy::approx_constant)]
+const HALF_SQRT: f64 = 0.707106781186548;
 
 /// Eigenvalues in decreasing order and the orientation of their axes (columns of the rotation).
 pub fn principal_axes(m: &Mat3) -> (Vec3, Quat) {
@@ -53,8 +54,8 @@ fn sort_decreasing(values: &mut Vec3, quat: &mut Quat) {
     for lead in [0, 1, 0] {
         if values[lead] + EPS < values[lead + 1] {
             values.swap(lead, lead + 1);
-            let mut turn = [FRAC_1_SQRT_2, 0.0, 0.0, 0.0];
-            turn[(lead + 2) % 3 + 1] = FRAC_1_SQRT_2;
+            let mut turn = [HALF_SQRT, 0.0, 0.0, 0.0];
+            turn[(lead + 2) % 3 + 1] = HALF_SQRT;
             *quat = quat_normalize(quat_mul(*quat, turn));
         }
     }

@@ -192,3 +192,12 @@ fn capsule_lying_on_a_box_touches_at_both_ends_of_the_overlap() {
         assert!((c.dist + 0.01).abs() < 1e-12 && distance(c.normal, [0.0, 0.0, -1.0]) < 1e-12);
     }
 }
+
+#[test]
+fn spheres_that_just_touch_are_paired_as_in_the_reference() {
+    // MuJoCo 3.12 reports one contact at distance zero for each: its sweep keeps pairs whose ends are equal.
+    for (x, y, z) in [(-0.5153689779008721, 0.2726042698228307, -0.4108685834429343), (0.0, 0.0, 0.0)] {
+        let (m, kin) = spheres(&[[x, y, z], [x, y, z - 0.4]], 0.2);
+        assert_eq!(contacts(&m, &kin).iter().map(|c| c.dist).collect::<Vec<_>>(), [0.0]);
+    }
+}
