@@ -2,13 +2,14 @@
 //!
 //! GJK measures the distance of separated bodies, polytope expansion the depth of overlapping ones. A sphere or
 //! capsule is first taken as its point or segment: as long as that lies outside the other body, GJK alone gives the
-//! exact penetration.
+//! exact penetration. With the native algorithms disabled, portal refinement finds one contact of overlapping bodies.
 
 use super::epa::{Failure, Polytope};
 use super::gjk::{BEYOND, Limits, gjk};
+use super::mpr::overlap;
 use super::multicontact::{Clipper, Witness};
 use super::support::{ConvexBody, Solid};
-use super::{PreContact, Shape};
+use super::{PreContact, Shape, round_normal};
 use crate::data::Kinematics;
 use crate::math::{
     Mat3, Vec3, add, add_scaled, cross, distance, dot, mul_mat, mul_mat_vec, normalize, quat_from_axis_angle,
@@ -112,8 +113,12 @@ pub fn penetration(
     scratch: &mut ConvexScratch,
     out: &mut Vec<PreContact>,
 ) -> usize {
-    let overlap = measure(a, b, &Limits::new(opt, 0.0), max_contacts, scratch) < 0.0;
-    if !overlap {
+    let limits = Limits::new(opt, 0.0);
+    if !is_native(opt) {
+        return portal_penetration(a, b, &limits, margin, out);
+    }
+    let overlapping = measure(a, b, &limits, max_contacts, scratch) < 0.0;
+    if !overlapping {
         return 0;
     }
     out.extend(scratch.witness.iter().map(|w| {
@@ -128,6 +133,27 @@ pub fn penetration(
     scratch.witness.len()
 }
 
+fn is_native(opt: &Options) -> bool {
+    opt.disableflags & disable::NATIVECCD == 0
+}
+
+fn portal_penetration(
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
+    limits: &Limits,
+    margin: f64,
+    out: &mut Vec<PreContact>,
+) -> usize {
+    match overlap(a, b, limits) {
+        Some(found) if found.direction != [0.0; 3] => {
+            let dist = margin - found.depth;
+            out.push(PreContact { dist, pos: found.pos, normal: found.direction, tangent: [0.0; 3] });
+            1
+        }
+        _ => 0,
+    }
+}
+
 /// Appends the contacts of convex geoms `g1` and `g2`.
 pub fn convex(
     m: &Model,
@@ -138,15 +164,17 @@ pub fn convex(
     scratch: &mut ConvexScratch,
     out: &mut Vec<PreContact>,
 ) {
-    let bodies = [g1, g2].map(|g| ConvexBody::new(&Shape::new(m, kin, g), margin));
-    let [Some(mut a), Some(mut b)] = bodies else { return };
+    let shapes = [g1, g2].map(|g| Shape::new(m, kin, g));
+    let bodies = shapes.map(|shape| ConvexBody::new(&shape, margin));
+    let [Some(a), Some(b)] = bodies else { return };
+    let mut pair = Pair { opt: &m.opt, shapes, bodies: [a, b], margin };
     let many = m.opt.disableflags & disable::MULTICCD == 0;
-    let max_contacts = one_pass_contacts(&a, &b, many);
+    let max_contacts = if is_native(&m.opt) { one_pass_contacts(&a, &b, many) } else { 1 };
     let first = out.len();
-    let found = penetration(&m.opt, &mut a, &mut b, max_contacts, margin, scratch, out);
+    let found = pair.find(max_contacts, scratch, out);
     if found == 1 && max_contacts == 1 && many && can_rock(&a) && can_rock(&b) {
         let same = SAME_CONTACT * m.geom_rbound[g1].min(m.geom_rbound[g2]);
-        rock(&m.opt, &mut a, &mut b, margin, same, first, scratch, out);
+        pair.rock(first, same, scratch, out);
     }
 }
 
@@ -164,38 +192,54 @@ fn can_rock(body: &ConvexBody) -> bool {
     !matches!(body.solid, Solid::Ellipsoid(_) | Solid::Sphere(_))
 }
 
-/// Turns the bodies against each other about the first contact, to and fro about both tangents, and appends the
-/// contacts that this brings out, with the depth of the first.
-fn rock(
-    opt: &Options,
-    a: &mut ConvexBody,
-    b: &mut ConvexBody,
+/// Two geoms and the inflated bodies that stand for them.
+struct Pair<'m> {
+    opt: &'m Options,
+    shapes: [Shape<'m>; 2],
+    bodies: [ConvexBody<'m>; 2],
     margin: f64,
-    same: f64,
-    first: usize,
-    scratch: &mut ConvexScratch,
-    out: &mut Vec<PreContact>,
-) {
-    let PreContact { pos: pivot, normal, dist, .. } = out[first];
-    let (pose_a, pose_b) = ((a.pos, a.mat), (b.pos, b.mat));
-    for axis in tangents(normal) {
-        for angle in [-ROCKING_ANGLE, ROCKING_ANGLE] {
-            let turn = quat_to_mat(quat_from_axis_angle(axis, angle));
-            (a.pos, a.mat) = turned(pose_a, pivot, &turn);
-            (b.pos, b.mat) = turned(pose_b, pivot, &transpose(&turn));
-            let last = out.len();
-            if penetration(opt, a, b, 1, margin, scratch, out) > 0 {
-                let pos = out[last].pos;
-                if out[first..last].iter().any(|c| distance(c.pos, pos) <= same) {
-                    out.truncate(last);
-                } else {
-                    out[last].dist = dist;
+}
+
+impl Pair<'_> {
+    fn find(&mut self, max_contacts: usize, scratch: &mut ConvexScratch, out: &mut Vec<PreContact>) -> usize {
+        let [a, b] = &mut self.bodies;
+        let found = penetration(self.opt, a, b, max_contacts, self.margin, scratch, out);
+        if found > 0 && !is_native(self.opt) {
+            let contact = out.len() - 1;
+            round_normal::correct(&mut out[contact], &self.shapes[0], &self.shapes[1]);
+        }
+        found
+    }
+
+    /// Turns the bodies against each other about contact `first`, to and fro about both tangents, and appends the
+    /// contacts that this brings out, with the depth of the first.
+    fn rock(&mut self, first: usize, same: f64, scratch: &mut ConvexScratch, out: &mut Vec<PreContact>) {
+        let PreContact { pos: pivot, normal, dist, .. } = out[first];
+        for axis in tangents(normal) {
+            for angle in [-ROCKING_ANGLE, ROCKING_ANGLE] {
+                let turn = quat_to_mat(quat_from_axis_angle(axis, angle));
+                self.turn(0, pivot, &turn);
+                self.turn(1, pivot, &transpose(&turn));
+                let last = out.len();
+                if self.find(1, scratch, out) > 0 {
+                    let pos = out[last].pos;
+                    if out[first..last].iter().any(|c| distance(c.pos, pos) <= same) {
+                        out.truncate(last);
+                    } else {
+                        out[last].dist = dist;
+                    }
                 }
             }
         }
     }
-    (a.pos, a.mat) = pose_a;
-    (b.pos, b.mat) = pose_b;
+
+    /// Places a body as its geom turned about a point.
+    fn turn(&mut self, i: usize, pivot: Vec3, turn: &Mat3) {
+        let Shape { pos, mat, .. } = self.shapes[i];
+        let arm = sub(pivot, pos);
+        self.bodies[i].pos = sub(pos, sub(mul_mat_vec(turn, arm), arm));
+        self.bodies[i].mat = mul_mat(turn, &mat);
+    }
 }
 
 /// Two unit vectors that make a right-handed frame with a unit normal.
@@ -204,12 +248,6 @@ fn tangents(normal: Vec3) -> [Vec3; 2] {
     let guess = if normal[1].abs() < 0.5 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
     let (y, _) = normalize(sub(guess, scale(normal, dot(normal, guess))));
     [y, cross(normal, y)]
-}
-
-/// A pose turned about a point.
-fn turned((pos, mat): (Vec3, Mat3), pivot: Vec3, turn: &Mat3) -> (Vec3, Mat3) {
-    let arm = sub(pivot, pos);
-    (sub(pos, sub(mul_mat_vec(turn, arm), arm)), mul_mat(turn, &mat))
 }
 
 /// Signed distance between two convex geoms, at most `limit`, and the segment between their nearest points where

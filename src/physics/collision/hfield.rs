@@ -3,11 +3,11 @@
 
 use super::convex::{ConvexScratch, penetration};
 use super::support::ConvexBody;
-use super::{PreContact, Shape};
+use super::{PreContact, Shape, round_normal};
 use crate::data::Kinematics;
 use crate::math::{Mat3, Vec3, add, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec, sub};
-use crate::model::Model;
 use crate::model::bounds::MAXCONPAIR;
+use crate::model::{Model, disable};
 
 /// A grid of heights in its own frame.
 struct Grid<'a> {
@@ -106,6 +106,9 @@ pub fn height_field(
                 penetration(&m.opt, &mut prism, &mut body, 1, 0.0, scratch, out);
                 for contact in &mut out[found..] {
                     *contact = placed(contact, field.pos, &field.mat);
+                    if m.opt.disableflags & disable::NATIVECCD != 0 {
+                        round_normal::correct(contact, &field, &shape);
+                    }
                 }
                 if out.len() - first >= MAXCONPAIR {
                     return;

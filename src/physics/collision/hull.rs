@@ -129,11 +129,11 @@ impl<'a> MeshHull<'a> {
         self.climb(graph, dir, start)
     }
 
-    /// Farthest vertex in direction `dir`, from the first vertex of the hull. Of equally far ones it may be another
-    /// than that of [`Self::farthest`].
-    pub fn farthest_from_first(&self, dir: Vec3) -> Farthest {
+    /// Farthest vertex in direction `dir`, from the `last` answer or the first vertex of the hull. Of equally far
+    /// ones it may be another than that of [`Self::farthest`].
+    pub fn farthest_untabulated(&self, dir: Vec3, last: Option<Farthest>) -> Farthest {
         match self.climbed() {
-            Some(graph) => self.climb(graph, dir, 0),
+            Some(graph) => self.climb(graph, dir, last.map_or(0, |l| l.start)),
             None => self.search(dir, None),
         }
     }

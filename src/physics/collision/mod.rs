@@ -17,9 +17,11 @@ pub mod hfield;
 pub mod hull;
 pub mod mid_phase;
 pub mod mixing;
+pub mod mpr;
 pub mod multicontact;
 pub mod plane;
 pub mod polyhedron;
+pub mod round_normal;
 pub mod sphere;
 pub mod support;
 

@@ -139,7 +139,7 @@ pub fn plane_mesh(plane: &Shape, mesh: &Shape, margin: f64, out: &mut Vec<PreCon
     let down = mul_mat_t_vec(&mesh.mat, scale(normal, -1.0));
     let world = |v: usize| add(mul_mat_vec(&mesh.mat, hull.vertex(v as i32)), mesh.pos);
 
-    let deepest = hull.farthest_from_first(down);
+    let deepest = hull.farthest_untabulated(down, None);
     let point = world(deepest.vertex);
     let dist = dot(normal, sub(point, plane.pos));
     if dist > margin {

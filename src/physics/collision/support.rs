@@ -3,7 +3,7 @@
 
 use super::Shape;
 use super::hull::{Farthest, MeshHull};
-use crate::math::{Mat3, Vec3, add, mul_mat_t_vec, mul_mat_vec, scale};
+use crate::math::{Mat3, Vec3, add, mul_mat_t_vec, mul_mat_vec, normalize, scale};
 use crate::model::GeomType;
 use crate::model::bounds::MINVAL;
 
@@ -45,7 +45,7 @@ pub struct ConvexBody<'a> {
     pub margin: f64,
     /// Vertex of the last support point of a box or mesh; -1 before and for other shapes.
     vertex: i32,
-    /// The same in the numbering of the hull graph.
+    /// Where the last search of a mesh ended.
     farthest: Option<Farthest>,
 }
 
@@ -153,6 +153,45 @@ impl<'a> ConvexBody<'a> {
         }
     }
 
+    /// Farthest point of the inflated body in direction `dir` as portal refinement wants it: where an edge or face
+    /// is farthest, its middle. Climbs on meshes start where the last one ended.
+    pub fn symmetric_support(&mut self, dir: Vec3) -> Vec3 {
+        let local = self.local(dir);
+        let mut point = match self.solid {
+            Solid::Prism(ref corners) => return prism(corners, dir),
+            Solid::Point => [0.0; 3],
+            Solid::Segment(half) => [0.0, 0.0, sign(local[2]) * half],
+            Solid::Sphere(radius) => scale(local, radius),
+            Solid::Capsule(radius, half) => {
+                let [x, y, z] = scale(local, radius);
+                [x, y, z + sign(local[2]) * half]
+            }
+            Solid::Ellipsoid(axes) => {
+                let (n, _) = normalize([local[0] * axes[0], local[1] * axes[1], local[2] * axes[2]]);
+                [n[0] * axes[0], n[1] * axes[1], n[2] * axes[2]]
+            }
+            Solid::Cylinder(radius, half) => {
+                let length = (local[0] * local[0] + local[1] * local[1]).sqrt();
+                let [x, y] = if length > MINVAL {
+                    [local[0] / length * radius, local[1] / length * radius]
+                } else {
+                    [0.0; 2]
+                };
+                [x, y, sign(local[2]) * half]
+            }
+            Solid::Box(half) => std::array::from_fn(|i| sign(local[i]) * half[i]),
+            Solid::Mesh(mesh) => {
+                let found = mesh.farthest_untabulated(local, self.farthest);
+                self.farthest = Some(found);
+                mesh.vertex(found.vertex as i32)
+            }
+        };
+        for i in 0..3 {
+            point[i] += local[i] * self.margin / 2.0;
+        }
+        self.to_world(point)
+    }
+
     fn local(&self, dir: Vec3) -> Vec3 {
         mul_mat_t_vec(&self.mat, dir)
     }
@@ -161,6 +200,17 @@ impl<'a> ConvexBody<'a> {
 /// `x` with the sign of `side`; zero counts as positive.
 fn signed(x: f64, side: f64) -> f64 {
     if side >= 0.0 { x } else { -x }
+}
+
+/// -1, 0 or 1.
+fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        0.0
+    }
 }
 
 fn segment(mat: &Mat3, pos: Vec3, half: f64, dir: Vec3) -> Vec3 {

@@ -2,6 +2,8 @@
 
 use robohive_physics::collision::PreContact;
 use robohive_physics::collision::convex::{ConvexScratch, convex, convex_distance};
+use robohive_physics::collision::gjk::Limits;
+use robohive_physics::collision::mpr::overlap;
 use robohive_physics::collision::support::ConvexBody;
 use robohive_physics::collision::{Shape, distance::geom_distance};
 use robohive_physics::data::Kinematics;
@@ -280,6 +282,31 @@ fn standing_cylinder_is_supported_all_around() {
     for c in &found {
         assert!((c.dist + 0.001).abs() < 1e-6 && (c.normal[2] + 1.0).abs() < 1e-5);
     }
+}
+
+#[test]
+fn moving_out_by_the_portal_depth_separates() {
+    let (points, faces) = pebble();
+    let (m, mut kin) = model(&EVERY_KIND, &points, &faces);
+    let limits = Limits::new(&m.opt, 0.0);
+    let (mut noise, mut scratch) = (Noise(4), ConvexScratch::default());
+    let mut overlapping = 0;
+    for (g1, g2) in (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j))) {
+        for _ in 0..10 {
+            noise.place(&mut kin, g1, 0.1);
+            noise.place(&mut kin, g2, 0.1);
+            let apart = convex_distance(&m, &kin, g1, g2, 1.0, &mut scratch).0;
+            let Some(found) = overlap(&mut body(&m, &kin, g1), &mut body(&m, &kin, g2), &limits) else {
+                assert!(apart > -1e-5);
+                continue;
+            };
+            overlapping += 1;
+            assert!(found.depth > -apart - 1e-5, "no direction is shorter than the penetration");
+            kin.geom_xpos[g2] = add_scaled(kin.geom_xpos[g2], found.direction, found.depth + 1e-5);
+            assert!(convex_distance(&m, &kin, g1, g2, 1.0, &mut scratch).0 >= 0.0, "{g1} {g2}");
+        }
+    }
+    assert!(overlapping > 50);
 }
 
 #[test]
