@@ -3,7 +3,7 @@
 
     pip install mujoco==3.12.0
     python record.py --out DIR MODEL.xml [MODEL.xml ...]
-    python record.py --out DIR --corpus FOLDER --list FILE [--old-python PYTHON]
+    python record.py --out DIR --corpus FOLDER --list FILE
 
 One archive a model, named after its path. Its arrays:
 
@@ -14,17 +14,17 @@ One archive a model, named after its path. Its arrays:
     rollout.NAME    500 steps from keyframe 0, or qpos0: `ctrl` in, `qpos`, `qvel`, `act` after every step
     twin.qpos       the same from a start 1e-12 away: how far MuJoCo is from itself
 
-Models that 3.12.0 refuses are recorded from a repaired copy (see `repair` and `canonical`).
+Models that 3.12.0 refuses are recorded from a repaired copy (see `repair`).
 """
 
 import argparse
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
+from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
@@ -179,34 +179,31 @@ def record(model, seed=0, states=STATES, steps=STEPS):
 
 
 def repair(folder):
-    """Removes from a copy of the corpus the one attribute that 3.12.0 refuses."""
+    """Removes from a copy of the corpus what 3.12.0 refuses and 3.1.3 ignored: `apirate`, and the class of a
+    default that stands at the top of an included file."""
     for path in Path(folder).rglob("*.xml"):
         text = path.read_text(errors="surrogateescape")
         mended = re.sub(r'\sapirate\s*=\s*"[^"]*"', "", text)
+        for name in top_default_classes(text):
+            mended = re.sub(rf'<default\s+class\s*=\s*"{re.escape(name)}"', "<default", mended, count=1)
         if mended != text:
             path.write_text(mended, errors="surrogateescape")
 
 
-def canonical(path, python):
-    """The XML that MuJoCo 3.1.3 saves of a model that 3.12.0 does not parse."""
-    saved = path.with_name(path.stem + ".canonical.xml")
-    code = ("import mujoco, sys; m = mujoco.MjModel.from_xml_path(sys.argv[1]); "
-            "mujoco.mj_saveLastXML(sys.argv[2], m)")
-    subprocess.run([python, "-c", code, str(path), str(saved)], check=True, capture_output=True)
-    return saved
+def top_default_classes(text):
+    try:
+        root = ElementTree.fromstring(text.encode(errors="surrogateescape"))
+    except ElementTree.ParseError:
+        return []
+    return [d.get("class") for d in root.findall("default") if d.get("class", "main") != "main"]
 
 
-def load(path, python):
+def load(path):
     text = path.read_text(errors="surrogateescape")
     if "OBJECT_NAME" in text:
         path = path.with_name(f"{path.stem}.{TEMPLATE_OBJECT}.xml")
         path.write_text(text.replace("OBJECT_NAME", TEMPLATE_OBJECT), errors="surrogateescape")
-    try:
-        return mujoco.MjModel.from_xml_path(str(path))
-    except ValueError:
-        if python is None:
-            raise
-        return mujoco.MjModel.from_xml_path(str(canonical(path, python)))
+    return mujoco.MjModel.from_xml_path(str(path))
 
 
 def main():
@@ -215,7 +212,6 @@ def main():
     parser.add_argument("--out", required=True, type=Path)
     parser.add_argument("--corpus", type=Path, help="folder whose models --list names; it is copied, not changed")
     parser.add_argument("--list", type=Path, help="file with one model path a line")
-    parser.add_argument("--old-python", help="an interpreter with mujoco==3.1.3, for models 3.12.0 does not parse")
     parser.add_argument("--only", default="", help="record only listed models whose path contains this")
     parser.add_argument("--states", type=int, default=STATES, help="independent states to record")
     args = parser.parse_args()
@@ -234,7 +230,7 @@ def main():
     for name, path in jobs:
         try:
             began = time.perf_counter()
-            model = load(path, args.old_python)
+            model = load(path)
             seconds = time.perf_counter() - began
             arrays = record(model, states=args.states) | {"compile_seconds": np.float64(seconds)}
             np.savez_compressed(args.out / (name + ".npz"), **arrays)

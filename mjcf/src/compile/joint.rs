@@ -8,6 +8,7 @@ use crate::vector::normalize;
 use physics::Model;
 use physics::math::Vec3;
 use physics::model::JointType;
+use physics::model::bounds::MINVAL;
 use std::f64::consts::PI;
 
 /// A joint in the frame of its body, angles in radians.
@@ -122,6 +123,22 @@ pub(super) fn fill(m: &mut Model, body: &BodyNode, id: usize, log: &mut Log) {
             m.dof_dampingpoly.push([spec.damping[1], spec.damping[2]]);
         }
         debug_assert_eq!(m.qpos0.len(), m.jnt_qposadr[joint] as usize + nq);
+    }
+}
+
+/// Stiffness and damping of joints that give a time constant and damping ratio instead, from their mean inertia at
+/// `qpos0` (XML reference, `joint/springdamper`).
+pub(super) fn set_springdampers(m: &mut Model, springdampers: &[[f64; 2]]) {
+    for (joint, &[timeconst, dampratio]) in springdampers.iter().enumerate() {
+        if timeconst <= 0.0 || dampratio <= 0.0 {
+            continue;
+        }
+        let nv = JointType::from_code(m.jnt_type[joint]).map_or(0, |kind| dimensions(kind).1);
+        let first = m.jnt_dofadr[joint] as usize;
+        let inverse = m.dof_invweight0[first..first + nv].iter().fold(0.0, |sum, w| sum + w);
+        let inertia = nv as f64 / inverse.max(MINVAL);
+        m.jnt_stiffness[joint] = inertia / (timeconst * timeconst * dampratio * dampratio).max(MINVAL);
+        m.dof_damping[first..first + nv].fill(2.0 * inertia / timeconst.max(MINVAL));
     }
 }
 

@@ -93,11 +93,12 @@ pub fn compile(
     diagnostics: &mut Diagnostics,
 ) -> Option<Model> {
     let log = &mut Log { sources, diagnostics };
-    let mut m = compile_static(spec, files, log)?;
+    let (mut m, springdampers) = compile_static(spec, files, log)?;
     if let Err(error) = set_const(&mut m) {
         log.error(Loc::NONE, error.to_string());
         return None;
     }
+    joint::set_springdampers(&mut m, &springdampers);
     if let Err(error) = set_length_ranges(&mut m, &spec.compiler.lengthrange) {
         log.error(Loc::NONE, error.to_string());
         return None;
@@ -116,8 +117,8 @@ fn override_statistic(m: &mut Model, given: &StatisticOverride) {
     stat.center = given.center.unwrap_or(stat.center);
 }
 
-/// Everything that needs no simulation.
-fn compile_static(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> Option<Model> {
+/// Everything that needs no configuration, and the `springdamper` of every joint, which needs the inertia at `qpos0`.
+fn compile_static(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> Option<(Model, Vec<[f64; 2]>)> {
     let mut assets = assets::compile(spec, files, log);
     let mut tree = tree::compile(spec, &assets, log);
     if log.diagnostics.has_errors() {
@@ -153,5 +154,6 @@ fn compile_static(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> Optio
     sparsity::fill(&mut m);
     sizes::allocate_derived(&mut m);
     sizes::check(&m, log);
-    (!log.diagnostics.has_errors()).then_some(m)
+    let springdampers = tree.joints().map(|j| j.spec.springdamper).collect();
+    (!log.diagnostics.has_errors()).then_some((m, springdampers))
 }
