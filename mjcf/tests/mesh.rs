@@ -3,8 +3,8 @@
 use robohive_mjcf::asset::AssetErrorKind;
 use robohive_mjcf::bvh::Bvh;
 use robohive_mjcf::mesh::{
-    CompiledMesh, Format, MeshInertia, MeshSource, Primitive, RawMesh, convex_hull, decode, fit_primitive,
-    process,
+    CompiledMesh, Format, MeshInertia, MeshSource, Primitive, RawMesh, Shape, builtin, convex_hull, decode,
+    fit_primitive, process,
 };
 
 /// Binary STL of a box with half sizes (1, 2, 3) centred at (4, 5, 6), header "solid".
@@ -242,4 +242,24 @@ fn obj_polygons_become_triangles() {
     assert_eq!(raw.face, [1, 2, 3, 3, 4, 0, 0, 1, 3, 0, 1, 4]);
     assert_eq!(raw.texcoord, [0.0, 0.75]);
     assert_eq!(raw.facetexcoord, [0; 12]);
+}
+
+#[test]
+fn computed_shapes_have_the_volume_of_their_solid() {
+    let volume = |shape: Shape, params: &[f64]| {
+        let inline = builtin(shape, params).unwrap();
+        process(MeshSource { inline, inertia: MeshInertia::Exact, ..MeshSource::default() }).unwrap().volume
+    };
+    let ball = 4.0 / 3.0 * std::f64::consts::PI;
+    // Inscribed polyhedra approach the solid from inside.
+    for (value, solid) in [
+        (volume(Shape::Sphere, &[4.0]), ball),
+        (volume(Shape::Hemisphere, &[10.0]), ball / 2.0),
+        (volume(Shape::Supersphere, &[60.0, 1.0, 1.0]), ball),
+        (volume(Shape::Supertorus, &[80.0, 0.5, 1.0, 1.0]), 0.5 * std::f64::consts::PI.powi(2)),
+    ] {
+        assert!(value < solid && value > 0.97 * solid, "{value} {solid}");
+    }
+    assert_close(&[volume(Shape::Cone, &[4.0, 0.0])], &[4.0 / 3.0], 1e-6);
+    assert!(builtin(Shape::Sphere, &[9.0]).is_err());
 }

@@ -14,6 +14,7 @@ mod normals;
 mod obj;
 mod polygons;
 mod process;
+mod shapes;
 mod stl;
 
 pub use decode::{Format, RawMesh, decode};
@@ -21,6 +22,7 @@ pub use fit::{Primitive, fit_primitive};
 pub use hull::{Hull, convex_hull};
 pub use mass::MeshInertia;
 pub use process::process;
+pub use shapes::{Shape, builtin};
 
 use crate::bvh::Bvh;
 
