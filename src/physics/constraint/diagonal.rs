@@ -2,6 +2,7 @@
 //! reference configuration, or exact (MuJoCo documentation, Computation, "Parameters").
 
 use crate::data::{Constraints, Contacts, Inertia};
+use crate::inertia::row;
 use crate::math::dense::dot_slice;
 use crate::model::{ConstraintType, EqType, Model, ObjType};
 
@@ -99,6 +100,8 @@ pub struct HalfJacobian {
     pub values: Vec<f64>,
     dense: Vec<f64>,
     mark: Vec<usize>,
+    /// Reciprocal square root of the factor's diagonal.
+    root: Vec<f64>,
 }
 
 impl HalfJacobian {
@@ -120,22 +123,20 @@ pub fn half_jacobian(m: &Model, inertia: &Inertia, efc: &Constraints, y: &mut Ha
     y.dense.resize(m.nv, 0.0);
     y.mark.clear();
     y.mark.resize(m.nv, usize::MAX);
+    y.root.clear();
+    y.root.extend((0..m.nv).map(|dof| 1.0 / inertia.qLD[row(m, dof).end - 1].sqrt()));
     for i in 0..efc.nefc {
         let first = y.colind.len();
+        add_pattern(m, efc, i, y);
         let start = efc.efc_J_rowadr[i] as usize;
         for k in start..start + efc.efc_J_rownnz[i] as usize {
-            let column = efc.efc_J_colind[k] as usize;
-            y.dense[column] = efc.efc_J[k];
-            add_ancestors(m, column, i, y);
+            y.dense[efc.efc_J_colind[k] as usize] = efc.efc_J[k];
         }
-        y.colind[first..].sort_unstable();
         for at in (first..y.colind.len()).rev() {
             substitute(m, inertia, y.colind[at], &mut y.dense);
         }
-        for at in first..y.colind.len() {
-            let column = y.colind[at];
-            let diagonal = inertia.qLD[(m.M_rowadr[column] + m.M_rownnz[column] - 1) as usize];
-            y.values.push(y.dense[column] * (1.0 / diagonal.sqrt()));
+        for &column in &y.colind[first..] {
+            y.values.push(y.dense[column] * y.root[column]);
             y.dense[column] = 0.0;
         }
         y.rowadr.push(first);
@@ -143,13 +144,30 @@ pub fn half_jacobian(m: &Model, inertia: &Inertia, efc: &Constraints, y: &mut Ha
     }
 }
 
+/// Appends the columns of row `i`: those of `J` and their ancestors. Rows of one contact share them.
+fn add_pattern(m: &Model, efc: &Constraints, i: usize, y: &mut HalfJacobian) {
+    let columns = |i: usize| {
+        let start = efc.efc_J_rowadr[i] as usize;
+        &efc.efc_J_colind[start..start + efc.efc_J_rownnz[i] as usize]
+    };
+    if i > 0 && columns(i) == columns(i - 1) {
+        let before = y.rowadr[i - 1];
+        y.colind.extend_from_within(before..before + y.rownnz[i - 1]);
+        return;
+    }
+    let first = y.colind.len();
+    for &column in columns(i) {
+        add_ancestors(m, column as usize, i, y);
+    }
+    y.colind[first..].sort_unstable();
+}
+
 /// Marks the pattern of row `column` of the inertia as non-zero in row `i`.
 fn add_ancestors(m: &Model, column: usize, i: usize, y: &mut HalfJacobian) {
     if y.mark[column] == i {
         return;
     }
-    let start = m.M_rowadr[column] as usize;
-    for &c in &m.M_colind[start..start + m.M_rownnz[column] as usize] {
+    for &c in &m.M_colind[row(m, column)] {
         let c = c as usize;
         if y.mark[c] != i {
             y.mark[c] = i;
@@ -163,8 +181,8 @@ fn substitute(m: &Model, inertia: &Inertia, column: usize, dense: &mut [f64]) {
     if value == 0.0 {
         return;
     }
-    let start = m.M_rowadr[column] as usize;
-    for k in start..start + m.M_rownnz[column] as usize - 1 {
+    let range = row(m, column);
+    for k in range.start..range.end - 1 {
         dense[m.M_colind[k] as usize] -= inertia.qLD[k] * value;
     }
 }

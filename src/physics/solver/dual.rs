@@ -14,7 +14,11 @@ const RISE: f64 = 1e-10;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Dual {
     half: HalfJacobian,
-    row: Vec<f64>,
+    /// Entries of `Y` by column: row and value; the start of each column.
+    entries: Vec<(usize, f64)>,
+    column_start: Vec<usize>,
+    /// `(A + R) f`.
+    product: Vec<f64>,
     /// `A + R`, full.
     ar: Vec<f64>,
     /// Starts of row blocks in the order they are visited.
@@ -25,25 +29,52 @@ pub(super) struct Dual {
 }
 
 impl Dual {
-    /// Computes `A + R` from `A = Y Yᵀ`. Rows of different islands share no column, so their product is zero.
+    /// Computes `A + R` from `A = Y Yᵀ`: each entry of a row of `Y` meets the rows that share its column.
     pub fn project(&mut self, m: &Model, inertia: &Inertia, efc: &Constraints) {
         let n = efc.nefc;
         half_jacobian(m, inertia, efc, &mut self.half);
-        self.row.clear();
-        self.row.resize(m.nv, 0.0);
+        self.transpose(m.nv, n);
         self.ar.clear();
         self.ar.resize(n * n, 0.0);
         for i in 0..n {
             let (columns, values) = self.half.row(i);
-            columns.iter().zip(values).for_each(|(&c, &x)| self.row[c] = x);
-            for k in 0..=i {
-                let (others, entries) = self.half.row(k);
-                let product = others.iter().zip(entries).fold(0.0, |sum, (&c, x)| sum + x * self.row[c]);
-                self.ar[i * n + k] = product;
-                self.ar[k * n + i] = product;
+            let out = &mut self.ar[i * n..i * n + i + 1];
+            for (&c, x) in columns.iter().zip(values) {
+                for &(k, y) in &self.entries[self.column_start[c]..self.column_start[c + 1]] {
+                    if k > i {
+                        break;
+                    }
+                    out[k] += y * x;
+                }
+            }
+        }
+        for i in 0..n {
+            for k in 0..i {
+                self.ar[k * n + i] = self.ar[i * n + k];
             }
             self.ar[i * (n + 1)] += efc.efc_R[i];
-            columns.iter().for_each(|&c| self.row[c] = 0.0);
+        }
+    }
+
+    /// Lists the entries of `Y` by column, rows increasing.
+    fn transpose(&mut self, columns: usize, rows: usize) {
+        self.column_start.clear();
+        self.column_start.resize(columns + 2, 0);
+        for &c in &self.half.colind {
+            self.column_start[c + 2] += 1;
+        }
+        for c in 2..columns + 2 {
+            self.column_start[c] += self.column_start[c - 1];
+        }
+        self.entries.clear();
+        self.entries.resize(self.half.colind.len(), (0, 0.0));
+        for i in 0..rows {
+            let (columns, values) = self.half.row(i);
+            for (&c, &x) in columns.iter().zip(values) {
+                let at = &mut self.column_start[c + 1];
+                self.entries[*at] = (i, x);
+                *at += 1;
+            }
         }
     }
 
@@ -83,10 +114,11 @@ impl Dual {
     }
 
     /// `fᵀ (A + R) f / 2 + fᵀ b` of all rows.
-    pub fn cost(&self, efc: &Constraints) -> f64 {
-        let linear = dot_slice(&efc.efc_force, &efc.efc_b);
-        let product: Vec<f64> = (0..efc.nefc).map(|i| dot_slice(self.row(efc, i), &efc.efc_force)).collect();
-        linear + 0.5 * dot_slice(&efc.efc_force, &product)
+    pub fn cost(&mut self, efc: &Constraints) -> f64 {
+        let (ar, force) = (&self.ar, &efc.efc_force);
+        self.product.clear();
+        self.product.extend(ar.chunks_exact(efc.nefc).map(|row| dot_slice(row, force)));
+        dot_slice(force, &efc.efc_b) + 0.5 * dot_slice(force, &self.product)
     }
 }
 
