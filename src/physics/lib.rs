@@ -32,6 +32,7 @@ pub mod math;
 pub mod model;
 pub mod momentum;
 pub mod muscle;
+pub mod on_demand;
 pub mod passive;
 pub mod polynomial;
 pub mod ray;
@@ -50,4 +51,7 @@ pub mod wrap;
 
 pub use data::Data;
 pub use forward::{StepError, forward, step, step1, step2};
+pub use length_range::set_length_ranges;
 pub use model::Model;
+pub use on_demand::derive_on_demand;
+pub use set_const::set_const;

@@ -2,6 +2,8 @@
 
 pub mod compare;
 pub mod compile;
+pub mod motion;
 pub mod reference;
 pub mod stages;
+pub mod status;
 pub mod tolerance;

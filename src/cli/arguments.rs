@@ -1,0 +1,138 @@
+//! Arguments of every command, and the help that teaches them.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Robots described in MJCF, moved as MuJoCo 3.12 moves them.
+#[derive(Parser)]
+#[command(
+    version,
+    after_help = "Exit codes: 0 done, 1 the work failed or a comparison disagreed, 2 wrong arguments or input.
+Examples:
+  robohive inspect assets/franka/franka_table.xml
+  robohive sim assets/pile/pile.xml --seconds 2 --out pile.npz
+  robohive check assets/elbow/elbow.xml validation/reference/own/elbow.npz"
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// The commands.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Summarise a model, or write out every compiled array
+    Inspect(Inspect),
+    /// Simulate a model with zero or keyframe controls
+    Sim(Sim),
+    /// Step or forward recorded inputs and write the named fields
+    Trace(Trace),
+    /// Compare a model with what MuJoCo recorded of it
+    Check(Check),
+    /// Measure steps per second
+    Bench(Bench),
+}
+
+/// Summarise a model, or write out every compiled array.
+#[derive(Args)]
+#[command(after_help = "Examples:
+  robohive inspect model.xml                  sizes, options, bodies
+  robohive inspect model.xml --npz model.npz  every array under its MuJoCo name and shape
+  robohive inspect model.xml --json | jq .sizes")]
+pub struct Inspect {
+    /// MJCF file
+    pub model: PathBuf,
+    /// Write every model array to this numpy archive
+    #[arg(long, value_name = "FILE")]
+    pub npz: Option<PathBuf>,
+    /// Print one JSON object instead of the summary
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Simulate a model.
+#[derive(Args)]
+#[command(after_help = "Example:
+  robohive sim assets/franka/franka_table.xml --seconds 2 --keyframe ready --out run.npz
+  python -c \"import numpy; print(numpy.load('run.npz')['qpos'].shape)\"")]
+pub struct Sim {
+    /// MJCF file
+    pub model: PathBuf,
+    /// Simulated time [s]
+    #[arg(long, default_value_t = 1.0)]
+    pub seconds: f64,
+    /// Start from this keyframe, by name or number (default: the first, if any)
+    #[arg(long)]
+    pub keyframe: Option<String>,
+    /// Write time, qpos, qvel, act, ctrl, sensordata and energy of every step
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// No progress on standard error
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Step or forward recorded inputs.
+#[derive(Args)]
+#[command(
+    after_help = "IN holds any of qpos, qvel, act, ctrl, mocap_pos, mocap_quat, qfrc_applied, xfrc_applied, eq_active,
+qacc_warmstart, time, one row a step or state; what it leaves out takes the value of a plain reset.
+By default the rollout starts from row 0 and takes one row of ctrl a step; the fields are written after every step.
+With --forward every row is an independent state and the fields of its forward pass are written; fields whose length
+varies are concatenated in row order, and ncon and nefc tell the split. Contacts are contact.dist, contact.pos, ...
+
+Examples:
+  robohive trace model.xml --in controls.npz --out motion.npz --fields qpos,qvel,sensordata
+  robohive trace model.xml --in states.npz --out forward.npz --forward --fields qacc,efc_J,contact.dist"
+)]
+pub struct Trace {
+    /// MJCF file
+    pub model: PathBuf,
+    /// Numpy archive with inputs
+    #[arg(long = "in", value_name = "IN.npz")]
+    pub input: PathBuf,
+    /// Numpy archive to write
+    #[arg(long, value_name = "OUT.npz")]
+    pub out: PathBuf,
+    /// Fields to write, separated by commas
+    #[arg(long, value_delimiter = ',', default_value = "time,qpos,qvel,act")]
+    pub fields: Vec<String>,
+    /// Treat every row as an independent state
+    #[arg(long)]
+    pub forward: bool,
+}
+
+/// Compare a model with what MuJoCo recorded of it.
+#[derive(Args)]
+#[command(after_help = "The reference is written by validation/reference/record.py.
+Example:
+  robohive check assets/quadruped/quadruped.xml validation/reference/own/quadruped.npz")]
+pub struct Check {
+    /// MJCF file
+    pub model: PathBuf,
+    /// Recorded reference
+    pub reference: PathBuf,
+}
+
+/// Measure steps per second.
+#[derive(Args)]
+#[command(
+    after_help = "Starts from keyframe 0 where there is one, else qpos0, with zero controls. Loading is not timed.
+Example:
+  robohive bench assets/*/*.xml --steps 2000 --json | tail -n 1"
+)]
+pub struct Bench {
+    /// MJCF files
+    #[arg(required = true)]
+    pub models: Vec<PathBuf>,
+    /// Steps of each thread
+    #[arg(long, default_value_t = 1000)]
+    pub steps: usize,
+    /// Independent simulations, one a thread
+    #[arg(long, default_value_t = 1)]
+    pub threads: usize,
+    /// Print one JSON object a model; the last line is the last model's
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,107 @@
+//! `inspect`: what is in a model.
+
+use crate::cli::arguments::Inspect;
+use crate::cli::fields::array;
+use crate::cli::{Failure, load, unwritable};
+use dataset::{Array, NpzWriter};
+use physics::Model;
+use physics::model::{Cone, GeomType, Integrator, JointType, ObjType, Solver};
+use std::fmt::Write;
+use std::path::Path;
+
+/// Runs the command.
+pub fn run(a: &Inspect) -> Result<(), Failure> {
+    let m = load(&a.model)?;
+    if let Some(path) = &a.npz {
+        write_arrays(&m, path)?;
+    }
+    if a.json {
+        println!("{}", json(&m));
+    } else {
+        print!("{}", summary(&m));
+    }
+    Ok(())
+}
+
+/// Every array under its own name; options and statistics as `opt.NAME` and `stat.NAME`, sizes as scalars.
+fn write_arrays(m: &Model, path: &Path) -> Result<(), Failure> {
+    let mut arrays: Vec<(String, Array)> = Vec::new();
+    m.visit_sizes(&mut |name, n| arrays.push((name.into(), Array::scalar_i64(n as i64))));
+    m.visit(&mut |name, shape, values| arrays.push((name.into(), array(shape, values))));
+    m.opt.visit(&mut |name, values| arrays.push((format!("opt.{name}"), setting(values))));
+    m.stat.visit(&mut |name, values| arrays.push((format!("stat.{name}"), setting(values))));
+    let mut writer = NpzWriter::create(path).map_err(unwritable(path))?;
+    for (name, array) in &arrays {
+        writer.add(name, array).map_err(unwritable(path))?;
+    }
+    writer.finish().map_err(unwritable(path))
+}
+
+fn setting(values: physics::table::Slice<'_>) -> Array {
+    let shape = if values.len() == 1 { vec![] } else { vec![values.len()] };
+    array(shape, values)
+}
+
+fn json(m: &Model) -> serde_json::Value {
+    let mut sizes = serde_json::Map::new();
+    m.visit_sizes(&mut |name, n| _ = sizes.insert(name.into(), n.into()));
+    let mut options = serde_json::Map::new();
+    m.opt.visit(&mut |name, values| _ = options.insert(name.into(), values.to_f64().into()));
+    let names = |kind, n: usize| (0..n).map(|i| m.label_of(kind, i)).collect::<Vec<_>>();
+    serde_json::json!({
+        "model": m.name,
+        "sizes": sizes,
+        "options": options,
+        "bodies": names(ObjType::Body, m.nbody),
+        "joints": names(ObjType::Joint, m.njnt),
+        "actuators": names(ObjType::Actuator, m.nactuator),
+        "sensors": names(ObjType::Sensor, m.nsensor),
+        "keyframes": names(ObjType::Key, m.nkey),
+        "mass": m.body_subtreemass.first(),
+    })
+}
+
+fn summary(m: &Model) -> String {
+    let mut s = String::new();
+    let mut line = |key: &str, value: String| _ = writeln!(s, "{key:<12} {value}");
+    line("model", m.name.clone());
+    line("state", format!("nq {}, nv {}, na {}, nu {}, nmocap {}", m.nq, m.nv, m.na, m.nu, m.nmocap));
+    line("tree", format!("{} bodies, {} joints, {} trees", m.nbody, m.njnt, m.ntree));
+    line("mass", format!("{:.6} kg", m.body_subtreemass.first().copied().unwrap_or(0.0)));
+    line("joints", tally(&m.jnt_type, |c| JointType::from_code(c).map(|t| format!("{t:?}"))));
+    line("geoms", tally(&m.geom_type, |c| GeomType::from_code(c).map(|t| format!("{t:?}"))));
+    line("meshes", format!("{} with {} vertices, {} faces", m.nmesh, m.nmeshvert, m.nmeshface));
+    line("tendons", format!("{} with {} path points", m.ntendon, m.nwrap));
+    line("actuators", format!("{}", m.nactuator));
+    line("sensors", format!("{} with {} values", m.nsensor, m.nsensordata));
+    line("constraints", format!("{} equality, {} pairs, {} excludes", m.neq, m.npair, m.nexclude));
+    line("keyframes", format!("{}", m.nkey));
+    let name = |text: Option<String>| text.unwrap_or_else(|| "unknown".into());
+    line(
+        "option",
+        format!(
+            "timestep {} s, integrator {}, solver {}, cone {}, iterations {}, noslip {}",
+            m.opt.timestep,
+            name(Integrator::from_code(m.opt.integrator).map(|v| format!("{v:?}"))),
+            name(Solver::from_code(m.opt.solver).map(|v| format!("{v:?}"))),
+            name(Cone::from_code(m.opt.cone).map(|v| format!("{v:?}"))),
+            m.opt.iterations,
+            m.opt.noslip_iterations
+        ),
+    );
+    s
+}
+
+/// Counts of each kind, in order of first appearance.
+fn tally(codes: &[i32], name: impl Fn(i32) -> Option<String>) -> String {
+    let mut counts: Vec<(i32, usize)> = Vec::new();
+    for &code in codes {
+        match counts.iter_mut().find(|(c, _)| *c == code) {
+            Some((_, n)) => *n += 1,
+            None => counts.push((code, 1)),
+        }
+    }
+    let kinds: Vec<_> =
+        counts.iter().map(|&(c, n)| format!("{n} {}", name(c).unwrap_or_default().to_lowercase())).collect();
+    if kinds.is_empty() { "none".into() } else { kinds.join(", ") }
+}

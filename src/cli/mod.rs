@@ -1,0 +1,82 @@
+//! The command line: one subcommand a file.
+
+mod arguments;
+mod bench;
+mod check;
+mod fields;
+mod inspect;
+mod sim;
+mod trace;
+
+use clap::Parser;
+use std::fmt;
+use std::path::Path;
+use std::process::ExitCode;
+
+/// Failure of a command: the text for standard error and the exit code.
+pub struct Failure {
+    message: String,
+    code: u8,
+}
+
+impl Failure {
+    /// The command could not do its work: exit code 1.
+    pub fn new(message: impl fmt::Display) -> Self {
+        Failure { message: message.to_string(), code: 1 }
+    }
+
+    /// The arguments or input files are wrong: exit code 2.
+    pub fn usage(message: impl fmt::Display) -> Self {
+        Failure { message: message.to_string(), code: 2 }
+    }
+}
+
+/// Runs the command named by the process arguments.
+pub fn run() -> ExitCode {
+    let outcome = match arguments::Arguments::parse().command {
+        arguments::Command::Inspect(a) => inspect::run(&a),
+        arguments::Command::Sim(a) => sim::run(&a),
+        arguments::Command::Trace(a) => trace::run(&a),
+        arguments::Command::Check(a) => check::run(&a),
+        arguments::Command::Bench(a) => bench::run(&a),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("robohive: {}", failure.message);
+            ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// Loads a model and shows its warnings on standard error.
+fn load(path: &Path) -> Result<physics::Model, Failure> {
+    let loaded = mjcf::load(&path.to_string_lossy()).map_err(Failure::usage)?;
+    for warning in loaded.warnings.warnings() {
+        eprintln!("{warning}");
+    }
+    Ok(loaded.model)
+}
+
+/// Data of `m` at keyframe `key`; without one, at keyframe 0 when the model has keyframes, else at `qpos0`.
+fn start(m: &physics::Model, key: Option<&str>) -> Result<physics::Data, Failure> {
+    let mut d = physics::Data::new(m);
+    let index = match key {
+        None if m.nkey == 0 => return Ok(d),
+        None => 0,
+        Some(key) => match key.parse() {
+            Ok(index) => index,
+            Err(_) => m
+                .id_of(physics::model::ObjType::Key, key)
+                .ok_or_else(|| Failure::usage(format!("the model has no keyframe {key:?}")))?,
+        },
+    };
+    d.reset_to_key(m, index)
+        .map_err(|n| Failure::usage(format!("keyframe {index} does not exist: the model has {n}")))?;
+    Ok(d)
+}
+
+/// A file that cannot be written.
+fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Failure {
+    move |error| Failure::new(format!("{}: {error}", path.display()))
+}

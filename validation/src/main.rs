@@ -1,0 +1,79 @@
+//! Measures every listed model against its recorded reference and writes the status table.
+
+use robohive_validation::status::{Row, measure, render};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
+
+Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
+and with --write replaces the text between the table markers of a file.";
+
+/// What stands before and after the generated table.
+const MARKERS: [&str; 2] = ["<!-- table begins -->", "<!-- table ends -->"];
+
+#[derive(Default)]
+struct Arguments {
+    models: PathBuf,
+    list: PathBuf,
+    references: PathBuf,
+    only: String,
+    write: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), String> {
+    let arguments = parse(std::env::args().skip(1))?;
+    let list =
+        std::fs::read_to_string(&arguments.list).map_err(|e| format!("{}: {e}", arguments.list.display()))?;
+    let mut rows: Vec<Row> = Vec::new();
+    for line in list.split_whitespace().filter(|line| line.contains(&arguments.only)) {
+        let name = line.trim_end_matches(".xml").replace('/', "__");
+        let row = measure(line, &arguments.models.join(line), &arguments.references.join(name + ".npz"));
+        println!("{}", row.line());
+        rows.push(row);
+    }
+    let table = render(&rows);
+    println!("\n{table}");
+    arguments.write.as_deref().map_or(Ok(()), |path| replace(path, &table))
+}
+
+fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
+    let mut a = Arguments::default();
+    while let Some(word) = words.next() {
+        let mut value = || words.next().ok_or_else(|| format!("{word} needs a value\n{USAGE}"));
+        match word.as_str() {
+            "--models" => a.models = value()?.into(),
+            "--list" => a.list = value()?.into(),
+            "--references" => a.references = value()?.into(),
+            "--only" => a.only = value()?,
+            "--write" => a.write = Some(value()?.into()),
+            _ => return Err(format!("unknown argument {word}\n{USAGE}")),
+        }
+    }
+    if a.list.as_os_str().is_empty() || a.references.as_os_str().is_empty() {
+        return Err(USAGE.into());
+    }
+    Ok(a)
+}
+
+/// Replaces what stands between the markers of `path`.
+fn replace(path: &Path, table: &str) -> Result<(), String> {
+    let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
+    let [begin, end] = MARKERS.map(|marker| text.find(marker));
+    let (Some(begin), Some(end)) = (begin, end) else {
+        return Err(format!("{}: the markers {MARKERS:?} are missing", path.display()));
+    };
+    let head = &text[..begin + MARKERS[0].len()];
+    let new = format!("{head}\n{table}{}", &text[end..]);
+    std::fs::write(path, new).map_err(|e| format!("{}: {e}", path.display()))
+}

@@ -1,0 +1,127 @@
+//! Whole forward passes, single re-synchronised steps and free rollouts beside the recorded ones.
+
+use crate::compare::{Worst, compare, of_largest};
+use crate::reference::{Reference, ReferenceError};
+use crate::tolerance::{QACC, ROLLOUT_ABSOLUTE, TWIN_FACTOR};
+use physics::{Data, Model};
+
+/// Forward passes of the recorded states.
+pub struct ForwardReport {
+    /// Recorded states, and those with contacts.
+    pub states: usize,
+    /// States in which MuJoCo has a contact.
+    pub touching: usize,
+    /// States whose `qacc` agrees.
+    pub agreeing: usize,
+    /// Touching states whose `qacc` agrees.
+    pub touching_agreeing: usize,
+    /// States whose contact count equals MuJoCo's.
+    pub equal_contacts: usize,
+    /// The worst `qacc` of all states, with its state.
+    pub worst: Option<(usize, Worst)>,
+    /// First failure of our own forward pass.
+    pub failure: Option<String>,
+}
+
+/// Runs our forward pass on every recorded state and compares `qacc` in units of its largest component.
+///
+/// # Errors
+/// The reference lacks an array.
+pub fn compare_forward(m: &Model, reference: &Reference) -> Result<ForwardReport, ReferenceError> {
+    let mut d = Data::new(m);
+    let mut report = ForwardReport {
+        states: reference.states()?,
+        touching: 0,
+        agreeing: 0,
+        touching_agreeing: 0,
+        equal_contacts: 0,
+        worst: None,
+        failure: None,
+    };
+    for row in 0..report.states {
+        reference.set_state(&mut d, m, row)?;
+        if let Err(error) = physics::forward(m, &mut d) {
+            report.failure.get_or_insert(error.to_string());
+            continue;
+        }
+        let touching = reference.state_row("forward", "ncon", row)?[0] as usize;
+        let worst = compare("qacc", &d.acc.qacc, &reference.forward("qacc", row)?, of_largest);
+        let agrees = worst.error <= QACC;
+        report.touching += usize::from(touching > 0);
+        report.agreeing += usize::from(agrees);
+        report.touching_agreeing += usize::from(agrees && touching > 0);
+        report.equal_contacts += usize::from(d.con.contact.len() == touching);
+        if report.worst.as_ref().is_none_or(|(_, w)| worst.error > w.error) {
+            report.worst = Some((row, worst));
+        }
+    }
+    Ok(report)
+}
+
+/// A free rollout beside the recorded one.
+pub struct RolloutReport {
+    /// Steps compared.
+    pub steps: usize,
+    /// Largest difference of any position up to the last step [m, rad].
+    pub divergence: f64,
+    /// MuJoCo's own divergence from its twin.
+    pub twin: f64,
+    /// First step outside the bound, when there is one.
+    pub first_outside: Option<usize>,
+    /// Largest difference by step.
+    pub by_step: Vec<f64>,
+    /// Step and text of our failure.
+    pub failure: Option<(usize, String)>,
+}
+
+impl RolloutReport {
+    /// True when the whole rollout stays within the bound.
+    pub fn follows(&self) -> bool {
+        self.first_outside.is_none() && self.failure.is_none()
+    }
+}
+
+/// Steps from keyframe 0, or `qpos0`, under the recorded controls. The bound at a step is the twin factor times the
+/// largest twin divergence so far, or the absolute one.
+///
+/// # Errors
+/// The reference lacks an array.
+pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport, ReferenceError> {
+    let ctrl = reference.archive().require("rollout.ctrl")?.values.to_f64();
+    let array = reference.archive().require("rollout.qpos")?;
+    let twin = reference.archive().require("twin.qpos")?.values.to_f64();
+    let steps = array.rows();
+    let theirs = array.values.to_f64();
+    let mut d = Data::new(m);
+    if m.nkey > 0 {
+        d.reset_to_key(m, 0).map_err(|_| ReferenceError::Shape("key_qpos".into()))?;
+    }
+    let mut report = RolloutReport {
+        steps,
+        divergence: 0.0,
+        twin: 0.0,
+        first_outside: None,
+        by_step: Vec::new(),
+        failure: None,
+    };
+    for step in 0..steps {
+        d.state.ctrl.copy_from_slice(&ctrl[step * m.nu..(step + 1) * m.nu]);
+        if let Err(error) = physics::step(m, &mut d) {
+            report.failure = Some((step, error.to_string()));
+            break;
+        }
+        let row = step * m.nq..(step + 1) * m.nq;
+        report.divergence = report.divergence.max(largest_difference(&d.state.qpos, &theirs[row.clone()]));
+        report.twin = report.twin.max(largest_difference(&twin[row.clone()], &theirs[row]));
+        report.by_step.push(report.divergence);
+        let bound = ROLLOUT_ABSOLUTE.max(TWIN_FACTOR * report.twin);
+        if report.divergence > bound || report.divergence.is_nan() {
+            report.first_outside.get_or_insert(step);
+        }
+    }
+    Ok(report)
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).fold(0.0, |worst: f64, (x, y)| worst.max((x - y).abs()))
+}
