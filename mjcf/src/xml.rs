@@ -295,7 +295,7 @@ fn shown(name: &[u8]) -> String {
 fn tree(text: &str, file: u32, sources: &Sources) -> Result<Element, Fault> {
     let document = roxmltree::Document::parse(text).map_err(|e| {
         let message = e.to_string();
-        let message = message.rfind(" at ").map_or(message.as_str(), |i| &message[..i]);
+        let message = message.replace(&format!(" at {}", e.pos()), "");
         Fault {
             offset: sources.offset(file, e.pos().row, e.pos().col),
             message: format!("not XML: {message}"),

@@ -2,8 +2,9 @@
 //!
 //! Copy `i` stands in a frame turned by `i` times the Euler angles; its origin follows the previous copy's by
 //! `offset` in that copy's axes. Names get the separator and the number, padded to the digits of the count.
-//! An actuator, sensor, tendon, pair, exclusion, equality or tuple whose every reference leads into the piece
-//! is copied with it; one that refers to nothing is not (MuJoCo 3.12 multiplies those by accident).
+//! An actuator, sensor, pair, exclusion, equality or tuple whose every reference leads into the piece is copied
+//! with it, and so is a tendon that leads through it; what refers to nothing is not (MuJoCo 3.12 multiplies
+//! clocks by accident).
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -163,6 +164,9 @@ fn rename_contents(body: &mut Body, suffix: &str, shift: usize, names: &Names) {
 
 /// An object outside the tree that may refer into it.
 trait Referring: Clone {
+    /// One reference into the piece is enough, and only those that lead there are renamed.
+    const MIXED: bool = false;
+
     /// The object's own name and all its references.
     fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>);
 }
@@ -186,8 +190,9 @@ fn copy_references(spec: &mut Spec, names: &Names, suffixes: &[String]) {
 fn copy_list<T: Referring>(list: &mut Vec<T>, names: &Names, suffixes: &[String]) -> Vec<String> {
     let inside = |object: &mut T| {
         let (_, references) = object.names();
-        let known = |(space, name): &(Space, &mut String)| names.contains(&(*space, (*name).clone()));
-        !references.is_empty() && references.iter().all(known)
+        let known =
+            references.iter().filter(|(space, name)| names.contains(&(*space, (*name).clone()))).count();
+        known > 0 && (T::MIXED || known == references.len())
     };
     let (originals, kept): (Vec<T>, Vec<T>) =
         std::mem::take(list).into_iter().partition(|o| inside(&mut o.clone()));
@@ -196,7 +201,11 @@ fn copy_list<T: Referring>(list: &mut Vec<T>, names: &Names, suffixes: &[String]
         list.extend(originals.iter().cloned().map(|mut object| {
             let (name, references) = object.names();
             rename(name, suffix);
-            references.into_iter().for_each(|(_, reference)| reference.push_str(suffix));
+            for (space, reference) in references {
+                if names.contains(&(space, reference.clone())) {
+                    reference.push_str(suffix);
+                }
+            }
             object
         }));
     }
@@ -244,6 +253,8 @@ impl Referring for Equality {
 }
 
 impl Referring for Tendon {
+    const MIXED: bool = true;
+
     fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
         (&mut self.name, given(self.path.iter_mut().flat_map(wrap_names).collect()))
     }

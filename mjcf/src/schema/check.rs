@@ -15,7 +15,7 @@ use crate::xml::{Attribute, Element};
 struct Names {
     declared: BTreeMap<Space, BTreeMap<String, Loc>>,
     used: Vec<(Space, String, Loc)>,
-    /// A refused element would have made objects, so that names may be missing.
+    /// Some objects do not show in the tree, so an unknown name need not be an error.
     open: bool,
 }
 
@@ -51,15 +51,15 @@ impl Check<'_> {
             let message = format!("<{}> is not supported: {feature} are not simulated", element.name);
             return self.error(element.loc, message, None);
         }
+        // Copies have names that only the reader makes up; the compiler resolves references then.
+        self.names.open |= kind.tag == "replicate";
         self.attributes(element, kind, defaults);
         for rule in kind.rules.iter().filter(|r| !defaults || matches!(r, Rule::Exclusive(_))) {
             self.rule(element, rule);
         }
         for child in &element.children {
             match kind.child(&child.name) {
-                Some(Child { element: kind, defaults: inner, .. }) => {
-                    self.element(child, kind, defaults || *inner)
-                }
+                Some(Child { element: kind, defaults, .. }) => self.element(child, kind, *defaults),
                 None => self.unknown_element(child, element, kind),
             }
         }

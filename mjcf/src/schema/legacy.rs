@@ -18,6 +18,7 @@ const DROPPED: &[(&str, &str, Fate)] = &[
     ("option", "mpr_tolerance", Fate::Ignored("use ccd_tolerance")),
     ("flag", "passive", Fate::IgnoredIf("enable", "use spring and damper")),
     ("flag", "sensornoise", Fate::IgnoredIf("disable", "noise is the user's to add")),
+    ("replicate", "prefix", Fate::Ignored("copies only have a number")),
     ("compiler", "convexhull", Fate::IgnoredIf("true", "hulls are always computed")),
     ("compiler", "exactmeshinertia", Fate::IgnoredIf("false", "use the attribute inertia of <mesh>")),
 ];

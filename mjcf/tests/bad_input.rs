@@ -1,0 +1,313 @@
+//! Faulty and hostile texts: each gives the diagnostic that names the fault and its place, quickly and
+//! without a panic.
+
+use std::time::{Duration, Instant};
+
+use robohive_mjcf::diagnostic::Diagnostics;
+use robohive_mjcf::files::{Disk, Memory};
+use robohive_mjcf::{Loader, load_str};
+
+/// No text may take longer than this to refuse.
+const PROMPT: Duration = Duration::from_millis(100);
+
+fn refused(text: &str) -> Diagnostics {
+    load_str(text).err().unwrap_or_else(|| panic!("accepted: {text}"))
+}
+
+/// The first line of what is said about `text`.
+fn first(text: &str) -> String {
+    refused(text).to_string().lines().next().unwrap_or_default().to_string()
+}
+
+/// A model around the content of its world.
+fn world(content: &str) -> String {
+    format!("<mujoco>\n<worldbody>\n{content}\n</worldbody>\n</mujoco>")
+}
+
+#[test]
+fn every_fault_is_named_where_it_stands() {
+    let cases = [
+        (
+            world("<geom size='1' masss='2'/>"),
+            "<text>:3:16: error: unknown attribute 'masss' of <geom>; did you mean 'mass'?",
+        ),
+        (
+            world("<geoms size='1'/>"),
+            "<text>:3:1: error: unknown element <geoms> in <worldbody>; did you mean <geom>?",
+        ),
+        (
+            world("<geom size='1 2 3 4'/>"),
+            "<text>:3:13: error: attribute 'size' of <geom> takes 1 to 3 numbers, not 4",
+        ),
+        (world("<geom size='1' pos='0 1'/>"), "<text>:3:21: error: attribute 'pos' of <geom> takes 3 numbers, not 2"),
+        (
+            world("<geom size='1' pos='0 1 2x'/>"),
+            "<text>:3:25: error: attribute 'pos' of <geom>: '2x' is not a number",
+        ),
+        (
+            world("<geom size='1' condim='3.5'/>"),
+            "<text>:3:24: error: attribute 'condim' of <geom>: '3.5' is not an integer",
+        ),
+        (
+            world("<geom size='1' condim='30000000000'/>"),
+            "<text>:3:24: error: attribute 'condim' of <geom>: integer '30000000000' is too large",
+        ),
+        (
+            world("<geom size='nan'/>"),
+            "<text>:3:13: error: attribute 'size' of <geom>: 'nan' is not allowed: values must be numbers",
+        ),
+        (
+            world("<geom size='1' mass='1e309'/>"),
+            "<text>:3:22: error: attribute 'mass' of <geom>: number '1e309' is too large",
+        ),
+        (
+            world("<geom size='1' rgba='1 1e308 1 1'/>"),
+            "<text>:3:24: error: attribute 'rgba' of <geom>: number '1e308' is too large",
+        ),
+        (
+            world("<geom type='capsul' size='1'/>"),
+            "<text>:3:13: error: attribute 'type' of <geom> cannot be 'capsul'; did you mean 'capsule'?",
+        ),
+        (
+            world("<geom size='1' quat='0 0 0 0'/>"),
+            "<text>:3:22: error: a quaternion cannot be zero",
+        ),
+        (
+            world("<body name='a'/><body name='a'/>"),
+            "<text>:3:29: error: duplicate body name 'a'; the first is at <text>:3:13",
+        ),
+        (
+            world("<geom class='fat' size='1'/>"),
+            "<text>:3:14: error: no default class is named 'fat'",
+        ),
+        (
+            world("<joint/>"),
+            "<text>:3:1: error: unknown element <joint> in <worldbody>",
+        ),
+        (
+            world("<body><inertial mass='1'/></body>"),
+            "<text>:3:7: error: <inertial> needs the attribute 'pos'",
+        ),
+        (
+            world("<body><inertial pos='0 0 0' mass='1'/><inertial pos='0 0 0' mass='1'/></body>"),
+            "<text>:3:39: error: <inertial> may stand only once in <body>",
+        ),
+        (
+            world("<geom size='1' euler='0 0 1' quat='1 0 0 0'/>"),
+            "<text>:3:1: error: <geom> takes only one of 'quat' or 'axisangle' or 'xyaxes' or 'zaxis' or 'euler'",
+        ),
+        (
+            "<mujoco><actuator><motor joint='elbov'/></actuator><worldbody><body><joint name='elbow'/></body></worldbody></mujoco>"
+                .into(),
+            "<text>:1:33: error: no joint is named 'elbov'; did you mean 'elbow'?",
+        ),
+        (
+            "<mujoco><sensor><touch name='t'/></sensor></mujoco>".into(),
+            "<text>:1:17: error: <touch> needs the attribute 'site'",
+        ),
+        (
+            "<mujoco><sensor><framepos objtype='bodyy' objname='world'/></sensor></mujoco>".into(),
+            "<text>:1:36: error: attribute 'objtype' of <framepos> cannot be 'bodyy'; did you mean 'body'?",
+        ),
+        (
+            "<mujoco><compiler eulerseq='xyq'/></mujoco>".into(),
+            "<text>:1:29: error: attribute 'eulerseq' takes three of the letters xyzXYZ",
+        ),
+        (
+            "<mujoco><option><flag contact='off'/></option></mujoco>".into(),
+            "<text>:1:32: error: attribute 'contact' of <flag> cannot be 'off'; one of disable, enable",
+        ),
+        (
+            "<mujoco><size memory='12Q'/></mujoco>".into(),
+            "<text>:1:23: error: attribute 'memory' takes a number of bytes such as 512K or 15M",
+        ),
+        (
+            "<mujoco><default><default class='a'><geom name='g'/></default></default></mujoco>".into(),
+            "<text>:1:43: error: attribute 'name' of <geom> cannot have a default",
+        ),
+        ("<robot name='r'/>".into(), "<text>:1:1: error: this is URDF: only MJCF is supported"),
+        ("<model/>".into(), "<text>:1:1: error: root element <model> is not <mujoco>"),
+        (
+            world("<flexcomp name='f' type='grid'/>"),
+            "<text>:3:1: error: <flexcomp> is not supported: deformable bodies are not simulated",
+        ),
+        (
+            "<mujoco><actuator><general joint='j' dyntype='user'/></actuator><worldbody><body><joint name='j'/></body></worldbody></mujoco>"
+                .into(),
+            "<text>:1:19: error: user actuators are not supported: they are not simulated",
+        ),
+        (
+            "<mujoco><option collision='predefined'/></mujoco>".into(),
+            "<text>:1:17: error: attribute 'collision' of <option> is no longer supported; only 'all' is accepted: pairs and excludes now decide alone",
+        ),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(first(&text), expected, "for {text}");
+    }
+}
+
+#[test]
+fn all_faults_are_reported_together() {
+    let text =
+        world("<geom size='x'/>\n<site typo='1'/>\n<body name='a'><geom size='1' material='none'/></body>");
+    let found = refused(&text);
+    let lines: Vec<usize> = found.errors().filter_map(|d| d.position.as_ref().map(|p| p.line)).collect();
+    assert_eq!(found.errors().count(), 3, "{found}");
+    assert!([3, 4, 5].iter().all(|line| lines.contains(line)), "{found}");
+}
+
+#[test]
+fn broken_xml_is_located() {
+    let cases = [
+        ("", "<text>:1:1: error: file is empty"),
+        (
+            "<mujoco>\n <worldbody>\n</mujoco>",
+            "<text>:3:1: error: </mujoco> does not close <worldbody> opened on line 2",
+        ),
+        ("<mujoco>\n <option/>", "<text>:1:1: error: <mujoco> is never closed"),
+        ("<mujoco>\n <option timestep='1", "<text>:2:19: error: attribute value has no closing quote"),
+        ("<mujoco>\n <option", "<text>:2:2: error: <option has no '>'"),
+        ("<mujoco></mujoco></mujoco>", "<text>:1:18: error: </mujoco> closes nothing"),
+        ("<mujoco><!-- open </mujoco>", "<text>:1:9: error: comment is never closed"),
+        ("<mujoco model='&what;'/>", "<text>:1:16: error: not XML: unknown entity reference 'what'"),
+        (
+            "<mujoco model='a' model='b'/>",
+            "<text>:1:19: error: not XML: attribute 'model' is already defined",
+        ),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(first(text), expected, "for {text}");
+    }
+}
+
+#[test]
+fn what_mujocos_parser_forgives_is_read() {
+    let text = "\u{feff}<?xml version='1.0'?><!DOCTYPE mujoco><!-- a -- b -->\n<mujoco><worldbody><geom size='1'pos='0 0 1'/></worldbody></mujoco>";
+    let model = load_str(text).unwrap_or_else(|d| panic!("{d}")).model;
+    assert_eq!(model.geom_pos, [[0.0, 0.0, 1.0]]);
+}
+
+#[test]
+fn hostile_texts_are_refused_at_once() {
+    let deep = format!("<mujoco>{}{}</mujoco>", "<body>".repeat(200_000), "</body>".repeat(200_000));
+    let open = "<a>".repeat(200_000);
+    let bomb = concat!(
+        "<!DOCTYPE m [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;&a;&a;&a;&a;&a;&a;&a;'>",
+        "<!ENTITY c '&b;&b;&b;&b;&b;&b;&b;&b;&b;&b;'>]><mujoco model='&c;'/>"
+    );
+    let wide = format!("<mujoco {}/>", (0..100_000).map(|i| format!("a{i}='' ")).collect::<String>());
+    let cases = [
+        (deep.as_str(), "elements are nested more than 200 deep"),
+        (open.as_str(), "elements are nested more than 200 deep"),
+        (bomb, "entity declarations are not supported"),
+        (wide.as_str(), "attributes, more than the limit of 128"),
+    ];
+    for (text, expected) in cases {
+        let start = Instant::now();
+        let found = first(text);
+        let took = start.elapsed();
+        println!("{expected}: {took:?}");
+        assert!(found.contains(expected), "{found}");
+        assert!(took < PROMPT, "{expected}: {took:?}");
+    }
+}
+
+fn in_memory(files: &[(&str, &str)]) -> Loader {
+    let mut memory = Memory::default();
+    files.iter().for_each(|(path, text)| memory.insert(path, text.as_bytes()));
+    Loader::default().files(memory)
+}
+
+#[test]
+fn includes_that_never_end_or_repeat_are_refused() {
+    let own = in_memory(&[("m/a.xml", "<mujoco><include file='a.xml'/></mujoco>")]);
+    let found = own.load("m/a.xml").err().map(|d| d.to_string());
+    assert_eq!(found.as_deref(), Some("m/a.xml:1:24: error: 'm/a.xml' includes itself"));
+
+    let ring = in_memory(&[
+        ("a.xml", "<mujoco>\n<include file='b.xml'/></mujoco>"),
+        ("b.xml", "<any><include file='c/c.xml'/></any>"),
+        ("c/c.xml", "<any>\n\n <include file='../a.xml'/></any>"),
+    ]);
+    let found = ring.load("a.xml").err().map(|d| d.to_string()).unwrap_or_default();
+    assert_eq!(
+        found,
+        "c/c.xml:3:17: error: 'a.xml' includes itself\n  included from b.xml:1:21\n  included from a.xml:2:16"
+    );
+
+    let twice = in_memory(&[
+        ("a.xml", "<mujoco><include file='b.xml'/><include file='b.xml'/></mujoco>"),
+        ("b.xml", "<any><option timestep='0.001'/></any>"),
+    ]);
+    let found = twice.load("a.xml").err().map(|d| d.to_string());
+    assert_eq!(found.as_deref(), Some("a.xml:1:47: error: file 'b.xml' is already included"));
+}
+
+#[test]
+fn errors_in_included_files_carry_the_chain() {
+    let loader = in_memory(&[
+        ("top/a.xml", "<mujoco>\n<worldbody><include file='parts/b.xml'/></worldbody></mujoco>"),
+        ("top/parts/b.xml", "<whatever>\n<geom size='1' colour='red'/></whatever>"),
+    ]);
+    let found = loader.load("top/a.xml").err().map(|d| d.to_string());
+    let expected =
+        "top/parts/b.xml:2:16: error: unknown attribute 'colour' of <geom>\n  included from top/a.xml:2:27";
+    assert_eq!(found.as_deref(), Some(expected));
+}
+
+#[test]
+fn files_out_of_reach_are_refused() {
+    let dir = std::env::temp_dir().join(format!("mjcf-reach-{}", std::process::id()));
+    let inner = dir.join("inner");
+    std::fs::create_dir_all(&inner).expect("temporary directory");
+    std::fs::write(dir.join("secret.xml"), "<any><option/></any>").expect("write");
+    std::fs::write(inner.join("a.xml"), "<mujoco><include file='../secret.xml'/></mujoco>").expect("write");
+    std::fs::write(inner.join("b.xml"), "<mujoco><include file='/dev/zero'/></mujoco>").expect("write");
+    let path = |name: &str| inner.join(name).to_string_lossy().into_owned();
+    let jailed = Loader::default().files(Disk::within(&inner)).load(&path("a.xml"));
+    let device = Loader::default().load(&path("b.xml"));
+    std::fs::remove_dir_all(&dir).expect("clean up");
+    let jailed = jailed.err().map(|d| d.to_string()).unwrap_or_default();
+    assert!(jailed.contains("path leads outside the directory this model may read"), "{jailed}");
+    let device = device.err().map(|d| d.to_string()).unwrap_or_default();
+    assert!(device.contains("path is not a regular file"), "{device}");
+}
+
+#[test]
+fn broken_and_missing_meshes_are_located() {
+    let model = |file: &str| {
+        format!(
+            "<mujoco>\n<asset><mesh name='m' file='{file}'/></asset>\n<worldbody><geom type='mesh' mesh='m'/></worldbody></mujoco>"
+        )
+    };
+    let mut memory = Memory::default();
+    memory.insert("missing.xml", model("none.stl").as_bytes());
+    memory.insert("cut.xml", model("cut.stl").as_bytes());
+    // A header that announces a thousand triangles, and one.
+    let mut stl = vec![0_u8; 80];
+    stl.extend(1000_u32.to_le_bytes());
+    stl.extend([0; 50]);
+    memory.insert("cut.stl", stl);
+    let loader = Loader::default().files(memory);
+    for path in ["missing.xml", "cut.xml"] {
+        let found = loader.load(path).err().map(|d| d.to_string()).unwrap_or_default();
+        println!("{found}");
+        assert!(found.starts_with(&format!("{path}:2:8: error: ")), "{found}");
+    }
+}
+
+#[test]
+fn dropped_attributes_are_ignored_aloud() {
+    let text = "<mujoco><option apirate='60' timestep='0.004'/><default class='old'><geom size='2'/></default><worldbody><geom/></worldbody></mujoco>";
+    let loaded = load_str(text).unwrap_or_else(|d| panic!("{d}"));
+    assert_eq!(loaded.model.opt.timestep, 0.004);
+    assert_eq!(loaded.model.geom_size[0][0], 2.0);
+    let warnings: Vec<String> = loaded.warnings.warnings().map(|w| w.to_string()).collect();
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+    assert!(
+        warnings
+            .iter()
+            .any(|w| w.starts_with("<text>:1:17: warning: attribute 'apirate' of <option> is ignored"))
+    );
+    assert!(warnings.iter().any(|w| w.contains("'old' is read as 'main'")));
+}
