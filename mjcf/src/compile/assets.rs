@@ -73,7 +73,7 @@ enum Job<'s> {
 }
 
 enum Outcome {
-    Mesh(CompiledMesh),
+    Mesh(Box<CompiledMesh>),
     Texture(CompiledTexture),
     Hfield(CompiledHfield),
 }
@@ -131,7 +131,7 @@ pub(super) fn compile(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> A
         match job {
             Job::Mesh { .. } => {
                 let compiled =
-                    if let Some(Outcome::Mesh(mesh)) = outcome { mesh } else { CompiledMesh::default() };
+                    if let Some(Outcome::Mesh(mesh)) = outcome { *mesh } else { CompiledMesh::default() };
                 assets.mesh_ids.entry(name.clone()).or_insert(assets.meshes.len());
                 assets.meshes.push(Asset { name, loc, path, material, compiled });
             }
@@ -286,7 +286,7 @@ impl Job<'_> {
                     maxhullvert: spec.maxhullvert,
                     needhull: *needhull,
                 })
-                .map(Outcome::Mesh)
+                .map(|mesh| Outcome::Mesh(Box::new(mesh)))
             }
             Job::Texture { source } => image::texture(source).map(Outcome::Texture),
             Job::Hfield { source } => image::hfield(source.clone()).map(Outcome::Hfield),

@@ -4,7 +4,7 @@
 use super::assets::Assets;
 use super::tree::Tree;
 use crate::spec::{Spec, WrapKind};
-use physics::model::{GeomType, ObjType};
+use physics::model::ObjType;
 use std::collections::BTreeSet;
 
 /// Drops visual geoms and assets; ids close up.
@@ -15,7 +15,7 @@ pub(super) fn discard_visual(tree: &mut Tree, assets: &mut Assets, spec: &Spec) 
             .retain(|g| g.spec.contype != 0 || g.spec.conaffinity != 0 || mentioned.contains(&*g.spec.name));
     }
     let mut kept: BTreeSet<String> = mentioned_meshes(spec);
-    kept.extend(tree.geoms().filter(|g| g.spec.kind == GeomType::Mesh).map(|g| g.spec.meshname.clone()));
+    kept.extend(tree.geoms().filter(|g| !g.spec.meshname.is_empty()).map(|g| g.spec.meshname.clone()));
     let mut renumbered = Vec::with_capacity(assets.meshes.len());
     let mut next = 0;
     for mesh in &assets.meshes {
@@ -26,7 +26,7 @@ pub(super) fn discard_visual(tree: &mut Tree, assets: &mut Assets, spec: &Spec) 
     assets.meshes.retain(|mesh| kept.contains(&mesh.name));
     for body in &mut tree.bodies {
         for geom in &mut body.geoms {
-            if geom.spec.kind == GeomType::Mesh {
+            if !geom.spec.meshname.is_empty() {
                 geom.dataid = renumbered[geom.dataid as usize];
             }
             geom.material.clear();

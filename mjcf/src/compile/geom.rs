@@ -21,7 +21,7 @@ pub(super) struct GeomNode<'s> {
     pub rbound: f64,
     pub mass: f64,
     pub inertia: Vec3,
-    /// Id of the mesh or height field the geom consists of, -1 for none.
+    /// Id of the mesh or height field the geom consists of or was fitted to, -1 for none.
     pub dataid: i32,
     /// Material: the geom's own, else that of its mesh.
     pub material: String,
@@ -100,7 +100,7 @@ pub(super) fn compile<'s>(spec: &'s Geom, context: &Context) -> Result<GeomNode<
     if let Some(frame) = context.frame {
         pose = frame.then(&pose);
     }
-    let dataid = solid.map(|(id, _)| id).or(hfield.map(|(id, _)| id)).map_or(-1, |id| id as i32);
+    let dataid = mesh.map(|(id, _)| id).or(hfield.map(|(id, _)| id)).map_or(-1, |id| id as i32);
     let mesh_material = mesh.map_or("", |(id, _)| &context.assets.meshes[id].material);
     let material = if spec.material.is_empty() { mesh_material } else { &spec.material }.to_owned();
     Ok(GeomNode { spec, pose, size, aabb, rbound, mass, inertia, dataid, material, surfacevel, fluid })

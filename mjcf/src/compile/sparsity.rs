@@ -119,14 +119,12 @@ fn maps(m: &mut Model) {
             let (low, high) = (row.min(column), row.max(column));
             m.mapM2D.push(find(&m.M_colind, m.M_rowadr[high], m.M_rownnz[high], low as i32));
         }
-        let mut in_ancestor_order = 0;
-        let first = m.mapM2M.len();
         for k in entries(m.M_rowadr[row], m.M_rownnz[row]) {
             m.mapD2M.push(find(&m.D_colind, m.D_rowadr[row], m.D_rownnz[row], m.M_colind[k]));
-            m.mapM2M.push(m.dof_Madr[row] + in_ancestor_order);
-            in_ancestor_order += 1;
         }
-        m.mapM2M[first..].reverse();
+        // From the diagonal up to the root, hence backwards.
+        let first = m.dof_Madr[row];
+        m.mapM2M.extend((first..first + m.M_rownnz[row]).rev());
     }
 }
 

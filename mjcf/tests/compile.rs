@@ -1,0 +1,139 @@
+//! The compile of small models: laws that hold whatever the numbers, and refusals.
+
+use robohive_mjcf::loader::load_str;
+
+fn compile(text: &str) -> physics::Model {
+    load_str(text).unwrap_or_else(|errors| panic!("{errors}")).model
+}
+
+fn refusal(text: &str) -> String {
+    load_str(text).err().expect("the model must be refused").to_string()
+}
+
+/// A trunk with two arms, one of which ends in two fingers; a rail apart from it.
+const TREE: &str = r#"
+<mujoco>
+  <worldbody>
+    <body name="trunk">
+      <joint type="ball"/>
+      <geom type="capsule" fromto="0 0 0 0 0 .5" size=".05"/>
+      <body name="left" pos="0 .1 .5">
+        <joint axis="0 1 0"/>
+        <geom type="box" size=".1 .02 .03" pos=".1 0 0"/>
+        <body name="plate" pos=".2 0 0" euler="0 30 0">
+          <geom type="cylinder" size=".04 .01" pos="0 0 .02"/>
+          <body name="finger1" pos="0 .03 0">
+            <joint type="slide" axis="1 0 0"/>
+            <geom size=".02"/>
+          </body>
+          <body name="finger2" pos="0 -.03 0">
+            <joint axis="0 0 1" pos="0 .01 0"/>
+            <geom type="ellipsoid" size=".02 .03 .01"/>
+          </body>
+        </body>
+      </body>
+      <body name="right" pos="0 -.1 .5">
+        <joint axis="1 0 0"/>
+        <geom type="box" size=".03 .1 .02" quat="1 .3 .2 .1"/>
+      </body>
+    </body>
+    <body name="rail">
+      <joint type="slide" axis="1 0 0"/>
+      <joint type="slide" axis="0 1 0"/>
+      <geom type="box" size=".1 .2 .3"/>
+    </body>
+  </worldbody>
+</mujoco>"#;
+
+#[test]
+fn patterns_of_inertia_agree_with_the_tree() {
+    let m = compile(TREE);
+    assert_eq!((m.nv, m.nM, m.nC, m.ntree), (9, 27, 26, 2));
+    assert_eq!(m.body_simple[m.nbody - 1], 2, "a box on aligned sliders is simple");
+    for row in 0..m.nv {
+        let columns =
+            |address: &[i32], count: &[i32]| address[row] as usize..(address[row] + count[row]) as usize;
+        for k in columns(&m.D_rowadr, &m.D_rownnz) {
+            let (low, high) = (row.min(m.D_colind[k] as usize), row.max(m.D_colind[k] as usize));
+            let Ok(entry) = usize::try_from(m.mapM2D[k]) else { continue };
+            assert_eq!(m.M_colind[entry] as usize, low);
+            assert!(columns_of(&m, high).contains(&entry));
+        }
+        for k in columns(&m.M_rowadr, &m.M_rownnz) {
+            let entry = m.mapD2M[k] as usize;
+            assert_eq!(m.D_colind[entry], m.M_colind[k]);
+            let hops = m.mapM2M[k] - m.dof_Madr[row];
+            let above = (0..hops).fold(row as i32, |dof, _| m.dof_parentid[dof as usize]);
+            assert_eq!(above, m.M_colind[k]);
+        }
+    }
+}
+
+fn columns_of(m: &physics::Model, row: usize) -> std::ops::Range<usize> {
+    m.M_rowadr[row] as usize..(m.M_rowadr[row] + m.M_rownnz[row]) as usize
+}
+
+#[test]
+fn fusing_static_bodies_keeps_the_mechanism() {
+    let whole = compile(TREE);
+    let fused = compile(&TREE.replace("<worldbody>", r#"<compiler fusestatic="true"/><worldbody>"#));
+    assert_eq!((whole.nbody, fused.nbody, fused.ngeom), (8, 7, whole.ngeom));
+    assert!(fused.id_of(physics::model::ObjType::Body, "plate").is_none());
+    for dof in 0..whole.nv {
+        let (a, b) = (whole.dof_M0[dof], fused.dof_M0[dof]);
+        assert!(a > 1e-6 && (a - b).abs() < 1e-12, "{dof}: {a} {b}");
+        assert!(
+            (whole.dof_invweight0[dof] - fused.dof_invweight0[dof]).abs() < 1e-9 * whole.dof_invweight0[dof]
+        );
+    }
+}
+
+#[test]
+fn total_mass_is_scaled_and_visual_geoms_still_weigh() {
+    let text = TREE.replace(
+        "<worldbody>",
+        r#"<compiler settotalmass="3" discardvisual="true"/><default><geom contype="0" conaffinity="0"/></default><worldbody>"#,
+    );
+    let m = compile(&text);
+    assert_eq!(m.ngeom, 0);
+    assert!((m.body_subtreemass[0] - 3.0).abs() < 1e-12);
+    let whole = compile(TREE);
+    let ratio = m.body_mass[1] / whole.body_mass[1];
+    assert!((m.body_inertia[1][0] / whole.body_inertia[1][0] - ratio).abs() < 1e-12 && ratio < 1.0);
+}
+
+#[test]
+fn references_are_checked_with_advice_and_position() {
+    let text = TREE
+        .replace(r#"<joint axis="0 1 0"/>"#, r#"<joint name="elbow" axis="0 1 0"/>"#)
+        .replace("</worldbody>", "</worldbody>\n<actuator>\n<motor name=\"m\" joint=\"elbo\"/></actuator>");
+    let message = refusal(&text);
+    assert!(message.contains("elbo") && message.contains("'elbow'"), "{message}");
+    let line = text.lines().position(|l| l.contains("motor")).unwrap() + 1;
+    assert!(message.contains(&format!(":{line}:")), "{message}");
+}
+
+#[test]
+fn what_cannot_move_or_exist_is_refused() {
+    let body =
+        |inside: &str| format!("<mujoco><worldbody><body name=\"b\">{inside}</body></worldbody></mujoco>");
+    let massless = refusal(&body("<joint/>"));
+    assert!(massless.contains("'b'") && massless.contains("mass"), "{massless}");
+    let unbalanced = body(r#"<joint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 3"/>"#);
+    assert!(refusal(&unbalanced).contains("balanceinertia"));
+    let plane = refusal(&body(r#"<joint/><geom size="1"/><geom type="plane" size="1 1 1"/>"#));
+    assert!(plane.contains("plane"), "{plane}");
+    let size = refusal(&body(r#"<geom name="g" type="box" size="1 0 1"/>"#));
+    assert!(size.contains("'g'") && size.contains("size 2"), "{size}");
+    let double = refusal(&body(r#"<geom name="g" size="1"/><geom name="g" size="1"/>"#));
+    assert!(double.contains("duplicate"), "{double}");
+}
+
+#[test]
+fn short_keyframes_are_completed() {
+    let text =
+        TREE.replace("</worldbody>", r#"</worldbody><keyframe><key name="k" qpos="2 0 0 0 .5"/></keyframe>"#);
+    let m = compile(&text);
+    assert_eq!((m.nkey, m.key_qpos.len(), m.key_qvel.len()), (1, m.nq, m.nv));
+    assert_eq!(m.key_qpos[..6], [1.0, 0.0, 0.0, 0.0, 0.5, 0.0]);
+}
