@@ -217,3 +217,37 @@ fn sort_rows(efc: &Constraints, island: &mut Islands, scratch: &mut IslandScratc
         backward[at as usize] = row as i32;
     });
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constraint::rows::{RowKind, push};
+
+    /// Four trees of one degree of freedom; joints 3 and 1 are coupled, joint 0 has friction loss, joint 2 is free.
+    #[test]
+    fn coupled_trees_make_one_island() {
+        let m = Model {
+            nv: 4,
+            ntree: 4,
+            neq: 1,
+            eq_type: vec![EqType::Joint.code()],
+            dof_treeid: vec![0, 1, 2, 3],
+            tree_dofnum: vec![1; 4],
+            ..Model::default()
+        };
+        let mut efc = Constraints::default();
+        let row = |kind| RowKind { kind, id: 0, margin: 0.0, frictionloss: 0.0 };
+        push(&mut efc, row(ConstraintType::Equality), 0.0, &[1, 3], &[-0.5, 1.0]);
+        push(&mut efc, row(ConstraintType::FrictionDof), 0.0, &[0], &[1.0]);
+        let mut island = Islands::default();
+        find_islands(&m, &Contacts::default(), &efc, &mut island, &mut IslandScratch::default());
+        assert_eq!((island.nisland, island.nidof), (2, 3));
+        assert_eq!(island.tree_island, [0, 1, -1, 1]);
+        assert_eq!(island.map_idof2dof, [0, 1, 3, 2]);
+        assert_eq!(island.map_dof2idof, [0, 1, 3, 2]);
+        assert_eq!(island.efc_island, [1, 0]);
+        assert_eq!(island.map_iefc2efc, [1, 0]);
+        assert_eq!((&island.island_ne[..], &island.island_nf[..]), (&[0, 1][..], &[1, 0][..]));
+        assert_eq!(island.island_dofadr, [0, 1]);
+    }
+}

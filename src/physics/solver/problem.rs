@@ -82,6 +82,15 @@ impl Problem {
         }
     }
 
+    /// Appends an inertia row with consecutive columns from `first` to the diagonal.
+    #[cfg(test)]
+    pub fn push_inertia_row(&mut self, first: i32, row: &[f64]) {
+        self.inertia_rownnz.push(row.len() as i32);
+        self.inertia_rowadr.push(self.inertia.len() as i32);
+        self.inertia_colind.extend(first..first + row.len() as i32);
+        self.inertia.extend_from_slice(row);
+    }
+
     fn gather_dense(&mut self, efc: &Constraints, s: Selection) {
         self.jacobian.clear();
         self.jacobian.resize(s.rows.len() * self.nv, 0.0);

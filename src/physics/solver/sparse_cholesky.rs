@@ -238,3 +238,74 @@ impl SparseCholesky {
         rank
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::math::dense::{cholesky_factor, cholesky_solve, dot_slice};
+
+    /// Inertia of two chains 0-1-2 and 3-4 with one row that couples their ends, and one within the first.
+    fn problem() -> Problem {
+        let inertia = [
+            (0, vec![4.0]),
+            (0, vec![1.0, 5.0]),
+            (0, vec![0.5, 1.5, 3.0]),
+            (3, vec![2.0]),
+            (3, vec![-1.0, 4.0]),
+        ];
+        let mut p = Problem { nv: 5, ..Problem::default() };
+        for (first, row) in inertia {
+            p.push_inertia_row(first, &row);
+        }
+        p.rows.d = vec![3.0, 7.0];
+        p.columns = vec![0, 2, 4, 1, 2];
+        p.jacobian = vec![1.0, -2.0, 1.5, 0.5, 2.0];
+        p.row_start = vec![0, 3, 5];
+        p
+    }
+
+    fn dense(p: &Problem, active: &[f64]) -> Vec<f64> {
+        let mut h = vec![0.0; 25];
+        for r in 0..5 {
+            for (&c, &x) in p.inertia_row(r).0.iter().zip(p.inertia_row(r).1) {
+                h[5 * r + c as usize] = x;
+                h[5 * c as usize + r] = x;
+            }
+        }
+        for (i, d) in active.iter().enumerate() {
+            let (columns, values) = p.sparse_row(i);
+            for (&a, x) in columns.iter().zip(values) {
+                for (&b, y) in columns.iter().zip(values) {
+                    h[5 * a as usize + b as usize] += d * x * y;
+                }
+            }
+        }
+        h
+    }
+
+    #[test]
+    fn agrees_with_dense_factor_before_and_after_an_update() {
+        let p = problem();
+        let (mut cholesky, mut values) = (SparseCholesky::default(), Vec::new());
+        cholesky.analyse(&p);
+        assert!(cholesky.columns.len() < 15, "the factor is sparse");
+        assert_eq!(cholesky.factorize(&p, &[3.0, 0.0], &mut values, 1e-15), 5);
+        let b = [1.0, -2.0, 3.0, 0.5, -1.0];
+        let check = |cholesky: &SparseCholesky, values: &[f64], active: &[f64]| {
+            let (mut x, mut y) = (b, b);
+            cholesky.solve(values, &mut x);
+            let mut h = dense(&p, active);
+            assert!((0..5).any(|i| dot_slice(&h[5 * i..5 * i + 5], &b).abs() > 1.0));
+            cholesky_factor(&mut h, 5, 1e-15);
+            cholesky_solve(&h, 5, &mut y);
+            for (x, y) in x.iter().zip(y) {
+                assert!((x - y).abs() < 1e-12);
+            }
+        };
+        check(&cholesky, &values, &[3.0, 0.0]);
+        let (columns, row) = p.sparse_row(1);
+        let scaled: Vec<f64> = row.iter().map(|x| x * 7.0_f64.sqrt()).collect();
+        assert_eq!(cholesky.update(&mut values, columns, &scaled, true, 1e-15), 5);
+        check(&cholesky, &values, &[3.0, 7.0]);
+    }
+}
