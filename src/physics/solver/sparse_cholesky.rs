@@ -253,7 +253,8 @@ mod tests {
             (3, vec![2.0]),
             (3, vec![-1.0, 4.0]),
         ];
-        let mut p = Problem { nv: 5, ..Problem::default() };
+        let mut p = Problem::default();
+        p.nv = 5;
         for (first, row) in inertia {
             p.push_inertia_row(first, &row);
         }
