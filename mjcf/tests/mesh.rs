@@ -193,6 +193,41 @@ fn lattice_hull_is_listed_as_in_mujoco() {
     ]);
 }
 
+/// Checksums of graph and polygons recorded from MuJoCo 3.12: lattice points near a sphere, whose
+/// coplanar facets are merged and removed again, so that the order of all lists shows.
+#[test]
+fn degenerate_hulls_are_listed_as_in_mujoco() {
+    #[rustfmt::skip]
+    const RECORDED: [(u64, u64); 8] = [
+        (42, 0xb0a685e21446e175),
+        (62, 0x9c5aa415c701de68),
+        (74, 0x5405caa6d7911c74),
+        (145, 0x8aad9128b6eab11c),
+        (177, 0xf29ae3374a07c0ea),
+        (190, 0xd342b39eac646dd4),
+        (241, 0xa059bc9491a39097),
+        (255, 0xff1052b94c71c86b),
+    ];
+    for (seed, recorded) in RECORDED {
+        let mut random = noise(seed);
+        let radius = 4.0 + (seed % 9) as f64;
+        let mut vert = Vec::new();
+        for _ in 0..80 {
+            let p = [random(), random(), random()];
+            let norm = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]).sqrt();
+            vert.extend(p.map(|x| (x / norm * radius + 0.5).floor() as f32));
+        }
+        let inline = RawMesh { vert, ..RawMesh::default() };
+        let mesh = process(MeshSource { inline, ..MeshSource::default() }).unwrap();
+        let sum = mesh
+            .graph
+            .iter()
+            .chain(&mesh.poly_vert)
+            .fold(14695981039346656037u64, |h, &v| (h ^ u64::from(v as u32)).wrapping_mul(1099511628211));
+        assert_eq!(sum, recorded, "seed {seed}");
+    }
+}
+
 #[test]
 fn hull_vertices_can_be_limited() {
     let mut random = noise(3);

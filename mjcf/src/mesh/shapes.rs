@@ -49,7 +49,7 @@ pub fn builtin(shape: Shape, params: &[f64]) -> Result<RawMesh, AssetError> {
         return fail("parameters must be finite");
     }
     // Resolutions are truncated to integers; negative ones become zero.
-    let count = |k: usize| params[k].max(0.0).min(MAX_VERTICES) as usize;
+    let count = |k: usize| params[k].clamp(0.0, MAX_VERTICES) as usize;
     let mesh = match shape {
         Shape::Sphere if params[0] <= -1.0 || count(0) > 4 => return fail("subdivisions must be 0 to 4"),
         Shape::Sphere => sphere(count(0)),

@@ -83,7 +83,8 @@ impl Polytope<'_> {
                 let n = self.facets[visible].neighbors[k];
                 self.facets[n].seen = false;
             }
-            if !self.facets[visible].ridges.is_empty() {
+            // A triangle that once had ridges forgets the latest facet of its predecessors.
+            if self.facets[visible].ridged {
                 self.facets[visible].visit = self.visit;
                 latest_ridged = self.cone_from_ridges(visible, apex)?;
             }
@@ -132,6 +133,7 @@ impl Polytope<'_> {
                 remove_unordered(&mut self.facets[neighbor].ridges, r);
             } else {
                 self.facets[new].ridges.push(r);
+                self.facets[new].ridged = true;
                 let ridge = &mut self.ridges[r];
                 if top {
                     ridge.top = new;

@@ -19,6 +19,8 @@ pub(super) struct Facet {
     pub neighbors: Vec<usize>,
     /// Borders with neighbours, as far as either side is not simplicial.
     pub ridges: Vec<usize>,
+    /// Whether the facet ever had a ridge.
+    pub ridged: bool,
     /// Outward unit normal, once computed.
     pub normal: Option<[f64; 3]>,
     pub offset: f64,
@@ -464,8 +466,10 @@ impl<'a> Polytope<'a> {
         };
         self.ridges.push(ridge);
         let id = self.ridges.len() - 1;
-        self.facets[owner].ridges.push(id);
-        self.facets[neighbor].ridges.push(id);
+        for facet in [owner, neighbor] {
+            self.facets[facet].ridges.push(id);
+            self.facets[facet].ridged = true;
+        }
     }
 
     /// Fills `Vertex::neighbors` from the facets.
