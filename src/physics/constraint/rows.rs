@@ -87,12 +87,26 @@ pub fn mul_jacobian(m: &Model, efc: &Constraints, v: &[f64], out: &mut Vec<f64>)
 /// rows: four lanes by column below `whole`, then the remainder.
 #[inline]
 fn dot_row(columns: &[i32], values: &[f64], v: &[f64], whole: usize) -> f64 {
-    let mut s = [0.0; 5];
-    for (&c, &x) in columns.iter().zip(values) {
-        let c = c as usize;
-        s[if c < whole { c & 3 } else { 4 }] += x * v[c];
+    const LANE: [[f64; 4]; 4] =
+        [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+    let (mut s, mut rest) = ([0.0; 4], 0.0);
+    let mut i = 0;
+    while i < columns.len() {
+        let c = columns[i] as usize;
+        if c >= whole {
+            rest += values[i] * v[c];
+            i += 1;
+        } else if c & 3 == 0 && columns.get(i + 3) == Some(&(c as i32 + 3)) {
+            let (x, y) = (&values[i..i + 4], &v[c..c + 4]);
+            (0..4).for_each(|k| s[k] += x[k] * y[k]);
+            i += 4;
+        } else {
+            let product = values[i] * v[c];
+            (0..4).for_each(|k| s[k] += product * LANE[c & 3][k]);
+            i += 1;
+        }
     }
-    (s[0] + s[2]) + (s[1] + s[3]) + s[4]
+    (s[0] + s[2]) + (s[1] + s[3]) + rest
 }
 
 /// `out = Jᵀ f`.

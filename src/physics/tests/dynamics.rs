@@ -1,0 +1,219 @@
+//! Laws of motion on a machine built here: what holds whatever the numbers are.
+
+use robohive_physics::jacobian::Jacobian;
+use robohive_physics::math::{add, cross, norm, sub};
+use robohive_physics::model::{Integrator, JointType, enable};
+use robohive_physics::set_const::set_const;
+use robohive_physics::{Data, Model, StepError, bias, forward, inertia, integrate, step};
+
+const FLYING: [JointType; 5] =
+    [JointType::Free, JointType::Hinge, JointType::Ball, JointType::Slide, JointType::Hinge];
+const ANCHORED: [JointType; 4] = [JointType::Hinge, JointType::Slide, JointType::Hinge, JointType::Hinge];
+
+/// A chain of bodies on the given joints, all axes and frames askew.
+fn chain(joints: &[JointType]) -> Model {
+    let dofs = |j: JointType| match j {
+        JointType::Free => (7, 6),
+        JointType::Ball => (4, 3),
+        JointType::Slide | JointType::Hinge => (1, 1),
+    };
+    let n = joints.len();
+    let nv: usize = joints.iter().map(|&j| dofs(j).1).sum();
+    let nq = joints.iter().map(|&j| dofs(j).0).sum();
+    let full = nv * (nv + 1) / 2;
+    let mut m = Model {
+        nq,
+        nv,
+        nbody: n + 1,
+        njnt: n,
+        ntree: 1,
+        nM: full,
+        nC: full,
+        nD: nv * nv,
+        ..Model::default()
+    };
+    m.allocate();
+    m.body_quat.fill([1.0, 0.0, 0.0, 0.0]);
+    m.body_iquat.fill([1.0, 0.0, 0.0, 0.0]);
+    m.body_mocapid.fill(-1);
+    m.body_dofadr[0] = -1;
+    m.body_jntadr[0] = -1;
+    let (mut q, mut v) = (0, 0);
+    for (j, &kind) in joints.iter().enumerate() {
+        let b = j + 1;
+        let (width, count) = dofs(kind);
+        let s = b as f64;
+        m.body_parentid[b] = j as i32;
+        (m.body_rootid[b], m.body_weldid[b]) = (1, b as i32);
+        (m.body_jntadr[b], m.body_jntnum[b]) = (j as i32, 1);
+        (m.body_dofadr[b], m.body_dofnum[b]) = (v as i32, count as i32);
+        m.body_pos[b] = if j == 0 { [0.0; 3] } else { [0.3, 0.05 * s, -0.1] };
+        m.body_ipos[b] = [0.1, 0.02 * s, 0.03];
+        m.body_iquat[b] = [0.8, 0.6 / s, (0.36 - 0.36 / (s * s)).sqrt(), 0.0];
+        m.body_mass[b] = 1.0 / s;
+        m.body_inertia[b] = [0.02 / s, 0.03 / s, 0.015 / s];
+        m.jnt_type[j] = kind.code();
+        (m.jnt_qposadr[j], m.jnt_dofadr[j], m.jnt_bodyid[j]) = (q as i32, v as i32, b as i32);
+        m.jnt_axis[j] = if kind == JointType::Slide { [0.6, 0.0, 0.8] } else { [0.0, 0.6, 0.8] };
+        if matches!(kind, JointType::Free | JointType::Ball) {
+            m.jnt_axis[j] = [0.0, 0.0, 1.0];
+            m.qpos0[q + width - 4] = 1.0;
+        }
+        m.jnt_pos[j] = if j == 0 { [0.0; 3] } else { [-0.05, 0.01, 0.02] };
+        for dof in v..v + count {
+            (m.dof_bodyid[dof], m.dof_jntid[dof]) = (b as i32, j as i32);
+            m.dof_parentid[dof] = dof as i32 - 1;
+            (m.M_rowadr[dof], m.M_rownnz[dof]) = ((dof * (dof + 1) / 2) as i32, dof as i32 + 1);
+            for k in 0..=dof {
+                m.M_colind[dof * (dof + 1) / 2 + k] = k as i32;
+            }
+        }
+        (q, v) = (q + width, v + count);
+    }
+    m.qpos_spring = m.qpos0.clone();
+    set_const(&mut m).unwrap();
+    m
+}
+
+/// The chain in motion, away from `qpos0`.
+fn moving(m: &Model) -> Data {
+    let mut d = Data::new(m);
+    let turn: Vec<f64> = (0..m.nv).map(|i| 0.3 + 0.1 * i as f64 - 0.015 * (i * i) as f64).collect();
+    integrate::integrate_pos(m, &mut d.state.qpos, &turn, 1.0);
+    for (i, v) in d.state.qvel.iter_mut().enumerate() {
+        *v = 1.0 - 0.25 * i as f64;
+    }
+    d
+}
+
+#[test]
+fn inverse_dynamics_and_inertia_are_one_law() {
+    let m = chain(&FLYING);
+    let mut d = moving(&m);
+    forward(&m, &mut d).unwrap();
+    let mut force = vec![0.0; m.nv];
+    bias::rne(&m, &d.state, &d.com, &d.vel, Some(&d.acc.qacc), &mut Default::default(), &mut force);
+    assert!(d.vel.qfrc_bias.iter().all(|f| f.abs() > 1e-3));
+    for (dof, f) in force.iter().enumerate() {
+        assert!(f.abs() < 1e-10, "free motion needs force {f} at {dof}");
+    }
+    let mut unit = vec![0.0; m.nv];
+    let mut column = vec![0.0; m.nv];
+    let dense = inertia::full_inertia(&m, &d.inertia.M);
+    for dof in 0..m.nv {
+        unit.fill(0.0);
+        unit[dof] = 1.0;
+        bias::rne(&m, &d.state, &d.com, &d.vel, Some(&unit), &mut Default::default(), &mut column);
+        for i in 0..m.nv {
+            assert!((column[i] - d.vel.qfrc_bias[i] - dense[i * m.nv + dof]).abs() < 1e-11);
+        }
+        inertia::mul_inertia_matrix(&m, &d.inertia.M, &unit, &mut column);
+        inertia::solve(&m, &d.inertia, &mut column);
+        assert!(column.iter().zip(&unit).all(|(x, y)| (x - y).abs() < 1e-11));
+    }
+}
+
+#[test]
+fn jacobians_are_derivatives_of_poses() {
+    let m = chain(&FLYING);
+    let mut d = moving(&m);
+    forward(&m, &mut d).unwrap();
+    let (mut jac, mut rate, mut next) = (Jacobian::default(), Jacobian::default(), Jacobian::default());
+    let last = m.nbody - 1;
+    jac.body_com(&m, &d.kin, &d.com, last);
+    rate.point_rate(&m, &d.com, &d.vel, last, d.kin.xipos[last]);
+    let h = 1e-6;
+    for dof in 0..m.nv {
+        let reach = |s: f64| {
+            let mut moved = d.clone();
+            let mut unit = vec![0.0; m.nv];
+            unit[dof] = s * h;
+            integrate::integrate_pos(&m, &mut moved.state.qpos, &unit, 1.0);
+            forward(&m, &mut moved).unwrap();
+            moved.kin.xipos[last]
+        };
+        let slope = sub(reach(1.0), reach(-1.0)).map(|x| x / (2.0 * h));
+        for k in 0..3 {
+            assert!((slope[k] - jac.pos[k * m.nv + dof]).abs() < 1e-8, "column {dof}");
+        }
+    }
+    let mut later = d.clone();
+    integrate::integrate_pos(&m, &mut later.state.qpos, &d.state.qvel, h);
+    forward(&m, &mut later).unwrap();
+    next.body_com(&m, &later.kin, &later.com, last);
+    let moved = |j: &Jacobian, k: usize| -> f64 {
+        (0..m.nv).map(|dof| j.pos[k * m.nv + dof] * d.state.qvel[dof]).sum()
+    };
+    for k in 0..3 {
+        let slope = (moved(&next, k) - moved(&jac, k)) / h;
+        assert!(slope.abs() > 1e-2 && (slope - moved(&rate, k)).abs() < 1e-4);
+    }
+}
+
+/// Energy gained or lost in 0.2 s.
+fn drift(m: &Model, integrator: Integrator, h: f64) -> f64 {
+    let mut m = m.clone();
+    m.opt.enableflags = enable::ENERGY;
+    (m.opt.integrator, m.opt.timestep) = (integrator.code(), h);
+    let mut d = moving(&m);
+    forward(&m, &mut d).unwrap();
+    let start = d.energy;
+    while d.time < 0.2 - 0.5 * h {
+        step(&m, &mut d).unwrap();
+    }
+    forward(&m, &mut d).unwrap();
+    assert!((d.energy[1] - start[1]).abs() > 0.1, "kinetic energy alone must change");
+    (d.energy[0] + d.energy[1] - start[0] - start[1]).abs()
+}
+
+#[test]
+fn energy_drifts_with_the_order_of_the_integrator() {
+    let order = |m: &Model, integrator| (drift(m, integrator, 8e-3) / drift(m, integrator, 4e-3)).log2();
+    let m = chain(&ANCHORED);
+    let (rk4, euler) = (order(&m, Integrator::Rk4), order(&m, Integrator::Euler));
+    assert!((rk4 - 4.0).abs() < 0.6, "Runge-Kutta of order {rk4}");
+    assert!((euler - 1.0).abs() < 0.2, "Euler of order {euler}");
+    // Stages average angular velocities of frames that differ, which leaves second order for rotations in space.
+    let rk4 = order(&chain(&FLYING), Integrator::Rk4);
+    assert!((rk4 - 2.0).abs() < 0.2, "Runge-Kutta of order {rk4} with quaternions");
+}
+
+#[test]
+fn free_motion_keeps_momentum() {
+    let mut m = chain(&FLYING);
+    m.opt.gravity = [0.0; 3];
+    (m.opt.integrator, m.opt.timestep) = (Integrator::Rk4.code(), 1e-3);
+    let mut d = moving(&m);
+    let momentum = |d: &mut Data| {
+        forward(&m, d).unwrap();
+        let mut sensors = d.sensor.clone();
+        robohive_physics::momentum::subtree_momentum(&m, &d.kin, &d.com, &d.vel, &mut sensors);
+        let linear = sensors.subtree_linvel[0].map(|v| v * m.body_subtreemass[0]);
+        (linear, add(sensors.subtree_angmom[0], cross(d.com.subtree_com[0], linear)))
+    };
+    let (linear, angular) = momentum(&mut d);
+    for _ in 0..200 {
+        step(&m, &mut d).unwrap();
+    }
+    let (linear_end, angular_end) = momentum(&mut d);
+    assert!(norm(linear) > 0.1 && norm(sub(linear_end, linear)) < 1e-6, "{linear:?} {linear_end:?}");
+    assert!(norm(angular) > 0.1 && norm(sub(angular_end, angular)) < 1e-6, "{angular:?} {angular_end:?}");
+}
+
+#[test]
+fn bad_states_are_errors_and_stay() {
+    let m = chain(&FLYING);
+    let mut d = moving(&m);
+    d.state.qvel[7] = f64::NAN;
+    let before = d.state.qpos.clone();
+    match step(&m, &mut d) {
+        Err(StepError::BadQvel(bad)) => {
+            assert_eq!((bad.index, bad.element.as_str(), bad.time), (7, "joint[2]", 0.0));
+        }
+        other => panic!("{other:?}"),
+    }
+    assert_eq!(d.state.qpos, before);
+    let mut sleeping = m.clone();
+    sleeping.opt.enableflags = enable::SLEEP;
+    assert!(matches!(step(&sleeping, &mut Data::new(&sleeping)), Err(StepError::NotSimulated(_))));
+}
