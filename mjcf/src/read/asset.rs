@@ -10,7 +10,7 @@ use crate::xml::{Attribute, Element};
 const SIDES: [&str; 6] = ["fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"];
 
 /// Heights of a height field given in the text.
-const MAX_HEIGHTS: i64 = 100_000_000;
+const MAX_HEIGHTS: i64 = 1 << 26;
 
 impl Reader<'_> {
     pub(super) fn asset(&mut self, section: &Element) {

@@ -27,6 +27,8 @@ pub struct Reader<'a> {
     /// Directory of the main file, which asset paths are tried from first.
     model_dir: String,
     classes: Classes,
+    /// Elements made by `replicate` so far.
+    copied: usize,
     spec: Spec,
 }
 
@@ -38,8 +40,15 @@ pub fn read(
     diagnostics: &mut Diagnostics,
 ) -> Spec {
     let model_dir = sources.get(root.loc.file).map_or(String::new(), |s| s.dir.clone());
-    let mut reader =
-        Reader { sources, diagnostics, files, model_dir, classes: Classes::default(), spec: Spec::default() };
+    let mut reader = Reader {
+        sources,
+        diagnostics,
+        files,
+        model_dir,
+        classes: Classes::default(),
+        copied: 0,
+        spec: Spec::default(),
+    };
     reader.model(root);
     reader.spec
 }

@@ -22,8 +22,8 @@ use crate::spec::{
 };
 use crate::xml::Element;
 
-/// Copies that one `replicate` may make; nesting multiplies.
-const MAX_COPIES: i32 = 100_000;
+/// Elements that the copies of one model may hold together; nesting multiplies.
+const MAX_COPIED: usize = 1_000_000;
 
 /// Names declared inside the piece.
 type Names = BTreeSet<(Space, String)>;
@@ -33,12 +33,9 @@ impl Reader<'_> {
         let class = self.class_of(element, "childclass", place.class);
         let mut wanted = Replicate::default();
         self.rows(element, &REPLICATE_ROWS, &mut wanted);
-        if !(0..=MAX_COPIES).contains(&wanted.count) {
-            return self.error(
-                element.loc,
-                format!("<replicate> makes 0 to {MAX_COPIES} copies, not {}", wanted.count),
-            );
-        }
+        let Ok(count) = usize::try_from(wanted.count) else {
+            return self.error(element.loc, "<replicate> cannot make a negative number of copies");
+        };
         let first = self.spec.frames.len();
         self.spec.frames.push(Frame { loc: element.loc, parent: place.frame, ..Frame::default() });
         let mut piece = Body::default();
@@ -49,6 +46,10 @@ impl Reader<'_> {
         let frames = first..self.spec.frames.len();
         let mut names = Names::new();
         collect(&piece, &mut names);
+        self.copied = self.copied.saturating_add(elements(&piece).saturating_mul(count));
+        if self.copied > MAX_COPIED {
+            return self.error(element.loc, format!("<replicate> makes more than {MAX_COPIED} elements"));
+        }
         let suffixes = suffixes(&wanted);
         let poses = match poses(&wanted, &self.spec) {
             Ok(poses) => poses,
@@ -78,6 +79,13 @@ impl Reader<'_> {
         }
         shift
     }
+}
+
+/// The number of elements in `body`, itself included.
+fn elements(body: &Body) -> usize {
+    let fixed =
+        body.joints.len() + body.geoms.len() + body.sites.len() + body.cameras.len() + body.lights.len();
+    1 + fixed + body.bodies.iter().map(elements).sum::<usize>()
 }
 
 fn suffixes(wanted: &Replicate) -> Vec<String> {
