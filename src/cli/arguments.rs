@@ -60,7 +60,7 @@ pub struct Sim {
     /// MJCF file
     pub model: PathBuf,
     /// Simulated time [s]
-    #[arg(long, default_value_t = 1.0)]
+    #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     pub seconds: f64,
     /// Start from this keyframe, by name or number (default: the first, if any)
     #[arg(long)]
