@@ -258,6 +258,17 @@ fn hfield_source(spec: &Hfield, name: &str, bytes: Option<Arc<[u8]>>) -> HfieldS
 }
 
 impl Job<'_> {
+    /// Bytes to process, a measure of the time it takes.
+    fn weight(&self) -> usize {
+        match self {
+            Job::Mesh { spec, bytes, .. } => bytes.as_ref().map_or(spec.uservert.len(), |b| b.len()),
+            Job::Texture { source } => {
+                source.file.iter().chain(source.cubefiles.iter().flatten()).map(|f| 8 * f.bytes.len()).sum()
+            }
+            Job::Hfield { source } => source.elevation.len(),
+        }
+    }
+
     fn run(&self) -> Result<Outcome, AssetError> {
         match self {
             Job::Mesh { spec, name, bytes, needhull, discard } => {
@@ -300,13 +311,15 @@ fn run_all(jobs: &[Job], threads: bool) -> Vec<Result<Outcome, AssetError>> {
     if !threads || cores < 2 {
         return jobs.iter().map(Job::run).collect();
     }
+    // Largest first, so that no core is left with a long job at the end.
+    let mut order: Vec<usize> = (0..jobs.len()).collect();
+    order.sort_by_key(|&index| std::cmp::Reverse(jobs[index].weight()));
     let next = AtomicUsize::new(0);
     let worker = || {
         let mut done = Vec::new();
         loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(job) = jobs.get(index) else { return done };
-            done.push((index, job.run()));
+            let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) else { return done };
+            done.push((index, jobs[index].run()));
         }
     };
     let mut results: Vec<_> = std::thread::scope(|scope| {
@@ -326,6 +339,7 @@ fn run_all(jobs: &[Job], threads: bool) -> Vec<Result<Outcome, AssetError>> {
 
 /// Appends all assets except the hierarchies, which follow those of the bodies.
 pub(super) fn fill(m: &mut Model, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+    m.tex_data.reserve_exact(assets.textures.iter().map(|asset| asset.compiled.data.len()).sum());
     assets.meshes.iter().for_each(|asset| fill_mesh(m, &asset.compiled));
     for asset in &assets.hfields {
         let hfield = &asset.compiled;
