@@ -19,6 +19,9 @@ use crate::spec::Spec;
 use crate::xml::Element;
 use defaults::Classes;
 
+/// Reads one section of the model.
+type Section<R> = fn(&mut R, &Element);
+
 /// What reading needs to know and what it fills.
 pub struct Reader<'a> {
     sources: &'a Sources,
@@ -57,7 +60,7 @@ impl Reader<'_> {
     fn model(&mut self, root: &Element) {
         self.spec.modelname = root.value("model").unwrap_or("MuJoCo Model").to_string();
         self.spec.world.name = "world".into();
-        let sections: [(&str, fn(&mut Self, &Element)); 15] = [
+        let sections: [(&str, Section<Self>); 15] = [
             ("compiler", Self::compiler),
             ("option", Self::option),
             ("size", Self::size),
