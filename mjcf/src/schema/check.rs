@@ -204,7 +204,7 @@ impl Check<'_> {
         };
         let broken = match rule {
             Rule::Exclusive(bundles) => {
-                let some = bundles.iter().filter(|b| b.iter().any(|a| present(a))).count();
+                let some = bundles.iter().filter(|b| b.iter().any(present)).count();
                 (some > 1).then(|| format!("<{}> takes only one of {}", element.name, list(bundles)))
             }
             Rule::Together(names) => {
@@ -213,7 +213,7 @@ impl Check<'_> {
                 partial.then(|| format!("<{}> takes '{}' only together", element.name, names.join("' and '")))
             }
             Rule::OneOf(bundles) => {
-                let complete = bundles.iter().any(|b| b.iter().all(|a| present(a)));
+                let complete = bundles.iter().any(|b| b.iter().all(present));
                 (!complete).then(|| format!("<{}> needs {}", element.name, list(bundles)))
             }
         };
