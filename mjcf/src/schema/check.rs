@@ -82,7 +82,7 @@ impl Check<'_> {
         kind.each_attribute(defaults, &mut |facts| known.push(facts));
         for attribute in &element.attributes {
             match known.iter().find(|f| f.name == attribute.name) {
-                Some(facts) => self.name(element, attribute, facts),
+                Some(facts) => self.name(element, attribute, facts, defaults),
                 None => self.unknown_attribute(attribute, element, &known, kind, defaults),
             }
         }
@@ -148,10 +148,12 @@ impl Check<'_> {
         self.diagnostics.warning(self.sources, attribute.loc, message);
     }
 
-    fn name(&mut self, element: &Element, attribute: &Attribute, facts: &Facts) {
+    fn name(&mut self, element: &Element, attribute: &Attribute, facts: &Facts, defaults: bool) {
         let refer = |space| (space, attribute.value.clone(), attribute.value_loc);
         match facts.naming {
             Naming::Declares(space) => self.declare(space, &attribute.value, attribute.value_loc),
+            // A default may name what no element that takes it needs.
+            Naming::Refers(_) | Naming::RefersBy(_) if defaults => {}
             Naming::Refers(space) => self.names.used.push(refer(space)),
             Naming::RefersBy(by) => {
                 if let Some(space) = element.value(by).and_then(Space::from_objtype) {
