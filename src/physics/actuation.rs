@@ -81,7 +81,7 @@ fn input(
     setpoint_period(m, i).map_or(u, |period| nearest_setpoint(u, length, period))
 }
 
-fn muscle<'a>(m: &Model, i: usize, prm: &'a [f64; 10]) -> Muscle<'a> {
+pub(crate) fn muscle<'a>(m: &Model, i: usize, prm: &'a [f64; 10]) -> Muscle<'a> {
     let out = m.actuator_outadr[i] as usize;
     Muscle { lengthrange: m.actuator_lengthrange[out], acc0: m.actuator_acc0[out], prm }
 }

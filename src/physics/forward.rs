@@ -8,6 +8,7 @@ use crate::collision::collide;
 use crate::com::com_pos;
 use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::Data;
+use crate::derivative::implicit_fast;
 use crate::inertia::{factor_inertia, make_inertia, solve};
 use crate::integrate::{euler, runge_kutta};
 use crate::jacobian::apply_user_wrenches;
@@ -43,8 +44,17 @@ pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
     if m.opt.integrator == Integrator::Rk4.code() {
         return runge_kutta(m, d);
     }
-    euler(m, d);
+    advance_once(m, d);
     Ok(())
+}
+
+/// One step from the accelerations at hand.
+pub(crate) fn advance_once(m: &Model, d: &mut Data) {
+    if m.opt.integrator == Integrator::Implicitfast.code() {
+        implicit_fast(m, d);
+    } else {
+        euler(m, d);
+    }
 }
 
 /// First half of a step: all that does not depend on controls and applied forces.
@@ -60,7 +70,7 @@ pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
     Ok(())
 }
 
-/// Second half of a step, after inputs have been set; always with Euler's method.
+/// Second half of a step, after inputs have been set; where Euler's method stands in for Runge-Kutta.
 ///
 /// # Errors
 /// As `step`.
@@ -69,7 +79,7 @@ pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
     acceleration(m, d);
     acceleration_sensors(m, d);
     check_acceleration(m, d)?;
-    euler(m, d);
+    advance_once(m, d);
     Ok(())
 }
 

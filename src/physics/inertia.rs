@@ -27,7 +27,8 @@ pub fn make_inertia(m: &Model, com: &Com, ten: &Tendons, inertia: &mut Inertia) 
     for t in 0..m.ntendon {
         let armature = tendon_armature(m, t);
         if armature != 0.0 {
-            add_tendon(m, ten, t, armature, &mut inertia.M);
+            let at = tendon::row(m, t);
+            add_outer_product(m, &m.ten_J_colind[at.clone()], &ten.ten_J[at], armature, &mut inertia.M);
         }
     }
 }
@@ -51,19 +52,17 @@ pub fn tendon_armature(m: &Model, t: usize) -> f64 {
     m.tendon_armature[t] + Driven::Tendon(t).armature(m)
 }
 
-/// `M += armature J'J` with the Jacobian of tendon `t`, on the pattern of `M`.
-fn add_tendon(m: &Model, ten: &Tendons, t: usize, armature: f64, mass: &mut [f64]) {
-    let at = tendon::row(m, t);
-    let (columns, values) = (&m.ten_J_colind[at.clone()], &ten.ten_J[at]);
+/// `matrix += s r'r` with a sparse row `r`, columns ascending, on the pattern of `M`.
+pub fn add_outer_product(m: &Model, columns: &[i32], values: &[f64], s: f64, matrix: &mut [f64]) {
     for (&dof, &value) in columns.iter().zip(values).filter(|(_, v)| **v != 0.0) {
         let target = row(m, dof as usize);
         let mut source = 0;
-        for (entry, &column) in mass[target.clone()].iter_mut().zip(&m.M_colind[target]) {
+        for (entry, &column) in matrix[target.clone()].iter_mut().zip(&m.M_colind[target]) {
             while source < columns.len() && columns[source] < column {
                 source += 1;
             }
             if source < columns.len() && columns[source] == column {
-                *entry += armature * value * values[source];
+                *entry += s * value * values[source];
             }
         }
     }

@@ -29,14 +29,20 @@ struct Rates {
 
 /// Advances the state by one step of semi-implicit Euler; joint damping is taken at the end of the step.
 pub fn euler(m: &Model, d: &mut Data) {
-    let qacc = &mut d.scratch.integrate.qacc;
+    let mut qacc = std::mem::take(&mut d.scratch.integrate.qacc);
     qacc.clear();
     if is_damped(m) {
         qacc.extend(d.acc.qfrc_smooth.iter().zip(&d.acc.qfrc_constraint).map(|(s, c)| s + c));
-        damped_acceleration(m, &d.state, &d.inertia, &mut d.implicit, qacc);
+        damped_acceleration(m, &d.state, &d.inertia, &mut d.implicit, &mut qacc);
     } else {
         qacc.extend_from_slice(&d.acc.qacc);
     }
+    advance_by(m, d, &qacc);
+    d.scratch.integrate.qacc = qacc;
+}
+
+/// Advances the state by one step with acceleration `qacc`, positions by the new velocity.
+pub(crate) fn advance_by(m: &Model, d: &mut Data, qacc: &[f64]) {
     let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot };
     advance(m, &d.trn, &d.acc, &rates, &mut d.state, &mut d.time);
 }

@@ -19,6 +19,7 @@ pub mod com;
 pub mod constraint;
 pub mod contact_force;
 pub mod data;
+pub mod derivative;
 pub mod energy;
 pub mod fluid;
 pub mod forward;

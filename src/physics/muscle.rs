@@ -40,6 +40,22 @@ impl Muscle<'_> {
             * velocity_curve(v, fvmax)
     }
 
+    /// Derivative of `gain` with respect to velocity.
+    pub fn gain_slope(&self, length: f64, velocity: f64) -> f64 {
+        let [.., lmin, lmax, vmax, _, fvmax, _] = *self.prm;
+        let fastest = (self.resting_length() * vmax).max(MINVAL);
+        let v = velocity / fastest;
+        let y = fvmax - 1.0;
+        let slope = if v <= -1.0 || v > y.max(0.0) {
+            0.0
+        } else if v <= 0.0 {
+            2.0 * v + 2.0
+        } else {
+            2.0 * (y - v) / y.max(MINVAL)
+        };
+        -self.peak_force() * length_curve(self.normalized_length(length), lmin, lmax) * slope / fastest
+    }
+
     /// Passive force: a parabola from the resting length, continued by a line.
     pub fn bias(&self, length: f64) -> f64 {
         let (lmax, fpmax) = (self.prm[5], self.prm[7]);

@@ -56,7 +56,7 @@ impl std::error::Error for StepError {}
 
 /// Not a number, or beyond the bound.
 fn is_bad(x: f64) -> bool {
-    !(x.abs() <= MAXVAL)
+    x.is_nan() || x.abs() > MAXVAL
 }
 
 /// Checks positions, velocities and controls, and that the options ask for what is simulated.
@@ -119,10 +119,13 @@ fn joint_of_qpos(m: &Model, q: usize) -> usize {
 pub fn check_options(m: &Model) -> Result<(), StepError> {
     let refuse = |feature: &str| Err(StepError::NotSimulated(feature.to_owned()));
     match Integrator::from_code(m.opt.integrator) {
-        Some(Integrator::Euler | Integrator::Rk4) => {}
+        Some(Integrator::Euler | Integrator::Rk4 | Integrator::Implicitfast) => {}
         Some(Integrator::Implicit) => return refuse("integrator \"implicit\" is"),
-        Some(Integrator::Implicitfast) => return refuse("integrator \"implicitfast\" is"),
         None => return refuse("this integrator is"),
+    }
+    let wet = m.opt.viscosity > 0.0 || m.opt.density > 0.0;
+    if wet && m.opt.integrator == Integrator::Implicitfast.code() {
+        return refuse("integrator \"implicitfast\" in a fluid is");
     }
     if m.opt.enableflags & enable::SLEEP != 0 {
         return refuse("sleeping of islands is");

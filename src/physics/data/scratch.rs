@@ -3,6 +3,7 @@
 use crate::bias::RneScratch;
 use crate::collision::CollisionScratch;
 use crate::constraint::{ConstraintScratch, IslandScratch};
+use crate::derivative::ImplicitScratch;
 use crate::integrate::IntegrateScratch;
 use crate::sensor::SensorScratch;
 use crate::solver::SolverScratch;
@@ -18,4 +19,5 @@ pub struct Scratch {
     pub solver: SolverScratch,
     pub sensor: SensorScratch,
     pub integrate: IntegrateScratch,
+    pub implicit: ImplicitScratch,
 }

@@ -201,6 +201,30 @@ fn free_motion_keeps_momentum() {
 }
 
 #[test]
+fn spin_of_a_free_body_changes_energy_as_upstream() {
+    let kinetic = |integrator: Integrator| {
+        let mut m = chain(&[JointType::Free]);
+        m.opt.gravity = [0.0; 3];
+        m.opt.enableflags = enable::ENERGY;
+        (m.opt.integrator, m.opt.timestep) = (integrator.code(), 0.01);
+        let mut d = Data::new(&m);
+        d.state.qvel.copy_from_slice(&[1.0, 0.0, -1.0, 8.0, 12.0, -9.0]);
+        forward(&m, &mut d).unwrap();
+        let start = d.energy[1];
+        for _ in 0..100 {
+            step(&m, &mut d).unwrap();
+        }
+        d.energy[1] / start
+    };
+    // The same body in MuJoCo 3.12.0.
+    for (integrator, ratio) in
+        [(Integrator::Implicitfast, 1.0347456283024405), (Integrator::Euler, 1.0377694235907788)]
+    {
+        assert!((kinetic(integrator) - ratio).abs() < 1e-12, "{integrator:?} {}", kinetic(integrator));
+    }
+}
+
+#[test]
 fn bad_states_are_errors_and_stay() {
     let m = chain(&FLYING);
     let mut d = moving(&m);
