@@ -85,8 +85,9 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits) -> Proximity
         if dot(x, sub(x, s)) < gap_tolerance {
             break;
         }
+        // A support plane at this distance times |x| has the origin in front of it.
         let lower = dot(x, s);
-        if lower > 0.0 && limits.cutoff < BEYOND && lower >= limits.cutoff * x_norm {
+        if lower > 0.0 && is_beyond(lower, x_norm, limits.cutoff) {
             return apart(simplex);
         }
         if n == 3 && try_enclosing {
@@ -119,6 +120,11 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits) -> Proximity
     let separated = dot(x, support_toward_origin(a, b, x, x_norm).diff) > 0.0;
     let dist = if n == 4 && !separated { 0.0 } else { x_norm };
     Proximity { dist, separated, simplex, n, nearest: Some(nearest) }
+}
+
+/// Compares `lower / x_norm` with the cut-off, in squares: exact ties decide as in MuJoCo's release.
+fn is_beyond(lower: f64, x_norm: f64, cutoff: f64) -> bool {
+    cutoff <= 0.0 || (cutoff < BEYOND && lower * lower >= x_norm * x_norm * (cutoff * cutoff))
 }
 
 fn apart(simplex: [Vertex; 4]) -> Proximity {
