@@ -34,6 +34,7 @@ use crate::spec::{Limited, Spec, StatisticOverride};
 use physics::Model;
 use physics::length_range::set_length_ranges;
 use physics::set_const::set_const;
+use physics::validity::check_model;
 
 /// Where findings of the compile go.
 struct Log<'a> {
@@ -95,6 +96,10 @@ pub fn compile(
     let log = &mut Log { sources, diagnostics };
     let (mut m, springdampers) = compile_static(spec, files, log)?;
     if let Err(error) = set_const(&mut m) {
+        log.error(Loc::NONE, error.to_string());
+        return None;
+    }
+    if let Err(error) = check_model(&m) {
         log.error(Loc::NONE, error.to_string());
         return None;
     }
