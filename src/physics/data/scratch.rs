@@ -10,14 +10,20 @@ use crate::solver::SolverScratch;
 
 /// Working memory of all stages.
 #[derive(Clone, Debug, Default)]
-#[allow(missing_docs)]
 pub struct Scratch {
+    /// Collision.
     pub collision: CollisionScratch,
+    /// Constraint rows.
     pub constraint: ConstraintScratch,
+    /// Constraint islands.
     pub island: IslandScratch,
+    /// Recursive Newton-Euler passes.
     pub rne: RneScratch,
+    /// Constraint solver.
     pub solver: SolverScratch,
+    /// Sensors.
     pub sensor: SensorScratch,
+    /// Integrators.
     pub integrate: IntegrateScratch,
     pub implicit: ImplicitScratch,
 }
