@@ -8,12 +8,11 @@ use crate::collision::collide;
 use crate::com::com_pos;
 use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::Data;
-use crate::derivative::implicit_fast;
 use crate::inertia::{factor_inertia, make_inertia, solve};
-use crate::integrate::{euler, runge_kutta};
+use crate::integrate::{Factors, advance_once, integrate};
 use crate::jacobian::apply_user_wrenches;
 use crate::kinematics::kinematics;
-use crate::model::{Integrator, Model, enable};
+use crate::model::{Model, enable};
 use crate::passive::passive;
 use crate::rne_post::rne_post_constraint;
 use crate::sensor::{self, AccelerationInputs, PositionInputs, VelocityInputs};
@@ -41,20 +40,7 @@ pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
     check_state(m, d)?;
     evaluate(m, d, true)?;
     check_acceleration(m, d)?;
-    if m.opt.integrator == Integrator::Rk4.code() {
-        return runge_kutta(m, d);
-    }
-    advance_once(m, d);
-    Ok(())
-}
-
-/// One step from the accelerations at hand.
-pub(crate) fn advance_once(m: &Model, d: &mut Data) {
-    if m.opt.integrator == Integrator::Implicitfast.code() {
-        implicit_fast(m, d);
-    } else {
-        euler(m, d);
-    }
+    integrate(m, d, Factors::Fresh)
 }
 
 /// First half of a step: all that does not depend on controls and applied forces.
@@ -79,7 +65,7 @@ pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
     acceleration(m, d);
     acceleration_sensors(m, d);
     check_acceleration(m, d)?;
-    advance_once(m, d);
+    advance_once(m, d, Factors::Fresh);
     Ok(())
 }
 

@@ -1,18 +1,21 @@
-//! Numerical integration: semi-implicit Euler with implicit joint damping, and fourth-order Runge-Kutta (MuJoCo
-//! documentation, Computation, "Numerical integration").
+//! Numerical integration: semi-implicit Euler with implicit joint damping, Euler implicit in all smooth forces of
+//! velocity, and fourth-order Runge-Kutta (MuJoCo documentation, Computation, "Numerical integration").
 
 use crate::activation::advance_activations;
-use crate::data::{Acceleration, Data, Implicit, Inertia, State, Transmission};
+use crate::data::{Acceleration, Data, Inertia, State, Transmission};
+use crate::derivative::DerivativeInputs;
 use crate::forward::{StepError, evaluate};
+use crate::implicit;
 use crate::inertia::{factor, row, solve_ld};
 use crate::math::{add_scaled_slice, quat_integrate};
-use crate::model::{JointType, Model, disable};
+use crate::model::{Integrator, JointType, Model, disable};
 use crate::reflected_load::dof_damping;
 
 /// Working memory of the integrators.
 #[derive(Clone, Debug, Default)]
 pub struct IntegrateScratch {
     qacc: Vec<f64>,
+    force: Vec<f64>,
     start: Vec<f64>,
     qvel: Vec<f64>,
     act_dot: Vec<f64>,
@@ -27,22 +30,74 @@ struct Rates {
     act_dot: Vec<f64>,
 }
 
+/// Whether an integrator computes its matrix factors anew.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Factors {
+    /// At the present state.
+    Fresh,
+    /// As the last step left them.
+    Kept,
+}
+
+/// Advances the state by one step of the model's integrator; `forward` has been called at the present state.
+///
+/// # Errors
+/// An intermediate state cannot be evaluated.
+pub(crate) fn integrate(m: &Model, d: &mut Data, factors: Factors) -> Result<(), StepError> {
+    if m.opt.integrator == Integrator::Rk4.code() {
+        return runge_kutta(m, d);
+    }
+    advance_once(m, d, factors);
+    Ok(())
+}
+
+/// The same without intermediate states: Euler's method stands in for Runge-Kutta.
+pub(crate) fn advance_once(m: &Model, d: &mut Data, factors: Factors) {
+    match Integrator::from_code(m.opt.integrator) {
+        Some(Integrator::Implicit | Integrator::Implicitfast) => implicit(m, d, factors),
+        Some(Integrator::Euler | Integrator::Rk4) | None => euler(m, d, factors),
+    }
+}
+
+/// Advances the state by one step of Euler's method with forces taken at the new velocity, to first order.
+pub fn implicit(m: &Model, d: &mut Data, factors: Factors) {
+    let inputs = DerivativeInputs {
+        state: &d.state,
+        kin: &d.kin,
+        com: &d.com,
+        ten: &d.ten,
+        trn: &d.trn,
+        inertia: &d.inertia,
+        vel: &d.vel,
+        actuation: &d.actuation,
+    };
+    if factors == Factors::Fresh {
+        implicit::factor(m, &inputs, &mut d.implicit, &mut d.scratch.implicit);
+    }
+    let IntegrateScratch { qacc, force, .. } = &mut d.scratch.integrate;
+    force.clear();
+    force.extend(d.acc.qfrc_smooth.iter().zip(&d.acc.qfrc_constraint).map(|(s, c)| s + c));
+    qacc.resize(m.nv, 0.0);
+    implicit::solve(m, &inputs, &d.implicit, force, qacc);
+    let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot };
+    advance(m, &d.trn, &d.acc, &rates, &mut d.state, &mut d.time);
+}
+
 /// Advances the state by one step of semi-implicit Euler; joint damping is taken at the end of the step.
-pub fn euler(m: &Model, d: &mut Data) {
-    let mut qacc = std::mem::take(&mut d.scratch.integrate.qacc);
+pub fn euler(m: &Model, d: &mut Data, factors: Factors) {
+    let qacc = &mut d.scratch.integrate.qacc;
     qacc.clear();
     if is_damped(m) {
+        if factors == Factors::Fresh {
+            let crate::data::Implicit { qH, qHDiagInv, .. } = &mut d.implicit;
+            damped_inertia(m, &d.state, &d.inertia, qH);
+            factor(m, qH, qHDiagInv);
+        }
         qacc.extend(d.acc.qfrc_smooth.iter().zip(&d.acc.qfrc_constraint).map(|(s, c)| s + c));
-        damped_acceleration(m, &d.state, &d.inertia, &mut d.implicit, &mut qacc);
+        solve_ld(m, &d.implicit.qH, &d.implicit.qHDiagInv, qacc);
     } else {
         qacc.extend_from_slice(&d.acc.qacc);
     }
-    advance_by(m, d, &qacc);
-    d.scratch.integrate.qacc = qacc;
-}
-
-/// Advances the state by one step with acceleration `qacc`, positions by the new velocity.
-pub(crate) fn advance_by(m: &Model, d: &mut Data, qacc: &[f64]) {
     let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot };
     advance(m, &d.trn, &d.acc, &rates, &mut d.state, &mut d.time);
 }
@@ -57,14 +112,12 @@ fn is_damped(m: &Model) -> bool {
         })
 }
 
-/// `x <- (M + h B)^-1 x`, where `B` is the slope of joint damping at the present velocity.
-fn damped_acceleration(m: &Model, state: &State, inertia: &Inertia, out: &mut Implicit, x: &mut [f64]) {
-    out.qH.copy_from_slice(&inertia.M);
+/// `M + h B`, where `B` is the slope of joint damping at the present velocity.
+pub(crate) fn damped_inertia(m: &Model, state: &State, inertia: &Inertia, out: &mut [f64]) {
+    out.copy_from_slice(&inertia.M);
     for dof in 0..m.nv {
-        out.qH[row(m, dof).end - 1] += m.opt.timestep * dof_damping(m, dof).slope(state.qvel[dof].abs());
+        out[row(m, dof).end - 1] += m.opt.timestep * dof_damping(m, dof).slope(state.qvel[dof].abs());
     }
-    factor(m, &mut out.qH, &mut out.qHDiagInv);
-    solve_ld(m, &out.qH, &out.qHDiagInv, x);
 }
 
 /// Rates that move the state over one step.

@@ -2,8 +2,9 @@
 //! documentation, Modeling, "Actuator length range").
 
 use crate::data::Data;
-use crate::forward::{StepError, acceleration, advance_once, position, velocity};
+use crate::forward::{StepError, acceleration, position, velocity};
 use crate::inertia::solve;
+use crate::integrate::{Factors, advance_once};
 use crate::math::ops;
 use crate::model::bounds::MINVAL;
 use crate::model::{BiasType, GainType, LengthRangeMode, Model, ObjType, TrnType, disable, enable};
@@ -237,7 +238,7 @@ fn pull(
         set_pull(m, d, opt, out, direction);
         acceleration(m, d);
         check_acceleration(m, d)?;
-        advance_once(m, d);
+        advance_once(m, d, Factors::Fresh);
         let length = d.trn.actuator_length[out];
         if d.time > opt.inttotal - opt.interval {
             let [least, most] = recorded.unwrap_or([length; 2]);

@@ -24,6 +24,7 @@ pub mod energy;
 pub mod fluid;
 pub mod forward;
 pub mod frame;
+pub mod implicit;
 pub mod inertia;
 pub mod integrate;
 pub mod jacobian;

@@ -119,13 +119,8 @@ fn joint_of_qpos(m: &Model, q: usize) -> usize {
 pub fn check_options(m: &Model) -> Result<(), StepError> {
     let refuse = |feature: &str| Err(StepError::NotSimulated(feature.to_owned()));
     match Integrator::from_code(m.opt.integrator) {
-        Some(Integrator::Euler | Integrator::Rk4 | Integrator::Implicitfast) => {}
-        Some(Integrator::Implicit) => return refuse("integrator \"implicit\" is"),
+        Some(Integrator::Euler | Integrator::Rk4 | Integrator::Implicit | Integrator::Implicitfast) => {}
         None => return refuse("this integrator is"),
-    }
-    let wet = m.opt.viscosity > 0.0 || m.opt.density > 0.0;
-    if wet && m.opt.integrator == Integrator::Implicitfast.code() {
-        return refuse("integrator \"implicitfast\" in a fluid is");
     }
     if m.opt.enableflags & enable::SLEEP != 0 {
         return refuse("sleeping of islands is");

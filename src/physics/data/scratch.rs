@@ -3,7 +3,7 @@
 use crate::bias::RneScratch;
 use crate::collision::CollisionScratch;
 use crate::constraint::{ConstraintScratch, IslandScratch};
-use crate::derivative::ImplicitScratch;
+use crate::implicit::ImplicitScratch;
 use crate::integrate::IntegrateScratch;
 use crate::sensor::SensorScratch;
 use crate::solver::SolverScratch;

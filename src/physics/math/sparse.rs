@@ -1,4 +1,4 @@
-//! Rows of compressed matrices against dense vectors; symmetric products and the L'DL solve.
+//! Rows of compressed matrices against dense vectors; symmetric products, the L'DL solve and LU.
 
 /// Inner product of a sparse row (`values` at `columns`) with dense `x`, summed in four lanes.
 pub fn dot_sparse(values: &[f64], columns: &[i32], x: &[f64]) -> f64 {
@@ -88,6 +88,68 @@ impl LowerRows<'_> {
     }
 }
 
+/// Structure of a matrix in compressed rows whose pattern is symmetric and fills in nowhere when the last rows are
+/// eliminated first, as pairs of nodes on one chain of a tree.
+#[derive(Clone, Copy, Debug)]
+pub struct FullRows<'a> {
+    /// Non-zeros of each row.
+    pub rownnz: &'a [i32],
+    /// Start of each row.
+    pub rowadr: &'a [i32],
+    /// Place of the diagonal within each row.
+    pub diagonal: &'a [i32],
+    /// Columns, increasing within a row.
+    pub colind: &'a [i32],
+}
+
+impl FullRows<'_> {
+    /// Replaces `A` by `L` and `U` with `A = (U + 1) L`: `L` below and on the diagonal, `U` above. `remaining` is
+    /// working memory.
+    pub fn factor_lu(&self, a: &mut [f64], remaining: &mut Vec<usize>) {
+        let n = self.rownnz.len();
+        remaining.clear();
+        remaining.extend(self.rownnz.iter().map(|&k| k as usize));
+        for i in (0..n).rev() {
+            let (start, diagonal) = (self.rowadr[i] as usize, self.diagonal[i] as usize);
+            // Rows below are done, so the diagonal comes last.
+            let (above, row_i) = a.split_at_mut(start);
+            let (row_i, pivot) = (&row_i[..diagonal], row_i[diagonal]);
+            let columns_i = &self.colind[start..start + diagonal];
+            for &j in columns_i {
+                let j = j as usize;
+                remaining[j] -= 1;
+                let at = self.rowadr[j] as usize;
+                let row_j = &mut above[at..=at + remaining[j]];
+                let factor = row_j[remaining[j]] / pivot;
+                row_j[remaining[j]] = factor;
+                let mut k = 0;
+                for (&value, &column) in row_i.iter().zip(columns_i) {
+                    while self.colind[at + k] != column {
+                        k += 1;
+                    }
+                    row_j[k] -= value * factor;
+                }
+            }
+        }
+    }
+
+    /// `x <- A^-1 x` with the factors that `factor_lu` left in `lu`.
+    pub fn solve_lu(&self, lu: &[f64], x: &mut [f64]) {
+        let n = self.rownnz.len();
+        for i in (0..n).rev() {
+            let (start, diagonal) = (self.rowadr[i] as usize, self.diagonal[i] as usize);
+            let above = start + diagonal + 1..start + self.rownnz[i] as usize;
+            x[i] -= dot_sparse(&lu[above.clone()], &self.colind[above], x);
+        }
+        for i in 0..n {
+            let (start, diagonal) = (self.rowadr[i] as usize, self.diagonal[i] as usize);
+            let below = start..start + diagonal;
+            x[i] -= dot_sparse(&lu[below.clone()], &self.colind[below], x);
+            x[i] /= lu[start + diagonal];
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -108,6 +170,24 @@ mod tests {
         assert_eq!(x, [0.5, -7.0, -1.5]);
         rows.solve_ldl(&ld, &[1.0 / d0, 1.0 / d1, 1.0 / d2], &mut x);
         for (x, v) in x.iter().zip(v) {
+            assert!((x - v).abs() < 1e-14);
+        }
+    }
+
+    /// Nodes 1 and 2 hang from node 0 and do not meet: [[5, 1, 2], [3, 4, 0], [-1, 0, 6]].
+    #[test]
+    fn lu_solves_an_unsymmetric_system() {
+        let rows = FullRows {
+            rownnz: &[3, 2, 2],
+            rowadr: &[0, 3, 5],
+            diagonal: &[0, 1, 1],
+            colind: &[0, 1, 2, 0, 1, 0, 2],
+        };
+        let mut a = [5.0, 1.0, 2.0, 3.0, 4.0, -1.0, 6.0];
+        rows.factor_lu(&mut a, &mut Vec::new());
+        let mut x = [5.0 - 2.0 + 6.0, 3.0 - 8.0, -1.0 + 18.0];
+        rows.solve_lu(&a, &mut x);
+        for (x, v) in x.iter().zip([1.0, -2.0, 3.0]) {
             assert!((x - v).abs() < 1e-14);
         }
     }

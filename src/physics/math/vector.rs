@@ -33,6 +33,11 @@ pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
+/// Matrix `A` with `A b = a × b`.
+pub fn cross_matrix(a: Vec3) -> Mat3 {
+    [0.0, -a[2], a[1], a[2], 0.0, -a[0], -a[1], a[0], 0.0]
+}
+
 /// Euclidean length.
 pub fn norm(a: Vec3) -> f64 {
     dot(a, a).sqrt()

@@ -1,0 +1,209 @@
+//! Slope of fluid forces over velocity. In the local frame of `fluid` a wrench has a 6x6 Jacobian `B` with respect to
+//! the velocity, so that joint space sees `J'BJ`.
+
+use super::{DerivativeInputs, add_to_row, is_free_body};
+use crate::chain::{chain, com_offset, point_column};
+use crate::fluid::{Ellipsoid, FluidShape, inertia_box, pow4, relative_velocity, shapes, square};
+use crate::frame::Frame;
+use crate::math::{
+    Mat3, Spatial, Vec3, cross_matrix, dot, linear, norm, ops, rotational, scale, spatial, spatial_dot,
+};
+use crate::model::bounds::MINVAL;
+use crate::model::{Integrator, Model};
+use std::f64::consts::PI;
+
+/// A 6x6 matrix: rows are torque and force, columns angular and linear velocity.
+type Block = [[f64; 6]; 6];
+
+/// Halves of rows and columns of a `Block`.
+const ROTATION: usize = 0;
+const TRANSLATION: usize = 3;
+
+/// Working memory of the fluid's slope.
+#[derive(Clone, Debug, Default)]
+pub struct FluidScratch {
+    dofs: Vec<i32>,
+    columns: Vec<Spatial>,
+    products: Vec<Spatial>,
+}
+
+/// Adds the slopes of the fluid forces of all bodies.
+pub(super) fn add_fluid(m: &Model, inputs: &DerivativeInputs, scratch: &mut FluidScratch, out: &mut [f64]) {
+    let (com, vel) = (inputs.com, inputs.vel);
+    shapes(m, inputs.kin, |shape, at| {
+        let v = relative_velocity(m, com, vel, at);
+        let slope = match shape {
+            FluidShape::InertiaBox => box_slope(inertia_box(m, at.body), &v, m.opt.density, m.opt.viscosity),
+            FluidShape::Ellipsoid(g) => {
+                let slope = ellipsoid_slope(&Ellipsoid::of_geom(m, g), &v, m.opt.density, m.opt.viscosity);
+                // The symmetric solver of this integrator leaves only loose bodies their own solution.
+                let symmetric = m.opt.integrator == Integrator::Implicitfast.code();
+                if symmetric && !is_free_body(m, at.body) { symmetrized(&slope) } else { slope }
+            }
+        };
+        add_block(m, inputs, at, &slope, scratch, out);
+    });
+}
+
+fn symmetrized(b: &Block) -> Block {
+    std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (b[i][j] + b[j][i])))
+}
+
+/// `out += J'BJ` with the Jacobian of a frame in its own orientation.
+fn add_block(
+    m: &Model,
+    inputs: &DerivativeInputs,
+    at: &Frame,
+    b: &Block,
+    scratch: &mut FluidScratch,
+    out: &mut [f64],
+) {
+    let FluidScratch { dofs, columns, products } = scratch;
+    let offset = com_offset(m, inputs.com, at.body, at.pos);
+    dofs.clear();
+    dofs.extend(chain(m, at.body).map(|dof| dof as i32));
+    dofs.reverse();
+    columns.clear();
+    columns.extend(dofs.iter().map(|&dof| {
+        let axis = rotational(&inputs.com.cdof[dof as usize]);
+        at.local(&spatial(axis, point_column(inputs.com, dof as usize, offset)))
+    }));
+    products.clear();
+    products.extend(columns.iter().map(|c| std::array::from_fn(|i| spatial_dot(&b[i], c))));
+    for (&dof, column) in dofs.iter().zip(&*columns) {
+        add_to_row(m, dof as usize, dofs, |p| spatial_dot(column, &products[p]), out);
+    }
+}
+
+/// Slope of `fluid::box_wrench`.
+fn box_slope(side: Vec3, v: &Spatial, density: f64, viscosity: f64) -> Block {
+    let mut b = [[0.0; 6]; 6];
+    if viscosity > 0.0 {
+        let d = (side[0] + side[1] + side[2]) / 3.0;
+        for k in 0..3 {
+            b[k][k] -= PI * d * d * d * viscosity;
+            b[3 + k][3 + k] -= 3.0 * PI * d * viscosity;
+        }
+    }
+    if density > 0.0 {
+        for k in 0..3 {
+            let (p, q) = (side[(k + 1) % 3], side[(k + 2) % 3]);
+            b[k][k] -= density * side[k] * (pow4(p) + pow4(q)) * 2.0 * v[k].abs() / 64.0;
+            b[3 + k][3 + k] -= density * p * q * v[3 + k].abs();
+        }
+    }
+    b
+}
+
+/// Adds `factor * part * diag(column_scale)` to a quadrant of `b`.
+fn add_quadrant(b: &mut Block, (row, column): (usize, usize), part: &Mat3, column_scale: Vec3) {
+    for i in 0..3 {
+        for j in 0..3 {
+            b[row + i][column + j] += part[3 * i + j] * column_scale[j];
+        }
+    }
+}
+
+/// Slope of `Ellipsoid::wrench`.
+fn ellipsoid_slope(e: &Ellipsoid, v: &Spatial, density: f64, viscosity: f64) -> Block {
+    let mut b = [[0.0; 6]; 6];
+    add_magnus(&mut b, e, v, density);
+    let flow = Flow::new(e.size, linear(v));
+    let lift = flow.lift_slope(PI * e.kutta_lift * density);
+    let drag = flow.drag_slope(e, density, viscosity);
+    let torque = torque_slope(e, rotational(v), density, viscosity);
+    add_quadrant(&mut b, (TRANSLATION, TRANSLATION), &lift, [1.0; 3]);
+    add_quadrant(&mut b, (TRANSLATION, TRANSLATION), &drag, [1.0; 3]);
+    add_quadrant(&mut b, (ROTATION, ROTATION), &torque, [1.0; 3]);
+    add_added_mass(&mut b, e, v, density);
+    b.map(|row| row.map(|x| x * e.interaction))
+}
+
+/// Magnus force `c w × l`.
+fn add_magnus(b: &mut Block, e: &Ellipsoid, v: &Spatial, density: f64) {
+    let c = e.magnus_lift * density * e.volume();
+    add_quadrant(b, (TRANSLATION, ROTATION), &cross_matrix(linear(v)), [-c; 3]);
+    add_quadrant(b, (TRANSLATION, TRANSLATION), &cross_matrix(rotational(v)), [c; 3]);
+}
+
+/// Gyroscopic wrench of the fluid that moves along: torque `p × l + q × w`, force `p × w`, where `p` and `q` are its
+/// momenta.
+fn add_added_mass(b: &mut Block, e: &Ellipsoid, v: &Spatial, density: f64) {
+    let (w, l) = (rotational(v), linear(v));
+    let (mass, inertia) = (scale(e.virtual_mass, density), scale(e.virtual_inertia, density));
+    let p: Vec3 = std::array::from_fn(|k| mass[k] * l[k]);
+    let q: Vec3 = std::array::from_fn(|k| inertia[k] * w[k]);
+    let (p, q, w, l) = (cross_matrix(p), cross_matrix(q), cross_matrix(w), cross_matrix(l));
+    let one = [1.0; 3];
+    let (minus_mass, minus_inertia) = (scale(mass, -1.0), scale(inertia, -1.0));
+    add_quadrant(b, (ROTATION, ROTATION), &q, one);
+    add_quadrant(b, (ROTATION, ROTATION), &w, minus_inertia);
+    add_quadrant(b, (ROTATION, TRANSLATION), &p, one);
+    add_quadrant(b, (ROTATION, TRANSLATION), &l, minus_mass);
+    add_quadrant(b, (TRANSLATION, ROTATION), &p, one);
+    add_quadrant(b, (TRANSLATION, TRANSLATION), &w, minus_mass);
+}
+
+/// Slope of the viscous and quadratic drag torque `-w (c + density |k ∘ w|)`.
+fn torque_slope(e: &Ellipsoid, w: Vec3, density: f64, viscosity: f64) -> Mat3 {
+    let k = e.drag_moments();
+    let size = norm([w[0] * k[0], w[1] * k[1], w[2] * k[2]]).max(MINVAL);
+    let gradient: Vec3 = std::array::from_fn(|i| -density / size * w[i] * k[i] * k[i]);
+    let d = e.diameter();
+    let diagonal = dot(w, gradient) - viscosity * (PI * d * d * d);
+    std::array::from_fn(|n| w[n / 3] * gradient[n % 3] + if n % 4 == 0 { diagonal } else { 0.0 })
+}
+
+/// Linear flow past an ellipsoid. With `a` the squares of products of two semi-axes, `n = Σ a l²` and `d = Σ a² l²`,
+/// the area that the flow sees is `π sqrt(d / n)`.
+struct Flow {
+    a: Vec3,
+    l: Vec3,
+    n: f64,
+    d: f64,
+    /// Squared speed.
+    speed2: f64,
+}
+
+impl Flow {
+    fn new(size: Vec3, l: Vec3) -> Self {
+        let a: Vec3 = std::array::from_fn(|k| square(size[(k + 1) % 3] * size[(k + 2) % 3]));
+        let sum = |weight: Vec3| (0..3).fold(0.0, |s, k| s + weight[k] * square(l[k]));
+        Flow { a, l, n: sum(a), d: sum(a.map(square)), speed2: sum([1.0; 3]) }
+    }
+
+    /// Slope of the Kutta lift, `factor / π` times circulation `× l`.
+    fn lift_slope(&self, factor: f64) -> Mat3 {
+        let Flow { a, l, n, d, speed2 } = *self;
+        let factor = factor / ops::sqrt(d * n * speed2).max(MINVAL);
+        let bend: Vec3 = std::array::from_fn(|i| (0..3).fold(0.0, |s, j| s + square(l[j]) * (a[i] - a[j])));
+        let (ratio, cosine) = (n / d.max(MINVAL), n / speed2.max(MINVAL));
+        let inner: Vec3 = std::array::from_fn(|j| a[j] * a[j] * ratio - a[j] + cosine);
+        std::array::from_fn(|e| {
+            let (i, j) = (e / 3, e % 3);
+            let value = (2.0 * n * (a[j] - a[i]) + inner[j] * bend[i]) * (l[i] * l[j]);
+            factor * if i == j { value - bend[i] * n } else { value }
+        })
+    }
+
+    /// Slope of the linear and quadratic drag force.
+    fn drag_slope(&self, e: &Ellipsoid, density: f64, viscosity: f64) -> Mat3 {
+        let Flow { a, l, n, d, speed2 } = *self;
+        let area = PI * ops::sqrt(d / n.max(MINVAL));
+        let speed = ops::sqrt(speed2);
+        let quadratic = density * (area * e.blunt_drag + e.slender_drag * (e.max_area() - area));
+        let per_area = density * speed * (e.blunt_drag - e.slender_drag);
+        let area_factor = PI / ops::sqrt(n * n * n * d).max(MINVAL);
+        let area_slope: Vec3 = std::array::from_fn(|i| {
+            let turn = (0..3).fold(0.0, |s, j| s + a[j] * square(l[j]) * (a[i] - a[j]));
+            per_area * area_factor * a[i] * l[i] * turn
+        });
+        let factor = -quadratic / speed.max(MINVAL);
+        let viscous = viscosity * 3.0 * PI * e.diameter();
+        std::array::from_fn(|k| {
+            let (i, j) = (k / 3, k % 3);
+            let value = factor * l[i] * l[j] - l[i] * area_slope[j];
+            if i == j { value + factor * speed2 - viscous } else { value }
+        })
+    }
+}

@@ -1,0 +1,103 @@
+//! Derivative of smooth forces with respect to velocity: `qDeriv = d(qfrc_passive + qfrc_actuator - qfrc_bias) /
+//! d qvel` (MuJoCo documentation, Computation, "Numerical integration", implicit in velocity).
+//!
+//! Kept in compressed rows (`D_rownnz`, `D_rowadr`, `D_colind`) over pairs of degrees of freedom on one chain of a
+//! tree. What couples others, such as a damped tendon between two trees, is left out of the integrator's matrix.
+
+mod actuation;
+mod bias;
+mod fluid;
+mod passive;
+
+pub use bias::{BiasScratch, free_body_bias_slope};
+pub use fluid::FluidScratch;
+
+use crate::data::{Actuation, Com, Inertia, Kinematics, State, Tendons, Transmission, Velocity};
+use crate::model::{JointType, Model};
+use std::ops::Range;
+
+/// Stage outputs that the derivative reads.
+#[derive(Clone, Copy)]
+#[allow(missing_docs)]
+pub struct DerivativeInputs<'a> {
+    pub state: &'a State,
+    pub kin: &'a Kinematics,
+    pub com: &'a Com,
+    pub ten: &'a Tendons,
+    pub trn: &'a Transmission,
+    pub inertia: &'a Inertia,
+    pub vel: &'a Velocity,
+    pub actuation: &'a Actuation,
+}
+
+/// Whether Coriolis and centrifugal forces are differentiated too.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BiasSlope {
+    /// All smooth forces.
+    Included,
+    /// Passive and actuator forces only, whose derivative is nearly symmetric.
+    LeftOut,
+}
+
+/// Working memory of the derivative.
+#[derive(Clone, Debug, Default)]
+pub struct DerivativeScratch {
+    fluid: FluidScratch,
+    bias: BiasScratch,
+}
+
+/// Computes `qDeriv`.
+pub fn smooth_force_slope(
+    m: &Model,
+    inputs: &DerivativeInputs,
+    with: BiasSlope,
+    scratch: &mut DerivativeScratch,
+    out: &mut [f64],
+) {
+    out.fill(0.0);
+    actuation::add_actuators(m, inputs, out);
+    passive::add_passive(m, inputs, &mut scratch.fluid, out);
+    if with == BiasSlope::Included {
+        bias::subtract_bias(m, inputs, &mut scratch.bias, out);
+    }
+}
+
+/// True for a body that is a tree of its own, with a free joint and all the mass.
+pub fn is_free_body(m: &Model, body: usize) -> bool {
+    let joint = m.body_jntadr[body] as usize;
+    m.body_jntnum[body] == 1
+        && m.jnt_type[joint] == JointType::Free.code()
+        && m.tree_dofnum[m.dof_treeid[m.jnt_dofadr[joint] as usize] as usize] == 6
+        && m.body_subtreemass[body] == m.body_mass[body]
+}
+
+/// Entries of row `dof` of the derivative.
+pub fn row(m: &Model, dof: usize) -> Range<usize> {
+    let start = m.D_rowadr[dof] as usize;
+    start..start + m.D_rownnz[dof] as usize
+}
+
+/// Adds `value(p)` to entry `(dof, columns[p])` where the pattern has one. Both lists of columns increase.
+fn add_to_row(m: &Model, dof: usize, columns: &[i32], value: impl Fn(usize) -> f64, out: &mut [f64]) {
+    let at = row(m, dof);
+    let mut p = 0;
+    for (entry, &column) in out[at.clone()].iter_mut().zip(&m.D_colind[at]) {
+        while p < columns.len() && columns[p] < column {
+            p += 1;
+        }
+        if p == columns.len() {
+            break;
+        }
+        if columns[p] == column {
+            *entry += value(p);
+        }
+    }
+}
+
+/// `out += slope J'J` for one sparse row `J`.
+fn add_square(m: &Model, columns: &[i32], values: &[f64], slope: f64, out: &mut [f64]) {
+    for (&dof, &value) in columns.iter().zip(values) {
+        let factor = value * slope;
+        add_to_row(m, dof as usize, columns, |p| factor * values[p], out);
+    }
+}

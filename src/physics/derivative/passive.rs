@@ -1,0 +1,29 @@
+//! Slope of passive forces over velocity: dampers of joints and tendons, drag and lift of the fluid.
+
+use super::{DerivativeInputs, FluidScratch, add_square, fluid};
+use crate::model::{Model, disable};
+use crate::reflected_load::{dof_damping, tendon_damping};
+use crate::tendon;
+
+/// Adds `d qfrc_passive / d qvel`.
+pub(super) fn add_passive(m: &Model, inputs: &DerivativeInputs, scratch: &mut FluidScratch, out: &mut [f64]) {
+    let enabled = |flag: i32| m.opt.disableflags & flag == 0;
+    let dampers = enabled(disable::DAMPER);
+    if (enabled(disable::SPRING) || dampers) && (m.opt.viscosity > 0.0 || m.opt.density > 0.0) {
+        fluid::add_fluid(m, inputs, scratch, out);
+    }
+    if !dampers {
+        return;
+    }
+    for dof in 0..m.nv {
+        let diagonal = (m.D_rowadr[dof] + m.D_diag[dof]) as usize;
+        out[diagonal] -= dof_damping(m, dof).slope(inputs.state.qvel[dof].abs());
+    }
+    for t in 0..m.ntendon {
+        let slope = -tendon_damping(m, t).slope(inputs.vel.ten_velocity[t].abs());
+        if slope != 0.0 {
+            let at = tendon::row(m, t);
+            add_square(m, &m.ten_J_colind[at.clone()], &inputs.ten.ten_J[at], slope, out);
+        }
+    }
+}

@@ -1,0 +1,98 @@
+//! Integrators that are implicit in velocity, beside MuJoCo on the own models.
+
+use physics::model::Integrator;
+use physics::{Data, Model};
+use robohive_validation::compare::{absolute, compare, of_largest};
+use robohive_validation::reference::Reference;
+use robohive_validation::tolerance::{QACC, ROLLOUT_ABSOLUTE, STAGE};
+use std::path::{Path, PathBuf};
+
+const INTEGRATORS: [(&str, Integrator); 2] =
+    [("implicit", Integrator::Implicit), ("implicitfast", Integrator::Implicitfast)];
+/// Recorded states at which derivatives were taken.
+const STATES: [usize; 3] = [0, 2, 4];
+
+/// Steps from one recorded position to the next.
+const EVERY: usize = 5;
+
+/// Names of the own models, each with its recorded model and states, and what was recorded beyond.
+fn references() -> Vec<(String, Reference, Reference)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(folder.join("implicit")).unwrap().map(|e| e.unwrap().path()).collect();
+    files.sort();
+    let open = |path: &Path| {
+        let name = path.file_stem().unwrap().to_string_lossy().into_owned();
+        let own = folder.join("own").join(path.file_name().unwrap());
+        (name, Reference::open(&own).unwrap(), Reference::open(path).unwrap())
+    };
+    files.iter().map(|path| open(path)).collect()
+}
+
+fn values(reference: &Reference, name: &str) -> Vec<f64> {
+    reference.archive().require(name).unwrap().values.to_f64()
+}
+
+/// At the first keyframe, or `qpos0`.
+fn start(m: &Model) -> Data {
+    let mut d = Data::new(m);
+    if m.nkey > 0 {
+        d.reset_to_key(m, 0).unwrap();
+    }
+    d
+}
+
+#[test]
+fn derivatives_agree() {
+    let mut nonzero = 0;
+    for (name, own, recorded) in references() {
+        let mut m = own.model().unwrap();
+        for (label, integrator) in INTEGRATORS {
+            m.opt.integrator = integrator.code();
+            let theirs = values(&recorded, &format!("{label}.qDeriv"));
+            let qvel = values(&recorded, &format!("{label}.qvel"));
+            let scale = theirs.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
+            for (k, (row, theirs)) in STATES.into_iter().zip(theirs.chunks_exact(m.nD)).enumerate() {
+                let mut d = Data::new(&m);
+                own.set_state(&mut d, &m, row).unwrap();
+                physics::step(&m, &mut d).unwrap();
+                let worst = compare("qDeriv", &d.implicit.qDeriv, theirs, absolute);
+                assert!(worst.error <= STAGE * scale, "{name} {label} state {row}: {worst} of {scale:e}");
+                let qvel = &qvel[k * m.nv..(k + 1) * m.nv];
+                let worst = compare("qvel", &d.state.qvel, qvel, of_largest);
+                assert!(worst.error <= QACC, "{name} {label} state {row}: {worst}");
+                nonzero += theirs.iter().filter(|&&x| x != 0.0).count();
+            }
+        }
+    }
+    assert!(nonzero > 1000, "only {nonzero} entries are not zero");
+}
+
+/// Follows each rollout for as long as MuJoCo, started 1e-12 away, stays with itself.
+#[test]
+fn rollouts_agree() {
+    for (name, own, recorded) in references() {
+        let mut m = own.model().unwrap();
+        let ctrl = values(&recorded, "ctrl");
+        for (label, integrator) in INTEGRATORS {
+            m.opt.integrator = integrator.code();
+            let (theirs, twin) =
+                (values(&recorded, &format!("{label}.qpos")), values(&recorded, &format!("{label}.twin")));
+            let rows = twin.iter().take_while(|&&x| x < ROLLOUT_ABSOLUTE).count();
+            let mut d = start(&m);
+            let (mut worst, mut travel) = (0.0_f64, 0.0_f64);
+            for row in 0..rows {
+                for step in row * EVERY..(row + 1) * EVERY {
+                    d.state.ctrl.copy_from_slice(&ctrl[step * m.nu..(step + 1) * m.nu]);
+                    physics::step(&m, &mut d).unwrap();
+                }
+                for (k, (a, b)) in d.state.qpos.iter().zip(&theirs[row * m.nq..]).enumerate() {
+                    worst = worst.max((a - b).abs());
+                    travel = travel.max((b - m.qpos0[k]).abs());
+                }
+            }
+            assert!(rows * EVERY >= 30 && travel > 0.01, "{name}: {rows} rows, travel {travel}");
+            assert!(worst < ROLLOUT_ABSOLUTE, "{name} {label}: {worst:e}");
+        }
+    }
+}
