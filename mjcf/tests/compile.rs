@@ -7,7 +7,7 @@ fn compile(text: &str) -> physics::Model {
 }
 
 fn refusal(text: &str) -> String {
-    load_str(text).err().expect("the model must be refused").to_string()
+    load_str(text).map(|_| ()).expect_err("the model must be refused").to_string()
 }
 
 /// A trunk with two arms, one of which ends in two fingers; a rail apart from it.

@@ -1,7 +1,7 @@
 //! Actuators: transmission, input and output blocks, ranges (XML reference, `actuator`).
 
 use super::lookup::Lookup;
-use super::{Log, push_user, resolve_limited, title};
+use super::{Log, bounded, push_user, resolve_limited, title};
 use crate::spec::{Actuator, Spec};
 use physics::Model;
 use physics::model::{BiasType, DynType, GainType, JointType, ObjType, TrnType};
@@ -16,7 +16,7 @@ const NO_INPUT: i32 = 16;
 const EXPMAP: i32 = 1;
 const QUAT: i32 = 2;
 /// Samples a history buffer may hold.
-const MAX_SAMPLES: i32 = 1 << 24;
+pub(super) const MAX_SAMPLES: i32 = 1 << 24;
 
 /// Inputs, outputs and activations that a type of actuator has.
 struct Block {
@@ -104,6 +104,7 @@ fn block(m: &Model, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Result
         // MuJoCo 3.12 applies this rule to pid controllers too.
         return Err("actdim above 1 is only for dyntype 'user' and 'dcmotor'".into());
     }
+    bounded(block.actdim.max(0).into(), "actdim")?;
     if block.actdim == 1 && stateless {
         return Err("actdim 1 in a stateless actuator".into());
     }
@@ -224,7 +225,7 @@ fn ranges(m: &Model, a: &Actuator, trnid: [i32; 2]) -> Result<([f64; 2], [f64; 2
         TrnType::Joint if [JointType::Hinge.code(), JointType::Slide.code()].contains(&m.jnt_type[id]) => {
             m.jnt_range[id]
         }
-        TrnType::Tendon => m.tendon_range[id],
+        TrnType::Tendon => m.tendon_range.get(id).copied().unwrap_or_default(),
         _ => return Err("inheritrange needs a hinge, a slide or a tendon".into()),
     };
     if target[0] == target[1] {

@@ -1,14 +1,17 @@
 //! Custom numbers, texts and tuples.
 
 use super::lookup::Lookup;
-use super::{Log, title};
+use super::{Log, bounded, title};
 use crate::spec::Spec;
 use physics::Model;
 
 /// Appends all custom data.
 pub(super) fn fill(m: &mut Model, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     for numeric in &spec.numerics {
-        let size = if numeric.size == 0 { numeric.data.len() } else { numeric.size.max(0) as usize };
+        let what = title("numeric", &numeric.name);
+        let size =
+            if numeric.size == 0 { Ok(numeric.data.len()) } else { bounded(numeric.size.into(), "size") };
+        let Some(size) = log.check(numeric.loc, &what, size) else { continue };
         if size == 0 || size < numeric.data.len() {
             log.error(
                 numeric.loc,

@@ -1,6 +1,6 @@
 //! Keyframes: missing parts are the reference configuration, short ones are completed from it.
 
-use super::{Log, title};
+use super::{Log, bounded, title};
 use crate::diagnostic::Loc;
 use crate::spec::{Key, Spec};
 use physics::Model;
@@ -14,6 +14,10 @@ pub(super) fn fill(m: &mut Model, spec: &Spec, log: &mut Log) {
     let mpos0: Vec<f64> = mocap.iter().flat_map(|&b| m.body_pos[b]).collect();
     let mquat0: Vec<f64> = mocap.iter().flat_map(|&b| m.body_quat[b]).collect();
     let empty = Key::default();
+    let asked = bounded(i64::from(spec.size.nkey.max(0)) * (1 + nq + nv) as i64, "room for nkey");
+    if log.check(Loc::NONE, "size", asked).is_none() {
+        return;
+    }
     let count = spec.keys.len().max(spec.size.nkey.max(0) as usize);
     for key in spec.keys.iter().chain(std::iter::repeat(&empty)).take(count) {
         m.key_time.push(key.time);

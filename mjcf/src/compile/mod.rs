@@ -36,6 +36,17 @@ use physics::length_range::set_length_ranges;
 use physics::set_const::set_const;
 use physics::validity::check_model;
 
+/// Largest length a file may ask for without giving the data.
+const MAX_LENGTH: i64 = 1 << 24;
+
+/// A length from the file: not negative, and not a way to use up the memory.
+fn bounded(length: i64, what: &str) -> Result<usize, String> {
+    match length {
+        0..=MAX_LENGTH => Ok(length as usize),
+        _ => Err(format!("{what} must be between 0 and {MAX_LENGTH}, is {length}")),
+    }
+}
+
 /// Where findings of the compile go.
 struct Log<'a> {
     sources: &'a Sources,
@@ -140,7 +151,10 @@ fn compile_static(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> Optio
     let mut m = Model { name: spec.modelname.clone(), ..Model::default() };
     m.opt = spec.option.clone();
     m.vis = spec.visual.clone();
-    sizes::set_user_widths(&mut m, spec);
+    sizes::set_user_widths(&mut m, spec, log);
+    if log.diagnostics.has_errors() {
+        return None;
+    }
     assets::fill(&mut m, &assets, spec, &lookup, log);
     tree::fill(&mut m, &tree, spec, &lookup, log);
     assets::fill_hierarchies(&mut m, &assets);

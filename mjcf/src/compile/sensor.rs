@@ -1,7 +1,8 @@
 //! Sensors: references, dimension, stage and kind of data (XML reference, `sensor`).
 
+use super::actuator::MAX_SAMPLES;
 use super::lookup::Lookup;
-use super::{Log, push_user, title};
+use super::{Log, bounded, push_user, title};
 use crate::spec::{Sensor, Spec};
 use physics::Model;
 use physics::model::{DataType, GeomType, JointType, ObjType, SensorType, Stage};
@@ -36,7 +37,13 @@ fn fill_sensor(m: &mut Model, sensor: &Sensor, object: i32, base: i32) -> Result
     let user = sensor.kind == SensorType::User;
     let datatype = if user { sensor.datatype } else { datatype(sensor.kind) };
     let needstage = if user { sensor.needstage } else { needstage(sensor.kind) };
-    let dim = dimension(m, sensor, object)?;
+    let dim = bounded(dimension(m, sensor, object)?, "dim")?;
+    if sensor.nsample > MAX_SAMPLES {
+        return Err("more than 2^24 samples in the history buffer".into());
+    }
+    let samples = sensor.nsample.max(0) as usize;
+    let history =
+        if samples == 0 { 0 } else { bounded((2 + samples + samples * dim) as i64, "the history")? };
     let angular = datatype == DataType::Quaternion
         || (datatype == DataType::Axis && sensor.kind != SensorType::Geomnormal);
     if sensor.cutoff > 0.0 && angular {
@@ -50,14 +57,14 @@ fn fill_sensor(m: &mut Model, sensor: &Sensor, object: i32, base: i32) -> Result
     m.sensor_reftype.push(sensor.reftype.code());
     m.sensor_refid.push(base);
     m.sensor_intprm.push(sensor.intprm);
-    m.sensor_dim.push(dim);
+    m.sensor_dim.push(dim as i32);
     m.sensor_adr.push(m.nsensordata as i32);
-    m.nsensordata += dim as usize;
+    m.nsensordata += dim;
     m.sensor_cutoff.push(sensor.cutoff);
     m.sensor_noise.push(sensor.noise);
     m.sensor_history.push([sensor.nsample, sensor.interp]);
     m.sensor_historyadr.push(if sensor.nsample > 0 { m.nhistory as i32 } else { -1 });
-    m.nhistory += if sensor.nsample > 0 { (2 + sensor.nsample + sensor.nsample * dim) as usize } else { 0 };
+    m.nhistory += history;
     m.sensor_delay.push(sensor.delay);
     m.sensor_interval.push(sensor.interval);
     push_user(&mut m.sensor_user, &sensor.userdata, m.nuser_sensor, "nuser_sensor")
@@ -187,11 +194,11 @@ fn needstage(kind: SensorType) -> Stage {
     }
 }
 
-fn dimension(m: &Model, sensor: &Sensor, object: i32) -> Result<i32, String> {
+fn dimension(m: &Model, sensor: &Sensor, object: i32) -> Result<i64, String> {
     use SensorType::*;
     let id = object as usize;
     Ok(match sensor.kind {
-        Actuatorpos | Actuatorvel | Actuatorfrc => m.actuator_outnum[id],
+        Actuatorpos | Actuatorvel | Actuatorfrc => m.actuator_outnum.get(id).copied().unwrap_or(1).into(),
         Touch | Jointpos | Jointvel | Tendonpos | Tendonvel | Jointactfrc | Tendonactfrc | Jointlimitpos
         | Jointlimitvel | Jointlimitfrc | Tendonlimitpos | Tendonlimitvel | Tendonlimitfrc | Geomdist
         | Insidesite | EPotential | EKinetic | Clock => 1,
@@ -201,20 +208,23 @@ fn dimension(m: &Model, sensor: &Sensor, object: i32) -> Result<i32, String> {
         | Subtreecom | Subtreelinvel | Subtreeangmom | Geomnormal => 3,
         Ballquat | Framequat => 4,
         Geomfromto => 6,
-        Contact => sensor.intprm[2] * fields_size(sensor.intprm[0], &[1, 3, 3, 1, 3, 3, 3]),
+        Contact => i64::from(sensor.intprm[2]) * fields_size(sensor.intprm[0], &[1, 3, 3, 1, 3, 3, 3]),
         Rangefinder => {
             let size = fields_size(sensor.intprm[0], &[1, 3, 3, 3, 3, 1]);
             match sensor.objtype {
-                ObjType::Camera => size * m.cam_resolution[id][0] * m.cam_resolution[id][1],
+                ObjType::Camera => {
+                    let [width, height] = m.cam_resolution[id].map(|n| i64::from(n.clamp(0, 1 << 20)));
+                    size * width * height
+                }
                 _ => size,
             }
         }
-        User => sensor.dim,
+        User => sensor.dim.into(),
         Tactile | Plugin => return Err("tactile and plugin sensors are not supported".into()),
     })
 }
 
 /// Numbers in the data fields selected by the bits of `fields`.
-fn fields_size(fields: i32, sizes: &[i32]) -> i32 {
+fn fields_size(fields: i32, sizes: &[i64]) -> i64 {
     sizes.iter().enumerate().filter(|(bit, _)| fields >> bit & 1 == 1).map(|(_, size)| size).sum()
 }

@@ -1,13 +1,13 @@
 //! Sizes of the model, from the arrays that were filled row by row.
 
-use super::Log;
+use super::{Log, bounded};
 use crate::diagnostic::Loc;
 use crate::spec::{Body, Spec};
 use physics::Model;
 use physics::model::EqType;
 
 /// Widths of user data: as the file says, else the longest row.
-pub(super) fn set_user_widths(m: &mut Model, spec: &Spec) {
+pub(super) fn set_user_widths(m: &mut Model, spec: &Spec, log: &mut Log) {
     let size = &spec.size;
     let mut longest = [0; 5];
     let mut pending: Vec<&Body> = vec![&spec.world];
@@ -20,8 +20,8 @@ pub(super) fn set_user_widths(m: &mut Model, spec: &Spec) {
         body.cameras.iter().for_each(|e| see(4, e.userdata.len()));
         pending.extend(&body.bodies);
     }
-    let width = |given: Option<i32>, longest: usize| match given {
-        Some(n) if n >= 0 => n as usize,
+    let mut width = |given: Option<i32>, longest: usize| match given {
+        Some(n) if n >= 0 => log.check(Loc::NONE, "size", bounded(n.into(), "nuser")).unwrap_or(0),
         _ => longest,
     };
     m.nuser_body = width(size.nuser_body, longest[0]);
