@@ -11,7 +11,6 @@ pub mod image;
 pub mod include;
 pub mod loader;
 pub mod mesh;
-pub mod principal;
 pub mod read;
 pub mod schema;
 pub mod spec;

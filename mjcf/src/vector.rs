@@ -2,10 +2,8 @@
 //! divides by a length instead of multiplying by its inverse, as MuJoCo's compiler does: the bits of
 //! compiled meshes depend on it.
 
-use physics::math::quat_rotate;
-pub(crate) use physics::math::{
-    cross, dot, mul_mat as product, mul_mat_vec as apply, quat_to_mat as matrix, sub, transpose,
-};
+pub(crate) use physics::math::{cross, dot, mul_mat_vec as apply, quat_to_mat as matrix, sub, transpose};
+use physics::math::{principal_axes_by, quat_rotate};
 
 /// Scales to unit length in place and returns the old length; shorter than 1e-7 stays and gives 0.
 pub(crate) fn normalize<const N: usize>(v: &mut [f64; N]) -> f64 {
@@ -36,4 +34,12 @@ pub(crate) fn compose(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 /// `v` rotated by the unit quaternion `q`.
 pub(crate) fn rotate(v: [f64; 3], q: [f64; 4]) -> [f64; 3] {
     if v == [0.0; 3] { v } else { quat_rotate(q, v) }
+}
+
+/// Eigenvalues of a symmetric matrix in decreasing order and the orientation of their axes.
+pub(crate) fn principal_axes(m: &[f64; 9]) -> ([f64; 3], [f64; 4]) {
+    principal_axes_by(m, |mut q| {
+        normalize(&mut q);
+        q
+    })
 }

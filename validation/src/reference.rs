@@ -3,7 +3,7 @@
 use dataset::{Array, NpzError, NpzReader};
 use physics::{Data, Model};
 use std::fmt;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A recorded model: compiled arrays, forward passes of independent states, a rollout and its twin.
 pub struct Reference {
@@ -154,6 +154,23 @@ impl Reference {
         }
         Ok(())
     }
+}
+
+/// Recorded models: those of this repository, and those in the folder that `ROBOHIVE_REFERENCES` names.
+///
+/// # Errors
+/// A folder cannot be read, or holds what is no archive.
+pub fn recorded() -> Result<Vec<(PathBuf, Reference)>, Box<dyn std::error::Error>> {
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own");
+    let other = std::env::var_os("ROBOHIVE_REFERENCES").map(PathBuf::from);
+    let mut paths = Vec::new();
+    for folder in std::iter::once(own).chain(other) {
+        for file in std::fs::read_dir(folder)? {
+            paths.push(file?.path());
+        }
+    }
+    paths.sort();
+    paths.into_iter().map(|path| Ok((path.clone(), Reference::open(&path)?))).collect()
 }
 
 /// Rows of a stacked array, flat.

@@ -2,8 +2,7 @@
 
 use physics::Data;
 use physics::collision::{CollisionScratch, check, collide};
-use robohive_validation::reference::Reference;
-use std::path::{Path, PathBuf};
+use robohive_validation::reference::recorded;
 
 const POSES: [&str; 4] = ["geom_xpos", "geom_xmat", "xipos", "ximat"];
 
@@ -26,23 +25,10 @@ const FIELDS: [(&str, f64); 12] = [
     ("contact.adhesion", 1e-15),
 ];
 
-/// Recorded models: those of this repository, and those in the folder that `ROBOHIVE_REFERENCE` names.
-fn references() -> Vec<(PathBuf, Reference)> {
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own");
-    let other = std::env::var_os("ROBOHIVE_REFERENCE").map(PathBuf::from);
-    let mut paths: Vec<PathBuf> = [Some(own), other]
-        .into_iter()
-        .flatten()
-        .flat_map(|folder| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()))
-        .collect();
-    paths.sort();
-    paths.into_iter().map(|p| (p.clone(), Reference::open(&p).unwrap())).collect()
-}
-
 #[test]
 fn contacts_are_those_recorded() {
     let mut total = 0;
-    for (path, reference) in references() {
+    for (path, reference) in recorded().unwrap() {
         let m = reference.model().unwrap();
         check(&m).unwrap();
         let mut d = Data::new(&m);

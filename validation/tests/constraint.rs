@@ -5,8 +5,7 @@ use physics::inertia::mul_inertia_matrix;
 use physics::model::{Jacobian, Solver, disable};
 use physics::solver::{SolverScratch, solve};
 use physics::{Data, Model};
-use robohive_validation::reference::Reference;
-use std::path::{Path, PathBuf};
+use robohive_validation::reference::{Reference, recorded};
 
 /// Relative difference of rows: sums of a few products, in the same order.
 const ROW: f64 = 1e-10;
@@ -64,18 +63,6 @@ const ROWS: [&str; 9] = [
     "efc_aref",
 ];
 
-/// Recorded models: those of this repository, and those in the folder that `ROBOHIVE_REFERENCE` names.
-fn references() -> Vec<(PathBuf, Reference)> {
-    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own");
-    let mut paths = Vec::new();
-    for folder in [Some(own), std::env::var_os("ROBOHIVE_REFERENCE").map(PathBuf::from)].into_iter().flatten()
-    {
-        paths.extend(std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()));
-    }
-    paths.sort();
-    paths.into_iter().map(|p| (p.clone(), Reference::open(&p).unwrap())).collect()
-}
-
 fn values(d: &Data, m: &Model, name: &str) -> Vec<f64> {
     let mut out = Vec::new();
     d.visit(m, &mut |n, _, s| {
@@ -123,7 +110,7 @@ fn constrained(r: &Reference, m: &Model, row: usize) -> Data {
 #[test]
 fn rows_agree() {
     let mut rows = 0;
-    for (path, r) in references() {
+    for (path, r) in recorded().unwrap() {
         let m = r.model().unwrap();
         let mut worst = (0.0, "");
         for row in 0..r.states().unwrap() {
@@ -157,7 +144,7 @@ fn rows_agree() {
 #[test]
 fn solver_agrees() {
     let mut iterations = 0;
-    for (path, r) in references() {
+    for (path, r) in recorded().unwrap() {
         let m = r.model().unwrap();
         let warm = m.opt.disableflags & disable::WARMSTART == 0;
         let mut worst = [0.0_f64; 3];
@@ -211,7 +198,7 @@ fn solver_agrees() {
 #[test]
 fn storage_does_not_matter() {
     let mut moved = 0.0_f64;
-    for (path, r) in references() {
+    for (path, r) in recorded().unwrap() {
         let mut m = r.model().unwrap();
         for row in 0..r.states().unwrap() {
             let solved = [Jacobian::Dense, Jacobian::Sparse].map(|storage| {

@@ -2,16 +2,7 @@
 
 use physics::set_const::set_const;
 use robohive_validation::compare::{compare, compiled, exact};
-use robohive_validation::reference::Reference;
-use std::path::{Path, PathBuf};
-
-fn references() -> Vec<PathBuf> {
-    let folder = std::env::var_os("ROBOHIVE_REFERENCES")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own"), PathBuf::from);
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
-    files.sort();
-    files
-}
+use robohive_validation::reference::recorded;
 
 #[test]
 fn derived_quantities_are_restored() {
@@ -49,8 +40,7 @@ fn derived_quantities_are_restored() {
         "light_dir0",
         "jnt_actuatorid",
     ];
-    for path in references() {
-        let reference = Reference::open(&path).unwrap();
+    for (path, reference) in recorded().unwrap() {
         let theirs = reference.model().unwrap();
         let mut ours = theirs.clone();
         ours.dof_M0.fill(0.0);

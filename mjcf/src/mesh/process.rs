@@ -9,8 +9,7 @@ use super::polygons::Polygons;
 use super::{CompiledMesh, MeshSource};
 use crate::asset::AssetError;
 use crate::bvh::{self, Bvh, Leaf};
-use crate::principal::principal_axes;
-use crate::vector::{apply, cross, dot, matrix, normalize, sub, transpose};
+use crate::vector::{apply, cross, dot, matrix, normalize, principal_axes, sub, transpose};
 
 /// Smallest area, volume or length that counts as one.
 const MINVAL: f64 = 1e-15;

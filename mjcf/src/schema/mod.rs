@@ -3,7 +3,7 @@
 //! An attribute is a [`Row`]: its name, how its text is read and which field of the `Spec` it writes, and a
 //! line of documentation. An [`ElementType`] names its rows, its children with their cardinality and the
 //! rules between its attributes. The structural check ([`check`]), the readers of `Spec` objects and of
-//! default classes, the suggestions in error messages and the printed reference ([`print`]) all derive from
+//! default classes, the suggestions in error messages and the printed reference ([`mod@print`]) all derive from
 //! these tables.
 
 pub mod actuator;

@@ -25,5 +25,6 @@ pub struct Scratch {
     pub sensor: SensorScratch,
     /// Integrators.
     pub integrate: IntegrateScratch,
+    /// Implicit integrators.
     pub implicit: ImplicitScratch,
 }

@@ -10,6 +10,11 @@ const HALF_SQRT: f64 = 0.707106781186548;
 
 /// Eigenvalues in decreasing order and the orientation of their axes (columns of the rotation).
 pub fn principal_axes(m: &Mat3) -> (Vec3, Quat) {
+    principal_axes_by(m, quat_normalize)
+}
+
+/// As [`principal_axes`], with `unit` to scale quaternions: its last bits decide the axes of compiled meshes.
+pub fn principal_axes_by(m: &Mat3, unit: impl Fn(Quat) -> Quat) -> (Vec3, Quat) {
     let mut quat = IDENTITY;
     let mut values = [0.0; 3];
     for _ in 0..500 {
@@ -32,9 +37,9 @@ pub fn principal_axes(m: &Mat3) -> (Vec3, Quat) {
         let mut turn = [0.0; 4];
         turn[axis + 1] = if (tau >= 0.0) == (axis == 1) { half_sine } else { -half_sine };
         turn[0] = (1.0 - turn[axis + 1] * turn[axis + 1]).sqrt();
-        quat = quat_normalize(quat_mul(quat, quat_normalize(turn)));
+        quat = unit(quat_mul(quat, unit(turn)));
     }
-    sort_decreasing(&mut values, &mut quat);
+    sort_decreasing(&mut values, &mut quat, unit);
     (values, quat)
 }
 
@@ -50,13 +55,13 @@ fn largest_off_diagonal(d: &Mat3) -> (usize, usize, usize) {
 }
 
 /// Bubble sort; each swap is a quarter turn of the axes.
-fn sort_decreasing(values: &mut Vec3, quat: &mut Quat) {
+fn sort_decreasing(values: &mut Vec3, quat: &mut Quat, unit: impl Fn(Quat) -> Quat) {
     for lead in [0, 1, 0] {
         if values[lead] + EPS < values[lead + 1] {
             values.swap(lead, lead + 1);
             let mut turn = [HALF_SQRT, 0.0, 0.0, 0.0];
             turn[(lead + 2) % 3 + 1] = HALF_SQRT;
-            *quat = quat_normalize(quat_mul(*quat, turn));
+            *quat = unit(quat_mul(*quat, turn));
         }
     }
 }

@@ -8,7 +8,7 @@ mod sparse;
 mod spatial;
 mod vector;
 
-pub use eigen::principal_axes;
+pub use eigen::{principal_axes, principal_axes_by};
 pub use quat::*;
 pub use sparse::*;
 pub use spatial::*;

@@ -296,7 +296,7 @@ model! {
         light_texid: i32 [nlight]                 "Texture of an image light, -1 for none.",
         light_castshadow: bool [nlight]           "It casts shadows.",
         light_bulbradius: f32 [nlight]            "Radius of the bulb, for soft shadows [m].",
-        light_intensity: f32 [nlight]             "Intensity [cd].",
+        light_intensity: f32 [nlight]             "Intensity [candela].",
         light_range: f32 [nlight]                 "Reach [m].",
         light_active: bool [nlight]               "It is on.",
         light_pos: f64 [nlight; 3]                "Position in the body frame [m].",
