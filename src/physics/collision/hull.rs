@@ -123,8 +123,10 @@ impl<'a> MeshHull<'a> {
         let height = |h: usize| self.height(graph.vertex(h), dir);
         let seed = graph.tabulated(dir);
         let start = match last {
-            Some(l) if height(seed) <= height(l.start) => l.start,
-            _ => seed,
+            // The tabulated vertex must be higher: without a direction (NaN) the last answer stays.
+            Some(l) if height(seed) > height(l.start) => seed,
+            Some(l) => l.start,
+            None => seed,
         };
         self.climb(graph, dir, start)
     }
