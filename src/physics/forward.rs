@@ -10,9 +10,10 @@ use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::Data;
 use crate::inertia::{factor_inertia, make_inertia, solve};
 use crate::integrate::{Factors, advance_once, integrate};
+use crate::inverse::compare_with_forward;
 use crate::jacobian::apply_user_wrenches;
 use crate::kinematics::kinematics;
-use crate::model::{Model, enable};
+use crate::model::{Integrator, Model, enable};
 use crate::passive::passive;
 use crate::rne_post::rne_post_constraint;
 use crate::sensor::{self, AccelerationInputs, PositionInputs, VelocityInputs};
@@ -40,7 +41,36 @@ pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
     check_state(m, d)?;
     evaluate(m, d, true)?;
     check_acceleration(m, d)?;
+    compare_if_asked(m, d)?;
     integrate(m, d, Factors::Fresh)
+}
+
+/// What of the last evaluation still holds.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(crate) enum Known {
+    /// Nothing.
+    Nothing,
+    /// All that depends on positions alone.
+    Position,
+    /// All that does not depend on inputs.
+    Velocity,
+}
+
+/// `step` where part of the last evaluation still holds; the integrator keeps the matrix factors that depend on it.
+pub(crate) fn step_after(m: &Model, d: &mut Data, known: Known) -> Result<(), StepError> {
+    check_state(m, d)?;
+    evaluate_after(m, d, known, true)?;
+    check_acceleration(m, d)?;
+    compare_if_asked(m, d)?;
+    let holds = if m.opt.integrator == Integrator::Euler.code() { Known::Position } else { Known::Velocity };
+    integrate(m, d, if known >= holds { Factors::Kept } else { Factors::Fresh })
+}
+
+fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    if m.opt.enableflags & enable::FWDINV != 0 {
+        compare_with_forward(m, d)?;
+    }
+    Ok(())
 }
 
 /// First half of a step: all that does not depend on controls and applied forces.
@@ -65,19 +95,28 @@ pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
     acceleration(m, d);
     acceleration_sensors(m, d);
     check_acceleration(m, d)?;
+    compare_if_asked(m, d)?;
     advance_once(m, d, Factors::Fresh);
     Ok(())
 }
 
 /// `forward`, with or without sensors.
 pub(crate) fn evaluate(m: &Model, d: &mut Data, sensors: bool) -> Result<(), StepError> {
-    position(m, d);
-    if sensors {
-        position_sensors(m, d);
+    evaluate_after(m, d, Known::Nothing, sensors)
+}
+
+fn evaluate_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Result<(), StepError> {
+    if known < Known::Position {
+        position(m, d);
+        if sensors {
+            position_sensors(m, d);
+        }
     }
-    velocity(m, d);
-    if sensors {
-        velocity_sensors(m, d);
+    if known < Known::Velocity {
+        velocity(m, d);
+        if sensors {
+            velocity_sensors(m, d);
+        }
     }
     acceleration(m, d);
     if sensors {
@@ -145,7 +184,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     );
 }
 
-fn position_sensors(m: &Model, d: &mut Data) {
+pub(crate) fn position_sensors(m: &Model, d: &mut Data) {
     let inputs = PositionInputs {
         time: d.time,
         state: &d.state,
@@ -161,7 +200,7 @@ fn position_sensors(m: &Model, d: &mut Data) {
     d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
 }
 
-fn velocity_sensors(m: &Model, d: &mut Data) {
+pub(crate) fn velocity_sensors(m: &Model, d: &mut Data) {
     let inputs =
         VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
     sensor::velocity_sensors(m, &inputs, &mut d.sensor);
@@ -170,7 +209,7 @@ fn velocity_sensors(m: &Model, d: &mut Data) {
     }
 }
 
-fn acceleration_sensors(m: &Model, d: &mut Data) {
+pub(crate) fn acceleration_sensors(m: &Model, d: &mut Data) {
     if sensor::needs_body_forces(m) {
         rne_post_constraint(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
     }

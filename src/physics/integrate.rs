@@ -7,7 +7,7 @@ use crate::derivative::DerivativeInputs;
 use crate::forward::{StepError, evaluate};
 use crate::implicit;
 use crate::inertia::{factor, row, solve_ld};
-use crate::math::{add_scaled_slice, quat_integrate};
+use crate::math::{add_scaled_slice, quat_conj, quat_integrate, quat_mul, quat_to_velocity};
 use crate::model::{Integrator, JointType, Model, disable};
 use crate::reflected_load::dof_damping;
 
@@ -104,12 +104,16 @@ pub fn euler(m: &Model, d: &mut Data, factors: Factors) {
 
 /// True when some degree of freedom is damped and Euler treats that implicitly.
 fn is_damped(m: &Model) -> bool {
-    m.opt.disableflags & (disable::EULERDAMP | disable::DAMPER) == 0
-        && (0..m.nv).any(|dof| {
-            m.dof_damping[dof] > 0.0
-                || m.dof_dampingpoly[dof] != [0.0; 2]
-                || m.jnt_actuatorid[m.dof_jntid[dof] as usize] != -1
-        })
+    m.opt.disableflags & (disable::EULERDAMP | disable::DAMPER) == 0 && has_joint_damping(m)
+}
+
+/// True when some degree of freedom may be damped, by itself or by an actuator.
+pub(crate) fn has_joint_damping(m: &Model) -> bool {
+    (0..m.nv).any(|dof| {
+        m.dof_damping[dof] > 0.0
+            || m.dof_dampingpoly[dof] != [0.0; 2]
+            || m.jnt_actuatorid[m.dof_jntid[dof] as usize] != -1
+    })
 }
 
 /// `M + h B`, where `B` is the slope of joint damping at the present velocity.
@@ -157,6 +161,23 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], qvel: &[f64], dt: f64) {
             }
             Some(JointType::Ball) => turn(&mut qpos[q..q + 4], &qvel[v..v + 3], dt),
             Some(JointType::Slide | JointType::Hinge) | None => qpos[q] += dt * qvel[v],
+        }
+    }
+}
+
+/// Velocity `out` that moves positions `from` to `to` in time `dt`, the inverse of `integrate_pos`.
+pub fn differentiate_pos(m: &Model, from: &[f64], to: &[f64], dt: f64, out: &mut [f64]) {
+    let quat = |qpos: &[f64], q: usize| [qpos[q], qpos[q + 1], qpos[q + 2], qpos[q + 3]];
+    let turned = |q: usize| quat_to_velocity(quat_mul(quat_conj(quat(from, q)), quat(to, q)), dt);
+    for j in 0..m.njnt {
+        let (q, v) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
+        match JointType::from_code(m.jnt_type[j]) {
+            Some(JointType::Free) => {
+                (0..3).for_each(|k| out[v + k] = (to[q + k] - from[q + k]) / dt);
+                out[v + 3..v + 6].copy_from_slice(&turned(q + 3));
+            }
+            Some(JointType::Ball) => out[v..v + 3].copy_from_slice(&turned(q)),
+            Some(JointType::Slide | JointType::Hinge) | None => out[v] = (to[q] - from[q]) / dt,
         }
     }
 }

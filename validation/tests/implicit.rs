@@ -1,6 +1,6 @@
 //! Integrators that are implicit in velocity, beside MuJoCo on the own models.
 
-use physics::model::Integrator;
+use physics::model::{Integrator, enable};
 use physics::{Data, Model};
 use robohive_validation::compare::{absolute, compare, of_largest};
 use robohive_validation::reference::Reference;
@@ -12,6 +12,8 @@ const INTEGRATORS: [(&str, Integrator); 2] =
 /// Recorded states at which derivatives were taken.
 const STATES: [usize; 3] = [0, 2, 4];
 
+/// Rounding of 1e-16 over a nudge of 1e-6, amplified by the contacts of one step.
+const FINITE_DIFFERENCE: f64 = 1e-6;
 /// Steps from one recorded position to the next.
 const EVERY: usize = 5;
 
@@ -95,4 +97,68 @@ fn rollouts_agree() {
             assert!(worst < ROLLOUT_ABSOLUTE, "{name} {label}: {worst:e}");
         }
     }
+}
+
+#[test]
+fn inverse_dynamics_agree() {
+    for (name, own, recorded) in references() {
+        let mut m = own.model().unwrap();
+        let qacc = values(&recorded, "inverse.qacc");
+        let constraint = values(&recorded, "inverse.qfrc_constraint");
+        let discrete = [Integrator::Euler, INTEGRATORS[0].1, INTEGRATORS[1].1]
+            .map(|i| (format!("discrete.{i:?}").replace(".I", ".i"), i, enable::INVDISCRETE));
+        let continuous = ("inverse.qfrc_inverse".to_owned(), Integrator::Euler, 0);
+        let flags = m.opt.enableflags;
+        for (label, integrator, flag) in discrete.into_iter().chain([continuous]) {
+            (m.opt.integrator, m.opt.enableflags) = (integrator.code(), flags | flag);
+            let theirs = values(&recorded, &label);
+            for (k, row) in STATES.into_iter().enumerate() {
+                let at = k * m.nv..(k + 1) * m.nv;
+                let mut d = Data::new(&m);
+                own.set_state(&mut d, &m, row).unwrap();
+                d.acc.qacc.copy_from_slice(&qacc[at.clone()]);
+                physics::inverse(&m, &mut d).unwrap();
+                let worst =
+                    compare("qfrc_inverse", &d.implicit.qfrc_inverse, &theirs[at.clone()], of_largest);
+                assert!(worst.theirs != 0.0 && worst.error < STAGE, "{name} {label} state {row}: {worst}");
+                assert_eq!(d.acc.qacc, qacc[at.clone()], "the given acceleration has changed");
+                if flag == 0 {
+                    let worst =
+                        compare("qfrc_constraint", &d.acc.qfrc_constraint, &constraint[at], of_largest);
+                    assert!(worst.error < STAGE, "{name} state {row}: {worst}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn transition_matrices_agree() {
+    let mut compared = 0;
+    for (name, own, recorded) in references() {
+        let mut m = own.model().unwrap();
+        for integrator in [Integrator::Euler, INTEGRATORS[0].1, INTEGRATORS[1].1] {
+            m.opt.integrator = integrator.code();
+            let label = format!("transition.{integrator:?}").replace(".I", ".i");
+            if recorded.archive().require(&format!("{label}.A")).is_err() {
+                continue;
+            }
+            let mut d = Data::new(&m);
+            own.set_state(&mut d, &m, STATES[0]).unwrap();
+            let before = d.state.clone();
+            let ours = physics::transition::transition(&m, &mut d, 1e-6, true).unwrap();
+            assert_eq!(before.qpos, d.state.qpos);
+            for (field, ours) in [("A", ours.a), ("B", ours.b), ("C", ours.c), ("D", ours.d)] {
+                let mut theirs = values(&recorded, &format!("{label}.{field}"));
+                if field == "D" {
+                    // Upstream subtracts in the wrong order when it centres this one matrix.
+                    theirs.iter_mut().for_each(|x| *x = -*x);
+                }
+                let worst = compare(field, &ours, &theirs, of_largest);
+                assert!(worst.error < FINITE_DIFFERENCE, "{name} {label}: {worst}, error {:e}", worst.error);
+                compared += theirs.iter().filter(|&&x| x != 0.0).count();
+            }
+        }
+    }
+    assert!(compared > 1000);
 }

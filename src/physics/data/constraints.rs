@@ -208,6 +208,8 @@ pub struct SolverStatistics {
     pub solver_niter: Vec<i32>,
     /// Non-zeros of each island's solver matrix.
     pub solver_nnz: Vec<i32>,
+    /// Differences of forward and inverse dynamics, with the flag `fwdinv`: constraint force, applied force.
+    pub solver_fwdinv: [f64; 2],
 }
 
 macro_rules! contact_fields {

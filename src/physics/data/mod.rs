@@ -134,6 +134,7 @@ impl Data {
         self.sensor.visit(m, f);
         self.implicit.visit(m, f);
         f("solver_niter", vec![self.solver.solver_niter.len()], Slice::I32(&self.solver.solver_niter));
+        f("solver_fwdinv", vec![2], Slice::F64(&self.solver.solver_fwdinv));
     }
 
     /// Overwrites the array called `name`, as validation does to inject upstream values; `None` when there is none,

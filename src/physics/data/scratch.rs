@@ -5,6 +5,7 @@ use crate::collision::CollisionScratch;
 use crate::constraint::{ConstraintScratch, IslandScratch};
 use crate::implicit::ImplicitScratch;
 use crate::integrate::IntegrateScratch;
+use crate::inverse::InverseScratch;
 use crate::sensor::SensorScratch;
 use crate::solver::SolverScratch;
 
@@ -25,6 +26,8 @@ pub struct Scratch {
     pub sensor: SensorScratch,
     /// Integrators.
     pub integrate: IntegrateScratch,
-    /// Implicit integrators.
+    /// Implicit integration.
     pub implicit: ImplicitScratch,
+    /// Inverse dynamics.
+    pub inverse: InverseScratch,
 }

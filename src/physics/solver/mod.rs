@@ -88,6 +88,26 @@ pub fn solve(
     }
 }
 
+/// Computes the constraint forces, with their states, that go with acceleration `qacc`.
+pub(crate) fn constraint_force(
+    m: &Model,
+    con: &Contacts,
+    efc: &mut Constraints,
+    acc: &mut Acceleration,
+    scratch: &mut SolverScratch,
+) {
+    let SolverScratch { rows, jar, all, state, .. } = scratch;
+    all.clear();
+    all.extend(0..efc.nefc as i32);
+    residual_of(m, efc, &acc.qacc, jar);
+    rows.gather(efc, &con.contact, all);
+    state.resize(efc.nefc, ConstraintState::Satisfied);
+    efc.efc_force.resize(efc.nefc, 0.0);
+    rows.update(jar, state, &mut efc.efc_force);
+    write_states(state, efc);
+    mul_jacobian_transposed(efc, &efc.efc_force, &mut acc.qfrc_constraint);
+}
+
 /// True when forces are solved for, wholly or after a primal solver.
 fn is_dual(m: &Model) -> bool {
     m.opt.solver == Solver::Pgs.code() || m.opt.noslip_iterations > 0
