@@ -161,7 +161,9 @@ fn climbing_the_hull_finds_the_farthest_vertex() {
                 .iter()
                 .map(|&p| height(add_scaled(kin.geom_xpos[5], mul_mat_vec(&kin.geom_xmat[5], p), 1.0)))
                 .fold(f64::MIN, f64::max);
-            assert!((height(mesh.support(dir)) - best).abs() < 1e-15);
+            let farthest = mesh.support(dir);
+            assert!((height(farthest) - best).abs() < 1e-15);
+            assert_eq!(mesh.support([f64::NAN; 3]), farthest, "no direction, no change");
         }
     }
 }
