@@ -13,10 +13,10 @@ const CHECKS: &[Check] = &[
     Check { name: "format", cargo: &["fmt", "--all", "--check"] },
     Check {
         name: "lint",
-        cargo: &["clippy", "--release", "--workspace", "--all-targets", "--", "-D", "warnings"],
+        cargo: &["clippy", "--profile", "ci", "--workspace", "--all-targets", "--", "-D", "warnings"],
     },
-    Check { name: "test", cargo: &["test", "--release", "--workspace"] },
-    Check { name: "docs", cargo: &["doc", "--release", "--workspace", "--no-deps"] },
+    Check { name: "test", cargo: &["test", "--profile", "ci", "--workspace"] },
+    Check { name: "docs", cargo: &["doc", "--profile", "ci", "--workspace", "--no-deps"] },
 ];
 
 fn main() -> ExitCode {
