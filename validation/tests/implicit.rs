@@ -162,3 +162,23 @@ fn transition_matrices_agree() {
     }
     assert!(compared > 1000);
 }
+
+/// Forward and inverse dynamics differ by no more than the solver's tolerance leaves.
+#[test]
+fn inverse_undoes_forward() {
+    let mut rows = 0;
+    for (name, own, _) in references() {
+        let mut m = own.model().unwrap();
+        m.opt.enableflags |= enable::FWDINV;
+        for row in STATES {
+            let mut d = Data::new(&m);
+            own.set_state(&mut d, &m, row).unwrap();
+            physics::step(&m, &mut d).unwrap();
+            let bound = 1e-9 * d.acc.qfrc_smooth.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
+            let differences = d.solver.solver_fwdinv;
+            assert!(differences.iter().all(|x| *x <= bound), "{name} state {row}: {differences:?}");
+            rows += d.efc.nefc;
+        }
+    }
+    assert!(rows > 300, "only {rows} constraint rows");
+}
