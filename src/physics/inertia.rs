@@ -114,14 +114,6 @@ pub fn solve(m: &Model, inertia: &Inertia, x: &mut [f64]) {
     solve_ld(m, &inertia.qLD, &inertia.qLDiagInv, x);
 }
 
-/// `x <- D^-1/2 L^-T x`, the half of `solve` whose squared norm is `x' M^-1 x`.
-pub fn solve_half(m: &Model, inertia: &Inertia, x: &mut [f64]) {
-    pattern(m).solve_transposed(&inertia.qLD, x);
-    for (x, inv) in x.iter_mut().zip(&inertia.qLDiagInv) {
-        *x *= inv.sqrt();
-    }
-}
-
 /// `out = M v` for a symmetric matrix on the pattern of `M`.
 pub fn mul_inertia_matrix(m: &Model, matrix: &[f64], v: &[f64], out: &mut [f64]) {
     pattern(m).mul_symmetric(matrix, v, out);

@@ -1,6 +1,6 @@
 //! Unit quaternions, w-x-y-z (Hamilton product, active rotations).
 
-use super::{Mat3, Quat, Vec3, add, cross, dot, normalize, ops, scale};
+use super::{Mat3, Quat, Vec3, add, cross, normalize, ops, scale};
 use crate::model::bounds::MINVAL;
 
 /// No rotation.
@@ -86,24 +86,6 @@ pub fn quat_from_axis_angle(axis: Vec3, angle: f64) -> Quat {
     [c, axis[0] * s, axis[1] * s, axis[2] * s]
 }
 
-/// Unit quaternion of a rotation matrix, from its largest component (documentation: `mju_mat2Quat`).
-pub fn quat_from_mat(m: &Mat3) -> Quat {
-    let q = if m[0] + m[4] + m[8] > 0.0 {
-        let w = 0.5 * (1.0 + m[0] + m[4] + m[8]).sqrt();
-        [w, 0.25 * (m[7] - m[5]) / w, 0.25 * (m[2] - m[6]) / w, 0.25 * (m[3] - m[1]) / w]
-    } else if m[0] > m[4] && m[0] > m[8] {
-        let x = 0.5 * (1.0 + m[0] - m[4] - m[8]).sqrt();
-        [0.25 * (m[7] - m[5]) / x, x, 0.25 * (m[1] + m[3]) / x, 0.25 * (m[2] + m[6]) / x]
-    } else if m[4] > m[8] {
-        let y = 0.5 * (1.0 - m[0] + m[4] - m[8]).sqrt();
-        [0.25 * (m[2] - m[6]) / y, 0.25 * (m[1] + m[3]) / y, y, 0.25 * (m[5] + m[7]) / y]
-    } else {
-        let z = 0.5 * (1.0 - m[0] - m[4] + m[8]).sqrt();
-        [0.25 * (m[3] - m[1]) / z, 0.25 * (m[2] + m[6]) / z, 0.25 * (m[5] + m[7]) / z, z]
-    };
-    quat_normalize(q)
-}
-
 /// Rotation vector `angle * axis`, divided by `dt`, with the angle in (-pi, pi].
 pub fn quat_to_velocity(q: Quat, dt: f64) -> Vec3 {
     let (axis, sin_half) = normalize([q[1], q[2], q[3]]);
@@ -123,21 +105,4 @@ pub fn quat_difference(a: Quat, b: Quat) -> Vec3 {
 pub fn quat_integrate(q: Quat, w: Vec3, dt: f64) -> Quat {
     let (axis, speed) = normalize(w);
     quat_normalize(quat_mul(quat_normalize(q), quat_from_axis_angle(axis, speed * dt)))
-}
-
-/// Rotation that takes the z axis to `v`.
-pub fn quat_from_z(v: Vec3) -> Quat {
-    let (v, n) = normalize(v);
-    if n < MINVAL {
-        return IDENTITY;
-    }
-    let (axis, sine) = {
-        let c = cross([0.0, 0.0, 1.0], v);
-        normalize(c)
-    };
-    if sine.abs() < MINVAL {
-        return if v[2] < 0.0 { [0.0, 1.0, 0.0, 0.0] } else { IDENTITY };
-    }
-    let angle = ops::atan2(sine, dot(v, [0.0, 0.0, 1.0]));
-    quat_from_axis_angle(axis, angle)
 }

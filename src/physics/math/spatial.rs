@@ -83,9 +83,3 @@ pub fn move_force(f: &Spatial, from: Vec3, to: Vec3) -> Spatial {
     let arm = super::sub(from, to);
     spatial(add(rotational(f), cross(arm, linear(f))), linear(f))
 }
-
-/// Motion `v` seen at `to` instead of `from`: velocity changes by `w × (to - from)`.
-pub fn move_motion(v: &Spatial, from: Vec3, to: Vec3) -> Spatial {
-    let arm = super::sub(to, from);
-    spatial(rotational(v), add(linear(v), cross(rotational(v), arm)))
-}

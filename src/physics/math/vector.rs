@@ -85,11 +85,6 @@ pub fn mul_mat_t_mat(a: &Mat3, b: &Mat3) -> Mat3 {
     mul_mat(&transpose(a), b)
 }
 
-/// Matrix product `a bᵀ`.
-pub fn mul_mat_mat_t(a: &Mat3, b: &Mat3) -> Mat3 {
-    mul_mat(a, &transpose(b))
-}
-
 /// Transpose.
 pub fn transpose(m: &Mat3) -> Mat3 {
     [m[0], m[3], m[6], m[1], m[4], m[7], m[2], m[5], m[8]]

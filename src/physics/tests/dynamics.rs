@@ -3,9 +3,10 @@
 mod machine;
 
 use machine::{ANCHORED, FLYING, chain, moving};
-use robohive_physics::jacobian::Jacobian;
+use robohive_physics::jacobian::{Jacobian, angular_momentum_matrix, subtree_com_jacobian};
 use robohive_physics::math::{add, cross, norm, sub};
 use robohive_physics::model::{Integrator, JointType, enable};
+use robohive_physics::momentum::subtree_momentum;
 use robohive_physics::{Data, Model, StepError, bias, forward, inertia, integrate, step};
 
 #[test]
@@ -101,6 +102,27 @@ fn energy_drifts_with_the_order_of_the_integrator() {
 }
 
 #[test]
+fn momentum_matrices_give_the_momentum_of_every_subtree() {
+    let m = chain(&FLYING);
+    let mut d = moving(&m);
+    forward(&m, &mut d).unwrap();
+    let mut sensors = d.sensor.clone();
+    subtree_momentum(&m, &d.kin, &d.com, &d.vel, &mut sensors);
+    let (mut linear, mut angular) = (Vec::new(), Vec::new());
+    for b in 1..m.nbody {
+        subtree_com_jacobian(&m, &d.kin, &d.com, b, &mut linear);
+        angular_momentum_matrix(&m, &d.kin, &d.com, b, &mut angular);
+        for (matrix, expected) in
+            [(&linear, sensors.subtree_linvel[b]), (&angular, sensors.subtree_angmom[b])]
+        {
+            let product = |i: usize| (0..m.nv).map(|k| matrix[i * m.nv + k] * d.state.qvel[k]).sum::<f64>();
+            let error = sub(std::array::from_fn(product), expected);
+            assert!(norm(expected) > 1e-3 && norm(error) < 1e-13, "body {b}: {expected:?} {error:?}");
+        }
+    }
+}
+
+#[test]
 fn free_motion_keeps_momentum() {
     let mut m = chain(&FLYING);
     m.opt.gravity = [0.0; 3];
@@ -109,7 +131,7 @@ fn free_motion_keeps_momentum() {
     let momentum = |d: &mut Data| {
         forward(&m, d).unwrap();
         let mut sensors = d.sensor.clone();
-        robohive_physics::momentum::subtree_momentum(&m, &d.kin, &d.com, &d.vel, &mut sensors);
+        subtree_momentum(&m, &d.kin, &d.com, &d.vel, &mut sensors);
         let linear = sensors.subtree_linvel[0].map(|v| v * m.body_subtreemass[0]);
         (linear, add(sensors.subtree_angmom[0], cross(d.com.subtree_com[0], linear)))
     };
