@@ -13,6 +13,7 @@ One small archive a model; the compiled arrays and the states are those that `re
     inverse.qacc, .qfrc_inverse, .qfrc_constraint    inverse dynamics of made-up accelerations at those states
     discrete.INTEGRATOR         qfrc_inverse of the same accelerations taken as changes of velocity over a step
     transition.INTEGRATOR.A ... finite-difference transition matrices at the first state, small models only
+    slope.position ...          finite differences of inverse dynamics there
 """
 
 import argparse
@@ -72,6 +73,15 @@ def transition(model, states):
     return {"A": a, "B": b, "C": c, "D": d}
 
 
+def inverse_slope(model, states, qacc):
+    data = mujoco.MjData(model)
+    set_state(data, model, states, STATES[0])
+    data.qacc[:] = qacc[0]
+    parts = {k: np.zeros((model.nv, model.nv)) for k in ["position", "velocity", "acceleration"]}
+    mujoco.mjd_inverseFD(model, data, 1e-6, False, *parts.values(), None, None, None, None)
+    return parts
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="+", type=Path)
@@ -86,6 +96,8 @@ def main():
         qacc = rng.normal(0, 3, (len(STATES), model.nv))
         out = {"ctrl": ctrl, "inverse.qacc": qacc}
         out["inverse.qfrc_inverse"], out["inverse.qfrc_constraint"] = inverse(model, states, qacc)
+        if model.nv <= SMALL:
+            out |= {"slope." + k: v for k, v in inverse_slope(model, states, qacc).items()}
         for name, code in INTEGRATORS.items():
             model.opt.integrator = code
             if name != "Euler":

@@ -163,6 +163,30 @@ fn transition_matrices_agree() {
     assert!(compared > 1000);
 }
 
+#[test]
+fn slopes_of_inverse_dynamics_agree() {
+    let mut compared = 0;
+    for (name, own, recorded) in references() {
+        let m = own.model().unwrap();
+        if recorded.archive().require("slope.position").is_err() {
+            continue;
+        }
+        let mut d = Data::new(&m);
+        own.set_state(&mut d, &m, STATES[0]).unwrap();
+        d.acc.qacc.copy_from_slice(&values(&recorded, "inverse.qacc")[..m.nv]);
+        let ours = physics::transition::inverse_slope(&m, &mut d, 1e-6).unwrap();
+        for (field, ours) in
+            [("position", ours.position), ("velocity", ours.velocity), ("acceleration", ours.acceleration)]
+        {
+            let theirs = values(&recorded, &format!("slope.{field}"));
+            let worst = compare(field, &ours, &theirs, of_largest);
+            assert!(worst.error < FINITE_DIFFERENCE, "{name}: {worst}, error {:e}", worst.error);
+            compared += theirs.iter().filter(|&&x| x != 0.0).count();
+        }
+    }
+    assert!(compared > 500);
+}
+
 /// Forward and inverse dynamics differ by no more than the solver's tolerance leaves.
 #[test]
 fn inverse_undoes_forward() {
