@@ -106,6 +106,16 @@ pub(crate) fn evaluate(m: &Model, d: &mut Data, sensors: bool) -> Result<(), Ste
 }
 
 fn evaluate_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Result<(), StepError> {
+    position_and_velocity(m, d, known, sensors);
+    acceleration(m, d);
+    if sensors {
+        acceleration_sensors(m, d);
+    }
+    Ok(())
+}
+
+/// What depends on the state alone and is not known yet, with or without sensors.
+pub(crate) fn position_and_velocity(m: &Model, d: &mut Data, known: Known, sensors: bool) {
     if known < Known::Position {
         position(m, d);
         if sensors {
@@ -118,11 +128,6 @@ fn evaluate_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Resul
             velocity_sensors(m, d);
         }
     }
-    acceleration(m, d);
-    if sensors {
-        acceleration_sensors(m, d);
-    }
-    Ok(())
 }
 
 /// What depends on positions: poses, inertia, contacts, constraint rows, lengths.
@@ -184,7 +189,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     );
 }
 
-pub(crate) fn position_sensors(m: &Model, d: &mut Data) {
+fn position_sensors(m: &Model, d: &mut Data) {
     let inputs = PositionInputs {
         time: d.time,
         state: &d.state,
@@ -200,7 +205,7 @@ pub(crate) fn position_sensors(m: &Model, d: &mut Data) {
     d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
 }
 
-pub(crate) fn velocity_sensors(m: &Model, d: &mut Data) {
+fn velocity_sensors(m: &Model, d: &mut Data) {
     let inputs =
         VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
     sensor::velocity_sensors(m, &inputs, &mut d.sensor);

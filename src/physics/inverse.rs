@@ -2,9 +2,7 @@
 //! Computation, "Inverse dynamics"). Constraint forces follow from the acceleration row by row, without iteration.
 
 use crate::data::Data;
-use crate::forward::{
-    Known, StepError, acceleration_sensors, position, position_sensors, velocity, velocity_sensors,
-};
+use crate::forward::{Known, StepError, acceleration_sensors, position_and_velocity};
 use crate::implicit;
 use crate::inertia::{mul_inertia_matrix, solve};
 use crate::integrate::{damped_inertia, has_joint_damping};
@@ -36,18 +34,7 @@ pub fn inverse(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// `inverse` where part of the last evaluation still holds, with or without sensors.
 pub(crate) fn inverse_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Result<(), StepError> {
     check_options(m)?;
-    if known < Known::Position {
-        position(m, d);
-        if sensors {
-            position_sensors(m, d);
-        }
-    }
-    if known < Known::Velocity {
-        velocity(m, d);
-        if sensors {
-            velocity_sensors(m, d);
-        }
-    }
+    position_and_velocity(m, d, known, sensors);
     let mut s = std::mem::take(&mut d.scratch.inverse);
     s.given.clone_from(&d.acc.qacc);
     let mut result = Ok(());
