@@ -4,13 +4,18 @@ use robohive_validation::status::{Row, measure, render};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
+const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --references FOLDER [--only TEXT]
+       [--write README.md] [--section NAME] [--brief]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
-and with --write replaces the text between the table markers of a file.";
+and with --write replaces the text between the table markers of a file; with --section between the markers of that
+section. With --brief the written table leaves out the models without a fault.";
 
-/// What stands before and after the generated table.
-const MARKERS: [&str; 2] = ["<!-- table begins -->", "<!-- table ends -->"];
+/// What stands before and after the generated table of a section.
+fn markers(section: &str) -> [String; 2] {
+    let name = if section.is_empty() { "table".to_owned() } else { format!("{section} table") };
+    ["begins", "ends"].map(|end| format!("<!-- {name} {end} -->"))
+}
 
 #[derive(Default)]
 struct Arguments {
@@ -19,6 +24,8 @@ struct Arguments {
     references: PathBuf,
     only: String,
     write: Option<PathBuf>,
+    section: String,
+    brief: bool,
 }
 
 fn main() -> ExitCode {
@@ -42,9 +49,9 @@ fn run() -> Result<(), String> {
         println!("{}", row.line());
         rows.push(row);
     }
-    let table = render(&rows);
+    let table = render(&rows, |row| !arguments.brief || row.falls_short());
     println!("\n{table}");
-    arguments.write.as_deref().map_or(Ok(()), |path| replace(path, &table))
+    arguments.write.as_deref().map_or(Ok(()), |path| replace(path, &markers(&arguments.section), &table))
 }
 
 fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
@@ -57,6 +64,8 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
             "--references" => a.references = value()?.into(),
             "--only" => a.only = value()?,
             "--write" => a.write = Some(value()?.into()),
+            "--section" => a.section = value()?,
+            "--brief" => a.brief = true,
             _ => return Err(format!("unknown argument {word}\n{USAGE}")),
         }
     }
@@ -67,13 +76,13 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
 }
 
 /// Replaces what stands between the markers of `path`.
-fn replace(path: &Path, table: &str) -> Result<(), String> {
+fn replace(path: &Path, markers: &[String; 2], table: &str) -> Result<(), String> {
     let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
-    let [begin, end] = MARKERS.map(|marker| text.find(marker));
+    let [begin, end] = [0, 1].map(|k| text.find(&markers[k]));
     let (Some(begin), Some(end)) = (begin, end) else {
-        return Err(format!("{}: the markers {MARKERS:?} are missing", path.display()));
+        return Err(format!("{}: the markers {markers:?} are missing", path.display()));
     };
-    let head = &text[..begin + MARKERS[0].len()];
+    let head = &text[..begin + markers[0].len()];
     let new = format!("{head}\n{table}{}", &text[end..]);
     std::fs::write(path, new).map_err(|e| format!("{}: {e}", path.display()))
 }

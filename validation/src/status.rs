@@ -62,6 +62,11 @@ impl Row {
         self.long_run.as_ref().is_some_and(|r| r.is_ok() || self.reference_bad)
     }
 
+    /// Any column disagrees.
+    pub fn falls_short(&self) -> bool {
+        !(self.compiles() && self.stages_agree() && self.forwards() && self.follows() && self.runs())
+    }
+
     /// What limits the model: the first thing that disagrees.
     pub fn limit(&self) -> String {
         if let Some(failure) = &self.failure {
@@ -177,8 +182,8 @@ fn long_run(
     Ok(Ok(()))
 }
 
-/// The whole table with its totals.
-pub fn render(rows: &[Row]) -> String {
+/// The totals of all rows and a table of those that are `shown`.
+pub fn render(rows: &[Row], shown: impl Fn(&Row) -> bool) -> String {
     let count = |what: fn(&Row) -> bool| rows.iter().filter(|r| what(r)).count();
     let mut text = String::new();
     let _ = writeln!(
@@ -194,7 +199,7 @@ pub fn render(rows: &[Row]) -> String {
         count(Row::runs)
     );
     text.push_str("| model | compile | stages | forward (states) | rollout (divergence) | runs | what limits it |\n|---|---|---|---|---|---|---|\n");
-    for row in rows {
+    for row in rows.iter().filter(|row| shown(row)) {
         let _ = writeln!(text, "{}", row.line());
     }
     text

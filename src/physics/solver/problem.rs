@@ -97,7 +97,10 @@ impl Problem {
         for (out, &row) in self.jacobian.chunks_exact_mut(self.nv).zip(s.rows) {
             let start = efc.efc_J_rowadr[row as usize] as usize;
             for k in start..start + efc.efc_J_rownnz[row as usize] as usize {
-                out[(s.sorted[efc.efc_J_colind[k] as usize] - s.first) as usize] = efc.efc_J[k];
+                // A tendon's structural zeros may stand in columns of another island.
+                if efc.efc_J[k] != 0.0 {
+                    out[(s.sorted[efc.efc_J_colind[k] as usize] - s.first) as usize] = efc.efc_J[k];
+                }
             }
         }
     }
