@@ -10,7 +10,7 @@ use crate::files::{FileProvider, base_name};
 use crate::image::{
     self, Colorspace, CompiledHfield, CompiledTexture, FileImage, HfieldSource, TextureKind, TextureSource,
 };
-use crate::mesh::{self, CompiledMesh, MeshInertia, MeshSource, RawMesh};
+use crate::mesh::{self, CompiledMesh, MeshInertia, MeshSource, RawMesh, Shape};
 use crate::spec::{Body, Hfield, Mesh, Spec, Texture};
 use physics::Model;
 use physics::model::{ColorSpace, GeomType, ObjType, TextureType};
@@ -257,6 +257,22 @@ fn hfield_source(spec: &Hfield, name: &str, bytes: Option<Arc<[u8]>>) -> HfieldS
     }
 }
 
+/// The arrays of a mesh that is given in place or computed.
+fn inline_mesh(spec: &Mesh, discard: bool) -> Result<RawMesh, AssetError> {
+    if let Some(shape) = spec.builtin {
+        return mesh::builtin(shape, &spec.params);
+    }
+    Ok(RawMesh {
+        vert: spec.uservert.clone(),
+        normal: spec.usernormal.clone(),
+        texcoord: if discard { Vec::new() } else { spec.usertexcoord.clone() },
+        face: spec.userface.clone(),
+        facenormal: spec.userfacenormal.clone(),
+        facetexcoord: if discard { Vec::new() } else { spec.userfacetexcoord.clone() },
+        ..RawMesh::default()
+    })
+}
+
 impl Job<'_> {
     /// Bytes to process, a measure of the time it takes.
     fn weight(&self) -> usize {
@@ -276,15 +292,7 @@ impl Job<'_> {
                     Some(bytes) => Some(mesh::decode(bytes, &spec.file, &spec.content_type)?),
                     None => None,
                 };
-                let inline = RawMesh {
-                    vert: spec.uservert.clone(),
-                    normal: spec.usernormal.clone(),
-                    texcoord: if *discard { Vec::new() } else { spec.usertexcoord.clone() },
-                    face: spec.userface.clone(),
-                    facenormal: spec.userfacenormal.clone(),
-                    facetexcoord: if *discard { Vec::new() } else { spec.userfacetexcoord.clone() },
-                    ..RawMesh::default()
-                };
+                let inline = inline_mesh(spec, *discard)?;
                 mesh::process(MeshSource {
                     name: name.clone(),
                     file,
@@ -292,7 +300,8 @@ impl Job<'_> {
                     scale: spec.scale,
                     refpos: spec.refpos,
                     refquat: spec.refquat,
-                    inertia: spec.inertia,
+                    // A plate has no volume.
+                    inertia: if spec.builtin == Some(Shape::Plate) { MeshInertia::Shell } else { spec.inertia },
                     smoothnormal: spec.smoothnormal,
                     maxhullvert: spec.maxhullvert,
                     needhull: *needhull,

@@ -66,9 +66,6 @@ impl Reader<'_> {
         {
             self.error(limit.value_loc, "attribute 'maxhullvert' of <mesh> must be -1 or at least 4");
         }
-        if let Some(builtin) = element.attribute("builtin").filter(|a| a.value != "none") {
-            self.unsupported(builtin.loc, "generated meshes");
-        }
         self.spec.meshes.push(mesh);
     }
 

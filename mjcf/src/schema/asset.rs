@@ -8,7 +8,7 @@ use super::{
     ElementType, Kind, Row, Rule, Space, Words, any, leaf, local, required, row, section, unsupported,
 };
 use crate::image::{Builtin, Mark};
-use crate::mesh::MeshInertia;
+use crate::mesh::{MeshInertia, Shape};
 use crate::spec::{Hfield, Material, Mesh, Texture};
 
 /// `asset`.
@@ -84,8 +84,19 @@ pub static MESH_ROWS: [Row<Mesh>; 16] = [
         },
         "how mass and inertia follow from the surface",
     ),
-    local("builtin", Own(Kind::Keyword(BUILTIN_MESHES)), "shape of a generated mesh"),
-    local("params", Own(Kind::Real { min: 0, max: None }), "parameters of a generated mesh"),
+    local(
+        "builtin",
+        Keyword {
+            words: BUILTIN_MESHES,
+            assign: |m, c| {
+                use Shape::*;
+                let shapes = [Sphere, Hemisphere, Cone, Supersphere, Supertorus, Wedge, Plate];
+                m.builtin = usize::try_from(c - 1).ok().map(|k| shapes[k]);
+            },
+        },
+        "shape of a generated mesh",
+    ),
+    local("params", RealList(|m| &mut m.params), "parameters of a generated mesh"),
     local("material", Ref(Space::Material, |m| &mut m.material), "material"),
 ];
 

@@ -2,7 +2,7 @@
 
 use super::elements;
 use crate::image::{Builtin, Mark};
-use crate::mesh::MeshInertia;
+use crate::mesh::{MeshInertia, Shape};
 use physics::model::{ColorSpace, TextureType};
 
 elements! {
@@ -19,6 +19,9 @@ elements! {
         inertia: MeshInertia = MeshInertia::Legacy,
         smoothnormal: bool = false,
         maxhullvert: i32 = -1,
+        /// Shape of a computed mesh and its parameters.
+        builtin: Option<Shape> = None,
+        params: Vec<f64> = Vec::new(),
         uservert: Vec<f32> = Vec::new(),
         usernormal: Vec<f32> = Vec::new(),
         usertexcoord: Vec<f32> = Vec::new(),
