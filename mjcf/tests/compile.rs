@@ -137,3 +137,35 @@ fn short_keyframes_are_completed() {
     assert_eq!((m.nkey, m.key_qpos.len(), m.key_qvel.len()), (1, m.nq, m.nv));
     assert_eq!(m.key_qpos[..6], [1.0, 0.0, 0.0, 0.0, 0.5, 0.0]);
 }
+
+#[test]
+fn a_computed_sphere_has_the_vertices_of_its_subdivisions() {
+    let text = r#"<mujoco>
+        <asset><mesh name="ball" builtin="sphere" params="1"/></asset>
+        <worldbody><body><freejoint/><geom type="mesh" mesh="ball"/></body></worldbody>
+    </mujoco>"#;
+    let m = compile(text);
+    assert_eq!((m.nmeshvert, m.nmeshface), (42, 80));
+    // Icosahedral symmetry: equal moments.
+    let [x, y, z] = m.body_inertia[1];
+    assert!((x - y).abs() < 1e-4 * x && (x - z).abs() < 1e-4 * x);
+}
+
+#[test]
+fn a_tendon_that_misses_its_geom_leaves_the_geoms_island_alone() {
+    let text = r#"<mujoco>
+        <worldbody>
+            <site name="anchor" pos="0 0 1"/>
+            <body pos="1 0 0.5"><joint type="slide" axis="1 0 0" frictionloss="1"/><geom name="post" size="0.1"/></body>
+            <body><joint name="pulled" type="slide" axis="0 0 1" frictionloss="1"/><geom size="0.1"/><site name="end"/></body>
+        </worldbody>
+        <tendon>
+            <spatial limited="true" range="0 0.9"><site site="anchor"/><geom geom="post"/><site site="end"/></spatial>
+        </tendon>
+    </mujoco>"#;
+    let m = compile(text);
+    let mut d = physics::Data::new(&m);
+    physics::step(&m, &mut d).unwrap();
+    assert!(d.acc.qacc[1] > 0.0, "the stretched tendon pulls up");
+    assert_eq!(d.state.qpos[0], 0.0);
+}

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Lists the XML files below a folder that MuJoCo 3.12.0 loads, less those of features that are not simulated.
+"""Lists the XML files below a folder that MuJoCo loads, less those of features that are not simulated.
 
     pip install mujoco==3.12.0
-    python scenes.py --models FOLDER --out LIST [--any] [DIR ...]
+    python scenes.py --models FOLDER --out LIST [--any] [--mujoco VERSION] [DIR ...]
 
 Only the folders DIR of FOLDER are searched, or all of it. LIST gets one path a line. Every file left out is printed
-with its reason: what MuJoCo says when it refuses the file, or the feature. With --any no feature is left out.
+with its reason: what MuJoCo says when it refuses the file, or the feature. With --any no feature is left out. The
+installed MuJoCo must be VERSION, 3.12.0 where none is given.
 """
 
 import argparse
@@ -62,10 +63,11 @@ def main():
     parser.add_argument("--models", required=True, type=Path)
     parser.add_argument("--out", required=True, type=Path)
     parser.add_argument("--any", action="store_true", help="keep every file that MuJoCo loads")
+    parser.add_argument("--mujoco", default="3.12.0", help="version that must be installed")
     parser.add_argument("folders", nargs="*", default=["."])
     args = parser.parse_args()
-    if mujoco.__version__ != "3.12.0":
-        sys.exit(f"mujoco 3.12.0 is needed, this is {mujoco.__version__}")
+    if mujoco.__version__ != args.mujoco:
+        sys.exit(f"mujoco {args.mujoco} is needed, this is {mujoco.__version__}")
     paths = sorted({p for f in args.folders for p in (args.models / f).rglob("*.xml")})
     with multiprocessing.Pool(2, maxtasksperchild=20) as pool:
         reasons = pool.starmap(reason, [(p, args.any) for p in paths], chunksize=1)

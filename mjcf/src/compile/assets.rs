@@ -301,7 +301,11 @@ impl Job<'_> {
                     refpos: spec.refpos,
                     refquat: spec.refquat,
                     // A plate has no volume.
-                    inertia: if spec.builtin == Some(Shape::Plate) { MeshInertia::Shell } else { spec.inertia },
+                    inertia: if spec.builtin == Some(Shape::Plate) {
+                        MeshInertia::Shell
+                    } else {
+                        spec.inertia
+                    },
                     smoothnormal: spec.smoothnormal,
                     maxhullvert: spec.maxhullvert,
                     needhull: *needhull,
