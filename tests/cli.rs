@@ -178,6 +178,17 @@ fn wrong_input_names_the_fault_with_exit_code_2() {
 }
 
 #[test]
+fn template_text_is_replaced() {
+    let file = scratch("template.xml");
+    std::fs::write(&file, "<mujoco model=\"a THING\"><worldbody><geom size=\"SIZE\"/></worldbody></mujoco>")
+        .unwrap();
+    let file = file.to_str().unwrap();
+    let out = robohive(&["inspect", file, "--define", "THING=ball", "--define", "SIZE=0.1"]);
+    assert!(text(&out.stdout).contains("a ball"), "{}{}", text(&out.stdout), text(&out.stderr));
+    assert_eq!(robohive(&["inspect", file, "--define", "THING"]).status.code(), Some(2));
+}
+
+#[test]
 fn help_has_examples() {
     for command in ["inspect", "sim", "trace", "check", "bench"] {
         let out = robohive(&[command, "--help"]);

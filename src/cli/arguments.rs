@@ -34,6 +34,17 @@ pub enum Command {
     Bench(Bench),
 }
 
+/// An MJCF file, and what its template text stands for.
+#[derive(Args)]
+pub struct ModelSource {
+    /// MJCF file
+    #[arg(value_name = "MODEL")]
+    pub path: PathBuf,
+    /// Replace TEXT by VALUE in the file and all it includes, e.g. OBJECT_NAME=apple
+    #[arg(long = "define", value_name = "TEXT=VALUE")]
+    pub defines: Vec<String>,
+}
+
 /// Summarise a model, or write out every compiled array.
 #[derive(Args)]
 #[command(after_help = "Examples:
@@ -41,8 +52,9 @@ pub enum Command {
   robohive inspect model.xml --npz model.npz  every array under its MuJoCo name and shape
   robohive inspect model.xml --json | jq .sizes")]
 pub struct Inspect {
-    /// MJCF file
-    pub model: PathBuf,
+    /// The model
+    #[command(flatten)]
+    pub model: ModelSource,
     /// Write every model array to this numpy archive
     #[arg(long, value_name = "FILE")]
     pub npz: Option<PathBuf>,
@@ -57,8 +69,9 @@ pub struct Inspect {
   robohive sim assets/franka/franka_table.xml --seconds 2 --keyframe ready --out run.npz
   python -c \"import numpy; print(numpy.load('run.npz')['qpos'].shape)\"")]
 pub struct Sim {
-    /// MJCF file
-    pub model: PathBuf,
+    /// The model
+    #[command(flatten)]
+    pub model: ModelSource,
     /// Simulated time [s]
     #[arg(long, default_value_t = 1.0, allow_negative_numbers = true)]
     pub seconds: f64,
@@ -87,8 +100,9 @@ Examples:
   robohive trace model.xml --in states.npz --out forward.npz --forward --fields qacc,efc_J,contact.dist"
 )]
 pub struct Trace {
-    /// MJCF file
-    pub model: PathBuf,
+    /// The model
+    #[command(flatten)]
+    pub model: ModelSource,
     /// Numpy archive with inputs
     #[arg(long = "in", value_name = "IN.npz")]
     pub input: PathBuf,
@@ -109,8 +123,9 @@ pub struct Trace {
 Example:
   robohive check assets/quadruped/quadruped.xml validation/reference/own/quadruped.npz")]
 pub struct Check {
-    /// MJCF file
-    pub model: PathBuf,
+    /// The model
+    #[command(flatten)]
+    pub model: ModelSource,
     /// Recorded reference
     pub reference: PathBuf,
 }

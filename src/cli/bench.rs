@@ -12,7 +12,7 @@ pub fn run(a: &Bench) -> Result<(), Failure> {
         return Err(Failure::usage("--threads and --steps must be at least 1"));
     }
     for path in &a.models {
-        let m = load(path)?;
+        let m = load(path, &[])?;
         let rate = measure(&m, a.steps, a.threads)?;
         report(path, a, rate);
     }

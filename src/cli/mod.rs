@@ -50,8 +50,16 @@ pub fn run() -> ExitCode {
 }
 
 /// Loads a model and shows its warnings on standard error.
-fn load(path: &Path) -> Result<physics::Model, Failure> {
-    let loaded = mjcf::load(&path.to_string_lossy()).map_err(Failure::usage)?;
+fn load(path: &Path, defines: &[String]) -> Result<physics::Model, Failure> {
+    let mut loader = mjcf::Loader::default();
+    for define in defines {
+        let (text, value) = define
+            .split_once('=')
+            .filter(|(text, _)| !text.is_empty())
+            .ok_or_else(|| Failure::usage(format!("--define {define:?} is not TEXT=VALUE")))?;
+        loader = loader.substitute(text, value);
+    }
+    let loaded = loader.load(&path.to_string_lossy()).map_err(Failure::usage)?;
     for warning in loaded.warnings.warnings() {
         eprintln!("{warning}");
     }
