@@ -3,9 +3,9 @@
 use crate::cli::arguments::Check;
 use crate::cli::{Failure, load};
 use validation::compile::compare_compiled;
-use validation::motion::{compare_forward, compare_rollout};
+use validation::motion::{compare_forward, compare_rollout, compare_steps};
 use validation::reference::Reference;
-use validation::tolerance::QACC;
+use validation::tolerance::{QACC, STEP};
 
 /// Runs the command: exit code 1 when a comparison disagrees.
 pub fn run(a: &Check) -> Result<(), Failure> {
@@ -40,6 +40,13 @@ pub fn run(a: &Check) -> Result<(), Failure> {
     if let Some(failure) = &forward.failure {
         println!("{:>22}{failure}", "");
     }
+
+    let single = compare_steps(&m, &reference).map_err(Failure::usage)?;
+    let text = format!(
+        "{} of {} single steps from MuJoCo's states within {STEP:e}; largest difference {:.1e}",
+        single.agreeing, single.steps, single.worst.0
+    );
+    line("step", single.agreeing == single.steps, text);
 
     let rollout = compare_rollout(&m, &reference).map_err(Failure::usage)?;
     let text = format!(

@@ -2,7 +2,7 @@
 
 use crate::compare::{Worst, compare, of_largest};
 use crate::reference::{Reference, ReferenceError};
-use crate::tolerance::{QACC, ROLLOUT_ABSOLUTE, TWIN_FACTOR};
+use crate::tolerance::{QACC, ROLLOUT_ABSOLUTE, STEP, TWIN_FACTOR};
 use physics::{Data, Model};
 
 /// Forward passes of the recorded states.
@@ -53,6 +53,46 @@ pub fn compare_forward(m: &Model, reference: &Reference) -> Result<ForwardReport
         report.equal_contacts += usize::from(d.con.contact.len() == touching);
         if report.worst.as_ref().is_none_or(|(_, w)| worst.error > w.error) {
             report.worst = Some((row, worst));
+        }
+    }
+    Ok(report)
+}
+
+/// Single steps, each from MuJoCo's recorded state.
+pub struct StepReport {
+    /// Steps compared.
+    pub steps: usize,
+    /// Steps whose positions agree.
+    pub agreeing: usize,
+    /// Largest difference of any position after one step [m, rad], and its step.
+    pub worst: (f64, usize),
+}
+
+/// Steps along the recorded rollout, taking positions, velocities and activations from it before every step; the
+/// solver starts from our own last acceleration.
+///
+/// # Errors
+/// The reference lacks an array.
+pub fn compare_steps(m: &Model, reference: &Reference) -> Result<StepReport, ReferenceError> {
+    let read = |name: &str| Ok::<_, ReferenceError>(reference.archive().require(name)?.values.to_f64());
+    let (ctrl, qpos, qvel, act) =
+        (read("rollout.ctrl")?, read("rollout.qpos")?, read("rollout.qvel")?, read("rollout.act")?);
+    let steps = reference.archive().require("rollout.qpos")?.rows();
+    let mut d = Data::new(m);
+    let mut report = StepReport { steps: steps.saturating_sub(1), agreeing: 0, worst: (0.0, 0) };
+    for step in 1..steps {
+        let row = |values: &[f64], width: usize, row: usize| values[row * width..(row + 1) * width].to_vec();
+        d.state.qpos = row(&qpos, m.nq, step - 1);
+        d.state.qvel = row(&qvel, m.nv, step - 1);
+        d.state.act = row(&act, m.na, step - 1);
+        d.state.ctrl = row(&ctrl, m.nu, step);
+        let difference = match physics::step(m, &mut d) {
+            Ok(()) => largest_difference(&d.state.qpos, &row(&qpos, m.nq, step)),
+            Err(_) => f64::INFINITY,
+        };
+        report.agreeing += usize::from(difference <= STEP);
+        if difference > report.worst.0 {
+            report.worst = (difference, step);
         }
     }
     Ok(report)

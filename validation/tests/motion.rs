@@ -1,7 +1,7 @@
 //! The own models, compiled by us, against what MuJoCo recorded: arrays, forward passes, 500 steps.
 
 use robohive_validation::compile::compare_compiled;
-use robohive_validation::motion::{compare_forward, compare_rollout};
+use robohive_validation::motion::{compare_forward, compare_rollout, compare_steps};
 use robohive_validation::reference::Reference;
 use std::path::{Path, PathBuf};
 
@@ -44,6 +44,15 @@ fn own_models_accelerate_alike() {
         let worst = report.worst.as_ref().map(|(state, w)| format!("state {state}: {w}")).unwrap_or_default();
         assert_eq!(report.agreeing, report.states, "{}: {worst} {:?}", path.display(), report.failure);
         assert_eq!(report.equal_contacts, report.states, "{}", path.display());
+    }
+}
+
+#[test]
+fn own_models_step_alike() {
+    for (path, reference) in own() {
+        let report = compare_steps(&load(&path), &reference).unwrap();
+        assert!(report.steps > 100);
+        assert_eq!(report.agreeing, report.steps, "{}: {:?}", path.display(), report.worst);
     }
 }
 
