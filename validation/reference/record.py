@@ -22,7 +22,6 @@ import re
 import shutil
 import sys
 import tempfile
-import time
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -229,11 +228,7 @@ def main():
     failed = 0
     for name, path in jobs:
         try:
-            began = time.perf_counter()
-            model = load(path)
-            seconds = time.perf_counter() - began
-            arrays = record(model, states=args.states) | {"compile_seconds": np.float64(seconds)}
-            np.savez_compressed(args.out / (name + ".npz"), **arrays)
+            np.savez_compressed(args.out / (name + ".npz"), **record(load(path), states=args.states))
             print("recorded", name, flush=True)
         except Exception as error:
             failed += 1

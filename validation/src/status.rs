@@ -6,7 +6,6 @@ use crate::reference::Reference;
 use crate::stages::{StageReport, compare_stages};
 use std::fmt::Write;
 use std::path::Path;
-use std::time::Instant;
 
 /// What stands for the template text in the recorded references.
 pub const TEMPLATE: (&str, &str) = ("OBJECT_NAME", "airplane");
@@ -23,8 +22,6 @@ pub struct Row {
     pub model: String,
     /// Why it could not be measured at all.
     pub failure: Option<String>,
-    /// Seconds of our compilation.
-    pub compile_seconds: f64,
     compile: Option<CompileReport>,
     stages: Option<StageReport>,
     forward: Option<ForwardReport>,
@@ -128,7 +125,6 @@ pub fn measure(name: &str, model: &Path, reference: &Path) -> Row {
     let mut row = Row {
         model: name.to_owned(),
         failure: None,
-        compile_seconds: 0.0,
         compile: None,
         stages: None,
         forward: None,
@@ -143,12 +139,10 @@ pub fn measure(name: &str, model: &Path, reference: &Path) -> Row {
 }
 
 fn fill(row: &mut Row, model: &Path, reference: &Path) -> Result<(), String> {
-    let began = Instant::now();
     let loaded = mjcf::Loader::default()
         .substitute(TEMPLATE.0, TEMPLATE.1)
         .load(&model.to_string_lossy())
         .map_err(|e| e.to_string())?;
-    row.compile_seconds = began.elapsed().as_secs_f64();
     let m = loaded.model;
     let reference = Reference::open(reference).map_err(|e| e.to_string())?;
     row.compile = Some(compare_compiled(&m, &reference).map_err(|e| e.to_string())?);
