@@ -4,6 +4,7 @@ pub mod compare;
 pub mod compile;
 pub mod motion;
 pub mod reference;
+pub mod solver;
 pub mod stages;
 pub mod status;
 pub mod tolerance;

@@ -1,15 +1,19 @@
-//! Measures every listed model against its recorded reference and writes the status table.
+//! Measures our physics beside MuJoCo's and writes the tables: model by model, or what the first word chooses.
 
+use robohive_validation::solver;
 use robohive_validation::status::{Row, measure, render};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --references FOLDER [--only TEXT]
        [--write README.md] [--section NAME] [--brief]
+       robohive-validation solver --problems FOLDER [--references FOLDER] [--only TEXT] [--write README.md]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
 and with --write replaces the text between the table markers of a file; with --section between the markers of that
-section. With --brief the written table leaves out the models without a fault.";
+section. With --brief the written table leaves out the models without a fault.
+
+solver: solves the constraint problems that solver.py recorded; the models are those that record.py recorded.";
 
 /// What stands before and after the generated table of a section.
 fn markers(section: &str) -> [String; 2] {
@@ -22,6 +26,7 @@ struct Arguments {
     models: PathBuf,
     list: PathBuf,
     references: PathBuf,
+    problems: PathBuf,
     only: String,
     write: Option<PathBuf>,
     section: String,
@@ -39,19 +44,36 @@ fn main() -> ExitCode {
 }
 
 fn run() -> Result<(), String> {
-    let arguments = parse(std::env::args().skip(1))?;
-    let list =
-        std::fs::read_to_string(&arguments.list).map_err(|e| format!("{}: {e}", arguments.list.display()))?;
+    let mut words = std::env::args().skip(1).peekable();
+    let mode = words.next_if(|word| !word.starts_with("--"));
+    let a = parse(words)?;
+    let (section, table, verdict) = match mode.as_deref() {
+        None => (a.section.as_str(), status(&a)?, Ok(())),
+        Some("solver") => {
+            let (table, verdict) = solver::measure(&a.problems, &a.references, &a.only)?;
+            ("solver", table, verdict)
+        }
+        Some(word) => return Err(format!("unknown command {word}\n{USAGE}")),
+    };
+    println!("\n{table}");
+    a.write.as_deref().map_or(Ok(()), |path| replace(path, &markers(section), &table))?;
+    verdict
+}
+
+/// The table of all listed models.
+fn status(a: &Arguments) -> Result<String, String> {
+    if a.list.as_os_str().is_empty() || a.references.as_os_str().is_empty() {
+        return Err(USAGE.into());
+    }
+    let list = std::fs::read_to_string(&a.list).map_err(|e| format!("{}: {e}", a.list.display()))?;
     let mut rows: Vec<Row> = Vec::new();
-    for line in list.split_whitespace().filter(|line| line.contains(&arguments.only)) {
+    for line in list.split_whitespace().filter(|line| line.contains(&a.only)) {
         let name = line.trim_end_matches(".xml").replace('/', "__");
-        let row = measure(line, &arguments.models.join(line), &arguments.references.join(name + ".npz"));
+        let row = measure(line, &a.models.join(line), &a.references.join(name + ".npz"));
         println!("{}", row.line());
         rows.push(row);
     }
-    let table = render(&rows, |row| !arguments.brief || row.falls_short());
-    println!("\n{table}");
-    arguments.write.as_deref().map_or(Ok(()), |path| replace(path, &markers(&arguments.section), &table))
+    Ok(render(&rows, |row| !a.brief || row.falls_short()))
 }
 
 fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
@@ -62,15 +84,13 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
             "--models" => a.models = value()?.into(),
             "--list" => a.list = value()?.into(),
             "--references" => a.references = value()?.into(),
+            "--problems" => a.problems = value()?.into(),
             "--only" => a.only = value()?,
             "--write" => a.write = Some(value()?.into()),
             "--section" => a.section = value()?,
             "--brief" => a.brief = true,
             _ => return Err(format!("unknown argument {word}\n{USAGE}")),
         }
-    }
-    if a.list.as_os_str().is_empty() || a.references.as_os_str().is_empty() {
-        return Err(USAGE.into());
     }
     Ok(a)
 }

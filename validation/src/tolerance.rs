@@ -24,3 +24,8 @@ pub const ROLLOUT_ABSOLUTE: f64 = 1e-9;
 
 /// Share of a field's largest component below which a component counts as noise of cancellation.
 pub const NOISE_FLOOR: f64 = 1e-3;
+
+/// Excess of our solver's cost over MuJoCo's, relative: sums of a few hundred terms of one sign.
+pub const COST: f64 = 1e-10;
+/// Share of problems in which the solver's iteration counts agree within one: rounding may decide the last.
+pub const ITERATIONS_SHARE: f64 = 0.95;
