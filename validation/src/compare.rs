@@ -24,7 +24,7 @@ impl fmt::Display for Worst {
     }
 }
 
-/// How one component is judged; `scale` is the largest magnitude of MuJoCo's field.
+/// How one component is judged; `scale` is the largest magnitude of MuJoCo's field, or the component's own scale.
 type Measure = fn(ours: f64, theirs: f64, scale: f64) -> f64;
 
 /// Relative error, floored at a share of the field's largest component.
@@ -54,16 +54,28 @@ pub fn exact(ours: f64, theirs: f64, _scale: f64) -> f64 {
     if ours == theirs { 0.0 } else { f64::INFINITY }
 }
 
-/// Compares two fields component by component.
+/// Compares two fields component by component, measured against the field's largest.
 pub fn compare(field: &str, ours: &[f64], theirs: &[f64], measure: Measure) -> Worst {
+    let scale = theirs.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
+    compare_scaled(field, ours, theirs, measure, |_| scale)
+}
+
+/// Compares two fields component by component, each measured against its own scale.
+pub fn compare_scaled(
+    field: &str,
+    ours: &[f64],
+    theirs: &[f64],
+    measure: Measure,
+    scale: impl Fn(usize) -> f64,
+) -> Worst {
     let worst = |index, ours, theirs, error| Worst { field: field.to_owned(), index, ours, theirs, error };
     if ours.len() != theirs.len() {
         return worst(0, ours.len() as f64, theirs.len() as f64, f64::INFINITY);
     }
-    let scale = theirs.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
     let mut result = worst(0, 0.0, 0.0, 0.0);
     for (index, (&a, &b)) in ours.iter().zip(theirs).enumerate() {
-        let error = if a.is_finite() && b.is_finite() { measure(a, b, scale) } else { exact(a, b, scale) };
+        let error =
+            if a.is_finite() && b.is_finite() { measure(a, b, scale(index)) } else { exact(a, b, 0.0) };
         if error > result.error || index == 0 {
             result = worst(index, a, b, error);
         }

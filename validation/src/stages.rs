@@ -1,6 +1,6 @@
 //! Every stage alone: MuJoCo's upstream arrays go in, our stage runs, its outputs are compared.
 
-use crate::compare::{Worst, compare, exact, relative};
+use crate::compare::{Worst, compare, compare_scaled, exact, relative};
 use crate::reference::{Reference, ReferenceError};
 use crate::tolerance::STAGE;
 use physics::{
@@ -16,7 +16,8 @@ struct Stage {
     writes: &'static [&'static str],
 }
 
-/// Contacts as recorded; the friction cone's `mu` and the row address belong to the rows.
+/// Contacts as collision detection leaves them, but for `exclude`, which the rows complete; the friction cone's `mu` and
+/// the row address belong to the rows.
 macro_rules! contacts {
     ($($more:literal),*) => {
         &[
@@ -82,6 +83,7 @@ const STAGES: &[Stage] = &[
     Stage {
         name: "rows",
         reads: contacts!(
+            "contact.exclude",
             "xpos",
             "xquat",
             "xmat",
@@ -101,6 +103,11 @@ const STAGES: &[Stage] = &[
         ),
         run: constraint_rows,
         writes: &[
+            "ne",
+            "nf",
+            "nl",
+            "nefc",
+            "nisland",
             "efc_type",
             "efc_id",
             "efc_J",
@@ -114,6 +121,7 @@ const STAGES: &[Stage] = &[
             "efc_vel",
             "efc_aref",
             "contact.mu",
+            "contact.exclude",
             "contact.efc_address",
         ],
     },
@@ -162,6 +170,7 @@ const STAGES: &[Stage] = &[
     Stage {
         name: "passive",
         reads: contacts!(
+            "contact.exclude",
             "xpos",
             "xquat",
             "xmat",
@@ -255,13 +264,34 @@ const STAGES: &[Stage] = &[
     },
 ];
 
+/// Rows and islands from contacts that have no row yet. Collision detection excludes those in the gap; the mark of those
+/// that move nothing is an output here.
 fn constraint_rows(m: &Model, d: &mut Data) {
     let mut scratch = constraint::ConstraintScratch::default();
-    // Without a row yet: `exclude` and the address are outputs.
-    d.con.contact.iter_mut().for_each(|c| c.efc_address = -1);
-    let Data { state, kin, com, ten, inertia, con, efc, vel, .. } = d;
+    for c in &mut d.con.contact {
+        c.efc_address = -1;
+        c.exclude = if c.exclude == constraint::NO_DOF { 0 } else { c.exclude };
+    }
+    let Data { state, kin, com, ten, inertia, con, efc, island, vel, .. } = d;
     constraint::make_constraint(m, state, kin, com, ten, inertia, con, efc, &mut scratch);
+    constraint::find_islands(m, con, efc, island, &mut constraint::IslandScratch::default());
     constraint::reference(m, state, kin, com, vel, con, efc);
+}
+
+/// Data of recorded state `row` as the solver finds it: rows and islands made from recorded inputs, and the recorded
+/// unconstrained acceleration.
+///
+/// # Errors
+/// The reference lacks an array.
+pub fn before_solver(reference: &Reference, m: &Model, row: usize) -> Result<Data, ReferenceError> {
+    let mut d = Data::new(m);
+    reference.set_state(&mut d, m, row)?;
+    for stage in STAGES.iter().filter(|stage| stage.name == "rows") {
+        reference.inject(&mut d, stage.reads, row)?;
+        (stage.run)(m, &mut d);
+    }
+    reference.inject(&mut d, &["qfrc_smooth", "qacc_smooth"], row)?;
+    Ok(d)
 }
 
 fn sensors(m: &Model, d: &mut Data) {
@@ -338,7 +368,31 @@ fn compare_field(
             }
         });
     }
-    Ok(compare(field, &ours, &theirs, if float { relative } else { exact }))
+    Ok(match (field, float) {
+        ("qLD", _) => {
+            let scales = factor_scales(m, &reference.forward("M", row)?);
+            compare_scaled(field, &ours, &theirs, relative, |k| scales[k])
+        }
+        (_, true) => compare(field, &ours, &theirs, relative),
+        (_, false) => compare(field, &ours, &theirs, exact),
+    })
+}
+
+/// Scale of each entry of the inertia's factor. In `M = LᵀDL` with a unit diagonal of `L`, an entry `L[i, j]` is a sum of
+/// terms of size `√(M[i, i] M[j, j])` divided by a pivot of at most `M[i, i]`: what is far below `√(M[j, j] / M[i, i])` is
+/// what cancellation left of them. The field's largest entry, often a mass, says nothing about that.
+fn factor_scales(m: &Model, inertia: &[f64]) -> Vec<f64> {
+    let diagonal: Vec<f64> =
+        (0..m.nv).map(|i| inertia[(m.M_rowadr[i] + m.M_rownnz[i]) as usize - 1]).collect();
+    let entry = |i: usize, k: i32| {
+        let j = m.M_colind[k as usize] as usize;
+        if i == j { diagonal[i] } else { (diagonal[j] / diagonal[i]).sqrt() }
+    };
+    let mut scales = vec![0.0; m.nC];
+    for i in 0..m.nv {
+        (m.M_rowadr[i]..m.M_rowadr[i] + m.M_rownnz[i]).for_each(|k| scales[k as usize] = entry(i, k));
+    }
+    scales
 }
 
 fn keep_worst(report: &mut StageReport, stage: &'static str, row: usize, worst: Worst) {

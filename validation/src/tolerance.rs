@@ -22,7 +22,7 @@ pub const TWIN_FACTOR: f64 = 10.0;
 /// Or within this many metres or radians: 500 steps of rounding noise on a model that does not amplify it.
 pub const ROLLOUT_ABSOLUTE: f64 = 1e-9;
 
-/// Share of a field's largest component below which a component counts as noise of cancellation.
+/// Share of a field's largest component, or of the component's own scale, below which it counts as noise of cancellation.
 pub const NOISE_FLOOR: f64 = 1e-3;
 
 /// Excess of our solver's cost over MuJoCo's, relative: sums of a few hundred terms of one sign.

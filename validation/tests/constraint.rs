@@ -1,14 +1,11 @@
-//! Constraint rows, islands and solver from recorded inputs of the stage alone, against recorded outputs.
+//! The solver from recorded inputs of the constraint rows, against recorded outputs.
 
-use physics::constraint::{ConstraintScratch, IslandScratch, find_islands, make_constraint, reference};
 use physics::inertia::mul_inertia_matrix;
 use physics::model::{Jacobian, Solver, disable};
 use physics::solver::{SolverScratch, solve};
 use physics::{Data, Model};
-use robohive_validation::reference::{Reference, recorded};
-
-/// Relative difference of rows: sums of a few products, in the same order.
-const ROW: f64 = 1e-10;
+use robohive_validation::reference::recorded;
+use robohive_validation::stages::before_solver;
 
 /// Relative difference of solutions: both stop at a tolerance of 1e-8 in scaled cost or gradient.
 const SOLUTION: f64 = 1e-8;
@@ -18,50 +15,6 @@ const STORAGE: f64 = 1e-9;
 
 /// Relative residual of the equation of motion: the gradient at which the solver stops.
 const STATIONARY: f64 = 1e-6;
-
-const INPUTS: [&str; 20] = [
-    "xpos",
-    "xquat",
-    "xmat",
-    "geom_xpos",
-    "geom_xmat",
-    "site_xpos",
-    "subtree_com",
-    "cdof",
-    "ten_J",
-    "ten_length",
-    "M",
-    "qLD",
-    "qLDiagInv",
-    "cvel",
-    "cdof_dot",
-    "qfrc_smooth",
-    "qacc_smooth",
-    "contact.dist",
-    "contact.pos",
-    "contact.frame",
-];
-const CONTACT: [&str; 8] = [
-    "contact.includemargin",
-    "contact.friction",
-    "contact.solref",
-    "contact.solreffriction",
-    "contact.solimp",
-    "contact.adhesion",
-    "contact.dim",
-    "contact.geom",
-];
-const ROWS: [&str; 9] = [
-    "efc_pos",
-    "efc_margin",
-    "efc_frictionloss",
-    "efc_diagA",
-    "efc_KBIP",
-    "efc_D",
-    "efc_R",
-    "efc_vel",
-    "efc_aref",
-];
 
 fn values(d: &Data, m: &Model, name: &str) -> Vec<f64> {
     let mut out = Vec::new();
@@ -80,67 +33,6 @@ fn difference(ours: &[f64], theirs: &[f64]) -> f64 {
     ours.iter().zip(theirs).fold(0.0_f64, |e, (a, b)| e.max((a - b).abs())) / scale
 }
 
-fn dense_jacobian(d: &Data, m: &Model) -> Vec<f64> {
-    let mut dense = vec![0.0; d.efc.nefc * m.nv];
-    for i in 0..d.efc.nefc {
-        let start = d.efc.efc_J_rowadr[i] as usize;
-        for k in start..start + d.efc.efc_J_rownnz[i] as usize {
-            dense[i * m.nv + d.efc.efc_J_colind[k] as usize] = d.efc.efc_J[k];
-        }
-    }
-    dense
-}
-
-/// Data of recorded state `row`, all inputs of the constraint stages set, rows and islands computed.
-fn constrained(r: &Reference, m: &Model, row: usize) -> Data {
-    let mut d = Data::new(m);
-    r.set_state(&mut d, m, row).unwrap();
-    r.inject(&mut d, &INPUTS, row).unwrap();
-    for name in CONTACT {
-        assert_eq!(d.assign(name, &r.forward(name, row).unwrap()), Some(true));
-    }
-    d.con.contact.iter_mut().for_each(|c| c.efc_address = -1);
-    let (mut scratch, mut islands) = (ConstraintScratch::default(), IslandScratch::default());
-    make_constraint(m, &d.state, &d.kin, &d.com, &d.ten, &d.inertia, &mut d.con, &mut d.efc, &mut scratch);
-    find_islands(m, &d.con, &d.efc, &mut d.island, &mut islands);
-    reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc);
-    d
-}
-
-#[test]
-fn rows_agree() {
-    let mut rows = 0;
-    for (path, r) in recorded().unwrap() {
-        let m = r.model().unwrap();
-        let mut worst = (0.0, "");
-        for row in 0..r.states().unwrap() {
-            let d = constrained(&r, &m, row);
-            for (name, ours) in [("ne", d.efc.ne), ("nf", d.efc.nf), ("nl", d.efc.nl), ("nefc", d.efc.nefc)] {
-                assert_eq!(ours as f64, r.forward(name, row).unwrap()[0], "{path:?} {row} {name}");
-            }
-            assert_eq!(
-                d.island.nisland as f64,
-                r.forward("nisland", row).unwrap()[0],
-                "{path:?} {row} islands"
-            );
-            for name in ["efc_type", "efc_id", "contact.efc_address"] {
-                assert_eq!(values(&d, &m, name), r.forward(name, row).unwrap(), "{path:?} {row} {name}");
-            }
-            for name in ROWS {
-                let e = difference(&values(&d, &m, name), &r.forward(name, row).unwrap());
-                assert!(e < ROW, "{path:?} {row} {name} {e}");
-                worst = if e > worst.0 { (e, name) } else { worst };
-            }
-            let e = difference(&dense_jacobian(&d, &m), &r.forward("efc_J", row).unwrap());
-            assert!(e < ROW, "{path:?} {row} efc_J {e}");
-            assert!(difference(&values(&d, &m, "contact.mu"), &r.forward("contact.mu", row).unwrap()) < ROW);
-            rows += d.efc.nefc;
-        }
-        println!("{} {worst:?}", path.file_stem().unwrap().display());
-    }
-    assert!(rows > 100);
-}
-
 #[test]
 fn solver_agrees() {
     let mut iterations = 0;
@@ -152,7 +44,7 @@ fn solver_agrees() {
         let mut scratch = SolverScratch::default();
         let states = r.states().unwrap();
         for row in 0..states {
-            let mut d = constrained(&r, &m, row);
+            let mut d = before_solver(&r, &m, row).unwrap();
             solve(
                 &m,
                 &d.state,
@@ -203,7 +95,7 @@ fn storage_does_not_matter() {
         for row in 0..r.states().unwrap() {
             let solved = [Jacobian::Dense, Jacobian::Sparse].map(|storage| {
                 m.opt.jacobian = storage.code();
-                let mut d = constrained(&r, &m, row);
+                let mut d = before_solver(&r, &m, row).unwrap();
                 let mut scratch = SolverScratch::default();
                 let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
                 solve(&m, state, inertia, con, efc, island, acc, solver, &mut scratch);

@@ -9,7 +9,7 @@ use crate::math::{dot, row};
 use crate::model::{Cone, ConstraintType, Model, disable};
 
 /// `exclude` of a contact that moves nothing.
-const NO_DOF: i32 = 3;
+pub const NO_DOF: i32 = 3;
 
 /// Appends the rows of every contact that is not excluded and records the first row in `efc_address`.
 pub(super) fn contacts(

@@ -15,6 +15,7 @@ mod limits;
 mod reference;
 mod rows;
 
+pub use contacts::NO_DOF;
 pub use diagonal::{HalfJacobian, half_jacobian};
 pub use islands::{IslandScratch, find_islands};
 pub use reference::reference;
