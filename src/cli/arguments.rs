@@ -134,19 +134,40 @@ pub struct Check {
 #[derive(Args)]
 #[command(
     after_help = "Starts from keyframe 0 where there is one, else qpos0, with zero controls. Loading is not timed.
-Example:
-  robohive bench assets/*/*.xml --steps 2000 --json | tail -n 1"
+Examples:
+  robohive bench assets/*/*.xml --steps 2000 --json | tail -n 1
+  robohive bench assets/pile/pile.xml --batch 64 --threads 2   many environments together
+  robohive bench assets/pile/pile.xml --stages                 where the time of a step goes
+  robohive bench assets/pile/pile.xml --jitter --steps 10000   p99.9 of the time of a step beside the median"
 )]
 pub struct Bench {
     /// MJCF files
     #[arg(required = true)]
     pub models: Vec<PathBuf>,
-    /// Steps of each thread
+    /// Steps of each environment
     #[arg(long, default_value_t = 1000)]
     pub steps: usize,
-    /// Independent simulations, one a thread
+    /// Threads that step the environments
     #[arg(long, default_value_t = 1)]
     pub threads: usize,
+    /// Environments (default: one a thread)
+    #[arg(long)]
+    pub batch: Option<usize>,
+    /// Archive with rows of controls, array ctrl; after the last row all begins anew
+    #[arg(long, value_name = "FILE.npz")]
+    pub controls: Option<PathBuf>,
+    /// Steps that a row of controls holds; there a batch waits for all its environments
+    #[arg(long, default_value_t = 10)]
+    pub hold: usize,
+    /// Mean time of each stage of a step
+    #[arg(long, conflicts_with_all = ["threads", "batch"])]
+    pub stages: bool,
+    /// Quantiles of the time of single steps
+    #[arg(long, conflicts_with_all = ["threads", "batch", "stages"])]
+    pub jitter: bool,
+    /// Measure what standard input asks for, lines "rate N", "stages N" or "jitter N", for one model
+    #[arg(long, conflicts_with_all = ["stages", "jitter"])]
+    pub requests: bool,
     /// Print one JSON object a model; the last line is the last model's
     #[arg(long)]
     pub json: bool,

@@ -1,62 +1,237 @@
-//! `bench`: steps per second.
+//! `bench`: steps per second, where their time goes, and how much it varies.
 
 use crate::cli::arguments::Bench;
 use crate::cli::{Failure, load, start};
-use physics::{Data, Model};
+use dataset::NpzReader;
+use physics::watch::{Stage, Watch};
+use physics::{Batch, Data, Model, step, step_watched};
+use serde_json::{Map, Value, json};
+use std::fmt::Display;
 use std::path::Path;
-use std::time::Instant;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What is measured.
+#[derive(Clone, Copy)]
+enum Measure {
+    Rate,
+    Stages,
+    Jitter,
+}
 
 /// Runs the command.
 pub fn run(a: &Bench) -> Result<(), Failure> {
-    if a.threads == 0 || a.steps == 0 {
-        return Err(Failure::usage("--threads and --steps must be at least 1"));
+    if [a.threads, a.steps, a.hold, a.batch.unwrap_or(1)].contains(&0) {
+        return Err(Failure::usage("--threads, --batch, --steps and --hold must be at least 1"));
     }
     for path in &a.models {
+        let workload = Workload::new(a, path)?;
+        if a.requests {
+            answer(&workload)?;
+            continue;
+        }
+        let measure = match (a.stages, a.jitter) {
+            (true, _) => Measure::Stages,
+            (_, true) => Measure::Jitter,
+            _ => Measure::Rate,
+        };
+        let mut found = Map::new();
+        found.insert("model".into(), json!(path.display().to_string()));
+        found.extend(workload.measure(measure, a.steps)?);
+        if a.json {
+            println!("{}", Value::Object(found));
+        } else {
+            print(measure, &found);
+        }
+    }
+    Ok(())
+}
+
+/// Answers each line `rate N`, `stages N` or `jitter N` of standard input by a line of JSON, until the input ends:
+/// another program measures the processor time in between.
+fn answer(workload: &Workload) -> Result<(), Failure> {
+    for line in std::io::stdin().lines() {
+        let line = line.map_err(Failure::new)?;
+        let (measure, steps) = line
+            .split_once(' ')
+            .and_then(|(name, steps)| {
+                let measure = match name {
+                    "rate" => Measure::Rate,
+                    "stages" => Measure::Stages,
+                    "jitter" => Measure::Jitter,
+                    _ => return None,
+                };
+                Some((measure, steps.parse().ok().filter(|&n| n > 0)?))
+            })
+            .ok_or_else(|| {
+                Failure::usage(format!(
+                    "request {line:?} is not rate, stages or jitter and a number of steps"
+                ))
+            })?;
+        println!("{}", Value::Object(workload.measure(measure, steps)?));
+    }
+    Ok(())
+}
+
+/// What is simulated: environments from one start, under one sequence of controls.
+struct Workload {
+    m: Arc<Model>,
+    start: Data,
+    controls: Vec<f64>,
+    hold: usize,
+    environments: usize,
+    threads: usize,
+}
+
+impl Workload {
+    /// Keyframe 0 where there is one, else `qpos0`; zero controls, or the rows of the file.
+    fn new(a: &Bench, path: &Path) -> Result<Self, Failure> {
         let m = load(path, &[])?;
-        let rate = measure(&m, a.steps, a.threads)?;
-        report(path, a, rate);
+        let mut start = start(&m, None)?;
+        start.state.ctrl.fill(0.0);
+        let controls = match &a.controls {
+            Some(path) => controls(path, &m)?,
+            None => Vec::new(),
+        };
+        let environments = a.batch.unwrap_or(a.threads);
+        Ok(Workload { m: m.into(), start, controls, hold: a.hold, environments, threads: a.threads })
     }
-    Ok(())
-}
 
-/// Steps per second of `threads` independent simulations together.
-fn measure(m: &Model, steps: usize, threads: usize) -> Result<f64, Failure> {
-    let data = (0..threads).map(|_| start_still(m)).collect::<Result<Vec<_>, _>>()?;
-    let began = Instant::now();
-    std::thread::scope(|scope| {
-        let workers: Vec<_> =
-            data.into_iter().map(|mut d| scope.spawn(move || run_steps(m, &mut d, steps))).collect();
-        workers
-            .into_iter()
-            .try_for_each(|w| w.join().unwrap_or_else(|_| Err(Failure::new("a thread panicked"))))
-    })?;
-    Ok((steps * threads) as f64 / began.elapsed().as_secs_f64())
-}
-
-/// Keyframe 0 where there is one, else `qpos0`; zero controls.
-fn start_still(m: &Model) -> Result<Data, Failure> {
-    let mut d = start(m, None)?;
-    d.state.ctrl.fill(0.0);
-    Ok(d)
-}
-
-fn run_steps(m: &Model, d: &mut Data, steps: usize) -> Result<(), Failure> {
-    for _ in 0..steps {
-        physics::step(m, d).map_err(|e| Failure::new(format!("{}: at {:.6} s: {e}", m.name, d.time)))?;
+    fn measure(&self, measure: Measure, steps: usize) -> Result<Map<String, Value>, Failure> {
+        match measure {
+            Measure::Rate => self.rate(steps),
+            Measure::Stages => self.stages(steps),
+            Measure::Jitter => self.jitter(steps),
+        }
     }
-    Ok(())
+
+    /// Sets the controls that hold from step `done` on; after the last row all begins anew.
+    fn set_controls(&self, done: usize, d: &mut Data) {
+        let nu = self.m.nu;
+        if self.controls.is_empty() || !done.is_multiple_of(self.hold) {
+            return;
+        }
+        let row = done / self.hold % (self.controls.len() / nu);
+        if row == 0 {
+            (d.time, d.state) = (self.start.time, self.start.state.clone());
+        }
+        d.state.ctrl.copy_from_slice(&self.controls[row * nu..(row + 1) * nu]);
+    }
+
+    fn failed(&self, error: impl Display) -> Failure {
+        Failure::new(format!("{}: {error}", self.m.name))
+    }
+
+    /// Steps per second of all environments together, and the memory of the process.
+    fn rate(&self, steps: usize) -> Result<Map<String, Value>, Failure> {
+        let mut batch = Batch::new(self.m.clone(), self.environments, self.threads).map_err(Failure::new)?;
+        batch.data_mut().iter_mut().for_each(|d| d.clone_from(&self.start));
+        let began = Instant::now();
+        for done in (0..steps).step_by(self.hold) {
+            batch.data_mut().iter_mut().for_each(|d| self.set_controls(done, d));
+            batch.step(self.hold.min(steps - done)).map_err(|e| self.failed(e))?;
+        }
+        let seconds = began.elapsed().as_secs_f64();
+        let mut found = Map::new();
+        found.insert("steps".into(), json!(steps));
+        found.insert("environments".into(), json!(self.environments));
+        found.insert("threads".into(), json!(self.threads));
+        found.insert("steps_per_second".into(), json!((steps * self.environments) as f64 / seconds));
+        found.insert("resident_bytes".into(), json!(resident_bytes()));
+        found.insert("qpos".into(), json!(batch.data()[0].state.qpos));
+        Ok(found)
+    }
+
+    /// Seconds of each stage of a step, means.
+    fn stages(&self, steps: usize) -> Result<Map<String, Value>, Failure> {
+        let mut d = self.start.clone();
+        let mut clock = Clock { last: Instant::now(), spent: Default::default() };
+        for done in 0..steps {
+            self.set_controls(done, &mut d);
+            clock.last = Instant::now();
+            step_watched(&self.m, &mut d, &mut clock).map_err(|e| self.failed(e))?;
+        }
+        let mean = |stage: Stage| json!(clock.spent[stage as usize].as_secs_f64() / steps as f64);
+        Ok(Stage::ALL.map(|stage| (format!("{stage:?}").to_lowercase(), mean(stage))).into_iter().collect())
+    }
+
+    /// Seconds of single steps: their median, and what all but a thousandth of them stay under.
+    fn jitter(&self, steps: usize) -> Result<Map<String, Value>, Failure> {
+        let mut d = self.start.clone();
+        let mut seconds = Vec::with_capacity(steps);
+        for done in 0..steps {
+            self.set_controls(done, &mut d);
+            let began = Instant::now();
+            step(&self.m, &mut d).map_err(|e| self.failed(e))?;
+            seconds.push(began.elapsed().as_secs_f64());
+        }
+        seconds.sort_by(f64::total_cmp);
+        let quantile = |q: f64| seconds[((steps - 1) as f64 * q).round() as usize];
+        let named = [("median", 0.5), ("p99", 0.99), ("p99.9", 0.999), ("most", 1.0)];
+        Ok(named.into_iter().map(|(name, q)| (name.to_owned(), json!(quantile(q)))).collect())
+    }
 }
 
-fn report(path: &Path, a: &Bench, rate: f64) {
-    if a.json {
-        let line = serde_json::json!({
-            "model": path.display().to_string(),
-            "steps": a.steps,
-            "threads": a.threads,
-            "steps_per_second": rate,
-        });
-        println!("{line}");
-    } else {
-        println!("{:>10.0} steps/s  {} thread(s)  {}", rate, a.threads, path.display());
+/// Rows of controls, flat.
+fn controls(path: &Path, m: &Model) -> Result<Vec<f64>, Failure> {
+    let array = NpzReader::open(path).and_then(|archive| archive.require("ctrl")).map_err(Failure::usage)?;
+    let values = array.values.to_f64();
+    if values.is_empty() || values.len() != array.rows() * m.nu {
+        let found = values.len() / array.rows().max(1);
+        return Err(Failure::usage(format!(
+            "{}: rows of {found} controls, {} needs {}",
+            path.display(),
+            m.name,
+            m.nu
+        )));
+    }
+    Ok(values)
+}
+
+/// Reads the clock at the end of every stage.
+struct Clock {
+    last: Instant,
+    spent: [Duration; Stage::ALL.len()],
+}
+
+impl Watch for Clock {
+    fn ended(&mut self, stage: Stage) {
+        let now = Instant::now();
+        self.spent[stage as usize] += now - self.last;
+        self.last = now;
+    }
+}
+
+/// Memory of this process that is in use, where the system tells (Linux).
+fn resident_bytes() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    line.trim().strip_suffix(" kB")?.parse::<usize>().ok().map(|kib| kib * 1024)
+}
+
+fn print(measure: Measure, found: &Map<String, Value>) {
+    let number = |name: &str| found[name].as_f64().unwrap_or(f64::NAN);
+    let model = found["model"].as_str().unwrap_or_default();
+    let timed = || found.iter().filter_map(|(name, value)| Some((name, value.as_f64()?)));
+    match measure {
+        Measure::Rate => println!(
+            "{:>10.0} steps/s  {} environment(s)  {} thread(s)  {:>5.0} MiB  {model}",
+            number("steps_per_second"),
+            number("environments"),
+            number("threads"),
+            number("resident_bytes") / 1_048_576.0,
+        ),
+        Measure::Stages => {
+            let whole: f64 = timed().map(|(_, seconds)| seconds).sum();
+            println!("{:>10.2} us a step  {model}", whole * 1e6);
+            for (stage, seconds) in timed() {
+                println!("{:>10.2} us {:>5.1} %  {stage}", seconds * 1e6, 100.0 * seconds / whole);
+            }
+        }
+        Measure::Jitter => {
+            let values: Vec<_> =
+                timed().map(|(name, seconds)| format!("{name} {:.1} us", seconds * 1e6)).collect();
+            println!("{:>5.2} x  {}  {model}", number("p99.9") / number("median"), values.join(", "));
+        }
     }
 }

@@ -21,6 +21,7 @@ use crate::tendon::{tendon, tendon_velocity};
 use crate::transmission::{actuator_velocity, transmission};
 use crate::validity::{check_acceleration, check_state};
 use crate::velocity::com_vel;
+use crate::watch::{Stage, Watch};
 use crate::{energy, solver};
 
 pub use crate::validity::StepError;
@@ -30,7 +31,7 @@ pub use crate::validity::StepError;
 /// # Errors
 /// The model uses what is not simulated.
 pub fn forward(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    evaluate(m, d, true)
+    evaluate(m, d, true, &mut ())
 }
 
 /// Advances the simulation by one time step.
@@ -38,11 +39,23 @@ pub fn forward(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// # Errors
 /// A state or input is not finite or too large; `d` keeps it for inspection.
 pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    step_watched(m, d, &mut ())
+}
+
+/// `step`, with an observer told of each stage as it ends.
+///
+/// # Errors
+/// As `step`.
+pub fn step_watched(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
     check_state(m, d)?;
-    evaluate(m, d, true)?;
+    watch.ended(Stage::Checks);
+    evaluate(m, d, true, watch)?;
     check_acceleration(m, d)?;
     compare_if_asked(m, d)?;
-    integrate(m, d, Factors::Fresh)
+    watch.ended(Stage::Checks);
+    integrate(m, d, Factors::Fresh, watch)?;
+    watch.ended(Stage::Integration);
+    Ok(())
 }
 
 /// What of the last evaluation still holds.
@@ -59,11 +72,11 @@ pub(crate) enum Known {
 /// `step` where part of the last evaluation still holds; the integrator keeps the matrix factors that depend on it.
 pub(crate) fn step_after(m: &Model, d: &mut Data, known: Known) -> Result<(), StepError> {
     check_state(m, d)?;
-    evaluate_after(m, d, known, true)?;
+    evaluate_after(m, d, known, true, &mut ())?;
     check_acceleration(m, d)?;
     compare_if_asked(m, d)?;
     let holds = if m.opt.integrator == Integrator::Euler.code() { Known::Position } else { Known::Velocity };
-    integrate(m, d, if known >= holds { Factors::Kept } else { Factors::Fresh })
+    integrate(m, d, if known >= holds { Factors::Kept } else { Factors::Fresh }, &mut ())
 }
 
 fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
@@ -79,10 +92,7 @@ fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// As `step`.
 pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
     check_state(m, d)?;
-    position(m, d);
-    position_sensors(m, d);
-    velocity(m, d);
-    velocity_sensors(m, d);
+    position_and_velocity(m, d, Known::Nothing, true, &mut ());
     Ok(())
 }
 
@@ -92,7 +102,7 @@ pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// As `step`.
 pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
     check_state(m, d)?;
-    acceleration(m, d);
+    acceleration(m, d, &mut ());
     acceleration_sensors(m, d);
     check_acceleration(m, d)?;
     compare_if_asked(m, d)?;
@@ -101,45 +111,69 @@ pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
 }
 
 /// `forward`, with or without sensors.
-pub(crate) fn evaluate(m: &Model, d: &mut Data, sensors: bool) -> Result<(), StepError> {
-    evaluate_after(m, d, Known::Nothing, sensors)
+pub(crate) fn evaluate(
+    m: &Model,
+    d: &mut Data,
+    sensors: bool,
+    watch: &mut impl Watch,
+) -> Result<(), StepError> {
+    evaluate_after(m, d, Known::Nothing, sensors, watch)
 }
 
-fn evaluate_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Result<(), StepError> {
-    position_and_velocity(m, d, known, sensors);
-    acceleration(m, d);
+fn evaluate_after(
+    m: &Model,
+    d: &mut Data,
+    known: Known,
+    sensors: bool,
+    watch: &mut impl Watch,
+) -> Result<(), StepError> {
+    position_and_velocity(m, d, known, sensors, watch);
+    acceleration(m, d, watch);
     if sensors {
         acceleration_sensors(m, d);
+        watch.ended(Stage::Sensors);
     }
     Ok(())
 }
 
 /// What depends on the state alone and is not known yet, with or without sensors.
-pub(crate) fn position_and_velocity(m: &Model, d: &mut Data, known: Known, sensors: bool) {
+pub(crate) fn position_and_velocity(
+    m: &Model,
+    d: &mut Data,
+    known: Known,
+    sensors: bool,
+    watch: &mut impl Watch,
+) {
     if known < Known::Position {
-        position(m, d);
+        position(m, d, watch);
         if sensors {
             position_sensors(m, d);
+            watch.ended(Stage::Sensors);
         }
     }
     if known < Known::Velocity {
-        velocity(m, d);
+        velocity(m, d, watch);
         if sensors {
             velocity_sensors(m, d);
+            watch.ended(Stage::Sensors);
         }
     }
 }
 
 /// What depends on positions: poses, inertia, contacts, constraint rows, lengths.
-pub(crate) fn position(m: &Model, d: &mut Data) {
+pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     let s = &mut d.scratch;
     kinematics(m, &d.state, &mut d.kin);
     com_pos(m, &d.kin, &mut d.com);
     cameras_and_lights(m, &d.com, &mut d.kin);
+    watch.ended(Stage::Kinematics);
     tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
+    watch.ended(Stage::Tendons);
     make_inertia(m, &d.com, &d.ten, &mut d.inertia);
     factor_inertia(m, &mut d.inertia);
+    watch.ended(Stage::Inertia);
     collide(m, &d.kin, &mut s.collision, &mut d.con);
+    watch.ended(Stage::Collision);
     make_constraint(
         m,
         &d.state,
@@ -151,23 +185,28 @@ pub(crate) fn position(m: &Model, d: &mut Data) {
         &mut d.efc,
         &mut s.constraint,
     );
+    watch.ended(Stage::Constraint);
     find_islands(m, &d.con, &d.efc, &mut d.island, &mut s.island);
+    watch.ended(Stage::Islands);
     transmission(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.efc, &mut d.trn);
+    watch.ended(Stage::Transmission);
 }
 
 /// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.
-pub(crate) fn velocity(m: &Model, d: &mut Data) {
+pub(crate) fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
     actuator_velocity(m, &d.state, &d.trn, &mut d.vel.actuator_velocity);
     com_vel(m, &d.state, &d.com, &mut d.vel);
     passive(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.vel, &mut d.passive);
     reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc);
     bias(m, &d.state, &d.kin, &d.com, &d.ten, &mut d.vel, &mut d.scratch.rne);
+    watch.ended(Stage::Velocity);
 }
 
 /// What depends on inputs too: actuation, and accelerations without and with constraints.
-pub(crate) fn acceleration(m: &Model, d: &mut Data) {
+pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
+    watch.ended(Stage::Actuation);
     for dof in 0..m.nv {
         d.acc.qfrc_smooth[dof] = d.passive.qfrc_passive[dof] - d.vel.qfrc_bias[dof]
             + d.state.qfrc_applied[dof]
@@ -176,6 +215,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
     apply_user_wrenches(m, &d.kin, &d.com, &d.state.xfrc_applied, &mut d.acc.qfrc_smooth);
     d.acc.qacc_smooth.copy_from_slice(&d.acc.qfrc_smooth);
     solve(m, &d.inertia, &mut d.acc.qacc_smooth);
+    watch.ended(Stage::Acceleration);
     solver::solve(
         m,
         &d.state,
@@ -187,6 +227,7 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data) {
         &mut d.solver,
         &mut d.scratch.solver,
     );
+    watch.ended(Stage::Solver);
 }
 
 fn position_sensors(m: &Model, d: &mut Data) {

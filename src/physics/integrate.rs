@@ -10,6 +10,7 @@ use crate::inertia::{factor, row, solve_ld};
 use crate::math::{add_scaled_slice, quat_conj, quat_integrate, quat_mul, quat_to_velocity};
 use crate::model::{Integrator, JointType, Model, disable};
 use crate::reflected_load::dof_damping;
+use crate::watch::{Stage, Watch};
 
 /// Working memory of the integrators.
 #[derive(Clone, Debug, Default)]
@@ -43,9 +44,14 @@ pub enum Factors {
 ///
 /// # Errors
 /// An intermediate state cannot be evaluated.
-pub(crate) fn integrate(m: &Model, d: &mut Data, factors: Factors) -> Result<(), StepError> {
+pub(crate) fn integrate(
+    m: &Model,
+    d: &mut Data,
+    factors: Factors,
+    watch: &mut impl Watch,
+) -> Result<(), StepError> {
     if m.opt.integrator == Integrator::Rk4.code() {
-        return runge_kutta(m, d);
+        return runge_kutta(m, d, watch);
     }
     advance_once(m, d, factors);
     Ok(())
@@ -195,9 +201,9 @@ const STEP: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 ///
 /// # Errors
 /// An intermediate state cannot be evaluated.
-pub fn runge_kutta(m: &Model, d: &mut Data) -> Result<(), StepError> {
+pub fn runge_kutta(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
     let mut scratch = std::mem::take(&mut d.scratch.integrate);
-    let result = stages(m, d, &mut scratch);
+    let result = stages(m, d, &mut scratch, watch);
     if result.is_ok() {
         combine(&mut scratch, m);
         let rates = NewRates { qvel: Some(&scratch.qvel), qacc: &scratch.qacc, act_dot: &scratch.act_dot };
@@ -208,7 +214,12 @@ pub fn runge_kutta(m: &Model, d: &mut Data) -> Result<(), StepError> {
 }
 
 /// Evaluates the four stages; leaves the state as it was before.
-fn stages(m: &Model, d: &mut Data, s: &mut IntegrateScratch) -> Result<(), StepError> {
+fn stages(
+    m: &Model,
+    d: &mut Data,
+    s: &mut IntegrateScratch,
+    watch: &mut impl Watch,
+) -> Result<(), StepError> {
     let (h, time) = (m.opt.timestep, d.time);
     let IntegrateScratch { start, stages, .. } = s;
     start.clear();
@@ -228,7 +239,8 @@ fn stages(m: &Model, d: &mut Data, s: &mut IntegrateScratch) -> Result<(), StepE
             *x += h * (weight * rate);
         }
         d.time = time + weight * h;
-        result = evaluate(m, d, false);
+        watch.ended(Stage::Integration);
+        result = evaluate(m, d, false, watch);
         if result.is_err() {
             break;
         }

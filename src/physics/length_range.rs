@@ -233,10 +233,10 @@ fn pull(
     let mut recorded = None;
     while d.time < opt.inttotal {
         d.state.qvel.iter_mut().for_each(|v| *v *= decay);
-        position(m, d);
-        velocity(m, d);
+        position(m, d, &mut ());
+        velocity(m, d, &mut ());
         set_pull(m, d, opt, out, direction);
-        acceleration(m, d);
+        acceleration(m, d, &mut ());
         check_acceleration(m, d)?;
         advance_once(m, d, Factors::Fresh);
         let length = d.trn.actuator_length[out];

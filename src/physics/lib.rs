@@ -11,6 +11,7 @@
 
 pub mod activation;
 pub mod actuation;
+pub mod batch;
 pub mod bias;
 pub mod camera;
 pub mod chain;
@@ -51,10 +52,12 @@ pub mod transition;
 pub mod transmission;
 pub mod validity;
 pub mod velocity;
+pub mod watch;
 pub mod wrap;
 
+pub use batch::{Batch, BatchError};
 pub use data::Data;
-pub use forward::{StepError, forward, step, step1, step2};
+pub use forward::{StepError, forward, step, step_watched, step1, step2};
 pub use inverse::inverse;
 pub use length_range::set_length_ranges;
 pub use model::Model;

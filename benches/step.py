@@ -1,0 +1,230 @@
+"""Steps per second beside MuJoCo 3.12.0's C `mj_step` on one thread, and where the time goes on both sides.
+
+    python benches/step.py [--corpus FOLDER] [--only TEXT] [--stages] [--jitter] [--write FILE]
+
+Both sides run the same trajectory: keyframe 0 or `qpos0`, 500 steps under the smooth seeded controls of
+`validation/reference/record.py`, a new row of them every HOLD steps (MuJoCo gets them as `nstep`), then all over
+again. They run in turns, several rounds; medians of processor time, so other work on the machine matters little.
+Loading is not counted. `motion` is the largest difference of `qpos` after one pass: the proof of equal work.
+
+Own models always; RoboHive's with `--corpus`, the folder that holds its `envs` and `simhive` (a copy is made). Needs
+`mujoco` and `numpy`, Linux, and a release build of this repository.
+"""
+
+import argparse
+import ctypes
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+import mujoco
+import numpy as np
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "validation" / "reference"))
+import record  # noqa: E402
+
+OWN = ["franka/franka_table", "elbow/elbow", "quadruped/quadruped", "pile/pile", "workbench/workbench"]
+ROBOHIVE = [
+    "envs/arms/franka/assets/franka_reach_v0.xml",
+    "envs/multi_task/common/kitchen/franka_kitchen.xml",
+    "envs/hands/assets/DAPG_hammer.xml",
+    "envs/hands/assets/DAPG_relocate.xml",
+    "envs/claws/trifinger/trifinger_reorient.xml",
+    "envs/quadrupeds/dkitty/dkitty_walk_v0.xml",
+    "envs/myo/assets/elbow/myoelbow_1dof6muscles.xml",
+    "simhive/myo_sim/finger/myofinger_v0.xml",
+    "envs/myo/assets/hand/myohand_pose.xml",
+    "simhive/myo_sim/arm/myoarm.xml",
+    "simhive/myo_sim/leg/myolegs.xml",
+]
+PASS, HOLD = 500, 100
+ROUNDS = 7
+SECONDS = 0.4
+JITTER_STEPS = 20000
+
+# What MuJoCo's timers and our stages have in common; what is left of MuJoCo's step is the last row.
+STAGES = {
+    "kinematics": ("POS_KINEMATICS", ["kinematics", "tendons", "transmission"]),
+    "inertia": ("POS_INERTIA", ["inertia"]),
+    "collision": ("POS_COLLISION", ["collision"]),
+    "constraint rows": ("POS_MAKE", ["constraint", "islands"]),
+    "projection": ("POS_PROJECT", []),
+    "velocity": ("VELOCITY", ["velocity"]),
+    "actuation": ("ACTUATION", ["actuation"]),
+    "solver": ("CONSTRAINT", ["solver"]),
+    "integration": ("ADVANCE", ["integration"]),
+    "rest": (None, ["checks", "acceleration", "sensors"]),
+}
+
+
+def binary():
+    metadata = ["cargo", "metadata", "--no-deps", "--format-version", "1"]
+    text = subprocess.run(metadata, cwd=ROOT, capture_output=True, check=True, text=True).stdout
+    return pathlib.Path(json.loads(text)["target_directory"]) / "release" / "robohive"
+
+
+class RoboHive:
+    """`robohive bench --requests`, and the processor time it takes."""
+
+    def __init__(self, path, controls):
+        np.savez(controls_file := pathlib.Path(tempfile.mkdtemp()) / "controls.npz", ctrl=controls)
+        command = [binary(), "bench", path, "--requests", "--hold", str(HOLD)]
+        if controls.size:
+            command += ["--controls", controls_file]
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        # The processor clock of another process: clock_getcpuclockid(3), as Linux numbers them.
+        self.clock = (~self.process.pid << 3) | 2
+        self.answer("rate", 1)
+        shutil.rmtree(controls_file.parent)
+
+    def answer(self, measure, steps):
+        self.process.stdin.write(f"{measure} {steps}\n")
+        self.process.stdin.flush()
+        return json.loads(self.process.stdout.readline())
+
+    def seconds(self, passes):
+        began = time.clock_gettime(self.clock)
+        self.answer("rate", passes * PASS)
+        return time.clock_gettime(self.clock) - began
+
+    def end(self, passes=1):
+        return np.array(self.answer("rate", passes * PASS)["qpos"])
+
+    def stages(self, passes):
+        found = self.answer("stages", passes * PASS)
+        return {row: sum(found[stage] for stage in ours) for row, (_, ours) in STAGES.items()}
+
+    def close(self):
+        self.process.stdin.close()
+        self.process.wait()
+
+
+class MuJoCo:
+    """`mj_step` of the C library; Python sets controls every HOLD steps and nothing else."""
+
+    def __init__(self, model, controls):
+        self.model, self.controls, self.data = model, controls, mujoco.MjData(model)
+        self.timers = np.zeros(mujoco.mjtTimer.mjNTIMER)
+
+    def one_pass(self):
+        if self.model.nkey:
+            mujoco.mj_resetDataKeyframe(self.model, self.data, 0)
+        else:
+            mujoco.mj_resetData(self.model, self.data)
+        for row in self.controls:
+            self.data.ctrl[:] = row
+            mujoco.mj_step(self.model, self.data, HOLD)
+
+    def seconds(self, passes):
+        began = time.process_time()
+        for _ in range(passes):
+            self.one_pass()
+        return time.process_time() - began
+
+    def end(self):
+        self.one_pass()
+        if any(warning.number for warning in self.data.warning):
+            sys.exit(f"{self.model.names[:20]}: MuJoCo warns; such a pass is no measure")
+        return self.data.qpos.copy()
+
+    def stages(self, passes):
+        """Seconds of a step by MuJoCo's own timers. Its clock is a C function that Python needs not enter."""
+        clock = ctypes.CDLL("libgomp.so.1").omp_get_wtime
+        clock.restype = ctypes.c_double
+        mujoco.set_mjcb_time(ctypes.CFUNCTYPE(ctypes.c_double)(("omp_get_wtime", ctypes.CDLL("libgomp.so.1"))))
+        spent = np.zeros(len(self.data.timer))
+        for _ in range(passes):
+            self.one_pass()
+            spent += [timer.duration for timer in self.data.timer]
+        mujoco.set_mjcb_time(None)
+        spent /= passes * PASS
+        of = lambda name: spent[getattr(mujoco.mjtTimer, "mjTIMER_" + name)]
+        rows = {row: of(timer) for row, (timer, _) in STAGES.items() if timer}
+        return rows | {"rest": of("STEP") - sum(rows.values())}
+
+
+def compare(path, model, args):
+    """One row of the table, and the stages of both sides."""
+    controls = record.controls(model, PASS, 0)[::HOLD]
+    ours, theirs = RoboHive(path, controls), MuJoCo(model, controls)
+    motion = np.abs(ours.end() - theirs.end()).max(initial=0.0)
+    passes = [max(1, round(SECONDS / side.seconds(1))) for side in (ours, theirs)]
+    spent = np.array([[ours.seconds(passes[0]), theirs.seconds(passes[1])] for _ in range(ROUNDS)])
+    rates = PASS * np.array(passes) / np.median(spent, axis=0)
+    row = {"ours": rates[0], "theirs": rates[1], "ratio": rates[0] / rates[1], "motion": motion,
+           "muscles": bool((model.actuator_gaintype == mujoco.mjtGain.mjGAIN_MUSCLE).any())}
+    if args.stages:
+        row["stages"] = [ours.stages(passes[0]), theirs.stages(passes[1])]
+    if args.jitter:
+        found = ours.answer("jitter", JITTER_STEPS)
+        row["jitter"] = found["p99.9"] / found["median"]
+    ours.close()
+    return row
+
+
+def geometric_mean(ratios):
+    return np.exp(np.mean(np.log(ratios))) if ratios else np.nan
+
+
+def report(rows, args):
+    """The measured table, Markdown."""
+    lines = ["| model | robohive steps/s | MuJoCo steps/s | ratio | motion |" + (" p99.9 / median |" if args.jitter else ""),
+             "|---|---|---|---|---|" + ("---|" if args.jitter else "")]
+    for name, r in rows.items():
+        jitter = f" {r['jitter']:.2f} |" if args.jitter else ""
+        lines.append(f"| {name} | {r['ours']:.0f} | {r['theirs']:.0f} | {r['ratio']:.2f} | {r['motion']:.0e} |{jitter}")
+    ratios = [r["ratio"] for r in rows.values()]
+    muscles = [r["ratio"] for r in rows.values() if r["muscles"]]
+    lines += ["", f"Geometric mean {geometric_mean(ratios):.2f}; of the {len(muscles)} models with muscles "
+              f"{geometric_mean(muscles):.2f}; least {min(ratios):.2f}; {sum(r < 1 for r in ratios)} of {len(ratios)} lost."]
+    if args.stages:
+        lines += ["", "Microseconds of a step, robohive / MuJoCo:", "", "| model | " + " | ".join(STAGES) + " |",
+                  "|---" * (len(STAGES) + 1) + "|"]
+        for name, r in rows.items():
+            cells = (f"{r['stages'][0][s] * 1e6:.1f} / {r['stages'][1][s] * 1e6:.1f}" for s in STAGES)
+            lines.append(f"| {name} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
+def write(path, table):
+    """Puts the table between the marks of a file."""
+    before, rest = path.read_text().split("<!-- steps begin -->")
+    after = rest.split("<!-- steps end -->")[1]
+    path.write_text(f"{before}<!-- steps begin -->\n{table}\n<!-- steps end -->{after}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--corpus", type=pathlib.Path, help="folder with RoboHive's envs and simhive")
+    parser.add_argument("--only", default="", help="models whose path contains this")
+    parser.add_argument("--stages", action="store_true", help="time of each stage on both sides")
+    parser.add_argument("--jitter", action="store_true", help="p99.9 of our step time over the median; wants an idle core")
+    parser.add_argument("--write", type=pathlib.Path, help="file with the marks 'steps begin' and 'steps end'")
+    args = parser.parse_args()
+    if mujoco.__version__ != "3.12.0":
+        sys.exit(f"mujoco 3.12.0 is needed, this is {mujoco.__version__}")
+    paths = [ROOT / "assets" / f"{name}.xml" for name in OWN]
+    with tempfile.TemporaryDirectory(prefix="corpus-") as copy:
+        if args.corpus:
+            for folder in ["envs", "simhive"]:
+                shutil.copytree(args.corpus / folder, pathlib.Path(copy) / folder)
+            record.repair(copy)
+            paths += [pathlib.Path(copy) / name for name in ROBOHIVE]
+        rows = {}
+        for path in (path for path in paths if args.only in str(path)):
+            row = rows[path.stem] = compare(path, record.load(path), args)
+            print(f"{path.stem:32} {row['ours']:10.0f} {row['theirs']:10.0f} {row['ratio']:6.2f} {row['motion']:8.0e}",
+                  file=sys.stderr, flush=True)
+    table = report(rows, args)
+    print(table)
+    if args.write:
+        write(args.write, table)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,89 @@
+//! A batch makes of every environment what stepping it alone makes, whatever the number of threads.
+
+use robohive::physics::{Batch, Data, Model, StepError, step};
+use std::sync::Arc;
+
+const STEPS: usize = 120;
+
+fn load(name: &str) -> Arc<Model> {
+    let path = format!("{}/assets/{name}.xml", env!("CARGO_MANIFEST_DIR"));
+    robohive::mjcf::load(&path).unwrap().model.into()
+}
+
+/// Environments that differ in velocity; every third has a model of its own.
+fn diverse(m: &Arc<Model>, threads: usize) -> Batch {
+    let mut batch = Batch::new(m.clone(), 7, threads).unwrap();
+    for environment in 0..batch.len() {
+        for (dof, v) in batch.data_mut()[environment].state.qvel.iter_mut().enumerate() {
+            *v = 0.1 * ((environment + 3 * dof) as f64).sin();
+        }
+        if environment % 3 == 1 {
+            let edited = batch.model_mut(environment);
+            edited.opt.gravity[0] = 0.5 * environment as f64;
+            edited.geom_friction.iter_mut().for_each(|friction| friction[0] *= 0.5);
+        }
+    }
+    batch
+}
+
+/// Everything a step leaves behind, to the bit.
+fn bits(m: &Model, d: &Data) -> Vec<u64> {
+    let mut bits = Vec::new();
+    d.visit(m, &mut |_, _, values| bits.extend(values.to_f64().into_iter().map(f64::to_bits)));
+    bits
+}
+
+#[test]
+fn threads_do_not_change_a_bit() {
+    for name in ["pile/pile", "quadruped/quadruped"] {
+        let m = load(name);
+        let mut alone = diverse(&m, 1);
+        let alone: Vec<_> = (0..alone.len())
+            .map(|environment| {
+                let (own, mut d) = (alone.model(environment).clone(), alone.data_mut()[environment].clone());
+                (0..STEPS).for_each(|_| step(&own, &mut d).unwrap());
+                assert!(d.efc.nefc > 0, "{name}: nothing touches");
+                bits(&own, &d)
+            })
+            .collect();
+        assert_ne!(alone[0], alone[1]);
+        for threads in [1, 2, 4] {
+            let mut batch = diverse(&m, threads);
+            batch.step(STEPS / 2).unwrap();
+            (0..STEPS / 2).for_each(|_| batch.step(1).unwrap());
+            for (environment, d) in batch.data().iter().enumerate() {
+                assert!(
+                    bits(&m, d) == alone[environment],
+                    "{name}: environment {environment}, {threads} threads"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_model_is_shared_until_it_is_edited() {
+    let m = load("pile/pile");
+    let batch = diverse(&m, 1);
+    for environment in 0..batch.len() {
+        assert_eq!(Arc::ptr_eq(batch.model(environment), &m), environment % 3 != 1);
+    }
+    assert_eq!(m.opt.gravity[0], 0.0);
+}
+
+#[test]
+fn an_error_names_the_first_environment_that_failed_and_the_others_go_on() {
+    let m = load("pile/pile");
+    let mut batch = Batch::new(m.clone(), 9, 4).unwrap();
+    for bad in [7, 2, 5] {
+        batch.data_mut()[bad].state.qpos[1] = f64::NAN;
+    }
+    let error = batch.step(3).unwrap_err();
+    assert_eq!(error.environment, 2);
+    assert!(matches!(&error.error, StepError::BadQpos(bad) if bad.index == 1));
+    assert!(error.to_string().starts_with("environment 2: qpos[1] of"), "{error}");
+    for (environment, d) in batch.data().iter().enumerate() {
+        let steps = if [2, 5, 7].contains(&environment) { 0.0 } else { 3.0 };
+        assert!((d.time - steps * m.opt.timestep).abs() < 1e-15, "environment {environment}");
+    }
+}
