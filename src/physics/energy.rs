@@ -1,6 +1,8 @@
 //! Mechanical energy (documentation: Computation, "Energy").
 
 use crate::data::{Inertia, Kinematics, State, Tendons};
+use crate::inertia::mul_inertia_matrix;
+use crate::math::dense::dot_slice;
 use crate::math::{dot, norm};
 use crate::model::{JointType, Model, disable};
 use crate::passive::{shift, tendon_stretch, turn};
@@ -38,15 +40,9 @@ fn joint_spring(m: &Model, state: &State, j: usize) -> f64 {
     }
 }
 
-/// Kinetic energy, from the lower triangle of the joint-space inertia [J].
-pub fn kinetic(m: &Model, state: &State, inertia: &Inertia) -> f64 {
-    let v = &state.qvel;
-    let mut twice = 0.0;
-    for i in 0..m.nv {
-        let start = m.M_rowadr[i] as usize;
-        let diagonal = start + m.M_rownnz[i] as usize - 1;
-        let below: f64 = (start..diagonal).map(|k| inertia.M[k] * v[m.M_colind[k] as usize]).sum();
-        twice += v[i] * (inertia.M[diagonal] * v[i] + 2.0 * below);
-    }
-    0.5 * twice
+/// Kinetic energy [J]; `momentum` is working memory.
+pub fn kinetic(m: &Model, state: &State, inertia: &Inertia, momentum: &mut Vec<f64>) -> f64 {
+    momentum.resize(m.nv, 0.0);
+    mul_inertia_matrix(m, &inertia.M, &state.qvel, momentum);
+    0.5 * dot_slice(momentum, &state.qvel)
 }

@@ -251,7 +251,7 @@ fn velocity_sensors(m: &Model, d: &mut Data) {
         VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
     sensor::velocity_sensors(m, &inputs, &mut d.sensor);
     if m.opt.enableflags & enable::ENERGY != 0 {
-        d.energy[1] = energy::kinetic(m, &d.state, &d.inertia);
+        d.energy[1] = energy::kinetic(m, &d.state, &d.inertia, &mut d.scratch.sensor.momentum);
     }
 }
 

@@ -5,6 +5,7 @@ use crate::data::Data;
 use crate::forward::{StepError, acceleration, position, velocity};
 use crate::inertia::solve;
 use crate::integrate::{Factors, advance_once};
+use crate::math::dense::norm_slice;
 use crate::math::ops;
 use crate::model::bounds::MINVAL;
 use crate::model::{BiasType, GainType, LengthRangeMode, Model, ObjType, TrnType, disable, enable};
@@ -257,15 +258,10 @@ fn set_pull(m: &Model, d: &mut Data, opt: &LengthRangeOptions, out: usize, direc
     };
     along(force, 1.0);
     solve(m, &d.inertia, force);
-    let mut s = direction * opt.accel / length(force).max(MINVAL);
+    let s = direction * opt.accel / norm_slice(force).max(MINVAL);
     along(force, s);
-    let norm = length(force);
+    let norm = norm_slice(force);
     if opt.maxforce > 0.0 && norm > opt.maxforce {
-        s *= opt.maxforce / norm.max(MINVAL);
-        along(force, s);
+        force.iter_mut().for_each(|f| *f *= opt.maxforce / norm.max(MINVAL));
     }
-}
-
-fn length(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

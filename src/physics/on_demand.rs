@@ -8,7 +8,8 @@ use crate::rne_post::rne_post_constraint;
 
 /// Energies, momenta of subtrees, and accelerations and forces of bodies, from the last forward pass.
 pub fn derive_on_demand(m: &Model, d: &mut Data) {
-    d.energy = [potential(m, &d.state, &d.kin, &d.ten), kinetic(m, &d.state, &d.inertia)];
+    let momentum = &mut d.scratch.sensor.momentum;
+    d.energy = [potential(m, &d.state, &d.kin, &d.ten), kinetic(m, &d.state, &d.inertia, momentum)];
     subtree_momentum(m, &d.kin, &d.com, &d.vel, &mut d.sensor);
     rne_post_constraint(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
 }

@@ -5,6 +5,7 @@
 
 use crate::data::Data;
 use crate::jacobian::Jacobian;
+use crate::math::dense::{dot_slice, norm_slice};
 use crate::math::{add, mul_inertia, mul_mat_t_vec, mul_mat_vec, quat_conj, quat_mul, spatial_dot, sub};
 use crate::model::bounds::MINVAL;
 use crate::model::{
@@ -336,7 +337,7 @@ fn joint_inertia(m: &mut Model, d: &mut Data) {
 fn inverse_weight(m: &Model, d: &Data, row: &mut [f64]) -> f64 {
     let before = row.to_vec();
     inertia::solve(m, &d.inertia, row);
-    before.iter().zip(row.iter()).map(|(a, b)| a * b).sum()
+    dot_slice(&before, row)
 }
 
 /// Mean inverse inertia of each body's centre of mass, translational and rotational.
@@ -404,7 +405,7 @@ fn actuator_accelerations(m: &mut Model, d: &Data) {
         let mut row = vec![0.0; m.nv];
         transmission::moment(&d.trn, out).for_each(|(dof, value)| row[dof] = value);
         inertia::solve(m, &d.inertia, &mut row);
-        m.actuator_acc0[out] = row.iter().map(|x| x * x).sum::<f64>().sqrt();
+        m.actuator_acc0[out] = norm_slice(&row);
     }
 }
 

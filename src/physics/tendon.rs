@@ -5,7 +5,7 @@
 
 use crate::chain::{MergedChain, com_offset, point_column, site_point};
 use crate::data::{Com, Kinematics, State, Tendons};
-use crate::math::{Vec3, distance, dot, normalize, sub};
+use crate::math::{Vec3, distance, dot, dot_sparse, normalize, sub};
 use crate::model::{Model, WrapType};
 use crate::wrap::{Wrap, WrapShape, wrap};
 
@@ -34,7 +34,8 @@ pub fn tendon(m: &Model, state: &State, kin: &Kinematics, com: &Com, ten: &mut T
 /// Velocities of all tendons.
 pub fn tendon_velocity(m: &Model, state: &State, ten: &Tendons, ten_velocity: &mut [f64]) {
     for (i, velocity) in ten_velocity.iter_mut().enumerate() {
-        *velocity = row(m, i).map(|k| ten.ten_J[k] * state.qvel[m.ten_J_colind[k] as usize]).sum();
+        let at = row(m, i);
+        *velocity = dot_sparse(&ten.ten_J[at.clone()], &m.ten_J_colind[at], &state.qvel);
     }
 }
 

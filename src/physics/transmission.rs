@@ -6,11 +6,12 @@
 use crate::chain::{MergedChain, chain, com_offset, point_column, site_point};
 use crate::data::{Com, Constraints, Contact, Contacts, Kinematics, State, Tendons, Transmission};
 use crate::math::{
-    Mat3, Quat, Vec3, add, column, cross, dot, mul_mat_t_vec, mul_mat_vec, ops, quat_conj, quat_difference,
-    quat_mul, quat_normalize, quat_rotate, quat_to_velocity, rotational, row, scale, sub,
+    Mat3, Quat, Vec3, add, column, cross, dot, dot_sparse, mul_mat_t_vec, mul_mat_vec, ops, quat_conj,
+    quat_difference, quat_mul, quat_normalize, quat_rotate, quat_to_velocity, rotational, row, scale, sub,
 };
 use crate::model::{Cone, JointType, Model, TrnType, disable};
 use crate::tendon;
+use std::ops::Range;
 
 /// Computes lengths and moments of all actuators.
 pub fn transmission(
@@ -56,18 +57,21 @@ pub fn actuator_velocity(m: &Model, state: &State, trn: &Transmission, velocity:
         return;
     }
     for out in 0..m.nout {
-        velocity[out] = moment(trn, out).map(|(dof, value)| value * state.qvel[dof]).sum();
+        let at = moment_row(trn, out);
+        velocity[out] = dot_sparse(&trn.actuator_moment[at.clone()], &trn.moment_colind[at], &state.qvel);
     }
 }
 
 /// Non-zeros of moment row `out`: degree of freedom and moment arm.
 pub fn moment(trn: &Transmission, out: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    let at = moment_row(trn, out);
+    trn.moment_colind[at.clone()].iter().map(|&dof| dof as usize).zip(trn.actuator_moment[at].iter().copied())
+}
+
+/// Positions of moment row `out` in the compressed arrays.
+fn moment_row(trn: &Transmission, out: usize) -> Range<usize> {
     let start = trn.moment_rowadr[out] as usize;
-    let range = start..start + trn.moment_rownnz[out] as usize;
-    trn.moment_colind[range.clone()]
-        .iter()
-        .map(|&dof| dof as usize)
-        .zip(trn.actuator_moment[range].iter().copied())
+    start..start + trn.moment_rownnz[out] as usize
 }
 
 /// Writer of the compressed moment rows.

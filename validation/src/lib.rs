@@ -1,5 +1,6 @@
 //! Comparison of our physics and compiler with recorded MuJoCo runs.
 
+pub mod bits;
 pub mod compare;
 pub mod compile;
 pub mod motion;

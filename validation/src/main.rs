@@ -1,17 +1,20 @@
 //! Measures our physics beside MuJoCo's and writes the tables: model by model, or what the first word chooses.
 
-use robohive_validation::solver;
-use robohive_validation::status::{Row, measure, render};
+use robohive_validation::status::{Row, measure, open, render};
+use robohive_validation::{bits, solver};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --references FOLDER [--only TEXT]
        [--write README.md] [--section NAME] [--brief]
+       robohive-validation bits --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation solver --problems FOLDER [--references FOLDER] [--only TEXT] [--write README.md]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
 and with --write replaces the text between the table markers of a file; with --section between the markers of that
 section. With --brief the written table leaves out the models without a fault.
+
+bits: counts the values that are MuJoCo's to the last bit.
 
 solver: solves the constraint problems that solver.py recorded; the models are those that record.py recorded.";
 
@@ -49,6 +52,7 @@ fn run() -> Result<(), String> {
     let a = parse(words)?;
     let (section, table, verdict) = match mode.as_deref() {
         None => (a.section.as_str(), status(&a)?, Ok(())),
+        Some("bits") => ("bits", bits(&a)?, Ok(())),
         Some("solver") => {
             let (table, verdict) = solver::measure(&a.problems, &a.references, &a.only)?;
             ("solver", table, verdict)
@@ -60,16 +64,36 @@ fn run() -> Result<(), String> {
     verdict
 }
 
-/// The table of all listed models.
-fn status(a: &Arguments) -> Result<String, String> {
+/// Path in the list, model and reference of every chosen model.
+fn chosen(a: &Arguments) -> Result<Vec<(String, PathBuf, PathBuf)>, String> {
     if a.list.as_os_str().is_empty() || a.references.as_os_str().is_empty() {
         return Err(USAGE.into());
     }
     let list = std::fs::read_to_string(&a.list).map_err(|e| format!("{}: {e}", a.list.display()))?;
-    let mut rows: Vec<Row> = Vec::new();
-    for line in list.split_whitespace().filter(|line| line.contains(&a.only)) {
+    let files = |line: &str| {
         let name = line.trim_end_matches(".xml").replace('/', "__");
-        let row = measure(line, &a.models.join(line), &a.references.join(name + ".npz"));
+        (line.to_owned(), a.models.join(line), a.references.join(name + ".npz"))
+    };
+    Ok(list.split_whitespace().filter(|line| line.contains(&a.only)).map(files).collect())
+}
+
+/// The table of values that are equal to the last bit.
+fn bits(a: &Arguments) -> Result<String, String> {
+    let mut rows = Vec::new();
+    for (line, model, reference) in chosen(a)? {
+        let (m, reference) = open(&model, &reference)?;
+        let row = bits::count_bits(&line, &m, &reference).map_err(|e| e.to_string())?;
+        print!("{}\n{}", row.line(), row.differences());
+        rows.push(row);
+    }
+    Ok(bits::render(&rows))
+}
+
+/// The table of all listed models.
+fn status(a: &Arguments) -> Result<String, String> {
+    let mut rows: Vec<Row> = Vec::new();
+    for (line, model, reference) in chosen(a)? {
+        let row = measure(&line, &model, &reference);
         println!("{}", row.line());
         rows.push(row);
     }

@@ -264,6 +264,11 @@ const STAGES: &[Stage] = &[
     },
 ];
 
+/// The fields that each stage writes, in the order of the stages.
+pub fn written() -> impl Iterator<Item = &'static str> {
+    STAGES.iter().flat_map(|stage| stage.writes.iter().copied())
+}
+
 /// Rows and islands from contacts that have no row yet. Collision detection excludes those in the gap; the mark of those
 /// that move nothing is an output here.
 fn constraint_rows(m: &Model, d: &mut Data) {
@@ -303,7 +308,7 @@ fn sensors(m: &Model, d: &mut Data) {
     let inputs = sensor::AccelerationInputs { kin, com, con, efc, vel, actuation };
     sensor::acceleration_sensors(m, &inputs, &mut scratch, out);
     momentum::subtree_momentum(m, kin, com, vel, out);
-    d.energy = [energy::potential(m, state, kin, ten), energy::kinetic(m, state, inertia)];
+    d.energy = [energy::potential(m, state, kin, ten), energy::kinetic(m, state, inertia, &mut Vec::new())];
 }
 
 /// The worst component of each stage output over all recorded states.
@@ -331,50 +336,84 @@ impl StageReport {
 /// # Errors
 /// The reference lacks an array.
 pub fn compare_stages(reference: &Reference) -> Result<StageReport, ReferenceError> {
+    let mut report = StageReport { outputs: Vec::new() };
+    each_output(reference, |m, stage, row, output| {
+        keep_worst(&mut report, stage, row, judge(m, reference, row, &output)?);
+        Ok(())
+    })?;
+    Ok(report)
+}
+
+/// One field after our computation and after MuJoCo's.
+pub struct Output {
+    /// Name of the field.
+    pub field: &'static str,
+    /// Our values.
+    pub ours: Vec<f64>,
+    /// MuJoCo's values.
+    pub theirs: Vec<f64>,
+    /// True for floating-point fields.
+    pub float: bool,
+}
+
+/// Runs every stage on every recorded state and hands model, stage, state and each output to `f`.
+///
+/// # Errors
+/// The reference lacks an array.
+pub fn each_output(
+    reference: &Reference,
+    mut f: impl FnMut(&Model, &'static str, usize, Output) -> Result<(), ReferenceError>,
+) -> Result<(), ReferenceError> {
     let m = reference.model()?;
     let mut d = Data::new(&m);
-    let mut report = StageReport { outputs: Vec::new() };
     for row in 0..reference.states()? {
         for stage in STAGES {
             reference.set_state(&mut d, &m, row)?;
             reference.inject(&mut d, stage.reads, row)?;
             (stage.run)(&m, &mut d);
             for &field in stage.writes {
-                let worst = compare_field(&m, &d, reference, field, row)?;
-                keep_worst(&mut report, stage.name, row, worst);
+                f(&m, stage.name, row, output(&m, &d, reference, field, row)?)?;
             }
         }
     }
-    Ok(report)
+    Ok(())
 }
 
-fn compare_field(
+/// Field `field` of `d` beside the recorded one of state `row`.
+///
+/// # Errors
+/// The reference lacks the array.
+pub fn output(
     m: &Model,
     d: &Data,
     reference: &Reference,
-    field: &str,
+    field: &'static str,
     row: usize,
-) -> Result<Worst, ReferenceError> {
+) -> Result<Output, ReferenceError> {
     let theirs = reference.forward(field, row)?;
-    let mut ours = Vec::new();
-    let mut float = true;
     if field == "efc_J" {
-        ours = d.efc.dense_jacobian(m.nv);
-    } else {
-        d.visit(m, &mut |name, _, values| {
-            if name == field {
-                ours = values.to_f64();
-                float = values.is_float();
-            }
-        });
+        return Ok(Output { field, ours: d.efc.dense_jacobian(m.nv), theirs, float: true });
     }
-    Ok(match (field, float) {
+    let mut output = Output { field, ours: Vec::new(), theirs, float: true };
+    d.visit(m, &mut |name, _, values| {
+        if name == field {
+            output.ours = values.to_f64();
+            output.float = values.is_float();
+        }
+    });
+    Ok(output)
+}
+
+/// The worst component of a stage output.
+fn judge(m: &Model, reference: &Reference, row: usize, output: &Output) -> Result<Worst, ReferenceError> {
+    let Output { field, ours, theirs, .. } = output;
+    Ok(match (*field, output.float) {
         ("qLD", _) => {
             let scales = factor_scales(m, &reference.forward("M", row)?);
-            compare_scaled(field, &ours, &theirs, relative, |k| scales[k])
+            compare_scaled(field, ours, theirs, relative, |k| scales[k])
         }
-        (_, true) => compare(field, &ours, &theirs, relative),
-        (_, false) => compare(field, &ours, &theirs, exact),
+        (_, true) => compare(field, ours, theirs, relative),
+        (_, false) => compare(field, ours, theirs, exact),
     })
 }
 

@@ -138,13 +138,20 @@ pub fn measure(name: &str, model: &Path, reference: &Path) -> Row {
     row
 }
 
-fn fill(row: &mut Row, model: &Path, reference: &Path) -> Result<(), String> {
+/// Loads a model of the list and its reference.
+///
+/// # Errors
+/// The model does not load, or the reference is missing or no archive.
+pub fn open(model: &Path, reference: &Path) -> Result<(physics::Model, Reference), String> {
     let loaded = mjcf::Loader::default()
         .substitute(TEMPLATE.0, TEMPLATE.1)
         .load(&model.to_string_lossy())
         .map_err(|e| e.to_string())?;
-    let m = loaded.model;
-    let reference = Reference::open(reference).map_err(|e| e.to_string())?;
+    Ok((loaded.model, Reference::open(reference).map_err(|e| e.to_string())?))
+}
+
+fn fill(row: &mut Row, model: &Path, reference: &Path) -> Result<(), String> {
+    let (m, reference) = open(model, reference)?;
     row.compile = Some(compare_compiled(&m, &reference).map_err(|e| e.to_string())?);
     row.stages = Some(compare_stages(&reference).map_err(|e| e.to_string())?);
     row.forward = Some(compare_forward(&m, &reference).map_err(|e| e.to_string())?);

@@ -17,9 +17,9 @@ pub fn spatial(rotational: Vec3, linear: Vec3) -> Spatial {
     [rotational[0], rotational[1], rotational[2], linear[0], linear[1], linear[2]]
 }
 
-/// Inner product of a motion and a force.
+/// Inner product of a motion and a force, in the order of additions of [`dense::dot_slice`](super::dense::dot_slice).
 pub fn spatial_dot(a: &Spatial, b: &Spatial) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]
+    ((a[0] * b[0] + a[2] * b[2]) + (a[1] * b[1] + a[3] * b[3])) + (a[4] * b[4] + a[5] * b[5])
 }
 
 /// `a += s b`.
@@ -45,9 +45,9 @@ pub fn cross_force(u: &Spatial, f: &Spatial) -> Spatial {
 /// (xx yy zz xy xz yz), mass times offset, mass. `axes` are the principal axes, `moments` their inertias.
 pub fn inertia_about(moments: Vec3, axes: &Mat3, offset: Vec3, mass: f64) -> [f64; 10] {
     let r = |i: usize, j: usize| {
-        axes[3 * i] * moments[0] * axes[3 * j]
-            + axes[3 * i + 1] * moments[1] * axes[3 * j + 1]
-            + axes[3 * i + 2] * moments[2] * axes[3 * j + 2]
+        axes[3 * i] * (axes[3 * j] * moments[0])
+            + axes[3 * i + 1] * (axes[3 * j + 1] * moments[1])
+            + axes[3 * i + 2] * (axes[3 * j + 2] * moments[2])
     };
     let [x, y, z] = offset;
     let m = scale(offset, mass);

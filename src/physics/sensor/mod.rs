@@ -27,6 +27,7 @@ pub struct SensorScratch {
     convex: ConvexScratch,
     points: Vec<PreContact>,
     matches: Vec<contact::Match>,
+    pub(crate) momentum: Vec<f64>,
 }
 
 /// A sensor that is not simulated.

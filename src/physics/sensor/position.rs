@@ -69,7 +69,7 @@ pub(super) fn read(
             out.copy_from_slice(segment.as_flattened());
         }
         SensorType::EPotential => out[0] = energy::potential(m, d.state, d.kin, d.ten),
-        SensorType::EKinetic => out[0] = energy::kinetic(m, d.state, d.inertia),
+        SensorType::EKinetic => out[0] = energy::kinetic(m, d.state, d.inertia, &mut scratch.momentum),
         SensorType::Clock => out[0] = d.time,
         // Users' sensors read zero; the others belong to later stages.
         _ => {}
