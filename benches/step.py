@@ -28,7 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "validation" / "reference"))
 import record  # noqa: E402
 
-OWN = ["franka/franka_table", "elbow/elbow", "quadruped/quadruped", "pile/pile", "workbench/workbench"]
+OWN = ["franka/franka_table", "elbow/elbow", "quadruped/quadruped", "humanoid/humanoid", "pile/pile"]
 ROBOHIVE = [
     "envs/arms/franka/assets/franka_reach_v0.xml",
     "envs/multi_task/common/kitchen/franka_kitchen.xml",
