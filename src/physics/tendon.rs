@@ -3,9 +3,9 @@
 //! A fixed tendon is a linear combination of joint positions. A spatial tendon is the shortest path through its
 //! sites, around its wrapping geoms; a pulley divides the path into branches whose length counts `1/divisor`.
 
-use crate::chain::{MergedChain, com_offset, point_column, site_point};
+use crate::chain::{com_offset, last_dof, point_column, site_point};
 use crate::data::{Com, Kinematics, State, Tendons};
-use crate::math::{Vec3, distance, dot, dot_sparse, normalize, sub};
+use crate::math::{Vec3, dot, dot_sparse, norm, sub, unit};
 use crate::model::{Model, WrapType};
 use crate::wrap::{Wrap, WrapShape, wrap};
 
@@ -16,18 +16,21 @@ const PULLEY: i32 = -2;
 
 /// Computes every tendon's path, length and row of the Jacobian.
 pub fn tendon(m: &Model, state: &State, kin: &Kinematics, com: &Com, ten: &mut Tendons) {
-    ten.ten_J.fill(0.0);
-    let mut path = Path { count: 0 };
+    let Tendons { ten_wrapadr, ten_wrapnum, ten_J, ten_length, wrap_obj, wrap_xpos } = ten;
+    ten_J.fill(0.0);
+    let (points, _) = wrap_xpos.as_flattened_mut().as_chunks_mut();
+    let mut path = Path { points, objects: wrap_obj.as_flattened_mut(), count: 0 };
     for i in 0..m.ntendon {
         let begin = path.count;
-        let adr = m.tendon_adr[i] as usize;
-        ten.ten_wrapadr[i] = begin as i32;
-        ten.ten_length[i] = if m.wrap_type[adr] == WrapType::Joint.code() {
-            fixed_tendon(m, state, i, ten)
+        let at = row(m, i);
+        let row = Row { columns: &m.ten_J_colind[at.clone()], values: &mut ten_J[at] };
+        ten_wrapadr[i] = begin as i32;
+        ten_length[i] = if m.wrap_type[m.tendon_adr[i] as usize] == WrapType::Joint.code() {
+            fixed_tendon(m, state, i, row)
         } else {
-            spatial_tendon(m, kin, com, i, ten, &mut path)
+            spatial_tendon(m, kin, com, i, row, &mut path)
         };
-        ten.ten_wrapnum[i] = (path.count - begin) as i32;
+        ten_wrapnum[i] = (path.count - begin) as i32;
     }
 }
 
@@ -45,29 +48,30 @@ pub fn row(m: &Model, i: usize) -> std::ops::Range<usize> {
     start..start + m.ten_J_rownnz[i] as usize
 }
 
-fn fixed_tendon(m: &Model, state: &State, i: usize, ten: &mut Tendons) -> f64 {
+fn fixed_tendon(m: &Model, state: &State, i: usize, row: Row) -> f64 {
     let adr = m.tendon_adr[i] as usize;
     let mut length = 0.0;
     for w in adr..adr + m.tendon_num[i] as usize {
         let (joint, coefficient) = (m.wrap_objid[w] as usize, m.wrap_prm[w]);
         length += coefficient * state.qpos[m.jnt_qposadr[joint] as usize];
-        let at = row(m, i).find(|&k| m.ten_J_colind[k] == m.jnt_dofadr[joint]);
-        if let Some(k) = at {
-            ten.ten_J[k] += coefficient;
+        if let Some(k) = row.columns.iter().position(|&dof| dof == m.jnt_dofadr[joint]) {
+            row.values[k] += coefficient;
         }
     }
     length
 }
 
 /// Writer of `wrap_xpos` and `wrap_obj`, which hold the paths of all tendons one after the other.
-struct Path {
+struct Path<'a> {
+    points: &'a mut [Vec3],
+    objects: &'a mut [i32],
     count: usize,
 }
 
-impl Path {
-    fn push(&mut self, ten: &mut Tendons, point: Vec3, object: i32) {
-        ten.wrap_xpos.as_flattened_mut()[3 * self.count..3 * self.count + 3].copy_from_slice(&point);
-        ten.wrap_obj.as_flattened_mut()[self.count] = object;
+impl Path<'_> {
+    fn push(&mut self, point: Vec3, object: i32) {
+        self.points[self.count] = point;
+        self.objects[self.count] = object;
         self.count += 1;
     }
 }
@@ -75,14 +79,8 @@ impl Path {
 /// A point that moves with a body.
 type Anchor = (usize, Vec3);
 
-fn spatial_tendon(
-    m: &Model,
-    kin: &Kinematics,
-    com: &Com,
-    i: usize,
-    ten: &mut Tendons,
-    path: &mut Path,
-) -> f64 {
+/// Length of tendon `i`, whose path goes to `path` and whose row of the Jacobian is added to `row`.
+fn spatial_tendon(m: &Model, kin: &Kinematics, com: &Com, i: usize, mut row: Row, path: &mut Path) -> f64 {
     let adr = m.tendon_adr[i] as usize;
     let end = adr + m.tendon_num[i] as usize;
     let is_pulley = |w: usize| m.wrap_type[w] == WrapType::Pulley.code();
@@ -90,7 +88,7 @@ fn spatial_tendon(
     while w + 1 < end {
         if is_pulley(w) {
             divisor = m.wrap_prm[w];
-            path.push(ten, [0.0; 3], PULLEY);
+            path.push([0.0; 3], PULLEY);
         }
         if is_pulley(w) || is_pulley(w + 1) {
             w += 1;
@@ -100,27 +98,21 @@ fn spatial_tendon(
         let next = if shape.is_some() { w + 2 } else { w + 1 };
         let first = site_point(m, kin, m.wrap_objid[w] as usize);
         let last = site_point(m, kin, m.wrap_objid[next] as usize);
-        let pull =
-            |a: Anchor, b: Anchor, j: &mut [f64]| add_segment(m, com, row(m, i), a, b, 1.0 / divisor, j);
-        path.push(ten, first.1, ON_SITE);
+        let mut pull = |from: Anchor, to: Anchor| row.add_segment(m, com, from, to, 1.0 / divisor);
+        path.push(first.1, ON_SITE);
         match shape.and_then(|shape| wrap_around(m, kin, shape, w + 1, [first.1, last.1])) {
             Some(touch) => {
                 let geom = m.wrap_objid[w + 1];
                 let [enter, leave] = touch.points.map(|p| (m.geom_bodyid[geom as usize] as usize, p));
-                length += (distance(first.1, enter.1) + touch.length + distance(leave.1, last.1)) / divisor;
-                pull(first, enter, &mut ten.ten_J);
-                pull(leave, last, &mut ten.ten_J);
-                path.push(ten, enter.1, geom);
-                path.push(ten, leave.1, geom);
+                length += (pull(first, enter) + touch.length + pull(leave, last)) / divisor;
+                path.push(enter.1, geom);
+                path.push(leave.1, geom);
             }
-            None => {
-                length += distance(first.1, last.1) / divisor;
-                pull(first, last, &mut ten.ten_J);
-            }
+            None => length += pull(first, last) / divisor,
         }
         w = next;
         if w + 1 == end || is_pulley(w + 1) {
-            path.push(ten, last.1, ON_SITE);
+            path.push(last.1, ON_SITE);
         }
     }
     length
@@ -141,28 +133,45 @@ fn wrap_around(m: &Model, kin: &Kinematics, shape: WrapShape, w: usize, ends: [V
     wrap(shape, m.geom_size[geom][0], kin.geom_xpos[geom], &kin.geom_xmat[geom], ends, side)
 }
 
-/// Adds to one row of the Jacobian, at `entries` of `jacobian`, the rate of change of the distance between two
-/// points, times `scale`. Both the columns of the row and the chain of the two bodies are sorted.
-fn add_segment(
-    m: &Model,
-    com: &Com,
-    entries: std::ops::Range<usize>,
-    from: Anchor,
-    to: Anchor,
-    scale: f64,
-    jacobian: &mut [f64],
-) {
-    if from.0 == to.0 {
-        return;
-    }
-    let direction = normalize(sub(to.1, from.1)).0;
-    let offsets = [com_offset(m, com, from.0, from.1), com_offset(m, com, to.0, to.1)];
-    let mut entries = entries.rev();
-    for (dof, moves) in MergedChain::new(m, from.0, to.0) {
-        let column = |end: usize| if moves[end] { point_column(com, dof, offsets[end]) } else { [0.0; 3] };
-        let rate = dot(sub(column(1), column(0)), direction);
-        if let Some(k) = entries.find(|&k| m.ten_J_colind[k] <= dof as i32) {
-            jacobian[k] += scale * rate;
+/// Row of the Jacobian of one tendon: columns in increasing order, and their values.
+struct Row<'a> {
+    columns: &'a [i32],
+    values: &'a mut [f64],
+}
+
+impl Row<'_> {
+    /// Adds the rate of change of the distance between two points, times `scale`; returns the distance. The row
+    /// holds the chains of both bodies, so all of them are walked down together.
+    fn add_segment(&mut self, m: &Model, com: &Com, from: Anchor, to: Anchor, scale: f64) -> f64 {
+        let span = sub(to.1, from.1);
+        let distance = norm(span);
+        if from.0 == to.0 {
+            return distance;
         }
+        let direction = unit(span, distance);
+        let offsets = [com_offset(m, com, from.0, from.1), com_offset(m, com, to.0, to.1)];
+        let mut end = self.columns.len();
+        let mut add = |dof: i32, rate: f64| {
+            while self.columns[end - 1] > dof {
+                end -= 1;
+            }
+            self.values[end - 1] += scale * rate;
+        };
+        let [mut a, mut b] = [last_dof(m, from.0), last_dof(m, to.0)];
+        while a != b {
+            if a > b {
+                add(a, -dot(point_column(com, a as usize, offsets[0]), direction));
+                a = m.dof_parentid[a as usize];
+            } else {
+                add(b, dot(point_column(com, b as usize, offsets[1]), direction));
+                b = m.dof_parentid[b as usize];
+            }
+        }
+        while let Ok(dof) = usize::try_from(a) {
+            let [tail, head] = offsets.map(|offset| point_column(com, dof, offset));
+            add(a, dot(sub(head, tail), direction));
+            a = m.dof_parentid[dof];
+        }
+        distance
     }
 }

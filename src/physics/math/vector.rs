@@ -51,7 +51,12 @@ pub fn distance(a: Vec3, b: Vec3) -> f64 {
 /// Unit vector and length; the x axis for a vector shorter than `MINVAL`.
 pub fn normalize(a: Vec3) -> (Vec3, f64) {
     let n = norm(a);
-    if n < MINVAL { ([1.0, 0.0, 0.0], n) } else { (scale(a, 1.0 / n), n) }
+    (unit(a, n), n)
+}
+
+/// Unit vector of a vector whose length is known; the x axis for one shorter than `MINVAL`.
+pub fn unit(a: Vec3, length: f64) -> Vec3 {
+    if length < MINVAL { [1.0, 0.0, 0.0] } else { scale(a, 1.0 / length) }
 }
 
 /// Matrix times vector.
