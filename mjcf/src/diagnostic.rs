@@ -62,6 +62,11 @@ impl Sources {
         self.files.get(file as usize)
     }
 
+    /// Bytes of all texts together.
+    pub fn bytes(&self) -> usize {
+        self.files.iter().map(|f| f.text.len()).sum()
+    }
+
     /// All texts, main file first.
     pub fn iter(&self) -> impl Iterator<Item = &Source> {
         self.files.iter()
@@ -231,7 +236,8 @@ impl Diagnostics {
 
 impl fmt::Display for Diagnostics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, diagnostic) in self.list.iter().enumerate() {
+        // What stops the load comes first.
+        for (i, diagnostic) in self.errors().chain(self.warnings()).enumerate() {
             let newline = if i == 0 { "" } else { "\n" };
             write!(f, "{newline}{diagnostic}")?;
         }

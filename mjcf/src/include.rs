@@ -40,6 +40,17 @@ struct State {
 }
 
 impl Expansion<'_> {
+    /// The same, lent to the reader of another model.
+    pub(crate) fn lend(&mut self) -> Expansion<'_> {
+        Expansion {
+            files: self.files,
+            substitutions: self.substitutions,
+            limits: self.limits,
+            sources: self.sources,
+            diagnostics: self.diagnostics,
+        }
+    }
+
     /// Reads the file at `path` and everything it includes.
     pub fn read(&mut self, path: &str) -> Option<Element> {
         let path = fold(path);

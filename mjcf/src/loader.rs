@@ -9,7 +9,6 @@ use crate::diagnostic::{Diagnostics, Sources};
 use crate::files::{Disk, FileProvider};
 use crate::include::Expansion;
 use crate::read;
-use crate::schema::{check, root::MUJOCO};
 use crate::spec::Spec;
 use crate::xml::{Element, Limits};
 
@@ -139,8 +138,8 @@ impl Loader {
             diagnostics: &mut diagnostics,
         };
         let Some(mut root) = read(&mut expansion) else { return Err(diagnostics) };
-        self.edit(&mut root, &sources, &mut diagnostics);
-        let spec = interpret(&root, &*self.files, &sources, &mut diagnostics);
+        self.edit(&mut root, expansion.sources, expansion.diagnostics);
+        let spec = read::read(&root, expansion);
         match spec.filter(|_| !diagnostics.has_errors()) {
             Some(spec) => Ok(Parsed { spec, sources, warnings: diagnostics }),
             None => Err(diagnostics),
@@ -154,30 +153,4 @@ impl Loader {
             }
         }
     }
-}
-
-/// Checks a tree and reads it.
-fn interpret(
-    root: &Element,
-    files: &dyn FileProvider,
-    sources: &Sources,
-    diagnostics: &mut Diagnostics,
-) -> Option<Spec> {
-    match root.name.as_str() {
-        "mujoco" => {}
-        "mujocoinclude" => {
-            diagnostics.warning(sources, root.loc, "root element <mujocoinclude> is read as <mujoco>");
-        }
-        "robot" => {
-            diagnostics.error(sources, root.loc, "this is URDF: only MJCF is supported");
-            return None;
-        }
-        other => {
-            let message = format!("root element <{other}> is not <mujoco>");
-            diagnostics.error(sources, root.loc, message);
-            return None;
-        }
-    }
-    check::check(root, &MUJOCO, sources, diagnostics);
-    Some(read::read(root, files, sources, diagnostics))
 }

@@ -128,3 +128,17 @@ fn lying_images_are_errors() {
         HfieldSource { file: Some((field, "x.bin".into())), size: [1.0; 4], ..HfieldSource::default() };
     assert_eq!(hfield(source).unwrap_err().kind, AssetErrorKind::Truncated);
 }
+
+#[test]
+fn container_is_kept_byte_for_byte() {
+    let bytes = b"\xabKTX 11\xbb\r\n\x1a\n and more".to_vec();
+    let file = FileImage { bytes: bytes.clone(), path: "sky.KTX".into() };
+    let source = TextureSource { kind: TextureKind::Image2d, file: Some(file), ..Default::default() };
+    let kept = texture(&source).unwrap();
+    assert_eq!((kept.width, kept.height, kept.nchannel), (bytes.len(), 1, 1));
+    assert_eq!(kept.data, bytes);
+    let flipped = TextureSource { hflip: true, ..source.clone() };
+    assert_eq!(texture(&flipped).unwrap_err().kind, AssetErrorKind::Inconsistent);
+    let cube = TextureSource { kind: TextureKind::Cube, ..source };
+    assert_eq!(texture(&cube).unwrap_err().kind, AssetErrorKind::Unsupported);
+}

@@ -36,8 +36,14 @@ pub(super) fn fill(m: &mut Model, spec: &Spec, lookup: &Lookup, log: &mut Log) {
         if log.diagnostics.has_errors() && trnid[0] < 0 {
             continue;
         }
-        let result =
-            fill_actuator(m, actuator, trnid, spec.compiler.autolimits, &mut actadr, &mut historyadr);
+        let result = fill_actuator(
+            m,
+            actuator,
+            trnid,
+            spec.compiler_at(actuator.loc).autolimits,
+            &mut actadr,
+            &mut historyadr,
+        );
         log.check(actuator.loc, &what, result);
     }
     m.nhistory = historyadr as usize;
@@ -80,6 +86,26 @@ fn transmission(actuator: &Actuator, lookup: &Lookup, what: &str, log: &mut Log)
             [-1, -1]
         }
     }
+}
+
+/// Numbers of activations and of controls as far as they show before references are resolved.
+pub(crate) fn sizes(a: &Actuator) -> (usize, usize) {
+    let states = if a.actdim > 0 { a.actdim as usize } else { usize::from(a.dyntype != DynType::None) };
+    let given = (a.ctrlspec & (POS | VEL | FF | VOLTAGE)).count_ones() as usize;
+    let inputs = match a.gaintype {
+        GainType::So3 => {
+            if a.ctrlspec == QUAT {
+                4
+            } else {
+                3
+            }
+        }
+        GainType::Pid if a.ctrlspec == 0 => 2,
+        GainType::Dcmotor if a.ctrlspec == 0 => 1,
+        GainType::Pid | GainType::Dcmotor => given,
+        _ => 1,
+    };
+    (states, inputs)
 }
 
 /// Checks the type-specific rules and finds the sizes.

@@ -57,7 +57,8 @@ fn find(ids: &BTreeMap<String, usize>, kind: &str, name: &str) -> Result<usize, 
     })
 }
 
-fn asset_name(name: &str, path: &str) -> String {
+/// Name of an asset: its own, or that of its file.
+pub(crate) fn asset_name(name: &str, path: &str) -> String {
     if !name.is_empty() {
         return name.to_owned();
     }

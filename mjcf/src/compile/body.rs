@@ -9,7 +9,7 @@ use super::tree::Tree;
 use super::viewpoint::{self, CameraNode, LightNode, SiteNode};
 use super::{Log, push_user, title};
 use crate::bvh::{self, Leaf};
-use crate::spec::{AlignFree, Body, InertiaFromGeom, Inertial, Spec};
+use crate::spec::{AlignFree, Body, Compiler, InertiaFromGeom, Inertial, Spec};
 use crate::vector::normalize;
 use physics::Model;
 use physics::math::Vec3;
@@ -64,12 +64,11 @@ pub(super) fn compile<'s>(
     frames: &[Pose],
     log: &mut Log,
 ) -> BodyNode<'s> {
-    let settings = &model.compiler;
     let what = title("body", &spec.name);
     let frame = |index: Option<usize>| index.and_then(|i| frames.get(i));
     let mut joints = Vec::with_capacity(spec.joints.len());
     for j in &spec.joints {
-        let node = joint::compile(j, frame(j.frame), settings);
+        let node = joint::compile(j, frame(j.frame), model.compiler_at(j.loc));
         joints.extend(log.check(j.loc, &title("joint", &j.name), node));
     }
     let mut node = BodyNode {
@@ -90,7 +89,7 @@ pub(super) fn compile<'s>(
     let fixed = !moves(&node, parent, tree);
     for g in &spec.geoms {
         let context = geom::Context {
-            settings,
+            settings: model.compiler_at(g.loc),
             assets,
             frame: frame(g.frame),
             infer: id > 0 && infers(spec, g, model),
@@ -108,7 +107,7 @@ pub(super) fn compile<'s>(
     }
     viewpoint::compile(&mut node, model, frames, log);
     if aligns_free_joint(&node, model) {
-        align_to_inertia(&mut node, settings.fusestatic);
+        align_to_inertia(&mut node, model.compiler.fusestatic);
     }
     node
 }
@@ -149,23 +148,24 @@ fn moves(node: &BodyNode, parent: usize, tree: &Tree) -> bool {
 }
 
 fn infers(body: &Body, geom: &crate::spec::Geom, model: &Spec) -> bool {
-    let [low, high] = model.compiler.inertiagrouprange;
-    (body.inertial.is_none() || model.compiler.inertiafromgeom == InertiaFromGeom::True)
+    let settings = model.compiler_at(body.loc);
+    let [low, high] = settings.inertiagrouprange;
+    (body.inertial.is_none() || settings.inertiafromgeom == InertiaFromGeom::True)
         && (low..=high).contains(&geom.group)
 }
 
 fn own_pose(spec: &Body, model: &Spec) -> Result<Pose, String> {
     let mut quat = spec.quat;
     normalize(&mut quat);
-    Ok(Pose { pos: spec.pos, quat: resolve(quat, spec.alt, &model.compiler)? })
+    Ok(Pose { pos: spec.pos, quat: resolve(quat, spec.alt, model.compiler_at(spec.loc))? })
 }
 
 /// Inertia from the `inertial` element, or from the geoms.
 fn set_inertia(node: &mut BodyNode, model: &Spec) -> Result<(), String> {
-    let settings = &model.compiler;
+    let settings = model.compiler_at(node.spec.loc);
     let mut defined = false;
     if let Some(inertial) = &node.spec.inertial {
-        let part = explicit(inertial, model)?;
+        let part = explicit(inertial, settings)?;
         (node.mass, node.inertia, node.inertial) = (part.mass, part.inertia, part.pose);
         defined = true;
     }
@@ -204,7 +204,7 @@ fn set_inertia(node: &mut BodyNode, model: &Spec) -> Result<(), String> {
     Ok(())
 }
 
-fn explicit(inertial: &Inertial, model: &Spec) -> Result<MassPart, String> {
+fn explicit(inertial: &Inertial, settings: &Compiler) -> Result<MassPart, String> {
     let mut quat = inertial.quat;
     normalize(&mut quat);
     let mut inertia = inertial.inertia;
@@ -217,7 +217,7 @@ fn explicit(inertial: &Inertial, model: &Spec) -> Result<MassPart, String> {
         }
         (inertia, quat) = principal(full)?;
     }
-    quat = resolve(quat, inertial.alt, &model.compiler)?;
+    quat = resolve(quat, inertial.alt, settings)?;
     Ok(MassPart { mass: inertial.mass, inertia, pose: Pose { pos: inertial.pos, quat } })
 }
 
@@ -236,7 +236,7 @@ fn aligns_free_joint(node: &BodyNode, model: &Spec) -> bool {
     let wanted = match joint.spec.align {
         AlignFree::False => false,
         AlignFree::True => true,
-        AlignFree::Auto => model.compiler.alignfree,
+        AlignFree::Auto => model.compiler_at(node.spec.loc).alignfree,
     };
     joint.spec.kind == JointType::Free && node.spec.bodies.is_empty() && wanted
 }

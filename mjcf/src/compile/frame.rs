@@ -1,6 +1,6 @@
 //! Poses and the ways MJCF writes an orientation (XML reference, "Frame orientations").
 
-use crate::spec::{Compiler, Frame, Orientation};
+use crate::spec::{Compiler, Orientation, Spec};
 use crate::vector::{apply, compose, cross, dot, matrix, normalize, rotate, sub};
 use physics::math::ops;
 use physics::math::{Quat, Vec3};
@@ -47,15 +47,14 @@ pub(super) fn add(a: Vec3, b: Vec3) -> Vec3 {
 }
 
 /// Pose of every frame of the model in its body.
-pub(super) fn frame_poses(frames: &[Frame], settings: &Compiler) -> Vec<Result<Pose, String>> {
-    let mut poses: Vec<Result<Pose, String>> = Vec::with_capacity(frames.len());
-    for frame in frames {
-        let own =
-            resolve(frame.quat, frame.alt, settings).map(|quat| Pose { pos: frame.pos, quat }).map(|own| {
-                match frame.parent.and_then(|p| poses.get(p)) {
-                    Some(Ok(parent)) => parent.then(&own),
-                    _ => own,
-                }
+pub(super) fn frame_poses(spec: &Spec) -> Vec<Result<Pose, String>> {
+    let mut poses: Vec<Result<Pose, String>> = Vec::with_capacity(spec.frames.len());
+    for frame in &spec.frames {
+        let own = resolve(frame.quat, frame.alt, spec.compiler_at(frame.loc))
+            .map(|quat| Pose { pos: frame.pos, quat })
+            .map(|own| match frame.parent.and_then(|p| poses.get(p)) {
+                Some(Ok(parent)) => parent.then(&own),
+                _ => own,
             });
         poses.push(own.map(|mut pose| {
             normalize(&mut pose.quat);

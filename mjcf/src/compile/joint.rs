@@ -24,7 +24,7 @@ pub(super) struct JointNode<'s> {
 }
 
 /// Number of positions and of velocities of a joint type.
-pub(super) fn dimensions(kind: JointType) -> (usize, usize) {
+pub(crate) fn dimensions(kind: JointType) -> (usize, usize) {
     match kind {
         JointType::Free => (7, 6),
         JointType::Ball => (4, 3),

@@ -1,13 +1,22 @@
 //! Keyframes: missing parts are the reference configuration, short ones are completed from it.
 
+use super::tree::Tree;
 use super::{Log, bounded, title};
 use crate::diagnostic::Loc;
-use crate::spec::{Key, Spec};
+use crate::spec::{Key, KeyPart, Keyed, Spec};
 use physics::Model;
 use physics::model::JointType;
 
-/// Appends the keyframes of the file, and empty ones up to `size/nkey`.
-pub(super) fn fill(m: &mut Model, spec: &Spec, log: &mut Log) {
+/// Name and place of every keyframe: those of the file, empty ones up to `size/nkey`, those of attached models.
+pub(super) fn names(spec: &Spec) -> impl Iterator<Item = (&str, Loc)> {
+    let empty = (spec.size.nkey.max(0) as usize).saturating_sub(spec.keys.len());
+    let own = spec.keys.iter().map(|k| (&*k.name, k.loc));
+    let kept = spec.kept_keys.iter().map(|k| (&*k.name, k.loc));
+    own.chain(std::iter::repeat_n(("", Loc::NONE), empty)).chain(kept)
+}
+
+/// Appends the keyframes of the file, empty ones up to `size/nkey`, and those of attached models.
+pub(super) fn fill(m: &mut Model, tree: &Tree, spec: &Spec, log: &mut Log) {
     let (nq, nv, nu) = (m.qpos0.len(), m.dof_bodyid.len(), m.actuator_ctrllimited.len());
     let na: i32 = m.actuator_actnum.iter().sum();
     let mocap: Vec<usize> = (0..m.body_mocapid.len()).filter(|&b| m.body_mocapid[b] >= 0).collect();
@@ -19,7 +28,8 @@ pub(super) fn fill(m: &mut Model, spec: &Spec, log: &mut Log) {
         return;
     }
     let count = spec.keys.len().max(spec.size.nkey.max(0) as usize);
-    for key in spec.keys.iter().chain(std::iter::repeat(&empty)).take(count) {
+    let kept: Vec<Key> = (0..spec.kept_keys.len()).map(|k| gather(m, tree, spec, k)).collect();
+    for key in spec.keys.iter().chain(std::iter::repeat(&empty)).take(count).chain(&kept) {
         m.key_time.push(key.time);
         let mut part = Part { loc: key.loc, what: title("keyframe", &key.name), log };
         let mut qpos = part.complete(&key.qpos, &m.qpos0, "qpos");
@@ -33,6 +43,50 @@ pub(super) fn fill(m: &mut Model, spec: &Spec, log: &mut Log) {
         m.key_qpos.extend(qpos);
         m.key_mquat.extend(mquat);
     }
+}
+
+/// A keyframe of an attached model: what its elements took along, and the reference elsewhere.
+fn gather(m: &Model, tree: &Tree, spec: &Spec, index: usize) -> Key {
+    let head = &spec.kept_keys[index];
+    let mut key = Key { name: head.name.clone(), loc: head.loc, time: head.time, ..Key::default() };
+    let mut put = |keyed: &[Keyed], part: KeyPart, address: i32, default: &[f64]| {
+        let all = match part {
+            KeyPart::Qpos => &mut key.qpos,
+            KeyPart::Qvel => &mut key.qvel,
+            KeyPart::Mpos => &mut key.mpos,
+            KeyPart::Mquat => &mut key.mquat,
+            KeyPart::Act => &mut key.act,
+            KeyPart::Ctrl => &mut key.ctrl,
+        };
+        for share in keyed.iter().filter(|k| k.key == index && k.part == part) {
+            if all.is_empty() {
+                all.extend_from_slice(default);
+            }
+            let start = address.max(0) as usize;
+            if let Some(place) = all.get_mut(start..start + share.values.len()) {
+                place.copy_from_slice(&share.values);
+            }
+        }
+    };
+    let mocap: Vec<usize> = (0..m.body_mocapid.len()).filter(|&b| m.body_mocapid[b] >= 0).collect();
+    let mpos0: Vec<f64> = mocap.iter().flat_map(|&b| m.body_pos[b]).collect();
+    let mquat0: Vec<f64> = mocap.iter().flat_map(|&b| m.body_quat[b]).collect();
+    for (b, body) in tree.bodies.iter().enumerate() {
+        put(&body.spec.keyed, KeyPart::Mpos, 3 * m.body_mocapid[b], &mpos0);
+        put(&body.spec.keyed, KeyPart::Mquat, 4 * m.body_mocapid[b], &mquat0);
+    }
+    let rest = vec![0.0; m.dof_bodyid.len()];
+    for (j, joint) in tree.joints().enumerate() {
+        put(&joint.spec.keyed, KeyPart::Qpos, m.jnt_qposadr[j], &m.qpos0);
+        put(&joint.spec.keyed, KeyPart::Qvel, m.jnt_dofadr[j], &rest);
+    }
+    let act = vec![0.0; m.actuator_actnum.iter().sum::<i32>() as usize];
+    let ctrl = vec![0.0; m.actuator_ctrllimited.len()];
+    for (a, actuator) in spec.actuators.iter().enumerate() {
+        put(&actuator.keyed, KeyPart::Act, m.actuator_actadr[a], &act);
+        put(&actuator.keyed, KeyPart::Ctrl, m.actuator_ctrladr[a], &ctrl);
+    }
+    key
 }
 
 struct Part<'a, 'b> {

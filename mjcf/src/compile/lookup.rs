@@ -37,7 +37,8 @@ impl Lookup {
             };
         }
         list!(Pair pairs Exclude excludes Equality equalities Tendon tendons Actuator actuators Sensor sensors
-              Numeric numerics Text texts Tuple tuples Key keys Frame frames);
+              Numeric numerics Text texts Tuple tuples Frame frames);
+        lookup.add(ObjType::Key, super::keyframe::names(spec), log);
         lookup
     }
 

@@ -28,6 +28,10 @@ mod tendon;
 mod tree;
 mod viewpoint;
 
+pub(crate) use actuator::sizes as actuator_sizes;
+pub(crate) use assets::asset_name;
+pub(crate) use joint::dimensions as joint_dimensions;
+
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::FileProvider;
 use crate::spec::{Limited, Spec, StatisticOverride};
@@ -163,7 +167,7 @@ fn compile_static(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> Optio
     actuator::fill(&mut m, spec, &lookup, log);
     sensor::fill(&mut m, spec, &lookup, log);
     custom::fill(&mut m, spec, &lookup, log);
-    keyframe::fill(&mut m, spec, log);
+    keyframe::fill(&mut m, &tree, spec, log);
     if log.diagnostics.has_errors() {
         return None;
     }

@@ -14,7 +14,6 @@ pub(super) fn fill(m: &mut Model, spec: &Spec, tree: &Tree, assets: &Assets, loo
     m.names.push(0);
     let pairs = sorted_names(spec, m, ObjType::Pair, lookup);
     let excludes = sorted_names(spec, m, ObjType::Exclude, lookup);
-    let nkey = m.key_time.len();
     macro_rules! list {
         ($field:ident, $names:expr) => {
             let names: Vec<&str> = $names.collect();
@@ -41,7 +40,7 @@ pub(super) fn fill(m: &mut Model, spec: &Spec, tree: &Tree, assets: &Assets, loo
     list!(name_numericadr, spec.numerics.iter().map(|n| &*n.name));
     list!(name_textadr, spec.texts.iter().map(|t| &*t.name));
     list!(name_tupleadr, spec.tuples.iter().map(|t| &*t.name));
-    list!(name_keyadr, spec.keys.iter().map(|k| &*k.name).chain(std::iter::repeat("")).take(nkey));
+    list!(name_keyadr, super::keyframe::names(spec).map(|(name, _)| name));
     m.hfield_pathadr = append_paths(&mut m.paths, &assets.hfields);
     m.mesh_pathadr = append_paths(&mut m.paths, &assets.meshes);
     m.tex_pathadr = append_paths(&mut m.paths, &assets.textures);

@@ -17,7 +17,7 @@ pub(super) fn fill(m: &mut Model, spec: &Spec, lookup: &Lookup, log: &mut Log) {
         }
         let path = check_path(m, tendon);
         log.check(tendon.loc, &what, path);
-        let result = fill_tendon(m, tendon, spec.compiler.autolimits);
+        let result = fill_tendon(m, tendon, spec.compiler_at(tendon.loc).autolimits);
         log.check(tendon.loc, &what, result);
         m.tendon_matid.push(lookup.reference(ObjType::Material, &tendon.material, tendon.loc, &what, log));
     }

@@ -40,7 +40,7 @@ impl<'s> Tree<'s> {
 
 /// Compiles every body of the spec.
 pub(super) fn compile<'s>(spec: &'s Spec, assets: &Assets, log: &mut Log) -> Tree<'s> {
-    let frames: Vec<_> = frame_poses(&spec.frames, &spec.compiler)
+    let frames: Vec<_> = frame_poses(spec)
         .into_iter()
         .zip(&spec.frames)
         .map(|(pose, frame)| {

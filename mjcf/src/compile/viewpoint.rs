@@ -36,14 +36,13 @@ pub(super) struct LightNode<'s> {
 
 /// Compiles sites, cameras and lights of a body.
 pub(super) fn compile<'s>(body: &mut BodyNode<'s>, model: &'s Spec, frames: &[Pose], log: &mut Log) {
-    let settings = &model.compiler;
     let frame = |index: Option<usize>| index.and_then(|i| frames.get(i));
     for s in &body.spec.sites {
-        let node = compile_site(s, frame(s.frame), settings);
+        let node = compile_site(s, frame(s.frame), model.compiler_at(s.loc));
         body.sites.extend(log.check(s.loc, &title("site", &s.name), node));
     }
     for c in &body.spec.cameras {
-        let node = compile_camera(c, frame(c.frame), settings, model.visual.map.znear);
+        let node = compile_camera(c, frame(c.frame), model.compiler_at(c.loc), model.visual.map.znear);
         body.cameras.extend(log.check(c.loc, &title("camera", &c.name), node));
     }
     for l in &body.spec.lights {

@@ -121,6 +121,9 @@ pub struct CompiledTexture {
     pub data: Vec<u8>,
 }
 
+const PNG: &str = "image/png";
+const KTX: &str = "image/ktx";
+
 /// Largest texture in bytes.
 const MAX_BYTES: usize = 1 << 30;
 
@@ -163,6 +166,9 @@ fn computed(source: &TextureSource, height: usize) -> Result<CompiledTexture, As
 }
 
 fn flat_file(source: &TextureSource, file: &FileImage) -> Result<CompiledTexture, AssetError> {
+    if content_type(source, file) == KTX {
+        return container(source, file);
+    }
     let image = load(source, file)?;
     Ok(CompiledTexture {
         width: image.width,
@@ -170,6 +176,20 @@ fn flat_file(source: &TextureSource, file: &FileImage) -> Result<CompiledTexture
         nchannel: source.nchannel,
         colorspace: resolve(source.colorspace, image.srgb),
         data: image.data,
+    })
+}
+
+/// A KTX container is kept as it is, one byte a pixel, for the renderer to decode.
+fn container(source: &TextureSource, file: &FileImage) -> Result<CompiledTexture, AssetError> {
+    if source.hflip || source.vflip {
+        return Err(AssetError::inconsistent(format!("KTX texture '{}' cannot be flipped", file.path)));
+    }
+    Ok(CompiledTexture {
+        width: byte_count(source, file.bytes.len(), 1, 1)?,
+        height: 1,
+        nchannel: 1,
+        colorspace: resolve(source.colorspace, false),
+        data: file.bytes.clone(),
     })
 }
 
@@ -312,11 +332,20 @@ fn resolve(colorspace: Colorspace, srgb: bool) -> Colorspace {
     }
 }
 
+/// What a file holds: as the element says, else by its extension.
+fn content_type<'a>(source: &'a TextureSource, file: &FileImage) -> &'a str {
+    let path = file.path.to_ascii_lowercase();
+    match source.content_type.as_str() {
+        "" if path.ends_with(".png") => PNG,
+        "" if path.ends_with(".ktx") => KTX,
+        given => given,
+    }
+}
+
 fn load(source: &TextureSource, file: &FileImage) -> Result<Pixels, AssetError> {
-    let by_extension = || if file.path.to_ascii_lowercase().ends_with(".png") { "image/png" } else { "" };
-    let kind = if source.content_type.is_empty() { by_extension() } else { source.content_type.as_str() };
-    if kind != "image/png" {
-        return Err(AssetError::unsupported(format!("texture file '{}' is not PNG", file.path)));
+    if content_type(source, file) != PNG {
+        let message = format!("texture file '{}' is not PNG, nor KTX in a texture of type 2d", file.path);
+        return Err(AssetError::unsupported(message));
     }
     let mut image = png::decode(&file.bytes, &file.path, source.nchannel)?;
     let stride = source.nchannel * image.width;

@@ -20,6 +20,7 @@ impl Reader<'_> {
                 "hfield" => self.hfield(element),
                 "texture" => self.texture(element),
                 "material" => self.material(element),
+                "model" => self.model_file(element),
                 // Refused by the structural check.
                 _ => {}
             }
@@ -31,7 +32,7 @@ impl Reader<'_> {
     /// A relative name is sought from the main file through `dir`; when nothing is there, it is taken from the
     /// directory of the file that holds the element, without `dir`. `strippath` keeps the last component and
     /// seeks from the main file only.
-    fn asset_file(&self, attribute: &Attribute, dir: &str) -> (String, String) {
+    pub(super) fn asset_file(&self, attribute: &Attribute, dir: &str) -> (String, String) {
         let from_model = |file: &str| join(&self.model_dir, &join(dir, file));
         let name = attribute.value.as_str();
         if name.is_empty() {
@@ -41,10 +42,10 @@ impl Reader<'_> {
             let name = base_name(name);
             return (from_model(name), name.to_string());
         }
-        if is_absolute(name) || self.files.exists(&from_model(name)) {
+        if is_absolute(name) || self.expansion.files.exists(&from_model(name)) {
             return (from_model(name), join("", name));
         }
-        let including = self.sources.get(attribute.loc.file);
+        let including = self.expansion.sources.get(attribute.loc.file);
         match including.filter(|s| s.included_at.is_some()) {
             Some(source) => {
                 let path = join(&source.dir, name);

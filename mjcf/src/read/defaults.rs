@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 
 use super::Reader;
+use crate::diagnostic::nearest;
 use crate::schema::asset::{MATERIAL_ROWS, MESH_ROWS};
 use crate::schema::constraint::{EQUALITY_ROWS, PAIR_ROWS, TENDON_LOOKS, TENDON_ROWS};
 use crate::schema::tree::{CAMERA_ROWS, GEOM_ROWS, JOINT_ROWS, LIGHT_ROWS, SITE_ROWS};
@@ -32,8 +33,8 @@ pub(super) struct Class {
 /// All classes of a model.
 #[derive(Debug)]
 pub(super) struct Classes {
-    list: Vec<Class>,
-    names: BTreeMap<String, ClassId>,
+    pub list: Vec<Class>,
+    pub names: BTreeMap<String, ClassId>,
 }
 
 impl Default for Classes {
@@ -54,7 +55,7 @@ impl Reader<'_> {
         if let Some(name) = section.attribute("class").filter(|n| n.value != "main") {
             let message =
                 format!("top-level default class '{}' is read as 'main': it cannot be renamed", name.value);
-            self.diagnostics.warning(self.sources, name.loc, message);
+            self.warning(name.loc, message);
         }
         self.default_class(section, 0);
     }
@@ -105,8 +106,13 @@ impl Reader<'_> {
 
     /// The class that an element names, or the one in force.
     pub(super) fn class_of(&mut self, element: &Element, attribute: &str, in_force: ClassId) -> ClassId {
-        // An unknown class is an error of the structural check.
-        let named = element.value(attribute).and_then(|name| self.classes.names.get(name));
-        named.copied().unwrap_or(in_force)
+        let Some(named) = element.attribute(attribute) else { return in_force };
+        let found = self.classes.names.get(&named.value).copied();
+        if found.is_none() && !named.value.is_empty() {
+            let near = nearest(&named.value, self.classes.names.keys().map(String::as_str));
+            let message = format!("no default class is named '{}'", named.value);
+            self.error_with(named.value_loc, message, near.map(|n| format!("did you mean '{n}'?")));
+        }
+        found.unwrap_or(in_force)
     }
 }

@@ -2,34 +2,25 @@
 //!
 //! Copy `i` stands in a frame turned by `i` times the Euler angles; its origin follows the previous copy's by
 //! `offset` in that copy's axes. Names get the separator and the number, padded to the digits of the count.
-//! An actuator, sensor, pair, exclusion, equality or tuple whose every reference leads into the piece is copied
-//! with it, and so is a tendon that leads through it; what refers to nothing is not (MuJoCo 3.12 multiplies
-//! clocks by accident).
+//! An actuator, equality or tuple whose every reference leads into the piece is copied with it, and so is a
+//! tendon, sensor, pair or exclusion with one reference that does; what refers to nothing is not (MuJoCo 3.12
+//! multiplies clocks by accident).
 
-use std::collections::BTreeSet;
 use std::ops::Range;
 
 use physics::math::{Vec3, quat_rotate};
-use physics::model::ObjType;
 
 use super::Reader;
+use super::copy::{Affix, MAX_COPIED, Names, Referring, Renaming, append, collect, elements, forget_keys};
 use super::tree::Place;
 use crate::compile::frame::resolve;
 use crate::schema::Space;
 use crate::schema::tree::{REPLICATE_ROWS, Replicate};
-use crate::spec::{
-    Actuator, Body, Equality, Exclude, Frame, Orientation, Pair, Sensor, Spec, Tendon, Tuple, Wrap, WrapKind,
-};
+use crate::spec::{Body, Frame, Orientation, Spec};
 use crate::xml::Element;
 
-/// Elements that the copies of one model may hold together; nesting multiplies.
-const MAX_COPIED: usize = 1_000_000;
-
-/// Names declared inside the piece.
-type Names = BTreeSet<(Space, String)>;
-
 impl Reader<'_> {
-    pub(super) fn replicate(&mut self, element: &Element, body: &mut Body, place: Place) {
+    pub(super) fn replicate(&mut self, element: &Element, place: Place) {
         let class = self.class_of(element, "childclass", place.class);
         let mut wanted = Replicate::default();
         self.rows(element, &REPLICATE_ROWS, &mut wanted);
@@ -38,8 +29,9 @@ impl Reader<'_> {
         };
         let first = self.spec.frames.len();
         self.spec.frames.push(Frame { loc: element.loc, parent: place.frame, ..Frame::default() });
-        let mut piece = Body::default();
-        self.inside(element, &mut piece, Place { frame: Some(first), class, world: place.world });
+        self.open.push(Body::default());
+        self.inside(element, Place { frame: Some(first), class, world: place.world });
+        let mut piece = self.open.pop().unwrap_or_default();
         if let Some(inertial) = &piece.inertial {
             self.error(inertial.loc, "<replicate> cannot hold <inertial>");
         }
@@ -57,7 +49,13 @@ impl Reader<'_> {
         };
         for (suffix, pose) in suffixes.iter().zip(poses) {
             let shift = self.copy_frames(&frames, pose, suffix);
-            add_copy(&piece, body, suffix, shift, &names);
+            let affix = Affix { prefix: "", suffix };
+            let renaming = Renaming { affix: &affix, targets: Some(&names), assets: false };
+            let mut copy = piece.clone();
+            renaming.contents(&mut copy, true, &mut |frame, _| frame.map(|f| f + shift));
+            append(self.body_here(), copy);
+            // The first copy takes the keyframes of attached models along.
+            forget_keys(&mut piece);
         }
         for frame in &mut self.spec.frames[frames] {
             frame.name.clear();
@@ -70,7 +68,7 @@ impl Reader<'_> {
         let shift = self.spec.frames.len() - frames.start;
         for i in frames.clone() {
             let mut frame = self.spec.frames[i].clone();
-            rename(&mut frame.name, suffix);
+            Affix { prefix: "", suffix }.apply(&mut frame.name);
             match i == frames.start {
                 true => (frame.pos, frame.alt) = (pos, Some(Orientation::Euler(euler))),
                 false => frame.parent = frame.parent.map(|p| if p >= frames.start { p + shift } else { p }),
@@ -79,13 +77,6 @@ impl Reader<'_> {
         }
         shift
     }
-}
-
-/// The number of elements in `body`, itself included.
-fn elements(body: &Body) -> usize {
-    let fixed =
-        body.joints.len() + body.geoms.len() + body.sites.len() + body.cameras.len() + body.lights.len();
-    1 + fixed + body.bodies.iter().map(elements).sum::<usize>()
 }
 
 fn suffixes(wanted: &Replicate) -> Vec<String> {
@@ -107,78 +98,6 @@ fn poses(wanted: &Replicate, spec: &Spec) -> Result<Vec<(Vec3, Vec3)>, String> {
     Ok(poses)
 }
 
-fn rename(name: &mut String, suffix: &str) {
-    if !name.is_empty() {
-        name.push_str(suffix);
-    }
-}
-
-fn collect(body: &Body, names: &mut Names) {
-    let mut add = |space, name: &String| {
-        if !name.is_empty() {
-            names.insert((space, name.clone()));
-        }
-    };
-    body.joints.iter().for_each(|j| add(Space::Joint, &j.name));
-    body.geoms.iter().for_each(|g| add(Space::Geom, &g.name));
-    body.sites.iter().for_each(|s| add(Space::Site, &s.name));
-    body.cameras.iter().for_each(|c| add(Space::Camera, &c.name));
-    body.lights.iter().for_each(|l| add(Space::Light, &l.name));
-    body.bodies.iter().for_each(|b| add(Space::Body, &b.name));
-    body.bodies.iter().for_each(|b| collect(b, names));
-}
-
-/// Appends what `piece` holds to `body`, renamed, in frames `shift` further on.
-fn add_copy(piece: &Body, body: &mut Body, suffix: &str, shift: usize, names: &Names) {
-    let mut copy = piece.clone();
-    rename_contents(&mut copy, suffix, shift, names);
-    body.joints.append(&mut copy.joints);
-    body.geoms.append(&mut copy.geoms);
-    body.sites.append(&mut copy.sites);
-    body.cameras.append(&mut copy.cameras);
-    body.lights.append(&mut copy.lights);
-    body.bodies.append(&mut copy.bodies);
-}
-
-fn rename_contents(body: &mut Body, suffix: &str, shift: usize, names: &Names) {
-    let moved = |frame: Option<usize>| frame.map(|f| f + shift);
-    let refer = |target: &mut String| {
-        if names.contains(&(Space::Body, target.clone())) {
-            target.push_str(suffix);
-        }
-    };
-    for joint in &mut body.joints {
-        (joint.frame, _) = (moved(joint.frame), rename(&mut joint.name, suffix));
-    }
-    for geom in &mut body.geoms {
-        (geom.frame, _) = (moved(geom.frame), rename(&mut geom.name, suffix));
-    }
-    for site in &mut body.sites {
-        (site.frame, _) = (moved(site.frame), rename(&mut site.name, suffix));
-    }
-    for camera in &mut body.cameras {
-        (camera.frame, _) = (moved(camera.frame), rename(&mut camera.name, suffix));
-        refer(&mut camera.targetbody);
-    }
-    for light in &mut body.lights {
-        (light.frame, _) = (moved(light.frame), rename(&mut light.name, suffix));
-        refer(&mut light.targetbody);
-    }
-    for child in &mut body.bodies {
-        (child.frame, _) = (moved(child.frame), rename(&mut child.name, suffix));
-        rename_contents(child, suffix, shift, names);
-    }
-}
-
-/// An object outside the tree that may refer into it.
-trait Referring: Clone {
-    /// One reference into the piece is enough, and only those that lead there are renamed.
-    const MIXED: bool = false;
-
-    /// The object's own name and all its references.
-    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>);
-}
-
 fn copy_references(spec: &mut Spec, names: &Names, suffixes: &[String]) {
     copy_list(&mut spec.pairs, names, suffixes);
     copy_list(&mut spec.excludes, names, suffixes);
@@ -187,7 +106,9 @@ fn copy_references(spec: &mut Spec, names: &Names, suffixes: &[String]) {
     let mut names = names.clone();
     names.extend(tendons.into_iter().map(|name| (Space::Tendon, name)));
     copy_list(&mut spec.equalities, &names, suffixes);
+    let fixed = spec.actuators.len();
     let actuators = copy_list(&mut spec.actuators, &names, suffixes);
+    spec.actuators.iter_mut().skip(fixed).for_each(|a| a.keyed.clear());
     names.extend(actuators.into_iter().map(|name| (Space::Actuator, name)));
     copy_list(&mut spec.sensors, &names, suffixes);
     copy_list(&mut spec.tuples, &names, suffixes);
@@ -208,99 +129,15 @@ fn copy_list<T: Referring>(list: &mut Vec<T>, names: &Names, suffixes: &[String]
     for suffix in suffixes {
         list.extend(originals.iter().cloned().map(|mut object| {
             let (name, references) = object.names();
-            rename(name, suffix);
+            let affix = Affix { prefix: "", suffix };
+            affix.apply(name);
             for (space, reference) in references {
                 if names.contains(&(space, reference.clone())) {
-                    reference.push_str(suffix);
+                    affix.apply(reference);
                 }
             }
             object
         }));
     }
     originals.into_iter().map(|mut o| std::mem::take(o.names().0)).filter(|n| !n.is_empty()).collect()
-}
-
-fn space(kind: ObjType) -> Space {
-    match kind {
-        ObjType::Joint => Space::Joint,
-        ObjType::Geom => Space::Geom,
-        ObjType::Site => Space::Site,
-        ObjType::Camera => Space::Camera,
-        ObjType::Light => Space::Light,
-        ObjType::Tendon => Space::Tendon,
-        ObjType::Actuator => Space::Actuator,
-        ObjType::Sensor => Space::Sensor,
-        ObjType::Mesh => Space::Mesh,
-        ObjType::Body | ObjType::Xbody => Space::Body,
-        // Other kinds are not copied; their names are in no piece.
-        _ => Space::Class,
-    }
-}
-
-fn given(list: Vec<(Space, &mut String)>) -> Vec<(Space, &mut String)> {
-    list.into_iter().filter(|(_, name)| !name.is_empty()).collect()
-}
-
-impl Referring for Pair {
-    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
-        (&mut self.name, vec![(Space::Geom, &mut self.geomname1), (Space::Geom, &mut self.geomname2)])
-    }
-}
-
-impl Referring for Exclude {
-    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
-        (&mut self.name, vec![(Space::Body, &mut self.bodyname1), (Space::Body, &mut self.bodyname2)])
-    }
-}
-
-impl Referring for Equality {
-    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
-        let kind = space(self.objtype);
-        (&mut self.name, given(vec![(kind, &mut self.name1), (kind, &mut self.name2)]))
-    }
-}
-
-impl Referring for Tendon {
-    const MIXED: bool = true;
-
-    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
-        (&mut self.name, given(self.path.iter_mut().flat_map(wrap_names).collect()))
-    }
-}
-
-fn wrap_names(wrap: &mut Wrap) -> Vec<(Space, &mut String)> {
-    match &mut wrap.kind {
-        WrapKind::Site { site } => vec![(Space::Site, site)],
-        WrapKind::Geom { geom, sidesite } => vec![(Space::Geom, geom), (Space::Site, sidesite)],
-        WrapKind::Joint { joint, .. } => vec![(Space::Joint, joint)],
-        WrapKind::Pulley { .. } => vec![],
-    }
-}
-
-impl Referring for Actuator {
-    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
-        use physics::model::TrnType;
-        let target = match self.trntype {
-            TrnType::Joint | TrnType::Jointinparent => Space::Joint,
-            TrnType::Tendon => Space::Tendon,
-            TrnType::Body => Space::Body,
-            // A slider-crank names its crank's site.
-            _ => Space::Site,
-        };
-        let sites = [(Space::Site, &mut self.refsite), (Space::Site, &mut self.slidersite)];
-        (&mut self.name, given([(target, &mut self.target)].into_iter().chain(sites).collect()))
-    }
-}
-
-impl Referring for Sensor {
-    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
-        let (object, reference) = (space(self.objtype), space(self.reftype));
-        (&mut self.name, given(vec![(object, &mut self.objname), (reference, &mut self.refname)]))
-    }
-}
-
-impl Referring for Tuple {
-    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
-        (&mut self.name, self.entries.iter_mut().map(|e| (space(e.objtype), &mut e.objname)).collect())
-    }
 }

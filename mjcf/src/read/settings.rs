@@ -48,10 +48,14 @@ impl Reader<'_> {
     pub(super) fn option(&mut self, section: &Element) {
         let mut option = std::mem::take(&mut self.spec.option);
         self.rows(section, &OPTIONS, &mut option);
+        self.authored.values.extend(section.attributes.iter().map(|a| a.name.clone()));
         if let Some(attribute) = section.attribute("actuatorgroupdisable") {
             for group in self.numbers::<i32>(section, attribute).unwrap_or_default() {
                 match group {
-                    0..=30 => option.disableactuator |= 1 << group,
+                    0..=30 => {
+                        option.disableactuator |= 1 << group;
+                        self.authored.disableactuator |= 1 << group;
+                    }
                     _ => self.error(
                         attribute.value_loc,
                         format!("actuator group {group} is not between 0 and 30"),
@@ -61,6 +65,7 @@ impl Reader<'_> {
         }
         for flag in section.children_named("flag") {
             self.rows(flag, &FLAGS, &mut option);
+            self.authored.flags(flag);
         }
         self.spec.option = option;
     }
@@ -94,6 +99,7 @@ impl Reader<'_> {
     pub(super) fn visual(&mut self, section: &Element) {
         let mut visual = std::mem::take(&mut self.spec.visual);
         for element in &section.children {
+            self.authored.values.extend(element.attributes.iter().map(|a| a.name.clone()));
             match element.name.as_str() {
                 "global" => self.rows(element, &VISUAL_GLOBAL, &mut visual.global),
                 "quality" => self.rows(element, &VISUAL_QUALITY, &mut visual.quality),

@@ -27,13 +27,22 @@ impl Reader<'_> {
         for attribute in &section.attributes {
             self.error(attribute.loc, "<worldbody> takes no attributes");
         }
-        let mut world = std::mem::take(&mut self.spec.world);
-        self.inside(section, &mut world, Place { frame: None, class: 0, world: true });
-        self.spec.world = world;
+        self.open = vec![std::mem::take(&mut self.spec.world)];
+        self.inside(section, Place { frame: None, class: 0, world: true });
+        self.spec.world = self.open.pop().unwrap_or_default();
     }
 
-    /// Adds the children of `parent` to `body`.
-    pub(super) fn inside(&mut self, parent: &Element, body: &mut Body, place: Place) {
+    /// The body that elements are added to.
+    pub(super) fn body_here(&mut self) -> &mut Body {
+        if self.open.is_empty() {
+            self.open.push(Body::default());
+        }
+        let last = self.open.len() - 1;
+        &mut self.open[last]
+    }
+
+    /// Adds the children of `parent` to the open body.
+    pub(super) fn inside(&mut self, parent: &Element, place: Place) {
         for element in &parent.children {
             if place.world && matches!(element.name.as_str(), "joint" | "freejoint" | "inertial") {
                 self.error(element.loc, format!("the world cannot have <{}>", element.name));
@@ -42,46 +51,47 @@ impl Reader<'_> {
             match element.name.as_str() {
                 "body" => {
                     let child = self.body(element, place);
-                    body.bodies.push(child);
+                    self.body_here().bodies.push(child);
                 }
-                "frame" => self.frame(element, body, place),
-                "replicate" => self.replicate(element, body, place),
-                "inertial" => self.inertial(element, body),
+                "frame" => self.frame(element, place),
+                "replicate" => self.replicate(element, place),
+                "attach" => self.attach(element, place),
+                "inertial" => self.inertial(element),
                 "joint" => {
                     let class = self.class_of(element, "class", place.class);
                     let inherited = self.classes.get(class).joint.clone();
                     let mut joint = Joint { loc: element.loc, frame: place.frame, ..inherited };
                     self.rows(element, &JOINT_ROWS, &mut joint);
-                    body.joints.push(joint);
+                    self.body_here().joints.push(joint);
                 }
                 "freejoint" => {
                     let plain = Joint::default();
                     let mut joint =
                         Joint { loc: element.loc, frame: place.frame, kind: JointType::Free, ..plain };
                     self.rows(element, &FREEJOINT_ROWS, &mut joint);
-                    body.joints.push(joint);
+                    self.body_here().joints.push(joint);
                 }
-                "geom" => self.geom(element, body, place),
+                "geom" => self.geom(element, place),
                 "site" => {
                     let class = self.class_of(element, "class", place.class);
                     let inherited = self.classes.get(class).site.clone();
                     let mut site = Site { loc: element.loc, frame: place.frame, ..inherited };
                     self.rows(element, &SITE_ROWS, &mut site);
-                    body.sites.push(site);
+                    self.body_here().sites.push(site);
                 }
                 "camera" => {
                     let class = self.class_of(element, "class", place.class);
                     let inherited = self.classes.get(class).camera.clone();
                     let mut camera = Camera { loc: element.loc, frame: place.frame, ..inherited };
                     self.rows(element, &CAMERA_ROWS, &mut camera);
-                    body.cameras.push(camera);
+                    self.body_here().cameras.push(camera);
                 }
                 "light" => {
                     let class = self.class_of(element, "class", place.class);
                     let inherited = self.classes.get(class).light.clone();
                     let mut light = Light { loc: element.loc, frame: place.frame, ..inherited };
                     self.rows(element, &LIGHT_ROWS, &mut light);
-                    body.lights.push(light);
+                    self.body_here().lights.push(light);
                 }
                 // Refused by the structural check.
                 _ => {}
@@ -94,28 +104,29 @@ impl Reader<'_> {
         let mut body = Body { loc: element.loc, frame: place.frame, ..Body::default() };
         self.rows(element, &BODY_ROWS, &mut body);
         self.rows(element, &BODY_POSE, &mut body);
-        self.inside(element, &mut body, Place { frame: None, class, world: false });
-        body
+        self.open.push(body);
+        self.inside(element, Place { frame: None, class, world: false });
+        self.open.pop().unwrap_or_default()
     }
 
-    fn frame(&mut self, element: &Element, body: &mut Body, place: Place) {
+    fn frame(&mut self, element: &Element, place: Place) {
         let class = self.class_of(element, "childclass", place.class);
         let mut frame = Frame { loc: element.loc, parent: place.frame, ..Frame::default() };
         self.rows(element, &FRAME_ROWS, &mut frame);
         self.spec.frames.push(frame);
         let frame = Some(self.spec.frames.len() - 1);
-        self.inside(element, body, Place { frame, class, ..place });
+        self.inside(element, Place { frame, class, ..place });
     }
 
-    fn inertial(&mut self, element: &Element, body: &mut Body) {
+    fn inertial(&mut self, element: &Element) {
         let mut inertial = Inertial { loc: element.loc, ..Inertial::default() };
         self.rows(element, &INERTIAL_ROWS, &mut inertial);
-        if body.inertial.replace(inertial).is_some() {
+        if self.body_here().inertial.replace(inertial).is_some() {
             self.error(element.loc, "the body has <inertial> twice");
         }
     }
 
-    fn geom(&mut self, element: &Element, body: &mut Body, place: Place) {
+    fn geom(&mut self, element: &Element, place: Place) {
         let class = self.class_of(element, "class", place.class);
         let inherited = self.classes.get(class).geom.clone();
         let mut geom = Geom { loc: element.loc, frame: place.frame, ..inherited };
@@ -123,6 +134,6 @@ impl Reader<'_> {
         if geom.kind == GeomType::Sdf {
             self.unsupported(element.loc, "signed distance geoms");
         }
-        body.geoms.push(geom);
+        self.body_here().geoms.push(geom);
     }
 }

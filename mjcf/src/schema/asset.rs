@@ -29,7 +29,14 @@ pub static MATERIAL: ElementType =
 static LAYER: ElementType = leaf("layer", "A texture of a material in one role", &[&LAYER_ROWS]);
 /// `skin`.
 pub static SKIN: ElementType = unsupported("skin", "skins");
-static MODEL: ElementType = unsupported("model", "attached models");
+static MODEL: ElementType = leaf("model", "A model that parts are attached from", &[&MODEL_ROWS]);
+
+/// Attributes of `model`.
+static MODEL_ROWS: [Row<()>; 3] = [
+    row("name", Own(Kind::Text), "name; that of the model itself if empty"),
+    required("file", Own(Kind::File), "file of the model"),
+    row("content_type", Own(Kind::Text), "type of the file; only MJCF is read"),
+];
 
 const MESH_INERTIAS: Words = &[("convex", 0), ("exact", 1), ("legacy", 2), ("shell", 3)];
 const BUILTIN_MESHES: Words = &[

@@ -52,7 +52,7 @@ impl Check<'_> {
             return self.error(element.loc, message, None);
         }
         // Copies have names that only the reader makes up; the compiler resolves references then.
-        self.names.open |= kind.tag == "replicate";
+        self.names.open |= matches!(kind.tag, "replicate" | "attach");
         self.attributes(element, kind, defaults);
         for rule in kind.rules.iter().filter(|r| !defaults || matches!(r, Rule::Exclusive(_))) {
             self.rule(element, rule);
@@ -154,6 +154,8 @@ impl Check<'_> {
             Naming::Declares(space) => self.declare(space, &attribute.value, attribute.value_loc),
             // A default may name what no element that takes it needs.
             Naming::Refers(_) | Naming::RefersBy(_) if defaults => {}
+            // The reader knows the classes of attached models too.
+            Naming::Refers(Space::Class) => {}
             Naming::Refers(space) => self.names.used.push(refer(space)),
             Naming::RefersBy(by) => {
                 if let Some(space) = element.value(by).and_then(Space::from_objtype) {

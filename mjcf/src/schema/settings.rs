@@ -6,8 +6,8 @@ use super::Bind::*;
 use super::words::FALSE_TRUE_AUTO;
 use super::{ElementType, Kind, Row, Rule, Space, Words, any, leaf, once, required, row, section};
 use crate::spec::{
-    Compiler, InertiaFromGeom, Key, LengthRangeOptions, Numeric, Size, StatisticOverride, Text as CustomText,
-    Tuple, TupleEntry,
+    Compiler, Conflict, InertiaFromGeom, Key, LengthRangeOptions, Numeric, Size, StatisticOverride,
+    Text as CustomText, Tuple, TupleEntry,
 };
 
 /// `compiler`.
@@ -69,7 +69,16 @@ pub static COMPILER_ROWS: [Row<Compiler>; 21] = [
     row("inertiagrouprange", Ints(|c| &mut c.inertiagrouprange), "groups of geoms that have mass"),
     row("saveinertial", Bool(|c| &mut c.saveinertial), "write inertias when saving"),
     row("alignfree", Bool(|c| &mut c.alignfree), "frames of free bodies move to their inertial frames"),
-    row("conflict", Own(Kind::Keyword(CONFLICTS)), "accepted and without effect"),
+    row(
+        "conflict",
+        Keyword {
+            words: CONFLICTS,
+            assign: |c, code| {
+                c.conflict = [Conflict::Warning, Conflict::Merge, Conflict::Error][code as usize]
+            },
+        },
+        "what becomes of settings that differ from an attached model's",
+    ),
 ];
 
 /// Attributes of `compiler/lengthrange`.

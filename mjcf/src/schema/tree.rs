@@ -107,12 +107,34 @@ pub static LIGHT: ElementType = leaf("light", "A light", &[&CLASS, &LIGHT_ROWS])
 pub static PLUGIN: ElementType = unsupported("plugin", "engine plugins");
 static FLEXCOMP: ElementType = unsupported("flexcomp", "deformable bodies");
 static COMPOSITE: ElementType = unsupported("composite", "composite bodies");
-static ATTACH: ElementType = unsupported("attach", "attached models");
+static ATTACH: ElementType = leaf("attach", "A copy of a part of this or another model", &[&ATTACH_ROWS])
+    .rules(&[Rule::Exclusive(&[&["body"], &["frame"]])]);
 
 /// The attribute `class` of elements that have defaults.
 pub static CLASS: [Row<()>; 1] = [row("class", Own(Kind::Ref(Space::Class)), "default class")];
 static CHILDCLASS: [Row<()>; 1] =
     [row("childclass", Own(Kind::Ref(Space::Class)), "default class of everything inside")];
+
+/// Attributes of `attach`.
+pub static ATTACH_ROWS: [Row<Attach>; 4] = [
+    row("model", Text(|a| &mut a.model), "model of the assets; this one if absent"),
+    row("body", Text(|a| &mut a.body), "body to copy with all below it"),
+    row("frame", Text(|a| &mut a.frame), "frame to copy with all inside it"),
+    required("prefix", Text(|a| &mut a.prefix), "what is put before the names of the copy"),
+];
+
+/// What an `attach` asks for.
+#[derive(Debug, Clone, Default)]
+pub struct Attach {
+    /// Name of the model.
+    pub model: String,
+    /// Name of the body in it.
+    pub body: String,
+    /// Name of the frame in it.
+    pub frame: String,
+    /// Put before every name.
+    pub prefix: String,
+}
 
 /// Own attributes of `body`.
 pub static BODY_ROWS: [Row<Body>; 6] = [

@@ -1,6 +1,6 @@
 //! Actuators (XML reference: `actuator`); shortcuts are already expanded to the general form.
 
-use super::{Limited, elements};
+use super::{Keyed, Limited, elements};
 use physics::model::{BiasType, DynType, GainType, TrnType};
 
 elements! {
@@ -39,5 +39,6 @@ elements! {
         interp: i32 = 0,
         delay: f64 = 0.0,
         userdata: Vec<f64> = Vec::new(),
+        keyed: Vec<Keyed> = Vec::new(),
     }
 }

@@ -30,6 +30,39 @@ elements! {
     }
 }
 
+/// A keyframe whose numbers stand at the elements they belong to, because only a part of its model is here.
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct KeptKey {
+    pub name: String,
+    pub loc: crate::diagnostic::Loc,
+    pub time: f64,
+    /// Written in this model, not taken over with an attached one.
+    pub own: bool,
+}
+
+/// The share of an element in a [`KeptKey`].
+#[derive(Clone, Debug, PartialEq)]
+#[allow(missing_docs)]
+pub struct Keyed {
+    /// Index into `Spec::kept_keys`.
+    pub key: usize,
+    pub part: KeyPart,
+    pub values: Vec<f64>,
+}
+
+/// What the numbers of a keyframe are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum KeyPart {
+    Qpos,
+    Qvel,
+    Mpos,
+    Mquat,
+    Act,
+    Ctrl,
+}
+
 /// One reference of a tuple.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]

@@ -10,6 +10,10 @@
 //! - References are names; `compile` resolves them and reports a missing one at the `loc` of the element.
 //! - Asset files are resolved by the reader: `file` is what a `FileProvider` opens, `path` what MuJoCo stores.
 
+use std::collections::BTreeMap;
+
+use crate::diagnostic::Loc;
+
 mod actuator;
 mod asset;
 mod constraint;
@@ -83,6 +87,8 @@ pub enum Orientation {
 pub struct Spec {
     pub modelname: String,
     pub compiler: Compiler,
+    /// Settings of attached models by the index of their first text.
+    pub attached: BTreeMap<u32, Compiler>,
     pub option: physics::model::Options,
     pub visual: physics::model::Visual,
     pub stat: StatisticOverride,
@@ -105,4 +111,14 @@ pub struct Spec {
     pub texts: Vec<Text>,
     pub tuples: Vec<Tuple>,
     pub keys: Vec<Key>,
+    /// Keyframes of attached models.
+    pub kept_keys: Vec<KeptKey>,
+}
+
+impl Spec {
+    /// The settings that an element at `loc` is compiled with: those of the text it stands in.
+    pub fn compiler_at(&self, loc: Loc) -> &Compiler {
+        let model = if loc == Loc::NONE { None } else { self.attached.range(..=loc.file).next_back() };
+        model.map_or(&self.compiler, |(_, compiler)| compiler)
+    }
 }

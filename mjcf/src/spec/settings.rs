@@ -12,6 +12,18 @@ pub enum InertiaFromGeom {
     Auto,
 }
 
+/// What becomes of settings of an attached model that differ from those of the model that attaches it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Conflict {
+    /// The attaching model's stand, with a warning.
+    #[default]
+    Warning,
+    /// Both are combined where that is possible, with a warning.
+    Merge,
+    /// An error where both models give a value.
+    Error,
+}
+
 /// Compiler settings (`compiler`).
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)]
@@ -38,6 +50,7 @@ pub struct Compiler {
     pub meshdir: String,
     pub texturedir: String,
     pub strippath: bool,
+    pub conflict: Conflict,
 }
 
 impl Default for Compiler {
@@ -62,6 +75,7 @@ impl Default for Compiler {
             meshdir: String::new(),
             texturedir: String::new(),
             strippath: false,
+            conflict: Conflict::Warning,
         }
     }
 }

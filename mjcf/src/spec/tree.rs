@@ -1,6 +1,6 @@
 //! Elements of the kinematic tree (XML reference: `body` and its children).
 
-use super::{Limited, Orientation, SOLIMP, SOLREF, elements};
+use super::{Keyed, Limited, Orientation, SOLIMP, SOLREF, elements};
 use physics::model::{GeomType, JointType, LightType, Projection, SleepPolicy, TrackMode};
 
 /// Whether a free joint is aligned with the inertial frame of its body.
@@ -57,6 +57,7 @@ elements! {
         /// Allow the simple-body optimisation.
         simple: bool = true,
         userdata: Vec<f64> = Vec::new(),
+        keyed: Vec<Keyed> = Vec::new(),
         joints: Vec<Joint> = Vec::new(),
         geoms: Vec<Geom> = Vec::new(),
         sites: Vec<Site> = Vec::new(),
@@ -97,6 +98,7 @@ elements! {
         solimp_friction: [f64; 5] = SOLIMP,
         group: i32 = 0,
         actgravcomp: bool = false,
+        keyed: Vec<Keyed> = Vec::new(),
         userdata: Vec<f64> = Vec::new(),
     }
     /// A shape fixed to a body.
