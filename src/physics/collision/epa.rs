@@ -43,7 +43,8 @@ struct Face {
 pub struct Polytope {
     vertex: Vec<Vertex>,
     face: Vec<Face>,
-    open: Vec<usize>,
+    /// Candidates with their squared distances.
+    open: Vec<(usize, f64)>,
     /// Edges around the part that a new vertex sees: face beyond the edge, and which of its edges it is.
     horizon: Vec<(usize, usize)>,
     center: Vec3,
@@ -120,6 +121,9 @@ impl Polytope {
     }
 
     /// Adds a face and returns the squared distance of its plane from the origin, 0 for a face without area.
+    // Inlined: vectors passed to a call go through memory, and reading them back in other pieces
+    // than they were written in stalls.
+    #[inline(always)]
     fn push_face(&mut self, vertex: [usize; 3], across: [usize; 3]) -> f64 {
         let [v1, v2, v3] = vertex.map(|v| self.diff(v));
         let foot = project_on_plane(v3, v2, v1).map(|foot| {
@@ -133,8 +137,9 @@ impl Polytope {
     }
 
     fn open_face(&mut self, f: usize) {
-        self.face[f].state = State::Open(self.open.len());
-        self.open.push(f);
+        let face = &mut self.face[f];
+        face.state = State::Open(self.open.len());
+        self.open.push((f, face.dist2));
     }
 
     fn open_all(&mut self) {
@@ -146,7 +151,7 @@ impl Polytope {
     fn remove_face(&mut self, f: usize) {
         if let State::Open(place) = self.face[f].state {
             self.open.swap_remove(place);
-            if let Some(&moved) = self.open.get(place) {
+            if let Some(&(moved, _)) = self.open.get(place) {
                 self.face[moved].state = State::Open(place);
             }
         }
@@ -279,9 +284,9 @@ impl Polytope {
     fn nearest_face(&self) -> Option<(usize, f64)> {
         let mut best = None;
         let mut lower2 = BEYOND;
-        for &f in &self.open {
-            if self.face[f].dist2 < lower2 {
-                lower2 = self.face[f].dist2;
+        for &(f, dist2) in &self.open {
+            if dist2 < lower2 {
+                lower2 = dist2;
                 best = Some((f, lower2));
             }
         }
@@ -351,19 +356,18 @@ impl Polytope {
     }
 
     fn cross_edge(&mut self, face: usize, edge: usize, w: Vec3) {
-        let next = self.face[face].across[edge];
-        if self.face[next].state == State::Gone {
+        let (beyond, end) = (self.face[face].across[edge], self.face[face].vertex[next(edge)]);
+        let Face { vertex, foot, dist2, state, .. } = &self.face[beyond];
+        if *state == State::Gone {
             return;
         }
-        let end = self.face[face].vertex[(edge + 1) % 3];
-        let entry = self.face[next].vertex.iter().position(|&v| v == end).unwrap_or(2);
-        let Face { foot, dist2, .. } = self.face[next];
-        if dot(foot, w) - dist2 > MINVAL {
-            self.remove_face(next);
-            self.cross_edge(next, (entry + 1) % 3, w);
-            self.cross_edge(next, (entry + 2) % 3, w);
+        let entry = vertex.iter().position(|&v| v == end).unwrap_or(2);
+        if dot(*foot, w) - dist2 > MINVAL {
+            self.remove_face(beyond);
+            self.cross_edge(beyond, next(entry), w);
+            self.cross_edge(beyond, next(next(entry)), w);
         } else {
-            self.horizon.push((next, entry));
+            self.horizon.push((beyond, entry));
         }
     }
 
@@ -371,18 +375,21 @@ impl Polytope {
     /// upper bound become candidates.
     fn close_over_horizon(&mut self, w: usize, lower2: f64, upper2: f64) -> bool {
         let (first, count) = (self.face.len(), self.horizon.len());
+        let last = first + count - 1;
         for i in 0..count {
             let (beyond, edge) = self.horizon[i];
-            let v1 = self.face[beyond].vertex[edge];
-            let v2 = self.face[beyond].vertex[(edge + 1) % 3];
-            let (before, after) = (first + (i + count - 1) % count, first + (i + 1) % count);
-            self.face[beyond].across[edge] = first + i;
+            let new = first + i;
+            let before = if new == first { last } else { new - 1 };
+            let after = if new == last { first } else { new + 1 };
+            let old = &mut self.face[beyond];
+            let (v1, v2) = (old.vertex[edge], old.vertex[next(edge)]);
+            old.across[edge] = new;
             let dist2 = self.push_face([w, v2, v1], [before, beyond, after]);
             if dist2 == 0.0 {
                 return false;
             }
             if dist2 >= lower2 && dist2 <= upper2 {
-                self.open_face(first + i);
+                self.open_face(new);
             }
         }
         true
@@ -401,6 +408,11 @@ impl Polytope {
             face: corners,
         }
     }
+}
+
+/// The edge or corner of a triangle after this one.
+fn next(corner: usize) -> usize {
+    if corner == 2 { 0 } else { corner + 1 }
 }
 
 /// Rotation by 120 degrees about `axis`; the sine has the digits MuJoCo gives it.

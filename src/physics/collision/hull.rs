@@ -24,10 +24,12 @@ pub struct MeshHull<'a> {
 /// Hull vertices, which have numbers of their own, and their neighbours.
 #[derive(Clone, Copy, Debug)]
 pub struct HullGraph<'a> {
-    /// Number of hull vertices.
-    n: usize,
-    /// Starts of the neighbour lists, mesh indices of the hull vertices, then the lists, each ended by -1.
-    table: &'a [i32],
+    /// Starts of the neighbour lists.
+    start: &'a [i32],
+    /// Mesh indices of the hull vertices.
+    vertex: &'a [i32],
+    /// Neighbour lists, each ended by -1.
+    neighbour: &'a [i32],
     /// A far vertex for each of 27 directions.
     extrema: &'a [i32; 27],
 }
@@ -44,19 +46,24 @@ pub struct Farthest {
 impl<'a> HullGraph<'a> {
     fn new(m: &'a Model, mesh: usize) -> Option<Self> {
         let start = usize::try_from(m.mesh_graphadr[mesh]).ok()?;
-        let graph = &m.mesh_graph[start..];
-        Some(HullGraph { n: graph[0] as usize, table: &graph[2..], extrema: &m.mesh_extrema[mesh] })
+        let (n, table) = (m.mesh_graph[start] as usize, &m.mesh_graph[start + 2..]);
+        Some(HullGraph {
+            start: &table[..n],
+            vertex: &table[n..2 * n],
+            neighbour: &table[2 * n..],
+            extrema: &m.mesh_extrema[mesh],
+        })
     }
 
     /// Mesh index of hull vertex `h`.
     pub fn vertex(&self, h: usize) -> usize {
-        self.table[self.n + h] as usize
+        self.vertex[h] as usize
     }
 
     /// Hull vertices that share an edge with hull vertex `h`.
     pub fn neighbours(&self, h: usize) -> impl Iterator<Item = usize> + 'a {
-        let list = 2 * self.n + self.table[h] as usize;
-        self.table[list..].iter().map_while(|&v| usize::try_from(v).ok())
+        let list = &self.neighbour[self.start[h] as usize..];
+        list.iter().map_while(|&v| usize::try_from(v).ok())
     }
 
     /// A far vertex in unit direction `dir`.
@@ -120,12 +127,12 @@ impl<'a> MeshHull<'a> {
     /// Farthest vertex in unit direction `dir`, from the better of the `last` answer and a tabulated vertex.
     pub fn farthest(&self, dir: Vec3, last: Option<Farthest>) -> Farthest {
         let Some(graph) = self.climbed() else { return self.search(dir, last.map(|l| l.vertex)) };
-        let height = |h: usize| self.height(graph.vertex(h), dir);
-        let seed = graph.tabulated(dir);
-        let start = match last {
+        let with_height = |h: usize| (h, self.height(graph.vertex(h), dir));
+        let seed = with_height(graph.tabulated(dir));
+        let start = match last.map(|l| with_height(l.start)) {
             // The tabulated vertex must be higher: without a direction (NaN) the last answer stays.
-            Some(l) if height(seed) > height(l.start) => seed,
-            Some(l) => l.start,
+            Some(last) if seed.1 > last.1 => seed,
+            Some(last) => last,
             None => seed,
         };
         self.climb(graph, dir, start)
@@ -135,7 +142,10 @@ impl<'a> MeshHull<'a> {
     /// ones it may be another than that of [`Self::farthest`].
     pub fn farthest_untabulated(&self, dir: Vec3, last: Option<Farthest>) -> Farthest {
         match self.climbed() {
-            Some(graph) => self.climb(graph, dir, last.map_or(0, |l| l.start)),
+            Some(graph) => {
+                let start = last.map_or(0, |l| l.start);
+                self.climb(graph, dir, (start, self.height(graph.vertex(start), dir)))
+            }
             None => self.search(dir, None),
         }
     }
@@ -157,10 +167,9 @@ impl<'a> MeshHull<'a> {
         Farthest { vertex: best, start: best }
     }
 
-    /// Goes to higher neighbours from hull vertex `start` until there is none.
-    fn climb(&self, graph: &HullGraph, dir: Vec3, start: usize) -> Farthest {
-        let mut best = start;
-        let mut top = self.height(graph.vertex(best), dir);
+    /// Goes to higher neighbours from a hull vertex, given with its height, until there is none.
+    fn climb(&self, graph: &HullGraph, dir: Vec3, start: (usize, f64)) -> Farthest {
+        let (mut best, mut top) = start;
         loop {
             let from = best;
             for next in graph.neighbours(from) {

@@ -129,6 +129,8 @@ impl<'a> ConvexBody<'a> {
     }
 
     /// Farthest point of the body itself in direction `dir`.
+    // Inlined to keep vectors in registers, see `Polytope::push_face`.
+    #[inline(always)]
     pub fn support_of_solid(&mut self, dir: Vec3) -> Vec3 {
         match self.solid {
             Solid::Point => self.pos,
@@ -144,7 +146,7 @@ impl<'a> ConvexBody<'a> {
                 self.vertex = (0..3).map(|i| i32::from(corner[i] > 0.0) << i).sum();
                 self.to_world(corner)
             }
-            Solid::Mesh(mesh) => {
+            Solid::Mesh(ref mesh) => {
                 let found = mesh.farthest(self.local(dir), self.farthest);
                 self.farthest = Some(found);
                 self.vertex = found.vertex as i32;
