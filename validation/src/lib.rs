@@ -1,9 +1,12 @@
 //! Comparison of our physics and compiler with recorded MuJoCo runs.
 
 pub mod bits;
+pub mod collide;
+pub mod collide_table;
 pub mod compare;
 pub mod compile;
 pub mod motion;
+pub mod rays;
 pub mod reference;
 pub mod solver;
 pub mod stages;

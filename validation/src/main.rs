@@ -1,7 +1,7 @@
 //! Measures our physics beside MuJoCo's and writes the tables: model by model, or what the first word chooses.
 
 use robohive_validation::status::{Row, measure, open, render};
-use robohive_validation::{bits, solver};
+use robohive_validation::{bits, collide_table, solver};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -9,6 +9,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        [--write README.md] [--section NAME] [--brief]
        robohive-validation bits --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation solver --problems FOLDER [--references FOLDER] [--only TEXT] [--write README.md]
+       robohive-validation collide [--from FILE] [--write README.md]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
 and with --write replaces the text between the table markers of a file; with --section between the markers of that
@@ -16,7 +17,10 @@ section. With --brief the written table leaves out the models without a fault.
 
 bits: counts the values that are MuJoCo's to the last bit.
 
-solver: solves the constraint problems that solver.py recorded; the models are those that record.py recorded.";
+solver: solves the constraint problems that solver.py recorded; the models are those that record.py recorded.
+
+collide: compares contacts, distances and rays with the stream of collide.py, from standard input or a file; fails when any
+differ on which MuJoCo's own answer is stable.";
 
 /// What stands before and after the generated table of a section.
 fn markers(section: &str) -> [String; 2] {
@@ -30,6 +34,7 @@ struct Arguments {
     list: PathBuf,
     references: PathBuf,
     problems: PathBuf,
+    from: Option<PathBuf>,
     only: String,
     write: Option<PathBuf>,
     section: String,
@@ -56,6 +61,10 @@ fn run() -> Result<(), String> {
         Some("solver") => {
             let (table, verdict) = solver::measure(&a.problems, &a.references, &a.only)?;
             ("solver", table, verdict)
+        }
+        Some("collide") => {
+            let (table, verdict) = collide_table::measure(a.from.as_deref())?;
+            ("collide", table, verdict)
         }
         Some(word) => return Err(format!("unknown command {word}\n{USAGE}")),
     };
@@ -109,6 +118,7 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
             "--list" => a.list = value()?.into(),
             "--references" => a.references = value()?.into(),
             "--problems" => a.problems = value()?.into(),
+            "--from" => a.from = Some(value()?.into()),
             "--only" => a.only = value()?,
             "--write" => a.write = Some(value()?.into()),
             "--section" => a.section = value()?,

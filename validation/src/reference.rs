@@ -42,7 +42,12 @@ impl Reference {
     /// # Errors
     /// The file is missing or no archive.
     pub fn open(path: &Path) -> Result<Self, ReferenceError> {
-        Ok(Reference { archive: NpzReader::open(path)? })
+        Ok(Self::new(NpzReader::open(path)?))
+    }
+
+    /// An archive already read.
+    pub fn new(archive: NpzReader) -> Self {
+        Reference { archive }
     }
 
     /// The archive itself.

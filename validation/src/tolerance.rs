@@ -9,6 +9,11 @@ pub const COMPILE_ABSOLUTE: f64 = 1e-12;
 /// One stage with upstream injected: a few hundred roundings of 1e-16 and one division by a pivot.
 pub const STAGE: f64 = 1e-10;
 
+/// Contacts, distances and rays, geometry injected: metres and unit vectors, tens of operations in another order.
+pub const CONTACT: f64 = 1e-9;
+/// Contact parameters are sums of two products.
+pub const CONTACT_PARAMETER: f64 = 1e-12;
+
 /// Whole forward pass: the solver stops at a relative improvement of 1e-8, so equal decisions leave rounding
 /// amplified by the condition number of the Hessian.
 pub const QACC: f64 = 1e-8;

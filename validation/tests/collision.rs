@@ -1,8 +1,11 @@
 //! Contacts from recorded poses, against recorded contacts: the same ones, in the same order, with the same numbers.
 
+use dataset::{NpzReader, NpzWriter, Values};
 use physics::Data;
 use physics::collision::{CollisionScratch, check, collide};
+use robohive_validation::collide::{Tally, compare_stream, next_archive};
 use robohive_validation::reference::recorded;
+use std::io::Cursor;
 
 const POSES: [&str; 4] = ["geom_xpos", "geom_xmat", "xipos", "ximat"];
 
@@ -52,4 +55,52 @@ fn contacts_are_those_recorded() {
         }
     }
     assert!(total > 100);
+}
+
+/// Random placements of every pair of geom types, with new height-field data for every few placements, on mocap and
+/// free bodies that contact types tell apart; and rays.
+const SMALL: &[u8] = include_bytes!("../reference/collide/small.bin");
+
+#[test]
+fn random_pairs_and_rays_are_those_recorded() {
+    let report = compare_stream(&mut &*SMALL).unwrap();
+    assert!(report.differences.is_empty(), "{}", report.differences.join("\n"));
+    assert_eq!(report.variants, ["default", "nativeccd disabled"]);
+    assert_eq!(report.pairs.len(), 2 * 33);
+    let sum = |count: fn(&Tally) -> usize| report.pairs.values().map(count).sum::<usize>();
+    assert!(2 * sum(|t| t.touching) > sum(|t| t.placements) && 5 * sum(|t| t.deep) > sum(|t| t.placements));
+    assert!(5 * sum(|t| t.unstable) < sum(|t| t.placements));
+    assert_eq!(report.rays.len(), 10);
+    assert!(report.rays.values().all(|t| t.hits > 3));
+}
+
+#[test]
+fn a_contact_off_by_more_than_the_bound_is_noticed() {
+    let mut source = SMALL;
+    let mut stream = Vec::new();
+    for _ in 0..2 {
+        let archive = next_archive(&mut source).unwrap().unwrap();
+        let bytes = shifted(&archive, "contact.dist", 2e-9);
+        stream.extend((bytes.len() as u64).to_le_bytes());
+        stream.extend(bytes);
+    }
+    let report = compare_stream(&mut stream.as_slice()).unwrap();
+    let sum = |count: fn(&Tally) -> usize| report.pairs.values().map(count).sum::<usize>();
+    assert!(sum(|t| t.touching) > 100);
+    assert_eq!(sum(|t| t.different + t.excepted), sum(|t| t.touching));
+}
+
+/// The archive with one array moved by `offset`.
+fn shifted(archive: &NpzReader, name: &str, offset: f64) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut writer = NpzWriter::new(Cursor::new(&mut bytes));
+    for member in archive.names() {
+        let mut array = archive.require(member).unwrap();
+        if let (true, Values::F64(values)) = (member == name, &mut array.values) {
+            values.iter_mut().for_each(|x| *x += offset);
+        }
+        writer.add(member, &array).unwrap();
+    }
+    writer.finish().unwrap();
+    bytes
 }

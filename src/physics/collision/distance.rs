@@ -13,8 +13,16 @@ pub struct DistanceScratch {
     points: Vec<PreContact>,
 }
 
-/// Signed distance between geoms `g1` and `g2`, at most `limit`, and the nearest points, from the first geom to the
-/// second; zeros where they are beyond the limit or the pair has no distance.
+/// Signed distance between geoms `g1` and `g2` [m], at most `limit`, and the nearest points in the world, that of `g1`
+/// first. Overlapping geoms have a negative distance, and points that moving one geom by the depth would join.
+///
+/// Filters do not matter: any two geoms can be measured. Points are zeros where the geoms are farther apart than `limit`,
+/// and where the pair has no distance (two planes or height fields), which is then `limit`. With native convex collision
+/// disabled, convex pairs are inflated by the limit and their distance is rough, as in MuJoCo. A height field is as near as
+/// the nearest prism that the limit reaches, so that a large limit is slow.
+///
+/// # Panics
+/// An index is not that of a geom.
 pub fn geom_distance(
     m: &Model,
     kin: &Kinematics,

@@ -1,5 +1,8 @@
 //! Nearest surface along a ray (documentation: programming, `mj_ray`).
 //!
+//! [`ray`] finds the nearest geom, [`multi_ray`] does so for many rays from one point, [`ray_geom`] meets one geom, and
+//! [`ray_shape`] a shape that is no geom. A direction of no length, or one that is not a number, hits nothing.
+//!
 //! Every shape is met in its own frame. A ray `origin + x · direction` is not normalised: distances count in
 //! lengths of `direction`.
 
@@ -8,7 +11,7 @@ mod mesh;
 mod primitive;
 
 use crate::data::Kinematics;
-use crate::math::{Mat3, Vec3, mul_mat_t_vec, mul_mat_vec, normalize, sub};
+use crate::math::{Mat3, Vec3, distance, mul_mat_t_vec, mul_mat_vec, normalize, sub};
 use crate::model::{GeomType, Model};
 
 /// A half line.
@@ -71,8 +74,35 @@ fn keep_nearer(best: &mut Option<LocalHit>, candidate: LocalHit) {
 
 /// Nearest visible geom that `ray` hits, and where.
 pub fn ray(m: &Model, kin: &Kinematics, ray: Ray, filter: RayFilter) -> Option<(usize, Hit)> {
+    nearest(m, kin, (0..m.ngeom).filter(|&g| passes(m, g, filter)), ray)
+}
+
+/// Nearest visible geom that each ray from `origin` hits, and where. Geoms of which no point is nearer than `cutoff`
+/// are passed through, as far as their bounding spheres tell; `f64::INFINITY` passes through none.
+pub fn multi_ray(
+    m: &Model,
+    kin: &Kinematics,
+    origin: Vec3,
+    directions: &[Vec3],
+    filter: RayFilter,
+    cutoff: f64,
+) -> Vec<Option<(usize, Hit)>> {
+    let bounded = |g: usize| m.body_bvhadr[m.geom_bodyid[g] as usize] >= 0;
+    let near = |g: usize| !(bounded(g) && distance(kin.geom_xpos[g], origin) > cutoff + m.geom_rbound[g]);
+    let candidates: Vec<usize> = (0..m.ngeom).filter(|&g| passes(m, g, filter) && near(g)).collect();
+    let cast = |&direction: &Vec3| nearest(m, kin, candidates.iter().copied(), Ray { origin, direction });
+    directions.iter().map(cast).collect()
+}
+
+/// Nearest of `geoms` that `ray` hits; the first of those equally far.
+fn nearest(
+    m: &Model,
+    kin: &Kinematics,
+    geoms: impl Iterator<Item = usize>,
+    ray: Ray,
+) -> Option<(usize, Hit)> {
     let mut best: Option<(usize, Hit)> = None;
-    for geom in (0..m.ngeom).filter(|&g| passes(m, g, filter)) {
+    for geom in geoms {
         if let Some(hit) = ray_geom(m, kin, geom, ray)
             && best.is_none_or(|(_, b)| hit.distance < b.distance)
         {
@@ -82,7 +112,10 @@ pub fn ray(m: &Model, kin: &Kinematics, ray: Ray, filter: RayFilter) -> Option<(
     best
 }
 
-/// Where `ray` hits geom `geom`.
+/// Where `ray` hits geom `geom`, visible or not.
+///
+/// # Panics
+/// The index is not that of a geom.
 pub fn ray_geom(m: &Model, kin: &Kinematics, geom: usize, ray: Ray) -> Option<Hit> {
     let (pos, mat, size) = (kin.geom_xpos[geom], &kin.geom_xmat[geom], m.geom_size[geom]);
     let data = usize::try_from(m.geom_dataid[geom]).ok();

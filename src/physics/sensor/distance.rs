@@ -1,11 +1,10 @@
 //! Sensors of the distance between geoms or bodies.
 
 use super::SensorScratch;
-use crate::collision::convex::convex_distance;
-use crate::collision::pair_function;
+use crate::collision::distance::geom_distance;
 use crate::data::Kinematics;
-use crate::math::{Vec3, add_scaled, normalize, sub};
-use crate::model::{GeomType, Model, ObjType};
+use crate::math::{Vec3, normalize, sub};
+use crate::model::{Model, ObjType};
 
 /// Distance of the nearest pair of geoms of sensor `i`, at most its cut-off, and the segment between the surfaces
 /// (zero when nothing is near enough).
@@ -19,7 +18,7 @@ pub(super) fn nearest(
     let mut best = (cutoff, [[0.0; 3]; 2]);
     for g1 in geoms(m, m.sensor_objtype[i], m.sensor_objid[i]) {
         for g2 in geoms(m, m.sensor_reftype[i], m.sensor_refid[i]) {
-            let (dist, segment) = geom_distance(m, kin, [g1, g2], cutoff, scratch);
+            let (dist, segment) = geom_distance(m, kin, g1, g2, cutoff, &mut scratch.distance);
             if dist < best.0 {
                 best = (dist, segment);
             }
@@ -41,47 +40,4 @@ fn geoms(m: &Model, kind: i32, id: i32) -> std::ops::Range<usize> {
     } else {
         id as usize..id as usize + 1
     }
-}
-
-/// Signed distance of two geoms, at most `limit`, and the segment from the first to the second.
-pub fn geom_distance(
-    m: &Model,
-    kin: &Kinematics,
-    geoms: [usize; 2],
-    limit: f64,
-    scratch: &mut SensorScratch,
-) -> (f64, [Vec3; 2]) {
-    let flip = m.geom_type[geoms[0]] > m.geom_type[geoms[1]];
-    let [g1, g2] = if flip { [geoms[1], geoms[0]] } else { geoms };
-    let Some(function) = pair_function(m.geom_type[g1], m.geom_type[g2]) else {
-        return (limit, [[0.0; 3]; 2]);
-    };
-    if is_convex_pair(m.geom_type[g1], m.geom_type[g2]) {
-        let (dist, segment) = convex_distance(m, kin, geoms[0], geoms[1], limit, &mut scratch.convex);
-        return (dist, segment.unwrap_or_default());
-    }
-    scratch.points.clear();
-    function(m, kin, g1, g2, limit, &mut scratch.convex, &mut scratch.points);
-    let sign = if flip { -0.5 } else { 0.5 };
-    let mut best = (limit, [[0.0; 3]; 2]);
-    for p in &scratch.points {
-        if p.dist < best.0 {
-            let half = sign * p.dist;
-            best = (p.dist, [add_scaled(p.pos, p.normal, -half), add_scaled(p.pos, p.normal, half)]);
-        }
-    }
-    best
-}
-
-/// True for pairs, lower type first, whose distance the general convex algorithm measures: those without a function
-/// of their own, and two boxes.
-fn is_convex_pair(type1: i32, type2: i32) -> bool {
-    use GeomType::{Box, Capsule, Cylinder, Sphere};
-    let own_function = matches!(
-        (GeomType::from_code(type1), GeomType::from_code(type2)),
-        (Some(GeomType::Plane | GeomType::Hfield), _)
-            | (Some(Sphere), Some(Sphere | Capsule | Cylinder | Box))
-            | (Some(Capsule), Some(Capsule | Box))
-    );
-    !own_function
 }

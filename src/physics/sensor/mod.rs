@@ -14,8 +14,7 @@ pub use acceleration::AccelerationInputs;
 pub use position::PositionInputs;
 pub use velocity::VelocityInputs;
 
-use crate::collision::PreContact;
-use crate::collision::convex::ConvexScratch;
+use crate::collision::distance::DistanceScratch;
 use crate::data::{Constraints, Sensors};
 use crate::model::{ConstraintType, DataType, Model, SensorType, Stage, disable};
 use crate::momentum::subtree_momentum;
@@ -24,8 +23,7 @@ use std::fmt;
 /// Working memory of sensors, reused from step to step.
 #[derive(Clone, Debug, Default)]
 pub struct SensorScratch {
-    convex: ConvexScratch,
-    points: Vec<PreContact>,
+    distance: DistanceScratch,
     matches: Vec<contact::Match>,
     pub(crate) momentum: Vec<f64>,
 }

@@ -6,7 +6,7 @@ use robohive_physics::data::{Contact, Contacts, Kinematics};
 use robohive_physics::math::{
     Mat3, Vec3, cross, distance, dot, norm, quat_from_axis_angle, quat_to_mat, row, sub,
 };
-use robohive_physics::model::{GeomType, Model};
+use robohive_physics::model::{GeomType, Model, disable};
 
 const UPRIGHT: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -92,6 +92,21 @@ fn contact_types_welds_and_excludes_filter_pairs() {
     m.geom_contype[2] = 2;
     m.geom_conaffinity[2] = 2;
     assert!(pairs(&m).is_empty());
+}
+
+#[test]
+fn parents_do_not_touch_their_children_unless_asked() {
+    let (mut m, kin) = spheres(&[[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]], 0.2);
+    let pairs = |m: &Model| contacts(m, &kin).iter().map(|c| c.geom).collect::<Vec<_>>();
+    m.body_parentid[2] = 1;
+    m.body_parentid[3] = 2;
+    assert_eq!(pairs(&m), [[0, 2]], "a grandchild does");
+    m.opt.disableflags |= disable::FILTERPARENT;
+    assert_eq!(pairs(&m), [[0, 1], [0, 2], [1, 2]]);
+    // Children of the world, and bodies welded to it, have no parent in this sense.
+    m.opt.disableflags = 0;
+    m.body_weldid[1] = 0;
+    assert_eq!(pairs(&m), [[0, 1], [0, 2]]);
 }
 
 #[test]
