@@ -73,9 +73,7 @@ class RoboHive:
 
     def __init__(self, path, controls):
         np.savez(controls_file := pathlib.Path(tempfile.mkdtemp()) / "controls.npz", ctrl=controls)
-        command = [binary(), "bench", path, "--requests", "--hold", str(HOLD)]
-        if controls.size:
-            command += ["--controls", controls_file]
+        command = [binary(), "bench", path, "--requests", "--hold", str(HOLD), "--controls", controls_file]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         # The processor clock of another process: clock_getcpuclockid(3), as Linux numbers them.
         self.clock = (~self.process.pid << 3) | 2

@@ -1,8 +1,9 @@
 //! The command line as a user meets it: outputs, messages, exit codes.
 
 use dataset::{Array, NpzReader, NpzWriter};
+use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 fn robohive(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_robohive"))
@@ -138,6 +139,33 @@ fn bench_ends_with_a_json_line() {
     let last: serde_json::Value = serde_json::from_str(text(&out.stdout).lines().last().unwrap()).unwrap();
     assert_eq!(last["steps"], 50);
     assert!(last["steps_per_second"].as_f64().unwrap() > 0.0);
+}
+
+/// What is measured is the recorded motion, so that both sides of a comparison do the same work.
+#[test]
+fn bench_answers_requests_with_the_recorded_motion() {
+    let reference = "validation/reference/own/humanoid.npz";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_robohive"))
+        .args(["bench", "assets/humanoid/humanoid.xml", "--requests", "--hold", "1", "--controls", reference])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(b"rate 700\nstages 50\njitter 50\n").unwrap();
+    let out = child.wait_with_output().unwrap();
+    assert!(out.status.success());
+    let answers: Vec<serde_json::Value> =
+        text(&out.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let recorded =
+        NpzReader::open(Path::new(reference)).unwrap().require("rollout.qpos").unwrap().values.to_f64();
+    let qpos = answers[0]["qpos"].as_array().unwrap();
+    assert_eq!(qpos.len(), 28);
+    for (ours, theirs) in qpos.iter().zip(&recorded[199 * 28..]) {
+        assert!((ours.as_f64().unwrap() - theirs).abs() < 1e-9, "{ours} beside {theirs}");
+    }
+    assert!(answers[1]["solver"].as_f64().unwrap() > 0.0);
+    assert!(answers[2]["p99.9"].as_f64().unwrap() >= answers[2]["median"].as_f64().unwrap());
 }
 
 #[test]

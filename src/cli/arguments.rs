@@ -144,6 +144,9 @@ pub struct Bench {
     /// MJCF files
     #[arg(required = true)]
     pub models: Vec<PathBuf>,
+    /// Replace TEXT by VALUE in the files and all they include
+    #[arg(long = "define", value_name = "TEXT=VALUE")]
+    pub defines: Vec<String>,
     /// Steps of each environment
     #[arg(long, default_value_t = 1000)]
     pub steps: usize,
@@ -153,7 +156,7 @@ pub struct Bench {
     /// Environments (default: one a thread)
     #[arg(long)]
     pub batch: Option<usize>,
-    /// Archive with rows of controls, array ctrl; after the last row all begins anew
+    /// Archive with rows of controls, array ctrl, or a recorded reference; after the last row all begins anew
     #[arg(long, value_name = "FILE.npz")]
     pub controls: Option<PathBuf>,
     /// Steps that a row of controls holds; there a batch waits for all its environments

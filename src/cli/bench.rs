@@ -78,6 +78,7 @@ struct Workload {
     m: Arc<Model>,
     start: Data,
     controls: Vec<f64>,
+    rows: usize,
     hold: usize,
     environments: usize,
     threads: usize,
@@ -86,15 +87,15 @@ struct Workload {
 impl Workload {
     /// Keyframe 0 where there is one, else `qpos0`; zero controls, or the rows of the file.
     fn new(a: &Bench, path: &Path) -> Result<Self, Failure> {
-        let m = load(path, &[])?;
+        let m = load(path, &a.defines)?;
         let mut start = start(&m, None)?;
         start.state.ctrl.fill(0.0);
-        let controls = match &a.controls {
+        let (controls, rows) = match &a.controls {
             Some(path) => controls(path, &m)?,
-            None => Vec::new(),
+            None => (Vec::new(), 0),
         };
         let environments = a.batch.unwrap_or(a.threads);
-        Ok(Workload { m: m.into(), start, controls, hold: a.hold, environments, threads: a.threads })
+        Ok(Workload { m: m.into(), start, controls, rows, hold: a.hold, environments, threads: a.threads })
     }
 
     fn measure(&self, measure: Measure, steps: usize) -> Result<Map<String, Value>, Failure> {
@@ -108,10 +109,10 @@ impl Workload {
     /// Sets the controls that hold from step `done` on; after the last row all begins anew.
     fn set_controls(&self, done: usize, d: &mut Data) {
         let nu = self.m.nu;
-        if self.controls.is_empty() || !done.is_multiple_of(self.hold) {
+        if self.rows == 0 || !done.is_multiple_of(self.hold) {
             return;
         }
-        let row = done / self.hold % (self.controls.len() / nu);
+        let row = done / self.hold % self.rows;
         if row == 0 {
             (d.time, d.state) = (self.start.time, self.start.state.clone());
         }
@@ -172,20 +173,21 @@ impl Workload {
     }
 }
 
-/// Rows of controls, flat.
-fn controls(path: &Path, m: &Model) -> Result<Vec<f64>, Failure> {
-    let array = NpzReader::open(path).and_then(|archive| archive.require("ctrl")).map_err(Failure::usage)?;
-    let values = array.values.to_f64();
-    if values.is_empty() || values.len() != array.rows() * m.nu {
-        let found = values.len() / array.rows().max(1);
+/// Rows of controls, flat, and their number.
+fn controls(path: &Path, m: &Model) -> Result<(Vec<f64>, usize), Failure> {
+    let archive = NpzReader::open(path).map_err(Failure::usage)?;
+    let name = ["rollout.ctrl", "ctrl"].into_iter().find(|name| archive.contains(name)).unwrap_or("ctrl");
+    let array = archive.require(name).map_err(Failure::usage)?;
+    let (values, rows) = (array.values.to_f64(), array.rows());
+    if rows == 0 || values.len() != rows * m.nu {
         return Err(Failure::usage(format!(
-            "{}: rows of {found} controls, {} needs {}",
+            "{}: {name} is {:?}; rows of {} controls are needed",
             path.display(),
-            m.name,
+            array.shape,
             m.nu
         )));
     }
-    Ok(values)
+    Ok((values, rows))
 }
 
 /// Reads the clock at the end of every stage.

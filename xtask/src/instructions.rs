@@ -1,0 +1,156 @@
+//! Instructions of one step, counted by valgrind: a measure of speed that does not depend on the machine's load.
+//! A rise over the recorded count fails.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// What is stepped: a name, the model and controls of an asset, and what stands in its text for another.
+struct Case {
+    name: &'static str,
+    asset: &'static str,
+    define: Option<&'static str>,
+}
+
+const CASES: [Case; 8] = [
+    Case { name: "franka_table", asset: "franka/franka_table", define: None },
+    Case { name: "elbow", asset: "elbow/elbow", define: None },
+    Case { name: "quadruped", asset: "quadruped/quadruped", define: None },
+    Case { name: "humanoid", asset: "humanoid/humanoid", define: None },
+    Case { name: "pile", asset: "pile/pile", define: None },
+    Case { name: "workbench", asset: "workbench/workbench", define: None },
+    Case {
+        name: "humanoid_implicitfast_elliptic",
+        asset: "humanoid/humanoid",
+        define: Some("timestep=integrator=\"implicitfast\" cone=\"elliptic\" timestep"),
+    },
+    Case { name: "pile_pgs", asset: "pile/pile", define: Some("timestep=solver=\"PGS\" timestep") },
+];
+
+/// The steps counted are those after the first number, up to the second.
+const STEPS: [u64; 2] = [150, 350];
+/// A rise by more than this part fails.
+const TOLERANCE: f64 = 0.03;
+const FILE: &str = "benches/instructions.txt";
+
+/// Why the check did not pass.
+pub enum Trouble {
+    /// valgrind is not installed, or counts were recorded on another kind of processor.
+    CannotCount(String),
+    /// A command failed, or a count rose.
+    Failed(String),
+}
+
+use Trouble::{CannotCount, Failed};
+
+/// Counts, prints the table, and compares with the recorded counts, or records them anew.
+pub fn run(update: bool) -> Result<(), Trouble> {
+    if Command::new("valgrind").arg("--version").output().is_err() {
+        return Err(CannotCount("valgrind is not installed".into()));
+    }
+    let binary = build()?;
+    let counted: BTreeMap<_, _> =
+        CASES.iter().map(|case| Ok((case.name, per_step(&binary, case)?))).collect::<Result<_, _>>()?;
+    let recorded = std::fs::read_to_string(FILE).unwrap_or_default();
+    let before = parse(&recorded)?;
+    let mut risen = Vec::new();
+    println!("{:32} {:>10} {:>10} {:>8}", "instructions of a step", "recorded", "now", "change");
+    for case in &CASES {
+        let now = counted[case.name];
+        let Some(&old) = before.get(case.name) else {
+            println!("{:32} {:>10} {now:>10}", case.name, "-");
+            risen.push(case.name);
+            continue;
+        };
+        let change = now as f64 / old as f64 - 1.0;
+        println!("{:32} {old:>10} {now:>10} {:>+7.2} %", case.name, 100.0 * change);
+        if change > TOLERANCE {
+            risen.push(case.name);
+        }
+    }
+    if update {
+        let text = format(&counted)?;
+        return std::fs::write(FILE, text).map_err(|e| Failed(format!("{FILE}: {e}")));
+    }
+    if !recorded.contains(std::env::consts::ARCH) {
+        return Err(CannotCount(format!("the counts of {FILE} are of another kind of processor")));
+    }
+    if risen.is_empty() {
+        return Ok(());
+    }
+    let compiler = compiler()?;
+    Err(Failed(format!(
+        "instructions of {} rose by more than {} %, or are not recorded; this is {compiler}. If that is meant: cargo xtask instructions --update",
+        risen.join(", "),
+        100.0 * TOLERANCE
+    )))
+}
+
+fn output(command: &mut Command) -> Result<(String, String), Trouble> {
+    let program = command.get_program().to_string_lossy().into_owned();
+    let out = command.output().map_err(|e| Failed(format!("{program}: {e}")))?;
+    let (stdout, stderr) = (String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
+    if !out.status.success() {
+        return Err(Failed(format!("{program}: {}\n{stderr}", out.status)));
+    }
+    Ok((stdout.into_owned(), stderr.into_owned()))
+}
+
+fn compiler() -> Result<String, Trouble> {
+    let version = output(Command::new("rustc").arg("--version"))?.0;
+    Ok(version.split(" (").next().unwrap_or_default().trim().to_owned())
+}
+
+/// Builds the command as it ships; its path.
+fn build() -> Result<PathBuf, Trouble> {
+    let arguments = ["build", "--release", "--bin", "robohive", "--message-format", "json"];
+    let (messages, _) = output(Command::new("cargo").args(arguments))?;
+    let path = messages.lines().filter(|line| line.contains("\"name\":\"robohive\"")).find_map(|line| {
+        line.split_once("\"executable\":\"").and_then(|(_, rest)| rest.split_once('"')).map(|(path, _)| path)
+    });
+    path.map(PathBuf::from).ok_or_else(|| Failed("cargo names no executable robohive".into()))
+}
+
+/// Instructions of one step: what a longer run executes beyond a shorter one, so that loading cancels.
+fn per_step(binary: &PathBuf, case: &Case) -> Result<u64, Trouble> {
+    let [few, many] = STEPS;
+    Ok((collected(binary, case, many)? - collected(binary, case, few)?) / (many - few))
+}
+
+/// Instructions of a whole run.
+fn collected(binary: &PathBuf, case: &Case, steps: u64) -> Result<u64, Trouble> {
+    let stem = case.asset.rsplit('/').next().unwrap_or_default();
+    let mut command = Command::new("valgrind");
+    command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(binary);
+    command.args(["bench", &format!("assets/{}.xml", case.asset), "--steps", &steps.to_string()]);
+    command.args(["--hold", "25", "--controls", &format!("validation/reference/own/{stem}.npz")]);
+    command.args(case.define.iter().flat_map(|text| ["--define", text]));
+    // The C library picks its copying loops by processor: the plain ones everywhere.
+    command.env("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX_Fast_Unaligned_Load,-ERMS,-FSRM");
+    let (_, stderr) = output(&mut command)?;
+    let found = stderr.lines().find_map(|line| line.split_once("Collected : ")?.1.trim().parse().ok());
+    found.ok_or_else(|| Failed(format!("valgrind collected nothing for {}", case.name)))
+}
+
+/// Names and counts of the file.
+fn parse(text: &str) -> Result<BTreeMap<&str, u64>, Trouble> {
+    let rows = text.lines().filter(|line| !line.starts_with('#'));
+    rows.map(|line| {
+        let row = line.split_once(' ').and_then(|(name, count)| Some((name, count.trim().parse().ok()?)));
+        row.ok_or_else(|| Failed(format!("{FILE}: {line:?} is not a name and a count")))
+    })
+    .collect()
+}
+
+fn format(counted: &BTreeMap<&str, u64>) -> Result<String, Trouble> {
+    let mut text = format!(
+        "# Instructions of one step, recorded by `cargo xtask instructions --update`: {}, {}.\n",
+        compiler()?,
+        std::env::consts::ARCH
+    );
+    for case in &CASES {
+        let _ = writeln!(text, "{:32} {:>9}", case.name, counted[case.name]);
+    }
+    Ok(text)
+}
