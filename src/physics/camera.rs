@@ -4,9 +4,7 @@
 use crate::data::{Com, Kinematics};
 use crate::kinematics::{attached_mat, attached_pos};
 use crate::math::{Mat3, Vec3, add, cross, normalize, quat_rotate, sub};
-use crate::model::{Model, SameFrame, TrackMode};
-
-const NOT_SAME: u8 = SameFrame::None.code() as u8;
+use crate::model::{Model, TrackMode};
 
 /// Computes poses of cameras and lights from those of bodies.
 pub fn cameras_and_lights(m: &Model, com: &Com, kin: &mut Kinematics) {
@@ -20,8 +18,8 @@ pub fn cameras_and_lights(m: &Model, com: &Com, kin: &mut Kinematics) {
 
 fn camera(m: &Model, com: &Com, c: usize, kin: &mut Kinematics) {
     let b = m.cam_bodyid[c] as usize;
-    kin.cam_xpos[c] = attached_pos(kin, b, NOT_SAME, m.cam_pos[c]);
-    kin.cam_xmat[c] = attached_mat(kin, b, NOT_SAME, m.cam_quat[c]);
+    kin.cam_xpos[c] = attached_pos(kin, b, m.cam_pos[c]);
+    kin.cam_xmat[c] = attached_mat(kin, b, m.cam_quat[c]);
     match TrackMode::from_code(m.cam_mode[c]) {
         Some(TrackMode::Track) => {
             kin.cam_xmat[c] = m.cam_mat0[c];
@@ -42,7 +40,7 @@ fn camera(m: &Model, com: &Com, c: usize, kin: &mut Kinematics) {
 
 fn light(m: &Model, com: &Com, l: usize, kin: &mut Kinematics) {
     let b = m.light_bodyid[l] as usize;
-    let mut pos = attached_pos(kin, b, NOT_SAME, m.light_pos[l]);
+    let mut pos = attached_pos(kin, b, m.light_pos[l]);
     let mut dir = quat_rotate(kin.xquat[b], m.light_dir[l]);
     match TrackMode::from_code(m.light_mode[l]) {
         Some(TrackMode::Track) => {

@@ -21,20 +21,13 @@ struct Pose {
 /// normalised: they are on use.
 pub fn kinematics(m: &Model, state: &State, kin: &mut Kinematics) {
     bodies(m, state, kin);
-    for b in 1..m.nbody {
-        kin.xipos[b] = attached_pos(kin, b, m.body_sameframe[b], m.body_ipos[b]);
-        kin.ximat[b] = attached_mat(kin, b, m.body_sameframe[b], m.body_iquat[b]);
-    }
-    for g in 0..m.ngeom {
-        let b = m.geom_bodyid[g] as usize;
-        kin.geom_xpos[g] = attached_pos(kin, b, m.geom_sameframe[g], m.geom_pos[g]);
-        kin.geom_xmat[g] = attached_mat(kin, b, m.geom_sameframe[g], m.geom_quat[g]);
-    }
-    for s in 0..m.nsite {
-        let b = m.site_bodyid[s] as usize;
-        kin.site_xpos[s] = attached_pos(kin, b, m.site_sameframe[s], m.site_pos[s]);
-        kin.site_xmat[s] = attached_mat(kin, b, m.site_sameframe[s], m.site_quat[s]);
-    }
+    inertial_frames(m, kin);
+    let Kinematics { xpos, xquat, xmat, xipos, ximat, geom_xpos, geom_xmat, site_xpos, site_xmat, .. } = kin;
+    let frames = BodyFrames { xpos, xquat, xmat, xipos, ximat };
+    let geoms = Fixed { body: &m.geom_bodyid, same: &m.geom_sameframe, pos: &m.geom_pos, quat: &m.geom_quat };
+    let sites = Fixed { body: &m.site_bodyid, same: &m.site_sameframe, pos: &m.site_pos, quat: &m.site_quat };
+    geoms.place(&frames, geom_xpos, geom_xmat);
+    sites.place(&frames, site_xpos, site_xmat);
 }
 
 /// Poses of body frames, from the root outward.
@@ -110,22 +103,65 @@ fn joint_quat(qpos: &[f64], q: usize) -> Quat {
     quat_normalize([qpos[q], qpos[q + 1], qpos[q + 2], qpos[q + 3]])
 }
 
-/// World position of a point fixed in body `b`; `same` tells which frame it coincides with.
-pub fn attached_pos(kin: &Kinematics, b: usize, same: u8, local: Vec3) -> Vec3 {
-    match SameFrame::from_code(i32::from(same)) {
-        Some(SameFrame::Body) => kin.xpos[b],
-        Some(SameFrame::Inertia) => kin.xipos[b],
-        Some(SameFrame::None | SameFrame::Bodyrot | SameFrame::Inertiarot) | None => {
-            add(mul_mat_vec(&kin.xmat[b], local), kin.xpos[b])
+/// Centres of mass and principal axes of inertia.
+fn inertial_frames(m: &Model, kin: &mut Kinematics) {
+    for b in 1..m.nbody {
+        let same = SameFrame::from_code(i32::from(m.body_sameframe[b]));
+        kin.xipos[b] = match same {
+            Some(SameFrame::Body) => kin.xpos[b],
+            _ => attached_pos(kin, b, m.body_ipos[b]),
+        };
+        kin.ximat[b] = match same {
+            Some(SameFrame::Body | SameFrame::Bodyrot) => kin.xmat[b],
+            _ => attached_mat(kin, b, m.body_iquat[b]),
+        };
+    }
+}
+
+/// Poses of all bodies and of their inertial frames.
+struct BodyFrames<'a> {
+    xpos: &'a [Vec3],
+    xquat: &'a [Quat],
+    xmat: &'a [Mat3],
+    xipos: &'a [Vec3],
+    ximat: &'a [Mat3],
+}
+
+/// Frames of one family that are fixed in bodies: the body, which of its frames each coincides with, and the pose
+/// in the body.
+struct Fixed<'a> {
+    body: &'a [i32],
+    same: &'a [u8],
+    pos: &'a [Vec3],
+    quat: &'a [Quat],
+}
+
+impl Fixed<'_> {
+    /// Computes the poses of all in the world.
+    fn place(&self, at: &BodyFrames, xpos: &mut [Vec3], xmat: &mut [Mat3]) {
+        for (k, (&b, &same)) in self.body.iter().zip(self.same).enumerate() {
+            let b = b as usize;
+            let same = SameFrame::from_code(i32::from(same));
+            xpos[k] = match same {
+                Some(SameFrame::Body) => at.xpos[b],
+                Some(SameFrame::Inertia) => at.xipos[b],
+                _ => add(mul_mat_vec(&at.xmat[b], self.pos[k]), at.xpos[b]),
+            };
+            match same {
+                Some(SameFrame::Body | SameFrame::Bodyrot) => xmat[k] = at.xmat[b],
+                Some(SameFrame::Inertia | SameFrame::Inertiarot) => xmat[k] = at.ximat[b],
+                Some(SameFrame::None) | None => xmat[k] = quat_to_mat(quat_mul(at.xquat[b], self.quat[k])),
+            }
         }
     }
 }
 
-/// World orientation of a frame fixed in body `b`; `same` tells which frame it coincides with.
-pub fn attached_mat(kin: &Kinematics, b: usize, same: u8, local: Quat) -> Mat3 {
-    match SameFrame::from_code(i32::from(same)) {
-        Some(SameFrame::Body | SameFrame::Bodyrot) => kin.xmat[b],
-        Some(SameFrame::Inertia | SameFrame::Inertiarot) => kin.ximat[b],
-        Some(SameFrame::None) | None => quat_to_mat(quat_mul(kin.xquat[b], local)),
-    }
+/// World position of a point fixed in body `b`.
+pub fn attached_pos(kin: &Kinematics, b: usize, local: Vec3) -> Vec3 {
+    add(mul_mat_vec(&kin.xmat[b], local), kin.xpos[b])
+}
+
+/// World orientation of a frame fixed in body `b`.
+pub fn attached_mat(kin: &Kinematics, b: usize, local: Quat) -> Mat3 {
+    quat_to_mat(quat_mul(kin.xquat[b], local))
 }

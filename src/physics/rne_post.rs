@@ -92,7 +92,7 @@ fn equalities(m: &Model, kin: &Kinematics, com: &Com, efc: &Constraints, out: &m
         let (force, torque) = (three(row), if weld { three(row + 3) } else { [0.0; 3] });
         for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
             let (b, local) = anchor(m, e, side, weld);
-            push(m, com, b, attached_pos(kin, b, 0, local), torque, force, sign, out);
+            push(m, com, b, attached_pos(kin, b, local), torque, force, sign, out);
         }
         row += if weld { 6 } else { 3 };
     }
