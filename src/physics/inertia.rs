@@ -85,15 +85,16 @@ pub fn factor_inertia(m: &Model, inertia: &mut Inertia) {
 pub fn factor(m: &Model, matrix: &mut [f64], diag_inv: &mut [f64]) {
     for k in (0..m.nv).rev() {
         let at = row(m, k);
+        let columns = &m.M_colind[at.clone()];
         let (above, from_k) = matrix.split_at_mut(at.start);
         let (off_diagonal, diagonal) = from_k[..at.len()].split_at_mut(at.len() - 1);
         let inv = 1.0 / diagonal[0];
         diag_inv[k] = inv;
         for p in (0..off_diagonal.len()).rev() {
-            let target = row(m, m.M_colind[at.start + p] as usize);
+            let target = m.M_rowadr[columns[p] as usize] as usize;
             let s = -off_diagonal[p] * inv;
             // Row `i` of the pattern is the head of row `k` up to column `i`.
-            add_scaled_slice(&mut above[target], &off_diagonal[..=p], s);
+            add_scaled_slice(&mut above[target..=target + p], &off_diagonal[..=p], s);
         }
         off_diagonal.iter_mut().for_each(|x| *x *= inv);
     }

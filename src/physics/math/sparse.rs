@@ -25,6 +25,7 @@ pub fn scatter_scaled(values: &[f64], columns: &[i32], s: f64, x: &mut [f64]) {
 }
 
 /// `y += s x`.
+#[inline]
 pub fn add_scaled_slice(y: &mut [f64], x: &[f64], s: f64) {
     for (y, x) in y.iter_mut().zip(x) {
         *y += s * x;
