@@ -187,9 +187,13 @@ fn slider_crank(
 }
 
 fn tendon_row(m: &Model, ten: &Tendons, id: usize, gear: f64, rows: &mut Rows) {
-    for k in tendon::row(m, id) {
-        rows.push(m.ten_J_colind[k] as usize, ten.ten_J[k] * gear);
+    let source = tendon::row(m, id);
+    let target = rows.next..rows.next + source.len();
+    rows.trn.moment_colind[target.clone()].copy_from_slice(&m.ten_J_colind[source.clone()]);
+    for (moment, rate) in rows.trn.actuator_moment[target].iter_mut().zip(&ten.ten_J[source.clone()]) {
+        *moment = rate * gear;
     }
+    rows.next += source.len();
     rows.finish(ten.ten_length[id] * gear);
 }
 
