@@ -5,6 +5,7 @@ pub mod collide;
 pub mod collide_table;
 pub mod compare;
 pub mod compile;
+pub mod laws;
 pub mod motion;
 pub mod rays;
 pub mod reference;

@@ -1,7 +1,8 @@
 //! Measures our physics beside MuJoCo's and writes the tables: model by model, or what the first word chooses.
 
+use robohive_validation::reference::recorded;
 use robohive_validation::status::{Row, measure, open, render};
-use robohive_validation::{bits, collide_table, solver};
+use robohive_validation::{bits, collide_table, laws, solver};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -10,13 +11,14 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation bits --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation solver --problems FOLDER [--references FOLDER] [--only TEXT] [--write README.md]
        robohive-validation collide [--from FILE] [--write README.md]
+       robohive-validation laws [--write README.md]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
 and with --write replaces the text between the table markers of a file; with --section between the markers of that
 section. With --brief the written table leaves out the models without a fault.
 
 bits: counts the values that are MuJoCo's to the last bit.
-
+laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES.
 solver: solves the constraint problems that solver.py recorded; the models are those that record.py recorded.
 
 collide: compares contacts, distances and rays with the stream of collide.py, from standard input or a file; fails when any
@@ -65,6 +67,13 @@ fn run() -> Result<(), String> {
         Some("collide") => {
             let (table, verdict) = collide_table::measure(a.from.as_deref())?;
             ("collide", table, verdict)
+        }
+        Some("laws") => {
+            let references: Vec<_> =
+                recorded().map_err(|e| e.to_string())?.into_iter().map(|(_, reference)| reference).collect();
+            let laws = laws::measure("models", &references, laws::Piles::All).map_err(|e| e.to_string())?;
+            let (table, verdict) = laws::render(&laws);
+            ("laws", table, verdict)
         }
         Some(word) => return Err(format!("unknown command {word}\n{USAGE}")),
     };

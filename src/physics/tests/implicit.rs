@@ -61,37 +61,6 @@ fn derivative_is_the_slope_of_smooth_forces() {
     }
 }
 
-/// Position after 0.2 s.
-fn arrive(m: &Model, integrator: Integrator, h: f64) -> Vec<f64> {
-    let mut m = m.clone();
-    (m.opt.integrator, m.opt.timestep) = (integrator.code(), h);
-    let mut d = moving(&m);
-    (0..(0.2 / h).round() as usize).for_each(|_| step(&m, &mut d).unwrap());
-    d.state.qpos
-}
-
-#[test]
-fn integrators_converge_with_their_order() {
-    // Smooth forces only: drag that grows with |v| v has no fourth derivative where the motion turns.
-    let mut m = damped(&ANCHORED, false);
-    m.dof_dampingpoly.iter_mut().for_each(|poly| poly[0] = 0.0);
-    m.opt.viscosity = 0.4;
-    let exact = arrive(&m, Integrator::Rk4, 2.5e-4);
-    let error = |integrator, h| {
-        arrive(&m, integrator, h).iter().zip(&exact).fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()))
-    };
-    for (integrator, order) in [
-        (Integrator::Euler, 1.0),
-        (Integrator::Implicit, 1.0),
-        (Integrator::Implicitfast, 1.0),
-        (Integrator::Rk4, 4.0),
-    ] {
-        let (coarse, fine) = (error(integrator, 4e-3), error(integrator, 2e-3));
-        let measured = (coarse / fine).log2();
-        assert!(fine > 1e-13 && (measured - order).abs() < 0.15, "{integrator:?}: order {measured}");
-    }
-}
-
 #[test]
 fn implicit_steps_solve_their_equation() {
     // At the end of the step the linearised forces balance: M a = f + h D a, with qvel' = qvel + h a.

@@ -1,0 +1,196 @@
+//! Laws of the forward pass on recorded states: what two ways of computing one thing must agree on.
+
+use super::{Bound, Law, LawError};
+use crate::reference::Reference;
+use crate::solver::CONES;
+use physics::contact_force::contact_force;
+use physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
+use physics::model::{Cone, ConstraintType, Jacobian, Solver, disable};
+use physics::{Data, Model, StepError};
+
+/// Applied force from inverse dynamics beside what was applied, relative to the largest force.
+const INVERSE: f64 = 1e-9;
+/// Acceleration from dense and from sparse rows, relative.
+const STORAGE: f64 = 1e-11;
+/// Acceleration with and without islands, both from a converged solver, relative.
+const ISLANDS: f64 = 1e-9;
+/// Force outside the friction cone, relative to the largest force.
+const OUTSIDE: f64 = 1e-12;
+/// Analytic beside central differences with a nudge of `NUDGE`, relative to the largest entry or
+/// smooth force.
+const SLOPE: f64 = 1e-6;
+/// Nudge of velocities for finite differences.
+const NUDGE: f64 = 1e-6;
+/// States of each model on which slopes are compared: a column costs two forward passes.
+const SLOPE_STATES: usize = 1;
+/// Most states of a model.
+const STATES: usize = 6;
+
+/// Worst numbers so far.
+#[derive(Default)]
+struct Worst {
+    inverse: f64,
+    storage: f64,
+    islands: f64,
+    pyramids: f64,
+    cones: f64,
+    friction_loss: f64,
+    slope: f64,
+    states: usize,
+}
+
+/// Every law of this module, the worst over all states of `references`.
+pub(super) fn recorded(on: &str, references: &[Reference]) -> Result<Vec<Law>, LawError> {
+    let mut worst = Worst::default();
+    for reference in references {
+        let mut m = reference.model()?;
+        let own = m.opt.clone();
+        let rows = reference.states()?;
+        for k in 0..STATES.min(rows) {
+            let mut d = Data::new(&m);
+            reference.set_state(&mut d, &m, k * rows / STATES.min(rows))?;
+            worst.take(&mut m, &d)?;
+            m.opt.clone_from(&own);
+            if k < SLOPE_STATES {
+                worst.slope = worst.slope.max(slope(&m, &mut d)?);
+            }
+        }
+    }
+    let on = format!("{} states of {} {on}", worst.states, references.len());
+    let law = |law, measured, most| Law::new(law, &on, measured, Bound::AtMost(most));
+    Ok(vec![
+        law(
+            "inverse dynamics undoes forward dynamics (converged solver, both cones)",
+            worst.inverse,
+            INVERSE,
+        ),
+        law("dense and sparse rows make one acceleration", worst.storage, STORAGE),
+        law("islands make no difference (converged solver)", worst.islands, ISLANDS),
+        law("pyramidal contacts push", worst.pyramids, OUTSIDE),
+        law("elliptic contact forces stay in their cones", worst.cones, OUTSIDE),
+        law("dry friction stays within its loss", worst.friction_loss, OUTSIDE),
+        law("`qDeriv` is the slope of smooth forces", worst.slope, SLOPE),
+    ])
+}
+
+impl Worst {
+    /// Leaves the options of `m` changed.
+    fn take(&mut self, m: &mut Model, start: &Data) -> Result<(), LawError> {
+        self.states += 1;
+        let rows = [Jacobian::Dense, Jacobian::Sparse].map(|storage| {
+            m.opt.jacobian = storage.code();
+            forward(m, start)
+        });
+        self.storage = self.storage.max(qacc_difference(rows)?);
+        for cone in CONES {
+            m.opt.cone = cone.code();
+            self.forces(m, &forward(m, start)?);
+        }
+        (m.opt.solver, m.opt.noslip_iterations) = (Solver::Newton.code(), 0);
+        (m.opt.tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 200, 200);
+        for cone in CONES {
+            m.opt.cone = cone.code();
+            self.inverse = self.inverse.max(inverse(m, start)?);
+        }
+        let flags = m.opt.disableflags & !disable::ISLAND;
+        let islands = [flags, flags | disable::ISLAND].map(|flags| {
+            m.opt.disableflags = flags;
+            forward(m, start)
+        });
+        self.islands = self.islands.max(qacc_difference(islands)?);
+        Ok(())
+    }
+
+    /// How far forces are outside their sets.
+    fn forces(&mut self, m: &Model, d: &Data) {
+        let force = &d.efc.efc_force;
+        let scale = force.iter().fold(f64::MIN_POSITIVE, |s: f64, f| s.max(f.abs()));
+        for i in 0..d.efc.nefc {
+            match ConstraintType::from_code(d.efc.efc_type[i]) {
+                Some(ConstraintType::Equality | ConstraintType::ContactElliptic) | None => {}
+                Some(ConstraintType::FrictionDof | ConstraintType::FrictionTendon) => {
+                    let excess = (force[i].abs() - d.efc.efc_frictionloss[i]) / scale;
+                    self.friction_loss = self.friction_loss.max(excess);
+                }
+                Some(_) => self.pyramids = self.pyramids.max(-force[i] / scale),
+            }
+        }
+        if m.opt.cone == Cone::Elliptic.code() {
+            for c in d.con.contact.iter().filter(|c| c.efc_address >= 0) {
+                let f = contact_force(m, &d.efc, c);
+                let share = |k: usize| if k < c.dim as usize { f[k] / c.friction[k - 1] } else { 0.0 };
+                let sideways = (1..6).map(|k| share(k).powi(2)).sum::<f64>().sqrt();
+                self.cones = self.cones.max((sideways - (f[0] + c.adhesion)) / scale);
+            }
+        }
+    }
+}
+
+fn forward(m: &Model, start: &Data) -> Result<Data, StepError> {
+    let mut d = start.clone();
+    physics::forward(m, &mut d).map(|()| d)
+}
+
+fn qacc_difference([a, b]: [Result<Data, StepError>; 2]) -> Result<f64, LawError> {
+    Ok(difference(&a?.acc.qacc, &b?.acc.qacc))
+}
+
+/// Largest difference relative to the largest component.
+fn difference(a: &[f64], b: &[f64]) -> f64 {
+    let scale = b.iter().fold(f64::MIN_POSITIVE, |s: f64, x| s.max(x.abs()));
+    a.iter().zip(b).fold(0.0, |e: f64, (a, b)| e.max((a - b).abs())) / scale
+}
+
+fn inverse(m: &Model, start: &Data) -> Result<f64, LawError> {
+    let mut d = forward(m, start)?;
+    let applied: Vec<f64> =
+        d.state.qfrc_applied.iter().zip(&d.actuation.qfrc_actuator).map(|(a, b)| a + b).collect();
+    let forces = [&d.acc.qfrc_constraint, &d.vel.qfrc_bias, &d.passive.qfrc_passive, &applied];
+    let scale = forces.into_iter().flatten().fold(f64::MIN_POSITIVE, |s: f64, x| s.max(x.abs()));
+    physics::inverse(m, &mut d)?;
+    let found = d.implicit.qfrc_inverse.iter().zip(&applied);
+    Ok(found.fold(0.0, |e: f64, (a, b)| e.max((a - b).abs())) / scale)
+}
+
+/// True where the sum of actuator forces on a joint is clamped: the analytic slope is that of the sum, as upstream.
+fn clamped(m: &Model, d: &Data, dof: usize) -> bool {
+    let joint = m.dof_jntid[dof] as usize;
+    m.jnt_actfrclimited[joint] && m.jnt_actfrcrange[joint].contains(&d.actuation.qfrc_actuator[dof])
+}
+
+/// Difference of the analytic slope of smooth forces by velocity and central differences.
+fn slope(m: &Model, d: &mut Data) -> Result<f64, LawError> {
+    physics::forward(m, d)?;
+    let inputs = DerivativeInputs {
+        state: &d.state,
+        kin: &d.kin,
+        com: &d.com,
+        ten: &d.ten,
+        trn: &d.trn,
+        inertia: &d.inertia,
+        vel: &d.vel,
+        actuation: &d.actuation,
+    };
+    let mut slope = vec![0.0; m.nD];
+    smooth_force_slope(m, &inputs, BiasSlope::Included, &mut Default::default(), &mut slope);
+    // Rounding of forces over the nudge is what is left of a slope that is zero.
+    let entries = slope.iter().chain(&d.acc.qfrc_smooth);
+    let scale = entries.fold(f64::MIN_POSITIVE, |s: f64, x| s.max(x.abs()));
+    let mut nudged = d.clone();
+    let mut worst = 0.0_f64;
+    for j in 0..m.nv {
+        let mut force = |step: f64| {
+            nudged.state.qvel.copy_from_slice(&d.state.qvel);
+            nudged.state.qvel[j] += step;
+            physics::forward(m, &mut nudged).map(|()| nudged.acc.qfrc_smooth.clone())
+        };
+        let (plus, minus) = (force(NUDGE)?, force(-NUDGE)?);
+        for i in (0..m.nv).filter(|&i| !clamped(m, d, i)) {
+            for k in physics::derivative::row(m, i).filter(|&k| m.D_colind[k] as usize == j) {
+                let found = (plus[i] - minus[i]) / (2.0 * NUDGE);
+                worst = worst.max((slope[k] - found).abs() / scale);
+            }
+        }
+    }
+    Ok(worst)
+}

@@ -1,0 +1,13 @@
+//! Laws of mechanics, on systems made for them and on the recorded states.
+
+use robohive_validation::laws::{Piles, measure, render};
+use robohive_validation::reference::recorded;
+
+#[test]
+fn laws_hold() {
+    let references: Vec<_> = recorded().unwrap().into_iter().map(|(_, reference)| reference).collect();
+    let laws = measure("models", &references, Piles::One).unwrap();
+    assert!(laws.iter().any(|law| law.measured > 1e-16), "nothing was measured");
+    let (_, verdict) = render(&laws);
+    verdict.unwrap_or_else(|broken| panic!("{broken}"));
+}
