@@ -5,7 +5,7 @@
 //! exact penetration. With the native algorithms disabled, portal refinement finds one contact of overlapping bodies.
 
 use super::epa::{Failure, Polytope};
-use super::gjk::{BEYOND, Limits, gjk};
+use super::gjk::{BEYOND, Limits, Vertex, gjk};
 use super::mpr::overlap;
 use super::multicontact::{Clipper, Witness};
 use super::support::{ConvexBody, Solid};
@@ -25,6 +25,7 @@ const SAME_CONTACT: f64 = 1e-3;
 /// Working memory of the convex algorithms, reused from call to call.
 #[derive(Clone, Debug, Default)]
 pub struct ConvexScratch {
+    simplex: [Vertex; 4],
     polytope: Polytope,
     clipper: Clipper,
     witness: Vec<Witness>,
@@ -48,17 +49,17 @@ fn measure(
     scratch: &mut ConvexScratch,
 ) -> f64 {
     scratch.witness.clear();
-    if let Some(dist) = measure_cores(a, b, limits, &mut scratch.witness) {
+    if let Some(dist) = measure_cores(a, b, limits, scratch) {
         return dist;
     }
-    let proximity = gjk(a, b, limits);
+    let proximity = gjk(a, b, limits, &mut scratch.simplex);
     let inside = proximity.dist <= limits.tolerance && proximity.n > 1 && !proximity.separated;
     let dist = if inside { 0.0 } else { proximity.dist };
     scratch.witness.extend(proximity.nearest.map(|points| Witness { dist, points }));
     if !inside {
         return dist;
     }
-    match scratch.polytope.penetration(a, b, limits, &proximity) {
+    match scratch.polytope.penetration(a, b, limits, &scratch.simplex[..proximity.n]) {
         Err(Failure::Broken) => scratch.witness.clear(),
         Err(_) => {}
         Ok(penetration) => {
@@ -78,7 +79,7 @@ fn measure_cores(
     a: &mut ConvexBody,
     b: &mut ConvexBody,
     limits: &Limits,
-    witness: &mut Vec<Witness>,
+    scratch: &mut ConvexScratch,
 ) -> Option<f64> {
     let (mut core_a, mut core_b) = (a.core(), b.core());
     if core_a.is_none() && core_b.is_none() {
@@ -90,6 +91,7 @@ fn measure_cores(
         core_a.as_mut().map_or(a, |core| &mut core.0),
         core_b.as_mut().map_or(b, |core| &mut core.0),
         &widened,
+        &mut scratch.simplex,
     );
     if proximity.dist <= limits.tolerance {
         return None;
@@ -98,7 +100,7 @@ fn measure_cores(
     let dist = proximity.dist - (radius[0] + radius[1]);
     let (normal, _) = normalize(sub(x2, x1));
     let points = [add_scaled(x1, normal, radius[0]), add_scaled(x2, normal, -radius[1])];
-    witness.push(Witness { dist, points });
+    scratch.witness.push(Witness { dist, points });
     Some(if dist > limits.cutoff { BEYOND } else { dist })
 }
 

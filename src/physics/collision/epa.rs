@@ -5,7 +5,7 @@
 //! origin bounds the depth from below, the support point beyond that face bounds it from above; the polytope takes
 //! in that point, until the bounds meet.
 
-use super::gjk::{BEYOND, Limits, Proximity, Vertex, combine3, project_on_plane, projected_areas, support};
+use super::gjk::{BEYOND, Limits, Vertex, combine3, project_on_plane, projected_areas, support};
 use super::support::ConvexBody;
 use crate::math::{Mat3, Vec3, add, cross, dot, mul_mat_vec, norm, scale, sub};
 use crate::model::bounds::MINVAL;
@@ -79,20 +79,19 @@ pub enum Failure {
 }
 
 impl Polytope {
-    /// Penetration of two bodies from the last simplex of GJK, which must have two vertices or more.
+    /// Penetration of two bodies from the last simplex of GJK: two to four vertices.
     pub fn penetration(
         &mut self,
         a: &mut ConvexBody,
         b: &mut ConvexBody,
         limits: &Limits,
-        proximity: &Proximity,
+        simplex: &[Vertex],
     ) -> Result<Penetration, Failure> {
         self.clear();
-        let [s1, s2, s3, s4] = proximity.simplex;
-        match proximity.n {
-            2 => self.enclose_segment(a, b, s1, s2)?,
-            3 => self.enclose_triangle(a, b, [s1, s2, s3])?,
-            _ => self.enclose_tetrahedron(a, b, [s1, s2, s3, s4])?,
+        match simplex {
+            [s1, s2] => self.enclose_segment(a, b, s1, s2)?,
+            &[s1, s2, s3] => self.enclose_triangle(a, b, &[s1, s2, s3])?,
+            _ => self.enclose_tetrahedron(a, b, simplex.try_into().map_err(|_| Failure::OriginOutside)?)?,
         }
         let face = self.expand(a, b, limits).ok_or(Failure::Broken)?;
         Ok(self.witness(face))
@@ -163,8 +162,8 @@ impl Polytope {
         &mut self,
         a: &mut ConvexBody,
         b: &mut ConvexBody,
-        s1: Vertex,
-        s2: Vertex,
+        s1: &Vertex,
+        s2: &Vertex,
     ) -> Result<(), Failure> {
         self.center = scale(add(s1.diff, s2.diff), 0.5);
         let along = sub(s2.diff, s1.diff);
@@ -181,7 +180,7 @@ impl Polytope {
         let d2 = mul_mat_vec(&turn, d1);
         let d3 = mul_mat_vec(&turn, d2);
 
-        let (v1, v2) = (self.push(s1), self.push(s2));
+        let (v1, v2) = (self.push(*s1), self.push(*s2));
         let [v3, v4, v5] = [d1, d2, d3].map(|d| self.push_support(a, b, d, norm(d)));
         let faces = [
             ([v1, v3, v4], [1, 3, 2]),
@@ -212,7 +211,7 @@ impl Polytope {
     ) -> Result<(), Failure> {
         let simplex = vertex.map(|v| self.vertex[v]);
         self.clear();
-        self.enclose_triangle(a, b, simplex)
+        self.enclose_triangle(a, b, &simplex)
     }
 
     /// Bipyramid over the triangle, its apexes the support points along the normal.
@@ -220,16 +219,17 @@ impl Polytope {
         &mut self,
         a: &mut ConvexBody,
         b: &mut ConvexBody,
-        simplex: [Vertex; 3],
+        simplex: &[Vertex; 3],
     ) -> Result<(), Failure> {
-        let [p1, p2, p3] = simplex.map(|v| v.diff);
+        let [p1, p2, p3] = [0, 1, 2].map(|i: usize| simplex[i].diff);
         self.center = scale(add(add(p1, p2), p3), 1.0 / 3.0);
         let normal = cross(sub(p2, p1), sub(p3, p1));
         let length = norm(normal);
         if length < MINVAL {
             return Err(Failure::BadNormal);
         }
-        let [v1, v2, v3] = simplex.map(|v| self.push(v));
+        let [v1, v2, v3] = [0, 1, 2];
+        self.vertex.extend_from_slice(simplex);
         let v5 = self.push_support(a, b, scale(normal, -1.0), length);
         let v4 = self.push_support(a, b, normal, length);
         if in_triangle(p1, p2, p3, self.diff(v4)) || in_triangle(p1, p2, p3, self.diff(v5)) {
@@ -257,11 +257,12 @@ impl Polytope {
         &mut self,
         a: &mut ConvexBody,
         b: &mut ConvexBody,
-        simplex: [Vertex; 4],
+        simplex: &[Vertex; 4],
     ) -> Result<(), Failure> {
-        let [p1, p2, p3, p4] = simplex.map(|v| v.diff);
+        let [p1, p2, p3, p4] = [0, 1, 2, 3].map(|i: usize| simplex[i].diff);
         self.center = scale(add(add(add(p1, p2), p3), p4), 0.25);
-        let [v1, v2, v3, v4] = simplex.map(|v| self.push(v));
+        let [v1, v2, v3, v4] = [0, 1, 2, 3];
+        self.vertex.extend_from_slice(simplex);
         let faces = [
             ([v1, v2, v3], [1, 3, 2]),
             ([v1, v4, v2], [2, 3, 0]),

@@ -42,9 +42,7 @@ pub struct Proximity {
     pub dist: f64,
     /// The bodies surely do not touch.
     pub separated: bool,
-    /// Last simplex.
-    pub simplex: [Vertex; 4],
-    /// Its number of vertices.
+    /// Number of vertices of the last simplex.
     pub n: usize,
     /// Nearest points of the two bodies, when computed.
     pub nearest: Option<[Vec3; 2]>,
@@ -61,15 +59,14 @@ fn support_toward_origin(a: &mut ConvexBody, b: &mut ConvexBody, x: Vec3, x_norm
     support(a, b, scale(scale(x, 1.0 / x_norm), -1.0))
 }
 
-/// Distance between two bodies by GJK.
-pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits) -> Proximity {
+/// Distance between two bodies by GJK. Leaves the last simplex in `simplex`.
+pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mut [Vertex; 4]) -> Proximity {
     let discrete = a.is_discrete() && b.is_discrete();
     // Polytopes end after finitely many steps, so nothing but rounding needs a tolerance.
     let gap_tolerance = if discrete { 0.0 } else { 0.5 * (limits.tolerance * limits.tolerance) };
     let touching = if discrete { MINVAL } else { limits.tolerance };
     let mut try_enclosing = limits.cutoff <= 0.0;
 
-    let mut simplex = [Vertex::default(); 4];
     let mut lambda = [0.0; 4];
     let mut nearest = [a.center(), b.center()];
     let mut x = sub(nearest[0], nearest[1]);
@@ -88,22 +85,21 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits) -> Proximity
         // A support plane at this distance times |x| has the origin in front of it.
         let lower = dot(x, s);
         if lower > 0.0 && is_beyond(lower, x_norm, limits.cutoff) {
-            return apart(simplex);
+            return APART;
         }
         if n == 3 && try_enclosing {
-            let mut turned = simplex;
-            match enclose_origin(a, b, &mut turned, &mut k, limits.iterations) {
+            match enclose_origin(a, b, simplex, &mut k, limits.iterations) {
                 Enclosure::Inside => {
-                    return Proximity { dist: 0.0, separated: false, simplex: turned, n: 4, nearest: None };
+                    return Proximity { dist: 0.0, separated: false, n: 4, nearest: None };
                 }
-                Enclosure::Outside => return apart(simplex),
+                Enclosure::Outside => return APART,
                 Enclosure::Unknown => try_enclosing = false,
             }
         }
-        lambda = barycentric(&simplex, n + 1);
-        n = drop_unused(&mut simplex, &mut lambda);
+        lambda = barycentric(simplex, n + 1);
+        n = drop_unused(simplex, &mut lambda);
         if n == 0 {
-            return apart(simplex);
+            return APART;
         }
         x = combine(&lambda, n, |i| simplex[i].diff);
         x_norm_before = x_norm;
@@ -119,7 +115,7 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits) -> Proximity
     }
     let separated = dot(x, support_toward_origin(a, b, x, x_norm).diff) > 0.0;
     let dist = if n == 4 && !separated { 0.0 } else { x_norm };
-    Proximity { dist, separated, simplex, n, nearest: Some(nearest) }
+    Proximity { dist, separated, n, nearest: Some(nearest) }
 }
 
 /// Compares `lower / x_norm` with the cut-off, in squares: exact ties decide as in MuJoCo's release.
@@ -127,17 +123,17 @@ fn is_beyond(lower: f64, x_norm: f64, cutoff: f64) -> bool {
     cutoff <= 0.0 || (cutoff < BEYOND && lower * lower >= x_norm * x_norm * (cutoff * cutoff))
 }
 
-fn apart(simplex: [Vertex; 4]) -> Proximity {
-    Proximity { dist: BEYOND, separated: true, simplex, n: 0, nearest: None }
-}
+const APART: Proximity = Proximity { dist: BEYOND, separated: true, n: 0, nearest: None };
 
 /// Removes vertices of zero weight; returns how many remain.
 fn drop_unused(simplex: &mut [Vertex; 4], lambda: &mut [f64; 4]) -> usize {
     let mut n = 0;
     for i in 0..4 {
         if lambda[i] != 0.0 {
-            simplex[n] = simplex[i];
-            lambda[n] = lambda[i];
+            if n < i {
+                simplex[n] = simplex[i];
+                lambda[n] = lambda[i];
+            }
             n += 1;
         }
     }
@@ -151,7 +147,7 @@ enum Enclosure {
 }
 
 /// Turns a tetrahedron until it holds the origin: the vertex opposite the face nearest to the origin, or most
-/// beyond it, gives way to a support point of that face. `k` counts iterations.
+/// beyond it, gives way to a support point of that face. `k` counts iterations. Without success the simplex stays.
 fn enclose_origin(
     a: &mut ConvexBody,
     b: &mut ConvexBody,
@@ -159,12 +155,16 @@ fn enclose_origin(
     k: &mut usize,
     iterations: usize,
 ) -> Enclosure {
+    let mut turned = *simplex;
     let mut s = [0, 1, 2, 3];
     while *k < iterations {
-        let face = |i: usize, j: usize, l: usize| {
-            oriented_distance(simplex[s[i]].diff, simplex[s[j]].diff, simplex[s[l]].diff)
-        };
-        let faces = [face(2, 1, 3), face(0, 2, 3), face(1, 0, 3), face(0, 1, 2)];
+        let [v1, v2, v3, v4] = s.map(|i| turned[i].diff);
+        let faces = [
+            oriented_distance(v3, v2, v4),
+            oriented_distance(v1, v3, v4),
+            oriented_distance(v2, v1, v4),
+            oriented_distance(v1, v2, v3),
+        ];
         let dist = faces.map(|f| f.1);
         if dist.contains(&0.0) {
             return Enclosure::Unknown;
@@ -173,12 +173,14 @@ fn enclose_origin(
         let j = if dist[2] < dist[3] { 2 } else { 3 };
         let worst = if dist[i] < dist[j] { i } else { j };
         if dist[worst] > 0.0 {
-            *simplex = s.map(|i| simplex[i]);
+            for (vertex, i) in simplex.iter_mut().zip(s) {
+                *vertex = turned[i];
+            }
             return Enclosure::Inside;
         }
         let normal = faces[worst].0;
-        simplex[s[worst]] = support(a, b, normal);
-        if dot(normal, simplex[s[worst]].diff) < 0.0 {
+        turned[s[worst]] = support(a, b, normal);
+        if dot(normal, turned[s[worst]].diff) < 0.0 {
             return Enclosure::Outside;
         }
         s.swap((worst + 1) % 4, (worst + 2) % 4);
@@ -188,6 +190,8 @@ fn enclose_origin(
 }
 
 /// Normal of a face and its distance from the origin; [`BEYOND`] for a face without area.
+// Inlined to keep vectors in registers, see `Polytope::push_face`.
+#[inline(always)]
 fn oriented_distance(v1: Vec3, v2: Vec3, v3: Vec3) -> (Vec3, f64) {
     let normal = cross(sub(v3, v1), sub(v2, v1));
     let norm2 = dot(normal, normal);

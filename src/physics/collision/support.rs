@@ -117,6 +117,8 @@ impl<'a> ConvexBody<'a> {
     }
 
     /// Farthest point of the inflated body in unit direction `dir`.
+    // Inlined to keep vectors in registers, see `Polytope::push_face`.
+    #[inline(always)]
     pub fn support(&mut self, dir: Vec3) -> Vec3 {
         let mut point = self.support_of_solid(dir);
         if self.margin > 0.0 {
