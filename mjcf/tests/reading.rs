@@ -150,3 +150,33 @@ fn the_reference_lists_every_element_with_its_attributes() {
     }
     assert!(text.lines().count() > 800, "{} lines", text.lines().count());
 }
+
+#[test]
+fn motors_and_servos_follow_their_data_sheets() {
+    let model = |actuator: &str| {
+        let text = format!(
+            "<mujoco><worldbody><body><joint name='j'/><geom size='.1'/></body></worldbody>\
+             <actuator>{actuator}</actuator></mujoco>"
+        );
+        robohive_mjcf::load_str(&text).map(|l| l.model).map_err(|e| e.to_string())
+    };
+    // No-load speed and stall torque at the nominal voltage give back motor constant and resistance.
+    let motor = model("<dcmotor joint='j' nominal='12 .3 500' saturation='0 4'/>").unwrap();
+    let (r, k) = (motor.actuator_gainprm[0][0], motor.actuator_gainprm[0][1]);
+    assert!((12.0 / k - 500.0).abs() < 1e-9 && (k * 12.0 / r - 0.3).abs() < 1e-12);
+    assert_eq!(motor.actuator_forcerange[0], [-4.0 * k, 4.0 * k]);
+    let heats =
+        model("<dcmotor joint='j' motorconst='1' resistance='2' thermal='3 0 6' lugre='5 1 .1 .2 .3'/>");
+    assert_eq!(heats.unwrap().actuator_actnum, [2]);
+    for (actuator, expected) in [
+        ("<dcmotor joint='j' resistance='2'/>", "positive motor constant"),
+        ("<dcmotor joint='j' motorconst='1' resistance='2' thermal='0 0 1'/>", "must be positive"),
+        ("<pid joint='j' kp='1' input='vel pos'/>", "in the order"),
+        ("<pid joint='j' kp='1' input='voltage'/>", "subset of [pos, vel, ff]"),
+        ("<pid joint='j' kp='1' slewmax='-1'/>", "'slewmax' cannot be negative"),
+        ("<orientation joint='j' kp='1'/>", "requires a ball joint"),
+    ] {
+        let message = model(actuator).expect_err("the model must be refused");
+        assert!(message.contains(expected), "{actuator}: {message}");
+    }
+}

@@ -1,10 +1,12 @@
 //! Activation dynamics of stateful actuators (documentation: Computation, "Actuation model").
 
-use crate::data::{State, Transmission};
+use crate::data::{State, Transmission, Velocity};
+use crate::dc_motor;
 use crate::math::{norm, ops};
 use crate::model::bounds::MINVAL;
 use crate::model::{BiasType, DynType, GainType, JointType, Model, TrnType};
 use crate::muscle;
+use crate::servo;
 use std::f64::consts::PI;
 
 /// Position in `act` of the activations of actuator `i`.
@@ -14,7 +16,14 @@ pub fn activations(m: &Model, i: usize) -> std::ops::Range<usize> {
 }
 
 /// Time derivative of all activations under the clamped controls `ctrl(k)`.
-pub fn activation_rates(m: &Model, act: &[f64], ctrl: impl Fn(usize) -> f64, act_dot: &mut [f64]) {
+pub fn activation_rates(
+    m: &Model,
+    act: &[f64],
+    trn: &Transmission,
+    vel: &Velocity,
+    ctrl: impl Fn(usize) -> f64,
+    act_dot: &mut [f64],
+) {
     for i in 0..m.nactuator {
         let at = activations(m, i);
         let Some(last) = at.clone().last() else { continue };
@@ -32,13 +41,26 @@ pub fn activation_rates(m: &Model, act: &[f64], ctrl: impl Fn(usize) -> f64, act
                 act_dot[last] = muscle::activation_rate(ctrl(first_input), act[last], prm)
             }
             // The others are refused by `validity::check_model`.
-            Some(DynType::None | DynType::Dcmotor | DynType::Pid | DynType::User) | None => {}
+            Some(DynType::None | DynType::User) | None => {}
+            Some(DynType::Pid) => {
+                let length = trn.actuator_length[m.actuator_outadr[i] as usize];
+                servo::pid_rates(m, act, i, length, &ctrl, act_dot);
+            }
+            Some(DynType::Dcmotor) => {
+                let out = m.actuator_outadr[i] as usize;
+                let motion = (trn.actuator_length[out], vel.actuator_velocity[out]);
+                dc_motor::rates(m, act, i, motion, &ctrl, act_dot);
+            }
         }
     }
 }
 
-/// Activation `act[k]` of actuator `i` after one time step, within its range.
-pub fn next_activation(m: &Model, i: usize, act: f64, act_dot: f64) -> f64 {
+/// Activation `act[k]` of actuator `i`, which moves at `velocity`, after one time step, within its range.
+pub fn next_activation(m: &Model, i: usize, k: usize, act: &[f64], act_dot: f64, velocity: f64) -> f64 {
+    let act = act[k];
+    if m.actuator_dyntype[i] == DynType::Dcmotor.code() {
+        return dc_motor::next_state(m, i, k, act, act_dot, velocity);
+    }
     let next = if m.actuator_dyntype[i] == DynType::Filterexact.code() {
         let tau = m.actuator_dynprm[i][0].max(MINVAL);
         act + act_dot * tau * (1.0 - ops::exp(-m.opt.timestep / tau))
@@ -49,12 +71,19 @@ pub fn next_activation(m: &Model, i: usize, act: f64, act_dot: f64) -> f64 {
 }
 
 /// Advances all activations by one time step; those of disabled actuators keep their values.
-pub fn advance_activations(m: &Model, trn: &Transmission, act_dot: &[f64], state: &mut State) {
+pub fn advance_activations(
+    m: &Model,
+    trn: &Transmission,
+    vel: &Velocity,
+    act_dot: &[f64],
+    state: &mut State,
+) {
     for i in 0..m.nactuator {
         let enabled = !is_disabled(m, i);
+        let velocity = vel.actuator_velocity[m.actuator_outadr[i] as usize];
         for k in activations(m, i) {
             let rate = if enabled { act_dot[k] } else { 0.0 };
-            state.act[k] = next_activation(m, i, state.act[k], rate);
+            state.act[k] = next_activation(m, i, k, &state.act, rate, velocity);
         }
         if m.actuator_dyntype[i] == DynType::Integrator.code() {
             rewind_setpoint(m, trn, i, &mut state.act);
@@ -83,7 +112,7 @@ pub fn setpoint_period(m: &Model, i: usize) -> Option<f64> {
         && m.actuator_biastype[i] == BiasType::Affine.code()
         && m.actuator_gainprm[i][0] == -m.actuator_biasprm[i][1]
         && matches!(DynType::from_code(m.actuator_dyntype[i]), Some(DynType::None | DynType::Integrator));
-    if !servo {
+    if !servo && m.actuator_gaintype[i] != GainType::Pid.code() {
         return None;
     }
     let [x, y, z, rx, ry, rz] = m.actuator_gear[m.actuator_outadr[i] as usize];

@@ -5,11 +5,14 @@ use crate::activation::{
     activation_rates, activations, clip, is_disabled, nearest_setpoint, next_activation, setpoint_period,
 };
 use crate::data::{Actuation, Passive, State, Transmission, Velocity};
+use crate::dc_motor;
+use crate::history;
 use crate::math::{IDENTITY, Quat, Vec3, norm, quat_difference, quat_from_axis_angle, quat_normalize, scale};
 use crate::model::bounds::{MAXVAL, MINVAL};
 use crate::model::{BiasType, DynType, GainType, JointType, Model, TrnType, disable};
 use crate::muscle::Muscle;
 use crate::passive::has_gravity_compensation;
+use crate::servo;
 use crate::transmission::moment;
 
 /// Value of `actuator_ctrlspec` for an orientation given as a quaternion.
@@ -18,6 +21,7 @@ const QUATERNION_INPUT: i32 = 2;
 /// Computes rates of activation, actuator forces, and their sum in joint space.
 pub fn actuation(
     m: &Model,
+    time: f64,
     state: &State,
     trn: &Transmission,
     vel: &Velocity,
@@ -31,9 +35,9 @@ pub fn actuation(
     }
     // One bad control switches all of them off.
     let is_bad = |u: f64| u.is_nan() || u.abs() > MAXVAL;
-    let bad = (0..m.nu).any(|k| is_bad(clamped_control(m, state, k)));
-    let ctrl = |k: usize| if bad { 0.0 } else { clamped_control(m, state, k) };
-    activation_rates(m, &state.act, ctrl, &mut out.act_dot);
+    let bad = (0..m.nu).any(|k| is_bad(clamped_control(m, time, state, k)));
+    let ctrl = |k: usize| if bad { 0.0 } else { clamped_control(m, time, state, k) };
+    activation_rates(m, &state.act, trn, vel, ctrl, &mut out.act_dot);
 
     for i in (0..m.nactuator).filter(|&i| !is_disabled(m, i)) {
         let first = m.actuator_outadr[i] as usize;
@@ -42,12 +46,31 @@ pub fn actuation(
             out.actuator_force[first..first + 3].copy_from_slice(&force);
         } else {
             let (length, velocity) = (trn.actuator_length[first], vel.actuator_velocity[first]);
-            let input = input(m, state, i, length, ctrl, &out.act_dot);
-            out.actuator_force[first] = gain(m, i, length, velocity) * input + bias(m, i, length, velocity);
+            let act = &state.act;
+            out.actuator_force[first] = match GainType::from_code(m.actuator_gaintype[i]) {
+                Some(GainType::Dcmotor) => {
+                    dc_motor::electrical_force(m, act, i, (length, velocity), ctrl, &out.act_dot)
+                }
+                Some(GainType::Pid) => {
+                    servo::pid_force(m, act, i, length, ctrl, &out.act_dot) + bias(m, i, length, velocity)
+                }
+                _ => {
+                    let input = input(m, state, i, length, ctrl, &out.act_dot);
+                    gain(m, i, length, velocity) * input + bias(m, i, length, velocity)
+                }
+            };
         }
     }
     limit_tendon_forces(m, &mut out.actuator_force);
     limit_forces(m, &mut out.actuator_force);
+    for i in
+        (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == BiasType::Dcmotor.code() && !is_disabled(m, i))
+    {
+        let first = m.actuator_outadr[i] as usize;
+        let length = trn.actuator_length[first];
+        let force = &mut out.actuator_force[first];
+        dc_motor::add_mechanical_force(m, &state.act, i, length, &out.act_dot, force);
+    }
     for row in 0..m.nout {
         let force = out.actuator_force[row];
         if force != 0.0 {
@@ -57,10 +80,14 @@ pub fn actuation(
     limit_joint_forces(m, passive, &mut out.qfrc_actuator);
 }
 
-/// Control `k` within its range.
-fn clamped_control(m: &Model, state: &State, k: usize) -> f64 {
+/// Control `k`, delayed if its actuator is, within its range.
+fn clamped_control(m: &Model, time: f64, state: &State, k: usize) -> f64 {
+    let u = match m.nhistory {
+        0 => state.ctrl[k],
+        _ => history::control(m, &state.history, &state.ctrl, time, k),
+    };
     let clamps = m.opt.disableflags & disable::CLAMPCTRL == 0 && m.actuator_ctrllimited[k];
-    if clamps { clip(state.ctrl[k], m.actuator_ctrlrange[k]) } else { state.ctrl[k] }
+    if clamps { clip(u, m.actuator_ctrlrange[k]) } else { u }
 }
 
 /// What the gain multiplies: the last activation, after the step if the actuator acts early, or the control.
@@ -73,7 +100,7 @@ fn input(
     act_dot: &[f64],
 ) -> f64 {
     let u = match activations(m, i).last() {
-        Some(k) if m.actuator_actearly[i] => next_activation(m, i, state.act[k], act_dot[k]),
+        Some(k) if m.actuator_actearly[i] => next_activation(m, i, k, &state.act, act_dot[k], 0.0),
         Some(k) => state.act[k],
         None if m.actuator_ctrlnum[i] == 0 => 0.0,
         None => ctrl(m.actuator_ctrladr[i] as usize),
@@ -92,7 +119,7 @@ fn gain(m: &Model, i: usize, length: f64, velocity: f64) -> f64 {
         Some(GainType::Fixed) => prm[0],
         Some(GainType::Affine) => prm[0] + prm[1] * length + prm[2] * velocity,
         Some(GainType::Muscle) => muscle(m, i, prm).gain(length, velocity),
-        // The others are refused by `validity::check_model`.
+        // These have forces of their own or are refused by `validity::check_model`.
         Some(GainType::Dcmotor | GainType::So3 | GainType::Pid | GainType::User) | None => 0.0,
     }
 }
@@ -123,7 +150,9 @@ fn orientation_servo(
     } else if m.actuator_dyntype[i] == DynType::None.code() {
         quat_from_vector(std::array::from_fn(|k| ctrl(u + k)))
     } else if m.actuator_actearly[i] {
-        quat_from_vector(std::array::from_fn(|k| next_activation(m, i, state.act[a + k], act_dot[a + k])))
+        quat_from_vector(std::array::from_fn(|k| {
+            next_activation(m, i, a + k, &state.act, act_dot[a + k], 0.0)
+        }))
     } else {
         quat_from_vector(std::array::from_fn(|k| state.act[a + k]))
     };

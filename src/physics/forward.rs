@@ -16,7 +16,7 @@ use crate::kinematics::kinematics;
 use crate::model::{Integrator, Model, enable};
 use crate::passive::passive;
 use crate::rne_post::rne_post_constraint;
-use crate::sensor::{self, AccelerationInputs, PositionInputs, VelocityInputs};
+use crate::sensor::{self, AccelerationInputs, Past, PositionInputs, VelocityInputs};
 use crate::tendon::{tendon, tendon_velocity};
 use crate::transmission::{actuator_velocity, transmission};
 use crate::validity::{check_acceleration, check_state};
@@ -205,7 +205,7 @@ pub(crate) fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
 
 /// What depends on inputs too: actuation, and accelerations without and with constraints.
 pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
-    actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
+    actuation(m, d.time, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
     watch.ended(Stage::Actuation);
     for dof in 0..m.nv {
         d.acc.qfrc_smooth[dof] = d.passive.qfrc_passive[dof] - d.vel.qfrc_bias[dof]
@@ -241,7 +241,8 @@ fn position_sensors(m: &Model, d: &mut Data) {
         inertia: &d.inertia,
         efc: &d.efc,
     };
-    sensor::position_sensors(m, &inputs, &mut d.scratch.sensor, &mut d.sensor);
+    let past = Past { time: d.time, history: &d.state.history };
+    sensor::position_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
     let on = m.opt.enableflags & enable::ENERGY != 0;
     d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
 }
@@ -249,7 +250,8 @@ fn position_sensors(m: &Model, d: &mut Data) {
 fn velocity_sensors(m: &Model, d: &mut Data) {
     let inputs =
         VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
-    sensor::velocity_sensors(m, &inputs, &mut d.sensor);
+    let past = Past { time: d.time, history: &d.state.history };
+    sensor::velocity_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
     if m.opt.enableflags & enable::ENERGY != 0 {
         d.energy[1] = energy::kinetic(m, &d.state, &d.inertia, &mut d.scratch.sensor.momentum);
     }
@@ -267,5 +269,6 @@ pub(crate) fn acceleration_sensors(m: &Model, d: &mut Data) {
         vel: &d.vel,
         actuation: &d.actuation,
     };
-    sensor::acceleration_sensors(m, &inputs, &mut d.scratch.sensor, &mut d.sensor);
+    let past = Past { time: d.time, history: &d.state.history };
+    sensor::acceleration_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
 }

@@ -2,9 +2,10 @@
 //! velocity, and fourth-order Runge-Kutta (MuJoCo documentation, Computation, "Numerical integration").
 
 use crate::activation::advance_activations;
-use crate::data::{Acceleration, Data, Inertia, State, Transmission};
+use crate::data::{Acceleration, Data, Inertia, State, Transmission, Velocity};
 use crate::derivative::DerivativeInputs;
 use crate::forward::{StepError, evaluate};
+use crate::history;
 use crate::implicit;
 use crate::inertia::{factor, row, solve_ld};
 use crate::math::{add_scaled_slice, quat_conj, quat_integrate, quat_mul, quat_to_velocity};
@@ -85,8 +86,8 @@ pub fn implicit(m: &Model, d: &mut Data, factors: Factors) {
     force.extend(d.acc.qfrc_smooth.iter().zip(&d.acc.qfrc_constraint).map(|(s, c)| s + c));
     qacc.resize(m.nv, 0.0);
     implicit::solve(m, &inputs, &d.implicit, force, qacc);
-    let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot };
-    advance(m, &d.trn, &d.acc, &rates, &mut d.state, &mut d.time);
+    let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot, fresh: &d.scratch.sensor.fresh };
+    advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state, &mut d.time);
 }
 
 /// Advances the state by one step of semi-implicit Euler; joint damping is taken at the end of the step.
@@ -104,8 +105,8 @@ pub fn euler(m: &Model, d: &mut Data, factors: Factors) {
     } else {
         qacc.extend_from_slice(&d.acc.qacc);
     }
-    let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot };
-    advance(m, &d.trn, &d.acc, &rates, &mut d.state, &mut d.time);
+    let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot, fresh: &d.scratch.sensor.fresh };
+    advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state, &mut d.time);
 }
 
 /// True when some degree of freedom is damped and Euler treats that implicitly.
@@ -136,19 +137,25 @@ struct NewRates<'a> {
     qvel: Option<&'a [f64]>,
     qacc: &'a [f64],
     act_dot: &'a [f64],
+    /// Sensor readings of this step, for histories.
+    fresh: &'a [f64],
 }
 
-/// Advances activations, velocities, positions and time by one step; keeps `qacc` to start the next solution.
+/// Advances histories, activations, velocities, positions and time by one step; keeps `qacc` to start the next solution.
 fn advance(
     m: &Model,
     trn: &Transmission,
+    vel: &Velocity,
     acc: &Acceleration,
     rates: &NewRates,
     state: &mut State,
     time: &mut f64,
 ) {
+    if m.nhistory > 0 {
+        history::record(m, &state.ctrl, rates.fresh, *time, &mut state.history);
+    }
     if m.na > 0 && m.opt.disableflags & disable::ACTUATION == 0 {
-        advance_activations(m, trn, rates.act_dot, state);
+        advance_activations(m, trn, vel, rates.act_dot, state);
     }
     add_scaled_slice(&mut state.qvel, rates.qacc, m.opt.timestep);
     integrate_pos(m, &mut state.qpos, rates.qvel.unwrap_or(&state.qvel), m.opt.timestep);
@@ -206,8 +213,13 @@ pub fn runge_kutta(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<()
     let result = stages(m, d, &mut scratch, watch);
     if result.is_ok() {
         combine(&mut scratch, m);
-        let rates = NewRates { qvel: Some(&scratch.qvel), qacc: &scratch.qacc, act_dot: &scratch.act_dot };
-        advance(m, &d.trn, &d.acc, &rates, &mut d.state, &mut d.time);
+        let rates = NewRates {
+            qvel: Some(&scratch.qvel),
+            qacc: &scratch.qacc,
+            act_dot: &scratch.act_dot,
+            fresh: &d.scratch.sensor.fresh,
+        };
+        advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state, &mut d.time);
     }
     d.scratch.integrate = scratch;
     result

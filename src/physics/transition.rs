@@ -101,7 +101,7 @@ impl Centre<'_> {
 /// # Errors
 /// The integrator is Runge-Kutta, or a step fails.
 pub fn transition(m: &Model, d: &mut Data, eps: f64, centred: bool) -> Result<Transition, StepError> {
-    refuse_runge_kutta(m)?;
+    check_differences(m)?;
     let (state, time) = (d.state.clone(), d.time);
     step_after(m, d, Known::Nothing)?;
     let centre = Centre { m, state, time, outcome: Outcome::read(d), eps };
@@ -136,7 +136,10 @@ pub fn transition(m: &Model, d: &mut Data, eps: f64, centred: bool) -> Result<Tr
     Ok(out)
 }
 
-fn refuse_runge_kutta(m: &Model) -> Result<(), StepError> {
+fn check_differences(m: &Model) -> Result<(), StepError> {
+    if m.nhistory > 0 {
+        return Err(StepError::NotSimulated("finite differences of models with delays are".into()));
+    }
     if m.opt.integrator == Integrator::Rk4.code() {
         return Err(StepError::NotSimulated("finite differences of integrator \"RK4\" are".into()));
     }
@@ -171,7 +174,7 @@ pub struct InverseSlope {
 /// # Errors
 /// The integrator is Runge-Kutta, slip is removed after the solver, or the model uses what is not simulated.
 pub fn inverse_slope(m: &Model, d: &mut Data, eps: f64) -> Result<InverseSlope, StepError> {
-    refuse_runge_kutta(m)?;
+    check_differences(m)?;
     if m.opt.noslip_iterations > 0 {
         return Err(StepError::NotSimulated("finite differences of inverse dynamics with noslip are".into()));
     }

@@ -3,6 +3,7 @@
 
 use crate::activation::clip;
 use crate::data::Data;
+use crate::dc_motor;
 use crate::model::bounds::MAXVAL;
 use crate::model::{
     BiasType, DynType, EqType, GainType, Integrator, JointType, Model, ObjType, TrnType, disable, enable,
@@ -125,9 +126,6 @@ pub fn check_options(m: &Model) -> Result<(), StepError> {
     if m.opt.enableflags & enable::SLEEP != 0 {
         return refuse("sleeping of islands is");
     }
-    if m.nhistory > 0 {
-        return refuse("delay of actuators and history of sensors are");
-    }
     Ok(())
 }
 
@@ -157,20 +155,13 @@ pub fn check_model(m: &Model) -> Result<(), StepError> {
 
 fn check_actuators(m: &Model) -> Result<(), StepError> {
     for i in 0..m.nactuator {
-        let part = if matches!(
-            DynType::from_code(m.actuator_dyntype[i]),
-            Some(DynType::Dcmotor | DynType::Pid | DynType::User) | None
-        ) {
+        let part = if matches!(DynType::from_code(m.actuator_dyntype[i]), Some(DynType::User) | None)
+            || !dc_motor::fits(m, i)
+        {
             "dynamics"
-        } else if matches!(
-            GainType::from_code(m.actuator_gaintype[i]),
-            Some(GainType::Dcmotor | GainType::Pid | GainType::User) | None
-        ) {
+        } else if matches!(GainType::from_code(m.actuator_gaintype[i]), Some(GainType::User) | None) {
             "gain"
-        } else if matches!(
-            BiasType::from_code(m.actuator_biastype[i]),
-            Some(BiasType::Dcmotor | BiasType::User) | None
-        ) {
+        } else if matches!(BiasType::from_code(m.actuator_biastype[i]), Some(BiasType::User) | None) {
             "bias"
         } else if matches!(TrnType::from_code(m.actuator_trntype[i]), Some(TrnType::Undefined) | None) {
             "transmission"

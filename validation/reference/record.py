@@ -34,7 +34,7 @@ TWIN_OFFSET = 1e-12
 TEMPLATE_OBJECT = "airplane"
 
 INPUTS = ["qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat", "qfrc_applied", "xfrc_applied",
-          "eq_active", "qacc_warmstart"]
+          "eq_active", "qacc_warmstart", "history"]
 
 FIXED = ["xpos", "xquat", "xmat", "xipos", "ximat", "xanchor", "xaxis", "geom_xpos", "geom_xmat", "site_xpos",
          "site_xmat", "cam_xpos", "cam_xmat", "light_xpos", "light_xdir", "subtree_com", "cdof", "cinert",

@@ -37,7 +37,8 @@ def set_state(data, model, states, row):
     mujoco.mj_resetData(model, data)
     data.time = states["state.time"][row]
     for name in INPUTS:
-        getattr(data, name)[:] = states["state." + name][row]
+        if "state." + name in states:
+            getattr(data, name)[:] = states["state." + name][row]
 
 
 def derivatives(model, states):

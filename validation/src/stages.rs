@@ -217,7 +217,7 @@ const STAGES: &[Stage] = &[
             "qfrc_gravcomp",
             "qfrc_passive",
         ],
-        run: |m, d| actuation::actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation),
+        run: |m, d| actuation::actuation(m, d.time, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation),
         writes: &["act_dot", "actuator_force", "qfrc_actuator"],
     },
     Stage {
@@ -303,10 +303,12 @@ fn sensors(m: &Model, d: &mut Data) {
     let Data { time, state, kin, com, ten, trn, inertia, con, efc, vel, actuation, sensor: out, .. } = d;
     let mut scratch = sensor::SensorScratch::default();
     let inputs = sensor::PositionInputs { time: *time, state, kin, com, ten, trn, inertia, efc };
-    sensor::position_sensors(m, &inputs, &mut scratch, out);
-    sensor::velocity_sensors(m, &sensor::VelocityInputs { state, kin, com, trn, vel, efc }, out);
+    let past = sensor::Past { time: *time, history: &state.history };
+    sensor::position_sensors(m, &inputs, past, &mut scratch, out);
+    let inputs = sensor::VelocityInputs { state, kin, com, trn, vel, efc };
+    sensor::velocity_sensors(m, &inputs, past, &mut scratch, out);
     let inputs = sensor::AccelerationInputs { kin, com, con, efc, vel, actuation };
-    sensor::acceleration_sensors(m, &inputs, &mut scratch, out);
+    sensor::acceleration_sensors(m, &inputs, past, &mut scratch, out);
     momentum::subtree_momentum(m, kin, com, vel, out);
     d.energy = [energy::potential(m, state, kin, ten), energy::kinetic(m, state, inertia, &mut Vec::new())];
 }

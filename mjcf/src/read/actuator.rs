@@ -3,11 +3,12 @@
 
 use physics::model::{BiasType, DynType, GainType, TrnType};
 
-use super::Reader;
+use super::{Reader, dc_motor};
 use crate::diagnostic::Loc;
-use crate::schema::actuator::{BLOCKS, Shortcut, shortcut_blocks};
+use crate::schema::Words;
+use crate::schema::actuator::{BLOCKS, MOTOR_ROWS, Shortcut, shortcut_blocks};
 use crate::spec::{Actuator, Limited};
-use crate::xml::Element;
+use crate::xml::{Attribute, Element};
 
 /// Transmissions by attribute; when several are present the last in this order counts.
 const TRANSMISSIONS: [(&str, TrnType); 6] = [
@@ -50,20 +51,39 @@ impl Reader<'_> {
         if let Err(message) = apply(&element.name, &shortcut, actuator) {
             self.error(element.loc, message);
         }
+        if element.name == "dcmotor" {
+            let mut motor = dc_motor::inherited(actuator);
+            if actuator.gaintype != GainType::Dcmotor {
+                actuator.ctrlspec = 0;
+            }
+            self.rows(element, &MOTOR_ROWS, &mut motor);
+            if let Err(message) = dc_motor::apply(&motor, actuator) {
+                self.error(element.loc, message);
+            }
+        }
         if let Some(input) = element.attribute("input") {
-            self.unsupported(input.loc, "input signatures of PID and orientation servos");
+            actuator.ctrlspec = self.input_signature(element, input).unwrap_or(actuator.ctrlspec);
         }
         self.supported(element.loc, actuator);
+    }
+
+    /// The code of an `input` attribute: a chart of orientations, nothing, or bits of inputs in their order.
+    fn input_signature(&mut self, element: &Element, input: &Attribute) -> Option<i32> {
+        const ALONE: Words = &[("expmap", 1), ("quat", 2), ("none", 16)];
+        const TOGETHER: Words = &[("pos", 1), ("vel", 2), ("ff", 4), ("voltage", 8)];
+        if let Some((_, code)) = ALONE.iter().find(|(word, _)| *word == input.value.trim()) {
+            return Some(*code);
+        }
+        let codes = self.keywords(element, input, TOGETHER)?;
+        if !codes.is_sorted() {
+            self.error(input.value_loc, "inputs must stand in the order pos, vel, ff, voltage");
+        }
+        Some(codes.iter().fold(0, |all, code| all | code))
     }
 
     fn supported(&mut self, loc: Loc, actuator: &Actuator) {
         let feature = match (actuator.dyntype, actuator.gaintype, actuator.biastype) {
             (DynType::User, ..) | (_, GainType::User, _) | (.., BiasType::User) => "user actuators",
-            (DynType::Dcmotor, ..) | (_, GainType::Dcmotor, _) | (.., BiasType::Dcmotor) => {
-                "DC motor actuators"
-            }
-            (DynType::Pid, ..) | (_, GainType::Pid, _) => "PID actuators",
-            (_, GainType::So3, _) | (.., BiasType::So3) => "orientation actuators",
             _ => return,
         };
         self.unsupported(loc, feature);
@@ -125,6 +145,14 @@ fn apply(tag: &str, s: &Shortcut, a: &mut Actuator) -> Result<(), String> {
         }
         "muscle" => muscle(s, a),
         "adhesion" => adhesion(s, a),
+        "orientation" => {
+            servo_damping(s, a)?;
+            let kp = s.kp.unwrap_or(a.gainprm[0]);
+            (a.gainprm[0], a.biasprm[1]) = (kp, -kp);
+            kinds(a, DynType::None, GainType::So3, BiasType::So3);
+            Ok(())
+        }
+        "pid" => pid(s, a),
         // `general` says it all itself.
         _ => Ok(()),
     }
@@ -152,19 +180,43 @@ fn not_both(s: &Shortcut, range: [f64; 2], name: &str) -> Result<(), String> {
 }
 
 /// A negative `biasprm[2]` is damping, a positive one a damping ratio to be resolved by the compiler.
-fn position(s: &Shortcut, a: &mut Actuator) -> Result<(), String> {
-    let kp = s.kp.unwrap_or(a.gainprm[0]);
-    a.gainprm[0] = kp;
-    a.biasprm[1] = -kp;
+fn servo_damping(s: &Shortcut, a: &mut Actuator) -> Result<(), String> {
     if s.kv.is_some() && s.dampratio.is_some() {
         return Err("attributes 'kv' and 'dampratio' exclude each other".into());
     }
     not_negative(s.kv, "kv")?;
     not_negative(s.dampratio, "dampratio")?;
-    not_negative(s.timeconst, "timeconst")?;
     if let Some(damping) = s.kv.map(|kv| -kv).or(s.dampratio) {
         a.biasprm[2] = damping;
     }
+    Ok(())
+}
+
+fn pid(s: &Shortcut, a: &mut Actuator) -> Result<(), String> {
+    let inherited = if a.dyntype == DynType::Pid { 1.0 } else { 0.0 };
+    a.biasprm[1] = -s.kp.unwrap_or(-a.biasprm[1]);
+    servo_damping(s, a)?;
+    not_negative(s.slewmax, "slewmax")?;
+    let ki = s.ki.unwrap_or(a.gainprm[0] * inherited);
+    let slewmax = s.slewmax.unwrap_or(a.dynprm[1] * inherited);
+    let imax = s.imax.unwrap_or(a.dynprm[0] * inherited);
+    (a.gainprm[0], a.dynprm[1]) = (ki, slewmax);
+    if ki != 0.0 {
+        a.dynprm[0] = imax;
+    }
+    let dynamics = if ki != 0.0 || slewmax != 0.0 { DynType::Pid } else { DynType::None };
+    a.inheritrange = s.inheritrange.unwrap_or(a.inheritrange);
+    kinds(a, dynamics, GainType::Pid, BiasType::Affine);
+    let inherits = Shortcut { inheritrange: Some(a.inheritrange), ..Shortcut::default() };
+    not_both(&inherits, a.ctrlrange, "ctrlrange")
+}
+
+fn position(s: &Shortcut, a: &mut Actuator) -> Result<(), String> {
+    let kp = s.kp.unwrap_or(a.gainprm[0]);
+    a.gainprm[0] = kp;
+    a.biasprm[1] = -kp;
+    servo_damping(s, a)?;
+    not_negative(s.timeconst, "timeconst")?;
     if let Some(timeconst) = s.timeconst {
         a.dynprm[0] = timeconst;
         a.dyntype = if timeconst == 0.0 { DynType::None } else { DynType::Filterexact };

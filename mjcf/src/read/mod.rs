@@ -11,6 +11,7 @@ mod attributes;
 mod conflict;
 mod constraint;
 mod copy;
+mod dc_motor;
 mod defaults;
 mod model_file;
 mod replicate;

@@ -5,9 +5,7 @@ use physics::model::{BiasType, DynType, GainType};
 use super::Bind::*;
 use super::tree::{CLASS, PLUGIN};
 use super::words::{FALSE_TRUE_AUTO, INTERPOLATIONS, limited};
-use super::{
-    Child, ElementType, Kind, Row, Space, Words, any, class, leaf, local, row, section, unsupported,
-};
+use super::{Child, ElementType, Kind, Row, Space, Words, any, class, leaf, local, row, section};
 use crate::spec::Actuator;
 
 /// `actuator`.
@@ -60,7 +58,9 @@ static GENERAL: ElementType = leaf(
         &TRANSMISSION,
         &SITE,
         &BODY,
+        &SETPOINT_RANGES,
         &GENERAL_ROWS,
+        &INPUT,
     ],
 );
 static MOTOR: ElementType = leaf(
@@ -71,7 +71,19 @@ static MOTOR: ElementType = leaf(
 static POSITION: ElementType = leaf(
     "position",
     "A servo that holds a position",
-    &[&CLASS, &BASE, &CTRL_LIMITED, &FORCE, &DYNAMICS, &TRANSMISSION, &SITE, &SERVO, &KV, &SERVO_FILTER],
+    &[
+        &CLASS,
+        &BASE,
+        &CTRL_LIMITED,
+        &FORCE,
+        &DYNAMICS,
+        &TRANSMISSION,
+        &SITE,
+        &SERVO_GAINS,
+        &INHERIT,
+        &KV,
+        &SERVO_FILTER,
+    ],
 );
 static VELOCITY: ElementType = leaf(
     "velocity",
@@ -81,7 +93,19 @@ static VELOCITY: ElementType = leaf(
 static INTVELOCITY: ElementType = leaf(
     "intvelocity",
     "A position servo whose set point integrates the control",
-    &[&CLASS, &BASE, &CTRL_LIMITED, &FORCE, &ACT_LIMITS, &DYNAMICS, &TRANSMISSION, &SITE, &SERVO, &KV],
+    &[
+        &CLASS,
+        &BASE,
+        &CTRL_LIMITED,
+        &FORCE,
+        &ACT_LIMITS,
+        &DYNAMICS,
+        &TRANSMISSION,
+        &SITE,
+        &SERVO_GAINS,
+        &INHERIT,
+        &KV,
+    ],
 );
 static DAMPER: ElementType = leaf(
     "damper",
@@ -100,9 +124,36 @@ static MUSCLE: ElementType = leaf(
 );
 static ADHESION: ElementType =
     leaf("adhesion", "Attraction at the contacts of a body", &[&CLASS, &BASE, &FORCE, &BODY, &ADHESION_ROWS]);
-static ORIENTATION: ElementType = unsupported("orientation", "orientation actuators");
-static PID: ElementType = unsupported("pid", "PID actuators");
-static DCMOTOR: ElementType = unsupported("dcmotor", "DC motor actuators");
+static ORIENTATION: ElementType = leaf(
+    "orientation",
+    "A servo that holds the orientation of a ball joint or a site",
+    &[&CLASS, &BASE, &FORCE, &JOINT, &SITE, &SERVO_GAINS, &KV, &INPUT],
+);
+static PID: ElementType = leaf(
+    "pid",
+    "A servo with integral, velocity set point and feed-forward",
+    &[
+        &CLASS,
+        &BASE,
+        &CTRL_LIMITED,
+        &FORCE,
+        &SETPOINT_RANGES,
+        &POSITION_RANGE,
+        &DYNAMICS,
+        &TRANSMISSION,
+        &SITE,
+        &SERVO_GAINS,
+        &INHERIT,
+        &KV,
+        &PID_ROWS,
+        &INPUT,
+    ],
+);
+static DCMOTOR: ElementType = leaf(
+    "dcmotor",
+    "A DC motor by its data sheet",
+    &[&CLASS, &BASE, &CTRL_LIMITED, &DYNAMICS, &TRANSMISSION, &SITE, &MOTOR_ROWS, &INPUT],
+);
 
 const DYN_TYPES: Words = &[
     ("none", 0),
@@ -120,8 +171,8 @@ const BIAS_TYPES: Words =
     &[("none", 0), ("affine", 1), ("muscle", 2), ("dcmotor", 3), ("so3", 4), ("user", 5)];
 
 /// All blocks that write an [`Actuator`], in reading order.
-pub static BLOCKS: [&[Row<Actuator>]; 6] =
-    [&BASE, &CTRL_LIMITED, &FORCE, &ACT_LIMITS, &DYNAMICS, &GENERAL_ROWS];
+pub static BLOCKS: [&[Row<Actuator>]; 8] =
+    [&BASE, &CTRL_LIMITED, &FORCE, &ACT_LIMITS, &DYNAMICS, &SETPOINT_RANGES, &POSITION_RANGE, &GENERAL_ROWS];
 
 /// Attributes of every actuator.
 pub static BASE: [Row<Actuator>; 7] = [
@@ -178,10 +229,8 @@ static SITE: [Row<()>; 2] = [
 ];
 static BODY: [Row<()>; 1] = [local("body", Own(Kind::Ref(Space::Body)), "body whose contacts attract")];
 /// Attributes of `general` alone.
-pub static GENERAL_ROWS: [Row<Actuator>; 11] = [
+pub static GENERAL_ROWS: [Row<Actuator>; 8] = [
     row("actdim", Int(|a| &mut a.actdim), "activation variables, -1 for as many as the dynamics need"),
-    row("velrange", Reals { min: 2, field: |a| &mut a.velrange }, "limits of the velocity set point"),
-    row("ffrange", Reals { min: 2, field: |a| &mut a.ffrange }, "limits of the feed-forward"),
     row(
         "dyntype",
         Keyword { words: DYN_TYPES, assign: |a, c| a.dyntype = DynType::from_code(c).unwrap_or(a.dyntype) },
@@ -207,8 +256,19 @@ pub static GENERAL_ROWS: [Row<Actuator>; 11] = [
     row("gainprm", Reals { min: 1, field: |a| &mut a.gainprm }, "parameters of the gain"),
     row("biasprm", Reals { min: 1, field: |a| &mut a.biasprm }, "parameters of the bias"),
     row("actearly", Bool(|a| &mut a.actearly), "force uses the next activation"),
-    row("input", Own(Kind::Text), "input signature of servos"),
 ];
+static SETPOINT_RANGES: [Row<Actuator>; 2] = [
+    row("velrange", Reals { min: 2, field: |a| &mut a.velrange }, "limits of the velocity set point"),
+    row("ffrange", Reals { min: 2, field: |a| &mut a.ffrange }, "limits of the feed-forward"),
+];
+static POSITION_RANGE: [Row<Actuator>; 1] =
+    [row("posrange", Reals { min: 2, field: |a| &mut a.ctrlrange }, "limits of the position set point")];
+static INPUT: [Row<()>; 1] = [row(
+    "input",
+    Own(Kind::Text),
+    "what the controls are: expmap, quat, none, or some of pos, vel, ff and voltage in this order",
+)];
+static JOINT: [Row<()>; 1] = [local("joint", Own(Kind::Ref(Space::Joint)), "ball joint driven")];
 
 /// Parameters of a shortcut, absent where the element is silent.
 #[derive(Debug, Clone, Default)]
@@ -228,16 +288,80 @@ pub struct Shortcut {
     /// force, scale, lmin, lmax, vmax, fpmax, fvmax.
     pub curve: [Option<f64>; 7],
     pub gain: Option<f64>,
+    pub ki: Option<f64>,
+    pub imax: Option<f64>,
+    pub slewmax: Option<f64>,
 }
 
-/// Attributes of the position servos.
-pub static SERVO: [Row<Shortcut>; 3] = [
+/// Data sheet of a `dcmotor`.
+#[derive(Debug, Clone, Default)]
+#[allow(missing_docs)]
+pub struct Motor {
+    pub motorconst: [f64; 2],
+    pub resistance: f64,
+    /// Voltage, stall torque, no-load speed.
+    pub nominal: [f64; 3],
+    pub saturation: [f64; 3],
+    pub inductance: [f64; 2],
+    pub cogging: [f64; 3],
+    /// kp, ki, kd, slew limit, integral limit, supply voltage.
+    pub controller: [f64; 6],
+    /// Resistance, capacity, time constant, temperature coefficient, reference and ambient temperature.
+    pub thermal: [f64; 6],
+    pub lugre: [f64; 5],
+}
+
+/// Gains of the position servos.
+pub static SERVO_GAINS: [Row<Shortcut>; 2] = [
     row("kp", Real(|s| s.kp.get_or_insert(0.0)), "position gain"),
     row("dampratio", Real(|s| s.dampratio.get_or_insert(0.0)), "damping ratio, instead of kv"),
+];
+/// Range of the position servos.
+pub static INHERIT: [Row<Shortcut>; 1] = [row(
+    "inheritrange",
+    Real(|s| s.inheritrange.get_or_insert(0.0)),
+    "control range as a share of the target's",
+)];
+/// Attributes of `pid` alone.
+pub static PID_ROWS: [Row<Shortcut>; 3] = [
+    row("ki", Real(|s| s.ki.get_or_insert(0.0)), "integral gain"),
+    row("imax", Real(|s| s.imax.get_or_insert(0.0)), "bound of the integral, 0 for none"),
     row(
-        "inheritrange",
-        Real(|s| s.inheritrange.get_or_insert(0.0)),
-        "control range as a share of the target's",
+        "slewmax",
+        Real(|s| s.slewmax.get_or_insert(0.0)),
+        "largest rate of the position set point, 0 for any",
+    ),
+];
+/// Attributes of `dcmotor`.
+pub static MOTOR_ROWS: [Row<Motor>; 9] = [
+    row("motorconst", Reals { min: 1, field: |m| &mut m.motorconst }, "torque and back-EMF constants"),
+    row("resistance", Real(|m| &mut m.resistance), "resistance of the winding, ohm"),
+    row("nominal", Reals { min: 1, field: |m| &mut m.nominal }, "voltage, stall torque, no-load speed"),
+    row(
+        "saturation",
+        Reals { min: 1, field: |m| &mut m.saturation },
+        "most torque, current, rate of current",
+    ),
+    row(
+        "inductance",
+        Reals { min: 1, field: |m| &mut m.inductance },
+        "inductance, or time constant of the current",
+    ),
+    row("cogging", Reals { min: 1, field: |m| &mut m.cogging }, "amplitude, periods a turn, phase"),
+    row(
+        "controller",
+        Reals { min: 1, field: |m| &mut m.controller },
+        "kp, ki, kd, slew limit, integral limit, supply voltage",
+    ),
+    row(
+        "thermal",
+        Reals { min: 1, field: |m| &mut m.thermal },
+        "resistance, capacity, time constant, temperature coefficient, reference, ambient",
+    ),
+    row(
+        "lugre",
+        Reals { min: 1, field: |m| &mut m.lugre },
+        "stiffness and damping of bristles, Coulomb and static friction, Stribeck velocity",
     ),
 ];
 /// Velocity gain.
@@ -288,8 +412,10 @@ pub static ADHESION_ROWS: [Row<Shortcut>; 1] =
 /// The parameter blocks of the shortcut with this tag.
 pub fn shortcut_blocks(tag: &str) -> Vec<&'static [Row<Shortcut>]> {
     match tag {
-        "position" => vec![&SERVO, &KV, &SERVO_FILTER],
-        "intvelocity" => vec![&SERVO, &KV],
+        "position" => vec![&SERVO_GAINS, &INHERIT, &KV, &SERVO_FILTER],
+        "orientation" => vec![&SERVO_GAINS, &KV],
+        "pid" => vec![&SERVO_GAINS, &INHERIT, &KV, &PID_ROWS],
+        "intvelocity" => vec![&SERVO_GAINS, &INHERIT, &KV],
         "velocity" | "damper" => vec![&KV],
         "cylinder" => vec![&CYLINDER_ROWS],
         "muscle" => vec![&MUSCLE_ROWS],

@@ -8,6 +8,7 @@ pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStatistics}
 pub use scratch::Scratch;
 pub use stages::*;
 
+use crate::history;
 use crate::model::Model;
 use crate::table::Slice;
 
@@ -83,6 +84,7 @@ impl Data {
         self.energy = [0.0; 2];
         self.state = State::new(m);
         self.state.qpos.copy_from_slice(&m.qpos0);
+        history::reset(m, &mut self.state.history);
         self.state.eq_active.copy_from_slice(&m.eq_active0);
         for b in 0..m.nbody {
             if let Ok(k) = usize::try_from(m.body_mocapid[b]) {

@@ -4,6 +4,7 @@
 use super::{DerivativeInputs, add_square};
 use crate::activation::{activations, is_disabled, next_activation};
 use crate::actuation::muscle;
+use crate::dc_motor;
 use crate::math::norm;
 use crate::model::{BiasType, DynType, GainType, Model, disable};
 
@@ -46,8 +47,9 @@ fn slope(m: &Model, inputs: &DerivativeInputs, i: usize) -> f64 {
     let out = m.actuator_outadr[i] as usize;
     let bias = match BiasType::from_code(m.actuator_biastype[i]) {
         Some(BiasType::Affine | BiasType::So3) => m.actuator_biasprm[i][2],
+        Some(BiasType::Dcmotor) => dc_motor::slope(m, i),
         // Refused by `validity::check_model`, or independent of velocity.
-        Some(BiasType::None | BiasType::Muscle | BiasType::Dcmotor | BiasType::User) | None => 0.0,
+        Some(BiasType::None | BiasType::Muscle | BiasType::User) | None => 0.0,
     };
     let prm = &m.actuator_gainprm[i];
     let gain =
@@ -67,7 +69,7 @@ fn input(m: &Model, inputs: &DerivativeInputs, i: usize) -> f64 {
     match activations(m, i).last() {
         Some(k) if m.actuator_dyntype[i] != DynType::None.code() => {
             if m.actuator_actearly[i] {
-                next_activation(m, i, state.act[k], inputs.actuation.act_dot[k])
+                next_activation(m, i, k, &state.act, inputs.actuation.act_dot[k], 0.0)
             } else {
                 state.act[k]
             }

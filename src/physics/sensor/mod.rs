@@ -16,6 +16,7 @@ pub use velocity::VelocityInputs;
 
 use crate::collision::distance::DistanceScratch;
 use crate::data::{Constraints, Sensors};
+use crate::history;
 use crate::model::{ConstraintType, DataType, Model, SensorType, Stage, disable};
 use crate::momentum::subtree_momentum;
 use std::fmt;
@@ -26,6 +27,17 @@ pub struct SensorScratch {
     distance: DistanceScratch,
     matches: Vec<contact::Match>,
     pub(crate) momentum: Vec<f64>,
+    /// Readings before any delay, where some sensor has a history.
+    pub(crate) fresh: Vec<f64>,
+}
+
+/// What delayed sensors read from.
+#[derive(Clone, Copy, Debug)]
+pub struct Past<'a> {
+    /// Present time [s].
+    pub time: f64,
+    /// Buffers of `State::history`.
+    pub history: &'a [f64],
 }
 
 /// A sensor that is not simulated.
@@ -55,7 +67,6 @@ pub fn check(m: &Model) -> Result<(), UnsupportedSensor> {
             Some(SensorType::Tactile) => "tactile sensors are",
             Some(SensorType::Plugin) => "sensor plugins are",
             None => "this type of sensor is",
-            Some(_) if m.sensor_history[sensor][0] > 0 => "delay, interval and history of sensors are",
             Some(_) => continue,
         };
         return Err(UnsupportedSensor { sensor, feature });
@@ -76,19 +87,33 @@ pub fn needs_body_forces(m: &Model) -> bool {
 }
 
 /// Reads the sensors of the position stage.
-pub fn position_sensors(m: &Model, inputs: &PositionInputs, scratch: &mut SensorScratch, out: &mut Sensors) {
-    each(m, Stage::Pos, &mut out.sensordata, |i, kind, data| {
+pub fn position_sensors(
+    m: &Model,
+    inputs: &PositionInputs,
+    past: Past,
+    scratch: &mut SensorScratch,
+    out: &mut Sensors,
+) {
+    let mut fresh = std::mem::take(&mut scratch.fresh);
+    each(m, Stage::Pos, past, &mut fresh, &mut out.sensordata, |i, kind, data| {
         position::read(m, inputs, i, kind, scratch, data);
     });
+    scratch.fresh = fresh;
 }
 
 /// Computes momenta of subtrees if sensors need them, then reads the sensors of the velocity stage.
-pub fn velocity_sensors(m: &Model, inputs: &VelocityInputs, out: &mut Sensors) {
+pub fn velocity_sensors(
+    m: &Model,
+    inputs: &VelocityInputs,
+    past: Past,
+    scratch: &mut SensorScratch,
+    out: &mut Sensors,
+) {
     if any_of(m, &[SensorType::Subtreelinvel, SensorType::Subtreeangmom]) {
         subtree_momentum(m, inputs.kin, inputs.com, inputs.vel, out);
     }
     let Sensors { sensordata, subtree_linvel, subtree_angmom, .. } = out;
-    each(m, Stage::Vel, sensordata, |i, kind, data| {
+    each(m, Stage::Vel, past, &mut scratch.fresh, sensordata, |i, kind, data| {
         velocity::read(m, inputs, [subtree_linvel, subtree_angmom], i, kind, data);
     });
 }
@@ -98,24 +123,32 @@ pub fn velocity_sensors(m: &Model, inputs: &VelocityInputs, out: &mut Sensors) {
 pub fn acceleration_sensors(
     m: &Model,
     inputs: &AccelerationInputs,
+    past: Past,
     scratch: &mut SensorScratch,
     out: &mut Sensors,
 ) {
     let Sensors { sensordata, cacc, cfrc_int, .. } = out;
-    each(m, Stage::Acc, sensordata, |i, kind, data| {
+    let mut fresh = std::mem::take(&mut scratch.fresh);
+    each(m, Stage::Acc, past, &mut fresh, sensordata, |i, kind, data| {
         acceleration::read(m, inputs, cacc, cfrc_int, i, kind, scratch, data);
     });
+    scratch.fresh = fresh;
 }
 
-/// Calls `read` on every sensor of a stage and applies its cut-off.
+/// Calls `read` on every sensor of a stage, applies its cut-off, and delays what it shows.
 fn each(
     m: &Model,
     stage: Stage,
+    past: Past,
+    fresh: &mut Vec<f64>,
     sensordata: &mut [f64],
     mut read: impl FnMut(usize, SensorType, &mut [f64]),
 ) {
     if m.opt.disableflags & disable::SENSOR != 0 {
         return;
+    }
+    if m.nhistory > 0 {
+        fresh.resize(m.nsensordata, 0.0);
     }
     for i in (0..m.nsensor).filter(|&i| m.sensor_needstage[i] == stage.code()) {
         let Some(kind) = SensorType::from_code(m.sensor_type[i]) else { continue };
@@ -124,6 +157,10 @@ fn each(
         data.fill(0.0);
         read(i, kind, data);
         cut_off(m, i, kind, data);
+        if m.nhistory > 0 {
+            fresh[first..first + data.len()].copy_from_slice(data);
+            history::show(m, past.history, past.time, i, data);
+        }
     }
 }
 
