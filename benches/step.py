@@ -5,7 +5,7 @@
 Both sides run the same trajectory: keyframe 0 or `qpos0`, 500 steps under the smooth seeded controls of
 `validation/reference/record.py`, a new row of them every HOLD steps (MuJoCo gets them as `nstep`), then all over
 again. They run in turns, several rounds; medians of processor time, so other work on the machine matters little.
-Loading is not counted. `motion` is the largest difference of `qpos` after one pass: the proof of equal work.
+Loading is not counted. Stages are wall time, medians of single passes, and include the clocks that both sides read. `motion` is the largest difference of `qpos` after one pass: the proof of equal work.
 
 Own models always; RoboHive's with `--corpus`, the folder that holds its `envs` and `simhive` (a copy is made). Needs
 `mujoco` and `numpy`, Linux, and a release build of this repository.
@@ -44,10 +44,15 @@ ROBOHIVE = [
 ]
 PASS, HOLD = 500, 100
 ROUNDS = 7
+STAGE_ROUNDS = 15
 SECONDS = 0.4
 JITTER_STEPS = 20000
 
-# What MuJoCo's timers and our stages have in common; what is left of MuJoCo's step is the last row.
+# MuJoCo's timers use a clock that Python need not enter: a function of C without arguments that returns seconds.
+CLOCK = ctypes.CFUNCTYPE(ctypes.c_double)(("omp_get_wtime", ctypes.CDLL("libgomp.so.1")))
+
+# What MuJoCo's timers and our stages have in common; what is left of MuJoCo's step is the last row. Our solvers
+# project constraints themselves.
 STAGES = {
     "kinematics": ("POS_KINEMATICS", ["kinematics", "tendons", "transmission"]),
     "inertia": ("POS_INERTIA", ["inertia"]),
@@ -93,9 +98,9 @@ class RoboHive:
     def end(self, passes=1):
         return np.array(self.answer("rate", passes * PASS)["qpos"])
 
-    def stages(self, passes):
-        found = self.answer("stages", passes * PASS)
-        return {row: sum(found[stage] for stage in ours) for row, (_, ours) in STAGES.items()}
+    def stages(self):
+        found = self.answer("stages", PASS)
+        return [sum(found[stage] for stage in ours) for _, ours in STAGES.values()]
 
     def close(self):
         self.process.stdin.close()
@@ -107,7 +112,6 @@ class MuJoCo:
 
     def __init__(self, model, controls):
         self.model, self.controls, self.data = model, controls, mujoco.MjData(model)
-        self.timers = np.zeros(mujoco.mjtTimer.mjNTIMER)
 
     def one_pass(self):
         if self.model.nkey:
@@ -130,20 +134,14 @@ class MuJoCo:
             sys.exit(f"{self.model.names[:20]}: MuJoCo warns; such a pass is no measure")
         return self.data.qpos.copy()
 
-    def stages(self, passes):
-        """Seconds of a step by MuJoCo's own timers. Its clock is a C function that Python needs not enter."""
-        clock = ctypes.CDLL("libgomp.so.1").omp_get_wtime
-        clock.restype = ctypes.c_double
-        mujoco.set_mjcb_time(ctypes.CFUNCTYPE(ctypes.c_double)(("omp_get_wtime", ctypes.CDLL("libgomp.so.1"))))
-        spent = np.zeros(len(self.data.timer))
-        for _ in range(passes):
-            self.one_pass()
-            spent += [timer.duration for timer in self.data.timer]
+    def stages(self):
+        """Seconds of a step by MuJoCo's own timers."""
+        mujoco.set_mjcb_time(CLOCK)
+        self.one_pass()
         mujoco.set_mjcb_time(None)
-        spent /= passes * PASS
-        of = lambda name: spent[getattr(mujoco.mjtTimer, "mjTIMER_" + name)]
-        rows = {row: of(timer) for row, (timer, _) in STAGES.items() if timer}
-        return rows | {"rest": of("STEP") - sum(rows.values())}
+        of = lambda name: self.data.timer[getattr(mujoco.mjtTimer, "mjTIMER_" + name)].duration / PASS
+        rows = [of(timer) for timer, _ in STAGES.values() if timer]
+        return rows + [of("STEP") - sum(rows)]
 
 
 def compare(path, model, args):
@@ -157,10 +155,11 @@ def compare(path, model, args):
     row = {"ours": rates[0], "theirs": rates[1], "ratio": rates[0] / rates[1], "motion": motion,
            "muscles": bool((model.actuator_gaintype == mujoco.mjtGain.mjGAIN_MUSCLE).any())}
     if args.stages:
-        row["stages"] = [ours.stages(passes[0]), theirs.stages(passes[1])]
+        rounds = [[ours.stages(), theirs.stages()] for _ in range(STAGE_ROUNDS)]
+        row["stages"] = np.median(rounds, axis=0) * 1e6
     if args.jitter:
         found = ours.answer("jitter", JITTER_STEPS)
-        row["jitter"] = found["p99.9"] / found["median"]
+        row["jitter"] = [found[least + "p99.9"] / found[least + "median"] for least in ("", "least ")]
     ours.close()
     return row
 
@@ -171,10 +170,10 @@ def geometric_mean(ratios):
 
 def report(rows, args):
     """The measured table, Markdown."""
-    lines = ["| model | robohive steps/s | MuJoCo steps/s | ratio | motion |" + (" p99.9 / median |" if args.jitter else ""),
-             "|---|---|---|---|---|" + ("---|" if args.jitter else "")]
+    lines = ["| model | robohive steps/s | MuJoCo steps/s | ratio | motion |" + (" p99.9 / median | the same of least times |" if args.jitter else ""),
+             "|---|---|---|---|---|" + ("---|---|" if args.jitter else "")]
     for name, r in rows.items():
-        jitter = f" {r['jitter']:.2f} |" if args.jitter else ""
+        jitter = " {:.2f} | {:.2f} |".format(*r["jitter"]) if args.jitter else ""
         lines.append(f"| {name} | {r['ours']:.0f} | {r['theirs']:.0f} | {r['ratio']:.2f} | {r['motion']:.0e} |{jitter}")
     ratios = [r["ratio"] for r in rows.values()]
     muscles = [r["ratio"] for r in rows.values() if r["muscles"]]
@@ -184,7 +183,7 @@ def report(rows, args):
         lines += ["", "Microseconds of a step, robohive / MuJoCo:", "", "| model | " + " | ".join(STAGES) + " |",
                   "|---" * (len(STAGES) + 1) + "|"]
         for name, r in rows.items():
-            cells = (f"{r['stages'][0][s] * 1e6:.1f} / {r['stages'][1][s] * 1e6:.1f}" for s in STAGES)
+            cells = (f"{a:.1f} / {b:.1f}" for a, b in r["stages"].T)
             lines.append(f"| {name} | " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
