@@ -139,18 +139,22 @@ struct Fixed<'a> {
 impl Fixed<'_> {
     /// Computes the poses of all in the world.
     fn place(&self, at: &BodyFrames, xpos: &mut [Vec3], xmat: &mut [Mat3]) {
-        for (k, (&b, &same)) in self.body.iter().zip(self.same).enumerate() {
+        let local = self.pos.iter().zip(self.quat);
+        let world = xpos.iter_mut().zip(xmat);
+        for (((&b, &same), (pos, quat)), (xpos, xmat)) in
+            self.body.iter().zip(self.same).zip(local).zip(world)
+        {
             let b = b as usize;
             let same = SameFrame::from_code(i32::from(same));
-            xpos[k] = match same {
+            *xpos = match same {
                 Some(SameFrame::Body) => at.xpos[b],
                 Some(SameFrame::Inertia) => at.xipos[b],
-                _ => add(mul_mat_vec(&at.xmat[b], self.pos[k]), at.xpos[b]),
+                _ => add(mul_mat_vec(&at.xmat[b], *pos), at.xpos[b]),
             };
             match same {
-                Some(SameFrame::Body | SameFrame::Bodyrot) => xmat[k] = at.xmat[b],
-                Some(SameFrame::Inertia | SameFrame::Inertiarot) => xmat[k] = at.ximat[b],
-                Some(SameFrame::None) | None => xmat[k] = quat_to_mat(quat_mul(at.xquat[b], self.quat[k])),
+                Some(SameFrame::Body | SameFrame::Bodyrot) => *xmat = at.xmat[b],
+                Some(SameFrame::Inertia | SameFrame::Inertiarot) => *xmat = at.ximat[b],
+                Some(SameFrame::None) | None => *xmat = quat_to_mat(quat_mul(at.xquat[b], *quat)),
             }
         }
     }

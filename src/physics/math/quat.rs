@@ -33,7 +33,7 @@ pub fn quat_conj(q: Quat) -> Quat {
 
 /// `v` rotated by `q`.
 pub fn quat_rotate(q: Quat, v: Vec3) -> Vec3 {
-    if q == IDENTITY {
+    if q == IDENTITY || v == [0.0; 3] {
         return v;
     }
     let u = [q[1], q[2], q[3]];
