@@ -131,10 +131,11 @@ fn arc_outside(end: [Vec2; 2], side: Option<Vec2>, radius: f64) -> Option<(f64, 
             ],
         ]
     };
-    let crosses = |t: [Vec2; 2]| segments_intersect(end[0], t[0], end[1], t[1]);
+    let (positive, negative) = (tangents(1.0), tangents(-1.0));
+    let crosses = [positive, negative].map(|t| segments_intersect(end[0], t[0], end[1], t[1]));
     // With a side point, the tangent points nearer to it win; without one, the shorter chord.
-    let merit = |t: [Vec2; 2]| {
-        if crosses(t) {
+    let merit = |t: [Vec2; 2], crosses: bool| {
+        if crosses {
             return -10000.0;
         }
         match side {
@@ -145,10 +146,9 @@ fn arc_outside(end: [Vec2; 2], side: Option<Vec2>, radius: f64) -> Option<(f64, 
             }
         }
     };
-    let (positive, negative) = (tangents(1.0), tangents(-1.0));
-    let clockwise = merit(positive) <= merit(negative);
+    let clockwise = merit(positive, crosses[0]) <= merit(negative, crosses[1]);
     let touch = if clockwise { negative } else { positive };
-    if crosses(touch) {
+    if crosses[usize::from(clockwise)] {
         return None;
     }
     Some((arc_length(touch[0], touch[1], clockwise, radius), touch))
