@@ -195,7 +195,7 @@ pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) {
 /// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.
 pub(crate) fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
-    actuator_velocity(m, &d.state, &d.trn, &mut d.vel.actuator_velocity);
+    actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
     com_vel(m, &d.state, &d.com, &mut d.vel);
     passive(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.vel, &mut d.passive);
     reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc);

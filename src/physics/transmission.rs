@@ -4,7 +4,7 @@
 //! compressed in place, one after the other; entries that are exactly zero are left out where MuJoCo does so.
 
 use crate::chain::{MergedChain, chain, com_offset, point_column, site_point};
-use crate::data::{Com, Constraints, Contact, Contacts, Kinematics, State, Tendons, Transmission};
+use crate::data::{Com, Constraints, Contact, Contacts, Kinematics, State, Tendons, Transmission, Velocity};
 use crate::math::{
     Mat3, Quat, Vec3, add, column, cross, dot, dot_sparse, mul_mat_t_vec, mul_mat_vec, ops, quat_conj,
     quat_difference, quat_mul, quat_normalize, quat_rotate, quat_to_velocity, rotational, row, scale, sub,
@@ -50,15 +50,25 @@ pub fn transmission(
     rows.clear_rest();
 }
 
-/// Velocities of all actuators: moments times joint velocities; zero when actuation is disabled.
-pub fn actuator_velocity(m: &Model, state: &State, trn: &Transmission, velocity: &mut [f64]) {
+/// Velocities of all actuators, after those of tendons: moments times joint velocities; zero when actuation is
+/// disabled.
+pub fn actuator_velocity(m: &Model, state: &State, trn: &Transmission, vel: &mut Velocity) {
     if m.opt.disableflags & disable::ACTUATION != 0 {
-        velocity.fill(0.0);
+        vel.actuator_velocity.fill(0.0);
         return;
     }
-    for out in 0..m.nout {
-        let at = moment_row(trn, out);
-        velocity[out] = dot_sparse(&trn.actuator_moment[at.clone()], &trn.moment_colind[at], &state.qvel);
+    for i in 0..m.nactuator {
+        let first = m.actuator_outadr[i] as usize;
+        // With unit gear the moment is the row of the tendon.
+        if m.actuator_trntype[i] == TrnType::Tendon.code() && m.actuator_gear[first][0] == 1.0 {
+            vel.actuator_velocity[first] = vel.ten_velocity[m.actuator_trnid[i][0] as usize];
+            continue;
+        }
+        for out in first..first + m.actuator_outnum[i] as usize {
+            let at = moment_row(trn, out);
+            vel.actuator_velocity[out] =
+                dot_sparse(&trn.actuator_moment[at.clone()], &trn.moment_colind[at], &state.qvel);
+        }
     }
 }
 

@@ -162,7 +162,7 @@ const STAGES: &[Stage] = &[
         ],
         run: |m, d| {
             tendon::tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
-            transmission::actuator_velocity(m, &d.state, &d.trn, &mut d.vel.actuator_velocity);
+            transmission::actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
             velocity::com_vel(m, &d.state, &d.com, &mut d.vel);
         },
         writes: &["ten_velocity", "actuator_velocity", "cvel", "cdof_dot"],
