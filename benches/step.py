@@ -5,7 +5,8 @@
 Both sides run the same trajectory: keyframe 0 or `qpos0`, 500 steps under the smooth seeded controls of
 `validation/reference/record.py`, a new row of them every HOLD steps (MuJoCo gets them as `nstep`), then all over
 again. They run in turns, several rounds; medians of processor time, so other work on the machine matters little.
-Loading is not counted. Stages are wall time, the least of single passes, clocks that both sides read included. `motion` is the largest difference of `qpos` after one pass: the proof of equal work.
+Loading is not counted. Stages are wall time, the least of single passes, clocks that both sides read included.
+`motion` is the largest difference of `qpos` after one pass: the proof of equal work.
 
 Own models always; RoboHive's with `--corpus`, the folder that holds its `envs` and `simhive` (a copy is made). Needs
 `mujoco` and `numpy`, Linux, and a release build of this repository.
