@@ -13,6 +13,7 @@ island, and every third, counted by pairs, removes slip. One archive a model; th
     problem.NAME    options and inputs of fixed size, a row each
     contact.NAME, efc_NAME                       contacts and rows, concatenated
     solved.NAME     solutions, [problem, solver, ...]
+    statistics      of the iterations of the three solvers one after another, concatenated
 """
 
 import argparse
@@ -36,6 +37,7 @@ FIXED = ["qacc_warmstart", "qacc_smooth", "qfrc_smooth", "M", "qLD", "qLDiagInv"
 ROWS = ["efc_type", "efc_id", "efc_frictionloss", "efc_diagA", "efc_D", "efc_R", "efc_aref"]
 CONTACT = ["dim", "geom", "friction", "mu", "exclude", "efc_address"]
 SOLVED = ["qacc", "solver_niter"]
+STATISTICS = ["improvement", "gradient", "lineslope", "nactive", "nchange", "neval", "nupdate"]
 
 HOLD = 15       # steps between changes of the controls
 RESTART = 400   # steps between disturbed starts
@@ -90,6 +92,13 @@ def jacobian(model, data):
     return np.bincount(rows, minlength=data.nefc), columns, dense[rows, columns]
 
 
+def iterations(data):
+    """Statistics of every iteration, island after island."""
+    table = np.stack([getattr(data.solver, name) for name in STATISTICS], axis=-1).astype(float)
+    table = table.reshape(mujoco.mjNISLAND, mujoco.mjNSOLVER, len(STATISTICS))
+    return np.concatenate([rows[:n] for rows, n in zip(table, data.solver_niter)])
+
+
 def record(model, number, seed):
     rng = np.random.default_rng(seed)
     data = mujoco.MjData(model)
@@ -108,17 +117,20 @@ def record(model, number, seed):
             model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_ISLAND
         model.opt.noslip_iterations = NOSLIP_ITERATIONS if k // 2 % 3 == 2 else 0
         for cone in CONES:
-            solved = {name: [] for name in SOLVED}
+            solved, statistics = {name: [] for name in SOLVED}, []
             for solver in SOLVERS:
                 model.opt.cone, model.opt.solver = cone, solver
                 set_state(model, data, state)
                 mujoco.mj_forward(model, data)
                 for name in SOLVED:
                     solved[name].append(np.array(getattr(data, name)))
+                statistics.append(iterations(data))
             if not data.nefc:
                 continue
             for name in SOLVED:
                 put("solved." + name, solved[name])
+            put("count.statistics", [len(rows) for rows in statistics])
+            put("statistics", np.concatenate(statistics))
             for name in ["cone", "noslip_iterations", "disableflags"]:
                 put("problem." + name, getattr(model.opt, name))
             for name in FIXED:

@@ -1,9 +1,10 @@
 //! Recorded constraint problems (`reference/solver.py`): our solvers from MuJoCo's inputs, beside its solutions.
 
 use crate::reference::{Reference, ReferenceError};
-use crate::tolerance::{COST, ITERATIONS_SHARE};
+use crate::tolerance::{COST, ITERATIONS_SHARE, STATISTIC_ABSOLUTE, STATISTIC_RELATIVE};
 use dataset::NpzReader;
 use physics::constraint::{IslandScratch, find_islands};
+use physics::data::SolverStat;
 use physics::inertia::mul_inertia_matrix;
 use physics::model::{Cone, ConstraintType, Solver, disable};
 use physics::solver::{SolverScratch, solve};
@@ -30,6 +31,8 @@ pub struct Tally {
     pub within_one: usize,
     /// Problems in which every island takes as many iterations.
     pub equal_counts: usize,
+    /// Problems in which every iteration has the same statistics (`SolverStat`).
+    pub equal_statistics: usize,
     /// Problems with the same `qacc` to the last bit.
     pub bit_equal: usize,
     /// Largest difference of a `qacc`, relative to its largest component.
@@ -51,6 +54,7 @@ impl Tally {
         self.not_higher += other.not_higher;
         self.within_one += other.within_one;
         self.equal_counts += other.equal_counts;
+        self.equal_statistics += other.equal_statistics;
         self.bit_equal += other.bit_equal;
         self.worst_qacc = self.worst_qacc.max(other.worst_qacc);
         if other.worst_excess > self.worst_excess {
@@ -112,6 +116,7 @@ struct Place {
     contact: usize,
     row: usize,
     entry: usize,
+    statistics: usize,
 }
 
 /// Solves every problem of an archive with every solver.
@@ -137,8 +142,12 @@ pub fn solve_archive(m: &mut Model, path: &Path) -> Result<Outcome, ReferenceErr
             let mut d = start.clone();
             let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
             solve(m, state, inertia, con, efc, island, acc, solver, &mut scratch);
-            let (theirs, counts) = (&qacc[s * m.nv..(s + 1) * m.nv], niter.len() / SOLVERS.len());
-            let mut tally = judge(m, &d, theirs, &niter[s * counts..(s + 1) * counts]);
+            let counts = niter.len() / SOLVERS.len();
+            let theirs = &qacc[s * m.nv..(s + 1) * m.nv];
+            let first = place.statistics;
+            place.statistics += problems.row("count.statistics", k)?[s] as usize;
+            let statistics = problems.rows("statistics", first..place.statistics)?;
+            let mut tally = judge(m, &d, theirs, &niter[s * counts..(s + 1) * counts], statistics);
             tally.worst = (name.clone(), k);
             out.tallies[s][cone].add(&tally);
         }
@@ -162,7 +171,7 @@ fn inject(m: &mut Model, p: &Problems, k: usize, place: &mut Place) -> Result<Da
     }
     let at = *place;
     let (contacts, rows, entries) = (p.count("ncon", k)?, p.count("nefc", k)?, p.count("entries", k)?);
-    *place = Place { contact: at.contact + contacts, row: at.row + rows, entry: at.entry + entries };
+    *place = Place { contact: at.contact + contacts, row: at.row + rows, entry: at.entry + entries, ..at };
     if contacts > 0 {
         for name in ["dim", "geom", "friction", "mu", "exclude", "efc_address"] {
             let name = format!("contact.{name}");
@@ -215,8 +224,19 @@ fn features(m: &Model, d: &Data) -> Vec<&'static str> {
     .collect()
 }
 
+/// True when the recorded rows, seven numbers each, are ours: counts equal, the scaled reals within the tolerance.
+fn equal_statistics(ours: &[SolverStat], theirs: &[f64]) -> bool {
+    let near = |a: f64, b: f64| (a - b).abs() <= STATISTIC_RELATIVE * b.abs() + STATISTIC_ABSOLUTE;
+    ours.len() * 7 == theirs.len()
+        && ours.iter().zip(theirs.chunks_exact(7)).all(|(a, b)| {
+            let reals = [a.improvement, a.gradient, a.lineslope];
+            let counts = [a.nactive, a.nchange, a.neval, a.nupdate].map(f64::from);
+            reals.iter().zip(b).all(|(a, b)| near(*a, *b)) && counts == b[3..]
+        })
+}
+
 /// Compares one solution with MuJoCo's.
-fn judge(m: &Model, d: &Data, qacc: &[f64], niter: &[f64]) -> Tally {
+fn judge(m: &Model, d: &Data, qacc: &[f64], niter: &[f64], statistics: &[f64]) -> Tally {
     let [ours, theirs] = [&d.acc.qacc[..], qacc].map(|qacc| cost(m, d, qacc));
     let excess = if ours > theirs { (ours - theirs) / theirs } else { 0.0 };
     let scale = qacc.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
@@ -232,6 +252,7 @@ fn judge(m: &Model, d: &Data, qacc: &[f64], niter: &[f64]) -> Tally {
         worst_excess: excess,
         within_one: usize::from(apart <= 1.0),
         equal_counts: usize::from(apart == 0.0),
+        equal_statistics: usize::from(equal_statistics(&d.solver.solver, statistics)),
         bit_equal: usize::from(d.acc.qacc == qacc),
         worst_qacc: if difference > 0.0 { difference / scale } else { 0.0 },
         worst: Default::default(),
@@ -361,18 +382,19 @@ fn summary(o: &Outcome) -> String {
 
 fn render(o: &Outcome) -> String {
     let mut text = String::from(
-        "| solver, cone | problems | cost not higher | worst excess | iterations within one | equal | bit-equal `qacc` | worst `qacc` difference |\n|---|---|---|---|---|---|---|---|\n",
+        "| solver, cone | problems | cost not higher | worst excess | iterations within one | equal | equal statistics | bit-equal `qacc` | worst `qacc` difference |\n|---|---|---|---|---|---|---|---|---|\n",
     );
     for (name, t) in variants(o) {
         let share = |n: usize| format!("{:.2} %", 100.0 * n as f64 / t.problems.max(1) as f64);
         let _ = writeln!(
             text,
-            "| {name} | {} | {} | {:.0e} | {} | {} | {} | {:.0e} |",
+            "| {name} | {} | {} | {:.0e} | {} | {} | {} | {} | {:.0e} |",
             t.problems,
             share(t.not_higher),
             t.worst_excess,
             share(t.within_one),
             share(t.equal_counts),
+            share(t.equal_statistics),
             share(t.bit_equal),
             t.worst_qacc
         );
@@ -407,7 +429,7 @@ mod tests {
                 for step in [-1e-3, 1e-3] {
                     d.acc.qacc.copy_from_slice(newton);
                     d.acc.qacc[dof] += step * scale;
-                    let tally = judge(&m, &d, newton, &[]);
+                    let tally = judge(&m, &d, newton, &[], &[]);
                     assert_eq!(tally.not_higher, 0, "problem {k}, degree of freedom {dof}: {tally:?}");
                     nudged += 1;
                 }

@@ -34,3 +34,9 @@ pub const NOISE_FLOOR: f64 = 1e-3;
 pub const COST: f64 = 1e-10;
 /// Share of problems in which the solver's iteration counts agree within one: rounding may decide the last.
 pub const ITERATIONS_SHARE: f64 = 0.95;
+
+/// Improvement, gradient and slope of one iteration: of the size of the solver's tolerance, 1e-8, near the end, where they
+/// are what cancellation left.
+pub const STATISTIC_RELATIVE: f64 = 1e-6;
+/// What counts as zero among them.
+pub const STATISTIC_ABSOLUTE: f64 = 1e-11;

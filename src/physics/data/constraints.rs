@@ -201,9 +201,30 @@ impl Constraints {
     }
 }
 
-/// What the constraint solver did, per island (documentation: `mjSolverStat`).
+/// One iteration of the constraint solver, or one sweep of the removal of slip (documentation: `mjSolverStat`).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SolverStat {
+    /// Reduction of cost, scaled.
+    pub improvement: f64,
+    /// Length of the gradient, scaled; zero for dual solvers.
+    pub gradient: f64,
+    /// Slope at the end of the line search, scaled; zero for dual solvers.
+    pub lineslope: f64,
+    /// Rows that make force.
+    pub nactive: i32,
+    /// Rows that changed state.
+    pub nchange: i32,
+    /// Evaluations of the line search.
+    pub neval: i32,
+    /// Updates of the Hessian's factor.
+    pub nupdate: i32,
+}
+
+/// What the constraint solver did, per island.
 #[derive(Clone, Debug, Default)]
 pub struct SolverStatistics {
+    /// Every iteration, island after island.
+    pub solver: Vec<SolverStat>,
     /// Iterations of each island (one entry when islands are off).
     pub solver_niter: Vec<i32>,
     /// Non-zeros of each island's solver matrix.

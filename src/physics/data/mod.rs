@@ -4,7 +4,7 @@ mod constraints;
 mod scratch;
 mod stages;
 
-pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStatistics};
+pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStat, SolverStatistics};
 pub use scratch::Scratch;
 pub use stages::*;
 

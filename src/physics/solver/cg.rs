@@ -1,6 +1,7 @@
 //! Nonlinear conjugate gradients on the primal cost, preconditioned with the inertia (Hager and Zhang 2005).
 
 use super::primal::Primal;
+use crate::data::SolverStat;
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
@@ -9,7 +10,7 @@ use crate::model::bounds::MINVAL;
 const ETA: f64 = 0.01;
 
 /// Minimises the cost; returns the number of iterations and the Jacobian's entries.
-pub(super) fn conjugate_gradient(m: &Model, p: &mut Primal) -> (i32, usize) {
+pub(super) fn conjugate_gradient(m: &Model, p: &mut Primal, stats: &mut Vec<SolverStat>) -> (i32, usize) {
     let (tolerance, nonzeros) = (m.opt.tolerance, p.problem.jacobian.len());
     p.precondition_inertia();
     if p.decrement() < tolerance {
@@ -23,7 +24,9 @@ pub(super) fn conjugate_gradient(m: &Model, p: &mut Primal) -> (i32, usize) {
         let Some(improvement) = p.step(m) else { break };
         p.precondition_inertia();
         iterations += 1;
-        if improvement > 0.0 && improvement < tolerance || p.gradient() < tolerance {
+        let gradient = p.gradient();
+        stats.push(p.statistics(improvement, gradient, 0));
+        if improvement > 0.0 && improvement < tolerance || gradient < tolerance {
             break;
         }
         let beta = direction_weight(p);

@@ -2,7 +2,7 @@
 //! (MuJoCo documentation, Computation, "Dual problem").
 
 use crate::constraint::{HalfJacobian, half_jacobian};
-use crate::data::{Constraints, Contact, Inertia};
+use crate::data::{Constraints, Contact, Inertia, SolverStat};
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::bounds::MINVAL;
 use crate::model::{ConstraintState, ConstraintType, Model};
@@ -158,8 +158,14 @@ pub(super) fn project_ellipsoid(tangential: &mut [f64], normal: f64, mu: &[f64],
     }
 }
 
-/// Sets `efc_state` of the listed rows from their forces.
-pub(super) fn update_states(efc: &mut Constraints, contacts: &[Contact], rows: &[i32]) {
+/// Sets `efc_state` of the listed rows from their forces; returns the statistics of the sweep that made them.
+pub(super) fn update_states(
+    efc: &mut Constraints,
+    contacts: &[Contact],
+    rows: &[i32],
+    improvement: f64,
+) -> SolverStat {
+    let mut stat = SolverStat { improvement, ..SolverStat::default() };
     let mut at = 0;
     while at < rows.len() {
         let i = rows[at] as usize;
@@ -167,9 +173,14 @@ pub(super) fn update_states(efc: &mut Constraints, contacts: &[Contact], rows: &
             Some(contact) => (cone_state(efc, contact, i), contact.dim as usize),
             None => (scalar_state(efc, i), 1),
         };
-        efc.efc_state[i..i + dim].fill(state.code());
+        stat.nactive += if state == ConstraintState::Satisfied { 0 } else { dim as i32 };
+        for old in &mut efc.efc_state[i..i + dim] {
+            stat.nchange += i32::from(*old != state.code());
+            *old = state.code();
+        }
         at += dim;
     }
+    stat
 }
 
 fn scalar_state(efc: &Constraints, i: usize) -> ConstraintState {

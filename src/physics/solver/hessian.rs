@@ -24,6 +24,8 @@ pub(super) struct Hessian {
     /// Mass of rows in the quadratic state, zero elsewhere.
     active: Vec<f64>,
     sparse: SparseCholesky,
+    /// Rank-one updates since the last iteration; all rows when the factor is made afresh.
+    pub updates: usize,
 }
 
 impl Hessian {
@@ -46,13 +48,19 @@ impl Hessian {
             self.sparse.factorize(p, &self.active, &mut self.factor, MINVAL);
         }
         self.add_cones(p, state, jar);
+        self.updates = p.rows.len();
     }
 
     /// Updates the factor for rows that became quadratic or ceased to be; starts afresh when accuracy is lost.
     pub fn follow(&mut self, p: &Problem, old: &[ConstraintState], state: &[ConstraintState], jar: &[f64]) {
+        self.updates = 0;
         for i in 0..p.rows.len() {
             let (was, is) = (old[i] == ConstraintState::Quadratic, state[i] == ConstraintState::Quadratic);
-            if was != is && self.update_row(p, i, is) < p.nv {
+            if was == is {
+                continue;
+            }
+            self.updates += 1;
+            if self.update_row(p, i, is) < p.nv {
                 self.factorize(p, state, jar);
                 return;
             }
@@ -83,6 +91,7 @@ impl Hessian {
         self.with_cones.clone_from(&self.factor);
         let mut local = [0.0; 36];
         for c in p.rows.cones.iter().filter(|c| state[c.row] == ConstraintState::Cone) {
+            self.updates += c.dim;
             cone_hessian(c, p.rows.d[c.row], jar, &mut local);
             cholesky_factor(&mut local[..c.dim * c.dim], c.dim, MINVAL);
             let n = if p.dense { p.nv } else { p.sparse_row(c.row).0.len() };

@@ -22,7 +22,11 @@ pub(super) struct LineSearch {
     /// Linear and square coefficient of the unconstrained cost and of the equality rows.
     smooth: [f64; 2],
     /// Evaluations so far.
-    evaluations: i32,
+    pub evaluations: i32,
+    /// Slope where the search ended, in units of the tolerance; 1 where there is none.
+    pub slope: f64,
+    /// Scale of slopes: that of costs over the length of the search direction.
+    unit: f64,
 }
 
 /// Where a search starts: constants of the line.
@@ -64,26 +68,23 @@ impl Point {
     fn newton(&self) -> f64 {
         self.alpha - self.slope / self.curvature
     }
-
-    fn result(&self) -> (f64, f64) {
-        (self.alpha, -self.cost)
-    }
 }
 
 impl LineSearch {
     /// Best step length and the improvement of cost it makes; a length of zero when there is none.
     pub fn search(&mut self, line: Line) -> (f64, f64) {
-        self.evaluations = 0;
+        (self.evaluations, self.slope) = (0, 1.0);
         let length = norm_slice(line.search);
         if length < MINVAL {
             return (0.0, 0.0);
         }
         let flat = line.tolerance * length / line.scale;
+        self.unit = line.scale / length;
         self.prepare(line);
         let p0 = self.evaluate(line, 0.0);
         let mut p1 = self.evaluate(line, p0.newton());
         if p1.slope.abs() < flat && (p1.alpha == 0.0 || p1.cost < 0.0) {
-            return p1.result();
+            return self.end(p1);
         }
         // March on with Newton steps until the slope changes sign.
         let direction = if p1.slope < 0.0 { 1.0 } else { -1.0 };
@@ -92,13 +93,19 @@ impl LineSearch {
             p2 = p1;
             p1 = self.evaluate(line, p1.newton());
             if p1.slope.abs() < flat && p1.cost < 0.0 {
-                return p1.result();
+                return self.end(p1);
             }
         }
         if self.evaluations >= line.iterations {
-            return p1.result();
+            return self.end(p1);
         }
         self.bracket(line, flat, p1, p2)
+    }
+
+    /// Step length and improvement at `p`, whose slope is kept.
+    fn end(&mut self, p: Point) -> (f64, f64) {
+        self.slope = p.slope.abs() * self.unit;
+        (p.alpha, -p.cost)
     }
 
     /// Shrinks the bracket `p1`, `p2` with Newton steps from both ends and bisection.
@@ -115,18 +122,18 @@ impl LineSearch {
                 }
             }
             if let Some(best) = best {
-                return best.result();
+                return self.end(best);
             }
             let moved1 = self.tighten(line, &mut p1, &candidates, &mut p1_next);
             let moved2 = self.tighten(line, &mut p2, &candidates, &mut p2_next);
             if !moved1 && !moved2 {
-                return middle.result();
+                return self.end(middle);
             }
         }
         if p1.cost <= p2.cost && p1.cost < 0.0 {
-            p1.result()
+            self.end(p1)
         } else if p2.cost <= p1.cost && p2.cost < 0.0 {
-            p2.result()
+            self.end(p2)
         } else {
             (0.0, 0.0)
         }

@@ -55,6 +55,8 @@ pub fn solve(
     scratch: &mut SolverScratch,
 ) {
     acc.qfrc_constraint.fill(0.0);
+    stats.solver.clear();
+    stats.solver.reserve((m.opt.iterations.clamp(0, 1000) + m.opt.noslip_iterations.clamp(0, 1000)) as usize);
     stats.solver_niter.clear();
     stats.solver_nnz.clear();
     if efc.nefc == 0 {
@@ -211,20 +213,20 @@ fn solve_part(
     dual: &mut Dual,
 ) {
     let (mut iterations, nonzeros) = if m.opt.solver == Solver::Pgs.code() {
-        (pgs::pgs(m, dual, efc, &con.contact, s.rows), s.rows.len() * s.rows.len())
+        (pgs::pgs(m, dual, efc, &con.contact, s.rows, &mut stats.solver), s.rows.len() * s.rows.len())
     } else {
         primal.problem.gather(m, inertia, efc, con, s);
         primal.begin(acc, efc, s, scale(primal));
         let result = if m.opt.solver == Solver::Cg.code() {
-            cg::conjugate_gradient(m, primal)
+            cg::conjugate_gradient(m, primal, &mut stats.solver)
         } else {
-            newton::newton(m, primal)
+            newton::newton(m, primal, &mut stats.solver)
         };
         primal.finish(s, acc, efc);
         result
     };
     if m.opt.noslip_iterations > 0 {
-        iterations += noslip::noslip(m, dual, efc, &con.contact, s.rows);
+        iterations += noslip::noslip(m, dual, efc, &con.contact, s.rows, &mut stats.solver);
     }
     stats.solver_niter.push(iterations);
     stats.solver_nnz.push(nonzeros as i32);

@@ -2,13 +2,14 @@
 //! (MuJoCo documentation, Computation, "Algorithms", "Newton").
 
 use super::primal::Primal;
+use crate::data::SolverStat;
 use crate::model::Model;
 
 /// Minimises the cost; returns the number of iterations and the entries of the factors used.
 ///
 /// Nothing is done when the start is already good: the cost is within tolerance of its minimum (by the duality gap,
 /// `½ gᵀ M⁻¹ g`, or the Newton decrement, `½ gᵀ H⁻¹ g`) and the gradient is below tolerance.
-pub(super) fn newton(m: &Model, p: &mut Primal) -> (i32, usize) {
+pub(super) fn newton(m: &Model, p: &mut Primal, stats: &mut Vec<SolverStat>) -> (i32, usize) {
     let tolerance = m.opt.tolerance;
     p.precondition_inertia();
     let flat = p.gradient() < tolerance;
@@ -28,8 +29,10 @@ pub(super) fn newton(m: &Model, p: &mut Primal) -> (i32, usize) {
         p.hessian.follow(&p.problem, &p.old_state, &p.state, &p.jar);
         p.precondition_hessian();
         iterations += 1;
+        let gradient = p.gradient();
+        stats.push(p.statistics(improvement, gradient, p.hessian.updates));
         let small = improvement > 0.0 && improvement < tolerance;
-        if small || p.gradient() < tolerance || p.decrement() < tolerance {
+        if small || gradient < tolerance || p.decrement() < tolerance {
             break;
         }
     }

@@ -3,7 +3,7 @@
 
 use super::dual::{Dual, cost_change, elliptic, update_states};
 use super::friction_force::friction_force;
-use crate::data::{Constraints, Contact};
+use crate::data::{Constraints, Contact, SolverStat};
 use crate::math::dense::dot_slice;
 use crate::model::bounds::MINVAL;
 use crate::model::{ConstraintType, Model};
@@ -15,8 +15,10 @@ pub(super) fn noslip(
     efc: &mut Constraints,
     contacts: &[Contact],
     rows: &[i32],
+    stats: &mut Vec<SolverStat>,
 ) -> i32 {
     let scale = 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64);
+    update_states(efc, contacts, rows, 0.0);
     let mut sweeps = 0;
     while sweeps < m.opt.noslip_iterations {
         let mut improvement = 0.0;
@@ -46,12 +48,13 @@ pub(super) fn noslip(
                 at += contact.dim as usize - 1;
             }
         }
+        improvement *= scale;
+        stats.push(update_states(efc, contacts, rows, improvement));
         sweeps += 1;
-        if improvement * scale < m.opt.noslip_tolerance {
+        if improvement < m.opt.noslip_tolerance {
             break;
         }
     }
-    update_states(efc, contacts, rows);
     sweeps
 }
 

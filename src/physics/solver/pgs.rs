@@ -3,7 +3,7 @@
 
 use super::dual::{Dual, cost_change, elliptic, project_ellipsoid, update_states};
 use super::friction_force::friction_force;
-use crate::data::{Constraints, Contact};
+use crate::data::{Constraints, Contact, SolverStat};
 use crate::math::dense::dot_slice;
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
@@ -15,10 +15,12 @@ pub(super) fn pgs(
     efc: &mut Constraints,
     contacts: &[Contact],
     rows: &[i32],
+    stats: &mut Vec<SolverStat>,
 ) -> i32 {
     let scale = 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64);
     list_blocks(dual, efc, contacts, rows);
     gather(&mut dual.before, efc, rows);
+    update_states(efc, contacts, rows, 0.0);
     let mut generator = Pcg32::new();
     let (mut sweeps, mut momentum) = (0, 0);
     while sweeps < m.opt.iterations {
@@ -32,14 +34,15 @@ pub(super) fn pgs(
                 None => update_scalar(dual, efc, i),
             };
         }
+        improvement *= scale;
+        stats.push(update_states(efc, contacts, rows, improvement));
         let restart = sweeps > 0 && opposes(dual, efc, rows);
         momentum = if restart { 0 } else { momentum + 1 };
         sweeps += 1;
-        if improvement * scale < m.opt.tolerance {
+        if improvement < m.opt.tolerance {
             break;
         }
     }
-    update_states(efc, contacts, rows);
     sweeps
 }
 

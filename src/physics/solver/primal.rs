@@ -6,7 +6,7 @@
 use super::hessian::Hessian;
 use super::line_search::{Line, LineSearch};
 use super::problem::{Problem, Selection};
-use crate::data::{Acceleration, Constraints};
+use crate::data::{Acceleration, Constraints, SolverStat};
 use crate::math::add_scaled_slice;
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::{ConstraintState, Model};
@@ -129,6 +129,21 @@ impl Primal {
         self.old_state.clone_from(&self.state);
         self.evaluate();
         Some(self.scale * improvement)
+    }
+
+    /// What the last step did.
+    pub fn statistics(&self, improvement: f64, gradient: f64, updates: usize) -> SolverStat {
+        let active = self.state.iter().filter(|&&s| s != ConstraintState::Satisfied).count();
+        let changed = self.state.iter().zip(&self.old_state).filter(|(new, old)| new != old).count();
+        SolverStat {
+            improvement,
+            gradient,
+            lineslope: self.line.slope,
+            nactive: active as i32,
+            nchange: changed as i32,
+            neval: self.line.evaluations,
+            nupdate: updates as i32,
+        }
     }
 
     /// Writes the solution back.
