@@ -2,7 +2,7 @@
 //! (MuJoCo documentation, Modeling, "Solver parameters").
 
 use super::diagonal::block_length;
-use crate::data::{Constraints, Contacts};
+use crate::data::{Constraints, Contact, Contacts};
 use crate::math::dense::norm_slice;
 use crate::math::ops;
 use crate::model::bounds::{MAXIMP, MINIMP, MINVAL};
@@ -13,40 +13,68 @@ const DEFAULT_SOLREF: [f64; 2] = [0.02, 1.0];
 
 /// Computes `efc_KBIP`, `efc_R`, `efc_D` and the `mu` of frictional contacts, then makes `efc_diagA` agree with `R`.
 pub(super) fn impedance(m: &Model, con: &mut Contacts, efc: &mut Constraints) {
-    efc.efc_R.clear();
-    efc.efc_R.resize(efc.nefc, 0.0);
+    for column in [&mut efc.efc_R, &mut efc.efc_D] {
+        column.clear();
+        column.resize(efc.nefc, 0.0);
+    }
     efc.efc_KBIP.clear();
     efc.efc_KBIP.resize(efc.nefc, [0.0; 4]);
     let mut i = 0;
     while i < efc.nefc {
         let length = block_length(m, con, efc, i);
         block(m, con, efc, i, length);
-        cone_regularisation(m, con, efc, i, length);
         i += length;
-    }
-    efc.efc_D.clear();
-    efc.efc_D.extend(efc.efc_R.iter().map(|r| 1.0 / r));
-    for i in 0..efc.nefc {
-        let impedance = efc.efc_KBIP[i][2];
-        efc.efc_diagA[i] = efc.efc_R[i] * impedance / (1.0 - impedance);
     }
 }
 
-/// Sets `R` and `KBIP` of the `length` rows of one constraint.
-fn block(m: &Model, con: &Contacts, efc: &mut Constraints, first: usize, length: usize) {
-    let SolverParameters { solref, solreffriction, solimp } = solver_parameters(m, con, efc, first);
+/// Sets all of it for the `length` rows of one constraint. Opposite edges of a pyramid share every number.
+fn block(m: &Model, con: &mut Contacts, efc: &mut Constraints, first: usize, length: usize) {
+    let kind = ConstraintType::from_code(efc.efc_type[first]);
+    let SolverParameters { solref, solreffriction, solimp } = solver_parameters(m, con, efc, first, kind);
     let (imp, slope) = curve(&solimp, violation(m, efc, first, length), efc.efc_margin[first]);
-    for j in 0..length {
-        let i = first + j;
-        efc.efc_R[i] = ((1.0 - imp) * efc.efc_diagA[i] / imp).max(MINVAL);
-        let kind = ConstraintType::from_code(efc.efc_type[i]);
-        let tangential = kind == Some(ConstraintType::ContactElliptic) && j > 0;
-        let friction =
-            matches!(kind, Some(ConstraintType::FrictionDof | ConstraintType::FrictionTendon)) || tangential;
-        let reference = if tangential && solreffriction != [0.0; 2] { solreffriction } else { solref };
-        let [k, b] = spring_damper(reference, solimp[1]);
-        efc.efc_KBIP[i] = [if friction { 0.0 } else { k }, b, imp, slope];
+    let [k, b] = spring_damper(solref, solimp[1]);
+    let friction = matches!(kind, Some(ConstraintType::FrictionDof | ConstraintType::FrictionTendon));
+    let rows = first..first + length;
+    efc.efc_KBIP[rows.clone()].fill([if friction { 0.0 } else { k }, b, imp, slope]);
+    let regularisation = |diagonal: f64| ((1.0 - imp) * diagonal / imp).max(MINVAL);
+    let r = &mut efc.efc_R[rows.clone()];
+    match kind {
+        Some(ConstraintType::ContactPyramidal) => {
+            let contact = &mut con.contact[efc.efc_id[first] as usize];
+            let normal = regularisation(efc.efc_diagA[first]);
+            set_friction(m, contact, normal);
+            let edge = 2.0 * contact.mu * contact.mu * normal;
+            r.fill(edge);
+            efc.efc_D[rows.clone()].fill(1.0 / edge);
+            efc.efc_diagA[rows].fill(edge * imp / (1.0 - imp));
+            return;
+        }
+        Some(ConstraintType::ContactElliptic) => {
+            let contact = &mut con.contact[efc.efc_id[first] as usize];
+            let friction = contact.friction;
+            r[0] = regularisation(efc.efc_diagA[first]);
+            r[1] = set_friction(m, contact, r[0]);
+            for j in 1..length - 1 {
+                r[j + 1] = r[1] * friction[0] * friction[0] / (friction[j] * friction[j]);
+            }
+            let [_, b] =
+                spring_damper(if solreffriction == [0.0; 2] { solref } else { solreffriction }, solimp[1]);
+            efc.efc_KBIP[first + 1..rows.end].fill([0.0, b, imp, slope]);
+        }
+        _ => r.iter_mut().zip(&efc.efc_diagA[rows.clone()]).for_each(|(r, a)| *r = regularisation(*a)),
     }
+    for i in rows {
+        efc.efc_D[i] = 1.0 / efc.efc_R[i];
+        efc.efc_diagA[i] = efc.efc_R[i] * imp / (1.0 - imp);
+    }
+}
+
+/// Sets `mu` of the regularised cone of a contact whose normal has regularisation `normal`, so that friction is
+/// `impratio` times as firm; returns the regularisation of the first tangent.
+fn set_friction(m: &Model, contact: &mut Contact, normal: f64) -> f64 {
+    let tangential = normal / m.opt.impratio.max(MINVAL);
+    contact.mu = contact.friction[0] * (tangential / normal).sqrt();
+    tangential
 }
 
 /// Stiffness and damping: from time constant and damping ratio when positive, else given directly with a minus sign.
@@ -79,9 +107,15 @@ struct SolverParameters {
 }
 
 /// Parameters of the element that made row `i`, made consistent.
-fn solver_parameters(m: &Model, con: &Contacts, efc: &Constraints, i: usize) -> SolverParameters {
+fn solver_parameters(
+    m: &Model,
+    con: &Contacts,
+    efc: &Constraints,
+    i: usize,
+    kind: Option<ConstraintType>,
+) -> SolverParameters {
     let id = efc.efc_id[i] as usize;
-    let (mut solref, mut solreffriction, mut solimp) = match ConstraintType::from_code(efc.efc_type[i]) {
+    let (mut solref, mut solreffriction, mut solimp) = match kind {
         Some(ConstraintType::FrictionDof) => (m.dof_solref[id], [0.0; 2], m.dof_solimp[id]),
         Some(ConstraintType::FrictionTendon) => (m.tendon_solref_fri[id], [0.0; 2], m.tendon_solimp_fri[id]),
         Some(ConstraintType::LimitJoint) => (m.jnt_solref[id], [0.0; 2], m.jnt_solimp[id]),
@@ -149,28 +183,6 @@ fn power(a: f64, b: f64) -> f64 {
         a * a
     } else {
         ops::pow(a, b)
-    }
-}
-
-/// Rescales `R` of frictional contacts so that friction is `impratio` times as firm as the normal, and sets `mu` of
-/// the regularised cone.
-fn cone_regularisation(m: &Model, con: &mut Contacts, efc: &mut Constraints, i: usize, length: usize) {
-    let kind = ConstraintType::from_code(efc.efc_type[i]);
-    if !matches!(kind, Some(ConstraintType::ContactPyramidal | ConstraintType::ContactElliptic)) {
-        return;
-    }
-    let contact = &mut con.contact[efc.efc_id[i] as usize];
-    let friction = contact.friction;
-    let r = &mut efc.efc_R[i..i + length];
-    r[1] = r[0] / m.opt.impratio.max(MINVAL);
-    contact.mu = friction[0] * (r[1] / r[0]).sqrt();
-    if kind == Some(ConstraintType::ContactElliptic) {
-        for j in 1..length - 1 {
-            r[j + 1] = r[1] * friction[0] * friction[0] / (friction[j] * friction[j]);
-        }
-    } else {
-        let edge = 2.0 * contact.mu * contact.mu * r[0];
-        r.fill(edge);
     }
 }
 

@@ -9,8 +9,8 @@ use crate::model::{ConstraintType, EqType, Model, ObjType, disable};
 pub struct IslandScratch {
     /// Union-find parent of each tree; -1 for a tree without constraints.
     parent: Vec<i32>,
-    /// A tree of each row.
-    row_tree: Vec<i32>,
+    /// One past the last row of each constraint, and a tree it touches.
+    blocks: Vec<(usize, i32)>,
     /// Fill counts.
     filled: Vec<i32>,
 }
@@ -29,12 +29,15 @@ pub fn find_islands(
     }
     scratch.parent.clear();
     scratch.parent.resize(m.ntree, -1);
-    scratch.row_tree.clear();
-    for i in 0..efc.nefc {
-        let same = i > 0 && efc.efc_type[i] == efc.efc_type[i - 1] && efc.efc_id[i] == efc.efc_id[i - 1];
-        let tree =
-            if same { scratch.row_tree[i - 1] } else { unite_row(m, con, efc, i, &mut scratch.parent) };
-        scratch.row_tree.push(tree);
+    scratch.blocks.clear();
+    let mut i = 0;
+    while i < efc.nefc {
+        let tree = unite_row(m, con, efc, i, &mut scratch.parent);
+        let constraint = (efc.efc_type[i], efc.efc_id[i]);
+        while i < efc.nefc && (efc.efc_type[i], efc.efc_id[i]) == constraint {
+            i += 1;
+        }
+        scratch.blocks.push((i, tree));
     }
     number_islands(m, &mut scratch.parent, island);
     sort_trees(m, island, &mut scratch.filled);
@@ -200,22 +203,37 @@ fn sort_dofs(m: &Model, island: &mut Islands, filled: &mut Vec<i32>) {
 }
 
 fn sort_rows(efc: &Constraints, island: &mut Islands, scratch: &mut IslandScratch) {
-    let n = island.nisland;
-    island.efc_island.clear();
-    island.efc_island.extend(scratch.row_tree.iter().map(|&t| island.tree_island[t as usize]));
-    count(&island.efc_island, n, &mut island.island_nefc);
-    count(&island.efc_island[..efc.ne], n, &mut island.island_ne);
-    count(&island.efc_island[efc.ne..efc.ne + efc.nf], n, &mut island.island_nf);
-    starts(&island.island_nefc, &mut island.island_iefcadr);
-    for map in [&mut island.map_efc2iefc, &mut island.map_iefc2efc] {
+    for counts in [&mut island.island_nefc, &mut island.island_ne, &mut island.island_nf] {
+        counts.clear();
+        counts.resize(island.nisland, 0);
+    }
+    for map in [&mut island.efc_island, &mut island.map_efc2iefc, &mut island.map_iefc2efc] {
         map.clear();
         map.resize(efc.nefc, 0);
     }
-    let (forward, backward) = (&mut island.map_efc2iefc, &mut island.map_iefc2efc);
-    sort_members(&island.efc_island, &island.island_iefcadr, 0, &mut scratch.filled, |row, at| {
-        forward[row] = at;
-        backward[at as usize] = row as i32;
-    });
+    let mut first = 0;
+    for &(end, tree) in &scratch.blocks {
+        let id = island.tree_island[tree as usize];
+        let (k, length) = (id as usize, (end - first) as i32);
+        island.island_nefc[k] += length;
+        if first < efc.ne {
+            island.island_ne[k] += length;
+        } else if first < efc.ne + efc.nf {
+            island.island_nf[k] += length;
+        }
+        for row in &mut island.efc_island[first..end] {
+            *row = id;
+        }
+        first = end;
+    }
+    starts(&island.island_nefc, &mut island.island_iefcadr);
+    scratch.filled.clone_from(&island.island_iefcadr);
+    for (row, &id) in island.efc_island.iter().enumerate() {
+        let next = &mut scratch.filled[id as usize];
+        island.map_efc2iefc[row] = *next;
+        island.map_iefc2efc[*next as usize] = row as i32;
+        *next += 1;
+    }
 }
 
 #[cfg(test)]

@@ -31,6 +31,7 @@ pub struct SolverScratch {
     primal: Primal,
     dual: Dual,
     rows: Rows,
+    /// `J qacc - aref` of all rows at the start.
     jar: Vec<f64>,
     ma: Vec<f64>,
     state: Vec<ConstraintState>,
@@ -77,10 +78,10 @@ pub fn solve(
             solve_island(m, inertia, con, efc, island, k, acc, stats, scratch);
         }
     } else {
-        let SolverScratch { all, primal, dual, .. } = scratch;
+        let SolverScratch { all, primal, dual, jar, .. } = scratch;
         let s = Selection { dofs: &all[..m.nv], rows: &all[..efc.nefc], sorted: &all[..m.nv], first: 0 };
         let scale = |_: &Primal| 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64);
-        solve_part(m, inertia, con, efc, s, scale, acc, stats, primal, dual);
+        solve_part(m, inertia, con, efc, s, scale, jar, acc, stats, primal, dual);
         if m.opt.solver != Solver::Pgs.code() && m.opt.noslip_iterations == 0 {
             write_states(&primal.state, efc);
         }
@@ -127,7 +128,7 @@ fn write_states(state: &[ConstraintState], efc: &mut Constraints) {
 }
 
 /// Chooses the start: the warm-start acceleration or the unconstrained one, whichever costs less, and for PGS the
-/// forces of the former or none.
+/// forces of the former or none. Leaves the residual of all rows there in `jar`.
 #[allow(clippy::too_many_arguments)]
 fn start(
     m: &Model,
@@ -143,6 +144,7 @@ fn start(
     efc.efc_state.resize(efc.nefc, ConstraintState::Satisfied.code());
     if m.opt.disableflags & disable::WARMSTART != 0 {
         acc.qacc.copy_from_slice(&acc.qacc_smooth);
+        scratch.jar.clone_from(&efc.efc_b);
         efc.efc_force.fill(0.0);
         return;
     }
@@ -164,6 +166,7 @@ fn start(
         }
         if cost > rows.update(&efc.efc_b, states, &mut efc.efc_force) {
             acc.qacc.copy_from_slice(&acc.qacc_smooth);
+            jar.clone_from(&efc.efc_b);
         }
     }
     write_states(states, efc);
@@ -195,10 +198,11 @@ fn solve_island(
         first: first as i32,
     };
     let scale = |p: &Primal| 1.0 / p.problem.inertia_trace();
-    solve_part(m, inertia, con, efc, s, scale, acc, stats, &mut scratch.primal, &mut scratch.dual);
+    let SolverScratch { primal, dual, jar, .. } = scratch;
+    solve_part(m, inertia, con, efc, s, scale, jar, acc, stats, primal, dual);
 }
 
-/// Runs the chosen solver, and the removal of slip after it, on a selection.
+/// Runs the chosen solver, and the removal of slip after it, on a selection; `jar` is the residual of all rows.
 #[allow(clippy::too_many_arguments)]
 fn solve_part(
     m: &Model,
@@ -207,6 +211,7 @@ fn solve_part(
     efc: &mut Constraints,
     s: Selection,
     scale: impl Fn(&Primal) -> f64,
+    jar: &[f64],
     acc: &mut Acceleration,
     stats: &mut SolverStatistics,
     primal: &mut Primal,
@@ -216,7 +221,7 @@ fn solve_part(
         (pgs::pgs(m, dual, efc, &con.contact, s.rows, &mut stats.solver), s.rows.len() * s.rows.len())
     } else {
         primal.problem.gather(m, inertia, efc, con, s);
-        primal.begin(acc, efc, s, scale(primal));
+        primal.begin(acc, efc, s, scale(primal), jar);
         let result = if m.opt.solver == Solver::Cg.code() {
             cg::conjugate_gradient(m, primal, &mut stats.solver)
         } else {

@@ -43,8 +43,9 @@ pub(super) struct Primal {
 }
 
 impl Primal {
-    /// Takes the selected accelerations and the reference, and evaluates there. `problem` is already gathered.
-    pub fn begin(&mut self, acc: &Acceleration, efc: &Constraints, s: Selection, scale: f64) {
+    /// Takes the selected accelerations and the reference, and evaluates there. `problem` is already gathered;
+    /// `jar` is the residual of all rows of the model.
+    pub fn begin(&mut self, acc: &Acceleration, efc: &Constraints, s: Selection, scale: f64, jar: &[f64]) {
         let p = &self.problem;
         for (to, from) in [
             (&mut self.qacc, &acc.qacc),
@@ -57,14 +58,20 @@ impl Primal {
         for v in [&mut self.qfrc_constraint, &mut self.ma, &mut self.grad, &mut self.mgrad] {
             v.resize(p.nv, 0.0);
         }
-        self.jar.resize(p.rows.len(), 0.0);
         self.force.resize(p.rows.len(), 0.0);
         self.state.resize(p.rows.len(), ConstraintState::Satisfied);
         self.scale = scale;
         p.mul_inertia(&self.qacc, &mut self.ma);
-        p.mul_jacobian(&self.qacc, &mut self.jar);
-        for (jar, &row) in self.jar.iter_mut().zip(s.rows) {
-            *jar -= efc.efc_aref[row as usize];
+        if p.dense && p.nv == acc.qacc.len() {
+            // The products of full rows are those of the whole model.
+            self.jar.clear();
+            self.jar.extend_from_slice(jar);
+        } else {
+            self.jar.resize(p.rows.len(), 0.0);
+            p.mul_jacobian(&self.qacc, &mut self.jar);
+            for (jar, &row) in self.jar.iter_mut().zip(s.rows) {
+                *jar -= efc.efc_aref[row as usize];
+            }
         }
         self.evaluate();
     }

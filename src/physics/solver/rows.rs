@@ -35,27 +35,31 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    /// Collects the rows listed in `rows`.
+    /// Collects the rows listed in `rows`, increasing.
     pub fn gather(&mut self, efc: &Constraints, contacts: &[Contact], rows: &[i32]) {
-        (self.ne, self.nef) = (0, 0);
-        self.d.clear();
-        self.r.clear();
-        self.frictionloss.clear();
+        self.ne = rows.partition_point(|&row| (row as usize) < efc.ne);
+        self.nef = rows.partition_point(|&row| (row as usize) < efc.ne + efc.nf);
+        for (to, from) in [
+            (&mut self.d, &efc.efc_D),
+            (&mut self.r, &efc.efc_R),
+            (&mut self.frictionloss, &efc.efc_frictionloss),
+        ] {
+            to.clear();
+            to.extend(rows.iter().map(|&row| from[row as usize]));
+        }
         self.cones.clear();
-        for (i, &row) in rows.iter().enumerate() {
-            let row = row as usize;
-            self.d.push(efc.efc_D[row]);
-            self.r.push(efc.efc_R[row]);
-            self.frictionloss.push(efc.efc_frictionloss[row]);
-            self.ne += usize::from(row < efc.ne);
-            self.nef += usize::from(row < efc.ne + efc.nf);
-            if efc.efc_type[row] == ConstraintType::ContactElliptic.code() {
+        let mut i = self.nef;
+        while i < rows.len() {
+            let row = rows[i] as usize;
+            let kind = efc.efc_type[row];
+            i += if kind == ConstraintType::ContactElliptic.code() {
                 let contact = &contacts[efc.efc_id[row] as usize];
-                if contact.efc_address as usize == row {
-                    let (dim, mu, friction) = (contact.dim as usize, contact.mu, contact.friction);
-                    self.cones.push(Cone { row: i, dim, mu, friction });
-                }
-            }
+                let (dim, mu, friction) = (contact.dim as usize, contact.mu, contact.friction);
+                self.cones.push(Cone { row: i, dim, mu, friction });
+                dim
+            } else {
+                1
+            };
         }
     }
 

@@ -87,9 +87,13 @@ impl SparseCholesky {
         for &c in p.inertia_row(r).0 {
             add(c as usize, columns);
         }
+        let mut before: &[i32] = &[];
         for &(i, _) in &self.entries[self.entry_start[r]..self.entry_start[r + 1]] {
-            for &c in p.sparse_row(i).0 {
-                add(c as usize, columns);
+            let row = p.sparse_row(i).0;
+            // Rows of one contact share their columns.
+            if row != before {
+                row.iter().for_each(|&c| add(c as usize, columns));
+                before = row;
             }
         }
         let mut child = self.child[r];
