@@ -78,15 +78,21 @@ pub fn compare_steps(m: &Model, reference: &Reference) -> Result<StepReport, Ref
     let (ctrl, qpos, qvel, act) =
         (read("rollout.ctrl")?, read("rollout.qpos")?, read("rollout.qvel")?, read("rollout.act")?);
     let steps = reference.archive().require("rollout.qpos")?.rows();
+    let row = |values: &[f64], width: usize, row: usize| values[row * width..(row + 1) * width].to_vec();
     let mut d = Data::new(m);
+    if m.nkey > 0 {
+        d.reset_to_key(m, 0).map_err(|_| ReferenceError::Shape("key_qpos".into()))?;
+    }
+    // The first step is not compared: it brings its control into the histories.
+    d.state.ctrl = row(&ctrl, m.nu, 0);
+    let begun = physics::step(m, &mut d);
     let mut report = StepReport { steps: steps.saturating_sub(1), agreeing: 0, worst: (0.0, 0) };
     for step in 1..steps {
-        let row = |values: &[f64], width: usize, row: usize| values[row * width..(row + 1) * width].to_vec();
         d.state.qpos = row(&qpos, m.nq, step - 1);
         d.state.qvel = row(&qvel, m.nv, step - 1);
         d.state.act = row(&act, m.na, step - 1);
         d.state.ctrl = row(&ctrl, m.nu, step);
-        let difference = match physics::step(m, &mut d) {
+        let difference = match begun.clone().and_then(|()| physics::step(m, &mut d)) {
             Ok(()) => largest_difference(&d.state.qpos, &row(&qpos, m.nq, step)),
             Err(_) => f64::INFINITY,
         };
