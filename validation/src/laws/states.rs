@@ -5,7 +5,7 @@ use crate::reference::Reference;
 use crate::solver::CONES;
 use physics::contact_force::contact_force;
 use physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
-use physics::model::{Cone, ConstraintType, Jacobian, Solver, disable};
+use physics::model::{BiasType, Cone, ConstraintType, Jacobian, Solver, disable};
 use physics::{Data, Model, StepError};
 
 /// Applied force from inverse dynamics beside what was applied, relative to the largest force.
@@ -51,7 +51,7 @@ pub(super) fn recorded(on: &str, references: &[Reference]) -> Result<Vec<Law>, L
             reference.set_state(&mut d, &m, k * rows / STATES.min(rows))?;
             worst.take(&mut m, &d)?;
             m.opt.clone_from(&own);
-            if k < SLOPE_STATES {
+            if k < SLOPE_STATES && !has_motors(&m) {
                 worst.slope = worst.slope.max(slope(&m, &mut d)?);
             }
         }
@@ -71,6 +71,11 @@ pub(super) fn recorded(on: &str, references: &[Reference]) -> Result<Vec<Law>, L
         law("dry friction stays within its loss", worst.friction_loss, OUTSIDE),
         law("`qDeriv` is the slope of smooth forces", worst.slope, SLOPE),
     ])
+}
+
+/// True with a DC motor: its slope leaves out supply limit, heating and bristles, as upstream.
+fn has_motors(m: &Model) -> bool {
+    m.actuator_biastype.contains(&BiasType::Dcmotor.code())
 }
 
 impl Worst {
