@@ -182,11 +182,21 @@ fn body_bounds(m: &Model, kin: &Kinematics, b: usize, frame: &Mat3) -> Bounds {
         let axes = mul_mat(frame, mat);
         for j in 0..3 {
             let half = (sx * axes[3 * j]).abs() + (sy * axes[3 * j + 1]).abs() + (sz * axes[3 * j + 2]).abs();
-            bounds.min[j] = bounds.min[j].min((sphere[j] - radius).max(centre[j] - half) - margin);
-            bounds.max[j] = bounds.max[j].max((sphere[j] + radius).min(centre[j] + half) + margin);
+            bounds.min[j] = min(bounds.min[j], max(sphere[j] - radius, centre[j] - half) - margin);
+            bounds.max[j] = max(bounds.max[j], min(sphere[j] + radius, centre[j] + half) + margin);
         }
     }
     bounds
+}
+
+/// The smaller of two numbers; unlike `f64::min` a single instruction.
+fn min(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The larger of two numbers.
+fn max(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 /// Bounding spheres (or a plane and a bounding sphere) are farther apart than `margin`.
