@@ -104,6 +104,9 @@ pub fn compare_steps(m: &Model, reference: &Reference) -> Result<StepReport, Ref
     Ok(report)
 }
 
+/// Step up to which the early part of a rollout is reported.
+pub const EARLY: usize = 100;
+
 /// A free rollout beside the recorded one.
 pub struct RolloutReport {
     /// Steps compared.
@@ -112,11 +115,13 @@ pub struct RolloutReport {
     pub divergence: f64,
     /// MuJoCo's own divergence from its twin.
     pub twin: f64,
+    /// Largest difference of any position up to step [`EARLY`] [m, rad].
+    pub early: f64,
     /// First step outside the bound, when there is one.
     pub first_outside: Option<usize>,
     /// Largest difference by step.
     pub by_step: Vec<f64>,
-    /// Step and text of our failure.
+    /// Step and text of a failure where MuJoCo has none.
     pub failure: Option<(usize, String)>,
 }
 
@@ -128,7 +133,8 @@ impl RolloutReport {
 }
 
 /// Steps from keyframe 0, or `qpos0`, under the recorded controls. The bound at a step is the twin factor times the
-/// largest twin divergence so far, or the absolute one.
+/// largest twin divergence so far, or the absolute one. Where we refuse a bad value and MuJoCo found one too, the
+/// rollout goes on as MuJoCo's does: from the reference configuration.
 ///
 /// # Errors
 /// The reference lacks an array.
@@ -146,13 +152,21 @@ pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport
         steps,
         divergence: 0.0,
         twin: 0.0,
+        early: 0.0,
         first_outside: None,
         by_step: Vec::new(),
         failure: None,
     };
+    let mut resets = reference.archive().require("rollout.bad")?.values.to_f64()[0] as usize;
     for step in 0..steps {
         d.state.ctrl.copy_from_slice(&ctrl[step * m.nu..(step + 1) * m.nu]);
-        if let Err(error) = physics::step(m, &mut d) {
+        let mut outcome = physics::step(m, &mut d);
+        if outcome.is_err() && resets > 0 {
+            resets -= 1;
+            d.reset(m);
+            outcome = physics::step(m, &mut d);
+        }
+        if let Err(error) = outcome {
             report.failure = Some((step, error.to_string()));
             break;
         }
@@ -160,6 +174,9 @@ pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport
         report.divergence = report.divergence.max(largest_difference(&d.state.qpos, &theirs[row.clone()]));
         report.twin = report.twin.max(largest_difference(&twin[row.clone()], &theirs[row]));
         report.by_step.push(report.divergence);
+        if step < EARLY {
+            report.early = report.divergence;
+        }
         let bound = ROLLOUT_ABSOLUTE.max(TWIN_FACTOR * report.twin);
         if report.divergence > bound || report.divergence.is_nan() {
             report.first_outside.get_or_insert(step);

@@ -1,7 +1,7 @@
 //! One row of the status table: how far a model follows MuJoCo, and what limits it.
 
 use crate::compile::{CompileReport, compare_compiled};
-use crate::motion::{ForwardReport, RolloutReport, compare_forward, compare_rollout};
+use crate::motion::{EARLY, ForwardReport, RolloutReport, compare_forward, compare_rollout};
 use crate::reference::Reference;
 use crate::stages::{StageReport, compare_stages};
 use std::fmt::Write;
@@ -107,7 +107,8 @@ impl Row {
             )
         });
         let rollout = self.rollout.as_ref().map_or(String::new(), |r| {
-            format!("{} ({:.0e}, twin {:.0e})", tick(self.follows()), r.divergence, r.twin)
+            let follows = tick(self.follows());
+            format!("{follows} ({:.0e}, step {EARLY} {:.0e}, twin {:.0e})", r.divergence, r.early, r.twin)
         });
         format!(
             "| {} | {} | {} | {forward} | {rollout} | {} | {} |",

@@ -1,9 +1,13 @@
 //! Small fixed-size algebra: vectors, quaternions, rotations, spatial vectors. Arrays by value, no allocation.
 
 pub mod dense;
+#[cfg_attr(feature = "system-math", allow(dead_code))]
+mod double_double;
 mod eigen;
 pub mod ops;
 mod quat;
+#[cfg_attr(feature = "system-math", allow(dead_code))]
+mod sine;
 mod sparse;
 mod spatial;
 mod vector;

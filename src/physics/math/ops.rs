@@ -1,13 +1,48 @@
 //! Transcendental functions with the same bits on every target.
+//!
+//! With the feature `system-math` they come from the C library of the system instead: for comparison with a MuJoCo
+//! that uses the same library, not for simulation.
 
-pub use libm::{acos, asin, atan, atan2, cos, exp, log, pow, sin, tan, tanh};
+#[cfg(not(feature = "system-math"))]
+pub use portable::*;
+#[cfg(feature = "system-math")]
+pub use system::*;
 
 /// Square root; IEEE 754 fixes its bits.
 pub fn sqrt(x: f64) -> f64 {
     x.sqrt()
 }
 
-/// Sine and cosine of one angle.
-pub fn sincos(x: f64) -> (f64, f64) {
-    libm::sincos(x)
+/// Sine, cosine and their inverses correctly rounded but for a few calls in a million, the others within one unit of
+/// the last place.
+#[cfg(not(feature = "system-math"))]
+mod portable {
+    pub use crate::math::sine::{acos, asin, sincos};
+    pub use libm::{atan, atan2, exp, log, pow, tan, tanh};
+
+    /// Sine.
+    pub fn sin(x: f64) -> f64 {
+        sincos(x).0
+    }
+
+    /// Cosine.
+    pub fn cos(x: f64) -> f64 {
+        sincos(x).1
+    }
+}
+
+#[cfg(feature = "system-math")]
+#[allow(missing_docs)]
+mod system {
+    macro_rules! forward {
+        ($($name:ident($($x:ident),+) = $method:ident),*) => {
+            $(pub fn $name($($x: f64),+) -> f64 { f64::$method($($x),+) })*
+        };
+    }
+    forward!(acos(x) = acos, asin(x) = asin, atan(x) = atan, atan2(y, x) = atan2, cos(x) = cos, exp(x) = exp);
+    forward!(log(x) = ln, pow(x, y) = powf, sin(x) = sin, tan(x) = tan, tanh(x) = tanh);
+
+    pub fn sincos(x: f64) -> (f64, f64) {
+        (x.sin(), x.cos())
+    }
 }

@@ -101,8 +101,8 @@ pub fn quat_difference(a: Quat, b: Quat) -> Vec3 {
     quat_to_velocity(quat_mul(quat_conj(b), a), 1.0)
 }
 
-/// `q` after turning with angular velocity `w`, in its own frame, for `dt`.
+/// `q`, normalised, after turning with angular velocity `w`, in its own frame, for `dt`.
 pub fn quat_integrate(q: Quat, w: Vec3, dt: f64) -> Quat {
     let (axis, speed) = normalize(w);
-    quat_normalize(quat_mul(quat_normalize(q), quat_from_axis_angle(axis, speed * dt)))
+    quat_mul(quat_normalize(q), quat_from_axis_angle(axis, speed * dt))
 }
