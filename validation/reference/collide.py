@@ -44,7 +44,7 @@ VARIANTS = {
     "nativeccd disabled": {"disableflags": int(DISABLE.mjDSBL_NATIVECCD)},
     "both disabled": {"disableflags": int(DISABLE.mjDSBL_NATIVECCD) | int(DISABLE.mjDSBL_MULTICCD)},
     "12 iterations, tolerance 1e-3": {"ccd_iterations": 12, "ccd_tolerance": 1e-3},
-    "70 iterations, tolerance 1e-8": {"ccd_iterations": 70, "ccd_tolerance": 1e-8},
+    "tolerance 1e-10": {"ccd_tolerance": 1e-10},
     "contact/pair": {},
     "global override": {"enableflags": int(ENABLE.mjENBL_OVERRIDE), "o_margin": 0.01},
 }

@@ -71,7 +71,8 @@ def build(meshes, slots, predefined):
     templates = ['<geom type="plane" size="1 1 .1" {}/>']
     templates += [f'<geom type="hfield" hfield="h{k}" {{}}/>' for k in range(len(FIELDS))]
     templates += [f'<geom type="mesh" mesh="{n}" {{}}/>' for n in names]
-    world = "".join(t.format('contype="0" conaffinity="0" pos="0 0 -1.5"') for t in templates)
+    world = "".join(t.format(f'contype="0" conaffinity="0" pos="0 0 {-1.5 - 0.1 * k:.1f}"')
+                    for k, t in enumerate(templates))
     bodies = "".join(
         f'<body mocap="true"><geom name="a{k}" size=".1" contype="{bit}" conaffinity="0"/></body>'
         f'<body><freejoint/><geom name="b{k}" size=".1" contype="0" conaffinity="{bit}"/></body>'

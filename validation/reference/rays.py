@@ -9,7 +9,7 @@ A chunk of rays against one geom has `ray`, the type, and for every ray
 A scene has `scene` rays from one point, its geoms (`model.NAME`, `xpos`, `xmat`) and
 
     groups, skip_static, exclude, cutoff    the filter; no `groups` for all
-    distance, geom, normal                  `mj_ray`, a ray at a time
+    distance, geom, normal, unstable        `mj_ray`, a ray at a time; whether a nudge of the origin changes them
     multi_distance, multi_geom, multi_normal        `mj_multiRay`
     culled                                  `mj_ray` with the geoms beyond the cut-off hidden finds another geom
 """
@@ -122,6 +122,12 @@ def scene(model, data, rng):
     out |= {"model." + name: getattr(m, name).copy() for name in
             ["geom_type", "geom_size", "geom_rbound", "geom_dataid", "geom_group", "geom_rgba", "hfield_data"]}
     out["distance"], out["geom"], out["normal"] = single(m, data, pnt, vec, *query)
+    step, unstable = rng.normal(size=3) * NUDGE, np.zeros(len(vec), bool)
+    for sign in (1, -1):
+        distance, geom, normal = single(m, data, pnt + sign * step, vec, *query)
+        unstable |= (geom != out["geom"]) | ~(np.abs(distance - out["distance"]) <= STABLE)
+        unstable |= ~(np.abs(normal - out["normal"]).max(axis=1) <= STABLE)
+    out["unstable"] = unstable
     out["multi_distance"], out["multi_geom"], out["multi_normal"] = many(m, data, pnt, vec, *query, cutoff)
     hidden = np.linalg.norm(data.geom_xpos - pnt, axis=1) > cutoff + m.geom_rbound
     hidden &= m.body_bvhadr[m.geom_bodyid] >= 0

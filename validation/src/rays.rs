@@ -114,13 +114,16 @@ pub(crate) fn compare_scene(
         let normal = rows::<3>(archive, &format!("{prefix}normal"))?;
         Ok((0..geom.len()).map(|i| (geom[i] as i32, distance[i], normal[i])).collect())
     };
-    for (&direction, theirs) in vec.iter().zip(answers("")?) {
-        count(report, SCENE, answer(ray(m, &d.kin, Ray { origin, direction }, filter)), theirs, false);
+    let unstable = numbers(archive, "unstable")?;
+    for ((&direction, theirs), &unstable) in vec.iter().zip(answers("")?).zip(&unstable) {
+        let found = ray(m, &d.kin, Ray { origin, direction }, filter);
+        count(report, SCENE, answer(found), theirs, unstable != 0.0);
     }
     let (cutoff, culled) = (numbers(archive, "cutoff")?[0], numbers(archive, "culled")?);
     let together = multi_ray(m, &d.kin, origin, &vec, filter, cutoff);
-    for ((found, theirs), culled) in together.into_iter().zip(answers("multi_")?).zip(culled) {
-        count(report, TOGETHER, answer(found), theirs, culled != 0.0);
+    let doubtful = unstable.iter().zip(culled).map(|(unstable, culled)| unstable + culled != 0.0);
+    for ((found, theirs), doubtful) in together.into_iter().zip(answers("multi_")?).zip(doubtful) {
+        count(report, TOGETHER, answer(found), theirs, doubtful);
     }
     Ok(())
 }

@@ -90,6 +90,19 @@ impl<'a> MeshHull<'a> {
         self.graph.as_ref()
     }
 
+    /// Vertices around the farthest one. A mesh of few vertices is searched in full; the place of the answer among its
+    /// vertices then stands, as in MuJoCo, for a place in the graph, which it is only where all vertices are on the hull.
+    pub fn around(&self, farthest: Farthest) -> impl Iterator<Item = usize> + 'a {
+        let first = usize::try_from(self.m.mesh_graphadr[self.mesh]).unwrap_or(self.m.mesh_graph.len());
+        let (n, table) = match self.m.mesh_graph.get(first..) {
+            Some([n, _, table @ ..]) => (*n as usize, table),
+            _ => (0, &[][..]),
+        };
+        let index = move |at: i32| usize::try_from(at).ok();
+        let list = table.get(farthest.start).and_then(|&at| index(2 * n as i32 + at)).unwrap_or(table.len());
+        table.iter().skip(list).map_while(move |&h| index(*table.get(n + index(h)?)?))
+    }
+
     /// True when the polygons of the hull are known.
     pub fn has_polygons(&self) -> bool {
         self.m.mesh_polynum[self.mesh] > 0

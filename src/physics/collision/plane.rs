@@ -165,6 +165,6 @@ pub fn plane_mesh(plane: &Shape, mesh: &Shape, margin: f64, out: &mut Vec<PreCon
     // `all` stops when there are enough.
     let _ = match hull.graph() {
         None => (0..hull.vertices()).filter(|&v| v != deepest.vertex).all(&mut add_deep),
-        Some(graph) => graph.neighbours(deepest.start).map(|h| graph.vertex(h)).all(&mut add_deep),
+        Some(_) => hull.around(deepest).filter(|&v| v < hull.vertices()).all(&mut add_deep),
     };
 }

@@ -3,17 +3,21 @@
 use super::mesh::{across, triangle};
 use super::primitive::cuboid_faces;
 use super::{LocalHit, Ray, keep_nearer};
-use crate::math::Vec3;
+use crate::math::{Mat3, Vec3};
 use crate::model::Model;
 
-/// Nearest hit of height field `id`, in its frame: z = 0 is where the base meets the grid.
-pub(super) fn hfield(m: &Model, id: usize, ray: Ray) -> Option<LocalHit> {
+/// Nearest hit of height field `id` at a pose, in its frame: z = 0 is where the base meets the grid.
+pub(super) fn hfield(m: &Model, id: usize, ray: Ray, pos: Vec3, mat: &Mat3) -> Option<LocalHit> {
     let field = Field::new(m, id);
     let [sx, sy, top, base] = field.size;
-    let shifted = |dz: f64| Ray { origin: [ray.origin[0], ray.origin[1], ray.origin[2] - dz], ..ray };
-    let (mut best, _) = cuboid_faces([sx, sy, 0.5 * base], shifted(-0.5 * base));
-    let (entry, walls) = cuboid_faces([sx, sy, 0.5 * top], shifted(0.5 * top));
+    let raised = |height: f64| {
+        let centre = std::array::from_fn(|k| pos[k] + mat[3 * k + 2] * height * 0.5);
+        ray.local(centre, mat)
+    };
+    let (mut best, _) = cuboid_faces([sx, sy, 0.5 * base], raised(-base));
+    let (entry, walls) = cuboid_faces([sx, sy, 0.5 * top], raised(top));
     let Some(entry) = entry else { return best };
+    let ray = ray.local(pos, mat);
 
     // The segment inside the box of the grid: from the origin, or from where the ray enters.
     let leave = walls.iter().flatten().fold(entry.distance, |a, &b| a.max(b));

@@ -124,24 +124,27 @@ pub fn ray_geom(m: &Model, kin: &Kinematics, geom: usize, ray: Ray) -> Option<Hi
             let local = ray.local(pos, mat);
             primitive::cuboid(size, local).and_then(|_| mesh::mesh(m, mesh, local)).map(|hit| hit.global(mat))
         }
-        (GeomType::Hfield, Some(field)) => {
-            hfield::hfield(m, field, ray.local(pos, mat)).map(|hit| hit.global(mat))
-        }
+        (GeomType::Hfield, Some(field)) => hfield::hfield(m, field, ray, pos, mat).map(|hit| hit.global(mat)),
         (shape, _) => ray_shape(shape, size, pos, mat, ray),
     }
 }
 
 /// Where `ray` hits a primitive shape of half-sizes `size` at a pose; `None` for shapes that need more data.
 pub fn ray_shape(shape: GeomType, size: Vec3, pos: Vec3, mat: &Mat3, ray: Ray) -> Option<Hit> {
+    if shape == GeomType::Sphere {
+        // Without orientation, so that rounding does not depend on it.
+        let hit = primitive::sphere(size[0] * size[0], Ray { origin: sub(ray.origin, pos), ..ray })?;
+        let normal = normalize(sub(ray.at(hit.distance), pos)).0;
+        return Some(Hit { distance: hit.distance, normal });
+    }
     let local = ray.local(pos, mat);
     let hit = match shape {
         GeomType::Plane => primitive::plane(size, local),
-        GeomType::Sphere => primitive::sphere(size[0] * size[0], local),
         GeomType::Capsule => primitive::capsule(size, local),
         GeomType::Ellipsoid => primitive::ellipsoid(size, local),
         GeomType::Cylinder => primitive::cylinder(size, local),
         GeomType::Box => primitive::cuboid(size, local),
-        GeomType::Mesh | GeomType::Hfield | GeomType::Sdf | GeomType::None => None,
+        _ => None,
     };
     hit.map(|hit| hit.global(mat))
 }
@@ -214,6 +217,27 @@ mod tests {
                 }
             }
             assert!(hits > 100, "{shape:?} {hits}");
+        }
+    }
+
+    #[test]
+    fn directions_without_length_hit_nothing() {
+        let solids = [
+            GeomType::Plane,
+            GeomType::Sphere,
+            GeomType::Capsule,
+            GeomType::Ellipsoid,
+            GeomType::Cylinder,
+            GeomType::Box,
+        ];
+        for origin in [[0.0; 3], [0.0, 0.0, 2.0]] {
+            let cast =
+                |shape, direction| ray_shape(shape, [0.5; 3], [0.0; 3], &UPRIGHT, Ray { origin, direction });
+            for shape in solids {
+                assert_eq!(cast(shape, [0.0; 3]), None, "{shape:?}");
+                assert_eq!(cast(shape, [f64::NAN; 3]), None, "{shape:?}");
+                assert!(origin[2] == 0.0 || cast(shape, [0.0, 0.0, -1.0]).is_some(), "{shape:?}");
+            }
         }
     }
 }
