@@ -58,8 +58,8 @@ pub fn cholesky_solve(l: &[f64], n: usize, x: &mut [f64]) {
     }
     for i in (0..n).rev() {
         let mut value = x[i];
-        for j in i + 1..n {
-            value -= l[j * n + i] * x[j];
+        for (row, x) in l[(i + 1) * n..].chunks_exact(n).zip(&x[i + 1..n]) {
+            value -= row[i] * x;
         }
         x[i] = value / l[i * (n + 1)];
     }
@@ -83,10 +83,9 @@ pub fn cholesky_update(l: &mut [f64], n: usize, x: &mut [f64], plus: bool, least
         let (c, s) = (root / pivot, x[k] / pivot);
         let (inverse, signed) = (1.0 / c, if plus { s } else { -s });
         l[k * (n + 1)] = root;
-        for i in k + 1..n {
-            let value = (l[i * n + k] + signed * x[i]) * inverse;
-            l[i * n + k] = value;
-            x[i] = c * x[i] - s * value;
+        for (row, x) in l[(k + 1) * n..].chunks_exact_mut(n).zip(&mut x[k + 1..n]) {
+            row[k] = (row[k] + signed * *x) * inverse;
+            *x = c * *x - s * row[k];
         }
     }
     rank

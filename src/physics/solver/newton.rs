@@ -11,10 +11,12 @@ use crate::model::Model;
 /// `½ gᵀ M⁻¹ g`, or the Newton decrement, `½ gᵀ H⁻¹ g`) and the gradient is below tolerance.
 pub(super) fn newton(m: &Model, p: &mut Primal, stats: &mut Vec<SolverStat>) -> (i32, usize) {
     let tolerance = m.opt.tolerance;
-    p.precondition_inertia();
     let flat = p.gradient() < tolerance;
-    if flat && p.decrement() < tolerance {
-        return (0, p.problem.jacobian.len());
+    if flat {
+        p.precondition_inertia();
+        if p.decrement() < tolerance {
+            return (0, p.problem.jacobian.len());
+        }
     }
     p.hessian.begin(&p.problem);
     p.hessian.factorize(&p.problem, &p.state, &p.jar);
