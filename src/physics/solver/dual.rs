@@ -123,6 +123,7 @@ impl Dual {
 }
 
 /// Elliptic contact that begins at row `i`.
+#[inline]
 pub(super) fn elliptic<'a>(efc: &Constraints, contacts: &'a [Contact], i: usize) -> Option<&'a Contact> {
     (efc.efc_type[i] == ConstraintType::ContactElliptic.code()).then(|| &contacts[efc.efc_id[i] as usize])
 }
@@ -166,23 +167,28 @@ pub(super) fn update_states(
     improvement: f64,
 ) -> SolverStat {
     let mut stat = SolverStat { improvement, ..SolverStat::default() };
+    let mut note = |old: &mut i32, state: ConstraintState| {
+        stat.nactive += i32::from(state != ConstraintState::Satisfied);
+        stat.nchange += i32::from(*old != state.code());
+        *old = state.code();
+    };
     let mut at = 0;
     while at < rows.len() {
         let i = rows[at] as usize;
-        let (state, dim) = match elliptic(efc, contacts, i) {
-            Some(contact) => (cone_state(efc, contact, i), contact.dim as usize),
-            None => (scalar_state(efc, i), 1),
-        };
-        stat.nactive += if state == ConstraintState::Satisfied { 0 } else { dim as i32 };
-        for old in &mut efc.efc_state[i..i + dim] {
-            stat.nchange += i32::from(*old != state.code());
-            *old = state.code();
+        at += 1;
+        if let Some(contact) = elliptic(efc, contacts, i) {
+            let (state, dim) = (cone_state(efc, contact, i), contact.dim as usize);
+            efc.efc_state[i..i + dim].iter_mut().for_each(|old| note(old, state));
+            at += dim - 1;
+        } else {
+            let state = scalar_state(efc, i);
+            note(&mut efc.efc_state[i], state);
         }
-        at += dim;
     }
     stat
 }
 
+#[inline]
 fn scalar_state(efc: &Constraints, i: usize) -> ConstraintState {
     let (force, loss) = (efc.efc_force[i], efc.efc_frictionloss[i]);
     if i < efc.ne {
