@@ -218,8 +218,38 @@ fn template_text_is_replaced() {
 
 #[test]
 fn help_has_examples() {
-    for command in ["inspect", "sim", "trace", "check", "bench"] {
+    for command in ["inspect", "compile", "sim", "trace", "check", "bench"] {
         let out = robohive(&[command, "--help"]);
         assert!(text(&out.stdout).contains(&format!("robohive {command}")), "{}", text(&out.stdout));
+    }
+}
+
+/// Every command takes a compiled model, which is the one that the text makes; a damaged or foreign one is refused.
+#[test]
+fn compiled_models_stand_for_their_text() {
+    let (file, damaged, stale) = (scratch("elbow.rhm"), scratch("damaged.rhm"), scratch("stale.rhm"));
+    let (file, damaged, stale) = (file.to_str().unwrap(), damaged.to_str().unwrap(), stale.to_str().unwrap());
+    let out = robohive(&["compile", "assets/elbow/elbow.xml", "--out", file]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    let (compiled, again) = (robohive(&["inspect", file, "--json"]), "assets/elbow/elbow.xml");
+    assert_eq!(text(&compiled.stdout), text(&robohive(&["inspect", again, "--json"]).stdout));
+    let out = robohive(&["check", file, "validation/reference/own/elbow.npz"]);
+    assert!(out.status.success(), "{}{}", text(&out.stdout), text(&out.stderr));
+    let bytes = std::fs::read(file).unwrap();
+    let changed = |at: usize| {
+        let mut bytes = bytes.clone();
+        bytes[at] ^= 4;
+        bytes
+    };
+    std::fs::write(damaged, changed(bytes.len() / 2)).unwrap();
+    std::fs::write(stale, changed(9)).unwrap();
+    for (arguments, message) in [
+        (vec!["sim", damaged], "damaged.rhm: the compiled model is damaged"),
+        (vec!["sim", stale], "compile it again: robohive compile MODEL.xml"),
+        (vec!["inspect", file, "--define", "A=B"], "cannot be edited"),
+    ] {
+        let out = robohive(&arguments);
+        assert_eq!(out.status.code(), Some(2), "{arguments:?}: {}", text(&out.stderr));
+        assert!(text(&out.stderr).contains(message), "{arguments:?}: {}", text(&out.stderr));
     }
 }

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use physics::Model;
+use physics::model::binary;
 
 use crate::compile::compile;
-use crate::diagnostic::{Diagnostics, Sources};
+use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::{Disk, FileProvider};
 use crate::include::Expansion;
 use crate::read;
@@ -107,14 +108,34 @@ impl Loader {
         self.finish(|expansion| expansion.expand("<text>", text.as_bytes()))
     }
 
-    /// Reads and compiles the model at `path`.
+    /// Reads and compiles the model at `path`, or takes it as it is when the file holds a compiled one.
     pub fn load(&self, path: &str) -> Result<Loaded, Diagnostics> {
-        self.compile(self.parse(path)?)
+        match self.files.read(path) {
+            Ok(bytes) if binary::is_model(&bytes) => self.load_compiled(path, &bytes),
+            _ => self.compile(self.parse(path)?),
+        }
     }
 
     /// Reads and compiles a model from text.
     pub fn load_str(&self, text: &str) -> Result<Loaded, Diagnostics> {
         self.compile(self.parse_str(text)?)
+    }
+
+    fn load_compiled(&self, path: &str, bytes: &[u8]) -> Result<Loaded, Diagnostics> {
+        let edited = !self.substitutions.is_empty() || !self.moves.is_empty();
+        let model = if edited {
+            Err("a compiled model cannot be edited; edit the text and compile it".to_owned())
+        } else {
+            Model::from_bytes(bytes).map_err(|error| error.to_string())
+        };
+        let mut diagnostics = Diagnostics::default();
+        match model {
+            Ok(model) => Ok(Loaded { model, warnings: diagnostics }),
+            Err(message) => {
+                diagnostics.error(&Sources::default(), Loc::NONE, format!("{path}: {message}"));
+                Err(diagnostics)
+            }
+        }
     }
 
     fn compile(&self, parsed: Parsed) -> Result<Loaded, Diagnostics> {

@@ -24,6 +24,8 @@ pub struct Arguments {
 pub enum Command {
     /// Summarise a model, or write out every compiled array
     Inspect(Inspect),
+    /// Compile a model into one file that loads in milliseconds
+    Compile(Compile),
     /// Simulate a model with zero or keyframe controls
     Sim(Sim),
     /// Step or forward recorded inputs and write the named fields
@@ -34,10 +36,10 @@ pub enum Command {
     Bench(Bench),
 }
 
-/// An MJCF file, and what its template text stands for.
+/// An MJCF file, and what its template text stands for; or a compiled model.
 #[derive(Args)]
 pub struct ModelSource {
-    /// MJCF file
+    /// MJCF file, or what `compile` made of one
     #[arg(value_name = "MODEL")]
     pub path: PathBuf,
     /// Replace TEXT by VALUE in the file and all it includes, e.g. OBJECT_NAME=apple
@@ -61,6 +63,25 @@ pub struct Inspect {
     /// Print one JSON object instead of the summary
     #[arg(long)]
     pub json: bool,
+}
+
+/// Compile a model into one file.
+#[derive(Args)]
+#[command(
+    after_help = "The file holds all arrays, meshes and textures included, bit for bit; every command takes it as MODEL. A version of
+robohive with other arrays refuses it: compile the text again.
+
+Example:
+  robohive compile assets/franka/franka_table.xml --out franka.rhm
+  robohive sim franka.rhm --seconds 2"
+)]
+pub struct Compile {
+    /// The model
+    #[command(flatten)]
+    pub model: ModelSource,
+    /// File to write
+    #[arg(long, value_name = "FILE.rhm")]
+    pub out: PathBuf,
 }
 
 /// Simulate a model.
@@ -141,7 +162,7 @@ Examples:
   robohive bench assets/pile/pile.xml --jitter --steps 10000   p99.9 of the time of a step beside the median"
 )]
 pub struct Bench {
-    /// MJCF files
+    /// MJCF files or compiled models
     #[arg(required = true)]
     pub models: Vec<PathBuf>,
     /// Replace TEXT by VALUE in the files and all they include

@@ -3,6 +3,7 @@
 mod arguments;
 mod bench;
 mod check;
+mod compile;
 mod fields;
 mod inspect;
 mod sim;
@@ -35,6 +36,7 @@ impl Failure {
 pub fn run() -> ExitCode {
     let outcome = match arguments::Arguments::parse().command {
         arguments::Command::Inspect(a) => inspect::run(&a),
+        arguments::Command::Compile(a) => compile::run(&a),
         arguments::Command::Sim(a) => sim::run(&a),
         arguments::Command::Trace(a) => trace::run(&a),
         arguments::Command::Check(a) => check::run(&a),

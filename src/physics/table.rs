@@ -1,5 +1,5 @@
-//! Field tables: every array of `Model` and `Data` is declared once, and struct, allocation and reflection
-//! by name follow from that line.
+//! Field tables: every array of `Model` and `Data` is declared once, and struct, allocation, reflection by name and
+//! the bytes of a compiled file follow from that line.
 //!
 //! A row reads `name: type [rows; width]`: `width` is a constant (the element becomes `[type; width]`), or
 //! `[rows, n; width]` where `n` is a run-time size and the array is kept flat.
@@ -51,6 +51,18 @@ impl Slice<'_> {
         }
     }
 
+    /// Appends every scalar in little-endian order of bytes.
+    pub(crate) fn write(&self, out: &mut Vec<u8>) {
+        match self {
+            Slice::Bool(s) => out.extend(s.iter().map(|&x| u8::from(x))),
+            Slice::U8(s) => out.extend_from_slice(s),
+            Slice::I32(s) => s.iter().for_each(|x| out.extend_from_slice(&x.to_le_bytes())),
+            Slice::I64(s) => s.iter().for_each(|x| out.extend_from_slice(&x.to_le_bytes())),
+            Slice::F32(s) => s.iter().for_each(|x| out.extend_from_slice(&x.to_le_bytes())),
+            Slice::F64(s) => s.iter().for_each(|x| out.extend_from_slice(&x.to_le_bytes())),
+        }
+    }
+
     /// True for the two floating-point kinds.
     pub fn is_float(&self) -> bool {
         matches!(self, Slice::F32(_) | Slice::F64(_))
@@ -63,10 +75,19 @@ pub trait Scalar: Copy + Default {
     fn slice(s: &[Self]) -> Slice<'_>;
     /// Converts flat f64 values, the common currency of injected arrays.
     fn from_f64(x: f64) -> Self;
+    /// Bytes in a compiled file.
+    const BYTES: usize;
+    /// Reads `BYTES` little-endian bytes.
+    fn from_bytes(bytes: &[u8]) -> Self;
+}
+
+/// The first bytes of a slice that is at least as long.
+fn head<const N: usize>(bytes: &[u8]) -> [u8; N] {
+    std::array::from_fn(|i| bytes[i])
 }
 
 macro_rules! scalar {
-    ($t:ty, $v:ident, |$x:ident| $e:expr) => {
+    ($t:ty, $v:ident, |$x:ident| $e:expr, |$bytes:ident| $read:expr) => {
         impl Scalar for $t {
             fn slice(s: &[Self]) -> Slice<'_> {
                 Slice::$v(s)
@@ -74,15 +95,19 @@ macro_rules! scalar {
             fn from_f64($x: f64) -> Self {
                 $e
             }
+            const BYTES: usize = size_of::<$t>();
+            fn from_bytes($bytes: &[u8]) -> Self {
+                $read
+            }
         }
     };
 }
-scalar!(bool, Bool, |x| x != 0.0);
-scalar!(u8, U8, |x| x as u8);
-scalar!(i32, I32, |x| x as i32);
-scalar!(i64, I64, |x| x as i64);
-scalar!(f32, F32, |x| x as f32);
-scalar!(f64, F64, |x| x);
+scalar!(bool, Bool, |x| x != 0.0, |bytes| bytes[0] != 0);
+scalar!(u8, U8, |x| x as u8, |bytes| bytes[0]);
+scalar!(i32, I32, |x| x as i32, |bytes| i32::from_le_bytes(head(bytes)));
+scalar!(i64, I64, |x| x as i64, |bytes| i64::from_le_bytes(head(bytes)));
+scalar!(f32, F32, |x| x as f32, |bytes| f32::from_le_bytes(head(bytes)));
+scalar!(f64, F64, |x| x, |bytes| f64::from_le_bytes(head(bytes)));
 
 /// Storage of one field: `Vec<T>`, `Vec<[T; N]>`, `T` or `[T; N]`.
 pub trait Field {
@@ -92,8 +117,12 @@ pub trait Field {
     fn allocate(&mut self, rows: usize, width: usize);
     /// Replaces the content by flat values; false when they do not fill whole rows.
     fn assign(&mut self, values: &[f64]) -> bool;
+    /// Replaces the content by as many rows as `bytes`, a multiple of `ROW_BYTES`, holds.
+    fn read(&mut self, bytes: &[u8]);
     /// Fixed columns of one row (1 for scalar rows).
     const COLUMNS: usize;
+    /// Bytes of those columns in a compiled file.
+    const ROW_BYTES: usize;
 }
 
 impl<T: Scalar> Field for Vec<T> {
@@ -109,7 +138,12 @@ impl<T: Scalar> Field for Vec<T> {
         self.extend(values.iter().map(|&x| T::from_f64(x)));
         true
     }
+    fn read(&mut self, bytes: &[u8]) {
+        self.clear();
+        self.extend(bytes.chunks_exact(T::BYTES).map(T::from_bytes));
+    }
     const COLUMNS: usize = 1;
+    const ROW_BYTES: usize = T::BYTES;
 }
 
 impl<T: Scalar, const N: usize> Field for Vec<[T; N]> {
@@ -128,7 +162,13 @@ impl<T: Scalar, const N: usize> Field for Vec<[T; N]> {
         self.extend(values.chunks_exact(N).map(|row| std::array::from_fn(|i| T::from_f64(row[i]))));
         true
     }
+    fn read(&mut self, bytes: &[u8]) {
+        self.clear();
+        let row = |row: &[u8]| std::array::from_fn(|i| T::from_bytes(&row[i * T::BYTES..]));
+        self.extend(bytes.chunks_exact(Self::ROW_BYTES).map(row));
+    }
     const COLUMNS: usize = N;
+    const ROW_BYTES: usize = N * T::BYTES;
 }
 
 macro_rules! field_type {

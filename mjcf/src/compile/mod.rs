@@ -23,7 +23,6 @@ mod names;
 mod sensor;
 mod shape;
 mod sizes;
-mod sparsity;
 mod tendon;
 mod tree;
 mod viewpoint;
@@ -38,6 +37,7 @@ use crate::spec::{Limited, Spec, StatisticOverride};
 use physics::Model;
 use physics::length_range::set_length_ranges;
 use physics::set_const::set_const;
+use physics::sparsity;
 use physics::validity::check_model;
 
 /// Largest length a file may ask for without giving the data.

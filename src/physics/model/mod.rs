@@ -1,5 +1,7 @@
 //! The compiled model: arrays, options, and the enumerations their integers stand for.
 
+pub mod binary;
+mod declare;
 mod fields;
 mod names;
 mod options;

@@ -1,12 +1,16 @@
 //! Options, statistics and visual settings: scalars and short vectors with their defaults
 //! (documentation: XML reference, `option`, `statistic`, `visual`).
 
+use super::binary::{BinaryError, Reader};
 use crate::table::{Scalar, Slice};
 
 /// One setting: a scalar or a short vector.
-trait Setting {
+pub(super) trait Setting {
     fn scalars(&self) -> Slice<'_>;
     fn assign(&mut self, values: &[f64]) -> bool;
+    /// Bytes in a compiled file.
+    const BYTES: usize;
+    fn read(&mut self, bytes: &[u8]);
 }
 
 impl<T: Scalar> Setting for T {
@@ -19,6 +23,10 @@ impl<T: Scalar> Setting for T {
         }
         values.len() == 1
     }
+    const BYTES: usize = T::BYTES;
+    fn read(&mut self, bytes: &[u8]) {
+        *self = T::from_bytes(bytes);
+    }
 }
 
 impl<T: Scalar, const N: usize> Setting for [T; N] {
@@ -30,6 +38,10 @@ impl<T: Scalar, const N: usize> Setting for [T; N] {
             *self = std::array::from_fn(|i| T::from_f64(values[i]));
         }
         values.len() == N
+    }
+    const BYTES: usize = N * T::BYTES;
+    fn read(&mut self, bytes: &[u8]) {
+        *self = std::array::from_fn(|i| T::from_bytes(&bytes[i * T::BYTES..]));
     }
 }
 
@@ -57,6 +69,17 @@ macro_rules! settings {
                     $(stringify!($field) => Some(Setting::assign(&mut self.$field, values)),)*
                     _ => None,
                 }
+            }
+
+            /// Calls `f(name, type)` for every setting.
+            pub(super) fn layout(f: &mut dyn FnMut(&'static str, &'static str)) {
+                $(f(stringify!($field), stringify!($t));)*
+            }
+
+            /// Reads every setting in declaration order.
+            pub(super) fn read(&mut self, from: &mut Reader<'_>) -> Result<(), BinaryError> {
+                $(from.setting(&mut self.$field)?;)*
+                Ok(())
             }
         }
     )*};

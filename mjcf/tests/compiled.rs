@@ -1,0 +1,139 @@
+//! Compiled models as bytes: what is read back, and what is refused.
+
+use physics::model::binary::{BinaryError, seal};
+use physics::table::Slice;
+use physics::{Data, Model, step};
+use robohive_mjcf::files::Memory;
+use robohive_mjcf::{Loader, load, load_str};
+
+fn assets() -> Vec<String> {
+    let top = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets");
+    let folders = std::fs::read_dir(top).unwrap().map(|entry| entry.unwrap().path()).filter(|p| p.is_dir());
+    let mut found: Vec<String> = folders
+        .flat_map(|folder| std::fs::read_dir(folder).unwrap())
+        .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|e| e == "xml"))
+        .map(|path| path.to_str().unwrap().to_owned())
+        .collect();
+    found.sort();
+    assert!(found.len() > 5, "{found:?}");
+    found
+}
+
+/// The scalars of every array as bits.
+fn bits(m: &Model) -> Vec<(&'static str, Vec<u64>)> {
+    let mut all = Vec::new();
+    m.visit(&mut |name, _, values| {
+        let bits = match values {
+            Slice::F64(x) => x.iter().map(|x| x.to_bits()).collect(),
+            Slice::F32(x) => x.iter().map(|x| u64::from(x.to_bits())).collect(),
+            Slice::I64(x) => x.iter().map(|&x| x as u64).collect(),
+            other => other.to_f64().iter().map(|x| x.to_bits()).collect(),
+        };
+        all.push((name, bits));
+    });
+    all
+}
+
+const SMALL: &str = "<mujoco model='small'><option density='2'/><asset>
+    <mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/>
+    <texture name='t' type='2d' builtin='checker' width='2' height='2'/><material name='t' texture='t'/></asset>
+  <worldbody><geom type='plane' size='1 1 1' material='t'/><body name='b' pos='0 0 2'><freejoint/>
+    <geom type='mesh' mesh='m'/><site name='s'/></body>
+    <body mocap='true'><geom size='.1'/></body></worldbody>
+  <tendon><spatial name='p'><site site='s'/><site site='s2'/></spatial></tendon>
+  <actuator><motor tendon='p' delay='.01' nsample='3'/></actuator>
+  <sensor><accelerometer site='s'/><rangefinder site='s'/></sensor>
+  <keyframe><key qpos='0 0 1 1 0 0 0'/></keyframe></mujoco>";
+
+fn small() -> Model {
+    let text = SMALL.replace("<site name='s'/>", "<site name='s'/><site name='s2' pos='0 0 -.1'/>");
+    load_str(&text).unwrap().model
+}
+
+#[test]
+fn every_model_comes_back_bit_for_bit() {
+    for path in assets() {
+        let m = load(&path).unwrap().model;
+        let bytes = m.to_bytes();
+        let again = Model::from_bytes(&bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
+        assert_eq!(bits(&again), bits(&m), "{path}");
+        assert_eq!((&again.opt, &again.stat, &again.vis), (&m.opt, &m.stat, &m.vis), "{path}");
+        assert_eq!(again.name, m.name);
+        let mut sizes = [Vec::new(), Vec::new()];
+        m.visit_sizes(&mut |name, n| sizes[0].push((name, n)));
+        again.visit_sizes(&mut |name, n| sizes[1].push((name, n)));
+        assert_eq!(sizes[0], sizes[1], "{path}");
+        assert_eq!(again.to_bytes(), bytes, "{path}");
+    }
+}
+
+#[test]
+fn the_loader_takes_compiled_models() {
+    let (m, mut files) = (small(), Memory::default());
+    files.insert("small.rhm", m.to_bytes());
+    let loaded = Loader::default().files(files.clone()).load("small.rhm").unwrap();
+    assert_eq!(bits(&loaded.model), bits(&m));
+    let error =
+        Loader::default().files(files).substitute("a", "b").load("small.rhm").unwrap_err().to_string();
+    assert!(error.contains("cannot be edited"), "{error}");
+}
+
+#[test]
+fn a_file_cut_off_anywhere_is_refused() {
+    let bytes = small().to_bytes();
+    for length in 0..bytes.len() {
+        let expected = if length < 8 { BinaryError::NotAModel } else { BinaryError::Length };
+        assert_eq!(Model::from_bytes(&bytes[..length]).unwrap_err(), expected, "{length}");
+    }
+    // With a header that fits, the arrays still miss their end.
+    for length in (36..bytes.len()).step_by(7) {
+        let mut cut = bytes[..length].to_vec();
+        seal(&mut cut);
+        assert_eq!(Model::from_bytes(&cut).unwrap_err(), BinaryError::Length, "{length}");
+    }
+    let mut longer = bytes.clone();
+    longer.push(0);
+    seal(&mut longer);
+    assert_eq!(Model::from_bytes(&longer).unwrap_err(), BinaryError::Length);
+}
+
+#[test]
+fn every_changed_bit_is_noticed() {
+    let bytes = small().to_bytes();
+    for at in 0..bytes.len() {
+        let mut changed = bytes.clone();
+        changed[at] ^= 1 << (at % 8);
+        let expected = match at {
+            0..8 => BinaryError::NotAModel,
+            8..20 => BinaryError::Stale,
+            20..28 => BinaryError::Length,
+            _ => BinaryError::Checksum,
+        };
+        assert_eq!(Model::from_bytes(&changed).unwrap_err(), expected, "byte {at}");
+    }
+}
+
+/// Whatever a file with a fitting checksum says, reading it and stepping what it holds ends in a result or an error.
+#[test]
+fn sealed_nonsense_makes_no_step_panic() {
+    let bytes = small().to_bytes();
+    let (mut refused, mut stepped) = (0, 0);
+    for at in (36..bytes.len()).step_by(3) {
+        for change in [0x01, 0x80, 0xff] {
+            let mut changed = bytes.clone();
+            changed[at] ^= change;
+            seal(&mut changed);
+            match Model::from_bytes(&changed) {
+                Err(_) => refused += 1,
+                Ok(m) if m.nsensordata + m.nhistory + m.nuserdata > 1 << 16 => {}
+                Ok(m) => {
+                    let mut d = Data::new(&m);
+                    _ = step(&m, &mut d).and_then(|()| step(&m, &mut d));
+                    stepped += 1;
+                }
+            }
+        }
+    }
+    assert!(refused > 500 && stepped > 500, "{refused} {stepped}");
+}

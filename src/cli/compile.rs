@@ -1,0 +1,13 @@
+//! `compile`: a model as one file that loads in milliseconds.
+
+use crate::cli::arguments::Compile;
+use crate::cli::{Failure, load, unwritable};
+
+/// Runs the command.
+pub fn run(a: &Compile) -> Result<(), Failure> {
+    let m = load(&a.model.path, &a.model.defines)?;
+    let bytes = m.to_bytes();
+    std::fs::write(&a.out, &bytes).map_err(unwritable(&a.out))?;
+    println!("{}: {} bytes", a.out.display(), bytes.len());
+    Ok(())
+}

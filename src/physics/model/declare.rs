@@ -1,0 +1,88 @@
+//! What each line of the table in `fields.rs` turns into: a field of `Model`, its allocation, reflection by name, and
+//! reading from a compiled file.
+
+macro_rules! model {
+    (sizes { $($size:ident $count:literal,)* } arrays { $($field:ident : $t:ident $shape:tt $doc:literal,)* }) => {
+        /// A compiled model: constant while a simulation runs.
+        ///
+        /// Every array bears MuJoCo's name and holds MuJoCo's numbers; shapes are `[rows; columns]` of the table
+        /// in `model/fields.rs`. References to other elements are indices, -1 for none.
+        #[derive(Clone, Debug, Default)]
+        #[allow(non_snake_case)]
+        pub struct Model {
+            /// Name of the model.
+            pub name: String,
+            /// Simulation options.
+            pub opt: Options,
+            /// Visualisation options; the physics does not read them.
+            pub vis: Visual,
+            /// Statistics of the model at `qpos0`.
+            pub stat: Statistic,
+            /// Some body has gravity compensation.
+            pub flg_gravcomp: bool,
+            /// Some geom has a surface velocity.
+            pub flg_surfacevel: bool,
+            /// Some geom or pair has adhesion.
+            pub flg_adhesion: bool,
+            $(#[doc = $count] pub $size: usize,)*
+            $(#[doc = $doc] pub $field: field_type!($t, $shape),)*
+        }
+
+        impl Model {
+            /// Allocates every array, zeroed, from the sizes set so far.
+            pub fn allocate(&mut self) {
+                $({
+                    let (rows, width) = (field_rows!(self, $shape), field_width!(self, $shape));
+                    Field::allocate(&mut self.$field, rows, width);
+                })*
+            }
+
+            /// Calls `f(name, value)` for every size.
+            pub fn visit_sizes(&self, f: &mut dyn FnMut(&'static str, usize)) {
+                $(f(stringify!($size), self.$size);)*
+            }
+
+            /// Sets a size by name; false when there is no such size.
+            pub fn set_size(&mut self, name: &str, value: usize) -> bool {
+                match name {
+                    $(stringify!($size) => self.$size = value,)*
+                    _ => return false,
+                }
+                true
+            }
+
+            /// Calls `f(name, shape, values)` for every array, in declaration order.
+            pub fn visit(&self, f: &mut dyn FnMut(&'static str, Vec<usize>, Slice<'_>)) {
+                $(f(stringify!($field), field_shape!(self, $shape), Field::scalars(&self.$field));)*
+            }
+
+            /// Overwrites the array called `name`; `None` when there is none, `Some(false)` on a size mismatch.
+            pub fn assign(&mut self, name: &str, values: &[f64]) -> Option<bool> {
+                match name {
+                    $(stringify!($field) => {
+                        let expected: usize = field_shape!(self, $shape).iter().product();
+                        Some(expected == values.len() && Field::assign(&mut self.$field, values))
+                    })*
+                    _ => None,
+                }
+            }
+
+            /// Calls `f(name, type, shape)` for every size and array, in declaration order; sizes have no type.
+            pub(crate) fn layout(f: &mut dyn FnMut(&'static str, &'static str, &'static str)) {
+                $(f(stringify!($size), "", "");)*
+                $(f(stringify!($field), stringify!($t), stringify!($shape));)*
+            }
+
+            /// Fills every array, in declaration order, by the sizes set so far.
+            pub(crate) fn read_arrays(&mut self, from: &mut Reader<'_>) -> Result<(), BinaryError> {
+                $({
+                    let (rows, width) = (field_rows!(self, $shape), field_width!(self, $shape));
+                    from.array(&mut self.$field, rows, width)?;
+                })*
+                Ok(())
+            }
+        }
+    };
+}
+
+pub(super) use model;
