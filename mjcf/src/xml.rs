@@ -106,11 +106,24 @@ pub struct Limits {
     pub attributes: usize,
     /// Files included, counted with repetition.
     pub includes: usize,
+    /// Elements made by `replicate` and `attach`; nesting multiplies.
+    pub copies: usize,
+    /// Numbers computed instead of given: heights of empty height fields, pixel values of built-in textures,
+    /// vertices of built-in meshes; of one model text.
+    pub computed: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { depth: 200, text_bytes: 64 << 20, total_bytes: 256 << 20, attributes: 128, includes: 4096 }
+        Self {
+            depth: 200,
+            text_bytes: 64 << 20,
+            total_bytes: 256 << 20,
+            attributes: 128,
+            includes: 4096,
+            copies: 1_000_000,
+            computed: 1 << 30,
+        }
     }
 }
 

@@ -212,6 +212,54 @@ fn hostile_texts_are_refused_at_once() {
     }
 }
 
+/// A few words may not ask for all memory or all time.
+#[test]
+fn what_is_asked_for_without_data_is_bounded_in_sum() {
+    let bodies = "<replicate count='100'><body/></replicate>";
+    let motors = |attributes: &str| {
+        let joint = "<worldbody><body><joint name='j'/><geom size='1'/></body></worldbody>";
+        let motor = format!("<motor joint='j' {attributes}/>").repeat(300);
+        format!("<mujoco>{joint}<actuator>{motor}</actuator></mujoco>")
+    };
+    let assets = |asset: &str| format!("<mujoco><asset>{}</asset></mujoco>", asset.repeat(10));
+    let cases = [
+        (
+            "<mujoco><size nuserdata='2000000000'/></mujoco>".into(),
+            "nuserdata must be between 0 and 16777216",
+        ),
+        (
+            format!("<mujoco><size nuser_body='1000000'/><worldbody>{bodies}</worldbody></mujoco>"),
+            "room for nuser_body must be between 0 and 16777216, is 101000000",
+        ),
+        (motors("nsample='100000'"), "the history of all actuators must be between 0 and 16777216"),
+        (assets("<hfield nrow='20000' ncol='20000' size='1 1 1 1'/>"), "more than 1073741824 numbers"),
+        (
+            assets("<texture type='2d' builtin='flat' width='9000' height='9000'/>"),
+            "more than 1073741824 numbers",
+        ),
+        (assets("<mesh builtin='plate' params='9999 9999'/>"), "more than 1073741824 numbers"),
+        (world("<replicate count='70000'><body/></replicate>"), "more than 65533 bodies"),
+    ];
+    for (text, expected) in cases {
+        let found = refused(&text).to_string();
+        assert!(found.contains(expected), "{expected}: {}", found.lines().next().unwrap_or_default());
+    }
+}
+
+/// Inverse weights are found within each tree: the time grows with the number of trees, not with its square.
+#[test]
+fn many_trees_compile() {
+    let tree = "<body><joint/><geom size='.1'/><body pos='1 0 0'><joint axis='0 1 0'/><geom size='.1'/></body></body>";
+    let model = load_str(&world(&format!("<replicate count='8000' offset='3 0 0'>{tree}</replicate>")));
+    let model = model.unwrap_or_else(|d| panic!("{d}")).model;
+    assert_eq!(model.ntree, 8000);
+    assert_ne!(model.body_invweight0[1], model.body_invweight0[2]);
+    let first = model.body_invweight0[2];
+    for tip in model.body_invweight0[2..].iter().step_by(2) {
+        assert!((0..2).all(|k| (tip[k] - first[k]).abs() < 1e-9 * first[k]), "{tip:?} {first:?}");
+    }
+}
+
 fn in_memory(files: &[(&str, &str)]) -> Loader {
     let mut memory = Memory::default();
     files.iter().for_each(|(path, text)| memory.insert(path, text.as_bytes()));

@@ -129,6 +129,40 @@ fn lying_images_are_errors() {
     assert_eq!(hfield(source).unwrap_err().kind, AssetErrorKind::Truncated);
 }
 
+/// The decoder of the `png` crate would index beyond the end of such a palette.
+#[test]
+fn palette_that_ends_inside_a_colour_is_refused() {
+    let crc = |bytes: &[u8]| {
+        let step = |crc: u32, _| (crc >> 1) ^ (0xedb8_8320 & (crc & 1).wrapping_neg());
+        !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
+    };
+    let chunk = |kind: &[u8; 4], data: &[u8]| {
+        let body = [kind.as_slice(), data].concat();
+        [&(data.len() as u32).to_be_bytes(), body.as_slice(), &crc(&body).to_be_bytes()].concat()
+    };
+    // One pixel, index 0, in a stored block of deflate.
+    let stored = [0x78, 0x01, 1, 2, 0, 0xfd, 0xff, 0, 0, 0, 2, 0, 1];
+    let image = |palette: &[u8]| FileImage {
+        bytes: [
+            b"\x89PNG\r\n\x1a\n".to_vec(),
+            chunk(b"IHDR", &[0, 0, 0, 1, 0, 0, 0, 1, 8, 3, 0, 0, 0]),
+            chunk(b"PLTE", palette),
+            chunk(b"IDAT", &stored),
+            chunk(b"IEND", &[]),
+        ]
+        .concat(),
+        path: "p.png".into(),
+    };
+    let read = |palette: &[u8]| {
+        let file = Some(image(palette));
+        texture(&TextureSource { kind: TextureKind::Image2d, file, ..TextureSource::default() })
+    };
+    assert_eq!(read(&[1, 2, 3]).unwrap().data, [1, 2, 3]);
+    let error = read(&[1, 2, 3, 4]).unwrap_err();
+    assert_eq!(error.kind, AssetErrorKind::Malformed);
+    assert!(error.message.contains("the palette ends inside a colour"), "{error}");
+}
+
 #[test]
 fn container_is_kept_byte_for_byte() {
     let bytes = b"\xabKTX 11\xbb\r\n\x1a\n and more".to_vec();

@@ -115,6 +115,11 @@ pub fn solve(m: &Model, inertia: &Inertia, x: &mut [f64]) {
     solve_ld(m, &inertia.qLD, &inertia.qLDiagInv, x);
 }
 
+/// `x <- M^-1 x` for the degrees of freedom of whole trees; the rest of `x` is neither read nor written.
+pub(crate) fn solve_within(m: &Model, inertia: &Inertia, dofs: Range<usize>, x: &mut [f64]) {
+    pattern(m).solve_ldl_rows(&inertia.qLD, &inertia.qLDiagInv, dofs, x);
+}
+
 /// `out = M v` for a symmetric matrix on the pattern of `M`.
 pub fn mul_inertia_matrix(m: &Model, matrix: &[f64], v: &[f64], out: &mut [f64]) {
     pattern(m).mul_symmetric(matrix, v, out);

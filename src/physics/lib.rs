@@ -32,6 +32,7 @@ pub mod implicit;
 pub mod inertia;
 pub mod integrate;
 pub mod inverse;
+mod inverse_weight;
 pub mod jacobian;
 pub mod kinematics;
 pub mod length_range;

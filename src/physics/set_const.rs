@@ -4,13 +4,10 @@
 //! The compiler calls this last; tasks that edit masses, poses or lengths of a model call it again.
 
 use crate::data::Data;
-use crate::jacobian::Jacobian;
-use crate::math::dense::{dot_slice, norm_slice};
+use crate::inverse_weight::set_inverse_weights;
 use crate::math::{add, mul_inertia, mul_mat_t_vec, mul_mat_vec, quat_conj, quat_mul, spatial_dot, sub};
 use crate::model::bounds::MINVAL;
-use crate::model::{
-    EqType, GainType, JointType, Model, ObjType, SameFrame, SleepPolicy, TrackMode, TrnType, WrapType,
-};
+use crate::model::{EqType, GainType, Model, ObjType, SameFrame, SleepPolicy, TrackMode, TrnType, WrapType};
 use crate::reflected_load::Driven;
 use crate::{camera, com, inertia, kinematics, statistic, tendon, transmission};
 use std::fmt;
@@ -306,10 +303,7 @@ fn reference_configuration(m: &mut Model, d: &mut Data) {
 
     m.tendon_length0.copy_from_slice(&d.ten.ten_length);
     m.actuator_length0.copy_from_slice(&d.trn.actuator_length);
-    body_weights(m, d);
-    dof_weights(m, d);
-    tendon_weights(m, d);
-    actuator_accelerations(m, d);
+    set_inverse_weights(m, d);
     equality_anchors(m, d);
     camera_and_light_offsets(m, d);
     damping_ratios(m, d);
@@ -330,82 +324,6 @@ fn joint_inertia(m: &mut Model, d: &mut Data) {
         let momentum = mul_inertia(&crb[m.dof_bodyid[v] as usize], &d.com.cdof[v]);
         let armature = m.dof_armature[v] + Driven::Joint(m.dof_jntid[v] as usize).armature(m);
         m.dof_M0[v] = armature + spatial_dot(&d.com.cdof[v], &momentum);
-    }
-}
-
-/// `row · M⁻¹ · row` for a dense row, which is overwritten by `M⁻¹ row`.
-fn inverse_weight(m: &Model, d: &Data, row: &mut [f64]) -> f64 {
-    let before = row.to_vec();
-    inertia::solve(m, &d.inertia, row);
-    dot_slice(&before, row)
-}
-
-/// Mean inverse inertia of each body's centre of mass, translational and rotational.
-fn body_weights(m: &mut Model, d: &Data) {
-    let mut jac = Jacobian::default();
-    m.body_invweight0.fill([0.0; 2]);
-    for b in 1..m.nbody {
-        if m.body_dofnum[m.body_weldid[b] as usize] == 0 {
-            continue;
-        }
-        if m.body_simple[b] == 2 {
-            m.body_invweight0[b] = [1.0 / m.body_mass[b].max(MINVAL), 0.0];
-            continue;
-        }
-        jac.body_com(m, &d.kin, &d.com, b);
-        let mean = |rows: &[f64]| {
-            let axis = |k: usize| inverse_weight(m, d, &mut rows[k * m.nv..(k + 1) * m.nv].to_vec());
-            (axis(0) + axis(1) + axis(2)) / 3.0
-        };
-        m.body_invweight0[b] = [mean(&jac.pos), mean(&jac.rot)];
-    }
-}
-
-fn dof_weights(m: &mut Model, d: &Data) {
-    for j in 0..m.njnt {
-        let (body, first) = (m.jnt_bodyid[j] as usize, m.jnt_dofadr[j] as usize);
-        if m.body_simple[body] == 2 {
-            m.dof_invweight0[first] = 1.0 / m.body_mass[body].max(MINVAL);
-            continue;
-        }
-        let weight = |dof: usize| {
-            let mut unit = vec![0.0; m.nv];
-            unit[dof] = 1.0;
-            inverse_weight(m, d, &mut unit)
-        };
-        let mean = |dof: usize| (weight(dof) + weight(dof + 1) + weight(dof + 2)) / 3.0;
-        match JointType::from_code(m.jnt_type[j]) {
-            Some(JointType::Free) => {
-                let (linear, angular) = (mean(first), mean(first + 3));
-                m.dof_invweight0[first..first + 3].fill(linear);
-                m.dof_invweight0[first + 3..first + 6].fill(angular);
-            }
-            Some(JointType::Ball) => {
-                let angular = mean(first);
-                m.dof_invweight0[first..first + 3].fill(angular);
-            }
-            _ => m.dof_invweight0[first] = weight(first),
-        }
-    }
-}
-
-fn tendon_weights(m: &mut Model, d: &Data) {
-    for i in 0..m.ntendon {
-        let mut row = vec![0.0; m.nv];
-        for k in tendon::row(m, i) {
-            row[m.ten_J_colind[k] as usize] = d.ten.ten_J[k];
-        }
-        m.tendon_invweight0[i] = inverse_weight(m, d, &mut row);
-    }
-}
-
-/// Acceleration that a unit of force gives each actuator output.
-fn actuator_accelerations(m: &mut Model, d: &Data) {
-    for out in 0..m.nout {
-        let mut row = vec![0.0; m.nv];
-        transmission::moment(&d.trn, out).for_each(|(dof, value)| row[dof] = value);
-        inertia::solve(m, &d.inertia, &mut row);
-        m.actuator_acc0[out] = norm_slice(&row);
     }
 }
 

@@ -129,12 +129,18 @@ pub fn check_options(m: &Model) -> Result<(), StepError> {
     Ok(())
 }
 
+/// Pairs of bodies are kept as two numbers of 16 bits.
+const MAX_BODIES: usize = 1 << 16;
+
 /// Checks once that everything the model uses is simulated.
 ///
 /// # Errors
 /// The first feature that is not, with the element that asks for it.
 pub fn check_model(m: &Model) -> Result<(), StepError> {
     check_options(m)?;
+    if m.nbody > MAX_BODIES {
+        return Err(StepError::NotSimulated(format!("a model of more than {MAX_BODIES} bodies is")));
+    }
     check_actuators(m)?;
     for (e, &kind) in m.eq_type.iter().enumerate() {
         if !matches!(

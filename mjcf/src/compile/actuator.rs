@@ -16,7 +16,6 @@ const NO_INPUT: i32 = 16;
 const EXPMAP: i32 = 1;
 const QUAT: i32 = 2;
 /// Samples a history buffer may hold.
-pub(super) const MAX_SAMPLES: i32 = 1 << 24;
 
 /// Inputs, outputs and activations that a type of actuator has.
 struct Block {
@@ -298,9 +297,6 @@ fn check(a: &Actuator, block: &Block) -> Result<(), String> {
     if (a.delay > 0.0 || a.nsample > 0) && block.ctrlnum == 0 {
         return Err("history and delay require an input".into());
     }
-    if a.nsample > MAX_SAMPLES {
-        return Err("more than 2^24 samples in the history buffer".into());
-    }
     Ok(())
 }
 
@@ -333,6 +329,9 @@ fn fill_actuator(
         return Err("actrange, but dyntype is 'none'".into());
     }
     check(a, &block)?;
+    let samples = if a.nsample > 0 { 2 + 2 * i64::from(a.nsample) } else { 0 };
+    bounded(i64::from(*historyadr) + samples, "the history of all actuators")?;
+    bounded(i64::from(*actadr) + i64::from(block.actdim), "actdim of all actuators")?;
     m.actuator_trntype.push(if block.so3 { TrnType::So3 } else { a.trntype }.code());
     m.actuator_dyntype.push(a.dyntype.code());
     m.actuator_gaintype.push(a.gaintype.code());
@@ -355,7 +354,7 @@ fn fill_actuator(
     m.actuator_actearly.push(a.actearly);
     m.actuator_history.push([a.nsample, a.interp]);
     m.actuator_historyadr.push(if a.nsample > 0 { *historyadr } else { -1 });
-    *historyadr += if a.nsample > 0 { 2 + 2 * a.nsample } else { 0 };
+    *historyadr += samples as i32;
     m.actuator_delay.push(a.delay);
     m.actuator_damping.push(a.damping[0]);
     m.actuator_dampingpoly.push([a.damping[1], a.damping[2]]);

@@ -1,6 +1,5 @@
 //! Sensors: references, dimension, stage and kind of data (XML reference, `sensor`).
 
-use super::actuator::MAX_SAMPLES;
 use super::lookup::Lookup;
 use super::{Log, bounded, push_user, title};
 use crate::spec::{Sensor, Spec};
@@ -38,12 +37,10 @@ fn fill_sensor(m: &mut Model, sensor: &Sensor, object: i32, base: i32) -> Result
     let datatype = if user { sensor.datatype } else { datatype(sensor.kind) };
     let needstage = if user { sensor.needstage } else { needstage(sensor.kind) };
     let dim = bounded(dimension(m, sensor, object)?, "dim")?;
-    if sensor.nsample > MAX_SAMPLES {
-        return Err("more than 2^24 samples in the history buffer".into());
-    }
+    bounded((m.nsensordata + dim) as i64, "dim of all sensors")?;
     let samples = sensor.nsample.max(0) as usize;
-    let history =
-        if samples == 0 { 0 } else { bounded((2 + samples + samples * dim) as i64, "the history")? };
+    let history = if samples == 0 { 0 } else { 2 + samples + samples * dim };
+    bounded((m.nhistory + history) as i64, "the history of all sensors and actuators")?;
     let angular = datatype == DataType::Quaternion
         || (datatype == DataType::Axis && sensor.kind != SensorType::Geomnormal);
     if sensor.cutoff > 0.0 && angular {

@@ -9,10 +9,13 @@ use physics::model::EqType;
 /// Widths of user data: as the file says, else the longest row.
 pub(super) fn set_user_widths(m: &mut Model, spec: &Spec, log: &mut Log) {
     let size = &spec.size;
-    let mut longest = [0; 5];
+    let (mut longest, mut count) = ([0; 5], [0; 5]);
     let mut pending: Vec<&Body> = vec![&spec.world];
     while let Some(body) = pending.pop() {
-        let mut see = |k: usize, len: usize| longest[k] = len.max(longest[k]);
+        let mut see = |k: usize, len: usize| {
+            longest[k] = len.max(longest[k]);
+            count[k] += 1;
+        };
         see(0, body.userdata.len());
         body.joints.iter().for_each(|e| see(1, e.userdata.len()));
         body.geoms.iter().for_each(|e| see(2, e.userdata.len()));
@@ -20,19 +23,24 @@ pub(super) fn set_user_widths(m: &mut Model, spec: &Spec, log: &mut Log) {
         body.cameras.iter().for_each(|e| see(4, e.userdata.len()));
         pending.extend(&body.bodies);
     }
-    let mut width = |given: Option<i32>, longest: usize| match given {
-        Some(n) if n >= 0 => log.check(Loc::NONE, "size", bounded(n.into(), "nuser")).unwrap_or(0),
-        _ => longest,
+    log.check(Loc::NONE, "size", bounded(size.nuserdata.max(0).into(), "nuserdata"));
+    let mut width = |given: Option<i32>, longest: usize, count: usize, name: &str| {
+        let width = given.and_then(|n| usize::try_from(n).ok()).unwrap_or(longest);
+        let numbers = bounded(width.saturating_mul(count) as i64, name);
+        log.check(Loc::NONE, "size", numbers).map_or(0, |_| width)
     };
-    m.nuser_body = width(size.nuser_body, longest[0]);
-    m.nuser_jnt = width(size.nuser_jnt, longest[1]);
-    m.nuser_geom = width(size.nuser_geom, longest[2]);
-    m.nuser_site = width(size.nuser_site, longest[3]);
-    m.nuser_cam = width(size.nuser_cam, longest[4]);
+    m.nuser_body = width(size.nuser_body, longest[0], count[0], "room for nuser_body");
+    m.nuser_jnt = width(size.nuser_jnt, longest[1], count[1], "room for nuser_jnt");
+    m.nuser_geom = width(size.nuser_geom, longest[2], count[2], "room for nuser_geom");
+    m.nuser_site = width(size.nuser_site, longest[3], count[3], "room for nuser_site");
+    m.nuser_cam = width(size.nuser_cam, longest[4], count[4], "room for nuser_cam");
     let most = |lengths: &mut dyn Iterator<Item = usize>| lengths.max().unwrap_or(0);
-    m.nuser_tendon = width(size.nuser_tendon, most(&mut spec.tendons.iter().map(|e| e.userdata.len())));
-    m.nuser_actuator = width(size.nuser_actuator, most(&mut spec.actuators.iter().map(|e| e.userdata.len())));
-    m.nuser_sensor = width(size.nuser_sensor, most(&mut spec.sensors.iter().map(|e| e.userdata.len())));
+    let tendon = most(&mut spec.tendons.iter().map(|e| e.userdata.len()));
+    m.nuser_tendon = width(size.nuser_tendon, tendon, spec.tendons.len(), "room for nuser_tendon");
+    let actuator = most(&mut spec.actuators.iter().map(|e| e.userdata.len()));
+    m.nuser_actuator = width(size.nuser_actuator, actuator, spec.actuators.len(), "room for nuser_actuator");
+    let sensor = most(&mut spec.sensors.iter().map(|e| e.userdata.len()));
+    m.nuser_sensor = width(size.nuser_sensor, sensor, spec.sensors.len(), "room for nuser_sensor");
 }
 
 /// Sets every size that the filled arrays determine.

@@ -47,7 +47,7 @@ pub fn hfield(source: HfieldSource) -> Result<CompiledHfield, AssetError> {
             return Err(AssetError::inconsistent(format!("hfield '{name}' has both a file and inline data")));
         }
         Some((bytes, path)) => read(&bytes, &path, &content_type)?,
-        None if elevation.is_empty() && nrow > 0 && ncol > 0 && nrow.saturating_mul(ncol) <= MAX_CELLS => {
+        None if elevation.is_empty() && nrow.saturating_mul(ncol) <= MAX_CELLS => {
             (nrow, ncol, vec![0.0; nrow * ncol])
         }
         None => (nrow, ncol, elevation),

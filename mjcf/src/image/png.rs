@@ -30,6 +30,9 @@ pub(super) fn decode(bytes: &[u8], path: &str, channels: usize) -> Result<Pixels
     let mut reader = decoder.read_info().map_err(|e| fail(e.to_string()))?;
     let info = reader.info();
     let (width, height, srgb) = (info.width as usize, info.height as usize, info.srgb.is_some());
+    if info.palette.as_ref().is_some_and(|palette| !palette.len().is_multiple_of(3)) {
+        return Err(fail("the palette ends inside a colour".into()));
+    }
     let size = reader.output_buffer_size().filter(|&n| n <= MAX_BYTES);
     let size = size.ok_or_else(|| fail(format!("{width}x{height} pixels are too many")))?;
     // Deflate expands at most about a thousandfold; a larger claim is a lie.

@@ -22,7 +22,7 @@ pub use fit::{Primitive, fit_primitive};
 pub use hull::{Hull, convex_hull};
 pub use mass::MeshInertia;
 pub use process::process;
-pub use shapes::{Shape, builtin};
+pub use shapes::{Shape, builtin, vertex_count};
 
 use crate::bvh::Bvh;
 

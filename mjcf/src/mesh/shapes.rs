@@ -32,6 +32,19 @@ pub enum Shape {
 /// Largest number of vertices of a computed mesh.
 const MAX_VERTICES: f64 = 1e7;
 
+/// About how many vertices a computed mesh has.
+pub fn vertex_count(shape: Shape, params: &[f64]) -> f64 {
+    let count = |k: usize| params.get(k).map_or(0.0, |p| p.clamp(0.0, MAX_VERTICES));
+    match shape {
+        // An icosahedron, its triangles cut in four.
+        Shape::Sphere => 12.0 * f64::from(1 << 2 * count(0).min(4.0) as i32),
+        Shape::Hemisphere => 4.0 * count(0) * count(0),
+        Shape::Supersphere | Shape::Supertorus => count(0) * count(0),
+        Shape::Wedge | Shape::Plate => count(0) * count(1),
+        Shape::Cone => 2.0 * count(0),
+    }
+}
+
 /// The arrays of a computed mesh.
 pub fn builtin(shape: Shape, params: &[f64]) -> Result<RawMesh, AssetError> {
     let fail = |why: &str| Err(AssetError::inconsistent(format!("builtin mesh {shape:?}: {why}")));

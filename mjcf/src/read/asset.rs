@@ -1,16 +1,17 @@
 //! `asset`, and where the files of assets are.
 
 use super::Reader;
+use crate::diagnostic::Loc;
 use crate::files::{base_name, is_absolute, join};
+use crate::image::Builtin;
+use crate::mesh::vertex_count;
 use crate::schema::asset::{HFIELD_ROWS, MATERIAL_ROWS, MESH_ROWS, ROLES, TEXTURE_ROWS};
 use crate::spec::{Hfield, Material, Mesh, Texture};
 use crate::xml::{Attribute, Element};
+use physics::model::TextureType;
 
 /// Sides of a cube texture in the order of `Texture::cubefiles`.
 const SIDES: [&str; 6] = ["fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"];
-
-/// Heights of a height field given in the text.
-const MAX_HEIGHTS: i64 = 1 << 26;
 
 impl Reader<'_> {
     pub(super) fn asset(&mut self, section: &Element) {
@@ -67,7 +68,19 @@ impl Reader<'_> {
         {
             self.error(limit.value_loc, "attribute 'maxhullvert' of <mesh> must be -1 or at least 4");
         }
+        let vertices = mesh.builtin.map_or(0.0, |shape| vertex_count(shape, &mesh.params));
+        self.compute(3 * vertices as i64, element.loc);
         self.spec.meshes.push(mesh);
+    }
+
+    /// Counts numbers that are computed instead of given; an error and `false` when they are too many.
+    fn compute(&mut self, numbers: i64, loc: Loc) -> bool {
+        let most = self.expansion.limits.computed;
+        self.computed = self.computed.saturating_add(usize::try_from(numbers).unwrap_or(0));
+        if self.computed > most {
+            self.error(loc, format!("computed assets hold more than {most} numbers"));
+        }
+        self.computed <= most
     }
 
     fn hfield(&mut self, element: &Element) {
@@ -78,10 +91,10 @@ impl Reader<'_> {
             (hfield.file, hfield.path) = self.asset_file(file, &self.spec.compiler.meshdir);
         } else if hfield.nrow > 0 && hfield.ncol > 0 {
             let cells = i64::from(hfield.nrow) * i64::from(hfield.ncol);
-            if cells > MAX_HEIGHTS {
-                self.error(element.loc, format!("<hfield> has {cells} points, more than {MAX_HEIGHTS}"));
-            } else if given.is_empty() {
-                hfield.userdata = vec![0.0; cells as usize];
+            if given.is_empty() {
+                if self.compute(cells, element.loc) {
+                    hfield.userdata = vec![0.0; cells as usize];
+                }
             } else if given.len() as i64 != cells {
                 self.error(element.loc, format!("<hfield> has {} heights for {cells} points", given.len()));
             } else {
@@ -114,6 +127,12 @@ impl Reader<'_> {
             } else {
                 texture.gridlayout = format!("{:.<12}", layout.value);
             }
+        }
+        if texture.builtin != Builtin::None {
+            let (width, height) = (i64::from(texture.width), i64::from(texture.height));
+            let height =
+                if texture.kind == TextureType::Texture2d { height } else { width.saturating_mul(6) };
+            self.compute(width.max(0).saturating_mul(height.max(0)).saturating_mul(3), element.loc);
         }
         self.spec.textures.push(texture);
     }

@@ -8,9 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::Reader;
-use super::copy::{
-    Affix, MAX_COPIED, Names, Referring, Renaming, append, collect, collect_objects, elements,
-};
+use super::copy::{Affix, Names, Referring, Renaming, append, collect, collect_objects, elements};
 use super::model_file::ModelFile;
 use super::tree::Place;
 use crate::compile::asset_name;
@@ -168,10 +166,11 @@ impl Reader<'_> {
 
     fn count(&mut self, copied: usize) -> Result<(), String> {
         self.copied = self.copied.saturating_add(copied);
-        match self.copied {
-            0..=MAX_COPIED => Ok(()),
-            _ => Err(format!("<attach> makes more than {MAX_COPIED} elements")),
+        let most = self.expansion.limits.copies;
+        if self.copied > most {
+            return Err(format!("<attach> makes more than {most} elements"));
         }
+        Ok(())
     }
 
     /// Takes over the keyframes of a model; maps its indices to those here.

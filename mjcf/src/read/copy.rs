@@ -10,9 +10,6 @@ use crate::spec::{Actuator, Body, Equality, Exclude, Pair, Sensor, Spec, Tendon,
 /// Names with their spaces.
 pub(super) type Names = BTreeSet<(Space, String)>;
 
-/// Elements that the copies of one model may hold together; nesting multiplies.
-pub(super) const MAX_COPIED: usize = 1_000_000;
-
 /// What is put around the names of a copy.
 pub(super) struct Affix<'a> {
     pub prefix: &'a str,

@@ -43,6 +43,8 @@ pub struct Reader<'a> {
     classes: Classes,
     /// Elements made by `replicate` and `attach` so far.
     copied: usize,
+    /// Numbers of assets that are computed instead of given, so far.
+    computed: usize,
     /// Settings that the text gives, for conflicts with those of attached models.
     authored: Authored,
     /// Warnings about conflicts given already.
@@ -95,6 +97,7 @@ impl<'a> Reader<'a> {
             expansion,
             classes: Classes::default(),
             copied: 0,
+            computed: 0,
             authored: Authored::default(),
             warned: BTreeSet::new(),
             models: Vec::new(),

@@ -11,7 +11,7 @@ use std::ops::Range;
 use physics::math::{Vec3, quat_rotate};
 
 use super::Reader;
-use super::copy::{Affix, MAX_COPIED, Names, Referring, Renaming, append, collect, elements, forget_keys};
+use super::copy::{Affix, Names, Referring, Renaming, append, collect, elements, forget_keys};
 use super::tree::Place;
 use crate::compile::frame::resolve;
 use crate::schema::Space;
@@ -39,8 +39,9 @@ impl Reader<'_> {
         let mut names = Names::new();
         collect(&piece, &mut names);
         self.copied = self.copied.saturating_add(elements(&piece).saturating_mul(count));
-        if self.copied > MAX_COPIED {
-            return self.error(element.loc, format!("<replicate> makes more than {MAX_COPIED} elements"));
+        let most = self.expansion.limits.copies;
+        if self.copied > most {
+            return self.error(element.loc, format!("<replicate> makes more than {most} elements"));
         }
         let suffixes = suffixes(&wanted);
         let poses = match poses(&wanted, &self.spec) {

@@ -1,5 +1,7 @@
 //! Rows of compressed matrices against dense vectors; symmetric products, the L'DL solve and LU.
 
+use std::ops::Range;
+
 /// Inner product of a sparse row (`values` at `columns`) with dense `x`, summed in four lanes.
 pub fn dot_sparse(values: &[f64], columns: &[i32], x: &[f64]) -> f64 {
     let (v4, v_rest) = values.as_chunks::<4>();
@@ -68,11 +70,16 @@ impl LowerRows<'_> {
     /// Solves `Lᵀ D L x = x` in place with unit `L` and the reciprocal diagonal of `D`
     /// (Featherstone 2008, section 6.5).
     pub fn solve_ldl(&self, ld: &[f64], inverse_diagonal: &[f64], x: &mut [f64]) {
-        self.solve_transposed(ld, x);
-        for (x, d) in x.iter_mut().zip(inverse_diagonal) {
+        self.solve_ldl_rows(ld, inverse_diagonal, 0..x.len(), x);
+    }
+
+    /// The same for `rows` that no other row shares a non-zero with.
+    pub fn solve_ldl_rows(&self, ld: &[f64], inverse_diagonal: &[f64], rows: Range<usize>, x: &mut [f64]) {
+        self.solve_transposed_rows(ld, rows.clone(), x);
+        for (x, d) in x[rows.clone()].iter_mut().zip(&inverse_diagonal[rows.clone()]) {
             *x *= d;
         }
-        for i in 0..x.len() {
+        for i in rows {
             let (start, diagonal) = self.span(i);
             x[i] -= dot_sparse(&ld[start..diagonal], &self.colind[start..diagonal], x);
         }
@@ -80,7 +87,11 @@ impl LowerRows<'_> {
 
     /// Solves `Lᵀ x = x` in place with unit `L`.
     pub fn solve_transposed(&self, ld: &[f64], x: &mut [f64]) {
-        for i in (0..x.len()).rev() {
+        self.solve_transposed_rows(ld, 0..x.len(), x);
+    }
+
+    fn solve_transposed_rows(&self, ld: &[f64], rows: Range<usize>, x: &mut [f64]) {
+        for i in rows.rev() {
             let (start, diagonal) = self.span(i);
             if x[i] != 0.0 {
                 scatter_scaled(&ld[start..diagonal], &self.colind[start..diagonal], -x[i], x);
