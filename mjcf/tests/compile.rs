@@ -169,3 +169,38 @@ fn a_tendon_that_misses_its_geom_leaves_the_geoms_island_alone() {
     assert!(d.acc.qacc[1] > 0.0, "the stretched tendon pulls up");
     assert_eq!(d.state.qpos[0], 0.0);
 }
+
+/// Inverse weights are those of dense rows and the whole inertia, to the last bit, though found within trees.
+#[test]
+fn inverse_weights_within_trees_are_those_of_the_whole_inertia() {
+    use physics::jacobian::Jacobian;
+    use physics::math::dense::dot_slice;
+    use physics::{Data, inertia};
+    for name in ["workbench/workbench", "pile/pile", "yard/yard", "humanoid/humanoid"] {
+        let path = format!("{}/../assets/{name}.xml", env!("CARGO_MANIFEST_DIR"));
+        let m = robohive_mjcf::load(&path).unwrap_or_else(|errors| panic!("{errors}")).model;
+        let mut d = Data::new(&m);
+        d.state.qpos.copy_from_slice(&m.qpos0);
+        physics::forward(&m, &mut d).unwrap();
+        let mut jacobian = Jacobian::default();
+        let mut compared = 0;
+        for b in (1..m.nbody).filter(|&b| m.body_invweight0[b][1] > 0.0) {
+            jacobian.body_com(&m, &d.kin, &d.com, b);
+            for (k, rows) in [&jacobian.pos, &jacobian.rot].into_iter().enumerate() {
+                let weight = |axis: usize| {
+                    let row = &rows[axis * m.nv..(axis + 1) * m.nv];
+                    let mut solution = row.to_vec();
+                    inertia::solve(&m, &d.inertia, &mut solution);
+                    dot_slice(row, &solution)
+                };
+                assert_eq!(
+                    m.body_invweight0[b][k],
+                    (weight(0) + weight(1) + weight(2)) / 3.0,
+                    "{name}, body {b}"
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared > 8, "{name}");
+    }
+}
