@@ -30,7 +30,7 @@ pub(super) const fn split(a: f64) -> [f64; 2] {
 }
 
 /// `a b`, exactly.
-pub(super) const fn two_product(a: f64, b: f64) -> Double {
+const fn two_product(a: f64, b: f64) -> Double {
     let head = a * b;
     let ([a0, a1], [b0, b1]) = (split(a), split(b));
     Double { head, tail: ((a0 * b0 - head) + a0 * b1 + a1 * b0) + a1 * b1 }

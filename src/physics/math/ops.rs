@@ -13,12 +13,11 @@ pub fn sqrt(x: f64) -> f64 {
     x.sqrt()
 }
 
-/// Sine, cosine and their inverses correctly rounded but for a few calls in a million, the others within one unit of
-/// the last place.
+/// Sine and cosine correctly rounded but for a few calls in a million, the others within one unit of the last place.
 #[cfg(not(feature = "system-math"))]
 mod portable {
-    pub use crate::math::sine::{acos, asin, sincos};
-    pub use libm::{atan, atan2, exp, log, pow, tan, tanh};
+    pub use crate::math::sine::sincos;
+    pub use libm::{acos, asin, atan, atan2, exp, log, pow, tan, tanh};
 
     /// Sine.
     pub fn sin(x: f64) -> f64 {
