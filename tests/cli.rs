@@ -253,3 +253,22 @@ fn compiled_models_stand_for_their_text() {
         assert!(text(&out.stderr).contains(message), "{arguments:?}: {}", text(&out.stderr));
     }
 }
+
+/// The second load takes the model from the folder, with the same warnings and the same numbers.
+#[test]
+fn models_are_cached_in_a_folder() {
+    let folder = scratch("models");
+    _ = std::fs::remove_dir_all(&folder);
+    let arguments = ["inspect", "assets/pile/pile.xml", "--json", "--cache", folder.to_str().unwrap()];
+    let first = robohive(&arguments);
+    assert!(first.status.success(), "{}", text(&first.stderr));
+    let entries =
+        || std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect::<Vec<_>>();
+    let [entry] = &entries()[..] else { panic!("{:?}", entries()) };
+    let second = robohive(&arguments);
+    assert_eq!((text(&second.stdout), text(&second.stderr)), (text(&first.stdout), text(&first.stderr)));
+    std::fs::write(entry, "").unwrap();
+    let third = robohive(&arguments);
+    assert_eq!(text(&third.stdout), text(&first.stdout));
+    assert!(text(&third.stderr).contains("damaged; compiled anew"), "{}", text(&third.stderr));
+}

@@ -4,6 +4,7 @@
 
 pub mod asset;
 pub mod bvh;
+pub mod cache;
 pub mod compile;
 pub mod diagnostic;
 pub mod files;
@@ -17,4 +18,5 @@ pub mod spec;
 pub(crate) mod vector;
 pub mod xml;
 
+pub use cache::Cache;
 pub use loader::{Loaded, Loader, Parsed, load, load_str, parse_str};

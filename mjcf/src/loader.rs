@@ -5,6 +5,7 @@ use std::sync::Arc;
 use physics::Model;
 use physics::model::binary;
 
+use crate::cache::{Cache, Miss, Noted};
 use crate::compile::compile;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::{Disk, FileProvider};
@@ -20,6 +21,7 @@ pub struct Loader {
     limits: Limits,
     substitutions: Vec<(String, String)>,
     moves: Vec<(String, String)>,
+    cache: Option<Cache>,
 }
 
 impl Default for Loader {
@@ -29,6 +31,7 @@ impl Default for Loader {
             limits: Limits::default(),
             substitutions: Vec::new(),
             moves: Vec::new(),
+            cache: None,
         }
     }
 }
@@ -93,6 +96,12 @@ impl Loader {
         self
     }
 
+    /// Takes models that were compiled of the same content from a cache, and keeps others there.
+    pub fn cache(mut self, cache: Cache) -> Self {
+        self.cache = Some(cache);
+        self
+    }
+
     /// The files that models are read from.
     pub fn provider(&self) -> &dyn FileProvider {
         &*self.files
@@ -100,25 +109,28 @@ impl Loader {
 
     /// Reads the model at `path` and all it includes.
     pub fn parse(&self, path: &str) -> Result<Parsed, Diagnostics> {
-        self.finish(|expansion| expansion.read(path))
+        self.finish(&*self.files, |expansion| expansion.read(path))
     }
 
     /// Reads a model from text; relative paths are sought from the provider's top.
     pub fn parse_str(&self, text: &str) -> Result<Parsed, Diagnostics> {
-        self.finish(|expansion| expansion.expand("<text>", text.as_bytes()))
+        self.finish(&*self.files, |expansion| expansion.expand("<text>", text.as_bytes()))
     }
 
     /// Reads and compiles the model at `path`, or takes it as it is when the file holds a compiled one.
     pub fn load(&self, path: &str) -> Result<Loaded, Diagnostics> {
         match self.files.read(path) {
             Ok(bytes) if binary::is_model(&bytes) => self.load_compiled(path, &bytes),
-            _ => self.compile(self.parse(path)?),
+            _ => match &self.cache {
+                Some(cache) => self.load_cached(cache, path),
+                None => self.compile(&*self.files, self.parse(path)?),
+            },
         }
     }
 
     /// Reads and compiles a model from text.
     pub fn load_str(&self, text: &str) -> Result<Loaded, Diagnostics> {
-        self.compile(self.parse_str(text)?)
+        self.compile(&*self.files, self.parse_str(text)?)
     }
 
     fn load_compiled(&self, path: &str, bytes: &[u8]) -> Result<Loaded, Diagnostics> {
@@ -138,9 +150,34 @@ impl Loader {
         }
     }
 
-    fn compile(&self, parsed: Parsed) -> Result<Loaded, Diagnostics> {
+    fn load_cached(&self, cache: &Cache, path: &str) -> Result<Loaded, Diagnostics> {
+        let limits = format!("{:?}", self.limits);
+        let counts = format!("{} {}", self.substitutions.len(), self.moves.len());
+        let edits = self.substitutions.iter().chain(&self.moves).flat_map(|(from, to)| [&**from, &**to]);
+        let request: Vec<&str> = [path, &limits, &counts].into_iter().chain(edits).collect();
+        let damaged = match cache.find(&request, &*self.files) {
+            Ok(loaded) => return Ok(loaded),
+            Err(miss) => matches!(miss, Miss::Damaged),
+        };
+        let noted = Noted::new(&*self.files);
+        let parsed = self.finish(&noted, |expansion| expansion.read(path))?;
+        let mut loaded = self.compile(&noted, parsed)?;
+        let kept = cache.keep(&request, noted.reads(), &loaded);
+        let mut warn = |message: String| {
+            loaded.warnings.warning(&Sources::default(), Loc::NONE, format!("{path}: {message}"));
+        };
+        if damaged {
+            warn("the cached model was damaged; compiled anew".into());
+        }
+        if let Err(error) = kept {
+            warn(format!("the model cannot be cached: {error}"));
+        }
+        Ok(loaded)
+    }
+
+    fn compile(&self, files: &dyn FileProvider, parsed: Parsed) -> Result<Loaded, Diagnostics> {
         let Parsed { spec, sources, warnings: mut diagnostics } = parsed;
-        match compile(&spec, &*self.files, &sources, &mut diagnostics) {
+        match compile(&spec, files, &sources, &mut diagnostics) {
             Some(model) => Ok(Loaded { model, warnings: diagnostics }),
             None => Err(diagnostics),
         }
@@ -148,11 +185,12 @@ impl Loader {
 
     fn finish(
         &self,
+        files: &dyn FileProvider,
         read: impl FnOnce(&mut Expansion<'_>) -> Option<Element>,
     ) -> Result<Parsed, Diagnostics> {
         let (mut sources, mut diagnostics) = (Sources::default(), Diagnostics::default());
         let mut expansion = Expansion {
-            files: &*self.files,
+            files,
             substitutions: &self.substitutions,
             limits: &self.limits,
             sources: &mut sources,

@@ -42,9 +42,21 @@ pub struct ModelSource {
     /// MJCF file, or what `compile` made of one
     #[arg(value_name = "MODEL")]
     pub path: PathBuf,
+    /// How it is read
+    #[command(flatten)]
+    pub reading: Reading,
+}
+
+/// How models are read.
+#[derive(Args)]
+pub struct Reading {
     /// Replace TEXT by VALUE in the file and all it includes, e.g. OBJECT_NAME=apple
     #[arg(long = "define", value_name = "TEXT=VALUE")]
     pub defines: Vec<String>,
+    /// Keep compiled models in this folder, and take them from there while no file they are made of has changed
+    /// [default: the environment variable ROBOHIVE_CACHE, else none are kept]
+    #[arg(long, value_name = "FOLDER")]
+    pub cache: Option<PathBuf>,
 }
 
 /// Summarise a model, or write out every compiled array.
@@ -154,7 +166,7 @@ pub struct Check {
 /// Measure steps per second.
 #[derive(Args)]
 #[command(
-    after_help = "Starts from keyframe 0 where there is one, else qpos0, with zero controls. Loading is not timed.
+    after_help = "Starts from keyframe 0 where there is one, else qpos0, with zero controls; the time of loading is told apart.
 Examples:
   robohive bench assets/*/*.xml --steps 2000 --json | tail -n 1
   robohive bench assets/pile/pile.xml --batch 64 --threads 2   many environments together
@@ -165,9 +177,9 @@ pub struct Bench {
     /// MJCF files or compiled models
     #[arg(required = true)]
     pub models: Vec<PathBuf>,
-    /// Replace TEXT by VALUE in the files and all they include
-    #[arg(long = "define", value_name = "TEXT=VALUE")]
-    pub defines: Vec<String>,
+    /// How they are read
+    #[command(flatten)]
+    pub reading: Reading,
     /// Steps of each environment
     #[arg(long, default_value_t = 1000)]
     pub steps: usize,

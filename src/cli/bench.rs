@@ -82,12 +82,15 @@ struct Workload {
     hold: usize,
     environments: usize,
     threads: usize,
+    load_seconds: f64,
 }
 
 impl Workload {
     /// Keyframe 0 where there is one, else `qpos0`; zero controls, or the rows of the file.
     fn new(a: &Bench, path: &Path) -> Result<Self, Failure> {
-        let m = load(path, &a.defines)?;
+        let began = Instant::now();
+        let m = load(path, &a.reading)?;
+        let load_seconds = began.elapsed().as_secs_f64();
         let mut start = start(&m, None)?;
         start.state.ctrl.fill(0.0);
         let (controls, rows) = match &a.controls {
@@ -95,7 +98,16 @@ impl Workload {
             None => (Vec::new(), 0),
         };
         let environments = a.batch.unwrap_or(a.threads);
-        Ok(Workload { m: m.into(), start, controls, rows, hold: a.hold, environments, threads: a.threads })
+        Ok(Workload {
+            m: m.into(),
+            start,
+            controls,
+            rows,
+            hold: a.hold,
+            environments,
+            threads: a.threads,
+            load_seconds,
+        })
     }
 
     fn measure(&self, measure: Measure, steps: usize) -> Result<Map<String, Value>, Failure> {
@@ -138,6 +150,7 @@ impl Workload {
         found.insert("environments".into(), json!(self.environments));
         found.insert("threads".into(), json!(self.threads));
         found.insert("steps_per_second".into(), json!((steps * self.environments) as f64 / seconds));
+        found.insert("load_seconds".into(), json!(self.load_seconds));
         found.insert("resident_bytes".into(), json!(resident_bytes()));
         found.insert("qpos".into(), json!(batch.data()[0].state.qpos));
         Ok(found)

@@ -9,7 +9,7 @@ use validation::tolerance::{QACC, STEP};
 
 /// Runs the command: exit code 1 when a comparison disagrees.
 pub fn run(a: &Check) -> Result<(), Failure> {
-    let m = load(&a.model.path, &a.model.defines)?;
+    let m = load(&a.model.path, &a.model.reading)?;
     let reference = Reference::open(&a.reference).map_err(Failure::usage)?;
     let mut agrees = true;
     let mut line = |what: &str, good: bool, text: String| {

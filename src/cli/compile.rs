@@ -5,7 +5,7 @@ use crate::cli::{Failure, load, unwritable};
 
 /// Runs the command.
 pub fn run(a: &Compile) -> Result<(), Failure> {
-    let m = load(&a.model.path, &a.model.defines)?;
+    let m = load(&a.model.path, &a.model.reading)?;
     let bytes = m.to_bytes();
     std::fs::write(&a.out, &bytes).map_err(unwritable(&a.out))?;
     println!("{}: {} bytes", a.out.display(), bytes.len());

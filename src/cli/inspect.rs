@@ -11,7 +11,7 @@ use std::path::Path;
 
 /// Runs the command.
 pub fn run(a: &Inspect) -> Result<(), Failure> {
-    let m = load(&a.model.path, &a.model.defines)?;
+    let m = load(&a.model.path, &a.model.reading)?;
     if let Some(path) = &a.npz {
         write_arrays(&m, path)?;
     }

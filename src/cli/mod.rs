@@ -9,6 +9,7 @@ mod inspect;
 mod sim;
 mod trace;
 
+use arguments::Reading;
 use clap::Parser;
 use std::fmt;
 use std::path::Path;
@@ -52,9 +53,13 @@ pub fn run() -> ExitCode {
 }
 
 /// Loads a model and shows its warnings on standard error.
-fn load(path: &Path, defines: &[String]) -> Result<physics::Model, Failure> {
+fn load(path: &Path, reading: &Reading) -> Result<physics::Model, Failure> {
     let mut loader = mjcf::Loader::default();
-    for define in defines {
+    let named = std::env::var_os("ROBOHIVE_CACHE").filter(|folder| !folder.is_empty());
+    if let Some(folder) = reading.cache.clone().or(named.map(Into::into)) {
+        loader = loader.cache(mjcf::Cache::new(folder));
+    }
+    for define in &reading.defines {
         let (text, value) = define
             .split_once('=')
             .filter(|(text, _)| !text.is_empty())

@@ -15,7 +15,7 @@ const MAX_STEPS: f64 = 1e9;
 
 /// Runs the command.
 pub fn run(a: &Sim) -> Result<(), Failure> {
-    let m = load(&a.model.path, &a.model.defines)?;
+    let m = load(&a.model.path, &a.model.reading)?;
     let mut d = start(&m, a.keyframe.as_deref())?;
     let steps = (a.seconds / m.opt.timestep).ceil();
     if !(0.0..=MAX_STEPS).contains(&steps) {

@@ -22,7 +22,7 @@ const INPUTS: [&str; 11] = [
 
 /// Runs the command.
 pub fn run(a: &Trace) -> Result<(), Failure> {
-    let m = load(&a.model.path, &a.model.defines)?;
+    let m = load(&a.model.path, &a.model.reading)?;
     let inputs = read_inputs(a)?;
     let mut d = Data::new(&m);
     let mut names = a.fields.clone();
