@@ -152,7 +152,8 @@ fn bodies_match(m: &Model, b1: usize, b2: usize) -> bool {
 
 /// Frame whose axes (rows) follow the covariance of the positions of geoms outside the world body.
 fn spread_frame(m: &Model, kin: &Kinematics) -> Mat3 {
-    let moving = || (0..m.ngeom).filter(|&g| m.geom_bodyid[g] != 0).map(|g| kin.geom_xpos[g]);
+    let placed = || m.geom_bodyid.iter().zip(&kin.geom_xpos);
+    let moving = || placed().filter(|&(&body, _)| body != 0).map(|(_, &pos)| pos);
     let count = moving().count();
     let centre = scale(moving().fold([0.0; 3], add), 1.0 / count as f64);
     let mut cov = [0.0; 9];
@@ -178,7 +179,9 @@ fn body_bounds(m: &Model, kin: &Kinematics, b: usize, frame: &Mat3) -> Bounds {
         let (pos, mat, radius) = (kin.geom_xpos[g], &kin.geom_xmat[g], m.geom_rbound[g]);
         let sphere = mul_mat_vec(frame, pos);
         let [cx, cy, cz, sx, sy, sz] = m.geom_aabb[g];
-        let centre = mul_mat_vec(frame, add(mul_mat_vec(mat, [cx, cy, cz]), pos));
+        let centred = cx == 0.0 && cy == 0.0 && cz == 0.0;
+        let centre =
+            if centred { sphere } else { mul_mat_vec(frame, add(mul_mat_vec(mat, [cx, cy, cz]), pos)) };
         let axes = mul_mat(frame, mat);
         for j in 0..3 {
             let half = (sx * axes[3 * j]).abs() + (sy * axes[3 * j + 1]).abs() + (sz * axes[3 * j + 2]).abs();

@@ -72,6 +72,7 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mu
     let mut x = sub(nearest[0], nearest[1]);
     let (mut x_norm, mut x_norm_before) = (norm(x), 0.0_f64);
     let (mut n, mut k) = (0, 0);
+    let mut farthest = None;
     while k < limits.iterations {
         if x_norm < touching || (x_norm_before - x_norm).abs() < MINVAL {
             break;
@@ -80,6 +81,7 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mu
         let s = simplex[n].diff;
         // Frank–Wolfe duality gap: an upper bound on |x - x_min|².
         if dot(x, sub(x, s)) < gap_tolerance {
+            farthest = Some(s);
             break;
         }
         // A support plane at this distance times |x| has the origin in front of it.
@@ -113,7 +115,8 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mu
     if n > 0 {
         nearest = [combine(&lambda, n, |i| simplex[i].a), combine(&lambda, n, |i| simplex[i].b)];
     }
-    let separated = dot(x, support_toward_origin(a, b, x, x_norm).diff) > 0.0;
+    let farthest = farthest.unwrap_or_else(|| support_toward_origin(a, b, x, x_norm).diff);
+    let separated = dot(x, farthest) > 0.0;
     let dist = if n == 4 && !separated { 0.0 } else { x_norm };
     Proximity { dist, separated, n, nearest: Some(nearest) }
 }

@@ -135,9 +135,10 @@ fn assemble_dense(p: &Problem, active: &[f64], h: &mut Vec<f64>) {
         if d == 0.0 {
             continue;
         }
-        for (i, &x) in row.iter().enumerate() {
+        let first = row.iter().position(|&x| x != 0.0).unwrap_or(n);
+        for (i, &x) in row.iter().enumerate().skip(first) {
             if x != 0.0 {
-                add_scaled_slice(&mut h[i * n..i * n + i + 1], row, x * d);
+                add_scaled_slice(&mut h[i * n + first..i * n + i + 1], &row[first..], x * d);
             }
         }
     }
