@@ -1,6 +1,7 @@
 //! Instructions of one step, counted by valgrind: a measure of speed that does not depend on the machine's load.
 //! A rise over the recorded count fails.
 
+use crate::Trouble::{self, CannotCheck, Failed};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -34,20 +35,10 @@ const STEPS: [u64; 2] = [150, 350];
 const TOLERANCE: f64 = 0.03;
 const FILE: &str = "benches/instructions.txt";
 
-/// Why the check did not pass.
-pub enum Trouble {
-    /// valgrind is not installed, or counts were recorded on another kind of processor.
-    CannotCount(String),
-    /// A command failed, or a count rose.
-    Failed(String),
-}
-
-use Trouble::{CannotCount, Failed};
-
 /// Counts, prints the table, and compares with the recorded counts, or records them anew.
 pub fn run(update: bool) -> Result<(), Trouble> {
     if Command::new("valgrind").arg("--version").output().is_err() {
-        return Err(CannotCount("valgrind is not installed".into()));
+        return Err(CannotCheck("valgrind is not installed".into()));
     }
     let binary = build()?;
     let counted: BTreeMap<_, _> =
@@ -74,7 +65,7 @@ pub fn run(update: bool) -> Result<(), Trouble> {
         return std::fs::write(FILE, text).map_err(|e| Failed(format!("{FILE}: {e}")));
     }
     if !recorded.contains(std::env::consts::ARCH) {
-        return Err(CannotCount(format!("the counts of {FILE} are of another kind of processor")));
+        return Err(CannotCheck(format!("the counts of {FILE} are of another kind of processor")));
     }
     if risen.is_empty() {
         return Ok(());

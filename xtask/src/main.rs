@@ -1,11 +1,19 @@
 //! Continuous integration as a program: `cargo xtask ci` runs every check, `cargo xtask NAME` one of them.
 //! `cargo xtask instructions --update` records the counts anew.
 
+mod builds;
 mod instructions;
 
-use instructions::Trouble;
 use std::process::{Command, ExitCode};
 use std::time::Instant;
+
+/// Why a check did not pass.
+pub enum Trouble {
+    /// This machine lacks what it takes.
+    CannotCheck(String),
+    /// A command failed, or a number is wrong.
+    Failed(String),
+}
 
 /// One check: its name and the cargo arguments that run it.
 struct Check {
@@ -30,33 +38,33 @@ fn main() -> ExitCode {
         ["instructions", "--update"] => ("instructions", true),
         _ => ("", false),
     };
-    let all = name == "ci";
-    let chosen: Vec<_> = CHECKS.iter().filter(|c| all || name == c.name).collect();
-    let count = all || name == "instructions";
-    if chosen.is_empty() && !count {
-        let names: Vec<_> = CHECKS.iter().map(|c| c.name).collect();
-        eprintln!("usage: cargo xtask ci | {} | instructions [--update]", names.join(" | "));
+    let names: Vec<_> = CHECKS.iter().map(|c| c.name).chain(["builds", "instructions"]).collect();
+    if name != "ci" && !names.contains(&name) {
+        eprintln!("usage: cargo xtask ci | {} [--update]", names.join(" | "));
         return ExitCode::from(2);
     }
-    for check in chosen {
-        let heading = format!("{}: cargo {}", check.name, check.cargo.join(" "));
-        if let Err(reason) = timed(&heading, || cargo(check.cargo)) {
-            eprintln!("== {} failed: {reason}", check.name);
-            return ExitCode::FAILURE;
-        }
-    }
-    if count {
-        match timed("instructions", || instructions::run(update)) {
+    for one in names.into_iter().filter(|n| name == "ci" || name == *n) {
+        let outcome = timed(one, || check(one, update));
+        match outcome {
             Ok(()) => {}
-            Err(Trouble::CannotCount(reason)) if all => println!("== instructions not compared: {reason}"),
-            Err(Trouble::CannotCount(reason) | Trouble::Failed(reason)) => {
-                eprintln!("== instructions failed: {reason}");
+            Err(Trouble::CannotCheck(reason)) if name == "ci" => println!("== {one} not checked: {reason}"),
+            Err(Trouble::CannotCheck(reason) | Trouble::Failed(reason)) => {
+                eprintln!("== {one} failed: {reason}");
                 return ExitCode::FAILURE;
             }
         }
     }
     println!("== all checks passed");
     ExitCode::SUCCESS
+}
+
+/// Runs the check called `name`.
+fn check(name: &str, update: bool) -> Result<(), Trouble> {
+    match CHECKS.iter().find(|c| c.name == name) {
+        Some(check) => cargo(check.cargo).map_err(Trouble::Failed),
+        None if name == "builds" => builds::run(),
+        None => instructions::run(update),
+    }
 }
 
 /// Runs `work` between a heading and its duration.

@@ -15,7 +15,6 @@ const NO_INPUT: i32 = 16;
 /// Orientation charts of an so3 servo.
 const EXPMAP: i32 = 1;
 const QUAT: i32 = 2;
-/// Samples a history buffer may hold.
 
 /// Inputs, outputs and activations that a type of actuator has.
 struct Block {

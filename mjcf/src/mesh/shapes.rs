@@ -37,7 +37,7 @@ pub fn vertex_count(shape: Shape, params: &[f64]) -> f64 {
     let count = |k: usize| params.get(k).map_or(0.0, |p| p.clamp(0.0, MAX_VERTICES));
     match shape {
         // An icosahedron, its triangles cut in four.
-        Shape::Sphere => 12.0 * f64::from(1 << 2 * count(0).min(4.0) as i32),
+        Shape::Sphere => 12.0 * f64::from(1 << (2 * count(0).min(4.0) as i32)),
         Shape::Hemisphere => 4.0 * count(0) * count(0),
         Shape::Supersphere | Shape::Supertorus => count(0) * count(0),
         Shape::Wedge | Shape::Plate => count(0) * count(1),

@@ -1,0 +1,70 @@
+//! Hashes of final states: one number for a model, equal on every machine, build and number of threads.
+//!
+//! The hash takes in every bit of the compiled model and of all that a simulation holds at its end. The models lie in
+//! the program, so that it also runs where there is no file system.
+
+mod fnv;
+mod models;
+#[cfg(target_arch = "wasm32")]
+mod web;
+
+pub use models::{Case, MODELS};
+
+use fnv::Fnv;
+use physics::math::ops::sin;
+use physics::{Batch, Model};
+
+/// Steps of every simulation.
+pub const STEPS: usize = 1000;
+/// Simulations of one model, each under controls of its own.
+pub const ENVIRONMENTS: usize = 4;
+
+/// The recorded hashes, lines of a name and 16 hexadecimal digits.
+pub const TABLE: &str = include_str!("../digests.txt");
+
+/// Hash of `case` after [`STEPS`] steps of [`ENVIRONMENTS`] simulations on `threads` threads.
+///
+/// # Errors
+/// The model does not load, a state is refused, or the threads cannot be started; in words.
+pub fn digest(case: &Case, threads: usize) -> Result<u64, String> {
+    let model = case.load()?;
+    let mut hash = Fnv::default();
+    model.visit(&mut |name, shape, values| hash.array(name, &shape, values));
+    let mut batch = Batch::new(model.into(), ENVIRONMENTS, threads).map_err(|e| e.to_string())?;
+    if batch.model(0).nkey > 0 {
+        batch
+            .run(|_, m, d| {
+                d.reset_to_key(m, 0).unwrap_or_default();
+                Ok(())
+            })
+            .map_err(|e| e.to_string())?;
+    }
+    batch
+        .run(|environment, m, d| {
+            (0..STEPS).try_for_each(|step| {
+                set_controls(m, &mut d.state.ctrl, step, environment);
+                physics::step(m, d)
+            })
+        })
+        .map_err(|e| format!("{}: {e}", case.name))?;
+    for (environment, data) in batch.data().iter().enumerate() {
+        data.visit(batch.model(environment), &mut |name, shape, values| hash.array(name, &shape, values));
+    }
+    Ok(hash.finish())
+}
+
+/// Slow waves within the limits of each control, or within ±1 where it has none.
+fn set_controls(m: &Model, ctrl: &mut [f64], step: usize, environment: usize) {
+    let time = step as f64 * m.opt.timestep;
+    for (i, u) in ctrl.iter_mut().enumerate() {
+        let [low, high] = if m.actuator_ctrllimited[i] { m.actuator_ctrlrange[i] } else { [-1.0, 1.0] };
+        let phase = 2.0 * i as f64 + environment as f64;
+        *u = 0.5 * (low + high) + 0.5 * (high - low) * sin(3.0 * time + phase);
+    }
+}
+
+/// The recorded hash of the model called `name`.
+pub fn recorded(name: &str) -> Option<u64> {
+    let row = TABLE.lines().filter_map(|line| line.split_once(' ')).find(|row| row.0 == name)?;
+    u64::from_str_radix(row.1.trim(), 16).ok()
+}

@@ -1,0 +1,64 @@
+//! The models, with the solvers, cones and integrators that no asset asks for by itself.
+
+use mjcf::Loader;
+use mjcf::files::Memory;
+use physics::Model;
+
+/// A model and the options set in its text.
+pub struct Case {
+    /// Name in the table.
+    pub name: &'static str,
+    file: &'static str,
+    options: &'static str,
+}
+
+const fn case(name: &'static str, file: &'static str, options: &'static str) -> Case {
+    Case { name, file, options }
+}
+
+/// All models of the table, in its order.
+pub const MODELS: [Case; 12] = [
+    case("franka_table", "franka/franka_table.xml", ""),
+    case("elbow", "elbow/elbow.xml", ""),
+    case("quadruped", "quadruped/quadruped.xml", ""),
+    case("humanoid", "humanoid/humanoid.xml", ""),
+    case("pile", "pile/pile.xml", ""),
+    case("workbench", "workbench/workbench.xml", ""),
+    case("yard", "yard/yard.xml", ""),
+    case("franka_table_implicit", "franka/franka_table.xml", r#"integrator="implicit""#),
+    case("elbow_rk4", "elbow/elbow.xml", r#"integrator="RK4""#),
+    case("quadruped_cg_elliptic", "quadruped/quadruped.xml", r#"solver="CG" cone="elliptic""#),
+    case("humanoid_implicitfast", "humanoid/humanoid.xml", r#"integrator="implicitfast" cone="elliptic""#),
+    case("pile_pgs_noslip", "pile/pile.xml", r#"solver="PGS" noslip_iterations="3""#),
+];
+
+macro_rules! files {
+    ($($path:literal,)*) => { [$(($path, include_str!(concat!("../../../assets/", $path))),)*] };
+}
+
+const FILES: [(&str, &str); 8] = files![
+    "elbow/elbow.xml",
+    "franka/franka_table.xml",
+    "humanoid/humanoid.xml",
+    "pile/pile.xml",
+    "quadruped/quadruped.xml",
+    "workbench/workbench.xml",
+    "yard/parts/crane.xml",
+    "yard/yard.xml",
+];
+
+impl Case {
+    /// Compiles the model.
+    ///
+    /// # Errors
+    /// What the reader says of it.
+    pub fn load(&self) -> Result<Model, String> {
+        let mut files = Memory::default();
+        for (path, text) in FILES {
+            files.insert(path, text.as_bytes());
+        }
+        let loader =
+            Loader::default().files(files).substitute("<option ", &format!("<option {} ", self.options));
+        loader.load(self.file).map(|loaded| loaded.model).map_err(|e| e.to_string())
+    }
+}
