@@ -40,11 +40,13 @@ fn pass(m: &mut Model, d: &mut Data, start: &Data, drive: fn(usize, &mut Model, 
     changes
 }
 
+/// What moves a model: the number of the step, the model, its data.
+type Drive = fn(usize, &mut Model, &mut Data);
+
 /// One test, since others in this process would be counted too.
 #[test]
 fn steps_do_not_allocate() {
-    let models: [(_, fn(usize, &mut Model, &mut Data)); 2] =
-        [("pile/pile", tumble), ("quadruped/quadruped", trot)];
+    let models: [(_, Drive); 2] = [("pile/pile", tumble), ("quadruped/quadruped", trot)];
     for (name, drive) in models {
         let path = format!("{}/assets/{name}.xml", env!("CARGO_MANIFEST_DIR"));
         let mut model = robohive::mjcf::load(&path).unwrap().model;
