@@ -25,7 +25,7 @@ fn trot(i: usize, _: &mut Model, d: &mut Data) {
 }
 
 /// One passage from `start`; the number of steps at which the number of contacts changed.
-fn pass(m: &mut Model, d: &mut Data, start: &Data, drive: fn(usize, &mut Model, &mut Data)) -> usize {
+fn pass(m: &mut Model, d: &mut Data, start: &Data, drive: Drive) -> usize {
     d.time = 0.0;
     d.state.qpos.copy_from_slice(&start.state.qpos);
     d.state.qvel.copy_from_slice(&start.state.qvel);
