@@ -6,6 +6,7 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -66,27 +67,32 @@ impl Cache {
         self.folder.join(format!("{}.rhc", hasher.finalize().to_hex()))
     }
 
-    /// The model that `request` describes, if all files it was made of are as they were.
-    pub(crate) fn find(&self, request: &[&str], files: &dyn FileProvider) -> Result<Loaded, Miss> {
+    /// The model that `request` describes, if all files it was made of are as they were: they are read while the
+    /// model is.
+    pub(crate) fn find(&self, request: &[&str], files: &(dyn FileProvider + Sync)) -> Result<Loaded, Miss> {
         let path = self.entry(request);
-        let bytes = std::fs::read(&path).map_err(|_| Miss::Absent)?;
-        let entry = Entry::read(&bytes).ok_or(Miss::Damaged)?;
+        let mut file = std::fs::File::options().read(true).open(&path).map_err(|_| Miss::Absent)?;
+        let mut left = file.metadata().map_err(|_| Miss::Damaged)?.len();
+        let (reads, warnings) = read_list(&mut file, &mut left).ok_or(Miss::Damaged)?;
         let same = |(path, seen): (&String, &Seen)| match seen {
-            Seen::Content(digest) => digest_of(&files.read(path)) == *digest,
+            Seen::Content(digest) => digest_now(files, path) == *digest,
             Seen::Exists(exists) => files.exists(path) == *exists,
         };
-        if !entry.reads.iter().all(same) {
+        let (unchanged, model) = std::thread::scope(|scope| {
+            let unchanged = scope.spawn(|| reads.iter().all(same));
+            let model = Model::read(&mut file, left);
+            (unchanged.join().unwrap_or(false), model)
+        });
+        let model = model.map_err(|_| Miss::Damaged)?;
+        if !unchanged {
             return Err(Miss::Absent);
         }
-        let model = Model::from_bytes(entry.model).map_err(|_| Miss::Damaged)?;
         // When it was last used; a folder that may only be read serves as well.
         _ = std::fs::File::options()
             .append(true)
             .open(&path)
             .and_then(|file| file.set_modified(SystemTime::now()));
-        let mut warnings = Diagnostics::default();
-        warnings.list = entry.warnings;
-        Ok(Loaded { model, warnings })
+        Ok(Loaded { model, warnings: Diagnostics { list: warnings, dropped: 0 } })
     }
 
     /// Keeps a model. The entry appears whole or not at all.
@@ -95,7 +101,7 @@ impl Cache {
     /// The folder cannot be written.
     pub(crate) fn keep(&self, request: &[&str], reads: Reads, loaded: &Loaded) -> std::io::Result<()> {
         static NEXT: AtomicUsize = AtomicUsize::new(0);
-        let bytes = Entry::write(&reads, loaded);
+        let bytes = write_entry(&reads, loaded);
         if bytes.len() as u64 > self.max_bytes {
             return Ok(());
         }
@@ -138,6 +144,14 @@ fn digest_of(read: &Result<Arc<[u8]>, FileError>) -> Digest {
     read.as_ref().ok().map(|bytes| *blake3::hash(bytes).as_bytes())
 }
 
+/// The digest of the file at `path`, read piece by piece.
+fn digest_now(files: &dyn FileProvider, path: &str) -> Digest {
+    let (source, _) = files.open(path).ok()?;
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(source).ok()?;
+    Some(*hasher.finalize().as_bytes())
+}
+
 /// Files whose reading is noted.
 pub(crate) struct Noted<'a> {
     files: &'a dyn FileProvider,
@@ -168,62 +182,59 @@ impl FileProvider for Noted<'_> {
     }
 }
 
-/// An entry, read: a checksum of the list, its length, the list, the model.
-struct Entry<'a> {
-    reads: Reads,
-    warnings: Vec<Diagnostic>,
-    model: &'a [u8],
+/// An entry: checksum and length of the list of files and warnings, the list, the model.
+fn write_entry(reads: &Reads, loaded: &Loaded) -> Vec<u8> {
+    let mut list = Vec::new();
+    put_count(&mut list, reads.len());
+    for (path, seen) in reads {
+        put_text(&mut list, path);
+        match seen {
+            Seen::Content(Some(digest)) => {
+                list.push(2);
+                list.extend(digest);
+            }
+            Seen::Content(None) => list.push(3),
+            Seen::Exists(exists) => list.push(u8::from(*exists)),
+        }
+    }
+    put_count(&mut list, loaded.warnings.list.len());
+    loaded.warnings.list.iter().for_each(|warning| put_warning(&mut list, warning));
+    let mut out = Vec::new();
+    out.extend(binary::checksum(&list).to_le_bytes());
+    put_count(&mut out, list.len());
+    out.extend(list);
+    out.extend(loaded.model.to_bytes());
+    out
 }
 
-impl<'a> Entry<'a> {
-    fn write(reads: &Reads, loaded: &Loaded) -> Vec<u8> {
-        let mut list = Vec::new();
-        put_count(&mut list, reads.len());
-        for (path, seen) in reads {
-            put_text(&mut list, path);
-            match seen {
-                Seen::Content(Some(digest)) => {
-                    list.push(2);
-                    list.extend(digest);
-                }
-                Seen::Content(None) => list.push(3),
-                Seen::Exists(exists) => list.push(u8::from(*exists)),
-            }
-        }
-        put_count(&mut list, loaded.warnings.list.len());
-        loaded.warnings.list.iter().for_each(|warning| put_warning(&mut list, warning));
-        let mut out = Vec::new();
-        out.extend(binary::checksum(&list).to_le_bytes());
-        put_count(&mut out, list.len());
-        out.extend(list);
-        out.extend(loaded.model.to_bytes());
-        out
+/// The list at the start of an entry of `left` bytes, which become those of the model.
+fn read_list(source: &mut impl Read, left: &mut u64) -> Option<(Reads, Vec<Diagnostic>)> {
+    let mut head = [0; 16];
+    source.read_exact(&mut head).ok()?;
+    let (checksum, mut length) = head.split_at(8);
+    let length = take_count(&mut length)?;
+    *left = left.checked_sub(16)?.checked_sub(length as u64)?;
+    let mut list = vec![0; length];
+    source.read_exact(&mut list).ok()?;
+    if binary::checksum(&list).to_le_bytes() != *checksum {
+        return None;
     }
-
-    fn read(bytes: &'a [u8]) -> Option<Self> {
-        let (checksum, mut rest) = bytes.split_first_chunk()?;
-        let length = take_count(&mut rest)?;
-        let (mut list, model) = rest.split_at_checked(length)?;
-        if binary::checksum(list) != u64::from_le_bytes(*checksum) {
-            return None;
-        }
-        let list = &mut list;
-        let mut reads = Reads::new();
-        for _ in 0..take_count(list)? {
-            let path = take_text(list)?;
-            let seen = match take(list, 1)?[0] {
-                2 => Seen::Content(Some(take(list, 32)?.try_into().ok()?)),
-                3 => Seen::Content(None),
-                exists => Seen::Exists(exists == 1),
-            };
-            reads.insert(path, seen);
-        }
-        let mut warnings = Vec::new();
-        for _ in 0..take_count(list)? {
-            warnings.push(take_warning(list)?);
-        }
-        Some(Entry { reads, warnings, model })
+    let list = &mut &list[..];
+    let mut reads = Reads::new();
+    for _ in 0..take_count(list)? {
+        let path = take_text(list)?;
+        let seen = match take(list, 1)?[0] {
+            2 => Seen::Content(Some(take(list, 32)?.try_into().ok()?)),
+            3 => Seen::Content(None),
+            exists => Seen::Exists(exists == 1),
+        };
+        reads.insert(path, seen);
     }
+    let mut warnings = Vec::new();
+    for _ in 0..take_count(list)? {
+        warnings.push(take_warning(list)?);
+    }
+    Some((reads, warnings))
 }
 
 fn put_count(out: &mut Vec<u8>, n: usize) {

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -43,6 +44,13 @@ pub trait FileProvider {
     /// The content of the file at `path`.
     fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError>;
 
+    /// The content of the file at `path` piece by piece, and its length.
+    fn open(&self, path: &str) -> Result<(Box<dyn Read>, u64), FileError> {
+        let bytes = self.read(path)?;
+        let length = bytes.len() as u64;
+        Ok((Box::new(Cursor::new(bytes)), length))
+    }
+
     /// Whether `read` would find a file at `path`.
     fn exists(&self, path: &str) -> bool;
 }
@@ -75,10 +83,9 @@ impl Disk {
         }
         Ok(found)
     }
-}
 
-impl FileProvider for Disk {
-    fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError> {
+    /// A file that may be read, and its length.
+    fn find(&self, path: &str) -> Result<(PathBuf, u64), FileError> {
         let path = self.reach(path)?;
         let facts = path.metadata().map_err(io_error)?;
         if !facts.is_file() {
@@ -87,7 +94,20 @@ impl FileProvider for Disk {
         if facts.len() > self.max_bytes {
             return Err(FileError::TooLarge(facts.len()));
         }
+        Ok((path, facts.len()))
+    }
+}
+
+impl FileProvider for Disk {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError> {
+        let (path, _) = self.find(path)?;
         std::fs::read(path).map(Arc::from).map_err(io_error)
+    }
+
+    fn open(&self, path: &str) -> Result<(Box<dyn Read>, u64), FileError> {
+        let (path, length) = self.find(path)?;
+        let file = std::fs::File::open(path).map_err(io_error)?;
+        Ok((Box::new(file), length))
     }
 
     fn exists(&self, path: &str) -> bool {

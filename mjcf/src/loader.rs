@@ -1,5 +1,6 @@
 //! From a path or a text to a [`Model`], with every edit a program may ask for in between.
 
+use std::io::{Cursor, Read};
 use std::sync::Arc;
 
 use physics::Model;
@@ -119,13 +120,21 @@ impl Loader {
 
     /// Reads and compiles the model at `path`, or takes it as it is when the file holds a compiled one.
     pub fn load(&self, path: &str) -> Result<Loaded, Diagnostics> {
-        match self.files.read(path) {
-            Ok(bytes) if binary::is_model(&bytes) => self.load_compiled(path, &bytes),
-            _ => match &self.cache {
-                Some(cache) => self.load_cached(cache, path),
-                None => self.compile(&*self.files, self.parse(path)?),
-            },
+        if let Some((mut source, length)) = self.open_compiled(path) {
+            return self.load_compiled(path, &mut source, length);
         }
+        match &self.cache {
+            Some(cache) => self.load_cached(cache, path),
+            None => self.compile(&*self.files, self.parse(path)?),
+        }
+    }
+
+    /// The content of the file at `path` and its length, if it begins as a compiled model does.
+    fn open_compiled(&self, path: &str) -> Option<(impl Read + use<>, u64)> {
+        let (mut source, length) = self.files.open(path).ok()?;
+        let mut mark = binary::MARK;
+        source.read_exact(&mut mark).ok()?;
+        binary::is_model(&mark).then(|| (Cursor::new(mark).chain(source), length))
     }
 
     /// Reads and compiles a model from text.
@@ -133,12 +142,12 @@ impl Loader {
         self.compile(&*self.files, self.parse_str(text)?)
     }
 
-    fn load_compiled(&self, path: &str, bytes: &[u8]) -> Result<Loaded, Diagnostics> {
+    fn load_compiled(&self, path: &str, source: &mut dyn Read, length: u64) -> Result<Loaded, Diagnostics> {
         let edited = !self.substitutions.is_empty() || !self.moves.is_empty();
         let model = if edited {
             Err("a compiled model cannot be edited; edit the text and compile it".to_owned())
         } else {
-            Model::from_bytes(bytes).map_err(|error| error.to_string())
+            Model::read(source, length).map_err(|error| error.to_string())
         };
         let mut diagnostics = Diagnostics::default();
         match model {

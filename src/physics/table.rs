@@ -117,8 +117,10 @@ pub trait Field {
     fn allocate(&mut self, rows: usize, width: usize);
     /// Replaces the content by flat values; false when they do not fill whole rows.
     fn assign(&mut self, values: &[f64]) -> bool;
-    /// Replaces the content by as many rows as `bytes`, a multiple of `ROW_BYTES`, holds.
-    fn read(&mut self, bytes: &[u8]);
+    /// Empties the array and makes room for `rows` rows.
+    fn restart(&mut self, rows: usize);
+    /// Appends as many rows as `bytes`, a multiple of `ROW_BYTES`, holds.
+    fn append(&mut self, bytes: &[u8]);
     /// Fixed columns of one row (1 for scalar rows).
     const COLUMNS: usize;
     /// Bytes of those columns in a compiled file.
@@ -138,8 +140,11 @@ impl<T: Scalar> Field for Vec<T> {
         self.extend(values.iter().map(|&x| T::from_f64(x)));
         true
     }
-    fn read(&mut self, bytes: &[u8]) {
+    fn restart(&mut self, rows: usize) {
         self.clear();
+        self.reserve_exact(rows);
+    }
+    fn append(&mut self, bytes: &[u8]) {
         self.extend(bytes.chunks_exact(T::BYTES).map(T::from_bytes));
     }
     const COLUMNS: usize = 1;
@@ -162,8 +167,11 @@ impl<T: Scalar, const N: usize> Field for Vec<[T; N]> {
         self.extend(values.chunks_exact(N).map(|row| std::array::from_fn(|i| T::from_f64(row[i]))));
         true
     }
-    fn read(&mut self, bytes: &[u8]) {
+    fn restart(&mut self, rows: usize) {
         self.clear();
+        self.reserve_exact(rows);
+    }
+    fn append(&mut self, bytes: &[u8]) {
         let row = |row: &[u8]| std::array::from_fn(|i| T::from_bytes(&row[i * T::BYTES..]));
         self.extend(bytes.chunks_exact(Self::ROW_BYTES).map(row));
     }

@@ -20,6 +20,7 @@ use crate::consistency::{Inconsistent, check_consistency};
 use crate::table::Field;
 use crate::validity::{StepError, check_model};
 use std::fmt;
+use std::io::{ErrorKind, Read};
 
 /// The first bytes of a compiled model.
 pub const MARK: [u8; 8] = *b"\x89RHmdl\r\n";
@@ -35,6 +36,8 @@ pub enum BinaryError {
     NotAModel,
     /// Another version of the layout, or another table of fields, wrote it.
     Stale,
+    /// The source of the bytes failed.
+    Unreadable(ErrorKind),
     /// The content is shorter or longer than its header or its sizes say.
     Length,
     /// The content is not what was written.
@@ -57,6 +60,7 @@ impl fmt::Display for BinaryError {
                     "compiled by another version of robohive; compile it again: robohive compile MODEL.xml --out FILE"
                 )
             }
+            BinaryError::Unreadable(kind) => write!(f, "the compiled model cannot be read: {kind}"),
             BinaryError::Length => write!(f, "the compiled model is cut off or too long; compile it again"),
             BinaryError::Checksum => write!(f, "the compiled model is damaged (checksum); compile it again"),
             BinaryError::Name => write!(f, "the name of the compiled model is not UTF-8"),
@@ -75,12 +79,17 @@ pub fn is_model(bytes: &[u8]) -> bool {
 
 /// Digest of 64 bits, by words of eight bytes. Each step is invertible, so bytes changed within one word always show.
 pub fn checksum(bytes: &[u8]) -> u64 {
+    mix_all(bytes.len() as u64, bytes)
+}
+
+/// Continues a digest; all pieces but the last are whole words.
+fn mix_all(digest: u64, bytes: &[u8]) -> u64 {
     let mix = |h: u64, word: u64| {
         let h = (h ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         h ^ (h >> 32)
     };
     let (words, rest) = bytes.as_chunks::<8>();
-    let h = words.iter().fold(bytes.len() as u64, |h, &word| mix(h, u64::from_le_bytes(word)));
+    let h = words.iter().fold(digest, |h, &word| mix(h, u64::from_le_bytes(word)));
     rest.iter().fold(h, |h, &byte| mix(h, u64::from(byte)))
 }
 
@@ -134,30 +143,45 @@ impl Model {
     /// Bytes of something else, of another version, damaged, or whose arrays contradict each other. No more memory
     /// is taken than the bytes fill.
     pub fn from_bytes(bytes: &[u8]) -> Result<Model, BinaryError> {
+        Model::read(&mut &bytes[..], bytes.len() as u64)
+    }
+
+    /// [`Model::from_bytes`] of the next `length` bytes of a source, which are not kept in memory.
+    ///
+    /// # Errors
+    /// Those of `from_bytes`, and failures of the source.
+    pub fn read(source: &mut dyn Read, length: u64) -> Result<Model, BinaryError> {
+        let mut from = Reader::new(source, length)?;
         let mut m = Model::default();
-        let mut from = Reader { rest: content(bytes)? };
-        let length = from.word()?;
-        m.name = String::from_utf8(from.take(length, 1)?.to_vec()).map_err(|_| BinaryError::Name)?;
-        for flag in [&mut m.flg_gravcomp, &mut m.flg_surfacevel, &mut m.flg_adhesion] {
-            from.setting(flag)?;
-        }
-        read_sizes(&mut m, &mut from)?;
-        m.opt.read(&mut from)?;
-        m.stat.read(&mut from)?;
-        m.vis.global.read(&mut from)?;
-        m.vis.quality.read(&mut from)?;
-        m.vis.headlight.read(&mut from)?;
-        m.vis.map.read(&mut from)?;
-        m.vis.scale.read(&mut from)?;
-        m.vis.rgba.read(&mut from)?;
-        m.read_arrays(&mut from)?;
-        if !from.rest.is_empty() {
-            return Err(BinaryError::Length);
-        }
+        let read = read_content(&mut m, &mut from);
+        // What is damaged may have any fault.
+        from.verify()?;
+        read?;
         check_consistency(&m).map_err(BinaryError::Inconsistent)?;
         check_model(&m).map_err(BinaryError::NotSimulated)?;
         Ok(m)
     }
+}
+
+fn read_content(m: &mut Model, from: &mut Reader) -> Result<(), BinaryError> {
+    let mut name = Vec::new();
+    let length = usize::try_from(u64::from_le_bytes(from.fixed()?)).map_err(|_| BinaryError::Length)?;
+    from.array(&mut name, length, 1)?;
+    m.name = String::from_utf8(name).map_err(|_| BinaryError::Name)?;
+    for flag in [&mut m.flg_gravcomp, &mut m.flg_surfacevel, &mut m.flg_adhesion] {
+        from.setting(flag)?;
+    }
+    read_sizes(m, from)?;
+    m.opt.read(from)?;
+    m.stat.read(from)?;
+    m.vis.global.read(from)?;
+    m.vis.quality.read(from)?;
+    m.vis.headlight.read(from)?;
+    m.vis.map.read(from)?;
+    m.vis.scale.read(from)?;
+    m.vis.rgba.read(from)?;
+    m.read_arrays(from)?;
+    if from.left() == 0 { Ok(()) } else { Err(BinaryError::Length) }
 }
 
 /// Writes the header that fits the content of `bytes`, which begin with room for one.
@@ -170,66 +194,109 @@ pub fn seal(bytes: &mut [u8]) {
     header[28..36].copy_from_slice(&checksum(content).to_le_bytes());
 }
 
-/// What follows a header that fits.
-fn content(bytes: &[u8]) -> Result<&[u8], BinaryError> {
-    if !is_model(bytes) {
-        return Err(BinaryError::NotAModel);
-    }
-    let (header, content) = bytes.split_at_checked(HEADER).ok_or(BinaryError::Length)?;
-    if header[8..12] != VERSION.to_le_bytes() || header[12..20] != fingerprint().to_le_bytes() {
-        return Err(BinaryError::Stale);
-    }
-    if header[20..28] != (content.len() as u64).to_le_bytes() {
-        return Err(BinaryError::Length);
-    }
-    if header[28..36] != checksum(content).to_le_bytes() {
-        return Err(BinaryError::Checksum);
-    }
-    Ok(content)
-}
-
 /// Sizes in order of declaration. Those of arrays are bounded by what follows when the arrays are read; the number of
 /// mocap bodies here, since a row of keyframes multiplies it.
-fn read_sizes(m: &mut Model, from: &mut Reader<'_>) -> Result<(), BinaryError> {
+fn read_sizes(m: &mut Model, from: &mut Reader) -> Result<(), BinaryError> {
     let mut names = Vec::new();
     m.visit_sizes(&mut |name, _| names.push(name));
     for name in names {
         let size = i64::from_le_bytes(from.fixed()?);
         m.set_size(name, isize::try_from(size).map_err(|_| BinaryError::Length)? as usize);
     }
-    if m.nmocap > from.rest.len() / 4 {
+    if m.nmocap as u64 > from.left() / 4 {
         return Err(BinaryError::Length);
     }
     Ok(())
 }
 
+/// Bytes read from the source at a time; whole words.
+const BLOCK: usize = 1 << 16;
+
 /// Reads scalars one after another.
 pub(crate) struct Reader<'a> {
-    rest: &'a [u8],
+    source: &'a mut dyn Read,
+    /// Bytes that were read and not used.
+    block: Vec<u8>,
+    used: usize,
+    /// Bytes of the content that the source still has.
+    unread: u64,
+    digest: u64,
+    expected: u64,
 }
 
 impl<'a> Reader<'a> {
-    /// The next `count` items of `size` bytes.
-    fn take(&mut self, count: usize, size: usize) -> Result<&'a [u8], BinaryError> {
-        let bytes = count.checked_mul(size).ok_or(BinaryError::Length)?;
-        let (taken, rest) = self.rest.split_at_checked(bytes).ok_or(BinaryError::Length)?;
-        self.rest = rest;
-        Ok(taken)
+    /// Reads a header, which must fit the `length` of all.
+    fn new(source: &'a mut dyn Read, length: u64) -> Result<Self, BinaryError> {
+        let mut header = [0; HEADER];
+        let whole = length >= HEADER as u64;
+        let have = if whole { HEADER } else { length as usize };
+        read_exact(source, &mut header[..have])?;
+        if !is_model(&header[..have]) {
+            return Err(BinaryError::NotAModel);
+        }
+        if !whole {
+            return Err(BinaryError::Length);
+        }
+        if header[8..12] != VERSION.to_le_bytes() || header[12..20] != fingerprint().to_le_bytes() {
+            return Err(BinaryError::Stale);
+        }
+        let unread = length - HEADER as u64;
+        if header[20..28] != unread.to_le_bytes() {
+            return Err(BinaryError::Length);
+        }
+        let expected = u64::from_le_bytes(std::array::from_fn(|i| header[28 + i]));
+        Ok(Reader { source, block: Vec::new(), used: 0, unread, digest: unread, expected })
+    }
+
+    /// Bytes of the content that were not used.
+    fn left(&self) -> u64 {
+        self.unread + (self.block.len() - self.used) as u64
+    }
+
+    /// Makes the next `size` bytes available, fewer than a block.
+    fn need(&mut self, size: usize) -> Result<(), BinaryError> {
+        if size as u64 > self.left() {
+            return Err(BinaryError::Length);
+        }
+        if self.block.len() - self.used < size {
+            self.next_block()?;
+        }
+        Ok(())
+    }
+
+    /// Reads a block behind the bytes that were not used.
+    fn next_block(&mut self) -> Result<(), BinaryError> {
+        self.block.drain(..self.used);
+        self.used = 0;
+        let (kept, size) = (self.block.len(), self.unread.min(BLOCK as u64) as usize);
+        self.block.resize(kept + size, 0);
+        read_exact(self.source, &mut self.block[kept..])?;
+        self.digest = mix_all(self.digest, &self.block[kept..]);
+        self.unread -= size as u64;
+        Ok(())
+    }
+
+    /// Reads to the end and compares the checksum.
+    fn verify(&mut self) -> Result<(), BinaryError> {
+        while self.unread > 0 {
+            self.used = self.block.len();
+            self.next_block()?;
+        }
+        if self.digest == self.expected { Ok(()) } else { Err(BinaryError::Checksum) }
     }
 
     fn fixed<const N: usize>(&mut self) -> Result<[u8; N], BinaryError> {
-        let (taken, rest) = self.rest.split_first_chunk().ok_or(BinaryError::Length)?;
-        self.rest = rest;
-        Ok(*taken)
-    }
-
-    fn word(&mut self) -> Result<usize, BinaryError> {
-        usize::try_from(u64::from_le_bytes(self.fixed()?)).map_err(|_| BinaryError::Length)
+        self.need(N)?;
+        let bytes = std::array::from_fn(|i| self.block[self.used + i]);
+        self.used += N;
+        Ok(bytes)
     }
 
     /// Reads a scalar or a short vector.
     pub(super) fn setting<S: Setting>(&mut self, setting: &mut S) -> Result<(), BinaryError> {
-        setting.read(self.take(1, S::BYTES)?);
+        self.need(S::BYTES)?;
+        setting.read(&self.block[self.used..self.used + S::BYTES]);
+        self.used += S::BYTES;
         Ok(())
     }
 
@@ -241,7 +308,27 @@ impl<'a> Reader<'a> {
         width: usize,
     ) -> Result<(), BinaryError> {
         let count = rows.checked_mul(width).ok_or(BinaryError::Length)?;
-        field.read(self.take(count, F::ROW_BYTES)?);
+        let bytes = count.checked_mul(F::ROW_BYTES).ok_or(BinaryError::Length)?;
+        if bytes as u64 > self.left() {
+            return Err(BinaryError::Length);
+        }
+        field.restart(count);
+        let mut missing = bytes;
+        while missing > 0 {
+            self.need(F::ROW_BYTES)?;
+            let whole = (self.block.len() - self.used) / F::ROW_BYTES * F::ROW_BYTES;
+            let piece = whole.min(missing);
+            field.append(&self.block[self.used..self.used + piece]);
+            self.used += piece;
+            missing -= piece;
+        }
         Ok(())
     }
+}
+
+fn read_exact(source: &mut dyn Read, bytes: &mut [u8]) -> Result<(), BinaryError> {
+    source.read_exact(bytes).map_err(|error| match error.kind() {
+        ErrorKind::UnexpectedEof => BinaryError::Length,
+        kind => BinaryError::Unreadable(kind),
+    })
 }
