@@ -7,6 +7,9 @@ use std::io::{Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 
+/// Bytes of all members of an archive together: small archives that unpack to all memory are refused.
+pub const MAX_BYTES: u64 = 8 * MAX_SCALARS as u64 + 4096;
+
 /// What is wrong with an archive, and in which member.
 #[derive(Debug)]
 pub struct NpzError {
@@ -53,8 +56,12 @@ impl NpzReader {
     /// Reads an archive from any seekable source.
     ///
     /// # Errors
-    /// The bytes are no archive of arrays, or a member unpacks to more than the size limit.
+    /// The bytes are no archive of arrays, or unpack to more than [`MAX_BYTES`].
     pub fn read(source: impl Read + Seek) -> Result<Self, NpzError> {
+        Self::read_within(source, MAX_BYTES)
+    }
+
+    fn read_within(source: impl Read + Seek, limit: u64) -> Result<Self, NpzError> {
         let fail = |member: &str, message: String| NpzError {
             path: PathBuf::new(),
             member: member.to_owned(),
@@ -63,15 +70,15 @@ impl NpzReader {
         let mut zip =
             zip::ZipArchive::new(source).map_err(|e| fail("", format!("not a numpy archive: {e}")))?;
         let mut members = BTreeMap::new();
+        let mut room = limit;
         for i in 0..zip.len() {
             let file = zip.by_index(i).map_err(|e| fail("", format!("member {i}: {e}")))?;
             let name = file.name().trim_end_matches(".npy").to_owned();
-            let limit = 8 * MAX_SCALARS as u64 + 4096;
             let mut bytes = Vec::new();
-            file.take(limit + 1).read_to_end(&mut bytes).map_err(|e| fail(&name, e.to_string()))?;
-            if bytes.len() as u64 > limit {
-                return Err(fail(&name, format!("unpacks to more than {limit} bytes")));
-            }
+            file.take(room + 1).read_to_end(&mut bytes).map_err(|e| fail(&name, e.to_string()))?;
+            room = room
+                .checked_sub(bytes.len() as u64)
+                .ok_or_else(|| fail(&name, format!("the archive unpacks to more than {limit} bytes")))?;
             members.insert(name, bytes);
         }
         Ok(NpzReader { path: PathBuf::new(), members })
@@ -193,6 +200,18 @@ mod tests {
     fn equal_content_gives_equal_bytes() {
         let arrays = [("x", Array::f64(vec![2], vec![1.0, f64::NAN]))];
         assert_eq!(archive(&arrays), archive(&arrays));
+    }
+
+    #[test]
+    fn the_size_of_all_members_together_is_bounded() {
+        let zeros = Array::f64(vec![1000], vec![0.0; 1000]);
+        let packed = archive(&[("a", zeros.clone()), ("b", zeros.clone())]);
+        let both = 2 * zeros.encode().len() as u64;
+        assert!(packed.len() < 1000);
+        assert_eq!(NpzReader::read_within(Cursor::new(&packed), both).unwrap().names().count(), 2);
+        let error = NpzReader::read_within(Cursor::new(&packed), both - 1).err().unwrap();
+        assert_eq!(error.member, "b");
+        assert!(error.message.contains("unpacks to more than"), "{error}");
     }
 
     #[test]

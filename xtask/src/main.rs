@@ -1,7 +1,8 @@
 //! Continuous integration as a program: `cargo xtask ci` runs every check, `cargo xtask NAME` one of them.
-//! `cargo xtask instructions --update` records the counts anew.
+//! `cargo xtask instructions --update` records the counts anew, `cargo xtask fuzz [SECONDS]` fuzzes every decoder.
 
 mod builds;
+mod fuzz;
 mod instructions;
 
 use std::process::{Command, ExitCode};
@@ -33,6 +34,9 @@ const CHECKS: &[Check] = &[
 
 fn main() -> ExitCode {
     let asked: Vec<_> = std::env::args().skip(1).collect();
+    if let Some(("fuzz", rest)) = asked.split_first().map(|(first, rest)| (first.as_str(), rest)) {
+        return fuzz(rest);
+    }
     let (name, update) = match asked.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         [name] => (name, false),
         ["instructions", "--update"] => ("instructions", true),
@@ -40,7 +44,7 @@ fn main() -> ExitCode {
     };
     let names: Vec<_> = CHECKS.iter().map(|c| c.name).chain(["builds", "instructions"]).collect();
     if name != "ci" && !names.contains(&name) {
-        eprintln!("usage: cargo xtask ci | {} [--update]", names.join(" | "));
+        eprintln!("usage: cargo xtask ci | {} [--update] | fuzz [SECONDS]", names.join(" | "));
         return ExitCode::from(2);
     }
     for one in names.into_iter().filter(|n| name == "ci" || name == *n) {
@@ -56,6 +60,26 @@ fn main() -> ExitCode {
     }
     println!("== all checks passed");
     ExitCode::SUCCESS
+}
+
+/// Fuzzes for the seconds asked for, or ten minutes a target.
+fn fuzz(arguments: &[String]) -> ExitCode {
+    let seconds = match arguments {
+        [] => Some(600),
+        [seconds] => seconds.parse().ok(),
+        _ => None,
+    };
+    let Some(seconds) = seconds else {
+        eprintln!("usage: cargo xtask fuzz [SECONDS]");
+        return ExitCode::from(2);
+    };
+    match fuzz::run(seconds) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) => {
+            eprintln!("== fuzz: {reason}");
+            ExitCode::FAILURE
+        }
+    }
 }
 
 /// Runs the check called `name`.
