@@ -215,9 +215,10 @@ const BLOCK: usize = 1 << 16;
 /// Reads scalars one after another.
 pub(crate) struct Reader<'a> {
     source: &'a mut dyn Read,
-    /// Bytes that were read and not used.
+    /// Room for a block behind what is left of another; `used..end` was read and not used.
     block: Vec<u8>,
     used: usize,
+    end: usize,
     /// Bytes of the content that the source still has.
     unread: u64,
     digest: u64,
@@ -245,12 +246,13 @@ impl<'a> Reader<'a> {
             return Err(BinaryError::Length);
         }
         let expected = u64::from_le_bytes(std::array::from_fn(|i| header[28 + i]));
-        Ok(Reader { source, block: Vec::new(), used: 0, unread, digest: unread, expected })
+        let block = vec![0; 2 * BLOCK];
+        Ok(Reader { source, block, used: 0, end: 0, unread, digest: unread, expected })
     }
 
     /// Bytes of the content that were not used.
     fn left(&self) -> u64 {
-        self.unread + (self.block.len() - self.used) as u64
+        self.unread + (self.end - self.used) as u64
     }
 
     /// Makes the next `size` bytes available, fewer than a block.
@@ -258,7 +260,7 @@ impl<'a> Reader<'a> {
         if size as u64 > self.left() {
             return Err(BinaryError::Length);
         }
-        if self.block.len() - self.used < size {
+        if self.end - self.used < size {
             self.next_block()?;
         }
         Ok(())
@@ -266,20 +268,21 @@ impl<'a> Reader<'a> {
 
     /// Reads a block behind the bytes that were not used.
     fn next_block(&mut self) -> Result<(), BinaryError> {
-        self.block.drain(..self.used);
-        self.used = 0;
-        let (kept, size) = (self.block.len(), self.unread.min(BLOCK as u64) as usize);
-        self.block.resize(kept + size, 0);
-        read_exact(self.source, &mut self.block[kept..])?;
-        self.digest = mix_all(self.digest, &self.block[kept..]);
+        self.block.copy_within(self.used..self.end, 0);
+        (self.end, self.used) = (self.end - self.used, 0);
+        let size = self.unread.min(BLOCK as u64) as usize;
+        let block = &mut self.block[self.end..self.end + size];
+        read_exact(self.source, block)?;
+        self.digest = mix_all(self.digest, block);
         self.unread -= size as u64;
+        self.end += size;
         Ok(())
     }
 
     /// Reads to the end and compares the checksum.
     fn verify(&mut self) -> Result<(), BinaryError> {
         while self.unread > 0 {
-            self.used = self.block.len();
+            self.used = self.end;
             self.next_block()?;
         }
         if self.digest == self.expected { Ok(()) } else { Err(BinaryError::Checksum) }
@@ -316,7 +319,7 @@ impl<'a> Reader<'a> {
         let mut missing = bytes;
         while missing > 0 {
             self.need(F::ROW_BYTES)?;
-            let whole = (self.block.len() - self.used) / F::ROW_BYTES * F::ROW_BYTES;
+            let whole = (self.end - self.used) / F::ROW_BYTES * F::ROW_BYTES;
             let piece = whole.min(missing);
             field.append(&self.block[self.used..self.used + piece]);
             self.used += piece;
