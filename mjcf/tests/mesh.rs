@@ -298,3 +298,23 @@ fn computed_shapes_have_the_volume_of_their_solid() {
     assert_close(&[volume(Shape::Cone, &[4.0, 0.0])], &[4.0 / 3.0], 1e-6);
     assert!(builtin(Shape::Sphere, &[9.0]).is_err());
 }
+
+/// Lengths from 1 to 3e14: merging takes points from the hull that are then outside again, without end.
+#[test]
+fn hull_of_points_that_come_again_ends() {
+    let bits: [[u32; 3]; 8] = [
+        [0xbf800000, 0xbf800000, 0xbf800000],
+        [0xbf800000, 0xbf800000, 0x3f800000],
+        [0x2f800000, 0x3f800000, 0xaf800000],
+        [0xbf800080, 0x3f800000, 0x3f800000],
+        [0x3f800100, 0xbf800000, 0xbf800000],
+        [0x3f800000, 0x48800400, 0x3f80fbff],
+        [0x3f800000, 0x3f800000, 0xd7800000],
+        [0x3f802600, 0x3f800000, 0x3f880000],
+    ];
+    let points = bits.map(|p| p.map(|x| f64::from(f32::from_bits(x))));
+    let hull = convex_hull(&points, -1).unwrap();
+    assert!(hull.vert.contains(&5) && hull.vert.contains(&6), "the two farthest points");
+    let edges = || hull.face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+    assert!(edges().all(|(a, b)| edges().filter(|&edge| edge == (b, a)).count() == 1), "a closed surface");
+}

@@ -507,7 +507,10 @@ impl<'a> Polytope<'a> {
     /// Adds points until none is outside, or `limit` vertices are reached.
     pub(super) fn grow(&mut self, limit: Option<usize>) -> Result<(), Failure> {
         self.next_facet = self.first_facet;
+        // A point that merging takes from the hull may come again, but not for ever.
+        let mut room = 4 * self.points.len() + 100;
         while let Some((point, facet)) = self.next_outside(limit.is_some()) {
+            room = room.checked_sub(1).ok_or(Failure("points leave the hull and come again"))?;
             if limit.is_some_and(|limit| self.vertex_count >= limit) {
                 break;
             }
