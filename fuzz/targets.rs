@@ -12,8 +12,11 @@ use mjcf::xml::Limits;
 use physics::Model;
 use physics::model::binary::seal;
 
+/// What decodes one input.
+pub type Target = fn(&[u8]);
+
 /// Every target by name.
-pub const TARGETS: [(&str, fn(&[u8])); 9] = [
+pub const TARGETS: [(&str, Target); 9] = [
     ("mjcf", mjcf),
     ("stl", stl),
     ("obj", obj),
