@@ -31,13 +31,11 @@ pub fn digest(case: &Case, threads: usize) -> Result<u64, String> {
     let mut hash = Fnv::default();
     model.visit(&mut |name, shape, values| hash.array(name, &shape, values));
     let mut batch = Batch::new(model.into(), ENVIRONMENTS, threads).map_err(|e| e.to_string())?;
-    if batch.model(0).nkey > 0 {
-        batch
-            .run(|_, m, d| {
-                d.reset_to_key(m, 0).unwrap_or_default();
-                Ok(())
-            })
-            .map_err(|e| e.to_string())?;
+    let model = batch.model(0).clone();
+    if model.nkey > 0 {
+        for data in batch.data_mut() {
+            data.reset_to_key(&model, 0).map_err(|keys| format!("{}: {keys} keyframes", case.name))?;
+        }
     }
     batch
         .run(|environment, m, d| {
