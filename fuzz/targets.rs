@@ -9,8 +9,8 @@ use mjcf::files::Memory;
 use mjcf::image::{CompiledHfield, FileImage, HfieldSource, TextureKind, TextureSource};
 use mjcf::mesh::{MeshInertia, MeshSource, RawMesh, convex_hull, decode, process};
 use mjcf::xml::Limits;
-use physics::Model;
 use physics::model::binary::seal;
+use physics::{Data, Model, forward, step};
 
 /// What decodes one input.
 pub type Target = fn(&[u8]);
@@ -144,7 +144,7 @@ pub fn npz(data: &[u8]) {
     }
 }
 
-/// A compiled model, whose header is made to fit: else nothing would pass the checksum.
+/// A compiled model, whose header is made to fit: else nothing would pass the checksum. What is read is stepped.
 pub fn binary(data: &[u8]) {
     let mut bytes = data.to_vec();
     seal(&mut bytes);
@@ -152,6 +152,28 @@ pub fn binary(data: &[u8]) {
         // Not `bytes` themselves: any byte but zero is a truth.
         let written = model.to_bytes();
         assert!(Model::from_bytes(&written).is_ok_and(|again| again.to_bytes() == written));
+        steps(model);
     }
     let _ = Model::from_bytes(data);
+}
+
+/// Three steps of a model that asks for no more memory and iterations than take no time.
+fn steps(mut m: Model) {
+    if m.nsensordata.max(m.nhistory).max(m.na).max(m.nuserdata) > 1 << 12 {
+        return;
+    }
+    let opt = &mut m.opt;
+    for count in
+        [&mut opt.iterations, &mut opt.ls_iterations, &mut opt.noslip_iterations, &mut opt.ccd_iterations]
+    {
+        *count = (*count).min(50);
+    }
+    let mut d = Data::new(&m);
+    d.state.ctrl.fill(0.5);
+    for _ in 0..3 {
+        if step(&m, &mut d).is_err() {
+            break;
+        }
+    }
+    let _ = forward(&m, &mut d);
 }

@@ -1,7 +1,9 @@
 //! Compiled models as bytes: what is read back, and what is refused.
 
+use physics::consistency::check_consistency;
 use physics::model::binary::{BinaryError, seal};
 use physics::table::Slice;
+use physics::validity::check_model;
 use physics::{Data, Model, step};
 use robohive_mjcf::files::Memory;
 use robohive_mjcf::{Loader, load, load_str};
@@ -136,4 +138,50 @@ fn sealed_nonsense_makes_no_step_panic() {
         }
     }
     assert!(refused > 200 && stepped > 200, "{refused} {stepped}");
+}
+
+/// Every array with one number replaced by one that no compiler writes.
+#[test]
+fn numbers_out_of_range_are_refused_or_stepped() {
+    let (mut refused, mut stepped) = (0, 0);
+    for path in assets().iter().filter(|path| ["workbench", "delays"].iter().any(|n| path.contains(n))) {
+        let m = load(path).unwrap().model;
+        let mut arrays = Vec::new();
+        m.visit(&mut |name, _, values| arrays.push((name, values.to_f64(), values.is_float())));
+        for (name, values, float) in arrays.iter().filter(|(_, values, _)| !values.is_empty()) {
+            let numbers: &[f64] =
+                if *float { &[f64::NAN, -1.0, 1e300] } else { &[-1.0, 1.0, 17.0, 2147483647.0] };
+            for (at, number) in [0, values.len() / 2, values.len() - 1]
+                .iter()
+                .flat_map(|at| numbers.iter().map(move |x| (*at, *x)))
+            {
+                let (mut changed, mut values) = (m.clone(), values.clone());
+                values[at] = number;
+                assert_eq!(changed.assign(name, &values), Some(true));
+                if check_consistency(&changed).is_err() || check_model(&changed).is_err() {
+                    refused += 1;
+                    continue;
+                }
+                let mut d = Data::new(&changed);
+                d.state.ctrl.fill(0.5);
+                _ = step(&changed, &mut d).and_then(|()| step(&changed, &mut d));
+                stepped += 1;
+            }
+        }
+    }
+    assert!(refused > 1000 && stepped > 2000, "{refused} {stepped}");
+}
+
+/// Sharing children makes paths without end of a tree; too many levels leave the stack of a search.
+#[test]
+fn hierarchies_that_are_no_trees_are_refused() {
+    let m = small();
+    let first = m.mesh_bvhadr[0] as usize;
+    assert_eq!(m.bvh_child[first..first + 5], [[1, 4], [2, 3], [-1, -1], [-1, -1], [5, 6]]);
+    for (node, children) in [(0, [1, 1]), (0, [1, 3]), (1, [2, 2]), (1, [3, 2]), (2, [3, -1]), (0, [-1, -1])]
+    {
+        let mut changed = m.clone();
+        changed.bvh_child[first + node] = children;
+        assert!(check_consistency(&changed).is_err(), "{node} {children:?}");
+    }
 }

@@ -56,11 +56,10 @@ impl<'a> Buffer<'a> {
     /// Values at time `t`: held, or interpolated linearly (`interp` 1) or by a cubic (2); constant outside.
     pub fn read(&self, t: f64, interp: i32, out: &mut [f64]) {
         let n = self.times.len();
-        if t <= self.time(0) + MINVAL {
-            return out.copy_from_slice(self.row(0));
-        }
-        if t >= self.time(n - 1) - MINVAL {
-            return out.copy_from_slice(self.row(n - 1));
+        let (first, last) = (self.time(0) + MINVAL, self.time(n - 1) - MINVAL);
+        let inside = first < t && t < last;
+        if !inside {
+            return out.copy_from_slice(self.row(if t > first { n - 1 } else { 0 }));
         }
         let i = self.find(t);
         if (t - self.time(i)).abs() < MINVAL {

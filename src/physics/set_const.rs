@@ -3,6 +3,7 @@
 //!
 //! The compiler calls this last; tasks that edit masses, poses or lengths of a model call it again.
 
+use crate::chain::last_dof;
 use crate::data::Data;
 use crate::inverse_weight::set_inverse_weights;
 use crate::math::{add, mul_inertia, mul_mat_t_vec, mul_mat_vec, quat_conj, quat_mul, spatial_dot, sub};
@@ -139,23 +140,39 @@ fn reflecting_actuators(m: &mut Model) {
 }
 
 fn trees(m: &mut Model) {
-    for b in 0..m.nbody {
-        let weld = m.body_weldid[b] as usize;
-        m.body_treeid[b] =
-            if m.body_dofnum[weld] > 0 { m.dof_treeid[m.body_dofadr[weld] as usize] } else { -1 };
-    }
-    m.tree_bodynum.fill(0);
-    m.tree_dofnum.fill(0);
-    for b in (1..m.nbody).rev() {
-        if let Ok(t) = usize::try_from(m.body_treeid[b]) {
-            m.tree_bodyadr[t] = b as i32;
-            m.tree_bodynum[t] += 1;
-        }
-    }
-    for v in (0..m.nv).rev() {
-        let t = m.dof_treeid[v] as usize;
-        m.tree_dofadr[t] = v as i32;
-        m.tree_dofnum[t] += 1;
+    let trees = Trees::of(m);
+    m.body_treeid = trees.body;
+    (m.tree_bodyadr, m.tree_bodynum) = trees.bodies;
+    (m.tree_dofadr, m.tree_dofnum) = trees.dofs;
+}
+
+/// Which tree a body belongs to, and the first and the number of the bodies and of the dofs of each tree.
+#[derive(PartialEq)]
+pub(crate) struct Trees {
+    pub body: Vec<i32>,
+    pub bodies: (Vec<i32>, Vec<i32>),
+    pub dofs: (Vec<i32>, Vec<i32>),
+}
+
+impl Trees {
+    /// What follows from `body_weldid`, `body_dofadr` and `dof_treeid`.
+    pub fn of(m: &Model) -> Self {
+        let of_body = |b: usize| match usize::try_from(last_dof(m, b)) {
+            Ok(dof) => m.dof_treeid[dof],
+            Err(_) => -1,
+        };
+        let body: Vec<i32> = (0..m.nbody).map(of_body).collect();
+        let members = |trees: &[i32]| {
+            let (mut first, mut number) = (vec![0; m.ntree], vec![0; m.ntree]);
+            for (element, &tree) in trees.iter().enumerate().rev() {
+                if let Ok(tree) = usize::try_from(tree) {
+                    first[tree] = element as i32;
+                    number[tree] += 1;
+                }
+            }
+            (first, number)
+        };
+        Trees { bodies: members(&body), dofs: members(&m.dof_treeid), body }
     }
 }
 

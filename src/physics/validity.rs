@@ -6,7 +6,8 @@ use crate::data::Data;
 use crate::dc_motor;
 use crate::model::bounds::MAXVAL;
 use crate::model::{
-    BiasType, DynType, EqType, GainType, Integrator, JointType, Model, ObjType, TrnType, disable, enable,
+    BiasType, Cone, DynType, EqType, GainType, Integrator, JointType, Model, ObjType, Solver, TrnType,
+    disable, enable,
 };
 use crate::{bias, collision, sensor};
 use std::fmt;
@@ -122,6 +123,12 @@ pub fn check_options(m: &Model) -> Result<(), StepError> {
     match Integrator::from_code(m.opt.integrator) {
         Some(Integrator::Euler | Integrator::Rk4 | Integrator::Implicit | Integrator::Implicitfast) => {}
         None => return refuse("this integrator is"),
+    }
+    if Cone::from_code(m.opt.cone).is_none() {
+        return refuse("this friction cone is");
+    }
+    if Solver::from_code(m.opt.solver).is_none() {
+        return refuse("this constraint solver is");
     }
     if m.opt.enableflags & enable::SLEEP != 0 {
         return refuse("sleeping of islands is");

@@ -2,6 +2,7 @@
 //! polyhedral approximation.
 
 use super::{PreContact, Shape};
+use crate::activation::clip;
 use crate::math::{Vec3, add_scaled, distance, mul_mat_t_vec, mul_mat_vec, normalize, scale, sub};
 use crate::model::GeomType;
 use crate::model::bounds::MINVAL;
@@ -28,7 +29,7 @@ fn surface_normal(shape: &Shape, point: Vec3, normal: Vec3) -> Option<Vec3> {
     let [radius, half, _] = shape.size;
     let local = match shape.kind {
         GeomType::Sphere => Some(p),
-        GeomType::Capsule => Some([p[0], p[1], p[2] - p[2].clamp(-half, half)]),
+        GeomType::Capsule => Some([p[0], p[1], p[2] - clip(p[2], [-half, half])]),
         GeomType::Ellipsoid => ellipsoid_normal(p, guess, shape.size),
         GeomType::Cylinder => cylinder_normal(p, radius, half),
         _ => None,

@@ -104,7 +104,9 @@ fn check_sizes(m: &Model) -> Result<(), Inconsistent> {
     for (name, size, expected) in lengths {
         require(i64::try_from(size) == Ok(expected), name, 0, "the sum of its parts")?;
     }
-    require(m.nuserdata <= 1 << 24, "nuserdata", 0, "at most 2^24")
+    let unbacked =
+        [("nsensordata", m.nsensordata), ("nhistory", m.nhistory), ("na", m.na), ("nuserdata", m.nuserdata)];
+    unbacked.into_iter().try_for_each(|(name, n)| require(n <= 1 << 24, name, 0, "at most 2^24"))
 }
 
 /// How many elements of a kind there are.

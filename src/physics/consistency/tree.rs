@@ -1,40 +1,46 @@
 //! Bodies, joints, degrees of freedom and trees.
 
 use super::{Inconsistent, ranges, references, require, spans, within};
+use crate::chain::last_dof;
 use crate::model::{JointType, Model};
+use crate::ray::MAX_LEVELS;
+use crate::set_const::Trees;
 
 pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
     references! { m:
-        body_rootid 0 m.nbody;
-        body_weldid 0 m.nbody;
         body_mocapid -1 m.nmocap;
-        body_treeid -1 m.ntree;
         dof_bodyid 0 m.nbody;
         dof_jntid 0 m.njnt;
-        dof_treeid 0 m.ntree;
     }
     ranges! { m:
         body_jntadr body_jntnum m.njnt;
         body_dofadr body_dofnum m.nv;
         body_geomadr body_geomnum m.ngeom;
         body_bvhadr body_bvhnum m.nbvh;
-        tree_bodyadr tree_bodynum m.nbody;
-        tree_dofadr tree_dofnum m.nv;
     }
     bodies(m)?;
     joints(m)?;
     dofs(m)?;
+    trees(m)?;
     hierarchies(m)
 }
 
-/// Parents come before children; elements of a body say so too.
+/// A body is followed by its descendants, then by its siblings; elements of a body say so too.
 fn bodies(m: &Model) -> Result<(), Inconsistent> {
     for b in 0..m.nbody {
         let before = |id: i32| id >= 0 && (id as usize) < b.max(1);
         require(before(m.body_parentid[b]), "body_parentid", b, "an earlier body")?;
-        let up_to = |id: i32| id as usize <= b;
-        require(up_to(m.body_rootid[b]), "body_rootid", b, "the body or an earlier one")?;
-        require(up_to(m.body_weldid[b]), "body_weldid", b, "the body or an earlier one")?;
+        let parent = m.body_parentid[b] as usize;
+        let mut above = b.saturating_sub(1);
+        while above > parent {
+            above = m.body_parentid[above] as usize;
+        }
+        require(above == parent, "body_parentid", b, "the body before or one above it")?;
+        let root = if parent == 0 { b as i32 } else { m.body_rootid[parent] };
+        require(m.body_rootid[b] == root, "body_rootid", b, "what follows from the parents")?;
+        let moves = b == 0 || m.body_jntnum[b] > 0 || m.body_mocapid[b] >= 0;
+        let weld = if moves { b as i32 } else { m.body_weldid[parent] };
+        require(m.body_weldid[b] == weld, "body_weldid", b, "what follows from the joints")?;
         let own = |adr: i32, num: i32| adr.max(0) as usize..(adr + num).max(0) as usize;
         for g in own(m.body_geomadr[b], m.body_geomnum[b]) {
             require(m.geom_bodyid[g] as usize == b, "geom_bodyid", g, "the body that lists the geom")?;
@@ -82,10 +88,15 @@ fn joints(m: &Model) -> Result<(), Inconsistent> {
     require(q as usize == m.nq && v as usize == m.nv, "nq", 0, "what the joints add up to")
 }
 
+/// A degree of freedom hangs on the one before it of the same body, the first on the last that moves the parent.
 fn dofs(m: &Model) -> Result<(), Inconsistent> {
+    require(m.body_jntnum[0] == 0, "body_jntnum", 0, "0 for the world")?;
     for i in 0..m.nv {
-        let parent = m.dof_parentid[i];
-        require(parent >= -1 && parent < i as i32, "dof_parentid", i, "an earlier dof")?;
+        let body = m.dof_bodyid[i] as usize;
+        let first = m.body_dofadr[body] as usize == i;
+        let parent = if first { last_dof(m, m.body_parentid[body] as usize) } else { i as i32 - 1 };
+        let earlier = parent < i as i32 && m.dof_parentid[i] == parent;
+        require(earlier, "dof_parentid", i, "what follows from the bodies")?;
         let simple = m.dof_simplenum[i];
         require(
             simple >= 0 && simple as usize <= m.nv - i,
@@ -97,7 +108,30 @@ fn dofs(m: &Model) -> Result<(), Inconsistent> {
     Ok(())
 }
 
-/// Children stand behind their parents and inside their tree; leaves of bodies name geoms.
+/// A degree of freedom without one above it starts a tree.
+fn trees(m: &Model) -> Result<(), Inconsistent> {
+    let mut tree = -1;
+    for i in 0..m.nv {
+        let above = usize::try_from(m.dof_parentid[i]).ok();
+        tree += i32::from(above.is_none());
+        let same = above.is_none_or(|dof| m.dof_treeid[dof] == tree);
+        require(same && m.dof_treeid[i] == tree, "dof_treeid", i, "what follows from the dofs")?;
+    }
+    require(m.ntree as i64 == i64::from(tree) + 1, "ntree", 0, "what follows from the dofs")?;
+    let trees = Trees::of(m);
+    for (array, is, expected) in [
+        ("body_treeid", &m.body_treeid, &trees.body),
+        ("tree_bodyadr", &m.tree_bodyadr, &trees.bodies.0),
+        ("tree_bodynum", &m.tree_bodynum, &trees.bodies.1),
+        ("tree_dofadr", &m.tree_dofadr, &trees.dofs.0),
+        ("tree_dofnum", &m.tree_dofnum, &trees.dofs.1),
+    ] {
+        require(is == expected, array, 0, "what follows from the dofs")?;
+    }
+    Ok(())
+}
+
+/// Leaves of the hierarchies of bodies name geoms.
 fn hierarchies(m: &Model) -> Result<(), Inconsistent> {
     for b in (0..m.nbody).filter(|&b| m.body_bvhadr[b] >= 0) {
         let first = m.body_bvhadr[b] as usize;
@@ -108,15 +142,23 @@ fn hierarchies(m: &Model) -> Result<(), Inconsistent> {
     Ok(())
 }
 
-/// Nodes of one hierarchy with leaves below `leaves`.
+/// Nodes of one hierarchy with leaves below `leaves`: an inner node, all nodes of its left child, all of its right one.
 pub(super) fn nodes_of(m: &Model, first: usize, nodes: usize, leaves: usize) -> Result<(), Inconsistent> {
+    let mut right = Vec::new();
+    let mut next = Some(0);
     for n in 0..nodes {
-        let [a, b] = m.bvh_child[first + n];
-        let behind = |c: i32| c == -1 || (c as usize > n && (c as usize) < nodes && c >= 0);
-        require(behind(a) && behind(b), "bvh_child", 2 * (first + n), "a later node of the tree")?;
-        let leaf = m.bvh_nodeid[first + n];
-        let names = leaf >= 0 && (leaf as usize) < leaves;
-        require(names || [a, b] != [-1, -1], "bvh_nodeid", first + n, "what a leaf bounds")?;
+        let ([a, b], leaf) = (m.bvh_child[first + n], m.bvh_nodeid[first + n]);
+        require(next == Some(n as i32), "bvh_child", 2 * (first + n), "the root of a tree")?;
+        if leaf >= 0 {
+            let whole = (leaf as usize) < leaves && [a, b] == [-1, -1];
+            require(whole, "bvh_nodeid", first + n, "what a leaf bounds")?;
+            next = right.pop();
+        } else {
+            let inner = a == n as i32 + 1 && leaf == -1 && right.len() + 2 < MAX_LEVELS;
+            require(inner, "bvh_child", 2 * (first + n), "a later node of the tree")?;
+            right.push(b);
+            next = Some(a);
+        }
     }
-    Ok(())
+    require(next.is_none(), "bvh_child", 2 * first, "a tree as large as said")
 }

@@ -99,6 +99,9 @@ impl<'a> Field<'a> {
         let along = if side < 2 { 1 } else { 0 };
         let (count, high) =
             if side < 2 { (self.rows, self.columns - 1) } else { (self.columns, self.rows - 1) };
+        if count < 2 {
+            return false;
+        }
         let at = (p[along] + self.size[along]) / self.step[along];
         let cell = at.floor().clamp(0.0, count as f64 - 2.0);
         let fixed = if side % 2 == 1 { high } else { 0 };

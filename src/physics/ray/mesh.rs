@@ -5,8 +5,8 @@ use crate::math::{Vec3, add_scaled, cross, dot, normalize, sub};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
 
-/// Deepest hierarchy that the compiler builds.
-const MAX_DEPTH: usize = 64;
+/// Levels of a hierarchy; the compiler makes fewer, compiled files are refused that have more.
+pub(crate) const MAX_LEVELS: usize = 64;
 
 /// Two axes across a ray, on which triangles are projected.
 pub(super) fn across(direction: Vec3) -> [Vec3; 2] {
@@ -61,7 +61,7 @@ pub(super) fn mesh(m: &Model, id: usize, ray: Ray) -> Option<LocalHit> {
     let (first_face, first_vertex) = (m.mesh_faceadr[id] as usize, m.mesh_vertadr[id] as usize);
     let axes = across(ray.direction);
     let mut best = None;
-    let (mut stack, mut depth) = ([0_usize; MAX_DEPTH], 1);
+    let (mut stack, mut depth) = ([0_usize; MAX_LEVELS], 1);
     while depth > 0 {
         depth -= 1;
         let node = root + stack[depth];

@@ -10,6 +10,8 @@ mod hfield;
 mod mesh;
 mod primitive;
 
+pub(crate) use mesh::MAX_LEVELS;
+
 use crate::data::Kinematics;
 use crate::math::{Mat3, Vec3, distance, mul_mat_t_vec, mul_mat_vec, normalize, sub};
 use crate::model::{GeomType, Model};

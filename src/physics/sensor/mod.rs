@@ -167,7 +167,7 @@ fn each(
 /// Limits a reading to the cut-off: real values on both sides, positive ones above.
 fn cut_off(m: &Model, i: usize, kind: SensorType, data: &mut [f64]) {
     let cutoff = m.sensor_cutoff[i];
-    if cutoff <= 0.0 || matches!(kind, SensorType::Contact | SensorType::Geomfromto) {
+    if cutoff <= 0.0 || cutoff.is_nan() || matches!(kind, SensorType::Contact | SensorType::Geomfromto) {
         return;
     }
     match DataType::from_code(m.sensor_datatype[i]) {

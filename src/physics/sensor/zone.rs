@@ -1,5 +1,6 @@
 //! Volumes of sites that act as sensor zones.
 
+use crate::activation::clip;
 use crate::data::Kinematics;
 use crate::math::{Vec3, dot, mul_mat_t_vec, sub};
 use crate::model::{GeomType, Model};
@@ -12,7 +13,7 @@ pub(super) fn inside_site(m: &Model, kin: &Kinematics, site: usize, point: Vec3)
     match GeomType::from_code(m.site_type[site]) {
         Some(GeomType::Sphere) => dot(offset, offset) < size[0] * size[0],
         Some(GeomType::Capsule) => {
-            let beyond = p[2] - p[2].clamp(-size[1], size[1]);
+            let beyond = p[2] - clip(p[2], [-size[1], size[1]]);
             radial + beyond * beyond < size[0] * size[0]
         }
         Some(GeomType::Ellipsoid) => (0..3).fold(0.0, |sum, k| sum + p[k] * p[k] / (size[k] * size[k])) < 1.0,
