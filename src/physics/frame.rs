@@ -55,6 +55,7 @@ pub fn quat(m: &Model, kin: &Kinematics, kind: ObjType, id: usize) -> Option<Qua
 
 impl Frame {
     /// Velocity of the frame in world orientation; zero on bodies without degrees of freedom.
+    #[inline]
     pub fn velocity(&self, m: &Model, com: &Com, cvel: &[Spatial]) -> Spatial {
         if m.body_dofnum[m.body_weldid[self.body] as usize] == 0 {
             return [0.0; 6];
@@ -81,6 +82,7 @@ impl Frame {
     }
 
     /// A com-based motion of the body, seen at the origin of the frame.
+    #[inline]
     fn moved(&self, m: &Model, com: &Com, motion: &Spatial) -> Spatial {
         let offset = com_offset(m, com, self.body, self.pos);
         spatial(rotational(motion), sub(linear(motion), cross(offset, rotational(motion))))

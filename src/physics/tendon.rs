@@ -5,7 +5,7 @@
 
 use crate::chain::{com_offset, last_dof, point_column, site_point};
 use crate::data::{Com, Kinematics, State, Tendons};
-use crate::math::{Vec3, dot, dot_sparse, norm, sub, unit};
+use crate::math::{Vec3, dot, dot_sparse, norm, rotational, sub, unit};
 use crate::model::{Model, WrapType};
 use crate::wrap::{Wrap, WrapShape, wrap};
 
@@ -140,8 +140,8 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Adds the rate of change of the distance between two points, times `scale`; returns the distance. The row
-    /// holds the chains of both bodies, so all of them are walked down together.
+    /// Adds the rate of change of the distance between two points, times `scale`; returns the distance. The
+    /// columns hold the chains of both bodies, so one walk down meets both.
     fn add_segment(&mut self, m: &Model, com: &Com, from: Anchor, to: Anchor, scale: f64) -> f64 {
         let span = sub(to.1, from.1);
         let distance = norm(span);
@@ -150,27 +150,22 @@ impl Row<'_> {
         }
         let direction = unit(span, distance);
         let offsets = [com_offset(m, com, from.0, from.1), com_offset(m, com, to.0, to.1)];
-        let mut end = self.columns.len();
-        let mut add = |dof: i32, rate: f64| {
-            while self.columns[end - 1] > dof {
-                end -= 1;
-            }
-            self.values[end - 1] += scale * rate;
-        };
-        let [mut a, mut b] = [last_dof(m, from.0), last_dof(m, to.0)];
-        while a != b {
-            if a > b {
-                add(a, -dot(point_column(com, a as usize, offsets[0]), direction));
-                a = m.dof_parentid[a as usize];
-            } else {
-                add(b, dot(point_column(com, b as usize, offsets[1]), direction));
-                b = m.dof_parentid[b as usize];
-            }
-        }
-        while let Ok(dof) = usize::try_from(a) {
-            let [tail, head] = offsets.map(|offset| point_column(com, dof, offset));
-            add(a, dot(sub(head, tail), direction));
-            a = m.dof_parentid[dof];
+        let [mut tail, mut head] = [last_dof(m, from.0), last_dof(m, to.0)];
+        for (&dof, value) in self.columns.iter().zip(&mut *self.values).rev() {
+            let column = |end: usize| point_column(com, dof as usize, offsets[end]);
+            let translates = || rotational(&com.cdof[dof as usize]) == [0.0; 3];
+            let rate = match (dof == tail, dof == head) {
+                // Both ends alike: the distance stays.
+                (true, true) if translates() => 0.0,
+                (true, true) => dot(sub(column(1), column(0)), direction),
+                (true, false) => -dot(column(0), direction),
+                (false, true) => dot(column(1), direction),
+                (false, false) => continue,
+            };
+            *value += scale * rate;
+            let parent = m.dof_parentid[dof as usize];
+            tail = if dof == tail { parent } else { tail };
+            head = if dof == head { parent } else { head };
         }
         distance
     }

@@ -58,10 +58,10 @@ impl LowerRows<'_> {
         for i in 0..out.len() {
             let (start, diagonal) = self.span(i);
             let (mut sum, vi) = (a[diagonal] * v[i], v[i]);
-            for k in (start..diagonal).rev() {
-                let j = self.colind[k] as usize;
-                sum += a[k] * v[j];
-                out[j] += a[k] * vi;
+            for (&j, a) in self.colind[start..diagonal].iter().zip(&a[start..diagonal]).rev() {
+                let j = j as usize;
+                sum += a * v[j];
+                out[j] += a * vi;
             }
             out[i] = sum;
         }

@@ -37,8 +37,11 @@ pub(super) fn touch(m: &Model, d: &AccelerationInputs, site: usize) -> f64 {
     let mut sum = 0.0;
     for c in d.con.contact.iter().filter(|c| c.efc_address >= 0) {
         let between = bodies(m, c);
+        if !between.contains(&own) {
+            continue;
+        }
         let force = contact_force(m, d.efc, c)[0];
-        if !between.contains(&own) || force <= 0.0 {
+        if force <= 0.0 {
             continue;
         }
         let normal = normalize(scale(row(&c.frame, 0), force)).0;
