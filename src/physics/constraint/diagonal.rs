@@ -1,8 +1,8 @@
 //! Diagonal of the inverse inertia in constraint space, `J M⁻¹ Jᵀ`: estimated from the inverse weights at the
 //! reference configuration, or exact (MuJoCo documentation, Computation, "Parameters").
 
-use crate::data::{Constraints, Contacts, Inertia};
-use crate::inertia::row;
+use super::half_jacobian::HalfJacobian;
+use crate::data::{Constraints, Contacts};
 use crate::math::dense::dot_slice;
 use crate::model::{ConstraintType, EqType, Model, ObjType};
 
@@ -87,110 +87,10 @@ fn contact(m: &Model, con: &Contacts, id: usize, kind: ConstraintType, out: &mut
     }
 }
 
-/// `Y = J M^(-1/2)` in compressed rows, from the L'DL factor: `Y Yᵀ` is the inverse inertia in constraint space.
-#[derive(Clone, Debug, Default)]
-pub struct HalfJacobian {
-    /// Non-zeros of each row.
-    pub rownnz: Vec<usize>,
-    /// Start of each row.
-    pub rowadr: Vec<usize>,
-    /// Columns, increasing within a row.
-    pub colind: Vec<usize>,
-    /// Entries.
-    pub values: Vec<f64>,
-    dense: Vec<f64>,
-    mark: Vec<usize>,
-    /// Reciprocal square root of the factor's diagonal.
-    root: Vec<f64>,
-}
-
-impl HalfJacobian {
-    /// Columns and entries of row `i`.
-    pub fn row(&self, i: usize) -> (&[usize], &[f64]) {
-        let range = self.rowadr[i]..self.rowadr[i] + self.rownnz[i];
-        (&self.colind[range.clone()], &self.values[range])
-    }
-}
-
-/// Computes `Y`: a row of `J`, completed with the ancestors of its degrees of freedom, is substituted back
-/// through the unit factor and scaled by the square root of the diagonal.
-pub fn half_jacobian(m: &Model, inertia: &Inertia, efc: &Constraints, y: &mut HalfJacobian) {
-    y.rownnz.clear();
-    y.rowadr.clear();
-    y.colind.clear();
-    y.values.clear();
-    y.dense.clear();
-    y.dense.resize(m.nv, 0.0);
-    y.mark.clear();
-    y.mark.resize(m.nv, usize::MAX);
-    y.root.clear();
-    y.root.extend((0..m.nv).map(|dof| 1.0 / inertia.qLD[row(m, dof).end - 1].sqrt()));
-    for i in 0..efc.nefc {
-        let first = y.colind.len();
-        add_pattern(m, efc, i, y);
-        let start = efc.efc_J_rowadr[i] as usize;
-        for k in start..start + efc.efc_J_rownnz[i] as usize {
-            y.dense[efc.efc_J_colind[k] as usize] = efc.efc_J[k];
-        }
-        for at in (first..y.colind.len()).rev() {
-            substitute(m, inertia, y.colind[at], &mut y.dense);
-        }
-        for &column in &y.colind[first..] {
-            y.values.push(y.dense[column] * y.root[column]);
-            y.dense[column] = 0.0;
-        }
-        y.rowadr.push(first);
-        y.rownnz.push(y.colind.len() - first);
-    }
-}
-
-/// Appends the columns of row `i`: those of `J` and their ancestors. Rows of one contact share them.
-fn add_pattern(m: &Model, efc: &Constraints, i: usize, y: &mut HalfJacobian) {
-    let columns = |i: usize| {
-        let start = efc.efc_J_rowadr[i] as usize;
-        &efc.efc_J_colind[start..start + efc.efc_J_rownnz[i] as usize]
-    };
-    if i > 0 && columns(i) == columns(i - 1) {
-        let before = y.rowadr[i - 1];
-        y.colind.extend_from_within(before..before + y.rownnz[i - 1]);
-        return;
-    }
-    let first = y.colind.len();
-    for &column in columns(i) {
-        add_ancestors(m, column as usize, i, y);
-    }
-    y.colind[first..].sort_unstable();
-}
-
-/// Marks the pattern of row `column` of the inertia as non-zero in row `i`.
-fn add_ancestors(m: &Model, column: usize, i: usize, y: &mut HalfJacobian) {
-    if y.mark[column] == i {
-        return;
-    }
-    for &c in &m.M_colind[row(m, column)] {
-        let c = c as usize;
-        if y.mark[c] != i {
-            y.mark[c] = i;
-            y.colind.push(c);
-        }
-    }
-}
-
-fn substitute(m: &Model, inertia: &Inertia, column: usize, dense: &mut [f64]) {
-    let value = dense[column];
-    if value == 0.0 {
-        return;
-    }
-    let range = row(m, column);
-    for k in range.start..range.end - 1 {
-        dense[m.M_colind[k] as usize] -= inertia.qLD[k] * value;
-    }
-}
-
 /// Sets `efc_diagA` to the squared lengths of the rows of `Y`.
-pub(super) fn exact(y: &HalfJacobian, efc: &mut Constraints) {
+pub(super) fn exact(y: &mut HalfJacobian, efc: &mut Constraints) {
     for i in 0..efc.nefc {
-        let values = y.row(i).1;
+        let values = y.row(efc, i);
         efc.efc_diagA[i] = dot_slice(values, values);
     }
 }

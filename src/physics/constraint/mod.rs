@@ -9,6 +9,7 @@ mod diagonal;
 mod difference;
 mod equality;
 mod friction_loss;
+mod half_jacobian;
 mod impedance;
 mod islands;
 mod limits;
@@ -16,7 +17,7 @@ mod reference;
 mod rows;
 
 pub use contacts::NO_DOF;
-pub use diagonal::{HalfJacobian, half_jacobian};
+pub use half_jacobian::{BLOCK, HalfJacobian, TILE, half_jacobian};
 pub use islands::{IslandScratch, find_islands};
 pub use reference::reference;
 pub use rows::{mul_jacobian, mul_jacobian_transposed};
@@ -59,7 +60,7 @@ pub fn make_constraint(
     impedance::impedance(m, con, efc);
     if m.opt.enableflags & enable::DIAGEXACT != 0 {
         half_jacobian(m, inertia, efc, &mut scratch.half);
-        diagonal::exact(&scratch.half, efc);
+        diagonal::exact(&mut scratch.half, efc);
         impedance::impedance(m, con, efc);
     }
 }

@@ -1,7 +1,7 @@
 //! The dual problem: forces that minimise `½ fᵀ (A + R) f + fᵀ b` within their cones, with `A = J M⁻¹ Jᵀ`
 //! (MuJoCo documentation, Computation, "Dual problem").
 
-use crate::constraint::{HalfJacobian, half_jacobian};
+use crate::constraint::{BLOCK, HalfJacobian, TILE, half_jacobian};
 use crate::data::{Constraints, Contact, Inertia, SolverStat};
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::bounds::MINVAL;
@@ -14,13 +14,11 @@ const RISE: f64 = 1e-10;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Dual {
     half: HalfJacobian,
-    /// Entries of `Y` by column: row and value; the start of each column.
-    entries: Vec<(usize, f64)>,
-    column_start: Vec<usize>,
     /// `(A + R) f`.
     product: Vec<f64>,
-    /// `A + R`, full.
+    /// `A + R`, full, and the distance of its rows.
     ar: Vec<f64>,
+    stride: usize,
     /// Starts of row blocks in the order they are visited.
     pub blocks: Vec<usize>,
     /// Forces before the last extrapolation, and after it.
@@ -29,58 +27,33 @@ pub(super) struct Dual {
 }
 
 impl Dual {
-    /// Computes `A + R` from `A = Y Yᵀ`: each entry of a row of `Y` meets the rows that share its column.
+    /// Computes `A + R` from `A = Y Yᵀ`, tile by tile, each with its transpose.
     pub fn project(&mut self, m: &Model, inertia: &Inertia, efc: &Constraints) {
-        let n = efc.nefc;
         half_jacobian(m, inertia, efc, &mut self.half);
-        self.transpose(m.nv, n);
-        self.ar.clear();
-        self.ar.resize(n * n, 0.0);
-        for i in 0..n {
-            let (columns, values) = self.half.row(i);
-            let out = &mut self.ar[i * n..i * n + i + 1];
-            for (&c, x) in columns.iter().zip(values) {
-                for &(k, y) in &self.entries[self.column_start[c]..self.column_start[c + 1]] {
-                    if k > i {
-                        break;
-                    }
-                    out[k] += y * x;
+        let stride = efc.nefc.next_multiple_of(BLOCK);
+        self.stride = stride;
+        self.ar.resize(stride * stride, 0.0);
+        for i in (0..efc.nefc).step_by(TILE) {
+            for block in 0..=i / BLOCK {
+                let (tile, j) = (self.half.product(i, block), block * BLOCK);
+                for (r, row) in tile.iter().enumerate() {
+                    self.ar[(i + r) * stride + j..][..BLOCK].copy_from_slice(row);
+                }
+                let transposed: [[f64; TILE]; BLOCK] = std::array::from_fn(|k| tile.map(|row| row[k]));
+                for (k, column) in transposed.iter().enumerate() {
+                    self.ar[(j + k) * stride + i..][..TILE].copy_from_slice(column);
                 }
             }
         }
-        for i in 0..n {
-            for k in 0..i {
-                self.ar[k * n + i] = self.ar[i * n + k];
-            }
-            self.ar[i * (n + 1)] += efc.efc_R[i];
-        }
-    }
-
-    /// Lists the entries of `Y` by column, rows increasing.
-    fn transpose(&mut self, columns: usize, rows: usize) {
-        self.column_start.clear();
-        self.column_start.resize(columns + 2, 0);
-        for &c in &self.half.colind {
-            self.column_start[c + 2] += 1;
-        }
-        for c in 2..columns + 2 {
-            self.column_start[c] += self.column_start[c - 1];
-        }
-        self.entries.clear();
-        self.entries.resize(self.half.colind.len(), (0, 0.0));
-        for i in 0..rows {
-            let (columns, values) = self.half.row(i);
-            for (&c, &x) in columns.iter().zip(values) {
-                let at = &mut self.column_start[c + 1];
-                self.entries[*at] = (i, x);
-                *at += 1;
-            }
+        for i in 0..efc.nefc {
+            self.ar[i * (stride + 1)] += efc.efc_R[i];
         }
     }
 
     /// Row `i` of `A + R`.
+    #[inline]
     pub fn row(&self, efc: &Constraints, i: usize) -> &[f64] {
-        &self.ar[i * efc.nefc..(i + 1) * efc.nefc]
+        &self.ar[i * self.stride..][..efc.nefc]
     }
 
     /// Gradient of the cost by the forces of rows `i..i + dim`, without regularisation if `bare`.
@@ -115,9 +88,11 @@ impl Dual {
 
     /// `fᵀ (A + R) f / 2 + fᵀ b` of all rows.
     pub fn cost(&mut self, efc: &Constraints) -> f64 {
-        let (ar, force) = (&self.ar, &efc.efc_force);
-        self.product.clear();
-        self.product.extend(ar.chunks_exact(efc.nefc).map(|row| dot_slice(row, force)));
+        let force = &efc.efc_force;
+        let mut product = std::mem::take(&mut self.product);
+        product.clear();
+        product.extend((0..efc.nefc).map(|i| dot_slice(self.row(efc, i), force)));
+        self.product = product;
         dot_slice(force, &efc.efc_b) + 0.5 * dot_slice(force, &self.product)
     }
 }

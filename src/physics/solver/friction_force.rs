@@ -2,7 +2,8 @@
 //! `min ½ xᵀ A x + xᵀ b` subject to `Σ (xᵢ / μᵢ)² ≤ r²`, by Newton's method on the multiplier.
 
 use super::dual::project_ellipsoid;
-use crate::math::dense::{cholesky_factor, cholesky_solve, dot_slice};
+use crate::math::cholesky::{cholesky_factor, cholesky_solve, stride};
+use crate::math::dense::dot_slice;
 
 /// Iterations, and the threshold of pivots, constraint violation and multiplier steps.
 const ITERATIONS: usize = 20;
@@ -99,20 +100,20 @@ fn solve3(x: &mut [f64; 5], a: &[f64], b: &[f64], mu: &[f64], r: f64) -> bool {
 /// Up to five dimensions, with a Cholesky factor; true when the constraint is active.
 fn solve(x: &mut [f64], a: &[f64], b: &[f64], mu: &[f64], r: f64) -> bool {
     let n = x.len();
-    let (mut scaled, mut rhs) = ([0.0; 25], [0.0; 5]);
+    let (mut scaled, mut rhs, stride) = ([0.0; 5 * stride(5)], [0.0; 5], stride(n));
     for i in 0..n {
         rhs[i] = b[i] * mu[i];
         for j in 0..n {
-            scaled[i * n + j] = a[i * n + j] * mu[i] * mu[j];
+            scaled[i * stride + j] = a[i * n + j] * mu[i] * mu[j];
         }
     }
     let mut la = 0.0;
     for _ in 0..ITERATIONS {
         let mut factor = scaled;
         for i in 0..n {
-            factor[i * (n + 1)] += la;
+            factor[i * (stride + 1)] += la;
         }
-        if cholesky_factor(&mut factor[..n * n], n, SMALL) < n {
+        if cholesky_factor(&mut factor, n, SMALL) < n {
             x.fill(0.0);
             return false;
         }

@@ -5,22 +5,21 @@ use super::problem::Problem;
 use super::rows::cone_hessian;
 use super::sparse_cholesky::SparseCholesky;
 use crate::math::add_scaled_slice;
-use crate::math::dense::{cholesky_factor, cholesky_solve, cholesky_update};
+use crate::math::cholesky::{cholesky_factor, cholesky_solve, cholesky_update, stride};
 use crate::model::ConstraintState;
 use crate::model::bounds::MINVAL;
 
 /// The factored Hessian.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hessian {
-    /// Factor of the quadratic rows: lower triangle, or values of `sparse`.
+    /// Factor of the quadratic rows: an array of `math::cholesky`, or values of `sparse`.
     factor: Vec<f64>,
     /// The same with cones added.
     with_cones: Vec<f64>,
     has_cones: bool,
-    /// Row of a rank-one update.
+    /// Rows of rank-one updates, and which of them are added.
     update: Vec<f64>,
-    /// `Lᵀ J` of one cone, a row for each dimension.
-    cone_rows: Vec<f64>,
+    plus: Vec<bool>,
     /// Mass of rows in the quadratic state, zero elsewhere.
     active: Vec<f64>,
     sparse: SparseCholesky,
@@ -42,7 +41,7 @@ impl Hessian {
         self.active.clear();
         self.active.extend(state.iter().zip(&p.rows.d).map(mass));
         if p.dense {
-            assemble_dense(p, &self.active, &mut self.factor);
+            assemble_dense(p, &self.active, &mut self.update, &mut self.factor);
             cholesky_factor(&mut self.factor, p.nv, MINVAL);
         } else {
             self.sparse.factorize(p, &self.active, &mut self.factor, MINVAL);
@@ -53,32 +52,31 @@ impl Hessian {
 
     /// Updates the factor for rows that became quadratic or ceased to be; starts afresh when accuracy is lost.
     pub fn follow(&mut self, p: &Problem, old: &[ConstraintState], state: &[ConstraintState], jar: &[f64]) {
-        self.updates = 0;
-        for i in 0..p.rows.len() {
-            let (was, is) = (old[i] == ConstraintState::Quadratic, state[i] == ConstraintState::Quadratic);
-            if was == is {
-                continue;
-            }
-            self.updates += 1;
-            if self.update_row(p, i, is) < p.nv {
-                self.factorize(p, state, jar);
-                return;
+        let quadratic = |s: ConstraintState| s == ConstraintState::Quadratic;
+        self.update.clear();
+        self.plus.clear();
+        let mut fallen = 0;
+        for i in (0..p.rows.len()).filter(|&i| quadratic(old[i]) != quadratic(state[i])) {
+            let (root, plus) = (p.rows.d[i].sqrt(), quadratic(state[i]));
+            self.plus.push(plus);
+            if p.dense {
+                self.update.extend(p.dense_row(i).iter().map(|x| x * root));
+                self.update.resize(self.plus.len() * stride(p.nv), 0.0);
+            } else {
+                let (columns, values) = p.sparse_row(i);
+                self.update.clear();
+                self.update.extend(values.iter().map(|x| x * root));
+                fallen += self.sparse.update(&mut self.factor, columns, &self.update, plus, MINVAL);
             }
         }
-        self.add_cones(p, state, jar);
-    }
-
-    /// Adds or removes row `i`; returns the rank.
-    fn update_row(&mut self, p: &Problem, i: usize, plus: bool) -> usize {
-        let root = p.rows.d[i].sqrt();
-        self.update.clear();
         if p.dense {
-            self.update.extend(p.dense_row(i).iter().map(|x| x * root));
-            cholesky_update(&mut self.factor, p.nv, &mut self.update, plus, MINVAL)
+            fallen += cholesky_update(&mut self.factor, p.nv, &mut self.update, &self.plus, MINVAL);
+        }
+        if fallen > 0 {
+            self.factorize(p, state, jar);
         } else {
-            let (columns, values) = p.sparse_row(i);
-            self.update.extend(values.iter().map(|x| x * root));
-            self.sparse.update(&mut self.factor, columns, &self.update, plus, MINVAL)
+            self.updates = self.plus.len();
+            self.add_cones(p, state, jar);
         }
     }
 
@@ -89,28 +87,33 @@ impl Hessian {
             return;
         }
         self.with_cones.clone_from(&self.factor);
-        let mut local = [0.0; 36];
+        self.update.clear();
+        self.plus.clear();
         for c in p.rows.cones.iter().filter(|c| state[c.row] == ConstraintState::Cone) {
-            self.updates += c.dim;
+            let mut local = [0.0; 6 * stride(6)];
             cone_hessian(c, p.rows.d[c.row], jar, &mut local);
-            cholesky_factor(&mut local[..c.dim * c.dim], c.dim, MINVAL);
-            let n = if p.dense { p.nv } else { p.sparse_row(c.row).0.len() };
-            self.cone_rows.clear();
-            self.cone_rows.resize(c.dim * n, 0.0);
+            cholesky_factor(&mut local, c.dim, MINVAL);
+            let n = if p.dense { stride(p.nv) } else { p.sparse_row(c.row).0.len() };
+            let first = self.update.len();
+            self.update.resize(first + c.dim * n, 0.0);
+            let rows = &mut self.update[first..];
             for r in 0..c.dim {
                 let row = if p.dense { p.dense_row(c.row + r) } else { p.sparse_row(c.row + r).1 };
                 for k in 0..=r {
-                    add_scaled_slice(&mut self.cone_rows[k * n..(k + 1) * n], row, local[r * c.dim + k]);
+                    add_scaled_slice(&mut rows[k * n..(k + 1) * n], row, local[k * stride(c.dim) + r]);
                 }
             }
-            for row in self.cone_rows.chunks_exact_mut(n) {
-                if p.dense {
-                    cholesky_update(&mut self.with_cones, p.nv, row, true, MINVAL);
-                } else {
+            if !p.dense {
+                for row in rows.chunks_exact_mut(n) {
                     let columns = p.sparse_row(c.row).0;
                     self.sparse.update(&mut self.with_cones, columns, row, true, MINVAL);
                 }
             }
+            self.plus.resize(self.plus.len() + c.dim, true);
+        }
+        self.updates += self.plus.len();
+        if p.dense {
+            cholesky_update(&mut self.with_cones, p.nv, &mut self.update, &self.plus, MINVAL);
         }
     }
 
@@ -120,32 +123,34 @@ impl Hessian {
         if p.dense { cholesky_solve(factor, p.nv, x) } else { self.sparse.solve(factor, x) }
     }
 
-    /// Stored entries of the factors.
-    pub fn nonzeros(&self) -> usize {
-        self.factor.len() + if self.has_cones { self.with_cones.len() } else { 0 }
+    /// Entries of the factors, as full matrices where they are dense.
+    pub fn nonzeros(&self, p: &Problem) -> usize {
+        let one = if p.dense { p.nv * p.nv } else { self.factor.len() };
+        one * (1 + usize::from(self.has_cones))
     }
 }
 
-/// Lower triangle of `M + Jᵀ D J`.
-fn assemble_dense(p: &Problem, active: &[f64], h: &mut Vec<f64>) {
-    let n = p.nv;
+/// Upper triangle of `M + Jᵀ D J`; `scaled` is working memory.
+fn assemble_dense(p: &Problem, active: &[f64], scaled: &mut Vec<f64>, h: &mut Vec<f64>) {
+    let stride = stride(p.nv);
     h.clear();
-    h.resize(n * n, 0.0);
-    for (row, &d) in p.jacobian.chunks_exact(n).zip(active) {
+    h.resize(p.nv * stride, 0.0);
+    for ((i, span), &d) in p.spans.iter().enumerate().zip(active) {
         if d == 0.0 {
             continue;
         }
-        let first = row.iter().position(|&x| x != 0.0).unwrap_or(n);
-        for (i, &x) in row.iter().enumerate().skip(first) {
-            if x != 0.0 {
-                add_scaled_slice(&mut h[i * n + first..i * n + i + 1], &row[first..], x * d);
-            }
+        let row = &p.dense_row(i)[span.clone()];
+        scaled.clear();
+        scaled.extend(row.iter().map(|x| x * d));
+        for (j, &x) in row.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+            let at = (span.start + j) * (stride + 1);
+            add_scaled_slice(&mut h[at..at + row.len() - j], &scaled[j..], x);
         }
     }
-    for i in 0..n {
+    for i in 0..p.nv {
         let (columns, values) = p.inertia_row(i);
         for (&j, x) in columns.iter().zip(values) {
-            h[i * n + j as usize] += x;
+            h[j as usize * stride + i] += x;
         }
     }
 }

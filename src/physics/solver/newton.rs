@@ -22,21 +22,24 @@ pub(super) fn newton(m: &Model, p: &mut Primal, stats: &mut Vec<SolverStat>) -> 
     p.hessian.factorize(&p.problem, &p.state, &p.jar);
     p.precondition_hessian();
     if flat && p.decrement() < tolerance {
-        return (0, p.hessian.nonzeros());
+        return (0, p.hessian.nonzeros(&p.problem));
     }
     let mut iterations = 0;
     while iterations < m.opt.iterations {
         p.descend();
         let Some(improvement) = p.step(m) else { break };
         p.hessian.follow(&p.problem, &p.old_state, &p.state, &p.jar);
-        p.precondition_hessian();
         iterations += 1;
         let gradient = p.gradient();
         stats.push(p.statistics(improvement, gradient, p.hessian.updates));
         let small = improvement > 0.0 && improvement < tolerance;
-        if small || gradient < tolerance || p.decrement() < tolerance {
+        if small || gradient < tolerance {
+            break;
+        }
+        p.precondition_hessian();
+        if p.decrement() < tolerance {
             break;
         }
     }
-    (iterations, p.hessian.nonzeros())
+    (iterations, p.hessian.nonzeros(&p.problem))
 }

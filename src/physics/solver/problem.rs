@@ -6,6 +6,7 @@ use crate::data::{Constraints, Contacts, Inertia};
 use crate::math::dense::dot_slice;
 use crate::math::{LowerRows, add_scaled_slice, dot_sparse, scatter_scaled};
 use crate::model::Model;
+use std::ops::Range;
 
 /// Inertia, Jacobian and row parameters of an island, or of the whole model.
 #[derive(Clone, Debug, Default)]
@@ -18,6 +19,8 @@ pub(super) struct Problem {
     pub dense: bool,
     /// Jacobian: full rows, or entries of compressed rows.
     pub jacobian: Vec<f64>,
+    /// From the first to the last entry of each full row that is not zero.
+    pub spans: Vec<Range<usize>>,
     /// Start of each compressed row, and the end of the last.
     pub row_start: Vec<usize>,
     /// Columns of compressed rows.
@@ -94,14 +97,19 @@ impl Problem {
     fn gather_dense(&mut self, efc: &Constraints, s: Selection) {
         self.jacobian.clear();
         self.jacobian.resize(s.rows.len() * self.nv, 0.0);
+        self.spans.clear();
         for (out, &row) in self.jacobian.chunks_exact_mut(self.nv).zip(s.rows) {
             let start = efc.efc_J_rowadr[row as usize] as usize;
+            let mut span = self.nv..0;
             for k in start..start + efc.efc_J_rownnz[row as usize] as usize {
                 // A tendon's structural zeros may stand in columns of another island.
                 if efc.efc_J[k] != 0.0 {
-                    out[(s.sorted[efc.efc_J_colind[k] as usize] - s.first) as usize] = efc.efc_J[k];
+                    let c = (s.sorted[efc.efc_J_colind[k] as usize] - s.first) as usize;
+                    out[c] = efc.efc_J[k];
+                    span = span.start.min(c)..span.end.max(c + 1);
                 }
             }
+            self.spans.push(if span.is_empty() { 0..0 } else { span });
         }
     }
 
@@ -147,25 +155,28 @@ impl Problem {
 
     /// `out = J v`.
     pub fn mul_jacobian(&self, v: &[f64], out: &mut [f64]) {
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = if self.dense {
-                dot_slice(self.dense_row(i), v)
-            } else {
+        if self.dense {
+            let whole = self.nv / 4 * 4;
+            for ((row, span), out) in self.jacobian.chunks_exact(self.nv).zip(&self.spans).zip(out) {
+                // The order of additions of full rows: four lanes by column, then the columns that remain.
+                let lanes = (span.start / 4 * 4).min(whole)..span.end.next_multiple_of(4).min(whole);
+                *out = dot_slice(&row[lanes.clone()], &v[lanes]) + dot_slice(&row[whole..], &v[whole..]);
+            }
+        } else {
+            for (i, out) in out.iter_mut().enumerate() {
                 let (columns, values) = self.sparse_row(i);
-                dot_sparse(values, columns, v)
-            };
+                *out = dot_sparse(values, columns, v);
+            }
         }
     }
 
     /// `out = Jᵀ f`.
     pub fn mul_jacobian_transposed(&self, f: &[f64], out: &mut [f64]) {
         out.fill(0.0);
-        for (i, &f) in f.iter().enumerate() {
-            if f == 0.0 {
-                continue;
-            }
+        for (i, &f) in f.iter().enumerate().filter(|(_, f)| **f != 0.0) {
             if self.dense {
-                add_scaled_slice(out, self.dense_row(i), f);
+                let span = self.spans[i].clone();
+                add_scaled_slice(&mut out[span.clone()], &self.dense_row(i)[span], f);
             } else {
                 let (columns, values) = self.sparse_row(i);
                 scatter_scaled(values, columns, f, out);

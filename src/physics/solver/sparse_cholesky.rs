@@ -201,7 +201,7 @@ impl SparseCholesky {
     }
 
     /// Rank-one update `Lᵀ L ± v vᵀ` by Givens rotations; the pattern of `v` is one of the Jacobian's rows.
-    /// Returns the rank.
+    /// Returns the number of pivots that fell below `least`.
     pub fn update(
         &mut self,
         values: &mut [f64],
@@ -210,11 +210,11 @@ impl SparseCholesky {
         plus: bool,
         least: f64,
     ) -> usize {
-        let Some(&last) = columns.last() else { return self.n };
+        let Some(&last) = columns.last() else { return 0 };
         for (&c, &x) in columns.iter().zip(v) {
             self.dense[c as usize] = x;
         }
-        let mut rank = self.n;
+        let mut fallen = 0;
         for row in (0..=last as usize).rev() {
             let x = self.dense[row];
             if x == 0.0 {
@@ -226,7 +226,7 @@ impl SparseCholesky {
             let mut square = if plus { diagonal * diagonal + x * x } else { diagonal * diagonal - x * x };
             if square < least {
                 square = least;
-                rank -= 1;
+                fallen += 1;
             }
             let root = square.sqrt();
             values[at] = root;
@@ -239,14 +239,17 @@ impl SparseCholesky {
                 *value = rotated;
             }
         }
-        rank
+        fallen
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::dense::{cholesky_factor, cholesky_solve, dot_slice};
+    use crate::math::cholesky::{cholesky_factor, cholesky_solve, stride};
+    use crate::math::dense::dot_slice;
+
+    const STRIDE: usize = stride(5);
 
     /// Inertia of two chains 0-1-2 and 3-4 with one row that couples their ends, and one within the first.
     fn problem() -> Problem {
@@ -270,18 +273,18 @@ mod tests {
     }
 
     fn dense(p: &Problem, active: &[f64]) -> Vec<f64> {
-        let mut h = vec![0.0; 25];
+        let mut h = vec![0.0; 5 * STRIDE];
         for r in 0..5 {
             for (&c, &x) in p.inertia_row(r).0.iter().zip(p.inertia_row(r).1) {
-                h[5 * r + c as usize] = x;
-                h[5 * c as usize + r] = x;
+                h[STRIDE * r + c as usize] = x;
+                h[STRIDE * c as usize + r] = x;
             }
         }
         for (i, d) in active.iter().enumerate() {
             let (columns, values) = p.sparse_row(i);
             for (&a, x) in columns.iter().zip(values) {
                 for (&b, y) in columns.iter().zip(values) {
-                    h[5 * a as usize + b as usize] += d * x * y;
+                    h[STRIDE * a as usize + b as usize] += d * x * y;
                 }
             }
         }
@@ -300,7 +303,7 @@ mod tests {
             let (mut x, mut y) = (b, b);
             cholesky.solve(values, &mut x);
             let mut h = dense(&p, active);
-            assert!((0..5).any(|i| dot_slice(&h[5 * i..5 * i + 5], &b).abs() > 1.0));
+            assert!((0..5).any(|i| dot_slice(&h[STRIDE * i..STRIDE * i + 5], &b).abs() > 1.0));
             cholesky_factor(&mut h, 5, 1e-15);
             cholesky_solve(&h, 5, &mut y);
             for (x, y) in x.iter().zip(y) {
@@ -310,7 +313,7 @@ mod tests {
         check(&cholesky, &values, &[3.0, 0.0]);
         let (columns, row) = p.sparse_row(1);
         let scaled: Vec<f64> = row.iter().map(|x| x * 7.0_f64.sqrt()).collect();
-        assert_eq!(cholesky.update(&mut values, columns, &scaled, true, 1e-15), 5);
+        assert_eq!(cholesky.update(&mut values, columns, &scaled, true, 1e-15), 0);
         check(&cholesky, &values, &[3.0, 7.0]);
     }
 }

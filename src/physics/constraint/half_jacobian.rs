@@ -1,0 +1,143 @@
+//! `Y = J M^(-1/2)`, from the factor `L'DL` of the inertia: `Y Yᵀ` is the inverse inertia in constraint space.
+//!
+//! Rows are kept in blocks, so that one pass through the factor serves a whole block; each row keeps its own order
+//! of operations.
+
+use crate::data::{Constraints, Inertia};
+use crate::inertia::row;
+use crate::model::Model;
+
+/// Rows of a block.
+pub const BLOCK: usize = 8;
+
+/// Rows of a tile of `Y Yᵀ`, which is `BLOCK` wide.
+pub const TILE: usize = 4;
+
+/// `Y` in blocks of rows; columns that cannot be zero are sets of bits.
+#[derive(Clone, Debug, Default)]
+pub struct HalfJacobian {
+    /// Entries of each block by column.
+    entries: Vec<[f64; BLOCK]>,
+    /// Words of a set of columns.
+    words: usize,
+    /// Columns of each block: those of `J` and their ancestors.
+    blocks: Vec<u64>,
+    /// Ancestors of each degree of freedom, and itself.
+    ancestors: Vec<u64>,
+    /// Reciprocal square root of the factor's diagonal.
+    root: Vec<f64>,
+    /// Columns and entries of one row.
+    set: Vec<u64>,
+    values: Vec<f64>,
+}
+
+/// Computes `Y`: a row of `J`, completed with the ancestors of its degrees of freedom, is substituted back
+/// through the unit factor and scaled by the square root of the diagonal.
+pub fn half_jacobian(m: &Model, inertia: &Inertia, efc: &Constraints, y: &mut HalfJacobian) {
+    y.root.clear();
+    y.root.extend((0..m.nv).map(|dof| 1.0 / inertia.qLD[row(m, dof).end - 1].sqrt()));
+    y.find_ancestors(m);
+    let count = efc.nefc.div_ceil(BLOCK);
+    y.entries.clear();
+    y.entries.resize(count * m.nv, [0.0; BLOCK]);
+    y.blocks.clear();
+    y.blocks.resize(count * y.words, 0);
+    for b in 0..count {
+        let entries = &mut y.entries[b * m.nv..(b + 1) * m.nv];
+        let columns = &mut y.blocks[b * y.words..(b + 1) * y.words];
+        for i in b * BLOCK..efc.nefc.min((b + 1) * BLOCK) {
+            let (j_columns, values) = jacobian_row(efc, i);
+            add_columns(j_columns, &y.ancestors, columns);
+            for (&c, &value) in j_columns.iter().zip(values) {
+                entries[c as usize][i % BLOCK] = value;
+            }
+        }
+        for (w, &word) in columns.iter().enumerate().rev() {
+            let mut left = word;
+            while left != 0 {
+                let bit = left.ilog2() as usize;
+                left ^= 1 << bit;
+                substitute(m, inertia, 64 * w + bit, y.root[64 * w + bit], entries);
+            }
+        }
+    }
+}
+
+/// Columns of row `i` of `J` and their entries.
+fn jacobian_row(efc: &Constraints, i: usize) -> (&[i32], &[f64]) {
+    let start = efc.efc_J_rowadr[i] as usize;
+    let range = start..start + efc.efc_J_rownnz[i] as usize;
+    (&efc.efc_J_colind[range.clone()], &efc.efc_J[range])
+}
+
+/// Adds columns, increasing, and their ancestors to a set.
+fn add_columns(columns: &[i32], ancestors: &[u64], set: &mut [u64]) {
+    for &c in columns.iter().rev() {
+        let c = c as usize;
+        if set[c / 64] >> (c % 64) & 1 == 0 {
+            let words = set.len();
+            set.iter_mut().zip(&ancestors[c * words..]).for_each(|(x, y)| *x |= y);
+        }
+    }
+}
+
+/// Takes column `c`, which is complete, out of its ancestors, and scales it.
+#[inline]
+fn substitute(m: &Model, inertia: &Inertia, c: usize, root: f64, entries: &mut [[f64; BLOCK]]) {
+    let (range, value) = (row(m, c), entries[c]);
+    let range = range.start..range.end - 1;
+    for (&ancestor, l) in m.M_colind[range.clone()].iter().zip(&inertia.qLD[range]) {
+        let out = &mut entries[ancestor as usize];
+        (0..BLOCK).for_each(|k| out[k] -= l * value[k]);
+    }
+    entries[c] = value.map(|x| x * root);
+}
+
+impl HalfJacobian {
+    fn find_ancestors(&mut self, m: &Model) {
+        self.words = m.nv.div_ceil(64).max(1);
+        self.ancestors.clear();
+        self.ancestors.resize(m.nv * self.words, 0);
+        for dof in 0..m.nv {
+            let (before, set) = self.ancestors.split_at_mut(dof * self.words);
+            if let [.., parent, _] = m.M_colind[row(m, dof)] {
+                set[..self.words].copy_from_slice(&before[parent as usize * self.words..][..self.words]);
+            }
+            set[dof / 64] |= 1 << (dof % 64);
+        }
+    }
+
+    /// Entries of row `i`, those of ancestors included.
+    pub fn row(&mut self, efc: &Constraints, i: usize) -> &[f64] {
+        let Self { entries, words, ancestors, root, set, values, .. } = self;
+        set.clear();
+        set.resize(*words, 0);
+        add_columns(jacobian_row(efc, i).0, ancestors, set);
+        let entries = &entries[i / BLOCK * root.len()..][..root.len()];
+        let in_row = |c: &usize| set[c / 64] >> (c % 64) & 1 == 1;
+        values.clear();
+        values.extend((0..entries.len()).filter(in_row).map(|c| entries[c][i % BLOCK]));
+        values
+    }
+
+    /// Products of rows `first..first + TILE`, of one block, with the rows of block `b`, summed in order of columns.
+    #[inline]
+    pub fn product(&self, first: usize, b: usize) -> [[f64; BLOCK]; TILE] {
+        let (nv, words, a) = (self.root.len(), self.words, first / BLOCK);
+        let (left, right) = (&self.entries[a * nv..(a + 1) * nv], &self.entries[b * nv..(b + 1) * nv]);
+        let sets = self.blocks[a * words..(a + 1) * words].iter().zip(&self.blocks[b * words..]);
+        let mut sum = [[0.0; BLOCK]; TILE];
+        for (w, (x, y)) in sets.enumerate() {
+            let mut both = x & y;
+            while both != 0 {
+                let c = 64 * w + both.trailing_zeros() as usize;
+                both &= both - 1;
+                let (x, y) = (&left[c][first % BLOCK..][..TILE], &right[c]);
+                for r in 0..TILE {
+                    (0..BLOCK).for_each(|k| sum[r][k] += y[k] * x[r]);
+                }
+            }
+        }
+        sum
+    }
+}
