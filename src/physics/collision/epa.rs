@@ -112,7 +112,9 @@ impl Polytope {
     /// Adds the support point in direction `d`, whose length is `length`.
     fn push_support(&mut self, a: &mut ConvexBody, b: &mut ConvexBody, d: Vec3, length: f64) -> usize {
         let dir = if length > MINVAL { d.map(|x| x / length) } else { [1.0, 0.0, 0.0] };
-        self.push(support(a, b, dir))
+        let v = self.push(Vertex::default());
+        support(a, b, dir, &mut self.vertex[v]);
+        v
     }
 
     fn diff(&self, v: usize) -> Vec3 {
@@ -325,7 +327,8 @@ impl Polytope {
             if discrete && self.is_repeated(w) {
                 return answer;
             }
-            self.find_horizon(face, self.diff(w));
+            self.horizon.clear();
+            self.swallow(face, 0, 3, self.diff(w));
             if self.horizon.len() < 3 {
                 return None;
             }
@@ -347,28 +350,25 @@ impl Polytope {
         self.vertex[..w].iter().any(|v| v.index == index)
     }
 
-    /// Removes the faces that see `w`, starting from `face`, and lists the edges around them.
-    fn find_horizon(&mut self, face: usize, w: Vec3) {
-        self.horizon.clear();
+    /// Removes a face that sees `w` and those that do beyond `count` of its edges from `edge` on, and lists the edges
+    /// around them in `horizon`.
+    fn swallow(&mut self, face: usize, edge: usize, count: usize, w: Vec3) {
         self.remove_face(face);
-        for edge in 0..3 {
-            self.cross_edge(face, edge, w);
-        }
-    }
-
-    fn cross_edge(&mut self, face: usize, edge: usize, w: Vec3) {
-        let (beyond, end) = (self.face[face].across[edge], self.face[face].vertex[next(edge)]);
-        let Face { vertex, foot, dist2, state, .. } = &self.face[beyond];
-        if *state == State::Gone {
-            return;
-        }
-        let entry = vertex.iter().position(|&v| v == end).unwrap_or(2);
-        if dot(*foot, w) - dist2 > MINVAL {
-            self.remove_face(beyond);
-            self.cross_edge(beyond, next(entry), w);
-            self.cross_edge(beyond, next(next(entry)), w);
-        } else {
-            self.horizon.push((beyond, entry));
+        let Face { vertex, across, .. } = self.face[face];
+        let mut edge = edge;
+        for _ in 0..count {
+            let (beyond, end) = (across[edge], vertex[next(edge)]);
+            edge = next(edge);
+            let Face { vertex, foot, dist2, state, .. } = &self.face[beyond];
+            if *state == State::Gone {
+                continue;
+            }
+            let entry = vertex.iter().position(|&v| v == end).unwrap_or(2);
+            if dot(*foot, w) - dist2 > MINVAL {
+                self.swallow(beyond, next(entry), 2, w);
+            } else {
+                self.horizon.push((beyond, entry));
+            }
         }
     }
 

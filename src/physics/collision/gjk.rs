@@ -49,14 +49,17 @@ pub struct Proximity {
 }
 
 /// Support point of `A - B` in unit direction `dir`.
-pub fn support(a: &mut ConvexBody, b: &mut ConvexBody, dir: Vec3) -> Vertex {
-    let pa = a.support(dir);
-    let pb = b.support(scale(dir, -1.0));
-    Vertex { diff: sub(pa, pb), a: pa, b: pb, index: [a.last_vertex(), b.last_vertex()] }
+// Written in place: a copy right after the parts were written stalls.
+pub fn support(a: &mut ConvexBody, b: &mut ConvexBody, dir: Vec3, out: &mut Vertex) {
+    out.a = a.support(dir);
+    out.b = b.support(scale(dir, -1.0));
+    out.diff = sub(out.a, out.b);
+    out.index = [a.last_vertex(), b.last_vertex()];
 }
 
-fn support_toward_origin(a: &mut ConvexBody, b: &mut ConvexBody, x: Vec3, x_norm: f64) -> Vertex {
-    support(a, b, scale(scale(x, 1.0 / x_norm), -1.0))
+/// Unit direction from `x`, whose length is `length`, to the origin.
+fn toward_origin(x: Vec3, length: f64) -> Vec3 {
+    scale(scale(x, 1.0 / length), -1.0)
 }
 
 /// Distance between two bodies by GJK. Leaves the last simplex in `simplex`.
@@ -77,7 +80,7 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mu
         if x_norm < touching || (x_norm_before - x_norm).abs() < MINVAL {
             break;
         }
-        simplex[n] = support_toward_origin(a, b, x, x_norm);
+        support(a, b, toward_origin(x, x_norm), &mut simplex[n]);
         let s = simplex[n].diff;
         // Frank–Wolfe duality gap: an upper bound on |x - x_min|².
         if dot(x, sub(x, s)) < gap_tolerance {
@@ -115,7 +118,11 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mu
     if n > 0 {
         nearest = [combine(&lambda, n, |i| simplex[i].a), combine(&lambda, n, |i| simplex[i].b)];
     }
-    let farthest = farthest.unwrap_or_else(|| support_toward_origin(a, b, x, x_norm).diff);
+    let farthest = farthest.unwrap_or_else(|| {
+        let mut last = Vertex::default();
+        support(a, b, toward_origin(x, x_norm), &mut last);
+        last.diff
+    });
     let separated = dot(x, farthest) > 0.0;
     let dist = if n == 4 && !separated { 0.0 } else { x_norm };
     Proximity { dist, separated, n, nearest: Some(nearest) }
@@ -127,6 +134,10 @@ fn is_beyond(lower: f64, x_norm: f64, cutoff: f64) -> bool {
 }
 
 const APART: Proximity = Proximity { dist: BEYOND, separated: true, n: 0, nearest: None };
+
+fn diffs(simplex: &[Vertex; 4]) -> [Vec3; 4] {
+    [simplex[0].diff, simplex[1].diff, simplex[2].diff, simplex[3].diff]
+}
 
 /// Removes vertices of zero weight; returns how many remain.
 fn drop_unused(simplex: &mut [Vertex; 4], lambda: &mut [f64; 4]) -> usize {
@@ -150,7 +161,8 @@ enum Enclosure {
 }
 
 /// Turns a tetrahedron until it holds the origin: the vertex opposite the face nearest to the origin, or most
-/// beyond it, gives way to a support point of that face. `k` counts iterations. Without success the simplex stays.
+/// beyond it, gives way to a support point of that face. `k` counts iterations. A simplex of which nothing is known
+/// stays.
 fn enclose_origin(
     a: &mut ConvexBody,
     b: &mut ConvexBody,
@@ -158,10 +170,9 @@ fn enclose_origin(
     k: &mut usize,
     iterations: usize,
 ) -> Enclosure {
-    let mut turned = *simplex;
-    let mut s = [0, 1, 2, 3];
+    let mut before = None;
     while *k < iterations {
-        let [v1, v2, v3, v4] = s.map(|i| turned[i].diff);
+        let [v1, v2, v3, v4] = diffs(simplex);
         let faces = [
             oriented_distance(v3, v2, v4),
             oriented_distance(v1, v3, v4),
@@ -170,25 +181,24 @@ fn enclose_origin(
         ];
         let dist = faces.map(|f| f.1);
         if dist.contains(&0.0) {
-            return Enclosure::Unknown;
+            break;
         }
         let i = if dist[0] < dist[1] { 0 } else { 1 };
         let j = if dist[2] < dist[3] { 2 } else { 3 };
         let worst = if dist[i] < dist[j] { i } else { j };
         if dist[worst] > 0.0 {
-            for (vertex, i) in simplex.iter_mut().zip(s) {
-                *vertex = turned[i];
-            }
             return Enclosure::Inside;
         }
+        before = before.or(Some(*simplex));
         let normal = faces[worst].0;
-        turned[s[worst]] = support(a, b, normal);
-        if dot(normal, turned[s[worst]].diff) < 0.0 {
+        support(a, b, normal, &mut simplex[worst]);
+        if dot(normal, simplex[worst].diff) < 0.0 {
             return Enclosure::Outside;
         }
-        s.swap((worst + 1) % 4, (worst + 2) % 4);
+        simplex.swap((worst + 1) % 4, (worst + 2) % 4);
         *k += 1;
     }
+    *simplex = before.unwrap_or(*simplex);
     Enclosure::Unknown
 }
 
@@ -223,7 +233,7 @@ pub fn combine3(weight: &[f64; 3], v1: Vec3, v2: Vec3, v3: Vec3) -> Vec3 {
 
 /// Weights of the point of the simplex nearest to the origin; vertices that do not matter get exactly zero.
 fn barycentric(simplex: &[Vertex; 4], n: usize) -> [f64; 4] {
-    let [s1, s2, s3, s4] = simplex.map(|v| v.diff);
+    let [s1, s2, s3, s4] = diffs(simplex);
     match n {
         4 => tetrahedron(s1, s2, s3, s4),
         3 => {

@@ -9,6 +9,9 @@ use crate::math::{Mat3, Vec3, add, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec, su
 use crate::model::bounds::MAXCONPAIR;
 use crate::model::{Model, disable};
 
+/// Share of the coordinates and the radius of a ball that no rounding reaches.
+const BALL_SLACK: f64 = 1e-9;
+
 /// A grid of heights in its own frame.
 struct Grid<'a> {
     /// Half extent along x and y, height of the top, depth of the base.
@@ -44,13 +47,30 @@ impl<'a> Grid<'a> {
         (inside(index(min).floor()), inside(index(max).ceil()))
     }
 
+    /// True when a body that this ball holds surely lies above the surface.
+    fn is_below(&self, centre: Vec3, radius: f64) -> bool {
+        let [x, y, z] = centre;
+        // More than rounding can bring a point of the body out of the ball.
+        let radius = radius + BALL_SLACK * (radius + x.abs() + y.abs() + z.abs());
+        let (first_column, last_column) = self.lines(0, x - radius, x + radius);
+        let (first_row, last_row) = self.lines(1, y - radius, y + radius);
+        self.heights[first_row * self.columns..][..(last_row - first_row + 1) * self.columns]
+            .chunks_exact(self.columns)
+            .all(|row| row[first_column..=last_column].iter().all(|&h| self.rise(h) < z - radius))
+    }
+
+    /// Height of the surface where the data have `height`.
+    fn rise(&self, height: f32) -> f64 {
+        f64::from(height) * self.size[2] + self.margin
+    }
+
     /// Surface point at a grid node.
     fn node(&self, row: usize, column: usize) -> Vec3 {
-        let [sx, sy, top, _] = self.size;
+        let [sx, sy, ..] = self.size;
         let dx = (2.0 * sx) / (self.columns - 1) as f64;
         let dy = (2.0 * sy) / (self.rows - 1) as f64;
-        let height = f64::from(self.heights[row * self.columns + column]) * top;
-        [dx * column as f64 - sx, dy * row as f64 - sy, height + self.margin]
+        let height = self.rise(self.heights[row * self.columns + column]);
+        [dx * column as f64 - sx, dy * row as f64 - sy, height]
     }
 
     /// The prism under three surface points, base first.
@@ -71,16 +91,17 @@ pub fn height_field(
     scratch: &mut ConvexScratch,
     out: &mut Vec<PreContact>,
 ) {
-    let (field, shape) = (Shape::new(m, kin, g1), Shape::new(m, kin, g2));
-    let Some(id) = field.data() else { return };
+    let Ok(id) = usize::try_from(m.geom_dataid[g1]) else { return };
     let grid = Grid::new(m, id, margin);
 
     // Bounding sphere, then bounding box of the geom, both in the frame of the height field.
-    let pos = mul_mat_t_vec(&field.mat, sub(shape.pos, field.pos));
+    let pos = mul_mat_t_vec(&kin.geom_xmat[g1], sub(kin.geom_xpos[g2], kin.geom_xpos[g1]));
     let radius = m.geom_rbound[g2] + margin;
-    if grid.misses(pos.map(|x| x - radius), pos.map(|x| x + radius)) {
+    if grid.misses(pos.map(|x| x - radius), pos.map(|x| x + radius)) || grid.is_below(pos, m.geom_rbound[g2])
+    {
         return;
     }
+    let (field, shape) = (Shape::new(m, kin, g1), Shape::new(m, kin, g2));
     let local = Shape { pos, mat: mul_mat_t_mat(&field.mat, &shape.mat), ..shape };
     let Some(mut body) = ConvexBody::new(&local, 0.0) else { return };
     let (min, max) = extent(&mut body);
@@ -101,7 +122,8 @@ pub fn height_field(
                 if triangle.iter().all(|p| p[2] < min[2]) {
                     continue;
                 }
-                let mut prism = ConvexBody::prism(grid.prism(triangle));
+                let corners = grid.prism(triangle);
+                let mut prism = ConvexBody::prism(&corners);
                 let found = out.len();
                 penetration(&m.opt, &mut prism, &mut body, 1, 0.0, scratch, out);
                 for contact in &mut out[found..] {

@@ -9,6 +9,7 @@ pub mod box_box;
 pub mod broad_phase;
 pub mod capsule;
 pub mod capsule_box;
+pub mod climb;
 pub mod convex;
 pub mod distance;
 pub mod epa;

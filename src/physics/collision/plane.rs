@@ -163,8 +163,9 @@ pub fn plane_mesh(plane: &Shape, mesh: &Shape, margin: f64, out: &mut Vec<PreCon
         count < MAX_PLANE_MESH
     };
     // `all` stops when there are enough.
-    let _ = match hull.graph() {
-        None => (0..hull.vertices()).filter(|&v| v != deepest.vertex).all(&mut add_deep),
-        Some(_) => hull.around(deepest).filter(|&v| v < hull.vertices()).all(&mut add_deep),
+    let _ = if hull.has_graph() {
+        hull.around(deepest).filter(|&v| v < hull.vertices()).all(&mut add_deep)
+    } else {
+        (0..hull.vertices()).filter(|&v| v != deepest.vertex).all(&mut add_deep)
     };
 }

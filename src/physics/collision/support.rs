@@ -2,7 +2,8 @@
 //! (van den Bergen, Collision Detection in Interactive 3D Environments, section 4.3).
 
 use super::Shape;
-use super::hull::{Farthest, MeshHull};
+use super::climb::Farthest;
+use super::hull::MeshHull;
 use crate::math::{Mat3, Vec3, add, mul_mat_t_vec, mul_mat_vec, normalize, scale};
 use crate::model::GeomType;
 use crate::model::bounds::MINVAL;
@@ -29,7 +30,7 @@ pub enum Solid<'a> {
     /// Hull of a mesh.
     Mesh(MeshHull<'a>),
     /// Column of a height field: three corners of the base, three of the surface, already placed.
-    Prism([Vec3; 6]),
+    Prism(&'a [Vec3; 6]),
 }
 
 /// A placed convex body and the memory of its last support point.
@@ -71,7 +72,7 @@ impl<'a> ConvexBody<'a> {
     }
 
     /// A column of a height field, corners of the base first.
-    pub fn prism(corners: [Vec3; 6]) -> Self {
+    pub fn prism(corners: &'a [Vec3; 6]) -> Self {
         let identity = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         Self::placed(Solid::Prism(corners), [0.0; 3], identity, 0.0)
     }
@@ -81,7 +82,7 @@ impl<'a> ConvexBody<'a> {
         match &self.solid {
             Solid::Prism(corners) => {
                 let mut sum = [0.0; 3];
-                for &c in corners {
+                for &c in *corners {
                     sum = add(sum, c);
                 }
                 scale(sum, 1.0 / 6.0)
@@ -138,7 +139,7 @@ impl<'a> ConvexBody<'a> {
             Solid::Point => self.pos,
             Solid::Segment(half) => segment(&self.mat, self.pos, half, dir),
             Solid::Sphere(radius) => add(scale(dir, radius), self.pos),
-            Solid::Prism(ref corners) => prism(corners, dir),
+            Solid::Prism(corners) => prism(corners, dir),
             Solid::Capsule(radius, half) => self.to_world(capsule(radius, half, self.local(dir))),
             Solid::Ellipsoid(axes) => self.to_world(ellipsoid(axes, self.local(dir))),
             Solid::Cylinder(radius, half) => self.to_world(cylinder(radius, half, self.local(dir))),
@@ -162,7 +163,7 @@ impl<'a> ConvexBody<'a> {
     pub fn symmetric_support(&mut self, dir: Vec3) -> Vec3 {
         let local = self.local(dir);
         let mut point = match self.solid {
-            Solid::Prism(ref corners) => return prism(corners, dir),
+            Solid::Prism(corners) => return prism(corners, dir),
             Solid::Point => [0.0; 3],
             Solid::Segment(half) => [0.0, 0.0, sign(local[2]) * half],
             Solid::Sphere(radius) => scale(local, radius),

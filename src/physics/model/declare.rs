@@ -24,6 +24,9 @@ macro_rules! model {
             pub flg_surfacevel: bool,
             /// Some geom or pair has adhesion.
             pub flg_adhesion: bool,
+            /// Hulls as collision climbs them, made of the mesh arrays when first needed; to be emptied where those
+            /// are written later.
+            pub slopes: OnceLock<Slopes>,
             $(#[doc = $count] pub $size: usize,)*
             $(#[doc = $doc] pub $field: field_type!($t, $shape),)*
         }
@@ -31,6 +34,7 @@ macro_rules! model {
         impl Model {
             /// Allocates every array, zeroed, from the sizes set so far.
             pub fn allocate(&mut self) {
+                self.slopes.take();
                 $({
                     let (rows, width) = (field_rows!(self, $shape), field_width!(self, $shape));
                     Field::allocate(&mut self.$field, rows, width);
@@ -58,6 +62,7 @@ macro_rules! model {
 
             /// Overwrites the array called `name`; `None` when there is none, `Some(false)` on a size mismatch.
             pub fn assign(&mut self, name: &str, values: &[f64]) -> Option<bool> {
+                self.slopes.take();
                 match name {
                     $(stringify!($field) => {
                         let expected: usize = field_shape!(self, $shape).iter().product();

@@ -2,8 +2,10 @@
 
 use super::binary::{BinaryError, Reader};
 use super::declare::model;
+use crate::collision::climb::Slopes;
 use crate::model::{Options, Statistic, Visual};
 use crate::table::{Field, Slice, field_rows, field_shape, field_type, field_width};
+use std::sync::OnceLock;
 
 model! {
     sizes {
