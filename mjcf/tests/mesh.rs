@@ -318,3 +318,17 @@ fn hull_of_points_that_come_again_ends() {
     let edges = || hull.face.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
     assert!(edges().all(|(a, b)| edges().filter(|&edge| edge == (b, a)).count() == 1), "a closed surface");
 }
+
+/// Corners within single precision whose centre of mass is so far from some that the difference is not.
+#[test]
+fn vertices_beyond_single_precision_are_refused() {
+    let tetrahedron = |far: f32| {
+        let vert = vec![far, 0.0, 0.0, -far, 0.0, 0.0, -far, far, 0.0, -far, 0.0, far];
+        process(MeshSource { inline: RawMesh { vert, ..RawMesh::default() }, ..MeshSource::default() })
+    };
+    let error = tetrahedron(f32::MAX).unwrap_err();
+    assert_eq!(error.kind, AssetErrorKind::Geometry);
+    assert!(error.to_string().contains("beyond single precision"), "{error}");
+    let mesh = tetrahedron(f32::MAX / 4.0).unwrap();
+    assert!(mesh.vert.as_flattened().iter().any(|&x| x.abs() > f32::MAX / 4.0));
+}

@@ -3,7 +3,7 @@
 
 use crate::activation::advance_activations;
 use crate::data::{Acceleration, Data, Inertia, State, Transmission, Velocity};
-use crate::derivative::DerivativeInputs;
+use crate::derivative::inputs_of;
 use crate::forward::{StepError, evaluate};
 use crate::history;
 use crate::implicit;
@@ -68,16 +68,7 @@ pub(crate) fn advance_once(m: &Model, d: &mut Data, factors: Factors) {
 
 /// Advances the state by one step of Euler's method with forces taken at the new velocity, to first order.
 pub fn implicit(m: &Model, d: &mut Data, factors: Factors) {
-    let inputs = DerivativeInputs {
-        state: &d.state,
-        kin: &d.kin,
-        com: &d.com,
-        ten: &d.ten,
-        trn: &d.trn,
-        inertia: &d.inertia,
-        vel: &d.vel,
-        actuation: &d.actuation,
-    };
+    let inputs = inputs_of!(d);
     if factors == Factors::Fresh {
         implicit::factor(m, &inputs, &mut d.implicit, &mut d.scratch.implicit);
     }

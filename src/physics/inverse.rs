@@ -2,6 +2,7 @@
 //! Computation, "Inverse dynamics"). Constraint forces follow from the acceleration row by row, without iteration.
 
 use crate::data::Data;
+use crate::derivative::inputs_of;
 use crate::forward::{Known, StepError, acceleration_sensors, position_and_velocity};
 use crate::implicit;
 use crate::inertia::{mul_inertia_matrix, solve};
@@ -76,16 +77,7 @@ fn continuous_acceleration(m: &Model, d: &mut Data, force: &mut Vec<f64>) -> Res
             mul_inertia_matrix(m, &d.implicit.qH, &d.acc.qacc, force);
         }
         Some(Integrator::Implicit | Integrator::Implicitfast) => {
-            let inputs = crate::derivative::DerivativeInputs {
-                state: &d.state,
-                kin: &d.kin,
-                com: &d.com,
-                ten: &d.ten,
-                trn: &d.trn,
-                inertia: &d.inertia,
-                vel: &d.vel,
-                actuation: &d.actuation,
-            };
+            let inputs = inputs_of!(d);
             implicit::mul(m, &inputs, &mut d.implicit, &mut d.scratch.implicit, &d.acc.qacc, force);
         }
     }

@@ -18,6 +18,7 @@ Models that 3.12.0 refuses are recorded from a repaired copy (see `repair`).
 """
 
 import argparse
+import contextlib
 import re
 import shutil
 import sys
@@ -205,36 +206,46 @@ def load(path):
     return mujoco.MjModel.from_xml_path(str(path))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def arguments(doc):
+    """Parser with what all recorders take."""
+    parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("models", nargs="*", type=Path)
     parser.add_argument("--out", required=True, type=Path)
     parser.add_argument("--corpus", type=Path, help="folder whose models --list names; it is copied, not changed")
     parser.add_argument("--list", type=Path, help="file with one model path a line")
     parser.add_argument("--only", default="", help="record only listed models whose path contains this")
-    parser.add_argument("--states", type=int, default=STATES, help="independent states to record")
-    args = parser.parse_args()
+    return parser
+
+
+@contextlib.contextmanager
+def jobs(args):
+    """Name of the archive and path of the file of each model; the folder for archives is made."""
     if mujoco.__version__ != "3.12.0":
         sys.exit(f"mujoco 3.12.0 is needed, this is {mujoco.__version__}")
     args.out.mkdir(parents=True, exist_ok=True)
-    jobs = [(path.stem, path) for path in args.models]
-    copy = None
-    if args.list:
-        copy = tempfile.mkdtemp(prefix="corpus-")
-        shutil.copytree(args.corpus, copy, dirs_exist_ok=True)
-        repair(copy)
-        jobs += [(line.removesuffix(".xml").replace("/", "__"), Path(copy) / line)
-                 for line in args.list.read_text().split() if args.only in line]
+    found = [(path.stem, path) for path in args.models]
+    with tempfile.TemporaryDirectory(prefix="corpus-") as copy:
+        if args.list:
+            shutil.copytree(args.corpus, copy, dirs_exist_ok=True)
+            repair(copy)
+            found += [(line.removesuffix(".xml").replace("/", "__"), Path(copy) / line)
+                      for line in args.list.read_text().split() if args.only in line]
+        yield found
+
+
+def main():
+    parser = arguments(__doc__)
+    parser.add_argument("--states", type=int, default=STATES, help="independent states to record")
+    args = parser.parse_args()
     failed = 0
-    for name, path in jobs:
-        try:
-            np.savez_compressed(args.out / (name + ".npz"), **record(load(path), states=args.states))
-            print("recorded", name, flush=True)
-        except Exception as error:
-            failed += 1
-            print("FAILED", name, error, flush=True)
-    if copy:
-        shutil.rmtree(copy)
+    with jobs(args) as found:
+        for name, path in found:
+            try:
+                np.savez_compressed(args.out / (name + ".npz"), **record(load(path), states=args.states))
+                print("recorded", name, flush=True)
+            except Exception as error:
+                failed += 1
+                print("FAILED", name, error, flush=True)
     sys.exit(1 if failed else 0)
 
 

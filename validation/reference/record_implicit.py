@@ -16,13 +16,12 @@ One small archive a model; the compiled arrays and the states are those that `re
     slope.position ...          finite differences of inverse dynamics there
 """
 
-import argparse
 from pathlib import Path
 
 import mujoco
 import numpy as np
 
-from record import INPUTS, TWIN_OFFSET, controls, rollout
+from record import INPUTS, TWIN_OFFSET, arguments, controls, jobs, load, rollout
 
 STEPS = 200
 EVERY = 5
@@ -83,38 +82,40 @@ def inverse_slope(model, states, qacc):
     return parts
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("models", nargs="+", type=Path)
-    parser.add_argument("--out", required=True, type=Path)
-    args = parser.parse_args()
-    args.out.mkdir(parents=True, exist_ok=True)
-    for path in args.models:
-        model = mujoco.MjModel.from_xml_path(str(path))
-        states = np.load(Path(__file__).parent / "own" / (path.stem + ".npz"))
-        ctrl = controls(model, STEPS, 0)
-        rng = np.random.default_rng(1)
-        qacc = rng.normal(0, 3, (len(STATES), model.nv))
-        out = {"ctrl": ctrl, "inverse.qacc": qacc}
-        out["inverse.qfrc_inverse"], out["inverse.qfrc_constraint"] = inverse(model, states, qacc)
+def record(model, states):
+    """All arrays of one model, at rows STATES of recorded `states`."""
+    ctrl = controls(model, STEPS, 0)
+    rng = np.random.default_rng(1)
+    qacc = rng.normal(0, 3, (len(STATES), model.nv))
+    out = {"ctrl": ctrl, "inverse.qacc": qacc}
+    out["inverse.qfrc_inverse"], out["inverse.qfrc_constraint"] = inverse(model, states, qacc)
+    if model.nv <= SMALL:
+        out |= {"slope." + k: v for k, v in inverse_slope(model, states, qacc).items()}
+    for name, code in INTEGRATORS.items():
+        model.opt.integrator = code
+        if name != "Euler":
+            qpos = rollout(model, ctrl)[0]
+            twin = np.abs(rollout(model, ctrl, TWIN_OFFSET)[0] - qpos)
+            out[name + ".qpos"] = qpos[EVERY - 1::EVERY]
+            out[name + ".twin"] = np.maximum.accumulate(twin.max(axis=1))[EVERY - 1::EVERY]
+            out[name + ".qDeriv"], out[name + ".qvel"] = derivatives(model, states)
+        flags = model.opt.enableflags
+        model.opt.enableflags = flags | int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
+        out["discrete." + name] = inverse(model, states, qacc)[0]
+        model.opt.enableflags = flags
         if model.nv <= SMALL:
-            out |= {"slope." + k: v for k, v in inverse_slope(model, states, qacc).items()}
-        for name, code in INTEGRATORS.items():
-            model.opt.integrator = code
-            if name != "Euler":
-                qpos = rollout(model, ctrl)[0]
-                twin = np.abs(rollout(model, ctrl, TWIN_OFFSET)[0] - qpos)
-                out[name + ".qpos"] = qpos[EVERY - 1::EVERY]
-                out[name + ".twin"] = np.maximum.accumulate(twin.max(axis=1))[EVERY - 1::EVERY]
-                out[name + ".qDeriv"], out[name + ".qvel"] = derivatives(model, states)
-            flags = model.opt.enableflags
-            model.opt.enableflags = flags | int(mujoco.mjtEnableBit.mjENBL_INVDISCRETE)
-            out["discrete." + name] = inverse(model, states, qacc)[0]
-            model.opt.enableflags = flags
-            if model.nv <= SMALL:
-                out |= {f"transition.{name}.{k}": v for k, v in transition(model, states).items()}
-        np.savez_compressed(args.out / (path.stem + ".npz"), **out)
-        print("recorded", path.stem, "nv", model.nv)
+            out |= {f"transition.{name}.{k}": v for k, v in transition(model, states).items()}
+    return out
+
+
+def main():
+    args = arguments(__doc__).parse_args()
+    with jobs(args) as found:
+        for name, path in found:
+            model = load(path)
+            states = np.load(Path(__file__).parent / "own" / (name + ".npz"))
+            np.savez_compressed(args.out / (name + ".npz"), **record(model, states))
+            print("recorded", name, "nv", model.nv)
 
 
 if __name__ == "__main__":

@@ -16,17 +16,12 @@ island, and every third, counted by pairs, removes slip. One archive a model; th
     statistics      of the iterations of the three solvers one after another, concatenated
 """
 
-import argparse
-import shutil
-import sys
-import tempfile
 import zlib
-from pathlib import Path
 
 import mujoco
 import numpy as np
 
-from record import dense_jacobian, load, repair
+from record import arguments, dense_jacobian, jobs, load
 
 SOLVERS = [mujoco.mjtSolver.mjSOL_PGS, mujoco.mjtSolver.mjSOL_CG, mujoco.mjtSolver.mjSOL_NEWTON]
 CONES = [mujoco.mjtCone.mjCONE_PYRAMIDAL, mujoco.mjtCone.mjCONE_ELLIPTIC]
@@ -151,41 +146,24 @@ def record(model, number, seed):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("models", nargs="*", type=Path)
-    parser.add_argument("--out", required=True, type=Path)
+    parser = arguments(__doc__)
     parser.add_argument("--problems", type=int, default=5000, help="problems of each solver with each cone")
-    parser.add_argument("--corpus", type=Path, help="folder whose models --list names; it is copied, not changed")
-    parser.add_argument("--list", type=Path, help="file with one model path a line")
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
-    if mujoco.__version__ != "3.12.0":
-        sys.exit(f"mujoco 3.12.0 is needed, this is {mujoco.__version__}")
-    args.out.mkdir(parents=True, exist_ok=True)
-    jobs = [(path.stem, path) for path in args.models]
-    copy = None
-    if args.list:
-        copy = tempfile.mkdtemp(prefix="corpus-")
-        shutil.copytree(args.corpus, copy, dirs_exist_ok=True)
-        repair(copy)
-        jobs += [(line.removesuffix(".xml").replace("/", "__"), Path(copy) / line)
-                 for line in args.list.read_text().split()]
-    # Models that rarely touch come first: what they leave is shared by the others.
-    rarity = {name: len(states(load(path), 20, np.random.default_rng(0))) for name, path in jobs}
-    jobs.sort(key=lambda job: (rarity[job[0]], job[0]))
-    left = args.problems
-    for rank, (name, path) in enumerate(jobs):
-        share = -(-left // (len(jobs) - rank)) if rarity[name] else 0
-        if share:
-            arrays = record(load(path), share, zlib.crc32(name.encode()) + args.seed)
-            made = len(arrays.get("problem.cone", []))
-            if made:
-                np.savez_compressed(args.out / (name + ".npz"), **arrays)
-            left -= made // 2
-            print("recorded", name, made, flush=True)
+    with jobs(args) as found:
+        # Models that rarely touch come first: what they leave is shared by the others.
+        rarity = {name: len(states(load(path), 20, np.random.default_rng(0))) for name, path in found}
+        left = args.problems
+        for rank, (name, path) in enumerate(sorted(found, key=lambda job: (rarity[job[0]], job[0]))):
+            share = -(-left // (len(found) - rank)) if rarity[name] else 0
+            if share:
+                arrays = record(load(path), share, zlib.crc32(name.encode()) + args.seed)
+                made = len(arrays.get("problem.cone", []))
+                if made:
+                    np.savez_compressed(args.out / (name + ".npz"), **arrays)
+                left -= made // 2
+                print("recorded", name, made, flush=True)
     print("problems of each solver with each cone:", args.problems - left)
-    if copy:
-        shutil.rmtree(copy)
 
 
 if __name__ == "__main__":

@@ -57,6 +57,7 @@ pub fn process(source: MeshSource) -> Result<CompiledMesh, AssetError> {
     place(&mut arrays, refpos, refquat, scale);
     let mass = weigh(&arrays, hull.as_ref(), mode, &name)?;
     let aamm = to_inertial_frame(&mut arrays, mass.com, mass.quat);
+    check_size(&arrays.vert, &name)?;
     polygons.update_normals(&arrays.vert);
     let bvh = face_hierarchy(&arrays);
     Ok(finish(arrays, hull, polygons, mass, aamm, bvh, scale))
@@ -278,6 +279,16 @@ fn to_inertial_frame(arrays: &mut Arrays, com: [f64; 3], quat: [f64; 4]) -> [f64
         *n = apply(&turn, n.map(f64::from)).map(|x| x as f32);
     }
     aamm
+}
+
+/// Vertices are kept in single precision.
+fn check_size(vert: &[[f64; 3]], name: &str) -> Result<(), AssetError> {
+    match vert.as_flattened().iter().find(|x| !(x.abs() <= f64::from(f32::MAX))) {
+        None => Ok(()),
+        Some(x) => Err(AssetError::geometry(format!(
+            "mesh '{name}': a coordinate about the centre of mass is {x:.3e}, beyond single precision; scale it down"
+        ))),
+    }
 }
 
 /// Hierarchy of the faces, split by their circumcentres.

@@ -12,7 +12,7 @@ mod passive;
 pub use bias::{BiasScratch, free_body_bias_slope};
 pub use fluid::FluidScratch;
 
-use crate::data::{Actuation, Com, Inertia, Kinematics, State, Tendons, Transmission, Velocity};
+use crate::data::{Actuation, Com, Data, Inertia, Kinematics, State, Tendons, Transmission, Velocity};
 use crate::model::{JointType, Model};
 use std::ops::Range;
 
@@ -28,6 +28,29 @@ pub struct DerivativeInputs<'a> {
     pub inertia: &'a Inertia,
     pub vel: &'a Velocity,
     pub actuation: &'a Actuation,
+}
+
+/// The inputs in `d`, of which the caller may borrow other parts.
+macro_rules! inputs_of {
+    ($d:expr) => {
+        $crate::derivative::DerivativeInputs {
+            state: &$d.state,
+            kin: &$d.kin,
+            com: &$d.com,
+            ten: &$d.ten,
+            trn: &$d.trn,
+            inertia: &$d.inertia,
+            vel: &$d.vel,
+            actuation: &$d.actuation,
+        }
+    };
+}
+pub(crate) use inputs_of;
+
+impl<'a> From<&'a Data> for DerivativeInputs<'a> {
+    fn from(d: &'a Data) -> Self {
+        inputs_of!(d)
+    }
 }
 
 /// Whether Coriolis and centrifugal forces are differentiated too.

@@ -33,16 +33,7 @@ fn derivative_is_the_slope_of_smooth_forces() {
     let mut d = moving(&m);
     forward(&m, &mut d).unwrap();
     let mut slope = vec![0.0; m.nD];
-    let inputs = DerivativeInputs {
-        state: &d.state,
-        kin: &d.kin,
-        com: &d.com,
-        ten: &d.ten,
-        trn: &d.trn,
-        inertia: &d.inertia,
-        vel: &d.vel,
-        actuation: &d.actuation,
-    };
+    let inputs = DerivativeInputs::from(&d);
     smooth_force_slope(&m, &inputs, BiasSlope::Included, &mut Default::default(), &mut slope);
     let h = 1e-6;
     let scale = slope.iter().fold(0.0, |s: f64, x| s.max(x.abs()));

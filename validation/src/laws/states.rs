@@ -166,16 +166,7 @@ fn clamped(m: &Model, d: &Data, dof: usize) -> bool {
 /// Difference of the analytic slope of smooth forces by velocity and central differences.
 fn slope(m: &Model, d: &mut Data) -> Result<f64, LawError> {
     physics::forward(m, d)?;
-    let inputs = DerivativeInputs {
-        state: &d.state,
-        kin: &d.kin,
-        com: &d.com,
-        ten: &d.ten,
-        trn: &d.trn,
-        inertia: &d.inertia,
-        vel: &d.vel,
-        actuation: &d.actuation,
-    };
+    let inputs = DerivativeInputs::from(&*d);
     let mut slope = vec![0.0; m.nD];
     smooth_force_slope(m, &inputs, BiasSlope::Included, &mut Default::default(), &mut slope);
     // Rounding of forces over the nudge is what is left of a slope that is zero.
