@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Compile times beside MuJoCo 3.12.0's, cold and from the cache.
+"""Compile times beside MuJoCo 3.12.0's: cold, after an edit of the text, and from the cache.
 
     python benches/compile.py --corpus FOLDER --list FILE [--runs N] [--write FILE]
 
 Both sides are measured inside a fresh process, around the load alone: wall time, the least of the runs, and processor
 time of all threads. Ours is `load_seconds` of `robohive bench`: cold without a cache, cached with a folder that an
-earlier process filled. MuJoCo's is `MjModel.from_xml_path` with an empty asset cache. Runs alternate. FILE lists models
-below the folder, one a line. Needs `mujoco`, Linux and a release build of this repository.
+earlier process filled, edited with the same folder after an element was added to the text, the new model kept included.
+MuJoCo's is `MjModel.from_xml_path` with an empty asset cache: it keeps none between processes, so an edit costs it the same.
+Runs alternate. FILE lists models below the folder, one a line. Needs `mujoco`, Linux and a release build of this repository.
 """
 
 import argparse
@@ -56,13 +57,20 @@ def ours(binary, path, *options):
 
 
 def measure(binary, path, cache, runs):
-    """Least wall and processor times: MuJoCo's, ours cold, ours cached."""
-    sides = [], [], []
-    ours(binary, path, "--cache", cache)
-    for _ in range(runs):
-        sides[0].append(theirs(path))
-        sides[1].append(ours(binary, path))
-        sides[2].append(ours(binary, path, "--cache", cache))
+    """Least wall and processor times: MuJoCo's, ours cold, ours edited, ours cached."""
+    sides = [], [], [], []
+    text = path.read_text(errors="surrogateescape")
+    for run in range(runs + 1):
+        end = text.rindex("</mujoco>")
+        custom = f'<custom><numeric name="edit_{run}" data="{run}"/></custom>'
+        path.write_text(text[:end] + custom + text[end:], errors="surrogateescape")
+        edited = ours(binary, path, "--cache", cache)
+        if run > 0:
+            sides[0].append(theirs(path))
+            sides[1].append(ours(binary, path))
+            sides[2].append(edited)
+            sides[3].append(ours(binary, path, "--cache", cache))
+    path.write_text(text, errors="surrogateescape")
     if any(value is None for side in sides for value in side):
         return None
     return [[min(column) for column in zip(*side)] for side in sides]
@@ -83,7 +91,8 @@ def main():
     parser.add_argument("--runs", type=int, default=3)
     parser.add_argument("--write", type=pathlib.Path, help="Markdown file whose table is replaced")
     args = parser.parse_args()
-    lines = ["| model | MuJoCo [ms] | cold [ms] | cached [ms] | cold ratio | cached ratio |", "|---|---|---|---|---|---|"]
+    lines = ["| model | MuJoCo [ms] | cold [ms] | edited [ms] | cached [ms] | cold ratio | edited ratio | cached ratio |",
+             "|---|---|---|---|---|---|---|---|"]
     ratios = []
     with tempfile.TemporaryDirectory(prefix="corpus-") as copy, tempfile.TemporaryDirectory(prefix="cache-") as cache:
         shutil.copytree(args.corpus, copy, dirs_exist_ok=True,
@@ -93,16 +102,16 @@ def main():
         for line in args.list.read_text().split():
             found = measure(args.binary, fill(pathlib.Path(copy) / line), cache, args.runs)
             if found is None:
-                lines.append(f"| {line} | one side does not load it | | | | |")
+                lines.append(f"| {line} | one side does not load it | | | | | | |")
             else:
-                base, cold, cached = found
-                ratios.append([side[k] / base[k] for side in (cold, cached) for k in (0, 1)])
+                base, *own = found
+                ratios.append([side[k] / base[k] for side in own for k in (0, 1)])
                 times = " | ".join(f"{1e3 * side[0]:.1f}" for side in found)
-                lines.append(f"| {line} | {times} | {ratios[-1][0]:.2f} | {ratios[-1][2]:.3f} |")
+                lines.append(f"| {line} | {times} | {ratios[-1][0]:.2f} | {ratios[-1][2]:.2f} | {ratios[-1][4]:.3f} |")
             print(lines[-1], flush=True)
     means = [statistics.geometric_mean(column) for column in zip(*ratios)]
     summary = (f"Of {len(ratios)} models, geometric means of the ratios, wall (processor): cold {means[0]:.2f} "
-               f"({means[1]:.2f}), cached {means[2]:.3f} ({means[3]:.3f}).")
+               f"({means[1]:.2f}), edited {means[2]:.2f} ({means[3]:.2f}), cached {means[4]:.3f} ({means[5]:.3f}).")
     print(summary)
     if args.write:
         write("\n".join(lines) + "\n\n" + summary, args.write)

@@ -6,6 +6,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt;
+use std::fs::Metadata;
 use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -39,6 +40,17 @@ impl fmt::Display for FileError {
 
 impl std::error::Error for FileError {}
 
+/// What differs once a file was written anew.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Stamp {
+    /// Bytes of the file.
+    pub length: u64,
+    /// When its content or its place last changed, in nanoseconds since 1970.
+    pub changed: i64,
+    /// Its place on the disk, where the system tells it.
+    pub place: u64,
+}
+
 /// A source of bytes by path.
 pub trait FileProvider {
     /// The content of the file at `path`.
@@ -53,6 +65,11 @@ pub trait FileProvider {
 
     /// Whether `read` would find a file at `path`.
     fn exists(&self, path: &str) -> bool;
+
+    /// The stamp of the file at `path`; `None` when there is no file, or no telling when it changed.
+    fn stamp(&self, _path: &str) -> Option<Stamp> {
+        None
+    }
 }
 
 /// Files of the machine, within one directory.
@@ -74,18 +91,14 @@ impl Disk {
     }
 
     fn reach(&self, path: &str) -> Result<PathBuf, FileError> {
+        let Some(root) = &self.root else { return Ok(path.into()) };
         let found = Path::new(path).canonicalize().map_err(io_error)?;
-        if let Some(root) = &self.root {
-            let root = root.canonicalize().map_err(io_error)?;
-            if !found.starts_with(root) {
-                return Err(FileError::OutOfReach);
-            }
-        }
-        Ok(found)
+        let root = root.canonicalize().map_err(io_error)?;
+        if found.starts_with(root) { Ok(found) } else { Err(FileError::OutOfReach) }
     }
 
-    /// A file that may be read, and its length.
-    fn find(&self, path: &str) -> Result<(PathBuf, u64), FileError> {
+    /// A file that may be read, and what the system says of it.
+    fn find(&self, path: &str) -> Result<(PathBuf, Metadata), FileError> {
         let path = self.reach(path)?;
         let facts = path.metadata().map_err(io_error)?;
         if !facts.is_file() {
@@ -94,7 +107,7 @@ impl Disk {
         if facts.len() > self.max_bytes {
             return Err(FileError::TooLarge(facts.len()));
         }
-        Ok((path, facts.len()))
+        Ok((path, facts))
     }
 }
 
@@ -105,14 +118,33 @@ impl FileProvider for Disk {
     }
 
     fn open(&self, path: &str) -> Result<(Box<dyn Read>, u64), FileError> {
-        let (path, length) = self.find(path)?;
+        let (path, facts) = self.find(path)?;
         let file = std::fs::File::open(path).map_err(io_error)?;
-        Ok((Box::new(file), length))
+        Ok((Box::new(file), facts.len()))
     }
 
     fn exists(&self, path: &str) -> bool {
         self.reach(path).is_ok_and(|p| p.is_file())
     }
+
+    fn stamp(&self, path: &str) -> Option<Stamp> {
+        let (_, facts) = self.find(path).ok()?;
+        let (changed, place) = change(&facts)?;
+        Some(Stamp { length: facts.len(), changed, place })
+    }
+}
+
+/// When a file last changed and where it is. Programs can set the time of writing back, this one not.
+#[cfg(unix)]
+fn change(facts: &Metadata) -> Option<(i64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    Some((facts.ctime().checked_mul(1_000_000_000)?.checked_add(facts.ctime_nsec())?, facts.ino()))
+}
+
+#[cfg(not(unix))]
+fn change(facts: &Metadata) -> Option<(i64, u64)> {
+    let since = facts.modified().ok()?.duration_since(std::time::UNIX_EPOCH).ok()?;
+    Some((i64::try_from(since.as_nanos()).ok()?, 0))
 }
 
 fn io_error(error: std::io::Error) -> FileError {

@@ -125,7 +125,7 @@ impl Loader {
         }
         match &self.cache {
             Some(cache) => self.load_cached(cache, path),
-            None => self.compile(&*self.files, self.parse(path)?),
+            None => self.compile(&*self.files, self.parse(path)?, None),
         }
     }
 
@@ -139,7 +139,7 @@ impl Loader {
 
     /// Reads and compiles a model from text.
     pub fn load_str(&self, text: &str) -> Result<Loaded, Diagnostics> {
-        self.compile(&*self.files, self.parse_str(text)?)
+        self.compile(&*self.files, self.parse_str(text)?, None)
     }
 
     fn load_compiled(&self, path: &str, source: &mut dyn Read, length: u64) -> Result<Loaded, Diagnostics> {
@@ -170,7 +170,7 @@ impl Loader {
         };
         let noted = Noted::new(&*self.files);
         let parsed = self.finish(&noted, |expansion| expansion.read(path))?;
-        let mut loaded = self.compile(&noted, parsed)?;
+        let mut loaded = self.compile(&noted, parsed, Some(cache))?;
         let kept = cache.keep(&request, noted.reads(), &loaded);
         let mut warn = |message: String| {
             loaded.warnings.warning(&Sources::default(), Loc::NONE, format!("{path}: {message}"));
@@ -184,9 +184,14 @@ impl Loader {
         Ok(loaded)
     }
 
-    fn compile(&self, files: &dyn FileProvider, parsed: Parsed) -> Result<Loaded, Diagnostics> {
+    fn compile(
+        &self,
+        files: &dyn FileProvider,
+        parsed: Parsed,
+        cache: Option<&Cache>,
+    ) -> Result<Loaded, Diagnostics> {
         let Parsed { spec, sources, warnings: mut diagnostics } = parsed;
-        match compile(&spec, files, &sources, &mut diagnostics) {
+        match compile(&spec, files, cache, &sources, &mut diagnostics) {
             Some(model) => Ok(Loaded { model, warnings: diagnostics }),
             None => Err(diagnostics),
         }

@@ -1,16 +1,19 @@
 //! The cache of compiled models: what is found again, and what is not.
 
-use robohive_mjcf::files::{FileError, FileProvider, Memory};
+use robohive_mjcf::files::{Disk, FileError, FileProvider, Memory, Stamp};
 use robohive_mjcf::{Cache, Loader};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
+use std::time::{SystemTime, UNIX_EPOCH};
 
 /// Files that may change, and how often each was read.
 #[derive(Clone, Default)]
 struct Changing {
     files: Arc<Mutex<Memory>>,
     meshes_read: Arc<AtomicUsize>,
+    /// When all files changed, if it can be told [ns].
+    changed: Arc<Mutex<Option<i64>>>,
 }
 
 impl Changing {
@@ -27,6 +30,10 @@ impl FileProvider for Changing {
 
     fn exists(&self, path: &str) -> bool {
         self.files.lock().unwrap().exists(path)
+    }
+
+    fn stamp(&self, _: &str) -> Option<Stamp> {
+        self.changed.lock().unwrap().map(|changed| Stamp { length: 0, changed, place: 0 })
     }
 }
 
@@ -50,7 +57,12 @@ fn folder(name: &str) -> PathBuf {
 }
 
 fn entries(folder: &PathBuf) -> Vec<PathBuf> {
-    let mut all: Vec<_> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    of_kind(folder, "rhc")
+}
+
+fn of_kind(folder: &PathBuf, kind: &str) -> Vec<PathBuf> {
+    let all = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+    let mut all: Vec<_> = all.filter(|path| path.extension().is_some_and(|e| e == kind)).collect();
     all.sort();
     all
 }
@@ -81,6 +93,105 @@ fn a_model_is_found_again_until_a_file_changes() {
     assert_eq!(edited.load("model.xml").unwrap().model.nv, 0);
     assert_eq!(loader.load("model.xml").unwrap().model.nv, 6);
     assert_eq!(entries(&folder).len(), 2);
+}
+
+#[test]
+fn files_whose_stamp_stayed_are_not_read() {
+    let (files, folder) = (files(), folder("stamps"));
+    let loader = Loader::default().files(files.clone()).cache(Cache::new(folder));
+    let set_changed = |time: i64| *files.changed.lock().unwrap() = Some(time);
+    let load = || {
+        files.meshes_read.store(0, Ordering::Relaxed);
+        let vertices = loader.load("model.xml").unwrap().model.mesh_vert;
+        (vertices, files.meshes_read.load(Ordering::Relaxed))
+    };
+    set_changed(5);
+    let (first, _) = load();
+    assert_eq!(load(), (first.clone(), 0));
+    set_changed(6);
+    assert_eq!(load(), (first.clone(), 1), "another time, the same digest");
+    files.set("m.obj", &MESH.replace("v 1 0 0", "v 2 0 0"));
+    let (second, _) = load();
+    assert_ne!(first, second);
+    assert_eq!(load(), (second.clone(), 0));
+    // Written so lately that the time may not tell of another change.
+    set_changed(SystemTime::now().duration_since(UNIX_EPOCH).unwrap().as_nanos() as i64);
+    assert_eq!(load(), (second.clone(), 1));
+    files.set("m.obj", MESH);
+    assert_eq!(load().0, first);
+    files.set("m.obj", &MESH.replace("v 1 0 0", "v 2 0 0"));
+    assert_eq!(load().0, second);
+}
+
+#[test]
+fn a_file_written_anew_has_another_stamp() {
+    let folder = folder("stamp");
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("a").to_str().unwrap().to_owned();
+    let stamp = || Disk::everywhere().stamp(&path);
+    assert_eq!(stamp(), None);
+    std::fs::write(&path, "one").unwrap();
+    let first = stamp().unwrap();
+    assert_eq!((first.length, stamp()), (3, Some(first)));
+    // A copy with the old time in its place.
+    let copy = folder.join("b");
+    std::fs::write(&copy, "two").unwrap();
+    let time = std::fs::metadata(&path).unwrap().modified().unwrap();
+    std::fs::File::options().append(true).open(&copy).unwrap().set_modified(time).unwrap();
+    std::fs::rename(&copy, &path).unwrap();
+    if cfg!(unix) {
+        assert_ne!(stamp(), Some(first));
+    }
+}
+
+#[test]
+fn meshes_are_kept_apart_from_the_models_that_show_them() {
+    let (files, folder) = (files(), folder("meshes"));
+    let loader = Loader::default().files(files.clone()).cache(Cache::new(&folder));
+    let plain = Loader::default().files(files.clone());
+    loader.load("model.xml").unwrap();
+    let [kept] = &of_kind(&folder, "rhmesh")[..] else { panic!("one mesh") };
+    files.set("part.xml", &PART.replace("<freejoint/>", "<freejoint name='f'/>"));
+    let bytes = loader.load("model.xml").unwrap().model.to_bytes();
+    assert_eq!(bytes, plain.load("model.xml").unwrap().model.to_bytes());
+    assert_eq!(of_kind(&folder, "rhmesh").len(), 1);
+    // What stands under the name of the mesh is what a new text shows, unless it is damaged.
+    files.set("model.xml", &MODEL.replace("<mesh ", "<mesh scale='2 2 2' "));
+    let large = loader.load("model.xml").unwrap().model.mesh_vert;
+    let other = of_kind(&folder, "rhmesh").into_iter().find(|path| path != kept).unwrap();
+    let small = std::fs::read(kept).unwrap();
+    std::fs::copy(&other, kept).unwrap();
+    files.set("model.xml", &MODEL.replace("<asset>", "<asset> "));
+    assert_eq!(loader.load("model.xml").unwrap().model.mesh_vert, large);
+    std::fs::write(kept, &small[..small.len() - 1]).unwrap();
+    files.set("model.xml", MODEL);
+    assert_eq!(loader.load("model.xml").unwrap().model.to_bytes(), bytes);
+    assert_eq!(std::fs::read(kept).unwrap(), small);
+}
+
+/// Two threads read what is large, the split falling behind each kind of array.
+#[test]
+fn large_models_are_read_on_two_threads() {
+    let [a, b] = ["a", "b"].map(|name| format!("<mesh name='{name}' builtin='sphere' params='4'/>"));
+    let sphere = format!("{a}{b}");
+    let wide = "<texture name='t' type='2d' builtin='flat' width='1500' height='900'/>";
+    for (name, assets) in [("mesh", &*sphere), ("texture", wide), ("both", &format!("{sphere}{wide}"))] {
+        let (files, folder) = (files(), folder(&format!("large-{name}")));
+        files.set("model.xml", &format!("<mujoco><asset>{assets}</asset></mujoco>"));
+        let loader = Loader::default().files(files).cache(Cache::new(&folder));
+        let bytes = loader.load("model.xml").unwrap().model.to_bytes();
+        assert!(bytes.len() > 1 << 20, "{name} {}", bytes.len());
+        let again = loader.load("model.xml").unwrap();
+        assert_eq!(again.warnings.list, [], "{name}");
+        assert!(again.model.to_bytes() == bytes, "{name}");
+        let entry = &entries(&folder)[0];
+        let mut damaged = std::fs::read(entry).unwrap();
+        let last = damaged.len() - 1000;
+        damaged[last] ^= 1;
+        std::fs::write(entry, damaged).unwrap();
+        let warnings = loader.load("model.xml").unwrap().warnings.to_string();
+        assert!(warnings.contains("cached model was damaged"), "{name} {warnings}");
+    }
 }
 
 #[test]

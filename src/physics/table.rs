@@ -21,6 +21,9 @@ pub enum Slice<'a> {
     F64(&'a [f64]),
 }
 
+/// Scalars handed out at a time.
+const PIECE: usize = 1024;
+
 impl Slice<'_> {
     /// Number of scalars.
     pub fn len(&self) -> usize {
@@ -51,15 +54,22 @@ impl Slice<'_> {
         }
     }
 
-    /// Appends every scalar in little-endian order of bytes.
-    pub(crate) fn write(&self, out: &mut Vec<u8>) {
+    /// Hands out every scalar in little-endian order of bytes, in pieces of whole words of eight bytes and a last one.
+    pub fn pieces(&self, out: &mut dyn FnMut(&[u8])) {
+        fn each<T: Copy, const N: usize>(s: &[T], bytes: impl Fn(T) -> [u8; N], out: &mut dyn FnMut(&[u8])) {
+            let mut piece = [[0; N]; PIECE];
+            for scalars in s.chunks(PIECE) {
+                piece.iter_mut().zip(scalars).for_each(|(to, &x)| *to = bytes(x));
+                out(piece[..scalars.len()].as_flattened());
+            }
+        }
         match self {
-            Slice::Bool(s) => out.extend(s.iter().map(|&x| u8::from(x))),
-            Slice::U8(s) => out.extend_from_slice(s),
-            Slice::I32(s) => s.iter().for_each(|x| out.extend_from_slice(&x.to_le_bytes())),
-            Slice::I64(s) => s.iter().for_each(|x| out.extend_from_slice(&x.to_le_bytes())),
-            Slice::F32(s) => s.iter().for_each(|x| out.extend_from_slice(&x.to_le_bytes())),
-            Slice::F64(s) => s.iter().for_each(|x| out.extend_from_slice(&x.to_le_bytes())),
+            Slice::Bool(s) => each(s, |x| [u8::from(x)], out),
+            Slice::U8(s) => s.chunks(8 * PIECE).for_each(out),
+            Slice::I32(s) => each(s, i32::to_le_bytes, out),
+            Slice::I64(s) => each(s, i64::to_le_bytes, out),
+            Slice::F32(s) => each(s, f32::to_le_bytes, out),
+            Slice::F64(s) => each(s, f64::to_le_bytes, out),
         }
     }
 

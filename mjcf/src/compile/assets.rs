@@ -5,6 +5,7 @@ use super::body::append_hierarchy;
 use super::lookup::Lookup;
 use super::{Log, title};
 use crate::asset::AssetError;
+use crate::cache::Cache;
 use crate::diagnostic::{Loc, nearest};
 use crate::files::{FileProvider, base_name};
 use crate::image::{
@@ -80,7 +81,7 @@ enum Outcome {
 }
 
 /// Reads and compiles all assets.
-pub(super) fn compile(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> Assets {
+pub(super) fn compile(spec: &Spec, files: &dyn FileProvider, cache: Option<&Cache>, log: &mut Log) -> Assets {
     let colliding = colliding_meshes(spec);
     let textures: &[Texture] = if spec.compiler.discardvisual { &[] } else { &spec.textures };
     let mut jobs = Vec::new();
@@ -109,8 +110,11 @@ pub(super) fn compile(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> A
         jobs.push(Job::Hfield { source: hfield_source(hfield, &name, bytes) });
         heads.push((name, hfield.loc, hfield.path.clone(), String::new()));
     }
-    let outcomes =
-        if log.diagnostics.has_errors() { Vec::new() } else { run_all(&jobs, spec.compiler.usethread) };
+    let outcomes = if log.diagnostics.has_errors() {
+        Vec::new()
+    } else {
+        run_all(&jobs, cache, spec.compiler.usethread)
+    };
     let mut assets = Assets {
         meshes: Vec::new(),
         hfields: Vec::new(),
@@ -286,17 +290,13 @@ impl Job<'_> {
         }
     }
 
-    fn run(&self) -> Result<Outcome, AssetError> {
+    fn run(&self, cache: Option<&Cache>) -> Result<Outcome, AssetError> {
         match self {
             Job::Mesh { spec, name, bytes, needhull, discard } => {
-                let file = match bytes {
-                    Some(bytes) => Some(mesh::decode(bytes, &spec.file, &spec.content_type)?),
-                    None => None,
-                };
                 let inline = inline_mesh(spec, *discard)?;
-                mesh::process(MeshSource {
-                    name: name.clone(),
-                    file,
+                let source = MeshSource {
+                    name: String::new(),
+                    file: None,
                     inline,
                     scale: spec.scale,
                     refpos: spec.refpos,
@@ -310,7 +310,19 @@ impl Job<'_> {
                     smoothnormal: spec.smoothnormal,
                     maxhullvert: spec.maxhullvert,
                     needhull: *needhull,
-                })
+                };
+                let process = |source, file| mesh::process(MeshSource { name: name.clone(), file, ..source });
+                let Some(bytes) = bytes else {
+                    return process(source, None).map(|mesh| Outcome::Mesh(Box::new(mesh)));
+                };
+                // All but the content that enters; names and paths stand in messages only.
+                let extension = spec.file.rsplit('.').next();
+                let attributes = cache.map(|_| format!("{extension:?} {:?} {source:?}", spec.content_type));
+                let make = || process(source, Some(mesh::decode(bytes, &spec.file, &spec.content_type)?));
+                match (cache, attributes) {
+                    (Some(cache), Some(attributes)) => cache.mesh(bytes, &attributes, make),
+                    _ => make(),
+                }
                 .map(|mesh| Outcome::Mesh(Box::new(mesh)))
             }
             Job::Texture { source } => image::texture(source).map(Outcome::Texture),
@@ -320,10 +332,10 @@ impl Job<'_> {
 }
 
 /// Runs the jobs, results in their order whatever the number of threads.
-fn run_all(jobs: &[Job], threads: bool) -> Vec<Result<Outcome, AssetError>> {
+fn run_all(jobs: &[Job], cache: Option<&Cache>, threads: bool) -> Vec<Result<Outcome, AssetError>> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get()).min(jobs.len());
     if !threads || cores < 2 {
-        return jobs.iter().map(Job::run).collect();
+        return jobs.iter().map(|job| job.run(cache)).collect();
     }
     // Largest first, so that no core is left with a long job at the end.
     let mut order: Vec<usize> = (0..jobs.len()).collect();
@@ -333,7 +345,7 @@ fn run_all(jobs: &[Job], threads: bool) -> Vec<Result<Outcome, AssetError>> {
         let mut done = Vec::new();
         loop {
             let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) else { return done };
-            done.push((index, jobs[index].run()));
+            done.push((index, jobs[index].run(cache)));
         }
     };
     let mut results: Vec<_> = std::thread::scope(|scope| {

@@ -31,6 +31,7 @@ pub(crate) use actuator::sizes as actuator_sizes;
 pub(crate) use assets::asset_name;
 pub(crate) use joint::dimensions as joint_dimensions;
 
+use crate::cache::Cache;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::FileProvider;
 use crate::spec::{Limited, Spec, StatisticOverride};
@@ -99,17 +100,18 @@ fn push_user(array: &mut Vec<f64>, values: &[f64], width: usize, size: &str) -> 
     Ok(())
 }
 
-/// Compiles `spec`; files of assets come from `files`, findings go to `diagnostics`.
+/// Compiles `spec`; files of assets come from `files`, processed meshes from `cache`, findings go to `diagnostics`.
 ///
 /// `None` when there is an error; then `diagnostics` says which.
 pub fn compile(
     spec: &Spec,
     files: &dyn FileProvider,
+    cache: Option<&Cache>,
     sources: &Sources,
     diagnostics: &mut Diagnostics,
 ) -> Option<Model> {
     let log = &mut Log { sources, diagnostics };
-    let (mut m, springdampers) = compile_static(spec, files, log)?;
+    let (mut m, springdampers) = compile_static(spec, files, cache, log)?;
     if let Err(error) = set_const(&mut m) {
         log.error(Loc::NONE, error.to_string());
         return None;
@@ -138,8 +140,13 @@ fn override_statistic(m: &mut Model, given: &StatisticOverride) {
 }
 
 /// Everything that needs no configuration, and the `springdamper` of every joint, which needs the inertia at `qpos0`.
-fn compile_static(spec: &Spec, files: &dyn FileProvider, log: &mut Log) -> Option<(Model, Vec<[f64; 2]>)> {
-    let mut assets = assets::compile(spec, files, log);
+fn compile_static(
+    spec: &Spec,
+    files: &dyn FileProvider,
+    cache: Option<&Cache>,
+    log: &mut Log,
+) -> Option<(Model, Vec<[f64; 2]>)> {
+    let mut assets = assets::compile(spec, files, cache, log);
     let mut tree = tree::compile(spec, &assets, log);
     if log.diagnostics.has_errors() {
         return None;

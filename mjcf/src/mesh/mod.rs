@@ -16,6 +16,7 @@ mod polygons;
 mod process;
 mod shapes;
 mod stl;
+pub(crate) mod stored;
 
 pub use decode::{Format, RawMesh, decode};
 pub use fit::{Primitive, fit_primitive};

@@ -9,6 +9,8 @@
 //! | checksum | 8 | [`checksum`] of the content |
 //! | content | | name, flags, sizes, settings, arrays: scalars in order of declaration, little-endian |
 //!
+//! Zeros fill up each array, and what stands before the first, to whole words of eight bytes.
+//!
 //! The tables of the fields are the schema, so a row added to them changes the fingerprint and older files are refused.
 
 use super::options::Setting;
@@ -20,14 +22,16 @@ use crate::consistency::{Inconsistent, check_consistency};
 use crate::table::Field;
 use crate::validity::{StepError, check_model};
 use std::fmt;
-use std::io::{ErrorKind, Read};
+use std::io::{ErrorKind, Read, Write};
 
 /// The first bytes of a compiled model.
 pub const MARK: [u8; 8] = *b"\x89RHmdl\r\n";
 /// Version of the layout.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 /// Bytes before the content.
 const HEADER: usize = 36;
+/// Bytes of a word.
+const WORD: usize = 8;
 
 /// Why bytes are not a model.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,53 +81,95 @@ pub fn is_model(bytes: &[u8]) -> bool {
     bytes.starts_with(&MARK)
 }
 
-/// Digest of 64 bits, by words of eight bytes. Each step is invertible, so bytes changed within one word always show.
+/// Digest of 64 bits: the sum of the digests of all words of eight bytes, each with its place, so that parts can be
+/// read apart. That of a word is invertible, so bytes changed within one word always show.
 pub fn checksum(bytes: &[u8]) -> u64 {
-    mix_all(bytes.len() as u64, bytes)
+    sum(0, bytes)
 }
 
-/// Continues a digest; all pieces but the last are whole words.
-fn mix_all(digest: u64, bytes: &[u8]) -> u64 {
-    let mix = |h: u64, word: u64| {
-        let h = (h ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+/// The part of a digest that `bytes` from word `first` on make; zeros follow them.
+fn sum(first: u64, bytes: &[u8]) -> u64 {
+    const ODD: u64 = 0x9e37_79b9_7f4a_7c15;
+    let term = |(place, word): (u64, u64)| {
+        let h = (word ^ place.wrapping_mul(ODD)).wrapping_mul(ODD);
         h ^ (h >> 32)
     };
-    let (words, rest) = bytes.as_chunks::<8>();
-    let h = words.iter().fold(digest, |h, &word| mix(h, u64::from_le_bytes(word)));
-    rest.iter().fold(h, |h, &byte| mix(h, u64::from(byte)))
+    let (words, rest) = bytes.as_chunks::<WORD>();
+    let mut last = [0; WORD];
+    last[..rest.len()].copy_from_slice(rest);
+    let last = if rest.is_empty() { 0 } else { term((first + words.len() as u64, u64::from_le_bytes(last))) };
+    let words = words.iter().map(|&word| u64::from_le_bytes(word));
+    (first..).zip(words).map(term).fold(last, u64::wrapping_add)
 }
 
-/// Digest of the names, types and shapes of all fields.
-fn fingerprint() -> u64 {
-    let mut text = String::new();
-    let mut line = |name: &str, kind: &str, shape: &str| {
-        text.extend(name.chars().chain(":".chars()).chain(kind.chars()).chain(shape.chars()));
-        text.push('\n');
-    };
-    Model::layout(&mut line);
-    let mut setting = |name: &'static str, kind: &'static str| line(name, kind, "");
-    Options::layout(&mut setting);
-    Statistic::layout(&mut setting);
-    VisualGlobal::layout(&mut setting);
-    VisualQuality::layout(&mut setting);
-    VisualHeadlight::layout(&mut setting);
-    VisualMap::layout(&mut setting);
-    VisualScale::layout(&mut setting);
-    VisualRgba::layout(&mut setting);
-    // How a compiler prints the tokens of a type is not part of the layout.
-    text.retain(|c| c != ' ');
-    checksum(text.as_bytes())
-}
+/// Digest of the names, types and shapes of all fields (FNV-1a). How a compiler prints the tokens of a type is not part
+/// of the layout.
+const FINGERPRINT: u64 = {
+    let tables = [
+        Model::LAYOUT,
+        Options::LAYOUT,
+        Statistic::LAYOUT,
+        VisualGlobal::LAYOUT,
+        VisualQuality::LAYOUT,
+        VisualHeadlight::LAYOUT,
+        VisualMap::LAYOUT,
+        VisualScale::LAYOUT,
+        VisualRgba::LAYOUT,
+    ];
+    let mut digest: u64 = 0xcbf2_9ce4_8422_2325;
+    let mut table = 0;
+    while table < tables.len() {
+        let mut rest = tables[table].as_bytes();
+        while let [byte, tail @ ..] = rest {
+            if *byte != b' ' {
+                digest = (digest ^ *byte as u64).wrapping_mul(0x0100_0000_01b3);
+            }
+            rest = tail;
+        }
+        table += 1;
+    }
+    digest
+};
 
 impl Model {
     /// The model as bytes, the same for the same model on every machine.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut out = vec![0; HEADER];
-        out.extend((self.name.len() as u64).to_le_bytes());
-        out.extend(self.name.as_bytes());
-        out.extend([self.flg_gravcomp, self.flg_surfacevel, self.flg_adhesion].map(u8::from));
-        self.visit_sizes(&mut |_, n| out.extend((n as isize as i64).to_le_bytes()));
-        let mut setting = |_: &str, values: crate::table::Slice<'_>| values.write(&mut out);
+        self.content(&mut |bytes| out.extend_from_slice(bytes));
+        seal(&mut out);
+        out
+    }
+
+    /// Writes [`Model::to_bytes`] piece by piece.
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn write(&self, out: &mut dyn Write) -> std::io::Result<()> {
+        let (mut length, mut digest) = (0, 0);
+        self.content(&mut |bytes| {
+            digest = sum(length / WORD as u64, bytes).wrapping_add(digest);
+            length += bytes.len() as u64;
+        });
+        out.write_all(&header(length, digest))?;
+        let mut written = Ok(());
+        self.content(&mut |bytes| {
+            if written.is_ok() {
+                written = out.write_all(bytes);
+            }
+        });
+        written
+    }
+
+    /// Hands out the content in pieces of whole words.
+    fn content(&self, out: &mut dyn FnMut(&[u8])) {
+        let mut head = Vec::new();
+        head.extend((self.name.len() as u64).to_le_bytes());
+        head.extend(self.name.as_bytes());
+        head.extend([self.flg_gravcomp, self.flg_surfacevel, self.flg_adhesion].map(u8::from));
+        self.visit_sizes(&mut |_, n| head.extend((n as isize as i64).to_le_bytes()));
+        let mut setting = |_: &str, values: crate::table::Slice<'_>| {
+            values.pieces(&mut |bytes| head.extend_from_slice(bytes));
+        };
         self.opt.visit(&mut setting);
         self.stat.visit(&mut setting);
         self.vis.global.visit(&mut setting);
@@ -132,9 +178,14 @@ impl Model {
         self.vis.map.visit(&mut setting);
         self.vis.scale.visit(&mut setting);
         self.vis.rgba.visit(&mut setting);
-        self.visit(&mut |_, _, values| values.write(&mut out));
-        seal(&mut out);
-        out
+        head.resize(head.len().next_multiple_of(WORD), 0);
+        out(&head);
+        self.visit(&mut |_, _, values| {
+            values.pieces(&mut |bytes| match bytes.len() % WORD {
+                0 => out(bytes),
+                over => out(&[bytes, &[0; WORD][over..]].concat()),
+            });
+        });
     }
 
     /// The model that [`Model::to_bytes`] made `bytes` of, bit for bit.
@@ -151,11 +202,33 @@ impl Model {
     /// # Errors
     /// Those of `from_bytes`, and failures of the source.
     pub fn read(source: &mut dyn Read, length: u64) -> Result<Model, BinaryError> {
+        Model::read_parts(source, length, None)
+    }
+
+    /// [`Model::read`] where `again` opens the source once more, so many bytes behind the start of the model: two
+    /// threads then read a large one.
+    ///
+    /// # Errors
+    /// Those of `read`.
+    pub fn read_parts(
+        source: &mut dyn Read,
+        length: u64,
+        again: Option<Again<'_>>,
+    ) -> Result<Model, BinaryError> {
         let mut from = Reader::new(source, length)?;
         let mut m = Model::default();
-        let read = read_content(&mut m, &mut from);
-        // What is damaged may have any fault.
-        from.verify()?;
+        let read = read_head(&mut m, &mut from).and_then(|arrays| match again {
+            Some(again) if from.left() > LARGE => read_halves(&mut m, &mut from, again, &arrays),
+            _ => m.read_arrays(&mut from, 0..arrays.len()),
+        });
+        if let Err(BinaryError::Unreadable(kind)) = read {
+            return Err(BinaryError::Unreadable(kind));
+        }
+        // What is damaged may have any other fault.
+        from.drain()?;
+        if from.digest != from.expected {
+            return Err(BinaryError::Checksum);
+        }
         read?;
         check_consistency(&m).map_err(BinaryError::Inconsistent)?;
         check_model(&m).map_err(BinaryError::NotSimulated)?;
@@ -163,10 +236,54 @@ impl Model {
     }
 }
 
-fn read_content(m: &mut Model, from: &mut Reader) -> Result<(), BinaryError> {
+/// Opens a source anew, at an offset.
+pub type Again<'a> = &'a (dyn Fn(u64) -> std::io::Result<Box<dyn Read>> + Sync);
+
+/// More bytes are worth a second thread.
+pub const LARGE: u64 = 1 << 20;
+
+/// Reads arrays of so many bytes on two threads, about half of the bytes on each.
+fn read_halves(
+    m: &mut Model,
+    from: &mut Reader,
+    again: Again<'_>,
+    arrays: &[u64],
+) -> Result<(), BinaryError> {
+    let (mut first, mut before) = (0, 0);
+    for bytes in arrays {
+        if before + bytes / 2 > from.left() / 2 && before > from.ahead() {
+            break;
+        }
+        (first, before) = (first + 1, before + bytes);
+    }
+    let start = from.length - from.left() + before;
+    let rest = from.give(start);
+    let mut tail = m.clone();
+    let (head, second) = std::thread::scope(|scope| {
+        let second = scope.spawn(|| {
+            let mut source =
+                again(HEADER as u64 + start).map_err(|error| BinaryError::Unreadable(error.kind()))?;
+            let mut from = Reader::part(&mut *source, start, rest);
+            let read = tail.read_arrays(&mut from, first..arrays.len());
+            from.drain()?;
+            Ok((read, from.digest))
+        });
+        (m.read_arrays(from, 0..first), second.join())
+    });
+    let (read, digest) = second.unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
+    from.digest = from.digest.wrapping_add(digest);
+    m.take_arrays(&mut tail, first);
+    head.and(read)
+}
+
+/// Reads all before the arrays; returns the bytes of each, which must add up to the rest.
+fn read_head(m: &mut Model, from: &mut Reader) -> Result<Vec<u64>, BinaryError> {
     let mut name = Vec::new();
     let length = usize::try_from(u64::from_le_bytes(from.fixed()?)).map_err(|_| BinaryError::Length)?;
-    from.array(&mut name, length, 1)?;
+    if length as u64 > from.left() {
+        return Err(BinaryError::Length);
+    }
+    from.rows(&mut name, length)?;
     m.name = String::from_utf8(name).map_err(|_| BinaryError::Name)?;
     for flag in [&mut m.flg_gravcomp, &mut m.flg_surfacevel, &mut m.flg_adhesion] {
         from.setting(flag)?;
@@ -180,18 +297,26 @@ fn read_content(m: &mut Model, from: &mut Reader) -> Result<(), BinaryError> {
     m.vis.map.read(from)?;
     m.vis.scale.read(from)?;
     m.vis.rgba.read(from)?;
-    m.read_arrays(from)?;
-    if from.left() == 0 { Ok(()) } else { Err(BinaryError::Length) }
+    from.align()?;
+    let arrays = m.array_bytes().ok_or(BinaryError::Length)?;
+    let total = arrays.iter().try_fold(0_u64, |total, &bytes| total.checked_add(bytes));
+    if total == Some(from.left()) { Ok(arrays) } else { Err(BinaryError::Length) }
 }
 
 /// Writes the header that fits the content of `bytes`, which begin with room for one.
 pub fn seal(bytes: &mut [u8]) {
     let Some((header, content)) = bytes.split_at_mut_checked(HEADER) else { return };
+    header.copy_from_slice(&self::header(content.len() as u64, checksum(content)));
+}
+
+fn header(length: u64, checksum: u64) -> [u8; HEADER] {
+    let mut header = [0; HEADER];
     header[..8].copy_from_slice(&MARK);
     header[8..12].copy_from_slice(&VERSION.to_le_bytes());
-    header[12..20].copy_from_slice(&fingerprint().to_le_bytes());
-    header[20..28].copy_from_slice(&(content.len() as u64).to_le_bytes());
-    header[28..36].copy_from_slice(&checksum(content).to_le_bytes());
+    header[12..20].copy_from_slice(&FINGERPRINT.to_le_bytes());
+    header[20..28].copy_from_slice(&length.to_le_bytes());
+    header[28..36].copy_from_slice(&checksum.to_le_bytes());
+    header
 }
 
 /// Sizes in order of declaration. Those of arrays are bounded by what follows when the arrays are read; the number of
@@ -219,13 +344,32 @@ pub(crate) struct Reader<'a> {
     block: Vec<u8>,
     used: usize,
     end: usize,
-    /// Bytes of the content that the source still has.
+    /// Bytes of the content, and how many of them the source still has for this reader.
+    length: u64,
     unread: u64,
+    /// Word of the content that the source comes to next.
+    word: u64,
     digest: u64,
     expected: u64,
 }
 
 impl<'a> Reader<'a> {
+    /// Reads `rest` bytes from byte `start` of the content on, a whole word.
+    fn part(source: &'a mut dyn Read, start: u64, rest: u64) -> Self {
+        let (block, word) = (vec![0; 2 * BLOCK], start / WORD as u64);
+        Reader {
+            source,
+            block,
+            used: 0,
+            end: 0,
+            length: start + rest,
+            unread: rest,
+            word,
+            digest: 0,
+            expected: 0,
+        }
+    }
+
     /// Reads a header, which must fit the `length` of all.
     fn new(source: &'a mut dyn Read, length: u64) -> Result<Self, BinaryError> {
         let mut header = [0; HEADER];
@@ -238,7 +382,7 @@ impl<'a> Reader<'a> {
         if !whole {
             return Err(BinaryError::Length);
         }
-        if header[8..12] != VERSION.to_le_bytes() || header[12..20] != fingerprint().to_le_bytes() {
+        if header[8..12] != VERSION.to_le_bytes() || header[12..20] != FINGERPRINT.to_le_bytes() {
             return Err(BinaryError::Stale);
         }
         let unread = length - HEADER as u64;
@@ -246,13 +390,24 @@ impl<'a> Reader<'a> {
             return Err(BinaryError::Length);
         }
         let expected = u64::from_le_bytes(std::array::from_fn(|i| header[28 + i]));
-        let block = vec![0; 2 * BLOCK];
-        Ok(Reader { source, block, used: 0, end: 0, unread, digest: unread, expected })
+        Ok(Reader { expected, ..Reader::part(source, 0, unread) })
+    }
+
+    /// Leaves all from byte `start` of the content on, which was not yet read, to another; returns how many bytes.
+    fn give(&mut self, start: u64) -> u64 {
+        let rest = self.length - start;
+        (self.length, self.unread) = (start, self.unread - rest);
+        rest
+    }
+
+    /// Bytes of the content that were read and not used.
+    fn ahead(&self) -> u64 {
+        (self.end - self.used) as u64
     }
 
     /// Bytes of the content that were not used.
     fn left(&self) -> u64 {
-        self.unread + (self.end - self.used) as u64
+        self.unread + self.ahead()
     }
 
     /// Makes the next `size` bytes available, fewer than a block.
@@ -273,19 +428,29 @@ impl<'a> Reader<'a> {
         let size = self.unread.min(BLOCK as u64) as usize;
         let block = &mut self.block[self.end..self.end + size];
         read_exact(self.source, block)?;
-        self.digest = mix_all(self.digest, block);
+        self.digest = self.digest.wrapping_add(sum(self.word, block));
+        self.word += (size / WORD) as u64;
         self.unread -= size as u64;
         self.end += size;
         Ok(())
     }
 
-    /// Reads to the end and compares the checksum.
-    fn verify(&mut self) -> Result<(), BinaryError> {
+    /// Reads to the end.
+    fn drain(&mut self) -> Result<(), BinaryError> {
         while self.unread > 0 {
             self.used = self.end;
             self.next_block()?;
         }
-        if self.digest == self.expected { Ok(()) } else { Err(BinaryError::Checksum) }
+        Ok(())
+    }
+
+    /// Goes on to the next whole word of the content.
+    fn align(&mut self) -> Result<(), BinaryError> {
+        let at = self.length - self.left();
+        let gap = (at.next_multiple_of(WORD as u64) - at) as usize;
+        self.need(gap)?;
+        self.used += gap;
+        Ok(())
     }
 
     fn fixed<const N: usize>(&mut self) -> Result<[u8; N], BinaryError> {
@@ -303,20 +468,15 @@ impl<'a> Reader<'a> {
         Ok(())
     }
 
-    /// Reads an array of `rows` times `width` rows of fixed columns.
-    pub(super) fn array<F: Field>(
-        &mut self,
-        field: &mut F,
-        rows: usize,
-        width: usize,
-    ) -> Result<(), BinaryError> {
-        let count = rows.checked_mul(width).ok_or(BinaryError::Length)?;
-        let bytes = count.checked_mul(F::ROW_BYTES).ok_or(BinaryError::Length)?;
-        if bytes as u64 > self.left() {
-            return Err(BinaryError::Length);
-        }
-        field.restart(count);
-        let mut missing = bytes;
+    /// Reads an array of so many rows of fixed columns and the zeros behind it; [`array_bytes`] found room for them.
+    pub(super) fn array<F: Field>(&mut self, field: &mut F, rows: usize) -> Result<(), BinaryError> {
+        self.rows(field, rows)?;
+        self.align()
+    }
+
+    fn rows<F: Field>(&mut self, field: &mut F, rows: usize) -> Result<(), BinaryError> {
+        field.restart(rows);
+        let mut missing = rows * F::ROW_BYTES;
         while missing > 0 {
             self.need(F::ROW_BYTES)?;
             let whole = (self.end - self.used) / F::ROW_BYTES * F::ROW_BYTES;
@@ -327,6 +487,12 @@ impl<'a> Reader<'a> {
         }
         Ok(())
     }
+}
+
+/// Bytes of an array with the zeros that fill its last word.
+pub(super) fn array_bytes<F: Field>(_: &F, rows: usize, width: usize) -> Option<u64> {
+    let bytes = rows.checked_mul(width)?.checked_mul(F::ROW_BYTES)?;
+    u64::try_from(bytes).ok()?.checked_next_multiple_of(WORD as u64)
 }
 
 fn read_exact(source: &mut dyn Read, bytes: &mut [u8]) -> Result<(), BinaryError> {

@@ -72,19 +72,49 @@ macro_rules! model {
                 }
             }
 
-            /// Calls `f(name, type, shape)` for every size and array, in declaration order; sizes have no type.
-            pub(crate) fn layout(f: &mut dyn FnMut(&'static str, &'static str, &'static str)) {
-                $(f(stringify!($size), "", "");)*
-                $(f(stringify!($field), stringify!($t), stringify!($shape));)*
+            /// Names of all sizes; name, type and shape of all arrays, in declaration order.
+            pub(super) const LAYOUT: &str = concat!(
+                $(stringify!($size), "\n",)*
+                $(stringify!($field), ":", stringify!($t), stringify!($shape), "\n",)*
+            );
+
+            /// Bytes of every array in a compiled file, by the sizes set so far; `None` beyond all numbers.
+            pub(crate) fn array_bytes(&self) -> Option<Vec<u64>> {
+                Some(vec![$(array_bytes(
+                    &self.$field,
+                    field_rows!(self, $shape),
+                    field_width!(self, $shape),
+                )?,)*])
             }
 
-            /// Fills every array, in declaration order, by the sizes set so far.
-            pub(crate) fn read_arrays(&mut self, from: &mut Reader<'_>) -> Result<(), BinaryError> {
-                $({
-                    let (rows, width) = (field_rows!(self, $shape), field_width!(self, $shape));
-                    from.array(&mut self.$field, rows, width)?;
-                })*
+            /// Fills the arrays of these numbers, in declaration order, by the sizes set so far.
+            pub(crate) fn read_arrays(
+                &mut self,
+                from: &mut Reader<'_>,
+                numbers: std::ops::Range<usize>,
+            ) -> Result<(), BinaryError> {
+                let mut number = 0;
+                $(
+                    if numbers.contains(&number) {
+                        let (rows, width) = (field_rows!(self, $shape), field_width!(self, $shape));
+                        from.array(&mut self.$field, rows * width)?;
+                    }
+                    number += 1;
+                )*
+                _ = number;
                 Ok(())
+            }
+
+            /// Takes the arrays from number `first` on from another model.
+            pub(crate) fn take_arrays(&mut self, other: &mut Model, first: usize) {
+                let mut number = 0;
+                $(
+                    if number >= first {
+                        self.$field = std::mem::take(&mut other.$field);
+                    }
+                    number += 1;
+                )*
+                _ = number;
             }
         }
     };

@@ -1,6 +1,6 @@
 //! The table of the compiled model: sizes, then one line an array.
 
-use super::binary::{BinaryError, Reader};
+use super::binary::{BinaryError, Reader, array_bytes};
 use super::declare::model;
 use crate::collision::climb::Slopes;
 use crate::model::{Options, Statistic, Visual};

@@ -71,10 +71,8 @@ macro_rules! settings {
                 }
             }
 
-            /// Calls `f(name, type)` for every setting.
-            pub(super) fn layout(f: &mut dyn FnMut(&'static str, &'static str)) {
-                $(f(stringify!($field), stringify!($t));)*
-            }
+            /// Name and type of every setting.
+            pub(super) const LAYOUT: &str = concat!($(stringify!($field), ":", stringify!($t), "\n",)*);
 
             /// Reads every setting in declaration order.
             pub(super) fn read(&mut self, from: &mut Reader<'_>) -> Result<(), BinaryError> {
