@@ -366,6 +366,13 @@ fn run_all(jobs: &[Job], cache: Option<&Cache>, threads: bool) -> Vec<Result<Out
 /// Appends all assets except the hierarchies, which follow those of the bodies.
 pub(super) fn fill(m: &mut Model, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     m.tex_data.reserve_exact(assets.textures.iter().map(|asset| asset.compiled.data.len()).sum());
+    let total =
+        |count: fn(&CompiledMesh) -> usize| assets.meshes.iter().map(|asset| count(&asset.compiled)).sum();
+    m.mesh_vert.reserve_exact(total(|mesh| mesh.vert.len()));
+    m.mesh_normal.reserve_exact(total(|mesh| mesh.normal.len()));
+    for rows in [&mut m.mesh_face, &mut m.mesh_facenormal, &mut m.mesh_facetexcoord] {
+        rows.reserve_exact(total(|mesh| mesh.face.len()));
+    }
     assets.meshes.iter().for_each(|asset| fill_mesh(m, &asset.compiled));
     for asset in &assets.hfields {
         let hfield = &asset.compiled;
@@ -440,6 +447,11 @@ fn fill_mesh(m: &mut Model, mesh: &CompiledMesh) {
 
 /// Appends the hierarchies of meshes.
 pub(super) fn fill_hierarchies(m: &mut Model, assets: &Assets) {
+    let nodes = assets.meshes.iter().map(|asset| asset.compiled.bvh.depth.len()).sum();
+    m.bvh_depth.reserve_exact(nodes);
+    m.bvh_child.reserve_exact(nodes);
+    m.bvh_nodeid.reserve_exact(nodes);
+    m.bvh_aabb.reserve_exact(nodes);
     for asset in &assets.meshes {
         let count = asset.compiled.bvh.depth.len();
         m.mesh_bvhadr.push(if count == 0 { -1 } else { m.bvh_depth.len() as i32 });
