@@ -3,7 +3,7 @@
 //! An entry is named by what was asked for: compiler, path, edits, limits. It lists every file that the compile read or
 //! looked for, with a digest of its content (BLAKE3, so that other content with the same digest will not be met), then
 //! the warnings, then the model. It holds when every file still has that content: the digest is compared unless length,
-//! time of change and place on the disk are as they were when the file was read, not younger than [`SETTLED`] then.
+//! time of change and place on the disk are as they were when the file was read, at least two seconds after its change.
 //!
 //! Beside models stand the meshes of files, processed, named by content and attributes: a model whose text has changed
 //! is compiled anew of these.

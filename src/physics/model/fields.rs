@@ -1,7 +1,8 @@
 //! The table of the compiled model: sizes, then one line an array.
 
-use super::binary::{BinaryError, Reader, array_bytes};
+use super::binary::BinaryError;
 use super::declare::model;
+use super::reader::{Reader, array_bytes};
 use crate::collision::climb::Slopes;
 use crate::model::{Options, Statistic, Visual};
 use crate::table::{Field, Slice, field_rows, field_shape, field_type, field_width};

@@ -5,6 +5,7 @@ mod declare;
 mod fields;
 mod names;
 mod options;
+mod reader;
 mod types;
 
 pub use fields::Model;

@@ -1,7 +1,8 @@
 //! Options, statistics and visual settings: scalars and short vectors with their defaults
 //! (documentation: XML reference, `option`, `statistic`, `visual`).
 
-use super::binary::{BinaryError, Reader};
+use super::binary::BinaryError;
+use super::reader::Reader;
 use crate::table::{Scalar, Slice};
 
 /// One setting: a scalar or a short vector.
