@@ -172,6 +172,20 @@ fn numbers_out_of_range_are_refused_or_stepped() {
     assert!(refused > 1000 && stepped > 2000, "{refused} {stepped}");
 }
 
+/// Loops over pixels that are fewer than none, or that make no reading, end.
+#[test]
+fn cameras_without_a_number_of_pixels_are_refused() {
+    let text = "<mujoco><worldbody><camera name='c' resolution='2 3'/></worldbody>
+        <sensor><rangefinder camera='c'/></sensor></mujoco>";
+    let m = load_str(text).unwrap().model;
+    for (resolution, dim) in [([-1, 0], 0), ([0, -1], 0), ([-2, -3], 6), ([i32::MAX; 2], 0)] {
+        let mut changed = m.clone();
+        (changed.cam_resolution[0], changed.sensor_dim[0]) = (resolution, dim);
+        (changed.sensor_intprm[0][0], changed.nsensordata) = (dim / 6, dim as usize);
+        assert!(check_consistency(&changed).is_err(), "{resolution:?}");
+    }
+}
+
 /// Sharing children makes paths without end of a tree; too many levels leave the stack of a search.
 #[test]
 fn hierarchies_that_are_no_trees_are_refused() {

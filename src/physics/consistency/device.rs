@@ -185,7 +185,8 @@ fn reading(m: &Model, i: usize) -> (bool, Option<i64>) {
         Camprojection => (of(ObjType::Site) && one_of(reference, &[ObjType::Camera]), Some(2)),
         Rangefinder => {
             let known = one_of(object, &[ObjType::Site, ObjType::Camera]);
-            (known, known.then(|| fields_size(m.sensor_intprm[i][0], &[1, 3, 3, 3, 3, 1]) * rays(m, object)))
+            let rays = if known { rays(m, object) } else { None };
+            (rays.is_some(), rays.map(|n| n * fields_size(m.sensor_intprm[i][0], &[1, 3, 3, 3, 3, 1])))
         }
         Jointpos | Jointvel | Jointactfrc | Jointlimitpos | Jointlimitvel | Jointlimitfrc => {
             (of(ObjType::Joint), Some(1))
@@ -224,13 +225,15 @@ fn reading(m: &Model, i: usize) -> (bool, Option<i64>) {
     }
 }
 
-/// Rays of a rangefinder.
-fn rays(m: &Model, (kind, id): (i32, i32)) -> i64 {
+/// Rays of a rangefinder; `None` where its camera has no number of pixels, or too many.
+fn rays(m: &Model, (kind, id): (i32, i32)) -> Option<i64> {
     if kind != ObjType::Camera.code() {
-        return 1;
+        return Some(1);
     }
-    let [width, height] = m.cam_resolution[id as usize];
-    i64::from(width.max(0)) * i64::from(height.max(0))
+    let [width, height] = m.cam_resolution[id as usize].map(i64::from);
+    let most = i64::from(MAX_SAMPLES);
+    ((0..=most).contains(&width) && (0..=most).contains(&height) && width * height <= most)
+        .then_some(width * height)
 }
 
 /// Numbers in the data fields selected by the bits of `fields`.
