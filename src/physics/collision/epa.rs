@@ -127,12 +127,10 @@ impl Polytope {
     #[inline(always)]
     fn push_face(&mut self, vertex: [usize; 3], across: [usize; 3]) -> f64 {
         let [v1, v2, v3] = vertex.map(|v| self.diff(v));
-        let foot = project_on_plane(v3, v2, v1).map(|foot| {
-            let inward = dot(foot, sub(v1, self.center)) < 0.0;
-            if inward { scale(foot, -1.0) } else { foot }
-        });
-        let dist2 = foot.map_or(0.0, |foot| dot(foot, foot));
-        let foot = foot.unwrap_or_default();
+        let foot = project_on_plane(v3, v2, v1).unwrap_or_default();
+        let dist2 = dot(foot, foot);
+        let inward = dot(foot, sub(v1, self.center)) < 0.0;
+        let foot = if inward { scale(foot, -1.0) } else { foot };
         self.face.push(Face { vertex, across, foot, dist2, state: State::Shut });
         dist2
     }
