@@ -5,6 +5,7 @@
 
 use crate::data::{Constraints, Inertia};
 use crate::inertia::row;
+use crate::math::bit_set;
 use crate::model::Model;
 
 /// Rows of a block.
@@ -52,14 +53,7 @@ pub fn half_jacobian(m: &Model, inertia: &Inertia, efc: &Constraints, y: &mut Ha
                 entries[c as usize][i % BLOCK] = value;
             }
         }
-        for (w, &word) in columns.iter().enumerate().rev() {
-            let mut left = word;
-            while left != 0 {
-                let bit = left.ilog2() as usize;
-                left ^= 1 << bit;
-                substitute(m, inertia, 64 * w + bit, y.root[64 * w + bit], entries);
-            }
-        }
+        bit_set::for_each_reversed(columns, |c| substitute(m, inertia, c, y.root[c], entries));
     }
 }
 
@@ -74,9 +68,8 @@ fn jacobian_row(efc: &Constraints, i: usize) -> (&[i32], &[f64]) {
 fn add_columns(columns: &[i32], ancestors: &[u64], set: &mut [u64]) {
     for &c in columns.iter().rev() {
         let c = c as usize;
-        if set[c / 64] >> (c % 64) & 1 == 0 {
-            let words = set.len();
-            set.iter_mut().zip(&ancestors[c * words..]).for_each(|(x, y)| *x |= y);
+        if !bit_set::contains(set, c) {
+            bit_set::unite(set, &ancestors[c * set.len()..(c + 1) * set.len()]);
         }
     }
 }
@@ -95,7 +88,7 @@ fn substitute(m: &Model, inertia: &Inertia, c: usize, root: f64, entries: &mut [
 
 impl HalfJacobian {
     fn find_ancestors(&mut self, m: &Model) {
-        self.words = m.nv.div_ceil(64).max(1);
+        self.words = bit_set::words(m.nv);
         self.ancestors.clear();
         self.ancestors.resize(m.nv * self.words, 0);
         for dof in 0..m.nv {
@@ -103,7 +96,7 @@ impl HalfJacobian {
             if let [.., parent, _] = m.M_colind[row(m, dof)] {
                 set[..self.words].copy_from_slice(&before[parent as usize * self.words..][..self.words]);
             }
-            set[dof / 64] |= 1 << (dof % 64);
+            bit_set::insert(set, dof);
         }
     }
 
@@ -114,9 +107,8 @@ impl HalfJacobian {
         set.resize(*words, 0);
         add_columns(jacobian_row(efc, i).0, ancestors, set);
         let entries = &entries[i / BLOCK * root.len()..][..root.len()];
-        let in_row = |c: &usize| set[c / 64] >> (c % 64) & 1 == 1;
         values.clear();
-        values.extend((0..entries.len()).filter(in_row).map(|c| entries[c][i % BLOCK]));
+        bit_set::for_each(set, |c| values.push(entries[c][i % BLOCK]));
         values
     }
 
@@ -125,19 +117,14 @@ impl HalfJacobian {
     pub fn product(&self, first: usize, b: usize) -> [[f64; BLOCK]; TILE] {
         let (nv, words, a) = (self.root.len(), self.words, first / BLOCK);
         let (left, right) = (&self.entries[a * nv..(a + 1) * nv], &self.entries[b * nv..(b + 1) * nv]);
-        let sets = self.blocks[a * words..(a + 1) * words].iter().zip(&self.blocks[b * words..]);
+        let (x, y) = (&self.blocks[a * words..(a + 1) * words], &self.blocks[b * words..(b + 1) * words]);
         let mut sum = [[0.0; BLOCK]; TILE];
-        for (w, (x, y)) in sets.enumerate() {
-            let mut both = x & y;
-            while both != 0 {
-                let c = 64 * w + both.trailing_zeros() as usize;
-                both &= both - 1;
-                let (x, y) = (&left[c][first % BLOCK..][..TILE], &right[c]);
-                for r in 0..TILE {
-                    (0..BLOCK).for_each(|k| sum[r][k] += y[k] * x[r]);
-                }
+        bit_set::for_each_common(x, y, |c| {
+            let (x, y) = (&left[c][first % BLOCK..][..TILE], &right[c]);
+            for r in 0..TILE {
+                (0..BLOCK).for_each(|k| sum[r][k] += y[k] * x[r]);
             }
-        }
+        });
         sum
     }
 }

@@ -111,6 +111,12 @@ pub fn cholesky_update(l: &mut [f64], n: usize, x: &mut [f64], plus: &[bool], le
     fallen
 }
 
+/// The same entries, known to be whole registers.
+#[inline]
+fn whole(x: &mut [f64]) -> &mut [f64] {
+    x.as_chunks_mut::<WIDTH>().0.as_flattened_mut()
+}
+
 /// Rotates `x` into column `k`; returns whether the pivot fell below `least`.
 #[inline]
 fn update_column(column: &mut [f64], k: usize, x: &mut [f64], plus: bool, least: f64) -> bool {
@@ -118,16 +124,13 @@ fn update_column(column: &mut [f64], k: usize, x: &mut [f64], plus: bool, least:
     let square = if plus { pivot * pivot + x[k] * x[k] } else { pivot * pivot - x[k] * x[k] };
     let fallen = square < least;
     let root = (if fallen { least } else { square }).sqrt();
-    let (c, s) = (root / pivot, x[k] / pivot);
+    let [c, s] = [root, x[k]].map(|v| v / pivot);
     let (inverse, signed) = (1.0 / c, if plus { s } else { -s });
     let first = k / WIDTH * WIDTH;
-    for (l, x) in
-        column[first..].as_chunks_mut::<WIDTH>().0.iter_mut().zip(x[first..].as_chunks_mut::<WIDTH>().0)
-    {
-        for i in 0..WIDTH {
-            l[i] = (l[i] + signed * x[i]) * inverse;
-            x[i] = c * x[i] - s * l[i];
-        }
+    let (l, x) = (whole(&mut column[first..]), whole(&mut x[first..]));
+    for (l, x) in l.iter_mut().zip(x) {
+        *l = (*l + signed * *x) * inverse;
+        *x = c * *x - s * *l;
     }
     column[k] = root;
     fallen

@@ -1,5 +1,6 @@
 //! Small fixed-size algebra: vectors, quaternions, rotations, spatial vectors. Arrays by value, no allocation.
 
+pub mod bit_set;
 pub mod cholesky;
 pub mod dense;
 #[cfg_attr(feature = "system-math", allow(dead_code))]

@@ -56,15 +56,17 @@ impl Dual {
         &self.ar[i * self.stride..][..efc.nefc]
     }
 
+    /// Gradient of the cost by the force of row `i`, without regularisation if `bare`.
+    #[inline]
+    pub fn slope(&self, efc: &Constraints, i: usize, bare: bool) -> f64 {
+        let slope = efc.efc_b[i] + dot_slice(self.row(efc, i), &efc.efc_force);
+        if bare { slope - efc.efc_R[i] * efc.efc_force[i] } else { slope }
+    }
+
     /// Gradient of the cost by the forces of rows `i..i + dim`, without regularisation if `bare`.
     pub fn residual(&self, efc: &Constraints, i: usize, dim: usize, bare: bool) -> [f64; 6] {
         let mut out = [0.0; 6];
-        for (j, out) in out[..dim].iter_mut().enumerate() {
-            *out = efc.efc_b[i + j] + dot_slice(self.row(efc, i + j), &efc.efc_force);
-            if bare {
-                *out -= efc.efc_R[i + j] * efc.efc_force[i + j];
-            }
-        }
+        (0..dim).for_each(|j| out[j] = self.slope(efc, i + j, bare));
         out
     }
 

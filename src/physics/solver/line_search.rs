@@ -4,7 +4,7 @@
 //! Costs are differences from the start of the line, so that small improvements are not lost to rounding.
 
 use super::problem::Problem;
-use super::rows::{Cone, Rows};
+use super::rows::Cone;
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::bounds::MINVAL;
 
@@ -15,8 +15,10 @@ pub(super) struct LineSearch {
     pub jv: Vec<f64>,
     /// `M search`.
     pub mv: Vec<f64>,
-    /// Quadratic of each limit or contact row, and of each equality row; that of a cone stands at its first row.
-    quad: Vec<[f64; 3]>,
+    /// Coefficients of the quadratic of each row, by power; that of a cone stands at its first row.
+    quad: [Vec<f64>; 3],
+    /// Cost, slope and curvature of rows with friction loss.
+    friction: [Vec<f64>; 3],
     /// What each cone needs.
     cones: Vec<ConeLine>,
     /// Linear and square coefficient of the unconstrained cost and of the equality rows.
@@ -168,17 +170,28 @@ impl LineSearch {
             dot_slice(search, line.ma) - dot_slice(line.qfrc_smooth, search),
             0.5 * dot_slice(search, &self.mv),
         ];
-        self.quad.clear();
-        self.quad.extend((0..rows.len()).map(|i| quadratic(rows, jar, &self.jv, i, 1)));
-        for quad in &self.quad[..rows.ne] {
-            self.smooth[0] += quad[1];
-            self.smooth[1] += quad[2];
+        let n = rows.len();
+        self.quad.iter_mut().for_each(|quad| quad.resize(n, 0.0));
+        let [q0, q1, q2] = self.quad.each_mut().map(|quad| &mut quad[..n]);
+        let (d, jar, jv) = (&rows.d[..n], &jar[..n], &self.jv[..n]);
+        for i in 0..n {
+            [q0[i], q1[i], q2[i]] = quadratic(products(d[i], jar[i], jv[i]));
+        }
+        for i in 0..rows.ne {
+            self.smooth[0] += q1[i];
+            self.smooth[1] += q2[i];
         }
         self.cones.clear();
         for c in &rows.cones {
-            self.quad[c.row] = quadratic(rows, jar, &self.jv, c.row, c.dim);
-            self.cones.push(ConeLine::new(c, rows.d[c.row], jar, &self.jv));
+            let mut sum = [0.0; 3];
+            for j in c.row..c.row + c.dim {
+                let terms = products(d[j], jar[j], jv[j]);
+                (0..3).for_each(|power| sum[power] += terms[power]);
+            }
+            [q0[c.row], q1[c.row], q2[c.row]] = quadratic(sum);
+            self.cones.push(ConeLine::new(c, rows.d[c.row], jar, jv));
         }
+        self.friction.iter_mut().for_each(|terms| terms.resize(rows.nef - rows.ne, 0.0));
     }
 
     fn evaluate(&mut self, line: Line, alpha: f64) -> Point {
@@ -186,23 +199,37 @@ impl LineSearch {
         self.evaluations += 1;
         let mut sum =
             Sums { cost: 0.0, slope: 0.0, curvature: 0.0, quad: [0.0, self.smooth[0], self.smooth[1]] };
-        for i in rows.ne..rows.nef {
-            add_friction_loss(rows, i, jar[i], self.jv[i], alpha, &mut sum);
+        let friction = rows.ne..rows.nef;
+        friction_loss(
+            [&jar[friction.clone()], &self.jv[friction.clone()]],
+            [&rows.frictionloss[friction.clone()], &rows.r[friction.clone()], &rows.d[friction]],
+            alpha,
+            &mut self.friction,
+        );
+        let [costs, slopes, curvatures] = &self.friction;
+        for ((cost, slope), curvature) in costs.iter().zip(slopes).zip(curvatures) {
+            sum.cost += cost;
+            sum.slope += slope;
+            sum.curvature += curvature;
         }
         let Self { quad, jv, cones, .. } = &*self;
         rows.for_unilateral(
             &mut sum,
-            |sum, i| {
-                let start = if jar[i] < 0.0 { quad[i][0] } else { 0.0 };
-                if jar[i] + alpha * jv[i] < 0.0 {
-                    sum.quad[0] += quad[i][0] - start;
-                    sum.quad[1] += quad[i][1];
-                    sum.quad[2] += quad[i][2];
-                } else {
-                    sum.cost -= start;
+            |sum, range| {
+                let [q0, q1, q2] = quad.each_ref().map(|q| &q[range.clone()]);
+                for ((((&jar, &jv), q0), q1), q2) in
+                    jar[range.clone()].iter().zip(&jv[range]).zip(q0).zip(q1).zip(q2)
+                {
+                    // Without branches: what a row does is hard to predict.
+                    let start = if jar < 0.0 { *q0 } else { 0.0 };
+                    let acts = jar + alpha * jv < 0.0;
+                    sum.quad[0] += if acts { q0 - start } else { 0.0 };
+                    sum.quad[1] += if acts { *q1 } else { 0.0 };
+                    sum.quad[2] += if acts { *q2 } else { 0.0 };
+                    sum.cost -= if acts { 0.0 } else { start };
                 }
             },
-            |sum, k, c| add_cone(&cones[k], &quad[c.row], c.mu, alpha, sum),
+            |sum, k, c| add_cone(&cones[k], &quad.each_ref().map(|q| q[c.row]), c.mu, alpha, sum),
         );
         let [q0, q1, q2] = sum.quad;
         let curvature = sum.curvature + 2.0 * q2;
@@ -223,54 +250,52 @@ struct Sums {
     quad: [f64; 3],
 }
 
-/// Coefficients of `½ Σ d (jar + alpha jv)²` over `dim` rows from row `i`.
-fn quadratic(rows: &Rows, jar: &[f64], jv: &[f64], i: usize, dim: usize) -> [f64; 3] {
-    let mut quad = [0.0; 3];
-    for j in i..i + dim {
-        let force = rows.d[j] * jar[j];
-        quad[0] += jar[j] * force;
-        quad[1] += jv[j] * force;
-        quad[2] += jv[j] * rows.d[j] * jv[j];
-    }
-    [0.5 * quad[0], quad[1], 0.5 * quad[2]]
+/// Products of which the coefficients of `½ Σ d (jar + alpha jv)²` are sums.
+#[inline]
+fn products(d: f64, jar: f64, jv: f64) -> [f64; 3] {
+    let force = d * jar;
+    [jar * force, jv * force, jv * d * jv]
 }
 
-/// Pieces of the cost of friction loss: -1, 0, 1 for the linear negative, quadratic, linear positive one.
-fn friction_piece(x: f64, bound: f64) -> i32 {
-    if -bound < x && x < bound {
-        0
-    } else if x <= -bound {
-        -1
-    } else {
-        1
-    }
+/// Those coefficients, by power of `alpha`.
+#[inline]
+fn quadratic(sums: [f64; 3]) -> [f64; 3] {
+    [0.5 * sums[0], sums[1], 0.5 * sums[2]]
 }
 
+/// Cost of friction loss at `x`, a bound apart from zero linear.
+#[inline]
 fn friction_cost(x: f64, loss: f64, bound: f64, d: f64) -> f64 {
-    match friction_piece(x, bound) {
-        0 => 0.5 * d * x * x,
-        -1 => loss * (-0.5 * bound - x),
-        _ => loss * (-0.5 * bound + x),
-    }
+    let linear = loss * (-0.5 * bound + if x <= -bound { -x } else { x });
+    if -bound < x && x < bound { 0.5 * d * x * x } else { linear }
 }
 
-fn add_friction_loss(rows: &Rows, i: usize, start: f64, along: f64, alpha: f64, sum: &mut Sums) {
-    let (x, loss, d) = (start + alpha * along, rows.frictionloss[i], rows.d[i]);
-    let bound = rows.r[i] * loss;
-    let piece = friction_piece(x, bound);
-    sum.cost += match (friction_piece(start, bound), piece) {
-        (0, 0) => 0.5 * d * (x - start) * (x + start),
-        (-1, -1) => loss * (start - x),
-        (1, 1) => loss * (x - start),
-        _ => friction_cost(x, loss, bound, d) - friction_cost(start, loss, bound, d),
-    };
-    match piece {
-        0 => {
-            sum.slope += d * x * along;
-            sum.curvature += d * along * along;
-        }
-        -1 => sum.slope += -loss * along,
-        _ => sum.slope += loss * along,
+/// Cost less that at the start of the line, slope and curvature of rows with friction loss. Rows are `start` and
+/// `along` the line, with their `loss`, `r` and `d`.
+///
+/// Every piece is computed and one chosen: rows share vector registers, and none is mispredicted.
+fn friction_loss(
+    [start, along]: [&[f64]; 2],
+    [loss, r, d]: [&[f64]; 3],
+    alpha: f64,
+    [cost, slope, curvature]: &mut [Vec<f64>; 3],
+) {
+    let n = start.len();
+    let (along, loss, r, d) = (&along[..n], &loss[..n], &r[..n], &d[..n]);
+    let (cost, slope, curvature) = (&mut cost[..n], &mut slope[..n], &mut curvature[..n]);
+    for i in 0..n {
+        let (start, along, loss, d, bound) = (start[i], along[i], loss[i], d[i], r[i] * loss[i]);
+        let x = start + alpha * along;
+        let piece = |x: f64| ((-bound < x) & (x < bound), x <= -bound);
+        let ((was_inside, was_below), (inside, below)) = (piece(start), piece(x));
+        let (was_above, above) = (!was_inside & !was_below, !inside & !below);
+        let mut change = friction_cost(x, loss, bound, d) - friction_cost(start, loss, bound, d);
+        change = if was_inside & inside { 0.5 * d * (x - start) * (x + start) } else { change };
+        change = if was_below & below { loss * (start - x) } else { change };
+        change = if was_above & above { loss * (x - start) } else { change };
+        cost[i] = change;
+        slope[i] = if inside { d * x * along } else { (if below { -loss } else { loss }) * along };
+        curvature[i] = if inside { d * along * along } else { 0.0 };
     }
 }
 

@@ -59,39 +59,65 @@ pub(super) fn noslip(
 }
 
 /// Best force within the friction loss; returns the change of cost.
+#[inline]
 fn friction_loss(dual: &Dual, efc: &mut Constraints, i: usize) -> f64 {
-    let (residual, inverse) = (dual.residual(efc, i, 1, true)[0], dual.inverse_diagonal(efc, i, true));
+    let (slope, inverse) = (dual.slope(efc, i, true), dual.inverse_diagonal(efc, i, true));
     let (old, loss) = (efc.efc_force[i], efc.efc_frictionloss[i]);
-    let force = old - residual * inverse;
-    efc.efc_force[i] = if force < -loss {
+    let free = old - slope * inverse;
+    let force = if free < -loss {
         -loss
-    } else if force > loss {
+    } else if free > loss {
         loss
     } else {
-        force
+        free
     };
-    let delta = efc.efc_force[i] - old;
-    0.5 * delta * delta / inverse + delta * residual
+    set_force(&mut efc.efc_force, i, force);
+    let delta = force - old;
+    0.5 * delta * delta / inverse + delta * slope
 }
 
 /// Best difference between the forces of two opposite pyramid edges, their sum fixed; returns the change of cost.
+#[inline]
 fn opposite_edges(dual: &Dual, efc: &mut Constraints, j: usize) -> f64 {
-    let residual = dual.residual(efc, j, 2, true);
-    let a = dual.block(efc, j, 2, true);
     let old = [efc.efc_force[j], efc.efc_force[j + 1]];
+    if old == [0.0; 2] {
+        return 0.0;
+    }
+    let residual = [dual.slope(efc, j, true), dual.slope(efc, j + 1, true)];
+    let (upper, lower) = (dual.row(efc, j), dual.row(efc, j + 1));
+    let bare = |x: f64, i: usize| (x - efc.efc_R[i]).max(1e-10);
+    let a = [bare(upper[j], j), upper[j + 1], lower[j], bare(lower[j + 1], j + 1)];
     let b = [residual[0] - dot_slice(&a[..2], &old), residual[1] - dot_slice(&a[2..4], &old)];
     let middle = 0.5 * (old[0] + old[1]);
     let (curvature, slope) = (a[0] + a[3] - a[1] - a[2], middle * (a[0] - a[3]) + b[0] - b[1]);
     let y = if curvature < MINVAL { 0.0 } else { -slope / curvature };
-    let force = if y < -middle {
+    let mut force = if y < -middle {
         [0.0, 2.0 * middle]
     } else if y > middle {
         [2.0 * middle, 0.0]
     } else {
         [middle + y, middle - y]
     };
-    efc.efc_force[j..j + 2].copy_from_slice(&force);
-    cost_change(&a, &mut efc.efc_force[j..j + 2], &old, &residual)
+    let change = cost_change(&a, &mut force, &old, &residual);
+    set_force(&mut efc.efc_force, j, force[0]);
+    set_force(&mut efc.efc_force, j + 1, force[1]);
+    change
+}
+
+/// Sets one force by storing the four around it at once: the next product loads them so, and a load that meets a
+/// shorter store waits for memory.
+#[inline]
+fn set_force(forces: &mut [f64], i: usize, force: f64) {
+    const ALL: u64 = u64::MAX;
+    const KEEP: [[u64; 4]; 4] =
+        [[0, ALL, ALL, ALL], [ALL, 0, ALL, ALL], [ALL, ALL, 0, ALL], [ALL, ALL, ALL, 0]];
+    match forces.as_chunks_mut::<4>().0.get_mut(i / 4) {
+        Some(four) => {
+            let (keep, bits) = (&KEEP[i % 4], force.to_bits());
+            *four = std::array::from_fn(|k| f64::from_bits(four[k].to_bits() & keep[k] | bits & !keep[k]));
+        }
+        None => forces[i] = force,
+    }
 }
 
 /// Best tangential forces of an elliptic contact; returns the change of cost.

@@ -71,17 +71,17 @@ impl Problem {
         self.inertia.clear();
         self.factor.clear();
         self.inverse_diagonal.clear();
-        for &dof in s.dofs {
-            let dof = dof as usize;
-            let start = m.M_rowadr[dof] as usize;
-            let range = start..start + m.M_rownnz[dof] as usize;
-            self.inertia_rownnz.push(m.M_rownnz[dof]);
-            self.inertia_rowadr.push(self.inertia.len() as i32);
+        for run in s.dofs.chunk_by(|a, b| a + 1 == *b) {
+            let (first, end) = (run[0] as usize, run[0] as usize + run.len());
+            let entries = m.M_rowadr[first] as usize..(m.M_rowadr[end - 1] + m.M_rownnz[end - 1]) as usize;
+            let shift = self.inertia.len() as i32 - m.M_rowadr[first];
+            self.inertia_rownnz.extend_from_slice(&m.M_rownnz[first..end]);
+            self.inertia_rowadr.extend(m.M_rowadr[first..end].iter().map(|adr| adr + shift));
             self.inertia_colind
-                .extend(m.M_colind[range.clone()].iter().map(|&c| s.sorted[c as usize] - s.first));
-            self.inertia.extend_from_slice(&inertia.M[range.clone()]);
-            self.factor.extend_from_slice(&inertia.qLD[range]);
-            self.inverse_diagonal.push(inertia.qLDiagInv[dof]);
+                .extend(m.M_colind[entries.clone()].iter().map(|&c| s.sorted[c as usize] - s.first));
+            self.inertia.extend_from_slice(&inertia.M[entries.clone()]);
+            self.factor.extend_from_slice(&inertia.qLD[entries]);
+            self.inverse_diagonal.extend_from_slice(&inertia.qLDiagInv[first..end]);
         }
     }
 

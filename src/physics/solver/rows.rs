@@ -4,6 +4,7 @@
 use crate::data::{Constraints, Contact};
 use crate::math::cholesky::stride;
 use crate::model::{ConstraintState, ConstraintType};
+use std::ops::Range;
 
 /// The elliptic friction cone of one contact.
 #[derive(Clone, Copy, Debug, Default)]
@@ -69,32 +70,30 @@ impl Rows {
         self.d.len()
     }
 
-    /// Calls `scalar` for each limit or contact row outside elliptic cones and `cone` for each cone with its index,
-    /// in order of rows.
+    /// Calls `scalar` for each stretch of limit and contact rows outside elliptic cones and `cone` for each cone with
+    /// its index, in order of rows.
     #[inline]
     pub fn for_unilateral<T>(
         &self,
         context: &mut T,
-        mut scalar: impl FnMut(&mut T, usize),
+        mut scalar: impl FnMut(&mut T, Range<usize>),
         mut cone: impl FnMut(&mut T, usize, &Cone),
     ) {
         let mut i = self.nef;
         for (k, c) in self.cones.iter().enumerate() {
-            for row in i..c.row {
-                scalar(context, row);
-            }
+            scalar(context, i..c.row);
             cone(context, k, c);
             i = c.row + c.dim;
         }
-        for row in i..self.len() {
-            scalar(context, row);
-        }
+        scalar(context, i..self.len());
     }
 
     /// Sets state and force of every row from `jar = J qacc - aref`; returns the cost.
     pub fn update(&self, jar: &[f64], state: &mut [ConstraintState], force: &mut [f64]) -> f64 {
+        let n = self.len();
+        let (jar, state, force) = (&jar[..n], &mut state[..n], &mut force[..n]);
         let mut cost = 0.0;
-        for i in 0..self.len() {
+        for i in 0..n {
             force[i] = -self.d[i] * jar[i];
         }
         for i in 0..self.ne {
@@ -106,13 +105,16 @@ impl Rows {
         }
         self.for_unilateral(
             &mut (&mut cost, state, force),
-            |(cost, state, force), i| {
-                if jar[i] >= 0.0 {
-                    force[i] = 0.0;
-                    state[i] = ConstraintState::Satisfied;
-                } else {
-                    **cost += 0.5 * self.d[i] * jar[i] * jar[i];
-                    state[i] = ConstraintState::Quadratic;
+            |(cost, state, force), range| {
+                let (state, force) = (&mut state[range.clone()], &mut force[range.clone()]);
+                for (((&d, &jar), state), force) in
+                    self.d[range.clone()].iter().zip(&jar[range]).zip(state).zip(force)
+                {
+                    // Without branches: what a row does is hard to predict.
+                    let satisfied = jar >= 0.0;
+                    **cost += if satisfied { 0.0 } else { 0.5 * d * jar * jar };
+                    *force = if satisfied { 0.0 } else { *force };
+                    *state = if satisfied { ConstraintState::Satisfied } else { ConstraintState::Quadratic };
                 }
             },
             |(cost, state, force), _, c| self.update_cone(c, jar, cost, state, force),
@@ -121,6 +123,7 @@ impl Rows {
     }
 
     /// Huber cost: quadratic while the force is below the friction loss.
+    #[inline]
     fn update_friction_loss(&self, i: usize, jar: f64, state: &mut ConstraintState, force: &mut f64) -> f64 {
         let (loss, bound) = (self.frictionloss[i], self.r[i] * self.frictionloss[i]);
         if jar <= -bound {

@@ -2,6 +2,7 @@
 //! this order makes no fill (Featherstone 2008, section 6.5; Davis 2006, chapter 4).
 
 use super::problem::Problem;
+use crate::math::bit_set;
 
 const NONE: usize = usize::MAX;
 
@@ -19,10 +20,9 @@ pub(super) struct SparseCholesky {
     entry_start: Vec<usize>,
     /// Row and place of each.
     entries: Vec<(usize, usize)>,
-    mark: Vec<usize>,
-    /// First row whose parent in the elimination tree is this one, and the next such row.
-    child: Vec<usize>,
-    sibling: Vec<usize>,
+    /// Columns of each row that are not zero, as sets; those of rows that are eliminated into it are added.
+    patterns: Vec<u64>,
+    set: Vec<u64>,
     /// Rows whose next entry to eliminate lies in this column, and that entry.
     waiting: Vec<usize>,
     next: Vec<usize>,
@@ -35,19 +35,51 @@ impl SparseCholesky {
     pub fn analyse(&mut self, p: &Problem) {
         self.n = p.nv;
         self.list_columns(p);
-        for v in [&mut self.mark, &mut self.child, &mut self.sibling] {
-            v.clear();
-            v.resize(p.nv, NONE);
-        }
+        self.mark_matrix(p);
         self.start.clear();
         self.start.resize(p.nv, 0);
         self.end.clone_from(&self.start);
         self.columns.clear();
+        let words = bit_set::words(p.nv);
         for r in (0..p.nv).rev() {
-            self.analyse_row(p, r);
+            let (before, row) = self.patterns.split_at_mut(r * words);
+            self.start[r] = self.columns.len();
+            bit_set::for_each(&row[..=r / 64], |c| {
+                if c <= r {
+                    self.columns.push(c);
+                }
+            });
+            self.end[r] = self.columns.len();
+            if let [.., parent, _] = self.columns[self.start[r]..] {
+                bit_set::unite(&mut before[parent * words..(parent + 1) * words], &row[..words]);
+            }
         }
         self.dense.clear();
         self.dense.resize(p.nv, 0.0);
+    }
+
+    /// Marks the entries of each row of the matrix.
+    fn mark_matrix(&mut self, p: &Problem) {
+        let words = bit_set::words(p.nv);
+        self.patterns.clear();
+        self.patterns.resize(p.nv * words, 0);
+        for (r, pattern) in self.patterns.chunks_exact_mut(words).enumerate() {
+            p.inertia_row(r).0.iter().for_each(|&c| bit_set::insert(pattern, c as usize));
+        }
+        let mut before: &[i32] = &[];
+        for i in 0..p.rows.len() {
+            let row = p.sparse_row(i).0;
+            // Rows of one contact share their columns.
+            if row != before {
+                self.set.clear();
+                self.set.resize(words, 0);
+                row.iter().for_each(|&c| bit_set::insert(&mut self.set, c as usize));
+                for &r in row {
+                    bit_set::unite(&mut self.patterns[r as usize * words..], &self.set);
+                }
+                before = row;
+            }
+        }
     }
 
     /// Lists the Jacobian's entries by column.
@@ -71,45 +103,6 @@ impl SparseCholesky {
                 *at += 1;
             }
         }
-    }
-
-    /// Columns of row `r`: those of the matrix, and of rows that are eliminated into it.
-    fn analyse_row(&mut self, p: &Problem, r: usize) {
-        let first = self.columns.len();
-        self.mark[r] = r;
-        let Self { columns, mark, .. } = self;
-        let mut add = |c: usize, columns: &mut Vec<usize>| {
-            if c < r && mark[c] != r {
-                mark[c] = r;
-                columns.push(c);
-            }
-        };
-        for &c in p.inertia_row(r).0 {
-            add(c as usize, columns);
-        }
-        let mut before: &[i32] = &[];
-        for &(i, _) in &self.entries[self.entry_start[r]..self.entry_start[r + 1]] {
-            let row = p.sparse_row(i).0;
-            // Rows of one contact share their columns.
-            if row != before {
-                row.iter().for_each(|&c| add(c as usize, columns));
-                before = row;
-            }
-        }
-        let mut child = self.child[r];
-        while child != NONE {
-            for k in self.start[child]..self.end[child] {
-                add(columns[k], columns);
-            }
-            child = self.sibling[child];
-        }
-        self.columns[first..].sort_unstable();
-        if let Some(&parent) = self.columns[first..].last() {
-            self.sibling[r] = self.child[parent];
-            self.child[parent] = r;
-        }
-        self.columns.push(r);
-        (self.start[r], self.end[r]) = (first, self.columns.len());
     }
 
     /// Assembles `M + Jᵀ D J` row by row and factors it at once; returns the rank.
