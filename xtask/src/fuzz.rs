@@ -1,5 +1,5 @@
-//! `cargo xtask fuzz [SECONDS]`: libFuzzer on every target of `fuzz/`, one after the other, as a table.
-//! Needs `cargo install cargo-fuzz` and a C++ compiler.
+//! `cargo xtask fuzz [SECONDS] [TARGET…]`: libFuzzer on every target of `fuzz/`, or on those named, one after the other,
+//! as a table. Needs `cargo install cargo-fuzz` and a C++ compiler.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
@@ -10,13 +10,17 @@ const HANG: u32 = 1;
 /// More memory [MB] is a finding.
 const MEMORY: u32 = 1024;
 
-/// Runs every target for `seconds`; an error when there is a finding.
-pub fn run(seconds: u32) -> Result<(), String> {
-    let targets = list()?;
+/// Runs each of the `asked` targets, or every one, for `seconds`; an error when there is a finding.
+pub fn run(seconds: u32, asked: &[String]) -> Result<(), String> {
+    let all = list()?;
+    if let Some(unknown) = asked.iter().find(|name| !all.contains(name)) {
+        return Err(format!("there is no target {unknown}; there are {}", all.join(", ")));
+    }
+    let targets = if asked.is_empty() { &all } else { asked };
     cargo_fuzz(&["build", "-s", "none"], Stdio::inherit())?;
     let mut findings = 0;
     println!("| target | executions | seconds | peak memory [MB] | findings |\n|---|---|---|---|---|");
-    for target in &targets {
+    for target in targets {
         let row = fuzz(target, seconds)?;
         println!(
             "| {target} | {} | {:.0} | {} | {} |",

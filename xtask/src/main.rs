@@ -1,5 +1,5 @@
 //! Continuous integration as a program: `cargo xtask ci` runs every check, `cargo xtask NAME` one of them.
-//! `cargo xtask instructions --update` records the counts anew, `cargo xtask fuzz [SECONDS]` fuzzes every decoder.
+//! `cargo xtask instructions --update` records the counts anew, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder.
 
 mod builds;
 mod fuzz;
@@ -44,7 +44,7 @@ fn main() -> ExitCode {
     };
     let names: Vec<_> = CHECKS.iter().map(|c| c.name).chain(["builds", "instructions"]).collect();
     if name != "ci" && !names.contains(&name) {
-        eprintln!("usage: cargo xtask ci | {} [--update] | fuzz [SECONDS]", names.join(" | "));
+        eprintln!("usage: cargo xtask ci | {} [--update] | fuzz [SECONDS] [TARGET...]", names.join(" | "));
         return ExitCode::from(2);
     }
     for one in names.into_iter().filter(|n| name == "ci" || name == *n) {
@@ -62,18 +62,13 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Fuzzes for the seconds asked for, or ten minutes a target.
+/// Fuzzes for the seconds asked for, or ten minutes a target: those named, or all.
 fn fuzz(arguments: &[String]) -> ExitCode {
-    let seconds = match arguments {
-        [] => Some(600),
-        [seconds] => seconds.parse().ok(),
-        _ => None,
+    let (seconds, targets) = match arguments.split_first().map(|(first, rest)| (first.parse(), rest)) {
+        Some((Ok(seconds), rest)) => (seconds, rest),
+        _ => (600, arguments),
     };
-    let Some(seconds) = seconds else {
-        eprintln!("usage: cargo xtask fuzz [SECONDS]");
-        return ExitCode::from(2);
-    };
-    match fuzz::run(seconds) {
+    match fuzz::run(seconds, targets) {
         Ok(()) => ExitCode::SUCCESS,
         Err(reason) => {
             eprintln!("== fuzz: {reason}");
