@@ -186,6 +186,17 @@ fn cameras_without_a_number_of_pixels_are_refused() {
     }
 }
 
+#[test]
+fn histories_too_long_to_be_added_up_are_refused() {
+    let sensors = "<clock delay='.01' nsample='2'/>".repeat(3);
+    let mut m = load_str(&format!("<mujoco><sensor>{sensors}</sensor></mujoco>")).unwrap().model;
+    assert_eq!((m.nhistory, check_consistency(&m)), (18, Ok(())));
+    m.sensor_dim.fill(i32::MAX);
+    m.sensor_history.fill([i32::MAX, 0]);
+    m.nsensordata = 3 * i32::MAX as usize;
+    assert_eq!(check_consistency(&m).unwrap_err().array, "nhistory");
+}
+
 /// Sharing children makes paths without end of a tree; too many levels leave the stack of a search.
 #[test]
 fn hierarchies_that_are_no_trees_are_refused() {

@@ -74,7 +74,7 @@ pub(super) fn history_length(m: &Model) -> i64 {
     let length = |n: i32, dim: i64| if n > 0 { 2 + i64::from(n) * (1 + dim) } else { 0 };
     let controls: i64 = m.actuator_history.iter().map(|&[n, _]| length(n, 1)).sum();
     let readings = m.sensor_history.iter().zip(&m.sensor_dim);
-    controls + readings.map(|(&[n, _], &dim)| length(n, dim.into())).sum::<i64>()
+    readings.map(|(&[n, _], &dim)| length(n, dim.into())).fold(controls, i64::saturating_add)
 }
 
 /// Inputs, outputs, states and histories follow each other in the order of actuators.
