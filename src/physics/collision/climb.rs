@@ -14,7 +14,7 @@ const EXTREMA_CELL: f64 = 0.4;
 pub struct Slopes {
     /// First vertex of each mesh; `None` for those that are searched in full.
     first: Vec<Option<usize>>,
-    /// Vertices of all hulls; the last only ends the neighbours of the one before.
+    /// Vertices of all hulls.
     vertices: Vec<HullVertex>,
     neighbours: Vec<Neighbours>,
 }
@@ -24,8 +24,8 @@ struct HullVertex {
     point: [f32; 3],
     /// Index among the vertices of the mesh.
     vertex: u32,
-    /// Start in `Slopes::neighbours`.
-    neighbours: u32,
+    /// Where in `Slopes::neighbours` they stand.
+    neighbours: [u32; 2],
 }
 
 /// Four neighbours of a vertex. The vertex itself, which is not above itself, fills up the last four.
@@ -74,8 +74,6 @@ impl Slopes {
                 slopes.push_hull(vert, m.mesh_graph[start] as usize, &m.mesh_graph[start + 2..]);
             }
         }
-        let end = slopes.neighbours.len() as u32;
-        slopes.vertices.push(HullVertex { point: [0.0; 3], vertex: 0, neighbours: end });
         slopes
     }
 
@@ -85,7 +83,6 @@ impl Slopes {
         let point = |h: usize| vert[vertex[h] as usize];
         for h in 0..n {
             let start = self.neighbours.len() as u32;
-            self.vertices.push(HullVertex { point: point(h), vertex: vertex[h] as u32, neighbours: start });
             let list = &lists[graph[h] as usize..];
             let list = &list[..list.iter().position(|&v| v < 0).unwrap_or(list.len())];
             self.neighbours.extend(list.chunks(4).map(|four| {
@@ -93,6 +90,8 @@ impl Slopes {
                 let [x, y, z] = [0, 1, 2].map(|axis: usize| at.map(|v| point(v)[axis]));
                 Neighbours { x, y, z, at: at.map(|v| v as u32) }
             }));
+            let neighbours = [start, self.neighbours.len() as u32];
+            self.vertices.push(HullVertex { point: point(h), vertex: vertex[h] as u32, neighbours });
         }
     }
 }
@@ -122,8 +121,8 @@ impl<'a> Slope<'a> {
     pub fn climb(&self, dir: Vec3, (mut best, mut top): (usize, f64)) -> Farthest {
         loop {
             let from = best;
-            let [vertex, end] = [self.vertices[from], self.vertices[from + 1]];
-            for four in &self.neighbours[vertex.neighbours as usize..end.neighbours as usize] {
+            let HullVertex { vertex, neighbours: [start, end], .. } = self.vertices[from];
+            for four in &self.neighbours[start as usize..end as usize] {
                 let height: [f64; 4] =
                     std::array::from_fn(|i| dot(dir, [four.x[i], four.y[i], four.z[i]].map(f64::from)));
                 // Together first: the four become one comparison.
@@ -138,7 +137,7 @@ impl<'a> Slope<'a> {
                 }
             }
             if best == from {
-                return Farthest { vertex: vertex.vertex as usize, start: best };
+                return Farthest { vertex: vertex as usize, start: best };
             }
         }
     }
