@@ -14,6 +14,22 @@ pub const fn stride(n: usize) -> usize {
     n.next_multiple_of(WIDTH)
 }
 
+/// Adds `s row rowᵀ` to the upper triangle of `a`; `row` holds the columns from `first` on, zero elsewhere, and
+/// `scaled` is working memory.
+pub fn add_outer_product(a: &mut [f64], n: usize, first: usize, row: &[f64], s: f64, scaled: &mut Vec<f64>) {
+    let (stride, start) = (stride(n), first / WIDTH * WIDTH);
+    scaled.clear();
+    scaled.resize(first - start, 0.0);
+    scaled.extend(row.iter().map(|x| x * s));
+    scaled.resize(scaled.len().next_multiple_of(WIDTH), 0.0);
+    for (j, &x) in (first..).zip(row).filter(|(_, x)| **x != 0.0) {
+        let from = j / WIDTH * WIDTH;
+        let scaled = &mut scaled[from - start..];
+        let column = whole(&mut a[j * stride + from..][..scaled.len()]);
+        column.iter_mut().zip(whole(scaled)).for_each(|(a, scaled)| *a += x * *scaled);
+    }
+}
+
 /// Replaces the upper triangle of `a` by its factor. Pivots below `least` are raised to it and their columns cleared;
 /// returns the number of sound pivots.
 pub fn cholesky_factor(a: &mut [f64], n: usize, least: f64) -> usize {
@@ -98,13 +114,20 @@ pub fn cholesky_solve(l: &[f64], n: usize, x: &mut [f64]) {
 /// Rank-one updates `L Lᵀ ± x xᵀ` of a factor (Gill, Golub, Murray, Saunders 1974), one for each row of `x`, which is
 /// `stride(n)` long; destroys `x`. Returns the number of pivots that fell below `least`.
 ///
-/// A column meets all updates before the next one does: they are independent but for its pivot.
+/// Two columns advance together, the second one update behind: each waits for its own square roots alone.
 pub fn cholesky_update(l: &mut [f64], n: usize, x: &mut [f64], plus: &[bool], least: f64) -> usize {
     let (stride, mut fallen) = (stride(n), 0);
-    for (k, column) in l.chunks_exact_mut(stride).enumerate() {
-        for (x, &plus) in x.chunks_exact_mut(stride).zip(plus) {
-            if x[k] != 0.0 {
-                fallen += usize::from(update_column(column, k, x, plus, least));
+    let mut step = |column: &mut [f64], k: usize, u: usize| {
+        fallen += usize::from(update_column(column, k, &mut x[u * stride..(u + 1) * stride], plus[u], least));
+    };
+    for (pair, columns) in l[..n * stride].chunks_mut(2 * stride).enumerate() {
+        let (first, second) = columns.split_at_mut(stride);
+        for u in 0..=plus.len() {
+            if u < plus.len() {
+                step(first, 2 * pair, u);
+            }
+            if u > 0 && !second.is_empty() {
+                step(second, 2 * pair + 1, u - 1);
             }
         }
     }
@@ -120,6 +143,9 @@ fn whole(x: &mut [f64]) -> &mut [f64] {
 /// Rotates `x` into column `k`; returns whether the pivot fell below `least`.
 #[inline]
 fn update_column(column: &mut [f64], k: usize, x: &mut [f64], plus: bool, least: f64) -> bool {
+    if x[k] == 0.0 {
+        return false;
+    }
     let pivot = column[k];
     let square = if plus { pivot * pivot + x[k] * x[k] } else { pivot * pivot - x[k] * x[k] };
     let fallen = square < least;

@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::rows::cone_hessian;
 use super::sparse_cholesky::SparseCholesky;
 use crate::math::add_scaled_slice;
-use crate::math::cholesky::{cholesky_factor, cholesky_solve, cholesky_update, stride};
+use crate::math::cholesky::{add_outer_product, cholesky_factor, cholesky_solve, cholesky_update, stride};
 use crate::model::ConstraintState;
 use crate::model::bounds::MINVAL;
 
@@ -135,17 +135,8 @@ fn assemble_dense(p: &Problem, active: &[f64], scaled: &mut Vec<f64>, h: &mut Ve
     let stride = stride(p.nv);
     h.clear();
     h.resize(p.nv * stride, 0.0);
-    for ((i, span), &d) in p.spans.iter().enumerate().zip(active) {
-        if d == 0.0 {
-            continue;
-        }
-        let row = &p.dense_row(i)[span.clone()];
-        scaled.clear();
-        scaled.extend(row.iter().map(|x| x * d));
-        for (j, &x) in row.iter().enumerate().filter(|(_, x)| **x != 0.0) {
-            let at = (span.start + j) * (stride + 1);
-            add_scaled_slice(&mut h[at..at + row.len() - j], &scaled[j..], x);
-        }
+    for ((i, span), &d) in p.spans.iter().enumerate().zip(active).filter(|(_, d)| **d != 0.0) {
+        add_outer_product(h, p.nv, span.start, &p.dense_row(i)[span.clone()], d, scaled);
     }
     for i in 0..p.nv {
         let (columns, values) = p.inertia_row(i);
