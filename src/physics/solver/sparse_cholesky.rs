@@ -2,7 +2,7 @@
 //! this order makes no fill (Featherstone 2008, section 6.5; Davis 2006, chapter 4).
 
 use super::problem::Problem;
-use crate::math::bit_set;
+use crate::math::{add_scaled_slice, bit_set};
 
 const NONE: usize = usize::MAX;
 
@@ -16,9 +16,11 @@ pub(super) struct SparseCholesky {
     end: Vec<usize>,
     /// Columns, increasing within a row.
     columns: Vec<usize>,
-    /// Entries of the Jacobian by column: start of each column.
+    /// Successive rows of the Jacobian with the same columns, as those of one contact: the first, and how many.
+    groups: Vec<(usize, usize)>,
+    /// Entries of groups by column: start of each column.
     entry_start: Vec<usize>,
-    /// Row and place of each.
+    /// Group of each, and its place within the group's rows.
     entries: Vec<(usize, usize)>,
     /// Columns of each row that are not zero, as sets; those of rows that are eliminated into it are added.
     patterns: Vec<u64>,
@@ -28,12 +30,14 @@ pub(super) struct SparseCholesky {
     next: Vec<usize>,
     at: Vec<usize>,
     dense: Vec<f64>,
+    sums: Vec<f64>,
 }
 
 impl SparseCholesky {
     /// Finds the structure for the pattern of `p`.
     pub fn analyse(&mut self, p: &Problem) {
         self.n = p.nv;
+        self.group_rows(p);
         self.list_columns(p);
         self.mark_matrix(p);
         self.start.clear();
@@ -66,41 +70,46 @@ impl SparseCholesky {
         for (r, pattern) in self.patterns.chunks_exact_mut(words).enumerate() {
             p.inertia_row(r).0.iter().for_each(|&c| bit_set::insert(pattern, c as usize));
         }
-        let mut before: &[i32] = &[];
-        for i in 0..p.rows.len() {
-            let row = p.sparse_row(i).0;
-            // Rows of one contact share their columns.
-            if row != before {
-                self.set.clear();
-                self.set.resize(words, 0);
-                row.iter().for_each(|&c| bit_set::insert(&mut self.set, c as usize));
-                for &r in row {
-                    bit_set::unite(&mut self.patterns[r as usize * words..], &self.set);
-                }
-                before = row;
+        for &(first, _) in &self.groups {
+            let columns = p.sparse_row(first).0;
+            self.set.clear();
+            self.set.resize(words, 0);
+            columns.iter().for_each(|&c| bit_set::insert(&mut self.set, c as usize));
+            for &r in columns {
+                bit_set::unite(&mut self.patterns[r as usize * words..], &self.set);
             }
         }
     }
 
-    /// Lists the Jacobian's entries by column.
+    fn group_rows(&mut self, p: &Problem) {
+        self.groups.clear();
+        for i in 0..p.rows.len() {
+            match self.groups.last_mut() {
+                Some((first, count)) if p.sparse_row(*first).0 == p.sparse_row(i).0 => *count += 1,
+                _ => self.groups.push((i, 1)),
+            }
+        }
+    }
+
+    /// Lists the entries of groups by column.
     fn list_columns(&mut self, p: &Problem) {
         self.entry_start.clear();
         self.entry_start.resize(p.nv + 1, 0);
-        for &c in &p.columns {
-            self.entry_start[c as usize + 1] += 1;
+        let columns = |first: usize| p.sparse_row(first).0.iter().map(|&c| c as usize);
+        for &(first, _) in &self.groups {
+            columns(first).for_each(|c| self.entry_start[c + 1] += 1);
         }
         for c in 0..p.nv {
             self.entry_start[c + 1] += self.entry_start[c];
         }
         self.entries.clear();
-        self.entries.resize(p.columns.len(), (0, 0));
+        self.entries.resize(self.entry_start[p.nv], (0, 0));
         self.at.clear();
         self.at.extend_from_slice(&self.entry_start[..p.nv]);
-        for i in 0..p.rows.len() {
-            for k in p.row_start[i]..p.row_start[i + 1] {
-                let at = &mut self.at[p.columns[k] as usize];
-                self.entries[*at] = (i, k);
-                *at += 1;
+        for (group, &(first, _)) in self.groups.iter().enumerate() {
+            for (k, c) in columns(first).enumerate() {
+                self.entries[self.at[c]] = (group, k);
+                self.at[c] += 1;
             }
         }
     }
@@ -135,14 +144,21 @@ impl SparseCholesky {
 
     /// Puts row `r` of the matrix in `dense`.
     fn assemble_row(&mut self, p: &Problem, active: &[f64], r: usize) {
-        for &(i, at) in &self.entries[self.entry_start[r]..self.entry_start[r + 1]] {
-            let scale = p.jacobian[at] * active[i];
-            if scale == 0.0 {
+        for &(group, at) in &self.entries[self.entry_start[r]..self.entry_start[r + 1]] {
+            let (first, count) = self.groups[group];
+            let active = &active[first..first + count];
+            if active.iter().all(|&d| d == 0.0) {
                 continue;
             }
-            for k in p.row_start[i]..=at {
-                self.dense[p.columns[k] as usize] += p.jacobian[k] * scale;
+            let columns = &p.sparse_row(first).0[..=at];
+            let length = p.row_start[first + 1] - p.row_start[first];
+            self.sums.clear();
+            self.sums.extend(columns.iter().map(|&c| self.dense[c as usize]));
+            let rows = p.jacobian[p.row_start[first]..].chunks_exact(length);
+            for (row, d) in rows.zip(active) {
+                add_scaled_slice(&mut self.sums, row, row[at] * d);
             }
+            columns.iter().zip(&self.sums).for_each(|(&c, sum)| self.dense[c as usize] = *sum);
         }
         let (columns, values) = p.inertia_row(r);
         for (&c, x) in columns.iter().zip(values) {
