@@ -1,6 +1,7 @@
 //! Appending rows, and products of the row Jacobian with vectors.
 
 use crate::data::Constraints;
+use crate::math::dot_sparse;
 use crate::model::{ConstraintType, Jacobian, Model};
 
 impl Model {
@@ -72,14 +73,15 @@ pub(super) fn is_empty(m: &Model, values: &[f64]) -> bool {
     values.is_empty() || !m.is_sparse() && values.iter().all(|&v| v == 0.0)
 }
 
-/// `out = J v`.
+/// `out = J v`, added up in the order of compressed rows where MuJoCo stores those, else of full rows.
 pub fn mul_jacobian(m: &Model, efc: &Constraints, v: &[f64], out: &mut Vec<f64>) {
+    let (sparse, whole) = (m.is_sparse(), m.nv & !3);
     out.clear();
-    let whole = m.nv & !3;
     out.extend((0..efc.nefc).map(|i| {
         let start = efc.efc_J_rowadr[i] as usize;
         let range = start..start + efc.efc_J_rownnz[i] as usize;
-        dot_row(&efc.efc_J_colind[range.clone()], &efc.efc_J[range], v, whole)
+        let (columns, values) = (&efc.efc_J_colind[range.clone()], &efc.efc_J[range]);
+        if sparse { dot_sparse(values, columns, v) } else { dot_row(columns, values, v, whole) }
     }));
 }
 
