@@ -49,6 +49,20 @@ fn inspect_writes_every_array_under_its_name() {
 }
 
 #[test]
+fn a_reader_that_stops_early_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_robohive"))
+        .args(["inspect", "assets/franka/franka_table.xml", "--json"])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let out = child.wait_with_output().unwrap();
+    assert_eq!((out.status.code(), text(&out.stderr).as_str()), (Some(0), ""));
+}
+
+#[test]
 fn sim_reports_and_records() {
     let file = scratch("sim.npz");
     let out = robohive(&[

@@ -39,7 +39,7 @@ pub fn run(a: &Bench) -> Result<(), Failure> {
         found.insert("model".into(), json!(path.display().to_string()));
         found.extend(workload.measure(measure, a.steps)?);
         if a.json {
-            println!("{}", Value::Object(found));
+            show!("{}", Value::Object(found));
         } else {
             print(measure, &found);
         }
@@ -68,7 +68,7 @@ fn answer(workload: &Workload) -> Result<(), Failure> {
                     "request {line:?} is not rate, stages or jitter and a number of steps"
                 ))
             })?;
-        println!("{}", Value::Object(workload.measure(measure, steps)?));
+        show!("{}", Value::Object(workload.measure(measure, steps)?));
     }
     Ok(())
 }
@@ -242,7 +242,7 @@ fn print(measure: Measure, found: &Map<String, Value>) {
     let model = found["model"].as_str().unwrap_or_default();
     let timed = || found.iter().filter_map(|(name, value)| Some((name, value.as_f64()?)));
     match measure {
-        Measure::Rate => println!(
+        Measure::Rate => show!(
             "{:>10.0} steps/s  {} environment(s)  {} thread(s)  {:>5.0} MiB  {model}",
             number("steps_per_second"),
             number("environments"),
@@ -251,15 +251,15 @@ fn print(measure: Measure, found: &Map<String, Value>) {
         ),
         Measure::Stages => {
             let whole: f64 = timed().map(|(_, seconds)| seconds).sum();
-            println!("{:>10.2} us a step  {model}", whole * 1e6);
+            show!("{:>10.2} us a step  {model}", whole * 1e6);
             for (stage, seconds) in timed() {
-                println!("{:>10.2} us {:>5.1} %  {stage}", seconds * 1e6, 100.0 * seconds / whole);
+                show!("{:>10.2} us {:>5.1} %  {stage}", seconds * 1e6, 100.0 * seconds / whole);
             }
         }
         Measure::Jitter => {
             let values: Vec<_> =
                 timed().map(|(name, seconds)| format!("{name} {:.1} us", seconds * 1e6)).collect();
-            println!("{:>5.2} x  {}  {model}", number("p99.9") / number("median"), values.join(", "));
+            show!("{:>5.2} x  {}  {model}", number("p99.9") / number("median"), values.join(", "));
         }
     }
 }

@@ -14,14 +14,14 @@ pub fn run(a: &Check) -> Result<(), Failure> {
     let mut agrees = true;
     let mut line = |what: &str, good: bool, text: String| {
         agrees &= good;
-        println!("{what:<10} {:<9} {text}", if good { "agrees" } else { "DIFFERS" });
+        show!("{what:<10} {:<9} {text}", if good { "agrees" } else { "DIFFERS" });
     };
 
-    println!("{} beside MuJoCo 3.12.0", m.name);
+    show!("{} beside MuJoCo 3.12.0", m.name);
     let compiled = compare_compiled(&m, &reference).map_err(Failure::usage)?;
     line("compile", compiled.agrees(), format!("{} fields", compiled.fields));
     for worst in compiled.differences.iter().take(10) {
-        println!("{:>22}{worst}, {:.1} x tolerance", "", worst.error);
+        show!("{:>22}{worst}, {:.1} x tolerance", "", worst.error);
     }
 
     let forward = compare_forward(&m, &reference).map_err(Failure::usage)?;
@@ -31,10 +31,10 @@ pub fn run(a: &Check) -> Result<(), Failure> {
     );
     line("forward", forward.agreeing == forward.states && forward.failure.is_none(), text);
     if let Some((row, worst)) = &forward.worst {
-        println!("{:>22}worst: state {row}, {worst}, error {:.1e}", "", worst.error);
+        show!("{:>22}worst: state {row}, {worst}, error {:.1e}", "", worst.error);
     }
     if let Some(failure) = &forward.failure {
-        println!("{:>22}{failure}", "");
+        show!("{:>22}{failure}", "");
     }
 
     let single = compare_steps(&m, &reference).map_err(Failure::usage)?;
@@ -52,14 +52,14 @@ pub fn run(a: &Check) -> Result<(), Failure> {
     line("rollout", rollout.follows(), text);
     for step in [0, 9, 49, 99, 199, 499] {
         if let Some(difference) = rollout.by_step.get(step) {
-            println!("{:>22}after step {:>3}: {difference:.1e}", "", step + 1);
+            show!("{:>22}after step {:>3}: {difference:.1e}", "", step + 1);
         }
     }
     if let Some((step, failure)) = &rollout.failure {
-        println!("{:>22}step {step}: {failure}", "");
+        show!("{:>22}step {step}: {failure}", "");
     }
     if let Some(step) = rollout.first_outside {
-        println!("{:>22}outside the bound from step {step}", "");
+        show!("{:>22}outside the bound from step {step}", "");
     }
     if agrees { Ok(()) } else { Err(Failure::new("the comparison disagrees")) }
 }

@@ -8,6 +8,6 @@ pub fn run(a: &Compile) -> Result<(), Failure> {
     let m = load(&a.model.path, &a.model.reading)?;
     let bytes = m.to_bytes();
     std::fs::write(&a.out, &bytes).map_err(unwritable(&a.out))?;
-    println!("{}: {} bytes", a.out.display(), bytes.len());
+    show!("{}: {} bytes", a.out.display(), bytes.len());
     Ok(())
 }

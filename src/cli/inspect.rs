@@ -16,9 +16,9 @@ pub fn run(a: &Inspect) -> Result<(), Failure> {
         write_arrays(&m, path)?;
     }
     if a.json {
-        println!("{}", json(&m));
+        show!("{}", json(&m));
     } else {
-        print!("{}", summary(&m));
+        show!("{}", summary(&m).trim_end());
     }
     Ok(())
 }

@@ -1,5 +1,10 @@
 //! The command line: one subcommand a file.
 
+/// Writes a line to standard output.
+macro_rules! show {
+    ($($text:tt)*) => { $crate::cli::write_line(format_args!($($text)*)) };
+}
+
 mod arguments;
 mod bench;
 mod check;
@@ -12,6 +17,7 @@ mod trace;
 use arguments::Reading;
 use clap::Parser;
 use std::fmt;
+use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -48,6 +54,19 @@ pub fn run() -> ExitCode {
         Err(failure) => {
             eprintln!("robohive: {}", failure.message);
             ExitCode::from(failure.code)
+        }
+    }
+}
+
+/// Writes a line to standard output. A reader that has seen enough, as `head`, ends the process in silence.
+fn write_line(text: fmt::Arguments) {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Ok(()) => {}
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => std::process::exit(0),
+        Err(error) => {
+            eprintln!("robohive: standard output: {error}");
+            std::process::exit(1);
         }
     }
 }

@@ -43,14 +43,14 @@ pub fn run(a: &Sim) -> Result<(), Failure> {
     let wall = began.elapsed().as_secs_f64();
     bar.finish_and_clear();
     physics::derive_on_demand(&m, &mut d);
-    println!("model        {}", m.name);
-    println!("time         {:.6} s in {steps} steps", d.time);
-    println!("speed        {:.0} steps/s, {:.1} x real time", steps / wall, d.time / wall);
-    println!("energy       potential {:.6} J, kinetic {:.6} J", d.energy[0], d.energy[1]);
-    println!("contacts     {} now, {contacts} at most", d.con.contact.len());
+    show!("model        {}", m.name);
+    show!("time         {:.6} s in {steps} steps", d.time);
+    show!("speed        {:.0} steps/s, {:.1} x real time", steps / wall, d.time / wall);
+    show!("energy       potential {:.6} J, kinetic {:.6} J", d.energy[0], d.energy[1]);
+    show!("contacts     {} now, {contacts} at most", d.con.contact.len());
     if let (Some(path), Some(recorder)) = (&a.out, recorder) {
         write(path, recorder)?;
-        println!("written      {}", path.display());
+        show!("written      {}", path.display());
     }
     Ok(())
 }
