@@ -172,6 +172,28 @@ fn numbers_out_of_range_are_refused_or_stepped() {
     assert!(refused > 1000 && stepped > 2000, "{refused} {stepped}");
 }
 
+/// Balls and boxes turned inside out, and of no size, inside a height field.
+#[test]
+fn height_fields_meet_bodies_of_impossible_sizes() {
+    let text = "<mujoco><asset><hfield name='h' nrow='9' ncol='9' size='1 1 .1 1'/></asset><worldbody>
+        <geom type='hfield' hfield='h'/><body pos='.06 .06 -.5'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+    let m = load_str(text).unwrap().model;
+    let mut stepped = 0;
+    for name in ["geom_rbound", "geom_aabb", "geom_size", "hfield_size", "hfield_data"] {
+        let mut scalars = 0;
+        m.visit(&mut |array, _, values| scalars = if array == name { values.len() } else { scalars });
+        for number in [f64::NAN, -0.4, -1e300, 1e300, f64::INFINITY] {
+            let mut changed = m.clone();
+            assert_eq!(changed.assign(name, &vec![number; scalars]), Some(true));
+            if check_consistency(&changed).is_ok() {
+                stepped += 1;
+                _ = step(&changed, &mut Data::new(&changed));
+            }
+        }
+    }
+    assert!(stepped > 15, "{stepped}");
+}
+
 /// Loops over pixels that are fewer than none, or that make no reading, end.
 #[test]
 fn cameras_without_a_number_of_pixels_are_refused() {

@@ -54,6 +54,9 @@ impl<'a> Grid<'a> {
         let radius = radius + BALL_SLACK * (radius + x.abs() + y.abs() + z.abs());
         let (first_column, last_column) = self.lines(0, x - radius, x + radius);
         let (first_row, last_row) = self.lines(1, y - radius, y + radius);
+        if last_column < first_column || last_row < first_row {
+            return false;
+        }
         self.heights[first_row * self.columns..][..(last_row - first_row + 1) * self.columns]
             .chunks_exact(self.columns)
             .all(|row| row[first_column..=last_column].iter().all(|&h| self.rise(h) < z - radius))
