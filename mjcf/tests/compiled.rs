@@ -231,4 +231,8 @@ fn hierarchies_that_are_no_trees_are_refused() {
         changed.bvh_child[first + node] = children;
         assert!(check_consistency(&changed).is_err(), "{node} {children:?}");
     }
+    // A tree of no nodes would be walked unchecked.
+    let mut changed = m.clone();
+    changed.mesh_bvhnum[0] = 0;
+    assert!(check_consistency(&changed).is_err());
 }

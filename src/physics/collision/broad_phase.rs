@@ -1,12 +1,12 @@
-//! Pairs of bodies that may touch: sweep and prune along the axis of the world on which they spread most (Baraff
-//! 1992), after filters by contact type, weld group and parent (documentation: Computation, "Pair selection").
-//!
-//! MuJoCo sweeps along the axes of the geoms' covariance, so other pairs pass in vain. Rounding never parts what touches;
-//! in MuJoCo single precision may part what touches by less than 1e-7 of its distance from the origin.
+//! Pairs of bodies that may touch: sweep and prune along the axis of largest spread of the geoms (Baraff 1992),
+//! after filters by contact type, weld group and parent (documentation: Computation, "Pair selection").
 
 use super::mixing::overridden;
 use crate::data::Kinematics;
-use crate::math::{Vec3, add, add_scaled, column, dot, mul_mat_vec, sub};
+use crate::math::{
+    Mat3, Vec3, add, add_scaled, column, dot, mul_mat, mul_mat_vec, principal_axes, quat_to_mat,
+};
+use crate::math::{scale, sub};
 use crate::model::{GeomType, Model, disable};
 
 /// Working memory and result of the broad phase.
@@ -20,10 +20,7 @@ pub struct BroadPhase {
     active: Vec<u32>,
 }
 
-/// How much rounding may move the ends of a box, relative to their distance from the origin.
-const ROUNDING: f64 = 1e-12;
-
-/// Extent of a body along the axes of the world.
+/// Extent of a body along three axes.
 #[derive(Clone, Copy, Debug)]
 struct Bounds {
     min: Vec3,
@@ -38,9 +35,10 @@ impl BroadPhase {
         self.bodies.clear();
         self.bodies.extend((1..m.nbody).filter(|&b| can_collide(m, b)));
         if self.bodies.len() > 1 {
+            let frame = spread_frame(m, kin);
             self.boxes.clear();
-            self.boxes.extend(self.bodies.iter().map(|&b| body_bounds(m, kin, b)));
-            self.sort_ends(longest_axis(&self.boxes));
+            self.boxes.extend(self.bodies.iter().map(|&b| body_bounds(m, kin, b, &frame)));
+            self.sort_ends();
             self.sweep(m);
         }
         self.pairs.sort_unstable();
@@ -66,14 +64,14 @@ impl BroadPhase {
         }
     }
 
-    /// Lower and upper ends along one axis, ascending. One key holds the end in single precision (order-preserving
-    /// bits), rounded outward, then twice the body index, plus one for upper ends.
-    fn sort_ends(&mut self, axis: usize) {
-        let key = |end: u32, index: usize| (u64::from(end) << 32) | index as u64;
+    /// Lower and upper ends along the first axis, ascending; equal ends keep the order of bodies. One key holds
+    /// the end in single precision (order-preserving bits), then twice the body index, plus one for upper ends.
+    fn sort_ends(&mut self) {
+        let key = |x: f64, index: usize| (u64::from(ordered_bits(x as f32)) << 32) | index as u64;
         self.ends.clear();
         for (i, b) in self.boxes.iter().enumerate() {
-            self.ends.push(key(ordered_bits(b.min[axis] as f32).saturating_sub(1), 2 * i));
-            self.ends.push(key(ordered_bits(b.max[axis] as f32).saturating_add(1), 2 * i + 1));
+            self.ends.push(key(b.min[0], 2 * i));
+            self.ends.push(key(b.max[0], 2 * i + 1));
         }
         self.ends.sort_unstable();
     }
@@ -113,9 +111,9 @@ fn ordered_bits(x: f32) -> u32 {
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }
 
-/// No overlap along some axis.
+/// No overlap along the second or third axis.
 fn apart(a: &Bounds, b: &Bounds) -> bool {
-    (0..3).any(|k| a.min[k] > b.max[k] || b.min[k] > a.max[k])
+    (1..3).any(|k| a.min[k] > b.max[k] || b.min[k] > a.max[k])
 }
 
 fn can_collide(m: &Model, b: usize) -> bool {
@@ -152,38 +150,43 @@ fn bodies_match(m: &Model, b1: usize, b2: usize) -> bool {
     types_match(m.body_contype[b1], m.body_conaffinity[b1], m.body_contype[b2], m.body_conaffinity[b2])
 }
 
-/// Axis along which the lower ends spread most.
-fn longest_axis(boxes: &[Bounds]) -> usize {
-    let spread = |k: usize| {
-        let (low, high) = boxes.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), b| {
-            (min(low, b.min[k]), max(high, b.min[k]))
-        });
-        high - low
-    };
-    let [x, y, z] = [spread(0), spread(1), spread(2)];
-    if x >= y && x >= z {
-        0
-    } else if y >= z {
-        1
-    } else {
-        2
+/// Frame whose axes (rows) follow the covariance of the positions of geoms outside the world body.
+fn spread_frame(m: &Model, kin: &Kinematics) -> Mat3 {
+    let placed = || m.geom_bodyid.iter().zip(&kin.geom_xpos);
+    let moving = || placed().filter(|&(&body, _)| body != 0).map(|(_, &pos)| pos);
+    let count = moving().count();
+    let centre = scale(moving().fold([0.0; 3], add), 1.0 / count as f64);
+    let mut cov = [0.0; 9];
+    for pos in moving() {
+        let [x, y, z] = sub(pos, centre);
+        for (c, product) in
+            cov.iter_mut().zip([x * x, x * y, x * z, x * y, y * y, y * z, x * z, y * z, z * z])
+        {
+            *c += product;
+        }
     }
+    let (_, quat) = principal_axes(&cov.map(|c| c * (1.0 / count as f64)));
+    quat_to_mat(quat)
 }
 
-/// Extent of the colliding geoms of body `b` with their margins: each lies in its box and in its bounding sphere.
-fn body_bounds(m: &Model, kin: &Kinematics, b: usize) -> Bounds {
+/// Extent of the colliding geoms of body `b` with their margins along the rows of `frame`: each lies in its box
+/// and in its bounding sphere.
+fn body_bounds(m: &Model, kin: &Kinematics, b: usize, frame: &Mat3) -> Bounds {
     let global = if overridden(m) { 0.5 * m.opt.o_margin } else { 0.0 };
     let mut bounds = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
     for g in geoms(m, b).filter(|&g| m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0) {
         let margin = if global != 0.0 { global } else { m.geom_margin[g] + m.geom_gap[g] };
         let (pos, mat, radius) = (kin.geom_xpos[g], &kin.geom_xmat[g], m.geom_rbound[g]);
+        let sphere = mul_mat_vec(frame, pos);
         let [cx, cy, cz, sx, sy, sz] = m.geom_aabb[g];
-        let centre = add(mul_mat_vec(mat, [cx, cy, cz]), pos);
+        let centred = cx == 0.0 && cy == 0.0 && cz == 0.0;
+        let centre =
+            if centred { sphere } else { mul_mat_vec(frame, add(mul_mat_vec(mat, [cx, cy, cz]), pos)) };
+        let axes = mul_mat(frame, mat);
         for j in 0..3 {
-            let half = sx * mat[3 * j].abs() + sy * mat[3 * j + 1].abs() + sz * mat[3 * j + 2].abs();
-            let around = margin + ROUNDING * (centre[j].abs() + half);
-            bounds.min[j] = min(bounds.min[j], max(pos[j] - radius, centre[j] - half) - around);
-            bounds.max[j] = max(bounds.max[j], min(pos[j] + radius, centre[j] + half) + around);
+            let half = (sx * axes[3 * j]).abs() + (sy * axes[3 * j + 1]).abs() + (sz * axes[3 * j + 2]).abs();
+            bounds.min[j] = min(bounds.min[j], max(sphere[j] - radius, centre[j] - half) - margin);
+            bounds.max[j] = max(bounds.max[j], min(sphere[j] + radius, centre[j] + half) + margin);
         }
     }
     bounds

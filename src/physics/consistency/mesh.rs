@@ -68,8 +68,9 @@ fn check_mesh(m: &Model, mesh: usize) -> Result<(), Inconsistent> {
         let known = inside(&m.mesh_polymap[polygons], m.mesh_polynum[mesh]);
         require(known, "mesh_polymapadr", v, "the address of polygons of the mesh")?;
     }
-    if m.mesh_bvhadr[mesh] >= 0 && m.mesh_bvhnum[mesh] > 0 {
-        let (first, nodes) = (m.mesh_bvhadr[mesh] as usize, m.mesh_bvhnum[mesh] as usize);
+    if let Ok(first) = usize::try_from(m.mesh_bvhadr[mesh]) {
+        let nodes = m.mesh_bvhnum[mesh] as usize;
+        require(nodes > 0, "mesh_bvhnum", mesh, "at least the root")?;
         nodes_of(m, first, nodes, m.mesh_facenum[mesh] as usize)?;
     }
     hull(m, mesh)
