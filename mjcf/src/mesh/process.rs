@@ -283,7 +283,7 @@ fn to_inertial_frame(arrays: &mut Arrays, com: [f64; 3], quat: [f64; 4]) -> [f64
 
 /// Vertices are kept in single precision.
 fn check_size(vert: &[[f64; 3]], name: &str) -> Result<(), AssetError> {
-    match vert.as_flattened().iter().find(|x| !(x.abs() <= f64::from(f32::MAX))) {
+    match vert.as_flattened().iter().find(|x| !(**x as f32).is_finite()) {
         None => Ok(()),
         Some(x) => Err(AssetError::geometry(format!(
             "mesh '{name}': a coordinate about the centre of mass is {x:.3e}, beyond single precision; scale it down"
