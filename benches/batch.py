@@ -1,10 +1,11 @@
-"""Steps per second of 64 environments on two threads, beside one thread.
+"""Steps per second of 64 environments on two threads, beside one thread and beside two processes.
 
     python benches/batch.py [MODEL...]
 
-Two processes, one a number of threads, step the same environments in turns, 100 steps with zero controls a turn. Wall
-time: the machine must have both cores to spare. The ratio is that of the least times, which other work on the machine
-does not change; the median of the turns' ratios stands beside it. Linux, `numpy`, and a release build of this repository.
+Processes that hold the environments step them in turns, 500 steps with zero controls a turn: one thread with half of
+them, two such processes at once, two threads with all. Wall time, medians of the ratios within a turn. Two processes
+share nothing but the machine, so they show what its second core is worth. Needs two idle cores, `numpy`, Linux, and a
+release build of this repository.
 """
 
 import json
@@ -15,35 +16,39 @@ import numpy as np
 
 from step import OWN, ROOT, binary
 
-ENVIRONMENTS, STEPS, ROUNDS = 64, 100, 15
+ENVIRONMENTS, STEPS, ROUNDS = 64, 500, 7
 
 
 class Batch:
     def __init__(self, path, threads):
-        command = [binary(), "bench", path, "--requests", "--batch", str(ENVIRONMENTS), "--threads", str(threads)]
+        command = [binary(), "bench", path, "--requests", "--batch", str(ENVIRONMENTS * threads // 2),
+                   "--threads", str(threads)]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
-        self.rate()
-
-    def rate(self):
-        self.process.stdin.write(f"rate {STEPS}\n")
-        self.process.stdin.flush()
-        return json.loads(self.process.stdout.readline())["steps_per_second"]
+        rates([self], 50)
 
     def close(self):
         self.process.stdin.close()
         self.process.wait()
 
 
+def rates(sides, steps=STEPS):
+    """Steps per second of batches that run at the same time, summed."""
+    for side in sides:
+        side.process.stdin.write(f"rate {steps}\n")
+        side.process.stdin.flush()
+    return sum(json.loads(side.process.stdout.readline())["steps_per_second"] for side in sides)
+
+
 def main(paths):
-    print(f"{'model':32} {'one thread':>12} {'two threads':>12} {'ratio':>6} {'median':>7}")
+    print("| model | one thread [steps/s] | two processes | two threads | threads / processes |\n|---|---|---|---|---|")
     for path in paths or [str(ROOT / "assets" / f"{name}.xml") for name in OWN]:
-        sides = [Batch(path, threads) for threads in (1, 2)]
-        rates = np.array([[side.rate() for side in sides] for _ in range(ROUNDS)])
-        for side in sides:
+        one, other, two = (Batch(path, threads) for threads in (1, 1, 2))
+        turns = np.array([[rates([one]), rates([one, other]), rates([two])] for _ in range(ROUNDS)])
+        for side in (one, other, two):
             side.close()
-        one, two = rates.max(axis=0)
-        median = np.median(rates[:, 1] / rates[:, 0])
-        print(f"{path.split('/')[-1][:-4]:32} {one:12.0f} {two:12.0f} {two / one:6.2f} {median:7.2f}", flush=True)
+        alone, processes, threads = turns.T
+        ratios = [np.median(x) for x in (alone, processes / alone, threads / alone, threads / processes)]
+        print("| {} | {:.0f} | {:.2f} x | {:.2f} x | {:.2f} |".format(path.split("/")[-1][:-4], *ratios), flush=True)
 
 
 if __name__ == "__main__":
