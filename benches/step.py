@@ -49,6 +49,7 @@ ROUNDS = 7
 STAGE_ROUNDS = 15
 SECONDS = 0.4
 JITTER_PASS, JITTER_PASSES = 5000, 4
+JITTER_HEADING = " p99.9 / median | of least times | MuJoCo's | contacts: median, p99.9 |"
 
 # MuJoCo's timers use a clock that Python need not enter: a function of C without arguments that returns seconds.
 CLOCK = ctypes.CFUNCTYPE(ctypes.c_double)(("omp_get_wtime", ctypes.CDLL("libgomp.so.1")))
@@ -115,11 +116,26 @@ class MuJoCo:
     def __init__(self, model, controls):
         self.model, self.controls, self.data = model, controls, mujoco.MjData(model)
 
-    def one_pass(self):
+    def reset(self):
         if self.model.nkey:
             mujoco.mj_resetDataKeyframe(self.model, self.data, 0)
         else:
             mujoco.mj_resetData(self.model, self.data)
+
+    def each_step(self):
+        """Seconds and contacts of every step of one pass; a call from Python is in the time."""
+        self.reset()
+        found = []
+        for row in self.controls:
+            self.data.ctrl[:] = row
+            for _ in range(HOLD):
+                began = time.perf_counter()
+                mujoco.mj_step(self.model, self.data)
+                found.append((time.perf_counter() - began, self.data.ncon))
+        return found
+
+    def one_pass(self):
+        self.reset()
         for row in self.controls:
             self.data.ctrl[:] = row
             mujoco.mj_step(self.model, self.data, HOLD)
@@ -166,11 +182,17 @@ def compare(path, model, args):
 
 
 def jitter(path, model):
-    """p99.9 of our step time over its median: of all steps, and of the least time that each took in the passes."""
-    side = RoboHive(path, record.controls(model, JITTER_PASS, 0)[::HOLD])
+    """p99.9 of the time of a step over its median: of all our steps, then of the least time that each step took in the
+    passes, ours and MuJoCo's; and the contacts of a median step and of p99.9."""
+    controls = record.controls(model, JITTER_PASS, 0)[::HOLD]
+    side = RoboHive(path, controls)
     found = side.answer("jitter", JITTER_PASSES * JITTER_PASS)
     side.close()
-    return [found[least + "p99.9"] / found[least + "median"] for least in ("", "least ")]
+    theirs = MuJoCo(model, controls)
+    passes = np.array([theirs.each_step() for _ in range(JITTER_PASSES)])
+    least, contacts = passes[:, :, 0].min(axis=0), passes[0, :, 1]
+    ratios = [found[kind + "p99.9"] / found[kind + "median"] for kind in ("", "least ")]
+    return ratios + [np.quantile(least, 0.999) / np.median(least), np.median(contacts), np.quantile(contacts, 0.999)]
 
 
 def geometric_mean(ratios):
@@ -179,10 +201,10 @@ def geometric_mean(ratios):
 
 def report(rows, args):
     """The measured table, Markdown."""
-    lines = ["| model | robohive steps/s | MuJoCo steps/s | ratio | motion |" + (" p99.9 / median | the same of least times |" if args.jitter else ""),
-             "|---|---|---|---|---|" + ("---|---|" if args.jitter else "")]
+    lines = ["| model | robohive steps/s | MuJoCo steps/s | ratio | motion |" + (JITTER_HEADING if args.jitter else ""),
+             "|---|---|---|---|---|" + ("---|" * 4 if args.jitter else "")]
     for name, r in rows.items():
-        jitter = " {:.2f} | {:.2f} |".format(*r["jitter"]) if args.jitter else ""
+        jitter = " {:.2f} | {:.2f} | {:.2f} | {:.0f}, {:.0f} |".format(*r["jitter"]) if args.jitter else ""
         lines.append(f"| {name} | {r['ours']:.0f} | {r['theirs']:.0f} | {r['ratio']:.2f} | {r['motion']:.0e} |{jitter}")
     ratios = [r["ratio"] for r in rows.values()]
     muscles = [r["ratio"] for r in rows.values() if r["muscles"]]
