@@ -231,7 +231,7 @@ def main():
     parser.add_argument("--corpus", type=pathlib.Path, help="folder with RoboHive's envs and simhive")
     parser.add_argument("--only", default="", help="models whose path contains this")
     parser.add_argument("--stages", action="store_true", help="time of each stage on both sides")
-    parser.add_argument("--jitter", action="store_true", help="p99.9 of our step time over the median; wants an idle core")
+    parser.add_argument("--jitter", action="store_true", help="p99.9 of step time over the median on both sides; wants an idle core")
     parser.add_argument("--write", type=pathlib.Path, help="file with the marks 'steps begin' and 'steps end'")
     args = parser.parse_args()
     if mujoco.__version__ != "3.12.0":
