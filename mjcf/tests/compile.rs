@@ -173,8 +173,8 @@ fn a_tendon_that_misses_its_geom_leaves_the_geoms_island_alone() {
 /// Inverse weights are those of dense rows and the whole inertia, to the last bit, though found within trees.
 #[test]
 fn inverse_weights_within_trees_are_those_of_the_whole_inertia() {
-    use physics::jacobian::Jacobian;
     use physics::math::dense::dot_slice;
+    use physics::position::jacobian::Jacobian;
     use physics::{Data, inertia};
     for name in ["workbench/workbench", "pile/pile", "yard/yard", "humanoid/humanoid"] {
         let path = format!("{}/../assets/{name}.xml", env!("CARGO_MANIFEST_DIR"));

@@ -2,8 +2,8 @@
 
 use physics::consistency::check_consistency;
 use physics::model::binary::{BinaryError, seal};
+use physics::pipeline::validity::check_model;
 use physics::table::Slice;
-use physics::validity::check_model;
 use physics::{Data, Model, step};
 use robohive_mjcf::files::Memory;
 use robohive_mjcf::{Loader, load, load_str};

@@ -1,9 +1,9 @@
 //! `bench`: steps per second, where their time goes, and how much it varies.
 
-use crate::cli::arguments::Bench;
-use crate::cli::{Failure, load, start};
+use crate::arguments::Bench;
+use crate::{Failure, load, start};
 use dataset::NpzReader;
-use physics::watch::{Stage, Watch};
+use physics::pipeline::watch::{Stage, Watch};
 use physics::{Batch, Data, Model, step, step_watched};
 use serde_json::{Map, Value, json};
 use std::fmt::Display;

@@ -1,7 +1,7 @@
 //! `check`: a model beside what MuJoCo recorded of it.
 
-use crate::cli::arguments::Check;
-use crate::cli::{Failure, load};
+use crate::arguments::Check;
+use crate::{Failure, load};
 use validation::compile::compare_compiled;
 use validation::motion::{compare_forward, compare_rollout, compare_steps};
 use validation::reference::Reference;

@@ -1,7 +1,7 @@
 //! `compile`: a model as one file that loads in milliseconds.
 
-use crate::cli::arguments::Compile;
-use crate::cli::{Failure, load, unwritable};
+use crate::arguments::Compile;
+use crate::{Failure, load, unwritable};
 
 /// Runs the command.
 pub fn run(a: &Compile) -> Result<(), Failure> {

@@ -1,6 +1,6 @@
 //! Fields by name: from `Data` into arrays shaped as MuJoCo's Python bindings shape them.
 
-use crate::cli::Failure;
+use crate::Failure;
 use dataset::{Array, Values};
 use physics::table::Slice;
 use physics::{Data, Model};

@@ -1,8 +1,8 @@
 //! `inspect`: what is in a model.
 
-use crate::cli::arguments::Inspect;
-use crate::cli::fields::array;
-use crate::cli::{Failure, load, unwritable};
+use crate::arguments::Inspect;
+use crate::fields::array;
+use crate::{Failure, load, unwritable};
 use dataset::{Array, NpzWriter};
 use physics::Model;
 use physics::model::{Cone, GeomType, Integrator, JointType, ObjType, Solver};

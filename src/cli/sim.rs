@@ -1,8 +1,8 @@
 //! `sim`: let a model move.
 
-use crate::cli::arguments::Sim;
-use crate::cli::fields::Recorder;
-use crate::cli::{Failure, load, start, unwritable};
+use crate::arguments::Sim;
+use crate::fields::Recorder;
+use crate::{Failure, load, start, unwritable};
 use dataset::NpzWriter;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::Path;

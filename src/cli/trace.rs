@@ -1,8 +1,8 @@
 //! `trace`: recorded inputs in, named fields out.
 
-use crate::cli::arguments::Trace;
-use crate::cli::fields::{Recorder, is_ragged};
-use crate::cli::{Failure, load, unwritable};
+use crate::arguments::Trace;
+use crate::fields::{Recorder, is_ragged};
+use crate::{Failure, load, unwritable};
 use dataset::{Array, NpzReader, NpzWriter};
 use physics::{Data, Model};
 

@@ -4,8 +4,9 @@ use crate::compare::{Worst, compare, compare_scaled, exact, relative};
 use crate::reference::{Reference, ReferenceError};
 use crate::tolerance::STAGE;
 use physics::{
-    Data, Model, actuation, bias, camera, collision, com, constraint, energy, inertia, kinematics, momentum,
-    passive, sensor, tendon, transmission, velocity,
+    Data, Model, actuation, actuation::transmission, collision, constraint, inertia, on_demand::energy,
+    on_demand::momentum, position::camera, position::com, position::kinematics, position::tendon, sensor,
+    velocity::bias, velocity::com_vel, velocity::passive,
 };
 
 /// One stage: the recorded arrays it reads, how it runs, and the arrays it writes.
@@ -163,7 +164,7 @@ const STAGES: &[Stage] = &[
         run: |m, d| {
             tendon::tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
             transmission::actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
-            velocity::com_vel(m, &d.state, &d.com, &mut d.vel);
+            com_vel::com_vel(m, &d.state, &d.com, &mut d.vel);
         },
         writes: &["ten_velocity", "actuator_velocity", "cvel", "cdof_dot"],
     },

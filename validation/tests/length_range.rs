@@ -1,6 +1,6 @@
 //! Length ranges of muscles, measured anew, against those MuJoCo compiled.
 
-use physics::length_range::{LengthRangeOptions, set_length_ranges};
+use physics::constants::length_range::{LengthRangeOptions, set_length_ranges};
 use robohive_validation::reference::Reference;
 use std::path::Path;
 

@@ -1,6 +1,6 @@
 //! Quantities derived at `qpos0` equal MuJoCo's on the own models, after they have been wiped.
 
-use physics::set_const::set_const;
+use physics::constants::set_const::set_const;
 use robohive_validation::compare::{compare, compiled, exact};
 use robohive_validation::reference::recorded;
 

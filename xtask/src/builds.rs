@@ -57,7 +57,7 @@ fn digest(cargo: &[&str], program: &[&str], flags: &str) -> Result<(), String> {
 fn static_build() -> Result<(), String> {
     let flags = "-C target-feature=+crt-static";
     digest(&["run", "--quiet", "--release", "--target", STATIC_TARGET], &["--threads", "4"], flags)?;
-    let arguments = ["build", "--quiet", "--profile", "ci", "--bin", "robohive", "--target", STATIC_TARGET];
+    let arguments = ["build", "--quiet", "--profile", "ci", "-p", "robohive-cli", "--target", STATIC_TARGET];
     succeed(Command::new("cargo").args(arguments).env("RUSTFLAGS", flags))?;
     let binary = target_folder()?.join(STATIC_TARGET).join("ci/robohive");
     let bytes = std::fs::read(&binary).map_err(|e| format!("{}: {e}", binary.display()))?;

@@ -95,7 +95,7 @@ fn compiler() -> Result<String, Trouble> {
 
 /// Builds the command as it ships; its path.
 fn build() -> Result<PathBuf, Trouble> {
-    let arguments = ["build", "--release", "--bin", "robohive", "--message-format", "json"];
+    let arguments = ["build", "--release", "-p", "robohive-cli", "--message-format", "json"];
     let (messages, _) = output(Command::new("cargo").args(arguments))?;
     let path = messages.lines().filter(|line| line.contains("\"name\":\"robohive\"")).find_map(|line| {
         line.split_once("\"executable\":\"").and_then(|(_, rest)| rest.split_once('"')).map(|(path, _)| path)

@@ -2,7 +2,7 @@
 //! polyhedral approximation.
 
 use super::{PreContact, Shape};
-use crate::activation::clip;
+use crate::actuation::activation::clip;
 use crate::math::{Vec3, add_scaled, distance, mul_mat_t_vec, mul_mat_vec, normalize, scale, sub};
 use crate::model::GeomType;
 use crate::model::bounds::MINVAL;

@@ -1,9 +1,9 @@
 //! Sparsity: what a file says of it must be what follows from its trees, paths and actuators.
 
 use super::{Inconsistent, require};
+use crate::constants::set_const::tendon_columns;
+use crate::inertia::sparsity::{Patterns, moment_size};
 use crate::model::Model;
-use crate::set_const::tendon_columns;
-use crate::sparsity::{Patterns, moment_size};
 
 pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
     sizes(m)?;

@@ -1,10 +1,10 @@
 //! Bodies, joints, degrees of freedom and trees.
 
 use super::{Inconsistent, ranges, references, require, spans, within};
-use crate::chain::last_dof;
+use crate::constants::set_const::Trees;
 use crate::model::{JointType, Model};
+use crate::position::chain::last_dof;
 use crate::ray::MAX_LEVELS;
-use crate::set_const::Trees;
 
 pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
     references! { m:

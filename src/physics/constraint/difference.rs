@@ -1,11 +1,11 @@
 //! Jacobian of the motion of a point of one body relative to a point of another, over the degrees of freedom that
 //! move either body.
 
-use crate::chain::{MergedChain, chain, com_offset, point_column};
 use crate::data::{Com, Velocity};
-use crate::jacobian::{axis_rate, point_column_rate};
 use crate::math::{Vec3, add_scaled, rotational, scale, sub};
 use crate::model::Model;
+use crate::position::chain::{MergedChain, chain, com_offset, point_column};
+use crate::position::jacobian::{axis_rate, point_column_rate};
 
 /// A sparse Jacobian difference: column `i` belongs to degree of freedom `dof[i]`, in increasing order.
 #[derive(Clone, Debug, Default)]

@@ -8,7 +8,7 @@ pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStat, Solve
 pub use scratch::Scratch;
 pub use stages::*;
 
-use crate::history;
+use crate::actuation::history;
 use crate::model::Model;
 use crate::table::Slice;
 

@@ -1,13 +1,13 @@
 //! Working memory that stages reuse from step to step; its content means nothing between stages.
 
-use crate::bias::RneScratch;
 use crate::collision::CollisionScratch;
 use crate::constraint::{ConstraintScratch, IslandScratch};
-use crate::implicit::ImplicitScratch;
-use crate::integrate::IntegrateScratch;
-use crate::inverse::InverseScratch;
+use crate::integration::implicit::ImplicitScratch;
+use crate::integration::integrate::IntegrateScratch;
+use crate::pipeline::inverse::InverseScratch;
 use crate::sensor::SensorScratch;
 use crate::solver::SolverScratch;
+use crate::velocity::bias::RneScratch;
 
 /// Working memory of all stages.
 #[derive(Clone, Debug, Default)]

@@ -2,9 +2,9 @@
 //! joints are not seen (MuJoCo documentation, Computation, "Numerical integration").
 
 use super::{DerivativeInputs, add_square};
-use crate::activation::{activations, is_disabled, next_activation};
+use crate::actuation::activation::{activations, is_disabled, next_activation};
+use crate::actuation::dc_motor;
 use crate::actuation::muscle;
-use crate::dc_motor;
 use crate::math::norm;
 use crate::model::{BiasType, DynType, GainType, Model, disable};
 

@@ -13,7 +13,7 @@ use crate::math::{
     mul_mat_t_vec, mul_mat_vec, rotational, scale, spatial, spatial_dot,
 };
 use crate::model::{JointType, Model};
-use crate::velocity::add_motion;
+use crate::velocity::com_vel::add_motion;
 use std::ops::Range;
 
 /// Working memory of the derivative of the bias.

@@ -2,14 +2,14 @@
 //! the velocity, so that joint space sees `J'BJ`.
 
 use super::{DerivativeInputs, add_to_row, is_free_body};
-use crate::chain::{chain, com_offset, point_column};
-use crate::fluid::{Ellipsoid, FluidShape, inertia_box, pow4, relative_velocity, shapes, square};
-use crate::frame::Frame;
 use crate::math::{
     Mat3, Spatial, Vec3, cross_matrix, dot, linear, norm, ops, rotational, scale, spatial, spatial_dot,
 };
 use crate::model::bounds::MINVAL;
 use crate::model::{Integrator, Model};
+use crate::position::chain::{chain, com_offset, point_column};
+use crate::position::frame::Frame;
+use crate::velocity::fluid::{Ellipsoid, FluidShape, inertia_box, pow4, relative_velocity, shapes, square};
 use std::f64::consts::PI;
 
 /// A 6x6 matrix: rows are torque and force, columns angular and linear velocity.

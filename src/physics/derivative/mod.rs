@@ -8,6 +8,7 @@ mod actuation;
 mod bias;
 mod fluid;
 mod passive;
+pub mod transition;
 
 pub use bias::{BiasScratch, free_body_bias_slope};
 pub use fluid::FluidScratch;

@@ -1,9 +1,9 @@
 //! Slope of passive forces over velocity: dampers of joints and tendons, drag and lift of the fluid.
 
 use super::{DerivativeInputs, FluidScratch, add_square, fluid};
+use crate::actuation::reflected_load::{dof_damping, tendon_damping};
 use crate::model::{Model, disable};
-use crate::reflected_load::{dof_damping, tendon_damping};
-use crate::tendon;
+use crate::position::tendon;
 
 /// Adds `d qfrc_passive / d qvel`.
 pub(super) fn add_passive(m: &Model, inputs: &DerivativeInputs, scratch: &mut FluidScratch, out: &mut [f64]) {

@@ -20,7 +20,7 @@ use super::{
     VisualScale,
 };
 use crate::consistency::{Inconsistent, check_consistency};
-use crate::validity::{StepError, check_model};
+use crate::pipeline::validity::{StepError, check_model};
 use std::fmt;
 use std::io::{ErrorKind, Read, Write};
 

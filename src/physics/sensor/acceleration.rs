@@ -3,9 +3,9 @@
 use super::position::object;
 use super::{SensorScratch, contact, limit_row};
 use crate::data::{Actuation, Com, Constraints, Contacts, Kinematics, Velocity};
-use crate::frame::frame;
 use crate::math::{Spatial, linear, move_force, rotational};
 use crate::model::{ConstraintType, Model, ObjType, SensorType, TrnType};
+use crate::position::frame::frame;
 
 /// What acceleration sensors read.
 #[derive(Clone, Copy, Debug)]

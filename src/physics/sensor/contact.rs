@@ -2,7 +2,7 @@
 
 use super::acceleration::AccelerationInputs;
 use super::zone::inside_site;
-use crate::contact_force::contact_force;
+use crate::acceleration::contact_force::contact_force;
 use crate::data::Contact;
 use crate::math::{Vec3, add, add_scaled, cross, dot, mul_mat_t_vec, norm, normalize, row, scale, sub};
 use crate::model::bounds::MINVAL;

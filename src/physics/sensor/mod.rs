@@ -14,11 +14,11 @@ pub use acceleration::AccelerationInputs;
 pub use position::PositionInputs;
 pub use velocity::VelocityInputs;
 
+use crate::actuation::history;
 use crate::collision::distance::DistanceScratch;
 use crate::data::{Constraints, Sensors};
-use crate::history;
 use crate::model::{ConstraintType, DataType, Model, SensorType, Stage, disable};
-use crate::momentum::subtree_momentum;
+use crate::on_demand::momentum::subtree_momentum;
 use std::fmt;
 
 /// Working memory of sensors, reused from step to step.

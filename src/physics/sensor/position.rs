@@ -2,11 +2,11 @@
 
 use super::{SensorScratch, distance, limit_row, pinhole, rangefinder, zone};
 use crate::data::{Com, Constraints, Inertia, Kinematics, State, Tendons, Transmission};
-use crate::energy;
-use crate::frame::{self, frame};
 use crate::math::{column, mul_mat_t_vec, quat_conj, quat_mul, quat_normalize, sub};
 use crate::model::bounds::MINVAL;
 use crate::model::{ConstraintType, Model, ObjType, SensorType};
+use crate::on_demand::energy;
+use crate::position::frame::{self, frame};
 
 /// What position sensors read.
 #[derive(Clone, Copy, Debug)]

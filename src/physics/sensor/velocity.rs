@@ -3,9 +3,9 @@
 use super::limit_row;
 use super::position::{object, reference};
 use crate::data::{Com, Constraints, Kinematics, State, Transmission, Velocity};
-use crate::frame::frame;
 use crate::math::{Spatial, Vec3, add, cross, linear, rotational, spatial, sub};
 use crate::model::{ConstraintType, Model, ObjType, SensorType};
+use crate::position::frame::frame;
 
 /// What velocity sensors read.
 #[derive(Clone, Copy, Debug)]

@@ -1,6 +1,6 @@
 //! Volumes of sites that act as sensor zones.
 
-use crate::activation::clip;
+use crate::actuation::activation::clip;
 use crate::data::Kinematics;
 use crate::math::{Vec3, dot, mul_mat_t_vec, sub};
 use crate::model::{GeomType, Model};

@@ -3,11 +3,13 @@
 mod machine;
 
 use machine::{ANCHORED, FLYING, chain, moving};
-use robohive_physics::jacobian::{Jacobian, angular_momentum_matrix, subtree_com_jacobian};
 use robohive_physics::math::{norm, sub};
 use robohive_physics::model::{Integrator, JointType, enable};
-use robohive_physics::momentum::subtree_momentum;
-use robohive_physics::{Data, Model, StepError, bias, forward, inertia, integrate, step};
+use robohive_physics::on_demand::momentum::subtree_momentum;
+use robohive_physics::position::jacobian::{Jacobian, angular_momentum_matrix, subtree_com_jacobian};
+use robohive_physics::{
+    Data, Model, StepError, forward, inertia, integration::integrate, step, velocity::bias,
+};
 
 #[test]
 fn inverse_dynamics_and_inertia_are_one_law() {

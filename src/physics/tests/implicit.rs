@@ -3,10 +3,10 @@
 mod machine;
 
 use machine::{ANCHORED, FLYING, chain, moving};
+use robohive_physics::derivative::transition::transition;
 use robohive_physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
 use robohive_physics::model::{Integrator, JointType, enable};
-use robohive_physics::transition::transition;
-use robohive_physics::{Data, Model, forward, integrate, inverse, step};
+use robohive_physics::{Data, Model, forward, integration::integrate, inverse, step};
 
 /// The chain with polynomial dampers on all but its root, in a thick fluid with wind when `wet`.
 fn damped(joints: &[JointType], wet: bool) -> Model {

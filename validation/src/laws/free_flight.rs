@@ -4,7 +4,7 @@ use super::order::{FLYING, HINGES, moving, run};
 use super::{Bound, Law, LawError, compile};
 use physics::math::{Vec3, norm, sub};
 use physics::model::{Integrator, disable, enable};
-use physics::momentum::subtree_momentum;
+use physics::on_demand::momentum::subtree_momentum;
 use physics::{Data, Model};
 
 const INTEGRATORS: [Integrator; 4] =

@@ -2,7 +2,7 @@
 
 use super::{Bound, Law, LawError, compile};
 use physics::model::{Integrator, disable};
-use physics::{Data, Model, integrate};
+use physics::{Data, Model, integration::integrate};
 
 /// Compared time steps [s]; the second is half the first.
 const STEPS: [f64; 2] = [4e-3, 2e-3];

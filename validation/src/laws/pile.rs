@@ -1,7 +1,7 @@
 //! Contacts in motion: two free bodies push each other with equal forces, and a pile of a hundred comes to rest.
 
 use super::{Bound, Law, LawError, Piles, compile};
-use physics::contact_force::contact_force;
+use physics::acceleration::contact_force::contact_force;
 use physics::math::{Vec3, add, cross, mul_mat_vec, norm};
 use physics::model::{Cone, Solver};
 use physics::{Data, Model};

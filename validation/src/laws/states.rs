@@ -3,7 +3,7 @@
 use super::{Bound, Law, LawError};
 use crate::reference::Reference;
 use crate::solver::CONES;
-use physics::contact_force::contact_force;
+use physics::acceleration::contact_force::contact_force;
 use physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
 use physics::model::{BiasType, Cone, ConstraintType, Jacobian, Solver, disable};
 use physics::{Data, Model, StepError};

@@ -1,8 +1,8 @@
 //! A machine built here, for laws that hold whatever the numbers are.
 
+use robohive_physics::constants::set_const::set_const;
 use robohive_physics::model::JointType;
-use robohive_physics::set_const::set_const;
-use robohive_physics::{Data, Model, integrate};
+use robohive_physics::{Data, Model, integration::integrate};
 
 /// A machine that flies, with every kind of joint.
 pub const FLYING: [JointType; 5] =

@@ -1,0 +1,292 @@
+//! The command line as a user meets it: outputs, messages, exit codes.
+
+use dataset::{Array, NpzReader, NpzWriter};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+fn robohive(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_robohive"))
+        .args(arguments)
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .output()
+        .unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// A path for one test's output.
+fn scratch(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli");
+    std::fs::create_dir_all(&folder).unwrap();
+    folder.join(name)
+}
+
+fn write(path: &Path, arrays: &[(&str, Array)]) {
+    let mut writer = NpzWriter::create(path).unwrap();
+    for (name, array) in arrays {
+        writer.add(name, array).unwrap();
+    }
+    writer.finish().unwrap();
+}
+
+#[test]
+fn inspect_writes_every_array_under_its_name() {
+    let file = scratch("inspect.npz");
+    let out =
+        robohive(&["inspect", "assets/franka/franka_table.xml", "--npz", file.to_str().unwrap(), "--json"]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    let summary: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!(summary["sizes"]["nq"], 30);
+    assert_eq!(summary["joints"].as_array().unwrap().len(), 12);
+    let arrays = NpzReader::open(&file).unwrap();
+    let inertia = arrays.require("body_inertia").unwrap();
+    assert_eq!(inertia.shape, [summary["sizes"]["nbody"].as_u64().unwrap() as usize, 3]);
+    assert!(inertia.values.to_f64()[3..].iter().any(|&i| i > 0.0));
+    assert_eq!(arrays.require("opt.timestep").unwrap().values.to_f64(), [0.002]);
+}
+
+#[test]
+fn a_reader_that_stops_early_is_no_failure() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_robohive"))
+        .args(["inspect", "assets/franka/franka_table.xml", "--json"])
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let out = child.wait_with_output().unwrap();
+    assert_eq!((out.status.code(), text(&out.stderr).as_str()), (Some(0), ""));
+}
+
+#[test]
+fn sim_reports_and_records() {
+    let file = scratch("sim.npz");
+    let out = robohive(&[
+        "sim",
+        "assets/elbow/elbow.xml",
+        "--seconds",
+        "0.1",
+        "--out",
+        file.to_str().unwrap(),
+        "-q",
+    ]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    for word in ["steps/s", "potential", "contacts"] {
+        assert!(text(&out.stdout).contains(word), "{word} is missing in {}", text(&out.stdout));
+    }
+    let arrays = NpzReader::open(&file).unwrap();
+    assert_eq!(arrays.require("qpos").unwrap().shape, [50, 2]);
+    let time = arrays.require("time").unwrap().values.to_f64();
+    assert!((time[49] - 0.1).abs() < 1e-12);
+}
+
+#[test]
+fn trace_rolls_out_one_control_row_a_step() {
+    let (input, output) = (scratch("rollout_in.npz"), scratch("rollout_out.npz"));
+    write(
+        &input,
+        &[
+            ("ctrl", Array::f64(vec![20, 6], vec![0.3; 120])),
+            ("qpos", Array::f64(vec![1, 2], vec![1.0, 0.0])),
+        ],
+    );
+    let out = robohive(&[
+        "trace",
+        "assets/elbow/elbow.xml",
+        "--in",
+        input.to_str().unwrap(),
+        "--out",
+        output.to_str().unwrap(),
+        "--fields",
+        "qpos,sensordata,actuator_force",
+    ]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    let arrays = NpzReader::open(&output).unwrap();
+    assert_eq!(arrays.require("actuator_force").unwrap().shape, [20, 6]);
+    let qpos = arrays.require("qpos").unwrap();
+    assert_eq!(qpos.shape, [20, 2]);
+    assert!((qpos.values.to_f64()[38] - 1.0).abs() > 1e-6, "the elbow does not move");
+}
+
+#[test]
+fn trace_forward_concatenates_contacts_and_rows() {
+    let (input, output) = (scratch("forward_in.npz"), scratch("forward_out.npz"));
+    let mut ready = vec![0.0; 60];
+    let key = [
+        0., 0.35, 0., -2.2, 0., 2.55, 0.785, 0.04, 0.04, 0.5, 0., 0.02, 1., 0., 0., 0., 0.45, 0.2, 0.04, 1.,
+        0., 0., 0., 0.55, -0.2, 0.03, 1., 0., 0., 0.,
+    ];
+    ready[..30].copy_from_slice(&key);
+    ready[30..].copy_from_slice(&key);
+    // In the second state the cube hangs in the air: four contacts fewer.
+    ready[30 + 11] = 0.5;
+    write(&input, &[("qpos", Array::f64(vec![2, 30], ready))]);
+    let out = robohive(&[
+        "trace",
+        "assets/franka/franka_table.xml",
+        "--in",
+        input.to_str().unwrap(),
+        "--out",
+        output.to_str().unwrap(),
+        "--forward",
+        "--fields",
+        "contact.dist,contact.frame,efc_J,efc_pos,qacc",
+    ]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    let arrays = NpzReader::open(&output).unwrap();
+    let ncon = arrays.require("ncon").unwrap().values.to_f64();
+    let nefc = arrays.require("nefc").unwrap().values.to_f64();
+    assert_eq!(ncon[0] - ncon[1], 4.0);
+    let contacts = (ncon[0] + ncon[1]) as usize;
+    assert_eq!(arrays.require("contact.frame").unwrap().shape, [contacts, 9]);
+    assert_eq!(arrays.require("efc_J").unwrap().shape, [(nefc[0] + nefc[1]) as usize, 27]);
+    assert_eq!(arrays.require("qacc").unwrap().shape, [2, 27]);
+}
+
+#[test]
+fn bench_ends_with_a_json_line() {
+    let out = robohive(&["bench", "assets/elbow/elbow.xml", "--steps", "50", "--threads", "2", "--json"]);
+    let last: serde_json::Value = serde_json::from_str(text(&out.stdout).lines().last().unwrap()).unwrap();
+    assert_eq!(last["steps"], 50);
+    assert!(last["steps_per_second"].as_f64().unwrap() > 0.0);
+}
+
+/// What is measured is the recorded motion, so that both sides of a comparison do the same work.
+#[test]
+fn bench_answers_requests_with_the_recorded_motion() {
+    let reference = "validation/reference/own/humanoid.npz";
+    let mut child = Command::new(env!("CARGO_BIN_EXE_robohive"))
+        .args(["bench", "assets/humanoid/humanoid.xml", "--requests", "--hold", "1", "--controls", reference])
+        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
+    child.stdin.take().unwrap().write_all(b"rate 700\nstages 50\njitter 50\n").unwrap();
+    let out = child.wait_with_output().unwrap();
+    assert!(out.status.success());
+    let answers: Vec<serde_json::Value> =
+        text(&out.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let recorded = NpzReader::open(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(reference))
+        .unwrap()
+        .require("rollout.qpos")
+        .unwrap()
+        .values
+        .to_f64();
+    let qpos = answers[0]["qpos"].as_array().unwrap();
+    assert_eq!(qpos.len(), 28);
+    for (ours, theirs) in qpos.iter().zip(&recorded[199 * 28..]) {
+        assert!((ours.as_f64().unwrap() - theirs).abs() < 1e-9, "{ours} beside {theirs}");
+    }
+    assert!(answers[1]["solver"].as_f64().unwrap() > 0.0);
+    assert!(answers[2]["p99.9"].as_f64().unwrap() >= answers[2]["median"].as_f64().unwrap());
+}
+
+#[test]
+fn check_agrees_on_the_own_models_and_says_so() {
+    let out =
+        robohive(&["check", "assets/quadruped/quadruped.xml", "validation/reference/own/quadruped.npz"]);
+    assert!(out.status.success(), "{}{}", text(&out.stdout), text(&out.stderr));
+    assert_eq!(text(&out.stdout).matches(" agrees ").count(), 4);
+}
+
+#[test]
+fn check_of_another_model_differs_with_exit_code_1() {
+    let out = robohive(&["check", "assets/pile/pile.xml", "validation/reference/own/quadruped.npz"]);
+    assert_ne!(out.status.code(), Some(0));
+    assert!(text(&out.stdout).contains("DIFFERS") || !out.stderr.is_empty());
+}
+
+#[test]
+fn wrong_input_names_the_fault_with_exit_code_2() {
+    let bad = scratch("bad.xml");
+    std::fs::write(&bad, "<mujoco>\n  <worldbody>\n    <geom sise=\"1\"/>\n  </worldbody>\n</mujoco>\n")
+        .unwrap();
+    let bad = bad.to_str().unwrap();
+    let elbow = "assets/elbow/elbow.xml";
+    let cases: [(&[&str], &str); 6] = [
+        (&["inspect", "no_such_model.xml"], "no_such_model.xml"),
+        (&["inspect", bad], "bad.xml:3:11"),
+        (&["sim", elbow, "--keyframe", "nowhere"], "no keyframe \"nowhere\""),
+        (&["sim", elbow, "--keyframe", "7"], "the model has 1"),
+        (&["sim", elbow, "--seconds", "-1"], "--seconds -1"),
+        (&["trace", elbow, "--in", "no.npz", "--out", "out.npz"], "no.npz"),
+    ];
+    for (arguments, message) in cases {
+        let out = robohive(arguments);
+        assert_eq!(out.status.code(), Some(2), "{arguments:?}: {}", text(&out.stderr));
+        assert!(text(&out.stderr).contains(message), "{arguments:?}: {}", text(&out.stderr));
+    }
+}
+
+#[test]
+fn template_text_is_replaced() {
+    let file = scratch("template.xml");
+    std::fs::write(&file, "<mujoco model=\"a THING\"><worldbody><geom size=\"SIZE\"/></worldbody></mujoco>")
+        .unwrap();
+    let file = file.to_str().unwrap();
+    let out = robohive(&["inspect", file, "--define", "THING=ball", "--define", "SIZE=0.1"]);
+    assert!(text(&out.stdout).contains("a ball"), "{}{}", text(&out.stdout), text(&out.stderr));
+    assert_eq!(robohive(&["inspect", file, "--define", "THING"]).status.code(), Some(2));
+}
+
+#[test]
+fn help_has_examples() {
+    for command in ["inspect", "compile", "sim", "trace", "check", "bench"] {
+        let out = robohive(&[command, "--help"]);
+        assert!(text(&out.stdout).contains(&format!("robohive {command}")), "{}", text(&out.stdout));
+    }
+}
+
+/// Every command takes a compiled model, which is the one that the text makes; a damaged or foreign one is refused.
+#[test]
+fn compiled_models_stand_for_their_text() {
+    let (file, damaged, stale) = (scratch("elbow.rhm"), scratch("damaged.rhm"), scratch("stale.rhm"));
+    let (file, damaged, stale) = (file.to_str().unwrap(), damaged.to_str().unwrap(), stale.to_str().unwrap());
+    let out = robohive(&["compile", "assets/elbow/elbow.xml", "--out", file]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    let (compiled, again) = (robohive(&["inspect", file, "--json"]), "assets/elbow/elbow.xml");
+    assert_eq!(text(&compiled.stdout), text(&robohive(&["inspect", again, "--json"]).stdout));
+    let out = robohive(&["check", file, "validation/reference/own/elbow.npz"]);
+    assert!(out.status.success(), "{}{}", text(&out.stdout), text(&out.stderr));
+    let bytes = std::fs::read(file).unwrap();
+    let changed = |at: usize| {
+        let mut bytes = bytes.clone();
+        bytes[at] ^= 4;
+        bytes
+    };
+    std::fs::write(damaged, changed(bytes.len() / 2)).unwrap();
+    std::fs::write(stale, changed(9)).unwrap();
+    for (arguments, message) in [
+        (vec!["sim", damaged], "damaged.rhm: the compiled model is damaged"),
+        (vec!["sim", stale], "compile it again: robohive compile MODEL.xml"),
+        (vec!["inspect", file, "--define", "A=B"], "cannot be edited"),
+    ] {
+        let out = robohive(&arguments);
+        assert_eq!(out.status.code(), Some(2), "{arguments:?}: {}", text(&out.stderr));
+        assert!(text(&out.stderr).contains(message), "{arguments:?}: {}", text(&out.stderr));
+    }
+}
+
+/// The second load takes the model from the folder, with the same warnings and the same numbers.
+#[test]
+fn models_are_cached_in_a_folder() {
+    let folder = scratch("models");
+    _ = std::fs::remove_dir_all(&folder);
+    let arguments = ["inspect", "assets/pile/pile.xml", "--json", "--cache", folder.to_str().unwrap()];
+    let first = robohive(&arguments);
+    assert!(first.status.success(), "{}", text(&first.stderr));
+    let entries =
+        || std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect::<Vec<_>>();
+    let [entry] = &entries()[..] else { panic!("{:?}", entries()) };
+    let second = robohive(&arguments);
+    assert_eq!((text(&second.stdout), text(&second.stderr)), (text(&first.stdout), text(&first.stderr)));
+    std::fs::write(entry, "").unwrap();
+    let third = robohive(&arguments);
+    assert_eq!(text(&third.stdout), text(&first.stdout));
+    assert!(text(&third.stderr).contains("damaged; compiled anew"), "{}", text(&third.stderr));
+}

@@ -1,0 +1,151 @@
+//! Activation dynamics of stateful actuators (documentation: Computation, "Actuation model").
+
+use crate::actuation::dc_motor;
+use crate::actuation::muscle;
+use crate::actuation::servo;
+use crate::data::{State, Transmission, Velocity};
+use crate::math::{norm, ops};
+use crate::model::bounds::MINVAL;
+use crate::model::{BiasType, DynType, GainType, JointType, Model, TrnType};
+use std::f64::consts::PI;
+
+/// Position in `act` of the activations of actuator `i`.
+pub fn activations(m: &Model, i: usize) -> std::ops::Range<usize> {
+    let start = usize::try_from(m.actuator_actadr[i]).unwrap_or(0);
+    start..start + m.actuator_actnum[i] as usize
+}
+
+/// Time derivative of all activations under the clamped controls `ctrl(k)`.
+pub fn activation_rates(
+    m: &Model,
+    act: &[f64],
+    trn: &Transmission,
+    vel: &Velocity,
+    ctrl: impl Fn(usize) -> f64,
+    act_dot: &mut [f64],
+) {
+    for i in 0..m.nactuator {
+        let at = activations(m, i);
+        let Some(last) = at.clone().last() else { continue };
+        let (first_input, prm) = (m.actuator_ctrladr[i] as usize, &m.actuator_dynprm[i]);
+        act_dot[at].fill(0.0);
+        match DynType::from_code(m.actuator_dyntype[i]) {
+            Some(DynType::Integrator) => {
+                let inputs = m.actuator_ctrlnum[i] as usize;
+                (0..inputs).for_each(|j| act_dot[last + 1 - inputs + j] = ctrl(first_input + j));
+            }
+            Some(DynType::Filter | DynType::Filterexact) => {
+                act_dot[last] = (ctrl(first_input) - act[last]) / prm[0].max(MINVAL);
+            }
+            Some(DynType::Muscle) => {
+                act_dot[last] = muscle::activation_rate(ctrl(first_input), act[last], prm)
+            }
+            // The others are refused by `validity::check_model`.
+            Some(DynType::None | DynType::User) | None => {}
+            Some(DynType::Pid) => {
+                let length = trn.actuator_length[m.actuator_outadr[i] as usize];
+                servo::pid_rates(m, act, i, length, &ctrl, act_dot);
+            }
+            Some(DynType::Dcmotor) => {
+                let out = m.actuator_outadr[i] as usize;
+                let motion = (trn.actuator_length[out], vel.actuator_velocity[out]);
+                dc_motor::rates(m, act, i, motion, &ctrl, act_dot);
+            }
+        }
+    }
+}
+
+/// Activation `act[k]` of actuator `i`, which moves at `velocity`, after one time step, within its range.
+pub fn next_activation(m: &Model, i: usize, k: usize, act: &[f64], act_dot: f64, velocity: f64) -> f64 {
+    let act = act[k];
+    if m.actuator_dyntype[i] == DynType::Dcmotor.code() {
+        return dc_motor::next_state(m, i, k, act, act_dot, velocity);
+    }
+    let next = if m.actuator_dyntype[i] == DynType::Filterexact.code() {
+        let tau = m.actuator_dynprm[i][0].max(MINVAL);
+        act + act_dot * tau * (1.0 - ops::exp(-m.opt.timestep / tau))
+    } else {
+        act + act_dot * m.opt.timestep
+    };
+    if m.actuator_actlimited[i] { clip(next, m.actuator_actrange[i]) } else { next }
+}
+
+/// Advances all activations by one time step; those of disabled actuators keep their values.
+pub fn advance_activations(
+    m: &Model,
+    trn: &Transmission,
+    vel: &Velocity,
+    act_dot: &[f64],
+    state: &mut State,
+) {
+    for i in 0..m.nactuator {
+        let enabled = !is_disabled(m, i);
+        let velocity = vel.actuator_velocity[m.actuator_outadr[i] as usize];
+        for k in activations(m, i) {
+            let rate = if enabled { act_dot[k] } else { 0.0 };
+            state.act[k] = next_activation(m, i, k, &state.act, rate, velocity);
+        }
+        if m.actuator_dyntype[i] == DynType::Integrator.code() {
+            rewind_setpoint(m, trn, i, &mut state.act);
+        }
+    }
+}
+
+/// Replaces a rotational setpoint kept in `act` by its equal nearest the present angle.
+fn rewind_setpoint(m: &Model, trn: &Transmission, i: usize, act: &mut [f64]) {
+    let at = activations(m, i);
+    if let (Some(period), Some(last)) = (setpoint_period(m, i), at.clone().last()) {
+        act[last] = nearest_setpoint(act[last], trn.actuator_length[m.actuator_outadr[i] as usize], period);
+    } else if m.actuator_gaintype[i] == GainType::So3.code() {
+        let vector = &mut act[at.start..at.start + 3];
+        let angle = norm([vector[0], vector[1], vector[2]]);
+        if angle > PI {
+            let factor = (angle - 2.0 * PI * (angle / (2.0 * PI)).round()) / angle;
+            vector.iter_mut().for_each(|x| *x *= factor);
+        }
+    }
+}
+
+/// Period of the setpoint of a servo that turns a ball joint or a site about one axis; `None` for all others.
+pub fn setpoint_period(m: &Model, i: usize) -> Option<f64> {
+    let servo = m.actuator_gaintype[i] == GainType::Fixed.code()
+        && m.actuator_biastype[i] == BiasType::Affine.code()
+        && m.actuator_gainprm[i][0] == -m.actuator_biasprm[i][1]
+        && matches!(DynType::from_code(m.actuator_dyntype[i]), Some(DynType::None | DynType::Integrator));
+    if !servo && m.actuator_gaintype[i] != GainType::Pid.code() {
+        return None;
+    }
+    let [x, y, z, rx, ry, rz] = m.actuator_gear[m.actuator_outadr[i] as usize];
+    let axis = match TrnType::from_code(m.actuator_trntype[i])? {
+        TrnType::Site if m.actuator_trnid[i][1] >= 0 && [x, y, z] == [0.0; 3] => [rx, ry, rz],
+        TrnType::Joint | TrnType::Jointinparent
+            if m.jnt_type[m.actuator_trnid[i][0] as usize] == JointType::Ball.code() =>
+        {
+            [x, y, z]
+        }
+        _ => return None,
+    };
+    Some(2.0 * PI * norm(axis)).filter(|&period| period > 0.0)
+}
+
+/// The equal of setpoint `u` nearest to `length`.
+pub fn nearest_setpoint(u: f64, length: f64, period: f64) -> f64 {
+    u - period * ((u - length) / period).round()
+}
+
+/// True when the group of actuator `i` is switched off.
+pub fn is_disabled(m: &Model, i: usize) -> bool {
+    let group = m.actuator_group[i];
+    (0..=30).contains(&group) && m.opt.disableactuator & (1 << group) != 0
+}
+
+/// `x` limited to a range; keeps a NaN.
+pub fn clip(x: f64, [low, high]: [f64; 2]) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
+}

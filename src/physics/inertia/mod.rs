@@ -1,0 +1,141 @@
+//! Joint-space inertia `M`, its factor, and products and solutions with them. `M` is kept as its lower triangle in
+//! compressed rows whose pattern is the chain of ancestors, diagonal last; its factor `L'DL` has the same pattern
+//! (Featherstone 2008, sections 6.2 composite rigid bodies, 6.5 sparse factorisation).
+
+pub mod sparsity;
+
+use crate::actuation::reflected_load::Driven;
+use crate::data::{Com, Inertia, Tendons};
+use crate::math::{LowerRows, add_scaled_slice, mul_inertia, spatial_dot};
+use crate::model::Model;
+use crate::position::tendon;
+use std::ops::Range;
+
+/// Computes `crb` and `M`: rigid bodies, armature of joints, tendons and actuators.
+pub fn make_inertia(m: &Model, com: &Com, ten: &Tendons, inertia: &mut Inertia) {
+    composite_bodies(m, com, inertia);
+    for dof in 0..m.nv {
+        let at = row(m, dof);
+        if m.dof_simplenum[dof] != 0 {
+            inertia.M[at.start] = m.dof_M0[dof];
+            continue;
+        }
+        let force = mul_inertia(&inertia.crb[m.dof_bodyid[dof] as usize], &com.cdof[dof]);
+        for (value, &ancestor) in inertia.M[at.clone()].iter_mut().zip(&m.M_colind[at.clone()]) {
+            *value = spatial_dot(&com.cdof[ancestor as usize], &force);
+        }
+        inertia.M[at.end - 1] += m.dof_armature[dof] + Driven::Joint(m.dof_jntid[dof] as usize).armature(m);
+    }
+    for t in 0..m.ntendon {
+        let armature = tendon_armature(m, t);
+        if armature != 0.0 {
+            let at = tendon::row(m, t);
+            add_outer_product(m, &m.ten_J_colind[at.clone()], &ten.ten_J[at], armature, &mut inertia.M);
+        }
+    }
+}
+
+/// Composite inertia of each subtree below the world.
+fn composite_bodies(m: &Model, com: &Com, inertia: &mut Inertia) {
+    inertia.crb.copy_from_slice(&com.cinert);
+    for b in (1..m.nbody).rev() {
+        let parent = m.body_parentid[b] as usize;
+        if parent > 0 {
+            let child = inertia.crb[b];
+            for (sum, part) in inertia.crb[parent].iter_mut().zip(child) {
+                *sum += part;
+            }
+        }
+    }
+}
+
+/// Armature along tendon `t`, actuators included.
+pub fn tendon_armature(m: &Model, t: usize) -> f64 {
+    m.tendon_armature[t] + Driven::Tendon(t).armature(m)
+}
+
+/// `matrix += s r'r` with a sparse row `r`, columns ascending, on the pattern of `M`.
+pub fn add_outer_product(m: &Model, columns: &[i32], values: &[f64], s: f64, matrix: &mut [f64]) {
+    for (&dof, &value) in columns.iter().zip(values).filter(|(_, v)| **v != 0.0) {
+        let target = row(m, dof as usize);
+        let mut source = 0;
+        for (entry, &column) in matrix[target.clone()].iter_mut().zip(&m.M_colind[target]) {
+            while source < columns.len() && columns[source] < column {
+                source += 1;
+            }
+            if source < columns.len() && columns[source] == column {
+                *entry += s * value * values[source];
+            }
+        }
+    }
+}
+
+/// Entries of row `dof` of `M`, diagonal last.
+pub fn row(m: &Model, dof: usize) -> Range<usize> {
+    let start = m.M_rowadr[dof] as usize;
+    start..start + m.M_rownnz[dof] as usize
+}
+
+/// Factors `M` into `qLD` and `qLDiagInv`.
+pub fn factor_inertia(m: &Model, inertia: &mut Inertia) {
+    inertia.qLD.copy_from_slice(&inertia.M);
+    factor(m, &mut inertia.qLD, &mut inertia.qLDiagInv);
+}
+
+/// Replaces a positive definite matrix on the pattern of `M` by its factor `L'DL`: unit lower triangle `L`, with
+/// `D` on the diagonal; `diag_inv` takes the reciprocals of `D`. Rows are eliminated from the leaves to the root.
+pub fn factor(m: &Model, matrix: &mut [f64], diag_inv: &mut [f64]) {
+    for k in (0..m.nv).rev() {
+        let at = row(m, k);
+        let columns = &m.M_colind[at.clone()];
+        let (above, from_k) = matrix.split_at_mut(at.start);
+        let (off_diagonal, diagonal) = from_k[..at.len()].split_at_mut(at.len() - 1);
+        let inv = 1.0 / diagonal[0];
+        diag_inv[k] = inv;
+        for p in (0..off_diagonal.len()).rev() {
+            let target = m.M_rowadr[columns[p] as usize] as usize;
+            let s = -off_diagonal[p] * inv;
+            // Row `i` of the pattern is the head of row `k` up to column `i`.
+            add_scaled_slice(&mut above[target..=target + p], &off_diagonal[..=p], s);
+        }
+        off_diagonal.iter_mut().for_each(|x| *x *= inv);
+    }
+}
+
+/// The pattern of `M`.
+fn pattern(m: &Model) -> LowerRows<'_> {
+    LowerRows { rownnz: &m.M_rownnz, rowadr: &m.M_rowadr, colind: &m.M_colind }
+}
+
+/// `x <- (L'DL)^-1 x`.
+pub fn solve_ld(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
+    pattern(m).solve_ldl(ld, diag_inv, x);
+}
+
+/// `x <- M^-1 x`.
+pub fn solve(m: &Model, inertia: &Inertia, x: &mut [f64]) {
+    solve_ld(m, &inertia.qLD, &inertia.qLDiagInv, x);
+}
+
+/// `x <- M^-1 x` for the degrees of freedom of whole trees; the rest of `x` is neither read nor written.
+pub(crate) fn solve_within(m: &Model, inertia: &Inertia, dofs: Range<usize>, x: &mut [f64]) {
+    pattern(m).solve_ldl_rows(&inertia.qLD, &inertia.qLDiagInv, dofs, x);
+}
+
+/// `out = M v` for a symmetric matrix on the pattern of `M`.
+pub fn mul_inertia_matrix(m: &Model, matrix: &[f64], v: &[f64], out: &mut [f64]) {
+    pattern(m).mul_symmetric(matrix, v, out);
+}
+
+/// `M` as a dense symmetric matrix, row-major, `nv * nv`.
+pub fn full_inertia(m: &Model, matrix: &[f64]) -> Vec<f64> {
+    let mut dense = vec![0.0; m.nv * m.nv];
+    for i in 0..m.nv {
+        for k in row(m, i) {
+            let j = m.M_colind[k] as usize;
+            dense[i * m.nv + j] = matrix[k];
+            dense[j * m.nv + i] = matrix[k];
+        }
+    }
+    dense
+}

@@ -1,0 +1,48 @@
+//! Mechanical energy (documentation: Computation, "Energy").
+
+use crate::data::{Inertia, Kinematics, State, Tendons};
+use crate::inertia::mul_inertia_matrix;
+use crate::math::dense::dot_slice;
+use crate::math::{dot, norm};
+use crate::model::{JointType, Model, disable};
+use crate::velocity::passive::{shift, tendon_stretch, turn};
+use crate::velocity::polynomial::Polynomial;
+
+/// Potential energy: weight of all bodies, joint springs, tendon springs [J].
+pub fn potential(m: &Model, state: &State, kin: &Kinematics, ten: &Tendons) -> f64 {
+    let enabled = |flag: i32| m.opt.disableflags & flag == 0;
+    let mut energy = 0.0;
+    if enabled(disable::GRAVITY) {
+        (1..m.nbody).for_each(|b| energy -= m.body_mass[b] * dot(m.opt.gravity, kin.xipos[b]));
+    }
+    if enabled(disable::SPRING) {
+        (0..m.njnt).for_each(|j| energy += joint_spring(m, state, j));
+        for t in 0..m.ntendon {
+            let law = Polynomial { linear: m.tendon_stiffness[t], poly: m.tendon_stiffnesspoly[t] };
+            energy += law.potential(tendon_stretch(m, ten, t));
+        }
+    }
+    energy
+}
+
+fn joint_spring(m: &Model, state: &State, j: usize) -> f64 {
+    let law = Polynomial { linear: m.jnt_stiffness[j], poly: m.jnt_stiffnesspoly[j] };
+    let q = m.jnt_qposadr[j] as usize;
+    if law.is_zero() {
+        return 0.0;
+    }
+    match JointType::from_code(m.jnt_type[j]) {
+        Some(JointType::Free) => {
+            law.potential(norm(shift(m, state, q))) + law.potential(norm(turn(m, state, q + 3)))
+        }
+        Some(JointType::Ball) => law.potential(norm(turn(m, state, q))),
+        Some(JointType::Slide | JointType::Hinge) | None => law.potential(state.qpos[q] - m.qpos_spring[q]),
+    }
+}
+
+/// Kinetic energy [J]; `momentum` is working memory.
+pub fn kinetic(m: &Model, state: &State, inertia: &Inertia, momentum: &mut Vec<f64>) -> f64 {
+    momentum.resize(m.nv, 0.0);
+    mul_inertia_matrix(m, &inertia.M, &state.qvel, momentum);
+    0.5 * dot_slice(momentum, &state.qvel)
+}

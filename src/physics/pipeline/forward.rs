@@ -1,0 +1,274 @@
+//! Forward dynamics and the time step: the order of all stages (MuJoCo documentation, Computation, "Forward
+//! dynamics" and "Simulation pipeline").
+
+use crate::acceleration::rne_post::rne_post_constraint;
+use crate::actuation::actuation;
+use crate::actuation::transmission::{actuator_velocity, transmission};
+use crate::collision::collide;
+use crate::constraint::{find_islands, make_constraint, reference};
+use crate::data::Data;
+use crate::inertia::{factor_inertia, make_inertia, solve};
+use crate::integration::integrate::{Factors, advance_once, integrate};
+use crate::model::{Integrator, Model, enable};
+use crate::pipeline::inverse::compare_with_forward;
+use crate::pipeline::validity::{check_acceleration, check_state};
+use crate::pipeline::watch::{Stage, Watch};
+use crate::position::camera::cameras_and_lights;
+use crate::position::com::com_pos;
+use crate::position::jacobian::apply_user_wrenches;
+use crate::position::kinematics::kinematics;
+use crate::position::tendon::{tendon, tendon_velocity};
+use crate::sensor::{self, AccelerationInputs, Past, PositionInputs, VelocityInputs};
+use crate::velocity::bias::bias;
+use crate::velocity::com_vel::com_vel;
+use crate::velocity::passive::passive;
+use crate::{on_demand::energy, solver};
+
+pub use crate::pipeline::validity::StepError;
+
+/// Computes everything that follows from the state and the inputs, up to accelerations and sensors.
+///
+/// # Errors
+/// The model uses what is not simulated.
+pub fn forward(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    evaluate(m, d, true, &mut ())
+}
+
+/// Advances the simulation by one time step.
+///
+/// # Errors
+/// A state or input is not finite or too large; `d` keeps it for inspection.
+pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    step_watched(m, d, &mut ())
+}
+
+/// `step`, with an observer told of each stage as it ends.
+///
+/// # Errors
+/// As `step`.
+pub fn step_watched(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
+    check_state(m, d)?;
+    watch.ended(Stage::Checks);
+    evaluate(m, d, true, watch)?;
+    check_acceleration(m, d)?;
+    compare_if_asked(m, d)?;
+    watch.ended(Stage::Checks);
+    integrate(m, d, Factors::Fresh, watch)?;
+    watch.ended(Stage::Integration);
+    Ok(())
+}
+
+/// What of the last evaluation still holds.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
+pub(crate) enum Known {
+    /// Nothing.
+    Nothing,
+    /// All that depends on positions alone.
+    Position,
+    /// All that does not depend on inputs.
+    Velocity,
+}
+
+/// `step` where part of the last evaluation still holds; the integrator keeps the matrix factors that depend on it.
+pub(crate) fn step_after(m: &Model, d: &mut Data, known: Known) -> Result<(), StepError> {
+    check_state(m, d)?;
+    evaluate_after(m, d, known, true, &mut ())?;
+    check_acceleration(m, d)?;
+    compare_if_asked(m, d)?;
+    let holds = if m.opt.integrator == Integrator::Euler.code() { Known::Position } else { Known::Velocity };
+    integrate(m, d, if known >= holds { Factors::Kept } else { Factors::Fresh }, &mut ())
+}
+
+fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    if m.opt.enableflags & enable::FWDINV != 0 {
+        compare_with_forward(m, d)?;
+    }
+    Ok(())
+}
+
+/// First half of a step: all that does not depend on controls and applied forces.
+///
+/// # Errors
+/// As `step`.
+pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    check_state(m, d)?;
+    position_and_velocity(m, d, Known::Nothing, true, &mut ());
+    Ok(())
+}
+
+/// Second half of a step, after inputs have been set; where Euler's method stands in for Runge-Kutta.
+///
+/// # Errors
+/// As `step`.
+pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    check_state(m, d)?;
+    acceleration(m, d, &mut ());
+    acceleration_sensors(m, d);
+    check_acceleration(m, d)?;
+    compare_if_asked(m, d)?;
+    advance_once(m, d, Factors::Fresh);
+    Ok(())
+}
+
+/// `forward`, with or without sensors.
+pub(crate) fn evaluate(
+    m: &Model,
+    d: &mut Data,
+    sensors: bool,
+    watch: &mut impl Watch,
+) -> Result<(), StepError> {
+    evaluate_after(m, d, Known::Nothing, sensors, watch)
+}
+
+fn evaluate_after(
+    m: &Model,
+    d: &mut Data,
+    known: Known,
+    sensors: bool,
+    watch: &mut impl Watch,
+) -> Result<(), StepError> {
+    position_and_velocity(m, d, known, sensors, watch);
+    acceleration(m, d, watch);
+    if sensors {
+        acceleration_sensors(m, d);
+        watch.ended(Stage::Sensors);
+    }
+    Ok(())
+}
+
+/// What depends on the state alone and is not known yet, with or without sensors.
+pub(crate) fn position_and_velocity(
+    m: &Model,
+    d: &mut Data,
+    known: Known,
+    sensors: bool,
+    watch: &mut impl Watch,
+) {
+    if known < Known::Position {
+        position(m, d, watch);
+        if sensors {
+            position_sensors(m, d);
+            watch.ended(Stage::Sensors);
+        }
+    }
+    if known < Known::Velocity {
+        velocity(m, d, watch);
+        if sensors {
+            velocity_sensors(m, d);
+            watch.ended(Stage::Sensors);
+        }
+    }
+}
+
+/// What depends on positions: poses, inertia, contacts, constraint rows, lengths.
+pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) {
+    let s = &mut d.scratch;
+    kinematics(m, &d.state, &mut d.kin);
+    com_pos(m, &d.kin, &mut d.com);
+    cameras_and_lights(m, &d.com, &mut d.kin);
+    watch.ended(Stage::Kinematics);
+    tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
+    watch.ended(Stage::Tendons);
+    make_inertia(m, &d.com, &d.ten, &mut d.inertia);
+    factor_inertia(m, &mut d.inertia);
+    watch.ended(Stage::Inertia);
+    collide(m, &d.kin, &mut s.collision, &mut d.con);
+    watch.ended(Stage::Collision);
+    make_constraint(
+        m,
+        &d.state,
+        &d.kin,
+        &d.com,
+        &d.ten,
+        &d.inertia,
+        &mut d.con,
+        &mut d.efc,
+        &mut s.constraint,
+    );
+    watch.ended(Stage::Constraint);
+    find_islands(m, &d.con, &d.efc, &mut d.island, &mut s.island);
+    watch.ended(Stage::Islands);
+    transmission(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.efc, &mut d.trn);
+    watch.ended(Stage::Transmission);
+}
+
+/// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.
+pub(crate) fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
+    tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
+    actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
+    com_vel(m, &d.state, &d.com, &mut d.vel);
+    passive(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.vel, &mut d.passive);
+    reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc);
+    bias(m, &d.state, &d.kin, &d.com, &d.ten, &mut d.vel, &mut d.scratch.rne);
+    watch.ended(Stage::Velocity);
+}
+
+/// What depends on inputs too: actuation, and accelerations without and with constraints.
+pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
+    actuation(m, d.time, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
+    watch.ended(Stage::Actuation);
+    for dof in 0..m.nv {
+        d.acc.qfrc_smooth[dof] = d.passive.qfrc_passive[dof] - d.vel.qfrc_bias[dof]
+            + d.state.qfrc_applied[dof]
+            + d.actuation.qfrc_actuator[dof];
+    }
+    apply_user_wrenches(m, &d.kin, &d.com, &d.state.xfrc_applied, &mut d.acc.qfrc_smooth);
+    d.acc.qacc_smooth.copy_from_slice(&d.acc.qfrc_smooth);
+    solve(m, &d.inertia, &mut d.acc.qacc_smooth);
+    watch.ended(Stage::Acceleration);
+    solver::solve(
+        m,
+        &d.state,
+        &d.inertia,
+        &d.con,
+        &mut d.efc,
+        &d.island,
+        &mut d.acc,
+        &mut d.solver,
+        &mut d.scratch.solver,
+    );
+    watch.ended(Stage::Solver);
+}
+
+fn position_sensors(m: &Model, d: &mut Data) {
+    let inputs = PositionInputs {
+        time: d.time,
+        state: &d.state,
+        kin: &d.kin,
+        com: &d.com,
+        ten: &d.ten,
+        trn: &d.trn,
+        inertia: &d.inertia,
+        efc: &d.efc,
+    };
+    let past = Past { time: d.time, history: &d.state.history };
+    sensor::position_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
+    let on = m.opt.enableflags & enable::ENERGY != 0;
+    d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
+}
+
+fn velocity_sensors(m: &Model, d: &mut Data) {
+    let inputs =
+        VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
+    let past = Past { time: d.time, history: &d.state.history };
+    sensor::velocity_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
+    if m.opt.enableflags & enable::ENERGY != 0 {
+        d.energy[1] = energy::kinetic(m, &d.state, &d.inertia, &mut d.scratch.sensor.momentum);
+    }
+}
+
+pub(crate) fn acceleration_sensors(m: &Model, d: &mut Data) {
+    if sensor::needs_body_forces(m) {
+        rne_post_constraint(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
+    }
+    let inputs = AccelerationInputs {
+        kin: &d.kin,
+        com: &d.com,
+        con: &d.con,
+        efc: &d.efc,
+        vel: &d.vel,
+        actuation: &d.actuation,
+    };
+    let past = Past { time: d.time, history: &d.state.history };
+    sensor::acceleration_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
+}

@@ -1,0 +1,7 @@
+//! The order of all stages: forward and inverse dynamics, the step, and batches of steps.
+
+pub mod batch;
+pub mod forward;
+pub mod inverse;
+pub mod validity;
+pub mod watch;

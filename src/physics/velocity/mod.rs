@@ -1,0 +1,7 @@
+//! What depends on velocities: spatial velocities, bias forces, and passive forces.
+
+pub mod bias;
+pub mod com_vel;
+pub mod fluid;
+pub mod passive;
+pub mod polynomial;
