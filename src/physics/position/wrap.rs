@@ -100,157 +100,244 @@ fn rise_along_axis(p: [Vec3; 2], q: &mut [Vec3; 2], arc: f64) -> f64 {
     ops::sqrt(arc * arc + height * height)
 }
 
-/// Arc that a string between two outer points lays on the circle: its length and end points.
-fn arc_outside(end: [Vec2; 2], side: Option<Vec2>, radius: f64) -> Option<(f64, [Vec2; 2])> {
-    let square = [dot2(end[0], end[0]), dot2(end[1], end[1])];
-    let r2 = radius * radius;
-    if square[0] < r2 || square[1] < r2 || radius < MINVAL {
-        return None;
-    }
-    let dif = sub2(end[1], end[0]);
-    let dd = dot2(dif, dif);
-    if dd < MINVAL {
-        return None;
-    }
-    let a = (-(dif[0] * end[0][0] + dif[1] * end[0][1]) / dd).clamp(0.0, 1.0);
-    let nearest = [a * dif[0] + end[0][0], a * dif[1] + end[0][1]];
-    if dot2(nearest, nearest) > r2 && side.is_none_or(|s| dot2(s, nearest) >= 0.0) {
-        return None;
+/// A string drawn straight between two points of the plane, seen from the centre of the circle.
+struct Chord {
+    ends: [Vec2; 2],
+    /// From the first end to the second.
+    along: Vec2,
+    /// Squared length.
+    length2: f64,
+}
+
+impl Chord {
+    fn new(ends: [Vec2; 2]) -> Self {
+        let along = sub2(ends[1], ends[0]);
+        Chord { ends, along, length2: dot2(along, along) }
     }
 
-    let root = [ops::sqrt(square[0] - r2), ops::sqrt(square[1] - r2)];
-    let tangents = |sign: f64| {
-        [
-            [
-                (end[0][0] * r2 + sign * radius * end[0][1] * root[0]) / square[0],
-                (end[0][1] * r2 - sign * radius * end[0][0] * root[0]) / square[0],
-            ],
-            [
-                (end[1][0] * r2 - sign * radius * end[1][1] * root[1]) / square[1],
-                (end[1][1] * r2 + sign * radius * end[1][0] * root[1]) / square[1],
-            ],
-        ]
-    };
-    let (positive, negative) = (tangents(1.0), tangents(-1.0));
-    let crosses = [positive, negative].map(|t| segments_intersect(end[0], t[0], end[1], t[1]));
-    // With a side point, the tangent points nearer to it win; without one, the shorter chord.
-    let merit = |t: [Vec2; 2], crosses: bool| {
-        if crosses {
-            return -10000.0;
-        }
-        match side {
-            Some(s) => dot2(normalize2([t[0][0] + t[1][0], t[0][1] + t[1][1]]), s),
+    /// Foot of the perpendicular from the centre: 0 at the first end, 1 at the second.
+    fn foot(&self) -> f64 {
+        -dot2(self.along, self.ends[0]) / self.length2
+    }
+
+    /// The point at `t`, counted as [`Self::foot`] is.
+    fn point(&self, t: f64) -> Vec2 {
+        add2(scale2(self.along, t), self.ends[0])
+    }
+}
+
+/// Sense in which a path goes around the circle.
+#[derive(Clone, Copy, PartialEq)]
+enum Turn {
+    Clockwise,
+    Counterclockwise,
+}
+
+/// A path outside the circle: along a tangent to the circle, around it, and away along another tangent.
+struct Detour {
+    turn: Turn,
+    /// Where the tangents touch.
+    touch: [Vec2; 2],
+    /// The straight parts meet: no string lies like that.
+    crosses_itself: bool,
+}
+
+/// Arc that a string between two outer points lays on the circle: its length and end points. `None` when the
+/// straight string passes the circle, on the side that `toward` asks for.
+fn arc_outside(ends: [Vec2; 2], toward: Option<Vec2>, radius: f64) -> Option<(f64, [Vec2; 2])> {
+    let radius2 = radius * radius;
+    let straight = Chord::new(ends);
+    let tied_inside = ends.iter().any(|&end| dot2(end, end) < radius2);
+    if tied_inside || radius < MINVAL || straight.length2 < MINVAL {
+        return None;
+    }
+    let nearest = straight.point(straight.foot().clamp(0.0, 1.0));
+    let passes = dot2(nearest, nearest) > radius2;
+    if passes && toward.is_none_or(|side| dot2(side, nearest) >= 0.0) {
+        return None;
+    }
+    let clockwise = Detour::new(ends, radius, Turn::Clockwise);
+    let counterclockwise = Detour::new(ends, radius, Turn::Counterclockwise);
+    let worse = clockwise.merit(toward) <= counterclockwise.merit(toward);
+    let detour = if worse { counterclockwise } else { clockwise };
+    (!detour.crosses_itself).then(|| (detour.arc_length(radius), detour.touch))
+}
+
+impl Detour {
+    /// Turning clockwise, the string leaves its first end by the tangent that has the circle on the right, and
+    /// reaches the second by the mirror image of such a tangent.
+    fn new(ends: [Vec2; 2], radius: f64, turn: Turn) -> Self {
+        let side = if turn == Turn::Clockwise { 1.0 } else { -1.0 };
+        let touch = [point_of_tangency(ends[0], radius, side), point_of_tangency(ends[1], radius, -side)];
+        let crosses_itself = segments_intersect([ends[0], touch[0]], [ends[1], touch[1]]);
+        Detour { turn, touch, crosses_itself }
+    }
+
+    /// What makes a detour the better of the two: touching near the point asked for, or else touching at two points
+    /// close together.
+    fn merit(&self, toward: Option<Vec2>) -> f64 {
+        /// Worse than any other merit on circles of less than 50 m.
+        const CROSSED: f64 = -10000.0;
+        let [first, last] = self.touch;
+        match toward {
+            _ if self.crosses_itself => CROSSED,
+            Some(side) => dot2(normalize2(add2(first, last)), side),
             None => {
-                let chord = sub2(t[0], t[1]);
-                -dot2(chord, chord)
+                let gap = sub2(first, last);
+                -dot2(gap, gap)
             }
         }
-    };
-    let clockwise = merit(positive, crosses[0]) <= merit(negative, crosses[1]);
-    let touch = if clockwise { negative } else { positive };
-    if crosses[usize::from(clockwise)] {
+    }
+
+    /// Length of the arc between the points of tangency, in the sense of the detour.
+    fn arc_length(&self, radius: f64) -> f64 {
+        let [first, last] = self.touch;
+        let shorter = ops::acos(dot2(normalize2(first), normalize2(last)).min(1.0));
+        let rotation = cross2(first, last);
+        let against = match self.turn {
+            Turn::Clockwise => rotation > 0.0,
+            Turn::Counterclockwise => rotation < 0.0,
+        };
+        radius * if against { 2.0 * PI - shorter } else { shorter }
+    }
+}
+
+/// Where a tangent from an outer point touches the circle. With the point at distance `d` and its tangent of length
+/// `l = √(d² - r²)`, the point of tangency is `r²/d` along the line from the centre and `r l/d` off it: clockwise of
+/// that line for a `side` of 1, counterclockwise for -1.
+fn point_of_tangency(from: Vec2, radius: f64, side: f64) -> Vec2 {
+    let (radius2, distance2) = (radius * radius, dot2(from, from));
+    let tangent = ops::sqrt(distance2 - radius2);
+    let off = side * radius;
+    [
+        (from[0] * radius2 + off * from[1] * tangent) / distance2,
+        (from[1] * radius2 - off * from[0] * tangent) / distance2,
+    ]
+}
+
+/// True when two segments share a point; parallel ones do not.
+fn segments_intersect(first: [Vec2; 2], second: [Vec2; 2]) -> bool {
+    let (u, v) = (sub2(first[1], first[0]), sub2(second[1], second[0]));
+    let offset = sub2(first[0], second[0]);
+    let sine = cross2(u, v);
+    // Cramer's rule on `first[0] + s u = second[0] + t v`.
+    let within = |numerator: f64| (0.0..=1.0).contains(&(numerator / sine));
+    sine.abs() >= MINVAL && within(cross2(v, offset)) && within(cross2(u, offset))
+}
+
+/// The point (given twice) where a string that must pass through the circle touches it from inside: the shortest
+/// path over a point of the circle, which leaves that point at the angle at which it arrives, as light leaves a
+/// mirror. `None` when the straight string enters the circle.
+fn touch_inside(ends: [Vec2; 2], radius: f64) -> Option<[Vec2; 2]> {
+    let straight = Chord::new(ends);
+    let distance = ends.map(norm2);
+    if radius < MINVAL || distance.iter().any(|&d| d <= radius) {
         return None;
     }
-    Some((arc_length(touch[0], touch[1], clockwise, radius), touch))
-}
-
-/// True when the segments `a0 a1` and `b0 b1` share a point.
-fn segments_intersect(a0: Vec2, a1: Vec2, b0: Vec2, b1: Vec2) -> bool {
-    let det = (b1[1] - b0[1]) * (a1[0] - a0[0]) - (b1[0] - b0[0]) * (a1[1] - a0[1]);
-    if det.abs() < MINVAL {
-        return false;
-    }
-    let s = ((b1[0] - b0[0]) * (a0[1] - b0[1]) - (b1[1] - b0[1]) * (a0[0] - b0[0])) / det;
-    let t = ((a1[0] - a0[0]) * (a0[1] - b0[1]) - (a1[1] - a0[1]) * (a0[0] - b0[0])) / det;
-    (0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)
-}
-
-/// Length of the arc from `p0` to `p1`, in the given sense of turning.
-fn arc_length(p0: Vec2, p1: Vec2, clockwise: bool, radius: f64) -> f64 {
-    let mut angle = ops::acos(dot2(normalize2(p0), normalize2(p1)).min(1.0));
-    let turn = p0[1] * p1[0] - p0[0] * p1[1];
-    if (turn > 0.0 && clockwise) || (turn < 0.0 && !clockwise) {
-        angle = 2.0 * PI - angle;
-    }
-    radius * angle
-}
-
-/// The point (given twice) where a string inside the circle touches it: the reflection point of the shortest path
-/// between two outer points. `None` when the straight segment enters the circle.
-fn touch_inside(end: [Vec2; 2], radius: f64) -> Option<[Vec2; 2]> {
-    let length = [norm2(end[0]), norm2(end[1])];
-    let dif = sub2(end[1], end[0]);
-    let dd = dot2(dif, dif);
-    if length[0] <= radius
-        || length[1] <= radius
-        || radius < MINVAL
-        || length[0] < MINVAL
-        || length[1] < MINVAL
-    {
+    let foot = straight.foot();
+    let between = straight.length2 > MINVAL && foot > 0.0 && foot < 1.0;
+    if between && norm2(straight.point(foot)) <= radius {
         return None;
     }
-    if dd > MINVAL {
-        let a = -(dif[0] * end[0][0] + dif[1] * end[0][1]) / dd;
-        if a > 0.0 && a < 1.0 && norm2([end[0][0] + a * dif[0], end[0][1] + a * dif[1]]) <= radius {
-            return None;
-        }
-    }
-    let (a, b) = (radius / length[0], radius / length[1]);
-    let cos_gap = (length[0] * length[0] + length[1] * length[1] - dd) / (2.0 * length[0] * length[1]);
+    let cos_gap = (distance[0] * distance[0] + distance[1] * distance[1] - straight.length2)
+        / (2.0 * distance[0] * distance[1]);
     if cos_gap < -1.0 + MINVAL {
         return None;
     }
-    let middle = [0.5 * (end[0][0] + end[1][0]), 0.5 * (end[0][1] + end[1][1])];
-    let fallback = scale2(normalize2(middle), radius);
-    let Some(z) = (cos_gap <= 1.0 - MINVAL).then(|| sine_at_touch(a, b, ops::acos(cos_gap))).flatten() else {
-        return Some([fallback, fallback]);
-    };
-    let (from, angle) = if end[0][0] * end[1][1] - end[0][1] * end[1][0] > 0.0 {
-        (end[0], ops::asin(z) - ops::asin(a * z))
-    } else {
-        (end[1], ops::asin(z) - ops::asin(b * z))
-    };
-    let v = normalize2(from);
-    let (s, c) = (ops::sin(angle), ops::cos(angle));
-    let touch = [radius * (c * v[0] - s * v[1]), radius * (s * v[0] + c * v[1])];
+    let direction = (cos_gap <= 1.0 - MINVAL)
+        .then(|| Reflection { ratio: distance.map(|d| radius / d), gap: ops::acos(cos_gap) })
+        .and_then(|reflection| reflection.direction(ends))
+        // Ends in one direction, or no convergence: the direction of the middle serves.
+        .unwrap_or_else(|| normalize2(scale2(add2(ends[0], ends[1]), 0.5)));
+    let touch = scale2(direction, radius);
     Some([touch, touch])
 }
 
-/// Solves `asin(a z) + asin(b z) - 2 asin(z) + gap = 0` by Newton's method from just below 1; `None` when the
-/// iteration does not approach the root from the right or does not converge.
-fn sine_at_touch(a: f64, b: f64, gap: f64) -> Option<f64> {
-    const ITERATIONS: usize = 20;
-    const TOLERANCE: f64 = 1e-6;
-    let residual = |z: f64| ops::asin(a * z) + ops::asin(b * z) - 2.0 * ops::asin(z) + gap;
-    let mut z = 1.0 - 1e-7;
-    let mut f = residual(z);
-    if f > 0.0 {
-        return None;
+/// The law of reflection at a point of the circle that two ends outside see.
+///
+/// In the triangle of the centre, the point and an end at distance `d`, the sides `radius` and `d` are opposite the
+/// angle at the end and the supplement of the angle of incidence `β`. By the law of sines the angle at the end is
+/// `asin(z radius/d)` with `z = sin β`, which leaves `asin(z) - asin(z radius/d)` at the centre. The two angles at the
+/// centre add up to the angle between the ends.
+struct Reflection {
+    /// Radius over the distance of each end from the centre.
+    ratio: [f64; 2],
+    /// Angle at the centre between the two ends.
+    gap: f64,
+}
+
+impl Reflection {
+    /// Direction of the point from the centre.
+    fn direction(&self, ends: [Vec2; 2]) -> Option<Vec2> {
+        let sine = self.sine_of_incidence()?;
+        // Counterclockwise from the end that sees the other on its left.
+        let start = if cross2(ends[0], ends[1]) > 0.0 { 0 } else { 1 };
+        Some(rotate(normalize2(ends[start]), self.central_angle(start, sine)))
     }
-    let mut iteration = 0;
-    while iteration < ITERATIONS && f.abs() > TOLERANCE {
-        let slope = a / ops::sqrt(1.0 - z * z * a * a).max(MINVAL)
-            + b / ops::sqrt(1.0 - z * z * b * b).max(MINVAL)
-            - 2.0 / ops::sqrt(1.0 - z * z).max(MINVAL);
-        if slope > -MINVAL {
-            return None;
-        }
-        let next = z - f / slope;
-        if next > z {
-            return None;
-        }
-        z = next;
-        f = residual(z);
-        if f > TOLERANCE {
-            return None;
-        }
-        iteration += 1;
+
+    /// Angle at the centre between an end and the point.
+    fn central_angle(&self, end: usize, sine: f64) -> f64 {
+        ops::asin(sine) - ops::asin(self.ratio[end] * sine)
     }
-    (iteration < ITERATIONS).then_some(z)
+
+    /// What of the gap the two angles at the centre leave open.
+    fn misfit(&self, z: f64) -> f64 {
+        ops::asin(self.ratio[0] * z) + ops::asin(self.ratio[1] * z) - 2.0 * ops::asin(z) + self.gap
+    }
+
+    /// Derivative of the misfit.
+    fn slope(&self, z: f64) -> f64 {
+        let cosine = |x2: f64| ops::sqrt(1.0 - x2).max(MINVAL);
+        let [a, b] = self.ratio;
+        a / cosine(z * z * a * a) + b / cosine(z * z * b * b) - 2.0 / cosine(z * z)
+    }
+
+    /// Root of the misfit, by Newton's method from just below grazing incidence. The misfit is concave and falls there,
+    /// so that the iteration descends to the root from the right. `None` when it does not: there is no root below the
+    /// start, or rounding spoils the iteration.
+    fn sine_of_incidence(&self) -> Option<f64> {
+        const START: f64 = 1.0 - 1e-7;
+        const TOLERANCE: f64 = 1e-6;
+        const STEPS: usize = 20;
+        let (mut z, mut misfit) = (START, self.misfit(START));
+        if misfit > 0.0 {
+            return None;
+        }
+        for _ in 0..STEPS {
+            if misfit.abs() <= TOLERANCE {
+                return Some(z);
+            }
+            let slope = self.slope(z);
+            let next = z - misfit / slope;
+            if slope > -MINVAL || next > z {
+                return None;
+            }
+            (z, misfit) = (next, self.misfit(next));
+            if misfit > TOLERANCE {
+                return None;
+            }
+        }
+        None
+    }
+}
+
+/// Component of the vector product normal to the plane: positive when `b` is to the left of `a`.
+fn cross2(a: Vec2, b: Vec2) -> f64 {
+    a[0] * b[1] - a[1] * b[0]
+}
+
+/// `v` turned counterclockwise.
+fn rotate(v: Vec2, angle: f64) -> Vec2 {
+    let (s, c) = (ops::sin(angle), ops::cos(angle));
+    [c * v[0] - s * v[1], s * v[0] + c * v[1]]
 }
 
 fn dot2(a: Vec2, b: Vec2) -> f64 {
     a[0] * b[0] + a[1] * b[1]
+}
+
+fn add2(a: Vec2, b: Vec2) -> Vec2 {
+    [a[0] + b[0], a[1] + b[1]]
 }
 
 fn sub2(a: Vec2, b: Vec2) -> Vec2 {
