@@ -40,6 +40,13 @@ pub struct Source {
     line_starts: Vec<u32>,
 }
 
+impl Source {
+    /// The text, replacements made.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
 /// All texts of one model, in the order they were opened.
 #[derive(Debug, Clone, Default)]
 pub struct Sources {

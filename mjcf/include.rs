@@ -9,19 +9,29 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostics, Loc, Sources};
+use crate::diagnostic::{Diagnostics, Loc, Sources, nearest};
 use crate::files::{FileProvider, fold, is_absolute, join};
 use crate::xml::{self, Element, Limits};
 
-/// Text replacements made in every file before it is parsed, in order.
-pub type Substitutions = [(String, String)];
+/// A replacement made in the text of every file before it is parsed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Substitution {
+    /// What is replaced.
+    pub from: String,
+    /// What stands there instead.
+    pub to: String,
+    /// Whether a model in which nothing is replaced is an error.
+    pub required: bool,
+}
 
 /// What expansion needs to know and what it fills.
 pub struct Expansion<'a> {
     /// Where files come from.
     pub files: &'a dyn FileProvider,
-    /// Template replacements.
-    pub substitutions: &'a Substitutions,
+    /// Template replacements, in order.
+    pub substitutions: &'a [Substitution],
+    /// Which of them have replaced something.
+    pub matched: &'a mut [bool],
     /// Bounds on depth, size and number.
     pub limits: &'a Limits,
     /// Receives every text read.
@@ -45,6 +55,7 @@ impl Expansion<'_> {
         Expansion {
             files: self.files,
             substitutions: self.substitutions,
+            matched: self.matched,
             limits: self.limits,
             sources: self.sources,
             diagnostics: self.diagnostics,
@@ -80,7 +91,7 @@ impl Expansion<'_> {
     }
 
     fn parse(&mut self, path: &str, bytes: &[u8], included_at: Option<Loc>) -> Option<Element> {
-        let replaced = substitute(bytes, self.substitutions);
+        let replaced = substitute(bytes, self.substitutions, self.matched);
         let bytes = replaced.as_deref().unwrap_or(bytes);
         xml::parse(path, bytes, included_at, self.limits, self.sources, self.diagnostics)
     }
@@ -176,14 +187,53 @@ struct Place {
     remembered: String,
 }
 
-fn substitute(bytes: &[u8], substitutions: &Substitutions) -> Option<Vec<u8>> {
+fn substitute(bytes: &[u8], substitutions: &[Substitution], matched: &mut [bool]) -> Option<Vec<u8>> {
     let mut text = std::str::from_utf8(bytes).ok()?.to_string();
     let mut changed = false;
-    for (from, to) in substitutions.iter().filter(|(from, _)| !from.is_empty()) {
-        if text.contains(from.as_str()) {
+    for (Substitution { from, to, .. }, matched) in substitutions.iter().zip(matched) {
+        if !from.is_empty() && text.contains(from.as_str()) {
             text = text.replace(from.as_str(), to);
-            changed = true;
+            (changed, *matched) = (true, true);
         }
     }
     changed.then(|| text.into_bytes())
+}
+
+/// Most placeholders that a message lists.
+const MAX_LISTED: usize = 8;
+
+/// Reports the required replacements that replaced nothing, with the placeholders that could be meant.
+pub(crate) fn report_unmatched(
+    substitutions: &[Substitution],
+    matched: &[bool],
+    sources: &Sources,
+    diagnostics: &mut Diagnostics,
+) {
+    let unmatched = substitutions.iter().zip(matched).filter(|(s, matched)| s.required && !**matched);
+    for (Substitution { from, .. }, _) in unmatched {
+        let candidates: BTreeSet<&str> =
+            sources.iter().flat_map(|source| placeholders(source.text())).collect();
+        let listed: Vec<_> = candidates.iter().take(MAX_LISTED).map(|word| format!("'{word}'")).collect();
+        let advice = match nearest(from, candidates.iter().copied()) {
+            Some(word) => Some(format!("did you mean '{word}'?")),
+            None if listed.is_empty() => None,
+            None => Some(format!("words in capitals there: {}", listed.join(", "))),
+        };
+        let start = Loc { file: 0, offset: 0 };
+        let message = format!("nothing to replace: no file of the model contains '{from}'");
+        diagnostics.error_with(sources, start, message, advice);
+    }
+}
+
+/// Words in capitals outside comments, as placeholders of templates are written.
+fn placeholders(text: &str) -> impl Iterator<Item = &str> {
+    let markup = text.split("<!--").enumerate().map(|(i, part)| match i {
+        0 => part,
+        _ => part.split_once("-->").map_or("", |(_, rest)| rest),
+    });
+    let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    markup.flat_map(move |part| part.split(move |c| !word(c))).filter(|word| {
+        let capitals = word.bytes().all(|b| b.is_ascii_uppercase() || b.is_ascii_digit() || b == b'_');
+        capitals && word.len() >= 3 && word.starts_with(|c: char| c.is_ascii_uppercase())
+    })
 }

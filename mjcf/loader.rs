@@ -10,7 +10,7 @@ use crate::cache::{Cache, Miss, Noted};
 use crate::compile::compile;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::{Disk, FileProvider};
-use crate::include::Expansion;
+use crate::include::{Expansion, Substitution, report_unmatched};
 use crate::read;
 use crate::spec::Spec;
 use crate::xml::{Element, Limits};
@@ -20,7 +20,7 @@ use crate::xml::{Element, Limits};
 pub struct Loader {
     files: Arc<dyn FileProvider + Send + Sync>,
     limits: Limits,
-    substitutions: Vec<(String, String)>,
+    substitutions: Vec<Substitution>,
     moves: Vec<(String, String)>,
     cache: Option<Cache>,
 }
@@ -80,8 +80,17 @@ impl Loader {
     }
 
     /// Replaces `from` by `to` in the text of every file, as templates such as `OBJECT_NAME` ask for.
-    pub fn substitute(mut self, from: &str, to: &str) -> Self {
-        self.substitutions.push((from.into(), to.into()));
+    pub fn substitute(self, from: &str, to: &str) -> Self {
+        self.replace(from, to, false)
+    }
+
+    /// As [`Loader::substitute`], but a model in which no text is replaced is an error.
+    pub fn define(self, from: &str, to: &str) -> Self {
+        self.replace(from, to, true)
+    }
+
+    fn replace(mut self, from: &str, to: &str, required: bool) -> Self {
+        self.substitutions.push(Substitution { from: from.into(), to: to.into(), required });
         self
     }
 
@@ -161,8 +170,10 @@ impl Loader {
 
     fn load_cached(&self, cache: &Cache, path: &str) -> Result<Loaded, Diagnostics> {
         let limits = format!("{:?}", self.limits);
-        let counts = format!("{} {}", self.substitutions.len(), self.moves.len());
-        let edits = self.substitutions.iter().chain(&self.moves).flat_map(|(from, to)| [&**from, &**to]);
+        let required: Vec<_> = self.substitutions.iter().map(|s| s.required).collect();
+        let counts = format!("{required:?} {}", self.moves.len());
+        let replaced = self.substitutions.iter().flat_map(|s| [&*s.from, &*s.to]);
+        let edits = replaced.chain(self.moves.iter().flat_map(|(body, parent)| [&**body, &**parent]));
         let request: Vec<&str> = [path, &limits, &counts].into_iter().chain(edits).collect();
         let damaged = match cache.find(&request, &*self.files) {
             Ok(loaded) => return Ok(loaded),
@@ -203,9 +214,11 @@ impl Loader {
         read: impl FnOnce(&mut Expansion<'_>) -> Option<Element>,
     ) -> Result<Parsed, Diagnostics> {
         let (mut sources, mut diagnostics) = (Sources::default(), Diagnostics::default());
+        let mut matched = vec![false; self.substitutions.len()];
         let mut expansion = Expansion {
             files,
             substitutions: &self.substitutions,
+            matched: &mut matched,
             limits: &self.limits,
             sources: &mut sources,
             diagnostics: &mut diagnostics,
@@ -213,6 +226,7 @@ impl Loader {
         let Some(mut root) = read(&mut expansion) else { return Err(diagnostics) };
         self.edit(&mut root, expansion.sources, expansion.diagnostics);
         let spec = read::read(&root, expansion);
+        report_unmatched(&self.substitutions, &matched, &sources, &mut diagnostics);
         match spec.filter(|_| !diagnostics.has_errors()) {
             Some(spec) => Ok(Parsed { spec, sources, warnings: diagnostics }),
             None => Err(diagnostics),

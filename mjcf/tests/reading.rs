@@ -122,6 +122,23 @@ fn includes_stand_anywhere_and_assets_are_sought_from_the_main_file_first() {
     assert_eq!((body.geoms.len(), body.sites[0].name.as_str()), (1, "apple"));
 }
 
+/// A definition must replace something, in whichever file it stands; words in comments are no candidates.
+#[test]
+fn definitions_that_replace_nothing_are_errors() {
+    let mut files = Memory::default();
+    files.insert("a.xml", *b"<mujoco><!-- MIT --><worldbody><include file='b.xml'/></worldbody></mujoco>");
+    files.insert("b.xml", *b"<x><geom name='OBJECT_NAME' size='RADIUS'/></x>");
+    let loader = Loader::default().files(files).define("RADIUS", "1");
+    assert!(loader.clone().define("OBJECT_NAME", "apple").load("a.xml").is_ok());
+    let error = |text: &str| loader.clone().define(text, "apple").load("a.xml").unwrap_err().to_string();
+    assert_eq!(
+        error("OBJCT_NAME"),
+        "a.xml:1:1: error: nothing to replace: no file of the model contains 'OBJCT_NAME'; did you mean 'OBJECT_NAME'?"
+    );
+    assert!(error("THING").ends_with("words in capitals there: 'OBJECT_NAME'"), "{}", error("THING"));
+    assert!(loader.substitute("THING", "apple").load("a.xml").is_ok());
+}
+
 #[test]
 fn bodies_move_before_reading() {
     let mut files = Memory::default();
