@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use physics::model::Options;
+use physics::model::{Disable, Enable, Options};
 use physics::table::Slice;
 
 use super::Reader;
@@ -20,8 +20,8 @@ use crate::xml::Element;
 pub(super) struct Authored {
     /// Attributes of `option` and of the parts of `visual`.
     pub values: BTreeSet<String>,
-    disableflags: i32,
-    enableflags: i32,
+    disableflags: Disable,
+    enableflags: Enable,
     /// Actuator groups.
     pub disableactuator: i32,
 }
@@ -111,18 +111,19 @@ impl Reader<'_> {
         }
         let (own, other) = (&self.authored, child_authored);
         let (mine, theirs) = (&mut self.spec.option, &child.option);
+        let (mut off, mut on) = (mine.disableflags.bits(), mine.enableflags.bits());
         for (what, mine, theirs, authored) in [
             (
                 "disabled flags",
-                &mut mine.disableflags,
-                theirs.disableflags,
-                [own.disableflags, other.disableflags],
+                &mut off,
+                theirs.disableflags.bits(),
+                [own.disableflags.bits(), other.disableflags.bits()],
             ),
             (
                 "enabled flags",
-                &mut mine.enableflags,
-                theirs.enableflags,
-                [own.enableflags, other.enableflags],
+                &mut on,
+                theirs.enableflags.bits(),
+                [own.enableflags.bits(), other.enableflags.bits()],
             ),
             (
                 "disabled actuator groups",
@@ -133,6 +134,7 @@ impl Reader<'_> {
         ] {
             findings.extend(settle_bits(what, mine, theirs, authored, mode));
         }
+        (mine.disableflags, mine.enableflags) = (Disable::from_bits(off), Enable::from_bits(on));
         let mut settled = true;
         for finding in findings {
             match finding {

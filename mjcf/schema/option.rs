@@ -1,6 +1,6 @@
 //! `option`: settings of the physics.
 
-use physics::model::Options;
+use physics::model::{Cone, Disable, Enable, Integrator, Jacobian, Options, Solver};
 
 use super::Bind::{Int, Keyword, Own, Real, Reals};
 use super::{ElementType, Kind, Row, Words, leaf, once, row};
@@ -43,16 +43,30 @@ pub static OPTIONS: [Row<Options>; 27] = [
     row("o_friction", Reals { min: 1, field: |o| &mut o.o_friction }, "contact friction when overriding"),
     row(
         "integrator",
-        Keyword { words: INTEGRATORS, assign: |o, code| o.integrator = code },
+        Keyword {
+            words: INTEGRATORS,
+            assign: |o, code| o.integrator = Integrator::from_code(code).unwrap_or(o.integrator),
+        },
         "numerical integrator",
     ),
-    row("cone", Keyword { words: CONES, assign: |o, code| o.cone = code }, "shape of the friction cone"),
+    row(
+        "cone",
+        Keyword { words: CONES, assign: |o, code| o.cone = Cone::from_code(code).unwrap_or(o.cone) },
+        "shape of the friction cone",
+    ),
     row(
         "jacobian",
-        Keyword { words: JACOBIANS, assign: |o, code| o.jacobian = code },
+        Keyword {
+            words: JACOBIANS,
+            assign: |o, code| o.jacobian = Jacobian::from_code(code).unwrap_or(o.jacobian),
+        },
         "storage of the constraint Jacobian",
     ),
-    row("solver", Keyword { words: SOLVERS, assign: |o, code| o.solver = code }, "constraint solver"),
+    row(
+        "solver",
+        Keyword { words: SOLVERS, assign: |o, code| o.solver = Solver::from_code(code).unwrap_or(o.solver) },
+        "constraint solver",
+    ),
     row("iterations", Int(|o| &mut o.iterations), "most solver iterations"),
     row("ls_iterations", Int(|o| &mut o.ls_iterations), "most line search iterations"),
     row("noslip_iterations", Int(|o| &mut o.noslip_iterations), "most no-slip iterations"),
@@ -70,146 +84,136 @@ pub static OPTIONS: [Row<Options>; 27] = [
     ),
 ];
 
-/// Sets or clears a bit of a disable mask, whose bits are set to switch off.
-const fn disable(mask: i32, bit: u32, on: i32) -> i32 {
-    if on == 0 { mask | 1 << bit } else { mask & !(1 << bit) }
-}
-
-/// Sets or clears a bit of an enable mask.
-const fn enable(mask: i32, bit: u32, on: i32) -> i32 {
-    if on == 1 { mask | 1 << bit } else { mask & !(1 << bit) }
-}
-
 /// Attributes of `option/flag`.
 pub static FLAGS: [Row<Options>; 26] = [
     row(
         "constraint",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 0, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::CONSTRAINT, on == 0) },
         "the constraint solver",
     ),
     row(
         "equality",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 1, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::EQUALITY, on == 0) },
         "equality constraints",
     ),
     row(
         "frictionloss",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 2, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::FRICTIONLOSS, on == 0) },
         "joint and tendon friction loss",
     ),
     row(
         "limit",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 3, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::LIMIT, on == 0) },
         "joint and tendon limits",
     ),
     row(
         "contact",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 4, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::CONTACT, on == 0) },
         "contacts",
     ),
     row(
         "spring",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 5, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::SPRING, on == 0) },
         "joint and tendon springs",
     ),
     row(
         "damper",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 6, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::DAMPER, on == 0) },
         "joint and tendon dampers",
     ),
     row(
         "gravity",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 7, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::GRAVITY, on == 0) },
         "gravity",
     ),
     row(
         "clampctrl",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 8, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::CLAMPCTRL, on == 0) },
         "clamping of controls",
     ),
     row(
         "warmstart",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 9, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::WARMSTART, on == 0) },
         "warm start of the solver",
     ),
     row(
         "filterparent",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 10, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::FILTERPARENT, on == 0) },
         "no contacts between parent and child",
     ),
     row(
         "actuation",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 11, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::ACTUATION, on == 0) },
         "actuator forces",
     ),
     row(
         "refsafe",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 12, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::REFSAFE, on == 0) },
         "time constants kept above two time steps",
     ),
     row(
         "sensor",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 13, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::SENSOR, on == 0) },
         "sensors",
     ),
     row(
         "midphase",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 14, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::MIDPHASE, on == 0) },
         "bounding volume trees inside a pair of bodies",
     ),
     row(
         "eulerdamp",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 15, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::EULERDAMP, on == 0) },
         "implicit joint damping in Euler",
     ),
     row(
         "autoreset",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 16, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::AUTORESET, on == 0) },
         "reset on diverging state",
     ),
     row(
         "nativeccd",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 17, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::NATIVECCD, on == 0) },
         "the native convex collision pipeline",
     ),
     row(
         "island",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 18, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::ISLAND, on == 0) },
         "islands solved apart",
     ),
     row(
         "multiccd",
-        Keyword { words: ENABLE, assign: |o, on| o.disableflags = disable(o.disableflags, 19, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.disableflags.set(Disable::MULTICCD, on == 0) },
         "several contacts per convex pair",
     ),
     row(
         "override",
-        Keyword { words: ENABLE, assign: |o, on| o.enableflags = enable(o.enableflags, 0, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.enableflags.set(Enable::OVERRIDE, on == 1) },
         "one set of contact parameters for all",
     ),
     row(
         "energy",
-        Keyword { words: ENABLE, assign: |o, on| o.enableflags = enable(o.enableflags, 1, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.enableflags.set(Enable::ENERGY, on == 1) },
         "energy computation",
     ),
     row(
         "fwdinv",
-        Keyword { words: ENABLE, assign: |o, on| o.enableflags = enable(o.enableflags, 2, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.enableflags.set(Enable::FWDINV, on == 1) },
         "comparison of forward and inverse dynamics",
     ),
     row(
         "invdiscrete",
-        Keyword { words: ENABLE, assign: |o, on| o.enableflags = enable(o.enableflags, 3, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.enableflags.set(Enable::INVDISCRETE, on == 1) },
         "inverse dynamics in discrete time",
     ),
     row(
         "sleep",
-        Keyword { words: ENABLE, assign: |o, on| o.enableflags = enable(o.enableflags, 4, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.enableflags.set(Enable::SLEEP, on == 1) },
         "sleeping of resting trees",
     ),
     row(
         "diagexact",
-        Keyword { words: ENABLE, assign: |o, on| o.enableflags = enable(o.enableflags, 5, on) },
+        Keyword { words: ENABLE, assign: |o, on| o.enableflags.set(Enable::DIAGEXACT, on == 1) },
         "exact diagonal of the constraint inertia",
     ),
 ];

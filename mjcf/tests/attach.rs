@@ -1,5 +1,6 @@
 //! Attached models: what goes wrong is said with its place, and settings in conflict are settled as asked.
 
+use physics::model::Disable;
 use robohive_mjcf::files::Memory;
 use robohive_mjcf::loader::{Loaded, Loader};
 
@@ -75,7 +76,7 @@ fn conflicts_are_settled_as_asked() {
     let option = "<option timestep='.002' iterations='9'/>";
     let kept = load(CHILD, option, attach).unwrap();
     assert_eq!((kept.model.opt.timestep, kept.model.opt.iterations), (0.002, 9));
-    assert_eq!((kept.model.opt.gravity[2], kept.model.opt.disableflags), (-9.81, 0));
+    assert_eq!((kept.model.opt.gravity[2], kept.model.opt.disableflags), (-9.81, Disable::NONE));
     assert_eq!(kept.warnings.warnings().count(), 3);
     assert_eq!(kept.model.geom_size[0][0], 0.3);
     assert_eq!(kept.model.nsensor, 1);
@@ -83,7 +84,7 @@ fn conflicts_are_settled_as_asked() {
     let merge = "<compiler conflict='merge'/>";
     let merged = load(CHILD, &format!("{merge}{option}"), attach).unwrap().model.opt;
     assert_eq!((merged.timestep, merged.iterations, merged.gravity[2]), (0.002, 9, -3.0));
-    assert_eq!(merged.disableflags, physics::model::disable::DAMPER);
+    assert_eq!(merged.disableflags, Disable::DAMPER);
     let gravity = "<option gravity='0 0 -1'/>";
     assert!(refusal(CHILD, &format!("{merge}{gravity}"), attach).contains("cannot be merged"));
 

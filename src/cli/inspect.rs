@@ -5,7 +5,7 @@ use crate::fields::array;
 use crate::{Failure, load, unwritable};
 use dataset::{Array, NpzWriter};
 use physics::Model;
-use physics::model::{Cone, GeomType, Integrator, JointType, ObjType, Solver};
+use physics::model::{GeomType, JointType, ObjType};
 use std::fmt::Write;
 use std::path::Path;
 
@@ -76,15 +76,14 @@ fn summary(m: &Model) -> String {
     line("sensors", format!("{} with {} values", m.nsensor, m.nsensordata));
     line("constraints", format!("{} equality, {} pairs, {} excludes", m.neq, m.npair, m.nexclude));
     line("keyframes", format!("{}", m.nkey));
-    let name = |text: Option<String>| text.unwrap_or_else(|| "unknown".into());
     line(
         "option",
         format!(
-            "timestep {} s, integrator {}, solver {}, cone {}, iterations {}, noslip {}",
+            "timestep {} s, integrator {:?}, solver {:?}, cone {:?}, iterations {}, noslip {}",
             m.opt.timestep,
-            name(Integrator::from_code(m.opt.integrator).map(|v| format!("{v:?}"))),
-            name(Solver::from_code(m.opt.solver).map(|v| format!("{v:?}"))),
-            name(Cone::from_code(m.opt.cone).map(|v| format!("{v:?}"))),
+            m.opt.integrator,
+            m.opt.solver,
+            m.opt.cone,
             m.opt.iterations,
             m.opt.noslip_iterations
         ),

@@ -6,7 +6,7 @@ use dataset::NpzReader;
 use physics::constraint::{IslandScratch, find_islands};
 use physics::data::SolverStat;
 use physics::inertia::mul_inertia_matrix;
-use physics::model::{Cone, ConstraintType, Solver, disable};
+use physics::model::{Cone, ConstraintType, Disable, Solver};
 use physics::solver::{SolverScratch, solve};
 use physics::{Data, Model};
 use std::collections::BTreeMap;
@@ -131,14 +131,14 @@ pub fn solve_archive(m: &mut Model, path: &Path) -> Result<Outcome, ReferenceErr
     let mut scratch = SolverScratch::default();
     for k in 0..problems.number() {
         let start = inject(m, &problems, k, &mut place)?;
-        let cone = usize::from(m.opt.cone == Cone::Elliptic.code());
+        let cone = usize::from(m.opt.cone == Cone::Elliptic);
         for feature in features(m, &start) {
             out.features.entry(feature).or_default()[cone] += 1;
         }
         let qacc = problems.row("solved.qacc", k)?;
         let niter = problems.row("solved.solver_niter", k)?;
         for (s, solver) in SOLVERS.into_iter().enumerate() {
-            m.opt.solver = solver.code();
+            m.opt.solver = solver;
             let mut d = start.clone();
             let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
             solve(m, state, inertia, con, efc, island, acc, solver, &mut scratch);
@@ -158,9 +158,10 @@ pub fn solve_archive(m: &mut Model, path: &Path) -> Result<Outcome, ReferenceErr
 /// Sets the options of problem `k` and returns the solver's inputs; `place` moves on to the next problem.
 fn inject(m: &mut Model, p: &Problems, k: usize, place: &mut Place) -> Result<Data, ReferenceError> {
     let option = |name: &str| Ok::<i32, ReferenceError>(p.row(name, k)?[0] as i32);
-    m.opt.cone = option("problem.cone")?;
+    let cone = option("problem.cone")?;
+    m.opt.cone = Cone::from_code(cone).ok_or_else(|| ReferenceError::Shape("problem.cone".into()))?;
     m.opt.noslip_iterations = option("problem.noslip_iterations")?;
-    m.opt.disableflags = option("problem.disableflags")?;
+    m.opt.disableflags = Disable::from_bits(option("problem.disableflags")?);
     let mut d = Data::new(m);
     let mut set = |name: &str, values: &[f64]| match d.assign(name, values) {
         Some(true) => Ok(()),
@@ -213,8 +214,8 @@ fn features(m: &Model, d: &Data) -> Vec<&'static str> {
             d.efc.ne.min(d.efc.nf).min(d.efc.nl) > 0 && d.con.contact.iter().any(|c| c.efc_address >= 0)
         }),
         ("several islands", d.island.nisland > 1),
-        ("islands off", m.opt.disableflags & disable::ISLAND != 0),
-        ("cold start", m.opt.disableflags & disable::WARMSTART != 0),
+        ("islands off", m.opt.disableflags.contains(Disable::ISLAND)),
+        ("cold start", m.opt.disableflags.contains(Disable::WARMSTART)),
         ("removal of slip", m.opt.noslip_iterations > 0),
         ("removal of slip, several islands", m.opt.noslip_iterations > 0 && d.island.nisland > 1),
         ("sparse storage", m.is_sparse()),

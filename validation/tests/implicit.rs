@@ -1,6 +1,6 @@
 //! Integrators that are implicit in velocity, beside MuJoCo on the own models.
 
-use physics::model::{Integrator, enable};
+use physics::model::{Enable, Integrator};
 use physics::{Data, Model};
 use robohive_validation::compare::{absolute, compare, of_largest};
 use robohive_validation::reference::Reference;
@@ -50,7 +50,7 @@ fn derivatives_agree() {
     for (name, own, recorded) in references() {
         let mut m = own.model().unwrap();
         for (label, integrator) in INTEGRATORS {
-            m.opt.integrator = integrator.code();
+            m.opt.integrator = integrator;
             let theirs = values(&recorded, &format!("{label}.qDeriv"));
             let qvel = values(&recorded, &format!("{label}.qvel"));
             let scale = theirs.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
@@ -77,7 +77,7 @@ fn rollouts_agree() {
         let mut m = own.model().unwrap();
         let ctrl = values(&recorded, "ctrl");
         for (label, integrator) in INTEGRATORS {
-            m.opt.integrator = integrator.code();
+            m.opt.integrator = integrator;
             let (theirs, twin) =
                 (values(&recorded, &format!("{label}.qpos")), values(&recorded, &format!("{label}.twin")));
             let rows = twin.iter().take_while(|&&x| x < ROLLOUT_ABSOLUTE).count();
@@ -106,11 +106,11 @@ fn inverse_dynamics_agree() {
         let qacc = values(&recorded, "inverse.qacc");
         let constraint = values(&recorded, "inverse.qfrc_constraint");
         let discrete = [Integrator::Euler, INTEGRATORS[0].1, INTEGRATORS[1].1]
-            .map(|i| (format!("discrete.{i:?}").replace(".I", ".i"), i, enable::INVDISCRETE));
-        let continuous = ("inverse.qfrc_inverse".to_owned(), Integrator::Euler, 0);
+            .map(|i| (format!("discrete.{i:?}").replace(".I", ".i"), i, Enable::INVDISCRETE));
+        let continuous = ("inverse.qfrc_inverse".to_owned(), Integrator::Euler, Enable::NONE);
         let flags = m.opt.enableflags;
         for (label, integrator, flag) in discrete.into_iter().chain([continuous]) {
-            (m.opt.integrator, m.opt.enableflags) = (integrator.code(), flags | flag);
+            (m.opt.integrator, m.opt.enableflags) = (integrator, flags | flag);
             let theirs = values(&recorded, &label);
             for (k, row) in STATES.into_iter().enumerate() {
                 let at = k * m.nv..(k + 1) * m.nv;
@@ -122,7 +122,7 @@ fn inverse_dynamics_agree() {
                     compare("qfrc_inverse", &d.implicit.qfrc_inverse, &theirs[at.clone()], of_largest);
                 assert!(worst.theirs != 0.0 && worst.error < STAGE, "{name} {label} state {row}: {worst}");
                 assert_eq!(d.acc.qacc, qacc[at.clone()], "the given acceleration has changed");
-                if flag == 0 {
+                if flag == Enable::NONE {
                     let worst =
                         compare("qfrc_constraint", &d.acc.qfrc_constraint, &constraint[at], of_largest);
                     assert!(worst.error < STAGE, "{name} state {row}: {worst}");
@@ -138,7 +138,7 @@ fn transition_matrices_agree() {
     for (name, own, recorded) in references() {
         let mut m = own.model().unwrap();
         for integrator in [Integrator::Euler, INTEGRATORS[0].1, INTEGRATORS[1].1] {
-            m.opt.integrator = integrator.code();
+            m.opt.integrator = integrator;
             let label = format!("transition.{integrator:?}").replace(".I", ".i");
             if recorded.archive().require(&format!("{label}.A")).is_err() {
                 continue;
@@ -193,7 +193,7 @@ fn inverse_undoes_forward() {
     let mut rows = 0;
     for (name, own, _) in references() {
         let mut m = own.model().unwrap();
-        m.opt.enableflags |= enable::FWDINV;
+        m.opt.enableflags |= Enable::FWDINV;
         for row in STATES {
             let mut d = Data::new(&m);
             own.set_state(&mut d, &m, row).unwrap();

@@ -9,7 +9,7 @@ pub fn contact_force(m: &Model, efc: &Constraints, c: &Contact) -> [f64; 6] {
     let mut force = [0.0; 6];
     let Ok(first) = usize::try_from(c.efc_address) else { return force };
     let dim = c.dim as usize;
-    if m.opt.cone == Cone::Elliptic.code() || dim == 1 {
+    if m.opt.cone == Cone::Elliptic || dim == 1 {
         force[..dim].copy_from_slice(&efc.efc_force[first..first + dim]);
     } else {
         let edges = &efc.efc_force[first..first + 2 * (dim - 1)];

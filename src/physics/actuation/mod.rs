@@ -17,7 +17,7 @@ use crate::actuation::transmission::moment;
 use crate::data::{Actuation, Passive, State, Transmission, Velocity};
 use crate::math::{IDENTITY, Quat, Vec3, norm, quat_difference, quat_from_axis_angle, quat_normalize, scale};
 use crate::model::bounds::{MAXVAL, MINVAL};
-use crate::model::{BiasType, DynType, GainType, JointType, Model, TrnType, disable};
+use crate::model::{BiasType, Disable, DynType, GainType, JointType, Model, TrnType};
 use crate::velocity::passive::has_gravity_compensation;
 
 /// Value of `actuator_ctrlspec` for an orientation given as a quaternion.
@@ -35,7 +35,7 @@ pub fn actuation(
 ) {
     out.actuator_force.fill(0.0);
     out.qfrc_actuator.fill(0.0);
-    if m.nactuator == 0 || m.opt.disableflags & disable::ACTUATION != 0 {
+    if m.nactuator == 0 || m.opt.disableflags.contains(Disable::ACTUATION) {
         return;
     }
     // One bad control switches all of them off.
@@ -91,7 +91,7 @@ fn clamped_control(m: &Model, time: f64, state: &State, k: usize) -> f64 {
         0 => state.ctrl[k],
         _ => history::control(m, &state.history, &state.ctrl, time, k),
     };
-    let clamps = m.opt.disableflags & disable::CLAMPCTRL == 0 && m.actuator_ctrllimited[k];
+    let clamps = !m.opt.disableflags.contains(Disable::CLAMPCTRL) && m.actuator_ctrllimited[k];
     if clamps { clip(u, m.actuator_ctrlrange[k]) } else { u }
 }
 

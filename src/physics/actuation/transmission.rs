@@ -8,7 +8,7 @@ use crate::math::{
     Mat3, Quat, Vec3, add, column, cross, dot, dot_sparse, mul_mat_t_vec, mul_mat_vec, ops, quat_conj,
     quat_difference, quat_mul, quat_normalize, quat_rotate, quat_to_velocity, rotational, row, scale, sub,
 };
-use crate::model::{Cone, JointType, Model, TrnType, disable};
+use crate::model::{Cone, Disable, JointType, Model, TrnType};
 use crate::position::chain::{MergedChain, chain, com_offset, point_column, site_point};
 use crate::position::tendon;
 use std::ops::Range;
@@ -53,7 +53,7 @@ pub fn transmission(
 /// Velocities of all actuators, after those of tendons: moments times joint velocities; zero when actuation is
 /// disabled.
 pub fn actuator_velocity(m: &Model, state: &State, trn: &Transmission, vel: &mut Velocity) {
-    if m.opt.disableflags & disable::ACTUATION != 0 {
+    if m.opt.disableflags.contains(Disable::ACTUATION) {
         vel.actuator_velocity.fill(0.0);
         return;
     }
@@ -325,7 +325,7 @@ fn body_adhesion(m: &Model, com: &Com, con: &Contacts, efc: &Constraints, id: us
 /// Adds the normal of an active contact: its first row, or the mean of its pyramid's edges.
 fn add_contact_rows(m: &Model, c: &Contact, efc: &Constraints, sum: &mut [f64]) {
     let first = c.efc_address as usize;
-    let (count, weight) = if c.dim == 1 || m.opt.cone == Cone::Elliptic.code() {
+    let (count, weight) = if c.dim == 1 || m.opt.cone == Cone::Elliptic {
         (1, 1.0)
     } else {
         (2 * (c.dim as usize - 1), 0.5 / f64::from(c.dim - 1))

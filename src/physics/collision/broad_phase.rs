@@ -7,7 +7,7 @@ use crate::math::{
     Mat3, Vec3, add, add_scaled, column, dot, mul_mat, mul_mat_vec, principal_axes, quat_to_mat,
 };
 use crate::math::{scale, sub};
-use crate::model::{GeomType, Model, disable};
+use crate::model::{Disable, GeomType, Model};
 
 /// Working memory and result of the broad phase.
 #[derive(Clone, Debug, Default)]
@@ -144,7 +144,7 @@ fn bodies_match(m: &Model, b1: usize, b2: usize) -> bool {
     }
     let parent = |w: usize| m.body_weldid[m.body_parentid[w] as usize] as usize;
     let related = w1 != 0 && w2 != 0 && (w1 == parent(w2) || w2 == parent(w1));
-    if related && m.opt.disableflags & disable::FILTERPARENT == 0 {
+    if related && !m.opt.disableflags.contains(Disable::FILTERPARENT) {
         return false;
     }
     types_match(m.body_contype[b1], m.body_conaffinity[b1], m.body_contype[b2], m.body_conaffinity[b2])

@@ -15,7 +15,7 @@ use crate::math::{
     Mat3, Vec3, add, add_scaled, cross, distance, dot, mul_mat, mul_mat_vec, normalize, quat_from_axis_angle,
     quat_to_mat, scale, sub, transpose,
 };
-use crate::model::{Model, Options, disable};
+use crate::model::{Disable, Model, Options};
 
 /// Angle by which geoms are rocked to find more contacts [rad].
 const ROCKING_ANGLE: f64 = 1e-3;
@@ -136,7 +136,7 @@ pub fn penetration(
 }
 
 fn is_native(opt: &Options) -> bool {
-    opt.disableflags & disable::NATIVECCD == 0
+    !opt.disableflags.contains(Disable::NATIVECCD)
 }
 
 fn portal_penetration(
@@ -170,7 +170,7 @@ pub fn convex(
     let bodies = shapes.map(|shape| ConvexBody::new(&shape, margin));
     let [Some(a), Some(b)] = bodies else { return };
     let mut pair = Pair { opt: &m.opt, shapes, bodies: [a, b], margin };
-    let many = m.opt.disableflags & disable::MULTICCD == 0;
+    let many = !m.opt.disableflags.contains(Disable::MULTICCD);
     let max_contacts = if is_native(&m.opt) { one_pass_contacts(&a, &b, many) } else { 1 };
     let first = out.len();
     let found = pair.find(max_contacts, scratch, out);

@@ -4,7 +4,7 @@ use super::convex::{ConvexScratch, convex_distance};
 use super::{PreContact, pair_function};
 use crate::data::Kinematics;
 use crate::math::{Vec3, add_scaled};
-use crate::model::{GeomType, Model, disable};
+use crate::model::{Disable, GeomType, Model};
 
 /// Reused memory of distance queries.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +35,7 @@ pub fn geom_distance(
     let flip = types[0] > types[1];
     let sorted = if flip { [types[1], types[0]] } else { types };
     let Some(function) = pair_function(sorted[0], sorted[1]) else { return (limit, [[0.0; 3]; 2]) };
-    let native = m.opt.disableflags & disable::NATIVECCD == 0;
+    let native = !m.opt.disableflags.contains(Disable::NATIVECCD);
     if native && is_convex_pair(sorted) {
         let (dist, segment) = convex_distance(m, kin, g1, g2, limit, &mut scratch.convex);
         return (dist, segment.unwrap_or_default());

@@ -7,7 +7,7 @@ use super::{PreContact, Shape, round_normal};
 use crate::data::Kinematics;
 use crate::math::{Mat3, Vec3, add, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec, sub};
 use crate::model::bounds::MAXCONPAIR;
-use crate::model::{Model, disable};
+use crate::model::{Disable, Model};
 
 /// Share of the coordinates and the radius of a ball that no rounding reaches.
 const BALL_SLACK: f64 = 1e-9;
@@ -131,7 +131,7 @@ pub fn height_field(
                 penetration(&m.opt, &mut prism, &mut body, 1, 0.0, scratch, out);
                 for contact in &mut out[found..] {
                     *contact = placed(contact, field.pos, &field.mat);
-                    if m.opt.disableflags & disable::NATIVECCD != 0 {
+                    if m.opt.disableflags.contains(Disable::NATIVECCD) {
                         round_normal::correct(contact, &field, &shape);
                     }
                 }

@@ -5,7 +5,7 @@ use super::PreContact;
 use crate::data::Contact;
 use crate::math::{Mat3, Vec3, add_scaled, cross, dot, normalize};
 use crate::model::bounds::{MINMU, MINVAL};
-use crate::model::{Model, enable};
+use crate::model::{Enable, Model};
 
 /// What all contacts of one geom pair share.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +21,7 @@ pub struct Mixture {
 
 /// True when global contact parameters override those of the geoms.
 pub(super) fn overridden(m: &Model) -> bool {
-    m.opt.enableflags & enable::OVERRIDE != 0
+    m.opt.enableflags.contains(Enable::OVERRIDE)
 }
 
 /// Distance below which a contact makes force: the sum of the geoms' margins, that of the predefined pair, or the

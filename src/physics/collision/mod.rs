@@ -28,7 +28,8 @@ pub mod support;
 
 use crate::data::{Contacts, Kinematics};
 use crate::math::{Mat3, Vec3, column};
-use crate::model::{GeomType, Model, disable};
+use crate::model::{Disable, GeomType, Model, ObjType};
+use crate::pipeline::error::NotSimulated;
 use broad_phase::{geoms, spheres_apart, types_match};
 
 /// What a narrow-phase function says about one point of contact.
@@ -142,30 +143,17 @@ pub struct CollisionScratch {
     points: Vec<PreContact>,
 }
 
-/// A geom type that can be part of a collision but has no pair function.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnsupportedGeom {
-    /// Index of the geom.
-    pub geom: usize,
-}
-
-impl std::fmt::Display for UnsupportedGeom {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "geom {}: collisions of signed distance fields are not supported", self.geom)
-    }
-}
-
-impl std::error::Error for UnsupportedGeom {}
-
 /// Checks once that `collide` knows every geom type of the model that may collide.
 ///
 /// # Errors
 /// The first geom whose type has no pair function.
-pub fn check(m: &Model) -> Result<(), UnsupportedGeom> {
+pub fn check(m: &Model) -> Result<(), NotSimulated> {
     let listed = |g: usize| m.pair_geom1.iter().chain(&m.pair_geom2).any(|&k| k as usize == g);
     let collides = |g: usize| m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0 || listed(g);
     match (0..m.ngeom).find(|&g| m.geom_type[g] > GeomType::Mesh.code() && collides(g)) {
-        Some(geom) => Err(UnsupportedGeom { geom }),
+        Some(g) => {
+            Err(NotSimulated::of(m.label_of(ObjType::Geom, g), "collisions of signed distance fields"))
+        }
         None => Ok(()),
     }
 }
@@ -173,7 +161,7 @@ pub fn check(m: &Model) -> Result<(), UnsupportedGeom> {
 /// Finds all contacts: predefined pairs and geoms of bodies that may touch, ordered by body pair, then by geom pair.
 pub fn collide(m: &Model, kin: &Kinematics, scratch: &mut CollisionScratch, con: &mut Contacts) {
     con.contact.clear();
-    if m.opt.disableflags & (disable::CONSTRAINT | disable::CONTACT) != 0 || m.nbody < 2 {
+    if m.opt.disableflags.intersects(Disable::CONSTRAINT | Disable::CONTACT) || m.nbody < 2 {
         return;
     }
     let mut broad = std::mem::take(&mut scratch.broad);
@@ -223,7 +211,7 @@ fn body_pair(
     candidates.clear();
     let single = m.body_geomnum[b1] == 1 && m.body_geomnum[b2] == 1;
     let trees = m.body_bvhadr[b1] >= 0 && m.body_bvhadr[b2] >= 0;
-    if !single && trees && m.opt.disableflags & disable::MIDPHASE == 0 {
+    if !single && trees && !m.opt.disableflags.contains(Disable::MIDPHASE) {
         let found = |g1, g2| candidates.push(ordered(m, g1, g2));
         mid_phase::descend(m, kin, b1, b2, &mut scratch.stack, found);
         candidates.sort_unstable();

@@ -8,7 +8,7 @@ use crate::integration::integrate::{Factors, advance_once};
 use crate::math::dense::norm_slice;
 use crate::math::ops;
 use crate::model::bounds::MINVAL;
-use crate::model::{BiasType, GainType, LengthRangeMode, Model, ObjType, TrnType, disable, enable};
+use crate::model::{BiasType, Disable, Enable, GainType, LengthRangeMode, Model, ObjType, TrnType};
 use crate::pipeline::forward::{StepError, acceleration, position, velocity};
 use crate::pipeline::validity::{check_acceleration, check_options};
 use std::fmt;
@@ -57,6 +57,7 @@ impl Default for LengthRangeOptions {
 
 /// Why a length range cannot be computed.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum LengthRangeError {
     /// The simulation broke down.
     Unstable {
@@ -87,15 +88,18 @@ impl fmt::Display for LengthRangeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             LengthRangeError::Unstable { actuator, cause } => {
-                write!(f, "length range of actuator {actuator}: the simulation is unstable: {cause}")
+                write!(f, "the length range of {actuator} cannot be computed: {cause}")
             }
             LengthRangeError::Invalid { actuator, range: [low, high] } => {
-                write!(f, "length range of actuator {actuator} is empty: ({low}, {high})")
+                write!(
+                    f,
+                    "the length range of {actuator} is empty, from {low} to {high}; check its transmission and the limits of its joints"
+                )
             }
             LengthRangeError::NotConverged { actuator, range: [low, high], recorded: [least, most] } => {
                 write!(
                     f,
-                    "length range ({low}, {high}) of actuator {actuator} did not converge: its length moved \
+                    "the length range of {actuator}, {low} to {high}, did not converge: its length moved \
                      between {least} and {most}"
                 )
             }
@@ -126,13 +130,13 @@ pub fn set_length_ranges(m: &mut Model, opt: &LengthRangeOptions) -> Result<(), 
         return Ok(());
     }
     let model_options = m.opt.clone();
-    m.opt.disableflags = disable::FRICTIONLOSS
-        | disable::CONTACT
-        | disable::SPRING
-        | disable::DAMPER
-        | disable::GRAVITY
-        | disable::ACTUATION;
-    m.opt.enableflags &= !enable::SLEEP;
+    m.opt.disableflags = Disable::FRICTIONLOSS
+        | Disable::CONTACT
+        | Disable::SPRING
+        | Disable::DAMPER
+        | Disable::GRAVITY
+        | Disable::ACTUATION;
+    m.opt.enableflags.set(Enable::SLEEP, false);
     if opt.timestep > 0.0 {
         m.opt.timestep = opt.timestep;
     }

@@ -16,8 +16,9 @@ use crate::{
 };
 use std::fmt;
 
-/// Why derived quantities cannot be brought right.
+/// Why derived quantities cannot be recomputed.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum SetConstError {
     /// A body compiled as simple (inertial frame equal to the body frame) no longer is.
     NotSimple(String),
@@ -30,10 +31,10 @@ impl fmt::Display for SetConstError {
         match self {
             SetConstError::NotSimple(body) => write!(
                 f,
-                "body {body:?} was compiled as simple, but its inertial frame is no longer its body frame"
+                "{body} was compiled with its inertial frame equal to its body frame, which no longer holds; compile the model again"
             ),
             SetConstError::Sleep(tendon) => {
-                write!(f, "tendon {tendon:?} couples trees, which therefore cannot be allowed to sleep")
+                write!(f, "{tendon} couples trees, which therefore cannot be allowed to sleep")
             }
         }
     }
@@ -41,7 +42,7 @@ impl fmt::Display for SetConstError {
 
 impl std::error::Error for SetConstError {}
 
-/// Brings every derived quantity of `m` right: masses of subtrees, tree tables, tendon sparsity, inverse weights,
+/// Recomputes every derived quantity of `m`: masses of subtrees, tree tables, tendon sparsity, inverse weights,
 /// lengths at `qpos0`, statistics, spring lengths.
 ///
 /// # Errors

@@ -6,7 +6,7 @@ use super::difference::BodyPoint;
 use super::rows::{RowKind, push};
 use crate::data::{Com, Constraints, Contact, Contacts};
 use crate::math::{dot, row};
-use crate::model::{Cone, ConstraintType, Model, disable};
+use crate::model::{Cone, ConstraintType, Disable, Model};
 
 /// `exclude` of a contact that moves nothing.
 pub const NO_DOF: i32 = 3;
@@ -19,7 +19,7 @@ pub(super) fn contacts(
     efc: &mut Constraints,
     scratch: &mut ConstraintScratch,
 ) {
-    if m.opt.disableflags & disable::CONTACT != 0 || m.nv == 0 {
+    if m.opt.disableflags.contains(Disable::CONTACT) || m.nv == 0 {
         return;
     }
     for (id, contact) in con.contact.iter_mut().enumerate().filter(|(_, c)| c.exclude == 0) {
@@ -56,7 +56,7 @@ fn contact_rows(m: &Model, id: usize, contact: &Contact, efc: &mut Constraints, 
     if contact.dim == 1 {
         let row = of(ConstraintType::ContactFrictionless, contact.includemargin);
         push(efc, row, contact.dist, columns, jacobian);
-    } else if m.opt.cone == Cone::Pyramidal.code() {
+    } else if m.opt.cone == Cone::Pyramidal {
         let row = of(ConstraintType::ContactPyramidal, contact.includemargin);
         pyramid_rows(row, contact, efc, columns, jacobian);
     } else {

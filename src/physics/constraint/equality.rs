@@ -7,7 +7,7 @@ use super::friction_loss::tendon_row;
 use super::rows::{RowKind, is_empty, push};
 use crate::data::{Com, Constraints, Kinematics, State, Tendons, Velocity};
 use crate::math::{Quat, Vec3, add, mul_mat_vec, quat_conj, quat_mul, quat_mul_axis, scale, sub};
-use crate::model::{ConstraintType, EqType, Model, ObjType, disable};
+use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
 
 /// Appends the rows of every active equality constraint.
 pub(super) fn equality(
@@ -19,7 +19,7 @@ pub(super) fn equality(
     efc: &mut Constraints,
     scratch: &mut ConstraintScratch,
 ) {
-    if m.opt.disableflags & disable::EQUALITY != 0 {
+    if m.opt.disableflags.contains(Disable::EQUALITY) {
         return;
     }
     for eq in (0..m.neq).filter(|&eq| state.eq_active[eq]) {

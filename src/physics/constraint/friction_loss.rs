@@ -2,11 +2,11 @@
 
 use super::rows::{RowKind, is_empty, push};
 use crate::data::{Constraints, Tendons};
-use crate::model::{ConstraintType, Model, disable};
+use crate::model::{ConstraintType, Disable, Model};
 
 /// Appends one row for each degree of freedom and tendon with friction loss.
 pub(super) fn friction_loss(m: &Model, ten: &Tendons, efc: &mut Constraints) {
-    if m.opt.disableflags & disable::FRICTIONLOSS != 0 {
+    if m.opt.disableflags.contains(Disable::FRICTIONLOSS) {
         return;
     }
     for (dof, &frictionloss) in m.dof_frictionloss.iter().enumerate() {

@@ -6,7 +6,7 @@ use crate::data::{Constraints, Contact, Contacts};
 use crate::math::dense::norm_slice;
 use crate::math::ops;
 use crate::model::bounds::{MAXIMP, MINIMP, MINVAL};
-use crate::model::{ConstraintType, EqType, Model, disable};
+use crate::model::{ConstraintType, Disable, EqType, Model};
 
 /// `solref` in place of one whose entries have mixed signs.
 const DEFAULT_SOLREF: [f64; 2] = [0.02, 1.0];
@@ -137,7 +137,7 @@ fn solver_parameters(
     if mixed(solreffriction) {
         solreffriction = [0.0; 2];
     }
-    if m.opt.disableflags & disable::REFSAFE == 0 {
+    if !m.opt.disableflags.contains(Disable::REFSAFE) {
         for r in [&mut solref, &mut solreffriction] {
             if r[0] > 0.0 {
                 r[0] = r[0].max(2.0 * m.opt.timestep);

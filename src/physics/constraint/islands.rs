@@ -2,7 +2,7 @@
 //! trees and whose edges are constraints (MuJoCo documentation, Computation, "Constraint islands").
 
 use crate::data::{Constraints, Contacts, Islands};
-use crate::model::{ConstraintType, EqType, Model, ObjType, disable};
+use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
 
 /// Memory of island discovery.
 #[derive(Clone, Debug, Default)]
@@ -24,7 +24,7 @@ pub fn find_islands(
     scratch: &mut IslandScratch,
 ) {
     (island.nisland, island.nidof) = (0, 0);
-    if m.opt.disableflags & disable::ISLAND != 0 || efc.nefc == 0 {
+    if m.opt.disableflags.contains(Disable::ISLAND) || efc.nefc == 0 {
         return;
     }
     scratch.parent.clear();

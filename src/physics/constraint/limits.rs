@@ -5,7 +5,7 @@ use super::friction_loss::tendon_row;
 use super::rows::{RowKind, is_empty, push};
 use crate::data::{Constraints, State, Tendons};
 use crate::math::{normalize, quat_normalize, quat_to_velocity, scale};
-use crate::model::{ConstraintType, JointType, Model, disable};
+use crate::model::{ConstraintType, Disable, JointType, Model};
 
 /// Appends one row for each joint or tendon limit within its margin, lower limits before upper ones.
 pub(super) fn limits(
@@ -15,7 +15,7 @@ pub(super) fn limits(
     efc: &mut Constraints,
     scratch: &mut ConstraintScratch,
 ) {
-    if m.opt.disableflags & disable::LIMIT != 0 {
+    if m.opt.disableflags.contains(Disable::LIMIT) {
         return;
     }
     for joint in (0..m.njnt).filter(|&j| m.jnt_limited[j]) {

@@ -23,7 +23,7 @@ pub use reference::reference;
 pub use rows::{mul_jacobian, mul_jacobian_transposed};
 
 use crate::data::{Com, Constraints, Contacts, Inertia, Kinematics, State, Tendons};
-use crate::model::{Model, disable, enable};
+use crate::model::{Disable, Enable, Model};
 use difference::Difference;
 
 /// Memory that constraint stages reuse from step to step.
@@ -49,7 +49,7 @@ pub fn make_constraint(
     scratch: &mut ConstraintScratch,
 ) {
     rows::clear(m, efc);
-    if m.opt.disableflags & disable::CONSTRAINT != 0 {
+    if m.opt.disableflags.contains(Disable::CONSTRAINT) {
         return;
     }
     equality::equality(m, state, kin, com, ten, efc, scratch);
@@ -58,7 +58,7 @@ pub fn make_constraint(
     contacts::contacts(m, com, con, efc, scratch);
     diagonal::approximate(m, con, efc);
     impedance::impedance(m, con, efc);
-    if m.opt.enableflags & enable::DIAGEXACT != 0 {
+    if m.opt.enableflags.contains(Enable::DIAGEXACT) {
         half_jacobian(m, inertia, efc, &mut scratch.half);
         diagonal::exact(&mut scratch.half, efc);
         impedance::impedance(m, con, efc);

@@ -39,7 +39,7 @@ fn add_surface_velocity(m: &Model, kin: &Kinematics, con: &Contacts, efc: &mut C
     for contact in con.contact.iter().filter(|c| c.efc_address >= 0) {
         let Some(speed) = surface_velocity(m, kin, contact) else { continue };
         let (first, dim) = (contact.efc_address as usize, contact.dim as usize);
-        if dim == 1 || m.opt.cone == Cone::Elliptic.code() {
+        if dim == 1 || m.opt.cone == Cone::Elliptic {
             for j in 0..dim {
                 efc.efc_vel[first + j] += speed[j];
             }
@@ -78,7 +78,7 @@ fn surface_velocity(m: &Model, kin: &Kinematics, contact: &Contact) -> Option<[f
 fn add_adhesion(m: &Model, con: &Contacts, efc: &mut Constraints) {
     for contact in con.contact.iter().filter(|c| c.adhesion != 0.0 && c.efc_address >= 0) {
         let (first, dim) = (contact.efc_address as usize, contact.dim as usize);
-        let rows = if dim == 1 || m.opt.cone == Cone::Elliptic.code() { 1 } else { 2 * (dim - 1) };
+        let rows = if dim == 1 || m.opt.cone == Cone::Elliptic { 1 } else { 2 * (dim - 1) };
         let share = contact.adhesion / rows as f64;
         for i in first..first + rows {
             efc.efc_aref[i] += efc.efc_R[i] * share;

@@ -7,8 +7,7 @@ use crate::model::{ConstraintType, Jacobian, Model};
 impl Model {
     /// True when MuJoCo would store the constraint Jacobian and the Hessian in sparse form.
     pub fn is_sparse(&self) -> bool {
-        self.opt.jacobian == Jacobian::Sparse.code()
-            || self.opt.jacobian == Jacobian::Auto.code() && self.nv >= 60
+        self.opt.jacobian == Jacobian::Sparse || self.opt.jacobian == Jacobian::Auto && self.nv >= 60
     }
 }
 

@@ -6,11 +6,11 @@ use crate::actuation::activation::{activations, is_disabled, next_activation};
 use crate::actuation::dc_motor;
 use crate::actuation::muscle;
 use crate::math::norm;
-use crate::model::{BiasType, DynType, GainType, Model, disable};
+use crate::model::{BiasType, Disable, DynType, GainType, Model};
 
 /// Adds `d qfrc_actuator / d qvel`.
 pub(super) fn add_actuators(m: &Model, inputs: &DerivativeInputs, out: &mut [f64]) {
-    if m.opt.disableflags & disable::ACTUATION != 0 {
+    if m.opt.disableflags.contains(Disable::ACTUATION) {
         return;
     }
     let trn = inputs.trn;

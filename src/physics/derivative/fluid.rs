@@ -37,7 +37,7 @@ pub(super) fn add_fluid(m: &Model, inputs: &DerivativeInputs, scratch: &mut Flui
             FluidShape::Ellipsoid(g) => {
                 let slope = ellipsoid_slope(&Ellipsoid::of_geom(m, g), &v, m.opt.density, m.opt.viscosity);
                 // The symmetric solver of this integrator leaves only loose bodies their own solution.
-                let symmetric = m.opt.integrator == Integrator::Implicitfast.code();
+                let symmetric = m.opt.integrator == Integrator::Implicitfast;
                 if symmetric && !is_free_body(m, at.body) { symmetrized(&slope) } else { slope }
             }
         };

@@ -2,14 +2,14 @@
 
 use super::{DerivativeInputs, FluidScratch, add_square, fluid};
 use crate::actuation::reflected_load::{dof_damping, tendon_damping};
-use crate::model::{Model, disable};
+use crate::model::{Disable, Model};
 use crate::position::tendon;
 
 /// Adds `d qfrc_passive / d qvel`.
 pub(super) fn add_passive(m: &Model, inputs: &DerivativeInputs, scratch: &mut FluidScratch, out: &mut [f64]) {
-    let enabled = |flag: i32| m.opt.disableflags & flag == 0;
-    let dampers = enabled(disable::DAMPER);
-    if (enabled(disable::SPRING) || dampers) && (m.opt.viscosity > 0.0 || m.opt.density > 0.0) {
+    let enabled = |flag: Disable| !m.opt.disableflags.contains(flag);
+    let dampers = enabled(Disable::DAMPER);
+    if (enabled(Disable::SPRING) || dampers) && (m.opt.viscosity > 0.0 || m.opt.density > 0.0) {
         fluid::add_fluid(m, inputs, scratch, out);
     }
     if !dampers {

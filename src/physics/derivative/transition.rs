@@ -5,6 +5,7 @@
 use crate::data::{Data, State};
 use crate::integration::integrate::{differentiate_pos, integrate_pos};
 use crate::model::{Integrator, Model};
+use crate::pipeline::error::NotSimulated;
 use crate::pipeline::forward::{Known, StepError, step_after};
 use crate::pipeline::inverse::inverse_after;
 
@@ -138,10 +139,10 @@ pub fn transition(m: &Model, d: &mut Data, eps: f64, centred: bool) -> Result<Tr
 
 fn check_differences(m: &Model) -> Result<(), StepError> {
     if m.nhistory > 0 {
-        return Err(StepError::NotSimulated("finite differences of models with delays are".into()));
+        return Err(NotSimulated::feature("finite differences of models with delays").into());
     }
-    if m.opt.integrator == Integrator::Rk4.code() {
-        return Err(StepError::NotSimulated("finite differences of integrator \"RK4\" are".into()));
+    if m.opt.integrator == Integrator::Rk4 {
+        return Err(NotSimulated::feature("finite differences of the integrator RK4").into());
     }
     Ok(())
 }
@@ -176,7 +177,9 @@ pub struct InverseSlope {
 pub fn inverse_slope(m: &Model, d: &mut Data, eps: f64) -> Result<InverseSlope, StepError> {
     check_differences(m)?;
     if m.opt.noslip_iterations > 0 {
-        return Err(StepError::NotSimulated("finite differences of inverse dynamics with noslip are".into()));
+        return Err(
+            NotSimulated::feature("finite differences of inverse dynamics with removal of slip").into()
+        );
     }
     inverse_after(m, d, Known::Nothing, false)?;
     let centre = d.implicit.qfrc_inverse.clone();

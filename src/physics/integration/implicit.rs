@@ -90,7 +90,7 @@ pub fn mul(
 }
 
 fn is_fast(m: &Model) -> bool {
-    m.opt.integrator == Integrator::Implicitfast.code()
+    m.opt.integrator == Integrator::Implicitfast
 }
 
 /// The pattern of `D`.

@@ -9,7 +9,7 @@ use crate::derivative::inputs_of;
 use crate::inertia::{factor, row, solve_ld};
 use crate::integration::implicit;
 use crate::math::{add_scaled_slice, quat_conj, quat_integrate, quat_mul, quat_to_velocity};
-use crate::model::{Integrator, JointType, Model, disable};
+use crate::model::{Disable, Integrator, JointType, Model};
 use crate::pipeline::forward::{StepError, evaluate};
 use crate::pipeline::watch::{Stage, Watch};
 
@@ -51,7 +51,7 @@ pub(crate) fn integrate(
     factors: Factors,
     watch: &mut impl Watch,
 ) -> Result<(), StepError> {
-    if m.opt.integrator == Integrator::Rk4.code() {
+    if m.opt.integrator == Integrator::Rk4 {
         return runge_kutta(m, d, watch);
     }
     advance_once(m, d, factors);
@@ -60,9 +60,9 @@ pub(crate) fn integrate(
 
 /// The same without intermediate states: Euler's method stands in for Runge-Kutta.
 pub(crate) fn advance_once(m: &Model, d: &mut Data, factors: Factors) {
-    match Integrator::from_code(m.opt.integrator) {
-        Some(Integrator::Implicit | Integrator::Implicitfast) => implicit(m, d, factors),
-        Some(Integrator::Euler | Integrator::Rk4) | None => euler(m, d, factors),
+    match m.opt.integrator {
+        Integrator::Implicit | Integrator::Implicitfast => implicit(m, d, factors),
+        Integrator::Euler | Integrator::Rk4 => euler(m, d, factors),
     }
 }
 
@@ -102,7 +102,7 @@ pub fn euler(m: &Model, d: &mut Data, factors: Factors) {
 
 /// True when some degree of freedom is damped and Euler treats that implicitly.
 fn is_damped(m: &Model) -> bool {
-    m.opt.disableflags & (disable::EULERDAMP | disable::DAMPER) == 0 && has_joint_damping(m)
+    !m.opt.disableflags.intersects(Disable::EULERDAMP | Disable::DAMPER) && has_joint_damping(m)
 }
 
 /// True when some degree of freedom may be damped, by itself or by an actuator.
@@ -145,7 +145,7 @@ fn advance(
     if m.nhistory > 0 {
         history::record(m, &state.ctrl, rates.fresh, *time, &mut state.history);
     }
-    if m.na > 0 && m.opt.disableflags & disable::ACTUATION == 0 {
+    if m.na > 0 && !m.opt.disableflags.contains(Disable::ACTUATION) {
         advance_activations(m, trn, vel, rates.act_dot, state);
     }
     add_scaled_slice(&mut state.qvel, rates.qacc, m.opt.timestep);

@@ -20,7 +20,8 @@ use super::{
     VisualScale,
 };
 use crate::consistency::{Inconsistent, check_consistency};
-use crate::pipeline::validity::{StepError, check_model};
+use crate::pipeline::error::NotSimulated;
+use crate::pipeline::validity::check_model;
 use std::fmt;
 use std::io::{ErrorKind, Read, Write};
 
@@ -33,6 +34,7 @@ pub(super) const HEADER: usize = 36;
 
 /// Why bytes are not a model.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum BinaryError {
     /// The bytes do not begin as a compiled model does.
     NotAModel,
@@ -46,10 +48,12 @@ pub enum BinaryError {
     Checksum,
     /// The name of the model is not UTF-8.
     Name,
+    /// The setting of this name has a code that stands for nothing.
+    Setting(&'static str),
     /// The arrays contradict each other.
     Inconsistent(Inconsistent),
     /// The model uses a feature that is not simulated.
-    NotSimulated(StepError),
+    NotSimulated(NotSimulated),
 }
 
 impl fmt::Display for BinaryError {
@@ -66,6 +70,9 @@ impl fmt::Display for BinaryError {
             BinaryError::Length => write!(f, "the compiled model is cut off or too long; compile it again"),
             BinaryError::Checksum => write!(f, "the compiled model is damaged (checksum); compile it again"),
             BinaryError::Name => write!(f, "the name of the compiled model is not UTF-8"),
+            BinaryError::Setting(name) => {
+                write!(f, "the option {name} of the compiled model has an unknown value; compile it again")
+            }
             BinaryError::Inconsistent(what) => write!(f, "the compiled model contradicts itself: {what}"),
             BinaryError::NotSimulated(what) => write!(f, "{what}"),
         }
@@ -263,7 +270,7 @@ fn read_head(m: &mut Model, from: &mut Reader) -> Result<Vec<u64>, BinaryError> 
     from.rows(&mut name, length)?;
     m.name = String::from_utf8(name).map_err(|_| BinaryError::Name)?;
     for flag in [&mut m.flg_gravcomp, &mut m.flg_surfacevel, &mut m.flg_adhesion] {
-        from.setting(flag)?;
+        from.setting("flag", flag)?;
     }
     read_sizes(m, from)?;
     m.opt.read(from)?;

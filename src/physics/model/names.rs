@@ -43,11 +43,12 @@ impl Model {
         (0..self.name_addresses(kind).len()).find(|&id| !name.is_empty() && self.name_of(kind, id) == name)
     }
 
-    /// `name`, or `kind[id]` for a nameless element: what messages show.
+    /// Kind and name as messages show them, `joint "elbow"`; the index stands in for a missing name, `joint 3`.
     pub fn label_of(&self, kind: ObjType, id: usize) -> String {
+        let word = format!("{kind:?}").to_lowercase();
         match self.name_of(kind, id) {
-            "" => format!("{}[{id}]", format!("{kind:?}").to_lowercase()),
-            name => name.to_owned(),
+            "" => format!("{word} {id}"),
+            name => format!("{word} {name:?}"),
         }
     }
 }

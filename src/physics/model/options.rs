@@ -2,7 +2,9 @@
 //! (documentation: XML reference, `option`, `statistic`, `visual`).
 
 use super::binary::BinaryError;
+use super::flags::{Disable, Enable};
 use super::reader::Reader;
+use super::types::{Cone, Integrator, Jacobian, Solver};
 use crate::table::{Scalar, Slice};
 
 /// One setting: a scalar or a short vector.
@@ -11,7 +13,8 @@ pub(super) trait Setting {
     fn assign(&mut self, values: &[f64]) -> bool;
     /// Bytes in a compiled file.
     const BYTES: usize;
-    fn read(&mut self, bytes: &[u8]);
+    /// Takes the value from a compiled file; false when the bytes stand for none.
+    fn read(&mut self, bytes: &[u8]) -> bool;
 }
 
 impl<T: Scalar> Setting for T {
@@ -25,8 +28,9 @@ impl<T: Scalar> Setting for T {
         values.len() == 1
     }
     const BYTES: usize = T::BYTES;
-    fn read(&mut self, bytes: &[u8]) {
+    fn read(&mut self, bytes: &[u8]) -> bool {
         *self = T::from_bytes(bytes);
+        true
     }
 }
 
@@ -41,10 +45,56 @@ impl<T: Scalar, const N: usize> Setting for [T; N] {
         values.len() == N
     }
     const BYTES: usize = N * T::BYTES;
-    fn read(&mut self, bytes: &[u8]) {
+    fn read(&mut self, bytes: &[u8]) -> bool {
         *self = std::array::from_fn(|i| T::from_bytes(&bytes[i * T::BYTES..]));
+        true
     }
 }
+
+/// The codes of enumerations, each a slice of its own when a setting shows itself.
+static CODES: [i32; 4] = [0, 1, 2, 3];
+
+macro_rules! enumerated {
+    ($($name:ident)*) => {$(
+        impl Setting for $name {
+            fn scalars(&self) -> Slice<'_> {
+                let code = self.code() as usize;
+                Slice::I32(&CODES[code..=code])
+            }
+            fn assign(&mut self, values: &[f64]) -> bool {
+                let [x] = values else { return false };
+                $name::from_code(*x as i32).map(|value| *self = value).is_some()
+            }
+            const BYTES: usize = size_of::<i32>();
+            fn read(&mut self, bytes: &[u8]) -> bool {
+                $name::from_code(i32::from_bytes(bytes)).map(|value| *self = value).is_some()
+            }
+        }
+    )*};
+}
+
+macro_rules! switches {
+    ($($name:ident)*) => {$(
+        impl Setting for $name {
+            fn scalars(&self) -> Slice<'_> {
+                Slice::I32(self.as_slice())
+            }
+            fn assign(&mut self, values: &[f64]) -> bool {
+                let [x] = values else { return false };
+                *self = $name::from_bits(*x as i32);
+                true
+            }
+            const BYTES: usize = size_of::<i32>();
+            fn read(&mut self, bytes: &[u8]) -> bool {
+                *self = $name::from_bits(i32::from_bytes(bytes));
+                true
+            }
+        }
+    )*};
+}
+
+enumerated! { Integrator Cone Jacobian Solver }
+switches! { Disable Enable }
 
 macro_rules! settings {
     ($($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident : $t:ty = $default:expr,)* })*) => {$(
@@ -64,7 +114,7 @@ macro_rules! settings {
                 $(f(stringify!($field), Setting::scalars(&self.$field));)*
             }
 
-            /// Overwrites a setting by name; `None` when there is none, `Some(false)` on a size mismatch.
+            /// Overwrites a setting by name; `None` when there is none, `Some(false)` when the numbers do not fit it.
             pub fn assign(&mut self, name: &str, values: &[f64]) -> Option<bool> {
                 match name {
                     $(stringify!($field) => Some(Setting::assign(&mut self.$field, values)),)*
@@ -77,7 +127,7 @@ macro_rules! settings {
 
             /// Reads every setting in declaration order.
             pub(super) fn read(&mut self, from: &mut Reader<'_>) -> Result<(), BinaryError> {
-                $(from.setting(&mut self.$field)?;)*
+                $(from.setting(stringify!($field), &mut self.$field)?;)*
                 Ok(())
             }
         }
@@ -119,14 +169,14 @@ settings! {
         o_solimp: [f64; 5] = [0.9, 0.95, 0.001, 0.5, 2.0],
         /// Contact friction under the override flag.
         o_friction: [f64; 5] = [1.0, 1.0, 0.005, 0.0001, 0.0001],
-        /// How velocities are integrated (`Integrator`).
-        integrator: i32 = 0,
-        /// Friction cone (`Cone`).
-        cone: i32 = 0,
+        /// How velocities are integrated.
+        integrator: Integrator = Integrator::Euler,
+        /// Friction cone.
+        cone: Cone = Cone::Pyramidal,
         /// Storage of the constraint Jacobian; results do not depend on it.
-        jacobian: i32 = 2,
-        /// Constraint solver (`Solver`).
-        solver: i32 = 2,
+        jacobian: Jacobian = Jacobian::Auto,
+        /// Constraint solver.
+        solver: Solver = Solver::Newton,
         /// Most iterations of the constraint solver.
         iterations: i32 = 100,
         /// Most iterations of the line search.
@@ -135,10 +185,10 @@ settings! {
         noslip_iterations: i32 = 0,
         /// Most iterations of convex collision.
         ccd_iterations: i32 = 35,
-        /// Bits of `disable`.
-        disableflags: i32 = 0,
-        /// Bits of `enable`.
-        enableflags: i32 = 0,
+        /// Parts of the physics that are off.
+        disableflags: Disable = Disable::NONE,
+        /// Additional computations that are on.
+        enableflags: Enable = Enable::NONE,
         /// Bits of the actuator groups that are off.
         disableactuator: i32 = 0,
         /// Starting points of signed distance collision.

@@ -155,12 +155,16 @@ impl<'a> Reader<'a> {
         Ok(bytes)
     }
 
-    /// Reads a scalar or a short vector.
-    pub(super) fn setting<S: Setting>(&mut self, setting: &mut S) -> Result<(), BinaryError> {
+    /// Reads the setting called `name`: a scalar, a short vector, or the code of a variant.
+    pub(super) fn setting<S: Setting>(
+        &mut self,
+        name: &'static str,
+        setting: &mut S,
+    ) -> Result<(), BinaryError> {
         self.need(S::BYTES)?;
-        setting.read(&self.block[self.used..self.used + S::BYTES]);
+        let known = setting.read(&self.block[self.used..self.used + S::BYTES]);
         self.used += S::BYTES;
-        Ok(())
+        if known { Ok(()) } else { Err(BinaryError::Setting(name)) }
     }
 
     /// Reads an array of so many rows of fixed columns and the zeros behind it; [`array_bytes`] found room for them.

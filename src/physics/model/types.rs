@@ -338,66 +338,6 @@ codes! {
     }
 }
 
-/// Bits of `opt.disableflags`: each turns something off.
-pub mod disable {
-    /// The whole constraint solver.
-    pub const CONSTRAINT: i32 = 1 << 0;
-    /// Equality constraints.
-    pub const EQUALITY: i32 = 1 << 1;
-    /// Dry friction of joints and tendons.
-    pub const FRICTIONLOSS: i32 = 1 << 2;
-    /// Joint and tendon limits.
-    pub const LIMIT: i32 = 1 << 3;
-    /// Contacts.
-    pub const CONTACT: i32 = 1 << 4;
-    /// Springs of joints and tendons.
-    pub const SPRING: i32 = 1 << 5;
-    /// Dampers of joints and tendons.
-    pub const DAMPER: i32 = 1 << 6;
-    /// Gravity.
-    pub const GRAVITY: i32 = 1 << 7;
-    /// Clamping of controls to their range.
-    pub const CLAMPCTRL: i32 = 1 << 8;
-    /// Start of the solver from the last acceleration.
-    pub const WARMSTART: i32 = 1 << 9;
-    /// Omission of contacts between parent and child.
-    pub const FILTERPARENT: i32 = 1 << 10;
-    /// Actuator forces.
-    pub const ACTUATION: i32 = 1 << 11;
-    /// Lower bound of time constants by the time step.
-    pub const REFSAFE: i32 = 1 << 12;
-    /// Sensors.
-    pub const SENSOR: i32 = 1 << 13;
-    /// Bounding volume trees in collision.
-    pub const MIDPHASE: i32 = 1 << 14;
-    /// Implicit damping in the Euler integrator.
-    pub const EULERDAMP: i32 = 1 << 15;
-    /// Reset after bad numbers.
-    pub const AUTORESET: i32 = 1 << 16;
-    /// GJK and EPA; portal refinement takes over.
-    pub const NATIVECCD: i32 = 1 << 17;
-    /// Independent solution of constraint islands.
-    pub const ISLAND: i32 = 1 << 18;
-    /// Several contacts of a convex pair.
-    pub const MULTICCD: i32 = 1 << 19;
-}
-
-/// Bits of `opt.enableflags`.
-pub mod enable {
-    /// Contact parameters come from the options.
-    pub const OVERRIDE: i32 = 1 << 0;
-    /// Energies are computed.
-    pub const ENERGY: i32 = 1 << 1;
-    /// Forward and inverse dynamics are compared.
-    pub const FWDINV: i32 = 1 << 2;
-    /// Inverse dynamics of the discrete step.
-    pub const INVDISCRETE: i32 = 1 << 3;
-    /// Trees at rest sleep.
-    pub const SLEEP: i32 = 1 << 4;
-    /// The diagonal of the constraint inertia is exact.
-    pub const DIAGEXACT: i32 = 1 << 5;
-}
-
 /// Numerical bounds shared by all stages (documentation: `mjMINVAL` and its neighbours).
 pub mod bounds {
     /// Smallest value a denominator may take.

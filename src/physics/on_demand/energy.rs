@@ -4,18 +4,18 @@ use crate::data::{Inertia, Kinematics, State, Tendons};
 use crate::inertia::mul_inertia_matrix;
 use crate::math::dense::dot_slice;
 use crate::math::{dot, norm};
-use crate::model::{JointType, Model, disable};
+use crate::model::{Disable, JointType, Model};
 use crate::velocity::passive::{shift, tendon_stretch, turn};
 use crate::velocity::polynomial::Polynomial;
 
 /// Potential energy: weight of all bodies, joint springs, tendon springs [J].
 pub fn potential(m: &Model, state: &State, kin: &Kinematics, ten: &Tendons) -> f64 {
-    let enabled = |flag: i32| m.opt.disableflags & flag == 0;
+    let enabled = |flag: Disable| !m.opt.disableflags.contains(flag);
     let mut energy = 0.0;
-    if enabled(disable::GRAVITY) {
+    if enabled(Disable::GRAVITY) {
         (1..m.nbody).for_each(|b| energy -= m.body_mass[b] * dot(m.opt.gravity, kin.xipos[b]));
     }
-    if enabled(disable::SPRING) {
+    if enabled(Disable::SPRING) {
         (0..m.njnt).for_each(|j| energy += joint_spring(m, state, j));
         for t in 0..m.ntendon {
             let law = Polynomial { linear: m.tendon_stiffness[t], poly: m.tendon_stiffnesspoly[t] };

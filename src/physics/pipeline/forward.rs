@@ -9,7 +9,7 @@ use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::Data;
 use crate::inertia::{factor_inertia, make_inertia, solve};
 use crate::integration::integrate::{Factors, advance_once, integrate};
-use crate::model::{Integrator, Model, enable};
+use crate::model::{Enable, Integrator, Model};
 use crate::pipeline::inverse::compare_with_forward;
 use crate::pipeline::validity::{check_acceleration, check_state};
 use crate::pipeline::watch::{Stage, Watch};
@@ -24,7 +24,7 @@ use crate::velocity::com_vel::com_vel;
 use crate::velocity::passive::passive;
 use crate::{on_demand::energy, solver};
 
-pub use crate::pipeline::validity::StepError;
+pub use crate::pipeline::error::StepError;
 
 /// Computes everything that follows from the state and the inputs, up to accelerations and sensors.
 ///
@@ -75,12 +75,12 @@ pub(crate) fn step_after(m: &Model, d: &mut Data, known: Known) -> Result<(), St
     evaluate_after(m, d, known, true, &mut ())?;
     check_acceleration(m, d)?;
     compare_if_asked(m, d)?;
-    let holds = if m.opt.integrator == Integrator::Euler.code() { Known::Position } else { Known::Velocity };
+    let holds = if m.opt.integrator == Integrator::Euler { Known::Position } else { Known::Velocity };
     integrate(m, d, if known >= holds { Factors::Kept } else { Factors::Fresh }, &mut ())
 }
 
 fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    if m.opt.enableflags & enable::FWDINV != 0 {
+    if m.opt.enableflags.contains(Enable::FWDINV) {
         compare_with_forward(m, d)?;
     }
     Ok(())
@@ -243,7 +243,7 @@ fn position_sensors(m: &Model, d: &mut Data) {
     };
     let past = Past { time: d.time, history: &d.state.history };
     sensor::position_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
-    let on = m.opt.enableflags & enable::ENERGY != 0;
+    let on = m.opt.enableflags.contains(Enable::ENERGY);
     d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
 }
 
@@ -252,7 +252,7 @@ fn velocity_sensors(m: &Model, d: &mut Data) {
         VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
     let past = Past { time: d.time, history: &d.state.history };
     sensor::velocity_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
-    if m.opt.enableflags & enable::ENERGY != 0 {
+    if m.opt.enableflags.contains(Enable::ENERGY) {
         d.energy[1] = energy::kinetic(m, &d.state, &d.inertia, &mut d.scratch.sensor.momentum);
     }
 }

@@ -7,7 +7,8 @@ use crate::inertia::{mul_inertia_matrix, solve};
 use crate::integration::implicit;
 use crate::integration::integrate::{damped_inertia, has_joint_damping};
 use crate::math::dense::norm_slice;
-use crate::model::{Integrator, Model, disable, enable};
+use crate::model::{Disable, Enable, Integrator, Model};
+use crate::pipeline::error::NotSimulated;
 use crate::pipeline::forward::{Known, StepError, acceleration_sensors, position_and_velocity};
 use crate::pipeline::validity::check_options;
 use crate::position::jacobian::apply_user_wrenches;
@@ -39,7 +40,7 @@ pub(crate) fn inverse_after(m: &Model, d: &mut Data, known: Known, sensors: bool
     let mut s = std::mem::take(&mut d.scratch.inverse);
     s.given.clone_from(&d.acc.qacc);
     let mut result = Ok(());
-    if m.opt.enableflags & enable::INVDISCRETE != 0 {
+    if m.opt.enableflags.contains(Enable::INVDISCRETE) {
         result = continuous_acceleration(m, d, &mut s.force);
     }
     if result.is_ok() {
@@ -64,19 +65,19 @@ pub(crate) fn inverse_after(m: &Model, d: &mut Data, known: Known, sensors: bool
 fn continuous_acceleration(m: &Model, d: &mut Data, force: &mut Vec<f64>) -> Result<(), StepError> {
     force.clear();
     force.resize(m.nv, 0.0);
-    match Integrator::from_code(m.opt.integrator) {
-        Some(Integrator::Rk4) | None => {
-            return Err(StepError::NotSimulated("discrete inverse dynamics of integrator \"RK4\" is".into()));
+    match m.opt.integrator {
+        Integrator::Rk4 => {
+            return Err(NotSimulated::feature("discrete inverse dynamics of the integrator RK4").into());
         }
-        Some(Integrator::Euler) => {
+        Integrator::Euler => {
             // Dampers that are switched off count here too, as upstream.
-            if m.opt.disableflags & disable::EULERDAMP != 0 || !has_joint_damping(m) {
+            if m.opt.disableflags.contains(Disable::EULERDAMP) || !has_joint_damping(m) {
                 return Ok(());
             }
             damped_inertia(m, &d.state, &d.inertia, &mut d.implicit.qH);
             mul_inertia_matrix(m, &d.implicit.qH, &d.acc.qacc, force);
         }
-        Some(Integrator::Implicit | Integrator::Implicitfast) => {
+        Integrator::Implicit | Integrator::Implicitfast => {
             let inputs = inputs_of!(d);
             implicit::mul(m, &inputs, &mut d.implicit, &mut d.scratch.implicit, &d.acc.qacc, force);
         }

@@ -17,9 +17,9 @@ pub use velocity::VelocityInputs;
 use crate::actuation::history;
 use crate::collision::distance::DistanceScratch;
 use crate::data::{Constraints, Sensors};
-use crate::model::{ConstraintType, DataType, Model, SensorType, Stage, disable};
+use crate::model::{ConstraintType, DataType, Disable, Model, ObjType, SensorType, Stage};
 use crate::on_demand::momentum::subtree_momentum;
-use std::fmt;
+use crate::pipeline::error::NotSimulated;
 
 /// Working memory of sensors, reused from step to step.
 #[derive(Clone, Debug, Default)]
@@ -40,43 +40,26 @@ pub struct Past<'a> {
     pub history: &'a [f64],
 }
 
-/// A sensor that is not simulated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct UnsupportedSensor {
-    /// Index of the sensor.
-    pub sensor: usize,
-    /// What it would need.
-    pub feature: &'static str,
-}
-
-impl fmt::Display for UnsupportedSensor {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "sensor {}: {} not supported", self.sensor, self.feature)
-    }
-}
-
-impl std::error::Error for UnsupportedSensor {}
-
 /// Checks once that every sensor of the model can be read. A `user` sensor reads zero.
 ///
 /// # Errors
 /// The first sensor that cannot.
-pub fn check(m: &Model) -> Result<(), UnsupportedSensor> {
+pub fn check(m: &Model) -> Result<(), NotSimulated> {
     for sensor in 0..m.nsensor {
         let feature = match SensorType::from_code(m.sensor_type[sensor]) {
-            Some(SensorType::Tactile) => "tactile sensors are",
-            Some(SensorType::Plugin) => "sensor plugins are",
-            None => "this type of sensor is",
+            Some(SensorType::Tactile) => "tactile sensing",
+            Some(SensorType::Plugin) => "a plugin",
+            None => "this type of sensor",
             Some(_) => continue,
         };
-        return Err(UnsupportedSensor { sensor, feature });
+        return Err(NotSimulated::of(m.label_of(ObjType::Sensor, sensor), feature));
     }
     Ok(())
 }
 
 /// True when some sensor of type in `types` exists and sensors are on.
 fn any_of(m: &Model, types: &[SensorType]) -> bool {
-    m.opt.disableflags & disable::SENSOR == 0
+    !m.opt.disableflags.contains(Disable::SENSOR)
         && m.sensor_type.iter().any(|&code| types.iter().any(|t| t.code() == code))
 }
 
@@ -144,7 +127,7 @@ fn each(
     sensordata: &mut [f64],
     mut read: impl FnMut(usize, SensorType, &mut [f64]),
 ) {
-    if m.opt.disableflags & disable::SENSOR != 0 {
+    if m.opt.disableflags.contains(Disable::SENSOR) {
         return;
     }
     if m.nhistory > 0 {

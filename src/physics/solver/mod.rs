@@ -19,7 +19,7 @@ mod sparse_cholesky;
 use crate::constraint::{mul_jacobian, mul_jacobian_transposed};
 use crate::data::{Acceleration, Constraints, Contacts, Inertia, Islands, SolverStatistics, State};
 use crate::inertia::mul_inertia_matrix;
-use crate::model::{ConstraintState, Model, Solver, disable};
+use crate::model::{ConstraintState, Disable, Model, Solver};
 use dual::Dual;
 use primal::Primal;
 use problem::Selection;
@@ -82,7 +82,7 @@ pub fn solve(
         let s = Selection { dofs: &all[..m.nv], rows: &all[..efc.nefc], sorted: &all[..m.nv], first: 0 };
         let scale = |_: &Primal| 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64);
         solve_part(m, inertia, con, efc, s, scale, jar, acc, stats, primal, dual);
-        if m.opt.solver != Solver::Pgs.code() && m.opt.noslip_iterations == 0 {
+        if m.opt.solver != Solver::Pgs && m.opt.noslip_iterations == 0 {
             write_states(&primal.state, efc);
         }
     }
@@ -113,7 +113,7 @@ pub(crate) fn constraint_force(
 
 /// True when forces are solved for, wholly or after a primal solver.
 fn is_dual(m: &Model) -> bool {
-    m.opt.solver == Solver::Pgs.code() || m.opt.noslip_iterations > 0
+    m.opt.solver == Solver::Pgs || m.opt.noslip_iterations > 0
 }
 
 /// `out = J qacc - aref`.
@@ -142,7 +142,7 @@ fn start(
 ) {
     efc.efc_force.resize(efc.nefc, 0.0);
     efc.efc_state.resize(efc.nefc, ConstraintState::Satisfied.code());
-    if m.opt.disableflags & disable::WARMSTART != 0 {
+    if m.opt.disableflags.contains(Disable::WARMSTART) {
         acc.qacc.copy_from_slice(&acc.qacc_smooth);
         scratch.jar.clone_from(&efc.efc_b);
         efc.efc_force.fill(0.0);
@@ -154,7 +154,7 @@ fn start(
     acc.qacc.copy_from_slice(&state.qacc_warmstart);
     residual_of(m, efc, &state.qacc_warmstart, jar);
     let mut cost = rows.update(jar, states, &mut efc.efc_force);
-    if m.opt.solver == Solver::Pgs.code() {
+    if m.opt.solver == Solver::Pgs {
         if dual.cost(efc) > 0.0 {
             efc.efc_force.fill(0.0);
         }
@@ -217,12 +217,12 @@ fn solve_part(
     primal: &mut Primal,
     dual: &mut Dual,
 ) {
-    let (mut iterations, nonzeros) = if m.opt.solver == Solver::Pgs.code() {
+    let (mut iterations, nonzeros) = if m.opt.solver == Solver::Pgs {
         (pgs::pgs(m, dual, efc, &con.contact, s.rows, &mut stats.solver), s.rows.len() * s.rows.len())
     } else {
         primal.problem.gather(m, inertia, efc, con, s);
         primal.begin(acc, efc, s, scale(primal), jar);
-        let result = if m.opt.solver == Solver::Cg.code() {
+        let result = if m.opt.solver == Solver::Cg {
             cg::conjugate_gradient(m, primal, &mut stats.solver)
         } else {
             newton::newton(m, primal, &mut stats.solver)

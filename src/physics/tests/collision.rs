@@ -6,7 +6,7 @@ use robohive_physics::data::{Contact, Contacts, Kinematics};
 use robohive_physics::math::{
     Mat3, Vec3, cross, distance, dot, norm, quat_from_axis_angle, quat_to_mat, row, sub,
 };
-use robohive_physics::model::{GeomType, Model, disable};
+use robohive_physics::model::{Disable, GeomType, Model};
 
 const UPRIGHT: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -101,10 +101,10 @@ fn parents_do_not_touch_their_children_unless_asked() {
     m.body_parentid[2] = 1;
     m.body_parentid[3] = 2;
     assert_eq!(pairs(&m), [[0, 2]], "a grandchild does");
-    m.opt.disableflags |= disable::FILTERPARENT;
+    m.opt.disableflags |= Disable::FILTERPARENT;
     assert_eq!(pairs(&m), [[0, 1], [0, 2], [1, 2]]);
     // Children of the world, and bodies welded to it, have no parent in this sense.
-    m.opt.disableflags = 0;
+    m.opt.disableflags = Disable::NONE;
     m.body_weldid[1] = 0;
     assert_eq!(pairs(&m), [[0, 1], [0, 2]]);
 }

@@ -4,7 +4,7 @@ mod machine;
 
 use machine::{ANCHORED, FLYING, chain, moving};
 use robohive_physics::math::{norm, sub};
-use robohive_physics::model::{Integrator, JointType, enable};
+use robohive_physics::model::{Enable, Integrator, JointType};
 use robohive_physics::on_demand::momentum::subtree_momentum;
 use robohive_physics::position::jacobian::{Jacobian, angular_momentum_matrix, subtree_com_jacobian};
 use robohive_physics::{
@@ -78,8 +78,8 @@ fn jacobians_are_derivatives_of_poses() {
 /// Energy gained or lost in 0.2 s.
 fn drift(m: &Model, integrator: Integrator, h: f64) -> f64 {
     let mut m = m.clone();
-    m.opt.enableflags = enable::ENERGY;
-    (m.opt.integrator, m.opt.timestep) = (integrator.code(), h);
+    m.opt.enableflags = Enable::ENERGY;
+    (m.opt.integrator, m.opt.timestep) = (integrator, h);
     let mut d = moving(&m);
     forward(&m, &mut d).unwrap();
     let start = d.energy;
@@ -129,8 +129,8 @@ fn spin_of_a_free_body_changes_energy_as_upstream() {
     let kinetic = |integrator: Integrator| {
         let mut m = chain(&[JointType::Free]);
         m.opt.gravity = [0.0; 3];
-        m.opt.enableflags = enable::ENERGY;
-        (m.opt.integrator, m.opt.timestep) = (integrator.code(), 0.01);
+        m.opt.enableflags = Enable::ENERGY;
+        (m.opt.integrator, m.opt.timestep) = (integrator, 0.01);
         let mut d = Data::new(&m);
         d.state.qvel.copy_from_slice(&[1.0, 0.0, -1.0, 8.0, 12.0, -9.0]);
         forward(&m, &mut d).unwrap();
@@ -156,12 +156,12 @@ fn bad_states_are_errors_and_stay() {
     let before = d.state.qpos.clone();
     match step(&m, &mut d) {
         Err(StepError::BadQvel(bad)) => {
-            assert_eq!((bad.index, bad.element.as_str(), bad.time), (7, "joint[2]", 0.0));
+            assert_eq!((bad.index, bad.element.as_str(), bad.time), (7, "joint 2", 0.0));
         }
         other => panic!("{other:?}"),
     }
     assert_eq!(d.state.qpos, before);
     let mut sleeping = m.clone();
-    sleeping.opt.enableflags = enable::SLEEP;
+    sleeping.opt.enableflags = Enable::SLEEP;
     assert!(matches!(step(&sleeping, &mut Data::new(&sleeping)), Err(StepError::NotSimulated(_))));
 }

@@ -5,7 +5,7 @@ mod machine;
 use machine::{ANCHORED, FLYING, chain, moving};
 use robohive_physics::derivative::transition::transition;
 use robohive_physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
-use robohive_physics::model::{Integrator, JointType, enable};
+use robohive_physics::model::{Enable, Integrator, JointType};
 use robohive_physics::{Data, Model, forward, integration::integrate, inverse, step};
 
 /// The chain with polynomial dampers on all but its root, in a thick fluid with wind when `wet`.
@@ -56,7 +56,7 @@ fn derivative_is_the_slope_of_smooth_forces() {
 fn implicit_steps_solve_their_equation() {
     // At the end of the step the linearised forces balance: M a = f + h D a, with qvel' = qvel + h a.
     let mut m = damped(&FLYING, true);
-    (m.opt.integrator, m.opt.timestep) = (Integrator::Implicit.code(), 0.01);
+    (m.opt.integrator, m.opt.timestep) = (Integrator::Implicit, 0.01);
     let mut d = moving(&m);
     let before = d.state.qvel.clone();
     step(&m, &mut d).unwrap();
@@ -88,8 +88,8 @@ fn inverse_undoes_forward() {
 fn discrete_inverse_undoes_a_step() {
     for integrator in [Integrator::Euler, Integrator::Implicit, Integrator::Implicitfast] {
         let mut m = damped(&FLYING, true);
-        m.opt.enableflags = enable::INVDISCRETE;
-        (m.opt.integrator, m.opt.timestep) = (integrator.code(), 0.01);
+        m.opt.enableflags = Enable::INVDISCRETE;
+        (m.opt.integrator, m.opt.timestep) = (integrator, 0.01);
         let start = moving(&m);
         let mut d = start.clone();
         d.state.qfrc_applied.fill(0.25);
@@ -105,8 +105,8 @@ fn discrete_inverse_undoes_a_step() {
         }
     }
     let mut m = chain(&ANCHORED);
-    m.opt.enableflags = enable::INVDISCRETE;
-    m.opt.integrator = Integrator::Rk4.code();
+    m.opt.enableflags = Enable::INVDISCRETE;
+    m.opt.integrator = Integrator::Rk4;
     assert!(inverse(&m, &mut moving(&m)).is_err());
 }
 
@@ -116,7 +116,7 @@ fn free_flight_keeps_momentum() {
         let mut m = chain(&[JointType::Free]);
         m.body_ipos[1] = [0.0; 3];
         m.opt.gravity = [0.2, 0.0, -9.0];
-        (m.opt.integrator, m.opt.timestep) = (integrator.code(), 0.005);
+        (m.opt.integrator, m.opt.timestep) = (integrator, 0.005);
         let mut d = Data::new(&m);
         d.state.qvel.copy_from_slice(&[1.0, 0.5, 4.0, 3.0, -5.0, 2.0]);
         (0..200).for_each(|_| step(&m, &mut d).unwrap());
@@ -135,7 +135,7 @@ fn free_flight_keeps_momentum() {
 #[test]
 fn transition_predicts_a_nudged_step() {
     let mut m = damped(&FLYING, true);
-    (m.opt.integrator, m.opt.timestep) = (Integrator::Implicit.code(), 0.01);
+    (m.opt.integrator, m.opt.timestep) = (Integrator::Implicit, 0.01);
     let mut d = moving(&m);
     let matrices = transition(&m, &mut d, 1e-6, true).unwrap();
     assert_eq!(d.state.qpos, moving(&m).state.qpos);
@@ -154,6 +154,6 @@ fn transition_predicts_a_nudged_step() {
         let predicted: f64 = (0..n).map(|j| matrices.a[i * n + j] * nudge[j]).sum();
         assert!((change - predicted).abs() < 2e-7, "row {i}: {change} {predicted}");
     }
-    m.opt.integrator = Integrator::Rk4.code();
+    m.opt.integrator = Integrator::Rk4;
     assert!(transition(&m, &mut d, 1e-6, true).is_err());
 }

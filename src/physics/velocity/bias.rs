@@ -6,13 +6,13 @@ use crate::inertia::tendon_armature;
 use crate::math::{
     Spatial, add_scaled, cross_force, dot, linear, mul_inertia, norm, scale, spatial, spatial_dot, sub,
 };
-use crate::model::{Model, WrapType, bounds::MINVAL, disable};
+use crate::model::{Disable, Model, ObjType, WrapType, bounds::MINVAL};
+use crate::pipeline::error::NotSimulated;
 use crate::position::chain::{MergedChain, com_offset, point_column};
 use crate::position::frame::Frame;
 use crate::position::jacobian::point_column_rate;
 use crate::position::tendon;
 use crate::velocity::com_vel::{add_motion, dofs};
-use std::fmt;
 
 /// Working memory of recursive Newton-Euler: one entry a body.
 #[derive(Clone, Debug, Default)]
@@ -39,7 +39,7 @@ pub fn bias(
 
 /// Acceleration of the world: minus gravity, so that weight needs no force of its own.
 pub fn world_acceleration(m: &Model) -> Spatial {
-    if m.opt.disableflags & disable::GRAVITY != 0 {
+    if m.opt.disableflags.contains(Disable::GRAVITY) {
         [0.0; 6]
     } else {
         spatial([0.0; 3], scale(m.opt.gravity, -1.0))
@@ -175,26 +175,11 @@ fn segment_rate(
     rate
 }
 
-/// A tendon with armature whose path wraps around a geom: its bias force is not defined upstream either.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WrappedArmature {
-    /// The tendon.
-    pub tendon: usize,
-}
-
-impl fmt::Display for WrappedArmature {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "tendon {} has armature and wraps around a geom, which is not supported", self.tendon)
-    }
-}
-
-impl std::error::Error for WrappedArmature {}
-
-/// Checks once that no tendon with armature wraps around a geom.
+/// Checks once that no tendon with armature wraps around a geom: its bias force is not defined in MuJoCo either.
 ///
 /// # Errors
 /// The first such tendon.
-pub fn check(m: &Model) -> Result<(), WrappedArmature> {
+pub fn check(m: &Model) -> Result<(), NotSimulated> {
     let wraps = |t: usize| {
         let first = m.tendon_adr[t] as usize;
         m.wrap_type[first..first + m.tendon_num[t] as usize]
@@ -202,7 +187,9 @@ pub fn check(m: &Model) -> Result<(), WrappedArmature> {
             .any(|&w| w == WrapType::Sphere.code() || w == WrapType::Cylinder.code())
     };
     match (0..m.ntendon).find(|&t| tendon_armature(m, t) != 0.0 && wraps(t)) {
-        Some(tendon) => Err(WrappedArmature { tendon }),
+        Some(t) => {
+            Err(NotSimulated::of(m.label_of(ObjType::Tendon, t), "armature of a tendon that wraps a geom"))
+        }
         None => Ok(()),
     }
 }

@@ -4,7 +4,7 @@
 use crate::actuation::reflected_load::{dof_damping, tendon_damping};
 use crate::data::{Com, Contacts, Kinematics, Passive, State, Tendons, Velocity};
 use crate::math::{Vec3, dot, norm, quat_difference, quat_normalize, row, scale, sub};
-use crate::model::{JointType, Model, disable};
+use crate::model::{Disable, JointType, Model};
 use crate::position::chain::{MergedChain, apply_wrench, com_offset, point_column};
 use crate::position::tendon;
 use crate::velocity::fluid;
@@ -30,8 +30,8 @@ pub fn passive(
         &mut out.qfrc_passive,
     ];
     force.into_iter().for_each(|f| f.fill(0.0));
-    let disabled = |flag: i32| m.opt.disableflags & flag != 0;
-    let (springs, dampers) = (!disabled(disable::SPRING), !disabled(disable::DAMPER));
+    let disabled = |flag: Disable| m.opt.disableflags.contains(flag);
+    let (springs, dampers) = (!disabled(Disable::SPRING), !disabled(Disable::DAMPER));
     if !springs && !dampers {
         return;
     }
@@ -53,7 +53,7 @@ pub fn passive(
     if wet {
         fluid::fluid(m, kin, com, vel, &mut out.qfrc_fluid);
     }
-    if m.flg_adhesion && !disabled(disable::CONTACT) {
+    if m.flg_adhesion && !disabled(Disable::CONTACT) {
         adhesion(m, com, con, &mut out.qfrc_adhesion);
     }
     for dof in 0..m.nv {
@@ -133,7 +133,7 @@ fn tendons(m: &Model, ten: &Tendons, vel: &Velocity, springs: bool, dampers: boo
 
 /// True when gravity is on and some body compensates for it.
 pub(crate) fn has_gravity_compensation(m: &Model) -> bool {
-    m.flg_gravcomp && m.opt.disableflags & disable::GRAVITY == 0 && norm(m.opt.gravity) != 0.0
+    m.flg_gravcomp && !m.opt.disableflags.contains(Disable::GRAVITY) && norm(m.opt.gravity) != 0.0
 }
 
 /// Force that carries the share `body_gravcomp` of each body's weight.

@@ -3,7 +3,7 @@
 use super::order::{FLYING, HINGES, moving, run};
 use super::{Bound, Law, LawError, compile};
 use physics::math::{Vec3, norm, sub};
-use physics::model::{Integrator, disable, enable};
+use physics::model::{Disable, Enable, Integrator};
 use physics::on_demand::momentum::subtree_momentum;
 use physics::{Data, Model};
 
@@ -37,8 +37,8 @@ fn change(m: &mut Model, mut d: Data, h: f64) -> Result<[f64; 2], LawError> {
 
 fn weightless(text: &str, integrator: Integrator) -> Result<Model, LawError> {
     let mut m = compile(text)?;
-    m.opt.disableflags |= disable::CONTACT | disable::GRAVITY;
-    m.opt.integrator = integrator.code();
+    m.opt.disableflags |= Disable::CONTACT | Disable::GRAVITY;
+    m.opt.integrator = integrator;
     Ok(m)
 }
 
@@ -71,10 +71,10 @@ pub(super) fn energy() -> Result<Vec<Law>, LawError> {
     let mut laws = Vec::new();
     for (text, name, most) in [(HINGES, "hinges and slides", 1e-9), (FLYING, "free and ball joints", 1e-4)] {
         let mut m = compile(text)?;
-        m.opt.disableflags |= disable::CONTACT | disable::DAMPER;
-        m.opt.enableflags |= enable::ENERGY;
+        m.opt.disableflags |= Disable::CONTACT | Disable::DAMPER;
+        m.opt.enableflags |= Enable::ENERGY;
         m.opt.viscosity = 0.0;
-        m.opt.integrator = Integrator::Rk4.code();
+        m.opt.integrator = Integrator::Rk4;
         let mut d = moving(&m);
         let total = |d: &Data| d.energy[0] + d.energy[1];
         physics::forward(&m, &mut d)?;

@@ -1,7 +1,7 @@
 //! Order of convergence of the integrators: how the error at a fixed time falls with the time step.
 
 use super::{Bound, Law, LawError, compile};
-use physics::model::{Integrator, disable};
+use physics::model::{Disable, Integrator};
 use physics::{Data, Model, integration::integrate};
 
 /// Compared time steps [s]; the second is half the first.
@@ -75,21 +75,21 @@ fn order(m: &mut Model, exact: &[f64]) -> Result<f64, LawError> {
 pub(super) fn orders() -> Result<Vec<Law>, LawError> {
     let mut laws = Vec::new();
     let variants = [
-        ("Euler, implicit in damping", Integrator::Euler, 0, [1.0, 1.0]),
-        ("Euler, `eulerdamp` off", Integrator::Euler, disable::EULERDAMP, [1.0, 1.0]),
-        ("implicit", Integrator::Implicit, 0, [1.0, 1.0]),
-        ("implicitfast", Integrator::Implicitfast, 0, [1.0, 1.0]),
+        ("Euler, implicit in damping", Integrator::Euler, Disable::NONE, [1.0, 1.0]),
+        ("Euler, `eulerdamp` off", Integrator::Euler, Disable::EULERDAMP, [1.0, 1.0]),
+        ("implicit", Integrator::Implicit, Disable::NONE, [1.0, 1.0]),
+        ("implicitfast", Integrator::Implicitfast, Disable::NONE, [1.0, 1.0]),
         // Stages average angular velocities of frames that differ: second order for rotations in space.
-        ("RK4", Integrator::Rk4, 0, [4.0, 2.0]),
+        ("RK4", Integrator::Rk4, Disable::NONE, [4.0, 2.0]),
     ];
     for (system, text) in [HINGES, FLYING].into_iter().enumerate() {
         let mut m = compile(text)?;
-        m.opt.disableflags |= disable::CONTACT;
-        m.opt.integrator = Integrator::Rk4.code();
+        m.opt.disableflags |= Disable::CONTACT;
+        m.opt.integrator = Integrator::Rk4;
         let exact = arrive(&mut m, EXACT)?;
         for (name, integrator, flag, expected) in variants {
             let mut m = m.clone();
-            m.opt.integrator = integrator.code();
+            m.opt.integrator = integrator;
             m.opt.disableflags |= flag;
             let on = format!("{name}; {}", ["hinges and slides", "free and ball joints"][system]);
             let bound = Bound::Near(expected[system], GIVE);

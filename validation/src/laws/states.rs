@@ -5,7 +5,7 @@ use crate::reference::Reference;
 use crate::solver::CONES;
 use physics::acceleration::contact_force::contact_force;
 use physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
-use physics::model::{BiasType, Cone, ConstraintType, Jacobian, Solver, disable};
+use physics::model::{BiasType, Cone, ConstraintType, Disable, Jacobian, Solver};
 use physics::{Data, Model, StepError};
 
 /// Applied force from inverse dynamics beside what was applied, relative to the largest force.
@@ -83,23 +83,22 @@ impl Worst {
     fn take(&mut self, m: &mut Model, start: &Data) -> Result<(), LawError> {
         self.states += 1;
         let rows = [Jacobian::Dense, Jacobian::Sparse].map(|storage| {
-            m.opt.jacobian = storage.code();
+            m.opt.jacobian = storage;
             forward(m, start)
         });
         self.storage = self.storage.max(qacc_difference(rows)?);
         for cone in CONES {
-            m.opt.cone = cone.code();
+            m.opt.cone = cone;
             self.forces(m, &forward(m, start)?);
         }
-        (m.opt.solver, m.opt.noslip_iterations) = (Solver::Newton.code(), 0);
+        (m.opt.solver, m.opt.noslip_iterations) = (Solver::Newton, 0);
         (m.opt.tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 200, 200);
         for cone in CONES {
-            m.opt.cone = cone.code();
+            m.opt.cone = cone;
             self.inverse = self.inverse.max(inverse(m, start)?);
         }
-        let flags = m.opt.disableflags & !disable::ISLAND;
-        let islands = [flags, flags | disable::ISLAND].map(|flags| {
-            m.opt.disableflags = flags;
+        let islands = [false, true].map(|off| {
+            m.opt.disableflags.set(Disable::ISLAND, off);
             forward(m, start)
         });
         self.islands = self.islands.max(qacc_difference(islands)?);
@@ -120,7 +119,7 @@ impl Worst {
                 Some(_) => self.pyramids = self.pyramids.max(-force[i] / scale),
             }
         }
-        if m.opt.cone == Cone::Elliptic.code() {
+        if m.opt.cone == Cone::Elliptic {
             for c in d.con.contact.iter().filter(|c| c.efc_address >= 0) {
                 let f = contact_force(m, &d.efc, c);
                 let share = |k: usize| if k < c.dim as usize { f[k] / c.friction[k - 1] } else { 0.0 };

@@ -1,0 +1,91 @@
+//! Why a step, a forward pass or a model is refused.
+
+use std::fmt;
+
+/// Where a bad number was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BadNumber {
+    /// Index in the array.
+    pub index: usize,
+    /// Joint or actuator it belongs to.
+    pub element: String,
+    /// The number.
+    pub value: f64,
+    /// Simulation time [s].
+    pub time: f64,
+}
+
+/// A feature that the engine does not simulate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NotSimulated {
+    /// The feature, as a noun phrase.
+    pub feature: String,
+    /// The element that asks for it; `None` for an option or a call.
+    pub element: Option<String>,
+}
+
+impl NotSimulated {
+    /// A feature that an option or a call asks for.
+    pub(crate) fn feature(feature: &str) -> Self {
+        NotSimulated { feature: feature.into(), element: None }
+    }
+
+    /// A feature that an element asks for; `label` names the element with its kind.
+    pub(crate) fn of(label: String, feature: &str) -> Self {
+        NotSimulated { feature: feature.into(), element: Some(label) }
+    }
+}
+
+impl fmt::Display for NotSimulated {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.element {
+            Some(element) => {
+                write!(f, "{element} asks for {}, which this version does not simulate", self.feature)
+            }
+            None => write!(f, "this version does not simulate {}", self.feature),
+        }
+    }
+}
+
+impl std::error::Error for NotSimulated {}
+
+/// Why a step was not made. The `Data` keeps the state for inspection.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum StepError {
+    /// A position is not finite or too large.
+    BadQpos(BadNumber),
+    /// A velocity is not finite or too large.
+    BadQvel(BadNumber),
+    /// An acceleration is not finite or too large: the simulation is unstable.
+    BadQacc(BadNumber),
+    /// A control is not finite or too large.
+    BadCtrl(BadNumber),
+    /// The model or the call uses a feature that is not simulated.
+    NotSimulated(NotSimulated),
+}
+
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (array, bad, hint) = match self {
+            StepError::BadQpos(bad) => ("qpos", bad, "check what sets the position"),
+            StepError::BadQvel(bad) => ("qvel", bad, "check what sets the velocity"),
+            StepError::BadQacc(bad) => {
+                ("qacc", bad, "the simulation is unstable: reduce the time step, gains or applied forces")
+            }
+            StepError::BadCtrl(bad) => ("ctrl", bad, "check what sets the control"),
+            StepError::NotSimulated(what) => return what.fmt(f),
+        };
+        let BadNumber { index, element, value, time } = bad;
+        let fault = if value.is_finite() { "too large" } else { "not finite" };
+        write!(f, "{array}[{index}] of {element} is {value} at time {time} s, which is {fault}; {hint}")
+    }
+}
+
+impl std::error::Error for StepError {}
+
+impl From<NotSimulated> for StepError {
+    fn from(what: NotSimulated) -> Self {
+        StepError::NotSimulated(what)
+    }
+}
