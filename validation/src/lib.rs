@@ -1,6 +1,7 @@
 //! Comparison of our physics and compiler with recorded MuJoCo runs.
 
 pub mod bits;
+pub mod c_library;
 pub mod collide;
 pub mod collide_table;
 pub mod compare;

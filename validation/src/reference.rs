@@ -178,6 +178,31 @@ pub fn recorded() -> Result<Vec<(PathBuf, Reference)>, Box<dyn std::error::Error
     paths.into_iter().map(|path| Ok((path.clone(), Reference::open(&path)?))).collect()
 }
 
+/// Path and reference of every own model, in the order of their paths: the files directly in the folders of `assets`.
+///
+/// # Errors
+/// A folder cannot be read, or a model has no reference.
+pub fn own_models() -> Result<Vec<(PathBuf, Reference)>, Box<dyn std::error::Error>> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut models = Vec::new();
+    for folder in std::fs::read_dir(root.join("../assets"))? {
+        for file in std::fs::read_dir(folder?.path())? {
+            let path = file?.path();
+            if path.extension().is_some_and(|extension| extension == "xml") {
+                models.push(path);
+            }
+        }
+    }
+    models.sort();
+    let with_reference = |model: PathBuf| {
+        let name = model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let reference = root.join("reference/own").join(name + ".npz");
+        let opened = Reference::open(&reference).map_err(|e| format!("{}: {e}", reference.display()))?;
+        Ok((model, opened))
+    };
+    models.into_iter().map(with_reference).collect()
+}
+
 /// Rows of a stacked array, flat.
 fn row_of(array: &Array, rows: std::ops::Range<usize>) -> Option<Vec<f64>> {
     let width: usize = array.shape.iter().skip(1).product();

@@ -1,7 +1,8 @@
 //! The same bits from every build: unoptimised, with wide vectors, static, and WebAssembly. Each build steps the
-//! models of `validation/digest` and compares its hashes with the recorded ones.
+//! models of `validation/digest` and compares its hashes with the recorded ones. And the builds with fewer features.
 
-use crate::Trouble::{self, CannotCheck, Failed};
+use crate::check::{Missing, Outcome};
+use crate::command::{cargo, installed, output, succeed, target_folder};
 use std::path::PathBuf;
 use std::process::Command;
 
@@ -9,35 +10,32 @@ const DIGEST: [&str; 2] = ["-p", "robohive-digest"];
 const STATIC_TARGET: &str = "x86_64-unknown-linux-gnu";
 const WEB_TARGET: &str = "wasm32-unknown-unknown";
 
-/// Builds and runs all of them. Fails where a build does, or computes another hash than the recorded one.
-pub fn run() -> Result<(), Trouble> {
-    let passed_over = every_build().map_err(Failed)?;
-    if passed_over.is_empty() { Ok(()) } else { Err(CannotCheck(passed_over.join("; "))) }
+/// The library without its default features: here, and for WebAssembly where the target is installed.
+pub fn features() -> Outcome {
+    let bare = ["check", "--profile", "ci", "--no-default-features"];
+    for package in ["robohive", "robohive-physics", "robohive-digest"] {
+        cargo(&[&bare[..], &["-p", package]].concat())?;
+    }
+    if !web_target_installed()? {
+        return Ok(vec![web_target_missing("the library for WebAssembly")]);
+    }
+    cargo(&[&bare[..], &["-p", "robohive", "--target", WEB_TARGET]].concat())
 }
 
-/// What this machine cannot build or run, each with the reason.
-fn every_build() -> Result<Vec<String>, String> {
-    let mut passed_over = Vec::new();
+/// Builds and runs all of them. Fails where a build does, or computes another hash than the recorded one.
+pub fn run() -> Outcome {
+    let mut missing = Vec::new();
     println!("-- in another program");
     succeed(Command::new("cargo").args(["run", "--quiet", "--profile", "ci", "--example", "embed"]))?;
     println!("-- unoptimised, two threads");
     digest(&["run", "--quiet"], &["--threads", "2"], "")?;
-    if cfg!(target_arch = "x86_64") {
-        println!("-- wide vectors");
-        match std::fs::read_to_string("/proc/cpuinfo") {
-            Ok(text) if text.contains(" avx2 ") => {
-                digest(&["run", "--quiet", "--profile", "ci"], &[], "-C target-cpu=x86-64-v3")?;
-            }
-            _ => passed_over.push("wide vectors: the processor has none, or does not say".into()),
-        }
-    }
-    if cfg!(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu")) {
-        println!("-- static");
-        static_build()?;
-    }
+    println!("-- wide vectors");
+    missing.extend(wide_build()?);
+    println!("-- static");
+    missing.extend(static_build()?);
     println!("-- WebAssembly");
-    passed_over.extend(web_build()?.map(|reason| format!("WebAssembly: {reason}")));
-    Ok(passed_over)
+    missing.extend(web_build()?);
+    Ok(missing)
 }
 
 /// Runs cargo over the digest program.
@@ -53,8 +51,21 @@ fn digest(cargo: &[&str], program: &[&str], flags: &str) -> Result<(), String> {
     succeed(&mut command)
 }
 
+/// Vectors of four numbers and fused multiply-add: what the compiler may use must not change a bit.
+fn wide_build() -> Result<Option<Missing>, String> {
+    let has_avx2 = std::fs::read_to_string("/proc/cpuinfo").is_ok_and(|text| text.contains(" avx2 "));
+    if cfg!(target_arch = "x86_64") && has_avx2 {
+        digest(&["run", "--quiet", "--profile", "ci"], &[], "-C target-cpu=x86-64-v3")?;
+        return Ok(None);
+    }
+    Ok(Some(Missing::new("the build with wide vectors", "run on an x86-64 processor with AVX2, under Linux")))
+}
+
 /// The digest program and the command line, each one file that needs no other.
-fn static_build() -> Result<(), String> {
+fn static_build() -> Result<Option<Missing>, String> {
+    if !cfg!(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu")) {
+        return Ok(Some(Missing::new("the static build", format!("run on {STATIC_TARGET}"))));
+    }
     let flags = "-C target-feature=+crt-static";
     digest(&["run", "--quiet", "--release", "--target", STATIC_TARGET], &["--threads", "4"], flags)?;
     let arguments = ["build", "--quiet", "--profile", "ci", "-p", "robohive-cli", "--target", STATIC_TARGET];
@@ -65,9 +76,8 @@ fn static_build() -> Result<(), String> {
         return Err(format!("{} is linked dynamically", binary.display()));
     }
     println!("{}: static, {:.1} MB", binary.display(), bytes.len() as f64 / 1e6);
-    let model = ["inspect", "assets/franka/franka_table.xml", "--json"];
-    let output = Command::new(&binary).args(model).output().map_err(|e| e.to_string())?;
-    if output.status.success() { Ok(()) } else { Err(format!("{}: {}", binary.display(), output.status)) }
+    output(Command::new(&binary).args(["inspect", "assets/franka/franka_table.xml", "--json"]))?;
+    Ok(None)
 }
 
 /// Whether an ELF file of 64 bits has a segment PT_INTERP, the name of the dynamic loader.
@@ -78,35 +88,28 @@ fn asks_for_loader(elf: &[u8]) -> bool {
     (0..count).any(|k| word(table + k * size) as u32 == 3)
 }
 
-/// The module under node; a reason where the target or node is not installed.
-fn web_build() -> Result<Option<String>, String> {
-    let query = ["--print", "target-libdir", "--target", WEB_TARGET];
-    let folder = Command::new("rustc").args(query).output().map_err(|e| e.to_string())?;
-    if !PathBuf::from(String::from_utf8_lossy(&folder.stdout).trim()).is_dir() {
-        return Ok(Some(format!("rustup target add {WEB_TARGET}")));
+/// The digest as a module, under node.
+fn web_build() -> Result<Option<Missing>, String> {
+    if !web_target_installed()? {
+        return Ok(Some(web_target_missing("hashes from WebAssembly")));
     }
     let module = ["--lib", "--crate-type", "cdylib", "--no-default-features", "--target", WEB_TARGET];
     digest(&[&["rustc", "--quiet", "--release"][..], &module].concat(), &[], "")?;
-    if Command::new("node").arg("--version").output().is_err() {
-        return Ok(Some("built; node is not installed".into()));
+    if !installed("node") {
+        let what = "hashes from WebAssembly (the module is built; node, which runs it, is not installed)";
+        return Ok(Some(Missing::new(what, "install Node.js, https://nodejs.org")));
     }
     let module = target_folder()?.join(WEB_TARGET).join("release/robohive_digest.wasm");
     succeed(Command::new("node").arg("validation/digest/run.mjs").arg(module))?;
     Ok(None)
 }
 
-fn target_folder() -> Result<PathBuf, String> {
-    let arguments = ["metadata", "--no-deps", "--format-version", "1"];
-    let output = Command::new("cargo").args(arguments).output().map_err(|e| e.to_string())?;
-    let text = String::from_utf8_lossy(&output.stdout);
-    let folder = text.split_once("\"target_directory\":\"").and_then(|(_, rest)| rest.split_once('"'));
-    folder.map(|(folder, _)| folder.into()).ok_or_else(|| "cargo names no target directory".into())
+fn web_target_installed() -> Result<bool, String> {
+    let (folder, _) =
+        output(Command::new("rustc").args(["--print", "target-libdir", "--target", WEB_TARGET]))?;
+    Ok(PathBuf::from(folder.trim()).is_dir())
 }
 
-fn succeed(command: &mut Command) -> Result<(), String> {
-    match command.status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(format!("{command:?}: {status}")),
-        Err(error) => Err(format!("{command:?}: {error}")),
-    }
+fn web_target_missing(what: &str) -> Missing {
+    Missing::new(format!("{what} (the target is not installed)"), format!("rustup target add {WEB_TARGET}"))
 }

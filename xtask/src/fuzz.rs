@@ -10,13 +10,22 @@ const HANG: u32 = 1;
 /// More memory [MB] is a finding.
 const MEMORY: u32 = 1024;
 
-/// Runs each of the `asked` targets, or every one, for `seconds`; an error when there is a finding.
-pub fn run(seconds: u32, asked: &[String]) -> Result<(), String> {
+/// Seconds for each target where the command line names none.
+const SECONDS: u32 = 600;
+
+/// Runs each of the targets that the words name, or every one, for the seconds that the first word gives; an error
+/// when there is a finding.
+pub fn run(words: &[&str]) -> Result<(), String> {
+    let (seconds, asked) = match words.split_first().map(|(first, rest)| (first.parse(), rest)) {
+        Some((Ok(seconds), rest)) => (seconds, rest),
+        _ => (SECONDS, words),
+    };
+    let asked: Vec<String> = asked.iter().map(|&name| name.to_owned()).collect();
     let all = list()?;
     if let Some(unknown) = asked.iter().find(|name| !all.contains(name)) {
         return Err(format!("there is no target {unknown}; there are {}", all.join(", ")));
     }
-    let targets = if asked.is_empty() { &all } else { asked };
+    let targets = if asked.is_empty() { &all } else { &asked };
     cargo_fuzz(&["build", "-s", "none"], Stdio::inherit())?;
     let mut findings = 0;
     println!("| target | executions | seconds | peak memory [MB] | findings |\n|---|---|---|---|---|");

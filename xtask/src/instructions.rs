@@ -1,7 +1,8 @@
 //! Instructions of one step, counted by valgrind: a measure of speed that does not depend on the machine's load.
 //! A rise over the recorded count fails.
 
-use crate::Trouble::{self, CannotCheck, Failed};
+use crate::check::{Missing, Outcome};
+use crate::command::{compiler, installed, output};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -35,14 +36,16 @@ const STEPS: [u64; 2] = [150, 350];
 const TOLERANCE: f64 = 0.03;
 const FILE: &str = "benches/instructions.txt";
 
-/// Counts, prints the table, and compares with the recorded counts, or records them anew.
-pub fn run(update: bool) -> Result<(), Trouble> {
-    if Command::new("valgrind").arg("--version").output().is_err() {
-        return Err(CannotCheck("valgrind is not installed".into()));
+/// Counts, prints the table, and compares with the recorded counts, or records these instead.
+pub fn run(update: bool) -> Outcome {
+    let missing =
+        |what: &str, get: &str| Ok(vec![Missing::new(format!("instructions of a step ({what})"), get)]);
+    if !installed("valgrind") {
+        return missing("valgrind is not installed", "install valgrind, https://valgrind.org");
     }
     let binary = build()?;
-    let counted: BTreeMap<_, _> =
-        CASES.iter().map(|case| Ok((case.name, per_step(&binary, case)?))).collect::<Result<_, _>>()?;
+    let counted: BTreeMap<&str, u64> =
+        CASES.iter().map(|case| Ok((case.name, per_step(&binary, case)?))).collect::<Result<_, String>>()?;
     let recorded = std::fs::read_to_string(FILE).unwrap_or_default();
     let before = parse(&recorded)?;
     let mut risen = Vec::new();
@@ -62,55 +65,44 @@ pub fn run(update: bool) -> Result<(), Trouble> {
     }
     if update {
         let text = format(&counted)?;
-        return std::fs::write(FILE, text).map_err(|e| Failed(format!("{FILE}: {e}")));
+        return std::fs::write(FILE, text).map(|()| Vec::new()).map_err(|e| format!("{FILE}: {e}"));
     }
-    if !recorded.contains(std::env::consts::ARCH) {
-        return Err(CannotCheck(format!("the counts of {FILE} are of another kind of processor")));
+    let arch = std::env::consts::ARCH;
+    if !recorded.contains(arch) {
+        return missing(
+            "those recorded are of another kind of processor",
+            "run on the processor that the file names",
+        );
     }
     if risen.is_empty() {
-        return Ok(());
+        return Ok(Vec::new());
     }
     let compiler = compiler()?;
-    Err(Failed(format!(
+    Err(format!(
         "instructions of {} rose by more than {} %, or are not recorded; this is {compiler}. If that is meant: cargo xtask instructions --update",
         risen.join(", "),
         100.0 * TOLERANCE
-    )))
-}
-
-fn output(command: &mut Command) -> Result<(String, String), Trouble> {
-    let program = command.get_program().to_string_lossy().into_owned();
-    let out = command.output().map_err(|e| Failed(format!("{program}: {e}")))?;
-    let (stdout, stderr) = (String::from_utf8_lossy(&out.stdout), String::from_utf8_lossy(&out.stderr));
-    if !out.status.success() {
-        return Err(Failed(format!("{program}: {}\n{stderr}", out.status)));
-    }
-    Ok((stdout.into_owned(), stderr.into_owned()))
-}
-
-fn compiler() -> Result<String, Trouble> {
-    let version = output(Command::new("rustc").arg("--version"))?.0;
-    Ok(version.split(" (").next().unwrap_or_default().trim().to_owned())
+    ))
 }
 
 /// Builds the command as it ships; its path.
-fn build() -> Result<PathBuf, Trouble> {
+fn build() -> Result<PathBuf, String> {
     let arguments = ["build", "--release", "-p", "robohive-cli", "--message-format", "json"];
     let (messages, _) = output(Command::new("cargo").args(arguments))?;
     let path = messages.lines().filter(|line| line.contains("\"name\":\"robohive\"")).find_map(|line| {
         line.split_once("\"executable\":\"").and_then(|(_, rest)| rest.split_once('"')).map(|(path, _)| path)
     });
-    path.map(PathBuf::from).ok_or_else(|| Failed("cargo names no executable robohive".into()))
+    path.map(PathBuf::from).ok_or_else(|| "cargo names no executable robohive".into())
 }
 
 /// Instructions of one step: what a longer run executes beyond a shorter one, so that loading cancels.
-fn per_step(binary: &PathBuf, case: &Case) -> Result<u64, Trouble> {
+fn per_step(binary: &PathBuf, case: &Case) -> Result<u64, String> {
     let [few, many] = STEPS;
     Ok((collected(binary, case, many)? - collected(binary, case, few)?) / (many - few))
 }
 
 /// Instructions of a whole run.
-fn collected(binary: &PathBuf, case: &Case, steps: u64) -> Result<u64, Trouble> {
+fn collected(binary: &PathBuf, case: &Case, steps: u64) -> Result<u64, String> {
     let stem = case.asset.rsplit('/').next().unwrap_or_default();
     let mut command = Command::new("valgrind");
     command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(binary);
@@ -121,20 +113,20 @@ fn collected(binary: &PathBuf, case: &Case, steps: u64) -> Result<u64, Trouble> 
     command.env("GLIBC_TUNABLES", "glibc.cpu.hwcaps=-AVX2,-AVX_Fast_Unaligned_Load,-ERMS,-FSRM");
     let (_, stderr) = output(&mut command)?;
     let found = stderr.lines().find_map(|line| line.split_once("Collected : ")?.1.trim().parse().ok());
-    found.ok_or_else(|| Failed(format!("valgrind collected nothing for {}", case.name)))
+    found.ok_or_else(|| format!("valgrind collected nothing for {}", case.name))
 }
 
 /// Names and counts of the file.
-fn parse(text: &str) -> Result<BTreeMap<&str, u64>, Trouble> {
+fn parse(text: &str) -> Result<BTreeMap<&str, u64>, String> {
     let rows = text.lines().filter(|line| !line.starts_with('#'));
     rows.map(|line| {
         let row = line.split_once(' ').and_then(|(name, count)| Some((name, count.trim().parse().ok()?)));
-        row.ok_or_else(|| Failed(format!("{FILE}: {line:?} is not a name and a count")))
+        row.ok_or_else(|| format!("{FILE}: {line:?} is not a name and a count"))
     })
     .collect()
 }
 
-fn format(counted: &BTreeMap<&str, u64>) -> Result<String, Trouble> {
+fn format(counted: &BTreeMap<&str, u64>) -> Result<String, String> {
     let mut text = format!(
         "# Instructions of one step, recorded by `cargo xtask instructions --update`: {}, {}.\n",
         compiler()?,

@@ -1,104 +1,84 @@
-//! Continuous integration as a program: `cargo xtask ci` runs every check, `cargo xtask NAME` one of them.
-//! `cargo xtask instructions --update` records the counts anew, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder.
+//! Continuous integration as a program. `cargo xtask ci` runs what every change must pass, in minutes; `cargo xtask long`
+//! what takes longer; `cargo xtask NAME…` single checks. With `--strict` what this machine cannot check counts as a failure.
+//! `cargo xtask instructions --update` records new counts, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder.
 
 mod builds;
+mod check;
+mod command;
 mod fuzz;
 mod instructions;
+mod packages;
+mod recorded_bits;
 
-use std::process::{Command, ExitCode};
-use std::time::Instant;
+use check::{Check, Outcome, run_all};
+use command::{cargo, succeed};
+use std::process::ExitCode;
 
-/// Why a check did not pass.
-pub enum Trouble {
-    /// This machine lacks what it takes.
-    CannotCheck(String),
-    /// A command failed, or a number is wrong.
-    Failed(String),
-}
-
-/// One check: its name and the cargo arguments that run it.
-struct Check {
-    name: &'static str,
-    cargo: &'static [&'static str],
-}
-
-const CHECKS: &[Check] = &[
-    Check { name: "format", cargo: &["fmt", "--all", "--check"] },
+const QUICK: [Check; 5] = [
+    Check { name: "format", run: || cargo(&["fmt", "--all", "--check"]) },
     Check {
         name: "lint",
-        cargo: &["clippy", "--profile", "ci", "--workspace", "--all-targets", "--", "-D", "warnings"],
+        run: || cargo(&["clippy", "--profile", "ci", "--workspace", "--all-targets", "--", "-D", "warnings"]),
     },
-    Check { name: "test", cargo: &["test", "--profile", "ci", "--workspace"] },
-    Check { name: "docs", cargo: &["doc", "--profile", "ci", "--workspace", "--no-deps"] },
+    Check { name: "test", run: || cargo(&["test", "--profile", "ci", "--workspace"]) },
+    Check { name: "docs", run: docs },
+    Check { name: "features", run: builds::features },
+];
+
+const LONG: [Check; 5] = [
+    Check { name: "recorded-bits", run: recorded_bits::run },
+    Check { name: "builds", run: builds::run },
+    Check { name: "packages", run: packages::run },
+    Check { name: "rust-version", run: packages::rust_version },
+    Check { name: "instructions", run: || instructions::run(false) },
 ];
 
 fn main() -> ExitCode {
-    let asked: Vec<_> = std::env::args().skip(1).collect();
-    if let Some(("fuzz", rest)) = asked.split_first().map(|(first, rest)| (first.as_str(), rest)) {
-        return fuzz(rest);
+    let mut words: Vec<String> = std::env::args().skip(1).collect();
+    let strict = words.iter().position(|word| word == "--strict").map(|at| words.remove(at)).is_some();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words[..] {
+        ["fuzz", ref rest @ ..] => verdict(fuzz::run(rest)),
+        ["instructions", "--update"] => verdict(instructions::run(true).map(drop)),
+        _ => match chosen(&words) {
+            Some(checks) => verdict(run_all(&checks, strict)),
+            None => usage(),
+        },
     }
-    let (name, update) = match asked.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        [name] => (name, false),
-        ["instructions", "--update"] => ("instructions", true),
-        _ => ("", false),
-    };
-    let names: Vec<_> = CHECKS.iter().map(|c| c.name).chain(["builds", "instructions"]).collect();
-    if name != "ci" && !names.contains(&name) {
-        eprintln!("usage: cargo xtask ci | {} [--update] | fuzz [SECONDS] [TARGET...]", names.join(" | "));
-        return ExitCode::from(2);
-    }
-    for one in names.into_iter().filter(|n| name == "ci" || name == *n) {
-        let outcome = timed(one, || check(one, update));
-        match outcome {
-            Ok(()) => {}
-            Err(Trouble::CannotCheck(reason)) if name == "ci" => println!("== {one} not checked: {reason}"),
-            Err(Trouble::CannotCheck(reason) | Trouble::Failed(reason)) => {
-                eprintln!("== {one} failed: {reason}");
-                return ExitCode::FAILURE;
-            }
-        }
-    }
-    println!("== all checks passed");
-    ExitCode::SUCCESS
 }
 
-/// Fuzzes for the seconds asked for, or ten minutes a target: those named, or all.
-fn fuzz(arguments: &[String]) -> ExitCode {
-    let (seconds, targets) = match arguments.split_first().map(|(first, rest)| (first.parse(), rest)) {
-        Some((Ok(seconds), rest)) => (seconds, rest),
-        _ => (600, arguments),
+/// The checks that `words` name, singly or as `ci` and `long`; nothing where a word is unknown or there is none.
+fn chosen<'a>(words: &[&str]) -> Option<Vec<&'a Check>> {
+    let named = |word: &str| match word {
+        "ci" => QUICK.iter().collect(),
+        "long" => LONG.iter().collect(),
+        _ => QUICK.iter().chain(&LONG).filter(|check| check.name == word).collect::<Vec<_>>(),
     };
-    match fuzz::run(seconds, targets) {
+    let found: Vec<_> = words.iter().map(|word| named(word)).collect();
+    let known = !found.is_empty() && found.iter().all(|checks| !checks.is_empty());
+    known.then(|| found.concat())
+}
+
+fn usage() -> ExitCode {
+    let names: Vec<_> = QUICK.iter().chain(&LONG).map(|check| check.name).collect();
+    eprintln!("usage: cargo xtask [--strict] ci | long | {}", names.join(" | "));
+    eprintln!("       cargo xtask instructions --update");
+    eprintln!("       cargo xtask fuzz [SECONDS] [TARGET...]");
+    ExitCode::from(2)
+}
+
+fn verdict(result: Result<(), String>) -> ExitCode {
+    match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(reason) => {
-            eprintln!("== fuzz: {reason}");
+            eprintln!("== failed: {reason}");
             ExitCode::FAILURE
         }
     }
 }
 
-/// Runs the check called `name`.
-fn check(name: &str, update: bool) -> Result<(), Trouble> {
-    match CHECKS.iter().find(|c| c.name == name) {
-        Some(check) => cargo(check.cargo).map_err(Trouble::Failed),
-        None if name == "builds" => builds::run(),
-        None => instructions::run(update),
-    }
-}
-
-/// Runs `work` between a heading and its duration.
-fn timed<T>(heading: &str, work: impl FnOnce() -> T) -> T {
-    println!("== {heading}");
-    let began = Instant::now();
-    let result = work();
-    println!("== took {:.0} s", began.elapsed().as_secs_f64());
-    result
-}
-
-fn cargo(arguments: &[&str]) -> Result<(), String> {
-    match Command::new("cargo").args(arguments).env("RUSTDOCFLAGS", "-D warnings").status() {
-        Ok(status) if status.success() => Ok(()),
-        Ok(status) => Err(status.to_string()),
-        Err(error) => Err(format!("cargo cannot be run: {error}")),
-    }
+fn docs() -> Outcome {
+    let mut command = std::process::Command::new("cargo");
+    command.args(["doc", "--profile", "ci", "--workspace", "--no-deps"]).env("RUSTDOCFLAGS", "-D warnings");
+    succeed(&mut command).map(|()| Vec::new())
 }

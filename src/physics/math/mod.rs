@@ -3,12 +3,12 @@
 pub mod bit_set;
 pub mod cholesky;
 pub mod dense;
-#[cfg_attr(feature = "system-math", allow(dead_code))]
+#[cfg_attr(system_math, allow(dead_code))]
 mod double_double;
 mod eigen;
 pub mod ops;
 mod quat;
-#[cfg_attr(feature = "system-math", allow(dead_code))]
+#[cfg_attr(system_math, allow(dead_code))]
 mod sine;
 mod sparse;
 mod spatial;

@@ -1,11 +1,11 @@
 //! Transcendental functions with the same bits on every target.
 //!
-//! With the feature `system-math` they come from the C library of the system instead: for comparison with a MuJoCo
-//! that uses the same library, not for simulation.
+//! Compiled with `--cfg system_math` they come from the C library of the system instead: for comparison with a MuJoCo
+//! that uses the same library, not for simulation. No feature does that, since features must not change results.
 
-#[cfg(not(feature = "system-math"))]
+#[cfg(not(system_math))]
 pub use portable::*;
-#[cfg(feature = "system-math")]
+#[cfg(system_math)]
 pub use system::*;
 
 /// Square root; IEEE 754 fixes its bits.
@@ -14,7 +14,7 @@ pub fn sqrt(x: f64) -> f64 {
 }
 
 /// Sine and cosine correctly rounded but for a few calls in a million, the others within one unit of the last place.
-#[cfg(not(feature = "system-math"))]
+#[cfg(not(system_math))]
 mod portable {
     pub use crate::math::sine::sincos;
     pub use libm::{acos, asin, atan, atan2, exp, log, pow, tan, tanh};
@@ -30,7 +30,7 @@ mod portable {
     }
 }
 
-#[cfg(feature = "system-math")]
+#[cfg(system_math)]
 #[allow(missing_docs)]
 mod system {
     macro_rules! forward {

@@ -1,0 +1,49 @@
+//! Running other programs.
+
+use crate::check::Outcome;
+use std::path::PathBuf;
+use std::process::Command;
+
+/// Runs cargo, with its output on the terminal; nothing is left unchecked when it succeeds.
+pub fn cargo(arguments: &[&str]) -> Outcome {
+    succeed(Command::new("cargo").args(arguments)).map(|()| Vec::new())
+}
+
+/// Runs a program with its output on the terminal; an error unless it succeeds.
+pub fn succeed(command: &mut Command) -> Result<(), String> {
+    match command.status() {
+        Ok(status) if status.success() => Ok(()),
+        Ok(status) => Err(format!("{command:?}: {status}")),
+        Err(error) => Err(format!("{command:?}: {error}")),
+    }
+}
+
+/// Standard output and standard error of a program; an error unless it succeeds.
+pub fn output(command: &mut Command) -> Result<(String, String), String> {
+    let out = command.output().map_err(|error| format!("{command:?}: {error}"))?;
+    let [stdout, stderr] = [out.stdout, out.stderr].map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
+    if out.status.success() {
+        Ok((stdout, stderr))
+    } else {
+        Err(format!("{command:?}: {}\n{stderr}", out.status))
+    }
+}
+
+/// Whether a program of this name can be started.
+pub fn installed(program: &str) -> bool {
+    Command::new(program).arg("--version").output().is_ok_and(|out| out.status.success())
+}
+
+/// Where cargo puts what it builds.
+pub fn target_folder() -> Result<PathBuf, String> {
+    let (text, _) =
+        output(Command::new("cargo").args(["metadata", "--no-deps", "--offline", "--format-version", "1"]))?;
+    let folder = text.split_once("\"target_directory\":\"").and_then(|(_, rest)| rest.split_once('"'));
+    folder.map(|(folder, _)| folder.into()).ok_or_else(|| "cargo names no target directory".into())
+}
+
+/// The version of the compiler that cargo calls in this folder, as in `rustc 1.95.0`.
+pub fn compiler() -> Result<String, String> {
+    let (version, _) = output(Command::new("rustc").arg("--version"))?;
+    Ok(version.split(" (").next().unwrap_or_default().trim().to_owned())
+}
