@@ -63,7 +63,7 @@ fn usage() -> ExitCode {
     let names: Vec<_> = QUICK.iter().chain(&LONG).map(|check| check.name).collect();
     eprintln!("usage: cargo xtask [--strict] ci | long | {}", names.join(" | "));
     eprintln!("       cargo xtask instructions --update");
-    eprintln!("       cargo xtask fuzz [SECONDS] [TARGET...]");
+    eprintln!("       cargo xtask fuzz [SECONDS | keep] [TARGET...]");
     ExitCode::from(2)
 }
 
