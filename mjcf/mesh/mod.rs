@@ -4,6 +4,7 @@
 //! XML reference, `asset/mesh`); `pos` and `quat` say how, and geoms that use the mesh absorb them.
 
 mod decode;
+mod ear_clipping;
 mod fit;
 mod graph;
 mod hash_order;

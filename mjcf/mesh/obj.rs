@@ -2,6 +2,7 @@
 //! become triangles; groups, materials and smoothing are ignored.
 
 use super::decode::{Format, RawMesh};
+use super::ear_clipping;
 use crate::asset::AssetError;
 
 /// One `v/vt/vn` reference, zero-based; absent parts are -1.
@@ -84,37 +85,18 @@ fn corner(word: &str, counts: [usize; 3]) -> Option<Corner> {
     (corner[0] >= 0).then_some(corner)
 }
 
-/// Cuts a polygon into triangles by clipping ears, beginning with its first corner; a convex polygon
-/// becomes a fan. What is left when no ear is found is dropped.
+/// Cuts a polygon into triangles.
 fn triangulate(polygon: &[Corner], mesh: &mut RawMesh) {
-    let mut rest: Vec<(Corner, [f32; 2])> = flatten(polygon, mesh);
-    let area: f32 =
-        (0..rest.len()).map(|k| 0.5 * turn([0.0; 2], rest[k].1, rest[(k + 1) % rest.len()].1)).sum();
-    let mut start = 0;
-    let mut tries = rest.len();
-    while rest.len() > 3 && tries > 0 {
-        let n = rest.len();
-        start %= n;
-        let ear = [0, 1, 2].map(|k| rest[(start + k) % n]);
-        let [a, b, c] = ear.map(|(_, p)| p);
-        let reflex = turn(a, b, c) * area < 0.0;
-        if reflex || (3..n).any(|k| inside(rest[(start + k) % n].1, [a, b, c])) {
-            start += 1;
-            tries -= 1;
-            continue;
-        }
-        push_triangle(mesh, ear.map(|(corner, _)| corner));
-        rest.remove((start + 1) % n);
-        tries = n - 1;
+    if let [a, b, c] = *polygon {
+        return push_triangle(mesh, [a, b, c]);
     }
-    if let [a, b, c] = rest[..] {
-        push_triangle(mesh, [a.0, b.0, c.0]);
-    }
+    let points = flatten(polygon, mesh);
+    ear_clipping::triangulate(&points, |triangle| push_triangle(mesh, triangle.map(|k| polygon[k])));
 }
 
-/// Corners with the two coordinates in which the first proper corner is widest. Vertices that do not
+/// The two coordinates of each corner in which the first proper corner is widest. Vertices that do not
 /// exist are at the origin; the index check of the compiler reports them.
-fn flatten(polygon: &[Corner], mesh: &RawMesh) -> Vec<(Corner, [f32; 2])> {
+fn flatten(polygon: &[Corner], mesh: &RawMesh) -> Vec<[f32; 2]> {
     let vertex = |c: Corner| -> [f32; 3] {
         let at = 3 * c[0] as usize;
         mesh.vert.get(at..at + 3).map_or([0.0; 3], |v| [v[0], v[1], v[2]])
@@ -135,24 +117,7 @@ fn flatten(polygon: &[Corner], mesh: &RawMesh) -> Vec<(Corner, [f32; 2])> {
     } else {
         [0, 2]
     };
-    polygon.iter().map(|&c| (c, axes.map(|axis| vertex(c)[axis]))).collect()
-}
-
-/// Twice the signed area of the triangle `a b c`.
-fn turn(a: [f32; 2], b: [f32; 2], c: [f32; 2]) -> f32 {
-    (b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
-}
-
-/// Whether a horizontal ray from the point crosses the triangle's outline an odd number of times.
-fn inside(p: [f32; 2], triangle: [[f32; 2]; 3]) -> bool {
-    let mut odd = false;
-    for k in 0..3 {
-        let (a, b) = (triangle[k], triangle[(k + 2) % 3]);
-        if (a[1] > p[1]) != (b[1] > p[1]) && p[0] < (b[0] - a[0]) * (p[1] - a[1]) / (b[1] - a[1]) + a[0] {
-            odd = !odd;
-        }
-    }
-    odd
+    polygon.iter().map(|&c| axes.map(|axis| vertex(c)[axis])).collect()
 }
 
 fn push_triangle(mesh: &mut RawMesh, corners: [Corner; 3]) {
