@@ -151,7 +151,9 @@ impl Cache {
             return Err(Miss::Absent);
         }
         touch(&path);
-        Ok(Loaded { model, warnings: Diagnostics { list: warnings, dropped: 0 } })
+        let mut kept = Diagnostics::default();
+        kept.list = warnings;
+        Ok(Loaded { model, warnings: kept })
     }
 
     /// Keeps a model.

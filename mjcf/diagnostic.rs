@@ -7,6 +7,8 @@
 use std::fmt;
 use std::sync::Arc;
 
+use crate::suggestion::Suggestions;
+
 /// A byte position in one of the model's source files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Loc {
@@ -178,6 +180,7 @@ pub struct Diagnostics {
     pub list: Vec<Diagnostic>,
     /// Errors dropped after the first few hundred findings.
     pub dropped: usize,
+    suggestions: Suggestions,
 }
 
 impl Diagnostics {
@@ -195,6 +198,14 @@ impl Diagnostics {
         advice: Option<String>,
     ) {
         self.push(sources, Severity::Error, loc, message.into(), advice);
+    }
+
+    /// The candidate nearest to the misspelt `word`; none for findings that are not kept.
+    pub fn nearest<'a>(&mut self, word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+        if self.list.len() >= MAX_KEPT {
+            return None;
+        }
+        self.suggestions.nearest(word, candidates)
     }
 
     /// Adds a warning at `loc`.
@@ -256,31 +267,3 @@ impl fmt::Display for Diagnostics {
 }
 
 impl std::error::Error for Diagnostics {}
-
-/// The candidate nearest to `word`, when near enough to be a misspelling (Levenshtein distance).
-pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    if word.len() > 64 {
-        return None;
-    }
-    let limit = (word.chars().count() / 3).clamp(1, 3);
-    candidates
-        .map(|c| (edit_distance(word, c), c))
-        .filter(|(d, _)| *d <= limit)
-        .min_by_key(|(d, _)| *d)
-        .map(|(_, c)| c)
-}
-
-fn edit_distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.to_lowercase().chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.to_lowercase().chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let substitute = diagonal + usize::from(ca != *cb);
-            diagonal = row[j + 1];
-            row[j + 1] = substitute.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
-}

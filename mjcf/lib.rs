@@ -15,6 +15,7 @@ pub mod mesh;
 pub mod read;
 pub mod schema;
 pub mod spec;
+mod suggestion;
 pub(crate) mod vector;
 pub mod xml;
 

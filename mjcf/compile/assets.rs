@@ -6,15 +6,17 @@ use super::lookup::Lookup;
 use super::{Log, title};
 use crate::asset::AssetError;
 use crate::cache::Cache;
-use crate::diagnostic::{Loc, nearest};
+use crate::diagnostic::Loc;
 use crate::files::{FileProvider, base_name};
 use crate::image::{
     self, Colorspace, CompiledHfield, CompiledTexture, FileImage, HfieldSource, TextureKind, TextureSource,
 };
 use crate::mesh::{self, CompiledMesh, MeshInertia, MeshSource, RawMesh, Shape};
 use crate::spec::{Body, Hfield, Mesh, Spec, Texture};
+use crate::suggestion::Suggestions;
 use physics::Model;
 use physics::model::{ColorSpace, GeomType, ObjType, TextureType};
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -37,25 +39,31 @@ pub(super) struct Assets {
     pub materials: Vec<Asset<()>>,
     mesh_ids: BTreeMap<String, usize>,
     hfield_ids: BTreeMap<String, usize>,
+    suggestions: Cell<Suggestions>,
 }
 
 impl Assets {
     /// Id of a mesh by name, before anything is discarded.
     pub(super) fn mesh_id(&self, name: &str) -> Result<usize, String> {
-        find(&self.mesh_ids, "mesh", name)
+        self.find(&self.mesh_ids, "mesh", name)
     }
 
     /// Id of a height field by name.
     pub(super) fn hfield_id(&self, name: &str) -> Result<usize, String> {
-        find(&self.hfield_ids, "hfield", name)
+        self.find(&self.hfield_ids, "hfield", name)
     }
-}
 
-fn find(ids: &BTreeMap<String, usize>, kind: &str, name: &str) -> Result<usize, String> {
-    ids.get(name).copied().ok_or_else(|| match nearest(name, ids.keys().map(String::as_str)) {
-        Some(near) => format!("there is no {kind} '{name}'; did you mean '{near}'?"),
-        None => format!("there is no {kind} '{name}'"),
-    })
+    fn find(&self, ids: &BTreeMap<String, usize>, kind: &str, name: &str) -> Result<usize, String> {
+        ids.get(name).copied().ok_or_else(|| {
+            let mut suggestions = self.suggestions.get();
+            let near = suggestions.nearest(name, ids.keys().map(String::as_str));
+            self.suggestions.set(suggestions);
+            match near {
+                Some(near) => format!("there is no {kind} '{name}'; did you mean '{near}'?"),
+                None => format!("there is no {kind} '{name}'"),
+            }
+        })
+    }
 }
 
 /// Name of an asset: its own, or that of its file.
@@ -122,6 +130,7 @@ pub(super) fn compile(spec: &Spec, files: &dyn FileProvider, cache: Option<&Cach
         materials: Vec::new(),
         mesh_ids: BTreeMap::new(),
         hfield_ids: BTreeMap::new(),
+        suggestions: Cell::default(),
     };
     let mut outcomes = outcomes.into_iter();
     for ((name, loc, path, material), job) in heads.into_iter().zip(&jobs) {

@@ -3,7 +3,7 @@
 use super::assets::Assets;
 use super::tree::Tree;
 use super::{Log, title};
-use crate::diagnostic::{Loc, nearest};
+use crate::diagnostic::Loc;
 use crate::spec::Spec;
 use physics::model::ObjType;
 use std::collections::BTreeMap;
@@ -70,7 +70,7 @@ impl Lookup {
         if found.is_none() {
             let own = if kind == ObjType::Xbody { ObjType::Body } else { kind };
             let names = self.maps.get(&own).into_iter().flat_map(|m| m.keys().map(String::as_str));
-            let advice = nearest(name, names).map(|near| format!("did you mean '{near}'?"));
+            let advice = log.diagnostics.nearest(name, names).map(|near| format!("did you mean '{near}'?"));
             log.error_with(loc, format!("{what}: there is no {} '{name}'", label(kind)), advice);
         }
         found

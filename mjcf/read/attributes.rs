@@ -1,8 +1,8 @@
 //! Rows of the tables applied to the attributes of one element.
 
 use super::Reader;
-use crate::diagnostic::{Loc, nearest};
-use crate::schema::text::{Number, TextError, numbers, words};
+use crate::diagnostic::Loc;
+use crate::schema::text::{LARGEST, Number, TextError, numbers, words};
 use crate::schema::{BOOL, Bind, Row, Words};
 use crate::xml::{Attribute, Element};
 
@@ -79,7 +79,11 @@ impl Reader<'_> {
 
     /// All numbers of an attribute; `None` when it is blank, which counts as absent, or faulty.
     pub(super) fn numbers<T: Number>(&mut self, element: &Element, attribute: &Attribute) -> Option<Vec<T>> {
-        match numbers(&attribute.value) {
+        let read = numbers(&attribute.value).and_then(|values| match overflowing(attribute, &values) {
+            Some(error) => Err(error),
+            None => Ok(values),
+        });
+        match read {
             Ok(values) => (!values.is_empty()).then_some(values),
             Err(TextError { offset, message }) => {
                 let loc = Loc { offset: attribute.value_loc.offset + offset as u32, ..attribute.value_loc };
@@ -176,7 +180,7 @@ impl Reader<'_> {
         if let Some((_, code)) = list.iter().find(|(w, _)| *w == word) {
             return Some(*code);
         }
-        let advice = match nearest(word, list.iter().map(|(w, _)| *w)) {
+        let advice = match self.expansion.diagnostics.nearest(word, list.iter().map(|(w, _)| *w)) {
             Some(near) => format!("did you mean '{near}'?"),
             None => format!("one of {}", list.iter().map(|(w, _)| *w).collect::<Vec<_>>().join(", ")),
         };
@@ -185,4 +189,16 @@ impl Reader<'_> {
         self.error_with(loc, message, Some(advice));
         None
     }
+}
+
+/// The first number that physics cannot compute with. Ranges and cut-offs say with an infinite number that there
+/// is no bound; user data are not computed with.
+fn overflowing<T: Number>(attribute: &Attribute, values: &[T]) -> Option<TextError> {
+    let name = &*attribute.name;
+    if name.ends_with("range") || matches!(name, "cutoff" | "user" | "data") {
+        return None;
+    }
+    let (_, (offset, word)) = values.iter().zip(words(&attribute.value)).find(|(x, _)| x.overflows())?;
+    let message = format!("number '{word}' is too large: at most {LARGEST:e} in magnitude");
+    Some(TextError { offset, message })
 }

@@ -4,7 +4,6 @@
 use std::collections::BTreeMap;
 
 use super::Reader;
-use crate::diagnostic::nearest;
 use crate::schema::asset::{MATERIAL_ROWS, MESH_ROWS};
 use crate::schema::constraint::{EQUALITY_ROWS, PAIR_ROWS, TENDON_LOOKS, TENDON_ROWS};
 use crate::schema::tree::{CAMERA_ROWS, GEOM_ROWS, JOINT_ROWS, LIGHT_ROWS, SITE_ROWS};
@@ -109,7 +108,8 @@ impl Reader<'_> {
         let Some(named) = element.attribute(attribute) else { return in_force };
         let found = self.classes.names.get(&named.value).copied();
         if found.is_none() && !named.value.is_empty() {
-            let near = nearest(&named.value, self.classes.names.keys().map(String::as_str));
+            let names = self.classes.names.keys().map(String::as_str);
+            let near = self.expansion.diagnostics.nearest(&named.value, names);
             let message = format!("no default class is named '{}'", named.value);
             self.error_with(named.value_loc, message, near.map(|n| format!("did you mean '{n}'?")));
         }

@@ -48,6 +48,11 @@ impl Reader<'_> {
     pub(super) fn option(&mut self, section: &Element) {
         let mut option = std::mem::take(&mut self.spec.option);
         self.rows(section, &OPTIONS, &mut option);
+        if let Some(attribute) = section.attribute("timestep").filter(|_| option.timestep <= 0.0) {
+            let message =
+                format!("attribute 'timestep' of <option> must be positive, is {}", option.timestep);
+            self.error(attribute.value_loc, message);
+        }
         self.authored.values.extend(section.attributes.iter().map(|a| a.name.clone()));
         if let Some(attribute) = section.attribute("actuatorgroupdisable") {
             for group in self.numbers::<i32>(section, attribute).unwrap_or_default() {
@@ -183,7 +188,7 @@ impl Reader<'_> {
         let found = OBJECT_TYPES.iter().position(|word| *word == attribute.value);
         let found = found.and_then(|i| ObjType::from_code(i as i32 + 1));
         if found.is_none() {
-            let near = crate::diagnostic::nearest(&attribute.value, OBJECT_TYPES.iter().copied());
+            let near = self.expansion.diagnostics.nearest(&attribute.value, OBJECT_TYPES.iter().copied());
             let message = format!("'{}' is not a kind of object", attribute.value);
             self.error_with(attribute.value_loc, message, near.map(|n| format!("did you mean '{n}'?")));
         }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use super::legacy::{self, Fate};
 use super::{Child, Count, ElementType, Facts, Naming, Rule, Space};
-use crate::diagnostic::{Diagnostics, Loc, Sources, nearest};
+use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::base_name;
 use crate::xml::{Attribute, Element};
 
@@ -73,7 +73,7 @@ impl Check<'_> {
 
     fn unknown_element(&mut self, child: &Element, parent: &Element, kind: &'static ElementType) {
         let message = format!("unknown element <{}> in <{}>", child.name, parent.name);
-        let near = nearest(&child.name, kind.children.iter().map(|c| c.element.tag));
+        let near = self.diagnostics.nearest(&child.name, kind.children.iter().map(|c| c.element.tag));
         self.error(child.loc, message, near.map(|n| format!("did you mean <{n}>?")));
     }
 
@@ -139,7 +139,7 @@ impl Check<'_> {
             return self.error(attribute.loc, message, None);
         }
         let message = format!("unknown attribute '{}' of <{}>", attribute.name, element.name);
-        let near = nearest(&attribute.name, known.iter().map(|f| f.name));
+        let near = self.diagnostics.nearest(&attribute.name, known.iter().map(|f| f.name));
         self.error(attribute.loc, message, near.map(|n| format!("did you mean '{n}'?")));
     }
 
@@ -194,9 +194,10 @@ impl Check<'_> {
             if name.is_empty() || known.contains_key(&name) {
                 continue;
             }
-            let near =
-                nearest(&name, known.keys().map(String::as_str)).map(|n| format!("did you mean '{n}'?"));
-            self.error(loc, format!("no {} is named '{name}'", space.word()), near);
+            let near = self.diagnostics.nearest(&name, known.keys().map(String::as_str));
+            let advice = near.map(|n| format!("did you mean '{n}'?"));
+            let message = format!("no {} is named '{name}'", space.word());
+            self.diagnostics.error_with(self.sources, loc, message, advice);
         }
     }
 

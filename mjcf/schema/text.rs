@@ -14,7 +14,13 @@ pub struct TextError {
 pub trait Number: Sized {
     /// Reads one token.
     fn read(token: &str) -> Result<Self, String>;
+
+    /// Whether arithmetic with the number overflows: infinite, or so large that a product of a few is.
+    fn overflows(&self) -> bool;
 }
+
+/// Largest number that enters arithmetic: the product of three stays finite.
+pub const LARGEST: f64 = 1e100;
 
 fn finite_or_spelled<T: PartialEq>(token: &str, value: T, overflow: bool, nan: bool) -> Result<T, String> {
     let spelled = token.trim_start_matches(['+', '-']).starts_with(['i', 'I']);
@@ -32,12 +38,20 @@ impl Number for f64 {
         let x: f64 = token.parse().map_err(|_| format!("'{token}' is not a number"))?;
         finite_or_spelled(token, x, x.is_infinite(), x.is_nan())
     }
+
+    fn overflows(&self) -> bool {
+        self.abs() > LARGEST
+    }
 }
 
 impl Number for f32 {
     fn read(token: &str) -> Result<f32, String> {
         let x: f32 = token.parse().map_err(|_| format!("'{token}' is not a number"))?;
         finite_or_spelled(token, x, x.is_infinite(), x.is_nan())
+    }
+
+    fn overflows(&self) -> bool {
+        self.is_infinite()
     }
 }
 
@@ -48,6 +62,10 @@ impl Number for i32 {
             return Err(format!("'{token}' is not an integer"));
         }
         token.parse().map_err(|_| format!("integer '{token}' is too large"))
+    }
+
+    fn overflows(&self) -> bool {
+        false
     }
 }
 
