@@ -3,6 +3,7 @@
 use crate::compare::{Worst, compare, compare_scaled, exact, relative};
 use crate::reference::{Reference, ReferenceError};
 use crate::tolerance::STAGE;
+use physics::data::Configuration;
 use physics::{
     Data, Model, actuation, actuation::transmission, collision, constraint, inertia, on_demand::energy,
     on_demand::momentum, position::camera, position::com, position::kinematics, position::tendon, sensor,
@@ -146,7 +147,13 @@ const STAGES: &[Stage] = &[
         ),
         run: |m, d| {
             constraint_rows(m, d);
-            transmission::transmission(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.efc, &mut d.trn)
+            transmission::transmission(
+                m,
+                &Configuration { state: &d.state, kin: &d.kin, com: &d.com, ten: &d.ten },
+                &d.con,
+                &d.efc,
+                &mut d.trn,
+            )
         },
         writes: &["actuator_length", "moment_rownnz", "moment_rowadr", "moment_colind", "actuator_moment"],
     },
@@ -187,7 +194,15 @@ const STAGES: &[Stage] = &[
             "ten_velocity",
             "cvel"
         ),
-        run: |m, d| passive::passive(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.vel, &mut d.passive),
+        run: |m, d| {
+            passive::passive(
+                m,
+                &Configuration { state: &d.state, kin: &d.kin, com: &d.com, ten: &d.ten },
+                &d.con,
+                &d.vel,
+                &mut d.passive,
+            )
+        },
         writes: &[
             "qfrc_spring",
             "qfrc_damper",
@@ -279,7 +294,7 @@ fn constraint_rows(m: &Model, d: &mut Data) {
         c.exclude = if c.exclude == constraint::NO_DOF { 0 } else { c.exclude };
     }
     let Data { state, kin, com, ten, inertia, con, efc, island, vel, .. } = d;
-    constraint::make_constraint(m, state, kin, com, ten, inertia, con, efc, &mut scratch);
+    constraint::make_constraint(m, &Configuration { state, kin, com, ten }, inertia, con, efc, &mut scratch);
     constraint::find_islands(m, con, efc, island, &mut constraint::IslandScratch::default());
     constraint::reference(m, state, kin, com, vel, con, efc);
 }

@@ -2,7 +2,9 @@
 //! sensors read (MuJoCo documentation, API reference, `mj_rnePostConstraint`).
 
 use crate::acceleration::contact_force::contact_force;
-use crate::data::{Acceleration, Com, Constraints, Contacts, Kinematics, Sensors, State, Velocity};
+use crate::data::{
+    Acceleration, Com, Configuration, Constraints, Contacts, Kinematics, Sensors, State, Velocity,
+};
 use crate::math::{Spatial, Vec3, add, cross, mul_mat_t_vec};
 use crate::model::{EqType, Model, ObjType};
 use crate::position::chain::com_offset;
@@ -11,18 +13,16 @@ use crate::velocity::bias::{body_force, world_acceleration};
 use crate::velocity::com_vel::{add_motion, dofs};
 
 /// Computes `cacc`, `cfrc_ext` and `cfrc_int`.
-#[allow(clippy::too_many_arguments)]
 pub fn rne_post_constraint(
     m: &Model,
-    state: &State,
-    kin: &Kinematics,
-    com: &Com,
+    at: &Configuration,
     vel: &Velocity,
     con: &Contacts,
     efc: &Constraints,
     acc: &Acceleration,
     out: &mut Sensors,
 ) {
+    let Configuration { state, kin, com, .. } = *at;
     out.cfrc_ext.fill([0.0; 6]);
     applied(m, state, kin, com, &mut out.cfrc_ext);
     contacts(m, com, con, efc, &mut out.cfrc_ext);
@@ -44,15 +44,22 @@ pub fn rne_post_constraint(
     }
 }
 
-/// Adds to body `b` the com-based equivalent of `force` and `torque` acting at `point`; nothing to the world.
-fn push(m: &Model, com: &Com, b: usize, point: Vec3, torque: Vec3, force: Vec3, s: f64, out: &mut [Spatial]) {
+/// A force and a torque that act at a point, world frame.
+struct Wrench {
+    point: Vec3,
+    force: Vec3,
+    torque: Vec3,
+}
+
+/// Adds to body `b` the com-based equivalent of `sign` times a wrench; nothing to the world.
+fn push(m: &Model, com: &Com, b: usize, wrench: &Wrench, sign: f64, out: &mut [Spatial]) {
     if b == 0 {
         return;
     }
-    let moment = add(torque, cross(com_offset(m, com, b, point), force));
+    let moment = add(wrench.torque, cross(com_offset(m, com, b, wrench.point), wrench.force));
     for i in 0..3 {
-        out[b][i] += s * moment[i];
-        out[b][3 + i] += s * force[i];
+        out[b][i] += sign * moment[i];
+        out[b][3 + i] += sign * wrench.force[i];
     }
 }
 
@@ -61,7 +68,8 @@ fn applied(m: &Model, state: &State, kin: &Kinematics, com: &Com, out: &mut [Spa
     for b in 1..m.nbody {
         let [fx, fy, fz, tx, ty, tz] = state.xfrc_applied[b];
         if state.xfrc_applied[b] != [0.0; 6] {
-            push(m, com, b, kin.xipos[b], [tx, ty, tz], [fx, fy, fz], 1.0, out);
+            let wrench = Wrench { point: kin.xipos[b], force: [fx, fy, fz], torque: [tx, ty, tz] };
+            push(m, com, b, &wrench, 1.0, out);
         }
     }
 }
@@ -70,10 +78,13 @@ fn applied(m: &Model, state: &State, kin: &Kinematics, com: &Com, out: &mut [Spa
 fn contacts(m: &Model, com: &Com, con: &Contacts, efc: &Constraints, out: &mut [Spatial]) {
     for contact in con.contact.iter().filter(|c| c.efc_address >= 0) {
         let [f0, f1, f2, t0, t1, t2] = contact_force(m, efc, contact);
-        let force = mul_mat_t_vec(&contact.frame, [f0, f1, f2]);
-        let torque = mul_mat_t_vec(&contact.frame, [t0, t1, t2]);
+        let wrench = Wrench {
+            point: contact.pos,
+            force: mul_mat_t_vec(&contact.frame, [f0, f1, f2]),
+            torque: mul_mat_t_vec(&contact.frame, [t0, t1, t2]),
+        };
         for (geom, sign) in contact.geom.into_iter().zip([-1.0, 1.0]) {
-            push(m, com, m.geom_bodyid[geom as usize] as usize, contact.pos, torque, force, sign, out);
+            push(m, com, m.geom_bodyid[geom as usize] as usize, &wrench, sign, out);
         }
     }
 }
@@ -92,7 +103,8 @@ fn equalities(m: &Model, kin: &Kinematics, com: &Com, efc: &Constraints, out: &m
         let (force, torque) = (three(row), if weld { three(row + 3) } else { [0.0; 3] });
         for (side, sign) in [1.0, -1.0].into_iter().enumerate() {
             let (b, local) = anchor(m, e, side, weld);
-            push(m, com, b, attached_pos(kin, b, local), torque, force, sign, out);
+            let wrench = Wrench { point: attached_pos(kin, b, local), force, torque };
+            push(m, com, b, &wrench, sign, out);
         }
         row += if weld { 6 } else { 3 };
     }

@@ -3,7 +3,9 @@
 //! The moment of an actuator is the gradient of its length; it maps scalar force to joint space. Rows are
 //! compressed in place, one after the other; entries that are exactly zero are left out where MuJoCo does so.
 
-use crate::data::{Com, Constraints, Contact, Contacts, Kinematics, State, Tendons, Transmission, Velocity};
+use crate::data::{
+    Com, Configuration, Constraints, Contact, Contacts, Kinematics, State, Tendons, Transmission, Velocity,
+};
 use crate::math::{
     Mat3, Quat, Vec3, add, column, cross, dot, dot_sparse, mul_mat_t_vec, mul_mat_vec, ops, quat_conj,
     quat_difference, quat_mul, quat_normalize, quat_rotate, quat_to_velocity, rotational, row, scale, sub,
@@ -16,14 +18,12 @@ use std::ops::Range;
 /// Computes lengths and moments of all actuators.
 pub fn transmission(
     m: &Model,
-    state: &State,
-    kin: &Kinematics,
-    com: &Com,
-    ten: &Tendons,
+    at: &Configuration,
     con: &Contacts,
     efc: &Constraints,
     trn: &mut Transmission,
 ) {
+    let Configuration { state, kin, com, ten } = *at;
     let mut rows = Rows { trn, out: 0, next: 0 };
     for i in 0..m.nactuator {
         let (first, second) = (m.actuator_trnid[i][0] as usize, usize::try_from(m.actuator_trnid[i][1]).ok());
@@ -34,7 +34,8 @@ pub fn transmission(
             (Some(TrnType::Joint), _) => joint(m, state, first, halves, false, &mut rows),
             (Some(TrnType::Jointinparent), _) => joint(m, state, first, halves, true, &mut rows),
             (Some(TrnType::Slidercrank), Some(slider)) => {
-                slider_crank(m, kin, com, first, slider, m.actuator_cranklength[i], gear[0], &mut rows);
+                let crank = Crank { pin: first, slider, rod: m.actuator_cranklength[i] };
+                slider_crank(m, kin, com, &crank, gear[0], &mut rows);
             }
             (Some(TrnType::Tendon), _) => tendon_row(m, ten, first, gear[0], &mut rows),
             (Some(TrnType::Site), None) => site(m, kin, com, first, halves, &mut rows),
@@ -160,19 +161,18 @@ fn joint(m: &Model, state: &State, id: usize, gear: [Vec3; 2], in_parent: bool, 
     }
 }
 
-/// Length is `a·v - √((a·v)² + r² - v·v)` with slider axis `a`, vector `v` from slider to crank, and rod `r`.
-fn slider_crank(
-    m: &Model,
-    kin: &Kinematics,
-    com: &Com,
-    crank: usize,
+/// A slider crank: the sites of its pin and its slider, and the length of the rod between them [m].
+struct Crank {
+    pin: usize,
     slider: usize,
     rod: f64,
-    gear: f64,
-    rows: &mut Rows,
-) {
-    let (crank, slider_axis) = (site_point(m, kin, crank), column(&kin.site_xmat[slider], 2));
-    let slider = site_point(m, kin, slider);
+}
+
+/// Length is `a·v - √((a·v)² + r² - v·v)` with slider axis `a`, vector `v` from slider to crank, and rod `r`.
+fn slider_crank(m: &Model, kin: &Kinematics, com: &Com, parts: &Crank, gear: f64, rows: &mut Rows) {
+    let rod = parts.rod;
+    let (crank, slider_axis) = (site_point(m, kin, parts.pin), column(&kin.site_xmat[parts.slider], 2));
+    let slider = site_point(m, kin, parts.slider);
     let v = sub(crank.1, slider.1);
     let along = dot(v, slider_axis);
     let det = along * along + rod * rod - dot(v, v);

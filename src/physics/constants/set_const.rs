@@ -5,7 +5,7 @@
 
 use crate::actuation::reflected_load::Driven;
 use crate::constants::inverse_weight::set_inverse_weights;
-use crate::data::Data;
+use crate::data::{Data, configuration_of};
 use crate::math::{add, mul_inertia, mul_mat_t_vec, mul_mat_vec, quat_conj, quat_mul, spatial_dot, sub};
 use crate::model::bounds::MINVAL;
 use crate::model::{EqType, GainType, Model, ObjType, SameFrame, SleepPolicy, TrackMode, TrnType, WrapType};
@@ -319,7 +319,7 @@ fn reference_configuration(m: &mut Model, d: &mut Data) {
     tendon::tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
     inertia::make_inertia(m, &d.com, &d.ten, &mut d.inertia);
     inertia::factor_inertia(m, &mut d.inertia);
-    transmission::transmission(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.efc, &mut d.trn);
+    transmission::transmission(m, &configuration_of!(d), &d.con, &d.efc, &mut d.trn);
     (m.cam_mode, m.light_mode) = modes;
 
     m.tendon_length0.copy_from_slice(&d.ten.ten_length);

@@ -22,7 +22,7 @@ pub use islands::{IslandScratch, find_islands};
 pub use reference::reference;
 pub use rows::{mul_jacobian, mul_jacobian_transposed};
 
-use crate::data::{Com, Constraints, Contacts, Inertia, Kinematics, State, Tendons};
+use crate::data::{Configuration, Constraints, Contacts, Inertia};
 use crate::model::{Disable, Enable, Model};
 use difference::Difference;
 
@@ -36,18 +36,15 @@ pub struct ConstraintScratch {
 }
 
 /// Builds all rows of this configuration with their impedance; sets `efc_address`, `mu` and `exclude` of contacts.
-#[allow(clippy::too_many_arguments)]
 pub fn make_constraint(
     m: &Model,
-    state: &State,
-    kin: &Kinematics,
-    com: &Com,
-    ten: &Tendons,
+    at: &Configuration,
     inertia: &Inertia,
     con: &mut Contacts,
     efc: &mut Constraints,
     scratch: &mut ConstraintScratch,
 ) {
+    let Configuration { state, kin, com, ten } = *at;
     rows::clear(m, efc);
     if m.opt.disableflags.contains(Disable::CONSTRAINT) {
         return;

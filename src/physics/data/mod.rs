@@ -1,9 +1,12 @@
 //! Everything that changes while a model moves, grouped by the stage that writes it.
 
+mod configuration;
 mod constraints;
 mod scratch;
 mod stages;
 
+pub use configuration::Configuration;
+pub(crate) use configuration::configuration_of;
 pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStat, SolverStatistics};
 pub use scratch::Scratch;
 pub use stages::*;

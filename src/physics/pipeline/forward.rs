@@ -6,7 +6,7 @@ use crate::actuation::actuation;
 use crate::actuation::transmission::{actuator_velocity, transmission};
 use crate::collision::collide;
 use crate::constraint::{find_islands, make_constraint, reference};
-use crate::data::Data;
+use crate::data::{Data, configuration_of};
 use crate::inertia::{factor_inertia, make_inertia, solve};
 use crate::integration::integrate::{Factors, advance_once, integrate};
 use crate::model::{Enable, Integrator, Model};
@@ -174,21 +174,12 @@ pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     watch.ended(Stage::Inertia);
     collide(m, &d.kin, &mut s.collision, &mut d.con);
     watch.ended(Stage::Collision);
-    make_constraint(
-        m,
-        &d.state,
-        &d.kin,
-        &d.com,
-        &d.ten,
-        &d.inertia,
-        &mut d.con,
-        &mut d.efc,
-        &mut s.constraint,
-    );
+    let at = configuration_of!(d);
+    make_constraint(m, &at, &d.inertia, &mut d.con, &mut d.efc, &mut s.constraint);
     watch.ended(Stage::Constraint);
     find_islands(m, &d.con, &d.efc, &mut d.island, &mut s.island);
     watch.ended(Stage::Islands);
-    transmission(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.efc, &mut d.trn);
+    transmission(m, &at, &d.con, &d.efc, &mut d.trn);
     watch.ended(Stage::Transmission);
 }
 
@@ -197,7 +188,7 @@ pub(crate) fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
     actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
     com_vel(m, &d.state, &d.com, &mut d.vel);
-    passive(m, &d.state, &d.kin, &d.com, &d.ten, &d.con, &d.vel, &mut d.passive);
+    passive(m, &configuration_of!(d), &d.con, &d.vel, &mut d.passive);
     reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc);
     bias(m, &d.state, &d.kin, &d.com, &d.ten, &mut d.vel, &mut d.scratch.rne);
     watch.ended(Stage::Velocity);
@@ -259,7 +250,7 @@ fn velocity_sensors(m: &Model, d: &mut Data) {
 
 pub(crate) fn acceleration_sensors(m: &Model, d: &mut Data) {
     if sensor::needs_body_forces(m) {
-        rne_post_constraint(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
+        rne_post_constraint(m, &configuration_of!(d), &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
     }
     let inputs = AccelerationInputs {
         kin: &d.kin,

@@ -19,17 +19,25 @@ pub struct AccelerationInputs<'a> {
     pub actuation: &'a Actuation,
 }
 
-/// Reads sensor `i` into zeroed `out`, with body accelerations `cacc` and forces between bodies `cfrc_int`.
+/// What the pass after the solver found for every body.
+pub(super) struct BodyForces<'a> {
+    /// Com-based accelerations.
+    pub cacc: &'a [Spatial],
+    /// Com-based wrenches between a body and its parent.
+    pub cfrc_int: &'a [Spatial],
+}
+
+/// Reads sensor `i` of type `kind` into zeroed `out`.
 pub(super) fn read(
     m: &Model,
     d: &AccelerationInputs,
-    cacc: &[Spatial],
-    cfrc_int: &[Spatial],
+    bodies: &BodyForces,
     i: usize,
     kind: SensorType,
     scratch: &mut SensorScratch,
     out: &mut [f64],
 ) {
+    let BodyForces { cacc, cfrc_int } = *bodies;
     let id = usize::try_from(m.sensor_objid[i]).unwrap_or(0);
     let limit_force =
         |kind: ConstraintType| limit_row(d.efc, kind, id).map_or(0.0, |row| d.efc.efc_force[row]);

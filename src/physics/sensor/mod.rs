@@ -11,6 +11,7 @@ mod velocity;
 mod zone;
 
 pub use acceleration::AccelerationInputs;
+use acceleration::BodyForces;
 pub use position::PositionInputs;
 pub use velocity::VelocityInputs;
 
@@ -111,9 +112,10 @@ pub fn acceleration_sensors(
     out: &mut Sensors,
 ) {
     let Sensors { sensordata, cacc, cfrc_int, .. } = out;
+    let bodies = BodyForces { cacc, cfrc_int };
     let mut fresh = std::mem::take(&mut scratch.fresh);
     each(m, Stage::Acc, past, &mut fresh, sensordata, |i, kind, data| {
-        acceleration::read(m, inputs, cacc, cfrc_int, i, kind, scratch, data);
+        acceleration::read(m, inputs, &bodies, i, kind, scratch, data);
     });
     scratch.fresh = fresh;
 }

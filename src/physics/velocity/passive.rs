@@ -2,7 +2,7 @@
 //! "Passive forces").
 
 use crate::actuation::reflected_load::{dof_damping, tendon_damping};
-use crate::data::{Com, Contacts, Kinematics, Passive, State, Tendons, Velocity};
+use crate::data::{Com, Configuration, Contacts, Kinematics, Passive, State, Tendons, Velocity};
 use crate::math::{Vec3, dot, norm, quat_difference, quat_normalize, row, scale, sub};
 use crate::model::{Disable, JointType, Model};
 use crate::position::chain::{MergedChain, apply_wrench, com_offset, point_column};
@@ -11,16 +11,8 @@ use crate::velocity::fluid;
 use crate::velocity::polynomial::Polynomial;
 
 /// Computes all passive forces and their sum. Disabling both springs and dampers disables every passive force.
-pub fn passive(
-    m: &Model,
-    state: &State,
-    kin: &Kinematics,
-    com: &Com,
-    ten: &Tendons,
-    con: &Contacts,
-    vel: &Velocity,
-    out: &mut Passive,
-) {
+pub fn passive(m: &Model, at: &Configuration, con: &Contacts, vel: &Velocity, out: &mut Passive) {
+    let Configuration { state, kin, com, ten } = *at;
     let force = [
         &mut out.qfrc_spring,
         &mut out.qfrc_damper,

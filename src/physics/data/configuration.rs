@@ -1,0 +1,30 @@
+//! The state with what follows from positions, as most later stages read them.
+
+use super::{Com, Data, Kinematics, State, Tendons};
+
+/// State, poses, centres of mass and tendon paths of one configuration.
+#[derive(Clone, Copy, Debug)]
+pub struct Configuration<'a> {
+    /// State and inputs.
+    pub state: &'a State,
+    /// Global poses.
+    pub kin: &'a Kinematics,
+    /// Centres of mass, motion axes, inertias about them.
+    pub com: &'a Com,
+    /// Tendon paths.
+    pub ten: &'a Tendons,
+}
+
+/// The configuration in `$d`, of which the caller may borrow other parts.
+macro_rules! configuration_of {
+    ($d:expr) => {
+        $crate::data::Configuration { state: &$d.state, kin: &$d.kin, com: &$d.com, ten: &$d.ten }
+    };
+}
+pub(crate) use configuration_of;
+
+impl<'a> From<&'a Data> for Configuration<'a> {
+    fn from(d: &'a Data) -> Self {
+        configuration_of!(d)
+    }
+}
