@@ -9,7 +9,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::diagnostic::{Diagnostics, Loc, Sources, nearest};
+use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::{FileProvider, fold, is_absolute, join};
 use crate::xml::{self, Element, Limits};
 
@@ -214,7 +214,7 @@ pub(crate) fn report_unmatched(
         let candidates: BTreeSet<&str> =
             sources.iter().flat_map(|source| placeholders(source.text())).collect();
         let listed: Vec<_> = candidates.iter().take(MAX_LISTED).map(|word| format!("'{word}'")).collect();
-        let advice = match nearest(from, candidates.iter().copied()) {
+        let advice = match diagnostics.nearest(from, candidates.iter().copied()) {
             Some(word) => Some(format!("did you mean '{word}'?")),
             None if listed.is_empty() => None,
             None => Some(format!("words in capitals there: {}", listed.join(", "))),
