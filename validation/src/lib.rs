@@ -6,6 +6,7 @@ pub mod collide;
 pub mod collide_table;
 pub mod compare;
 pub mod compile;
+pub mod draws;
 pub mod laws;
 pub mod motion;
 pub mod rays;

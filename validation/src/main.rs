@@ -3,7 +3,7 @@
 use physics::Model;
 use robohive_validation::reference::{Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
-use robohive_validation::{bits, c_library, collide_table, laws, solver};
+use robohive_validation::{bits, c_library, collide_table, draws, laws, solver};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -13,11 +13,13 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation solver --problems FOLDER [--references FOLDER] [--only TEXT] [--write README.md]
        robohive-validation collide [--from FILE] [--write README.md]
        robohive-validation laws [--write README.md]
+       robohive-validation draws [--write README.md]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
 and with --write replaces the text between the table markers of a file; with --section between the markers of that
 section. With --brief the written table leaves out the models without a fault.
 
+draws: makes every recorded random draw with all seeds and compares it with numpy's; fails when any differs.
 bits: counts the values that are MuJoCo's to the last bit. Without a list on the own models, where it fails when the table is
 not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; with it the exit code is 3 where the C library
 is another than that of the recorded MuJoCo.
@@ -80,6 +82,10 @@ fn run() -> Result<(), String> {
         Some("collide") => {
             let (table, verdict) = collide_table::measure(a.from.as_deref())?;
             ("collide", table, verdict)
+        }
+        Some("draws") => {
+            let (table, verdict) = draws::render(&draws::compare(Path::new(draws::RECORDED), usize::MAX)?);
+            ("draws", table, verdict)
         }
         Some("laws") => {
             let references: Vec<_> =
