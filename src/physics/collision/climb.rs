@@ -116,7 +116,7 @@ impl<'a> Slope<'a> {
     }
 
     /// Goes to higher neighbours from a hull vertex, given with its height, until there is none.
-    // Inlined to keep vectors in registers, see `Polytope::push_face`.
+    // Inlined to keep vectors in registers, see `Polytope::add_face`.
     #[inline(always)]
     pub fn climb(&self, dir: Vec3, (mut best, mut top): (usize, f64)) -> Farthest {
         loop {

@@ -4,10 +4,11 @@
 //! capsule is first taken as its point or segment: as long as that lies outside the other body, GJK alone gives the
 //! exact penetration. With the native algorithms disabled, portal refinement finds one contact of overlapping bodies.
 
-use super::epa::{Failure, Polytope};
+use super::epa::{self, Failure};
 use super::gjk::{BEYOND, Limits, Vertex, gjk};
 use super::mpr::overlap;
 use super::multicontact::{Clipper, Witness};
+use super::polytope::Polytope;
 use super::support::{ConvexBody, Solid};
 use super::{PreContact, Shape, round_normal};
 use crate::data::Kinematics;
@@ -59,7 +60,7 @@ fn measure(
     if !inside {
         return dist;
     }
-    match scratch.polytope.penetration(a, b, limits, &scratch.simplex[..proximity.n]) {
+    match epa::penetration(a, b, limits, &scratch.simplex[..proximity.n], &mut scratch.polytope) {
         Err(Failure::Broken) => scratch.witness.clear(),
         Err(_) => {}
         Ok(penetration) => {

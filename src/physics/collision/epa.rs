@@ -5,50 +5,31 @@
 //! origin bounds the depth from below, the support point beyond that face bounds it from above; the polytope takes
 //! in that point, until the bounds meet.
 
-use super::gjk::{BEYOND, Limits, Vertex, combine3, project_on_plane, projected_areas, support};
+use super::gjk::{BEYOND, Limits, Vertex, combine3, projected_areas, support};
+use super::polytope::{Absorption, OnFace, Pattern, Polytope};
 use super::support::ConvexBody;
 use crate::math::{Mat3, Vec3, add, cross, dot, mul_mat_vec, norm, scale, sub};
 use crate::model::bounds::MINVAL;
 
-/// A face whose squared distance to the origin is smaller holds the origin.
-const ON_FACE2: f64 = MINVAL * MINVAL;
 /// The upper bound may fall short of the lower one by rounding, not by more than this [m].
 const BOUND_SLACK: f64 = 1e-10;
-const MAX_ITERATIONS: usize = 1000;
+const MAX_ROUNDS: usize = 1000;
+/// Faces that there is room for, for every iteration allowed.
+const FACES_PER_ITERATION: usize = 6;
 
-/// Where the search for the nearest face may find a face.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum State {
-    /// Candidate with this place in the list.
-    Open(usize),
-    /// On the polytope, but too far to be the answer.
-    Shut,
-    /// Swallowed by the growing polytope.
-    Gone,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Face {
-    vertex: [usize; 3],
-    /// Faces across the edges 01, 12, 20.
-    across: [usize; 3],
-    /// The origin projected on the plane, turned outward.
-    foot: Vec3,
-    dist2: f64,
-    state: State,
-}
-
-/// The growing polytope; its memory is reused.
-#[derive(Clone, Debug, Default)]
-pub struct Polytope {
-    vertex: Vec<Vertex>,
-    face: Vec<Face>,
-    /// Candidates with their squared distances.
-    open: Vec<(usize, f64)>,
-    /// Edges around the part that a new vertex sees: face beyond the edge, and which of its edges it is.
-    horizon: Vec<(usize, usize)>,
-    center: Vec3,
-}
+/// Faces of a bipyramid of two apexes and a triangle between them, in this order. The order decides which of equally
+/// near faces is taken.
+const BIPYRAMID: [Pattern; 6] = [
+    ([0, 2, 3], [1, 3, 2]),
+    ([0, 4, 2], [2, 4, 0]),
+    ([0, 3, 4], [0, 5, 1]),
+    ([1, 3, 2], [5, 0, 4]),
+    ([1, 2, 4], [3, 1, 5]),
+    ([1, 4, 3], [4, 2, 3]),
+];
+/// Faces of a tetrahedron.
+const TETRAHEDRON: [Pattern; 4] =
+    [([0, 1, 2], [1, 3, 2]), ([0, 3, 1], [2, 3, 0]), ([0, 2, 3], [0, 3, 1]), ([3, 2, 1], [2, 0, 1])];
 
 /// Depth, nearest points and supporting vertices of two bodies that overlap.
 #[derive(Clone, Copy, Debug)]
@@ -78,340 +59,204 @@ pub enum Failure {
     Broken,
 }
 
-impl Polytope {
-    /// Penetration of two bodies from the last simplex of GJK: two to four vertices.
-    pub fn penetration(
-        &mut self,
-        a: &mut ConvexBody,
-        b: &mut ConvexBody,
-        limits: &Limits,
-        simplex: &[Vertex],
-    ) -> Result<Penetration, Failure> {
-        self.clear();
-        match simplex {
-            [s1, s2] => self.enclose_segment(a, b, s1, s2)?,
-            &[s1, s2, s3] => self.enclose_triangle(a, b, &[s1, s2, s3])?,
-            _ => self.enclose_tetrahedron(a, b, simplex.try_into().map_err(|_| Failure::OriginOutside)?)?,
-        }
-        let face = self.expand(a, b, limits).ok_or(Failure::Broken)?;
-        Ok(self.witness(face))
+/// Penetration of two bodies from the last simplex of GJK: two to four vertices. The polytope lends its memory.
+///
+/// # Errors
+/// The simplex cannot be enclosed, or rounding broke the polytope.
+pub fn penetration(
+    a: &mut ConvexBody,
+    b: &mut ConvexBody,
+    limits: &Limits,
+    simplex: &[Vertex],
+    polytope: &mut Polytope,
+) -> Result<Penetration, Failure> {
+    let mut hull = Hull { a, b, polytope };
+    match *simplex {
+        [s1, s2] => hull.enclose_segment([s1, s2])?,
+        [s1, s2, s3] => hull.enclose_triangle([s1, s2, s3])?,
+        [s1, s2, s3, s4] => hull.enclose_tetrahedron([s1, s2, s3, s4])?,
+        _ => return Err(Failure::OriginOutside),
     }
+    let face = Expansion::new(hull, limits).run().ok_or(Failure::Broken)?;
+    Ok(witness(polytope, face))
+}
 
-    fn clear(&mut self) {
-        self.vertex.clear();
-        self.face.clear();
-        self.open.clear();
-        self.horizon.clear();
-    }
+/// A polytope of support points of the difference of two bodies.
+struct Hull<'s, 'a, 'b> {
+    a: &'s mut ConvexBody<'a>,
+    b: &'s mut ConvexBody<'b>,
+    polytope: &'s mut Polytope,
+}
 
-    fn push(&mut self, v: Vertex) -> usize {
-        self.vertex.push(v);
-        self.vertex.len() - 1
-    }
-
+impl Hull<'_, '_, '_> {
     /// Adds the support point in direction `d`, whose length is `length`.
-    fn push_support(&mut self, a: &mut ConvexBody, b: &mut ConvexBody, d: Vec3, length: f64) -> usize {
+    fn add_support(&mut self, d: Vec3, length: f64) -> usize {
         let dir = if length > MINVAL { d.map(|x| x / length) } else { [1.0, 0.0, 0.0] };
-        let v = self.push(Vertex::default());
-        support(a, b, dir, &mut self.vertex[v]);
+        let v = self.polytope.add_vertex(Vertex::default());
+        support(self.a, self.b, dir, self.polytope.vertex_mut(v));
         v
     }
 
     fn diff(&self, v: usize) -> Vec3 {
-        self.vertex[v].diff
+        self.polytope.vertex(v).diff
     }
 
-    /// Adds a face and returns the squared distance of its plane from the origin, 0 for a face without area.
-    // Inlined: vectors passed to a call go through memory, and reading them back in other pieces
-    // than they were written in stalls.
-    #[inline(always)]
-    fn push_face(&mut self, vertex: [usize; 3], across: [usize; 3]) -> f64 {
-        let [v1, v2, v3] = vertex.map(|v| self.diff(v));
-        let foot = project_on_plane(v3, v2, v1).unwrap_or_default();
-        let dist2 = dot(foot, foot);
-        let inward = dot(foot, sub(v1, self.center)) < 0.0;
-        let foot = if inward { scale(foot, -1.0) } else { foot };
-        self.face.push(Face { vertex, across, foot, dist2, state: State::Shut });
-        dist2
-    }
-
-    fn open_face(&mut self, f: usize) {
-        let face = &mut self.face[f];
-        face.state = State::Open(self.open.len());
-        self.open.push((f, face.dist2));
-    }
-
-    fn open_all(&mut self) {
-        for f in 0..self.face.len() {
-            self.open_face(f);
-        }
-    }
-
-    fn remove_face(&mut self, f: usize) {
-        if let State::Open(place) = self.face[f].state {
-            self.open.swap_remove(place);
-            if let Some(&(moved, _)) = self.open.get(place) {
-                self.face[moved].state = State::Open(place);
-            }
-        }
-        self.face[f].state = State::Gone;
-    }
-
-    /// Bipyramid over three support points around the segment.
-    fn enclose_segment(
-        &mut self,
-        a: &mut ConvexBody,
-        b: &mut ConvexBody,
-        s1: &Vertex,
-        s2: &Vertex,
-    ) -> Result<(), Failure> {
-        self.center = scale(add(s1.diff, s2.diff), 0.5);
-        let along = sub(s2.diff, s1.diff);
-        let mut axis = 0;
-        for i in 1..3 {
-            if along[i].abs() < along[axis].abs() {
-                axis = i;
-            }
-        }
-        let mut unit = [0.0; 3];
-        unit[axis] = 1.0;
-        let d1 = cross(unit, along);
+    /// Bipyramid with the ends of the segment as apexes, over three support points around it.
+    fn enclose_segment(&mut self, ends: [Vertex; 2]) -> Result<(), Failure> {
+        let [p, q] = ends.map(|end| end.diff);
+        let along = sub(q, p);
+        self.polytope.begin(scale(add(p, q), 0.5));
+        let flatter = |i: usize, j: usize| if along[j].abs() < along[i].abs() { j } else { i };
+        let mut axis = [0.0; 3];
+        axis[flatter(flatter(0, 1), 2)] = 1.0;
         let turn = third_of_a_turn(along);
-        let d2 = mul_mat_vec(&turn, d1);
-        let d3 = mul_mat_vec(&turn, d2);
+        let first = cross(axis, along);
+        let second = mul_mat_vec(&turn, first);
+        let third = mul_mat_vec(&turn, second);
 
-        let (v1, v2) = (self.push(*s1), self.push(*s2));
-        let [v3, v4, v5] = [d1, d2, d3].map(|d| self.push_support(a, b, d, norm(d)));
-        let faces = [
-            ([v1, v3, v4], [1, 3, 2]),
-            ([v1, v5, v3], [2, 4, 0]),
-            ([v1, v4, v5], [0, 5, 1]),
-            ([v2, v4, v3], [5, 0, 4]),
-            ([v2, v3, v5], [3, 1, 5]),
-            ([v2, v5, v4], [4, 2, 3]),
-        ];
-        for (vertex, across) in faces {
-            if self.push_face(vertex, across) < ON_FACE2 {
-                return self.restart_from_face(a, b, vertex);
-            }
+        let [top, bottom] = ends.map(|end| self.polytope.add_vertex(end));
+        let ring = [first, second, third].map(|d| self.add_support(d, norm(d)));
+        if let Err(face) = self.polytope.close(&BIPYRAMID, &[top, bottom, ring[0], ring[1], ring[2]]) {
+            return self.enclose_face(face);
         }
-        if !line_meets_triangle(s1.diff, s2.diff, [v3, v4, v5].map(|v| self.diff(v))) {
+        if !line_meets_triangle(p, q, ring.map(|v| self.diff(v))) {
             return Err(Failure::NonConvex);
         }
-        self.open_all();
+        self.polytope.offer_all();
         Ok(())
     }
 
     /// Begins again from a face that holds the origin.
-    fn restart_from_face(
-        &mut self,
-        a: &mut ConvexBody,
-        b: &mut ConvexBody,
-        vertex: [usize; 3],
-    ) -> Result<(), Failure> {
-        let simplex = vertex.map(|v| self.vertex[v]);
-        self.clear();
-        self.enclose_triangle(a, b, &simplex)
+    fn enclose_face(&mut self, OnFace(corners): OnFace) -> Result<(), Failure> {
+        self.enclose_triangle(corners.map(|v| *self.polytope.vertex(v)))
     }
 
-    /// Bipyramid over the triangle, its apexes the support points along the normal.
-    fn enclose_triangle(
-        &mut self,
-        a: &mut ConvexBody,
-        b: &mut ConvexBody,
-        simplex: &[Vertex; 3],
-    ) -> Result<(), Failure> {
-        let [p1, p2, p3] = [0, 1, 2].map(|i: usize| simplex[i].diff);
-        self.center = scale(add(add(p1, p2), p3), 1.0 / 3.0);
+    /// Bipyramid over the triangle, its apexes the support points on either side.
+    fn enclose_triangle(&mut self, corners: [Vertex; 3]) -> Result<(), Failure> {
+        let [p1, p2, p3] = corners.map(|corner| corner.diff);
+        self.polytope.begin(scale(add(add(p1, p2), p3), 1.0 / 3.0));
         let normal = cross(sub(p2, p1), sub(p3, p1));
         let length = norm(normal);
         if length < MINVAL {
             return Err(Failure::BadNormal);
         }
-        let [v1, v2, v3] = [0, 1, 2];
-        self.vertex.extend_from_slice(simplex);
-        let v5 = self.push_support(a, b, scale(normal, -1.0), length);
-        let v4 = self.push_support(a, b, normal, length);
-        if in_triangle(p1, p2, p3, self.diff(v4)) || in_triangle(p1, p2, p3, self.diff(v5)) {
+        let ring = corners.map(|corner| self.polytope.add_vertex(corner));
+        let bottom = self.add_support(scale(normal, -1.0), length);
+        let top = self.add_support(normal, length);
+        if [top, bottom].iter().any(|&apex| in_triangle(p1, p2, p3, self.diff(apex))) {
             return Err(Failure::FlatApex);
         }
-        let faces = [
-            ([v4, v1, v2], [1, 3, 2]),
-            ([v4, v3, v1], [2, 4, 0]),
-            ([v4, v2, v3], [0, 5, 1]),
-            ([v5, v2, v1], [5, 0, 4]),
-            ([v5, v1, v3], [3, 1, 5]),
-            ([v5, v3, v2], [4, 2, 3]),
-        ];
-        for (vertex, across) in faces {
-            if self.push_face(vertex, across) < ON_FACE2 {
-                return Err(Failure::OriginOnFace);
-            }
-        }
-        self.open_all();
+        self.polytope
+            .close(&BIPYRAMID, &[top, bottom, ring[0], ring[1], ring[2]])
+            .map_err(|_| Failure::OriginOnFace)?;
+        self.polytope.offer_all();
         Ok(())
     }
 
     /// The tetrahedron itself.
-    fn enclose_tetrahedron(
-        &mut self,
-        a: &mut ConvexBody,
-        b: &mut ConvexBody,
-        simplex: &[Vertex; 4],
-    ) -> Result<(), Failure> {
-        let [p1, p2, p3, p4] = [0, 1, 2, 3].map(|i: usize| simplex[i].diff);
-        self.center = scale(add(add(add(p1, p2), p3), p4), 0.25);
-        let [v1, v2, v3, v4] = [0, 1, 2, 3];
-        self.vertex.extend_from_slice(simplex);
-        let faces = [
-            ([v1, v2, v3], [1, 3, 2]),
-            ([v1, v4, v2], [2, 3, 0]),
-            ([v1, v3, v4], [0, 3, 1]),
-            ([v4, v3, v2], [2, 0, 1]),
-        ];
-        for (vertex, across) in faces {
-            if self.push_face(vertex, across) < ON_FACE2 {
-                return self.restart_from_face(a, b, vertex);
-            }
+    fn enclose_tetrahedron(&mut self, corners: [Vertex; 4]) -> Result<(), Failure> {
+        let [p1, p2, p3, p4] = corners.map(|corner| corner.diff);
+        self.polytope.begin(scale(add(add(add(p1, p2), p3), p4), 0.25));
+        let vertices = corners.map(|corner| self.polytope.add_vertex(corner));
+        if let Err(face) = self.polytope.close(&TETRAHEDRON, &vertices) {
+            return self.enclose_face(face);
         }
         if !holds_origin(p1, p2, p3, p4) {
             return Err(Failure::OriginOutside);
         }
-        self.open_all();
+        self.polytope.offer_all();
         Ok(())
     }
+}
 
-    /// Nearest candidate to the origin and its squared distance.
-    fn nearest_face(&self) -> Option<(usize, f64)> {
-        let mut best = None;
-        let mut lower2 = BEYOND;
-        for &(f, dist2) in &self.open {
-            if dist2 < lower2 {
-                lower2 = dist2;
-                best = Some((f, lower2));
-            }
-        }
-        best
+/// What a round of the expansion came to.
+enum Round {
+    /// The polytope grew.
+    Grown,
+    /// The nearest face is on the boundary of the difference, or as near to it as can be told.
+    Settled,
+    Broken,
+}
+
+/// The growth of a polytope toward the boundary of the difference.
+struct Expansion<'s, 'a, 'b> {
+    hull: Hull<'s, 'a, 'b>,
+    /// Both bodies have finitely many support points.
+    discrete: bool,
+    /// How near the bounds must come.
+    tolerance: f64,
+    iterations: usize,
+    /// Least height of a support point over the plane through the origin along which it was looked for: an upper bound
+    /// on the depth.
+    upper: f64,
+    upper2: f64,
+}
+
+impl<'s, 'a, 'b> Expansion<'s, 'a, 'b> {
+    fn new(hull: Hull<'s, 'a, 'b>, limits: &Limits) -> Self {
+        let discrete = hull.a.is_discrete() && hull.b.is_discrete();
+        let tolerance = if discrete { MINVAL } else { limits.tolerance };
+        Expansion { hull, discrete, tolerance, iterations: limits.iterations, upper: BEYOND, upper2: BEYOND }
     }
 
     /// Grows the polytope until its nearest face is on the boundary of the difference; returns that face.
-    fn expand(&mut self, a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits) -> Option<usize> {
-        let discrete = a.is_discrete() && b.is_discrete();
-        let tolerance = if discrete { MINVAL } else { limits.tolerance };
-        let max_faces = 6 * limits.iterations;
-        let (mut upper, mut upper2) = (BEYOND, BEYOND);
+    fn run(mut self) -> Option<usize> {
         let mut answer = None;
-        for k in 0..limits.iterations.min(MAX_ITERATIONS) {
-            let Some((face, lower2)) = self.nearest_face() else { return answer };
-            if lower2 > upper2 {
-                return answer;
+        for round in 0..self.iterations.min(MAX_ROUNDS) {
+            let Some((face, lower2)) = self.hull.polytope.nearest_candidate() else { break };
+            if lower2 > self.upper2 {
+                break;
             }
             answer = Some(face);
-            if lower2 <= 0.0 {
-                return answer;
-            }
-            let lower = lower2.sqrt();
-            let foot = self.face[face].foot;
-            let w = self.push_support(a, b, foot, lower);
-            let height = dot(foot, self.diff(w)) / lower;
-            if height < upper {
-                upper = height;
-                upper2 = upper * upper;
-            }
-            if upper - lower < tolerance {
-                let missed = k == 0 && upper < lower - BOUND_SLACK;
-                return if missed { None } else { answer };
-            }
-            if discrete && self.is_repeated(w) {
-                return answer;
-            }
-            self.horizon.clear();
-            self.swallow(face, 0, 3, self.diff(w));
-            if self.horizon.len() < 3 {
-                return None;
-            }
-            if self.horizon.len() > max_faces - self.face.len() {
-                return answer;
-            }
-            if !self.close_over_horizon(w, lower2, upper2) {
-                return None;
-            }
-            if self.open.is_empty() {
-                return answer;
+            match self.push_out(face, lower2, round == 0) {
+                Round::Grown => {}
+                Round::Settled => break,
+                Round::Broken => return None,
             }
         }
         answer
     }
 
-    fn is_repeated(&self, w: usize) -> bool {
-        let index = self.vertex[w].index;
-        self.vertex[..w].iter().any(|v| v.index == index)
-    }
-
-    /// Removes a face that sees `w` and those that do beyond `count` of its edges from `edge` on, and lists the edges
-    /// around them in `horizon`.
-    fn swallow(&mut self, face: usize, edge: usize, count: usize, w: Vec3) {
-        self.remove_face(face);
-        let Face { vertex, across, .. } = self.face[face];
-        let mut edge = edge;
-        for _ in 0..count {
-            let (beyond, end) = (across[edge], vertex[next(edge)]);
-            edge = next(edge);
-            let Face { vertex, foot, dist2, state, .. } = &self.face[beyond];
-            if *state == State::Gone {
-                continue;
-            }
-            let entry = vertex.iter().position(|&v| v == end).unwrap_or(2);
-            if dot(*foot, w) - dist2 > MINVAL {
-                self.swallow(beyond, next(entry), 2, w);
-            } else {
-                self.horizon.push((beyond, entry));
-            }
+    /// Pushes the nearest face out to the support point beyond it. `lower2` is its squared distance.
+    fn push_out(&mut self, face: usize, lower2: f64, first: bool) -> Round {
+        if lower2 <= 0.0 {
+            return Round::Settled;
         }
-    }
-
-    /// Fills the hole with faces from its edges to `w`; false when one of them has no area. Faces nearer than the
-    /// upper bound become candidates.
-    fn close_over_horizon(&mut self, w: usize, lower2: f64, upper2: f64) -> bool {
-        let (first, count) = (self.face.len(), self.horizon.len());
-        let last = first + count - 1;
-        for i in 0..count {
-            let (beyond, edge) = self.horizon[i];
-            let new = first + i;
-            let before = if new == first { last } else { new - 1 };
-            let after = if new == last { first } else { new + 1 };
-            let old = &mut self.face[beyond];
-            let (v1, v2) = (old.vertex[edge], old.vertex[next(edge)]);
-            old.across[edge] = new;
-            let dist2 = self.push_face([w, v2, v1], [before, beyond, after]);
-            if dist2 == 0.0 {
-                return false;
-            }
-            if dist2 >= lower2 && dist2 <= upper2 {
-                self.open_face(new);
-            }
+        let (foot, lower) = (self.hull.polytope.foot(face), lower2.sqrt());
+        let tip = self.hull.add_support(foot, lower);
+        let height = dot(foot, self.hull.diff(tip)) / lower;
+        if height < self.upper {
+            (self.upper, self.upper2) = (height, height * height);
         }
-        true
-    }
-
-    /// Points of the two bodies under the foot of a face.
-    fn witness(&self, f: usize) -> Penetration {
-        let face = &self.face[f];
-        let corners = face.vertex.map(|v| self.vertex[v]);
-        let [v1, v2, v3] = corners;
-        let (total, area) = projected_areas(v1.diff, v2.diff, v3.diff, face.foot);
-        let weight = area.map(|x| x / total);
-        Penetration {
-            dist: -face.dist2.sqrt(),
-            nearest: [combine3(&weight, v1.a, v2.a, v3.a), combine3(&weight, v1.b, v2.b, v3.b)],
-            face: corners,
+        if self.upper - lower < self.tolerance {
+            // At first the bounds may be the wrong way round: then the bodies do not overlap.
+            let crossed = first && self.upper < lower - BOUND_SLACK;
+            return if crossed { Round::Broken } else { Round::Settled };
+        }
+        if self.discrete && self.hull.polytope.repeats(tip) {
+            return Round::Settled;
+        }
+        // A new face below the lower bound is an artefact of rounding, one above the upper bound never the answer.
+        let max_faces = FACES_PER_ITERATION * self.iterations;
+        match self.hull.polytope.absorb(tip, face, lower2..=self.upper2, max_faces) {
+            Absorption::Done => Round::Grown,
+            Absorption::Full => Round::Settled,
+            Absorption::Torn => Round::Broken,
         }
     }
 }
 
-/// The edge or corner of a triangle after this one.
-fn next(corner: usize) -> usize {
-    if corner == 2 { 0 } else { corner + 1 }
+/// Points of the two bodies under the foot of a face.
+fn witness(polytope: &Polytope, face: usize) -> Penetration {
+    let corners = polytope.corners(face);
+    let [v1, v2, v3] = corners;
+    let (total, area) = projected_areas(v1.diff, v2.diff, v3.diff, polytope.foot(face));
+    let weight = area.map(|x| x / total);
+    Penetration {
+        dist: -polytope.dist2(face).sqrt(),
+        nearest: [combine3(&weight, v1.a, v2.a, v3.a), combine3(&weight, v1.b, v2.b, v3.b)],
+        face: corners,
+    }
 }
 
 /// Rotation by 120 degrees about `axis`; the sine has the digits MuJoCo gives it.

@@ -203,7 +203,7 @@ fn enclose_origin(
 }
 
 /// Normal of a face and its distance from the origin; [`BEYOND`] for a face without area.
-// Inlined to keep vectors in registers, see `Polytope::push_face`.
+// Inlined to keep vectors in registers, see `Polytope::add_face`.
 #[inline(always)]
 fn oriented_distance(v1: Vec3, v2: Vec3, v3: Vec3) -> (Vec3, f64) {
     let normal = cross(sub(v3, v1), sub(v2, v1));
@@ -359,7 +359,7 @@ pub fn projected_areas(v1: Vec3, v2: Vec3, v3: Vec3, p: Vec3) -> (f64, [f64; 3])
 
 /// The origin projected on the plane of three points, by the vertex whose edges show the plane best; `None` when
 /// the points lie on a line.
-// Inlined to keep vectors in registers, see `Polytope::push_face`.
+// Inlined to keep vectors in registers, see `Polytope::add_face`.
 #[inline(always)]
 pub fn project_on_plane(v1: Vec3, v2: Vec3, v3: Vec3) -> Option<Vec3> {
     let (d21, d31, d32) = (sub(v2, v1), sub(v3, v1), sub(v3, v2));

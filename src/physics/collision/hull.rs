@@ -81,7 +81,7 @@ impl<'a> MeshHull<'a> {
     }
 
     /// Farthest vertex in unit direction `dir`, from the better of the `last` answer and a tabulated vertex.
-    // Inlined to keep vectors in registers, see `Polytope::push_face`.
+    // Inlined to keep vectors in registers, see `Polytope::add_face`.
     #[inline(always)]
     pub fn farthest(&self, dir: Vec3, last: Option<Farthest>) -> Farthest {
         let Some(slope) = &self.slope else { return self.search(dir, last.map(|l| l.vertex)) };

@@ -22,6 +22,7 @@ pub mod mpr;
 pub mod multicontact;
 pub mod plane;
 pub mod polyhedron;
+pub mod polytope;
 pub mod round_normal;
 pub mod sphere;
 pub mod support;

@@ -118,7 +118,7 @@ impl<'a> ConvexBody<'a> {
     }
 
     /// Farthest point of the inflated body in unit direction `dir`.
-    // Inlined to keep vectors in registers, see `Polytope::push_face`.
+    // Inlined to keep vectors in registers, see `Polytope::add_face`.
     #[inline(always)]
     pub fn support(&mut self, dir: Vec3) -> Vec3 {
         let mut point = self.support_of_solid(dir);
@@ -132,7 +132,7 @@ impl<'a> ConvexBody<'a> {
     }
 
     /// Farthest point of the body itself in direction `dir`.
-    // Inlined to keep vectors in registers, see `Polytope::push_face`.
+    // Inlined to keep vectors in registers, see `Polytope::add_face`.
     #[inline(always)]
     pub fn support_of_solid(&mut self, dir: Vec3) -> Vec3 {
         match self.solid {
