@@ -7,6 +7,7 @@ mod cg;
 mod dual;
 mod friction_force;
 mod hessian;
+mod line_cost;
 mod line_search;
 mod newton;
 mod noslip;

@@ -4,7 +4,8 @@
 //! the reference of rows (MuJoCo documentation, Computation, "Primal problem").
 
 use super::hessian::Hessian;
-use super::line_search::{Line, LineSearch};
+use super::line_cost::{Line, LineCost};
+use super::line_search::{Stop, line_search};
 use super::problem::{Problem, Selection};
 use crate::data::{Acceleration, Constraints, SolverStat};
 use crate::math::add_scaled_slice;
@@ -16,7 +17,10 @@ use crate::model::{ConstraintState, Model};
 pub(super) struct Primal {
     pub problem: Problem,
     pub hessian: Hessian,
-    pub line: LineSearch,
+    /// The cost along the search direction.
+    pub line: LineCost,
+    /// Slope where the last search ended, in units of the tolerance.
+    slope: f64,
     /// Acceleration.
     pub qacc: Vec<f64>,
     qacc_smooth: Vec<f64>,
@@ -117,16 +121,21 @@ impl Primal {
     /// Minimises along the search direction and moves there, keeping the old states; returns the scaled
     /// improvement, or `None` when there is no step to take.
     pub fn step(&mut self, m: &Model) -> Option<f64> {
-        let (alpha, improvement) = self.line.search(Line {
+        let line = Line {
             problem: &self.problem,
             search: &self.search,
             jar: &self.jar,
             ma: &self.ma,
             qfrc_smooth: &self.qfrc_smooth,
+        };
+        let stop = Stop {
             scale: self.scale,
             tolerance: m.opt.tolerance * m.opt.ls_tolerance,
-            iterations: m.opt.ls_iterations,
-        });
+            evaluations: m.opt.ls_iterations,
+        };
+        let step = line_search(&mut self.line, line, stop);
+        self.slope = step.slope;
+        let alpha = step.alpha;
         if alpha == 0.0 {
             return None;
         }
@@ -135,7 +144,7 @@ impl Primal {
         add_scaled_slice(&mut self.jar, &self.line.jv, alpha);
         self.old_state.clone_from(&self.state);
         self.evaluate();
-        Some(self.scale * improvement)
+        Some(self.scale * step.improvement)
     }
 
     /// What the last step did.
@@ -145,7 +154,7 @@ impl Primal {
         SolverStat {
             improvement,
             gradient,
-            lineslope: self.line.slope,
+            lineslope: self.slope,
             nactive: active as i32,
             nchange: changed as i32,
             neval: self.line.evaluations,
