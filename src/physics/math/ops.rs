@@ -13,7 +13,7 @@ pub fn sqrt(x: f64) -> f64 {
     x.sqrt()
 }
 
-/// Sine and cosine correctly rounded but for a few calls in a million, the others within one unit of the last place.
+/// Sine and cosine are correctly rounded but for six calls in a million, the others within one unit of the last place.
 #[cfg(not(system_math))]
 mod portable {
     pub use crate::math::sine::sincos;

@@ -1,5 +1,5 @@
-//! Sine and cosine, correctly rounded in all but about one call in ten thousand: the result
-//! is computed with some fifteen bits more than an f64 has, then rounded once. Good C libraries round alike.
+//! Sine and cosine, correctly rounded in all but six calls of a million (measured by `examples/sines.rs`): the result
+//! is computed with some fifteen bits more than an f64 has, then rounded once.
 //!
 //! The angle is reduced to `k π/256 + r`, `|r| ≤ π/512`; a table holds the sines of the multiples, Taylor's series
 //! does the rest (Tang 1991, "Table-lookup algorithms for elementary functions and their error analysis").
