@@ -162,7 +162,7 @@ fn steps(mut m: Model) {
     if m.nsensordata.max(m.nhistory).max(m.na).max(m.nuserdata) > 1 << 12 {
         return;
     }
-    let opt = &mut m.opt;
+    let opt = m.options_mut();
     for count in
         [&mut opt.iterations, &mut opt.ls_iterations, &mut opt.noslip_iterations, &mut opt.ccd_iterations]
     {

@@ -14,7 +14,7 @@ const REPEATS: usize = 10;
 /// Weight swings round: what fell rises, drifts and falls again.
 fn tumble(i: usize, m: &mut Model, _: &mut Data) {
     let angle = 0.01 * i as f64;
-    m.opt.gravity = [2.0 * angle.sin(), 0.0, -9.81 * angle.cos()];
+    m.options_mut().gravity = [2.0 * angle.sin(), 0.0, -9.81 * angle.cos()];
 }
 
 /// Every motor swings, each at its own rate.

@@ -1,5 +1,6 @@
 //! A batch makes of every environment what stepping it alone makes, whatever the number of threads.
 
+use robohive::physics::model::Arrays;
 use robohive::physics::{Batch, Data, Model, StepError, step};
 use std::sync::Arc;
 
@@ -18,9 +19,11 @@ fn diverse(m: &Arc<Model>, threads: usize) -> Batch {
             *v = 0.1 * ((environment + 3 * dof) as f64).sin();
         }
         if environment % 3 == 1 {
-            let edited = batch.model_mut(environment);
-            edited.opt.gravity[0] = 0.5 * environment as f64;
-            edited.geom_friction.iter_mut().for_each(|friction| friction[0] *= 0.5);
+            let lighter = |m: &mut Arrays| {
+                m.opt.gravity[0] = 0.5 * environment as f64;
+                m.geom_friction.iter_mut().for_each(|friction| friction[0] *= 0.5);
+            };
+            batch.edit_model(environment, lighter).unwrap();
         }
     }
     batch

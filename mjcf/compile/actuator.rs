@@ -3,8 +3,7 @@
 use super::lookup::Lookup;
 use super::{Log, bounded, push_user, resolve_limited, title};
 use crate::spec::{Actuator, Spec};
-use physics::Model;
-use physics::model::{BiasType, DynType, GainType, JointType, ObjType, TrnType};
+use physics::model::{Arrays, BiasType, DynType, GainType, JointType, ObjType, TrnType};
 
 /// Bits of an input signature.
 const POS: i32 = 1;
@@ -26,7 +25,7 @@ struct Block {
 }
 
 /// Appends all actuators.
-pub(super) fn fill(m: &mut Model, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     let (mut actadr, mut historyadr) = (0, 0);
     for actuator in &spec.actuators {
         let what = title("actuator", &actuator.name);
@@ -107,7 +106,7 @@ pub(crate) fn sizes(a: &Actuator) -> (usize, usize) {
 }
 
 /// Checks the type-specific rules and finds the sizes.
-fn block(m: &Model, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Result<Block, String> {
+fn block(m: &Arrays, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Result<Block, String> {
     let mut block = Block { ctrlspec: 0, ctrlnum: 1, outnum: 1, actdim: a.actdim, so3: false };
     if a.gaintype == GainType::So3 || a.biastype == BiasType::So3 {
         so3_block(m, a, trnid, forcelimited, &mut block)?;
@@ -145,7 +144,7 @@ fn block(m: &Model, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Result
 }
 
 fn so3_block(
-    m: &Model,
+    m: &Arrays,
     a: &Actuator,
     trnid: [i32; 2],
     limited: bool,
@@ -237,7 +236,7 @@ fn dcmotor_block(a: &Actuator, block: &mut Block) -> Result<(), String> {
 }
 
 /// `ctrlrange` and `actrange`, one of them from the target when `inheritrange` is set.
-fn ranges(m: &Model, a: &Actuator, trnid: [i32; 2]) -> Result<([f64; 2], [f64; 2]), String> {
+fn ranges(m: &Arrays, a: &Actuator, trnid: [i32; 2]) -> Result<([f64; 2], [f64; 2]), String> {
     let (mut ctrl, mut act) = (a.ctrlrange, a.actrange);
     let position =
         (a.gaintype == GainType::Fixed && a.gainprm[0] == -a.biasprm[1]) || a.gaintype == GainType::Pid;
@@ -300,7 +299,7 @@ fn check(a: &Actuator, block: &Block) -> Result<(), String> {
 }
 
 fn fill_actuator(
-    m: &mut Model,
+    m: &mut Arrays,
     a: &Actuator,
     trnid: [i32; 2],
     autolimits: bool,
@@ -370,7 +369,7 @@ fn fill_actuator(
 }
 
 /// One control range an input; pid servos bound velocity and feedforward apart.
-fn fill_inputs(m: &mut Model, a: &Actuator, block: &Block, limited: bool, range: [f64; 2]) {
+fn fill_inputs(m: &mut Arrays, a: &Actuator, block: &Block, limited: bool, range: [f64; 2]) {
     let mut inputs = vec![(limited, range); block.ctrlnum];
     if a.gaintype == GainType::Pid {
         inputs.clear();

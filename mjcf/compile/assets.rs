@@ -14,8 +14,7 @@ use crate::image::{
 use crate::mesh::{self, CompiledMesh, MeshInertia, MeshSource, RawMesh, Shape};
 use crate::spec::{Body, Hfield, Mesh, Spec, Texture};
 use crate::suggestion::Suggestions;
-use physics::Model;
-use physics::model::{ColorSpace, GeomType, ObjType, TextureType};
+use physics::model::{Arrays, ColorSpace, GeomType, ObjType, TextureType};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -373,7 +372,7 @@ fn run_all(jobs: &[Job], cache: Option<&Cache>, threads: bool) -> Vec<Result<Out
 }
 
 /// Appends all assets except the hierarchies, which follow those of the bodies.
-pub(super) fn fill(m: &mut Model, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     m.tex_data.reserve_exact(assets.textures.iter().map(|asset| asset.compiled.data.len()).sum());
     let total =
         |count: fn(&CompiledMesh) -> usize| assets.meshes.iter().map(|asset| count(&asset.compiled)).sum();
@@ -418,7 +417,7 @@ pub(super) fn fill(m: &mut Model, assets: &Assets, spec: &Spec, lookup: &Lookup,
     }
 }
 
-fn fill_mesh(m: &mut Model, mesh: &CompiledMesh) {
+fn fill_mesh(m: &mut Arrays, mesh: &CompiledMesh) {
     let address = |count: usize, next: usize| if count == 0 { -1 } else { next as i32 };
     m.mesh_vertadr.push(m.mesh_vert.len() as i32);
     m.mesh_vertnum.push(mesh.vert.len() as i32);
@@ -455,7 +454,7 @@ fn fill_mesh(m: &mut Model, mesh: &CompiledMesh) {
 }
 
 /// Appends the hierarchies of meshes.
-pub(super) fn fill_hierarchies(m: &mut Model, assets: &Assets) {
+pub(super) fn fill_hierarchies(m: &mut Arrays, assets: &Assets) {
     let nodes = assets.meshes.iter().map(|asset| asset.compiled.bvh.depth.len()).sum();
     m.bvh_depth.reserve_exact(nodes);
     m.bvh_child.reserve_exact(nodes);

@@ -11,10 +11,9 @@ use super::{Log, push_user, title};
 use crate::bvh::{self, Leaf};
 use crate::spec::{AlignFree, Body, Compiler, InertiaFromGeom, Inertial, Spec};
 use crate::vector::normalize;
-use physics::Model;
 use physics::math::Vec3;
 use physics::model::bounds::MINVAL;
-use physics::model::{JointType, SameFrame};
+use physics::model::{Arrays, JointType, SameFrame};
 
 /// A compiled body; poses are in the parent's frame, the inertial pose in the body's.
 pub(super) struct BodyNode<'s> {
@@ -293,7 +292,7 @@ pub(super) fn check_moving_mass(tree: &Tree, log: &mut Log) {
 }
 
 /// Appends the row of a body.
-pub(super) fn fill(m: &mut Model, node: &BodyNode, id: usize, tree: &Tree, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, node: &BodyNode, id: usize, tree: &Tree, log: &mut Log) {
     let parent = node.parent;
     let dofs = node.dofs();
     let root = if id == 0 || parent == 0 { id as i32 } else { m.body_rootid[parent] };
@@ -357,7 +356,7 @@ pub(super) fn same_frame_in_body(pose: Pose, inertial: Pose) -> SameFrame {
 }
 
 /// Takes back simplicity that the joints forbid; level 2 is for sliders only.
-pub(super) fn settle_simple(m: &mut Model, node: &BodyNode, id: usize) {
+pub(super) fn settle_simple(m: &mut Arrays, node: &BodyNode, id: usize) {
     let mut rotates = false;
     for joint in &node.joints {
         let aligned = joint.axis.iter().filter(|x| x.abs() > super::frame::EPS).count() == 1;
@@ -374,7 +373,7 @@ pub(super) fn settle_simple(m: &mut Model, node: &BodyNode, id: usize) {
 }
 
 /// Bounding volume hierarchies over the geoms of each body, in its inertial frame.
-pub(super) fn fill_hierarchies(m: &mut Model, tree: &Tree) {
+pub(super) fn fill_hierarchies(m: &mut Arrays, tree: &Tree) {
     for (id, node) in tree.bodies.iter().enumerate() {
         let first = m.body_geomadr[id];
         let leaves: Vec<Leaf> = node
@@ -398,7 +397,7 @@ pub(super) fn fill_hierarchies(m: &mut Model, tree: &Tree) {
 }
 
 /// Appends the nodes of a hierarchy.
-pub(super) fn append_hierarchy(m: &mut Model, tree: &bvh::Bvh) {
+pub(super) fn append_hierarchy(m: &mut Arrays, tree: &bvh::Bvh) {
     m.bvh_depth.extend(&tree.depth);
     m.bvh_child.extend(&tree.child);
     m.bvh_nodeid.extend(&tree.nodeid);
@@ -406,7 +405,7 @@ pub(super) fn append_hierarchy(m: &mut Model, tree: &bvh::Bvh) {
 }
 
 /// Scales masses and inertias to the given total.
-pub(super) fn scale_mass(m: &mut Model, total: f64) {
+pub(super) fn scale_mass(m: &mut Arrays, total: f64) {
     let now: f64 = m.body_mass.iter().skip(1).fold(0.0, |sum, mass| sum + mass);
     let scale = (total / now.max(MINVAL)).max(MINVAL);
     for b in 1..m.body_mass.len() {

@@ -3,10 +3,10 @@
 use super::lookup::Lookup;
 use super::{Log, bounded, title};
 use crate::spec::Spec;
-use physics::Model;
+use physics::model::Arrays;
 
 /// Appends all custom data.
-pub(super) fn fill(m: &mut Model, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     for numeric in &spec.numerics {
         let what = title("numeric", &numeric.name);
         let size =

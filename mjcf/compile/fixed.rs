@@ -2,11 +2,10 @@
 
 use super::tree::Tree;
 use super::{Log, title};
-use physics::Model;
-use physics::model::{SleepPolicy, WrapType};
+use physics::model::{Arrays, SleepPolicy, WrapType};
 
 /// Numbers the trees, takes simplicity back where tendons couple bodies, sets the sleep policies of the file.
-pub(super) fn fill(m: &mut Model, tree: &Tree, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, tree: &Tree, log: &mut Log) {
     number_trees(m);
     demote_bodies_under_heavy_tendons(m);
     m.dof_simplenum = simple_runs(m);
@@ -14,7 +13,7 @@ pub(super) fn fill(m: &mut Model, tree: &Tree, log: &mut Log) {
 }
 
 /// A degree of freedom without one above it starts a tree.
-fn number_trees(m: &mut Model) {
+fn number_trees(m: &mut Arrays) {
     let mut tree = -1;
     for dof in 0..m.nv {
         tree += i32::from(m.dof_parentid[dof] < 0);
@@ -23,7 +22,7 @@ fn number_trees(m: &mut Model) {
 }
 
 /// A tendon with armature couples the bodies it touches, which then are not simple.
-fn demote_bodies_under_heavy_tendons(m: &mut Model) {
+fn demote_bodies_under_heavy_tendons(m: &mut Arrays) {
     for tendon in 0..m.ntendon {
         if m.tendon_armature[tendon] == 0.0 {
             continue;
@@ -42,7 +41,7 @@ fn demote_bodies_under_heavy_tendons(m: &mut Model) {
 }
 
 /// For each degree of freedom the number of simple ones from it on.
-fn simple_runs(m: &Model) -> Vec<i32> {
+fn simple_runs(m: &Arrays) -> Vec<i32> {
     let mut runs = vec![0; m.nv];
     let mut count = 0;
     for dof in (0..m.nv).rev() {
@@ -53,7 +52,7 @@ fn simple_runs(m: &Model) -> Vec<i32> {
 }
 
 /// Sleep policies that the file gives, to the first body of a tree only.
-fn given_sleep_policies(m: &mut Model, tree: &Tree, log: &mut Log) {
+fn given_sleep_policies(m: &mut Arrays, tree: &Tree, log: &mut Log) {
     m.tree_sleep_policy = vec![SleepPolicy::Auto.code(); m.ntree];
     for (id, node) in tree.bodies.iter().enumerate() {
         if node.spec.sleep == SleepPolicy::Auto {

@@ -8,9 +8,8 @@ use super::{Log, fluid, push_user, shape, title};
 use crate::mesh::{CompiledMesh, Primitive, fit_primitive};
 use crate::spec::{Compiler, Geom};
 use crate::vector::{cross, normalize};
-use physics::Model;
 use physics::math::Vec3;
-use physics::model::{GeomType, ObjType};
+use physics::model::{Arrays, GeomType, ObjType};
 
 /// A geom in the frame of its body.
 pub(super) struct GeomNode<'s> {
@@ -206,7 +205,7 @@ fn weigh(spec: &Geom, size: Vec3, mesh: Option<&CompiledMesh>) -> Result<(f64, V
 }
 
 /// Appends the geoms of `body`.
-pub(super) fn fill(m: &mut Model, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
     for node in &body.geoms {
         let spec = node.spec;
         let what = title("geom", &spec.name);

@@ -5,10 +5,9 @@ use super::frame::{EPS, Pose, direction};
 use super::{Log, push_user, resolve_limited, title};
 use crate::spec::{Compiler, Joint};
 use crate::vector::normalize;
-use physics::Model;
 use physics::math::Vec3;
-use physics::model::JointType;
 use physics::model::bounds::MINVAL;
+use physics::model::{Arrays, JointType};
 use std::f64::consts::PI;
 
 /// A joint in the frame of its body, angles in radians.
@@ -84,7 +83,7 @@ fn check_range(kind: JointType, range: [f64; 2]) -> Result<(), String> {
 }
 
 /// Appends the joints of `body` and their degrees of freedom.
-pub(super) fn fill(m: &mut Model, body: &BodyNode, id: usize, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, body: &BodyNode, id: usize, log: &mut Log) {
     let mut parent_dof = last_dof_above(m, id);
     for node in &body.joints {
         let spec = node.spec;
@@ -128,7 +127,7 @@ pub(super) fn fill(m: &mut Model, body: &BodyNode, id: usize, log: &mut Log) {
 
 /// Stiffness and damping of joints that give a time constant and damping ratio instead, from their mean inertia at
 /// `qpos0` (XML reference, `joint/springdamper`).
-pub(super) fn set_springdampers(m: &mut Model, springdampers: &[[f64; 2]]) {
+pub(super) fn set_springdampers(m: &mut Arrays, springdampers: &[[f64; 2]]) {
     for (joint, &[timeconst, dampratio]) in springdampers.iter().enumerate() {
         if timeconst <= 0.0 || dampratio <= 0.0 {
             continue;
@@ -143,7 +142,7 @@ pub(super) fn set_springdampers(m: &mut Model, springdampers: &[[f64; 2]]) {
 }
 
 /// Positions of the joint at the reference and at the spring's rest.
-fn fill_reference(m: &mut Model, body: &BodyNode, node: &JointNode) {
+fn fill_reference(m: &mut Arrays, body: &BodyNode, node: &JointNode) {
     match node.spec.kind {
         JointType::Free => {
             m.qpos0.extend(body.pose.pos);
@@ -163,7 +162,7 @@ fn fill_reference(m: &mut Model, body: &BodyNode, node: &JointNode) {
 }
 
 /// The last degree of freedom of the nearest ancestor that has any, -1 for none.
-fn last_dof_above(m: &Model, id: usize) -> i32 {
+fn last_dof_above(m: &Arrays, id: usize) -> i32 {
     let mut b = id;
     while b > 0 {
         b = m.body_parentid[b] as usize;

@@ -39,6 +39,7 @@ use physics::Model;
 use physics::constants::length_range::set_length_ranges;
 use physics::constants::set_const::set_const;
 use physics::inertia::sparsity;
+use physics::model::Arrays;
 use physics::pipeline::validity::check_model;
 
 /// Largest length a file may ask for without giving the data.
@@ -111,7 +112,8 @@ pub fn compile(
     diagnostics: &mut Diagnostics,
 ) -> Option<Model> {
     let log = &mut Log { sources, diagnostics };
-    let (mut m, springdampers) = compile_static(spec, files, cache, log)?;
+    let (arrays, springdampers) = compile_static(spec, files, cache, log)?;
+    let mut m = Model::unchecked(arrays);
     if let Err(error) = set_const(&mut m) {
         log.error(Loc::NONE, error.to_string());
         return None;
@@ -120,17 +122,17 @@ pub fn compile(
         log.error(Loc::NONE, error.to_string());
         return None;
     }
-    joint::set_springdampers(&mut m, &springdampers);
+    joint::set_springdampers(m.unchecked_mut(), &springdampers);
     if let Err(error) = set_length_ranges(&mut m, &spec.compiler.lengthrange) {
         log.error(Loc::NONE, error.to_string());
         return None;
     }
-    override_statistic(&mut m, &spec.stat);
+    override_statistic(m.unchecked_mut(), &spec.stat);
     Some(m)
 }
 
 /// Statistics that the file gives replace the computed ones.
-fn override_statistic(m: &mut Model, given: &StatisticOverride) {
+fn override_statistic(m: &mut Arrays, given: &StatisticOverride) {
     let stat = &mut m.stat;
     stat.meaninertia = given.meaninertia.unwrap_or(stat.meaninertia);
     stat.meanmass = given.meanmass.unwrap_or(stat.meanmass);
@@ -145,7 +147,7 @@ fn compile_static(
     files: &dyn FileProvider,
     cache: Option<&Cache>,
     log: &mut Log,
-) -> Option<(Model, Vec<[f64; 2]>)> {
+) -> Option<(Arrays, Vec<[f64; 2]>)> {
     let mut assets = assets::compile(spec, files, cache, log);
     let mut tree = tree::compile(spec, &assets, log);
     if log.diagnostics.has_errors() {
@@ -159,7 +161,7 @@ fn compile_static(
         discard::discard_visual(&mut tree, &mut assets, spec);
     }
     let lookup = lookup::Lookup::new(spec, &tree, &assets, log);
-    let mut m = Model { name: spec.modelname.clone(), ..Model::default() };
+    let mut m = Arrays { name: spec.modelname.clone(), ..Arrays::default() };
     m.opt = spec.option.clone();
     m.vis = spec.visual.clone();
     sizes::set_user_widths(&mut m, spec, log);

@@ -5,11 +5,10 @@ use super::constraint::sorted_names;
 use super::lookup::Lookup;
 use super::tree::Tree;
 use crate::spec::Spec;
-use physics::Model;
-use physics::model::ObjType;
+use physics::model::{Arrays, ObjType};
 
 /// Fills names, hash table and paths.
-pub(super) fn fill(m: &mut Model, spec: &Spec, tree: &Tree, assets: &Assets, lookup: &Lookup) {
+pub(super) fn fill(m: &mut Arrays, spec: &Spec, tree: &Tree, assets: &Assets, lookup: &Lookup) {
     m.names.extend(spec.modelname.bytes());
     m.names.push(0);
     let pairs = sorted_names(spec, m, ObjType::Pair, lookup);

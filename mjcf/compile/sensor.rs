@@ -3,11 +3,10 @@
 use super::lookup::Lookup;
 use super::{Log, bounded, push_user, title};
 use crate::spec::{Sensor, Spec};
-use physics::Model;
-use physics::model::{DataType, GeomType, JointType, ObjType, SensorType, Stage};
+use physics::model::{Arrays, DataType, GeomType, JointType, ObjType, SensorType, Stage};
 
 /// Appends all sensors; history buffers follow those of the actuators.
-pub(super) fn fill(m: &mut Model, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     for sensor in &spec.sensors {
         let what = title("sensor", &sensor.name);
         let before = log.diagnostics.list.len();
@@ -31,7 +30,7 @@ fn reference(kind: ObjType, name: &str, sensor: &Sensor, lookup: &Lookup, what: 
     }
 }
 
-fn fill_sensor(m: &mut Model, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+fn fill_sensor(m: &mut Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
     check(m, sensor, object, base)?;
     let user = sensor.kind == SensorType::User;
     let datatype = if user { sensor.datatype } else { datatype(sensor.kind) };
@@ -68,7 +67,7 @@ fn fill_sensor(m: &mut Model, sensor: &Sensor, object: i32, base: i32) -> Result
 }
 
 /// Which objects a sensor may be attached to.
-fn check(m: &Model, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+fn check(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
     use SensorType::*;
     if sensor.noise < 0.0 || sensor.cutoff < 0.0 || sensor.interval[0] < 0.0 {
         return Err("noise, cutoff and interval cannot be negative".into());
@@ -156,7 +155,7 @@ fn check_fields(fields: i32, count: u32) -> Result<(), String> {
     if fields > 0 && fields < 1 << count { Ok(()) } else { Err(format!("invalid data fields {fields:#b}")) }
 }
 
-fn check_distance(m: &Model, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+fn check_distance(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
     let ends = [(sensor.objtype, object), (sensor.reftype, base)];
     if ends.iter().any(|(kind, _)| !matches!(kind, ObjType::Body | ObjType::Geom)) {
         return Err("must be attached to a body or geom".into());
@@ -191,7 +190,7 @@ fn needstage(kind: SensorType) -> Stage {
     }
 }
 
-fn dimension(m: &Model, sensor: &Sensor, object: i32) -> Result<i64, String> {
+fn dimension(m: &Arrays, sensor: &Sensor, object: i32) -> Result<i64, String> {
     use SensorType::*;
     let id = object as usize;
     Ok(match sensor.kind {

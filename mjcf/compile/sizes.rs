@@ -3,11 +3,10 @@
 use super::{Log, bounded};
 use crate::diagnostic::Loc;
 use crate::spec::{Body, Spec};
-use physics::Model;
-use physics::model::EqType;
+use physics::model::{Arrays, EqType};
 
 /// Widths of user data: as the file says, else the longest row.
-pub(super) fn set_user_widths(m: &mut Model, spec: &Spec, log: &mut Log) {
+pub(super) fn set_user_widths(m: &mut Arrays, spec: &Spec, log: &mut Log) {
     let size = &spec.size;
     let (mut longest, mut count) = ([0; 5], [0; 5]);
     let mut pending: Vec<&Body> = vec![&spec.world];
@@ -44,7 +43,7 @@ pub(super) fn set_user_widths(m: &mut Model, spec: &Spec, log: &mut Log) {
 }
 
 /// Sets every size that the filled arrays determine.
-pub(super) fn set(m: &mut Model, spec: &Spec) {
+pub(super) fn set(m: &mut Arrays, spec: &Spec) {
     m.nq = m.qpos0.len();
     m.nv = m.dof_bodyid.len();
     m.nu = m.actuator_ctrllimited.len();
@@ -107,7 +106,7 @@ fn rows(kind: i32) -> usize {
 }
 
 /// Room for what `set_const` computes.
-pub(super) fn allocate_derived(m: &mut Model) {
+pub(super) fn allocate_derived(m: &mut Arrays) {
     m.body_subtreemass = vec![0.0; m.nbody];
     m.body_treeid = vec![-1; m.nbody];
     m.tree_bodyadr = vec![0; m.ntree];
@@ -138,7 +137,7 @@ pub(super) fn allocate_derived(m: &mut Model) {
 }
 
 /// Every array must have the size that the table of fields says.
-pub(super) fn check(m: &Model, log: &mut Log) {
+pub(super) fn check(m: &Arrays, log: &mut Log) {
     let mut wrong = Vec::new();
     m.visit(&mut |name, shape, values| {
         let expected: usize = shape.iter().product();

@@ -9,7 +9,7 @@ use super::lookup::Lookup;
 use super::viewpoint::{self, CameraNode, LightNode, SiteNode};
 use super::{Log, geom, title};
 use crate::spec::{Body, Spec};
-use physics::Model;
+use physics::model::Arrays;
 
 /// Compiled bodies; a body follows its parent, subtrees are contiguous.
 pub(super) struct Tree<'s> {
@@ -66,7 +66,7 @@ pub(super) fn compile<'s>(spec: &'s Spec, assets: &Assets, log: &mut Log) -> Tre
 }
 
 /// Fills the arrays of bodies and all that is fixed to them.
-pub(super) fn fill(m: &mut Model, tree: &Tree, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Arrays, tree: &Tree, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     body::check_moving_mass(tree, log);
     for (id, node) in tree.bodies.iter().enumerate() {
         body::fill(m, node, id, tree, log);

@@ -6,10 +6,9 @@ use super::lookup::Lookup;
 use super::{Log, geom, push_user, shape, title};
 use crate::spec::{Camera, Compiler, Light, Site, Spec};
 use crate::vector::normalize;
-use physics::Model;
 use physics::math::Vec3;
 use physics::math::ops;
-use physics::model::{GeomType, ObjType};
+use physics::model::{Arrays, GeomType, ObjType};
 use std::f64::consts::PI;
 
 /// A site in the frame of its body.
@@ -130,7 +129,7 @@ fn compile_light<'s>(spec: &'s Light, frame: Option<&Pose>) -> Result<LightNode<
 }
 
 /// Appends the sites of `body`.
-pub(super) fn fill_sites(m: &mut Model, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill_sites(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
     for node in &body.sites {
         let spec = node.spec;
         let what = title("site", &spec.name);
@@ -149,7 +148,7 @@ pub(super) fn fill_sites(m: &mut Model, body: &BodyNode, id: usize, lookup: &Loo
 }
 
 /// Appends the cameras of `body`.
-pub(super) fn fill_cameras(m: &mut Model, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill_cameras(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
     for node in &body.cameras {
         let spec = node.spec;
         let what = title("camera", &spec.name);
@@ -171,7 +170,7 @@ pub(super) fn fill_cameras(m: &mut Model, body: &BodyNode, id: usize, lookup: &L
 }
 
 /// Appends the lights of `body`.
-pub(super) fn fill_lights(m: &mut Model, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill_lights(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
     for node in &body.lights {
         let spec = node.spec;
         let what = title("light", &spec.name);

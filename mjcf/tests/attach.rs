@@ -82,7 +82,7 @@ fn conflicts_are_settled_as_asked() {
     assert_eq!(kept.model.nsensor, 1);
 
     let merge = "<compiler conflict='merge'/>";
-    let merged = load(CHILD, &format!("{merge}{option}"), attach).unwrap().model.opt;
+    let merged = load(CHILD, &format!("{merge}{option}"), attach).unwrap().model.opt.clone();
     assert_eq!((merged.timestep, merged.iterations, merged.gravity[2]), (0.002, 9, -3.0));
     assert_eq!(merged.disableflags, Disable::DAMPER);
     let gravity = "<option gravity='0 0 -1'/>";

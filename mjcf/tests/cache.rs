@@ -102,7 +102,7 @@ fn files_whose_stamp_stayed_are_not_read() {
     let set_changed = |time: i64| *files.changed.lock().unwrap() = Some(time);
     let load = || {
         files.meshes_read.store(0, Ordering::Relaxed);
-        let vertices = loader.load("model.xml").unwrap().model.mesh_vert;
+        let vertices = loader.load("model.xml").unwrap().model.mesh_vert.clone();
         (vertices, files.meshes_read.load(Ordering::Relaxed))
     };
     set_changed(5);
@@ -157,7 +157,7 @@ fn meshes_are_kept_apart_from_the_models_that_show_them() {
     assert_eq!(of_kind(&folder, "rhmesh").len(), 1);
     // What stands under the name of the mesh is what a new text shows, unless it is damaged.
     files.set("model.xml", &MODEL.replace("<mesh ", "<mesh scale='2 2 2' "));
-    let large = loader.load("model.xml").unwrap().model.mesh_vert;
+    let large = loader.load("model.xml").unwrap().model.mesh_vert.clone();
     let other = of_kind(&folder, "rhmesh").into_iter().find(|path| path != kept).unwrap();
     let small = std::fs::read(kept).unwrap();
     std::fs::copy(&other, kept).unwrap();

@@ -157,7 +157,7 @@ fn numbers_out_of_range_are_refused_or_stepped() {
             {
                 let (mut changed, mut values) = (m.clone(), values.clone());
                 values[at] = number;
-                assert_eq!(changed.assign(name, &values), Some(true));
+                assert_eq!(changed.unchecked_mut().assign(name, &values), Some(true));
                 if check_consistency(&changed).is_err() || check_model(&changed).is_err() {
                     refused += 1;
                     continue;
@@ -184,7 +184,7 @@ fn height_fields_meet_bodies_of_impossible_sizes() {
         m.visit(&mut |array, _, values| scalars = if array == name { values.len() } else { scalars });
         for number in [f64::NAN, -0.4, -1e300, 1e300, f64::INFINITY] {
             let mut changed = m.clone();
-            assert_eq!(changed.assign(name, &vec![number; scalars]), Some(true));
+            assert_eq!(changed.unchecked_mut().assign(name, &vec![number; scalars]), Some(true));
             if check_consistency(&changed).is_ok() {
                 stepped += 1;
                 _ = step(&changed, &mut Data::new(&changed));
@@ -202,8 +202,9 @@ fn cameras_without_a_number_of_pixels_are_refused() {
     let m = load_str(text).unwrap().model;
     for (resolution, dim) in [([-1, 0], 0), ([0, -1], 0), ([-2, -3], 6), ([i32::MAX; 2], 0)] {
         let mut changed = m.clone();
-        (changed.cam_resolution[0], changed.sensor_dim[0]) = (resolution, dim);
-        (changed.sensor_intprm[0][0], changed.nsensordata) = (dim / 6, dim as usize);
+        let arrays = changed.unchecked_mut();
+        (arrays.cam_resolution[0], arrays.sensor_dim[0]) = (resolution, dim);
+        (arrays.sensor_intprm[0][0], arrays.nsensordata) = (dim / 6, dim as usize);
         assert!(check_consistency(&changed).is_err(), "{resolution:?}");
     }
 }
@@ -213,9 +214,10 @@ fn histories_too_long_to_be_added_up_are_refused() {
     let sensors = "<clock delay='.01' nsample='2'/>".repeat(3);
     let mut m = load_str(&format!("<mujoco><sensor>{sensors}</sensor></mujoco>")).unwrap().model;
     assert_eq!((m.nhistory, check_consistency(&m)), (18, Ok(())));
-    m.sensor_dim.fill(i32::MAX);
-    m.sensor_history.fill([i32::MAX, 0]);
-    m.nsensordata = 3 * i32::MAX as usize;
+    let arrays = m.unchecked_mut();
+    arrays.sensor_dim.fill(i32::MAX);
+    arrays.sensor_history.fill([i32::MAX, 0]);
+    arrays.nsensordata = 3 * i32::MAX as usize;
     assert_eq!(check_consistency(&m).unwrap_err().array, "nhistory");
 }
 
@@ -228,11 +230,11 @@ fn hierarchies_that_are_no_trees_are_refused() {
     for (node, children) in [(0, [1, 1]), (0, [1, 3]), (1, [2, 2]), (1, [3, 2]), (2, [3, -1]), (0, [-1, -1])]
     {
         let mut changed = m.clone();
-        changed.bvh_child[first + node] = children;
+        changed.unchecked_mut().bvh_child[first + node] = children;
         assert!(check_consistency(&changed).is_err(), "{node} {children:?}");
     }
     // A tree of no nodes would be walked unchecked.
     let mut changed = m.clone();
-    changed.mesh_bvhnum[0] = 0;
+    changed.unchecked_mut().mesh_bvhnum[0] = 0;
     assert!(check_consistency(&changed).is_err());
 }

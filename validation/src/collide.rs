@@ -247,9 +247,9 @@ impl Scene {
         if 2 * p.slots > self.m.ngeom {
             return Err(ReferenceError::Shape("slots".into()));
         }
-        self.m.opt = self.options.clone();
+        *self.m.options_mut() = self.options.clone();
         for (name, values) in &p.options {
-            if self.m.opt.assign(name, values) != Some(true) {
+            if self.m.options_mut().assign(name, values) != Some(true) {
                 return Err(ReferenceError::Shape(format!("opt.{name}")));
             }
         }
@@ -278,7 +278,7 @@ impl Scene {
 
     /// Injects the geometry of one group of pairs.
     fn place(&mut self, p: &Placements, group: usize) -> Result<(), ReferenceError> {
-        let (m, kin) = (&mut self.m, &mut self.d.kin);
+        let (m, kin) = (self.m.unchecked_mut(), &mut self.d.kin);
         let first = m.ngeom - 2 * p.slots;
         for k in 0..2 * p.slots {
             let (g, row) = (first + k, 2 * group * p.slots + k);

@@ -63,17 +63,18 @@ pub(crate) fn compare_geom(
 ) -> Result<(), ReferenceError> {
     let g = m.ngeom - 1;
     let kind = numbers(archive, "ray")?[0];
-    if m.assign("hfield_data", &numbers(archive, "hfield_data")?) != Some(true) {
+    if m.unchecked_mut().assign("hfield_data", &numbers(archive, "hfield_data")?) != Some(true) {
         return Err(ReferenceError::Shape("hfield_data".into()));
     }
-    m.geom_type[g] = kind as i32;
+    m.unchecked_mut().geom_type[g] = kind as i32;
     let (size, dataid) = (rows::<3>(archive, "size")?, numbers(archive, "dataid")?);
     let (xpos, xmat) = (rows::<3>(archive, "xpos")?, rows::<9>(archive, "xmat")?);
     let (pnt, vec) = (rows::<3>(archive, "pnt")?, rows::<3>(archive, "vec")?);
     let (distance, normal) = (numbers(archive, "distance")?, rows::<3>(archive, "normal")?);
     let unstable = numbers(archive, "unstable")?;
     for i in 0..distance.len() {
-        (m.geom_size[g], m.geom_dataid[g]) = (size[i], dataid[i] as i32);
+        let arrays = m.unchecked_mut();
+        (arrays.geom_size[g], arrays.geom_dataid[g]) = (size[i], dataid[i] as i32);
         (d.kin.geom_xpos[g], d.kin.geom_xmat[g]) = (xpos[i], xmat[i]);
         let found = ray_geom(m, &d.kin, g, Ray { origin: pnt[i], direction: vec[i] }).map(|hit| (0, hit));
         let theirs = (if distance[i] < 0.0 { -1 } else { 0 }, distance[i], normal[i]);
@@ -90,7 +91,7 @@ pub(crate) fn compare_scene(
     report: &mut Report,
 ) -> Result<(), ReferenceError> {
     for name in archive.names().filter_map(|n| n.strip_prefix("model.")) {
-        if m.assign(name, &numbers(archive, &format!("model.{name}"))?) != Some(true) {
+        if m.unchecked_mut().assign(name, &numbers(archive, &format!("model.{name}"))?) != Some(true) {
             return Err(ReferenceError::Shape(name.to_owned()));
         }
     }

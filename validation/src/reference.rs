@@ -1,6 +1,7 @@
 //! Recorded MuJoCo runs (`reference/record.py`), read back as a `Model`, states and expected outputs.
 
 use dataset::{Array, NpzError, NpzReader};
+use physics::model::Arrays;
 use physics::{Data, Model};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -60,7 +61,7 @@ impl Reference {
     /// # Errors
     /// An array is missing or of the wrong size.
     pub fn model(&self) -> Result<Model, ReferenceError> {
-        let mut m = Model::default();
+        let mut m = Arrays::default();
         for name in self.archive.names() {
             if let Some(size) = name.strip_prefix("size.") {
                 let value = self.archive.require(name)?.values.to_f64()[0];
@@ -91,7 +92,7 @@ impl Reference {
                 return Err(ReferenceError::Shape(name.to_owned()));
             }
         }
-        Ok(m)
+        Ok(Model::unchecked(m))
     }
 
     /// Number of recorded independent states.

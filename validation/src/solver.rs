@@ -138,7 +138,7 @@ pub fn solve_archive(m: &mut Model, path: &Path) -> Result<Outcome, ReferenceErr
         let qacc = problems.row("solved.qacc", k)?;
         let niter = problems.row("solved.solver_niter", k)?;
         for (s, solver) in SOLVERS.into_iter().enumerate() {
-            m.opt.solver = solver;
+            m.options_mut().solver = solver;
             let mut d = start.clone();
             let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
             solve(m, state, inertia, con, efc, island, acc, solver, &mut scratch);
@@ -159,9 +159,10 @@ pub fn solve_archive(m: &mut Model, path: &Path) -> Result<Outcome, ReferenceErr
 fn inject(m: &mut Model, p: &Problems, k: usize, place: &mut Place) -> Result<Data, ReferenceError> {
     let option = |name: &str| Ok::<i32, ReferenceError>(p.row(name, k)?[0] as i32);
     let cone = option("problem.cone")?;
-    m.opt.cone = Cone::from_code(cone).ok_or_else(|| ReferenceError::Shape("problem.cone".into()))?;
-    m.opt.noslip_iterations = option("problem.noslip_iterations")?;
-    m.opt.disableflags = Disable::from_bits(option("problem.disableflags")?);
+    m.options_mut().cone =
+        Cone::from_code(cone).ok_or_else(|| ReferenceError::Shape("problem.cone".into()))?;
+    m.options_mut().noslip_iterations = option("problem.noslip_iterations")?;
+    m.options_mut().disableflags = Disable::from_bits(option("problem.disableflags")?);
     let mut d = Data::new(m);
     let mut set = |name: &str, values: &[f64]| match d.assign(name, values) {
         Some(true) => Ok(()),

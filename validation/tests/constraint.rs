@@ -94,7 +94,7 @@ fn storage_does_not_matter() {
         let mut m = r.model().unwrap();
         for row in 0..r.states().unwrap() {
             let solved = [Jacobian::Dense, Jacobian::Sparse].map(|storage| {
-                m.opt.jacobian = storage;
+                m.options_mut().jacobian = storage;
                 let mut d = before_solver(&r, &m, row).unwrap();
                 let mut scratch = SolverScratch::default();
                 let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;

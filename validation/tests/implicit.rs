@@ -50,7 +50,7 @@ fn derivatives_agree() {
     for (name, own, recorded) in references() {
         let mut m = own.model().unwrap();
         for (label, integrator) in INTEGRATORS {
-            m.opt.integrator = integrator;
+            m.options_mut().integrator = integrator;
             let theirs = values(&recorded, &format!("{label}.qDeriv"));
             let qvel = values(&recorded, &format!("{label}.qvel"));
             let scale = theirs.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
@@ -77,7 +77,7 @@ fn rollouts_agree() {
         let mut m = own.model().unwrap();
         let ctrl = values(&recorded, "ctrl");
         for (label, integrator) in INTEGRATORS {
-            m.opt.integrator = integrator;
+            m.options_mut().integrator = integrator;
             let (theirs, twin) =
                 (values(&recorded, &format!("{label}.qpos")), values(&recorded, &format!("{label}.twin")));
             let rows = twin.iter().take_while(|&&x| x < ROLLOUT_ABSOLUTE).count();
@@ -110,7 +110,7 @@ fn inverse_dynamics_agree() {
         let continuous = ("inverse.qfrc_inverse".to_owned(), Integrator::Euler, Enable::NONE);
         let flags = m.opt.enableflags;
         for (label, integrator, flag) in discrete.into_iter().chain([continuous]) {
-            (m.opt.integrator, m.opt.enableflags) = (integrator, flags | flag);
+            (m.options_mut().integrator, m.options_mut().enableflags) = (integrator, flags | flag);
             let theirs = values(&recorded, &label);
             for (k, row) in STATES.into_iter().enumerate() {
                 let at = k * m.nv..(k + 1) * m.nv;
@@ -138,7 +138,7 @@ fn transition_matrices_agree() {
     for (name, own, recorded) in references() {
         let mut m = own.model().unwrap();
         for integrator in [Integrator::Euler, INTEGRATORS[0].1, INTEGRATORS[1].1] {
-            m.opt.integrator = integrator;
+            m.options_mut().integrator = integrator;
             let label = format!("transition.{integrator:?}").replace(".I", ".i");
             if recorded.archive().require(&format!("{label}.A")).is_err() {
                 continue;
@@ -193,7 +193,7 @@ fn inverse_undoes_forward() {
     let mut rows = 0;
     for (name, own, _) in references() {
         let mut m = own.model().unwrap();
-        m.opt.enableflags |= Enable::FWDINV;
+        m.options_mut().enableflags |= Enable::FWDINV;
         for row in STATES {
             let mut d = Data::new(&m);
             own.set_state(&mut d, &m, row).unwrap();

@@ -1,6 +1,6 @@
 //! Damping and armature of actuators, reflected through the gear to the joint or tendon they drive.
 
-use crate::model::{Model, TrnType};
+use crate::model::{Arrays, Model, TrnType};
 use crate::velocity::polynomial::Polynomial;
 
 /// Element on which an actuator's load acts.
@@ -14,7 +14,7 @@ pub enum Driven {
 
 impl Driven {
     /// Actuators that drive the element through a plain transmission, in order.
-    fn actuators(self, m: &Model) -> impl Iterator<Item = usize> + '_ {
+    fn actuators(self, m: &Arrays) -> impl Iterator<Item = usize> + '_ {
         let (recorded, id) = match self {
             Driven::Joint(j) => (m.jnt_actuatorid[j], j),
             Driven::Tendon(t) => (m.tendon_actuatorid[t], t),
@@ -52,7 +52,7 @@ impl Driven {
     }
 
     /// Armature that actuators add.
-    pub fn armature(self, m: &Model) -> f64 {
+    pub fn armature(self, m: &Arrays) -> f64 {
         self.actuators(m).map(|k| m.actuator_armature[k] * gear_squared(m, k)).fold(0.0, |a, b| a + b)
     }
 }
@@ -69,7 +69,7 @@ pub fn tendon_damping(m: &Model, t: usize) -> Polynomial {
     Driven::Tendon(t).damping(m, law)
 }
 
-fn gear_squared(m: &Model, actuator: usize) -> f64 {
+fn gear_squared(m: &Arrays, actuator: usize) -> f64 {
     let gear = m.actuator_gear[m.actuator_outadr[actuator] as usize][0];
     gear * gear
 }

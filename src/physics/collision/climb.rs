@@ -2,7 +2,7 @@
 //! time (van den Bergen, "Collision Detection in Interactive 3D Environments", section 4.3.4).
 
 use crate::math::{Vec3, dot};
-use crate::model::Model;
+use crate::model::{Arrays, Model};
 
 /// Meshes with fewer vertices are searched in full.
 const CLIMB_MIN: i32 = 10;
@@ -58,12 +58,8 @@ pub struct Slope<'a> {
 }
 
 impl Slopes {
-    /// Those of a model, laid out when first asked for.
-    pub fn of(m: &Model) -> &Self {
-        m.slopes.get_or_init(|| Slopes::new(m))
-    }
-
-    fn new(m: &Model) -> Self {
+    /// The hulls of all meshes of a model.
+    pub(crate) fn new(m: &Arrays) -> Self {
         let mut slopes = Slopes::default();
         for mesh in 0..m.nmesh {
             let start = usize::try_from(m.mesh_graphadr[mesh]).ok();
@@ -99,7 +95,7 @@ impl Slopes {
 impl<'a> Slope<'a> {
     /// The hull of mesh `mesh`; `None` when the mesh is searched in full.
     pub fn new(m: &'a Model, mesh: usize) -> Option<Self> {
-        let slopes = Slopes::of(m);
+        let slopes = m.slopes();
         let vertices = &slopes.vertices[slopes.first[mesh]?..];
         Some(Slope { vertices, neighbours: &slopes.neighbours, extrema: &m.mesh_extrema[mesh] })
     }

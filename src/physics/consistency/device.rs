@@ -1,12 +1,12 @@
 //! Tendon paths, equality constraints, actuators and sensors: references whose kind another array tells.
 
 use super::{Inconsistent, count, require};
-use crate::model::{DynType, EqType, GainType, JointType, Model, ObjType, SensorType, TrnType, WrapType};
+use crate::model::{Arrays, DynType, EqType, GainType, JointType, ObjType, SensorType, TrnType, WrapType};
 
 /// Samples a history buffer may hold.
 const MAX_SAMPLES: i32 = 1 << 24;
 
-pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
+pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     (0..m.ntendon).try_for_each(|tendon| path(m, tendon))?;
     (0..m.nwrap).try_for_each(|element| path_element(m, element))?;
     (0..m.neq).try_for_each(|eq| equality(m, eq))?;
@@ -19,7 +19,7 @@ fn refers(id: i32, least: i32, end: usize) -> bool {
 }
 
 /// A path begins with a site, or consists of joints; a geom stands between two sites.
-fn path(m: &Model, tendon: usize) -> Result<(), Inconsistent> {
+fn path(m: &Arrays, tendon: usize) -> Result<(), Inconsistent> {
     let (first, n) = (m.tendon_adr[tendon], m.tendon_num[tendon]);
     require(first >= 0 && n > 0, "tendon_num", tendon, "positive")?;
     let kinds = &m.wrap_type[first as usize..(first + n) as usize];
@@ -38,7 +38,7 @@ fn path(m: &Model, tendon: usize) -> Result<(), Inconsistent> {
     Ok(())
 }
 
-fn path_element(m: &Model, w: usize) -> Result<(), Inconsistent> {
+fn path_element(m: &Arrays, w: usize) -> Result<(), Inconsistent> {
     let (id, side) = (m.wrap_objid[w], m.wrap_prm[w]);
     let known = match WrapType::from_code(m.wrap_type[w]) {
         Some(WrapType::Joint) => refers(id, 0, m.njnt),
@@ -53,7 +53,7 @@ fn path_element(m: &Model, w: usize) -> Result<(), Inconsistent> {
     require(known, "wrap_objid", w, "a reference to an element")
 }
 
-fn equality(m: &Model, eq: usize) -> Result<(), Inconsistent> {
+fn equality(m: &Arrays, eq: usize) -> Result<(), Inconsistent> {
     let (n, least) = match (EqType::from_code(m.eq_type[eq]), ObjType::from_code(m.eq_objtype[eq])) {
         (Some(EqType::Connect | EqType::Weld), Some(ObjType::Body)) => (m.nbody, 0),
         (Some(EqType::Connect | EqType::Weld), Some(ObjType::Site)) => (m.nsite, 0),
@@ -70,7 +70,7 @@ fn equality(m: &Model, eq: usize) -> Result<(), Inconsistent> {
 }
 
 /// Numbers that all history buffers take.
-pub(super) fn history_length(m: &Model) -> i64 {
+pub(super) fn history_length(m: &Arrays) -> i64 {
     let length = |n: i32, dim: i64| if n > 0 { 2 + i64::from(n) * (1 + dim) } else { 0 };
     let controls: i64 = m.actuator_history.iter().map(|&[n, _]| length(n, 1)).sum();
     let readings = m.sensor_history.iter().zip(&m.sensor_dim);
@@ -78,7 +78,7 @@ pub(super) fn history_length(m: &Model) -> i64 {
 }
 
 /// Inputs, outputs, states and histories follow each other in the order of actuators.
-fn actuators(m: &Model) -> Result<(), Inconsistent> {
+fn actuators(m: &Arrays) -> Result<(), Inconsistent> {
     let (mut ctrl, mut out, mut act, mut history) = (0, 0, 0, 0);
     for i in 0..m.nactuator {
         let (inputs, outputs, states) = block(m, i)?;
@@ -98,7 +98,7 @@ fn actuators(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// How many inputs, outputs and states actuator `i` has, as its types ask for.
-fn block(m: &Model, i: usize) -> Result<(i32, i32, i32), Inconsistent> {
+fn block(m: &Arrays, i: usize) -> Result<(i32, i32, i32), Inconsistent> {
     let (inputs, outputs, states) = (m.actuator_ctrlnum[i], m.actuator_outnum[i], m.actuator_actnum[i]);
     let (dynamics, gain) =
         (DynType::from_code(m.actuator_dyntype[i]), GainType::from_code(m.actuator_gaintype[i]));
@@ -129,7 +129,7 @@ fn block(m: &Model, i: usize) -> Result<(i32, i32, i32), Inconsistent> {
     Ok((inputs, outputs, states))
 }
 
-fn transmission(m: &Model, i: usize) -> Result<(), Inconsistent> {
+fn transmission(m: &Arrays, i: usize) -> Result<(), Inconsistent> {
     let [target, reference] = m.actuator_trnid[i];
     let kind = TrnType::from_code(m.actuator_trntype[i]);
     let known = match kind {
@@ -148,7 +148,7 @@ fn transmission(m: &Model, i: usize) -> Result<(), Inconsistent> {
 }
 
 /// Readings and histories follow each other in the order of sensors.
-fn sensors(m: &Model) -> Result<(), Inconsistent> {
+fn sensors(m: &Arrays) -> Result<(), Inconsistent> {
     let mut next = 0;
     let mut history =
         m.actuator_history.iter().map(|&[n, _]| if n > 0 { 2 + 2 * i64::from(n) } else { 0 }).sum::<i64>();
@@ -168,7 +168,7 @@ fn sensors(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// Whether what a sensor reads exists, and how many numbers it makes.
-fn reading(m: &Model, i: usize) -> (bool, Option<i64>) {
+fn reading(m: &Arrays, i: usize) -> (bool, Option<i64>) {
     use SensorType::*;
     let (object, reference) =
         ((m.sensor_objtype[i], m.sensor_objid[i]), (m.sensor_reftype[i], m.sensor_refid[i]));
@@ -226,7 +226,7 @@ fn reading(m: &Model, i: usize) -> (bool, Option<i64>) {
 }
 
 /// Rays of a rangefinder; `None` where its camera has no number of pixels, or too many.
-fn rays(m: &Model, (kind, id): (i32, i32)) -> Option<i64> {
+fn rays(m: &Arrays, (kind, id): (i32, i32)) -> Option<i64> {
     if kind != ObjType::Camera.code() {
         return Some(1);
     }

@@ -2,9 +2,9 @@
 
 use super::tree::nodes_of;
 use super::{Inconsistent, ranges, require, spans};
-use crate::model::{GeomType, Model};
+use crate::model::{Arrays, GeomType};
 
-pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
+pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     ranges! { m:
         mesh_vertadr mesh_vertnum m.nmeshvert;
         mesh_faceadr mesh_facenum m.nmeshface;
@@ -30,7 +30,7 @@ pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
     (0..m.ngeom).try_for_each(|geom| geom_data(m, geom))
 }
 
-fn textures(m: &Model) -> Result<(), Inconsistent> {
+fn textures(m: &Arrays) -> Result<(), Inconsistent> {
     for t in 0..m.ntex {
         let sides = [m.tex_height[t], m.tex_width[t], m.tex_nchannel[t]];
         let bytes = sides.iter().try_fold(1_i64, |product, &side| product.checked_mul(side.into()));
@@ -44,7 +44,7 @@ fn textures(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// Indices within one mesh.
-fn check_mesh(m: &Model, mesh: usize) -> Result<(), Inconsistent> {
+fn check_mesh(m: &Arrays, mesh: usize) -> Result<(), Inconsistent> {
     let range = |first: i32, count: i32| first.max(0) as usize..(first.max(0) + count) as usize;
     let vertices = range(m.mesh_vertadr[mesh], m.mesh_vertnum[mesh]);
     require(!vertices.is_empty(), "mesh_vertnum", mesh, "positive")?;
@@ -78,7 +78,7 @@ fn check_mesh(m: &Model, mesh: usize) -> Result<(), Inconsistent> {
 
 /// Graph of the hull: counts of vertices and faces, starts of the neighbour lists, vertices, lists that end in -1,
 /// faces.
-fn hull(m: &Model, mesh: usize) -> Result<(), Inconsistent> {
+fn hull(m: &Arrays, mesh: usize) -> Result<(), Inconsistent> {
     let Ok(start) = usize::try_from(m.mesh_graphadr[mesh]) else { return Ok(()) };
     let fault = |holds: bool, expected| require(holds, "mesh_graph", start, expected);
     let Some([n, faces, rest @ ..]) = m.mesh_graph.get(start..) else {
@@ -100,7 +100,7 @@ fn hull(m: &Model, mesh: usize) -> Result<(), Inconsistent> {
 }
 
 /// A mesh geom has a mesh, a height field geom a height field.
-fn geom_data(m: &Model, geom: usize) -> Result<(), Inconsistent> {
+fn geom_data(m: &Arrays, geom: usize) -> Result<(), Inconsistent> {
     let id = m.geom_dataid[geom];
     let (least, end) = match GeomType::from_code(m.geom_type[geom]) {
         Some(GeomType::Mesh | GeomType::Sdf) => (0, m.nmesh),

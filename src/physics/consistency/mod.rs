@@ -6,7 +6,7 @@ mod mesh;
 mod patterns;
 mod tree;
 
-use crate::model::{Model, ObjType};
+use crate::model::{Arrays, ObjType};
 use crate::table::{Field, Slice};
 use std::fmt;
 
@@ -33,7 +33,7 @@ impl std::error::Error for Inconsistent {}
 ///
 /// # Errors
 /// The first array found to contradict another.
-pub fn check_consistency(m: &Model) -> Result<(), Inconsistent> {
+pub fn check_consistency(m: &Arrays) -> Result<(), Inconsistent> {
     check_sizes(m)?;
     tree::check(m)?;
     plain_references(m)?;
@@ -93,7 +93,7 @@ macro_rules! ranges {
 use {ranges, references};
 
 /// Sizes that no array bears out.
-fn check_sizes(m: &Model) -> Result<(), Inconsistent> {
+fn check_sizes(m: &Arrays) -> Result<(), Inconsistent> {
     require(m.nbody > 0, "nbody", 0, "at least the world")?;
     require(m.nbvhstatic == m.nbvh, "nbvhstatic", 0, "the number of all nodes")?;
     let lengths = [
@@ -110,7 +110,7 @@ fn check_sizes(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// How many elements of a kind there are.
-fn count(m: &Model, kind: i32) -> usize {
+fn count(m: &Arrays, kind: i32) -> usize {
     match ObjType::from_code(kind) {
         Some(ObjType::Body | ObjType::Xbody) => m.nbody,
         Some(ObjType::Joint) => m.njnt,
@@ -138,7 +138,7 @@ fn count(m: &Model, kind: i32) -> usize {
 }
 
 /// References that need no more than the size of what they point into.
-fn plain_references(m: &Model) -> Result<(), Inconsistent> {
+fn plain_references(m: &Arrays) -> Result<(), Inconsistent> {
     references! { m:
         jnt_actuatorid -2 m.nactuator;
         geom_bodyid 0 m.nbody;

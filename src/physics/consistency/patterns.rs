@@ -3,9 +3,9 @@
 use super::{Inconsistent, require};
 use crate::constants::set_const::tendon_columns;
 use crate::inertia::sparsity::{Patterns, moment_size};
-use crate::model::Model;
+use crate::model::Arrays;
 
-pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
+pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     sizes(m)?;
     let p = Patterns::of(m);
     let [ancestors, lower, square] = &p.maps;
@@ -42,7 +42,7 @@ pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// The patterns have as many elements as those to be compared with them, so that no more memory is taken.
-fn sizes(m: &Model) -> Result<(), Inconsistent> {
+fn sizes(m: &Arrays) -> Result<(), Inconsistent> {
     let mut above = vec![0; m.nv];
     for dof in 0..m.nv {
         above[dof] = usize::try_from(m.dof_parentid[dof]).map_or(0, |parent| 1 + above[parent]);

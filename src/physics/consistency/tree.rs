@@ -2,11 +2,11 @@
 
 use super::{Inconsistent, ranges, references, require, spans, within};
 use crate::constants::set_const::Trees;
-use crate::model::{JointType, Model};
+use crate::model::{Arrays, JointType};
 use crate::position::chain::last_dof;
 use crate::ray::MAX_LEVELS;
 
-pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
+pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     references! { m:
         body_mocapid -1 m.nmocap;
         dof_bodyid 0 m.nbody;
@@ -26,7 +26,7 @@ pub(super) fn check(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// A body is followed by its descendants, then by its siblings; elements of a body say so too.
-fn bodies(m: &Model) -> Result<(), Inconsistent> {
+fn bodies(m: &Arrays) -> Result<(), Inconsistent> {
     for b in 0..m.nbody {
         let before = |id: i32| id >= 0 && (id as usize) < b.max(1);
         require(before(m.body_parentid[b]), "body_parentid", b, "an earlier body")?;
@@ -65,7 +65,7 @@ fn bodies(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// Joints follow each other in positions and degrees of freedom and fill both.
-fn joints(m: &Model) -> Result<(), Inconsistent> {
+fn joints(m: &Arrays) -> Result<(), Inconsistent> {
     within("jnt_bodyid", &m.jnt_bodyid, 0, m.nbody)?;
     let (mut q, mut v) = (0, 0);
     for j in 0..m.njnt {
@@ -89,7 +89,7 @@ fn joints(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// A degree of freedom hangs on the one before it of the same body, the first on the last that moves the parent.
-fn dofs(m: &Model) -> Result<(), Inconsistent> {
+fn dofs(m: &Arrays) -> Result<(), Inconsistent> {
     require(m.body_jntnum[0] == 0, "body_jntnum", 0, "0 for the world")?;
     for i in 0..m.nv {
         let body = m.dof_bodyid[i] as usize;
@@ -109,7 +109,7 @@ fn dofs(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// A degree of freedom without one above it starts a tree.
-fn trees(m: &Model) -> Result<(), Inconsistent> {
+fn trees(m: &Arrays) -> Result<(), Inconsistent> {
     let mut tree = -1;
     for i in 0..m.nv {
         let above = usize::try_from(m.dof_parentid[i]).ok();
@@ -132,7 +132,7 @@ fn trees(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// Leaves of the hierarchies of bodies name geoms.
-fn hierarchies(m: &Model) -> Result<(), Inconsistent> {
+fn hierarchies(m: &Arrays) -> Result<(), Inconsistent> {
     for b in (0..m.nbody).filter(|&b| m.body_bvhadr[b] >= 0) {
         let first = m.body_bvhadr[b] as usize;
         let nodes = m.body_bvhnum[b] as usize;
@@ -143,7 +143,7 @@ fn hierarchies(m: &Model) -> Result<(), Inconsistent> {
 }
 
 /// Nodes of one hierarchy with leaves below `leaves`: an inner node, all nodes of its left child, all of its right one.
-pub(super) fn nodes_of(m: &Model, first: usize, nodes: usize, leaves: usize) -> Result<(), Inconsistent> {
+pub(super) fn nodes_of(m: &Arrays, first: usize, nodes: usize, leaves: usize) -> Result<(), Inconsistent> {
     let mut right = Vec::new();
     let mut next = Some(0);
     for n in 0..nodes {

@@ -17,10 +17,13 @@ use std::ops::Range;
 /// Sets `body_invweight0`, `dof_invweight0`, `tendon_invweight0` and `actuator_acc0`.
 pub(crate) fn set_inverse_weights(m: &mut Model, d: &Data) {
     let mut rows = Rows { row: vec![0.0; m.nv], solution: vec![0.0; m.nv] };
-    body_weights(m, &d.kin, &d.com, &d.inertia, &mut rows);
-    dof_weights(m, &d.inertia, &mut rows);
-    tendon_weights(m, d, &mut rows);
-    actuator_accelerations(m, d, &mut rows);
+    let bodies = body_weights(m, &d.kin, &d.com, &d.inertia, &mut rows);
+    let dofs = dof_weights(m, &d.inertia, &mut rows);
+    let tendons = tendon_weights(m, d, &mut rows);
+    let actuators = actuator_accelerations(m, d, &mut rows);
+    let arrays = m.unchecked_mut();
+    (arrays.body_invweight0, arrays.dof_invweight0) = (bodies, dofs);
+    (arrays.tendon_invweight0, arrays.actuator_acc0) = (tendons, actuators);
 }
 
 /// A row and `M⁻¹` times it; both all zero between uses.
@@ -74,14 +77,14 @@ fn whole_trees(m: &Model, first: usize, last: usize) -> Range<usize> {
 }
 
 /// Mean inverse inertia of each body's centre of mass, translational and rotational.
-fn body_weights(m: &mut Model, kin: &Kinematics, com: &Com, inertia: &Inertia, rows: &mut Rows) {
-    m.body_invweight0.fill([0.0; 2]);
+fn body_weights(m: &Model, kin: &Kinematics, com: &Com, inertia: &Inertia, rows: &mut Rows) -> Vec<[f64; 2]> {
+    let mut weights = vec![[0.0; 2]; m.nbody];
     for b in 1..m.nbody {
         if m.body_dofnum[m.body_weldid[b] as usize] == 0 {
             continue;
         }
         if m.body_simple[b] == 2 {
-            m.body_invweight0[b] = [1.0 / m.body_mass[b].max(MINVAL), 0.0];
+            weights[b] = [1.0 / m.body_mass[b].max(MINVAL), 0.0];
             continue;
         }
         let offset = com_offset(m, com, b, kin.xipos[b]);
@@ -92,15 +95,17 @@ fn body_weights(m: &mut Model, kin: &Kinematics, com: &Com, inertia: &Inertia, r
         };
         let mut mean =
             |column: &dyn Fn(usize) -> [f64; 3]| (axis(column, 0) + axis(column, 1) + axis(column, 2)) / 3.0;
-        m.body_invweight0[b] = [mean(&translation), mean(&rotation)];
+        weights[b] = [mean(&translation), mean(&rotation)];
     }
+    weights
 }
 
-fn dof_weights(m: &mut Model, inertia: &Inertia, rows: &mut Rows) {
+fn dof_weights(m: &Model, inertia: &Inertia, rows: &mut Rows) -> Vec<f64> {
+    let mut weights = vec![0.0; m.nv];
     for j in 0..m.njnt {
         let (body, first) = (m.jnt_bodyid[j] as usize, m.jnt_dofadr[j] as usize);
         if m.body_simple[body] == 2 {
-            m.dof_invweight0[first] = 1.0 / m.body_mass[body].max(MINVAL);
+            weights[first] = 1.0 / m.body_mass[body].max(MINVAL);
             continue;
         }
         let mut weight = |dof: usize| rows.inverse_weight(m, inertia, std::iter::once((dof, 1.0)));
@@ -108,29 +113,26 @@ fn dof_weights(m: &mut Model, inertia: &Inertia, rows: &mut Rows) {
         match JointType::from_code(m.jnt_type[j]) {
             Some(JointType::Free) => {
                 let (linear, angular) = (mean(first), mean(first + 3));
-                m.dof_invweight0[first..first + 3].fill(linear);
-                m.dof_invweight0[first + 3..first + 6].fill(angular);
+                weights[first..first + 3].fill(linear);
+                weights[first + 3..first + 6].fill(angular);
             }
             Some(JointType::Ball) => {
                 let angular = mean(first);
-                m.dof_invweight0[first..first + 3].fill(angular);
+                weights[first..first + 3].fill(angular);
             }
-            _ => m.dof_invweight0[first] = weight(first),
+            _ => weights[first] = weight(first),
         }
     }
+    weights
 }
 
-fn tendon_weights(m: &mut Model, d: &Data, rows: &mut Rows) {
-    for i in 0..m.ntendon {
-        let entries = tendon::row(m, i).map(|k| (m.ten_J_colind[k] as usize, d.ten.ten_J[k]));
-        m.tendon_invweight0[i] = rows.inverse_weight(m, &d.inertia, entries);
-    }
+fn tendon_weights(m: &Model, d: &Data, rows: &mut Rows) -> Vec<f64> {
+    let entries = |i| tendon::row(m, i).map(|k| (m.ten_J_colind[k] as usize, d.ten.ten_J[k]));
+    (0..m.ntendon).map(|i| rows.inverse_weight(m, &d.inertia, entries(i))).collect()
 }
 
 /// Acceleration that a unit of force gives each actuator output.
-fn actuator_accelerations(m: &mut Model, d: &Data, rows: &mut Rows) {
-    for out in 0..m.nout {
-        let moment = transmission::moment(&d.trn, out);
-        m.actuator_acc0[out] = rows.solved(m, &d.inertia, moment, |_, solution| norm_slice(solution));
-    }
+fn actuator_accelerations(m: &Model, d: &Data, rows: &mut Rows) -> Vec<f64> {
+    let norm = |out| rows.solved(m, &d.inertia, transmission::moment(&d.trn, out), |_, x| norm_slice(x));
+    (0..m.nout).map(norm).collect()
 }

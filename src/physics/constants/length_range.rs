@@ -122,7 +122,7 @@ pub fn set_length_ranges(m: &mut Model, opt: &LengthRangeOptions) -> Result<(), 
             continue;
         }
         match limits(m, i).filter(|_| opt.uselimit) {
-            Some(range) => m.actuator_lengthrange[out] = range,
+            Some(range) => m.unchecked_mut().actuator_lengthrange[out] = range,
             None => simulated.push(i),
         }
     }
@@ -130,17 +130,19 @@ pub fn set_length_ranges(m: &mut Model, opt: &LengthRangeOptions) -> Result<(), 
         return Ok(());
     }
     let model_options = m.opt.clone();
-    m.opt.disableflags = Disable::FRICTIONLOSS
+    let options = m.options_mut();
+    options.disableflags = Disable::FRICTIONLOSS
         | Disable::CONTACT
         | Disable::SPRING
         | Disable::DAMPER
         | Disable::GRAVITY
         | Disable::ACTUATION;
-    m.opt.enableflags.set(Enable::SLEEP, false);
+    options.enableflags.set(Enable::SLEEP, false);
     if opt.timestep > 0.0 {
-        m.opt.timestep = opt.timestep;
+        options.timestep = opt.timestep;
     }
     let ranges = measure_all(m, opt, &simulated);
+    let m = m.unchecked_mut();
     m.opt = model_options;
     let mut result = Ok(());
     for (i, range) in simulated.into_iter().zip(ranges) {

@@ -8,7 +8,9 @@ use crate::constants::inverse_weight::set_inverse_weights;
 use crate::data::{Data, configuration_of};
 use crate::math::{add, mul_inertia, mul_mat_t_vec, mul_mat_vec, quat_conj, quat_mul, spatial_dot, sub};
 use crate::model::bounds::MINVAL;
-use crate::model::{EqType, GainType, Model, ObjType, SameFrame, SleepPolicy, TrackMode, TrnType, WrapType};
+use crate::model::{
+    Arrays, EqType, GainType, Model, ObjType, SameFrame, SleepPolicy, TrackMode, TrnType, WrapType,
+};
 use crate::position::chain::last_dof;
 use crate::{
     actuation::transmission, constants::statistic, inertia, position::camera, position::com,
@@ -48,19 +50,20 @@ impl std::error::Error for SetConstError {}
 /// # Errors
 /// The model was edited into something that its compiled structure cannot represent.
 pub fn set_const(m: &mut Model) -> Result<(), SetConstError> {
-    m.npolygonmax = m.mesh_polyvertnum.iter().copied().max().unwrap_or(0) as usize;
-    m.nmeshdegmax = m.mesh_polymapnum.iter().copied().max().unwrap_or(0) as usize;
-    same_frames(m)?;
-    subtree_mass(m);
-    feature_flags(m);
-    reflecting_actuators(m);
-    trees(m);
-    tendon_trees(m);
-    sleep_policies(m)?;
-    tendon_sparsity(m);
+    let arrays = m.unchecked_mut();
+    arrays.npolygonmax = arrays.mesh_polyvertnum.iter().copied().max().unwrap_or(0) as usize;
+    arrays.nmeshdegmax = arrays.mesh_polymapnum.iter().copied().max().unwrap_or(0) as usize;
+    same_frames(arrays)?;
+    subtree_mass(arrays);
+    feature_flags(arrays);
+    reflecting_actuators(arrays);
+    trees(arrays);
+    tendon_trees(arrays);
+    sleep_policies(arrays)?;
+    tendon_sparsity(arrays);
     let mut d = Data::new(m);
     reference_configuration(m, &mut d);
-    statistic::set_statistic(m, &d);
+    statistic::set_statistic(m.unchecked_mut(), &d);
     spring_lengths(m, &mut d);
     Ok(())
 }
@@ -90,7 +93,7 @@ fn alignment(pos: &[f64; 3], quat: &[f64; 4], ipos: &[f64; 3], iquat: &[f64; 4])
     }
 }
 
-fn same_frames(m: &mut Model) -> Result<(), SetConstError> {
+fn same_frames(m: &mut Arrays) -> Result<(), SetConstError> {
     for b in 1..m.nbody {
         let aligned = alignment(&m.body_ipos[b], &m.body_iquat[b], &[f64::NAN; 3], &[f64::NAN; 4]);
         m.body_sameframe[b] = aligned.code() as u8;
@@ -111,14 +114,14 @@ fn same_frames(m: &mut Model) -> Result<(), SetConstError> {
     Ok(())
 }
 
-fn subtree_mass(m: &mut Model) {
+fn subtree_mass(m: &mut Arrays) {
     m.body_subtreemass.copy_from_slice(&m.body_mass);
     for b in (1..m.nbody).rev() {
         m.body_subtreemass[m.body_parentid[b] as usize] += m.body_subtreemass[b];
     }
 }
 
-fn feature_flags(m: &mut Model) {
+fn feature_flags(m: &mut Arrays) {
     m.ngravcomp = m.body_gravcomp.iter().filter(|&&g| g > 0.0).count();
     m.flg_gravcomp = m.ngravcomp > 0;
     m.flg_surfacevel = m.geom_surfacevel.as_flattened().iter().any(|&v| v != 0.0);
@@ -126,7 +129,7 @@ fn feature_flags(m: &mut Model) {
 }
 
 /// The actuator whose damping or armature acts on each joint and tendon: -1 none, -2 several.
-fn reflecting_actuators(m: &mut Model) {
+fn reflecting_actuators(m: &mut Arrays) {
     m.jnt_actuatorid.fill(-1);
     m.tendon_actuatorid.fill(-1);
     for i in 0..m.nactuator {
@@ -143,7 +146,7 @@ fn reflecting_actuators(m: &mut Model) {
     }
 }
 
-fn trees(m: &mut Model) {
+fn trees(m: &mut Arrays) {
     let trees = Trees::of(m);
     m.body_treeid = trees.body;
     (m.tree_bodyadr, m.tree_bodynum) = trees.bodies;
@@ -160,7 +163,7 @@ pub(crate) struct Trees {
 
 impl Trees {
     /// What follows from `body_weldid`, `body_dofadr` and `dof_treeid`.
-    pub fn of(m: &Model) -> Self {
+    pub fn of(m: &Arrays) -> Self {
         let of_body = |b: usize| match usize::try_from(last_dof(m, b)) {
             Ok(dof) => m.dof_treeid[dof],
             Err(_) => -1,
@@ -181,7 +184,7 @@ impl Trees {
 }
 
 /// Body that carries a point of a tendon path; `None` for pulleys.
-fn wrap_body(m: &Model, w: usize) -> Option<usize> {
+fn wrap_body(m: &Arrays, w: usize) -> Option<usize> {
     let object = m.wrap_objid[w] as usize;
     match WrapType::from_code(m.wrap_type[w])? {
         WrapType::Joint => Some(m.jnt_bodyid[object] as usize),
@@ -191,13 +194,13 @@ fn wrap_body(m: &Model, w: usize) -> Option<usize> {
     }
 }
 
-fn path(m: &Model, tendon: usize) -> std::ops::Range<usize> {
+fn path(m: &Arrays, tendon: usize) -> std::ops::Range<usize> {
     let start = m.tendon_adr[tendon] as usize;
     start..start + m.tendon_num[tendon] as usize
 }
 
 /// Trees that a tendon touches, in order of first appearance.
-fn trees_of(m: &Model, tendon: usize) -> Vec<i32> {
+fn trees_of(m: &Arrays, tendon: usize) -> Vec<i32> {
     let mut trees = Vec::new();
     for body in path(m, tendon).filter_map(|w| wrap_body(m, w)) {
         let tree = m.body_treeid[body];
@@ -208,7 +211,7 @@ fn trees_of(m: &Model, tendon: usize) -> Vec<i32> {
     trees
 }
 
-fn tendon_trees(m: &mut Model) {
+fn tendon_trees(m: &mut Arrays) {
     for i in 0..m.ntendon {
         let trees = trees_of(m, i);
         m.tendon_treenum[i] = trees.len() as i32;
@@ -217,8 +220,8 @@ fn tendon_trees(m: &mut Model) {
 }
 
 /// Trees with actuators, or coupled by a tendon with stiffness or damping, are never put to sleep automatically.
-fn sleep_policies(m: &mut Model) -> Result<(), SetConstError> {
-    let never = |m: &mut Model, tree: i32| {
+fn sleep_policies(m: &mut Arrays) -> Result<(), SetConstError> {
+    let never = |m: &mut Arrays, tree: i32| {
         if let Ok(t) = usize::try_from(tree)
             && m.tree_sleep_policy[t] == SleepPolicy::Auto.code()
         {
@@ -267,7 +270,7 @@ fn sleep_policies(m: &mut Model) -> Result<(), SetConstError> {
 }
 
 /// Degrees of freedom that each tendon length can depend on, ascending.
-pub fn tendon_columns(m: &Model, tendon: usize) -> Vec<i32> {
+pub fn tendon_columns(m: &Arrays, tendon: usize) -> Vec<i32> {
     let mut columns = Vec::new();
     for w in path(m, tendon) {
         if m.wrap_type[w] == WrapType::Joint.code() {
@@ -290,11 +293,11 @@ pub fn tendon_columns(m: &Model, tendon: usize) -> Vec<i32> {
 }
 
 /// Number of entries that the tendon Jacobian needs.
-pub fn tendon_entries(m: &Model) -> usize {
+pub fn tendon_entries(m: &Arrays) -> usize {
     (0..m.ntendon).map(|i| tendon_columns(m, i).len()).sum()
 }
 
-fn tendon_sparsity(m: &mut Model) {
+fn tendon_sparsity(m: &mut Arrays) {
     let mut next = 0;
     for i in 0..m.ntendon {
         let columns = tendon_columns(m, i);
@@ -309,29 +312,30 @@ fn tendon_sparsity(m: &mut Model) {
 fn reference_configuration(m: &mut Model, d: &mut Data) {
     // Tracking cameras and lights need the fixed pose that is computed here.
     let modes = (m.cam_mode.clone(), m.light_mode.clone());
-    m.cam_mode.fill(TrackMode::Fixed.code());
-    m.light_mode.fill(TrackMode::Fixed.code());
+    let arrays = m.unchecked_mut();
+    arrays.cam_mode.fill(TrackMode::Fixed.code());
+    arrays.light_mode.fill(TrackMode::Fixed.code());
     d.state.qpos.copy_from_slice(&m.qpos0);
     kinematics::kinematics(m, &d.state, &mut d.kin);
     com::com_pos(m, &d.kin, &mut d.com);
     camera::cameras_and_lights(m, &d.com, &mut d.kin);
-    joint_inertia(m, d);
+    joint_inertia(m.unchecked_mut(), d);
     tendon::tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
     inertia::make_inertia(m, &d.com, &d.ten, &mut d.inertia);
     inertia::factor_inertia(m, &mut d.inertia);
     transmission::transmission(m, &configuration_of!(d), &d.con, &d.efc, &mut d.trn);
-    (m.cam_mode, m.light_mode) = modes;
-
-    m.tendon_length0.copy_from_slice(&d.ten.ten_length);
-    m.actuator_length0.copy_from_slice(&d.trn.actuator_length);
     set_inverse_weights(m, d);
-    equality_anchors(m, d);
-    camera_and_light_offsets(m, d);
-    damping_ratios(m, d);
+    let arrays = m.unchecked_mut();
+    (arrays.cam_mode, arrays.light_mode) = modes;
+    arrays.tendon_length0.copy_from_slice(&d.ten.ten_length);
+    arrays.actuator_length0.copy_from_slice(&d.trn.actuator_length);
+    equality_anchors(arrays, d);
+    camera_and_light_offsets(arrays, d);
+    damping_ratios(arrays, d);
 }
 
 /// `dof_M0`: diagonal of the joint-space inertia without tendon armature.
-fn joint_inertia(m: &mut Model, d: &mut Data) {
+fn joint_inertia(m: &mut Arrays, d: &mut Data) {
     let mut crb = d.com.cinert.clone();
     for b in (1..m.nbody).rev() {
         let parent = m.body_parentid[b] as usize;
@@ -349,7 +353,7 @@ fn joint_inertia(m: &mut Model, d: &mut Data) {
 }
 
 /// The second anchor of connects, and anchor and relative pose of welds that give none.
-fn equality_anchors(m: &mut Model, d: &Data) {
+fn equality_anchors(m: &mut Arrays, d: &Data) {
     let kin = &d.kin;
     for i in 0..m.neq {
         let (first, second) = (m.eq_obj1id[i] as usize, m.eq_obj2id[i].max(0) as usize);
@@ -379,7 +383,7 @@ fn equality_anchors(m: &mut Model, d: &Data) {
     }
 }
 
-fn camera_and_light_offsets(m: &mut Model, d: &Data) {
+fn camera_and_light_offsets(m: &mut Arrays, d: &Data) {
     let (kin, com) = (&d.kin, &d.com.subtree_com);
     let tracked = |body: i32, target: i32| if target >= 0 { target as usize } else { body as usize };
     for i in 0..m.ncam {
@@ -396,7 +400,7 @@ fn camera_and_light_offsets(m: &mut Model, d: &Data) {
 
 /// A positive damping term of a position servo is a damping ratio: it becomes the matching damping
 /// (XML reference, `position/dampratio`).
-fn damping_ratios(m: &mut Model, d: &Data) {
+fn damping_ratios(m: &mut Arrays, d: &Data) {
     for i in 0..m.nactuator {
         let pid = m.actuator_gaintype[i] == GainType::Pid.code();
         let (kp, bias) = (m.actuator_gainprm[i][0], m.actuator_biasprm[i]);
@@ -420,6 +424,7 @@ fn spring_lengths(m: &mut Model, d: &mut Data) {
     kinematics::kinematics(m, &d.state, &mut d.kin);
     com::com_pos(m, &d.kin, &mut d.com);
     tendon::tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
+    let m = m.unchecked_mut();
     for i in 0..m.ntendon {
         if m.tendon_lengthspring[i] == [-1.0; 2] {
             m.tendon_lengthspring[i] = [d.ten.ten_length[i]; 2];

@@ -2,7 +2,7 @@
 
 use crate::data::{Data, Kinematics};
 use crate::math::{Vec3, add, distance, scale};
-use crate::model::{GeomType, JointType, Model};
+use crate::model::{Arrays, GeomType, JointType};
 
 /// Smallest size a body or a model can have [m].
 const MIN_SIZE: f64 = 1e-5;
@@ -14,7 +14,7 @@ const BACKGROUND_SHARE: f64 = 0.1;
 const INFINITE_PLANE: f64 = 0.01;
 
 /// Sets `stat` and `dof_length` from the poses and the inertia at `qpos0`.
-pub fn set_statistic(m: &mut Model, d: &Data) {
+pub fn set_statistic(m: &mut Arrays, d: &Data) {
     extent(m, &d.kin);
     let sizes = body_sizes(m, &d.kin);
     if m.nbody > 1 {
@@ -45,7 +45,7 @@ pub fn set_statistic(m: &mut Model, d: &Data) {
 }
 
 /// Centre and longest edge of the box around bodies, joints, sites and geoms.
-fn extent(m: &mut Model, kin: &Kinematics) {
+fn extent(m: &mut Arrays, kin: &Kinematics) {
     let (mut low, mut high) = ([1e10; 3], [-1e10; 3]);
     let mut include = |p: Vec3, radius: f64| {
         for k in 0..3 {
@@ -68,7 +68,7 @@ fn extent(m: &mut Model, kin: &Kinematics) {
     }
 }
 
-fn geom_radius(m: &Model, g: usize) -> f64 {
+fn geom_radius(m: &Arrays, g: usize) -> f64 {
     let size = m.geom_size[g];
     match GeomType::from_code(m.geom_type[g]) {
         _ if m.geom_rbound[g] > 0.0 => m.geom_rbound[g],
@@ -83,7 +83,7 @@ fn geom_radius(m: &Model, g: usize) -> f64 {
 }
 
 /// Size of each body: the farthest reach of its joints, its children's joints and its geoms from its centre of mass.
-fn body_sizes(m: &Model, kin: &Kinematics) -> Vec<f64> {
+fn body_sizes(m: &Arrays, kin: &Kinematics) -> Vec<f64> {
     let mut sizes = vec![0.0_f64; m.nbody];
     for j in 0..m.njnt {
         let body = m.jnt_bodyid[j] as usize;

@@ -240,19 +240,20 @@ fn sort_rows(efc: &Constraints, island: &mut Islands, scratch: &mut IslandScratc
 mod tests {
     use super::*;
     use crate::constraint::rows::{RowKind, push};
+    use crate::model::Arrays;
 
     /// Four trees of one degree of freedom; joints 3 and 1 are coupled, joint 0 has friction loss, joint 2 is free.
     #[test]
     fn coupled_trees_make_one_island() {
-        let m = Model {
+        let m = Model::unchecked(Arrays {
             nv: 4,
             ntree: 4,
             neq: 1,
             eq_type: vec![EqType::Joint.code()],
             dof_treeid: vec![0, 1, 2, 3],
             tree_dofnum: vec![1; 4],
-            ..Model::default()
-        };
+            ..Arrays::default()
+        });
         let mut efc = Constraints::default();
         let row = |kind| RowKind { kind, id: 0, margin: 0.0, frictionloss: 0.0 };
         push(&mut efc, row(ConstraintType::Equality), 0.0, &[1, 3], &[-0.5, 1.0]);

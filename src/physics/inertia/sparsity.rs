@@ -5,7 +5,7 @@
 //! Algorithms", section 8.5); rows of simple bodies are diagonal.
 
 use crate::constants::set_const::{tendon_columns, tendon_entries};
-use crate::model::{JointType, Model, TrnType};
+use crate::model::{Arrays, JointType, TrnType};
 
 /// Compressed rows without values.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,7 +36,7 @@ pub struct Patterns {
 }
 
 /// Fills all patterns and their sizes.
-pub fn fill(m: &mut Model) {
+pub fn fill(m: &mut Arrays) {
     let p = Patterns::of(m);
     (m.dof_Madr, m.nM) = p.diagonal;
     (m.nC, m.nD, m.nB) = (p.lower.column.len(), p.symmetric.column.len(), p.subtree.column.len());
@@ -51,7 +51,7 @@ pub fn fill(m: &mut Model) {
 
 impl Patterns {
     /// The patterns of the bodies and degrees of freedom of `m`.
-    pub fn of(m: &Model) -> Self {
+    pub fn of(m: &Arrays) -> Self {
         let mut next = 0;
         let address = (0..m.nv).map(|dof| {
             next += 1 + ancestors(m, dof).count() as i32;
@@ -101,7 +101,7 @@ impl Pattern {
 }
 
 /// Degrees of freedom above `dof`, nearest first.
-fn ancestors(m: &Model, dof: usize) -> impl Iterator<Item = usize> {
+fn ancestors(m: &Arrays, dof: usize) -> impl Iterator<Item = usize> {
     std::iter::successors(Some(dof), |&d| usize::try_from(m.dof_parentid[d]).ok()).skip(1)
 }
 
@@ -116,7 +116,7 @@ fn compress(rows: &[Vec<i32>]) -> Pattern {
 }
 
 /// M: each row holds the ancestors and the diagonal; a simple row the diagonal only.
-fn lower_rows(m: &Model) -> Vec<Vec<i32>> {
+fn lower_rows(m: &Arrays) -> Vec<Vec<i32>> {
     (0..m.nv)
         .map(|dof| {
             let mut row = vec![dof as i32];
@@ -130,7 +130,7 @@ fn lower_rows(m: &Model) -> Vec<Vec<i32>> {
 }
 
 /// D: ancestors, diagonal and descendants.
-fn symmetric_rows(m: &Model) -> Vec<Vec<i32>> {
+fn symmetric_rows(m: &Arrays) -> Vec<Vec<i32>> {
     let mut rows: Vec<Vec<i32>> = vec![Vec::new(); m.nv];
     for dof in 0..m.nv {
         let mut above: Vec<usize> = ancestors(m, dof).collect();
@@ -143,7 +143,7 @@ fn symmetric_rows(m: &Model) -> Vec<Vec<i32>> {
 }
 
 /// B: degrees of freedom that move a body or are moved with it.
-fn subtree_rows(m: &Model) -> Vec<Vec<i32>> {
+fn subtree_rows(m: &Arrays) -> Vec<Vec<i32>> {
     let own = |body: usize| {
         let first = m.body_dofadr[body];
         first..first + m.body_dofnum[body]
@@ -171,7 +171,7 @@ fn subtree_rows(m: &Model) -> Vec<Vec<i32>> {
 }
 
 /// Elements that the actuator moment can have.
-pub fn moment_size(m: &Model) -> usize {
+pub fn moment_size(m: &Arrays) -> usize {
     (0..m.nactuator)
         .map(|a| {
             let [target, reference] = m.actuator_trnid[a];
@@ -204,7 +204,7 @@ pub fn moment_size(m: &Model) -> usize {
 }
 
 /// Degrees of freedom that move a body.
-fn chain(m: &Model, body: i32) -> Vec<usize> {
+fn chain(m: &Arrays, body: i32) -> Vec<usize> {
     let weld = m.body_weldid[body as usize] as usize;
     if m.body_dofnum[weld] == 0 {
         return Vec::new();

@@ -16,7 +16,7 @@
 pub use super::reader::checksum;
 use super::reader::{Reader, WORD, sum};
 use super::{
-    Model, Options, Statistic, VisualGlobal, VisualHeadlight, VisualMap, VisualQuality, VisualRgba,
+    Arrays, Model, Options, Statistic, VisualGlobal, VisualHeadlight, VisualMap, VisualQuality, VisualRgba,
     VisualScale,
 };
 use crate::consistency::{Inconsistent, check_consistency};
@@ -90,7 +90,7 @@ pub fn is_model(bytes: &[u8]) -> bool {
 /// of the layout.
 pub(super) const FINGERPRINT: u64 = {
     let tables = [
-        Model::LAYOUT,
+        Arrays::LAYOUT,
         Options::LAYOUT,
         Statistic::LAYOUT,
         VisualGlobal::LAYOUT,
@@ -200,7 +200,7 @@ impl Model {
         again: Option<Again<'_>>,
     ) -> Result<Model, BinaryError> {
         let mut from = Reader::new(source, length)?;
-        let mut m = Model::default();
+        let mut m = Arrays::default();
         let read = read_head(&mut m, &mut from).and_then(|arrays| match again {
             Some(again) if from.left() > LARGE => read_halves(&mut m, &mut from, again, &arrays),
             _ => m.read_arrays(&mut from, 0..arrays.len()),
@@ -215,6 +215,7 @@ impl Model {
         }
         read?;
         check_consistency(&m).map_err(BinaryError::Inconsistent)?;
+        let m = Model::unchecked(m);
         check_model(&m).map_err(BinaryError::NotSimulated)?;
         Ok(m)
     }
@@ -228,7 +229,7 @@ pub const LARGE: u64 = 1 << 20;
 
 /// Reads arrays of so many bytes on two threads, about half of the bytes on each.
 fn read_halves(
-    m: &mut Model,
+    m: &mut Arrays,
     from: &mut Reader,
     again: Again<'_>,
     arrays: &[u64],
@@ -261,7 +262,7 @@ fn read_halves(
 }
 
 /// Reads all before the arrays; returns the bytes of each, which must add up to the rest.
-fn read_head(m: &mut Model, from: &mut Reader) -> Result<Vec<u64>, BinaryError> {
+fn read_head(m: &mut Arrays, from: &mut Reader) -> Result<Vec<u64>, BinaryError> {
     let mut name = Vec::new();
     let length = usize::try_from(u64::from_le_bytes(from.fixed()?)).map_err(|_| BinaryError::Length)?;
     if length as u64 > from.left() {
@@ -305,7 +306,7 @@ fn header(length: u64, checksum: u64) -> [u8; HEADER] {
 
 /// Sizes in order of declaration. Those of arrays are bounded by what follows when the arrays are read; the number of
 /// mocap bodies here, since a row of keyframes multiplies it.
-fn read_sizes(m: &mut Model, from: &mut Reader) -> Result<(), BinaryError> {
+fn read_sizes(m: &mut Arrays, from: &mut Reader) -> Result<(), BinaryError> {
     let mut names = Vec::new();
     m.visit_sizes(&mut |name, _| names.push(name));
     for name in names {

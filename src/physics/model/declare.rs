@@ -3,13 +3,13 @@
 
 macro_rules! model {
     (sizes { $($size:ident $count:literal,)* } arrays { $($field:ident : $t:ident $shape:tt $doc:literal,)* }) => {
-        /// A compiled model: constant while a simulation runs.
+        /// The numbers of a [`Model`](crate::Model): options, sizes, arrays.
         ///
-        /// Every array bears MuJoCo's name and holds MuJoCo's numbers; shapes are `[rows; columns]` of the table
-        /// in `model/fields.rs`. References to other elements are indices, -1 for none.
+        /// Every array bears MuJoCo's name and holds MuJoCo's numbers; the doc of each begins with its shape, rows
+        /// first. References to other elements are indices, -1 for none.
         #[derive(Clone, Debug, Default)]
         #[allow(non_snake_case)]
-        pub struct Model {
+        pub struct Arrays {
             /// Name of the model.
             pub name: String,
             /// Simulation options.
@@ -24,17 +24,13 @@ macro_rules! model {
             pub flg_surfacevel: bool,
             /// Some geom or pair has adhesion.
             pub flg_adhesion: bool,
-            /// Hulls as collision climbs them, made of the mesh arrays when first needed; to be emptied where those
-            /// are written later.
-            pub slopes: OnceLock<Slopes>,
             $(#[doc = $count] pub $size: usize,)*
-            $(#[doc = $doc] pub $field: field_type!($t, $shape),)*
+            $(#[doc = concat!("`", stringify!($shape), "` ", $doc)] pub $field: field_type!($t, $shape),)*
         }
 
-        impl Model {
+        impl Arrays {
             /// Allocates every array, zeroed, from the sizes set so far.
             pub fn allocate(&mut self) {
-                self.slopes.take();
                 $({
                     let (rows, width) = (field_rows!(self, $shape), field_width!(self, $shape));
                     Field::allocate(&mut self.$field, rows, width);
@@ -62,7 +58,6 @@ macro_rules! model {
 
             /// Overwrites the array called `name`; `None` when there is none, `Some(false)` on a size mismatch.
             pub fn assign(&mut self, name: &str, values: &[f64]) -> Option<bool> {
-                self.slopes.take();
                 match name {
                     $(stringify!($field) => {
                         let expected: usize = field_shape!(self, $shape).iter().product();
@@ -106,7 +101,7 @@ macro_rules! model {
             }
 
             /// Takes the arrays from number `first` on from another model.
-            pub(crate) fn take_arrays(&mut self, other: &mut Model, first: usize) {
+            pub(crate) fn take_arrays(&mut self, other: &mut Arrays, first: usize) {
                 let mut number = 0;
                 $(
                     if number >= first {

@@ -3,10 +3,8 @@
 use super::binary::BinaryError;
 use super::declare::model;
 use super::reader::{Reader, array_bytes};
-use crate::collision::climb::Slopes;
 use crate::model::{Options, Statistic, Visual};
 use crate::table::{Field, Slice, field_rows, field_shape, field_type, field_width};
-use std::sync::OnceLock;
 
 model! {
     sizes {

@@ -1,8 +1,44 @@
 //! Element names: MuJoCo keeps all names in one zero-separated buffer with an address a kind.
 
-use super::{Model, ObjType};
+use super::{Arrays, Model, ObjType};
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
+/// Ids by name, a table for each kind of element, made when a name of that kind is first looked up.
+#[derive(Clone, Debug, Default)]
+pub(super) struct NameIndex {
+    /// In the order of the codes of [`ObjType`].
+    tables: [OnceLock<HashMap<Box<str>, u32>>; KINDS],
+}
+
+/// Codes of the kinds that bear names are below this.
+const KINDS: usize = ObjType::Key.code() as usize + 1;
+
+impl NameIndex {
+    /// Id of the element called `name`; of several, the first.
+    fn get(&self, m: &Arrays, kind: ObjType, name: &str) -> Option<usize> {
+        let table = self.tables.get(kind.code() as usize)?.get_or_init(|| {
+            let mut table = HashMap::new();
+            for id in 0..m.name_addresses(kind).len() {
+                let name = m.name_of(kind, id);
+                if !name.is_empty() {
+                    table.entry(name.into()).or_insert(id as u32);
+                }
+            }
+            table
+        });
+        table.get(name).map(|&id| id as usize)
+    }
+}
 
 impl Model {
+    /// Index of the element of one kind called `name`, by a hash table.
+    pub fn id_of(&self, kind: ObjType, name: &str) -> Option<usize> {
+        self.caches.names.get(self, kind, name)
+    }
+}
+
+impl Arrays {
     /// Name addresses of one kind of element; empty for kinds that bear no names.
     fn name_addresses(&self, kind: ObjType) -> &[i32] {
         match kind {
@@ -36,11 +72,6 @@ impl Model {
         let tail = self.names.get(start as usize..).unwrap_or(&[]);
         let end = tail.iter().position(|&b| b == 0).unwrap_or(tail.len());
         std::str::from_utf8(&tail[..end]).unwrap_or("")
-    }
-
-    /// Index of the element called `name`.
-    pub fn id_of(&self, kind: ObjType, name: &str) -> Option<usize> {
-        (0..self.name_addresses(kind).len()).find(|&id| !name.is_empty() && self.name_of(kind, id) == name)
     }
 
     /// Kind and name as messages show them, `joint "elbow"`; the index stands in for a missing name, `joint 3`.

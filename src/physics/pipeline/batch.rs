@@ -9,7 +9,7 @@
 //!
 //! fn example(model: Model) -> Result<(), Box<dyn std::error::Error>> {
 //!     let mut batch = Batch::new(model.into(), 64, 2)?;
-//!     batch.model_mut(3).opt.gravity = [0.0, 0.0, -1.6];
+//!     batch.edit_model(3, |m| m.opt.gravity = [0.0, 0.0, -1.6])?;
 //!     batch.step(10)?;
 //!     batch.run(|environment, model, data| {
 //!         data.state.ctrl.fill(0.1 * environment as f64);
@@ -21,7 +21,7 @@
 //! ```
 
 use crate::data::{Data, Scratch};
-use crate::model::Model;
+use crate::model::{Arrays, EditError, Model};
 use crate::pipeline::forward::{StepError, step};
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -123,10 +123,17 @@ impl Batch {
         &self.models[environment]
     }
 
-    /// Model of an environment, to edit: shared until now, it becomes the environment's own copy. Sizes must stay;
-    /// an edit of masses or reference poses needs [`set_const`](crate::constants::set_const) after it.
-    pub fn model_mut(&mut self, environment: usize) -> &mut Model {
-        Arc::make_mut(&mut self.models[environment])
+    /// Edits the model of an environment, see [`Model::edit`]: shared until now, it becomes the environment's own copy.
+    ///
+    /// # Errors
+    /// Those of [`Model::edit`]; the environment keeps its model.
+    pub fn edit_model(
+        &mut self,
+        environment: usize,
+        change: impl FnOnce(&mut Arrays),
+    ) -> Result<(), EditError> {
+        self.models[environment] = Arc::new(self.models[environment].edited(change)?);
+        Ok(())
     }
 
     /// Advances every environment by `steps` time steps.

@@ -3,10 +3,10 @@
 
 use crate::data::{Com, Kinematics};
 use crate::math::{Vec3, add, cross, dot, linear, rotational, sub};
-use crate::model::Model;
+use crate::model::{Arrays, Model};
 
 /// Last degree of freedom that moves body `b`; -1 for a static body.
-pub fn last_dof(m: &Model, b: usize) -> i32 {
+pub fn last_dof(m: &Arrays, b: usize) -> i32 {
     let mover = m.body_weldid[b] as usize;
     (m.body_dofadr[mover] + m.body_dofnum[mover] - 1).max(-1)
 }

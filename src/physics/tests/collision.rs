@@ -6,7 +6,7 @@ use robohive_physics::data::{Contact, Contacts, Kinematics};
 use robohive_physics::math::{
     Mat3, Vec3, cross, distance, dot, norm, quat_from_axis_angle, quat_to_mat, row, sub,
 };
-use robohive_physics::model::{Disable, GeomType, Model};
+use robohive_physics::model::{Arrays, Disable, GeomType, Model};
 
 const UPRIGHT: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -21,7 +21,7 @@ fn turned(axis: Vec3, angle: f64) -> Mat3 {
 /// Spheres on bodies of one tree each, in the world at `pos`.
 fn spheres(pos: &[Vec3], radius: f64) -> (Model, Kinematics) {
     let n = pos.len();
-    let mut m = Model { nbody: n + 1, ngeom: n, nv: n, ..Model::default() };
+    let mut m = Arrays { nbody: n + 1, ngeom: n, nv: n, ..Arrays::default() };
     m.allocate();
     for g in 0..n {
         m.body_weldid[g + 1] = (g + 1) as i32;
@@ -37,6 +37,7 @@ fn spheres(pos: &[Vec3], radius: f64) -> (Model, Kinematics) {
         m.geom_solref[g] = [0.02, 1.0];
         m.geom_friction[g] = [1.0, 0.005, 0.0];
     }
+    let m = Model::unchecked(m);
     let mut kin = Kinematics::new(&m);
     kin.geom_xpos.copy_from_slice(pos);
     kin.geom_xmat.fill(UPRIGHT);
@@ -84,13 +85,13 @@ fn contact_types_welds_and_excludes_filter_pairs() {
     let (mut m, kin) = spheres(&[[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]], 0.2);
     let pairs = |m: &Model| contacts(m, &kin).iter().map(|c| c.geom).collect::<Vec<_>>();
     assert_eq!(pairs(&m), [[0, 1], [0, 2], [1, 2]]);
-    m.nexclude = 1;
-    m.exclude_signature = vec![(1 << 16) + 3];
+    m.unchecked_mut().nexclude = 1;
+    m.unchecked_mut().exclude_signature = vec![(1 << 16) + 3];
     assert_eq!(pairs(&m), [[0, 1], [1, 2]]);
-    m.body_weldid[2] = 1;
+    m.unchecked_mut().body_weldid[2] = 1;
     assert_eq!(pairs(&m), [[1, 2]]);
-    m.geom_contype[2] = 2;
-    m.geom_conaffinity[2] = 2;
+    m.unchecked_mut().geom_contype[2] = 2;
+    m.unchecked_mut().geom_conaffinity[2] = 2;
     assert!(pairs(&m).is_empty());
 }
 
@@ -98,29 +99,29 @@ fn contact_types_welds_and_excludes_filter_pairs() {
 fn parents_do_not_touch_their_children_unless_asked() {
     let (mut m, kin) = spheres(&[[0.0; 3], [0.1, 0.0, 0.0], [0.0, 0.1, 0.0]], 0.2);
     let pairs = |m: &Model| contacts(m, &kin).iter().map(|c| c.geom).collect::<Vec<_>>();
-    m.body_parentid[2] = 1;
-    m.body_parentid[3] = 2;
+    m.unchecked_mut().body_parentid[2] = 1;
+    m.unchecked_mut().body_parentid[3] = 2;
     assert_eq!(pairs(&m), [[0, 2]], "a grandchild does");
-    m.opt.disableflags |= Disable::FILTERPARENT;
+    m.options_mut().disableflags |= Disable::FILTERPARENT;
     assert_eq!(pairs(&m), [[0, 1], [0, 2], [1, 2]]);
     // Children of the world, and bodies welded to it, have no parent in this sense.
-    m.opt.disableflags = Disable::NONE;
-    m.body_weldid[1] = 0;
+    m.options_mut().disableflags = Disable::NONE;
+    m.unchecked_mut().body_weldid[1] = 0;
     assert_eq!(pairs(&m), [[0, 1], [0, 2]]);
 }
 
 #[test]
 fn parameters_mix_by_priority_and_weight() {
     let (mut m, kin) = spheres(&[[0.0; 3], [0.1, 0.0, 0.0]], 0.1);
-    m.geom_solmix = vec![1.0, 3.0];
-    m.geom_solref[1] = [0.06, 3.0];
-    m.geom_friction[1] = [0.5, 0.01, 0.0];
-    m.geom_margin = vec![0.01, 0.02];
+    m.unchecked_mut().geom_solmix = vec![1.0, 3.0];
+    m.unchecked_mut().geom_solref[1] = [0.06, 3.0];
+    m.unchecked_mut().geom_friction[1] = [0.5, 0.01, 0.0];
+    m.unchecked_mut().geom_margin = vec![0.01, 0.02];
     let c = contacts(&m, &kin)[0];
     assert!((c.solref[0] - 0.05).abs() < 1e-15 && (c.solref[1] - 2.5).abs() < 1e-15);
     assert_eq!(c.friction, [1.0, 1.0, 0.01, 1e-5, 1e-5]);
     assert!((c.includemargin - 0.03).abs() < 1e-15);
-    m.geom_priority[1] = 1;
+    m.unchecked_mut().geom_priority[1] = 1;
     let c = contacts(&m, &kin)[0];
     assert_eq!((c.solref, c.friction[0]), ([0.06, 3.0], 0.5));
 }

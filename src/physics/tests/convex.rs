@@ -11,7 +11,7 @@ use robohive_physics::math::{
     Vec3, add_scaled, column, cross, distance, dot, mul_mat_vec, norm, normalize, quat_normalize,
     quat_to_mat, scale, sub,
 };
-use robohive_physics::model::{GeomType, Model};
+use robohive_physics::model::{Arrays, GeomType, Model};
 
 /// Fixed pseudo-random numbers in [-1, 1].
 struct Noise(u64);
@@ -66,14 +66,14 @@ fn model(kinds: &[(GeomType, Vec3)], points: &[Vec3], faces: &[Vec<usize>]) -> (
         })
         .collect();
     let corners: usize = faces.iter().map(Vec::len).sum();
-    let mut m = Model {
+    let mut m = Arrays {
         ngeom: kinds.len(),
         nmesh: 1,
         nmeshvert: n,
         nmeshpoly: faces.len(),
         nmeshpolyvert: corners,
         nmeshpolymap: corners,
-        ..Model::default()
+        ..Arrays::default()
     };
     m.allocate();
     for (v, p) in points.iter().enumerate() {
@@ -119,6 +119,7 @@ fn model(kinds: &[(GeomType, Vec3)], points: &[Vec3], faces: &[Vec<usize>]) -> (
         m.geom_rbound[g] = norm(size);
         m.geom_dataid[g] = if kind == GeomType::Mesh { 0 } else { -1 };
     }
+    let m = Model::unchecked(m);
     let kin = Kinematics::new(&m);
     (m, kin)
 }
@@ -173,7 +174,7 @@ fn climbing_the_hull_finds_the_farthest_vertex() {
 fn distance_of_separated_shapes_has_a_separating_plane() {
     let (points, faces) = pebble();
     let (mut m, mut kin) = model(&EVERY_KIND, &points, &faces);
-    m.opt.ccd_iterations = 100;
+    m.options_mut().ccd_iterations = 100;
     let (mut noise, mut scratch) = (Noise(2), ConvexScratch::default());
     let mut separated = 0;
     for (g1, g2) in (0..6).flat_map(|i| (i + 1..6).map(move |j| (i, j))) {

@@ -78,8 +78,8 @@ fn jacobians_are_derivatives_of_poses() {
 /// Energy gained or lost in 0.2 s.
 fn drift(m: &Model, integrator: Integrator, h: f64) -> f64 {
     let mut m = m.clone();
-    m.opt.enableflags = Enable::ENERGY;
-    (m.opt.integrator, m.opt.timestep) = (integrator, h);
+    m.options_mut().enableflags = Enable::ENERGY;
+    (m.options_mut().integrator, m.options_mut().timestep) = (integrator, h);
     let mut d = moving(&m);
     forward(&m, &mut d).unwrap();
     let start = d.energy;
@@ -128,9 +128,9 @@ fn momentum_matrices_give_the_momentum_of_every_subtree() {
 fn spin_of_a_free_body_changes_energy_as_upstream() {
     let kinetic = |integrator: Integrator| {
         let mut m = chain(&[JointType::Free]);
-        m.opt.gravity = [0.0; 3];
-        m.opt.enableflags = Enable::ENERGY;
-        (m.opt.integrator, m.opt.timestep) = (integrator, 0.01);
+        m.options_mut().gravity = [0.0; 3];
+        m.options_mut().enableflags = Enable::ENERGY;
+        (m.options_mut().integrator, m.options_mut().timestep) = (integrator, 0.01);
         let mut d = Data::new(&m);
         d.state.qvel.copy_from_slice(&[1.0, 0.0, -1.0, 8.0, 12.0, -9.0]);
         forward(&m, &mut d).unwrap();
@@ -162,6 +162,6 @@ fn bad_states_are_errors_and_stay() {
     }
     assert_eq!(d.state.qpos, before);
     let mut sleeping = m.clone();
-    sleeping.opt.enableflags = Enable::SLEEP;
+    sleeping.options_mut().enableflags = Enable::SLEEP;
     assert!(matches!(step(&sleeping, &mut Data::new(&sleeping)), Err(StepError::NotSimulated(_))));
 }

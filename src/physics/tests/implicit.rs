@@ -12,12 +12,14 @@ use robohive_physics::{Data, Model, forward, integration::integrate, inverse, st
 fn damped(joints: &[JointType], wet: bool) -> Model {
     let mut m = chain(joints);
     let root = if joints[0] == JointType::Free { 6 } else { 0 };
-    for dof in root..m.nv {
-        m.dof_damping[dof] = 0.05;
-        m.dof_dampingpoly[dof] = [0.04, 0.01 * dof as f64];
+    let arrays = m.unchecked_mut();
+    for dof in root..arrays.nv {
+        arrays.dof_damping[dof] = 0.05;
+        arrays.dof_dampingpoly[dof] = [0.04, 0.01 * dof as f64];
     }
     if wet {
-        (m.opt.density, m.opt.viscosity, m.opt.wind) = (80.0, 0.4, [0.3, -0.2, 0.1]);
+        (m.options_mut().density, m.options_mut().viscosity, m.options_mut().wind) =
+            (80.0, 0.4, [0.3, -0.2, 0.1]);
     }
     m
 }
@@ -56,7 +58,7 @@ fn derivative_is_the_slope_of_smooth_forces() {
 fn implicit_steps_solve_their_equation() {
     // At the end of the step the linearised forces balance: M a = f + h D a, with qvel' = qvel + h a.
     let mut m = damped(&FLYING, true);
-    (m.opt.integrator, m.opt.timestep) = (Integrator::Implicit, 0.01);
+    (m.options_mut().integrator, m.options_mut().timestep) = (Integrator::Implicit, 0.01);
     let mut d = moving(&m);
     let before = d.state.qvel.clone();
     step(&m, &mut d).unwrap();
@@ -88,8 +90,8 @@ fn inverse_undoes_forward() {
 fn discrete_inverse_undoes_a_step() {
     for integrator in [Integrator::Euler, Integrator::Implicit, Integrator::Implicitfast] {
         let mut m = damped(&FLYING, true);
-        m.opt.enableflags = Enable::INVDISCRETE;
-        (m.opt.integrator, m.opt.timestep) = (integrator, 0.01);
+        m.options_mut().enableflags = Enable::INVDISCRETE;
+        (m.options_mut().integrator, m.options_mut().timestep) = (integrator, 0.01);
         let start = moving(&m);
         let mut d = start.clone();
         d.state.qfrc_applied.fill(0.25);
@@ -105,8 +107,8 @@ fn discrete_inverse_undoes_a_step() {
         }
     }
     let mut m = chain(&ANCHORED);
-    m.opt.enableflags = Enable::INVDISCRETE;
-    m.opt.integrator = Integrator::Rk4;
+    m.options_mut().enableflags = Enable::INVDISCRETE;
+    m.options_mut().integrator = Integrator::Rk4;
     assert!(inverse(&m, &mut moving(&m)).is_err());
 }
 
@@ -114,9 +116,9 @@ fn discrete_inverse_undoes_a_step() {
 fn free_flight_keeps_momentum() {
     for integrator in [Integrator::Euler, Integrator::Implicit, Integrator::Implicitfast, Integrator::Rk4] {
         let mut m = chain(&[JointType::Free]);
-        m.body_ipos[1] = [0.0; 3];
-        m.opt.gravity = [0.2, 0.0, -9.0];
-        (m.opt.integrator, m.opt.timestep) = (integrator, 0.005);
+        m.unchecked_mut().body_ipos[1] = [0.0; 3];
+        m.options_mut().gravity = [0.2, 0.0, -9.0];
+        (m.options_mut().integrator, m.options_mut().timestep) = (integrator, 0.005);
         let mut d = Data::new(&m);
         d.state.qvel.copy_from_slice(&[1.0, 0.5, 4.0, 3.0, -5.0, 2.0]);
         (0..200).for_each(|_| step(&m, &mut d).unwrap());
@@ -135,7 +137,7 @@ fn free_flight_keeps_momentum() {
 #[test]
 fn transition_predicts_a_nudged_step() {
     let mut m = damped(&FLYING, true);
-    (m.opt.integrator, m.opt.timestep) = (Integrator::Implicit, 0.01);
+    (m.options_mut().integrator, m.options_mut().timestep) = (Integrator::Implicit, 0.01);
     let mut d = moving(&m);
     let matrices = transition(&m, &mut d, 1e-6, true).unwrap();
     assert_eq!(d.state.qpos, moving(&m).state.qpos);
@@ -154,6 +156,6 @@ fn transition_predicts_a_nudged_step() {
         let predicted: f64 = (0..n).map(|j| matrices.a[i * n + j] * nudge[j]).sum();
         assert!((change - predicted).abs() < 2e-7, "row {i}: {change} {predicted}");
     }
-    m.opt.integrator = Integrator::Rk4;
+    m.options_mut().integrator = Integrator::Rk4;
     assert!(transition(&m, &mut d, 1e-6, true).is_err());
 }

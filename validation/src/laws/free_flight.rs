@@ -37,8 +37,8 @@ fn change(m: &mut Model, mut d: Data, h: f64) -> Result<[f64; 2], LawError> {
 
 fn weightless(text: &str, integrator: Integrator) -> Result<Model, LawError> {
     let mut m = compile(text)?;
-    m.opt.disableflags |= Disable::CONTACT | Disable::GRAVITY;
-    m.opt.integrator = integrator;
+    m.options_mut().disableflags |= Disable::CONTACT | Disable::GRAVITY;
+    m.options_mut().integrator = integrator;
     Ok(m)
 }
 
@@ -71,10 +71,10 @@ pub(super) fn energy() -> Result<Vec<Law>, LawError> {
     let mut laws = Vec::new();
     for (text, name, most) in [(HINGES, "hinges and slides", 1e-9), (FLYING, "free and ball joints", 1e-4)] {
         let mut m = compile(text)?;
-        m.opt.disableflags |= Disable::CONTACT | Disable::DAMPER;
-        m.opt.enableflags |= Enable::ENERGY;
-        m.opt.viscosity = 0.0;
-        m.opt.integrator = Integrator::Rk4;
+        m.options_mut().disableflags |= Disable::CONTACT | Disable::DAMPER;
+        m.options_mut().enableflags |= Enable::ENERGY;
+        m.options_mut().viscosity = 0.0;
+        m.options_mut().integrator = Integrator::Rk4;
         let mut d = moving(&m);
         let total = |d: &Data| d.energy[0] + d.energy[1];
         physics::forward(&m, &mut d)?;

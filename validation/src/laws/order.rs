@@ -48,7 +48,7 @@ pub(super) fn moving(m: &Model) -> Data {
 
 /// Takes `steps` steps of length `h`.
 pub(super) fn run(m: &mut Model, d: &mut Data, h: f64, steps: usize) -> Result<(), LawError> {
-    m.opt.timestep = h;
+    m.options_mut().timestep = h;
     for _ in 0..steps {
         physics::step(m, d)?;
     }
@@ -84,13 +84,13 @@ pub(super) fn orders() -> Result<Vec<Law>, LawError> {
     ];
     for (system, text) in [HINGES, FLYING].into_iter().enumerate() {
         let mut m = compile(text)?;
-        m.opt.disableflags |= Disable::CONTACT;
-        m.opt.integrator = Integrator::Rk4;
+        m.options_mut().disableflags |= Disable::CONTACT;
+        m.options_mut().integrator = Integrator::Rk4;
         let exact = arrive(&mut m, EXACT)?;
         for (name, integrator, flag, expected) in variants {
             let mut m = m.clone();
-            m.opt.integrator = integrator;
-            m.opt.disableflags |= flag;
+            m.options_mut().integrator = integrator;
+            m.options_mut().disableflags |= flag;
             let on = format!("{name}; {}", ["hinges and slides", "free and ball joints"][system]);
             let bound = Bound::Near(expected[system], GIVE);
             laws.push(Law::new("order of convergence", on, order(&mut m, &exact)?, bound));

@@ -82,7 +82,7 @@ pub(super) fn piles(which: Piles) -> Result<Vec<Law>, LawError> {
     let mut m = compile(&pile())?;
     for solver in [Solver::Newton, Solver::Cg] {
         for cone in [Cone::Pyramidal, Cone::Elliptic] {
-            (m.opt.solver, m.opt.cone) = (solver, cone);
+            (m.options_mut().solver, m.options_mut().cone) = (solver, cone);
             let on =
                 format!("{BODIES} primitives in a bin after {STEPS} steps of 5 ms, {solver:?}, {cone:?}");
             let laws_of = [
@@ -121,7 +121,7 @@ pub(super) fn action_and_reaction() -> Result<Law, LawError> {
     let mut m = compile(PAIR)?;
     let mut worst = 0.0_f64;
     for cone in [Cone::Pyramidal, Cone::Elliptic] {
-        m.opt.cone = cone;
+        m.options_mut().cone = cone;
         let mut d = Data::new(&m);
         d.state.qvel.copy_from_slice(&[0.5, 0.2, 0.4, 1.0, -2.0, 0.5, -0.3, 0.1, -0.6, 0.7, 1.5, -1.0]);
         physics::forward(&m, &mut d)?;

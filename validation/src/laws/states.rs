@@ -50,7 +50,7 @@ pub(super) fn recorded(on: &str, references: &[Reference]) -> Result<Vec<Law>, L
             let mut d = Data::new(&m);
             reference.set_state(&mut d, &m, k * rows / STATES.min(rows))?;
             worst.take(&mut m, &d)?;
-            m.opt.clone_from(&own);
+            m.options_mut().clone_from(&own);
             if k < SLOPE_STATES && !has_motors(&m) {
                 worst.slope = worst.slope.max(slope(&m, &mut d)?);
             }
@@ -83,22 +83,23 @@ impl Worst {
     fn take(&mut self, m: &mut Model, start: &Data) -> Result<(), LawError> {
         self.states += 1;
         let rows = [Jacobian::Dense, Jacobian::Sparse].map(|storage| {
-            m.opt.jacobian = storage;
+            m.options_mut().jacobian = storage;
             forward(m, start)
         });
         self.storage = self.storage.max(qacc_difference(rows)?);
         for cone in CONES {
-            m.opt.cone = cone;
+            m.options_mut().cone = cone;
             self.forces(m, &forward(m, start)?);
         }
-        (m.opt.solver, m.opt.noslip_iterations) = (Solver::Newton, 0);
-        (m.opt.tolerance, m.opt.iterations, m.opt.ls_iterations) = (0.0, 200, 200);
+        (m.options_mut().solver, m.options_mut().noslip_iterations) = (Solver::Newton, 0);
+        (m.options_mut().tolerance, m.options_mut().iterations, m.options_mut().ls_iterations) =
+            (0.0, 200, 200);
         for cone in CONES {
-            m.opt.cone = cone;
+            m.options_mut().cone = cone;
             self.inverse = self.inverse.max(inverse(m, start)?);
         }
         let islands = [false, true].map(|off| {
-            m.opt.disableflags.set(Disable::ISLAND, off);
+            m.options_mut().disableflags.set(Disable::ISLAND, off);
             forward(m, start)
         });
         self.islands = self.islands.max(qacc_difference(islands)?);

@@ -1,7 +1,7 @@
 //! A machine built here, for laws that hold whatever the numbers are.
 
 use robohive_physics::constants::set_const::set_const;
-use robohive_physics::model::JointType;
+use robohive_physics::model::{Arrays, JointType};
 use robohive_physics::{Data, Model, integration::integrate};
 
 /// A machine that flies, with every kind of joint.
@@ -21,7 +21,7 @@ pub fn chain(joints: &[JointType]) -> Model {
     let nv: usize = joints.iter().map(|&j| dofs(j).1).sum();
     let nq = joints.iter().map(|&j| dofs(j).0).sum();
     let full = nv * (nv + 1) / 2;
-    let mut m = Model {
+    let mut m = Arrays {
         nq,
         nv,
         nbody: n + 1,
@@ -30,7 +30,7 @@ pub fn chain(joints: &[JointType]) -> Model {
         nM: full,
         nC: full,
         nD: nv * nv,
-        ..Model::default()
+        ..Arrays::default()
     };
     m.allocate();
     m.body_quat.fill([1.0, 0.0, 0.0, 0.0]);
@@ -80,6 +80,7 @@ pub fn chain(joints: &[JointType]) -> Model {
         }
     }
     m.qpos_spring = m.qpos0.clone();
+    let mut m = Model::unchecked(m);
     set_const(&mut m).unwrap();
     m
 }

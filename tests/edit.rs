@@ -1,0 +1,152 @@
+//! Edits of a compiled model: what follows is recomputed, caches cannot go stale, and what would break it is refused.
+
+use robohive::physics::model::{Arrays, EditError, ObjType};
+use robohive::physics::{Data, Model, step};
+use std::path::{Path, PathBuf};
+
+fn assets() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
+    let mut folders: Vec<_> = std::fs::read_dir(root).unwrap().map(|f| f.unwrap().path()).collect();
+    folders.sort();
+    let files = folders.iter().filter(|f| f.is_dir()).flat_map(|f| std::fs::read_dir(f).unwrap());
+    let mut files: Vec<_> = files.map(|f| f.unwrap().path()).collect();
+    files.retain(|f| f.extension().is_some_and(|e| e == "xml"));
+    files.sort();
+    files
+}
+
+fn load(name: &str) -> Model {
+    let path = format!("{}/assets/{name}.xml", env!("CARGO_MANIFEST_DIR"));
+    robohive::mjcf::load(&path).unwrap().model
+}
+
+/// Everything a step leaves behind, to the bit.
+fn bits(m: &Model, d: &Data) -> Vec<u64> {
+    let mut bits = Vec::new();
+    d.visit(m, &mut |_, _, values| bits.extend(values.to_f64().into_iter().map(f64::to_bits)));
+    bits
+}
+
+#[test]
+fn an_edit_of_nothing_changes_no_byte() {
+    let mut models = 0;
+    for path in assets() {
+        let Ok(loaded) = robohive::mjcf::load(&path.to_string_lossy()) else { continue };
+        let mut m = loaded.model;
+        let before = m.to_bytes();
+        m.edit(|_| ()).unwrap();
+        assert!(m.to_bytes() == before, "{}", path.display());
+        models += 1;
+    }
+    assert!(models >= 8, "{models}");
+}
+
+#[test]
+fn what_follows_from_masses_is_recomputed() {
+    let mut m = load("elbow/elbow");
+    let (before, body) = (m.clone(), m.nbody - 1);
+    m.edit(|m| {
+        m.body_mass[body] *= 3.0;
+        m.body_inertia[body].iter_mut().for_each(|moment| *moment *= 3.0);
+    })
+    .unwrap();
+    assert!(
+        (m.body_subtreemass[0] - before.body_subtreemass[0] - 2.0 * before.body_mass[body]).abs() < 1e-12
+    );
+    assert!(m.dof_invweight0[m.nv - 1] < 0.9 * before.dof_invweight0[m.nv - 1]);
+    assert!(m.stat.meaninertia > before.stat.meaninertia);
+    m.edit(|m| {
+        m.body_mass[body] = before.body_mass[body];
+        m.body_inertia[body] = before.body_inertia[body];
+    })
+    .unwrap();
+    assert!(m.to_bytes() == before.to_bytes(), "an edit is undone by its inverse");
+}
+
+#[test]
+fn statistics_that_the_file_or_the_edit_gives_are_kept() {
+    let text = "<mujoco><statistic meanmass='7'/><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+    let mut m = robohive::mjcf::load_str(text).unwrap().model;
+    let inertia = m.stat.meaninertia;
+    m.edit(|m| m.body_mass[1] *= 2.0).unwrap();
+    assert_eq!(m.stat.meanmass, 7.0);
+    assert!(m.stat.meaninertia > inertia);
+    m.edit(|m| m.stat.meaninertia = 0.25).unwrap();
+    m.edit(|m| m.body_mass[1] *= 2.0).unwrap();
+    assert_eq!((m.stat.meanmass, m.stat.meaninertia), (7.0, 0.25));
+}
+
+fn refused(m: &Model, change: impl FnOnce(&mut Arrays)) -> EditError {
+    let (mut edited, before) = (m.clone(), m.to_bytes());
+    let error = edited.edit(change).unwrap_err();
+    assert!(edited.to_bytes() == before, "{error}: the model changed");
+    error
+}
+
+#[test]
+fn what_would_break_the_model_is_refused_and_named() {
+    let m = load("quadruped/quadruped");
+    let (nv, ngeom) = (m.nv, m.ngeom);
+    assert_eq!(refused(&m, |m| m.nv += 1), EditError::Size { field: "nv", expected: nv, found: nv + 1 });
+    let error = refused(&m, |m| m.geom_friction.push([1.0; 3]));
+    assert_eq!(error, EditError::Size { field: "geom_friction", expected: 3 * ngeom, found: 3 * ngeom + 3 });
+    assert_eq!(refused(&m, |m| m.body_mass.clear()).to_string().matches("body_mass has 0").count(), 1);
+    let error = refused(&m, |m| m.body_pos[2][1] = f64::NAN);
+    assert_eq!(error, EditError::NotANumber { field: "body_pos", index: 7 });
+    let error = refused(&m, |m| m.geom_bodyid[3] = 1000);
+    assert!(matches!(error, EditError::Inconsistent(what) if what.array == "geom_bodyid"));
+    assert!(matches!(refused(&m, |m| m.actuator_gaintype[0] = 77), EditError::NotSimulated(_)));
+}
+
+/// Every array with one number replaced: refused, or stepped without a panic.
+#[test]
+fn whatever_an_edit_writes_is_refused_or_can_be_stepped() {
+    let m = load("workbench/workbench");
+    let mut arrays = Vec::new();
+    m.visit(&mut |name, _, values| arrays.push((name, values.to_f64(), values.is_float())));
+    let (mut refused, mut stepped) = (0, 0);
+    for (name, values, float) in arrays.iter().filter(|(_, values, _)| !values.is_empty()) {
+        for number in if *float { [-1.0, 1e300] } else { [-1.0, 17.0] } {
+            let (mut edited, mut values) = (m.clone(), values.clone());
+            let middle = values.len() / 2;
+            values[middle] = number;
+            if edited.edit(|m| assert_eq!(m.assign(name, &values), Some(true))).is_err() {
+                refused += 1;
+                continue;
+            }
+            let mut d = Data::new(&edited);
+            d.state.ctrl.fill(0.5);
+            _ = step(&edited, &mut d).and_then(|()| step(&edited, &mut d));
+            stepped += 1;
+        }
+    }
+    assert!(refused > 100 && stepped > 200, "{refused} {stepped}");
+}
+
+#[test]
+fn hulls_and_names_follow_an_edit() {
+    let mut m = load("workbench/workbench");
+    let mut d = Data::new(&m);
+    (0..20).for_each(|_| step(&m, &mut d).unwrap());
+    let joint = (0..m.njnt).find(|&j| !m.name_of(ObjType::Joint, j).is_empty()).unwrap();
+    let name = m.name_of(ObjType::Joint, joint).to_owned();
+    assert_eq!(m.id_of(ObjType::Joint, &name), Some(joint));
+    assert!(m.nmeshvert > 0 && m.mesh_graphadr.iter().any(|&graph| graph >= 0));
+    let first = m.name_jntadr[joint] as usize;
+    m.edit(|m| {
+        m.mesh_vert.as_flattened_mut().iter_mut().for_each(|x| *x *= 0.5);
+        m.names[first] = b'~';
+    })
+    .unwrap();
+    assert_eq!(m.id_of(ObjType::Joint, &name), None);
+    assert_eq!(m.id_of(ObjType::Joint, &format!("~{}", &name[1..])), Some(joint));
+    let fresh = Model::from_bytes(&m.to_bytes()).unwrap();
+    let mut ours = Data::new(&m);
+    let mut theirs = Data::new(&fresh);
+    for _ in 0..100 {
+        step(&m, &mut ours).unwrap();
+        step(&fresh, &mut theirs).unwrap();
+    }
+    assert!(!ours.con.contact.is_empty());
+    assert!(bits(&m, &ours) == bits(&fresh, &theirs));
+}
