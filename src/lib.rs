@@ -4,7 +4,7 @@
 //! let loaded = robohive::mjcf::load("assets/franka/franka_table.xml").unwrap();
 //! let mut data = robohive::physics::Data::new(&loaded.model);
 //! robohive::physics::step(&loaded.model, &mut data).unwrap();
-//! assert!(data.time > 0.0);
+//! assert!(data.state.time > 0.0);
 //! ```
 
 pub use dataset;

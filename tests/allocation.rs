@@ -1,6 +1,7 @@
-//! A step allocates no memory once its buffers have grown: heap traffic would make its duration unpredictable.
+//! Steps, resets, snapshots and views allocate no memory once their buffers have grown: heap traffic would make their
+//! duration unpredictable.
 
-use robohive::physics::{Data, Model, step};
+use robohive::physics::{Data, Model, Snapshot, step};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 
@@ -18,18 +19,21 @@ fn tumble(i: usize, m: &mut Model, _: &mut Data) {
 }
 
 /// Every motor swings, each at its own rate.
-fn trot(i: usize, _: &mut Model, d: &mut Data) {
-    for (k, ctrl) in d.state.ctrl.iter_mut().enumerate() {
-        *ctrl = 0.8 * (0.02 * i as f64 * (1.0 + 0.1 * k as f64)).sin();
+fn trot(i: usize, m: &mut Model, d: &mut Data) {
+    for (k, motor) in m.actuators().enumerate() {
+        d.actuator_mut(motor).set_ctrl(0.8 * (0.02 * i as f64 * (1.0 + 0.1 * k as f64)).sin());
     }
+    assert!(m.sensors().flat_map(|sensor| d.sensor(sensor).data()).all(|x| x.is_finite()));
 }
 
-/// One passage from `start`; the number of steps at which the number of contacts changed.
-fn pass(m: &mut Model, d: &mut Data, start: &Data, drive: Drive) -> usize {
-    d.time = 0.0;
-    d.state.qpos.copy_from_slice(&start.state.qpos);
-    d.state.qvel.copy_from_slice(&start.state.qvel);
-    d.state.qacc_warmstart.copy_from_slice(&start.state.qacc_warmstart);
+/// One passage from the saved start; the number of steps at which the number of contacts changed.
+fn pass(m: &mut Model, d: &mut Data, start: &mut Snapshot, drive: Drive) -> usize {
+    match m.nkey {
+        0 => d.reset(m),
+        _ => d.reset_to_key(m, 0).unwrap(),
+    }
+    d.restore(start).unwrap();
+    d.save(start);
     let mut changes = 0;
     for i in 0..PASSAGE {
         let before = d.con.contact.len();
@@ -50,13 +54,14 @@ fn steps_do_not_allocate() {
     for (name, drive) in models {
         let path = format!("{}/assets/{name}.xml", env!("CARGO_MANIFEST_DIR"));
         let mut model = robohive::mjcf::load(&path).unwrap().model;
-        let start = Data::new(&model);
         let mut data = Data::new(&model);
-        let changes = pass(&mut model, &mut data, &start, drive);
+        let mut start = Snapshot::default();
+        data.save(&mut start);
+        let changes = pass(&mut model, &mut data, &mut start, drive);
         assert!(changes > 100, "{name}: contacts came and went only {changes} times");
         let region = Region::new(HEAP);
         for _ in 0..REPEATS {
-            assert_eq!(pass(&mut model, &mut data, &start, drive), changes);
+            assert_eq!(pass(&mut model, &mut data, &mut start, drive), changes);
         }
         let stats = region.change();
         assert_eq!((stats.allocations, stats.reallocations), (0, 0), "{name}");

@@ -1,7 +1,10 @@
 //! A batch makes of every environment what stepping it alone makes, whatever the number of threads.
 
+mod state;
+
 use robohive::physics::model::Arrays;
-use robohive::physics::{Batch, Data, Model, StepError, step};
+use robohive::physics::{Batch, Model, StepError, step};
+use state::bits;
 use std::sync::Arc;
 
 const STEPS: usize = 120;
@@ -27,13 +30,6 @@ fn diverse(m: &Arc<Model>, threads: usize) -> Batch {
         }
     }
     batch
-}
-
-/// Everything a step leaves behind, to the bit.
-fn bits(m: &Model, d: &Data) -> Vec<u64> {
-    let mut bits = Vec::new();
-    d.visit(m, &mut |_, _, values| bits.extend(values.to_f64().into_iter().map(f64::to_bits)));
-    bits
 }
 
 #[test]
@@ -87,6 +83,6 @@ fn an_error_names_the_first_environment_that_failed_and_the_others_go_on() {
     assert!(error.to_string().starts_with("environment 2: qpos[1] of"), "{error}");
     for (environment, d) in batch.data().iter().enumerate() {
         let steps = if [2, 5, 7].contains(&environment) { 0.0 } else { 3.0 };
-        assert!((d.time - steps * m.opt.timestep).abs() < 1e-15, "environment {environment}");
+        assert!((d.state.time - steps * m.opt.timestep).abs() < 1e-15, "environment {environment}");
     }
 }

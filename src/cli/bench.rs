@@ -126,7 +126,7 @@ impl Workload {
         }
         let row = done / self.hold % self.rows;
         if row == 0 {
-            (d.time, d.state) = (self.start.time, self.start.state.clone());
+            d.state.clone_from(&self.start.state);
         }
         d.state.ctrl.copy_from_slice(&self.controls[row * nu..(row + 1) * nu]);
     }

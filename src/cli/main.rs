@@ -104,8 +104,7 @@ fn start(m: &physics::Model, key: Option<&str>) -> Result<physics::Data, Failure
                 .ok_or_else(|| Failure::usage(format!("the model has no keyframe {key:?}")))?,
         },
     };
-    d.reset_to_key(m, index)
-        .map_err(|n| Failure::usage(format!("keyframe {index} does not exist: the model has {n}")))?;
+    d.reset_to_key(m, index).map_err(Failure::usage)?;
     Ok(d)
 }
 

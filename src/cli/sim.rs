@@ -32,7 +32,7 @@ pub fn run(a: &Sim) -> Result<(), Failure> {
     let began = Instant::now();
     let mut contacts = 0;
     for _ in 0..steps as u64 {
-        physics::step(&m, &mut d).map_err(|e| Failure::new(format!("at {:.6} s: {e}", d.time)))?;
+        physics::step(&m, &mut d).map_err(|e| Failure::new(format!("at {:.6} s: {e}", d.state.time)))?;
         contacts = contacts.max(d.con.contact.len());
         if let Some(recorder) = &mut recorder {
             physics::derive_on_demand(&m, &mut d);
@@ -44,8 +44,8 @@ pub fn run(a: &Sim) -> Result<(), Failure> {
     bar.finish_and_clear();
     physics::derive_on_demand(&m, &mut d);
     show!("model        {}", m.name);
-    show!("time         {:.6} s in {steps} steps", d.time);
-    show!("speed        {:.0} steps/s, {:.1} x real time", steps / wall, d.time / wall);
+    show!("time         {:.6} s in {steps} steps", d.state.time);
+    show!("speed        {:.0} steps/s, {:.1} x real time", steps / wall, d.state.time / wall);
     show!("energy       potential {:.6} J, kinetic {:.6} J", d.energy[0], d.energy[1]);
     show!("contacts     {} now, {contacts} at most", d.con.contact.len());
     if let (Some(path), Some(recorder)) = (&a.out, recorder) {

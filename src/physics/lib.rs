@@ -17,6 +17,7 @@ pub mod constants;
 pub mod constraint;
 pub mod data;
 pub mod derivative;
+pub mod elements;
 pub mod inertia;
 pub mod integration;
 pub mod math;
@@ -32,7 +33,7 @@ pub mod velocity;
 
 pub use constants::length_range::set_length_ranges;
 pub use constants::set_const::set_const;
-pub use data::Data;
+pub use data::{Data, Snapshot};
 pub use model::Model;
 pub use on_demand::derive_on_demand;
 pub use pipeline::batch::{Batch, BatchError};

@@ -232,19 +232,51 @@ macro_rules! field_rows {
 
 /// Declares one stage struct of `Data`: arrays whose row counts are sizes of the `Model`.
 macro_rules! stage {
-    ($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident : $t:ident $shape:tt,)* }) => {
+    (
+        $(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident : $t:ident $shape:tt,)* }
+        $(scalars { $($(#[$sdoc:meta])* $scalar:ident : $st:ty,)* })?
+    ) => {
         $(#[$meta])*
-        #[derive(Clone, Debug, Default)]
+        #[derive(Debug, Default)]
         #[allow(non_snake_case)]
-        pub struct $name { $($(#[$doc])* pub $field: crate::table::field_type!($t, $shape),)* }
+        pub struct $name {
+            $($($(#[$sdoc])* pub $scalar: $st,)*)?
+            $(#[doc = concat!("`", stringify!($shape), "`")] $(#[$doc])* pub $field: crate::table::field_type!($t, $shape),)*
+        }
+
+        impl Clone for $name {
+            fn clone(&self) -> Self {
+                $name {
+                    $($($scalar: self.$scalar,)*)?
+                    $($field: self.$field.clone(),)*
+                }
+            }
+
+            /// Reuses the memory of `self`.
+            fn clone_from(&mut self, from: &Self) {
+                $($(self.$scalar = from.$scalar;)*)?
+                $(self.$field.clone_from(&from.$field);)*
+            }
+        }
 
         impl $name {
             /// Zeroed arrays sized for `m`.
             pub fn new(m: &crate::model::Model) -> Self {
                 let mut s = Self::default();
-                $(crate::table::Field::allocate(&mut s.$field, crate::table::field_rows!(m, $shape),
-                    crate::table::field_width!(m, $shape));)*
+                s.clear(m);
                 s
+            }
+
+            /// Zeroes everything, sized for `m`; memory is reused.
+            pub fn clear(&mut self, m: &crate::model::Model) {
+                $($(self.$scalar = Default::default();)*)?
+                $(crate::table::Field::allocate(&mut self.$field, crate::table::field_rows!(m, $shape),
+                    crate::table::field_width!(m, $shape));)*
+            }
+
+            /// True when every array is as long as that of `other`.
+            pub fn same_lengths(&self, other: &Self) -> bool {
+                $(self.$field.len() == other.$field.len())&&*
             }
 
             /// Calls `f(name, shape, values)` for every array, in declaration order.

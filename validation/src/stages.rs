@@ -233,7 +233,7 @@ const STAGES: &[Stage] = &[
             "qfrc_gravcomp",
             "qfrc_passive",
         ],
-        run: |m, d| actuation::actuation(m, d.time, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation),
+        run: |m, d| actuation::actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation),
         writes: &["act_dot", "actuator_force", "qfrc_actuator"],
     },
     Stage {
@@ -316,10 +316,10 @@ pub fn before_solver(reference: &Reference, m: &Model, row: usize) -> Result<Dat
 }
 
 fn sensors(m: &Model, d: &mut Data) {
-    let Data { time, state, kin, com, ten, trn, inertia, con, efc, vel, actuation, sensor: out, .. } = d;
+    let Data { state, kin, com, ten, trn, inertia, con, efc, vel, actuation, sensor: out, .. } = d;
     let mut scratch = sensor::SensorScratch::default();
-    let inputs = sensor::PositionInputs { time: *time, state, kin, com, ten, trn, inertia, efc };
-    let past = sensor::Past { time: *time, history: &state.history };
+    let inputs = sensor::PositionInputs { state, kin, com, ten, trn, inertia, efc };
+    let past = sensor::Past { time: state.time, history: &state.history };
     sensor::position_sensors(m, &inputs, past, &mut scratch, out);
     let inputs = sensor::VelocityInputs { state, kin, com, trn, vel, efc };
     sensor::velocity_sensors(m, &inputs, past, &mut scratch, out);

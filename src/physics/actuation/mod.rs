@@ -26,7 +26,6 @@ const QUATERNION_INPUT: i32 = 2;
 /// Computes rates of activation, actuator forces, and their sum in joint space.
 pub fn actuation(
     m: &Model,
-    time: f64,
     state: &State,
     trn: &Transmission,
     vel: &Velocity,
@@ -40,8 +39,8 @@ pub fn actuation(
     }
     // One bad control switches all of them off.
     let is_bad = |u: f64| u.is_nan() || u.abs() > MAXVAL;
-    let bad = (0..m.nu).any(|k| is_bad(clamped_control(m, time, state, k)));
-    let ctrl = |k: usize| if bad { 0.0 } else { clamped_control(m, time, state, k) };
+    let bad = (0..m.nu).any(|k| is_bad(clamped_control(m, state, k)));
+    let ctrl = |k: usize| if bad { 0.0 } else { clamped_control(m, state, k) };
     activation_rates(m, &state.act, trn, vel, ctrl, &mut out.act_dot);
 
     for i in (0..m.nactuator).filter(|&i| !is_disabled(m, i)) {
@@ -86,10 +85,10 @@ pub fn actuation(
 }
 
 /// Control `k`, delayed if its actuator is, within its range.
-fn clamped_control(m: &Model, time: f64, state: &State, k: usize) -> f64 {
+fn clamped_control(m: &Model, state: &State, k: usize) -> f64 {
     let u = match m.nhistory {
         0 => state.ctrl[k],
-        _ => history::control(m, &state.history, &state.ctrl, time, k),
+        _ => history::control(m, &state.history, &state.ctrl, state.time, k),
     };
     let clamps = !m.opt.disableflags.contains(Disable::CLAMPCTRL) && m.actuator_ctrllimited[k];
     if clamps { clip(u, m.actuator_ctrlrange[k]) } else { u }

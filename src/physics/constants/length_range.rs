@@ -238,7 +238,7 @@ fn pull(
     let out = m.actuator_outadr[i] as usize;
     let decay = ops::exp(-m.opt.timestep / opt.timeconst.max(0.01));
     let mut recorded = None;
-    while d.time < opt.inttotal {
+    while d.state.time < opt.inttotal {
         d.state.qvel.iter_mut().for_each(|v| *v *= decay);
         position(m, d, &mut ());
         velocity(m, d, &mut ());
@@ -247,7 +247,7 @@ fn pull(
         check_acceleration(m, d)?;
         advance_once(m, d, Factors::Fresh);
         let length = d.trn.actuator_length[out];
-        if d.time > opt.inttotal - opt.interval {
+        if d.state.time > opt.inttotal - opt.interval {
             let [least, most] = recorded.unwrap_or([length; 2]);
             recorded = Some([f64::min(least, length), f64::max(most, length)]);
         }

@@ -3,23 +3,24 @@
 mod configuration;
 mod constraints;
 mod scratch;
+mod snapshot;
 mod stages;
 
 pub use configuration::Configuration;
 pub(crate) use configuration::configuration_of;
 pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStat, SolverStatistics};
 pub use scratch::Scratch;
+pub use snapshot::{ForeignSnapshot, Snapshot};
 pub use stages::*;
 
 use crate::actuation::history;
 use crate::model::Model;
 use crate::table::Slice;
+use std::fmt;
 
 /// State, stage outputs and scratch memory of one simulation.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
-    /// Simulation time [s].
-    pub time: f64,
     /// Potential and kinetic energy [J].
     pub energy: [f64; 2],
     /// State and inputs.
@@ -81,11 +82,11 @@ impl Data {
     }
 
     /// Returns to the reference configuration at time zero: zero velocities, activations and inputs, mocap bodies
-    /// at their model poses, equality constraints as the model says. Stage outputs keep their last values.
+    /// at their model poses, equality constraints as the model says. Stage outputs keep their last values. Nothing is
+    /// allocated.
     pub fn reset(&mut self, m: &Model) {
-        self.time = 0.0;
         self.energy = [0.0; 2];
-        self.state = State::new(m);
+        self.state.clear(m);
         self.state.qpos.copy_from_slice(&m.qpos0);
         history::reset(m, &mut self.state.history);
         self.state.eq_active.copy_from_slice(&m.eq_active0);
@@ -97,29 +98,40 @@ impl Data {
         }
     }
 
-    /// Resets, then takes time, positions, velocities, activations, mocap poses and controls of keyframe `key`.
+    /// Resets, then takes time, positions, velocities, activations, mocap poses and controls of keyframe `key`. Nothing
+    /// is allocated.
     ///
     /// # Errors
-    /// The number of keyframes, when `key` is not below it.
-    pub fn reset_to_key(&mut self, m: &Model, key: usize) -> Result<(), usize> {
+    /// The model has no such keyframe; the data stay as they were.
+    pub fn reset_to_key(&mut self, m: &Model, key: usize) -> Result<(), NoKeyframe> {
         if key >= m.nkey {
-            return Err(m.nkey);
+            return Err(NoKeyframe { key, keyframes: m.nkey });
         }
         self.reset(m);
-        let row = |values: &[f64], n: usize| values[key * n..(key + 1) * n].to_vec();
-        self.time = m.key_time[key];
-        self.state.qpos = row(&m.key_qpos, m.nq);
-        self.state.qvel = row(&m.key_qvel, m.nv);
-        self.state.act = row(&m.key_act, m.na);
-        self.state.ctrl = row(&m.key_ctrl, m.nu);
-        self.state.mocap_pos.as_flattened_mut().copy_from_slice(&row(&m.key_mpos, 3 * m.nmocap));
-        self.state.mocap_quat.as_flattened_mut().copy_from_slice(&row(&m.key_mquat, 4 * m.nmocap));
+        let state = &mut self.state;
+        state.time = m.key_time[key];
+        for (values, keys) in [
+            (&mut state.qpos[..], &m.key_qpos),
+            (&mut state.qvel, &m.key_qvel),
+            (&mut state.act, &m.key_act),
+            (&mut state.ctrl, &m.key_ctrl),
+            (state.mocap_pos.as_flattened_mut(), &m.key_mpos),
+            (state.mocap_quat.as_flattened_mut(), &m.key_mquat),
+        ] {
+            let n = values.len();
+            values.copy_from_slice(&keys[key * n..(key + 1) * n]);
+        }
         Ok(())
+    }
+
+    /// Simulation time [s].
+    pub fn time(&self) -> f64 {
+        self.state.time
     }
 
     /// Calls `f(name, shape, values)` for every array and count, contacts as `contact.dist` and so on.
     pub fn visit(&self, m: &Model, f: &mut dyn FnMut(&'static str, Vec<usize>, Slice<'_>)) {
-        f("time", vec![], Slice::F64(&[self.time]));
+        f("time", vec![], Slice::F64(&[self.state.time]));
         f("energy", vec![2], Slice::F64(&self.energy));
         self.state.visit(m, f);
         self.kin.visit(m, f);
@@ -146,7 +158,7 @@ impl Data {
     /// `Some(false)` when the length does not fit.
     pub fn assign(&mut self, name: &str, values: &[f64]) -> Option<bool> {
         if let ("time", [t]) = (name, values) {
-            self.time = *t;
+            self.state.time = *t;
             return Some(true);
         }
         if let ([n], true) = (values, ["ne", "nf", "nl", "nefc"].contains(&name)) {
@@ -169,3 +181,23 @@ impl Data {
             .or_else(|| self.implicit.assign(name, values))
     }
 }
+
+/// A keyframe that a model does not have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoKeyframe {
+    /// Keyframe asked for.
+    pub key: usize,
+    /// Keyframes of the model.
+    pub keyframes: usize,
+}
+
+impl fmt::Display for NoKeyframe {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.keyframes {
+            0 => write!(f, "keyframe {} does not exist: the model has none", self.key),
+            n => write!(f, "keyframe {} does not exist: the model has {n}, numbered from 0", self.key),
+        }
+    }
+}
+
+impl std::error::Error for NoKeyframe {}

@@ -32,6 +32,9 @@ stage! {
         mocap_quat: f64 [nmocap; 4],
         /// User storage.
         userdata: f64 [nuserdata],
+    } scalars {
+        /// Simulation time [s].
+        time: f64,
     }
 }
 

@@ -52,7 +52,6 @@ impl Outcome {
 struct Centre<'a> {
     m: &'a Model,
     state: State,
-    time: f64,
     outcome: Outcome,
     eps: f64,
 }
@@ -64,7 +63,6 @@ impl Centre<'_> {
         let result = step_after(self.m, d, known);
         let outcome = Outcome::read(d);
         d.state.clone_from(&self.state);
-        d.time = self.time;
         result.map(|()| outcome)
     }
 
@@ -103,11 +101,10 @@ impl Centre<'_> {
 /// The integrator is Runge-Kutta, or a step fails.
 pub fn transition(m: &Model, d: &mut Data, eps: f64, centred: bool) -> Result<Transition, StepError> {
     check_differences(m)?;
-    let (state, time) = (d.state.clone(), d.time);
+    let state = d.state.clone();
     step_after(m, d, Known::Nothing)?;
-    let centre = Centre { m, state, time, outcome: Outcome::read(d), eps };
+    let centre = Centre { m, state, outcome: Outcome::read(d), eps };
     d.state.clone_from(&centre.state);
-    d.time = time;
     let n = 2 * m.nv + m.na;
     let mut out = Transition {
         a: vec![0.0; n * n],

@@ -78,7 +78,7 @@ pub fn implicit(m: &Model, d: &mut Data, factors: Factors) {
     qacc.resize(m.nv, 0.0);
     implicit::solve(m, &inputs, &d.implicit, force, qacc);
     let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot, fresh: &d.scratch.sensor.fresh };
-    advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state, &mut d.time);
+    advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state);
 }
 
 /// Advances the state by one step of semi-implicit Euler; joint damping is taken at the end of the step.
@@ -97,7 +97,7 @@ pub fn euler(m: &Model, d: &mut Data, factors: Factors) {
         qacc.extend_from_slice(&d.acc.qacc);
     }
     let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot, fresh: &d.scratch.sensor.fresh };
-    advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state, &mut d.time);
+    advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state);
 }
 
 /// True when some degree of freedom is damped and Euler treats that implicitly.
@@ -140,17 +140,16 @@ fn advance(
     acc: &Acceleration,
     rates: &NewRates,
     state: &mut State,
-    time: &mut f64,
 ) {
     if m.nhistory > 0 {
-        history::record(m, &state.ctrl, rates.fresh, *time, &mut state.history);
+        history::record(m, &state.ctrl, rates.fresh, state.time, &mut state.history);
     }
     if m.na > 0 && !m.opt.disableflags.contains(Disable::ACTUATION) {
         advance_activations(m, trn, vel, rates.act_dot, state);
     }
     add_scaled_slice(&mut state.qvel, rates.qacc, m.opt.timestep);
     integrate_pos(m, &mut state.qpos, rates.qvel.unwrap_or(&state.qvel), m.opt.timestep);
-    *time += m.opt.timestep;
+    state.time += m.opt.timestep;
     state.qacc_warmstart.copy_from_slice(&acc.qacc);
 }
 
@@ -210,7 +209,7 @@ pub fn runge_kutta(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<()
             act_dot: &scratch.act_dot,
             fresh: &d.scratch.sensor.fresh,
         };
-        advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state, &mut d.time);
+        advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state);
     }
     d.scratch.integrate = scratch;
     result
@@ -223,7 +222,7 @@ fn stages(
     s: &mut IntegrateScratch,
     watch: &mut impl Watch,
 ) -> Result<(), StepError> {
-    let (h, time) = (m.opt.timestep, d.time);
+    let (h, time) = (m.opt.timestep, d.state.time);
     let IntegrateScratch { start, stages, .. } = s;
     start.clear();
     for part in [&d.state.qpos, &d.state.qvel, &d.state.act] {
@@ -241,7 +240,7 @@ fn stages(
         for (x, rate) in d.state.act.iter_mut().zip(&last.act_dot) {
             *x += h * (weight * rate);
         }
-        d.time = time + weight * h;
+        d.state.time = time + weight * h;
         watch.ended(Stage::Integration);
         result = evaluate(m, d, false, watch);
         if result.is_err() {
@@ -250,7 +249,7 @@ fn stages(
         stages[i + 1].read(d);
     }
     restore(m, d, start);
-    d.time = time;
+    d.state.time = time;
     result
 }
 

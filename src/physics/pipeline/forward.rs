@@ -196,7 +196,7 @@ pub(crate) fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
 
 /// What depends on inputs too: actuation, and accelerations without and with constraints.
 pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
-    actuation(m, d.time, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
+    actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
     watch.ended(Stage::Actuation);
     for dof in 0..m.nv {
         d.acc.qfrc_smooth[dof] = d.passive.qfrc_passive[dof] - d.vel.qfrc_bias[dof]
@@ -223,7 +223,6 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
 
 fn position_sensors(m: &Model, d: &mut Data) {
     let inputs = PositionInputs {
-        time: d.time,
         state: &d.state,
         kin: &d.kin,
         com: &d.com,
@@ -232,7 +231,7 @@ fn position_sensors(m: &Model, d: &mut Data) {
         inertia: &d.inertia,
         efc: &d.efc,
     };
-    let past = Past { time: d.time, history: &d.state.history };
+    let past = Past { time: d.state.time, history: &d.state.history };
     sensor::position_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
     let on = m.opt.enableflags.contains(Enable::ENERGY);
     d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
@@ -241,7 +240,7 @@ fn position_sensors(m: &Model, d: &mut Data) {
 fn velocity_sensors(m: &Model, d: &mut Data) {
     let inputs =
         VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
-    let past = Past { time: d.time, history: &d.state.history };
+    let past = Past { time: d.state.time, history: &d.state.history };
     sensor::velocity_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
     if m.opt.enableflags.contains(Enable::ENERGY) {
         d.energy[1] = energy::kinetic(m, &d.state, &d.inertia, &mut d.scratch.sensor.momentum);
@@ -260,6 +259,6 @@ pub(crate) fn acceleration_sensors(m: &Model, d: &mut Data) {
         vel: &d.vel,
         actuation: &d.actuation,
     };
-    let past = Past { time: d.time, history: &d.state.history };
+    let past = Past { time: d.state.time, history: &d.state.history };
     sensor::acceleration_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
 }

@@ -32,7 +32,7 @@ pub(crate) fn check_state(m: &Model, d: &Data) -> Result<(), StepError> {
         if is_bad(if clamped { clip(u, m.actuator_ctrlrange[k]) } else { u }) {
             let i = (0..m.nactuator).rfind(|&i| m.actuator_ctrladr[i] as usize <= k).unwrap_or(0);
             let element = m.label_of(ObjType::Actuator, i);
-            return Err(StepError::BadCtrl(BadNumber { index: k, element, value: u, time: d.time }));
+            return Err(StepError::BadCtrl(BadNumber { index: k, element, value: u, time: d.state.time }));
         }
     }
     Ok(())
@@ -56,7 +56,7 @@ fn check_array(
         None => Ok(()),
         Some(index) => {
             let element = m.label_of(ObjType::Joint, joint(m, index));
-            Err(BadNumber { index, element, value: values[index], time: d.time })
+            Err(BadNumber { index, element, value: values[index], time: d.state.time })
         }
     }
 }

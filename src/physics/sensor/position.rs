@@ -12,7 +12,6 @@ use crate::position::frame::{self, frame};
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub struct PositionInputs<'a> {
-    pub time: f64,
     pub state: &'a State,
     pub kin: &'a Kinematics,
     pub com: &'a Com,
@@ -70,7 +69,7 @@ pub(super) fn read(
         }
         SensorType::EPotential => out[0] = energy::potential(m, d.state, d.kin, d.ten),
         SensorType::EKinetic => out[0] = energy::kinetic(m, d.state, d.inertia, &mut scratch.momentum),
-        SensorType::Clock => out[0] = d.time,
+        SensorType::Clock => out[0] = d.state.time,
         // Users' sensors read zero; the others belong to later stages.
         _ => {}
     }

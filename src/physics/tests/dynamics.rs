@@ -83,7 +83,7 @@ fn drift(m: &Model, integrator: Integrator, h: f64) -> f64 {
     let mut d = moving(&m);
     forward(&m, &mut d).unwrap();
     let start = d.energy;
-    while d.time < 0.2 - 0.5 * h {
+    while d.state.time < 0.2 - 0.5 * h {
         step(&m, &mut d).unwrap();
     }
     forward(&m, &mut d).unwrap();

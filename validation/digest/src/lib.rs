@@ -34,7 +34,7 @@ pub fn digest(case: &Case, threads: usize) -> Result<u64, String> {
     let model = batch.model(0).clone();
     if model.nkey > 0 {
         for data in batch.data_mut() {
-            data.reset_to_key(&model, 0).map_err(|keys| format!("{}: {keys} keyframes", case.name))?;
+            data.reset_to_key(&model, 0).map_err(|error| format!("{}: {error}", case.name))?;
         }
     }
     batch
