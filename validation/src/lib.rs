@@ -7,6 +7,7 @@ pub mod collide_table;
 pub mod compare;
 pub mod compile;
 pub mod draws;
+pub mod hulls;
 pub mod laws;
 pub mod motion;
 pub mod rays;

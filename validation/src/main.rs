@@ -3,7 +3,7 @@
 use physics::Model;
 use robohive_validation::reference::{Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
-use robohive_validation::{bits, c_library, collide_table, draws, laws, solver};
+use robohive_validation::{bits, c_library, collide_table, draws, hulls, laws, solver};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -14,6 +14,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation collide [--from FILE] [--write README.md]
        robohive-validation laws [--write README.md]
        robohive-validation draws [--write README.md]
+       robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
 and with --write replaces the text between the table markers of a file; with --section between the markers of that
@@ -24,6 +25,8 @@ bits: counts the values that are MuJoCo's to the last bit. Without a list on the
 not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; with it the exit code is 3 where the C library
 is another than that of the recorded MuJoCo.
 laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES.
+hulls: hashes the convex hull of every mesh file (STL, OBJ, MSH) below the folders, one line a mesh; fails when any differs
+from the recorded ones.
 solver: solves the constraint problems that solver.py recorded; the models are those that record.py recorded.
 
 collide: compares contacts, distances and rays with the stream of collide.py, from standard input or a file; fails when any
@@ -46,6 +49,9 @@ struct Arguments {
     write: Option<PathBuf>,
     section: String,
     brief: bool,
+    folders: Vec<PathBuf>,
+    record: Option<PathBuf>,
+    compare: Option<PathBuf>,
 }
 
 /// Exit code where the C library's functions are not those of the recorded MuJoCo.
@@ -69,6 +75,13 @@ fn run() -> Result<(), String> {
     let mut words = std::env::args().skip(1).peekable();
     let mode = words.next_if(|word| !word.starts_with("--"));
     let a = parse(words)?;
+    if mode.as_deref() == Some("hulls") {
+        println!("\n{}", hulls(&a)?);
+        return Ok(());
+    }
+    if let Some(folder) = a.folders.first() {
+        return Err(format!("unknown argument {}\n{USAGE}", folder.display()));
+    }
     let (section, table, verdict) = match mode.as_deref() {
         None => (a.section.as_str(), status(&a)?, Ok(())),
         Some("bits") => {
@@ -112,6 +125,17 @@ fn chosen(a: &Arguments) -> Result<Vec<(String, PathBuf, PathBuf)>, String> {
         (line.to_owned(), a.models.join(line), a.references.join(name + ".npz"))
     };
     Ok(list.split_whitespace().filter(|line| line.contains(&a.only)).map(files).collect())
+}
+
+/// The summary of the hulls of all mesh files below the folders.
+fn hulls(a: &Arguments) -> Result<String, String> {
+    let purpose = match (&a.record, &a.compare) {
+        (None, None) => hulls::Purpose::Print,
+        (Some(path), None) => hulls::Purpose::Record(path),
+        (None, Some(path)) => hulls::Purpose::Compare(path),
+        (Some(_), Some(_)) => return Err(format!("--record or --compare, not both\n{USAGE}")),
+    };
+    hulls::measure(&a.folders, purpose)
 }
 
 /// The recorded table of the own models.
@@ -170,6 +194,9 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
             "--write" => a.write = Some(value()?.into()),
             "--section" => a.section = value()?,
             "--brief" => a.brief = true,
+            "--record" => a.record = Some(value()?.into()),
+            "--compare" => a.compare = Some(value()?.into()),
+            folder if !folder.starts_with("--") => a.folders.push(folder.into()),
             _ => return Err(format!("unknown argument {word}\n{USAGE}")),
         }
     }
