@@ -1,55 +1,60 @@
-//! The engine inside another program: a two-link arm described in text, held up by its own controller.
+//! The engine inside another program: everything is found by name.
 
-use robohive::mjcf::load_str;
-use robohive::physics::{Data, step};
+use robohive::{Batch, Data, Ray, RayFilter, Snapshot, StepError, forward, load_str, step};
 
 const ARM: &str = r#"
-<mujoco model="arm">
-  <option timestep="0.002" integrator="implicitfast"/>
-  <default>
-    <joint type="hinge" axis="0 1 0" damping="0.05"/>
-    <geom type="capsule" size="0.03" density="800"/>
-  </default>
+<mujoco>
   <worldbody>
-    <body name="upper">
-      <joint name="shoulder"/>
-      <geom fromto="0 0 0 0.4 0 0"/>
-      <body name="lower" pos="0.4 0 0">
-        <joint name="elbow" limited="true" range="0 150"/>
-        <geom fromto="0 0 0 0.3 0 0"/>
-        <site name="tip" pos="0.3 0 0"/>
-      </body>
+    <geom name="table" type="plane" size="1 1 .1"/>
+    <body name="arm" pos="0 0 .3">
+      <joint name="elbow" axis="0 1 0" damping=".2"/>
+      <geom name="rod" type="capsule" fromto="0 0 0 .5 0 0" size=".02"/>
+      <site name="tip" pos=".5 0 0"/>
     </body>
   </worldbody>
-  <actuator>
-    <motor joint="shoulder"/>
-    <motor joint="elbow"/>
-  </actuator>
-  <sensor>
-    <framepos objtype="site" objname="tip"/>
-  </sensor>
+  <actuator><position name="bend" joint="elbow" kp="30"/></actuator>
+  <sensor><framelinvel name="speed" objtype="site" objname="tip"/></sensor>
 </mujoco>"#;
 
-const TARGET: [f64; 2] = [-0.9, 1.4];
-const STIFFNESS: f64 = 40.0;
-const DAMPING: f64 = 4.0;
+/// Presses an arm on a table.
+pub fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut model = load_str(ARM)?.model;
+    let (arm, elbow) = (model.body("arm").ok_or("no arm")?, model.joint("elbow").ok_or("no elbow")?);
+    let (tip, speed) = (model.site("tip").ok_or("no tip")?, model.sensor("speed").ok_or("no sensor")?);
+    let (bend, table) = (model.actuator("bend").ok_or("no motor")?, model.geom("table").ok_or("no table")?);
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let model = load_str(ARM)?.model;
-    let mut data = Data::new(&model);
-    for second in 0..=3 {
-        let [x, _, z] = [0, 1, 2].map(|i| data.sensor.sensordata[i]);
-        println!("{second} s: joints {:+.4?} rad, tip at x {x:+.4} m, z {z:+.4} m", data.state.qpos);
-        for _ in 0..500 {
-            // Gravity and Coriolis forces are known from the last step; a spring and a damper do the rest.
-            for joint in 0..2 {
-                let error = TARGET[joint] - data.state.qpos[joint];
-                data.state.ctrl[joint] =
-                    data.vel.qfrc_bias[joint] + STIFFNESS * error - DAMPING * data.state.qvel[joint];
-            }
-            step(&model, &mut data)?;
-        }
+    // The arm bends; a Jacobian tells how fast its tip moves, as the sensor does.
+    let (mut data, mut start) = (Data::new(&model), Snapshot::default());
+    data.actuator_mut(bend).set_ctrl(0.8);
+    data.save(&mut start);
+    (0..20).try_for_each(|_| step(&model, &mut data))?;
+    forward(&model, &mut data)?;
+    let [velocity, _] = data.jacobian(&model, tip).velocity(&data.state.qvel);
+    let differences = velocity.iter().zip(data.sensor(speed).data()).map(|(v, s)| (v - s).abs());
+    assert!(velocity[2] < -1.0 && differences.fold(0.0, f64::max) < 1e-12);
+
+    // It presses on the table, and a ray from above sees it. Heavier, it presses harder.
+    let mut forces = Vec::new();
+    for mass in [0.5, 2.5] {
+        model.edit(|m| m.body_mass[arm.index()] = mass)?;
+        data.restore(&start)?;
+        (0..1000).try_for_each(|_| step(&model, &mut data))?;
+        let contact = data.contacts().find(|contact| contact.touches(table)).ok_or("no contact")?;
+        forces.push(contact.force(&model)[0]);
+        let ray = Ray { origin: [0.3, 0.0, 1.0], direction: [0.0, 0.0, -1.0] };
+        let (seen, hit) = data.cast_ray(&model, ray, RayFilter::default()).ok_or("nothing seen")?;
+        assert!(model.geom(seen).body() == arm && hit.distance < 1.0);
     }
-    let error = (0..2).map(|j| (data.state.qpos[j] - TARGET[j]).abs()).fold(0.0, f64::max);
-    if error < 1e-3 { Ok(()) } else { Err(format!("the arm is {error} rad from its target").into()) }
+    assert!(forces.is_sorted_by(|light, heavy| *light > 10.0 && *heavy > light + 5.0), "{forces:?}");
+
+    // Each environment of a batch holds an angle of its own; one spins faster than numbers go.
+    let mut batch = Batch::with_payloads(model, vec![-0.4, 0.0, 0.2], 2)?;
+    batch.data_mut()[1].joint_mut(elbow).set_qvel([1e12]);
+    let result = batch.run(|env| {
+        env.data.actuator_mut(bend).set_ctrl(*env.payload);
+        (0..500).try_for_each(|_| step(env.model, env.data))
+    });
+    let failures = result.expect_err("unstable").failures;
+    assert!(failures.iter().all(|f| f.environment == 1 && matches!(f.error, StepError::BadQvel(_))));
+    Ok(())
 }

@@ -71,18 +71,59 @@ fn a_model_is_shared_until_it_is_edited() {
 }
 
 #[test]
-fn an_error_names_the_first_environment_that_failed_and_the_others_go_on() {
+fn every_environment_that_failed_is_named_and_the_others_go_on() {
     let m = load("pile/pile");
-    let mut batch = Batch::new(m.clone(), 9, 4).unwrap();
-    for bad in [7, 2, 5] {
-        batch.data_mut()[bad].state.qpos[1] = f64::NAN;
+    for threads in [1, 4] {
+        let mut batch = Batch::new(m.clone(), 9, threads).unwrap();
+        for bad in [7, 2, 5] {
+            batch.data_mut()[bad].state.qpos[1] = f64::NAN;
+        }
+        let error = batch.step(3).unwrap_err();
+        assert!(error.failures.iter().map(|failure| failure.environment).eq([2, 5, 7]));
+        let named = |failure: &StepError| matches!(failure, StepError::BadQpos(bad) if bad.index == 1);
+        assert!(error.failures.iter().all(|failure| named(&failure.error)), "{error:?}");
+        let message = error.to_string();
+        assert!(message.starts_with("environment 2: qpos[1]"), "{message}");
+        assert!(message.ends_with("(2 more failed: 5, 7)"), "{message}");
+        for (environment, d) in batch.data().iter().enumerate() {
+            let steps = if [2, 5, 7].contains(&environment) { 0.0 } else { 3.0 };
+            assert!((d.time() - steps * m.opt.timestep).abs() < 1e-15, "environment {environment}");
+        }
     }
-    let error = batch.step(3).unwrap_err();
-    assert_eq!(error.environment, 2);
-    assert!(matches!(&error.error, StepError::BadQpos(bad) if bad.index == 1));
-    assert!(error.to_string().starts_with("environment 2: qpos[1] of"), "{error}");
-    for (environment, d) in batch.data().iter().enumerate() {
-        let steps = if [2, 5, 7].contains(&environment) { 0.0 } else { 3.0 };
-        assert!((d.state.time - steps * m.opt.timestep).abs() < 1e-15, "environment {environment}");
+}
+
+#[test]
+fn payloads_and_errors_are_the_callers_own() {
+    #[derive(Debug, PartialEq)]
+    struct Tired(u32);
+    let names = ["left", "middle", "right"].map(String::from).to_vec();
+    let mut batch = Batch::with_payloads(load("pile/pile"), names, 2).unwrap();
+    let result = batch.run(|env| {
+        step(env.model, env.data).unwrap();
+        env.payload.push_str(&format!(" {}", env.index));
+        if env.index == 1 { Err(Tired(env.payload.len() as u32)) } else { Ok(()) }
+    });
+    let failures = result.unwrap_err().failures;
+    assert_eq!((failures.len(), failures[0].environment, &failures[0].error), (1, 1, &Tired(8)));
+    assert_eq!(batch.payloads(), ["left 0", "middle 1", "right 2"]);
+}
+
+#[test]
+fn some_environments_are_stepped_without_the_others() {
+    let m = load("pile/pile");
+    let mut whole = diverse(&m, 3);
+    let mut parts = diverse(&m, 3);
+    whole.step(20).unwrap();
+    let mask: Vec<bool> = (0..parts.len()).map(|environment| environment % 2 == 1).collect();
+    parts.masked(&mask).step(20).unwrap();
+    for (environment, d) in parts.data().iter().enumerate() {
+        let steps = if mask[environment] { 20.0 } else { 0.0 };
+        assert!((d.time() - steps * m.opt.timestep).abs() < 1e-12);
     }
+    parts.only(&[6, 0, 2, 4, 0]).step(20).unwrap();
+    for (environment, (part, all)) in parts.data().iter().zip(whole.data()).enumerate() {
+        assert!(bits(&m, part) == bits(&m, all), "environment {environment}");
+    }
+    parts.only(&[]).step(1).unwrap();
+    assert!(bits(&m, &parts.data()[0]) == bits(&m, &whole.data()[0]));
 }

@@ -1,60 +1,104 @@
 //! Batched stepping: many simulations side by side on a pool of threads.
 //!
-//! Every environment has its own [`Data`]; the [`Model`] is one for all until an environment edits its own, which
-//! copies it. Working memory belongs to the threads, not to the environments. An environment reads nothing of
-//! another, so the result does not depend on the number of threads, to the last bit.
+//! Every environment has its own [`Data`] and a payload of the caller's: a task, a random generator, an episode. The
+//! [`Model`] is one for all until an environment edits its own, which copies it. Working memory belongs to the threads,
+//! not to the environments. An environment reads nothing of another, so the result does not depend on the number of
+//! threads, to the last bit.
 //!
 //! ```
-//! use robohive_physics::{Batch, Model, step};
+//! use robohive_physics::{Batch, step};
 //!
-//! fn example(model: Model) -> Result<(), Box<dyn std::error::Error>> {
-//!     let mut batch = Batch::new(model.into(), 64, 2)?;
-//!     batch.edit_model(3, |m| m.opt.gravity = [0.0, 0.0, -1.6])?;
-//!     batch.step(10)?;
-//!     batch.run(|environment, model, data| {
-//!         data.state.ctrl.fill(0.1 * environment as f64);
-//!         step(model, data)
-//!     })?;
-//!     println!("{:?}", batch.data()[3].state.qpos);
-//!     Ok(())
-//! }
+//! let text = "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+//! let model = robohive_mjcf::load_str(text)?.model;
+//! let ball = model.body("ball").ok_or("no ball")?;
+//! // Each environment counts the steps until its ball has fallen 10 cm.
+//! let mut batch = Batch::with_payloads(model, vec![0_u32; 8], 2)?;
+//! batch.edit_model(3, |m| m.opt.gravity = [0.0, 0.0, -1.6])?;
+//! batch.run(|env| {
+//!     while env.data.body(ball).xpos()[2] > -0.1 {
+//!         step(env.model, env.data)?;
+//!         *env.payload += 1;
+//!     }
+//!     Ok::<_, robohive_physics::StepError>(())
+//! })?;
+//! assert!(batch.payloads()[3] > 2 * batch.payloads()[0]);
+//! batch.only(&[0, 3]).step(10)?;
+//! assert!(batch.data()[0].time() > batch.data()[1].time());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 use crate::data::{Data, Scratch};
 use crate::model::{Arrays, EditError, Model};
-use crate::pipeline::forward::{StepError, step};
+use crate::pipeline::error::StepError;
+use crate::pipeline::forward::step;
 use std::fmt;
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Environments that are stepped together.
+/// Environments that are stepped together, each with a payload `P`.
 #[derive(Debug)]
-pub struct Batch {
+pub struct Batch<P = ()> {
     models: Vec<Arc<Model>>,
     data: Vec<Data>,
+    payloads: Vec<P>,
+    /// Which environments the next run visits.
+    selected: Vec<bool>,
     /// Working memory, one a thread; that of the environments stays empty.
     workers: Vec<Scratch>,
     #[cfg(feature = "threads")]
     pool: Option<rayon::ThreadPool>,
 }
 
-/// An environment of a batch could not be stepped.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BatchError {
-    /// Index of the environment.
-    pub environment: usize,
-    /// What was wrong with it.
-    pub error: StepError,
+/// One environment of a batch, lent to a run.
+#[derive(Debug)]
+pub struct Environment<'a, P> {
+    /// Index in the batch.
+    pub index: usize,
+    /// Its model.
+    pub model: &'a Model,
+    /// Its state and stage outputs.
+    pub data: &'a mut Data,
+    /// What the caller keeps with it.
+    pub payload: &'a mut P,
 }
 
-impl fmt::Display for BatchError {
+/// An environment that failed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure<E> {
+    /// Index in the batch.
+    pub environment: usize,
+    /// What was wrong with it.
+    pub error: E,
+}
+
+/// Environments of a batch failed; all others were run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BatchError<E = StepError> {
+    /// Every environment that failed, at least one, by index.
+    pub failures: Vec<Failure<E>>,
+}
+
+/// Failed environments that a message lists.
+const LISTED: usize = 8;
+
+impl<E: fmt::Display> fmt::Display for BatchError<E> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "environment {}: {}", self.environment, self.error)
+        if let [first, ..] = &self.failures[..] {
+            write!(f, "environment {}: {}", first.environment, first.error)?;
+        }
+        if let [_, others @ ..] = &self.failures[..]
+            && !others.is_empty()
+        {
+            let listed: Vec<_> = others.iter().take(LISTED).map(|o| o.environment.to_string()).collect();
+            let more = if others.len() > LISTED { ", …" } else { "" };
+            write!(f, " ({} more failed: {}{more})", others.len(), listed.join(", "))?;
+        }
+        Ok(())
     }
 }
 
-impl std::error::Error for BatchError {
+impl<E: std::error::Error + 'static> std::error::Error for BatchError<E> {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&self.error)
+        self.failures.first().map(|first| &first.error as _)
     }
 }
 
@@ -81,21 +125,37 @@ impl Batch {
     ///
     /// # Errors
     /// The threads cannot be started.
-    pub fn new(model: Arc<Model>, environments: usize, threads: usize) -> Result<Self, ThreadsError> {
-        let data = vec![Data::new(&model); environments];
-        let models = vec![model; environments];
-        #[cfg(feature = "threads")]
-        return Ok(Batch {
-            models,
-            data,
-            workers: vec![Scratch::default(); threads.max(1)],
-            pool: if threads > 1 { Some(start_threads(threads)?) } else { None },
-        });
+    pub fn new(
+        model: impl Into<Arc<Model>>,
+        environments: usize,
+        threads: usize,
+    ) -> Result<Self, ThreadsError> {
+        Batch::with_payloads(model, vec![(); environments], threads)
+    }
+}
+
+impl<P> Batch<P> {
+    /// One environment for each payload, otherwise as [`Batch::new`].
+    ///
+    /// # Errors
+    /// As [`Batch::new`].
+    pub fn with_payloads(
+        model: impl Into<Arc<Model>>,
+        payloads: Vec<P>,
+        threads: usize,
+    ) -> Result<Self, ThreadsError> {
+        let (model, environments) = (model.into(), payloads.len());
         #[cfg(not(feature = "threads"))]
-        {
-            let _ = threads;
-            Ok(Batch { models, data, workers: vec![Scratch::default()] })
-        }
+        let threads = threads.min(1);
+        Ok(Batch {
+            data: vec![Data::new(&model); environments],
+            models: vec![model; environments],
+            payloads,
+            selected: vec![true; environments],
+            workers: vec![Scratch::default(); threads.max(1)],
+            #[cfg(feature = "threads")]
+            pool: if threads > 1 { Some(start_threads(threads)?) } else { None },
+        })
     }
 
     /// Number of environments.
@@ -118,6 +178,16 @@ impl Batch {
         &mut self.data
     }
 
+    /// Payload of every environment.
+    pub fn payloads(&self) -> &[P] {
+        &self.payloads
+    }
+
+    /// The same, to write.
+    pub fn payloads_mut(&mut self) -> &mut [P] {
+        &mut self.payloads
+    }
+
     /// Model of an environment.
     pub fn model(&self, environment: usize) -> &Arc<Model> {
         &self.models[environment]
@@ -135,33 +205,65 @@ impl Batch {
         self.models[environment] = Arc::new(self.models[environment].edited(change)?);
         Ok(())
     }
+}
+
+impl<P: Send> Batch<P> {
+    /// The environments with these indices, to be stepped or run without the others.
+    ///
+    /// # Panics
+    /// There is no environment with one of the indices.
+    pub fn only(&mut self, environments: &[usize]) -> Selection<'_, P> {
+        self.selected.fill(false);
+        environments.iter().for_each(|&environment| self.selected[environment] = true);
+        Selection(self)
+    }
+
+    /// The environments whose place in `mask` is true, to be stepped or run without the others.
+    ///
+    /// # Panics
+    /// The mask has not one place for each environment.
+    pub fn masked(&mut self, mask: &[bool]) -> Selection<'_, P> {
+        self.selected.copy_from_slice(mask);
+        Selection(self)
+    }
 
     /// Advances every environment by `steps` time steps.
     ///
     /// # Errors
-    /// As [`Batch::run`].
+    /// As [`Batch::run`]; a failed environment stays where it failed.
     pub fn step(&mut self, steps: usize) -> Result<(), BatchError> {
-        self.run(|_, model, data| (0..steps).try_for_each(|_| step(model, data)))
+        self.run(|env| (0..steps).try_for_each(|_| step(env.model, env.data)))
     }
 
-    /// Calls `f(environment, model, data)` once for every environment, several at a time.
+    /// Calls `f` once for every environment, several at a time.
     ///
     /// # Errors
-    /// The failed environment of the least index; `f` has been called for all the others too.
-    pub fn run<F>(&mut self, f: F) -> Result<(), BatchError>
-    where
-        F: Fn(usize, &Model, &mut Data) -> Result<(), StepError> + Sync,
-    {
-        let queue = Mutex::new(self.models.iter().zip(&mut self.data).enumerate());
-        let failed = Mutex::new(None::<BatchError>);
+    /// Every environment for which `f` failed; it has been called for all of them.
+    pub fn run<E: Send>(
+        &mut self,
+        f: impl Fn(Environment<'_, P>) -> Result<(), E> + Sync,
+    ) -> Result<(), BatchError<E>> {
+        self.selected.fill(true);
+        self.run_selected(f)
+    }
+
+    fn run_selected<E: Send>(
+        &mut self,
+        f: impl Fn(Environment<'_, P>) -> Result<(), E> + Sync,
+    ) -> Result<(), BatchError<E>> {
+        let environments = self.models.iter().zip(&mut self.data).zip(&mut self.payloads);
+        let selected = environments.zip(&self.selected).enumerate().filter(|(_, (_, selected))| **selected);
+        let queue = Mutex::new(selected);
+        let failures = Mutex::new(Vec::new());
         let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
         let work = |scratch: &mut Scratch| {
-            while let Some((environment, (model, data))) = next() {
+            while let Some((index, (((model, data), payload), _))) = next() {
                 std::mem::swap(scratch, &mut data.scratch);
-                let result = f(environment, model, data);
+                let result = f(Environment { index, model, data, payload });
                 std::mem::swap(scratch, &mut data.scratch);
                 if let Err(error) = result {
-                    keep_first(&failed, BatchError { environment, error });
+                    let mut failures = failures.lock().unwrap_or_else(PoisonError::into_inner);
+                    failures.push(Failure { environment: index, error });
                 }
             }
         };
@@ -172,15 +274,34 @@ impl Batch {
         }
         // What no thread has taken: nothing, or all of it without threads.
         self.workers.iter_mut().take(1).for_each(work);
-        failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
+        let mut failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
+        failures.sort_by_key(|failure: &Failure<E>| failure.environment);
+        if failures.is_empty() { Ok(()) } else { Err(BatchError { failures }) }
     }
 }
 
-/// Keeps the error of the least environment, whatever the order in which they come.
-fn keep_first(failed: &Mutex<Option<BatchError>>, error: BatchError) {
-    let mut kept = failed.lock().unwrap_or_else(PoisonError::into_inner);
-    if kept.as_ref().is_none_or(|k| error.environment < k.environment) {
-        *kept = Some(error);
+/// Some environments of a batch.
+#[derive(Debug)]
+pub struct Selection<'b, P>(&'b mut Batch<P>);
+
+impl<P: Send> Selection<'_, P> {
+    /// [`Batch::step`] of the selected environments.
+    ///
+    /// # Errors
+    /// As [`Batch::step`].
+    pub fn step(self, steps: usize) -> Result<(), BatchError> {
+        self.0.run_selected(|env| (0..steps).try_for_each(|_| step(env.model, env.data)))
+    }
+
+    /// [`Batch::run`] of the selected environments.
+    ///
+    /// # Errors
+    /// As [`Batch::run`].
+    pub fn run<E: Send>(
+        self,
+        f: impl Fn(Environment<'_, P>) -> Result<(), E> + Sync,
+    ) -> Result<(), BatchError<E>> {
+        self.0.run_selected(f)
     }
 }
 

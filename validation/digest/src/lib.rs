@@ -30,7 +30,7 @@ pub fn digest(case: &Case, threads: usize) -> Result<u64, String> {
     let model = case.load()?;
     let mut hash = Fnv::default();
     model.visit(&mut |name, shape, values| hash.array(name, &shape, values));
-    let mut batch = Batch::new(model.into(), ENVIRONMENTS, threads).map_err(|e| e.to_string())?;
+    let mut batch = Batch::new(model, ENVIRONMENTS, threads).map_err(|e| e.to_string())?;
     let model = batch.model(0).clone();
     if model.nkey > 0 {
         for data in batch.data_mut() {
@@ -38,10 +38,10 @@ pub fn digest(case: &Case, threads: usize) -> Result<u64, String> {
         }
     }
     batch
-        .run(|environment, m, d| {
+        .run(|env| {
             (0..STEPS).try_for_each(|step| {
-                set_controls(m, &mut d.state.ctrl, step, environment);
-                physics::step(m, d)
+                set_controls(env.model, &mut env.data.state.ctrl, step, env.index);
+                physics::step(env.model, env.data)
             })
         })
         .map_err(|e| format!("{}: {e}", case.name))?;
