@@ -24,3 +24,8 @@ pub use physics;
 pub use mjcf::{Loaded, Loader, load, load_str};
 pub use physics::ray::{Ray, RayFilter};
 pub use physics::{Batch, BatchError, Data, Environment, Model, Snapshot, StepError, forward, inverse, step};
+
+/// The program of README.md runs as a test.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;
