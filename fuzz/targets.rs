@@ -4,11 +4,10 @@
 use std::io::Cursor;
 
 use dataset::{Array, NpzReader};
-use mjcf::Loader;
 use mjcf::files::Memory;
 use mjcf::image::{CompiledHfield, FileImage, HfieldSource, TextureKind, TextureSource};
 use mjcf::mesh::{MeshInertia, MeshSource, RawMesh, convex_hull, decode, process};
-use mjcf::xml::Limits;
+use mjcf::{Limits, Loader};
 use physics::model::binary::seal;
 use physics::{Data, Model, forward, step};
 

@@ -1,12 +1,22 @@
 //! What can go wrong when an asset is decoded or compiled.
 //!
-//! Decoders see bytes, never files or XML, so the error carries no position: the XML layer adds
-//! `file:line:column` of the element that named the asset.
+//! Decoders see bytes, never files or XML, so the error carries at most a line of the asset's own text: the XML
+//! layer adds `file:line:column` of the element that named the asset.
+//!
+//! ```
+//! use robohive_mjcf::{asset::AssetErrorKind, mesh::decode};
+//!
+//! let error = decode(b"v 0 0 0\nv 1 two 3\n", "chair.obj", "").unwrap_err();
+//! assert_eq!((error.kind, error.line), (AssetErrorKind::Malformed, Some(2)));
+//! ```
 
 use std::fmt;
 
+use crate::escape::Escaped;
+
 /// Why an asset was refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum AssetErrorKind {
     /// The bytes end before the data their header announces.
     Truncated,
@@ -22,17 +32,25 @@ pub enum AssetErrorKind {
 
 /// A refused asset, with a message meant for the model's author.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct AssetError {
     /// Class of the failure.
     pub kind: AssetErrorKind,
-    /// One sentence, without position.
+    /// One sentence, without the position of the element that names the asset.
     pub message: String,
+    /// Line of the asset's file, from one, where that is text and the line is known.
+    pub line: Option<usize>,
 }
 
 impl AssetError {
     /// An error of `kind` with `message`.
-    pub fn new(kind: AssetErrorKind, message: impl Into<String>) -> Self {
-        Self { kind, message: message.into() }
+    pub(crate) fn new(kind: AssetErrorKind, message: impl Into<String>) -> Self {
+        Self { kind, message: message.into(), line: None }
+    }
+
+    /// The same error, on a line of the asset's text.
+    pub(crate) fn on_line(self, line: usize) -> Self {
+        Self { line: Some(line), ..self }
     }
 
     pub(crate) fn truncated(message: impl Into<String>) -> Self {
@@ -58,7 +76,7 @@ impl AssetError {
 
 impl fmt::Display for AssetError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
+        write!(f, "{}", Escaped(&self.message))
     }
 }
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 fn main() -> std::io::Result<()> {
     let mut files = Vec::new();
     // A package without its neighbours has those of its own version.
-    for folder in ["src", "../src/physics"].map(Path::new).into_iter().filter(|folder| folder.exists()) {
+    for folder in [".", "../src/physics"].map(Path::new).into_iter().filter(|folder| folder.exists()) {
         println!("cargo::rerun-if-changed={}", folder.display());
         collect(folder, &mut files)?;
     }
@@ -25,6 +25,9 @@ fn main() -> std::io::Result<()> {
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> std::io::Result<()> {
     for entry in std::fs::read_dir(folder)? {
         let path = entry?.path();
+        if path.ends_with("tests") {
+            continue;
+        }
         if path.is_dir() {
             collect(&path, files)?;
         } else if path.extension().is_some_and(|extension| extension == "rs") {

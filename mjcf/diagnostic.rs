@@ -3,10 +3,21 @@
 //! A [`Loc`] is eight bytes and travels with every element of the tree and every object of the `Spec`;
 //! [`Sources`] turns it into `file:line:column` and the chain of includes that led there. A compile
 //! collects all its findings in [`Diagnostics`] instead of stopping at the first.
+//!
+//! ```
+//! let text = "<mujoco>\n  <worldbody><geom size='0.1' mas='1'/></worldbody>\n</mujoco>";
+//! let findings = robohive_mjcf::load_str(text).unwrap_err();
+//! let finding = findings.errors().next().unwrap();
+//! let position = finding.position.as_ref().unwrap();
+//! assert_eq!((position.line, position.column), (2, 31));
+//! assert_eq!(finding.element.as_deref(), Some("geom"));
+//! assert_eq!(finding.hint.as_deref(), Some("did you mean 'mass'?"));
+//! ```
 
 use std::fmt;
 use std::sync::Arc;
 
+use crate::escape::Escaped;
 use crate::suggestion::Suggestions;
 
 /// A byte position in one of the model's source files.
@@ -31,7 +42,7 @@ impl Default for Loc {
 
 /// One text that a model is read from.
 #[derive(Debug, Clone)]
-pub struct Source {
+pub(crate) struct Source {
     /// Path as opened, or a label such as `<string>`.
     pub path: String,
     /// Directory of `path` with its trailing slash, empty for a bare name.
@@ -57,7 +68,7 @@ pub struct Sources {
 
 impl Sources {
     /// Registers a text and returns its index.
-    pub fn add(&mut self, path: &str, text: Arc<str>, included_at: Option<Loc>) -> u32 {
+    pub(crate) fn add(&mut self, path: &str, text: Arc<str>, included_at: Option<Loc>) -> u32 {
         let line_starts = std::iter::once(0)
             .chain(text.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| i as u32 + 1))
             .collect();
@@ -67,17 +78,17 @@ impl Sources {
     }
 
     /// The text with this index.
-    pub fn get(&self, file: u32) -> Option<&Source> {
+    pub(crate) fn get(&self, file: u32) -> Option<&Source> {
         self.files.get(file as usize)
     }
 
     /// Bytes of all texts together.
-    pub fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.files.iter().map(|f| f.text.len()).sum()
     }
 
     /// All texts, main file first.
-    pub fn iter(&self) -> impl Iterator<Item = &Source> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Source> {
         self.files.iter()
     }
 
@@ -92,12 +103,25 @@ impl Sources {
     }
 
     /// The byte offset of a line and a column in characters, both from one.
-    pub fn offset(&self, file: u32, line: u32, column: u32) -> usize {
+    pub(crate) fn offset(&self, file: u32, line: u32, column: u32) -> usize {
         let Some(source) = self.get(file) else { return 0 };
         let line = (line.max(1) as usize - 1).min(source.line_starts.len() - 1);
         let start = source.line_starts[line] as usize;
         let rest = &source.text[start..];
         start + rest.char_indices().nth(column.max(1) as usize - 1).map_or(rest.len(), |(i, _)| i)
+    }
+
+    /// The tag of the element that `loc` stands in.
+    pub fn element(&self, loc: Loc) -> Option<&str> {
+        let text = self.get(loc.file)?.text();
+        let after = text.get(loc.offset as usize..)?;
+        // A location is that of the element's '<', or of something inside its opening tag.
+        let tag = match after.strip_prefix('<') {
+            Some(tag) => tag,
+            None => &text[text[..loc.offset as usize].rfind('<')? + 1..],
+        };
+        let end = tag.find(|c: char| c.is_whitespace() || matches!(c, '/' | '>' | '<'))?;
+        (end > 0).then(|| &tag[..end])
     }
 
     /// The include attributes that led to the file of `loc`, innermost first.
@@ -114,6 +138,7 @@ impl Sources {
 
 /// A resolved [`Loc`].
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Position {
     /// Path of the file as opened.
     pub path: String,
@@ -125,12 +150,13 @@ pub struct Position {
 
 impl fmt::Display for Position {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}:{}", self.path, self.line, self.column)
+        write!(f, "{}:{}:{}", Escaped(&self.path), self.line, self.column)
     }
 }
 
 /// Whether a finding stops the load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Severity {
     /// The model cannot be used.
     Error,
@@ -138,8 +164,9 @@ pub enum Severity {
     Warning,
 }
 
-/// One finding about a model.
+/// One finding about a model. What it quotes from a file is kept as it is, and escaped where it is displayed.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Diagnostic {
     /// Error or warning.
     pub severity: Severity,
@@ -147,10 +174,12 @@ pub struct Diagnostic {
     pub message: String,
     /// Where it stands, absent for findings about no particular text.
     pub position: Option<Position>,
+    /// Tag of the element that it is about.
+    pub element: Option<String>,
     /// The includes that led there, innermost first.
     pub include_chain: Vec<Position>,
     /// What to write instead.
-    pub suggestion: Option<String>,
+    pub hint: Option<String>,
 }
 
 impl fmt::Display for Diagnostic {
@@ -162,9 +191,9 @@ impl fmt::Display for Diagnostic {
             Severity::Error => "error: ",
             Severity::Warning => "warning: ",
         })?;
-        f.write_str(&self.message)?;
-        if let Some(suggestion) = &self.suggestion {
-            write!(f, "; {suggestion}")?;
+        write!(f, "{}", Escaped(&self.message))?;
+        if let Some(hint) = &self.hint {
+            write!(f, "; {}", Escaped(hint))?;
         }
         self.include_chain.iter().try_for_each(|p| write!(f, "\n  included from {p}"))
     }
@@ -177,20 +206,20 @@ const MAX_KEPT: usize = 200;
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Diagnostics {
     /// The findings.
-    pub list: Vec<Diagnostic>,
+    pub(crate) list: Vec<Diagnostic>,
     /// Errors dropped after the first few hundred findings.
-    pub dropped: usize,
+    pub(crate) dropped: usize,
     suggestions: Suggestions,
 }
 
 impl Diagnostics {
     /// Adds an error at `loc`.
-    pub fn error(&mut self, sources: &Sources, loc: Loc, message: impl Into<String>) {
+    pub(crate) fn error(&mut self, sources: &Sources, loc: Loc, message: impl Into<String>) {
         self.push(sources, Severity::Error, loc, message.into(), None);
     }
 
     /// Adds an error at `loc` with advice, for example `did you mean 'mass'?`.
-    pub fn error_with(
+    pub(crate) fn error_with(
         &mut self,
         sources: &Sources,
         loc: Loc,
@@ -201,7 +230,11 @@ impl Diagnostics {
     }
 
     /// The candidate nearest to the misspelt `word`; none for findings that are not kept.
-    pub fn nearest<'a>(&mut self, word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    pub(crate) fn nearest<'a>(
+        &mut self,
+        word: &str,
+        candidates: impl Iterator<Item = &'a str>,
+    ) -> Option<&'a str> {
         if self.list.len() >= MAX_KEPT {
             return None;
         }
@@ -209,7 +242,7 @@ impl Diagnostics {
     }
 
     /// Adds a warning at `loc`.
-    pub fn warning(&mut self, sources: &Sources, loc: Loc, message: impl Into<String>) {
+    pub(crate) fn warning(&mut self, sources: &Sources, loc: Loc, message: impl Into<String>) {
         self.push(sources, Severity::Warning, loc, message.into(), None);
     }
 
@@ -219,7 +252,7 @@ impl Diagnostics {
         severity: Severity,
         loc: Loc,
         message: String,
-        suggestion: Option<String>,
+        hint: Option<String>,
     ) {
         if self.list.len() >= MAX_KEPT {
             self.dropped += usize::from(severity == Severity::Error);
@@ -227,7 +260,35 @@ impl Diagnostics {
         }
         let position = sources.position(loc);
         let include_chain = sources.include_chain(loc);
-        self.list.push(Diagnostic { severity, message, position, include_chain, suggestion });
+        let element = sources.element(loc).map(str::to_owned);
+        self.list.push(Diagnostic { severity, message, position, element, include_chain, hint });
+    }
+
+    /// Findings that were kept from an earlier load.
+    pub(crate) fn of(list: Vec<Diagnostic>) -> Self {
+        Diagnostics { list, ..Diagnostics::default() }
+    }
+
+    /// An error about no place in a text.
+    pub(crate) fn of_error(message: impl Into<String>) -> Self {
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.error(&Sources::default(), Loc::NONE, message);
+        diagnostics
+    }
+
+    /// All findings that were kept, in the order in which they were made.
+    pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
+        self.list.iter()
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty() && self.dropped == 0
+    }
+
+    /// Number of errors that are counted and not kept, because there were hundreds before them.
+    pub fn dropped(&self) -> usize {
+        self.dropped
     }
 
     /// True when something stops the load.
@@ -243,12 +304,6 @@ impl Diagnostics {
     /// The findings of severity warning.
     pub fn warnings(&self) -> impl Iterator<Item = &Diagnostic> {
         self.list.iter().filter(|d| d.severity == Severity::Warning)
-    }
-
-    /// Appends the findings of another stage.
-    pub fn extend(&mut self, other: Diagnostics) {
-        self.list.extend(other.list);
-        self.dropped += other.dropped;
     }
 }
 
@@ -267,3 +322,12 @@ impl fmt::Display for Diagnostics {
 }
 
 impl std::error::Error for Diagnostics {}
+
+impl<'a> IntoIterator for &'a Diagnostics {
+    type Item = &'a Diagnostic;
+    type IntoIter = std::slice::Iter<'a, Diagnostic>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.iter()
+    }
+}

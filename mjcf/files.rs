@@ -3,6 +3,17 @@
 //! Paths are strings with `/` on every platform, so a model reads alike from disk and from memory (the
 //! browser). The combination rules are those of MuJoCo's file paths: an absolute right side wins, `.` and
 //! `dir/..` are folded without asking the disk.
+//!
+//! ```
+//! use robohive_mjcf::{Loader, files::Memory};
+//!
+//! let mut files = Memory::default();
+//! files.insert("robot/arm.xml", *b"<mujoco><worldbody><include file='geom.xml'/></worldbody></mujoco>");
+//! files.insert("robot/geom.xml", *b"<mujoco><geom name='ball' size='0.1'/></mujoco>");
+//! let loaded = Loader::default().files(files).load("robot/arm.xml")?;
+//! assert_eq!(loaded.model.ngeom, 1);
+//! # Ok::<(), robohive_mjcf::diagnostic::Diagnostics>(())
+//! ```
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -11,8 +22,11 @@ use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use crate::escape::Escaped;
+
 /// Why a file could not be had.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FileError {
     /// No file has this path.
     NotFound,
@@ -29,18 +43,20 @@ pub enum FileError {
 impl fmt::Display for FileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            FileError::NotFound => f.write_str("file not found"),
-            FileError::OutOfReach => f.write_str("path leads outside the directory this model may read"),
-            FileError::NotAFile => f.write_str("path is not a regular file"),
-            FileError::TooLarge(bytes) => write!(f, "file has {bytes} bytes, more than may be read"),
-            FileError::Other(reason) => f.write_str(reason),
+            FileError::NotFound => f.write_str("the file does not exist"),
+            FileError::OutOfReach => {
+                f.write_str("the path leads outside the directory that this model may read")
+            }
+            FileError::NotAFile => f.write_str("the path is not that of a regular file"),
+            FileError::TooLarge(bytes) => write!(f, "the file has {bytes} bytes, more than may be read"),
+            FileError::Other(reason) => write!(f, "{}", Escaped(reason)),
         }
     }
 }
 
 impl std::error::Error for FileError {}
 
-/// What differs once a file was written anew.
+/// What differs once a file was written again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Stamp {
     /// Bytes of the file.
@@ -120,7 +136,7 @@ impl FileProvider for Disk {
         file.read_exact(Arc::make_mut(&mut bytes)).map_err(io_error)?;
         match file.read(&mut [0]).map_err(io_error)? {
             0 => Ok(bytes),
-            _ => Err(FileError::Other("file grew while it was read".into())),
+            _ => Err(FileError::Other("the file grew while it was read".into())),
         }
     }
 
@@ -169,8 +185,8 @@ pub struct Memory {
 
 impl Memory {
     /// Adds or replaces a file.
-    pub fn insert(&mut self, path: &str, content: impl Into<Arc<[u8]>>) {
-        self.files.insert(fold(path), content.into());
+    pub fn insert(&mut self, path: impl AsRef<str>, content: impl Into<Arc<[u8]>>) {
+        self.files.insert(fold(path.as_ref()), content.into());
     }
 }
 
@@ -185,7 +201,7 @@ impl FileProvider for Memory {
 }
 
 /// The path of `file` seen from directory `dir`, folded.
-pub fn join(dir: &str, file: &str) -> String {
+pub(crate) fn join(dir: &str, file: &str) -> String {
     if dir.is_empty() || is_absolute(file) {
         return fold(file);
     }
@@ -193,13 +209,13 @@ pub fn join(dir: &str, file: &str) -> String {
 }
 
 /// Whether `path` starts at a root.
-pub fn is_absolute(path: &str) -> bool {
+pub(crate) fn is_absolute(path: &str) -> bool {
     let drive = |b: &[u8]| b.len() > 2 && b[0].is_ascii_alphabetic() && b[1] == b':' && is_separator(b[2]);
     path.bytes().next().is_some_and(is_separator) || drive(path.as_bytes())
 }
 
 /// The last component of `path`.
-pub fn base_name(path: &str) -> &str {
+pub(crate) fn base_name(path: &str) -> &str {
     path.rsplit(['/', '\\']).next().unwrap_or(path)
 }
 
@@ -208,7 +224,7 @@ fn is_separator(byte: u8) -> bool {
 }
 
 /// `path` with `/` between components and without `.`, empty and `dir/..` components.
-pub fn fold(path: &str) -> String {
+pub(crate) fn fold(path: &str) -> String {
     let root = if path.bytes().next().is_some_and(is_separator) { "/" } else { "" };
     let mut kept: Vec<&str> = Vec::new();
     for part in path.split(['/', '\\']) {

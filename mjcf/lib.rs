@@ -1,23 +1,47 @@
-//! MJCF to [`physics::Model`]: text, element tree, typed `Spec`, compiled arrays.
+//! MJCF to [`physics::Model`]: text, element tree, typed [`spec::Spec`], compiled arrays.
 //!
-//! [`load`] does it all; [`Loader`] also edits the tree, reads from memory and bounds what a text may cost.
+//! [`load`] does it all; [`Loader`] also edits the text, reads from memory, bounds what a text may cost and keeps
+//! compiled models in a [`Cache`]. What is wrong comes back as [`diagnostic::Diagnostics`]: all findings, each with file,
+//! line, column, element and, where there is one, the way out.
+//!
+//! ```
+//! let text = r#"<mujoco>
+//!   <worldbody>
+//!     <body name="pendulum"><joint name="hinge" axis="0 1 0"/><geom size="0.05" pos="0 0 -0.5"/></body>
+//!   </worldbody>
+//! </mujoco>"#;
+//! let loaded = robohive_mjcf::load_str(text)?;
+//! assert_eq!((loaded.model.nq, loaded.model.nbody), (1, 2));
+//! assert!(loaded.warnings.is_empty());
+//! # Ok::<(), robohive_mjcf::diagnostic::Diagnostics>(())
+//! ```
+//!
+//! [`mesh`] and [`image`] compile single assets; they are public for tools that need no model, and so that decoders can
+//! be fuzzed alone.
 
 pub mod asset;
-pub mod bvh;
-pub mod cache;
-pub mod compile;
+mod bvh;
+mod cache;
+mod compile;
 pub mod diagnostic;
+mod digest;
+mod encoding;
+mod escape;
 pub mod files;
 pub mod image;
-pub mod include;
-pub mod loader;
+mod include;
+mod loaded;
+mod loader;
 pub mod mesh;
-pub mod read;
-pub mod schema;
+mod read;
+mod schema;
 pub mod spec;
 mod suggestion;
-pub(crate) mod vector;
-pub mod xml;
+mod vector;
+mod xml;
 
 pub use cache::Cache;
-pub use loader::{Loaded, Loader, Parsed, load, load_str, parse_str};
+pub use loaded::Loaded;
+pub use loader::{Loader, Parsed, load, load_str, parse_str};
+pub use schema::print::reference;
+pub use xml::Limits;

@@ -1,6 +1,7 @@
 //! From a path or a text to a [`Model`], with every edit a program may ask for in between.
 
 use std::io::{Cursor, Read};
+use std::path::Path;
 use std::sync::Arc;
 
 use physics::Model;
@@ -11,6 +12,8 @@ use crate::compile::compile;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::{Disk, FileProvider};
 use crate::include::{Expansion, Substitution, report_unmatched};
+use crate::loaded::Loaded;
+use crate::mesh::stored::MeshStore;
 use crate::read;
 use crate::spec::Spec;
 use crate::xml::{Element, Limits};
@@ -48,27 +51,27 @@ pub struct Parsed {
     pub warnings: Diagnostics,
 }
 
-/// A model ready for physics.
-#[derive(Debug, Clone)]
-pub struct Loaded {
-    /// The model.
-    pub model: Model,
-    /// What was ignored or assumed; no errors.
-    pub warnings: Diagnostics,
-}
-
-/// Loads the model at `path`.
-pub fn load(path: &str) -> Result<Loaded, Diagnostics> {
+/// Loads the model at `path`, as [`Loader::load`] of the default loader does.
+///
+/// # Errors
+/// All that is wrong with the model, each finding with its place in a file.
+pub fn load(path: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
     Loader::default().load(path)
 }
 
-/// Loads a model from text.
-pub fn load_str(text: &str) -> Result<Loaded, Diagnostics> {
+/// Loads a model from text; files that it names are sought from the working directory.
+///
+/// # Errors
+/// All that is wrong with the model, each finding with its place in the text.
+pub fn load_str(text: impl AsRef<str>) -> Result<Loaded, Diagnostics> {
     Loader::default().load_str(text)
 }
 
 /// Reads a model from text without compiling it.
-pub fn parse_str(text: &str) -> Result<Parsed, Diagnostics> {
+///
+/// # Errors
+/// All that is wrong with the text, each finding with its place.
+pub fn parse_str(text: impl AsRef<str>) -> Result<Parsed, Diagnostics> {
     Loader::default().parse_str(text)
 }
 
@@ -80,22 +83,22 @@ impl Loader {
     }
 
     /// Replaces `from` by `to` in the text of every file, as templates such as `OBJECT_NAME` ask for.
-    pub fn substitute(self, from: &str, to: &str) -> Self {
-        self.replace(from, to, false)
+    pub fn substitute(self, from: impl Into<String>, to: impl Into<String>) -> Self {
+        self.replace(from.into(), to.into(), false)
     }
 
     /// As [`Loader::substitute`], but a model in which no text is replaced is an error.
-    pub fn define(self, from: &str, to: &str) -> Self {
-        self.replace(from, to, true)
+    pub fn define(self, from: impl Into<String>, to: impl Into<String>) -> Self {
+        self.replace(from.into(), to.into(), true)
     }
 
-    fn replace(mut self, from: &str, to: &str, required: bool) -> Self {
-        self.substitutions.push(Substitution { from: from.into(), to: to.into(), required });
+    fn replace(mut self, from: String, to: String, required: bool) -> Self {
+        self.substitutions.push(Substitution { from, to, required });
         self
     }
 
     /// Moves the body `body` under the body `parent` before anything is read.
-    pub fn reparent(mut self, body: &str, parent: &str) -> Self {
+    pub fn reparent(mut self, body: impl Into<String>, parent: impl Into<String>) -> Self {
         self.moves.push((body.into(), parent.into()));
         self
     }
@@ -112,30 +115,53 @@ impl Loader {
         self
     }
 
-    /// The files that models are read from.
-    pub fn provider(&self) -> &dyn FileProvider {
-        &*self.files
-    }
-
-    /// Reads the model at `path` and all it includes.
-    pub fn parse(&self, path: &str) -> Result<Parsed, Diagnostics> {
-        self.finish(&*self.files, |expansion| expansion.read(path))
+    /// Reads the model at `path` and all it includes, without compiling it.
+    ///
+    /// # Errors
+    /// All that is wrong with the texts; a path that is not UTF-8.
+    pub fn parse(&self, path: impl AsRef<Path>) -> Result<Parsed, Diagnostics> {
+        let path = text_of(path.as_ref())?;
+        self.parse_from(&*self.files, |expansion| expansion.read(path))
     }
 
     /// Reads a model from text; relative paths are sought from the provider's top.
-    pub fn parse_str(&self, text: &str) -> Result<Parsed, Diagnostics> {
-        self.finish(&*self.files, |expansion| expansion.expand("<text>", text.as_bytes()))
+    ///
+    /// # Errors
+    /// All that is wrong with the texts.
+    pub fn parse_str(&self, text: impl AsRef<str>) -> Result<Parsed, Diagnostics> {
+        self.parse_from(&*self.files, |expansion| expansion.expand("<text>", text.as_ref().as_bytes()))
+    }
+
+    /// Compiles what [`Loader::parse`] read, and what a program may have changed in it; assets come from the same
+    /// files.
+    ///
+    /// # Errors
+    /// All that is wrong with the elements and the assets.
+    pub fn compile(&self, parsed: Parsed) -> Result<Loaded, Diagnostics> {
+        compile_from(&*self.files, parsed, None)
     }
 
     /// Reads and compiles the model at `path`, or takes it as it is when the file holds a compiled one.
-    pub fn load(&self, path: &str) -> Result<Loaded, Diagnostics> {
+    ///
+    /// # Errors
+    /// All that is wrong with the model; a path that is not UTF-8.
+    pub fn load(&self, path: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
+        let path = text_of(path.as_ref())?;
         if let Some((mut source, length)) = self.open_compiled(path) {
             return self.load_compiled(path, &mut source, length);
         }
         match &self.cache {
             Some(cache) => self.load_cached(cache, path),
-            None => self.compile(&*self.files, self.parse(path)?, None),
+            None => self.compile(self.parse(path)?),
         }
+    }
+
+    /// Reads and compiles a model from text.
+    ///
+    /// # Errors
+    /// All that is wrong with the model.
+    pub fn load_str(&self, text: impl AsRef<str>) -> Result<Loaded, Diagnostics> {
+        self.compile(self.parse_str(text)?)
     }
 
     /// The content of the file at `path` and its length, if it begins as a compiled model does.
@@ -146,11 +172,6 @@ impl Loader {
         binary::is_model(&mark).then(|| (Cursor::new(mark).chain(source), length))
     }
 
-    /// Reads and compiles a model from text.
-    pub fn load_str(&self, text: &str) -> Result<Loaded, Diagnostics> {
-        self.compile(&*self.files, self.parse_str(text)?, None)
-    }
-
     fn load_compiled(&self, path: &str, source: &mut dyn Read, length: u64) -> Result<Loaded, Diagnostics> {
         let edited = !self.substitutions.is_empty() || !self.moves.is_empty();
         let model = if edited {
@@ -158,13 +179,9 @@ impl Loader {
         } else {
             Model::read(source, length).map_err(|error| error.to_string())
         };
-        let mut diagnostics = Diagnostics::default();
         match model {
-            Ok(model) => Ok(Loaded { model, warnings: diagnostics }),
-            Err(message) => {
-                diagnostics.error(&Sources::default(), Loc::NONE, format!("{path}: {message}"));
-                Err(diagnostics)
-            }
+            Ok(model) => Ok(Loaded { model, warnings: Diagnostics::default() }),
+            Err(message) => Err(Diagnostics::of_error(format!("{path}: {message}"))),
         }
     }
 
@@ -175,19 +192,19 @@ impl Loader {
         let replaced = self.substitutions.iter().flat_map(|s| [&*s.from, &*s.to]);
         let edits = replaced.chain(self.moves.iter().flat_map(|(body, parent)| [&**body, &**parent]));
         let request: Vec<&str> = [path, &limits, &counts].into_iter().chain(edits).collect();
-        let damaged = match cache.find(&request, &*self.files) {
+        let damaged = match cache.find_model(&request, &*self.files) {
             Ok(loaded) => return Ok(loaded),
             Err(miss) => matches!(miss, Miss::Damaged),
         };
         let noted = Noted::new(&*self.files);
-        let parsed = self.finish(&noted, |expansion| expansion.read(path))?;
-        let mut loaded = self.compile(&noted, parsed, Some(cache))?;
-        let kept = cache.keep(&request, noted.reads(), &loaded);
+        let parsed = self.parse_from(&noted, |expansion| expansion.read(path))?;
+        let mut loaded = compile_from(&noted, parsed, Some(cache))?;
+        let kept = cache.keep_model(&request, noted.reads(), &loaded);
         let mut warn = |message: String| {
             loaded.warnings.warning(&Sources::default(), Loc::NONE, format!("{path}: {message}"));
         };
         if damaged {
-            warn("the cached model was damaged; compiled anew".into());
+            warn("the cached model was damaged; it was compiled again".into());
         }
         if let Err(error) = kept {
             warn(format!("the model cannot be cached: {error}"));
@@ -195,20 +212,7 @@ impl Loader {
         Ok(loaded)
     }
 
-    fn compile(
-        &self,
-        files: &dyn FileProvider,
-        parsed: Parsed,
-        cache: Option<&Cache>,
-    ) -> Result<Loaded, Diagnostics> {
-        let Parsed { spec, sources, warnings: mut diagnostics } = parsed;
-        match compile(&spec, files, cache, &sources, &mut diagnostics) {
-            Some(model) => Ok(Loaded { model, warnings: diagnostics }),
-            None => Err(diagnostics),
-        }
-    }
-
-    fn finish(
+    fn parse_from(
         &self,
         files: &dyn FileProvider,
         read: impl FnOnce(&mut Expansion<'_>) -> Option<Element>,
@@ -240,4 +244,26 @@ impl Loader {
             }
         }
     }
+}
+
+fn compile_from(
+    files: &dyn FileProvider,
+    parsed: Parsed,
+    meshes: Option<&dyn MeshStore>,
+) -> Result<Loaded, Diagnostics> {
+    let Parsed { spec, sources, warnings: mut diagnostics } = parsed;
+    match compile(&spec, files, meshes, &sources, &mut diagnostics) {
+        Some(model) => Ok(Loaded { model, warnings: diagnostics }),
+        None => Err(diagnostics),
+    }
+}
+
+/// A path as text: paths of models have one spelling on disk, in memory and in include elements.
+fn text_of(path: &Path) -> Result<&str, Diagnostics> {
+    path.to_str().ok_or_else(|| {
+        let shown = path.display();
+        Diagnostics::of_error(format!(
+            "the path '{shown}' is not UTF-8, as paths of models must be; rename it"
+        ))
+    })
 }

@@ -5,9 +5,11 @@
 pub(crate) use physics::math::{cross, dot, mul_mat_vec as apply, quat_to_mat as matrix, sub, transpose};
 use physics::math::{principal_axes_by, quat_rotate};
 
+/// Lengths below this do not define a direction.
+pub(crate) const EPS: f64 = 1e-14;
+
 /// Scales to unit length in place and returns the old length; shorter than 1e-7 stays and gives 0.
 pub(crate) fn normalize<const N: usize>(v: &mut [f64; N]) -> f64 {
-    const EPS: f64 = 1e-14;
     let mut squared = 0.0;
     for x in v.iter() {
         squared += x * x;

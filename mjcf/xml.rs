@@ -8,6 +8,7 @@
 use std::sync::Arc;
 
 use crate::diagnostic::{Diagnostics, Loc, Sources};
+use crate::encoding::foreign;
 
 /// One XML element.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -189,7 +190,7 @@ fn scan(text: &mut [u8], limits: &Limits) -> Result<Vec<usize>, Fault> {
             format!("text has {} bytes, more than the limit of {}", text.len(), limits.text_bytes),
         );
     }
-    if let Some(encoding) = foreign_encoding(text) {
+    if let Some(encoding) = foreign(text) {
         return fault(0, format!("file is {encoding}: a model is text in UTF-8"));
     }
     if text.starts_with(b"\xEF\xBB\xBF") {
@@ -215,18 +216,6 @@ fn scan(text: &mut [u8], limits: &Limits) -> Result<Vec<usize>, Fault> {
     match open.pop() {
         Some((start, end)) => fault(start, format!("<{}> is never closed", shown(&text[start + 1..end]))),
         None => Ok(joints),
-    }
-}
-
-/// What bytes are that cannot be text in UTF-8, by their byte order mark or the zero bytes among them.
-fn foreign_encoding(bytes: &[u8]) -> Option<&'static str> {
-    let wide = |at: usize| bytes.iter().skip(at).step_by(2).take(32).all(|&b| b == 0) && bytes.len() > 1;
-    match bytes {
-        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("text in UTF-32"),
-        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("text in UTF-16"),
-        _ if !bytes.contains(&0) => None,
-        _ if wide(0) != wide(1) => Some("text in UTF-16"),
-        _ => Some("binary"),
     }
 }
 

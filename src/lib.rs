@@ -15,8 +15,9 @@
 //! ```
 //!
 //! What most programs need stands here; all else is in [`physics`], whose [`elements`](physics::elements) explain names
-//! and views, in [`mjcf`] and in [`dataset`].
+//! and views, in [`mjcf`] and, with the feature of that name, in `dataset`.
 
+#[cfg(feature = "dataset")]
 pub use dataset;
 pub use mjcf;
 pub use physics;

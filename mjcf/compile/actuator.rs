@@ -1,19 +1,11 @@
 //! Actuators: transmission, input and output blocks, ranges (XML reference, `actuator`).
 
+use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::{Log, bounded, push_user, resolve_limited, title};
+use super::values::{bounded, push_user, resolve_limited};
+use crate::spec::input::{EXPMAP, FF, NO_INPUT, POS, QUAT, VEL, VOLTAGE};
 use crate::spec::{Actuator, Spec};
 use physics::model::{Arrays, BiasType, DynType, GainType, JointType, ObjType, TrnType};
-
-/// Bits of an input signature.
-const POS: i32 = 1;
-const VEL: i32 = 2;
-const FF: i32 = 4;
-const VOLTAGE: i32 = 8;
-const NO_INPUT: i32 = 16;
-/// Orientation charts of an so3 servo.
-const EXPMAP: i32 = 1;
-const QUAT: i32 = 2;
 
 /// Inputs, outputs and activations that a type of actuator has.
 struct Block {
@@ -83,26 +75,6 @@ fn transmission(actuator: &Actuator, lookup: &Lookup, what: &str, log: &mut Log)
             [-1, -1]
         }
     }
-}
-
-/// Numbers of activations and of controls as far as they show before references are resolved.
-pub(crate) fn sizes(a: &Actuator) -> (usize, usize) {
-    let states = if a.actdim > 0 { a.actdim as usize } else { usize::from(a.dyntype != DynType::None) };
-    let given = (a.ctrlspec & (POS | VEL | FF | VOLTAGE)).count_ones() as usize;
-    let inputs = match a.gaintype {
-        GainType::So3 => {
-            if a.ctrlspec == QUAT {
-                4
-            } else {
-                3
-            }
-        }
-        GainType::Pid if a.ctrlspec == 0 => 2,
-        GainType::Dcmotor if a.ctrlspec == 0 => 1,
-        GainType::Pid | GainType::Dcmotor => given,
-        _ => 1,
-    };
-    (states, inputs)
 }
 
 /// Checks the type-specific rules and finds the sizes.

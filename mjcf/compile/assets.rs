@@ -1,20 +1,19 @@
 //! Meshes, height fields, textures and materials: files are read here, compiled on all cores, and laid out in
 //! the order of the file.
 
-use super::body::append_hierarchy;
-use super::lookup::Lookup;
-use super::{Log, title};
+use super::log::{Log, title};
 use crate::asset::AssetError;
-use crate::cache::Cache;
 use crate::diagnostic::Loc;
-use crate::files::{FileProvider, base_name};
+use crate::digest::digest_parts;
+use crate::files::FileProvider;
 use crate::image::{
     self, Colorspace, CompiledHfield, CompiledTexture, FileImage, HfieldSource, TextureKind, TextureSource,
 };
+use crate::mesh::stored::MeshStore;
 use crate::mesh::{self, CompiledMesh, MeshInertia, MeshSource, RawMesh, Shape};
-use crate::spec::{Body, Hfield, Mesh, Spec, Texture};
+use crate::spec::{Body, Hfield, Mesh, Spec, Texture, asset_name};
 use crate::suggestion::Suggestions;
-use physics::model::{Arrays, ColorSpace, GeomType, ObjType, TextureType};
+use physics::model::{ColorSpace, GeomType, TextureType};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -30,6 +29,7 @@ pub(super) struct Asset<T> {
 }
 
 /// All assets of the model.
+#[derive(Default)]
 pub(super) struct Assets {
     pub meshes: Vec<Asset<CompiledMesh>>,
     pub hfields: Vec<Asset<CompiledHfield>>,
@@ -65,15 +65,6 @@ impl Assets {
     }
 }
 
-/// Name of an asset: its own, or that of its file.
-pub(crate) fn asset_name(name: &str, path: &str) -> String {
-    if !name.is_empty() {
-        return name.to_owned();
-    }
-    let base = base_name(path);
-    base.rfind('.').map_or(base, |dot| &base[..dot]).to_owned()
-}
-
 /// Work for one core: everything an asset needs, with its bytes.
 enum Job<'s> {
     Mesh { spec: &'s Mesh, name: String, bytes: Option<Arc<[u8]>>, needhull: bool, discard: bool },
@@ -87,77 +78,62 @@ enum Outcome {
     Hfield(CompiledHfield),
 }
 
+/// What an asset is called and where it comes from.
+struct Head {
+    name: String,
+    loc: Loc,
+    path: String,
+    material: String,
+}
+
+impl Head {
+    fn with<T>(self, compiled: T) -> Asset<T> {
+        let Head { name, loc, path, material } = self;
+        Asset { name, loc, path, material, compiled }
+    }
+}
+
 /// Reads and compiles all assets.
-pub(super) fn compile(spec: &Spec, files: &dyn FileProvider, cache: Option<&Cache>, log: &mut Log) -> Assets {
-    let colliding = colliding_meshes(spec);
-    let textures: &[Texture] = if spec.compiler.discardvisual { &[] } else { &spec.textures };
-    let mut jobs = Vec::new();
-    let mut heads: Vec<(String, Loc, String, String)> = Vec::new();
-    for mesh in &spec.meshes {
-        let name = asset_name(&mesh.name, &mesh.path);
-        let bytes = read(files, &mesh.file, mesh.loc, &title("mesh", &name), log);
-        let needhull = mesh.inertia == MeshInertia::Convex || colliding.contains(&*name);
-        jobs.push(Job::Mesh {
-            spec: mesh,
-            name: name.clone(),
-            bytes,
-            needhull,
-            discard: spec.compiler.discardvisual,
-        });
-        heads.push((name, mesh.loc, mesh.path.clone(), mesh.material.clone()));
-    }
-    for texture in textures {
-        let name = asset_name(&texture.name, &texture.path);
-        jobs.push(Job::Texture { source: Box::new(texture_source(texture, &name, files, log)) });
-        heads.push((name, texture.loc, texture.path.clone(), String::new()));
-    }
-    for hfield in &spec.hfields {
-        let name = asset_name(&hfield.name, &hfield.path);
-        let bytes = read(files, &hfield.file, hfield.loc, &title("hfield", &name), log);
-        jobs.push(Job::Hfield { source: hfield_source(hfield, &name, bytes) });
-        heads.push((name, hfield.loc, hfield.path.clone(), String::new()));
-    }
-    let outcomes = if log.diagnostics.has_errors() {
+pub(super) fn compile(
+    spec: &Spec,
+    files: &dyn FileProvider,
+    meshes: Option<&dyn MeshStore>,
+    log: &mut Log,
+) -> Assets {
+    let jobs = read_all(spec, files, log);
+    let mut outcomes = if log.diagnostics.has_errors() {
         Vec::new()
     } else {
-        run_all(&jobs, cache, spec.compiler.usethread)
-    };
-    let mut assets = Assets {
-        meshes: Vec::new(),
-        hfields: Vec::new(),
-        textures: Vec::new(),
-        materials: Vec::new(),
-        mesh_ids: BTreeMap::new(),
-        hfield_ids: BTreeMap::new(),
-        suggestions: Cell::default(),
-    };
-    let mut outcomes = outcomes.into_iter();
-    for ((name, loc, path, material), job) in heads.into_iter().zip(&jobs) {
+        run_all(&jobs, meshes, spec.compiler.usethread)
+    }
+    .into_iter();
+    let mut assets = Assets::default();
+    for (head, job) in jobs {
         let outcome = outcomes.next().and_then(|outcome| match outcome {
             Ok(outcome) => Some(outcome),
             Err(error) => {
-                log.error(loc, error.message);
+                log.error(head.loc, error.message);
                 None
             }
         });
-        check_name(&name, loc, job, log);
+        check_name(&head.name, head.loc, &job, log);
         match job {
             Job::Mesh { .. } => {
-                let compiled =
+                let mesh =
                     if let Some(Outcome::Mesh(mesh)) = outcome { *mesh } else { CompiledMesh::default() };
-                assets.mesh_ids.entry(name.clone()).or_insert(assets.meshes.len());
-                assets.meshes.push(Asset { name, loc, path, material, compiled });
+                assets.mesh_ids.entry(head.name.clone()).or_insert(assets.meshes.len());
+                assets.meshes.push(head.with(mesh));
             }
             Job::Texture { .. } => {
-                let compiled =
+                let texture =
                     if let Some(Outcome::Texture(t)) = outcome { t } else { CompiledTexture::default() };
-                assets.textures.push(Asset { name, loc, path, material, compiled });
+                assets.textures.push(head.with(texture));
             }
             Job::Hfield { .. } => {
-                let compiled =
+                let hfield =
                     if let Some(Outcome::Hfield(h)) = outcome { h } else { CompiledHfield::default() };
-                assets.hfield_ids.entry(name.clone()).or_insert(assets.hfields.len());
-                assets.hfields.push(Asset { name, loc, path, material, compiled });
+                assets.hfield_ids.entry(head.name.clone()).or_insert(assets.hfields.len());
+                assets.hfields.push(head.with(hfield));
             }
         }
     }
@@ -167,16 +143,40 @@ pub(super) fn compile(spec: &Spec, files: &dyn FileProvider, cache: Option<&Cach
                 log.error(material.loc, "material without a name");
             }
             let (name, loc) = (material.name.clone(), material.loc);
-            assets.materials.push(Asset {
-                name,
-                loc,
-                path: String::new(),
-                material: String::new(),
-                compiled: (),
-            });
+            assets.materials.push(Head { name, loc, path: String::new(), material: String::new() }.with(()));
         }
     }
     assets
+}
+
+/// Reads the files of all assets, which wait to be compiled.
+fn read_all<'s>(spec: &'s Spec, files: &dyn FileProvider, log: &mut Log) -> Vec<(Head, Job<'s>)> {
+    let colliding = colliding_meshes(spec);
+    let discard = spec.compiler.discardvisual;
+    let textures: &[Texture] = if discard { &[] } else { &spec.textures };
+    let mut jobs = Vec::new();
+    for mesh in &spec.meshes {
+        let name = asset_name(&mesh.name, &mesh.path);
+        let bytes = read(files, &mesh.file, mesh.loc, &title("mesh", &name), log);
+        let needhull = mesh.inertia == MeshInertia::Convex || colliding.contains(&*name);
+        let job = Job::Mesh { spec: mesh, name: name.clone(), bytes, needhull, discard };
+        let (path, material) = (mesh.path.clone(), mesh.material.clone());
+        jobs.push((Head { name, loc: mesh.loc, path, material }, job));
+    }
+    for texture in textures {
+        let name = asset_name(&texture.name, &texture.path);
+        let job = Job::Texture { source: Box::new(texture_source(texture, &name, files, log)) };
+        let (path, material) = (texture.path.clone(), String::new());
+        jobs.push((Head { name, loc: texture.loc, path, material }, job));
+    }
+    for hfield in &spec.hfields {
+        let name = asset_name(&hfield.name, &hfield.path);
+        let bytes = read(files, &hfield.file, hfield.loc, &title("hfield", &name), log);
+        let job = Job::Hfield { source: hfield_source(hfield, &name, bytes) };
+        let (path, material) = (hfield.path.clone(), String::new());
+        jobs.push((Head { name, loc: hfield.loc, path, material }, job));
+    }
+    jobs
 }
 
 fn check_name(name: &str, loc: Loc, job: &Job, log: &mut Log) {
@@ -298,7 +298,7 @@ impl Job<'_> {
         }
     }
 
-    fn run(&self, cache: Option<&Cache>) -> Result<Outcome, AssetError> {
+    fn run(&self, meshes: Option<&dyn MeshStore>) -> Result<Outcome, AssetError> {
         match self {
             Job::Mesh { spec, name, bytes, needhull, discard } => {
                 let inline = inline_mesh(spec, *discard)?;
@@ -325,13 +325,16 @@ impl Job<'_> {
                 };
                 // All but the content that enters; names and paths stand in messages only.
                 let extension = spec.file.rsplit('.').next();
-                let attributes = cache.map(|_| format!("{extension:?} {:?} {source:?}", spec.content_type));
-                let make = || process(source, Some(mesh::decode(bytes, &spec.file, &spec.content_type)?));
-                match (cache, attributes) {
-                    (Some(cache), Some(attributes)) => cache.mesh(bytes, &attributes, make),
-                    _ => make(),
+                let key = meshes.map(|meshes| {
+                    let attributes = format!("{extension:?} {:?} {source:?}", spec.content_type);
+                    (meshes, digest_parts([bytes, attributes.as_bytes()]))
+                });
+                if let Some(mesh) = key.and_then(|(meshes, digest)| meshes.find(digest)) {
+                    return Ok(Outcome::Mesh(Box::new(mesh)));
                 }
-                .map(|mesh| Outcome::Mesh(Box::new(mesh)))
+                let mesh = process(source, Some(mesh::decode(bytes, &spec.file, &spec.content_type)?))?;
+                key.iter().for_each(|(meshes, digest)| meshes.keep(*digest, &mesh));
+                Ok(Outcome::Mesh(Box::new(mesh)))
             }
             Job::Texture { source } => image::texture(source).map(Outcome::Texture),
             Job::Hfield { source } => image::hfield(source.clone()).map(Outcome::Hfield),
@@ -340,20 +343,24 @@ impl Job<'_> {
 }
 
 /// Runs the jobs, results in their order whatever the number of threads.
-fn run_all(jobs: &[Job], cache: Option<&Cache>, threads: bool) -> Vec<Result<Outcome, AssetError>> {
+fn run_all(
+    jobs: &[(Head, Job)],
+    meshes: Option<&dyn MeshStore>,
+    threads: bool,
+) -> Vec<Result<Outcome, AssetError>> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get()).min(jobs.len());
     if !threads || cores < 2 {
-        return jobs.iter().map(|job| job.run(cache)).collect();
+        return jobs.iter().map(|(_, job)| job.run(meshes)).collect();
     }
     // Largest first, so that no core is left with a long job at the end.
     let mut order: Vec<usize> = (0..jobs.len()).collect();
-    order.sort_by_key(|&index| std::cmp::Reverse(jobs[index].weight()));
+    order.sort_by_key(|&index| std::cmp::Reverse(jobs[index].1.weight()));
     let next = AtomicUsize::new(0);
     let worker = || {
         let mut done = Vec::new();
         loop {
             let Some(&index) = order.get(next.fetch_add(1, Ordering::Relaxed)) else { return done };
-            done.push((index, jobs[index].run(cache)));
+            done.push((index, jobs[index].1.run(meshes)));
         }
     };
     let mut results: Vec<_> = std::thread::scope(|scope| {
@@ -369,101 +376,4 @@ fn run_all(jobs: &[Job], cache: Option<&Cache>, threads: bool) -> Vec<Result<Out
     });
     results.sort_by_key(|(index, _)| *index);
     results.into_iter().map(|(_, result)| result).collect()
-}
-
-/// Appends all assets except the hierarchies, which follow those of the bodies.
-pub(super) fn fill(m: &mut Arrays, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
-    m.tex_data.reserve_exact(assets.textures.iter().map(|asset| asset.compiled.data.len()).sum());
-    let total =
-        |count: fn(&CompiledMesh) -> usize| assets.meshes.iter().map(|asset| count(&asset.compiled)).sum();
-    m.mesh_vert.reserve_exact(total(|mesh| mesh.vert.len()));
-    m.mesh_normal.reserve_exact(total(|mesh| mesh.normal.len()));
-    for rows in [&mut m.mesh_face, &mut m.mesh_facenormal, &mut m.mesh_facetexcoord] {
-        rows.reserve_exact(total(|mesh| mesh.face.len()));
-    }
-    assets.meshes.iter().for_each(|asset| fill_mesh(m, &asset.compiled));
-    for asset in &assets.hfields {
-        let hfield = &asset.compiled;
-        m.hfield_size.push(hfield.size);
-        m.hfield_nrow.push(hfield.nrow as i32);
-        m.hfield_ncol.push(hfield.ncol as i32);
-        m.hfield_adr.push(m.hfield_data.len() as i32);
-        m.hfield_data.extend(&hfield.data);
-    }
-    for (asset, texture) in assets.textures.iter().zip(&spec.textures) {
-        let t = &asset.compiled;
-        m.tex_type.push(texture.kind.code());
-        m.tex_colorspace.push(t.colorspace as i32);
-        m.tex_height.push(t.height as i32);
-        m.tex_width.push(t.width as i32);
-        m.tex_nchannel.push(t.nchannel as i32);
-        m.tex_adr.push(m.tex_data.len() as i64);
-        m.tex_data.extend(&t.data);
-    }
-    for material in spec.materials.iter().take(assets.materials.len()) {
-        let what = title("material", &material.name);
-        m.mat_texid.push(std::array::from_fn(|role| {
-            lookup.reference(ObjType::Texture, &material.textures[role], material.loc, &what, log)
-        }));
-        m.mat_texuniform.push(material.texuniform);
-        m.mat_texrepeat.push(material.texrepeat);
-        m.mat_emission.push(material.emission);
-        m.mat_specular.push(material.specular);
-        m.mat_shininess.push(material.shininess);
-        m.mat_reflectance.push(material.reflectance);
-        m.mat_metallic.push(material.metallic);
-        m.mat_roughness.push(material.roughness);
-        m.mat_rgba.push(material.rgba);
-    }
-}
-
-fn fill_mesh(m: &mut Arrays, mesh: &CompiledMesh) {
-    let address = |count: usize, next: usize| if count == 0 { -1 } else { next as i32 };
-    m.mesh_vertadr.push(m.mesh_vert.len() as i32);
-    m.mesh_vertnum.push(mesh.vert.len() as i32);
-    m.mesh_faceadr.push(m.mesh_face.len() as i32);
-    m.mesh_facenum.push(mesh.face.len() as i32);
-    m.mesh_octadr.push(-1);
-    m.mesh_octnum.push(0);
-    m.mesh_normaladr.push(m.mesh_normal.len() as i32);
-    m.mesh_normalnum.push(mesh.normal.len() as i32);
-    m.mesh_texcoordadr.push(address(mesh.texcoord.len(), m.mesh_texcoord.len()));
-    m.mesh_texcoordnum.push(mesh.texcoord.len() as i32);
-    m.mesh_graphadr.push(address(mesh.graph.len(), m.mesh_graph.len()));
-    m.mesh_extrema.push(mesh.extrema);
-    m.mesh_polyadr.push(m.mesh_polynormal.len() as i32);
-    m.mesh_polynum.push(mesh.poly_normal.len() as i32);
-    m.mesh_scale.push(mesh.scale);
-    m.mesh_pos.push(mesh.pos);
-    m.mesh_quat.push(mesh.quat);
-    let (first_vert, first_map) = (m.mesh_polyvert.len() as i32, m.mesh_polymap.len() as i32);
-    m.mesh_polyvertadr.extend(mesh.poly_vertadr.iter().map(|a| a + first_vert));
-    m.mesh_polyvertnum.extend(&mesh.poly_vertnum);
-    m.mesh_polyvert.extend(&mesh.poly_vert);
-    m.mesh_polymapadr.extend(mesh.poly_mapadr.iter().map(|a| a + first_map));
-    m.mesh_polymapnum.extend(&mesh.poly_mapnum);
-    m.mesh_polymap.extend(&mesh.poly_map);
-    m.mesh_polynormal.extend(&mesh.poly_normal);
-    m.mesh_vert.extend(&mesh.vert);
-    m.mesh_normal.extend(&mesh.normal);
-    m.mesh_texcoord.extend(&mesh.texcoord);
-    m.mesh_face.extend(&mesh.face);
-    m.mesh_facenormal.extend(&mesh.facenormal);
-    m.mesh_facetexcoord.extend(&mesh.facetexcoord);
-    m.mesh_graph.extend(&mesh.graph);
-}
-
-/// Appends the hierarchies of meshes.
-pub(super) fn fill_hierarchies(m: &mut Arrays, assets: &Assets) {
-    let nodes = assets.meshes.iter().map(|asset| asset.compiled.bvh.depth.len()).sum();
-    m.bvh_depth.reserve_exact(nodes);
-    m.bvh_child.reserve_exact(nodes);
-    m.bvh_nodeid.reserve_exact(nodes);
-    m.bvh_aabb.reserve_exact(nodes);
-    for asset in &assets.meshes {
-        let count = asset.compiled.bvh.depth.len();
-        m.mesh_bvhadr.push(if count == 0 { -1 } else { m.bvh_depth.len() as i32 });
-        m.mesh_bvhnum.push(count as i32);
-        append_hierarchy(m, &asset.compiled.bvh);
-    }
 }

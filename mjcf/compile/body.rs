@@ -1,68 +1,38 @@
 //! Bodies: pose, inertia, welds, simplicity and bounding volume hierarchy.
 
 use super::assets::Assets;
-use super::frame::{Pose, UNIT, resolve, same_orientation, same_position};
-use super::geom::{self, GeomNode};
+use super::frame::{Pose, direction, same_frame, same_position};
+use super::geom;
 use super::inertia::{MassPart, combine, principal};
-use super::joint::{self, JointNode};
-use super::tree::Tree;
-use super::viewpoint::{self, CameraNode, LightNode, SiteNode};
-use super::{Log, push_user, title};
-use crate::bvh::{self, Leaf};
-use crate::spec::{AlignFree, Body, Compiler, InertiaFromGeom, Inertial, Spec};
-use crate::vector::normalize;
-use physics::math::Vec3;
+use super::joint;
+use super::log::{Log, title};
+use super::nodes::{BodyNode, Tree};
+use super::values::push_user;
+use super::viewpoint;
+use crate::spec::{AlignFree, Body, Compiler, Geom, InertiaFromGeom, Inertial, Spec, resolve};
+use crate::vector::{EPS, normalize};
 use physics::model::bounds::MINVAL;
 use physics::model::{Arrays, JointType, SameFrame};
 
-/// A compiled body; poses are in the parent's frame, the inertial pose in the body's.
-pub(super) struct BodyNode<'s> {
-    pub spec: &'s Body,
-    pub parent: usize,
-    pub pose: Pose,
-    pub inertial: Pose,
-    pub mass: f64,
-    pub inertia: Vec3,
-    pub joints: Vec<JointNode<'s>>,
-    pub geoms: Vec<GeomNode<'s>>,
-    pub sites: Vec<SiteNode<'s>>,
-    pub cameras: Vec<CameraNode<'s>>,
-    pub lights: Vec<LightNode<'s>>,
-    is_world: bool,
+/// What a body's compile needs to know.
+pub(super) struct Context<'a, 's> {
+    /// The bodies before this one, its ancestors among them.
+    pub tree: &'a Tree<'s>,
+    pub model: &'s Spec,
+    pub assets: &'a Assets,
+    /// Poses of the model's frames in their bodies.
+    pub frames: &'a [Pose],
 }
 
-impl<'s> BodyNode<'s> {
-    /// Name; the world is always called so.
-    pub(super) fn name(&self) -> &'s str {
-        if self.is_world { "world" } else { &self.spec.name }
-    }
-
-    /// Whether the body moves, by joints or as a mocap body, apart from its parent.
-    pub(super) fn is_weld_root(&self) -> bool {
-        self.is_world || !self.joints.is_empty() || self.spec.mocap
-    }
-
-    /// The body as a part of its parent.
-    pub(super) fn as_part(&self) -> MassPart {
-        MassPart { mass: self.mass, inertia: self.inertia, pose: self.pose.then(&self.inertial) }
-    }
-
-    fn dofs(&self) -> usize {
-        self.joints.iter().map(|j| joint::dimensions(j.spec.kind).1).sum()
-    }
-}
-
-/// Compiles one body; `tree` holds its ancestors.
+/// Compiles one body, which gets the next id.
 pub(super) fn compile<'s>(
     spec: &'s Body,
-    id: usize,
     parent: usize,
-    tree: &Tree<'s>,
-    model: &'s Spec,
-    assets: &Assets,
-    frames: &[Pose],
+    context: &Context<'_, 's>,
     log: &mut Log,
 ) -> BodyNode<'s> {
+    let &Context { tree, model, assets, frames } = context;
+    let id = tree.bodies.len();
     let what = title("body", &spec.name);
     let frame = |index: Option<usize>| index.and_then(|i| frames.get(i));
     let mut joints = Vec::with_capacity(spec.joints.len());
@@ -146,7 +116,7 @@ fn moves(node: &BodyNode, parent: usize, tree: &Tree) -> bool {
     }
 }
 
-fn infers(body: &Body, geom: &crate::spec::Geom, model: &Spec) -> bool {
+fn infers(body: &Body, geom: &Geom, model: &Spec) -> bool {
     let settings = model.compiler_at(body.loc);
     let [low, high] = settings.inertiagrouprange;
     (body.inertial.is_none() || settings.inertiafromgeom == InertiaFromGeom::True)
@@ -224,7 +194,7 @@ fn of_geoms(node: &BodyNode, groups: [i32; 2]) -> Result<Option<MassPart>, Strin
     let parts: Vec<MassPart> = node
         .geoms
         .iter()
-        .filter(|g| (groups[0]..=groups[1]).contains(&g.spec.group) && g.mass > super::frame::EPS)
+        .filter(|g| (groups[0]..=groups[1]).contains(&g.spec.group) && g.mass > EPS)
         .map(|g| MassPart { mass: g.mass, inertia: g.inertia, pose: g.pose })
         .collect();
     if parts.len() == 1 { Ok(Some(parts[0])) } else { combine(&parts) }
@@ -260,7 +230,7 @@ fn align_to_inertia(node: &mut BodyNode, recompiled: bool) {
     }
     for light in &mut node.lights {
         light.pos = back.point(light.pos);
-        light.dir = super::frame::direction(back.quat, light.dir);
+        light.dir = direction(back.quat, light.dir);
     }
 }
 
@@ -334,32 +304,11 @@ pub(super) fn fill(m: &mut Arrays, node: &BodyNode, id: usize, tree: &Tree, log:
     }
 }
 
-fn same_frame(pose: Pose) -> SameFrame {
-    match (same_position(pose.pos, [0.0; 3]), same_orientation(pose.quat, UNIT)) {
-        (true, true) => SameFrame::Body,
-        (false, true) => SameFrame::Bodyrot,
-        _ => SameFrame::None,
-    }
-}
-
-/// How the frame of something in a body coincides with the body's or its inertial frame.
-pub(super) fn same_frame_in_body(pose: Pose, inertial: Pose) -> SameFrame {
-    let same = same_frame(pose);
-    if same != SameFrame::None {
-        return same;
-    }
-    match (same_position(pose.pos, inertial.pos), same_orientation(pose.quat, inertial.quat)) {
-        (true, true) => SameFrame::Inertia,
-        (false, true) => SameFrame::Inertiarot,
-        _ => SameFrame::None,
-    }
-}
-
 /// Takes back simplicity that the joints forbid; level 2 is for sliders only.
 pub(super) fn settle_simple(m: &mut Arrays, node: &BodyNode, id: usize) {
     let mut rotates = false;
     for joint in &node.joints {
-        let aligned = joint.axis.iter().filter(|x| x.abs() > super::frame::EPS).count() == 1;
+        let aligned = joint.axis.iter().filter(|x| x.abs() > EPS).count() == 1;
         let scalar = matches!(joint.spec.kind, JointType::Hinge | JointType::Slide);
         if rotates || !same_position(joint.pos, [0.0; 3]) || (scalar && !aligned) {
             m.body_simple[id] = 0;
@@ -370,38 +319,6 @@ pub(super) fn settle_simple(m: &mut Arrays, node: &BodyNode, id: usize) {
         let slides = node.joints.iter().all(|j| j.spec.kind == JointType::Slide);
         m.body_simple[id] = if slides { 2 } else { 1 };
     }
-}
-
-/// Bounding volume hierarchies over the geoms of each body, in its inertial frame.
-pub(super) fn fill_hierarchies(m: &mut Arrays, tree: &Tree) {
-    for (id, node) in tree.bodies.iter().enumerate() {
-        let first = m.body_geomadr[id];
-        let leaves: Vec<Leaf> = node
-            .geoms
-            .iter()
-            .enumerate()
-            .map(|(k, g)| Leaf {
-                id: first + k as i32,
-                pos: g.pose.pos,
-                quat: Some(g.pose.quat),
-                aabb: g.aabb,
-                collides: g.spec.contype != 0 || g.spec.conaffinity != 0,
-            })
-            .collect();
-        let tree = bvh::build(&leaves, node.inertial.pos, node.inertial.quat);
-        let count = tree.depth.len();
-        m.body_bvhadr.push(if count == 0 { -1 } else { m.bvh_depth.len() as i32 });
-        m.body_bvhnum.push(count as i32);
-        append_hierarchy(m, &tree);
-    }
-}
-
-/// Appends the nodes of a hierarchy.
-pub(super) fn append_hierarchy(m: &mut Arrays, tree: &bvh::Bvh) {
-    m.bvh_depth.extend(&tree.depth);
-    m.bvh_child.extend(&tree.child);
-    m.bvh_nodeid.extend(&tree.nodeid);
-    m.bvh_aabb.extend(&tree.aabb);
 }
 
 /// Scales masses and inertias to the given total.

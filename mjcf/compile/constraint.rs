@@ -1,7 +1,7 @@
 //! Contact pairs, excluded pairs and equality constraints.
 
+use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::{Log, title};
 use crate::spec::{Equality, Pair, SOLIMP, SOLREF, Spec};
 use physics::model::{Arrays, EqType, JointType, ObjType};
 

@@ -1,7 +1,8 @@
 //! Custom numbers, texts and tuples.
 
+use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::{Log, bounded, title};
+use super::values::bounded;
 use crate::spec::Spec;
 use physics::model::Arrays;
 

@@ -2,7 +2,7 @@
 //! materials and textures (XML reference, `compiler/discardvisual`).
 
 use super::assets::Assets;
-use super::tree::Tree;
+use super::nodes::Tree;
 use crate::spec::{Spec, WrapKind};
 use physics::model::ObjType;
 use std::collections::BTreeSet;

@@ -1,7 +1,7 @@
 //! Trees and simple bodies: what the sparsity patterns need to know before `set_const` runs.
 
-use super::tree::Tree;
-use super::{Log, title};
+use super::log::{Log, title};
+use super::nodes::Tree;
 use physics::model::{Arrays, SleepPolicy, WrapType};
 
 /// Numbers the trees, takes simplicity back where tendons couple bodies, sets the sleep policies of the file.

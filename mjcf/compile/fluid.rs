@@ -3,7 +3,7 @@
 //! Documentation, Computation chapter, "Ellipsoid model": the kappa integrals by 15-point Kronrod quadrature
 //! after the substitution l = x³/(1-x)².
 
-use super::frame::EPS;
+use crate::vector::EPS;
 use physics::math::Vec3;
 use physics::math::ops;
 use physics::model::GeomType;

@@ -1,8 +1,7 @@
 //! `fusestatic`: bodies without joints become part of their parents (XML reference, `compiler/fusestatic`).
 
-use super::body::BodyNode;
-use super::inertia::combine;
-use super::tree::Tree;
+use super::inertia::{MassPart, combine};
+use super::nodes::{BodyNode, Tree};
 use crate::spec::Spec;
 use physics::model::bounds::MINVAL;
 use physics::model::{EqType, ObjType, SensorType, TrnType};
@@ -58,7 +57,7 @@ fn fuse(tree: &mut Tree, id: usize) -> Result<(), String> {
 }
 
 fn add_mass(parent: &mut BodyNode, body: &BodyNode) -> Result<(), String> {
-    let own = super::inertia::MassPart { mass: parent.mass, inertia: parent.inertia, pose: parent.inertial };
+    let own = MassPart { mass: parent.mass, inertia: parent.inertia, pose: parent.inertial };
     if let Some(sum) = combine(&[own, body.as_part()])? {
         (parent.mass, parent.inertia, parent.inertial) = (sum.mass, sum.inertia, sum.pose);
     }

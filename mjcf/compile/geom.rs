@@ -1,32 +1,19 @@
 //! Geoms: type, size, pose, mass.
 
 use super::assets::Assets;
-use super::body::{BodyNode, same_frame_in_body};
-use super::frame::{EPS, Pose, add, direction, resolve, segment};
+use super::fluid;
+use super::frame::{Pose, add, direction, same_frame_in_body, segment};
+use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::{Log, fluid, push_user, shape, title};
+use super::nodes::{BodyNode, GeomNode};
+use super::shape;
+use super::values::push_user;
+use crate::image::CompiledHfield;
 use crate::mesh::{CompiledMesh, Primitive, fit_primitive};
-use crate::spec::{Compiler, Geom};
-use crate::vector::{cross, normalize};
+use crate::spec::{Compiler, Geom, resolve};
+use crate::vector::{EPS, cross, normalize};
 use physics::math::Vec3;
 use physics::model::{Arrays, GeomType, ObjType};
-
-/// A geom in the frame of its body.
-pub(super) struct GeomNode<'s> {
-    pub spec: &'s Geom,
-    pub pose: Pose,
-    pub size: Vec3,
-    pub aabb: [f64; 6],
-    pub rbound: f64,
-    pub mass: f64,
-    pub inertia: Vec3,
-    /// Id of the mesh or height field the geom consists of or was fitted to, -1 for none.
-    pub dataid: i32,
-    /// Material: the geom's own, else that of its mesh.
-    pub material: String,
-    surfacevel: [f64; 6],
-    fluid: [f64; 12],
-}
 
 /// What a geom's compile needs to know.
 pub(super) struct Context<'a> {
@@ -119,10 +106,7 @@ fn find_mesh<'a>(spec: &Geom, assets: &'a Assets) -> Result<Option<(usize, &'a C
     Ok(Some((id, &assets.meshes[id].compiled)))
 }
 
-fn find_hfield<'a>(
-    spec: &Geom,
-    assets: &'a Assets,
-) -> Result<Option<(usize, &'a crate::image::CompiledHfield)>, String> {
+fn find_hfield<'a>(spec: &Geom, assets: &'a Assets) -> Result<Option<(usize, &'a CompiledHfield)>, String> {
     match (spec.kind == GeomType::Hfield, spec.hfieldname.is_empty()) {
         (false, true) => Ok(None),
         (true, true) => Err("a height field geom needs an hfield".into()),

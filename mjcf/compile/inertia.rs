@@ -1,7 +1,7 @@
 //! Body inertia: sums of parts about their common centre of mass, and its principal axes.
 
-use super::frame::{EPS, Pose};
-use crate::vector::{matrix, principal_axes, sub};
+use super::frame::Pose;
+use crate::vector::{EPS, matrix, principal_axes, sub};
 use physics::math::{Quat, Vec3};
 use physics::model::bounds::MINVAL;
 

@@ -1,35 +1,14 @@
 //! Joints and their degrees of freedom.
 
-use super::body::BodyNode;
-use super::frame::{EPS, Pose, direction};
-use super::{Log, push_user, resolve_limited, title};
-use crate::spec::{Compiler, Joint};
-use crate::vector::normalize;
-use physics::math::Vec3;
+use super::frame::{Pose, direction};
+use super::log::{Log, title};
+use super::nodes::{BodyNode, JointNode};
+use super::values::{push_user, resolve_limited};
+use crate::spec::{Compiler, Joint, joint_dimensions};
+use crate::vector::{EPS, normalize};
 use physics::model::bounds::MINVAL;
 use physics::model::{Arrays, JointType};
 use std::f64::consts::PI;
-
-/// A joint in the frame of its body, angles in radians.
-pub(super) struct JointNode<'s> {
-    pub spec: &'s Joint,
-    pub pos: Vec3,
-    pub axis: Vec3,
-    pub limited: bool,
-    pub range: [f64; 2],
-    pub actfrclimited: bool,
-    pub reference: f64,
-    pub springref: f64,
-}
-
-/// Number of positions and of velocities of a joint type.
-pub(crate) fn dimensions(kind: JointType) -> (usize, usize) {
-    match kind {
-        JointType::Free => (7, 6),
-        JointType::Ball => (4, 3),
-        JointType::Slide | JointType::Hinge => (1, 1),
-    }
-}
 
 /// Compiles a joint that stands in `frame`.
 pub(super) fn compile<'s>(
@@ -88,7 +67,7 @@ pub(super) fn fill(m: &mut Arrays, body: &BodyNode, id: usize, log: &mut Log) {
     for node in &body.joints {
         let spec = node.spec;
         let joint = m.jnt_type.len();
-        let (nq, nv) = dimensions(spec.kind);
+        let (nq, nv) = joint_dimensions(spec.kind);
         m.jnt_type.push(spec.kind.code());
         m.jnt_group.push(spec.group);
         m.jnt_limited.push(node.limited);
@@ -132,7 +111,7 @@ pub(super) fn set_springdampers(m: &mut Arrays, springdampers: &[[f64; 2]]) {
         if timeconst <= 0.0 || dampratio <= 0.0 {
             continue;
         }
-        let nv = JointType::from_code(m.jnt_type[joint]).map_or(0, |kind| dimensions(kind).1);
+        let nv = JointType::from_code(m.jnt_type[joint]).map_or(0, |kind| joint_dimensions(kind).1);
         let first = m.jnt_dofadr[joint] as usize;
         let inverse = m.dof_invweight0[first..first + nv].iter().fold(0.0, |sum, w| sum + w);
         let inertia = nv as f64 / inverse.max(MINVAL);

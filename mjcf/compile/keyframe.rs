@@ -1,7 +1,8 @@
 //! Keyframes: missing parts are the reference configuration, short ones are completed from it.
 
-use super::tree::Tree;
-use super::{Log, bounded, title};
+use super::log::{Log, title};
+use super::nodes::Tree;
+use super::values::bounded;
 use crate::diagnostic::Loc;
 use crate::spec::{Key, KeyPart, Keyed, Spec};
 use physics::model::{Arrays, JointType};

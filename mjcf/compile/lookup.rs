@@ -1,8 +1,8 @@
 //! Names to ids, one map a kind of element.
 
 use super::assets::Assets;
-use super::tree::Tree;
-use super::{Log, title};
+use super::log::{Log, title};
+use super::nodes::Tree;
 use crate::diagnostic::Loc;
 use crate::spec::Spec;
 use physics::model::ObjType;

@@ -5,6 +5,7 @@
 //! by row in the order of ids; sizes follow from them. Errors are collected, not thrown at the first.
 
 mod actuator;
+mod asset_rows;
 mod assets;
 mod body;
 mod constraint;
@@ -12,29 +13,31 @@ mod custom;
 mod discard;
 mod fixed;
 mod fluid;
-pub(crate) mod frame;
+mod frame;
 mod fuse;
 mod geom;
+mod hierarchy;
 mod inertia;
 mod joint;
 mod keyframe;
+mod log;
 mod lookup;
 mod names;
+mod nodes;
 mod sensor;
 mod shape;
 mod sizes;
 mod tendon;
 mod tree;
+mod values;
 mod viewpoint;
 
-pub(crate) use actuator::sizes as actuator_sizes;
-pub(crate) use assets::asset_name;
-pub(crate) use joint::dimensions as joint_dimensions;
-
-use crate::cache::Cache;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::FileProvider;
-use crate::spec::{Limited, Spec, StatisticOverride};
+use crate::loaded::Loaded;
+use crate::mesh::stored::MeshStore;
+use crate::spec::{Spec, StatisticOverride};
+use log::Log;
 use physics::Model;
 use physics::constants::length_range::set_length_ranges;
 use physics::constants::set_const::set_const;
@@ -42,77 +45,18 @@ use physics::inertia::sparsity;
 use physics::model::Arrays;
 use physics::pipeline::validity::check_model;
 
-/// Largest length a file may ask for without giving the data.
-const MAX_LENGTH: i64 = 1 << 24;
-
-/// A length from the file: not negative, and not a way to use up the memory.
-fn bounded(length: i64, what: &str) -> Result<usize, String> {
-    match length {
-        0..=MAX_LENGTH => Ok(length as usize),
-        _ => Err(format!("{what} must be between 0 and {MAX_LENGTH}, is {length}")),
-    }
-}
-
-/// Where findings of the compile go.
-struct Log<'a> {
-    sources: &'a Sources,
-    diagnostics: &'a mut Diagnostics,
-}
-
-impl Log<'_> {
-    fn error(&mut self, loc: Loc, message: impl Into<String>) {
-        self.diagnostics.error(self.sources, loc, message);
-    }
-
-    fn error_with(&mut self, loc: Loc, message: impl Into<String>, advice: Option<String>) {
-        self.diagnostics.error_with(self.sources, loc, message, advice);
-    }
-
-    /// The value, or its error reported for the element called `what`.
-    fn check<T>(&mut self, loc: Loc, what: &str, result: Result<T, String>) -> Option<T> {
-        result.map_err(|message| self.error(loc, format!("{what}: {message}"))).ok()
-    }
-}
-
-/// `kind 'name'`, or the kind alone for a nameless element.
-fn title(kind: &str, name: &str) -> String {
-    if name.is_empty() { kind.to_owned() } else { format!("{kind} '{name}'") }
-}
-
-/// Whether limits are active; an error when `autolimits` is off and the file leaves it open.
-fn resolve_limited(limited: Limited, range: [f64; 2], autolimits: bool, which: &str) -> Result<bool, String> {
-    match limited {
-        Limited::False => Ok(false),
-        Limited::True => Ok(true),
-        Limited::Auto if !autolimits && range != [0.0, 0.0] => Err(format!(
-            "`{which}range` without `{which}limited`: set it, or turn on `autolimits` of the compiler"
-        )),
-        Limited::Auto => Ok(range[0] < range[1]),
-    }
-}
-
-/// Appends user data padded to the width of the model.
-fn push_user(array: &mut Vec<f64>, values: &[f64], width: usize, size: &str) -> Result<(), String> {
-    if values.len() > width {
-        return Err(format!("user has {} values, {size} is {width}", values.len()));
-    }
-    array.extend_from_slice(values);
-    array.resize(array.len() + width - values.len(), 0.0);
-    Ok(())
-}
-
-/// Compiles `spec`; files of assets come from `files`, processed meshes from `cache`, findings go to `diagnostics`.
+/// Compiles `spec`; files of assets come from `files`, processed meshes from `meshes`, findings go to `diagnostics`.
 ///
 /// `None` when there is an error; then `diagnostics` says which.
-pub fn compile(
+pub(crate) fn compile(
     spec: &Spec,
     files: &dyn FileProvider,
-    cache: Option<&Cache>,
+    meshes: Option<&dyn MeshStore>,
     sources: &Sources,
     diagnostics: &mut Diagnostics,
 ) -> Option<Model> {
     let log = &mut Log { sources, diagnostics };
-    let (arrays, springdampers) = compile_static(spec, files, cache, log)?;
+    let (arrays, springdampers) = compile_static(spec, files, meshes, log)?;
     let mut m = Model::unchecked(arrays);
     if let Err(error) = set_const(&mut m) {
         log.error(Loc::NONE, error.to_string());
@@ -131,6 +75,31 @@ pub fn compile(
     Some(m)
 }
 
+impl Spec {
+    /// Compiles the elements; files of assets come from `files`, places in findings from `sources`, which is empty for
+    /// elements that no text declares.
+    ///
+    /// ```
+    /// use robohive_mjcf::{files::Memory, parse_str};
+    ///
+    /// let mut parsed = parse_str("<mujoco><worldbody><geom size='0.1'/></worldbody></mujoco>")?;
+    /// parsed.spec.world.geoms[0].size[0] = 0.2;
+    /// let loaded = parsed.spec.compile(&Memory::default(), &parsed.sources)?;
+    /// assert_eq!(loaded.model.geom_size[0][0], 0.2);
+    /// # Ok::<(), robohive_mjcf::diagnostic::Diagnostics>(())
+    /// ```
+    ///
+    /// # Errors
+    /// All that is wrong with the elements and the assets, not the first finding alone.
+    pub fn compile(&self, files: &dyn FileProvider, sources: &Sources) -> Result<Loaded, Diagnostics> {
+        let mut diagnostics = Diagnostics::default();
+        match compile(self, files, None, sources, &mut diagnostics) {
+            Some(model) => Ok(Loaded { model, warnings: diagnostics }),
+            None => Err(diagnostics),
+        }
+    }
+}
+
 /// Statistics that the file gives replace the computed ones.
 fn override_statistic(m: &mut Arrays, given: &StatisticOverride) {
     let stat = &mut m.stat;
@@ -145,10 +114,10 @@ fn override_statistic(m: &mut Arrays, given: &StatisticOverride) {
 fn compile_static(
     spec: &Spec,
     files: &dyn FileProvider,
-    cache: Option<&Cache>,
+    meshes: Option<&dyn MeshStore>,
     log: &mut Log,
 ) -> Option<(Arrays, Vec<[f64; 2]>)> {
-    let mut assets = assets::compile(spec, files, cache, log);
+    let mut assets = assets::compile(spec, files, meshes, log);
     let mut tree = tree::compile(spec, &assets, log);
     if log.diagnostics.has_errors() {
         return None;
@@ -168,9 +137,9 @@ fn compile_static(
     if log.diagnostics.has_errors() {
         return None;
     }
-    assets::fill(&mut m, &assets, spec, &lookup, log);
+    asset_rows::fill(&mut m, &assets, spec, &lookup, log);
     tree::fill(&mut m, &tree, spec, &lookup, log);
-    assets::fill_hierarchies(&mut m, &assets);
+    hierarchy::fill_meshes(&mut m, &assets);
     constraint::fill(&mut m, spec, &lookup, log);
     tendon::fill(&mut m, spec, &lookup, log);
     actuator::fill(&mut m, spec, &lookup, log);

@@ -3,7 +3,7 @@
 use super::assets::{Asset, Assets};
 use super::constraint::sorted_names;
 use super::lookup::Lookup;
-use super::tree::Tree;
+use super::nodes::Tree;
 use crate::spec::Spec;
 use physics::model::{Arrays, ObjType};
 

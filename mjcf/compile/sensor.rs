@@ -1,7 +1,8 @@
 //! Sensors: references, dimension, stage and kind of data (XML reference, `sensor`).
 
+use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::{Log, bounded, push_user, title};
+use super::values::{bounded, push_user};
 use crate::spec::{Sensor, Spec};
 use physics::model::{Arrays, DataType, GeomType, JointType, ObjType, SensorType, Stage};
 
@@ -31,6 +32,7 @@ fn reference(kind: ObjType, name: &str, sensor: &Sensor, lookup: &Lookup, what: 
 }
 
 fn fill_sensor(m: &mut Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+    check_numbers(sensor)?;
     check(m, sensor, object, base)?;
     let user = sensor.kind == SensorType::User;
     let datatype = if user { sensor.datatype } else { datatype(sensor.kind) };
@@ -66,9 +68,8 @@ fn fill_sensor(m: &mut Arrays, sensor: &Sensor, object: i32, base: i32) -> Resul
     push_user(&mut m.sensor_user, &sensor.userdata, m.nuser_sensor, "nuser_sensor")
 }
 
-/// Which objects a sensor may be attached to.
-fn check(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
-    use SensorType::*;
+/// Noise, cutoff and times of a sensor.
+fn check_numbers(sensor: &Sensor) -> Result<(), String> {
     if sensor.noise < 0.0 || sensor.cutoff < 0.0 || sensor.interval[0] < 0.0 {
         return Err("noise, cutoff and interval cannot be negative".into());
     }
@@ -79,6 +80,12 @@ fn check(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), Stri
     if sensor.delay > 0.0 && sensor.nsample <= 0 {
         return Err("delay needs a history buffer (nsample)".into());
     }
+    Ok(())
+}
+
+/// Which objects a sensor may be attached to.
+fn check(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+    use SensorType::*;
     let on = |kinds: &[ObjType]| {
         if kinds.contains(&sensor.objtype) {
             Ok(())

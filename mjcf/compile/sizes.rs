@@ -1,6 +1,7 @@
 //! Sizes of the model, from the arrays that were filled row by row.
 
-use super::{Log, bounded};
+use super::log::Log;
+use super::values::bounded;
 use crate::diagnostic::Loc;
 use crate::spec::{Body, Spec};
 use physics::model::{Arrays, EqType};

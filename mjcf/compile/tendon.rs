@@ -1,7 +1,8 @@
 //! Tendons and their paths.
 
+use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::{Log, push_user, resolve_limited, title};
+use super::values::{push_user, resolve_limited};
 use crate::spec::{Spec, Tendon, Wrap, WrapKind};
 use physics::model::{Arrays, GeomType, ObjType, WrapType};
 

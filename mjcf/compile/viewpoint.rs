@@ -1,37 +1,17 @@
 //! Sites, cameras and lights: things with a place in a body and no mass.
 
-use super::body::{BodyNode, same_frame_in_body};
-use super::frame::{EPS, Pose, direction, resolve};
+use super::frame::{Pose, direction, same_frame_in_body};
+use super::geom;
+use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::{Log, geom, push_user, shape, title};
-use crate::spec::{Camera, Compiler, Light, Site, Spec};
-use crate::vector::normalize;
-use physics::math::Vec3;
+use super::nodes::{BodyNode, CameraNode, LightNode, SiteNode};
+use super::shape;
+use super::values::push_user;
+use crate::spec::{Camera, Compiler, Light, Site, Spec, resolve};
+use crate::vector::{EPS, normalize};
 use physics::math::ops;
 use physics::model::{Arrays, GeomType, ObjType};
 use std::f64::consts::PI;
-
-/// A site in the frame of its body.
-pub(super) struct SiteNode<'s> {
-    pub spec: &'s Site,
-    pub pose: Pose,
-    pub size: Vec3,
-}
-
-/// A camera in the frame of its body.
-pub(super) struct CameraNode<'s> {
-    pub spec: &'s Camera,
-    pub pose: Pose,
-    intrinsic: [f32; 4],
-    fovy: f64,
-}
-
-/// A light in the frame of its body.
-pub(super) struct LightNode<'s> {
-    pub spec: &'s Light,
-    pub pos: Vec3,
-    pub dir: Vec3,
-}
 
 /// Compiles sites, cameras and lights of a body.
 pub(super) fn compile<'s>(body: &mut BodyNode<'s>, model: &'s Spec, frames: &[Pose], log: &mut Log) {

@@ -1,35 +1,7 @@
 //! Computed textures: gradients, checkers, flat colours and the marks on them (MuJoCo XML reference,
 //! `asset/texture/builtin` and `mark`).
 
-use super::texture::TextureSource;
-
-/// Pattern of a computed texture.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Builtin {
-    /// Not computed.
-    #[default]
-    None,
-    /// From the first colour to the second.
-    Gradient,
-    /// Two by two squares.
-    Checker,
-    /// First colour; the downward face of a cube has the second.
-    Flat,
-}
-
-/// Marks on a computed texture.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Mark {
-    /// None.
-    #[default]
-    None,
-    /// Outline of each face.
-    Edge,
-    /// Middle row and column of each face.
-    Cross,
-    /// Random dots.
-    Random,
-}
+use super::source::{Builtin, Mark, TextureSource};
 
 const DOWN: usize = 3;
 /// Faces a checker shows with its colours exchanged: front and back.

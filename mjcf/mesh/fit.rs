@@ -1,6 +1,6 @@
 //! Primitive shapes fitted to a mesh: `geom` elements that name a mesh and a type other than mesh.
 
-use super::CompiledMesh;
+use super::compiled::CompiledMesh;
 
 /// The shapes a mesh can be replaced by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,7 +2,19 @@
 //!
 //! The vertices are moved to the centre of mass and turned to the principal axes of inertia (MuJoCo
 //! XML reference, `asset/mesh`); `pos` and `quat` say how, and geoms that use the mesh absorb them.
+//!
+//! ```
+//! use robohive_mjcf::mesh::{MeshSource, decode, process};
+//!
+//! let tetrahedron = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+//! let file = decode(tetrahedron, "tetrahedron.obj", "")?;
+//! let mesh = process(MeshSource { file: Some(file), needhull: true, ..MeshSource::default() })?;
+//! assert!((mesh.volume - 1.0 / 6.0).abs() < 1e-7);
+//! assert_eq!(mesh.poly_normal.len(), 4);
+//! # Ok::<(), robohive_mjcf::asset::AssetError>(())
+//! ```
 
+mod compiled;
 mod decode;
 mod ear_clipping;
 mod fit;
@@ -16,127 +28,16 @@ mod obj;
 mod polygons;
 mod process;
 mod shapes;
+mod source;
 mod stl;
 pub(crate) mod stored;
 
-pub use decode::{Format, RawMesh, decode};
+pub use crate::bvh::Bvh;
+pub use compiled::CompiledMesh;
+pub use decode::decode;
 pub use fit::{Primitive, fit_primitive};
 pub use hull::{Hull, convex_hull};
 pub use mass::MeshInertia;
 pub use process::process;
 pub use shapes::{Shape, builtin, vertex_count};
-
-use crate::bvh::Bvh;
-
-/// Everything an `asset/mesh` element says, with its file already read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MeshSource {
-    /// Name for messages.
-    pub name: String,
-    /// Decoded file; `None` when the mesh is inline only.
-    pub file: Option<RawMesh>,
-    /// Attributes `vertex`, `normal`, `texcoord`, `face`, `facenormal`, `facetexcoord`.
-    pub inline: RawMesh,
-    /// Factors on the vertex coordinates, applied after `refpos` and `refquat`.
-    pub scale: [f64; 3],
-    /// Origin of the mesh frame in file coordinates.
-    pub refpos: [f64; 3],
-    /// Orientation of the mesh frame in file coordinates, not necessarily of unit length.
-    pub refquat: [f64; 4],
-    /// How volume and inertia are computed.
-    pub inertia: MeshInertia,
-    /// Keep normals smooth across sharp edges.
-    pub smoothnormal: bool,
-    /// Largest number of hull vertices, -1 for no limit; at least 4 otherwise.
-    pub maxhullvert: i32,
-    /// A geom collides with this mesh, or its inertia mode is convex.
-    pub needhull: bool,
-}
-
-impl Default for MeshSource {
-    fn default() -> Self {
-        Self {
-            name: String::new(),
-            file: None,
-            inline: RawMesh::default(),
-            scale: [1.0; 3],
-            refpos: [0.0; 3],
-            refquat: [1.0, 0.0, 0.0, 0.0],
-            inertia: MeshInertia::Legacy,
-            smoothnormal: false,
-            maxhullvert: -1,
-            needhull: false,
-        }
-    }
-}
-
-/// The rows one mesh contributes to a model. Addresses inside are relative to the mesh's own first
-/// row; the model compiler adds its offsets.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct CompiledMesh {
-    /// `mesh_vert`: metres, inertial frame of the mesh.
-    pub vert: Vec<[f32; 3]>,
-    /// `mesh_normal`: unit vectors, inertial frame.
-    pub normal: Vec<[f32; 3]>,
-    /// `mesh_texcoord`; empty when the mesh has none.
-    pub texcoord: Vec<[f32; 2]>,
-    /// `mesh_face`: vertices of each triangle.
-    pub face: Vec<[i32; 3]>,
-    /// `mesh_facenormal`: normals of each triangle.
-    pub facenormal: Vec<[i32; 3]>,
-    /// `mesh_facetexcoord`: zeros when the mesh has no texture coordinates.
-    pub facetexcoord: Vec<[i32; 3]>,
-    /// `mesh_graph`: convex hull; empty when none was needed. Layout: number of vertices, number of
-    /// faces, edge address per vertex, mesh vertex per hull vertex, -1-terminated neighbour lists,
-    /// mesh vertices of the faces.
-    pub graph: Vec<i32>,
-    /// `mesh_extrema`: hull vertex farthest in each of the 3×3×3 grid directions.
-    pub extrema: [i32; 27],
-    /// `mesh_polynormal`: normals of the hull's polygons.
-    pub poly_normal: Vec<[f64; 3]>,
-    /// `mesh_polyvertadr`, relative.
-    pub poly_vertadr: Vec<i32>,
-    /// `mesh_polyvertnum`.
-    pub poly_vertnum: Vec<i32>,
-    /// `mesh_polyvert`: mesh vertices of the polygons.
-    pub poly_vert: Vec<i32>,
-    /// `mesh_polymapadr`, one per mesh vertex, relative.
-    pub poly_mapadr: Vec<i32>,
-    /// `mesh_polymapnum`, one per mesh vertex.
-    pub poly_mapnum: Vec<i32>,
-    /// `mesh_polymap`: polygons around each vertex, numbered within the mesh.
-    pub poly_map: Vec<i32>,
-    /// `mesh_scale`.
-    pub scale: [f64; 3],
-    /// `mesh_pos`: centre of mass in the mesh frame of the file.
-    pub pos: [f64; 3],
-    /// `mesh_quat`: principal axes in the mesh frame of the file.
-    pub quat: [f64; 4],
-    /// Corners of the bounding box in the inertial frame: minimum, then maximum.
-    pub aamm: [f64; 6],
-    /// Half sizes of the box of uniform density with the mesh's inertia.
-    pub boxsz: [f64; 3],
-    /// Volume in m³, or area in m² when the inertia mode is shell.
-    pub volume: f64,
-    /// `bvh_*` rows; leaves are faces.
-    pub bvh: Bvh,
-}
-
-impl CompiledMesh {
-    /// Bounding box as centre and half sizes: `geom_aabb` of a mesh geom.
-    pub fn aabb(&self) -> [f64; 6] {
-        let a = &self.aamm;
-        std::array::from_fn(|k| if k < 3 { (a[k + 3] + a[k]) / 2.0 } else { (a[k] - a[k - 3]) / 2.0 })
-    }
-
-    /// `geom_size` of a mesh geom: farthest coordinate along each axis.
-    pub fn geom_size(&self) -> [f64; 3] {
-        std::array::from_fn(|k| self.aamm[k].abs().max(self.aamm[k + 3].abs()))
-    }
-
-    /// Diagonal inertia of a geom with this mesh and `mass`, in kg m².
-    pub fn inertia(&self, mass: f64) -> [f64; 3] {
-        let [x, y, z] = self.boxsz;
-        [mass * (y * y + z * z) / 3.0, mass * (x * x + z * z) / 3.0, mass * (x * x + y * y) / 3.0]
-    }
-}
+pub use source::{Format, MeshSource, RawMesh};

@@ -1,7 +1,7 @@
 //! MuJoCo's legacy binary mesh: four counts (vertices, normals, texture coordinates, faces), then the
 //! arrays as 32-bit floats and integers (MuJoCo XML reference, `asset/mesh`, MSH file format).
 
-use super::decode::{Format, RawMesh, word};
+use super::source::{Format, RawMesh};
 use crate::asset::AssetError;
 
 const HEADER: usize = 16;
@@ -10,7 +10,7 @@ pub(super) fn decode(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
     if bytes.len() < HEADER {
         return Err(AssetError::truncated(format!("MSH file '{path}' has no complete header")));
     }
-    let count = |k: usize| i64::from(i32::from_le_bytes(word(bytes, 4 * k)));
+    let count = |k: usize| i64::from(i32::from_le_bytes(bytes.as_chunks::<4>().0[k]));
     let [nvert, nnormal, ntexcoord, nface] = [count(0), count(1), count(2), count(3)];
     let per_vertex = |n: i64| n == 0 || n == nvert;
     if nvert < 4 || nface < 0 || !per_vertex(nnormal) || !per_vertex(ntexcoord) {
@@ -27,7 +27,7 @@ pub(super) fn decode(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
             bytes.len()
         )));
     }
-    let mut words = bytes[HEADER..].chunks_exact(4).map(|w| [w[0], w[1], w[2], w[3]]);
+    let mut words = bytes[HEADER..].as_chunks::<4>().0.iter().copied();
     let mut floats =
         |n: i64| -> Vec<f32> { words.by_ref().take(n as usize).map(f32::from_le_bytes).collect() };
     let vert = floats(3 * nvert);

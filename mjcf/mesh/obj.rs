@@ -1,33 +1,39 @@
 //! Wavefront OBJ: all `v`, `vn` and `vt` of the file, and the faces of its first shape. Larger polygons
 //! become triangles; groups, materials and smoothing are ignored.
 
-use super::decode::{Format, RawMesh};
 use super::ear_clipping;
-use crate::asset::AssetError;
+use super::source::{Format, RawMesh};
+use crate::asset::{AssetError, AssetErrorKind};
+use crate::encoding::foreign;
 
 /// One `v/vt/vn` reference, zero-based; absent parts are -1.
 type Corner = [i32; 3];
 
 pub(super) fn decode(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
+    if let Some(what) = foreign(bytes) {
+        return Err(AssetError::malformed(format!("OBJ file '{path}' is {what}: OBJ is text in UTF-8")));
+    }
     let text = String::from_utf8_lossy(bytes);
     let mut mesh = RawMesh { format: Format::Obj, ..RawMesh::default() };
     let mut polygons: Vec<Vec<Corner>> = Vec::new();
     let mut first_shape = true;
-    for line in text.lines() {
-        let mut words = line.split_ascii_whitespace();
+    for (index, line) in text.lines().enumerate() {
+        let line = Line { text: line, number: index + 1, path };
+        let mut words = line.text.split_ascii_whitespace();
         match words.next() {
-            Some("v") => coordinates(&mut mesh.vert, 3, words, line, path)?,
-            Some("vn") => coordinates(&mut mesh.normal, 3, words, line, path)?,
-            Some("vt") => coordinates(&mut mesh.texcoord, 2, words, line, path)?,
+            Some("v") => coordinates(&mut mesh.vert, 3, words, &line)?,
+            Some("vn") => coordinates(&mut mesh.normal, 3, words, &line)?,
+            Some("vt") => coordinates(&mut mesh.texcoord, 2, words, &line)?,
             Some("f") if first_shape => {
                 let counts = [mesh.vert.len() / 3, mesh.texcoord.len() / 2, mesh.normal.len() / 3];
                 let polygon: Option<Vec<Corner>> = words.map(|w| corner(w, counts)).collect();
-                let polygon = polygon.filter(|p| p.len() >= 3).ok_or_else(|| bad(line, path))?;
+                let polygon = polygon.filter(|p| p.len() >= 3).ok_or_else(|| line.unreadable())?;
                 polygons.push(polygon);
             }
             Some("o" | "g") if !polygons.is_empty() => first_shape = false,
             Some("curv" | "surf" | "cstype") => {
-                return Err(AssetError::unsupported(format!("free-form geometry in OBJ file '{path}'")));
+                let why = "free-form geometry is not supported";
+                return Err(line.error(AssetErrorKind::Unsupported, why));
             }
             // Comments, materials, groups, smoothing, lines and points do not change the surface.
             _ => {}
@@ -40,9 +46,24 @@ pub(super) fn decode(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
     Ok(mesh)
 }
 
-fn bad(line: &str, path: &str) -> AssetError {
-    let line: String = line.chars().take(60).collect();
-    AssetError::malformed(format!("OBJ file '{path}': cannot read '{line}'"))
+/// A line of a file, for messages.
+struct Line<'a> {
+    text: &'a str,
+    /// From one.
+    number: usize,
+    path: &'a str,
+}
+
+impl Line<'_> {
+    fn error(&self, kind: AssetErrorKind, why: &str) -> AssetError {
+        let Line { number, path, .. } = self;
+        AssetError::new(kind, format!("OBJ file '{path}', line {number}: {why}")).on_line(*number)
+    }
+
+    fn unreadable(&self) -> AssetError {
+        let shown: String = self.text.chars().take(60).collect();
+        self.error(AssetErrorKind::Malformed, &format!("cannot read '{shown}'"))
+    }
 }
 
 /// Appends the first `n` numbers of a line; further ones (weights, colours) are ignored, a missing
@@ -51,14 +72,13 @@ fn coordinates<'a>(
     to: &mut Vec<f32>,
     n: usize,
     mut words: impl Iterator<Item = &'a str>,
-    line: &str,
-    path: &str,
+    line: &Line,
 ) -> Result<(), AssetError> {
     for k in 0..n {
         let x = match words.next() {
-            Some(word) => word.parse().map_err(|_| bad(line, path))?,
+            Some(word) => word.parse().map_err(|_| line.unreadable())?,
             None if n == 2 && k == 1 => 0.0,
-            None => return Err(bad(line, path)),
+            None => return Err(line.unreadable()),
         };
         to.push(x);
     }

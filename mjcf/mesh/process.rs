@@ -1,12 +1,12 @@
 //! From raw arrays to compiled rows: completion, checks, mesh frame, mass, inertial frame, hierarchy.
 
-use super::decode::{Format, RawMesh};
+use super::compiled::CompiledMesh;
 use super::graph::{extrema, graph_array};
 use super::hull::{Hull, convex_hull};
 use super::mass::{MeshInertia, center_of_mass, face_centroid, inertia, triangle};
 use super::normals::{normalize_given, vertex_normals};
 use super::polygons::Polygons;
-use super::{CompiledMesh, MeshSource};
+use super::source::{Format, MeshSource, RawMesh};
 use crate::asset::AssetError;
 use crate::bvh::{self, Bvh, Leaf};
 use crate::vector::{apply, cross, dot, matrix, normalize, principal_axes, sub, transpose};

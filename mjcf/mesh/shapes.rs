@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use physics::math::ops::{cos, pow, sin};
 
-use super::decode::RawMesh;
+use super::source::RawMesh;
 use crate::asset::AssetError;
 use crate::vector::{cross, normalize};
 

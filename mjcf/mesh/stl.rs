@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use super::decode::{Format, RawMesh, word};
+use super::source::{Format, RawMesh};
 use crate::asset::AssetError;
 
 const HEADER: usize = 84;
@@ -18,7 +18,7 @@ pub(super) fn decode(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
         return Err(AssetError::truncated(format!("STL file '{path}' is empty")));
     }
     let announced =
-        if bytes.len() < HEADER { None } else { Some(u32::from_le_bytes(word(bytes, 80)) as usize) };
+        bytes[..].get(80..).and_then(|rest| rest.first_chunk()).map(|&n| u32::from_le_bytes(n) as usize);
     match announced {
         Some(faces) if bytes.len() == HEADER + RECORD * faces => binary(bytes, faces, path),
         _ if bytes.trim_ascii_start().starts_with(b"solid") => text(bytes, path),
@@ -35,9 +35,10 @@ fn binary(bytes: &[u8], faces: usize, path: &str) -> Result<RawMesh, AssetError>
     check_face_count(faces, path)?;
     let mut welded = Welded::with_capacity(3 * faces);
     for record in bytes[HEADER..].chunks_exact(RECORD) {
-        for corner in 1..4 {
-            let at = |k: usize| f32::from_le_bytes(word(record, 12 * corner + 4 * k));
-            welded.push([at(0), at(1), at(2)], path)?;
+        // A normal, three corners, and two bytes of attributes.
+        let (numbers, _) = record[12..48].as_chunks::<4>();
+        for corner in numbers.as_chunks::<3>().0 {
+            welded.push(corner.map(f32::from_le_bytes), path)?;
         }
     }
     Ok(welded.finish())
@@ -47,6 +48,11 @@ fn binary(bytes: &[u8], faces: usize, path: &str) -> Result<RawMesh, AssetError>
 fn text(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
     let text = std::str::from_utf8(bytes)
         .map_err(|_| AssetError::malformed(format!("STL file '{path}' is neither binary nor text")))?;
+    // Words are slices of the text, so their addresses tell where they stand.
+    let line_of = |word: &str| {
+        let offset = (word.as_ptr() as usize).saturating_sub(text.as_ptr() as usize);
+        1 + text.as_bytes()[..offset.min(text.len())].iter().filter(|&&byte| byte == b'\n').count()
+    };
     let mut words = text.split_ascii_whitespace();
     let mut welded = Welded::with_capacity(0);
     while let Some(word) = words.next() {
@@ -55,9 +61,13 @@ fn text(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
         }
         let mut vertex = [0.0; 3];
         for x in &mut vertex {
-            let number = words.next().unwrap_or_default();
+            let Some(number) = words.next() else {
+                return Err(AssetError::truncated(format!("STL file '{path}' ends inside a vertex")));
+            };
             *x = number.parse().map_err(|_| {
-                AssetError::malformed(format!("STL file '{path}': '{number}' is not a coordinate"))
+                let line = line_of(number);
+                let message = format!("STL file '{path}', line {line}: '{number}' is not a coordinate");
+                AssetError::malformed(message).on_line(line)
             })?;
         }
         welded.push(vertex, path)?;

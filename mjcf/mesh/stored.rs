@@ -1,37 +1,110 @@
 //! Processed meshes as bytes for a cache: a checksum, then every array behind its number of rows.
 
-use super::CompiledMesh;
-use crate::bvh::Bvh;
+use super::compiled::CompiledMesh;
+use crate::digest::Digest;
 use physics::model::binary::checksum;
-use physics::table::Field;
+
+/// Where processed meshes are kept, each under the digest of all it is made of.
+pub(crate) trait MeshStore: Sync {
+    /// The mesh made of `source`, if it is there and undamaged.
+    fn find(&self, source: Digest) -> Option<CompiledMesh>;
+
+    /// Keeps a mesh, where there is room for it.
+    fn keep(&self, source: Digest, mesh: &CompiledMesh);
+}
+
+/// The fields of a mesh in the order of the bytes: `rows` are vectors, `row` is a single value.
+macro_rules! fields {
+    ($($kind:ident $($field:ident).+;)*) => {
+        fn put(mesh: &CompiledMesh, to: &mut Vec<u8>) {
+            $($kind::put(&mesh.$($field).+, to);)*
+        }
+
+        fn take(from: &mut &[u8]) -> Option<CompiledMesh> {
+            let mut mesh = CompiledMesh::default();
+            $(mesh.$($field).+ = $kind::take(from)?;)*
+            Some(mesh)
+        }
+    };
+}
+
+fields! {
+    rows vert;
+    rows normal;
+    rows texcoord;
+    rows face;
+    rows facenormal;
+    rows facetexcoord;
+    rows graph;
+    row extrema;
+    rows poly_normal;
+    rows poly_vertadr;
+    rows poly_vertnum;
+    rows poly_vert;
+    rows poly_mapadr;
+    rows poly_mapnum;
+    rows poly_map;
+    row scale;
+    row pos;
+    row boxsz;
+    row quat;
+    row aamm;
+    row volume;
+    rows bvh.depth;
+    rows bvh.child;
+    rows bvh.nodeid;
+    rows bvh.aabb;
+}
+
+mod rows {
+    use physics::table::Field;
+
+    /// Appends the number of rows and the rows.
+    pub(super) fn put<F: Field>(field: &F, to: &mut Vec<u8>) {
+        let scalars = field.scalars();
+        to.extend(((scalars.len() / F::COLUMNS) as u64).to_le_bytes());
+        scalars.pieces(&mut |bytes| to.extend_from_slice(bytes));
+    }
+
+    /// The rows at the start of `from`, which then begins behind them.
+    pub(super) fn take<F: Field + Default>(from: &mut &[u8]) -> Option<F> {
+        let (rows, rest) = from.split_first_chunk()?;
+        let rows = usize::try_from(u64::from_le_bytes(*rows)).ok()?;
+        let (bytes, rest) = rest.split_at_checked(rows.checked_mul(F::ROW_BYTES)?)?;
+        *from = rest;
+        let mut field = F::default();
+        field.restart(rows);
+        field.append(bytes);
+        Some(field)
+    }
+}
+
+mod row {
+    use super::rows;
+    use physics::table::Field;
+
+    /// Appends a single value.
+    pub(super) fn put<T: Copy>(value: &T, to: &mut Vec<u8>)
+    where
+        Vec<T>: Field,
+    {
+        rows::put(&vec![*value], to);
+    }
+
+    /// The single value at the start of `from`.
+    pub(super) fn take<T>(from: &mut &[u8]) -> Option<T>
+    where
+        Vec<T>: Field + Default,
+    {
+        let [value] = <[T; 1]>::try_from(rows::take::<Vec<T>>(from)?).ok()?;
+        Some(value)
+    }
+}
 
 /// A mesh as bytes.
 pub(crate) fn to_bytes(mesh: &CompiledMesh) -> Vec<u8> {
     let mut out = vec![0; 8];
-    let to = &mut out;
-    put(&mesh.vert, to);
-    put(&mesh.normal, to);
-    put(&mesh.texcoord, to);
-    put(&mesh.face, to);
-    put(&mesh.facenormal, to);
-    put(&mesh.facetexcoord, to);
-    put(&mesh.graph, to);
-    put(&vec![mesh.extrema], to);
-    put(&mesh.poly_normal, to);
-    put(&mesh.poly_vertadr, to);
-    put(&mesh.poly_vertnum, to);
-    put(&mesh.poly_vert, to);
-    put(&mesh.poly_mapadr, to);
-    put(&mesh.poly_mapnum, to);
-    put(&mesh.poly_map, to);
-    put(&vec![mesh.scale, mesh.pos, mesh.boxsz], to);
-    put(&vec![mesh.quat], to);
-    put(&vec![mesh.aamm], to);
-    put(&vec![mesh.volume], to);
-    put(&mesh.bvh.depth, to);
-    put(&mesh.bvh.child, to);
-    put(&mesh.bvh.nodeid, to);
-    put(&mesh.bvh.aabb, to);
+    put(mesh, &mut out);
     let digest = checksum(&out[8..]);
     out[..8].copy_from_slice(&digest.to_le_bytes());
     out
@@ -43,54 +116,14 @@ pub(crate) fn from_bytes(bytes: &[u8]) -> Option<CompiledMesh> {
     if checksum(from).to_le_bytes() != *digest {
         return None;
     }
-    let from = &mut from;
-    let mut mesh = CompiledMesh {
-        vert: take(from)?,
-        normal: take(from)?,
-        texcoord: take(from)?,
-        face: take(from)?,
-        facenormal: take(from)?,
-        facetexcoord: take(from)?,
-        graph: take(from)?,
-        extrema: take::<Vec<_>>(from)?.pop()?,
-        poly_normal: take(from)?,
-        poly_vertadr: take(from)?,
-        poly_vertnum: take(from)?,
-        poly_vert: take(from)?,
-        poly_mapadr: take(from)?,
-        poly_mapnum: take(from)?,
-        poly_map: take(from)?,
-        ..CompiledMesh::default()
-    };
-    [mesh.scale, mesh.pos, mesh.boxsz] = take::<Vec<_>>(from)?.try_into().ok()?;
-    mesh.quat = take::<Vec<_>>(from)?.pop()?;
-    mesh.aamm = take::<Vec<_>>(from)?.pop()?;
-    mesh.volume = take::<Vec<_>>(from)?.pop()?;
-    mesh.bvh = Bvh { depth: take(from)?, child: take(from)?, nodeid: take(from)?, aabb: take(from)? };
-    Some(mesh)
-}
-
-fn put<F: Field>(field: &F, to: &mut Vec<u8>) {
-    let scalars = field.scalars();
-    to.extend(((scalars.len() / F::COLUMNS) as u64).to_le_bytes());
-    scalars.pieces(&mut |bytes| to.extend_from_slice(bytes));
-}
-
-fn take<F: Field + Default>(from: &mut &[u8]) -> Option<F> {
-    let (rows, rest) = from.split_first_chunk()?;
-    let rows = usize::try_from(u64::from_le_bytes(*rows)).ok()?;
-    let (bytes, rest) = rest.split_at_checked(rows.checked_mul(F::ROW_BYTES)?)?;
-    *from = rest;
-    let mut field = F::default();
-    field.restart(rows);
-    field.append(bytes);
-    Some(field)
+    take(&mut from)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::{MeshSource, RawMesh, process};
+    use crate::mesh::process::process;
+    use crate::mesh::source::{MeshSource, RawMesh};
 
     #[test]
     fn a_mesh_comes_back_and_a_damaged_one_does_not() {

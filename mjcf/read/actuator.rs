@@ -3,7 +3,8 @@
 
 use physics::model::{BiasType, DynType, GainType, TrnType};
 
-use super::{Reader, dc_motor};
+use super::dc_motor;
+use super::reader::Reader;
 use crate::diagnostic::Loc;
 use crate::schema::Words;
 use crate::schema::actuator::{BLOCKS, MOTOR_ROWS, Shortcut, shortcut_blocks};

@@ -1,6 +1,6 @@
 //! `asset`, and where the files of assets are.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::diagnostic::Loc;
 use crate::files::{base_name, is_absolute, join};
 use crate::image::Builtin;

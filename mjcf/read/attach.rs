@@ -7,13 +7,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Reader;
 use super::copy::{Affix, Names, Referring, Renaming, append, collect, collect_objects, elements};
-use super::model_file::ModelFile;
+use super::reader::ModelFile;
+use super::reader::Reader;
 use super::tree::Place;
-use crate::compile::asset_name;
 use crate::schema::Space;
 use crate::schema::tree::{ATTACH_ROWS, Attach};
+use crate::spec::asset_name;
 use crate::spec::{Body, Frame, KeptKey, Keyed, Spec};
 use crate::xml::Element;
 

@@ -1,6 +1,6 @@
 //! Rows of the tables applied to the attributes of one element.
 
-use super::Reader;
+use super::reader::Reader;
 use crate::diagnostic::Loc;
 use crate::schema::text::{LARGEST, Number, TextError, numbers, words};
 use crate::schema::{BOOL, Bind, Row, Words};

@@ -3,43 +3,13 @@
 //! A setting counts as given when the text has the attribute, or, for sizes, when it is not the default. The
 //! attaching model's value stands, is combined with the other, or the difference is an error.
 
-use std::collections::BTreeSet;
-
-use physics::model::{Disable, Enable, Options};
+use physics::model::{Disable, Enable};
 use physics::table::Slice;
 
-use super::Reader;
+use super::authored::Authored;
+use super::reader::Reader;
 use crate::diagnostic::Loc;
-use crate::schema::Bind;
-use crate::schema::option::FLAGS;
 use crate::spec::{Conflict, Size, Spec};
-use crate::xml::Element;
-
-/// Settings that the text of a model gives.
-#[derive(Debug, Default)]
-pub(super) struct Authored {
-    /// Attributes of `option` and of the parts of `visual`.
-    pub values: BTreeSet<String>,
-    disableflags: Disable,
-    enableflags: Enable,
-    /// Actuator groups.
-    pub disableactuator: i32,
-}
-
-impl Authored {
-    /// Notes the attributes of `option/flag`.
-    pub fn flags(&mut self, flag: &Element) {
-        for row in FLAGS.iter().filter(|row| flag.attribute(row.name).is_some()) {
-            if let Bind::Keyword { assign, .. } = row.bind {
-                let (mut off, mut on) = (Options::default(), Options::default());
-                assign(&mut off, 0);
-                assign(&mut on, 1);
-                self.disableflags |= off.disableflags ^ on.disableflags;
-                self.enableflags |= off.enableflags ^ on.enableflags;
-            }
-        }
-    }
-}
 
 /// How two values become one.
 #[derive(Clone, Copy, PartialEq)]

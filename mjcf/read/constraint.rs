@@ -2,7 +2,7 @@
 
 use physics::model::{EqType, ObjType};
 
-use super::Reader;
+use super::reader::Reader;
 use crate::schema::constraint::{
     EQUALITIES, EQUALITY_ROWS, EXCLUDE_ROWS, PAIR_ROWS, PATH_GEOM_ROWS, PATH_JOINT_ROWS, PATH_SITE_ROWS,
     PULLEY_ROWS, PathElement, TENDON_LOOKS, TENDON_ROWS, equality_blocks,

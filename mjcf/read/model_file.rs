@@ -1,27 +1,11 @@
 //! `asset/model`: another model, read by itself, that `attach` copies parts of.
 
-use super::conflict::Authored;
-use super::defaults::Classes;
-use super::{Reader, check_root};
-use crate::spec::{KeptKey, KeyPart, Keyed, Spec};
+use super::reader::{ModelFile, Reader, check_root};
+use crate::spec::{KeptKey, KeyPart, Keyed, joint_dimensions};
 use crate::xml::Element;
 
 /// Models inside models.
 const MAX_DEPTH: usize = 64;
-
-/// A model whose parts may be attached.
-pub(super) struct ModelFile {
-    /// What `attach` calls it.
-    pub name: String,
-    /// Index of its first text; those of the models inside it follow.
-    pub first_file: u32,
-    /// Its elements.
-    pub spec: Spec,
-    /// Its default classes.
-    pub classes: Classes,
-    /// The settings that its text gives.
-    pub authored: Authored,
-}
 
 impl Reader<'_> {
     pub(super) fn model_file(&mut self, element: &Element) {
@@ -78,7 +62,7 @@ impl Reader<'_> {
             let mut pending = vec![&mut self.spec.world];
             while let Some(body) = pending.pop() {
                 for joint in &mut body.joints {
-                    let (nq, nv) = crate::compile::joint_dimensions(joint.kind);
+                    let (nq, nv) = joint_dimensions(joint.kind);
                     share(KeyPart::Qpos, nq, &mut joint.keyed);
                     share(KeyPart::Qvel, nv, &mut joint.keyed);
                 }
@@ -89,7 +73,7 @@ impl Reader<'_> {
                 pending.extend(body.bodies.iter_mut().rev());
             }
             for actuator in &mut self.spec.actuators {
-                let (states, inputs) = crate::compile::actuator_sizes(actuator);
+                let (states, inputs) = actuator.sizes();
                 share(KeyPart::Act, states, &mut actuator.keyed);
                 share(KeyPart::Ctrl, inputs, &mut actuator.keyed);
             }

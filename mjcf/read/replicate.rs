@@ -10,12 +10,12 @@ use std::ops::Range;
 
 use physics::math::{Vec3, quat_rotate};
 
-use super::Reader;
 use super::copy::{Affix, Names, Referring, Renaming, append, collect, elements, forget_keys};
+use super::reader::Reader;
 use super::tree::Place;
-use crate::compile::frame::resolve;
 use crate::schema::Space;
 use crate::schema::tree::{REPLICATE_ROWS, Replicate};
+use crate::spec::resolve;
 use crate::spec::{Body, Frame, Orientation, Spec};
 use crate::xml::Element;
 

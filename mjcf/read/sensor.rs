@@ -2,7 +2,7 @@
 
 use physics::model::{ObjType, SensorType};
 
-use super::Reader;
+use super::reader::Reader;
 use crate::schema::Words;
 use crate::schema::sensor::{CONTACT_DATA, MEASUREMENTS, RAY_DATA, blocks};
 use crate::spec::Sensor;

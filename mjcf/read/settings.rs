@@ -3,7 +3,7 @@
 
 use physics::model::ObjType;
 
-use super::Reader;
+use super::reader::Reader;
 use crate::schema::option::{FLAGS, OPTIONS};
 use crate::schema::settings::{
     COMPILER_ROWS, ENTRY_ROWS, KEY_ROWS, LENGTHRANGE_ROWS, NUMERIC_ROWS, SIZE_ROWS, STATISTIC_ROWS,

@@ -2,8 +2,8 @@
 
 use physics::model::{GeomType, JointType};
 
-use super::Reader;
-use super::defaults::ClassId;
+use super::classes::ClassId;
+use super::reader::Reader;
 use crate::schema::tree::{
     BODY_POSE, BODY_ROWS, CAMERA_ROWS, FRAME_ROWS, FREEJOINT_ROWS, GEOM_ROWS, INERTIAL_ROWS, JOINT_ROWS,
     LIGHT_ROWS, SITE_ROWS,

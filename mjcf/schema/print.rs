@@ -2,14 +2,19 @@
 
 use std::fmt::{self, Write};
 
+use super::root::MUJOCO;
 use super::{ElementType, Facts, Kind};
 
-/// Elements, attributes and kinds below `root`, one line each, indented by level.
-pub fn reference(root: &'static ElementType) -> String {
+/// The format as text: every element and attribute with its kind and meaning, one line each, indented by level.
+///
+/// ```
+/// assert!(robohive_mjcf::reference().lines().any(|line| line.trim_start().starts_with("worldbody")));
+/// ```
+pub fn reference() -> String {
     let mut text = String::new();
     let mut seen = Vec::new();
     // Writing to a String cannot fail.
-    let _ = write_element(&mut text, root, 0, false, &mut seen);
+    let _ = write_element(&mut text, &MUJOCO, 0, false, &mut seen);
     text
 }
 

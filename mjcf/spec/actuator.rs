@@ -1,6 +1,7 @@
 //! Actuators (XML reference: `actuator`); shortcuts are already expanded to the general form.
 
-use super::{Keyed, Limited, elements};
+use super::custom::Keyed;
+use super::element::{Limited, elements};
 use physics::model::{BiasType, DynType, GainType, TrnType};
 
 elements! {
@@ -40,5 +41,43 @@ elements! {
         delay: f64 = 0.0,
         userdata: Vec<f64> = Vec::new(),
         keyed: Vec<Keyed> = Vec::new(),
+    }
+}
+
+/// What the bits of [`Actuator::ctrlspec`] mean.
+#[allow(missing_docs)]
+pub(crate) mod input {
+    /// Bits of an input signature.
+    pub const POS: i32 = 1;
+    pub const VEL: i32 = 2;
+    pub const FF: i32 = 4;
+    pub const VOLTAGE: i32 = 8;
+    pub const NO_INPUT: i32 = 16;
+    /// Orientation charts of an so3 servo.
+    pub const EXPMAP: i32 = 1;
+    pub const QUAT: i32 = 2;
+}
+
+impl Actuator {
+    /// Numbers of activations and of controls as far as they show before references are resolved.
+    pub(crate) fn sizes(&self) -> (usize, usize) {
+        let states =
+            if self.actdim > 0 { self.actdim as usize } else { usize::from(self.dyntype != DynType::None) };
+        let given =
+            (self.ctrlspec & (input::POS | input::VEL | input::FF | input::VOLTAGE)).count_ones() as usize;
+        let inputs = match self.gaintype {
+            GainType::So3 => {
+                if self.ctrlspec == input::QUAT {
+                    4
+                } else {
+                    3
+                }
+            }
+            GainType::Pid if self.ctrlspec == 0 => 2,
+            GainType::Dcmotor if self.ctrlspec == 0 => 1,
+            GainType::Pid | GainType::Dcmotor => given,
+            _ => 1,
+        };
+        (states, inputs)
     }
 }

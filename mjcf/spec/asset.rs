@@ -1,6 +1,7 @@
 //! Assets (XML reference: `asset`).
 
-use super::elements;
+use super::element::elements;
+use crate::files::base_name;
 use crate::image::{Builtin, Mark};
 use crate::mesh::{MeshInertia, Shape};
 use physics::model::{ColorSpace, TextureType};
@@ -78,4 +79,13 @@ elements! {
         roughness: f32 = -1.0,
         rgba: [f32; 4] = [1.0; 4],
     }
+}
+
+/// Name of an asset: its own, or that of its file.
+pub(crate) fn asset_name(name: &str, path: &str) -> String {
+    if !name.is_empty() {
+        return name.to_owned();
+    }
+    let base = base_name(path);
+    base.rfind('.').map_or(base, |dot| &base[..dot]).to_owned()
 }

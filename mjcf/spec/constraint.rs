@@ -1,6 +1,6 @@
 //! Contact pairs, excluded pairs, equality constraints and tendons.
 
-use super::{Limited, SOLIMP, SOLREF, elements};
+use super::element::{Limited, SOLIMP, SOLREF, elements};
 use physics::model::{EqType, ObjType};
 
 elements! {

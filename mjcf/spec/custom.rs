@@ -1,6 +1,6 @@
 //! Custom data and keyframes (XML reference: `custom`, `keyframe`).
 
-use super::elements;
+use super::element::elements;
 use physics::model::ObjType;
 
 elements! {

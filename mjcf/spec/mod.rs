@@ -9,6 +9,14 @@
 //! - `Option` is `None` where the file is silent and silence has a meaning of its own; an empty string is "no reference".
 //! - References are names; `compile` resolves them and reports a missing one at the `loc` of the element.
 //! - Asset files are resolved by the reader: `file` is what a `FileProvider` opens, `path` what MuJoCo stores.
+//!
+//! ```
+//! let parsed = robohive_mjcf::parse_str("<mujoco><worldbody><body name='arm'><joint/></body></worldbody></mujoco>")?;
+//! let arm = &parsed.spec.world.bodies[0];
+//! assert_eq!((&*arm.name, arm.joints[0].axis), ("arm", [0.0, 0.0, 1.0]));
+//! assert_eq!(parsed.sources.position(arm.loc).unwrap().column, 20);
+//! # Ok::<(), robohive_mjcf::diagnostic::Diagnostics>(())
+//! ```
 
 use std::collections::BTreeMap;
 
@@ -18,68 +26,23 @@ mod actuator;
 mod asset;
 mod constraint;
 mod custom;
+mod element;
+mod orientation;
 mod sensor;
 mod settings;
 mod tree;
 
+pub(crate) use actuator::input;
 pub use actuator::*;
 pub use asset::*;
 pub use constraint::*;
 pub use custom::*;
+pub use element::{Limited, SOLIMP, SOLREF};
+pub use orientation::Orientation;
+pub(crate) use orientation::{UNIT, minimal_rotation, resolve};
 pub use sensor::*;
 pub use settings::*;
 pub use tree::*;
-
-/// Declares elements with their defaults; every element also has a `name` and a `loc`.
-macro_rules! elements {
-    ($($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident : $t:ty = $default:expr,)* })*) => {$(
-        $(#[$meta])*
-        #[derive(Clone, Debug, PartialEq)]
-        #[allow(missing_docs)]
-        pub struct $name {
-            /// Name of the element, empty when it has none.
-            pub name: String,
-            /// Where the element stands in the sources.
-            pub loc: crate::diagnostic::Loc,
-            $($(#[$doc])* pub $field: $t,)*
-        }
-
-        impl Default for $name {
-            fn default() -> Self {
-                Self { name: String::new(), loc: crate::diagnostic::Loc::NONE, $($field: $default,)* }
-            }
-        }
-    )*};
-}
-use elements;
-
-/// Constraint time constant and damping ratio when the file is silent.
-pub const SOLREF: [f64; 2] = [0.02, 1.0];
-/// Constraint impedance when the file is silent.
-pub const SOLIMP: [f64; 5] = [0.9, 0.95, 0.001, 0.5, 2.0];
-
-/// Three-valued switch: `auto` follows from the presence of a range when `compiler.autolimits` is on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-#[allow(missing_docs)]
-pub enum Limited {
-    False,
-    True,
-    #[default]
-    Auto,
-}
-
-/// An orientation that is not a quaternion; angles in the unit of the file.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Orientation {
-    /// Axis (any length) and angle.
-    AxisAngle([f64; 4]),
-    /// X axis and a second axis that spans the xy-plane.
-    XyAxes([f64; 6]),
-    /// Z axis; minimal rotation from the vertical.
-    ZAxis([f64; 3]),
-    /// Euler angles in the order of `compiler.eulerseq`.
-    Euler([f64; 3]),
-}
 
 /// A model as its file describes it.
 #[derive(Clone, Debug, Default)]

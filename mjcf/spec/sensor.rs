@@ -1,6 +1,6 @@
 //! Sensors (XML reference: `sensor`).
 
-use super::elements;
+use super::element::elements;
 use physics::model::{DataType, ObjType, SensorType, Stage};
 
 elements! {

@@ -1,6 +1,8 @@
 //! Elements of the kinematic tree (XML reference: `body` and its children).
 
-use super::{Keyed, Limited, Orientation, SOLIMP, SOLREF, elements};
+use super::custom::Keyed;
+use super::element::{Limited, SOLIMP, SOLREF, elements};
+use super::orientation::Orientation;
 use physics::model::{GeomType, JointType, LightType, Projection, SleepPolicy, TrackMode};
 
 /// Whether a free joint is aligned with the inertial frame of its body.
@@ -193,5 +195,14 @@ elements! {
         ambient: [f32; 3] = [0.0; 3],
         diffuse: [f32; 3] = [0.7; 3],
         specular: [f32; 3] = [0.3; 3],
+    }
+}
+
+/// Number of positions and of velocities of a joint type.
+pub(crate) fn joint_dimensions(kind: JointType) -> (usize, usize) {
+    match kind {
+        JointType::Free => (7, 6),
+        JointType::Ball => (4, 3),
+        JointType::Slide | JointType::Hinge => (1, 1),
     }
 }

@@ -2,7 +2,7 @@
 
 use physics::model::Disable;
 use robohive_mjcf::files::Memory;
-use robohive_mjcf::loader::{Loaded, Loader};
+use robohive_mjcf::{Loaded, Loader};
 
 const CHILD: &str = r#"
 <mujoco model="child">

@@ -284,7 +284,7 @@ fn what_is_asked_for_without_data_is_bounded_in_sum() {
 #[test]
 fn many_trees_compile() {
     let tree = "<body><joint/><geom size='.1'/><body pos='1 0 0'><joint axis='0 1 0'/><geom size='.1'/></body></body>";
-    let model = load_str(&world(&format!("<replicate count='8000' offset='3 0 0'>{tree}</replicate>")));
+    let model = load_str(world(&format!("<replicate count='8000' offset='3 0 0'>{tree}</replicate>")));
     let model = model.unwrap_or_else(|d| panic!("{d}")).model;
     assert_eq!(model.ntree, 8000);
     assert_ne!(model.body_invweight0[1], model.body_invweight0[2]);
@@ -346,13 +346,13 @@ fn files_out_of_reach_are_refused() {
     std::fs::write(inner.join("a.xml"), "<mujoco><include file='../secret.xml'/></mujoco>").expect("write");
     std::fs::write(inner.join("b.xml"), "<mujoco><include file='/dev/zero'/></mujoco>").expect("write");
     let path = |name: &str| inner.join(name).to_string_lossy().into_owned();
-    let jailed = Loader::default().files(Disk::within(&inner)).load(&path("a.xml"));
-    let device = Loader::default().load(&path("b.xml"));
+    let jailed = Loader::default().files(Disk::within(&inner)).load(path("a.xml"));
+    let device = Loader::default().load(path("b.xml"));
     std::fs::remove_dir_all(&dir).expect("clean up");
     let jailed = jailed.err().map(|d| d.to_string()).unwrap_or_default();
-    assert!(jailed.contains("path leads outside the directory this model may read"), "{jailed}");
+    assert!(jailed.contains("the path leads outside the directory that this model may read"), "{jailed}");
     let device = device.err().map(|d| d.to_string()).unwrap_or_default();
-    assert!(device.contains("path is not a regular file"), "{device}");
+    assert!(device.contains("the path is not that of a regular file"), "{device}");
 }
 
 #[test]

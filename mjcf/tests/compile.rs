@@ -1,6 +1,6 @@
 //! The compile of small models: laws that hold whatever the numbers, and refusals.
 
-use robohive_mjcf::loader::load_str;
+use robohive_mjcf::load_str;
 
 fn compile(text: &str) -> physics::Model {
     load_str(text).unwrap_or_else(|errors| panic!("{errors}")).model

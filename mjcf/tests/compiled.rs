@@ -212,7 +212,7 @@ fn cameras_without_a_number_of_pixels_are_refused() {
 #[test]
 fn histories_too_long_to_be_added_up_are_refused() {
     let sensors = "<clock delay='.01' nsample='2'/>".repeat(3);
-    let mut m = load_str(&format!("<mujoco><sensor>{sensors}</sensor></mujoco>")).unwrap().model;
+    let mut m = load_str(format!("<mujoco><sensor>{sensors}</sensor></mujoco>")).unwrap().model;
     assert_eq!((m.nhistory, check_consistency(&m)), (18, Ok(())));
     let arrays = m.unchecked_mut();
     arrays.sensor_dim.fill(i32::MAX);

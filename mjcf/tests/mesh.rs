@@ -1,10 +1,9 @@
 //! Meshes: hulls against brute force and MuJoCo, mass against closed forms, readers against lying files.
 
 use robohive_mjcf::asset::AssetErrorKind;
-use robohive_mjcf::bvh::Bvh;
 use robohive_mjcf::mesh::{
-    CompiledMesh, Format, MeshInertia, MeshSource, Primitive, RawMesh, Shape, builtin, convex_hull, decode,
-    fit_primitive, process,
+    Bvh, CompiledMesh, Format, MeshInertia, MeshSource, Primitive, RawMesh, Shape, builtin, convex_hull,
+    decode, fit_primitive, process,
 };
 
 /// Binary STL of a box with half sizes (1, 2, 3) centred at (4, 5, 6), header "solid".

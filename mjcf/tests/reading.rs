@@ -2,7 +2,6 @@
 //! for the same text.
 
 use robohive_mjcf::files::Memory;
-use robohive_mjcf::schema::{print::reference, root::MUJOCO};
 use robohive_mjcf::{Loader, load_str};
 
 fn model(text: &str) -> physics::Model {
@@ -156,7 +155,7 @@ fn bodies_move_before_reading() {
 
 #[test]
 fn the_reference_lists_every_element_with_its_attributes() {
-    let text = reference(&MUJOCO);
+    let text = robohive_mjcf::reference();
     for line in [
         "mujoco — A model",
         "          contype: int — contact bits",

@@ -84,7 +84,7 @@ fn load(path: &Path, reading: &Reading) -> Result<physics::Model, Failure> {
             .ok_or_else(|| Failure::usage(format!("--define {define:?} is not TEXT=VALUE")))?;
         loader = loader.substitute(text, value);
     }
-    let loaded = loader.load(&path.to_string_lossy()).map_err(Failure::usage)?;
+    let loaded = loader.load(path).map_err(Failure::usage)?;
     for warning in loaded.warnings.warnings() {
         eprintln!("{warning}");
     }

@@ -12,6 +12,6 @@ pub fn assets() -> Vec<(String, Model)> {
     files.sort();
     assert!(files.len() >= 9, "{files:?}");
     let name = |file: &Path| file.file_stem().unwrap().to_string_lossy().into_owned();
-    let load = |file: &Path| robohive::mjcf::load(&file.to_string_lossy()).unwrap().model;
+    let load = |file: &Path| robohive::mjcf::load(file).unwrap().model;
     files.iter().map(|file| (name(file), load(file))).collect()
 }

@@ -160,7 +160,7 @@ fn bits(a: &Arguments) -> Result<(String, Result<(), String>), String> {
     }
     for (path, reference) in own_models().map_err(|e| e.to_string())? {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let loaded = mjcf::load(&path.to_string_lossy()).map_err(|e| e.to_string())?;
+        let loaded = mjcf::load(path).map_err(|e| e.to_string())?;
         take(&name, &loaded.model, &reference)?;
     }
     let table = bits::render(&rows);

@@ -144,10 +144,8 @@ pub fn measure(name: &str, model: &Path, reference: &Path) -> Row {
 /// # Errors
 /// The model does not load, or the reference is missing or no archive.
 pub fn open(model: &Path, reference: &Path) -> Result<(physics::Model, Reference), String> {
-    let loaded = mjcf::Loader::default()
-        .substitute(TEMPLATE.0, TEMPLATE.1)
-        .load(&model.to_string_lossy())
-        .map_err(|e| e.to_string())?;
+    let loaded =
+        mjcf::Loader::default().substitute(TEMPLATE.0, TEMPLATE.1).load(model).map_err(|e| e.to_string())?;
     Ok((loaded.model, Reference::open(reference).map_err(|e| e.to_string())?))
 }
 

@@ -24,7 +24,7 @@ fn own() -> Vec<(PathBuf, Reference)> {
 }
 
 fn load(path: &Path) -> physics::Model {
-    mjcf::load(&path.to_string_lossy()).unwrap().model
+    mjcf::load(path).unwrap().model
 }
 
 #[test]

@@ -58,7 +58,7 @@ impl Case {
             files.insert(path, text.as_bytes());
         }
         let loader =
-            Loader::default().files(files).substitute("<option ", &format!("<option {} ", self.options));
+            Loader::default().files(files).substitute("<option ", format!("<option {} ", self.options));
         loader.load(self.file).map(|loaded| loaded.model).map_err(|e| e.to_string())
     }
 }

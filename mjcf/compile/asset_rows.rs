@@ -1,0 +1,90 @@
+//! The rows that assets fill.
+
+use super::assets::Assets;
+use super::log::{Log, title};
+use super::lookup::Lookup;
+use crate::mesh::CompiledMesh;
+use crate::spec::Spec;
+use physics::model::{Arrays, ObjType};
+
+/// Appends all assets except the hierarchies, which follow those of the bodies.
+pub(super) fn fill(m: &mut Arrays, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+    m.tex_data.reserve_exact(assets.textures.iter().map(|asset| asset.compiled.data.len()).sum());
+    let total =
+        |count: fn(&CompiledMesh) -> usize| assets.meshes.iter().map(|asset| count(&asset.compiled)).sum();
+    m.mesh_vert.reserve_exact(total(|mesh| mesh.vert.len()));
+    m.mesh_normal.reserve_exact(total(|mesh| mesh.normal.len()));
+    for rows in [&mut m.mesh_face, &mut m.mesh_facenormal, &mut m.mesh_facetexcoord] {
+        rows.reserve_exact(total(|mesh| mesh.face.len()));
+    }
+    assets.meshes.iter().for_each(|asset| fill_mesh(m, &asset.compiled));
+    for asset in &assets.hfields {
+        let hfield = &asset.compiled;
+        m.hfield_size.push(hfield.size);
+        m.hfield_nrow.push(hfield.nrow as i32);
+        m.hfield_ncol.push(hfield.ncol as i32);
+        m.hfield_adr.push(m.hfield_data.len() as i32);
+        m.hfield_data.extend(&hfield.data);
+    }
+    for (asset, texture) in assets.textures.iter().zip(&spec.textures) {
+        let t = &asset.compiled;
+        m.tex_type.push(texture.kind.code());
+        m.tex_colorspace.push(t.colorspace as i32);
+        m.tex_height.push(t.height as i32);
+        m.tex_width.push(t.width as i32);
+        m.tex_nchannel.push(t.nchannel as i32);
+        m.tex_adr.push(m.tex_data.len() as i64);
+        m.tex_data.extend(&t.data);
+    }
+    for material in spec.materials.iter().take(assets.materials.len()) {
+        let what = title("material", &material.name);
+        m.mat_texid.push(std::array::from_fn(|role| {
+            lookup.reference(ObjType::Texture, &material.textures[role], material.loc, &what, log)
+        }));
+        m.mat_texuniform.push(material.texuniform);
+        m.mat_texrepeat.push(material.texrepeat);
+        m.mat_emission.push(material.emission);
+        m.mat_specular.push(material.specular);
+        m.mat_shininess.push(material.shininess);
+        m.mat_reflectance.push(material.reflectance);
+        m.mat_metallic.push(material.metallic);
+        m.mat_roughness.push(material.roughness);
+        m.mat_rgba.push(material.rgba);
+    }
+}
+
+fn fill_mesh(m: &mut Arrays, mesh: &CompiledMesh) {
+    let address = |count: usize, next: usize| if count == 0 { -1 } else { next as i32 };
+    m.mesh_vertadr.push(m.mesh_vert.len() as i32);
+    m.mesh_vertnum.push(mesh.vert.len() as i32);
+    m.mesh_faceadr.push(m.mesh_face.len() as i32);
+    m.mesh_facenum.push(mesh.face.len() as i32);
+    m.mesh_octadr.push(-1);
+    m.mesh_octnum.push(0);
+    m.mesh_normaladr.push(m.mesh_normal.len() as i32);
+    m.mesh_normalnum.push(mesh.normal.len() as i32);
+    m.mesh_texcoordadr.push(address(mesh.texcoord.len(), m.mesh_texcoord.len()));
+    m.mesh_texcoordnum.push(mesh.texcoord.len() as i32);
+    m.mesh_graphadr.push(address(mesh.graph.len(), m.mesh_graph.len()));
+    m.mesh_extrema.push(mesh.extrema);
+    m.mesh_polyadr.push(m.mesh_polynormal.len() as i32);
+    m.mesh_polynum.push(mesh.poly_normal.len() as i32);
+    m.mesh_scale.push(mesh.scale);
+    m.mesh_pos.push(mesh.pos);
+    m.mesh_quat.push(mesh.quat);
+    let (first_vert, first_map) = (m.mesh_polyvert.len() as i32, m.mesh_polymap.len() as i32);
+    m.mesh_polyvertadr.extend(mesh.poly_vertadr.iter().map(|a| a + first_vert));
+    m.mesh_polyvertnum.extend(&mesh.poly_vertnum);
+    m.mesh_polyvert.extend(&mesh.poly_vert);
+    m.mesh_polymapadr.extend(mesh.poly_mapadr.iter().map(|a| a + first_map));
+    m.mesh_polymapnum.extend(&mesh.poly_mapnum);
+    m.mesh_polymap.extend(&mesh.poly_map);
+    m.mesh_polynormal.extend(&mesh.poly_normal);
+    m.mesh_vert.extend(&mesh.vert);
+    m.mesh_normal.extend(&mesh.normal);
+    m.mesh_texcoord.extend(&mesh.texcoord);
+    m.mesh_face.extend(&mesh.face);
+    m.mesh_facenormal.extend(&mesh.facenormal);
+    m.mesh_facetexcoord.extend(&mesh.facetexcoord);
+    m.mesh_graph.extend(&mesh.graph);
+}

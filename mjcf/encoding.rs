@@ -1,0 +1,34 @@
+//! What bytes are that should be text and are not.
+
+use physics::model::binary;
+
+/// Files that are often taken for others, by what they begin with.
+const BEGINNINGS: [(&[u8], &str); 8] = [
+    (b"\x89PNG", "a PNG image"),
+    (b"\xff\xd8\xff", "a JPEG image"),
+    (b"GIF8", "a GIF image"),
+    (b"%PDF", "a PDF document"),
+    (b"PK\x03\x04", "a zip archive"),
+    (b"\x1f\x8b", "compressed with gzip"),
+    (b"7z\xbc\xaf", "a 7z archive"),
+    (b"glTF", "a binary glTF scene"),
+];
+
+/// What bytes are that cannot be text in UTF-8: by what they begin with, their byte order mark, or the zero bytes among
+/// them.
+pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
+    if binary::is_model(bytes) {
+        return Some("a compiled model");
+    }
+    if let Some((_, what)) = BEGINNINGS.iter().find(|(beginning, _)| bytes.starts_with(beginning)) {
+        return Some(what);
+    }
+    let wide = |at: usize| bytes.iter().skip(at).step_by(2).take(32).all(|&b| b == 0) && bytes.len() > 1;
+    match bytes {
+        [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("text in UTF-32"),
+        [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("text in UTF-16"),
+        _ if !bytes.contains(&0) => None,
+        _ if wide(0) != wide(1) => Some("text in UTF-16"),
+        _ => Some("binary"),
+    }
+}
