@@ -5,8 +5,7 @@ macro_rules! elements {
     ($($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident : $t:ty = $default:expr,)* })*) => {$(
         $(#[$meta])*
         #[derive(Clone, Debug, PartialEq)]
-        #[allow(missing_docs)]
-        pub struct $name {
+                pub struct $name {
             /// Name of the element, empty when it has none.
             pub name: String,
             /// Where the element stands in the sources.
@@ -30,10 +29,12 @@ pub const SOLIMP: [f64; 5] = [0.9, 0.95, 0.001, 0.5, 2.0];
 
 /// Three-valued switch: `auto` follows from the presence of a range when `compiler.autolimits` is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-#[allow(missing_docs)]
 pub enum Limited {
+    /// Not limited.
     False,
+    /// Limited.
     True,
+    /// Limited if there is a range.
     #[default]
     Auto,
 }

@@ -46,33 +46,52 @@ pub use tree::*;
 
 /// A model as its file describes it.
 #[derive(Clone, Debug, Default)]
-#[allow(missing_docs)]
 pub struct Spec {
+    /// Name of the model.
     pub modelname: String,
+    /// Settings of the compile.
     pub compiler: Compiler,
     /// Settings of attached models by the index of their first text.
     pub attached: BTreeMap<u32, Compiler>,
+    /// Options of the simulation.
     pub option: physics::model::Options,
+    /// Settings for pictures.
     pub visual: physics::model::Visual,
+    /// Statistics that replace computed ones.
     pub stat: StatisticOverride,
+    /// Sizes that are asked for.
     pub size: Size,
     /// The world body; everything in the tree hangs below it.
     pub world: Body,
     /// Frames, parents before children.
     pub frames: Vec<Frame>,
+    /// Meshes.
     pub meshes: Vec<Mesh>,
+    /// Height fields.
     pub hfields: Vec<Hfield>,
+    /// Textures.
     pub textures: Vec<Texture>,
+    /// Materials.
     pub materials: Vec<Material>,
+    /// Pairs of geoms that collide whatever their bits say.
     pub pairs: Vec<Pair>,
+    /// Pairs of bodies that do not collide.
     pub excludes: Vec<Exclude>,
+    /// Equality constraints.
     pub equalities: Vec<Equality>,
+    /// Tendons.
     pub tendons: Vec<Tendon>,
+    /// Actuators.
     pub actuators: Vec<Actuator>,
+    /// Sensors.
     pub sensors: Vec<Sensor>,
+    /// Custom arrays of numbers.
     pub numerics: Vec<Numeric>,
+    /// Custom texts.
     pub texts: Vec<Text>,
+    /// Custom lists of references.
     pub tuples: Vec<Tuple>,
+    /// Keyframes of this model.
     pub keys: Vec<Key>,
     /// Keyframes of attached models.
     pub kept_keys: Vec<KeptKey>,

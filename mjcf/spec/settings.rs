@@ -4,10 +4,12 @@ pub use physics::constants::length_range::LengthRangeOptions;
 
 /// Whether body inertia comes from the geoms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-#[allow(missing_docs)]
 pub enum InertiaFromGeom {
+    /// They do not: bodies without `inertial` have none.
     False,
+    /// They do, whatever `inertial` says.
     True,
+    /// Those of bodies without `inertial` do.
     #[default]
     Auto,
 }
@@ -26,30 +28,46 @@ pub enum Conflict {
 
 /// Compiler settings (`compiler`).
 #[derive(Clone, Debug, PartialEq)]
-#[allow(missing_docs)]
 pub struct Compiler {
+    /// A range implies a limit.
     pub autolimits: bool,
+    /// Least mass of a moving body, kg.
     pub boundmass: f64,
+    /// Least moment of inertia of a moving body, kg m².
     pub boundinertia: f64,
     /// Total mass to scale to; not positive: off.
     pub settotalmass: f64,
+    /// Repair impossible moments of inertia.
     pub balanceinertia: bool,
+    /// Fit shapes to boxes instead of inertias.
     pub fitaabb: bool,
+    /// Angles are in degrees instead of radians.
     pub degree: bool,
     /// Rotation order, lower case about moving axes, upper case about fixed axes.
     pub eulerseq: [u8; 3],
+    /// Drop geoms without contact and mass.
     pub discardvisual: bool,
+    /// Compile assets on all cores.
     pub usethread: bool,
+    /// Merge bodies without joints into their parents.
     pub fusestatic: bool,
+    /// Whether inertias follow from geoms.
     pub inertiafromgeom: InertiaFromGeom,
+    /// Groups of geoms that have mass.
     pub inertiagrouprange: [i32; 2],
+    /// Write inertias when saving.
     pub saveinertial: bool,
+    /// Frames of free bodies move to their inertial frames.
     pub alignfree: bool,
+    /// How length ranges of actuators are computed.
     pub lengthrange: LengthRangeOptions,
     /// Directory prefixes as written; the reader has applied them to asset files already.
     pub meshdir: String,
+    /// Directory of textures.
     pub texturedir: String,
+    /// Ignore directories in file names.
     pub strippath: bool,
+    /// What becomes of settings that differ from an attached model's.
     pub conflict: Conflict,
 }
 
@@ -82,31 +100,48 @@ impl Default for Compiler {
 
 /// Array sizes (`size`); `None` lets the compiler choose.
 #[derive(Clone, Debug, PartialEq, Default)]
-#[allow(missing_docs)]
 pub struct Size {
+    /// Bytes of memory, which is allocated as needed whatever this says; `None` when not given.
     pub memory: Option<i64>,
+    /// Older limit on constraints.
     pub njmax: Option<i32>,
+    /// Older limit on contacts.
     pub nconmax: Option<i32>,
+    /// Older limit on memory, without effect.
     pub nstack: Option<i64>,
+    /// User numbers of the state.
     pub nuserdata: i32,
+    /// Keyframes.
     pub nkey: i32,
+    /// User numbers of a body.
     pub nuser_body: Option<i32>,
+    /// User numbers of a joint.
     pub nuser_jnt: Option<i32>,
+    /// User numbers of a geom.
     pub nuser_geom: Option<i32>,
+    /// User numbers of a site.
     pub nuser_site: Option<i32>,
+    /// User numbers of a camera.
     pub nuser_cam: Option<i32>,
+    /// User numbers of a tendon.
     pub nuser_tendon: Option<i32>,
+    /// User numbers of an actuator.
     pub nuser_actuator: Option<i32>,
+    /// User numbers of a sensor.
     pub nuser_sensor: Option<i32>,
 }
 
 /// Statistics set by the file (`statistic`); `None` is computed at `qpos0`.
 #[derive(Clone, Debug, PartialEq, Default)]
-#[allow(missing_docs)]
 pub struct StatisticOverride {
+    /// Mean diagonal of the inertia matrix.
     pub meaninertia: Option<f64>,
+    /// Mean mass of bodies, kg.
     pub meanmass: Option<f64>,
+    /// Mean size of bodies, metres.
     pub meansize: Option<f64>,
+    /// Half size of the model, metres.
     pub extent: Option<f64>,
+    /// Centre of the model, metres.
     pub center: Option<[f64; 3]>,
 }
