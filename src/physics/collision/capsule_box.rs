@@ -76,7 +76,7 @@ fn nearest_feature(s: &Segment, size: Vec3, limit: f64) -> Option<(f64, Feature)
     for edge in 0..3 {
         for corner in (0..8).filter(|c| c & (1 << edge) == 0) {
             let Some(near) = segment_edge(s, size, corner, edge) else { continue };
-            // Strictly nearer, lest an axis parallel to the box flips between equals.
+            // Nearer by more than rounding, so that a segment parallel to a face does not flip between equal edges.
             if near.distance2 < best - MINVAL {
                 best = near.distance2;
                 let feature = match near.end {
@@ -99,47 +99,51 @@ struct EdgeDistance {
     end: i32,
 }
 
+/// `x` limited to [-1, 1], and the side on which it was beyond.
+fn on_span(x: f64) -> (f64, i32) {
+    if x > 1.0 {
+        (1.0, 1)
+    } else if x < -1.0 {
+        (-1.0, -1)
+    } else {
+        (x, 0)
+    }
+}
+
+/// Minimises the squared span between `middle + x half_edge` and `centre + y half`, with x and y in [-1, 1]; `None`
+/// for parallel lines. The free minimum solves the normal equations; where one coordinate leaves its range it is put
+/// on the limit and the other solved for alone, first with the edge at fault and then with the segment.
 fn segment_edge(s: &Segment, size: Vec3, corner: usize, edge: usize) -> Option<EdgeDistance> {
     let mut middle: Vec3 = std::array::from_fn(|k| if corner & (1 << k) != 0 { size[k] } else { -size[k] });
     middle[edge] = 0.0;
-    let dif = sub(middle, s.centre);
+    let span = sub(middle, s.centre);
+    let half_edge = size[edge];
 
-    let length = size[edge];
-    let ma = length * length;
-    let mb = -length * s.half[edge];
-    let mc = s.half_length * s.half_length;
-    let u = -length * dif[edge];
-    let v = dot(s.half, dif);
-    let det = ma * mc - mb * mb;
-    if det.abs() < MINVAL {
+    let edge_edge = half_edge * half_edge;
+    let edge_segment = -half_edge * s.half[edge];
+    let segment_segment = s.half_length * s.half_length;
+    let edge_span = -half_edge * span[edge];
+    let segment_span = dot(s.half, span);
+    let determinant = edge_edge * segment_segment - edge_segment * edge_segment;
+    if determinant.abs() < MINVAL {
         return None;
     }
-    let clip = |x: f64| {
-        if x > 1.0 {
-            (1.0, 1)
-        } else if x < -1.0 {
-            (-1.0, -1)
-        } else {
-            (x, 0)
-        }
+    let inverse = 1.0 / determinant;
+    let (mut x, mut end) = on_span((segment_segment * edge_span - edge_segment * segment_span) * inverse);
+    let mut y = if end == 0 {
+        (edge_edge * segment_span - edge_segment * edge_span) * inverse
+    } else {
+        (segment_span - x * edge_segment) * (1.0 / segment_segment)
     };
-    let inv = 1.0 / det;
-    let (mut x1, mut end) = clip((mc * u - mb * v) * inv);
-    let mut x2 = match end {
-        0 => (ma * v - mb * u) * inv,
-        1 => (v - mb) * (1.0 / mc),
-        _ => (v + mb) * (1.0 / mc),
-    };
-    if x2.abs() > 1.0 {
-        x2 = 1.0f64.copysign(x2);
-        let (x, side) = clip((u - x2 * mb) * (1.0 / ma));
-        x1 = x;
-        // The side of an earlier clip stays when this one does not clip.
-        end = if side != 0 { side } else { end };
+    if y.abs() > 1.0 {
+        y = 1.0f64.copysign(y);
+        let (best, side) = on_span((edge_span - y * edge_segment) * (1.0 / edge_edge));
+        // The side of an earlier limit stays when this one is within.
+        (x, end) = (best, if side != 0 { side } else { end });
     }
-    let mut gap = add_scaled(dif, s.half, -x2);
-    gap[edge] += length * x1;
-    Some(EdgeDistance { distance2: dot(gap, gap), along_segment: x2, along_edge: x1, end })
+    let mut gap = add_scaled(span, s.half, -y);
+    gap[edge] += half_edge * x;
+    Some(EdgeDistance { distance2: dot(gap, gap), along_segment: y, along_edge: x, end })
 }
 
 /// Bits of the axes along which the segment ascends.
