@@ -1,5 +1,9 @@
 //! Best tangential force of one contact for a given normal force: a quadratic program with one quadratic constraint,
-//! `min ½ xᵀ A x + xᵀ b` subject to `Σ (xᵢ / μᵢ)² ≤ r²`, by Newton's method on the multiplier.
+//! `min ½ xᵀ A x + xᵀ b` subject to `Σ (xᵢ / μᵢ)² ≤ r²`.
+//!
+//! With `xᵢ = μᵢ yᵢ` the ellipsoid is a ball. Where the free minimum is outside the ball, the best point of its surface
+//! is the minimum with a multiplier `λ` added to the diagonal, `y(λ) = -(A + λ)⁻¹ b`, for which `|y(λ)| = r`. The
+//! length falls with `λ` and is convex, so that Newton's method climbs to the multiplier from zero.
 
 use super::dual::project_ellipsoid;
 use crate::math::cholesky::{cholesky_factor, cholesky_solve, stride};
@@ -12,126 +16,150 @@ const SMALL: f64 = 1e-10;
 /// Replaces `force[1..]` by the optimum for normal force `force[0]`.
 pub(super) fn friction_force(force: &mut [f64], a: &[f64], b: &[f64], mu: &[f64]) {
     let (normal, n) = (force[0], force.len() - 1);
-    let mut x = [0.0; 5];
-    let bound = match n {
-        2 => solve2(&mut x, a, b, mu, normal),
-        3 => solve3(&mut x, a, b, mu, normal),
-        _ => solve(&mut x[..n], a, b, mu, normal),
+    let program = Program { a, b, mu, n };
+    let best = match n {
+        2 => on_ball(normal, program.planar()),
+        3 => on_ball(normal, program.spatial()),
+        _ => on_ball(normal, program.factored()),
     };
+    let Best { y, bound } = best.unwrap_or_default();
+    for k in 0..n {
+        force[k + 1] = y[k] * mu[k];
+    }
     if bound {
-        project_ellipsoid(&mut x[..n], normal, mu, false);
+        project_ellipsoid(&mut force[1..], normal, mu, false);
     }
-    force[1..].copy_from_slice(&x[..n]);
 }
 
-/// Next multiplier, or `None` when the constraint holds or the step is small.
-fn advance(la: f64, violation: f64, derivative: f64) -> Option<f64> {
-    if violation < SMALL {
-        return None;
-    }
-    let step = -violation / derivative;
-    (step >= SMALL).then_some(la + step)
+/// The best point in the ball.
+#[derive(Default)]
+struct Best {
+    y: [f64; 5],
+    /// The ball keeps it from the free minimum.
+    bound: bool,
 }
 
-/// Two dimensions, with an explicit inverse; true when the constraint is active.
-fn solve2(x: &mut [f64; 5], a: &[f64], b: &[f64], mu: &[f64], r: f64) -> bool {
-    let (b1, b2) = (b[0] * mu[0], b[1] * mu[1]);
-    let (a11, a22, a12) = (a[0] * mu[0] * mu[0], a[3] * mu[1] * mu[1], a[1] * mu[0] * mu[1]);
-    let (mut la, mut v1, mut v2) = (0.0, 0.0, 0.0);
+/// The minimum for one multiplier.
+struct Minimum {
+    y: [f64; 5],
+    /// `|y|²`.
+    length2: f64,
+    /// Its derivative by the multiplier.
+    slope: f64,
+}
+
+/// Finds the multiplier for which `minimum` lies on the ball of this radius, or zero when the free minimum lies
+/// within; `None` where the matrix is not positive definite.
+fn on_ball(radius: f64, minimum: impl Fn(f64) -> Option<Minimum>) -> Option<Best> {
+    let (mut multiplier, mut y) = (0.0, [0.0; 5]);
     for _ in 0..ITERATIONS {
-        let det = (a11 + la) * (a22 + la) - a12 * a12;
-        if det < SMALL {
-            (x[0], x[1]) = (0.0, 0.0);
-            return false;
+        let found = minimum(multiplier)?;
+        y = found.y;
+        let excess = found.length2 - radius * radius;
+        let step = -excess / found.slope;
+        let grows = excess >= SMALL && step >= SMALL;
+        if !grows {
+            break;
         }
-        let inverse = 1.0 / det;
-        let (p11, p22, p12) = ((a22 + la) * inverse, (a11 + la) * inverse, -a12 * inverse);
-        (v1, v2) = (-p11 * b1 - p12 * b2, -p12 * b1 - p22 * b2);
-        let derivative = -2.0 * (p11 * v1 * v1 + 2.0 * p12 * v1 * v2 + p22 * v2 * v2);
-        match advance(la, v1 * v1 + v2 * v2 - r * r, derivative) {
-            Some(next) => la = next,
-            None => break,
-        }
+        multiplier += step;
     }
-    (x[0], x[1]) = (v1 * mu[0], v2 * mu[1]);
-    la != 0.0
+    Some(Best { y, bound: multiplier != 0.0 })
 }
 
-/// Three dimensions, with an explicit inverse; true when the constraint is active.
-fn solve3(x: &mut [f64; 5], a: &[f64], b: &[f64], mu: &[f64], r: f64) -> bool {
-    let [b1, b2, b3] = [b[0] * mu[0], b[1] * mu[1], b[2] * mu[2]];
-    let (a11, a22, a33) = (a[0] * mu[0] * mu[0], a[4] * mu[1] * mu[1], a[8] * mu[2] * mu[2]);
-    let (a12, a13, a23) = (a[1] * mu[0] * mu[1], a[2] * mu[0] * mu[2], a[5] * mu[1] * mu[2]);
-    let (mut la, mut v) = (0.0, [0.0; 3]);
-    for _ in 0..ITERATIONS {
-        let mut p11 = (a22 + la) * (a33 + la) - a23 * a23;
-        let mut p22 = (a11 + la) * (a33 + la) - a13 * a13;
-        let mut p33 = (a11 + la) * (a22 + la) - a12 * a12;
-        let mut p12 = a13 * a23 - a12 * (a33 + la);
-        let mut p13 = a12 * a23 - a13 * (a22 + la);
-        let mut p23 = a12 * a13 - a23 * (a11 + la);
-        let det = (a11 + la) * p11 + a12 * p12 + a13 * p13;
-        if det < SMALL {
-            x[..3].fill(0.0);
-            return false;
-        }
-        for p in [&mut p11, &mut p22, &mut p33, &mut p12, &mut p13, &mut p23] {
-            *p *= 1.0 / det;
-        }
-        v = [
-            -p11 * b1 - p12 * b2 - p13 * b3,
-            -p12 * b1 - p22 * b2 - p23 * b3,
-            -p13 * b1 - p23 * b2 - p33 * b3,
-        ];
-        let [v1, v2, v3] = v;
-        let derivative = -2.0 * (p11 * v1 * v1 + p22 * v2 * v2 + p33 * v3 * v3)
-            - 4.0 * (p12 * v1 * v2 + p13 * v1 * v3 + p23 * v2 * v3);
-        match advance(la, v1 * v1 + v2 * v2 + v3 * v3 - r * r, derivative) {
-            Some(next) => la = next,
-            None => break,
-        }
-    }
-    for k in 0..3 {
-        x[k] = v[k] * mu[k];
-    }
-    la != 0.0
+/// The quadratic function and the axes of the ellipsoid.
+struct Program<'a> {
+    a: &'a [f64],
+    b: &'a [f64],
+    mu: &'a [f64],
+    n: usize,
 }
 
-/// Up to five dimensions, with a Cholesky factor; true when the constraint is active.
-fn solve(x: &mut [f64], a: &[f64], b: &[f64], mu: &[f64], r: f64) -> bool {
-    let n = x.len();
-    let (mut scaled, mut rhs, stride) = ([0.0; 5 * stride(5)], [0.0; 5], stride(n));
-    for i in 0..n {
-        rhs[i] = b[i] * mu[i];
-        for j in 0..n {
-            scaled[i * stride + j] = a[i * n + j] * mu[i] * mu[j];
+impl Program<'_> {
+    /// Entry of the matrix where the ellipsoid is a ball.
+    fn entry(&self, i: usize, j: usize) -> f64 {
+        self.a[i * self.n + j] * self.mu[i] * self.mu[j]
+    }
+
+    fn linear<const N: usize>(&self) -> [f64; N] {
+        std::array::from_fn(|i| self.b[i] * self.mu[i])
+    }
+
+    /// Two dimensions, with an explicit inverse.
+    fn planar(&self) -> impl Fn(f64) -> Option<Minimum> {
+        let (diagonal, off, b): (_, _, [f64; 2]) =
+            ([0, 1].map(|i| self.entry(i, i)), self.entry(0, 1), self.linear());
+        move |multiplier| {
+            let [first, second] = diagonal.map(|x| x + multiplier);
+            let det = first * second - off * off;
+            if det < SMALL {
+                return None;
+            }
+            let inverse = 1.0 / det;
+            let (p, q, mixed) = (second * inverse, first * inverse, -off * inverse);
+            let y = [-p * b[0] - mixed * b[1], -mixed * b[0] - q * b[1]];
+            let slope = -2.0 * (p * y[0] * y[0] + 2.0 * mixed * y[0] * y[1] + q * y[1] * y[1]);
+            Some(Minimum { y: [y[0], y[1], 0.0, 0.0, 0.0], length2: y[0] * y[0] + y[1] * y[1], slope })
         }
     }
-    let mut la = 0.0;
-    for _ in 0..ITERATIONS {
-        let mut factor = scaled;
+
+    /// Three dimensions, with an explicit inverse. Entries off the diagonal are numbered by the axis that they leave
+    /// out, so that the cofactors of both kinds have one formula each.
+    fn spatial(&self) -> impl Fn(f64) -> Option<Minimum> {
+        let off = [self.entry(1, 2), self.entry(0, 2), self.entry(0, 1)];
+        let (diagonal, b): (_, [f64; 3]) = ([0, 1, 2].map(|i| self.entry(i, i)), self.linear());
+        move |multiplier| {
+            let shifted = diagonal.map(|x| x + multiplier);
+            let others = |k: usize| [(k + 1) % 3, (k + 2) % 3];
+            let on_diagonal = [0, 1, 2].map(|k| {
+                let [i, j] = others(k);
+                shifted[i] * shifted[j] - off[k] * off[k]
+            });
+            let off_diagonal = [0, 1, 2].map(|k| {
+                let [i, j] = others(k);
+                off[i] * off[j] - off[k] * shifted[k]
+            });
+            let det = shifted[0] * on_diagonal[0] + off[2] * off_diagonal[2] + off[1] * off_diagonal[1];
+            if det < SMALL {
+                return None;
+            }
+            let inverse = 1.0 / det;
+            let (p, q) = (on_diagonal.map(|x| x * inverse), off_diagonal.map(|x| x * inverse));
+            let rows = [[p[0], q[2], q[1]], [q[2], p[1], q[0]], [q[1], q[0], p[2]]];
+            let [x, y, z] = rows.map(|row| -row[0] * b[0] - row[1] * b[1] - row[2] * b[2]);
+            let squares = p[0] * x * x + p[1] * y * y + p[2] * z * z;
+            let mixed = q[2] * x * y + q[1] * x * z + q[0] * y * z;
+            let slope = -2.0 * squares - 4.0 * mixed;
+            Some(Minimum { y: [x, y, z, 0.0, 0.0], length2: x * x + y * y + z * z, slope })
+        }
+    }
+
+    /// Up to five dimensions, with a Cholesky factor.
+    fn factored(&self) -> impl Fn(f64) -> Option<Minimum> {
+        let (n, stride) = (self.n, stride(self.n));
+        let (mut matrix, mut b) = ([0.0; 5 * crate::math::cholesky::stride(5)], [0.0; 5]);
         for i in 0..n {
-            factor[i * (stride + 1)] += la;
+            b[i] = self.b[i] * self.mu[i];
+            for j in 0..n {
+                matrix[i * stride + j] = self.entry(i, j);
+            }
         }
-        if cholesky_factor(&mut factor, n, SMALL) < n {
-            x.fill(0.0);
-            return false;
-        }
-        x.copy_from_slice(&rhs[..n]);
-        cholesky_solve(&factor, n, x);
-        x.iter_mut().for_each(|x| *x = -*x);
-        let mut again = [0.0; 5];
-        again[..n].copy_from_slice(x);
-        cholesky_solve(&factor, n, &mut again[..n]);
-        match advance(la, dot_slice(x, x) - r * r, -2.0 * dot_slice(x, &again[..n])) {
-            Some(next) => la = next,
-            None => break,
+        move |multiplier| {
+            let mut factor = matrix;
+            for i in 0..n {
+                factor[i * (stride + 1)] += multiplier;
+            }
+            if cholesky_factor(&mut factor, n, SMALL) < n {
+                return None;
+            }
+            let mut y = b;
+            cholesky_solve(&factor, n, &mut y[..n]);
+            y[..n].iter_mut().for_each(|x| *x = -*x);
+            let mut twice = y;
+            cholesky_solve(&factor, n, &mut twice[..n]);
+            let slope = -2.0 * dot_slice(&y[..n], &twice[..n]);
+            Some(Minimum { y, length2: dot_slice(&y[..n], &y[..n]), slope })
         }
     }
-    for i in 0..n {
-        x[i] *= mu[i];
-    }
-    la != 0.0
 }
 
 #[cfg(test)]
@@ -143,20 +171,21 @@ mod tests {
     fn optimum_lies_on_the_ellipsoid() {
         let a = [4.0, 1.0, 0.5, 1.0, 3.0, 0.2, 0.5, 0.2, 2.0];
         let (b, mu) = ([-9.0, 5.0, 7.0], [0.8, 0.5, 0.3]);
-        let (mut x, mut y) = ([0.0; 5], [0.0; 3]);
-        assert!(solve3(&mut x, &a, &b, &mu, 1.5));
-        assert!(solve(&mut y, &a, &b, &mu, 1.5));
+        let program = Program { a: &a, b: &b, mu: &mu, n: 3 };
+        let (explicit, factored) =
+            (on_ball(1.5, program.spatial()).unwrap(), on_ball(1.5, program.factored()).unwrap());
+        assert!(explicit.bound && factored.bound);
+        let x: [f64; 3] = std::array::from_fn(|k| explicit.y[k] * mu[k]);
         let size = (0..3).map(|k| (x[k] / mu[k]).powi(2)).sum::<f64>();
         assert!((size - 2.25).abs() < 1e-8);
-        let cost = |x: &[f64]| {
-            (0..3).map(|i| x[i] * (b[i] + 0.5 * dot_slice(&a[3 * i..3 * i + 3], &x[..3]))).sum::<f64>()
-        };
+        let cost =
+            |x: &[f64]| (0..3).map(|i| x[i] * (b[i] + 0.5 * dot_slice(&a[3 * i..3 * i + 3], x))).sum::<f64>();
         for k in 0..3 {
-            assert!((x[k] - y[k]).abs() < 1e-8);
+            assert!((explicit.y[k] - factored.y[k]).abs() < 1e-8);
             for h in [-1e-3, 1e-3] {
                 let mut near = x;
                 near[k] += h;
-                project_ellipsoid(&mut near[..3], 1.5, &mu, false);
+                project_ellipsoid(&mut near, 1.5, &mu, false);
                 assert!(cost(&near) > cost(&x));
             }
         }
@@ -164,8 +193,8 @@ mod tests {
 
     #[test]
     fn interior_optimum_is_unconstrained() {
-        let mut x = [0.0; 5];
-        assert!(!solve2(&mut x, &[2.0, 0.0, 0.0, 4.0], &[-0.2, 0.4], &[1.0, 1.0], 1.0));
-        assert!((x[0] - 0.1).abs() < 1e-15 && (x[1] + 0.1).abs() < 1e-15);
+        let program = Program { a: &[2.0, 0.0, 0.0, 4.0], b: &[-0.2, 0.4], mu: &[1.0, 1.0], n: 2 };
+        let Best { y, bound } = on_ball(1.0, program.planar()).unwrap();
+        assert!(!bound && (y[0] - 0.1).abs() < 1e-15 && (y[1] + 0.1).abs() < 1e-15);
     }
 }
