@@ -7,7 +7,7 @@ use physics::constraint::{IslandScratch, find_islands};
 use physics::data::SolverStat;
 use physics::inertia::mul_inertia_matrix;
 use physics::model::{Cone, ConstraintType, Disable, Solver};
-use physics::solver::{SolverScratch, solve};
+use physics::solver::{SolverInputs, SolverScratch, solve};
 use physics::{Data, Model};
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -141,7 +141,7 @@ pub fn solve_archive(m: &mut Model, path: &Path) -> Result<Outcome, ReferenceErr
             m.options_mut().solver = solver;
             let mut d = start.clone();
             let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
-            solve(m, state, inertia, con, efc, island, acc, solver, &mut scratch);
+            solve(SolverInputs { m, state, inertia, con, island }, efc, acc, solver, &mut scratch);
             let counts = niter.len() / SOLVERS.len();
             let theirs = &qacc[s * m.nv..(s + 1) * m.nv];
             let first = place.statistics;

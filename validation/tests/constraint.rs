@@ -2,7 +2,7 @@
 
 use physics::inertia::mul_inertia_matrix;
 use physics::model::{Cone, Disable, Jacobian, Solver};
-use physics::solver::{SolverScratch, solve};
+use physics::solver::{SolverInputs, SolverScratch, solve};
 use physics::{Data, Model};
 use robohive_validation::reference::recorded;
 use robohive_validation::stages::before_solver;
@@ -45,17 +45,9 @@ fn solver_agrees() {
         let states = r.states().unwrap();
         for row in 0..states {
             let mut d = before_solver(&r, &m, row).unwrap();
-            solve(
-                &m,
-                &d.state,
-                &d.inertia,
-                &d.con,
-                &mut d.efc,
-                &d.island,
-                &mut d.acc,
-                &mut d.solver,
-                &mut scratch,
-            );
+            let inputs =
+                SolverInputs { m: &m, state: &d.state, inertia: &d.inertia, con: &d.con, island: &d.island };
+            solve(inputs, &mut d.efc, &mut d.acc, &mut d.solver, &mut scratch);
             let theirs = r.forward("solver_niter", row).unwrap();
             for (k, &n) in d.solver.solver_niter.iter().enumerate().take(theirs.len()) {
                 assert_eq!(f64::from(n), theirs[k], "{path:?} state {row} island {k}");
@@ -98,7 +90,8 @@ fn storage_does_not_matter() {
                 let mut d = before_solver(&r, &m, row).unwrap();
                 let mut scratch = SolverScratch::default();
                 let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
-                solve(&m, state, inertia, con, efc, island, acc, solver, &mut scratch);
+                let inputs = SolverInputs { m: &m, state, inertia, con, island };
+                solve(inputs, efc, acc, solver, &mut scratch);
                 d.acc
             });
             let e = difference(&solved[0].qacc, &solved[1].qacc);

@@ -207,17 +207,9 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     d.acc.qacc_smooth.copy_from_slice(&d.acc.qfrc_smooth);
     solve(m, &d.inertia, &mut d.acc.qacc_smooth);
     watch.ended(Stage::Acceleration);
-    solver::solve(
-        m,
-        &d.state,
-        &d.inertia,
-        &d.con,
-        &mut d.efc,
-        &d.island,
-        &mut d.acc,
-        &mut d.solver,
-        &mut d.scratch.solver,
-    );
+    let inputs =
+        solver::SolverInputs { m, state: &d.state, inertia: &d.inertia, con: &d.con, island: &d.island };
+    solver::solve(inputs, &mut d.efc, &mut d.acc, &mut d.solver, &mut d.scratch.solver);
     watch.ended(Stage::Solver);
 }
 

@@ -40,22 +40,33 @@ pub struct SolverScratch {
     all: Vec<i32>,
 }
 
+/// What the solver reads of a step.
+#[derive(Clone, Copy, Debug)]
+pub struct SolverInputs<'a> {
+    /// The model.
+    pub m: &'a Model,
+    /// Where the acceleration of the step before is, from which to start.
+    pub state: &'a State,
+    /// Inertia and its factor.
+    pub inertia: &'a Inertia,
+    /// Contacts of the rows.
+    pub con: &'a Contacts,
+    /// Islands of the rows.
+    pub island: &'a Islands,
+}
+
 /// Computes `qacc`, `qfrc_constraint`, `efc_b`, `efc_force` and `efc_state`. `qacc_smooth` and `qfrc_smooth` are
-/// inputs, and so is `qacc_warmstart` of `state`.
+/// inputs.
 ///
 /// As in MuJoCo, when islands are solved by a primal method `efc_state` is that of the start, not of the solution.
-#[allow(clippy::too_many_arguments)]
 pub fn solve(
-    m: &Model,
-    state: &State,
-    inertia: &Inertia,
-    con: &Contacts,
+    inputs: SolverInputs,
     efc: &mut Constraints,
-    island: &Islands,
     acc: &mut Acceleration,
     stats: &mut SolverStatistics,
     scratch: &mut SolverScratch,
 ) {
+    let SolverInputs { m, inertia, island, .. } = inputs;
     acc.qfrc_constraint.fill(0.0);
     stats.solver.clear();
     stats.solver.reserve((m.opt.iterations.clamp(0, 1000) + m.opt.noslip_iterations.clamp(0, 1000)) as usize);
@@ -73,18 +84,20 @@ pub fn solve(
     }
     residual_of(m, efc, &acc.qacc_smooth, &mut scratch.jar);
     std::mem::swap(&mut efc.efc_b, &mut scratch.jar);
-    start(m, state, inertia, con, efc, island, acc, scratch);
+    start(inputs, efc, acc, scratch);
+    let SolverScratch { all, primal, dual: forces, jar, .. } = scratch;
+    let mut solvers = Solvers { primal, dual: forces, jar };
     if island.nisland > 0 {
         for k in 0..island.nisland {
-            solve_island(m, inertia, con, efc, island, k, acc, stats, scratch);
+            solvers.solve(inputs, Part::island(island, k), efc, acc, stats);
         }
     } else {
-        let SolverScratch { all, primal, dual, jar, .. } = scratch;
-        let s = Selection { dofs: &all[..m.nv], rows: &all[..efc.nefc], sorted: &all[..m.nv], first: 0 };
-        let scale = |_: &Primal| 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64);
-        solve_part(m, inertia, con, efc, s, scale, jar, acc, stats, primal, dual);
+        let selection =
+            Selection { dofs: &all[..m.nv], rows: &all[..efc.nefc], sorted: &all[..m.nv], first: 0 };
+        let scale = 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64);
+        solvers.solve(inputs, Part { selection, scale: Some(scale) }, efc, acc, stats);
         if m.opt.solver != Solver::Pgs && m.opt.noslip_iterations == 0 {
-            write_states(&primal.state, efc);
+            write_states(&solvers.primal.state, efc);
         }
     }
     if dual {
@@ -130,17 +143,8 @@ fn write_states(state: &[ConstraintState], efc: &mut Constraints) {
 
 /// Chooses the start: the warm-start acceleration or the unconstrained one, whichever costs less, and for PGS the
 /// forces of the former or none. Leaves the residual of all rows there in `jar`.
-#[allow(clippy::too_many_arguments)]
-fn start(
-    m: &Model,
-    state: &State,
-    inertia: &Inertia,
-    con: &Contacts,
-    efc: &mut Constraints,
-    island: &Islands,
-    acc: &mut Acceleration,
-    scratch: &mut SolverScratch,
-) {
+fn start(inputs: SolverInputs, efc: &mut Constraints, acc: &mut Acceleration, scratch: &mut SolverScratch) {
+    let SolverInputs { m, state, inertia, con, island } = inputs;
     efc.efc_force.resize(efc.nefc, 0.0);
     efc.efc_state.resize(efc.nefc, ConstraintState::Satisfied.code());
     if m.opt.disableflags.contains(Disable::WARMSTART) {
@@ -178,64 +182,67 @@ fn start(
     }
 }
 
-/// Solves island `k`.
-#[allow(clippy::too_many_arguments)]
-fn solve_island(
-    m: &Model,
-    inertia: &Inertia,
-    con: &Contacts,
-    efc: &mut Constraints,
-    island: &Islands,
-    k: usize,
-    acc: &mut Acceleration,
-    stats: &mut SolverStatistics,
-    scratch: &mut SolverScratch,
-) {
-    let (first, row) = (island.island_idofadr[k] as usize, island.island_iefcadr[k] as usize);
-    let s = Selection {
-        dofs: &island.map_idof2dof[first..first + island.island_nv[k] as usize],
-        rows: &island.map_iefc2efc[row..row + island.island_nefc[k] as usize],
-        sorted: &island.map_dof2idof,
-        first: first as i32,
-    };
-    let scale = |p: &Primal| 1.0 / p.problem.inertia_trace();
-    let SolverScratch { primal, dual, jar, .. } = scratch;
-    solve_part(m, inertia, con, efc, s, scale, jar, acc, stats, primal, dual);
+/// An island, or the whole model.
+struct Part<'a> {
+    selection: Selection<'a>,
+    /// Scale of costs to accelerations; `None` for the reciprocal of the part's inertia.
+    scale: Option<f64>,
 }
 
-/// Runs the chosen solver, and the removal of slip after it, on a selection; `jar` is the residual of all rows.
-#[allow(clippy::too_many_arguments)]
-fn solve_part(
-    m: &Model,
-    inertia: &Inertia,
-    con: &Contacts,
-    efc: &mut Constraints,
-    s: Selection,
-    scale: impl Fn(&Primal) -> f64,
-    jar: &[f64],
-    acc: &mut Acceleration,
-    stats: &mut SolverStatistics,
-    primal: &mut Primal,
-    dual: &mut Dual,
-) {
-    let (mut iterations, nonzeros) = if m.opt.solver == Solver::Pgs {
-        (pgs::pgs(m, dual, efc, &con.contact, s.rows, &mut stats.solver), s.rows.len() * s.rows.len())
-    } else {
-        primal.problem.gather(m, inertia, efc, con, s);
-        primal.begin(acc, efc, s, scale(primal), jar);
-        let result = if m.opt.solver == Solver::Cg {
-            cg::conjugate_gradient(m, primal, &mut stats.solver)
-        } else {
-            newton::newton(m, primal, &mut stats.solver)
+impl<'a> Part<'a> {
+    /// Island `k`.
+    fn island(island: &'a Islands, k: usize) -> Self {
+        let (first, row) = (island.island_idofadr[k] as usize, island.island_iefcadr[k] as usize);
+        let selection = Selection {
+            dofs: &island.map_idof2dof[first..first + island.island_nv[k] as usize],
+            rows: &island.map_iefc2efc[row..row + island.island_nefc[k] as usize],
+            sorted: &island.map_dof2idof,
+            first: first as i32,
         };
-        primal.finish(s, acc, efc);
-        result
-    };
-    if m.opt.noslip_iterations > 0 {
-        iterations += noslip::noslip(m, dual, efc, &con.contact, s.rows, &mut stats.solver);
+        Part { selection, scale: None }
     }
-    stats.solver_niter.push(iterations);
-    stats.solver_nnz.push(nonzeros as i32);
+}
+
+/// Both kinds of solvers, and the residual of all rows at the start.
+struct Solvers<'a> {
+    primal: &'a mut Primal,
+    dual: &'a mut Dual,
+    jar: &'a [f64],
+}
+
+impl Solvers<'_> {
+    /// Runs the chosen solver, and the removal of slip after it, on a part.
+    fn solve(
+        &mut self,
+        inputs: SolverInputs,
+        part: Part,
+        efc: &mut Constraints,
+        acc: &mut Acceleration,
+        stats: &mut SolverStatistics,
+    ) {
+        let SolverInputs { m, inertia, con, .. } = inputs;
+        let (s, contacts) = (part.selection, &con.contact[..]);
+        let (mut iterations, nonzeros) = if m.opt.solver == Solver::Pgs {
+            (pgs::pgs(m, self.dual, efc, contacts, s.rows, &mut stats.solver), s.rows.len() * s.rows.len())
+        } else {
+            let primal = &mut *self.primal;
+            primal.problem.gather(m, inertia, efc, con, s);
+            let scale = part.scale.unwrap_or_else(|| 1.0 / primal.problem.inertia_trace());
+            primal.begin(acc, efc, s, scale, self.jar);
+            let result = if m.opt.solver == Solver::Cg {
+                cg::conjugate_gradient(m, primal, &mut stats.solver)
+            } else {
+                newton::newton(m, primal, &mut stats.solver)
+            };
+            primal.finish(s, acc, efc);
+            result
+        };
+        if m.opt.noslip_iterations > 0 {
+            iterations += noslip::noslip(m, self.dual, efc, contacts, s.rows, &mut stats.solver);
+        }
+        stats.solver_niter.push(iterations);
+        stats.solver_nnz.push(nonzeros as i32);
+    }
 }
 
 /// Joint-space force and acceleration of the forces found.
