@@ -1,7 +1,9 @@
 //! Array files. Numpy archives (`.npz`) carry states, trajectories and compiled models in and out.
 
+pub mod growing;
 pub mod npy;
 pub mod npz;
 
-pub use npy::{Array, Values};
+pub use growing::GrowingNpz;
+pub use npy::{Array, Dtype, Values};
 pub use npz::{NpzError, NpzReader, NpzWriter};

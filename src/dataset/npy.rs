@@ -3,6 +3,45 @@
 /// Largest number of scalars an array may hold: 1 GiB of f64.
 pub const MAX_SCALARS: usize = 1 << 27;
 
+/// Type of an array's scalars.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Dtype {
+    /// `|b1`
+    Bool,
+    /// `|u1`
+    U8,
+    /// `<i4`
+    I32,
+    /// `<i8`
+    I64,
+    /// `<f4`
+    F32,
+    /// `<f8`
+    F64,
+}
+
+impl Dtype {
+    /// Bytes of one scalar.
+    pub fn bytes(self) -> usize {
+        match self {
+            Dtype::Bool | Dtype::U8 => 1,
+            Dtype::I32 | Dtype::F32 => 4,
+            Dtype::I64 | Dtype::F64 => 8,
+        }
+    }
+
+    fn descr(self) -> &'static str {
+        match self {
+            Dtype::Bool => "|b1",
+            Dtype::U8 => "|u1",
+            Dtype::I32 => "<i4",
+            Dtype::I64 => "<i8",
+            Dtype::F32 => "<f4",
+            Dtype::F64 => "<f8",
+        }
+    }
+}
+
 /// Scalars of an array in row-major order.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
@@ -59,14 +98,15 @@ impl Values {
         }
     }
 
-    fn descr(&self) -> &'static str {
+    /// Type of the scalars.
+    pub fn dtype(&self) -> Dtype {
         match self {
-            Values::Bool(_) => "|b1",
-            Values::U8(_) => "|u1",
-            Values::I32(_) => "<i4",
-            Values::I64(_) => "<i8",
-            Values::F32(_) => "<f4",
-            Values::F64(_) => "<f8",
+            Values::Bool(_) => Dtype::Bool,
+            Values::U8(_) => Dtype::U8,
+            Values::I32(_) => Dtype::I32,
+            Values::I64(_) => Dtype::I64,
+            Values::F32(_) => Dtype::F32,
+            Values::F64(_) => Dtype::F64,
         }
     }
 }
@@ -89,19 +129,7 @@ impl Array {
 
     /// The bytes of a `.npy` file, version 1.0.
     pub fn encode(&self) -> Vec<u8> {
-        let axes: Vec<String> = self.shape.iter().map(|n| format!("{n},")).collect();
-        let mut header = format!(
-            "{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}",
-            self.values.descr(),
-            axes.join(" ")
-        );
-        while !(header.len() + 11).is_multiple_of(64) {
-            header.push(' ');
-        }
-        header.push('\n');
-        let mut out = b"\x93NUMPY\x01\x00".to_vec();
-        out.extend((header.len() as u16).to_le_bytes());
-        out.extend(header.bytes());
+        let mut out = header(self.values.dtype(), &self.shape, 0);
         match &self.values {
             Values::Bool(v) => out.extend(v.iter().map(|&x| u8::from(x))),
             Values::U8(v) => out.extend(v),
@@ -142,6 +170,22 @@ impl Array {
         }
         Ok(Array { shape, values })
     }
+}
+
+/// The bytes before the scalars, version 1.0: a multiple of 64, and at least `least`, which leaves room for axes that
+/// grow.
+pub(crate) fn header(dtype: Dtype, shape: &[usize], least: usize) -> Vec<u8> {
+    let axes: Vec<String> = shape.iter().map(|n| format!("{n},")).collect();
+    let (descr, axes) = (dtype.descr(), axes.join(" "));
+    let mut text = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({axes}), }}");
+    // Before the text stand ten bytes, after it a line end.
+    let length = (text.len() + 11).max(least).next_multiple_of(64);
+    text.extend(std::iter::repeat_n(' ', length - 11 - text.len()));
+    text.push('\n');
+    let mut out = b"\x93NUMPY\x01\x00".to_vec();
+    out.extend((text.len() as u16).to_le_bytes());
+    out.extend(text.bytes());
+    out
 }
 
 /// The three entries of the header's dict literal.

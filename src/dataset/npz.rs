@@ -140,18 +140,33 @@ impl<W: Write + Seek> NpzWriter<W> {
         NpzWriter { zip: zip::ZipWriter::new(sink) }
     }
 
-    /// Appends an array.
+    /// Appends an array, compressed.
     ///
     /// # Errors
     /// Writing fails or the name was used before.
     pub fn add(&mut self, name: &str, array: &Array) -> std::io::Result<()> {
+        self.start(name, zip::CompressionMethod::Deflated)?;
+        self.zip.write_all(&array.encode())
+    }
+
+    /// Appends the array that the bytes of a `.npy` file describe, read piece by piece and stored as they are: a long
+    /// trajectory takes no longer than its copy.
+    ///
+    /// # Errors
+    /// Reading or writing fails, or the name was used before.
+    pub fn add_npy(&mut self, name: &str, npy: &mut impl Read) -> std::io::Result<()> {
+        self.start(name, zip::CompressionMethod::Stored)?;
+        std::io::copy(npy, &mut self.zip).map(|_| ())
+    }
+
+    /// Begins a member.
+    fn start(&mut self, name: &str, method: zip::CompressionMethod) -> std::io::Result<()> {
         // A fixed date keeps equal content equal byte for byte.
         let options = SimpleFileOptions::default()
-            .compression_method(zip::CompressionMethod::Deflated)
+            .compression_method(method)
             .last_modified_time(zip::DateTime::default())
             .large_file(true);
-        self.zip.start_file(format!("{name}.npy"), options)?;
-        self.zip.write_all(&array.encode())
+        Ok(self.zip.start_file(format!("{name}.npy"), options)?)
     }
 
     /// Completes the archive.
