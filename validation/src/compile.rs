@@ -4,6 +4,29 @@ use crate::compare::{Worst, compare, compiled, exact};
 use crate::reference::{Reference, ReferenceError};
 use physics::Model;
 
+/// Sizes on which the shape of a state depends: models that differ in one cannot be moved side by side.
+const STATE_SIZES: [&str; 9] = ["nq", "nv", "na", "nu", "nbody", "nmocap", "neq", "nhistory", "nkey"];
+
+/// A size that differs: its name, ours, MuJoCo's.
+pub type SizeDifference = (&'static str, usize, usize);
+
+/// Finds the sizes of the state in which `m` differs from the recorded model.
+///
+/// # Errors
+/// The reference lacks a size.
+pub fn compare_state_sizes(m: &Model, reference: &Reference) -> Result<Vec<SizeDifference>, ReferenceError> {
+    let mut ours = Vec::new();
+    m.visit_sizes(&mut |name, size| ours.push((name, size)));
+    let mut differences = Vec::new();
+    for (name, size) in ours.into_iter().filter(|(name, _)| STATE_SIZES.contains(name)) {
+        let theirs = reference.size(name)?;
+        if size != theirs {
+            differences.push((name, size, theirs));
+        }
+    }
+    Ok(differences)
+}
+
 /// Outcome of comparing a compiled model.
 pub struct CompileReport {
     /// Every field outside the tolerance, worst first.

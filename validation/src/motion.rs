@@ -44,7 +44,8 @@ pub fn compare_forward(m: &Model, reference: &Reference) -> Result<ForwardReport
             report.failure.get_or_insert(error.to_string());
             continue;
         }
-        let touching = reference.state_row("forward", "ncon", row)?[0] as usize;
+        let touching = reference.state_row("forward", "ncon", row)?;
+        let touching = touching.first().map_or(0, |&count| count as usize);
         let worst = compare("qacc", &d.acc.qacc, &reference.forward("qacc", row)?, of_largest);
         let agrees = worst.error <= QACC;
         report.touching += usize::from(touching > 0);
@@ -74,10 +75,10 @@ pub struct StepReport {
 /// # Errors
 /// The reference lacks an array.
 pub fn compare_steps(m: &Model, reference: &Reference) -> Result<StepReport, ReferenceError> {
-    let read = |name: &str| Ok::<_, ReferenceError>(reference.archive().require(name)?.values.to_f64());
-    let (ctrl, qpos, qvel, act) =
-        (read("rollout.ctrl")?, read("rollout.qpos")?, read("rollout.qvel")?, read("rollout.act")?);
-    let steps = reference.archive().require("rollout.qpos")?.rows();
+    let (qpos, steps) = reference.rows("rollout.qpos", m.nq)?;
+    let ctrl = rows_along(reference, "rollout.ctrl", m.nu, steps)?;
+    let qvel = rows_along(reference, "rollout.qvel", m.nv, steps)?;
+    let act = rows_along(reference, "rollout.act", m.na, steps)?;
     let row = |values: &[f64], width: usize, row: usize| values[row * width..(row + 1) * width].to_vec();
     let mut d = Data::new(m);
     if m.nkey > 0 {
@@ -139,11 +140,9 @@ impl RolloutReport {
 /// # Errors
 /// The reference lacks an array.
 pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport, ReferenceError> {
-    let ctrl = reference.archive().require("rollout.ctrl")?.values.to_f64();
-    let array = reference.archive().require("rollout.qpos")?;
-    let twin = reference.archive().require("twin.qpos")?.values.to_f64();
-    let steps = array.rows();
-    let theirs = array.values.to_f64();
+    let (theirs, steps) = reference.rows("rollout.qpos", m.nq)?;
+    let ctrl = rows_along(reference, "rollout.ctrl", m.nu, steps)?;
+    let twin = rows_along(reference, "twin.qpos", m.nq, steps)?;
     let mut d = Data::new(m);
     if m.nkey > 0 {
         d.reset_to_key(m, 0).map_err(|_| ReferenceError::Shape("key_qpos".into()))?;
@@ -157,7 +156,8 @@ pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport
         by_step: Vec::new(),
         failure: None,
     };
-    let mut resets = reference.archive().require("rollout.bad")?.values.to_f64()[0] as usize;
+    let bad = reference.archive().require("rollout.bad")?.values.to_f64();
+    let mut resets = bad.first().map_or(0, |&n| n as usize);
     for step in 0..steps {
         d.state.ctrl.copy_from_slice(&ctrl[step * m.nu..(step + 1) * m.nu]);
         let mut outcome = physics::step(m, &mut d);
@@ -183,6 +183,19 @@ pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport
         }
     }
     Ok(report)
+}
+
+/// An array with one row a step of a rollout, of which there is at least one.
+fn rows_along(
+    reference: &Reference,
+    name: &str,
+    width: usize,
+    steps: usize,
+) -> Result<Vec<f64>, ReferenceError> {
+    match reference.rows(name, width)? {
+        (values, rows) if rows == steps && rows > 0 => Ok(values),
+        _ => Err(ReferenceError::Shape(name.to_owned())),
+    }
 }
 
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {

@@ -95,6 +95,30 @@ impl Reference {
         Ok(Model::unchecked(m))
     }
 
+    /// A size of the recorded model.
+    ///
+    /// # Errors
+    /// The archive does not tell it.
+    pub fn size(&self, name: &str) -> Result<usize, ReferenceError> {
+        let name = format!("size.{name}");
+        let value = self.archive.require(&name)?.values.to_f64();
+        value.first().map(|&n| n as usize).ok_or(ReferenceError::Shape(name))
+    }
+
+    /// An array with `width` numbers in each of its rows, flat, and the number of rows.
+    ///
+    /// # Errors
+    /// The array is missing, or its rows are not of that width.
+    pub fn rows(&self, name: &str, width: usize) -> Result<(Vec<f64>, usize), ReferenceError> {
+        let array = self.archive.require(name)?;
+        let (values, rows) = (array.values.to_f64(), array.rows());
+        if rows.checked_mul(width) == Some(values.len()) {
+            Ok((values, rows))
+        } else {
+            Err(ReferenceError::Shape(name.to_owned()))
+        }
+    }
+
     /// Number of recorded independent states.
     ///
     /// # Errors
@@ -137,11 +161,12 @@ impl Reference {
             _ if name.starts_with("efc_") => "nefc",
             _ => return self.state_row("forward", name, row),
         };
+        let misfit = || ReferenceError::Shape(format!("forward.{name}"));
         let counts = self.archive.require(&format!("forward.{counter}"))?.values.to_f64();
+        let count = *counts.get(row).ok_or_else(misfit)?;
         let start: f64 = counts[..row].iter().sum();
-        let range = start as usize..(start + counts[row]) as usize;
         let array = self.archive.require(&format!("forward.{name}"))?;
-        row_of(&array, range).ok_or_else(|| ReferenceError::Shape(format!("forward.{name}")))
+        row_of(&array, start as usize..(start + count) as usize).ok_or_else(misfit)
     }
 
     /// Injects the listed forward outputs of state `row` into `d`, contacts and rows included.
@@ -206,7 +231,7 @@ pub fn own_models() -> Result<Vec<(PathBuf, Reference)>, Box<dyn std::error::Err
 
 /// Rows of a stacked array, flat.
 fn row_of(array: &Array, rows: std::ops::Range<usize>) -> Option<Vec<f64>> {
-    let width: usize = array.shape.iter().skip(1).product();
+    let width = array.shape.iter().skip(1).product();
     let values = array.values.to_f64();
-    values.get(rows.start * width..rows.end * width).map(<[f64]>::to_vec)
+    values.get(rows.start.checked_mul(width)?..rows.end.checked_mul(width)?).map(<[f64]>::to_vec)
 }
