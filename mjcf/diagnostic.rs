@@ -230,11 +230,7 @@ impl Diagnostics {
     }
 
     /// The candidate nearest to the misspelt `word`; none for findings that are not kept.
-    pub(crate) fn nearest<'a>(
-        &mut self,
-        word: &str,
-        candidates: impl Iterator<Item = &'a str>,
-    ) -> Option<&'a str> {
+    pub fn nearest<'a>(&mut self, word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
         if self.list.len() >= MAX_KEPT {
             return None;
         }

@@ -1,7 +1,10 @@
 //! `bench`: steps per second, where their time goes, and how much it varies.
 
-use crate::arguments::Bench;
-use crate::{Failure, load, start};
+use crate::Failure;
+use crate::arguments::{Bench, MAX_STEPS};
+use crate::loading::{STANDARD_INPUT, load, start};
+use crate::memory::{environment_bytes, free_bytes, resident_bytes};
+use crate::terminal::{show, show_json};
 use dataset::NpzReader;
 use physics::pipeline::watch::{Stage, Watch};
 use physics::{Batch, Data, Model, step, step_watched};
@@ -21,8 +24,8 @@ enum Measure {
 
 /// Runs the command.
 pub fn run(a: &Bench) -> Result<(), Failure> {
-    if [a.threads, a.steps, a.hold, a.batch.unwrap_or(1)].contains(&0) {
-        return Err(Failure::usage("--threads, --batch, --steps and --hold must be at least 1"));
+    if a.requests && a.models.iter().any(|path| path == Path::new(STANDARD_INPUT)) {
+        return Err(Failure::usage("--requests reads standard input, which then cannot hold the model"));
     }
     for path in &a.models {
         let workload = Workload::new(a, path)?;
@@ -37,9 +40,9 @@ pub fn run(a: &Bench) -> Result<(), Failure> {
         };
         let mut found = Map::new();
         found.insert("model".into(), json!(path.display().to_string()));
-        found.extend(workload.measure(measure, a.steps)?);
+        found.extend(workload.measure(measure, a.steps as usize)?);
         if a.json {
-            show!("{}", Value::Object(found));
+            show_json(&Value::Object(found));
         } else {
             print(measure, &found);
         }
@@ -61,16 +64,35 @@ fn answer(workload: &Workload) -> Result<(), Failure> {
                     "jitter" => Measure::Jitter,
                     _ => return None,
                 };
-                Some((measure, steps.parse().ok().filter(|&n| n > 0)?))
+                Some((measure, steps.parse().ok().filter(|&n| (1..=MAX_STEPS as usize).contains(&n))?))
             })
             .ok_or_else(|| {
                 Failure::usage(format!(
-                    "request {line:?} is not rate, stages or jitter and a number of steps"
+                    "request {line:?} is not rate, stages or jitter and a number of steps, 1 to {MAX_STEPS}"
                 ))
             })?;
-        show!("{}", Value::Object(workload.measure(measure, steps)?));
+        show_json(&Value::Object(workload.measure(measure, steps)?));
     }
     Ok(())
+}
+
+/// Most steps whose times are kept: 800 MB of them.
+const MAX_TIMES: usize = 100_000_000;
+
+/// A batch that does not fit in memory would be ended by the system, without a word.
+fn refuse_beyond_memory(environments: usize, bytes: usize) -> Result<(), Failure> {
+    match free_bytes() {
+        Some(free) if environments.saturating_mul(bytes) > free => {
+            let mib = |bytes: usize| bytes.div_ceil(1 << 20);
+            Err(Failure::usage(format!(
+                "{environments} environments need about {} MiB, {} MiB are free: give --batch at most {}",
+                mib(environments.saturating_mul(bytes)),
+                mib(free),
+                free / bytes.max(1)
+            )))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What is simulated: environments from one start, under one sequence of controls.
@@ -97,15 +119,16 @@ impl Workload {
             Some(path) => controls(path, &m)?,
             None => (Vec::new(), 0),
         };
-        let environments = a.batch.unwrap_or(a.threads);
+        let environments = a.batch.unwrap_or(a.threads) as usize;
+        refuse_beyond_memory(environments, environment_bytes(&m, &start))?;
         Ok(Workload {
             m: m.into(),
             start,
             controls,
             rows,
-            hold: a.hold,
+            hold: a.hold as usize,
             environments,
-            threads: a.threads,
+            threads: a.threads as usize,
             load_seconds,
         })
     }
@@ -118,7 +141,7 @@ impl Workload {
         }
     }
 
-    /// Sets the controls that hold from step `done` on; after the last row all begins anew.
+    /// Sets the controls that hold from step `done` on; after the last row the motion starts again.
     fn set_controls(&self, done: usize, d: &mut Data) {
         let nu = self.m.nu;
         if self.rows == 0 || !done.is_multiple_of(self.hold) {
@@ -170,9 +193,14 @@ impl Workload {
     }
 
     /// Seconds of single steps: their median, and what all but a thousandth of them stay under. Under controls that
-    /// begin anew, the same of the least time that each step of the sequence took: what other work on the machine
-    /// adds is left out.
+    /// repeat, the same of the least time that each step of the sequence took: what other work on the machine adds is
+    /// left out.
     fn jitter(&self, steps: usize) -> Result<Map<String, Value>, Failure> {
+        if steps > MAX_TIMES {
+            return Err(Failure::usage(format!(
+                "--jitter keeps the time of every step: at most {MAX_TIMES} fit"
+            )));
+        }
         let mut d = self.start.clone();
         let mut seconds = Vec::with_capacity(steps);
         for done in 0..steps {
@@ -228,13 +256,6 @@ impl Watch for Clock {
         self.spent[stage as usize] += now - self.last;
         self.last = now;
     }
-}
-
-/// Memory of this process that is in use, where the system tells (Linux).
-fn resident_bytes() -> Option<usize> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
-    line.trim().strip_suffix(" kB")?.parse::<usize>().ok().map(|kib| kib * 1024)
 }
 
 fn print(measure: Measure, found: &Map<String, Value>) {

@@ -1,7 +1,9 @@
 //! `compile`: a model as one file that loads in milliseconds.
 
 use crate::arguments::Compile;
-use crate::{Failure, load, unwritable};
+use crate::loading::load;
+use crate::terminal::show;
+use crate::{Failure, unwritable};
 
 /// Runs the command.
 pub fn run(a: &Compile) -> Result<(), Failure> {

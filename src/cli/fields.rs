@@ -1,10 +1,13 @@
 //! Fields by name: from `Data` into arrays shaped as MuJoCo's Python bindings shape them.
 
-use crate::Failure;
-use dataset::{Array, Values};
+use crate::terminal::listed;
+use crate::{Failure, unwritable};
+use dataset::growing::ColumnId;
+use dataset::{Array, Dtype, GrowingNpz, Values};
+use mjcf::diagnostic::Diagnostics;
 use physics::table::Slice;
 use physics::{Data, Model};
-use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 
 /// Copies reflected scalars into an array.
 pub fn array(shape: Vec<usize>, values: Slice<'_>) -> Array {
@@ -19,79 +22,108 @@ pub fn array(shape: Vec<usize>, values: Slice<'_>) -> Array {
     Array { shape, values }
 }
 
+fn dtype(values: Slice<'_>) -> Dtype {
+    match values {
+        Slice::Bool(_) => Dtype::Bool,
+        Slice::U8(_) => Dtype::U8,
+        Slice::I32(_) => Dtype::I32,
+        Slice::I64(_) => Dtype::I64,
+        Slice::F32(_) => Dtype::F32,
+        Slice::F64(_) => Dtype::F64,
+    }
+}
+
 /// True for fields with one row a contact or constraint row.
 pub fn is_ragged(name: &str) -> bool {
     name.starts_with("contact.") || (name.starts_with("efc_") && name != "efc_J_colind")
 }
 
-/// Rows of the chosen fields, gathered step by step or state by state.
-pub struct Recorder {
-    names: Vec<String>,
-    columns: BTreeMap<String, Column>,
+/// How a field becomes rows of an array.
+#[derive(Clone, Copy, PartialEq)]
+enum Rows {
+    /// One row each time.
+    One,
+    /// As many as it has contacts or constraint rows.
+    All,
+    /// The constraint Jacobian, stored sparse: as many, with all columns.
+    Jacobian,
 }
 
-#[derive(Default)]
-struct Column {
-    shape: Vec<usize>,
-    values: Option<Values>,
-    rows: usize,
+/// Rows of the chosen fields, written step by step or state by state to an archive.
+pub struct Recorder {
+    out: GrowingNpz,
+    path: PathBuf,
+    /// Of each field, in the order in which `Data` shows them.
+    columns: Vec<Option<(ColumnId, Rows)>>,
 }
 
 impl Recorder {
-    /// Will record `names`; every one must be a field of `Data`.
+    /// Opens the archive at `path` for the fields `names`; every one must be a field of `Data`.
     ///
     /// # Errors
-    /// A name that no field bears, with the nearest ones.
-    pub fn new(m: &Model, d: &Data, names: &[String]) -> Result<Self, Failure> {
+    /// No field bears a name, or the archive cannot be opened.
+    pub fn create(path: &Path, m: &Model, d: &Data, names: &[String]) -> Result<Self, Failure> {
         let mut known = Vec::new();
-        d.visit(m, &mut |name, _, _| known.push(name));
-        for name in names {
-            if !known.contains(&name.as_str()) {
-                let near: Vec<_> =
-                    known.iter().filter(|k| k.contains(name.as_str()) || name.contains(**k)).collect();
-                let hint = if near.is_empty() { String::new() } else { format!("; near it: {near:?}") };
-                return Err(Failure::usage(format!("no field is called {name:?}{hint}")));
-            }
+        d.visit(m, &mut |name, shape, values| known.push((name, shape, dtype(values))));
+        if let Some(unknown) = names.iter().find(|name| !known.iter().any(|(k, ..)| k == name)) {
+            return Err(unknown_field(unknown, &known.iter().map(|&(name, ..)| name).collect::<Vec<_>>()));
         }
-        Ok(Recorder { names: names.to_vec(), columns: BTreeMap::new() })
+        let mut out = GrowingNpz::create(path).map_err(unwritable(path))?;
+        let mut columns = Vec::new();
+        for (name, shape, dtype) in known {
+            if !names.iter().any(|n| n == name) {
+                columns.push(None);
+                continue;
+            }
+            let (rows, row) = match name {
+                "efc_J" => (Rows::Jacobian, vec![m.nv]),
+                _ if is_ragged(name) => (Rows::All, shape[1..].to_vec()),
+                _ => (Rows::One, shape),
+            };
+            columns.push(Some((out.column(name, dtype, &row).map_err(unwritable(path))?, rows)));
+        }
+        Ok(Recorder { out, path: path.to_owned(), columns })
     }
 
     /// Appends the current values of every field.
-    pub fn record(&mut self, m: &Model, d: &Data) {
-        d.visit(m, &mut |name, shape, values| {
-            if !self.names.iter().any(|n| n == name) {
+    ///
+    /// # Errors
+    /// Writing fails.
+    pub fn record(&mut self, m: &Model, d: &Data) -> Result<(), Failure> {
+        let mut columns = self.columns.iter();
+        let mut written = Ok(());
+        d.visit(m, &mut |_, shape, values| {
+            let Some(&Some((column, rows))) = columns.next() else { return };
+            if written.is_err() {
                 return;
             }
-            let column = self.columns.entry(name.to_owned()).or_default();
-            let array = match name {
-                "efc_J" => Array::f64(vec![d.efc.nefc, m.nv], d.efc.dense_jacobian(m.nv)),
-                _ => array(shape, values),
+            written = match rows {
+                Rows::One => self.out.append(column, 1, |put| values.pieces(put)),
+                Rows::All => self.out.append(column, shape[0], |put| values.pieces(put)),
+                Rows::Jacobian => {
+                    let dense = d.efc.dense_jacobian(m.nv);
+                    self.out.append(column, d.efc.nefc, |put| Slice::F64(&dense).pieces(put))
+                }
             };
-            column.rows += if is_ragged(name) { array.rows() } else { 1 };
-            column.shape = if is_ragged(name) { array.shape[1..].to_vec() } else { array.shape };
-            append(&mut column.values, array.values);
         });
+        written.and_then(|()| self.out.sync_if_due()).map_err(unwritable(&self.path))
     }
 
-    /// The gathered arrays: a leading axis of steps, states, contacts or rows.
-    pub fn finish(self) -> Vec<(String, Array)> {
-        let finish = |(name, column): (String, Column)| {
-            let mut shape = vec![column.rows];
-            shape.extend(column.shape);
-            (name, Array { shape, values: column.values.unwrap_or(Values::F64(Vec::new())) })
-        };
-        self.columns.into_iter().map(finish).collect()
+    /// Completes the archive: a leading axis of steps, states, contacts or rows.
+    ///
+    /// # Errors
+    /// Writing fails.
+    pub fn finish(self) -> Result<(), Failure> {
+        self.out.finish().map_err(unwritable(&self.path))
     }
 }
 
-fn append(to: &mut Option<Values>, more: Values) {
-    match (to, more) {
-        (Some(Values::Bool(a)), Values::Bool(b)) => a.extend(b),
-        (Some(Values::U8(a)), Values::U8(b)) => a.extend(b),
-        (Some(Values::I32(a)), Values::I32(b)) => a.extend(b),
-        (Some(Values::I64(a)), Values::I64(b)) => a.extend(b),
-        (Some(Values::F32(a)), Values::F32(b)) => a.extend(b),
-        (Some(Values::F64(a)), Values::F64(b)) => a.extend(b),
-        (to, more) => *to = Some(more),
-    }
+fn unknown_field(name: &str, known: &[&str]) -> Failure {
+    let like: Vec<_> = known.iter().filter(|k| k.contains(name) || name.contains(**k)).collect();
+    let advice = match Diagnostics::default().nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean {near:?}?"),
+        None if like.is_empty() => format!("the fields are {}", known.join(", ")),
+        None => format!("like it are {}", listed(like, 12)),
+    };
+    Failure::usage(format!("no field is called {name:?}; {advice}"))
 }

@@ -2,11 +2,14 @@
 
 use crate::arguments::Inspect;
 use crate::fields::array;
-use crate::{Failure, load, unwritable};
+use crate::loading::load;
+use crate::terminal::{show, show_json};
+use crate::{Failure, unwritable};
 use dataset::{Array, NpzWriter};
 use physics::Model;
 use physics::model::{GeomType, JointType, ObjType};
-use std::fmt::Write;
+use physics::table::Slice;
+use serde_json::{Map, Value};
 use std::path::Path;
 
 /// Runs the command.
@@ -16,9 +19,9 @@ pub fn run(a: &Inspect) -> Result<(), Failure> {
         write_arrays(&m, path)?;
     }
     if a.json {
-        show!("{}", json(&m));
+        show_json(&json(&m));
     } else {
-        show!("{}", summary(&m).trim_end());
+        summary(&m);
     }
     Ok(())
 }
@@ -37,17 +40,22 @@ fn write_arrays(m: &Model, path: &Path) -> Result<(), Failure> {
     writer.finish().map_err(unwritable(path))
 }
 
-fn setting(values: physics::table::Slice<'_>) -> Array {
+fn setting(values: Slice<'_>) -> Array {
     let shape = if values.len() == 1 { vec![] } else { vec![values.len()] };
     array(shape, values)
 }
 
-fn json(m: &Model) -> serde_json::Value {
-    let mut sizes = serde_json::Map::new();
-    m.visit_sizes(&mut |name, n| _ = sizes.insert(name.into(), n.into()));
-    let mut options = serde_json::Map::new();
-    m.opt.visit(&mut |name, values| _ = options.insert(name.into(), values.to_f64().into()));
-    let names = |kind, n: usize| (0..n).map(|i| m.label_of(kind, i)).collect::<Vec<_>>();
+fn json(m: &Model) -> Value {
+    let mut sizes = Map::new();
+    // A limit that is not given has all bits set: -1 as MuJoCo shows it.
+    m.visit_sizes(&mut |name, n| _ = sizes.insert(name.into(), (n as i64).into()));
+    let mut options = Map::new();
+    m.opt.visit(&mut |name, values| _ = options.insert(name.into(), setting_json(values)));
+    let name = |kind, i: usize| match m.name_of(kind, i) {
+        "" => m.label_of(kind, i),
+        name => name.to_owned(),
+    };
+    let names = |kind, n: usize| (0..n).map(|i| name(kind, i)).collect::<Vec<_>>();
     serde_json::json!({
         "model": m.name,
         "sizes": sizes,
@@ -57,13 +65,38 @@ fn json(m: &Model) -> serde_json::Value {
         "actuators": names(ObjType::Actuator, m.nactuator),
         "sensors": names(ObjType::Sensor, m.nsensor),
         "keyframes": names(ObjType::Key, m.nkey),
-        "mass": m.body_subtreemass.first(),
+        "mass": m.body_subtreemass.first().map(|&mass| number(mass)),
     })
 }
 
-fn summary(m: &Model) -> String {
-    let mut s = String::new();
-    let mut line = |key: &str, value: String| _ = writeln!(s, "{key:<12} {value}");
+/// A setting as a number, or an array of them.
+fn setting_json(values: Slice<'_>) -> Value {
+    let numbers: Vec<Value> = match values {
+        Slice::Bool(v) => v.iter().map(|&x| x.into()).collect(),
+        Slice::U8(v) => v.iter().map(|&x| x.into()).collect(),
+        Slice::I32(v) => v.iter().map(|&x| x.into()).collect(),
+        Slice::I64(v) => v.iter().map(|&x| x.into()).collect(),
+        Slice::F32(v) => v.iter().map(|&x| number(x.into())).collect(),
+        Slice::F64(v) => v.iter().map(|&x| number(x)).collect(),
+    };
+    match &numbers[..] {
+        [one] => one.clone(),
+        _ => numbers.into(),
+    }
+}
+
+/// A number, spelt where JSON has none for it.
+fn number(x: f64) -> Value {
+    match x {
+        f64::INFINITY => "Infinity".into(),
+        f64::NEG_INFINITY => "-Infinity".into(),
+        x if x.is_nan() => "NaN".into(),
+        x => x.into(),
+    }
+}
+
+fn summary(m: &Model) {
+    let line = |key: &str, value: String| show!("{key:<12} {value}");
     line("model", m.name.clone());
     line("state", format!("nq {}, nv {}, na {}, nu {}, nmocap {}", m.nq, m.nv, m.na, m.nu, m.nmocap));
     line("tree", format!("{} bodies, {} joints, {} trees", m.nbody, m.njnt, m.ntree));
@@ -88,7 +121,6 @@ fn summary(m: &Model) -> String {
             m.opt.noslip_iterations
         ),
     );
-    s
 }
 
 /// Counts of each kind, in order of first appearance.
@@ -103,4 +135,17 @@ fn tally(codes: &[i32], name: impl Fn(i32) -> Option<String>) -> String {
     let kinds: Vec<_> =
         counts.iter().map(|&(c, n)| format!("{n} {}", name(c).unwrap_or_default().to_lowercase())).collect();
     if kinds.is_empty() { "none".into() } else { kinds.join(", ") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_are_numbers_or_arrays_and_what_json_lacks_is_spelt() {
+        assert_eq!(setting_json(Slice::F64(&[0.002])).to_string(), "0.002");
+        assert_eq!(setting_json(Slice::I32(&[-1])).to_string(), "-1");
+        let text = setting_json(Slice::F64(&[f64::INFINITY, f64::NEG_INFINITY, f64::NAN, 1.0])).to_string();
+        assert_eq!(text, "[\"Infinity\",\"-Infinity\",\"NaN\",1.0]");
+    }
 }

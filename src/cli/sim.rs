@@ -1,70 +1,198 @@
 //! `sim`: let a model move.
 
-use crate::arguments::Sim;
-use crate::fields::Recorder;
-use crate::{Failure, load, start, unwritable};
-use dataset::NpzWriter;
+use crate::arguments::{MAX_STEPS, Sim};
+use crate::interrupt::Interrupt;
+use crate::loading::{load, start};
+use crate::terminal::show;
+use crate::{Failure, unwritable};
+use dataset::growing::ColumnId;
+use dataset::{Dtype, GrowingNpz};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::path::Path;
+use physics::model::Enable;
+use physics::table::Slice;
+use physics::{Data, Model, StepError, step};
+use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-const RECORDED: [&str; 7] = ["time", "qpos", "qvel", "act", "ctrl", "sensordata", "energy"];
-
-/// Most steps one run may take.
-const MAX_STEPS: f64 = 1e9;
 
 /// Runs the command.
 pub fn run(a: &Sim) -> Result<(), Failure> {
-    let m = load(&a.model.path, &a.model.reading)?;
+    let mut m = load(&a.model.path, &a.model.reading)?;
+    // Every step then computes the energy of the state that it starts from.
+    m.options_mut().enableflags.set(Enable::ENERGY, true);
     let mut d = start(&m, a.keyframe.as_deref())?;
-    let steps = (a.seconds / m.opt.timestep).ceil();
-    if !(0.0..=MAX_STEPS).contains(&steps) {
-        return Err(Failure::usage(format!(
-            "--seconds {} asks for {steps} steps; 0 to {MAX_STEPS:e} can be run",
-            a.seconds
-        )));
-    }
-    let mut recorder = match a.out {
-        Some(_) => Some(Recorder::new(&m, &d, &RECORDED.map(String::from))?),
-        None => None,
-    };
-    let bar = if a.quiet { ProgressBar::hidden() } else { progress(steps as u64) };
-    let began = Instant::now();
-    let mut contacts = 0;
-    for _ in 0..steps as u64 {
-        physics::step(&m, &mut d).map_err(|e| Failure::new(format!("at {:.6} s: {e}", d.state.time)))?;
-        contacts = contacts.max(d.con.contact.len());
-        if let Some(recorder) = &mut recorder {
-            physics::derive_on_demand(&m, &mut d);
-            recorder.record(&m, &d);
-        }
-        bar.inc(1);
-    }
-    let wall = began.elapsed().as_secs_f64();
+    let steps = number_of_steps(a.seconds, m.opt.timestep)?;
+    let mut recording = a.out.as_deref().map(|path| Recording::create(path, &d)).transpose()?;
+    let bar = if a.quiet { ProgressBar::hidden() } else { progress(steps) };
+    let run = advance(&m, &mut d, steps, recording.as_mut(), &bar)?;
     bar.finish_and_clear();
-    physics::derive_on_demand(&m, &mut d);
-    show!("model        {}", m.name);
-    show!("time         {:.6} s in {steps} steps", d.state.time);
-    show!("speed        {:.0} steps/s, {:.1} x real time", steps / wall, d.state.time / wall);
-    show!("energy       potential {:.6} J, kinetic {:.6} J", d.energy[0], d.energy[1]);
-    show!("contacts     {} now, {contacts} at most", d.con.contact.len());
-    if let (Some(path), Some(recorder)) = (&a.out, recorder) {
-        write(path, recorder)?;
-        show!("written      {}", path.display());
+    show_summary(&m, &d, &run);
+    let kept = match (&a.out, recording) {
+        (Some(path), Some(recording)) => {
+            let rows = recording.finish().map_err(unwritable(path))?;
+            show!("written      {}, {rows} states", path.display());
+            format!("; {} holds the motion up to there", path.display())
+        }
+        _ => String::new(),
+    };
+    match run.end {
+        End::Completed(_) => Ok(()),
+        End::Interrupted(code) => {
+            Err(Failure { code, ..Failure::new(format!("interrupted at {:.6} s{kept}", d.state.time)) })
+        }
+        End::Failed(error) => Err(Failure::new(format!("at {:.6} s: {error}{kept}", d.state.time))),
     }
-    Ok(())
 }
 
+/// Steps that fill a duration.
+fn number_of_steps(seconds: f64, timestep: f64) -> Result<u64, Failure> {
+    let steps = (seconds / timestep).ceil();
+    if (0.0..=MAX_STEPS as f64).contains(&steps) {
+        return Ok(steps as u64);
+    }
+    Err(Failure::usage(format!(
+        "--seconds {seconds} asks for {steps} steps of {timestep} s; 0 to {MAX_STEPS} can be run"
+    )))
+}
+
+/// What happened.
+struct Run {
+    steps: u64,
+    seconds: f64,
+    most_contacts: usize,
+    end: End,
+}
+
+enum End {
+    /// All steps were taken; energy and contacts of the last state.
+    Completed(Box<Data>),
+    /// A signal came; the exit code.
+    Interrupted(u8),
+    /// A state could not be stepped.
+    Failed(StepError),
+}
+
+/// Takes the steps, and one more aside, which checks and measures the last state.
+fn advance(
+    m: &Model,
+    d: &mut Data,
+    steps: u64,
+    mut recording: Option<&mut Recording>,
+    bar: &ProgressBar,
+) -> Result<Run, Failure> {
+    // Without a file to complete, signals end the process as ever.
+    let interrupt = recording.is_some().then(Interrupt::listen).transpose().map_err(Failure::new)?;
+    let mut run = Run { steps: 0, seconds: 0.0, most_contacts: 0, end: End::Interrupted(0) };
+    let began = Instant::now();
+    run.end = loop {
+        if let Some(code) = interrupt.as_ref().and_then(Interrupt::code) {
+            break End::Interrupted(code);
+        }
+        if let Some(recording) = &mut recording {
+            recording.state(d)?;
+        }
+        let mut last = (run.steps == steps).then(|| Box::new(d.clone()));
+        if last.is_some() {
+            run.seconds = began.elapsed().as_secs_f64();
+        }
+        let stepped = last.as_deref_mut().unwrap_or(d);
+        let outcome = step(m, stepped);
+        if let Some(recording) = &mut recording {
+            recording.measurements(stepped, outcome.is_ok())?;
+        }
+        if let Err(error) = outcome {
+            break End::Failed(error);
+        }
+        run.most_contacts = run.most_contacts.max(stepped.con.contact.len());
+        if let Some(last) = last {
+            break End::Completed(last);
+        }
+        run.steps += 1;
+        bar.inc(1);
+    };
+    if !matches!(run.end, End::Completed(_)) {
+        run.seconds = began.elapsed().as_secs_f64();
+    }
+    Ok(run)
+}
+
+fn show_summary(m: &Model, d: &Data, run: &Run) {
+    let steps = run.steps as f64;
+    show!("model        {}", m.name);
+    show!("time         {:.6} s after {} steps of {} s", d.state.time, run.steps, m.opt.timestep);
+    if run.steps > 0 {
+        let real_time = steps * m.opt.timestep / run.seconds;
+        show!("speed        {:.0} steps/s, {real_time:.1} x real time", steps / run.seconds);
+    }
+    if let End::Completed(last) = &run.end {
+        show!("energy       potential {:.6} J, kinetic {:.6} J", last.energy[0], last.energy[1]);
+        show!("contacts     {} now, {} at most", last.con.contact.len(), run.most_contacts);
+    } else {
+        show!("contacts     {} at most", run.most_contacts);
+    }
+}
+
+/// A bar that fits the terminal.
 fn progress(steps: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {per_sec}, {eta} left")
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} steps, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(steps).with_style(style)
 }
 
-fn write(path: &Path, recorder: Recorder) -> Result<(), Failure> {
-    let mut writer = NpzWriter::create(path).map_err(unwritable(path))?;
-    for (name, array) in recorder.finish() {
-        writer.add(&name, &array).map_err(unwritable(path))?;
+/// A trajectory that is being written. A row is a state, the controls in force from then on, and what the step from that
+/// state measures.
+struct Recording {
+    out: GrowingNpz,
+    path: PathBuf,
+    state: [ColumnId; 5],
+    measured: [ColumnId; 2],
+    rows: u64,
+}
+
+impl Recording {
+    fn create(path: &Path, d: &Data) -> Result<Self, Failure> {
+        let fail = |e| unwritable(path)(e);
+        let mut out = GrowingNpz::create(path).map_err(fail)?;
+        let mut column = |name: &str, row: &[usize]| out.column(name, Dtype::F64, row).map_err(fail);
+        let s = &d.state;
+        let state = [
+            column("time", &[])?,
+            column("qpos", &[s.qpos.len()])?,
+            column("qvel", &[s.qvel.len()])?,
+            column("act", &[s.act.len()])?,
+            column("ctrl", &[s.ctrl.len()])?,
+        ];
+        let measured = [column("sensordata", &[d.sensor.sensordata.len()])?, column("energy", &[2])?];
+        Ok(Recording { out, path: path.to_owned(), state, measured, rows: 0 })
     }
-    writer.finish().map_err(unwritable(path))
+
+    /// Appends the state that a step starts from.
+    fn state(&mut self, d: &Data) -> Result<(), Failure> {
+        let s = &d.state;
+        let values: [&[f64]; 5] = [&[d.state.time], &s.qpos, &s.qvel, &s.act, &s.ctrl];
+        self.append(self.state, values)
+    }
+
+    /// Appends what the step measured of that state: nothing if it failed.
+    fn measurements(&mut self, d: &Data, measured: bool) -> Result<(), Failure> {
+        if measured {
+            self.append(self.measured, [&d.sensor.sensordata, &d.energy])?;
+        } else {
+            self.append(self.measured, [&vec![f64::NAN; d.sensor.sensordata.len()], &[f64::NAN; 2]])?;
+        }
+        self.rows += 1;
+        self.out.sync_if_due().map_err(unwritable(&self.path))
+    }
+
+    fn append<const N: usize>(&mut self, columns: [ColumnId; N], rows: [&[f64]; N]) -> Result<(), Failure> {
+        for (column, row) in columns.into_iter().zip(rows) {
+            let put = |out: &mut dyn FnMut(&[u8])| Slice::F64(row).pieces(out);
+            self.out.append(column, 1, put).map_err(unwritable(&self.path))?;
+        }
+        Ok(())
+    }
+
+    /// Completes the file; the number of rows.
+    fn finish(self) -> std::io::Result<u64> {
+        self.out.finish().map(|()| self.rows)
+    }
 }

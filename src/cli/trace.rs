@@ -1,9 +1,11 @@
 //! `trace`: recorded inputs in, named fields out.
 
+use crate::Failure;
 use crate::arguments::Trace;
 use crate::fields::{Recorder, is_ragged};
-use crate::{Failure, load, unwritable};
-use dataset::{Array, NpzReader, NpzWriter};
+use crate::interrupt::Interrupt;
+use crate::loading::load;
+use dataset::{Array, NpzReader};
 use physics::{Data, Model};
 
 const INPUTS: [&str; 11] = [
@@ -20,7 +22,10 @@ const INPUTS: [&str; 11] = [
     "qacc_warmstart",
 ];
 
-/// Runs the command.
+/// What `sim --out` writes beside inputs.
+const OUTPUTS: [&str; 2] = ["sensordata", "energy"];
+
+/// Runs the command. Rows before a failure or a signal are kept.
 pub fn run(a: &Trace) -> Result<(), Failure> {
     let m = load(&a.model.path, &a.model.reading)?;
     let inputs = read_inputs(a)?;
@@ -31,24 +36,30 @@ pub fn run(a: &Trace) -> Result<(), Failure> {
             names.push(count.into());
         }
     }
-    let mut recorder = Recorder::new(&m, &d, &names)?;
-    if a.forward {
-        forward_rows(&m, &mut d, &inputs, &mut recorder)?;
-    } else {
-        rollout(&m, &mut d, &inputs, &mut recorder)?;
+    let rows = rows_of(&inputs, a.forward)?;
+    let mut recorder = Recorder::create(&a.out, &m, &d, &names)?;
+    let interrupt = Interrupt::listen().map_err(Failure::new)?;
+    let mut outcome = Ok(());
+    for row in 0..rows {
+        outcome = match interrupt.code() {
+            Some(code) => Err(Failure { code, ..Failure::new(format!("interrupted before row {row}")) }),
+            None if a.forward => forward(&m, &mut d, &inputs, row),
+            None => advance(&m, &mut d, &inputs, row),
+        };
+        if outcome.is_err() {
+            break;
+        }
+        recorder.record(&m, &d)?;
     }
-    let mut writer = NpzWriter::create(&a.out).map_err(unwritable(&a.out))?;
-    for (name, array) in recorder.finish() {
-        writer.add(&name, &array).map_err(unwritable(&a.out))?;
-    }
-    writer.finish().map_err(unwritable(&a.out))
+    recorder.finish()?;
+    outcome
 }
 
 /// The inputs that the archive holds, each with its rows; an unknown array is an error.
 fn read_inputs(a: &Trace) -> Result<Vec<(String, Array)>, Failure> {
     let archive = NpzReader::open(&a.input).map_err(Failure::usage)?;
     let mut inputs = Vec::new();
-    for name in archive.names() {
+    for name in archive.names().filter(|name| !OUTPUTS.contains(name)) {
         if !INPUTS.contains(&name) {
             return Err(Failure::usage(format!(
                 "{}: array {name:?} is no input; inputs are {}",
@@ -80,46 +91,34 @@ fn assign(d: &mut Data, name: &str, values: &[f64]) -> Result<(), Failure> {
     }
 }
 
-fn forward_rows(
-    m: &Model,
-    d: &mut Data,
-    inputs: &[(String, Array)],
-    recorder: &mut Recorder,
-) -> Result<(), Failure> {
-    let rows = inputs.iter().map(|(_, array)| array.rows()).max().unwrap_or(0);
-    for row in 0..rows {
-        d.reset(m);
-        for (name, array) in inputs {
-            assign(d, name, &row_of(name, array, row)?)?;
-        }
-        physics::forward(m, d).map_err(|e| Failure::new(format!("row {row}: {e}")))?;
-        physics::derive_on_demand(m, d);
-        recorder.record(m, d);
+/// Number of rows to compute.
+fn rows_of(inputs: &[(String, Array)], forward: bool) -> Result<usize, Failure> {
+    if forward {
+        return Ok(inputs.iter().map(|(_, array)| array.rows()).max().unwrap_or(0));
     }
+    match inputs.iter().find(|(name, _)| name == "ctrl").map_or(0, |(_, array)| array.rows()) {
+        0 => Err(Failure::usage(
+            "a rollout needs an array \"ctrl\" with one row a step; --forward treats rows as states",
+        )),
+        steps => Ok(steps),
+    }
+}
+
+/// Takes row `row` as a state and computes what follows from it.
+fn forward(m: &Model, d: &mut Data, inputs: &[(String, Array)], row: usize) -> Result<(), Failure> {
+    d.reset(m);
+    for (name, array) in inputs {
+        assign(d, name, &row_of(name, array, row)?)?;
+    }
+    physics::forward(m, d).map_err(|e| Failure::new(format!("row {row}: {e}")))?;
+    physics::derive_on_demand(m, d);
     Ok(())
 }
 
-fn rollout(
-    m: &Model,
-    d: &mut Data,
-    inputs: &[(String, Array)],
-    recorder: &mut Recorder,
-) -> Result<(), Failure> {
-    let steps = inputs.iter().find(|(name, _)| name == "ctrl").map_or(0, |(_, array)| array.rows());
-    if steps == 0 {
-        return Err(Failure::usage(
-            "a rollout needs an array \"ctrl\" with one row a step; --forward treats rows as states",
-        ));
+/// Takes the controls of row `row`, of row 0 all inputs, and makes a step.
+fn advance(m: &Model, d: &mut Data, inputs: &[(String, Array)], row: usize) -> Result<(), Failure> {
+    for (name, array) in inputs.iter().filter(|(name, _)| row == 0 || name == "ctrl") {
+        assign(d, name, &row_of(name, array, row)?)?;
     }
-    for (name, array) in inputs {
-        assign(d, name, &row_of(name, array, 0)?)?;
-    }
-    for step in 0..steps {
-        for (name, array) in inputs.iter().filter(|(name, _)| name == "ctrl") {
-            assign(d, name, &row_of(name, array, step)?)?;
-        }
-        physics::step(m, d).map_err(|e| Failure::new(format!("step {step}: {e}")))?;
-        recorder.record(m, d);
-    }
-    Ok(())
+    physics::step(m, d).map_err(|e| Failure::new(format!("step {row}: {e}")))
 }

@@ -1,28 +1,13 @@
 //! The command line as a user meets it: outputs, messages, exit codes.
 
+mod command;
+
+use command::{ROOT, command, robohive, scratch, text};
 use dataset::{Array, NpzReader, NpzWriter};
+use std::fs::File;
 use std::io::Write;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
-
-fn robohive(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_robohive"))
-        .args(arguments)
-        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// A path for one test's output.
-fn scratch(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli");
-    std::fs::create_dir_all(&folder).unwrap();
-    folder.join(name)
-}
+use std::path::Path;
+use std::process::Stdio;
 
 fn write(path: &Path, arrays: &[(&str, Array)]) {
     let mut writer = NpzWriter::create(path).unwrap();
@@ -50,9 +35,8 @@ fn inspect_writes_every_array_under_its_name() {
 
 #[test]
 fn a_reader_that_stops_early_is_no_failure() {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_robohive"))
+    let mut child = command()
         .args(["inspect", "assets/franka/franka_table.xml", "--json"])
-        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -62,26 +46,77 @@ fn a_reader_that_stops_early_is_no_failure() {
     assert_eq!((out.status.code(), text(&out.stderr).as_str()), (Some(0), ""));
 }
 
+/// Numbers are numbers, limits that are not given are MuJoCo's -1.
 #[test]
-fn sim_reports_and_records() {
-    let file = scratch("sim.npz");
-    let out = robohive(&[
-        "sim",
-        "assets/elbow/elbow.xml",
-        "--seconds",
-        "0.1",
-        "--out",
-        file.to_str().unwrap(),
-        "-q",
-    ]);
+fn inspect_prints_json_of_the_right_types() {
+    let out = robohive(&["inspect", "assets/elbow/elbow.xml", "--json"]);
+    let json: serde_json::Value = serde_json::from_slice(&out.stdout).unwrap();
+    assert_eq!((&json["sizes"]["njmax"], &json["sizes"]["nconmax"]), (&(-1).into(), &(-1).into()));
+    assert_eq!((&json["options"]["timestep"], &json["options"]["iterations"]), (&0.002.into(), &100.into()));
+    assert_eq!(json["options"]["gravity"], serde_json::json!([0.0, 0.0, -9.81]));
+    assert!(json["mass"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn sim_reports_what_happened() {
+    let out = robohive(&["sim", "assets/elbow/elbow.xml", "--seconds", "0.1", "-q"]);
     assert!(out.status.success(), "{}", text(&out.stderr));
-    for word in ["steps/s", "potential", "contacts"] {
+    for word in ["after 50 steps", "steps/s", "x real time", "potential", "contacts"] {
         assert!(text(&out.stdout).contains(word), "{word} is missing in {}", text(&out.stdout));
     }
-    let arrays = NpzReader::open(&file).unwrap();
-    assert_eq!(arrays.require("qpos").unwrap().shape, [50, 2]);
-    let time = arrays.require("time").unwrap().values.to_f64();
-    assert!((time[49] - 0.1).abs() < 1e-12);
+}
+
+/// Text and compiled models are read from standard input, which messages call by name.
+#[test]
+fn models_come_from_standard_input() {
+    let inspect = |input: &Path| {
+        let input = File::open(input).unwrap();
+        command().args(["inspect", "-", "--json"]).stdin(input).output().unwrap()
+    };
+    let elbow = Path::new(ROOT).join("assets/elbow/elbow.xml");
+    let direct = text(&robohive(&["inspect", "assets/elbow/elbow.xml", "--json"]).stdout);
+    assert_eq!(text(&inspect(&elbow).stdout), direct);
+    let compiled = scratch("input.rhm");
+    robohive(&["compile", "assets/elbow/elbow.xml", "--out", compiled.to_str().unwrap()]);
+    assert_eq!(text(&inspect(&compiled).stdout), direct);
+    let bad = scratch("bad_input.xml");
+    std::fs::write(&bad, "<mujoco>\n<wordbody/></mujoco>").unwrap();
+    let out = inspect(&bad);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(text(&out.stderr).contains("<stdin>:2:"), "{}", text(&out.stderr));
+}
+
+/// A model's text cannot steer the terminal or forge a line.
+#[test]
+fn control_characters_of_a_model_are_spelt_out() {
+    let file = scratch("evil.xml");
+    let name = "evil&#x9b;31m&#10;passed&#x202e;";
+    let body = format!("<body name=\"{name}\"><geom size=\"1\"/></body>");
+    std::fs::write(&file, format!("<mujoco model=\"{name}\"><worldbody>{body}</worldbody></mujoco>"))
+        .unwrap();
+    let file = file.to_str().unwrap();
+    let summary = text(&robohive(&["inspect", file]).stdout);
+    assert!(summary.contains("evil\\u{9b}31m\\npassed\\u{202e}"), "{summary}");
+    let json = text(&robohive(&["inspect", file, "--json"]).stdout);
+    assert!(json.contains("evil\\u009b31m\\npassed\\u202e"), "{json}");
+    for output in [&summary, &json] {
+        assert!(!output.chars().any(|c| matches!(c, '\u{80}'..='\u{9f}' | '\u{202e}')), "{output:?}");
+    }
+    let parsed: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(parsed["bodies"][1], "evil\u{9b}31m\npassed\u{202e}");
+}
+
+/// Colour is for terminals; a pipe gets plain text.
+#[test]
+fn pipes_get_no_colour() {
+    let reference = "validation/reference/own/elbow.npz";
+    let check = |variable: &str| {
+        let arguments = ["check", "assets/elbow/elbow.xml", reference];
+        text(&command().args(arguments).env(variable, "1").output().unwrap().stdout)
+    };
+    assert!(!check("UNRELATED").contains('\u{1b}'));
+    assert!(check("CLICOLOR_FORCE").contains("\u{1b}["), "colour cannot be asked for");
+    assert!(!check("NO_COLOR").contains('\u{1b}'));
 }
 
 #[test]
@@ -159,9 +194,8 @@ fn bench_ends_with_a_json_line() {
 #[test]
 fn bench_answers_requests_with_the_recorded_motion() {
     let reference = "validation/reference/own/humanoid.npz";
-    let mut child = Command::new(env!("CARGO_BIN_EXE_robohive"))
+    let mut child = command()
         .args(["bench", "assets/humanoid/humanoid.xml", "--requests", "--hold", "1", "--controls", reference])
-        .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .spawn()
@@ -171,7 +205,7 @@ fn bench_answers_requests_with_the_recorded_motion() {
     assert!(out.status.success());
     let answers: Vec<serde_json::Value> =
         text(&out.stdout).lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    let recorded = NpzReader::open(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(reference))
+    let recorded = NpzReader::open(&Path::new(ROOT).join(reference))
         .unwrap()
         .require("rollout.qpos")
         .unwrap()
@@ -187,18 +221,68 @@ fn bench_answers_requests_with_the_recorded_motion() {
 }
 
 #[test]
-fn check_agrees_on_the_own_models_and_says_so() {
-    let out =
-        robohive(&["check", "assets/quadruped/quadruped.xml", "validation/reference/own/quadruped.npz"]);
-    assert!(out.status.success(), "{}{}", text(&out.stdout), text(&out.stderr));
-    assert_eq!(text(&out.stdout).matches(" agrees ").count(), 4);
+fn bench_refuses_what_it_cannot_hold() {
+    let cases: [(&[&str], &str); 5] = [
+        (&["--threads", "5000"], "5000 is not in 1..=1024"),
+        (&["--threads", "0"], "0 is not in 1..=1024"),
+        (&["--batch", "2000000"], "2000000 is not in 1..=1048576"),
+        (&["--jitter", "--steps", "999999999"], "at most 100000000"),
+        (&["--steps", "99999999999"], "--steps"),
+    ];
+    for (arguments, message) in cases {
+        let out = robohive(&[&["bench", "assets/elbow/elbow.xml"], arguments].concat());
+        assert_eq!(out.status.code(), Some(2), "{arguments:?}: {}", text(&out.stderr));
+        assert!(text(&out.stderr).contains(message), "{arguments:?}: {}", text(&out.stderr));
+    }
 }
 
 #[test]
-fn check_of_another_model_differs_with_exit_code_1() {
+fn check_agrees_on_the_own_models_and_says_so_in_its_last_line() {
+    let out =
+        robohive(&["check", "assets/quadruped/quadruped.xml", "validation/reference/own/quadruped.npz"]);
+    assert!(out.status.success(), "{}{}", text(&out.stdout), text(&out.stderr));
+    let report = text(&out.stdout);
+    assert_eq!(report.matches(" agrees ").count(), 4);
+    let last = report.lines().last().unwrap();
+    assert!(
+        last.starts_with("passed: quadruped") && last.contains("qacc:") && last.contains("twin:"),
+        "{last}"
+    );
+}
+
+/// The sizes of another model, with nothing worse than a report.
+#[test]
+fn check_of_another_model_names_the_mismatch_with_exit_code_1() {
     let out = robohive(&["check", "assets/pile/pile.xml", "validation/reference/own/quadruped.npz"]);
-    assert_ne!(out.status.code(), Some(0));
-    assert!(text(&out.stdout).contains("DIFFERS") || !out.stderr.is_empty());
+    assert_eq!((out.status.code(), text(&out.stderr).as_str()), (Some(1), ""));
+    let report = text(&out.stdout);
+    let sizes = report.lines().find(|line| line.starts_with("sizes")).unwrap();
+    assert!(sizes.contains("DIFFERS") && sizes.contains("nq 105 (MuJoCo 19)"), "{sizes}");
+    assert!(report.lines().last().unwrap().starts_with("failed: "), "{report}");
+}
+
+/// A model of the same sizes that moves otherwise.
+#[test]
+fn check_of_an_edited_model_names_the_array_with_exit_code_1() {
+    let text_of = std::fs::read_to_string(Path::new(ROOT).join("assets/elbow/elbow.xml")).unwrap();
+    let edited = scratch("heavy.xml");
+    let (before, after) = text_of.split_once("<option ").unwrap();
+    std::fs::write(&edited, format!("{before}<option gravity=\"0 0 -9.9\" {after}")).unwrap();
+    let out = robohive(&["check", edited.to_str().unwrap(), "validation/reference/own/elbow.npz"]);
+    let report = text(&out.stdout);
+    assert_eq!((out.status.code(), text(&out.stderr).as_str()), (Some(1), ""), "{report}");
+    assert!(report.contains("opt.gravity[2] -9.9e0 (MuJoCo -9.81e0)"), "{report}");
+    let last = report.lines().last().unwrap();
+    assert!(last.starts_with("failed: ") && last.contains("compile, forward, step, rollout"), "{last}");
+}
+
+#[test]
+fn a_damaged_reference_names_the_array() {
+    let file = scratch("reference.npz");
+    write(&file, &[("size.nq", Array::scalar_i64(2))]);
+    let out = robohive(&["check", "assets/elbow/elbow.xml", file.to_str().unwrap()]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(text(&out.stderr).contains("reference.npz, array \"size.n"), "{}", text(&out.stderr));
 }
 
 #[test]
@@ -208,11 +292,17 @@ fn wrong_input_names_the_fault_with_exit_code_2() {
         .unwrap();
     let bad = bad.to_str().unwrap();
     let elbow = "assets/elbow/elbow.xml";
-    let cases: [(&[&str], &str); 6] = [
+    let franka = "assets/franka/franka_table.xml";
+    let run = ["trace", elbow, "--in", "validation/reference/own/elbow.npz", "--out", "out.npz"];
+    let cases: [(&[&str], &str); 10] = [
         (&["inspect", "no_such_model.xml"], "no_such_model.xml"),
         (&["inspect", bad], "bad.xml:3:11"),
         (&["sim", elbow, "--keyframe", "nowhere"], "no keyframe \"nowhere\""),
-        (&["sim", elbow, "--keyframe", "7"], "the model has 1"),
+        (&["sim", elbow, "--keyframe", "7"], "its keyframes, 0 to 0, include \"bent\""),
+        (&["sim", franka, "--keyframe", "redy"], "did you mean \"ready\"?"),
+        (&["sim", "assets/pile/pile.xml", "--keyframe", "0"], "it has no keyframes"),
+        (&["sim", elbow, "--define", "ELBOW=knee"], "no file of the model contains 'ELBOW'"),
+        (&run, "inputs are time, qpos"),
         (&["sim", elbow, "--seconds", "-1"], "--seconds -1"),
         (&["trace", elbow, "--in", "no.npz", "--out", "out.npz"], "no.npz"),
     ];
@@ -235,11 +325,18 @@ fn template_text_is_replaced() {
 }
 
 #[test]
-fn help_has_examples() {
-    for command in ["inspect", "compile", "sim", "trace", "check", "bench"] {
-        let out = robohive(&[command, "--help"]);
-        assert!(text(&out.stdout).contains(&format!("robohive {command}")), "{}", text(&out.stdout));
-    }
+fn unknown_fields_are_answered_with_those_like_them() {
+    let input = scratch("fields_in.npz");
+    write(&input, &[("ctrl", Array::f64(vec![1, 6], vec![0.0; 6]))]);
+    let message = |field: &str| {
+        let arguments = ["trace", "assets/elbow/elbow.xml", "--out", "out.npz", "--fields", field, "--in"];
+        let out = command().args(arguments).arg(&input).output().unwrap();
+        assert_eq!(out.status.code(), Some(2));
+        text(&out.stderr)
+    };
+    assert!(message("qpoz").contains("did you mean \"qpos\"?"), "{}", message("qpoz"));
+    assert!(message("length").contains("\"ten_length\""), "{}", message("length"));
+    assert!(message("colour").contains("the fields are time, "), "{}", message("colour"));
 }
 
 /// Every command takes a compiled model, which is the one that the text makes; a damaged or foreign one is refused.

@@ -1,0 +1,126 @@
+//! What the command says of itself: help, examples that work, completions, manual pages, version.
+
+mod command;
+
+use command::{ROOT, command, robohive, scratch, text};
+use std::fs::File;
+use std::path::Path;
+use std::process::Stdio;
+
+/// Names of all subcommands, from the main help.
+fn subcommands() -> Vec<String> {
+    let help = text(&robohive(&["--help"]).stdout);
+    let (_, list) = help.split_once("Commands:\n").unwrap();
+    let lines = list.lines().take_while(|line| line.starts_with("  "));
+    let names: Vec<_> = lines.filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect();
+    assert!(names.len() >= 9 && names.contains(&"help".to_owned()), "{names:?}");
+    names.into_iter().filter(|name| name != "help").collect()
+}
+
+/// One example: its words, and the file that it reads as standard input.
+struct Example {
+    words: Vec<String>,
+    input: Option<String>,
+}
+
+/// The examples of a help text that run this command; what they pipe to others is left out.
+fn examples(help: &str) -> Vec<Example> {
+    let (_, section) = help.split_once("\nExamples:\n").expect("a section of examples");
+    let section = section.replace("\\\n", " ");
+    let lines = section.lines().filter_map(|line| line.strip_prefix("  robohive "));
+    let example = |line: &str| {
+        let end = ["   ", " | ", " > "].iter().filter_map(|mark| line.find(mark)).min();
+        let line = &line[..end.unwrap_or(line.len())];
+        let (words, input) = line.split_once(" < ").unwrap_or((line, ""));
+        let input = (!input.is_empty()).then(|| input.trim().to_owned());
+        Example { words: words.split_whitespace().map(str::to_owned).collect(), input }
+    };
+    lines.map(example).collect()
+}
+
+/// Every example works as it stands, in order, in a folder that has the repository's models and references.
+#[test]
+fn examples_of_every_help_run() {
+    let folder = scratch("examples");
+    _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    for shared in ["assets", "validation"] {
+        link(&Path::new(ROOT).join(shared), &folder.join(shared));
+    }
+    for name in subcommands() {
+        let help = text(&robohive(&[&name, "--help"]).stdout);
+        let examples = examples(&help);
+        assert!(examples.iter().any(|example| example.words[0] == name), "{name}: {help}");
+        for Example { words, input } in examples {
+            let input = input.map_or(Stdio::null(), |path| File::open(folder.join(path)).unwrap().into());
+            let out = command().args(&words).current_dir(&folder).stdin(input).output().unwrap();
+            assert!(out.status.success(), "{words:?}: {}{}", text(&out.stdout), text(&out.stderr));
+            assert!(!out.stdout.is_empty() || words[0] == "trace", "{words:?} prints nothing");
+        }
+    }
+}
+
+#[cfg(unix)]
+fn link(from: &Path, to: &Path) {
+    std::os::unix::fs::symlink(from, to).unwrap();
+}
+
+#[cfg(windows)]
+fn link(from: &Path, to: &Path) {
+    std::os::windows::fs::symlink_dir(from, to).unwrap();
+}
+
+#[test]
+fn help_fits_eighty_columns() {
+    for name in subcommands() {
+        let out = command().args([&name, "--help"]).env("COLUMNS", "80").output().unwrap();
+        for line in text(&out.stdout).lines().filter(|line| !line.contains("robohive ")) {
+            assert!(line.chars().count() <= 80, "{name}: {line}");
+        }
+    }
+}
+
+#[test]
+fn the_version_names_the_commit_and_mujoco() {
+    let version = text(&robohive(&["--version"]).stdout);
+    let inside = version
+        .strip_prefix(concat!("robohive ", env!("CARGO_PKG_VERSION"), " ("))
+        .and_then(|rest| rest.strip_suffix("follows MuJoCo 3.12.0)\n"));
+    let commit = inside.unwrap_or_else(|| panic!("{version}"));
+    if Path::new(ROOT).join(".git").exists() {
+        let commit = commit.strip_prefix("commit ").and_then(|rest| rest.strip_suffix(", ")).unwrap();
+        assert!(commit.len() == 10 && commit.bytes().all(|b| b.is_ascii_hexdigit()), "{version}");
+    }
+}
+
+#[test]
+fn completions_know_every_command() {
+    for shell in ["bash", "zsh", "fish"] {
+        let out = robohive(&["completions", shell]);
+        assert!(out.status.success() && out.stderr.is_empty(), "{}", text(&out.stderr));
+        let script = text(&out.stdout);
+        for name in subcommands() {
+            assert!(script.contains(&name), "{shell} does not complete {name}");
+        }
+        for option in ["keyframe", "forward", "jitter"] {
+            assert!(script.contains(option), "{shell} does not complete {option}");
+        }
+    }
+    assert_eq!(robohive(&["completions", "cobol"]).status.code(), Some(2));
+}
+
+#[test]
+fn every_command_has_a_manual_page_with_its_examples() {
+    let folder = scratch("man1");
+    _ = std::fs::remove_dir_all(&folder);
+    let out = robohive(&["man", "--out", folder.to_str().unwrap()]);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    for name in subcommands() {
+        let page = std::fs::read_to_string(folder.join(format!("robohive-{name}.1"))).unwrap();
+        let (_, examples) = page.split_once(".SH EXAMPLES\n").unwrap();
+        assert!(page.contains(".TH ") && examples.contains(&format!("robohive {name}")), "{page}");
+    }
+    let main = std::fs::read_to_string(folder.join("robohive.1")).unwrap();
+    assert_eq!(text(&robohive(&["man"]).stdout), main);
+    assert!(main.contains("robohive\\-completions(1)") && main.contains("Exit codes"), "{main}");
+}
