@@ -3,7 +3,7 @@
 
 use crate::rays::{self, RayTally};
 use crate::reference::{Reference, ReferenceError};
-use crate::tolerance::{CONTACT, CONTACT_PARAMETER};
+use crate::tolerance::{CONTACT_BAR, CONTACT_PARAMETER};
 use dataset::{NpzError, NpzReader};
 use physics::collision::distance::{DistanceScratch, geom_distance};
 use physics::collision::{CollisionScratch, collide};
@@ -318,7 +318,7 @@ impl Scene {
         let error = [(dist - p.distance[row]).abs(), largest(ends.as_flattened(), &p.fromto[row])];
         let unstable = p.unstable_distance[row] != 0.0;
         tally.distance_unstable += usize::from(unstable);
-        if error.iter().all(|&e| e <= CONTACT) {
+        if error.iter().all(|&e| e <= CONTACT_BAR) {
             tally.distance_worst = std::array::from_fn(|k| tally.distance_worst[k].max(error[k]));
         } else if unstable {
             tally.distance_excepted += 1;
@@ -355,7 +355,7 @@ fn count_contacts(
     for (a, b) in ours.iter().zip(theirs) {
         alike &= a.geom == b.geom && (!p.has_parameters || same_parameters(a, b));
         let apart = [(a.dist - b.dist).abs(), largest(&a.pos, &b.pos), largest(&a.frame, &b.frame)];
-        alike &= apart.iter().all(|&e| e <= CONTACT);
+        alike &= apart.iter().all(|&e| e <= CONTACT_BAR);
         error = std::array::from_fn(|k| error[k].max(apart[k]));
     }
     if alike {

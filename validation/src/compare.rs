@@ -44,7 +44,7 @@ pub fn absolute(ours: f64, theirs: f64, _scale: f64) -> f64 {
     (ours - theirs).abs()
 }
 
-/// Error in units of the compile tolerance: above one is a difference.
+/// Error in units of the bar of compiled arrays: above one is a difference.
 pub fn compiled(ours: f64, theirs: f64, _scale: f64) -> f64 {
     (ours - theirs).abs() / COMPILE_ABSOLUTE.max(COMPILE_RELATIVE * theirs.abs())
 }

@@ -33,6 +33,8 @@ pub struct CompileReport {
     pub differences: Vec<Worst>,
     /// Number of fields compared.
     pub fields: usize,
+    /// Largest error of all fields, in units of the bar.
+    pub largest: f64,
 }
 
 impl CompileReport {
@@ -52,10 +54,11 @@ pub fn compare_compiled(m: &Model, reference: &Reference) -> Result<CompileRepor
     m.visit(&mut |name, _, values| ours.push((format!("model.{name}"), values.to_f64(), values.is_float())));
     m.opt.visit(&mut |name, values| ours.push((format!("opt.{name}"), values.to_f64(), values.is_float())));
     m.stat.visit(&mut |name, values| ours.push((format!("stat.{name}"), values.to_f64(), true)));
-    let mut report = CompileReport { differences: Vec::new(), fields: ours.len() };
+    let mut report = CompileReport { differences: Vec::new(), fields: ours.len(), largest: 0.0 };
     for (name, values, float) in ours {
         let theirs = archive.require(&name)?.values.to_f64();
         let worst = compare(&name, &values, &theirs, if float { compiled } else { exact });
+        report.largest = report.largest.max(worst.error);
         if worst.error > 1.0 {
             report.differences.push(worst);
         }

@@ -2,7 +2,7 @@
 
 use crate::collide::{Report, largest, numbers, rows};
 use crate::reference::ReferenceError;
-use crate::tolerance::CONTACT;
+use crate::tolerance::CONTACT_BAR;
 use dataset::NpzReader;
 use physics::math::Vec3;
 use physics::ray::{Hit, Ray, RayFilter, multi_ray, ray, ray_geom};
@@ -43,7 +43,7 @@ fn count(report: &mut Report, target: usize, ours: Answer, theirs: Answer, unsta
     tally.hits += usize::from(theirs.1 >= 0.0);
     tally.unstable += usize::from(unstable);
     let error = [(ours.1 - theirs.1).abs() / theirs.1.max(1.0), largest(&ours.2, &theirs.2)];
-    if ours.0 == theirs.0 && error.iter().all(|&e| e <= CONTACT) {
+    if ours.0 == theirs.0 && error.iter().all(|&e| e <= CONTACT_BAR) {
         tally.worst = std::array::from_fn(|k| tally.worst[k].max(error[k]));
     } else if unstable {
         tally.excepted += 1;

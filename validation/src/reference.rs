@@ -204,6 +204,11 @@ pub fn recorded() -> Result<Vec<(PathBuf, Reference)>, Box<dyn std::error::Error
     paths.into_iter().map(|path| Ok((path.clone(), Reference::open(&path)?))).collect()
 }
 
+/// True for a reference of this repository.
+pub fn is_own(path: &Path) -> bool {
+    path.parent().is_some_and(|folder| folder.ends_with("reference/own"))
+}
+
 /// Path and reference of every own model, in the order of their paths: the files directly in the folders of `assets`.
 ///
 /// # Errors

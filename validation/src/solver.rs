@@ -1,7 +1,7 @@
 //! Recorded constraint problems (`reference/solver.py`): our solvers from MuJoCo's inputs, beside its solutions.
 
 use crate::reference::{Reference, ReferenceError};
-use crate::tolerance::{COST, ITERATIONS_SHARE, STATISTIC_ABSOLUTE, STATISTIC_RELATIVE};
+use crate::tolerance::{COST_BAR, ITERATIONS_SHARE, STATISTIC_ABSOLUTE, STATISTIC_RELATIVE};
 use dataset::NpzReader;
 use physics::constraint::{IslandScratch, find_islands};
 use physics::data::SolverStat;
@@ -250,7 +250,7 @@ fn judge(m: &Model, d: &Data, qacc: &[f64], niter: &[f64], statistics: &[f64]) -
         .fold(0.0, f64::max);
     Tally {
         problems: 1,
-        not_higher: usize::from(excess <= COST),
+        not_higher: usize::from(excess <= COST_BAR),
         worst_excess: excess,
         within_one: usize::from(apart <= 1.0),
         equal_counts: usize::from(apart == 0.0),

@@ -2,7 +2,7 @@
 
 use crate::compare::{Worst, compare, compare_scaled, exact, relative};
 use crate::reference::{Reference, ReferenceError};
-use crate::tolerance::STAGE;
+use crate::tolerance::STAGE_BAR;
 use physics::data::Configuration;
 use physics::{
     Data, Model, actuation, actuation::transmission, collision, constraint, inertia, on_demand::energy,
@@ -341,7 +341,7 @@ impl StageReport {
         let mut list: Vec<_> = self
             .outputs
             .iter()
-            .filter(|(_, _, w)| w.error > STAGE)
+            .filter(|(_, _, w)| w.error > STAGE_BAR)
             .map(|(_, state, w)| (*state, w))
             .collect();
         list.sort_by(|a, b| b.1.error.total_cmp(&a.1.error));
@@ -387,6 +387,7 @@ pub fn each_output(
     for row in 0..reference.states()? {
         for stage in STAGES {
             reference.set_state(&mut d, &m, row)?;
+            poison(&m, &mut d, stage.writes);
             reference.inject(&mut d, stage.reads, row)?;
             (stage.run)(&m, &mut d);
             for &field in stage.writes {
@@ -395,6 +396,19 @@ pub fn each_output(
         }
     }
     Ok(())
+}
+
+/// Fills the outputs of a stage, so that one which it leaves as it was is noticed: not a number, or -7 in integers.
+/// Contacts and rows are lists that the stage makes; those of `d` are empty.
+fn poison(m: &Model, d: &mut Data, fields: &[&'static str]) {
+    let mut arrays = Vec::new();
+    d.visit(m, &mut |name, _, values| {
+        if fields.contains(&name) {
+            let filling = if values.is_float() { f64::NAN } else { -7.0 };
+            arrays.push((name, vec![filling; values.to_f64().len()]));
+        }
+    });
+    arrays.iter().for_each(|(name, values)| _ = d.assign(name, values));
 }
 
 /// Field `field` of `d` beside the recorded one of state `row`.

@@ -5,27 +5,25 @@ use physics::Data;
 use physics::collision::{CollisionScratch, check, collide};
 use robohive_validation::collide::{Tally, compare_stream, next_archive};
 use robohive_validation::reference::recorded;
+use robohive_validation::tolerance::{CONTACT, CONTACT_BAR};
 use std::io::Cursor;
 
 const POSES: [&str; 4] = ["geom_xpos", "geom_xmat", "xipos", "ximat"];
 
-/// Metres and unit vectors: tens of operations in another order.
-const POINT: f64 = 1e-9;
-
-/// Contact fields and how far they may be from the recording; parameters are sums of two products.
-const FIELDS: [(&str, f64); 12] = [
-    ("contact.geom", 0.0),
-    ("contact.dim", 0.0),
-    ("contact.exclude", 0.0),
-    ("contact.dist", POINT),
-    ("contact.pos", POINT),
-    ("contact.frame", POINT),
-    ("contact.includemargin", 1e-15),
-    ("contact.friction", 1e-15),
-    ("contact.solref", 1e-12),
-    ("contact.solreffriction", 1e-12),
-    ("contact.solimp", 1e-15),
-    ("contact.adhesion", 1e-15),
+/// Contact fields, all equal to the recording: the poses are injected.
+const FIELDS: [&str; 12] = [
+    "contact.geom",
+    "contact.dim",
+    "contact.exclude",
+    "contact.dist",
+    "contact.pos",
+    "contact.frame",
+    "contact.includemargin",
+    "contact.friction",
+    "contact.solref",
+    "contact.solreffriction",
+    "contact.solimp",
+    "contact.adhesion",
 ];
 
 #[test]
@@ -40,7 +38,7 @@ fn contacts_are_those_recorded() {
             reference.inject(&mut d, &POSES, row).unwrap();
             collide(&m, &d.kin, &mut scratch, &mut d.con);
             total += d.con.contact.len();
-            for (name, tolerance) in FIELDS {
+            for name in FIELDS {
                 let theirs = reference.forward(name, row).unwrap();
                 let mut ours = Vec::new();
                 d.con.visit(&mut |n, _, s| {
@@ -48,9 +46,7 @@ fn contacts_are_those_recorded() {
                         ours = s.to_f64();
                     }
                 });
-                assert_eq!(ours.len(), theirs.len(), "{} state {row}: {name}", path.display());
-                let worst = ours.iter().zip(&theirs).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                assert!(worst <= tolerance, "{} state {row}: {name} differs by {worst:e}", path.display());
+                assert_eq!(ours, theirs, "{} state {row}: {name}", path.display());
             }
         }
     }
@@ -65,6 +61,11 @@ const SMALL: &[u8] = include_bytes!("../reference/collide/small.bin");
 fn random_pairs_and_rays_are_those_recorded() {
     let report = compare_stream(&mut &*SMALL).unwrap();
     assert!(report.differences.is_empty(), "{}", report.differences.join("\n"));
+    let mut contact = CONTACT.gauge();
+    let pairs = report.pairs.values().flat_map(|t| t.worst.iter().chain(&t.distance_worst));
+    pairs
+        .chain(report.rays.values().flat_map(|t| &t.worst))
+        .for_each(|&worst| contact.take(worst, "placements"));
     assert_eq!(report.variants, ["default", "nativeccd disabled"]);
     assert_eq!(report.pairs.len(), 2 * 33);
     let sum = |count: fn(&Tally) -> usize| report.pairs.values().map(count).sum::<usize>();
@@ -80,7 +81,7 @@ fn a_contact_off_by_more_than_the_bound_is_noticed() {
     let mut stream = Vec::new();
     for _ in 0..2 {
         let archive = next_archive(&mut source).unwrap().unwrap();
-        let bytes = shifted(&archive, "contact.dist", 2e-9);
+        let bytes = shifted(&archive, "contact.dist", 2.0 * CONTACT_BAR);
         stream.extend((bytes.len() as u64).to_le_bytes());
         stream.extend(bytes);
     }

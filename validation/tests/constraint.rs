@@ -4,17 +4,11 @@ use physics::inertia::mul_inertia_matrix;
 use physics::model::{Cone, Disable, Jacobian, Solver};
 use physics::solver::{SolverInputs, SolverScratch, solve};
 use physics::{Data, Model};
-use robohive_validation::reference::recorded;
+use robohive_validation::reference::{is_own, recorded};
 use robohive_validation::stages::before_solver;
-
-/// Relative difference of solutions: both stop at a tolerance of 1e-8 in scaled cost or gradient.
-const SOLUTION: f64 = 1e-8;
-
-/// Relative difference of dense and sparse solutions, which stop in the same iteration.
-const STORAGE: f64 = 1e-9;
-
-/// Relative residual of the equation of motion: the gradient at which the solver stops.
-const STATIONARY: f64 = 1e-6;
+use robohive_validation::tolerance::{
+    SOLUTION, STATIONARY, STATIONARY_ELSEWHERE, STORAGE, STORAGE_ELSEWHERE,
+};
 
 fn values(d: &Data, m: &Model, name: &str) -> Vec<f64> {
     let mut out = Vec::new();
@@ -36,6 +30,7 @@ fn difference(ours: &[f64], theirs: &[f64]) -> f64 {
 #[test]
 fn solver_agrees() {
     let mut iterations = 0;
+    let mut solution = SOLUTION.gauge();
     for (path, r) in recorded().unwrap() {
         let m = r.model().unwrap();
         let warm = !m.opt.disableflags.contains(Disable::WARMSTART);
@@ -68,7 +63,7 @@ fn solver_agrees() {
             exact += usize::from(d.acc.qacc == r.forward("qacc", row).unwrap());
             for (name, worst) in ["qacc", "qfrc_constraint", "efc_force"].iter().zip(&mut worst) {
                 let e = difference(&values(&d, &m, name), &r.forward(name, row).unwrap());
-                assert!(e < SOLUTION, "{path:?} {row} {name} {e}");
+                solution.take(e, format!("{path:?} {row} {name}"));
                 *worst = worst.max(e);
             }
         }
@@ -82,6 +77,8 @@ fn solver_agrees() {
 #[test]
 fn storage_does_not_matter() {
     let mut moved = 0.0_f64;
+    let mut storages = [STORAGE_ELSEWHERE.gauge(), STORAGE.gauge()];
+    let mut residuals = [STATIONARY_ELSEWHERE.gauge(), STATIONARY.gauge()];
     for (path, r) in recorded().unwrap() {
         let mut m = r.model().unwrap();
         for row in 0..r.states().unwrap() {
@@ -95,13 +92,13 @@ fn storage_does_not_matter() {
                 d.acc
             });
             let e = difference(&solved[0].qacc, &solved[1].qacc);
-            assert!(e < STORAGE, "{path:?} {row} {e}");
+            storages[usize::from(is_own(&path))].take(e, format!("{path:?} {row}"));
             let change: Vec<f64> =
                 solved[0].qacc.iter().zip(&solved[0].qacc_smooth).map(|(a, b)| a - b).collect();
             let mut force = vec![0.0; m.nv];
             mul_inertia_matrix(&m, &r.forward("M", row).unwrap(), &change, &mut force);
             let e = difference(&force, &solved[0].qfrc_constraint);
-            assert!(e < STATIONARY, "{path:?} {row} {e}");
+            residuals[usize::from(is_own(&path))].take(e, format!("{path:?} {row}"));
             moved = change.iter().fold(moved, |a, x| a.max(x.abs()));
         }
     }

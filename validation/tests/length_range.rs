@@ -1,4 +1,4 @@
-//! Length ranges of muscles, measured anew, against those MuJoCo compiled.
+//! Length ranges of muscles, measured again, against those MuJoCo compiled.
 
 use physics::constants::length_range::{LengthRangeOptions, set_length_ranges};
 use robohive_validation::reference::Reference;
@@ -15,7 +15,7 @@ fn muscle_ranges_agree() {
     for (ours, theirs) in m.actuator_lengthrange.iter().zip(&theirs) {
         assert!(theirs[1] > theirs[0] + 0.01);
         for k in 0..2 {
-            assert!((ours[k] - theirs[k]).abs() < 1e-9, "{ours:?} {theirs:?}");
+            assert_eq!(ours[k], theirs[k]);
         }
     }
 }

@@ -2,25 +2,17 @@
 
 use robohive_validation::compile::compare_compiled;
 use robohive_validation::motion::{compare_forward, compare_rollout, compare_steps};
-use robohive_validation::reference::Reference;
+use robohive_validation::reference::{Reference, own_models};
+use robohive_validation::tolerance::{COMPILE, OWN_QACC, OWN_STEP};
 use std::path::{Path, PathBuf};
 
-/// Model and reference of every own model that has both.
+/// Model and reference of every own model.
 fn own() -> Vec<(PathBuf, Reference)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut found = Vec::new();
-    for folder in std::fs::read_dir(root.join("../assets")).unwrap() {
-        for file in std::fs::read_dir(folder.unwrap().path()).unwrap() {
-            let model = file.unwrap().path();
-            let name = model.file_stem().unwrap().to_string_lossy().into_owned();
-            let reference = root.join("reference/own").join(name + ".npz");
-            if model.extension().is_some_and(|e| e == "xml") && reference.exists() {
-                found.push((model, Reference::open(&reference).unwrap()));
-            }
-        }
-    }
-    assert!(found.len() >= 4, "only {} own models have references", found.len());
-    found
+    let models = own_models().unwrap();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own");
+    assert_eq!(models.len(), std::fs::read_dir(folder).unwrap().count(), "a reference of no model");
+    assert!(models.len() >= 9);
+    models
 }
 
 fn load(path: &Path) -> physics::Model {
@@ -29,30 +21,35 @@ fn load(path: &Path) -> physics::Model {
 
 #[test]
 fn own_models_compile_alike() {
+    let mut compile = COMPILE.gauge();
     for (path, reference) in own() {
         let report = compare_compiled(&load(&path), &reference).unwrap();
         assert!(report.fields > 300);
         let differences: Vec<_> = report.differences.iter().map(ToString::to_string).collect();
-        assert!(report.agrees(), "{}: {}", path.display(), differences.join("; "));
+        compile.take(report.largest, format!("{}: {}", path.display(), differences.join("; ")));
     }
 }
 
 #[test]
 fn own_models_accelerate_alike() {
+    let mut qacc = OWN_QACC.gauge();
     for (path, reference) in own() {
         let report = compare_forward(&load(&path), &reference).unwrap();
-        let worst = report.worst.as_ref().map(|(state, w)| format!("state {state}: {w}")).unwrap_or_default();
-        assert_eq!(report.agreeing, report.states, "{}: {worst} {:?}", path.display(), report.failure);
+        let (state, worst) = report.worst.unwrap_or_else(|| panic!("{}: no state", path.display()));
+        qacc.take(worst.error, format!("{} state {state}: {worst}", path.display()));
+        assert_eq!(report.agreeing, report.states, "{}: {:?}", path.display(), report.failure);
         assert_eq!(report.equal_contacts, report.states, "{}", path.display());
     }
 }
 
 #[test]
 fn own_models_step_alike() {
+    let mut step = OWN_STEP.gauge();
     for (path, reference) in own() {
         let report = compare_steps(&load(&path), &reference).unwrap();
         assert!(report.steps > 100);
-        assert_eq!(report.agreeing, report.steps, "{}: {:?}", path.display(), report.worst);
+        step.take(report.worst.0, format!("{} step {}", path.display(), report.worst.1));
+        assert_eq!(report.agreeing, report.steps, "{}", path.display());
     }
 }
 
@@ -67,6 +64,6 @@ fn own_models_move_alike() {
             report.first_outside,
             report.failure
         );
-        assert_eq!(report.by_step.len(), report.steps);
+        assert_eq!((report.steps, report.by_step.len()), (500, 500));
     }
 }

@@ -2,20 +2,15 @@
 
 use robohive_validation::reference::Reference;
 use robohive_validation::solver::{CONES, SOLVERS, solve_archive};
+use robohive_validation::tolerance::{COST, PROBLEM, STATISTICS_SHARE};
 use std::path::Path;
-
-/// Relative difference of solutions: both stop at a tolerance of 1e-8 in scaled cost or gradient, which leaves the
-/// square root of that to the flattest directions of CG.
-const SOLUTION: f64 = 1e-6;
-
-/// Share of problems in which every iteration has MuJoCo's statistics: rounding decides states near a cone's surface.
-const STATISTICS_SHARE: f64 = 0.95;
 
 #[test]
 fn recorded_problems_are_solved_alike() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference");
     let mut features = std::collections::BTreeSet::new();
     let (mut problems, mut equal_statistics) = (0, 0);
+    let (mut solution, mut cost) = (PROBLEM.gauge(), COST.gauge());
     for name in ["elbow", "franka_table", "humanoid", "pile", "quadruped", "workbench", "yard"]
         .map(|name| format!("{name}.npz"))
     {
@@ -24,7 +19,8 @@ fn recorded_problems_are_solved_alike() {
         for (row, solver) in outcome.tallies.iter().zip(SOLVERS) {
             for (tally, cone) in row.iter().zip(CONES) {
                 assert!(tally.problems >= 10 && tally.passes(), "{name} {solver:?} {cone:?}: {tally:?}");
-                assert!(tally.worst_qacc < SOLUTION, "{name} {solver:?} {cone:?}: {tally:?}");
+                solution.take(tally.worst_qacc, format!("{name} {solver:?} {cone:?}"));
+                cost.take(tally.worst_excess, format!("{name} {solver:?} {cone:?}"));
             }
         }
         problems += outcome.tallies.iter().flatten().map(|t| t.problems).sum::<usize>();

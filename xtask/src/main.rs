@@ -9,6 +9,7 @@ mod fuzz;
 mod instructions;
 mod packages;
 mod recorded_bits;
+mod tolerances;
 
 use check::{Check, Outcome, run_all};
 use command::{cargo, succeed};
@@ -25,7 +26,8 @@ const QUICK: [Check; 5] = [
     Check { name: "features", run: builds::features },
 ];
 
-const LONG: [Check; 5] = [
+const LONG: [Check; 6] = [
+    Check { name: "tolerances", run: tolerances::run },
     Check { name: "recorded-bits", run: recorded_bits::run },
     Check { name: "builds", run: builds::run },
     Check { name: "packages", run: packages::run },

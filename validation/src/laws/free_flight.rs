@@ -2,6 +2,7 @@
 
 use super::order::{FLYING, HINGES, moving, run};
 use super::{Bound, Law, LawError, compile};
+use crate::tolerance::{ENERGY, ENERGY_IN_SPACE, MOMENTUM, SPIN};
 use physics::math::{Vec3, norm, sub};
 use physics::model::{Disable, Enable, Integrator};
 use physics::on_demand::momentum::subtree_momentum;
@@ -12,8 +13,6 @@ const INTEGRATORS: [Integrator; 4] =
 
 /// Steps over which momentum is kept.
 const STEPS: usize = 1000;
-/// Rounding of a thousand steps.
-const KEPT: f64 = 1e-12;
 
 /// One body of three different moments of inertia.
 const BODY: &str = r#"<mujoco><worldbody><body><freejoint/>
@@ -53,7 +52,7 @@ pub(super) fn momentum() -> Result<Vec<Law>, LawError> {
         let change = change(&mut m, d, 0.005)?;
         let on = format!("free body spinning about a principal axis, {integrator:?}, 1000 steps of 5 ms");
         for (kind, change) in ["linear", "angular"].into_iter().zip(change) {
-            laws.push(Law::new(&format!("{kind} momentum is kept"), &on, change, Bound::AtMost(KEPT)));
+            laws.push(Law::new(&format!("{kind} momentum is kept"), &on, change, Bound::Within(&SPIN)));
         }
     }
     let mut m = weightless(FLYING, Integrator::Rk4)?;
@@ -61,7 +60,7 @@ pub(super) fn momentum() -> Result<Vec<Law>, LawError> {
     let change = change(&mut m, d, 1e-5)?;
     for (kind, change) in ["linear", "angular"].into_iter().zip(change) {
         let on = "tumbling chain of four bodies, Rk4, 1000 steps of 10 µs";
-        laws.push(Law::new(&format!("{kind} momentum is kept"), on, change, Bound::AtMost(KEPT)));
+        laws.push(Law::new(&format!("{kind} momentum is kept"), on, change, Bound::Within(&MOMENTUM)));
     }
     Ok(laws)
 }
@@ -69,7 +68,9 @@ pub(super) fn momentum() -> Result<Vec<Law>, LawError> {
 /// Energy of chains without dampers under gravity.
 pub(super) fn energy() -> Result<Vec<Law>, LawError> {
     let mut laws = Vec::new();
-    for (text, name, most) in [(HINGES, "hinges and slides", 1e-9), (FLYING, "free and ball joints", 1e-4)] {
+    for (text, name, tolerance) in
+        [(HINGES, "hinges and slides", &ENERGY), (FLYING, "free and ball joints", &ENERGY_IN_SPACE)]
+    {
         let mut m = compile(text)?;
         m.options_mut().disableflags |= Disable::CONTACT | Disable::DAMPER;
         m.options_mut().enableflags |= Enable::ENERGY;
@@ -84,7 +85,7 @@ pub(super) fn energy() -> Result<Vec<Law>, LawError> {
         let exchanged = (d.energy[1] - kinetic).abs();
         let on = format!("{name}, RK4, 1000 steps of 1 ms; relative to the kinetic energy gained");
         let drift = (total(&d) - start).abs() / exchanged;
-        laws.push(Law::new("energy is kept", on, drift, Bound::AtMost(most)));
+        laws.push(Law::new("energy is kept", on, drift, Bound::Within(tolerance)));
     }
     Ok(laws)
 }

@@ -6,15 +6,18 @@ mod pile;
 mod states;
 
 use crate::reference::{Reference, ReferenceError};
+use crate::tolerance::Tolerance;
 use physics::StepError;
 use std::fmt;
 use std::fmt::Write;
 
 /// What a measured number must be.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub enum Bound {
-    /// At most this.
+    /// At most this: a quantity of the motion itself.
     AtMost(f64),
+    /// What a tolerance allows of a difference that should be zero.
+    Within(&'static Tolerance),
     /// This, give or take the second number.
     Near(f64, f64),
 }
@@ -41,6 +44,7 @@ impl Law {
     pub fn holds(&self) -> bool {
         match self.bound {
             Bound::AtMost(most) => self.measured <= most,
+            Bound::Within(tolerance) => tolerance.allows(self.measured),
             Bound::Near(value, give) => (self.measured - value).abs() <= give,
         }
     }
@@ -50,6 +54,7 @@ impl fmt::Display for Law {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (measured, bound) = match self.bound {
             Bound::AtMost(most) => (format!("{:.1e}", self.measured), format!("at most {most:.0e}")),
+            Bound::Within(most) => (format!("{:.1e}", self.measured), format!("at most {:.0e}", most.bound)),
             Bound::Near(value, give) => (format!("{:.3}", self.measured), format!("{value} ± {give}")),
         };
         let verdict = if self.holds() { "yes" } else { "no" };

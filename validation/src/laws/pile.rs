@@ -1,6 +1,7 @@
 //! Contacts in motion: two free bodies push each other with equal forces, and a pile of a hundred comes to rest.
 
 use super::{Bound, Law, LawError, Piles, compile};
+use crate::tolerance::BALANCE;
 use physics::acceleration::contact_force::contact_force;
 use physics::math::{Vec3, add, cross, mul_mat_vec, norm};
 use physics::model::{Cone, Solver};
@@ -19,8 +20,6 @@ const REST: f64 = 1.0;
 const MEAN: f64 = 0.1;
 /// Deepest penetration in those steps [m]; the bodies are about 0.1 m across.
 const DEPTH: f64 = 5e-3;
-/// Sum of the forces on two bodies, relative to one of them.
-const BALANCE: f64 = 1e-12;
 
 /// A bin of five planes and a hundred boxes, spheres, capsules, cylinders and ellipsoids above it.
 fn pile() -> String {
@@ -135,5 +134,5 @@ pub(super) fn action_and_reaction() -> Result<Law, LawError> {
         }
     }
     let on = "a box and a cylinder that slide and turn on each other, both cones";
-    Ok(Law::new("action is reaction: sum of forces and of torques", on, worst, Bound::AtMost(BALANCE)))
+    Ok(Law::new("action is reaction: sum of forces and of torques", on, worst, Bound::Within(&BALANCE)))
 }

@@ -3,22 +3,12 @@
 use super::{Bound, Law, LawError};
 use crate::reference::Reference;
 use crate::solver::CONES;
+use crate::tolerance::{CONVERGED_INVERSE, CONVERGED_STORAGE, ISLANDS, OUTSIDE, SLOPE};
 use physics::acceleration::contact_force::contact_force;
 use physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
 use physics::model::{BiasType, Cone, ConstraintType, Disable, Jacobian, Solver};
 use physics::{Data, Model, StepError};
 
-/// Applied force from inverse dynamics beside what was applied, relative to the largest force.
-const INVERSE: f64 = 1e-9;
-/// Acceleration from dense and from sparse rows, relative.
-const STORAGE: f64 = 1e-11;
-/// Acceleration with and without islands, both from a converged solver, relative.
-const ISLANDS: f64 = 1e-9;
-/// Force outside the friction cone, relative to the largest force.
-const OUTSIDE: f64 = 1e-12;
-/// Analytic beside central differences with a nudge of `NUDGE`, relative to the largest entry or
-/// smooth force.
-const SLOPE: f64 = 1e-6;
 /// Nudge of velocities for finite differences.
 const NUDGE: f64 = 1e-6;
 /// States of each model on which slopes are compared: a column costs two forward passes.
@@ -37,6 +27,8 @@ struct Worst {
     friction_loss: f64,
     slope: f64,
     states: usize,
+    /// Rows of pyramidal contacts and limits, of dry friction, and elliptic contacts, whose forces were judged.
+    judged: [usize; 3],
 }
 
 /// Every law of this module, the worst over all states of `references`.
@@ -56,20 +48,25 @@ pub(super) fn recorded(on: &str, references: &[Reference]) -> Result<Vec<Law>, L
             }
         }
     }
+    // A law of forces says nothing where there are none.
+    let forces = [&mut worst.pyramids, &mut worst.friction_loss, &mut worst.cones];
+    for (measured, _) in forces.into_iter().zip(worst.judged).filter(|(_, judged)| *judged < 100) {
+        *measured = f64::INFINITY;
+    }
     let on = format!("{} states of {} {on}", worst.states, references.len());
-    let law = |law, measured, most| Law::new(law, &on, measured, Bound::AtMost(most));
+    let law = |law, measured, most| Law::new(law, &on, measured, Bound::Within(most));
     Ok(vec![
         law(
             "inverse dynamics undoes forward dynamics (converged solver, both cones)",
             worst.inverse,
-            INVERSE,
+            &CONVERGED_INVERSE,
         ),
-        law("dense and sparse rows make one acceleration", worst.storage, STORAGE),
-        law("islands make no difference (converged solver)", worst.islands, ISLANDS),
-        law("pyramidal contacts push", worst.pyramids, OUTSIDE),
-        law("elliptic contact forces stay in their cones", worst.cones, OUTSIDE),
-        law("dry friction stays within its loss", worst.friction_loss, OUTSIDE),
-        law("`qDeriv` is the slope of smooth forces", worst.slope, SLOPE),
+        law("dense and sparse rows make one acceleration", worst.storage, &CONVERGED_STORAGE),
+        law("islands make no difference (converged solver)", worst.islands, &ISLANDS),
+        law("pyramidal contacts push", worst.pyramids, &OUTSIDE),
+        law("elliptic contact forces stay in their cones", worst.cones, &OUTSIDE),
+        law("dry friction stays within its loss", worst.friction_loss, &OUTSIDE),
+        law("`qDeriv` is the slope of smooth forces", worst.slope, &SLOPE),
     ])
 }
 
@@ -116,8 +113,12 @@ impl Worst {
                 Some(ConstraintType::FrictionDof | ConstraintType::FrictionTendon) => {
                     let excess = (force[i].abs() - d.efc.efc_frictionloss[i]) / scale;
                     self.friction_loss = self.friction_loss.max(excess);
+                    self.judged[1] += usize::from(force[i] != 0.0);
                 }
-                Some(_) => self.pyramids = self.pyramids.max(-force[i] / scale),
+                Some(_) => {
+                    self.pyramids = self.pyramids.max(-force[i] / scale);
+                    self.judged[0] += usize::from(force[i] != 0.0);
+                }
             }
         }
         if m.opt.cone == Cone::Elliptic {
@@ -126,6 +127,7 @@ impl Worst {
                 let share = |k: usize| if k < c.dim as usize { f[k] / c.friction[k - 1] } else { 0.0 };
                 let sideways = (1..6).map(|k| share(k).powi(2)).sum::<f64>().sqrt();
                 self.cones = self.cones.max((sideways - (f[0] + c.adhesion)) / scale);
+                self.judged[2] += usize::from(sideways > 0.0);
             }
         }
     }
