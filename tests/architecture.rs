@@ -1,0 +1,187 @@
+//! What ARCHITECTURE.md promises of the tree: the order of the crates, what each may touch, sizes of files and functions,
+//! modules without circles, names that say something, and a description and a reference for every own model.
+
+#[path = "architecture/functions.rs"]
+mod functions;
+#[path = "architecture/modules.rs"]
+mod modules;
+#[path = "architecture/tree.rs"]
+mod tree;
+
+use std::collections::{BTreeMap, BTreeSet};
+use tree::{Crate, crates, root, sources};
+
+/// Lines of a file.
+const FILE: usize = 550;
+/// Lines of a function, from its signature to its closing brace.
+const FUNCTION: usize = 150;
+/// Arguments of a function, `self` among them.
+const ARGUMENTS: usize = 7;
+
+/// Every crate with those of this repository that it may depend on. What stands in no row does not exist.
+const ORDER: [(&str, &[&str]); 10] = [
+    ("robohive-physics", &[]),
+    ("robohive-dataset", &[]),
+    ("robohive-random", &[]),
+    ("robohive-mjcf", &["physics"]),
+    ("robohive", &["physics", "mjcf", "dataset", "random"]),
+    ("robohive-validation", &["physics", "mjcf", "dataset", "random"]),
+    ("robohive-digest", &["physics", "mjcf"]),
+    ("robohive-cli", &["physics", "mjcf", "dataset", "random", "validation"]),
+    ("xtask", &[]),
+    ("robohive-fuzz", &["physics", "mjcf", "dataset"]),
+];
+
+/// What the library may use of others: all of it pure Rust.
+const OTHERS: [(&str, &[&str]); 5] = [
+    ("robohive-physics", &["libm", "rayon"]),
+    ("robohive-dataset", &["zip"]),
+    ("robohive-random", &["libm"]),
+    ("robohive-mjcf", &["roxmltree", "fdeflate"]),
+    ("robohive", &[]),
+];
+
+/// What only those who deal with files and machines may touch.
+const OUTSIDE: [&str; 5] = ["std::fs", "std::net", "std::env", "std::process", "std::time"];
+
+/// Names that say nothing of what is inside.
+const EMPTY_NAMES: [&str; 8] = ["util", "utils", "helper", "helpers", "common", "misc", "shared", "tools"];
+
+/// Crates in which no two modules need each other, directly or through others.
+const CIRCLE_FREE: [&str; 1] = ["src/dataset"];
+
+/// Fails with the list of everything that breaks a rule.
+fn none(broken: Vec<String>, rule: &str) {
+    assert!(broken.is_empty(), "{rule}:\n{}", broken.join("\n"));
+}
+
+#[test]
+fn crates_depend_on_those_before_them() {
+    let order: BTreeMap<_, _> = ORDER.into_iter().collect();
+    let others: BTreeMap<_, _> = OTHERS.into_iter().collect();
+    let ours: BTreeSet<_> = ["physics", "mjcf", "dataset", "random", "validation", "robohive"].into();
+    let found = crates();
+    assert_eq!(found.len(), order.len(), "{:?}", found.iter().map(|c| &c.name).collect::<Vec<_>>());
+    let mut broken = Vec::new();
+    for Crate { name, dependencies, .. } in &found {
+        let allowed = order.get(name.as_str()).unwrap_or_else(|| panic!("{name} has no place in the order"));
+        for dependency in dependencies {
+            let dependency = dependency.as_str();
+            let wrong = if ours.contains(dependency) {
+                !allowed.contains(&dependency)
+            } else {
+                others.get(name.as_str()).is_some_and(|list| !list.contains(&dependency))
+            };
+            if wrong {
+                broken.push(format!("{name} depends on {dependency}"));
+            }
+        }
+    }
+    none(broken, "dependencies against the order");
+}
+
+#[test]
+fn physics_and_random_touch_nothing_outside() {
+    let mut broken = Vec::new();
+    for folder in ["src/physics", "src/random"] {
+        let inside = sources(folder)
+            .into_iter()
+            .filter(|file| !file.path.contains("/tests/") && !file.path.contains("/examples/"));
+        for file in inside {
+            for path in modules::paths(&file.syntax()).iter().map(|path| path.join("::")) {
+                if OUTSIDE.iter().any(|outside| path.starts_with(outside)) {
+                    broken.push(format!("{}: {path}", file.path));
+                }
+            }
+        }
+    }
+    none(broken, "no files, clocks or processes in numeric crates");
+}
+
+#[test]
+fn files_are_short_enough_to_read() {
+    let long = sources("").into_iter().filter_map(|file| {
+        let lines = file.text.lines().count();
+        (lines > FILE).then(|| format!("{}: {lines} lines", file.path))
+    });
+    none(long.collect(), "files with too many lines");
+}
+
+#[test]
+fn functions_are_short_and_take_few_arguments() {
+    let mut broken = Vec::new();
+    let mut seen = 0;
+    for file in sources("") {
+        for f in functions::of(&file.syntax()) {
+            seen += 1;
+            if f.lines > FUNCTION || f.arguments > ARGUMENTS {
+                broken.push(format!(
+                    "{}: {} has {} lines, {} arguments",
+                    file.path, f.name, f.lines, f.arguments
+                ));
+            }
+        }
+    }
+    assert!(seen > 1000, "only {seen} functions found");
+    none(broken, "functions with too many lines or arguments");
+}
+
+#[test]
+fn modules_form_no_circle() {
+    let crates = CIRCLE_FREE.iter().flat_map(|folder| modules::circles(folder));
+    none(crates.map(|circle| circle.join(", ")).collect(), "modules that need each other");
+}
+
+#[test]
+fn names_say_what_is_inside() {
+    let empty = sources("")
+        .into_iter()
+        .map(|file| file.path)
+        .filter(|path| path.trim_end_matches(".rs").split('/').any(|part| EMPTY_NAMES.contains(&part)));
+    none(empty.collect(), "names without a meaning");
+}
+
+#[test]
+fn python_only_records_and_measures_mujoco() {
+    let elsewhere = tree::files("", "py")
+        .into_iter()
+        .filter(|path| !path.starts_with("validation/reference/") && !path.starts_with("benches/"));
+    none(elsewhere.collect(), "Python beyond recording and measuring MuJoCo");
+}
+
+#[test]
+fn every_own_model_is_described_and_recorded() {
+    let named = |folder: &str, extension: &str| -> BTreeSet<String> {
+        let files = tree::files(folder, extension).into_iter();
+        let depth = folder.split('/').count() + 1 + usize::from(folder == "assets");
+        let direct = files.filter(|path| path.split('/').count() == depth);
+        direct
+            .map(|path| {
+                path.rsplit('/').next().unwrap().trim_end_matches(&format!(".{extension}")).to_owned()
+            })
+            .collect()
+    };
+    let models = named("assets", "xml");
+    assert!(models.len() >= 9, "{models:?}");
+    assert_eq!(models, named("validation/reference/own", "npz"), "models and their references");
+    let folders = std::fs::read_dir(root().join("assets")).unwrap().map(|entry| entry.unwrap().path());
+    let bare = folders.filter(|folder| {
+        std::fs::read_to_string(folder.join("README.md")).map_or(0, |text| text.len()) < 100
+    });
+    none(
+        bare.map(|folder| folder.display().to_string()).collect(),
+        "own models without a README that describes them",
+    );
+}
+
+#[test]
+fn the_pinned_compiler_is_the_oldest_supported() {
+    let read = |file: &str| std::fs::read_to_string(root().join(file)).unwrap();
+    let value = |text: &str, key: &str| {
+        let line = text.lines().find_map(|line| line.strip_prefix(key).map(str::to_owned)).unwrap();
+        line.trim_matches(['=', ' ', '"']).to_owned()
+    };
+    let (pinned, promised) =
+        (value(&read("rust-toolchain.toml"), "channel"), value(&read("Cargo.toml"), "rust-version"));
+    assert_eq!(pinned, format!("{promised}.0"));
+}
