@@ -7,7 +7,7 @@ use std::path::Path;
 /// Inputs by name.
 pub type Inputs = BTreeMap<String, Vec<u8>>;
 
-/// Headers and contents fill whole blocks of so many bytes.
+/// Headers and contents fill whole blocks of this size in bytes.
 const BLOCK: usize = 512;
 /// Where a header has the name of its member, its length in octal digits, and the sum of its own bytes.
 const NAME: std::ops::Range<usize> = 0..100;

@@ -59,7 +59,7 @@ pub fn load(path: impl AsRef<Path>) -> Result<Loaded, Diagnostics> {
     Loader::default().load(path)
 }
 
-/// Loads a model from text; files that it names are sought from the working directory.
+/// Loads a model from text; files that it names are looked up from the working directory.
 ///
 /// # Errors
 /// All that is wrong with the model, each finding with its place in the text.
@@ -124,7 +124,7 @@ impl Loader {
         self.parse_from(&*self.files, |expansion| expansion.read(path))
     }
 
-    /// Reads a model from text; relative paths are sought from the provider's top.
+    /// Reads a model from text; relative paths start at the top of the file provider.
     ///
     /// # Errors
     /// All that is wrong with the texts.

@@ -1,4 +1,4 @@
-//! A batch makes of every environment what stepping it alone makes, whatever the number of threads.
+//! A batch steps every environment as if it were alone, for every number of threads.
 
 mod state;
 

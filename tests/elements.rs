@@ -9,7 +9,7 @@ use robohive::physics::model::{JointType, Model, ObjType};
 use robohive::physics::ray::{Ray, RayFilter};
 use robohive::physics::{Data, forward, step};
 
-/// Names of one kind lead to the elements that bear them; the number of names.
+/// Names of one kind lead to their elements; the number of names.
 fn names_lead_back<I: Element + PartialEq + std::fmt::Debug>(
     m: &Model,
     found: impl Fn(&str) -> Option<I>,

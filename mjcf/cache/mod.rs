@@ -1,4 +1,4 @@
-//! Compiled models kept in a folder, found again by the content of all they were made of.
+//! A cache of compiled models in a folder, keyed by the content of every input file.
 //!
 //! An entry is named by what was asked for: compiler, path, edits, limits. It lists every file that the compile read or
 //! looked for, with a digest of its content, then the warnings, then the model. It holds when every file still has that
@@ -66,7 +66,7 @@ impl Cache {
         self.place(MODEL, &request)
     }
 
-    /// The file of this kind named by all that it is made of.
+    /// The cache file of this kind, named by the digest of its inputs.
     fn place(&self, kind: &str, parts: &[&[u8]]) -> PathBuf {
         let maker = [env!("ROBOHIVE_COMPILER").as_bytes(), kind.as_bytes()];
         let name = digest_parts(maker.into_iter().chain(parts.iter().copied()));
@@ -87,7 +87,7 @@ impl Cache {
         written.inspect_err(|_| _ = std::fs::remove_file(&unfinished))
     }
 
-    /// The model that `request` describes, if all files it was made of are as they were: they are read while the
+    /// The model that `request` describes, if none of its input files has changed: they are read while the
     /// model is.
     pub(crate) fn find_model(
         &self,

@@ -65,7 +65,7 @@ fn pixels(bytes: &[u8], channels: usize) -> Result<Pixels, AssetError> {
     else {
         return Err(AssetError::malformed(format!("{width}x{height} pixels are too many")));
     };
-    // Deflate expands at most about a thousandfold; a larger claim is a lie.
+    // Deflate expands at most about a thousandfold; a header that claims more is false.
     if filtered / 2048 > bytes.len() {
         let message = format!("it announces {width}x{height} pixels in {} bytes", bytes.len());
         return Err(AssetError::truncated(message));

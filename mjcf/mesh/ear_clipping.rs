@@ -1,7 +1,7 @@
 //! Simple polygons to triangles by clipping ears (Meisters 1975), in the order of the corners.
 //!
 //! An ear is a corner whose triangle with the two corners after it turns as the polygon does and holds no other
-//! corner. Ears are sought from the first corner on, so a convex polygon becomes a fan. A start that was refused is
+//! corner. The search for ears starts at the first corner, so a convex polygon becomes a fan. A start that was refused is
 //! tried again only when its triangle changed or the corner that stood in it is gone, and corners in a triangle are
 //! found by descending a tree of boxes: many-sided polygons take time nearly proportional to their corners.
 

@@ -4,9 +4,9 @@ use super::compiled::CompiledMesh;
 use crate::digest::Digest;
 use physics::model::binary::checksum;
 
-/// Where processed meshes are kept, each under the digest of all it is made of.
+/// Where processed meshes are kept, each under the digest of its inputs.
 pub(crate) trait MeshStore: Sync {
-    /// The mesh made of `source`, if it is there and undamaged.
+    /// The mesh compiled from `source`, if it is there and undamaged.
     fn find(&self, source: Digest) -> Option<CompiledMesh>;
 
     /// Keeps a mesh, where there is room for it.

@@ -30,7 +30,7 @@ impl Reader<'_> {
 
     /// What to open for an asset, and the path that the model records.
     ///
-    /// A relative name is sought from the main file through `dir`; when nothing is there, it is taken from the
+    /// A relative name is looked up from the main file through `dir`; when nothing is there, it is taken from the
     /// directory of the file that holds the element, without `dir`. `strippath` keeps the last component and
     /// seeks from the main file only.
     pub(super) fn asset_file(&self, attribute: &Attribute, dir: &str) -> (String, String) {

@@ -292,7 +292,7 @@ enum Source {
 }
 
 impl Source {
-    /// The same with keyframes numbered anew.
+    /// The same with keyframes renumbered.
     fn keyed(mut self, keys: &[Option<usize>]) -> Self {
         let (Source::Body(body) | Source::Frame(body, _) | Source::World(body)) = &mut self;
         let mut pending = vec![body];

@@ -16,7 +16,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The same inside a default class: names, and rows that classes may not set, are passed over.
+    /// The same inside a default class: names, and rows that classes may not set, are skipped.
     pub(super) fn default_rows<T>(&mut self, element: &Element, rows: &[Row<T>], target: &mut T) {
         for row in rows.iter().filter(|r| r.in_defaults && !matches!(r.bind, Bind::Name(..))) {
             if let Some(attribute) = element.attribute(row.name) {

@@ -52,7 +52,7 @@ fn broken_texts_are_refused_before_a_tree_is_built() {
     }
 }
 
-/// Names are compared for the findings that are kept, and only so many of them.
+/// Names are compared only for the findings that are kept, up to a limit.
 #[test]
 fn many_misspelt_references_cost_no_more_than_few() {
     let count = 8000;

@@ -1,4 +1,4 @@
-//! Meshes: hulls against brute force and MuJoCo, mass against closed forms, readers against lying files.
+//! Meshes: hulls against brute force and MuJoCo, mass against closed forms, readers against inconsistent files.
 
 use robohive_mjcf::asset::AssetErrorKind;
 use robohive_mjcf::mesh::{

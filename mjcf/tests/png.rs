@@ -105,7 +105,7 @@ fn read(bytes: &[u8], nchannel: usize) -> Result<Vec<u8>, String> {
     texture(&source).map(|texture| texture.data).map_err(|error| error.message)
 }
 
-/// What the `png` crate makes of a file: red, green, blue and opacity of each pixel.
+/// A file decoded by the `png` crate: red, green, blue and opacity of each pixel.
 fn expected(bytes: &[u8]) -> Vec<[u8; 4]> {
     let mut decoder = png::Decoder::new(std::io::Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::EXPAND | png::Transformations::STRIP_16);

@@ -70,7 +70,7 @@ pub enum Command {
 /// An MJCF file, and what its template text stands for; or a compiled model.
 #[derive(Args)]
 pub struct ModelSource {
-    /// MJCF file, or what `compile` made of one; - for standard input
+    /// MJCF file, or a model written by `compile`; - for standard input
     #[arg(value_name = "MODEL", value_hint = ValueHint::FilePath)]
     pub path: PathBuf,
     /// How it is read
@@ -84,7 +84,7 @@ pub struct Reading {
     /// Replace TEXT by VALUE in the file and all it includes, e.g. OBJECT_NAME=apple; TEXT must occur
     #[arg(long = "define", value_name = "TEXT=VALUE")]
     pub defines: Vec<String>,
-    /// Keep compiled models in this folder, and take them from there while no file they are made of has changed
+    /// Keep compiled models in this folder, and take them from there while none of their input files has changed
     /// [default: the environment variable ROBOHIVE_CACHE, else none are kept]
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub cache: Option<PathBuf>,

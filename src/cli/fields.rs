@@ -61,7 +61,7 @@ impl Recorder {
     /// Opens the archive at `path` for the fields `names`; every one must be a field of `Data`.
     ///
     /// # Errors
-    /// No field bears a name, or the archive cannot be opened.
+    /// No field has a name, or the archive cannot be opened.
     pub fn create(path: &Path, m: &Model, d: &Data, names: &[String]) -> Result<Self, Failure> {
         let mut known = Vec::new();
         d.visit(m, &mut |name, shape, values| known.push((name, shape, dtype(values))));

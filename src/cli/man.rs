@@ -1,4 +1,4 @@
-//! `man`: manual pages, made of the definitions that the help is made of.
+//! `man`: manual pages, from the same definitions as the help.
 
 use crate::arguments::{Arguments, Man};
 use crate::terminal::{show, write_bytes};

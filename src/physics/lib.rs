@@ -4,7 +4,7 @@
 //! - SI units; world z up; angles in radians; quaternions w-x-y-z; matrices row-major.
 //! - Spatial vectors are rotation first. "Com-based" means expressed in the world orientation about the centre of
 //!   mass of the kinematic tree.
-//! - Arrays bear MuJoCo's names. Indices are `usize` in code; stored references are `i32`, -1 for none.
+//! - Arrays have MuJoCo's names. Indices are `usize` in code; stored references are `i32`, -1 for none.
 //! - A stage takes the model, the stage structs it reads, and `&mut` the one it writes.
 //! - The same bits everywhere: transcendental functions come from [`math::ops`], sums have a fixed order, and no
 //!   multiply-add is fused.

@@ -79,7 +79,7 @@ impl Slice<'_> {
     }
 }
 
-/// A scalar that fields are made of.
+/// The scalar type of a field.
 pub trait Scalar: Copy + Default {
     /// Wraps a slice with its type.
     fn slice(s: &[Self]) -> Slice<'_>;

@@ -1,4 +1,4 @@
-//! What every draw is made of.
+//! The source of random bits behind every draw.
 
 /// A source of random bits. Every distribution is drawn from these three streams, which share one state.
 pub trait BitGenerator {

@@ -15,7 +15,7 @@ mod sealed {
 /// random bits a draw takes, as numpy's `dtype` does; 32 and 64 bits draw alike where the range has at most
 /// 2³² members.
 pub trait Integer: Copy + sealed::Sealed {
-    /// Bits of the random numbers that draws are made of.
+    /// Bits of the random numbers behind a draw.
     const BITS: u32;
 
     /// The value.

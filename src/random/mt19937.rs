@@ -26,7 +26,7 @@ pub struct Mt19937State {
 }
 
 impl Mt19937 {
-    /// The generator that numpy makes of this seed: `MT19937(seed)`.
+    /// The generator that numpy seeds with this number: `MT19937(seed)`.
     pub fn new(seed: impl Into<SeedSequence>) -> Self {
         let mut words: [u32; WORDS] = seed.into().generate_state();
         words[0] = 1 << 31;

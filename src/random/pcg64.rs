@@ -31,7 +31,7 @@ pub struct Pcg64State {
 }
 
 impl Pcg64 {
-    /// The generator that numpy makes of this seed.
+    /// The generator that numpy seeds with this number.
     pub fn new(seed: impl Into<SeedSequence>) -> Self {
         let words: [u32; 8] = seed.into().generate_state();
         // Words come as numbers of 64 bits, lower half first; of two such numbers the first is the upper

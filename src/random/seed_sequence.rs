@@ -159,7 +159,7 @@ impl SeedSequence {
         SeedSequence { entropy: self.entropy.clone(), spawn_key, spawned: 0 }
     }
 
-    /// The first `N` words of 32 bits that a generator's state is made of.
+    /// The first `N` words of 32 bits of a generator's state.
     pub fn generate_state<const N: usize>(&self) -> [u32; N] {
         let pool = self.pool();
         let mut hash = Hash::OUT_OF_POOL;

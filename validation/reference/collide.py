@@ -84,7 +84,7 @@ class Scene:
             getattr(m, name.removeprefix("parameter."))[:] = case[name][rows]
 
     def move(self, xpos, xmat, group):
-        """Places the second geoms anew."""
+        """Moves the second geoms to new places."""
         rows = slice(group * self.slots, (group + 1) * self.slots)
         self.data.geom_xpos[self.first + 1::2] = xpos[rows]
         self.data.geom_xmat[self.first + 1::2] = xmat[rows].reshape(-1, 9)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Records what MuJoCo 3.12.0 makes of a model: compiled arrays, forward passes, rollouts.
+"""Records what MuJoCo 3.12.0 computes for a model: compiled arrays, forward passes, rollouts.
 
     pip install mujoco==3.12.0
     python record.py --out DIR MODEL.xml [MODEL.xml ...]
@@ -183,11 +183,11 @@ def repair(folder):
     default that stands at the top of an included file."""
     for path in Path(folder).rglob("*.xml"):
         text = path.read_text(errors="surrogateescape")
-        mended = re.sub(r'\sapirate\s*=\s*"[^"]*"', "", text)
+        repaired = re.sub(r'\sapirate\s*=\s*"[^"]*"', "", text)
         for name in top_default_classes(text):
-            mended = re.sub(rf'<default\s+class\s*=\s*"{re.escape(name)}"', "<default", mended, count=1)
-        if mended != text:
-            path.write_text(mended, errors="surrogateescape")
+            repaired = re.sub(rf'<default\s+class\s*=\s*"{re.escape(name)}"', "<default", repaired, count=1)
+        if repaired != text:
+            path.write_text(repaired, errors="surrogateescape")
 
 
 def top_default_classes(text):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Records what MuJoCo 3.12.0 makes of the own models beyond Euler steps and forward dynamics.
+"""Records what MuJoCo 3.12.0 computes for the own models beyond Euler steps and forward dynamics.
 
     pip install mujoco==3.12.0
     python record_implicit.py --out DIR MODEL.xml [MODEL.xml ...]

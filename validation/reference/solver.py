@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Records constraint problems and what MuJoCo 3.12.0's solvers make of them.
+"""Records constraint problems and the solutions of MuJoCo 3.12.0's solvers.
 
     pip install mujoco==3.12.0
     python solver.py --out DIR --problems 5000 [MODEL.xml ...] [--corpus FOLDER --list FILE]
@@ -7,7 +7,7 @@
 Each model is driven by random controls from keyframe 0, or qpos0, and from disturbed poses; states that make constraint
 rows are kept, evenly spread over the models. A state makes one problem with pyramidal and one with elliptic cones; each
 is solved by PGS, CG and Newton. Every second problem starts cold, every third is solved as a whole instead of island by
-island, and every third, counted by pairs, removes slip. One archive a model; the model itself is in the archive that record.py makes of it:
+island, and every third, counted by pairs, removes slip. One archive a model; the model itself is in the archive that record.py writes:
 
     count.NAME      contacts, rows, row entries and islands of each problem: they cut the concatenated arrays
     problem.NAME    options and inputs of fixed size, a row each

@@ -6,7 +6,7 @@ use std::f64::consts::GOLDEN_RATIO;
 /// Arguments of each function.
 const ARGUMENTS: u32 = 20_000;
 
-/// What [`digest`] makes of glibc 2.36 on an x86-64 processor with fused multiply-add.
+/// The [`digest`] of glibc 2.36 on an x86-64 processor with fused multiply-add.
 const RECORDED: u64 = 0x442b_fd92_b701_844f;
 
 /// True where every probed value is the recorded library's.

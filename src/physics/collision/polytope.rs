@@ -100,7 +100,7 @@ impl Polytope {
         &mut self.vertices[v]
     }
 
-    /// An earlier vertex is made of the same vertices of the bodies.
+    /// An earlier vertex comes from the same vertices of the bodies.
     pub fn repeats(&self, v: usize) -> bool {
         let index = self.vertices[v].index;
         self.vertices[..v].iter().any(|earlier| earlier.index == index)

@@ -91,9 +91,9 @@ fn hull(m: &Arrays, mesh: usize) -> Result<(), Inconsistent> {
     }
     let lists = lists as usize;
     let (starts, vertices, neighbours) = (&rest[..n], &rest[n..2 * n], &rest[2 * n..2 * n + lists]);
-    fault(starts.iter().all(|&s| s >= 0 && (s as usize) < lists), "made of lists inside the graph")?;
-    fault(vertices.iter().all(|&v| v >= 0 && v < m.mesh_vertnum[mesh]), "made of vertices of the mesh")?;
-    fault(neighbours.iter().all(|&h| h >= -1 && h < n as i32), "made of vertices of the hull")?;
+    fault(starts.iter().all(|&s| s >= 0 && (s as usize) < lists), "lists inside the graph")?;
+    fault(vertices.iter().all(|&v| v >= 0 && v < m.mesh_vertnum[mesh]), "vertices of the mesh")?;
+    fault(neighbours.iter().all(|&h| h >= -1 && h < n as i32), "vertices of the hull")?;
     fault(neighbours.last() == Some(&-1), "ended by -1")?;
     let extrema = m.mesh_extrema[mesh].iter().all(|&h| h >= 0 && (h as usize) < n);
     require(extrema, "mesh_extrema", 27 * mesh, "vertices of the hull")

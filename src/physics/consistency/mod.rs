@@ -1,4 +1,4 @@
-//! What the arrays of a model owe each other: every reference leads to an element, every address into its array,
+//! The invariants between the arrays of a model: every reference leads to an element, every address into its array,
 //! trees and paths are well formed. The compiler makes such models; what comes from a file is checked.
 
 mod device;
@@ -61,7 +61,7 @@ fn within(array: &'static str, field: &impl Field, least: i32, end: usize) -> Re
     }
 }
 
-/// Every range of `count` items from `first` lies in an array of `total`. A range of nothing may begin at -1.
+/// Every range of `count` items from `first` lies in an array of `total`. An empty range may begin at -1.
 fn spans(
     array: &'static str,
     first: &[i32],
@@ -92,7 +92,7 @@ macro_rules! ranges {
 
 use {ranges, references};
 
-/// Sizes that no array bears out.
+/// Sizes that contradict the arrays.
 fn check_sizes(m: &Arrays) -> Result<(), Inconsistent> {
     require(m.nbody > 0, "nbody", 0, "at least the world")?;
     require(m.nbvhstatic == m.nbvh, "nbvhstatic", 0, "the number of all nodes")?;

@@ -33,7 +33,7 @@ struct Rows {
 }
 
 impl Rows {
-    /// What `measure` makes of the row with these entries and of its solution.
+    /// The value of `measure` for the row with these entries and its solution.
     fn solved(
         &mut self,
         m: &Model,

@@ -36,7 +36,7 @@ pub(super) fn add_fluid(m: &Model, inputs: &DerivativeInputs, scratch: &mut Flui
             FluidShape::InertiaBox => box_slope(inertia_box(m, at.body), &v, m.opt.density, m.opt.viscosity),
             FluidShape::Ellipsoid(g) => {
                 let slope = ellipsoid_slope(&Ellipsoid::of_geom(m, g), &v, m.opt.density, m.opt.viscosity);
-                // The symmetric solver of this integrator leaves only loose bodies their own solution.
+                // The symmetric solver of this integrator solves only for free bodies separately.
                 let symmetric = m.opt.integrator == Integrator::Implicitfast;
                 if symmetric && !is_free_body(m, at.body) { symmetrized(&slope) } else { slope }
             }

@@ -1,4 +1,4 @@
-//! The table of ids: one row for each kind of element that bears names.
+//! The table of ids: one row for each kind of named element.
 
 use super::{Element, Key, Span};
 use crate::model::{Arrays, JointType, Model, ObjType};
@@ -51,7 +51,7 @@ macro_rules! ids {
                 all(self)
             }
 
-            #[doc = concat!("Every [`", stringify!($id), "`] that bears a name, with it.")]
+            #[doc = concat!("Every [`", stringify!($id), "`] that has a name, with the name.")]
             pub fn $names(&self) -> impl Iterator<Item = ($id, &str)> + '_ {
                 named(self)
             }

@@ -2,7 +2,7 @@
 //! forces (MuJoCo documentation, Computation, "Numerical integration").
 //!
 //! `implicit` keeps `D` whole and factors an unsymmetric matrix. `implicitfast` leaves Coriolis forces out, keeps the
-//! lower triangle and factors it like `M`; loose bodies, whose gyroscopic force matters most, get their own 6x6 system.
+//! lower triangle and factors it like `M`; free bodies, whose gyroscopic force matters most, get a 6x6 system each.
 
 use crate::data::{Implicit, Inertia};
 use crate::derivative::{
@@ -113,7 +113,7 @@ fn symmetric_system(m: &Model, inertia: &Inertia, out: &mut Implicit) {
     }
 }
 
-/// Loose bodies with their free joints.
+/// Free bodies with their joints.
 fn free_bodies(m: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
     (0..m.njnt)
         .filter(|&j| m.jnt_type[j] == JointType::Free.code())
@@ -121,7 +121,7 @@ fn free_bodies(m: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
         .filter(|&(_, body)| is_free_body(m, body))
 }
 
-/// `M - h D` of a loose body, Coriolis forces included.
+/// `M - h D` of a free body, Coriolis forces included.
 fn free_body_system(
     m: &Model,
     inputs: &DerivativeInputs,

@@ -32,10 +32,10 @@ struct Rates {
     act_dot: Vec<f64>,
 }
 
-/// Whether an integrator computes its matrix factors anew.
+/// Whether an integrator recomputes its matrix factors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Factors {
-    /// At the present state.
+    /// Recomputed at the present state.
     Fresh,
     /// As the last step left them.
     Kept,

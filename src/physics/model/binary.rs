@@ -48,7 +48,7 @@ pub enum BinaryError {
     Checksum,
     /// The name of the model is not UTF-8.
     Name,
-    /// The setting of this name has a code that stands for nothing.
+    /// The setting of this name has an unknown code.
     Setting(&'static str),
     /// The arrays contradict each other.
     Inconsistent(Inconsistent),
@@ -189,7 +189,7 @@ impl Model {
         Model::read_parts(source, length, None)
     }
 
-    /// [`Model::read`] where `again` opens the source once more, so many bytes behind the start of the model: two
+    /// [`Model::read`] where `again` opens the source again at an offset in bytes from the start of the model: two
     /// threads then read a large one.
     ///
     /// # Errors
@@ -221,13 +221,13 @@ impl Model {
     }
 }
 
-/// Opens a source anew, at an offset.
+/// Opens a source again, at an offset.
 pub type Again<'a> = &'a (dyn Fn(u64) -> std::io::Result<Box<dyn Read>> + Sync);
 
 /// More bytes are worth a second thread.
 pub const LARGE: u64 = 1 << 20;
 
-/// Reads arrays of so many bytes on two threads, about half of the bytes on each.
+/// Reads arrays of the given lengths in bytes on two threads, about half of the bytes on each.
 fn read_halves(
     m: &mut Arrays,
     from: &mut Reader,

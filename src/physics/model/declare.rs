@@ -5,7 +5,7 @@ macro_rules! model {
     (sizes { $($size:ident $count:literal,)* } arrays { $($field:ident : $t:ident $shape:tt $doc:literal,)* }) => {
         /// The numbers of a [`Model`](crate::Model): options, sizes, arrays.
         ///
-        /// Every array bears MuJoCo's name and holds MuJoCo's numbers; the doc of each begins with its shape, rows
+        /// Every array has MuJoCo's name and holds MuJoCo's numbers; the doc of each begins with its shape, rows
         /// first. References to other elements are indices, -1 for none.
         #[derive(Clone, Debug, Default)]
         #[allow(non_snake_case)]

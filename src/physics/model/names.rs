@@ -11,7 +11,7 @@ pub(super) struct NameIndex {
     tables: [OnceLock<HashMap<Box<str>, u32>>; KINDS],
 }
 
-/// Codes of the kinds that bear names are below this.
+/// Codes of named kinds are below this.
 const KINDS: usize = ObjType::Key.code() as usize + 1;
 
 impl NameIndex {
@@ -39,7 +39,7 @@ impl Model {
 }
 
 impl Arrays {
-    /// Name addresses of one kind of element; empty for kinds that bear no names.
+    /// Name addresses of one kind of element; empty for kinds without names.
     fn name_addresses(&self, kind: ObjType) -> &[i32] {
         match kind {
             ObjType::Body | ObjType::Xbody => &self.name_bodyadr,

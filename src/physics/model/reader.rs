@@ -167,7 +167,7 @@ impl<'a> Reader<'a> {
         if known { Ok(()) } else { Err(BinaryError::Setting(name)) }
     }
 
-    /// Reads an array of so many rows of fixed columns and the zeros behind it; [`array_bytes`] found room for them.
+    /// Reads an array of `rows` rows of fixed width and the padding behind it; [`array_bytes`] found room for them.
     pub(super) fn array<F: Field>(&mut self, field: &mut F, rows: usize) -> Result<(), BinaryError> {
         self.rows(field, rows)?;
         self.align()

@@ -1,6 +1,6 @@
 //! Rangefinders: one ray along the z axis of a site, or one for every pixel of a camera.
 //!
-//! MuJoCo casts the rays of a camera together and passes over bodies by spheres that ignore the body's rotation, so
+//! MuJoCo casts the rays of a camera together and skips bodies by spheres that ignore the body's rotation, so
 //! that it misses a few surfaces; here every ray ends on the nearest one.
 
 use super::pinhole::Pinhole;

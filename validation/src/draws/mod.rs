@@ -33,7 +33,7 @@ pub struct Agreement {
     pub seeds: usize,
 }
 
-/// The numbers that the recorded file was made of: seeds, and the rows of the kinds.
+/// The parameters of the recorded file: seeds, and the rows of the kinds.
 fn read(text: &str) -> Result<(Vec<u64>, Vec<Recorded>), String> {
     let number = |word: &str, base| u64::from_str_radix(word, base).map_err(|e| format!("{word:?}: {e}"));
     let list = |words: &str, base| -> Result<Vec<u64>, String> {
