@@ -50,7 +50,7 @@ fn check_mesh(m: &Arrays, mesh: usize) -> Result<(), Inconsistent> {
     require(!vertices.is_empty(), "mesh_vertnum", mesh, "positive")?;
     let inside = |values: &[i32], end: i32| values.iter().all(|&x| x >= 0 && x < end);
     for f in range(m.mesh_faceadr[mesh], m.mesh_facenum[mesh]) {
-        require(inside(&m.mesh_face[f], m.mesh_vertnum[mesh]), "mesh_face", 3 * f, "vertices of the mesh")?;
+        require(inside(&m.mesh_face[f], m.mesh_vertnum[mesh]), "mesh_face", 3 * f, "a vertex of the mesh")?;
         let normals = inside(&m.mesh_facenormal[f], m.mesh_normalnum[mesh]);
         require(normals, "mesh_facenormal", 3 * f, "normals of the mesh")?;
         let coordinates =
@@ -91,12 +91,12 @@ fn hull(m: &Arrays, mesh: usize) -> Result<(), Inconsistent> {
     }
     let lists = lists as usize;
     let (starts, vertices, neighbours) = (&rest[..n], &rest[n..2 * n], &rest[2 * n..2 * n + lists]);
-    fault(starts.iter().all(|&s| s >= 0 && (s as usize) < lists), "lists inside the graph")?;
-    fault(vertices.iter().all(|&v| v >= 0 && v < m.mesh_vertnum[mesh]), "vertices of the mesh")?;
-    fault(neighbours.iter().all(|&h| h >= -1 && h < n as i32), "vertices of the hull")?;
+    fault(starts.iter().all(|&s| s >= 0 && (s as usize) < lists), "the start of a list inside the graph")?;
+    fault(vertices.iter().all(|&v| v >= 0 && v < m.mesh_vertnum[mesh]), "a vertex of the mesh")?;
+    fault(neighbours.iter().all(|&h| h >= -1 && h < n as i32), "a vertex of the hull")?;
     fault(neighbours.last() == Some(&-1), "ended by -1")?;
     let extrema = m.mesh_extrema[mesh].iter().all(|&h| h >= 0 && (h as usize) < n);
-    require(extrema, "mesh_extrema", 27 * mesh, "vertices of the hull")
+    require(extrema, "mesh_extrema", 27 * mesh, "a vertex of the hull")
 }
 
 /// A mesh geom has a mesh, a height field geom a height field.
