@@ -5,7 +5,7 @@ use std::io::Cursor;
 
 use dataset::{Array, NpzReader};
 use mjcf::files::Memory;
-use mjcf::image::{CompiledHfield, FileImage, HfieldSource, TextureKind, TextureSource};
+use mjcf::image::{CompiledHfield, FileImage, HfieldSource, TextureSource, TextureType};
 use mjcf::mesh::{MeshInertia, MeshSource, RawMesh, convex_hull, decode, process};
 use mjcf::{Limits, Loader};
 use physics::model::binary::seal;
@@ -105,7 +105,7 @@ pub fn image(data: &[u8]) {
     let source = TextureSource {
         file,
         cubefiles,
-        kind: if bit(4) { TextureKind::Image2d } else { TextureKind::Skybox },
+        kind: if bit(4) { TextureType::Texture2d } else { TextureType::Skybox },
         nchannel: if bit(4) { [1, 3, 4, 2][usize::from(choice & 3)] } else { 3 },
         gridsize: if bit(5) { [3, 4] } else { [1, 1] },
         gridlayout: ".U..LFRB.D..".into(),

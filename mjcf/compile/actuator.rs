@@ -3,8 +3,8 @@
 use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::values::{bounded, push_user, resolve_limited};
-use crate::spec::input::{EXPMAP, FF, NO_INPUT, POS, QUAT, VEL, VOLTAGE};
 use crate::spec::{Actuator, Spec};
+use physics::model::input::{self, EXPONENTIAL_MAP, FEED_FORWARD, POSITION, QUATERNION, VELOCITY, VOLTAGE};
 use physics::model::{Arrays, BiasType, DynType, GainType, JointType, ObjType, TrnType};
 
 /// Inputs, outputs and activations that a type of actuator has.
@@ -142,11 +142,11 @@ fn so3_block(
         }
         block.actdim = 3;
     }
-    block.ctrlspec = if a.ctrlspec == 0 { EXPMAP } else { a.ctrlspec };
+    block.ctrlspec = if a.ctrlspec == 0 { EXPONENTIAL_MAP } else { a.ctrlspec };
     block.ctrlnum = match block.ctrlspec {
-        EXPMAP => 3,
-        QUAT if a.dyntype == DynType::None => 4,
-        QUAT => return Err("so3 quat input requires dyntype 'none'".into()),
+        EXPONENTIAL_MAP => 3,
+        QUATERNION if a.dyntype == DynType::None => 4,
+        QUATERNION => return Err("so3 quat input requires dyntype 'none'".into()),
         _ => return Err("so3 input must be expmap or quat".into()),
     };
     if limited && a.forcerange[0] != 0.0 {
@@ -177,11 +177,11 @@ fn pid_block(a: &Actuator, block: &mut Block) -> Result<(), String> {
         }
         block.actdim = states;
     }
-    block.ctrlspec = if a.ctrlspec == 0 { POS | VEL } else { a.ctrlspec };
-    if block.ctrlspec & !(POS | VEL | FF) != 0 {
+    block.ctrlspec = if a.ctrlspec == 0 { POSITION | VELOCITY } else { a.ctrlspec };
+    if block.ctrlspec & !(POSITION | VELOCITY | FEED_FORWARD) != 0 {
         return Err("pid inputs are a subset of [pos, vel, ff]".into());
     }
-    if a.dyntype == DynType::Pid && block.ctrlspec & POS == 0 {
+    if a.dyntype == DynType::Pid && block.ctrlspec & POSITION == 0 {
         return Err("pid controller states require the pos input".into());
     }
     block.ctrlnum = block.ctrlspec.count_ones() as usize;
@@ -190,20 +190,20 @@ fn pid_block(a: &Actuator, block: &mut Block) -> Result<(), String> {
 
 fn dcmotor_block(a: &Actuator, block: &mut Block) -> Result<(), String> {
     block.ctrlspec = if a.ctrlspec == 0 { VOLTAGE } else { a.ctrlspec };
-    if block.ctrlspec != NO_INPUT && block.ctrlspec & !(POS | VEL | FF | VOLTAGE) != 0 {
+    if block.ctrlspec != input::NONE && block.ctrlspec & !input::ALL != 0 {
         return Err("dcmotor inputs are 'none' or a subset of [pos, vel, ff, voltage]".into());
     }
-    let controller = block.ctrlspec & (POS | VEL | FF) != 0;
+    let controller = block.ctrlspec & (POSITION | VELOCITY | FEED_FORWARD) != 0;
     if controller && a.gainprm[1] <= 0.0 {
         return Err("dcmotor controller inputs require a positive motor constant".into());
     }
     if !controller && (a.gainprm[4..7].iter().any(|&g| g != 0.0) || a.dynprm[7] > 0.0) {
         return Err("dcmotor controller gains require an input of [pos, vel, ff]".into());
     }
-    if a.gainprm[5] > 0.0 && block.ctrlspec & POS == 0 {
+    if a.gainprm[5] > 0.0 && block.ctrlspec & POSITION == 0 {
         return Err("dcmotor integral gain requires the pos input".into());
     }
-    block.ctrlnum = (block.ctrlspec & (POS | VEL | FF | VOLTAGE)).count_ones() as usize;
+    block.ctrlnum = (block.ctrlspec & input::ALL).count_ones() as usize;
     Ok(())
 }
 
@@ -346,9 +346,9 @@ fn fill_inputs(m: &mut Arrays, a: &Actuator, block: &Block, limited: bool, range
     if a.gaintype == GainType::Pid {
         inputs.clear();
         for (bit, entry) in [
-            (POS, (limited, range)),
-            (VEL, (a.velrange[0] < a.velrange[1], a.velrange)),
-            (FF, (a.ffrange[0] < a.ffrange[1], a.ffrange)),
+            (POSITION, (limited, range)),
+            (VELOCITY, (a.velrange[0] < a.velrange[1], a.velrange)),
+            (FEED_FORWARD, (a.ffrange[0] < a.ffrange[1], a.ffrange)),
         ] {
             inputs.extend((block.ctrlspec & bit != 0).then_some(entry));
         }

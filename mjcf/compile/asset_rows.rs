@@ -29,7 +29,7 @@ pub(super) fn fill(m: &mut Arrays, assets: &Assets, spec: &Spec, lookup: &Lookup
     for (asset, texture) in assets.textures.iter().zip(&spec.textures) {
         let t = &asset.compiled;
         m.tex_type.push(texture.kind.code());
-        m.tex_colorspace.push(t.colorspace as i32);
+        m.tex_colorspace.push(t.colorspace.code());
         m.tex_height.push(t.height as i32);
         m.tex_width.push(t.width as i32);
         m.tex_nchannel.push(t.nchannel as i32);

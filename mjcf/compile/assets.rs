@@ -6,14 +6,12 @@ use crate::asset::AssetError;
 use crate::diagnostic::Loc;
 use crate::digest::digest_parts;
 use crate::files::FileProvider;
-use crate::image::{
-    self, Colorspace, CompiledHfield, CompiledTexture, FileImage, HfieldSource, TextureKind, TextureSource,
-};
+use crate::image::{self, CompiledHfield, CompiledTexture, FileImage, HfieldSource, TextureSource};
 use crate::mesh::stored::MeshStore;
 use crate::mesh::{self, CompiledMesh, MeshInertia, MeshSource, RawMesh, Shape};
 use crate::spec::{Body, Hfield, Mesh, Spec, Texture, asset_name};
 use crate::suggestion::Suggestions;
-use physics::model::{ColorSpace, GeomType, TextureType};
+use physics::model::{GeomType, TextureType};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -180,7 +178,7 @@ fn read_all<'s>(spec: &'s Spec, files: &dyn FileProvider, log: &mut Log) -> Vec<
 }
 
 fn check_name(name: &str, loc: Loc, job: &Job, log: &mut Log) {
-    let skybox = matches!(job, Job::Texture { source } if source.kind == TextureKind::Skybox);
+    let skybox = matches!(job, Job::Texture { source } if source.kind == TextureType::Skybox);
     if name.is_empty() && !skybox {
         let kind = match job {
             Job::Mesh { .. } => "mesh",
@@ -226,16 +224,8 @@ fn texture_source(spec: &Texture, name: &str, files: &dyn FileProvider, log: &mu
     };
     TextureSource {
         name: name.to_owned(),
-        kind: match spec.kind {
-            TextureType::Texture2d => TextureKind::Image2d,
-            TextureType::Cube => TextureKind::Cube,
-            TextureType::Skybox => TextureKind::Skybox,
-        },
-        colorspace: match spec.colorspace {
-            ColorSpace::Auto => Colorspace::Auto,
-            ColorSpace::Linear => Colorspace::Linear,
-            ColorSpace::Srgb => Colorspace::Srgb,
-        },
+        kind: spec.kind,
+        colorspace: spec.colorspace,
         file: image(&spec.file),
         cubefiles: std::array::from_fn(|k| image(&spec.cubefiles[k])),
         content_type: spec.content_type.clone(),

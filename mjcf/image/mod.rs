@@ -1,10 +1,10 @@
 //! Image assets: textures and height fields.
 //!
 //! ```
-//! use robohive_mjcf::image::{Builtin, TextureKind, TextureSource, texture};
+//! use robohive_mjcf::image::{Builtin, TextureType, TextureSource, texture};
 //!
 //! let source = TextureSource {
-//!     kind: TextureKind::Image2d,
+//!     kind: TextureType::Texture2d,
 //!     builtin: Builtin::Checker,
 //!     width: 4,
 //!     height: 2,
@@ -22,5 +22,6 @@ mod source;
 mod texture;
 
 pub use hfield::{CompiledHfield, HfieldSource, hfield};
-pub use source::{Builtin, Colorspace, FileImage, Mark, TextureKind, TextureSource};
+pub use physics::model::{ColorSpace, TextureType};
+pub use source::{Builtin, FileImage, Mark, TextureSource};
 pub use texture::{CompiledTexture, texture};

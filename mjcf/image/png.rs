@@ -5,6 +5,7 @@
 use fdeflate::{DecompressionError, Decompressor};
 
 use super::scanline::{Layout, unfilter};
+use super::source::MAX_BYTES;
 use crate::asset::AssetError;
 
 /// Decoded pixels, row by row from the top.
@@ -17,9 +18,6 @@ pub(super) struct Pixels {
     /// The file declares the sRGB colour space.
     pub srgb: bool,
 }
-
-/// Largest decoded image, so that a few bytes cannot ask for all memory.
-const MAX_BYTES: usize = 1 << 30;
 
 const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
 

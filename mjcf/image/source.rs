@@ -1,5 +1,7 @@
 //! What a texture is compiled from.
 
+use physics::model::{ColorSpace, TextureType};
+
 /// Pattern of a computed texture.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Builtin {
@@ -28,29 +30,8 @@ pub enum Mark {
     Random,
 }
 
-/// How a texture is mapped.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum TextureKind {
-    /// One image, by texture coordinates or projected.
-    Image2d,
-    /// Six faces around the object.
-    #[default]
-    Cube,
-    /// Six faces around the scene.
-    Skybox,
-}
-
-/// How pixel values encode light; the values are those of `mjtColorSpace`.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Colorspace {
-    /// By the file, linear if it does not say.
-    #[default]
-    Auto = 0,
-    /// Proportional to light.
-    Linear = 1,
-    /// With the sRGB transfer function.
-    Srgb = 2,
-}
+/// Largest decoded image or texture in bytes, so that a few bytes cannot ask for all memory.
+pub(super) const MAX_BYTES: usize = 1 << 30;
 
 /// An image file that was read but not decoded.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -67,9 +48,9 @@ pub struct TextureSource {
     /// Name for messages.
     pub name: String,
     /// Mapping.
-    pub kind: TextureKind,
+    pub kind: TextureType,
     /// Attribute `colorspace`.
-    pub colorspace: Colorspace,
+    pub colorspace: ColorSpace,
     /// Attribute `file`.
     pub file: Option<FileImage>,
     /// Attributes `fileright`, `fileleft`, `fileup`, `filedown`, `filefront`, `fileback`.
@@ -108,8 +89,8 @@ impl Default for TextureSource {
     fn default() -> Self {
         Self {
             name: String::new(),
-            kind: TextureKind::Cube,
-            colorspace: Colorspace::Auto,
+            kind: TextureType::Cube,
+            colorspace: ColorSpace::Auto,
             file: None,
             cubefiles: Default::default(),
             content_type: String::new(),

@@ -2,8 +2,9 @@
 
 use super::builtin::{paint_cube, paint_flat_image};
 use super::png::{self, Pixels};
-use super::source::{Builtin, Colorspace, FileImage, TextureKind, TextureSource};
+use super::source::{Builtin, FileImage, MAX_BYTES, TextureSource};
 use crate::asset::AssetError;
+use physics::model::{ColorSpace, TextureType};
 
 /// The rows one texture contributes to a model.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -15,16 +16,13 @@ pub struct CompiledTexture {
     /// `tex_nchannel`.
     pub nchannel: usize,
     /// `tex_colorspace`.
-    pub colorspace: Colorspace,
+    pub colorspace: ColorSpace,
     /// `tex_data`: row-major from the top, faces in the order right, left, up, down, front, back.
     pub data: Vec<u8>,
 }
 
 const PNG: &str = "image/png";
 const KTX: &str = "image/ktx";
-
-/// Largest texture in bytes.
-const MAX_BYTES: usize = 1 << 30;
 
 /// Compiles one texture.
 pub fn texture(source: &TextureSource) -> Result<CompiledTexture, AssetError> {
@@ -35,14 +33,14 @@ pub fn texture(source: &TextureSource) -> Result<CompiledTexture, AssetError> {
         )));
     }
     match (source.builtin, &source.file, source.kind) {
-        (Builtin::None, Some(file), TextureKind::Image2d) => flat_file(source, file),
+        (Builtin::None, Some(file), TextureType::Texture2d) => flat_file(source, file),
         (Builtin::None, Some(file), _) => cube_from_one(source, file),
-        (Builtin::None, None, TextureKind::Image2d) => Err(AssetError::inconsistent(format!(
+        (Builtin::None, None, TextureType::Texture2d) => Err(AssetError::inconsistent(format!(
             "texture '{}' of type 2d needs a file or a builtin",
             source.name
         ))),
         (Builtin::None, None, _) => cube_from_six(source),
-        (_, _, TextureKind::Image2d) => computed(source, source.height),
+        (_, _, TextureType::Texture2d) => computed(source, source.height),
         _ => computed(source, source.width.saturating_mul(6)),
     }
 }
@@ -58,8 +56,8 @@ fn computed(source: &TextureSource, height: usize) -> Result<CompiledTexture, As
     }
     let mut data = vec![0; byte_count(source, width, height, 3)?];
     match source.kind {
-        TextureKind::Image2d => paint_flat_image(source, width, height, &mut data),
-        TextureKind::Cube | TextureKind::Skybox => paint_cube(source, width, &mut data),
+        TextureType::Texture2d => paint_flat_image(source, width, height, &mut data),
+        TextureType::Cube | TextureType::Skybox => paint_cube(source, width, &mut data),
     }
     Ok(CompiledTexture { width, height, nchannel: 3, colorspace: source.colorspace, data })
 }
@@ -177,7 +175,7 @@ impl Faces {
     }
 
     /// Faces without image get the first colour.
-    fn finish(mut self, source: &TextureSource, colorspace: Colorspace) -> CompiledTexture {
+    fn finish(mut self, source: &TextureSource, colorspace: ColorSpace) -> CompiledTexture {
         let blank = source.rgb1.map(|x| (255.0 * x) as u8);
         let size = 3 * self.width * self.width;
         for (face, pixels) in self.data.chunks_exact_mut(size).enumerate() {
@@ -223,10 +221,10 @@ fn byte_count(
         })
 }
 
-fn resolve(colorspace: Colorspace, srgb: bool) -> Colorspace {
+fn resolve(colorspace: ColorSpace, srgb: bool) -> ColorSpace {
     match (colorspace, srgb) {
-        (Colorspace::Auto, true) => Colorspace::Srgb,
-        (Colorspace::Auto, false) => Colorspace::Linear,
+        (ColorSpace::Auto, true) => ColorSpace::Srgb,
+        (ColorSpace::Auto, false) => ColorSpace::Linear,
         (given, _) => given,
     }
 }

@@ -2,6 +2,7 @@
 //! the triangles) its faces span.
 
 use crate::vector::{cross, dot, sub};
+use physics::model::bounds::MINVAL;
 
 /// How the interior of a mesh is weighed (`asset/mesh/inertia`).
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -16,9 +17,6 @@ pub enum MeshInertia {
     /// Mass on the surface.
     Shell,
 }
-
-/// Lengths of face cross products below this count as degenerate.
-const MINVAL: f64 = 1e-15;
 
 pub(super) struct Triangle {
     /// Area in m².

@@ -1,8 +1,7 @@
 //! Vertex normals: area-weighted means of the adjacent face normals, unless the file gives them.
 
 use crate::vector::{cross, dot, normalize, sub};
-
-const MINVAL: f64 = 1e-15;
+use physics::model::bounds::MINVAL;
 
 /// Faces whose normal has a smaller cosine with the vertex normal do not count unless smoothing is on.
 const SHARP_COSINE: f64 = 0.8;

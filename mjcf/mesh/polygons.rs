@@ -4,14 +4,13 @@
 //! order of the polygons is that in which LLVM's hash map enumerates the cells.
 
 use physics::math::ops;
+use physics::model::bounds::MINVAL;
 
 use super::hash_order::HashOrder;
 use crate::vector::{cross, dot, sub};
 
 /// Width of a cell, in radians.
 const CELL: f64 = 0.01;
-const MINVAL: f64 = 1e-15;
-
 /// Polygons of a hull, as mesh vertices in counter-clockwise order seen from outside.
 #[derive(Debug, Default)]
 pub(super) struct Polygons {

@@ -10,9 +10,7 @@ use super::source::{Format, MeshSource, RawMesh};
 use crate::asset::AssetError;
 use crate::bvh::{self, Bvh, Leaf};
 use crate::vector::{apply, cross, dot, matrix, normalize, principal_axes, sub, transpose};
-
-/// Smallest area, volume or length that counts as one.
-const MINVAL: f64 = 1e-15;
+use physics::model::bounds::MINVAL;
 
 /// The arrays of a mesh while it is processed, coordinates in double precision.
 struct Arrays {

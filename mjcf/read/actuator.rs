@@ -1,6 +1,7 @@
 //! `actuator`: transmissions, and shortcuts expanded to gain, bias and dynamics
 //! (XML reference: `actuator`; documentation: Computation, actuation model).
 
+use physics::model::input;
 use physics::model::{BiasType, DynType, GainType, TrnType};
 
 use super::dc_motor;
@@ -70,8 +71,14 @@ impl Reader<'_> {
 
     /// The code of an `input` attribute: a chart of orientations, nothing, or bits of inputs in their order.
     fn input_signature(&mut self, element: &Element, input: &Attribute) -> Option<i32> {
-        const ALONE: Words = &[("expmap", 1), ("quat", 2), ("none", 16)];
-        const TOGETHER: Words = &[("pos", 1), ("vel", 2), ("ff", 4), ("voltage", 8)];
+        const ALONE: Words =
+            &[("expmap", input::EXPONENTIAL_MAP), ("quat", input::QUATERNION), ("none", input::NONE)];
+        const TOGETHER: Words = &[
+            ("pos", input::POSITION),
+            ("vel", input::VELOCITY),
+            ("ff", input::FEED_FORWARD),
+            ("voltage", input::VOLTAGE),
+        ];
         if let Some((_, code)) = ALONE.iter().find(|(word, _)| *word == input.value.trim()) {
             return Some(*code);
         }

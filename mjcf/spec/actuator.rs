@@ -2,7 +2,7 @@
 
 use super::custom::Keyed;
 use super::element::{Limited, elements};
-use physics::model::{BiasType, DynType, GainType, TrnType};
+use physics::model::{BiasType, DynType, GainType, TrnType, input};
 
 elements! {
     /// An actuator in general form.
@@ -76,29 +76,15 @@ elements! {
     }
 }
 
-/// What the bits of [`Actuator::ctrlspec`] mean.
-pub(crate) mod input {
-    /// Bits of an input signature.
-    pub const POS: i32 = 1;
-    pub const VEL: i32 = 2;
-    pub const FF: i32 = 4;
-    pub const VOLTAGE: i32 = 8;
-    pub const NO_INPUT: i32 = 16;
-    /// Orientation charts of an so3 servo.
-    pub const EXPMAP: i32 = 1;
-    pub const QUAT: i32 = 2;
-}
-
 impl Actuator {
     /// Numbers of activations and of controls as far as they show before references are resolved.
     pub(crate) fn sizes(&self) -> (usize, usize) {
         let states =
             if self.actdim > 0 { self.actdim as usize } else { usize::from(self.dyntype != DynType::None) };
-        let given =
-            (self.ctrlspec & (input::POS | input::VEL | input::FF | input::VOLTAGE)).count_ones() as usize;
+        let given = (self.ctrlspec & input::ALL).count_ones() as usize;
         let inputs = match self.gaintype {
             GainType::So3 => {
-                if self.ctrlspec == input::QUAT {
+                if self.ctrlspec == input::QUATERNION {
                     4
                 } else {
                     3

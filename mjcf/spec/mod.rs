@@ -32,7 +32,6 @@ mod sensor;
 mod settings;
 mod tree;
 
-pub(crate) use actuator::input;
 pub use actuator::*;
 pub use asset::*;
 pub use constraint::*;

@@ -2,7 +2,7 @@
 
 use robohive_mjcf::asset::AssetErrorKind;
 use robohive_mjcf::image::{
-    Builtin, Colorspace, FileImage, HfieldSource, Mark, TextureKind, TextureSource, hfield, texture,
+    Builtin, ColorSpace, FileImage, HfieldSource, Mark, TextureSource, TextureType, hfield, texture,
 };
 
 /// PNG with `width` pixels per row of 8-bit samples; `color` is the PNG colour type.
@@ -23,10 +23,10 @@ fn png_file(width: u32, rows: &[&[u8]], color: png::ColorType, srgb: bool) -> Fi
 #[test]
 fn image_keeps_pixels_and_flips_them() {
     let file = png_file(2, &[&[1, 2, 3, 4, 5, 6], &[7, 8, 9, 10, 11, 12]], png::ColorType::Rgb, true);
-    let plain = TextureSource { kind: TextureKind::Image2d, file: Some(file), ..TextureSource::default() };
+    let plain = TextureSource { kind: TextureType::Texture2d, file: Some(file), ..TextureSource::default() };
     let straight = texture(&plain).unwrap();
     assert_eq!((straight.width, straight.height, straight.nchannel), (2, 2, 3));
-    assert_eq!(straight.colorspace, Colorspace::Srgb);
+    assert_eq!(straight.colorspace, ColorSpace::Srgb);
     assert_eq!(straight.data, (1..=12).collect::<Vec<u8>>());
     let turned = texture(&TextureSource { hflip: true, vflip: true, ..plain.clone() }).unwrap();
     assert_eq!(turned.data, [10, 11, 12, 7, 8, 9, 4, 5, 6, 1, 2, 3]);
@@ -48,7 +48,7 @@ fn grid_is_cut_into_cube_faces() {
         ..TextureSource::default()
     };
     let cube = texture(&source).unwrap();
-    assert_eq!((cube.width, cube.height, cube.colorspace), (1, 6, Colorspace::Linear));
+    assert_eq!((cube.width, cube.height, cube.colorspace), (1, 6, ColorSpace::Linear));
     let blank = [255, 127, 0];
     let faces: Vec<&[u8]> = cube.data.chunks(3).collect();
     assert_eq!(faces, [&[1; 3], &blank, &[2; 3], &[2; 3], &blank, &blank]);
@@ -59,7 +59,7 @@ fn grid_is_cut_into_cube_faces() {
 #[test]
 fn checker_has_four_squares_and_marks() {
     let source = TextureSource {
-        kind: TextureKind::Image2d,
+        kind: TextureType::Texture2d,
         builtin: Builtin::Checker,
         mark: Mark::Cross,
         rgb1: [1.0, 0.0, 0.0],
@@ -114,7 +114,7 @@ fn lying_images_are_errors() {
     let whole = png_file(2, &[&[1; 6], &[2; 6]], png::ColorType::Rgb, false);
     let with = |bytes: Vec<u8>, path: &str| {
         let file = Some(FileImage { bytes, path: path.into() });
-        texture(&TextureSource { kind: TextureKind::Image2d, file, ..TextureSource::default() })
+        texture(&TextureSource { kind: TextureType::Texture2d, file, ..TextureSource::default() })
             .unwrap_err()
             .kind
     };
@@ -155,7 +155,7 @@ fn palette_that_ends_inside_a_colour_is_refused() {
     };
     let read = |palette: &[u8]| {
         let file = Some(image(palette));
-        texture(&TextureSource { kind: TextureKind::Image2d, file, ..TextureSource::default() })
+        texture(&TextureSource { kind: TextureType::Texture2d, file, ..TextureSource::default() })
     };
     assert_eq!(read(&[1, 2, 3]).unwrap().data, [1, 2, 3]);
     let error = read(&[1, 2, 3, 4]).unwrap_err();
@@ -167,12 +167,12 @@ fn palette_that_ends_inside_a_colour_is_refused() {
 fn container_is_kept_byte_for_byte() {
     let bytes = b"\xabKTX 11\xbb\r\n\x1a\n and more".to_vec();
     let file = FileImage { bytes: bytes.clone(), path: "sky.KTX".into() };
-    let source = TextureSource { kind: TextureKind::Image2d, file: Some(file), ..Default::default() };
+    let source = TextureSource { kind: TextureType::Texture2d, file: Some(file), ..Default::default() };
     let kept = texture(&source).unwrap();
     assert_eq!((kept.width, kept.height, kept.nchannel), (bytes.len(), 1, 1));
     assert_eq!(kept.data, bytes);
     let flipped = TextureSource { hflip: true, ..source.clone() };
     assert_eq!(texture(&flipped).unwrap_err().kind, AssetErrorKind::Inconsistent);
-    let cube = TextureSource { kind: TextureKind::Cube, ..source };
+    let cube = TextureSource { kind: TextureType::Cube, ..source };
     assert_eq!(texture(&cube).unwrap_err().kind, AssetErrorKind::Unsupported);
 }

@@ -1,6 +1,6 @@
 //! PNG files of every colour type, depth and interlacing, beside the decoder of the `png` crate.
 
-use robohive_mjcf::image::{FileImage, TextureKind, TextureSource, texture};
+use robohive_mjcf::image::{FileImage, TextureSource, TextureType, texture};
 
 /// Every colour type with its samples a pixel and the depths it may have.
 const LAYOUTS: [(u8, usize, &[u8]); 5] =
@@ -101,7 +101,7 @@ impl Image {
 
 fn read(bytes: &[u8], nchannel: usize) -> Result<Vec<u8>, String> {
     let file = Some(FileImage { bytes: bytes.to_vec(), path: "image.png".into() });
-    let source = TextureSource { kind: TextureKind::Image2d, file, nchannel, ..TextureSource::default() };
+    let source = TextureSource { kind: TextureType::Texture2d, file, nchannel, ..TextureSource::default() };
     texture(&source).map(|texture| texture.data).map_err(|error| error.message)
 }
 

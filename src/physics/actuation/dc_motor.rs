@@ -8,9 +8,10 @@
 //! static friction, Stribeck velocity.
 
 use crate::actuation::activation::{activations, clip, next_activation};
-use crate::actuation::servo::{self, FEED_FORWARD, POSITION, VELOCITY, VOLTAGE};
+use crate::actuation::servo;
 use crate::math::ops;
 use crate::model::bounds::MINVAL;
+use crate::model::input::{FEED_FORWARD, POSITION, VELOCITY, VOLTAGE};
 use crate::model::{BiasType, DynType, GainType, Model};
 
 /// Places of the optional states among the activations of a motor.

@@ -17,11 +17,8 @@ use crate::actuation::transmission::moment;
 use crate::data::{Actuation, Passive, State, Transmission, Velocity};
 use crate::math::{IDENTITY, Quat, Vec3, norm, quat_difference, quat_from_axis_angle, quat_normalize, scale};
 use crate::model::bounds::{MAXVAL, MINVAL};
-use crate::model::{BiasType, Disable, DynType, GainType, JointType, Model, TrnType};
+use crate::model::{BiasType, Disable, DynType, GainType, JointType, Model, TrnType, input};
 use crate::velocity::passive::has_gravity_compensation;
-
-/// Value of `actuator_ctrlspec` for an orientation given as a quaternion.
-const QUATERNION_INPUT: i32 = 2;
 
 /// Computes rates of activation, actuator forces, and their sum in joint space.
 pub fn actuation(
@@ -149,7 +146,7 @@ fn orientation_servo(
 ) -> Vec3 {
     let (u, a, out) =
         (m.actuator_ctrladr[i] as usize, activations(m, i).start, m.actuator_outadr[i] as usize);
-    let target = if m.actuator_ctrlspec[i] == QUATERNION_INPUT {
+    let target = if m.actuator_ctrlspec[i] == input::QUATERNION {
         quat_normalize(std::array::from_fn(|k| ctrl(u + k)))
     } else if m.actuator_dyntype[i] == DynType::None.code() {
         quat_from_vector(std::array::from_fn(|k| ctrl(u + k)))

@@ -2,16 +2,8 @@
 //! (XML reference: `actuator/pid`).
 
 use crate::actuation::activation::{activations, clip, nearest_setpoint, next_activation, setpoint_period};
+use crate::model::input::{FEED_FORWARD, POSITION, VELOCITY, VOLTAGE};
 use crate::model::{DynType, GainType, Model};
-
-/// Bit of `actuator_ctrlspec`: a position setpoint.
-pub const POSITION: i32 = 1;
-/// Bit of `actuator_ctrlspec`: a velocity setpoint.
-pub const VELOCITY: i32 = 2;
-/// Bit of `actuator_ctrlspec`: a force or torque to add.
-pub const FEED_FORWARD: i32 = 4;
-/// Bit of `actuator_ctrlspec`: a terminal voltage.
-pub const VOLTAGE: i32 = 8;
 
 /// Position, velocity, feed-forward and voltage inputs of actuator `i`, zero where it has none; the first control
 /// is limited in slew.

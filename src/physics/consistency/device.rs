@@ -1,6 +1,7 @@
 //! Tendon paths, equality constraints, actuators and sensors: references whose kind another array tells.
 
 use super::{Inconsistent, count, require};
+use crate::model::input;
 use crate::model::{Arrays, DynType, EqType, GainType, JointType, ObjType, SensorType, TrnType, WrapType};
 
 /// Samples a history buffer may hold.
@@ -107,8 +108,8 @@ fn block(m: &Arrays, i: usize) -> Result<(i32, i32, i32), Inconsistent> {
     require(outputs == if so3 { 3 } else { 1 }, "actuator_outnum", i, "that of its transmission")?;
     let spec = m.actuator_ctrlspec[i];
     let expected = match gain {
-        Some(GainType::So3) => 3 + i32::from(spec == 2),
-        Some(GainType::Pid | GainType::Dcmotor) => (spec & 15).count_ones() as i32,
+        Some(GainType::So3) => 3 + i32::from(spec == input::QUATERNION),
+        Some(GainType::Pid | GainType::Dcmotor) => (spec & input::ALL).count_ones() as i32,
         _ => 1,
     };
     require(inputs == expected, "actuator_ctrlnum", i, "what its inputs add up to")?;

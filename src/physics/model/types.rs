@@ -338,6 +338,13 @@ codes! {
     }
 }
 
+impl Default for ColorSpace {
+    /// As the file says, linear if it does not.
+    fn default() -> Self {
+        ColorSpace::Auto
+    }
+}
+
 /// Numerical bounds shared by all stages (documentation: `mjMINVAL` and its neighbours).
 pub mod bounds {
     /// Smallest value a denominator may take.
@@ -352,4 +359,25 @@ pub mod bounds {
     pub const MAXIMP: f64 = 0.9999;
     /// Most contacts one pair of geoms can make.
     pub const MAXCONPAIR: usize = 50;
+}
+
+/// What `actuator_ctrlspec` says of the controls of an actuator: bits of the inputs of a servo or motor in the order of
+/// its controls, or the chart of the orientation that an so3 servo follows.
+pub mod input {
+    /// Bit: a position setpoint.
+    pub const POSITION: i32 = 1;
+    /// Bit: a velocity setpoint.
+    pub const VELOCITY: i32 = 2;
+    /// Bit: a force or torque to add.
+    pub const FEED_FORWARD: i32 = 4;
+    /// Bit: a terminal voltage.
+    pub const VOLTAGE: i32 = 8;
+    /// All bits of inputs.
+    pub const ALL: i32 = POSITION | VELOCITY | FEED_FORWARD | VOLTAGE;
+    /// No input.
+    pub const NONE: i32 = 16;
+    /// Chart: axis times angle, three numbers.
+    pub const EXPONENTIAL_MAP: i32 = 1;
+    /// Chart: a quaternion, four numbers.
+    pub const QUATERNION: i32 = 2;
 }
