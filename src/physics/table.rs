@@ -279,6 +279,15 @@ macro_rules! stage {
                 $(self.$field.len() == other.$field.len())&&*
             }
 
+            /// Bytes of the arrays sized for `m`.
+            pub(crate) fn bytes(m: &crate::model::Arrays) -> usize {
+                let mut sum: usize = 0;
+                $(sum = sum.saturating_add(crate::table::field_rows!(m, $shape)
+                    .saturating_mul(crate::table::field_width!(m, $shape))
+                    .saturating_mul(<crate::table::field_type!($t, $shape) as crate::table::Field>::ROW_BYTES));)*
+                sum
+            }
+
             /// Calls `f(name, shape, values)` for every array, in declaration order.
             pub fn visit(&self, m: &crate::model::Model, f: &mut dyn FnMut(&'static str, Vec<usize>, crate::table::Slice<'_>)) {
                 $(f(stringify!($field), crate::table::field_shape!(m, $shape), crate::table::Field::scalars(&self.$field));)*

@@ -79,7 +79,10 @@ const STAGES: &[Stage] = &[
     Stage {
         name: "collision",
         reads: &["xpos", "xquat", "xmat", "xipos", "ximat", "geom_xpos", "geom_xmat"],
-        run: |m, d| collision::collide(m, &d.kin, &mut collision::CollisionScratch::default(), &mut d.con),
+        run: |m, d| {
+            let scratch = &mut collision::CollisionScratch::default();
+            collision::collide(m, &d.kin, d.budget, scratch, &mut d.con).expect("contacts within the budget");
+        },
         writes: contacts!(),
     },
     Stage {

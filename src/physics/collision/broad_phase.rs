@@ -28,10 +28,10 @@ struct Bounds {
 }
 
 impl BroadPhase {
-    /// Finds the pairs of bodies whose geoms may be within their margins.
-    pub fn run(&mut self, m: &Model, kin: &Kinematics) {
+    /// Finds the pairs of bodies whose geoms may be within their margins; gives up soon after `most` of them.
+    pub fn run(&mut self, m: &Model, kin: &Kinematics, most: usize) {
         self.pairs.clear();
-        self.pair_static_bodies(m);
+        self.pair_static_bodies(m, most);
         self.bodies.clear();
         self.bodies.extend((1..m.nbody).filter(|&b| can_collide(m, b)));
         if self.bodies.len() > 1 {
@@ -39,7 +39,7 @@ impl BroadPhase {
             self.boxes.clear();
             self.boxes.extend(self.bodies.iter().map(|&b| body_bounds(m, kin, b, &frame)));
             self.sort_ends();
-            self.sweep(m);
+            self.sweep(m, most);
         }
         self.pairs.sort_unstable();
         self.pairs.dedup();
@@ -50,8 +50,11 @@ impl BroadPhase {
     }
 
     /// The world, and static bodies with a plane, meet every body they are not welded to.
-    fn pair_static_bodies(&mut self, m: &Model) {
+    fn pair_static_bodies(&mut self, m: &Model, most: usize) {
         for b1 in 0..m.nbody {
+            if self.pairs.len() > most {
+                return;
+            }
             let unbounded = || m.body_dofnum[m.body_weldid[b1] as usize] == 0 && has_plane(m, b1);
             if !can_collide(m, b1) || !(b1 == 0 && m.body_geomnum[0] > 0 || unbounded()) {
                 continue;
@@ -76,9 +79,12 @@ impl BroadPhase {
         self.ends.sort_unstable();
     }
 
-    fn sweep(&mut self, m: &Model) {
+    fn sweep(&mut self, m: &Model, most: usize) {
         self.active.clear();
         for k in 0..self.ends.len() {
+            if self.pairs.len() > most {
+                return;
+            }
             let index = self.ends[k] as u32;
             let i = index / 2;
             if index % 2 == 1 {

@@ -38,14 +38,14 @@ impl<'a> Tree<'a> {
 }
 
 /// Calls `found(g1, g2)` for geoms of bodies `b1` and `b2` whose bounding spheres and boxes come within their
-/// margins. `stack` is working memory.
+/// margins, until it answers false. `stack` is working memory.
 pub fn descend(
     m: &Model,
     kin: &Kinematics,
     b1: usize,
     b2: usize,
     stack: &mut Vec<(usize, usize)>,
-    mut found: impl FnMut(usize, usize),
+    mut found: impl FnMut(usize, usize) -> bool,
 ) {
     let tree1 = Tree { m, start: m.body_bvhadr[b1] as usize };
     let tree2 = Tree { m, start: m.body_bvhadr[b2] as usize };
@@ -59,8 +59,9 @@ pub fn descend(
         let (leaf1, leaf2) = (tree1.leaf(n1), tree2.leaf(n2));
         if let (Some(g1), Some(g2)) = (leaf1, leaf2) {
             let reach = mixing::margin(m, g1, g2, None) + mixing::gap(m, g1, g2, None);
-            if !spheres_apart(m, kin, g1, g2, reach) && geom_boxes_overlap(m, kin, g1, g2, reach) {
-                found(g1, g2);
+            let near = !spheres_apart(m, kin, g1, g2, reach) && geom_boxes_overlap(m, kin, g1, g2, reach);
+            if near && !found(g1, g2) {
+                return;
             }
             continue;
         }

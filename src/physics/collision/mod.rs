@@ -27,7 +27,7 @@ pub mod round_normal;
 pub mod sphere;
 pub mod support;
 
-use crate::data::{Contacts, Kinematics};
+use crate::data::{Contact, Contacts, Demand, Kinematics, OverBudget, StepBudget};
 use crate::math::{Mat3, Vec3, column};
 use crate::model::{Disable, GeomType, Model, ObjType};
 use crate::pipeline::error::NotSimulated;
@@ -142,6 +142,18 @@ pub struct CollisionScratch {
     candidates: Vec<(usize, usize)>,
     convex: convex::ConvexScratch,
     points: Vec<PreContact>,
+    budget: StepBudget,
+}
+
+impl CollisionScratch {
+    /// Whether the contacts found so far fit in the budget.
+    fn check(&self, con: &Contacts) -> Result<(), OverBudget> {
+        let found = con.contact.len();
+        if found <= self.budget.count(CONTACT_BYTES) {
+            return Ok(());
+        }
+        Err(self.budget.exceeded(Demand::Contacts, found, CONTACT_BYTES))
+    }
 }
 
 /// Checks once that `collide` knows every geom type of the model that may collide.
@@ -159,34 +171,74 @@ pub fn check(m: &Model) -> Result<(), NotSimulated> {
     }
 }
 
+/// Bytes of a contact while their list grows.
+const CONTACT_BYTES: usize = 3 * size_of::<Contact>();
+
+/// Bytes of a pair of geoms while their list grows.
+const PAIR_BYTES: usize = 3 * size_of::<(usize, usize)>();
+
+/// Bytes of a pair of bodies while their list grows.
+const BODY_PAIR_BYTES: usize = 3 * size_of::<u32>();
+
 /// Finds all contacts: predefined pairs and geoms of bodies that may touch, ordered by body pair, then by geom pair.
-pub fn collide(m: &Model, kin: &Kinematics, scratch: &mut CollisionScratch, con: &mut Contacts) {
+///
+/// # Errors
+/// Contacts, or pairs that may touch, do not fit in `budget`.
+pub fn collide(
+    m: &Model,
+    kin: &Kinematics,
+    budget: StepBudget,
+    scratch: &mut CollisionScratch,
+    con: &mut Contacts,
+) -> Result<(), OverBudget> {
     con.contact.clear();
     if m.opt.disableflags.intersects(Disable::CONSTRAINT | Disable::CONTACT) || m.nbody < 2 {
-        return;
+        return Ok(());
     }
+    scratch.budget = budget;
     let mut broad = std::mem::take(&mut scratch.broad);
-    broad.run(m, kin);
+    let most = budget.count(BODY_PAIR_BYTES);
+    broad.run(m, kin, most);
+    let result = if broad.pairs.len() > most {
+        Err(budget.exceeded(Demand::BodyPairs, broad.pairs.len(), BODY_PAIR_BYTES))
+    } else {
+        touch(m, kin, &broad.pairs, scratch, con)
+    };
+    scratch.broad = broad;
+    result
+}
+
+/// Contacts of the pairs of bodies and of all predefined pairs.
+fn touch(
+    m: &Model,
+    kin: &Kinematics,
+    pairs: &[u32],
+    scratch: &mut CollisionScratch,
+    con: &mut Contacts,
+) -> Result<(), OverBudget> {
     let mut next = 0;
-    for &signature in &broad.pairs {
+    for &signature in pairs {
         // Predefined pairs of this and earlier body pairs come first and hide the same geoms.
         let start = next;
         let mut merged = false;
         while next < m.npair && m.pair_signature[next] as u32 <= signature {
             merged = m.pair_signature[next] as u32 == signature;
             predefined(m, kin, next, scratch, con);
+            scratch.check(con)?;
             next += 1;
         }
         if m.exclude_signature.binary_search_by_key(&signature, |&s| s as u32).is_ok() {
             continue;
         }
         let hidden = if merged { start..next } else { 0..0 };
-        body_pair(m, kin, (signature >> 16) as usize, (signature & 0xffff) as usize, hidden, scratch, con);
+        body_pair(m, kin, (signature >> 16) as usize, (signature & 0xffff) as usize, hidden, scratch, con)?;
+        scratch.check(con)?;
     }
     for pair in next..m.npair {
         predefined(m, kin, pair, scratch, con);
+        scratch.check(con)?;
     }
-    scratch.broad = broad;
+    Ok(())
 }
 
 /// Contacts of a predefined pair: no filter but the bounding spheres.
@@ -207,27 +259,39 @@ fn body_pair(
     hidden: std::ops::Range<usize>,
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
-) {
+) -> Result<(), OverBudget> {
+    let (most, most_contacts) = (scratch.budget.count(PAIR_BYTES), scratch.budget.count(CONTACT_BYTES));
     let mut candidates = std::mem::take(&mut scratch.candidates);
     candidates.clear();
     let single = m.body_geomnum[b1] == 1 && m.body_geomnum[b2] == 1;
     let trees = m.body_bvhadr[b1] >= 0 && m.body_bvhadr[b2] >= 0;
     if !single && trees && !m.opt.disableflags.contains(Disable::MIDPHASE) {
-        let found = |g1, g2| candidates.push(ordered(m, g1, g2));
+        let found = |g1, g2| {
+            candidates.push(ordered(m, g1, g2));
+            candidates.len() <= most
+        };
         mid_phase::descend(m, kin, b1, b2, &mut scratch.stack, found);
         candidates.sort_unstable();
     } else {
         for g1 in geoms(m, b1) {
+            if candidates.len() > most {
+                break;
+            }
             candidates.extend(geoms(m, b2).map(|g2| ordered(m, g1, g2)));
         }
     }
-    for &(g1, g2) in &candidates {
+    let found = candidates.len();
+    for &(g1, g2) in if found > most { &[] } else { &candidates[..] } {
+        if con.contact.len() > most_contacts {
+            break;
+        }
         let reach = mixing::margin(m, g1, g2, None) + mixing::gap(m, g1, g2, None);
         if geoms_match(m, g1, g2, hidden.clone()) && !spheres_apart(m, kin, g1, g2, reach) {
             narrow(m, kin, (g1, g2), None, reach, scratch, con);
         }
     }
     scratch.candidates = candidates;
+    if found > most { Err(scratch.budget.exceeded(Demand::GeomPairs, found, PAIR_BYTES)) } else { Ok(()) }
 }
 
 /// The two geoms, the lower type first.

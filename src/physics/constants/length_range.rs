@@ -240,7 +240,7 @@ fn pull(
     let mut recorded = None;
     while d.state.time < opt.inttotal {
         d.state.qvel.iter_mut().for_each(|v| *v *= decay);
-        position(m, d, &mut ());
+        position(m, d, &mut ())?;
         velocity(m, d, &mut ());
         set_pull(m, d, opt, out, direction);
         acceleration(m, d, &mut ());

@@ -1,11 +1,13 @@
 //! Everything that changes while a model moves, grouped by the stage that writes it.
 
+mod budget;
 mod configuration;
 mod constraints;
 mod scratch;
 mod snapshot;
 mod stages;
 
+pub use budget::{Demand, OverBudget, StepBudget};
 pub use configuration::Configuration;
 pub(crate) use configuration::configuration_of;
 pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStat, SolverStatistics};
@@ -14,13 +16,15 @@ pub use snapshot::{ForeignSnapshot, Snapshot};
 pub use stages::*;
 
 use crate::actuation::history;
-use crate::model::Model;
+use crate::model::{Arrays, Model};
 use crate::table::Slice;
 use std::fmt;
 
 /// State, stage outputs and scratch memory of one simulation.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
+    /// Memory that contacts and constraint rows of one step may take.
+    pub budget: StepBudget,
     /// Potential and kinetic energy [J].
     pub energy: [f64; 2],
     /// State and inputs.
@@ -79,6 +83,25 @@ impl Data {
         };
         d.reset(m);
         d
+    }
+
+    /// Bytes of the arrays of all stages for a model of these sizes, contacts and constraint rows aside.
+    pub fn bytes(m: &Arrays) -> usize {
+        let stages = [
+            State::bytes(m),
+            Kinematics::bytes(m),
+            Com::bytes(m),
+            Tendons::bytes(m),
+            Transmission::bytes(m),
+            Inertia::bytes(m),
+            Velocity::bytes(m),
+            Passive::bytes(m),
+            Actuation::bytes(m),
+            Acceleration::bytes(m),
+            Sensors::bytes(m),
+            Implicit::bytes(m),
+        ];
+        stages.into_iter().fold(0, usize::saturating_add)
     }
 
     /// Returns to the reference configuration at time zero: zero velocities, activations and inputs, mocap bodies

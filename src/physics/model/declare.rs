@@ -82,6 +82,12 @@ macro_rules! model {
                 )?,)*])
             }
 
+            /// Bytes of all arrays, by the sizes set so far.
+            pub fn bytes(&self) -> usize {
+                let sum = |all: Vec<u64>| all.into_iter().try_fold(0, u64::checked_add);
+                self.array_bytes().and_then(sum).and_then(|n| n.try_into().ok()).unwrap_or(usize::MAX)
+            }
+
             /// Fills the arrays of these numbers, in declaration order, by the sizes set so far.
             pub(crate) fn read_arrays(
                 &mut self,

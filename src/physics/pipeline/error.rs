@@ -1,5 +1,6 @@
 //! Why a step, a forward pass or a model is refused.
 
+use crate::data::OverBudget;
 use std::fmt;
 
 /// Where a bad number was found.
@@ -61,19 +62,32 @@ pub enum StepError {
     BadQacc(BadNumber),
     /// A control is not finite or too large.
     BadCtrl(BadNumber),
+    /// An activation is not finite after the step.
+    BadAct(BadNumber),
+    /// The time step is not positive and finite [s].
+    BadTimestep(f64),
+    /// Contacts and constraint rows need more memory than `Data::budget`.
+    OverBudget(OverBudget),
     /// The model or the call uses a feature that is not simulated.
     NotSimulated(NotSimulated),
 }
 
+const UNSTABLE: &str = "the simulation is unstable: reduce the time step, gains or applied forces";
+const SET_OR_UNSTABLE: &str =
+    "check what sets it, or reduce the time step, gains or applied forces of an unstable simulation";
+
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (array, bad, hint) = match self {
-            StepError::BadQpos(bad) => ("qpos", bad, "check what sets the position"),
-            StepError::BadQvel(bad) => ("qvel", bad, "check what sets the velocity"),
-            StepError::BadQacc(bad) => {
-                ("qacc", bad, "the simulation is unstable: reduce the time step, gains or applied forces")
-            }
+            StepError::BadQpos(bad) => ("qpos", bad, SET_OR_UNSTABLE),
+            StepError::BadQvel(bad) => ("qvel", bad, SET_OR_UNSTABLE),
+            StepError::BadQacc(bad) => ("qacc", bad, UNSTABLE),
             StepError::BadCtrl(bad) => ("ctrl", bad, "check what sets the control"),
+            StepError::BadAct(bad) => ("act", bad, UNSTABLE),
+            StepError::BadTimestep(timestep) => {
+                return write!(f, "the time step is {timestep} s; it must be positive and finite");
+            }
+            StepError::OverBudget(over) => return over.fmt(f),
             StepError::NotSimulated(what) => return what.fmt(f),
         };
         let BadNumber { index, element, value, time } = bad;
@@ -83,6 +97,12 @@ impl fmt::Display for StepError {
 }
 
 impl std::error::Error for StepError {}
+
+impl From<OverBudget> for StepError {
+    fn from(over: OverBudget) -> Self {
+        StepError::OverBudget(over)
+    }
+}
 
 impl From<NotSimulated> for StepError {
     fn from(what: NotSimulated) -> Self {

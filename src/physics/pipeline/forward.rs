@@ -11,7 +11,7 @@ use crate::inertia::{factor_inertia, make_inertia, solve};
 use crate::integration::integrate::{Factors, advance_once, integrate};
 use crate::model::{Enable, Integrator, Model};
 use crate::pipeline::inverse::compare_with_forward;
-use crate::pipeline::validity::{check_acceleration, check_state};
+use crate::pipeline::validity::{check_acceleration, check_result, check_state};
 use crate::pipeline::watch::{Stage, Watch};
 use crate::position::camera::cameras_and_lights;
 use crate::position::com::com_pos;
@@ -29,7 +29,7 @@ pub use crate::pipeline::error::StepError;
 /// Computes everything that follows from the state and the inputs, up to accelerations and sensors.
 ///
 /// # Errors
-/// The model uses what is not simulated.
+/// Contacts and constraint rows need more memory than `Data::budget`.
 pub fn forward(m: &Model, d: &mut Data) -> Result<(), StepError> {
     evaluate(m, d, true, &mut ())
 }
@@ -37,7 +37,8 @@ pub fn forward(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// Advances the simulation by one time step.
 ///
 /// # Errors
-/// A state or input is not finite or too large; `d` keeps it for inspection.
+/// A state or input is not finite or too large, or the state after the step is, or contacts and
+/// constraint rows need more memory than `Data::budget`; `d` keeps the state for inspection.
 pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
     step_watched(m, d, &mut ())
 }
@@ -55,7 +56,7 @@ pub fn step_watched(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(
     watch.ended(Stage::Checks);
     integrate(m, d, Factors::Fresh, watch)?;
     watch.ended(Stage::Integration);
-    Ok(())
+    check_result(m, d)
 }
 
 /// What of the last evaluation still holds.
@@ -76,7 +77,8 @@ pub(crate) fn step_after(m: &Model, d: &mut Data, known: Known) -> Result<(), St
     check_acceleration(m, d)?;
     compare_if_asked(m, d)?;
     let holds = if m.opt.integrator == Integrator::Euler { Known::Position } else { Known::Velocity };
-    integrate(m, d, if known >= holds { Factors::Kept } else { Factors::Fresh }, &mut ())
+    integrate(m, d, if known >= holds { Factors::Kept } else { Factors::Fresh }, &mut ())?;
+    check_result(m, d)
 }
 
 fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
@@ -92,8 +94,7 @@ fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// As `step`.
 pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
     check_state(m, d)?;
-    position_and_velocity(m, d, Known::Nothing, true, &mut ());
-    Ok(())
+    position_and_velocity(m, d, Known::Nothing, true, &mut ())
 }
 
 /// Second half of a step, after inputs have been set; where Euler's method stands in for Runge-Kutta.
@@ -107,7 +108,7 @@ pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
     check_acceleration(m, d)?;
     compare_if_asked(m, d)?;
     advance_once(m, d, Factors::Fresh);
-    Ok(())
+    check_result(m, d)
 }
 
 /// `forward`, with or without sensors.
@@ -127,7 +128,7 @@ fn evaluate_after(
     sensors: bool,
     watch: &mut impl Watch,
 ) -> Result<(), StepError> {
-    position_and_velocity(m, d, known, sensors, watch);
+    position_and_velocity(m, d, known, sensors, watch)?;
     acceleration(m, d, watch);
     if sensors {
         acceleration_sensors(m, d);
@@ -143,9 +144,9 @@ pub(crate) fn position_and_velocity(
     known: Known,
     sensors: bool,
     watch: &mut impl Watch,
-) {
+) -> Result<(), StepError> {
     if known < Known::Position {
-        position(m, d, watch);
+        position(m, d, watch)?;
         if sensors {
             position_sensors(m, d);
             watch.ended(Stage::Sensors);
@@ -158,10 +159,14 @@ pub(crate) fn position_and_velocity(
             watch.ended(Stage::Sensors);
         }
     }
+    Ok(())
 }
 
 /// What depends on positions: poses, inertia, contacts, constraint rows, lengths.
-pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) {
+///
+/// # Errors
+/// Contacts and constraint rows need more memory than the budget.
+pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
     let s = &mut d.scratch;
     kinematics(m, &d.state, &mut d.kin);
     com_pos(m, &d.kin, &mut d.com);
@@ -172,15 +177,18 @@ pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     make_inertia(m, &d.com, &d.ten, &mut d.inertia);
     factor_inertia(m, &mut d.inertia);
     watch.ended(Stage::Inertia);
-    collide(m, &d.kin, &mut s.collision, &mut d.con);
+    collide(m, &d.kin, d.budget, &mut s.collision, &mut d.con)?;
+    d.budget.check_rows(m, &d.con)?;
     watch.ended(Stage::Collision);
     let at = configuration_of!(d);
     make_constraint(m, &at, &d.inertia, &mut d.con, &mut d.efc, &mut s.constraint);
     watch.ended(Stage::Constraint);
     find_islands(m, &d.con, &d.efc, &mut d.island, &mut s.island);
+    d.budget.check_solver(m, &d.con, &d.efc, &d.island)?;
     watch.ended(Stage::Islands);
     transmission(m, &at, &d.con, &d.efc, &mut d.trn);
     watch.ended(Stage::Transmission);
+    Ok(())
 }
 
 /// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.

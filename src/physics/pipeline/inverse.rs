@@ -36,7 +36,7 @@ pub fn inverse(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// `inverse` where part of the last evaluation still holds, with or without sensors.
 pub(crate) fn inverse_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Result<(), StepError> {
     check_options(m)?;
-    position_and_velocity(m, d, known, sensors, &mut ());
+    position_and_velocity(m, d, known, sensors, &mut ())?;
     let mut s = std::mem::take(&mut d.scratch.inverse);
     s.given.clone_from(&d.acc.qacc);
     let mut result = Ok(());

@@ -1,7 +1,7 @@
 //! What a step refuses: numbers that are not finite or too large, and models with features that are not simulated.
 //! A bad state is an error, never a silent reset.
 
-use crate::actuation::activation::clip;
+use crate::actuation::activation::{activations, clip};
 use crate::actuation::dc_motor;
 use crate::data::Data;
 use crate::model::bounds::MAXVAL;
@@ -16,14 +16,16 @@ fn is_bad(x: f64) -> bool {
     x.is_nan() || x.abs() > MAXVAL
 }
 
-/// Checks positions, velocities and controls, and that the options ask for what is simulated.
+/// Checks the time step, positions, velocities and controls, and that the options ask for what is simulated.
 ///
 /// # Errors
 /// The first that is bad.
 pub(crate) fn check_state(m: &Model, d: &Data) -> Result<(), StepError> {
     check_options(m)?;
-    check_array(m, d, &d.state.qpos, joint_of_qpos).map_err(StepError::BadQpos)?;
-    check_array(m, d, &d.state.qvel, joint_of_dof).map_err(StepError::BadQvel)?;
+    if !(m.opt.timestep > 0.0 && m.opt.timestep.is_finite()) {
+        return Err(StepError::BadTimestep(m.opt.timestep));
+    }
+    check_motion(m, d)?;
     if m.opt.disableflags.contains(Disable::ACTUATION) {
         return Ok(());
     }
@@ -36,6 +38,28 @@ pub(crate) fn check_state(m: &Model, d: &Data) -> Result<(), StepError> {
         }
     }
     Ok(())
+}
+
+fn check_motion(m: &Model, d: &Data) -> Result<(), StepError> {
+    check_array(m, d, &d.state.qpos, joint_of_qpos).map_err(StepError::BadQpos)?;
+    check_array(m, d, &d.state.qvel, joint_of_dof).map_err(StepError::BadQvel)
+}
+
+/// Checks the state that a step made: a simulation that diverges fails in the step that diverges.
+///
+/// # Errors
+/// The first number that is bad.
+pub(crate) fn check_result(m: &Model, d: &Data) -> Result<(), StepError> {
+    check_motion(m, d)?;
+    match d.state.act.iter().position(|x| !x.is_finite()) {
+        None => Ok(()),
+        Some(index) => {
+            let i = (0..m.nactuator).rfind(|&i| activations(m, i).contains(&index)).unwrap_or(0);
+            let element = m.label_of(ObjType::Actuator, i);
+            let value = d.state.act[index];
+            Err(StepError::BadAct(BadNumber { index, element, value, time: d.state.time }))
+        }
+    }
 }
 
 /// Checks accelerations.

@@ -1,0 +1,196 @@
+//! Memory that one step may take: what contacts and constraint rows ask for is counted before it is stored.
+
+use crate::data::{Constraints, Contact, Contacts, Islands};
+use crate::model::{Cone, Enable, Model, Solver};
+use crate::position::chain::last_dof;
+use std::fmt;
+
+/// Memory for the contacts and constraint rows of one step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StepBudget {
+    /// Bytes.
+    pub bytes: usize,
+}
+
+impl Default for StepBudget {
+    fn default() -> Self {
+        StepBudget { bytes: 1 << 30 }
+    }
+}
+
+/// What a step has too many of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Demand {
+    /// Pairs of bodies whose bounding boxes overlap.
+    BodyPairs,
+    /// Pairs of geoms of two bodies that may touch.
+    GeomPairs,
+    /// Contacts.
+    Contacts,
+    /// Constraint rows, with what the solver makes of them.
+    Rows,
+}
+
+/// A step needs more memory than its budget.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct OverBudget {
+    /// What there is too much of.
+    pub demand: Demand,
+    /// How many; of pairs and contacts as many as were found before the search ended.
+    pub count: usize,
+    /// Contacts of the step.
+    pub contacts: usize,
+    /// Bytes asked for.
+    pub bytes: usize,
+    /// Bytes of the budget.
+    pub budget: usize,
+}
+
+impl fmt::Display for OverBudget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let OverBudget { demand, count, contacts, bytes, budget } = self;
+        match demand {
+            Demand::BodyPairs => write!(f, "{count} pairs of bodies or more may touch")?,
+            Demand::GeomPairs => write!(f, "{count} pairs of geoms of two bodies or more may touch")?,
+            Demand::Contacts => write!(f, "the geoms make {count} contacts or more")?,
+            Demand::Rows => write!(f, "{contacts} contacts and other constraints make {count} rows")?,
+        }
+        write!(
+            f,
+            " and need {bytes} bytes, more than the step's budget of {budget}; raise `budget` of the `Data`, \
+             or exclude contacts between geoms that overlap"
+        )
+    }
+}
+
+impl std::error::Error for OverBudget {}
+
+/// Rows of one contact at most: five friction directions, two edges each.
+const CONTACT_ROWS: usize = 10;
+
+/// Bytes of a row in `Constraints`, `Islands` and the solver's copies, Jacobian aside.
+const ROW_BYTES: usize = 384;
+
+/// Bytes of an entry of the Jacobian in compressed rows and the solver's copies: two values, two columns, its place.
+const ENTRY_BYTES: usize = 40;
+
+impl StepBudget {
+    /// How many things of `size` bytes fit.
+    pub(crate) fn count(self, size: usize) -> usize {
+        self.bytes / size
+    }
+
+    /// The error of `count` things of `size` bytes.
+    pub(crate) fn exceeded(self, demand: Demand, count: usize, size: usize) -> OverBudget {
+        let contacts = if demand == Demand::Contacts { count } else { 0 };
+        OverBudget { demand, count, contacts, bytes: count.saturating_mul(size), budget: self.bytes }
+    }
+
+    /// Checks the rows that contacts and other constraints will make, before they are made.
+    ///
+    /// # Errors
+    /// They need more than the budget.
+    pub(crate) fn check_rows(self, m: &Model, con: &Contacts) -> Result<(), OverBudget> {
+        // Equalities, friction of joints and tendons, limits on both sides.
+        let others = m.nemax + m.nv + 3 * m.ntendon + 2 * m.njnt;
+        let contacts = con.contact.len();
+        let all = others + CONTACT_ROWS * contacts;
+        if self.bytes_of_rows(m, all, all.saturating_mul(m.nv)) <= self.bytes {
+            return Ok(());
+        }
+        let (mut rows, mut entries) = (others, entries_without_contacts(m));
+        for c in con.contact.iter().filter(|c| c.exclude == 0) {
+            let own = contact_rows(m, c);
+            rows += own;
+            entries = entries
+                .saturating_add(own * c.geom.iter().map(|&g| chain_length(m, g as usize)).sum::<usize>());
+        }
+        self.check(
+            rows,
+            contacts,
+            self.bytes_of_rows(m, rows, entries).saturating_add(contacts * size_of::<Contact>()),
+        )
+    }
+
+    /// Checks the matrices that the solver makes of the rows, before it makes them.
+    ///
+    /// # Errors
+    /// They need more than the budget.
+    pub(crate) fn check_solver(
+        self,
+        m: &Model,
+        con: &Contacts,
+        efc: &Constraints,
+        island: &Islands,
+    ) -> Result<(), OverBudget> {
+        if self.bytes_of_solver(m, efc.nefc, efc.nefc, m.nv) <= self.bytes {
+            return Ok(());
+        }
+        let largest = |sizes: &[i32], all: usize| sizes.iter().max().map_or(all, |&n| n as usize);
+        let (rows, dofs) = (largest(&island.island_nefc, efc.nefc), largest(&island.island_nv, m.nv));
+        self.check(efc.nefc, con.contact.len(), self.bytes_of_solver(m, efc.nefc, rows, dofs))
+    }
+
+    fn check(self, rows: usize, contacts: usize, bytes: usize) -> Result<(), OverBudget> {
+        if bytes <= self.bytes {
+            return Ok(());
+        }
+        Err(OverBudget { demand: Demand::Rows, count: rows, contacts, bytes, budget: self.bytes })
+    }
+
+    /// Bytes of rows with `entries` in their Jacobian; `diagexact` multiplies them by the half inverse inertia.
+    fn bytes_of_rows(self, m: &Model, rows: usize, entries: usize) -> usize {
+        let half = if m.opt.enableflags.contains(Enable::DIAGEXACT) { half_bytes(m, rows) } else { 0 };
+        (rows * ROW_BYTES).saturating_add(entries.saturating_mul(ENTRY_BYTES)).saturating_add(half)
+    }
+
+    /// Bytes of the solver's matrices for `nefc` rows, when the largest island has `rows` rows and `dofs` degrees
+    /// of freedom.
+    fn bytes_of_solver(self, m: &Model, nefc: usize, rows: usize, dofs: usize) -> usize {
+        let square = |n: usize| n.saturating_mul(n);
+        let dual = if m.opt.solver == Solver::Pgs || m.opt.noslip_iterations > 0 {
+            square(nefc + 8).saturating_mul(8).saturating_add(half_bytes(m, nefc))
+        } else {
+            0
+        };
+        let primal = match m.opt.solver {
+            Solver::Pgs => 0,
+            // Full rows, their scaled copies, and two factors.
+            _ if !m.is_sparse() => {
+                rows.saturating_mul(dofs).saturating_mul(16).saturating_add(square(dofs).saturating_mul(16))
+            }
+            // A bit for each entry that the factor may have.
+            Solver::Newton => square(dofs) / 8,
+            Solver::Cg => 0,
+        };
+        dual.saturating_add(primal)
+    }
+}
+
+/// Bytes of `J M^(-1/2)` in blocks, and of the sets of ancestors.
+fn half_bytes(m: &Model, rows: usize) -> usize {
+    (rows + 8).saturating_mul(m.nv).saturating_mul(8).saturating_add(m.nv.saturating_mul(m.nv) / 8)
+}
+
+/// Entries of the Jacobian rows of equalities, friction and limits, at most.
+fn entries_without_contacts(m: &Model) -> usize {
+    let longest_chain = m.D_diag.iter().max().map_or(0, |&above| 1 + above as usize);
+    let longest_tendon = m.ten_J_rownnz.iter().max().map_or(0, |&n| n as usize);
+    let equality = 2 * longest_chain.max(longest_tendon);
+    m.nemax.saturating_mul(equality) + m.nv + 3 * m.nJten + 6 * m.njnt
+}
+
+fn contact_rows(m: &Model, c: &Contact) -> usize {
+    match c.dim {
+        ..=1 => 1,
+        dim if m.opt.cone == Cone::Pyramidal => 2 * (dim as usize - 1),
+        dim => dim as usize,
+    }
+}
+
+/// Degrees of freedom that move a geom.
+fn chain_length(m: &Model, geom: usize) -> usize {
+    let last = last_dof(m, m.geom_bodyid[geom] as usize);
+    usize::try_from(last).map_or(0, |dof| 1 + m.D_diag[dof] as usize)
+}
