@@ -36,7 +36,7 @@ pub fn mjcf(data: &[u8]) {
     for (path, content) in FILES.iter().zip(data.split(|&byte| byte == 0)) {
         memory.insert(path, content);
     }
-    let limits = Limits { copies: 300, computed: 1 << 20, ..Limits::default() };
+    let limits = Limits { copies: 300, memory: 64 << 20, ..Limits::default() };
     if let Ok(loaded) = Loader::default().files(memory).limits(limits).load(FILES[0]) {
         assert!(loaded.model.nbody > 0);
     }

@@ -9,6 +9,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
+use crate::budget::Budget;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::{FileProvider, fold, is_absolute, join};
 use crate::xml::{self, Element, Limits};
@@ -34,6 +35,8 @@ pub struct Expansion<'a> {
     pub matched: &'a mut [bool],
     /// Bounds on depth, size and number.
     pub limits: &'a Limits,
+    /// Memory asked for so far.
+    pub(crate) budget: &'a mut Budget,
     /// Receives every text read.
     pub sources: &'a mut Sources,
     /// Receives every finding.
@@ -57,6 +60,7 @@ impl Expansion<'_> {
             substitutions: self.substitutions,
             matched: self.matched,
             limits: self.limits,
+            budget: self.budget,
             sources: self.sources,
             diagnostics: self.diagnostics,
         }
@@ -93,7 +97,7 @@ impl Expansion<'_> {
     fn parse(&mut self, path: &str, bytes: &[u8], included_at: Option<Loc>) -> Option<Element> {
         let replaced = substitute(bytes, self.substitutions, self.matched);
         let bytes = replaced.as_deref().unwrap_or(bytes);
-        xml::parse(path, bytes, included_at, self.limits, self.sources, self.diagnostics)
+        xml::parse(path, bytes, included_at, self.limits, self.budget, self.sources, self.diagnostics)
     }
 
     fn children(&mut self, parent: &mut Element, dir: &str, depth: usize, state: &mut State) {

@@ -20,6 +20,7 @@
 //! be fuzzed alone.
 
 pub mod asset;
+mod budget;
 mod bvh;
 mod cache;
 mod compile;

@@ -7,6 +7,7 @@ use std::sync::Arc;
 use physics::Model;
 use physics::model::binary;
 
+use crate::budget::Budget;
 use crate::cache::{Cache, Miss, Noted};
 use crate::compile::compile;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
@@ -49,6 +50,8 @@ pub struct Parsed {
     pub sources: Sources,
     /// What was ignored or assumed; no errors.
     pub warnings: Diagnostics,
+    /// Memory asked for so far.
+    budget: Budget,
 }
 
 /// Loads the model at `path`, as [`Loader::load`] of the default loader does.
@@ -218,12 +221,14 @@ impl Loader {
         read: impl FnOnce(&mut Expansion<'_>) -> Option<Element>,
     ) -> Result<Parsed, Diagnostics> {
         let (mut sources, mut diagnostics) = (Sources::default(), Diagnostics::default());
+        let mut budget = Budget::new(self.limits.memory);
         let mut matched = vec![false; self.substitutions.len()];
         let mut expansion = Expansion {
             files,
             substitutions: &self.substitutions,
             matched: &mut matched,
             limits: &self.limits,
+            budget: &mut budget,
             sources: &mut sources,
             diagnostics: &mut diagnostics,
         };
@@ -232,7 +237,7 @@ impl Loader {
         let spec = read::read(&root, expansion);
         report_unmatched(&self.substitutions, &matched, &sources, &mut diagnostics);
         match spec.filter(|_| !diagnostics.has_errors()) {
-            Some(spec) => Ok(Parsed { spec, sources, warnings: diagnostics }),
+            Some(spec) => Ok(Parsed { spec, sources, warnings: diagnostics, budget }),
             None => Err(diagnostics),
         }
     }
@@ -251,8 +256,8 @@ fn compile_from(
     parsed: Parsed,
     meshes: Option<&dyn MeshStore>,
 ) -> Result<Loaded, Diagnostics> {
-    let Parsed { spec, sources, warnings: mut diagnostics } = parsed;
-    match compile(&spec, files, meshes, &sources, &mut diagnostics) {
+    let Parsed { spec, sources, warnings: mut diagnostics, budget } = parsed;
+    match compile(&spec, files, meshes, &sources, &mut diagnostics, budget) {
         Some(model) => Ok(Loaded { model, warnings: diagnostics }),
         None => Err(diagnostics),
     }

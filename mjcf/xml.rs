@@ -7,6 +7,7 @@
 
 use std::sync::Arc;
 
+use crate::budget::{ADVICE, ATTRIBUTE, Budget, ELEMENT};
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::encoding::foreign;
 
@@ -109,9 +110,9 @@ pub struct Limits {
     pub includes: usize,
     /// Elements made by `replicate` and `attach`; nesting multiplies.
     pub copies: usize,
-    /// Numbers computed instead of given: heights of empty height fields, pixel values of built-in textures,
-    /// vertices of built-in meshes; of one model text.
-    pub computed: usize,
+    /// Bytes of what a text asks for: elements, read and copied; height fields, textures and meshes; the arrays of
+    /// the model and of the data of one simulation.
+    pub memory: usize,
 }
 
 impl Default for Limits {
@@ -123,7 +124,7 @@ impl Default for Limits {
             attributes: 128,
             includes: 4096,
             copies: 1_000_000,
-            computed: 1 << 30,
+            memory: 2 << 30,
         }
     }
 }
@@ -141,16 +142,17 @@ fn fault<T>(offset: usize, message: impl Into<String>) -> Result<T, Fault> {
 /// Parses the bytes of one file and registers them in `sources`.
 ///
 /// The root element comes back, or nothing and at least one error in `diagnostics`.
-pub fn parse(
+pub(crate) fn parse(
     path: &str,
     bytes: &[u8],
     included_at: Option<Loc>,
     limits: &Limits,
+    budget: &mut Budget,
     sources: &mut Sources,
     diagnostics: &mut Diagnostics,
 ) -> Option<Element> {
     let mut scanned = bytes.to_vec();
-    let scan = scan(&mut scanned, limits).map(|joints| scanned = spaced(&scanned, &joints));
+    let scan = scan(&mut scanned, limits, budget).map(|joints| scanned = spaced(&scanned, &joints));
     let kept = if scan.is_ok() { &scanned[..] } else { &bytes[..bytes.len().min(limits.text_bytes)] };
     let text: Arc<str> = String::from_utf8_lossy(kept).into();
     let invalid = std::str::from_utf8(kept).err().map(|e| e.valid_up_to());
@@ -183,7 +185,7 @@ fn spaced(text: &[u8], joints: &[usize]) -> Vec<u8> {
 
 /// Checks structure and limits in one pass, blanks everything but elements and text, and returns the
 /// places where attributes touch.
-fn scan(text: &mut [u8], limits: &Limits) -> Result<Vec<usize>, Fault> {
+fn scan(text: &mut [u8], limits: &Limits, budget: &mut Budget) -> Result<Vec<usize>, Fault> {
     if text.len() > limits.text_bytes {
         return fault(
             0,
@@ -210,7 +212,7 @@ fn scan(text: &mut [u8], limits: &Limits) -> Result<Vec<usize>, Fault> {
             [b'!', ..] => blank_doctype(text, start)?,
             [b'?', ..] => blank(text, start, b"?>", "processing instruction is never closed")?,
             [b'/', ..] => close_tag(text, start, &mut open)?,
-            _ => open_tag(text, start, &mut open, &mut joints, limits)?,
+            _ => open_tag(text, start, &mut open, &mut joints, limits, budget)?,
         };
     }
     match open.pop() {
@@ -265,6 +267,7 @@ fn open_tag(
     open: &mut Vec<(usize, usize)>,
     joints: &mut Vec<usize>,
     limits: &Limits,
+    budget: &mut Budget,
 ) -> Result<usize, Fault> {
     let end = name_end(text, start + 1);
     let mut at = end;
@@ -294,6 +297,9 @@ fn open_tag(
             start,
             format!("element has {attributes} attributes, more than the limit of {}", limits.attributes),
         );
+    }
+    if let Err(message) = budget.take("elements of the text", ELEMENT + attributes * ATTRIBUTE) {
+        return fault(start, format!("{message}; {ADVICE}"));
     }
     if text[at - 1] != b'/' {
         open.push((start, end));

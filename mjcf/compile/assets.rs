@@ -3,6 +3,7 @@
 
 use super::log::{Log, title};
 use crate::asset::AssetError;
+use crate::budget::{Content, decoded};
 use crate::diagnostic::Loc;
 use crate::digest::digest_parts;
 use crate::files::FileProvider;
@@ -155,7 +156,7 @@ fn read_all<'s>(spec: &'s Spec, files: &dyn FileProvider, log: &mut Log) -> Vec<
     let mut jobs = Vec::new();
     for mesh in &spec.meshes {
         let name = asset_name(&mesh.name, &mesh.path);
-        let bytes = read(files, &mesh.file, mesh.loc, &title("mesh", &name), log);
+        let bytes = read(files, (Content::Mesh, &mesh.file), mesh.loc, &title("mesh", &name), log);
         let needhull = mesh.inertia == MeshInertia::Convex || colliding.contains(&*name);
         let job = Job::Mesh { spec: mesh, name: name.clone(), bytes, needhull, discard };
         let (path, material) = (mesh.path.clone(), mesh.material.clone());
@@ -169,7 +170,7 @@ fn read_all<'s>(spec: &'s Spec, files: &dyn FileProvider, log: &mut Log) -> Vec<
     }
     for hfield in &spec.hfields {
         let name = asset_name(&hfield.name, &hfield.path);
-        let bytes = read(files, &hfield.file, hfield.loc, &title("hfield", &name), log);
+        let bytes = read(files, (Content::Hfield, &hfield.file), hfield.loc, &title("hfield", &name), log);
         let job = Job::Hfield { source: hfield_source(hfield, &name, bytes) };
         let (path, material) = (hfield.path.clone(), String::new());
         jobs.push((Head { name, loc: hfield.loc, path, material }, job));
@@ -208,18 +209,26 @@ fn colliding_meshes(spec: &Spec) -> BTreeSet<&str> {
     names
 }
 
-fn read(files: &dyn FileProvider, file: &str, loc: Loc, what: &str, log: &mut Log) -> Option<Arc<[u8]>> {
+/// The bytes of the file of an asset, charged with what they take when decoded.
+fn read(
+    files: &dyn FileProvider,
+    (content, file): (Content, &str),
+    loc: Loc,
+    what: &str,
+    log: &mut Log,
+) -> Option<Arc<[u8]>> {
     if file.is_empty() {
         return None;
     }
     let bytes = files.read(file).map_err(|error| format!("cannot read '{file}': {error}"));
-    log.check(loc, what, bytes)
+    let bytes = log.check(loc, what, bytes)?;
+    log.charge(loc, what, decoded(content, &bytes)).then_some(bytes)
 }
 
 fn texture_source(spec: &Texture, name: &str, files: &dyn FileProvider, log: &mut Log) -> TextureSource {
     let what = title("texture", name);
     let mut image = |file: &String| {
-        let bytes = read(files, file, spec.loc, &what, log)?;
+        let bytes = read(files, (Content::Texture, file), spec.loc, &what, log)?;
         Some(FileImage { bytes: bytes.to_vec(), path: file.clone() })
     };
     TextureSource {

@@ -10,6 +10,7 @@ mod assets;
 mod body;
 mod constraint;
 mod custom;
+mod demand;
 mod discard;
 mod fixed;
 mod fluid;
@@ -32,11 +33,13 @@ mod tree;
 mod values;
 mod viewpoint;
 
+use crate::budget::Budget;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::FileProvider;
 use crate::loaded::Loaded;
 use crate::mesh::stored::MeshStore;
 use crate::spec::{Spec, StatisticOverride};
+use crate::xml::Limits;
 use log::Log;
 use physics::Model;
 use physics::constants::length_range::set_length_ranges;
@@ -45,7 +48,8 @@ use physics::inertia::sparsity;
 use physics::model::Arrays;
 use physics::pipeline::validity::check_model;
 
-/// Compiles `spec`; files of assets come from `files`, processed meshes from `meshes`, findings go to `diagnostics`.
+/// Compiles `spec`; files of assets come from `files`, processed meshes from `meshes`, findings go to `diagnostics`,
+/// memory is taken from `budget`.
 ///
 /// `None` when there is an error; then `diagnostics` says which.
 pub(crate) fn compile(
@@ -54,8 +58,9 @@ pub(crate) fn compile(
     meshes: Option<&dyn MeshStore>,
     sources: &Sources,
     diagnostics: &mut Diagnostics,
+    budget: Budget,
 ) -> Option<Model> {
-    let log = &mut Log { sources, diagnostics };
+    let log = &mut Log { sources, diagnostics, budget };
     let (arrays, springdampers) = compile_static(spec, files, meshes, log)?;
     let mut m = Model::unchecked(arrays);
     if let Err(error) = set_const(&mut m) {
@@ -93,7 +98,8 @@ impl Spec {
     /// All that is wrong with the elements and the assets, not the first finding alone.
     pub fn compile(&self, files: &dyn FileProvider, sources: &Sources) -> Result<Loaded, Diagnostics> {
         let mut diagnostics = Diagnostics::default();
-        match compile(self, files, None, sources, &mut diagnostics) {
+        let budget = Budget::new(Limits::default().memory);
+        match compile(self, files, None, sources, &mut diagnostics, budget) {
             Some(model) => Ok(Loaded { model, warnings: diagnostics }),
             None => Err(diagnostics),
         }
@@ -117,6 +123,11 @@ fn compile_static(
     meshes: Option<&dyn MeshStore>,
     log: &mut Log,
 ) -> Option<(Arrays, Vec<[f64; 2]>)> {
+    let mut m = Arrays { name: spec.modelname.clone(), ..Arrays::default() };
+    sizes::set_user_widths(&mut m, spec, log);
+    if log.diagnostics.has_errors() || !demand::charge(&m, spec, log) {
+        return None;
+    }
     let mut assets = assets::compile(spec, files, meshes, log);
     let mut tree = tree::compile(spec, &assets, log);
     if log.diagnostics.has_errors() {
@@ -130,10 +141,8 @@ fn compile_static(
         discard::discard_visual(&mut tree, &mut assets, spec);
     }
     let lookup = lookup::Lookup::new(spec, &tree, &assets, log);
-    let mut m = Arrays { name: spec.modelname.clone(), ..Arrays::default() };
     m.opt = spec.option.clone();
     m.vis = spec.visual.clone();
-    sizes::set_user_widths(&mut m, spec, log);
     if log.diagnostics.has_errors() {
         return None;
     }
@@ -152,6 +161,9 @@ fn compile_static(
     names::fill(&mut m, spec, &tree, &assets, &lookup);
     sizes::set(&mut m, spec);
     fixed::fill(&mut m, &tree, log);
+    if !demand::charge_patterns(&m, spec, log) {
+        return None;
+    }
     sparsity::fill(&mut m);
     sizes::allocate_derived(&mut m);
     sizes::check(&m, log);

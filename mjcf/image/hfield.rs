@@ -65,8 +65,8 @@ pub fn hfield(source: HfieldSource) -> Result<CompiledHfield, AssetError> {
     Ok(CompiledHfield { nrow, ncol, size, data })
 }
 
-/// Largest grid without data.
-const MAX_CELLS: usize = 1 << 28;
+/// Largest grid without data: places in the model's array are 32-bit integers.
+const MAX_CELLS: usize = i32::MAX as usize;
 
 fn read(bytes: &[u8], path: &str, content_type: &str) -> Result<(usize, usize, Vec<f32>), AssetError> {
     let png = match content_type {

@@ -1,7 +1,6 @@
 //! `asset`, and where the files of assets are.
 
 use super::reader::Reader;
-use crate::diagnostic::Loc;
 use crate::files::{base_name, is_absolute, join};
 use crate::image::Builtin;
 use crate::mesh::vertex_count;
@@ -69,18 +68,9 @@ impl Reader<'_> {
             self.error(limit.value_loc, "attribute 'maxhullvert' of <mesh> must be -1 or at least 4");
         }
         let vertices = mesh.builtin.map_or(0.0, |shape| vertex_count(shape, &mesh.params));
-        self.compute(3 * vertices as i64, element.loc);
+        // Vertices, normals, faces and their boxes, in the asset and in the model.
+        self.charge(element.loc, "built-in mesh", (vertices * 1000.0) as usize);
         self.spec.meshes.push(mesh);
-    }
-
-    /// Counts numbers that are computed instead of given; an error and `false` when they are too many.
-    fn compute(&mut self, numbers: i64, loc: Loc) -> bool {
-        let most = self.expansion.limits.computed;
-        self.computed = self.computed.saturating_add(usize::try_from(numbers).unwrap_or(0));
-        if self.computed > most {
-            self.error(loc, format!("computed assets hold more than {most} numbers"));
-        }
-        self.computed <= most
     }
 
     fn hfield(&mut self, element: &Element) {
@@ -92,9 +82,13 @@ impl Reader<'_> {
         } else if hfield.nrow > 0 && hfield.ncol > 0 {
             let cells = i64::from(hfield.nrow) * i64::from(hfield.ncol);
             if given.is_empty() {
-                if self.compute(cells, element.loc) {
-                    hfield.userdata = vec![0.0; cells as usize];
-                }
+                // Numbers of four bytes, in the asset and in the model.
+                let what = format!("height field of {} x {} points", hfield.nrow, hfield.ncol);
+                self.charge(
+                    element.loc,
+                    &what,
+                    usize::try_from(cells).map_or(usize::MAX, |n| n.saturating_mul(8)),
+                );
             } else if given.len() as i64 != cells {
                 self.error(element.loc, format!("<hfield> has {} heights for {cells} points", given.len()));
             } else {
@@ -132,7 +126,14 @@ impl Reader<'_> {
             let (width, height) = (i64::from(texture.width), i64::from(texture.height));
             let height =
                 if texture.kind == TextureType::Texture2d { height } else { width.saturating_mul(6) };
-            self.compute(width.max(0).saturating_mul(height.max(0)).saturating_mul(3), element.loc);
+            let pixels = width.max(0).saturating_mul(height.max(0));
+            let what = format!("built-in texture of {width} x {height} pixels");
+            // Bytes of three colours, in the asset and in the model.
+            self.charge(
+                element.loc,
+                &what,
+                usize::try_from(pixels).map_or(usize::MAX, |n| n.saturating_mul(6)),
+            );
         }
         self.spec.textures.push(texture);
     }

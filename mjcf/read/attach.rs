@@ -11,6 +11,7 @@ use super::copy::{Affix, Names, Referring, Renaming, append, collect, collect_ob
 use super::reader::ModelFile;
 use super::reader::Reader;
 use super::tree::Place;
+use crate::budget::{ADVICE, ELEMENT};
 use crate::schema::Space;
 use crate::schema::tree::{ATTACH_ROWS, Attach};
 use crate::spec::asset_name;
@@ -170,7 +171,8 @@ impl Reader<'_> {
         if self.copied > most {
             return Err(format!("<attach> makes more than {most} elements"));
         }
-        Ok(())
+        let bytes = copied.saturating_mul(ELEMENT);
+        self.expansion.budget.take("copies of <attach>", bytes).map_err(|e| format!("{e}; {ADVICE}"))
     }
 
     /// Takes over the keyframes of a model; maps its indices to those here.

@@ -20,8 +20,6 @@ pub(super) struct Reader<'a> {
     pub(super) classes: Classes,
     /// Elements made by `replicate` and `attach` so far.
     pub(super) copied: usize,
-    /// Numbers of assets that are computed instead of given, so far.
-    pub(super) computed: usize,
     /// Settings that the text gives, for conflicts with those of attached models.
     pub(super) authored: Authored,
     /// Warnings about conflicts given already.
@@ -79,7 +77,6 @@ impl<'a> Reader<'a> {
             expansion,
             classes: Classes::default(),
             copied: 0,
-            computed: 0,
             authored: Authored::default(),
             warned: BTreeSet::new(),
             models: Vec::new(),
@@ -91,6 +88,12 @@ impl<'a> Reader<'a> {
 
     pub(super) fn error(&mut self, loc: Loc, message: impl Into<String>) {
         self.expansion.diagnostics.error(self.expansion.sources, loc, message);
+    }
+
+    /// Adds `bytes` that `what` asks for to the budget; false, with an error at `loc`, when they are beyond it.
+    pub(super) fn charge(&mut self, loc: Loc, what: &str, bytes: usize) -> bool {
+        let Expansion { budget, sources, diagnostics, .. } = &mut self.expansion;
+        budget.charge(sources, diagnostics, loc, (what, bytes))
     }
 
     pub(super) fn warning(&mut self, loc: Loc, message: impl Into<String>) {

@@ -13,6 +13,7 @@ use physics::math::{Vec3, quat_rotate};
 use super::copy::{Affix, Names, Referring, Renaming, append, collect, elements, forget_keys};
 use super::reader::Reader;
 use super::tree::Place;
+use crate::budget::{ADVICE, Budget, ELEMENT};
 use crate::schema::Space;
 use crate::schema::tree::{REPLICATE_ROWS, Replicate};
 use crate::spec::resolve;
@@ -43,6 +44,10 @@ impl Reader<'_> {
         if self.copied > most {
             return self.error(element.loc, format!("<replicate> makes more than {most} elements"));
         }
+        let bytes = elements(&piece).saturating_mul(count).saturating_mul(ELEMENT);
+        if !self.charge(element.loc, &format!("{count} copies of <replicate>"), bytes) {
+            return;
+        }
         let suffixes = suffixes(&wanted);
         let poses = match poses(&wanted, &self.spec) {
             Ok(poses) => poses,
@@ -61,7 +66,9 @@ impl Reader<'_> {
         for frame in &mut self.spec.frames[frames] {
             frame.name.clear();
         }
-        copy_references(&mut self.spec, &names, &suffixes);
+        if let Err(message) = copy_references(&mut self.spec, &names, &suffixes, self.expansion.budget) {
+            self.error_with(element.loc, message, Some(ADVICE.into()));
+        }
     }
 
     /// Adds the frames of one copy and returns how far their indices are from the originals'.
@@ -99,25 +106,39 @@ fn poses(wanted: &Replicate, spec: &Spec) -> Result<Vec<(Vec3, Vec3)>, String> {
     Ok(poses)
 }
 
-fn copy_references(spec: &mut Spec, names: &Names, suffixes: &[String]) {
-    copy_list(&mut spec.pairs, names, suffixes);
-    copy_list(&mut spec.excludes, names, suffixes);
+fn copy_references(
+    spec: &mut Spec,
+    names: &Names,
+    suffixes: &[String],
+    budget: &mut Budget,
+) -> Result<(), String> {
+    copy_list(&mut spec.pairs, names, suffixes, budget)?;
+    copy_list(&mut spec.excludes, names, suffixes, budget)?;
     // Tendons come before what may refer to them, and pass on their own copies' names.
-    let tendons = copy_list(&mut spec.tendons, names, suffixes);
+    let tendons = copy_list(&mut spec.tendons, names, suffixes, budget)?;
     let mut names = names.clone();
     names.extend(tendons.into_iter().map(|name| (Space::Tendon, name)));
-    copy_list(&mut spec.equalities, &names, suffixes);
+    copy_list(&mut spec.equalities, &names, suffixes, budget)?;
     let fixed = spec.actuators.len();
-    let actuators = copy_list(&mut spec.actuators, &names, suffixes);
+    let actuators = copy_list(&mut spec.actuators, &names, suffixes, budget)?;
     spec.actuators.iter_mut().skip(fixed).for_each(|a| a.keyed.clear());
     names.extend(actuators.into_iter().map(|name| (Space::Actuator, name)));
-    copy_list(&mut spec.sensors, &names, suffixes);
-    copy_list(&mut spec.tuples, &names, suffixes);
+    copy_list(&mut spec.sensors, &names, suffixes, budget)?;
+    copy_list(&mut spec.tuples, &names, suffixes, budget)?;
+    Ok(())
 }
 
 /// Replaces the objects that refer into the piece by one copy for each suffix, at the end of the list;
 /// returns the names of the objects replaced.
-fn copy_list<T: Referring>(list: &mut Vec<T>, names: &Names, suffixes: &[String]) -> Vec<String> {
+///
+/// # Errors
+/// The copies need more memory than is left.
+fn copy_list<T: Referring>(
+    list: &mut Vec<T>,
+    names: &Names,
+    suffixes: &[String],
+    budget: &mut Budget,
+) -> Result<Vec<String>, String> {
     let inside = |object: &mut T| {
         let (_, references) = object.names();
         let known =
@@ -127,6 +148,9 @@ fn copy_list<T: Referring>(list: &mut Vec<T>, names: &Names, suffixes: &[String]
     let (originals, kept): (Vec<T>, Vec<T>) =
         std::mem::take(list).into_iter().partition(|o| inside(&mut o.clone()));
     *list = kept;
+    let copies = originals.len().saturating_mul(suffixes.len());
+    budget
+        .take(&format!("{copies} copies of what refers into <replicate>"), copies.saturating_mul(ELEMENT))?;
     for suffix in suffixes {
         list.extend(originals.iter().cloned().map(|mut object| {
             let (name, references) = object.names();
@@ -140,5 +164,6 @@ fn copy_list<T: Referring>(list: &mut Vec<T>, names: &Names, suffixes: &[String]
             object
         }));
     }
-    originals.into_iter().map(|mut o| std::mem::take(o.names().0)).filter(|n| !n.is_empty()).collect()
+    let names = originals.into_iter().map(|mut o| std::mem::take(o.names().0));
+    Ok(names.filter(|n| !n.is_empty()).collect())
 }

@@ -78,6 +78,7 @@ impl Reader<'_> {
     pub(super) fn size(&mut self, section: &Element) {
         let mut size = std::mem::take(&mut self.spec.size);
         self.rows(section, &SIZE_ROWS, &mut size);
+        size.loc = section.loc;
         if let Some(attribute) = section.attribute("memory").filter(|a| a.value.trim() != "-1") {
             size.memory = memory_bytes(attribute.value.trim());
             if size.memory.is_none() {

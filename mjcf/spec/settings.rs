@@ -101,6 +101,8 @@ impl Default for Compiler {
 /// Array sizes (`size`); `None` lets the compiler choose.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Size {
+    /// Where the element stands in the sources.
+    pub loc: crate::diagnostic::Loc,
     /// Bytes of memory, which is allocated as needed whatever this says; `None` when not given.
     pub memory: Option<i64>,
     /// Older limit on constraints.
