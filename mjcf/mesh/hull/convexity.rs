@@ -1,218 +1,163 @@
-//! Convexity of neighbouring facets by their centres, and the loop that merges until it holds.
+//! Whether neighbouring facets are clearly convex to each other.
 
-use super::Failure;
-use super::merge::{Merge, Reason};
-use super::polytope::{Polytope, TAIL};
+use super::Builder;
+use super::id::{FacetId, Marks, VertexId};
+use super::surface::Convexity;
 
-impl Polytope<'_> {
-    /// Whether all new facets are triangles on triangles, clearly convex to all neighbours.
-    pub(super) fn new_facets_are_convex(&mut self) -> bool {
-        let new = self.facets_from(self.first_new);
-        let plain = |f: usize| {
-            let facet = &self.facets[f];
-            self.facets[facet.neighbors[0]].simplicial && !facet.flipped && facet.normal.is_some()
+/// How two facets fail to be clearly convex; unions of earlier kinds are less harmful.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum BendKind {
+    /// The centre of one is within round-off of the other's plane.
+    Flat,
+    /// The centre of one is above the other.
+    Concave,
+    /// One of each.
+    Mixed,
+}
+
+/// Two neighbours that are not clearly convex to each other.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bend {
+    pub kind: BendKind,
+    pub first: FacetId,
+    pub second: FacetId,
+    distance: f64,
+}
+
+/// Brings bends into the order in which they are straightened: least harmful kind, least distance, and of
+/// equals the one found last.
+fn ordered(mut bends: Vec<Bend>) -> Vec<Bend> {
+    bends.reverse();
+    bends.sort_by(|a, b| a.kind.cmp(&b.kind).then(a.distance.total_cmp(&b.distance)));
+    bends
+}
+
+impl Builder<'_> {
+    /// Whether all fresh facets are triangles on triangles that are clearly convex to all neighbours: the
+    /// common case, settled without centres and ridges.
+    pub(super) fn cone_is_convex(&self) -> bool {
+        let facets = &self.surface.facets;
+        let order = self.surface.agenda.order();
+        let plain = |facet: FacetId| {
+            !facets[facet].inverted && facets[facets[facet].neighbors[0]].shape.is_triangle()
         };
-        if !new.iter().all(|&f| plain(f)) {
+        if !order.fresh().all(plain) {
             return false;
         }
-        let limit = -2.0 * self.tol.round;
-        new.iter().all(|&f| {
-            let facet = &self.facets[f];
-            let base = [facet.vertices[1], facet.vertices[2]];
-            let sides_convex =
-                (1..3).all(|k| self.distance(self.point(facet.vertices[k]), facet.neighbors[k]) < limit);
-            let beyond = self.facets[facet.neighbors[0]].vertices.iter().find(|v| !base.contains(v));
-            sides_convex && beyond.is_none_or(|&v| self.distance(self.point(v), f) < limit)
+        let below = |corner: VertexId, facet: FacetId| {
+            let point = self.points[self.surface.vertices[corner].point];
+            self.height(point, facet) < -2.0 * self.tol.round
+        };
+        order.fresh().all(|triangle| {
+            let facet = &facets[triangle];
+            let base = &facet.corners[1..];
+            let beyond = facets[facet.neighbors[0]].corners.iter().find(|corner| !base.contains(corner));
+            (1..3).all(|k| below(facet.corners[k], facet.neighbors[k]))
+                && beyond.is_none_or(|&corner| below(corner, triangle))
         })
     }
 
-    /// Mean of the vertices, projected onto the plane.
-    pub(super) fn center_of(&mut self, facet: usize) -> [f64; 3] {
-        if let Some(center) = self.facets[facet].center {
-            return center;
-        }
-        let vertices = &self.facets[facet].vertices;
-        let mut mean = [0.0; 3];
-        for (axis, x) in mean.iter_mut().enumerate() {
-            for &v in vertices {
-                *x += self.point(v)[axis];
+    /// Mean of the corners, projected onto the plane.
+    pub(super) fn center_of(&mut self, facet: FacetId) -> [f64; 3] {
+        let Self { points, surface, .. } = self;
+        let facet = &mut surface.facets[facet];
+        *facet.center.get_or_insert_with(|| {
+            let mut mean = [0.0; 3];
+            for &corner in &facet.corners {
+                let point = points[surface.vertices[corner].point];
+                mean = [0, 1, 2].map(|axis| mean[axis] + point[axis]);
             }
-            *x /= vertices.len() as f64;
-        }
-        let height = self.distance(mean, facet);
-        let n = self.facets[facet].normal.unwrap_or_default();
-        let center = std::array::from_fn(|k| mean[k] - height * n[k]);
-        self.facets[facet].center = Some(center);
-        center
+            facet.plane.project(mean.map(|sum| sum / facet.corners.len() as f64))
+        })
     }
 
-    /// Queues a merge if two neighbours are not clearly convex; whether it did.
-    fn queue_if_nonconvex(&mut self, facet: usize, neighbor: usize) -> bool {
+    /// How two neighbours fail to be clearly convex, judged by their centres.
+    fn bend(&mut self, facet: FacetId, neighbor: FacetId) -> Option<Bend> {
         let limit = self.tol.center;
         let centers = [self.center_of(facet), self.center_of(neighbor)];
-        let above_neighbor = self.distance(centers[0], neighbor);
-        let above_facet = self.distance(centers[1], facet);
-        let concave = above_neighbor > limit || above_facet > limit;
-        let within = |d: f64| d >= -limit && d <= limit;
-        let coplanar = within(above_neighbor) || within(above_facet);
-        match (concave, coplanar) {
-            (false, false) => return false,
-            (true, true) if above_neighbor > above_facet => {
-                self.queue(facet, neighbor, Reason::ConcaveCoplanar, above_neighbor);
-            }
-            (true, true) => self.queue(neighbor, facet, Reason::ConcaveCoplanar, above_facet),
-            (true, false) => {
-                self.queue(facet, neighbor, Reason::Concave, above_neighbor.max(above_facet));
-            }
-            (false, true) => {
-                let nearer = above_neighbor.abs().min(above_facet.abs());
-                self.queue(facet, neighbor, Reason::Coplanar, nearer);
-            }
-        }
-        true
+        let ours = self.height(centers[0], neighbor);
+        let theirs = self.height(centers[1], facet);
+        let concave = ours > limit || theirs > limit;
+        let flat = ours.abs() <= limit || theirs.abs() <= limit;
+        let (kind, distance) = match (concave, flat) {
+            (false, false) => return None,
+            (false, true) => (BendKind::Flat, ours.abs().min(theirs.abs())),
+            (true, false) => (BendKind::Concave, ours.max(theirs)),
+            (true, true) => (BendKind::Mixed, ours.max(theirs)),
+        };
+        let (first, second) = match kind {
+            BendKind::Mixed if ours <= theirs => (neighbor, facet),
+            _ => (facet, neighbor),
+        };
+        Some(Bend { kind, first, second, distance })
     }
 
-    /// Tests each pair of neighbours among and around the new facets once.
-    pub(super) fn queue_all_nonconvex(&mut self) {
-        self.visit += 1;
-        let visit = self.visit;
-        for f in self.facets_from(self.first_new) {
-            self.facets[f].visit = visit;
-            for n in self.facets[f].neighbors.clone() {
-                if self.facets[n].visit == visit || !self.queue_if_nonconvex(f, n) {
+    /// Bends between fresh facets and all their neighbours.
+    pub(super) fn bends_of_fresh(&mut self) -> Vec<Bend> {
+        let mut bends = Vec::new();
+        let mut tested: Marks<FacetId> = Marks::default();
+        let mut at = self.surface.agenda.order().first_fresh();
+        while let Some(facet) = at {
+            at = self.surface.agenda.order().after(facet);
+            tested.add(facet);
+            for k in 0..self.surface.facets[facet].neighbors.len() {
+                let neighbor = self.surface.facets[facet].neighbors[k];
+                if tested.has(neighbor) {
                     continue;
                 }
-                let ridges = &self.facets[n].ridges;
-                if let Some(&r) = ridges.iter().find(|&&r| self.ridges[r].other(n) == f) {
-                    self.ridges[r].nonconvex = true;
+                let Some(bend) = self.bend(facet, neighbor) else { continue };
+                bends.push(bend);
+                let surface = &mut self.surface;
+                let ridges = &mut surface.ridges;
+                let shared =
+                    surface.facets[neighbor].ridges.iter().find(|&&ridge| ridges[ridge].borders(facet));
+                if let Some(&ridge) = shared {
+                    ridges[ridge].convexity = Convexity::Nonconvex;
                 }
             }
-            self.facets[f].tested = true;
-            for k in 0..self.facets[f].ridges.len() {
-                let r = self.facets[f].ridges[k];
-                self.ridges[r].tested = true;
+            self.surface.facets[facet].tested = true;
+            for &ridge in &self.surface.facets[facet].ridges {
+                let convexity = &mut self.surface.ridges[ridge].convexity;
+                if *convexity == Convexity::Unknown {
+                    *convexity = Convexity::Convex;
+                }
             }
         }
-        self.sort_merges();
+        ordered(bends)
     }
 
-    /// Tests the ridges that merging has changed.
-    pub(super) fn queue_changed_nonconvex(&mut self) {
-        self.visit += 1;
-        let visit = self.visit;
-        for f in self.facets_from(self.first_new) {
-            if self.facets[f].tested {
+    /// Bends at the ridges of fresh facets that unions have changed.
+    pub(super) fn bends_of_changed(&mut self) -> Vec<Bend> {
+        let mut bends = Vec::new();
+        let mut tested: Marks<FacetId> = Marks::default();
+        let mut met: Marks<FacetId> = Marks::default();
+        let mut at = self.surface.agenda.order().first_fresh();
+        while let Some(facet) = at {
+            at = self.surface.agenda.order().after(facet);
+            if self.surface.facets[facet].tested {
                 continue;
             }
-            self.facets[f].visit = visit;
-            for k in 0..self.facets[f].neighbors.len() {
-                let n = self.facets[f].neighbors[k];
-                self.facets[n].seen = false;
-            }
-            for r in self.facets[f].ridges.clone() {
-                if self.ridges[r].tested && !self.ridges[r].nonconvex {
+            tested.add(facet);
+            met.clear();
+            for k in 0..self.surface.facets[facet].ridges.len() {
+                let ridge = self.surface.facets[facet].ridges[k];
+                let neighbor = self.surface.ridges[ridge].beyond(facet);
+                if self.surface.ridges[ridge].convexity == Convexity::Convex {
                     continue;
                 }
-                let n = self.ridges[r].other(f);
-                if self.facets[n].seen {
-                    self.ridges[r].tested = true;
-                    self.ridges[r].nonconvex = false;
-                } else if self.facets[n].visit != visit {
-                    self.facets[n].seen = true;
-                    let nonconvex = self.queue_if_nonconvex(f, n);
-                    self.ridges[r].nonconvex = nonconvex;
-                    self.ridges[r].tested = true;
-                }
+                // One ridge to a neighbour stands for all.
+                let bend = match met.has(neighbor) {
+                    true => None,
+                    false if tested.has(neighbor) => continue,
+                    false => self.bend(facet, neighbor),
+                };
+                met.add(neighbor);
+                bends.extend(bend);
+                self.surface.ridges[ridge].convexity =
+                    if bend.is_some() { Convexity::Nonconvex } else { Convexity::Convex };
             }
-            self.facets[f].tested = true;
+            self.surface.facets[facet].tested = true;
         }
-        self.sort_merges();
-    }
-
-    /// The next merge, the one that bends the hull least, comes last.
-    fn sort_merges(&mut self) {
-        self.merges.sort_by(|a, b| b.reason.cmp(&a.reason).then(b.distance.total_cmp(&a.distance)));
-    }
-
-    /// Merges queued facets until all are convex; `merged` tells of merges before.
-    pub(super) fn merge_all(&mut self, mut merged: bool) -> Result<(), Failure> {
-        loop {
-            while !self.merges.is_empty() || !self.degenerate_merges.is_empty() {
-                if !self.degenerate_merges.is_empty() {
-                    self.merge_degenerate()?;
-                    merged = true;
-                }
-                while let Some(Merge { reason, first, second, .. }) = self.merges.pop() {
-                    if self.facets[first].visible || self.facets[second].visible {
-                        continue;
-                    }
-                    let changed = |f: usize| !self.facets[f].tested && self.facets[f].new;
-                    if reason == Reason::Coplanar && (changed(first) || changed(second)) {
-                        continue;
-                    }
-                    self.merge_nonconvex(first, second, reason)?;
-                    self.merge_degenerate()?;
-                    merged = true;
-                }
-                self.queue_changed_nonconvex();
-            }
-            if !(self.has_vertex_neighbors && merged) {
-                return Ok(());
-            }
-            merged = false;
-            if !self.reduce_vertices()? {
-                return Ok(());
-            }
-            self.queue_changed_nonconvex();
-        }
-    }
-
-    /// Queues neighbours whose vertices are all vertices of `facet`.
-    pub(super) fn queue_redundant_neighbors(&mut self, facet: usize) {
-        if self.facets[facet].neighbors.len() < 3 {
-            self.queue(facet, facet, Reason::Degenerate, 0.0);
-            return;
-        }
-        let own = self.visit_vertices(facet);
-        for n in self.facets[facet].neighbors.clone() {
-            let neighbor = &self.facets[n];
-            if neighbor.degenerate || neighbor.redundant || (self.facets[facet].flipped && !neighbor.flipped)
-            {
-                continue;
-            }
-            if neighbor.vertices.iter().all(|&v| self.vertices[v].visit == own) {
-                self.queue(n, facet, Reason::Redundant, 0.0);
-            }
-        }
-    }
-
-    /// Queues neighbours of `facet` with fewer than three neighbours.
-    pub(super) fn queue_degenerate_neighbors(&mut self, facet: usize) {
-        for n in self.facets[facet].neighbors.clone() {
-            let neighbor = &self.facets[n];
-            if !neighbor.degenerate && !neighbor.redundant && neighbor.neighbors.len() < 3 {
-                self.queue(n, n, Reason::Degenerate, 0.0);
-            }
-        }
-    }
-
-    /// Queues `facet` if a neighbour has all its vertices, or if it has fewer than three neighbours.
-    pub(super) fn queue_if_degenerate_or_redundant(&mut self, facet: usize) {
-        if self.facets[facet].flipped {
-            return;
-        }
-        for n in self.facets[facet].neighbors.clone() {
-            if self.facets[n].flipped || n == TAIL {
-                continue;
-            }
-            let theirs = self.visit_vertices(n);
-            if self.facets[facet].vertices.iter().all(|&v| self.vertices[v].visit == theirs) {
-                self.queue(facet, n, Reason::Redundant, 0.0);
-                return;
-            }
-        }
-        if self.facets[facet].neighbors.len() < 3 {
-            self.queue(facet, facet, Reason::Degenerate, 0.0);
-        }
+        ordered(bends)
     }
 }

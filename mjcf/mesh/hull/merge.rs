@@ -1,486 +1,359 @@
-//! Merging one facet into another, and the queues of merges to do.
+//! Which facets are united, and in which order, until the hull is convex within round-off.
+//!
+//! A union replaces two planes by one of them, so a facet goes to the neighbour whose plane fits its corners
+//! best, and the unions that bend the hull least come first: they often settle the others.
 
-use super::Failure;
-use super::polytope::{NONE, Polytope, remove_ordered, remove_unordered, replace_item};
+use std::collections::VecDeque;
 
-/// Why two facets are merged; later kinds are more urgent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Reason {
-    /// The centre of one is within round-off of the other's plane.
-    Coplanar,
-    /// The centre of one is above the other.
-    Concave,
-    /// One of each.
-    ConcaveCoplanar,
-    /// A facet faces the interior.
-    Flipped,
-    /// A facet has fewer than three neighbours.
-    Degenerate,
-    /// All vertices of a facet are a neighbour's.
-    Redundant,
-    /// A new facet lies in the plane of its horizon facet.
-    CoplanarHorizon,
-}
+use super::cone::Level;
+use super::convexity::{Bend, BendKind};
+use super::id::{FacetId, Marks};
+use super::surface::{Convexity, Phase};
+use super::{Builder, Failure};
 
-/// A merge to be done.
+/// Facets with more corners than this are measured at their centre.
+const MANY_CORNERS: usize = 2 * 3 + 20;
+/// Facets with more corners than this go to a neighbour they are not convex to.
+const SOME_CORNERS: usize = 3 + 15;
+/// Estimate of the largest height of a corner, as a multiple of that of the centre.
+const CENTER_FACTOR: f64 = 3.0;
+
+/// Heights of the corners of a facet below and above the plane of another.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Merge {
-    pub reason: Reason,
-    pub first: usize,
-    pub second: usize,
-    pub distance: f64,
+struct Range {
+    below: f64,
+    above: f64,
 }
 
-/// Facets with more vertices than this are compared by their centres.
-const MANY_VERTICES: usize = 2 * 3 + 20;
-/// Facets with more vertices than this prefer neighbours over a nonconvex ridge.
-const SOME_VERTICES: usize = 3 + 15;
-/// Facets with more vertices than this keep their centre.
-const KEEP_CENTER_VERTICES: usize = 3 + 5;
-
-/// Range of the distances a merge causes: below and above the plane.
-pub(super) type Range = (f64, f64);
-
-impl Polytope<'_> {
-    /// Merges new facets until the hull is convex within round-off.
-    pub(super) fn merge_new(&mut self) -> Result<(), Failure> {
-        if self.new_facets_are_convex() {
-            return Ok(());
-        }
-        let mut merged = self.merge_cycles()?;
-        merged |= self.merge_flipped()?;
-        self.queue_all_nonconvex();
-        self.merge_all(merged)
+impl Range {
+    fn of(heights: impl Iterator<Item = f64>) -> Self {
+        heights.fold(Self { below: 0.0, above: 0.0 }, |range, height| Self {
+            below: range.below.min(height),
+            above: range.above.max(height),
+        })
     }
 
-    /// Queues a merge, unless a facet is about to disappear anyway.
-    pub(super) fn queue(&mut self, first: usize, second: usize, reason: Reason, distance: f64) {
-        if self.facets[first].redundant || self.facets[second].redundant {
+    fn largest(self) -> f64 {
+        self.above.max(-self.below)
+    }
+}
+
+/// A neighbour that a facet could be united with.
+#[derive(Debug, Clone, Copy)]
+struct Host {
+    facet: FacetId,
+    range: Range,
+    inverted: bool,
+}
+
+/// Facets that unions have left without a proper boundary: covered ones, all of whose corners a neighbour
+/// has, are dealt with before thin ones, which have fewer than three neighbours.
+#[derive(Debug, Default)]
+pub(super) struct Slivers {
+    /// Each with the facet that has its corners; the latest first.
+    covered: Vec<(FacetId, FacetId)>,
+    /// The back first.
+    thin: VecDeque<FacetId>,
+    is_covered: Marks<FacetId>,
+    is_thin: Marks<FacetId>,
+}
+
+enum Sliver {
+    Covered { facet: FacetId, by: FacetId },
+    Thin(FacetId),
+}
+
+impl Slivers {
+    fn add_covered(&mut self, facet: FacetId, by: FacetId) {
+        if !self.is_covered.has(by) && self.is_covered.add(facet) {
+            self.covered.push((facet, by));
+        }
+    }
+
+    fn add_thin(&mut self, facet: FacetId) {
+        if self.is_covered.has(facet) || !self.is_thin.add(facet) {
             return;
         }
-        let merge = Merge { reason, first, second, distance };
-        match reason {
-            Reason::Degenerate if self.facets[first].degenerate => {}
-            Reason::Degenerate => {
-                self.facets[first].degenerate = true;
-                match self.degenerate_merges.last() {
-                    Some(last) if last.reason != Reason::Degenerate => {
-                        self.degenerate_merges.insert(0, merge)
-                    }
-                    _ => self.degenerate_merges.push(merge),
-                }
-            }
-            Reason::Redundant => {
-                self.facets[first].redundant = true;
-                self.degenerate_merges.push(merge);
-            }
-            _ => self.merges.push(merge),
-        }
-    }
-
-    /// Works off the queue of degenerate and redundant facets; how many were removed.
-    pub(super) fn merge_degenerate(&mut self) -> Result<usize, Failure> {
-        let mut count = 0;
-        while let Some(Merge { reason, first, second, .. }) = self.degenerate_merges.pop() {
-            if self.facets[first].visible {
-                continue;
-            }
-            self.facets[first].degenerate = false;
-            self.facets[first].redundant = false;
-            if reason == Reason::Redundant {
-                let target = self.replacement(second);
-                if target == NONE {
-                    return Err(Failure("a redundant facet has lost its neighbour"));
-                }
-                if target == first {
-                    continue;
-                }
-                self.merge_facet(first, target, reason, None)?;
-                count += 1;
-            } else if self.facets[first].neighbors.is_empty() {
-                self.will_delete(first, NONE);
-                for v in self.facets[first].vertices.clone() {
-                    remove_unordered(&mut self.vertices[v].neighbors, first);
-                    if self.vertices[v].neighbors.is_empty() {
-                        self.mark_deleted(v);
-                    }
-                }
-                count += 1;
-            } else if self.facets[first].neighbors.len() < 3 {
-                let (best, _, range) = self.best_neighbor(first)?;
-                self.merge_facet(first, best, reason, Some(range))?;
-                count += 1;
-            }
-        }
-        Ok(count)
-    }
-
-    /// Merges facets that face the interior into their best neighbours.
-    fn merge_flipped(&mut self) -> Result<bool, Failure> {
-        let mut merged = false;
-        for f in self.facets_from(self.first_new) {
-            if !self.facets[f].flipped || self.facets[f].visible {
-                continue;
-            }
-            let (best, _, range) = self.best_neighbor(f)?;
-            self.merge_facet(f, best, Reason::Flipped, Some(range))?;
-            merged = true;
-        }
-        self.merge_degenerate()?;
-        Ok(merged)
-    }
-
-    /// Merges two facets that are not convex to each other, one of them into its best neighbour.
-    pub(super) fn merge_nonconvex(
-        &mut self,
-        first: usize,
-        second: usize,
-        reason: Reason,
-    ) -> Result<(), Failure> {
-        let (a, b) = if self.facets[first].new { (first, second) } else { (second, first) };
-        let (best_a, distance_a, range_a) = self.best_neighbor(a)?;
-        let (best_b, distance_b, range_b) = self.best_neighbor(b)?;
-        if distance_a < distance_b {
-            self.merge_facet(a, best_a, reason, Some(range_a))
+        // While covered facets wait, a thin one goes behind those found before.
+        if self.covered.is_empty() {
+            self.thin.push_back(facet);
         } else {
-            self.merge_facet(b, best_b, reason, Some(range_b))
+            self.thin.push_front(facet);
         }
     }
 
-    /// The neighbour whose plane is nearest to the vertices of `facet`, how far that is, and the range.
-    pub(super) fn best_neighbor(&mut self, facet: usize) -> Result<(usize, f64, Range), Failure> {
-        let size = self.facets[facet].vertices.len();
-        let by_center = size > MANY_VERTICES;
-        if by_center {
-            self.center_of(facet);
+    fn has(&self, facet: FacetId) -> bool {
+        self.is_covered.has(facet) || self.is_thin.has(facet)
+    }
+
+    fn next(&mut self) -> Option<Sliver> {
+        let covered = self.covered.pop().map(|(facet, by)| (facet, Sliver::Covered { facet, by }));
+        let next = covered.or_else(|| self.thin.pop_back().map(|facet| (facet, Sliver::Thin(facet))));
+        let (facet, sliver) = next?;
+        self.is_covered.remove(facet);
+        self.is_thin.remove(facet);
+        Some(sliver)
+    }
+}
+
+impl Builder<'_> {
+    /// Unites fresh facets until the hull is convex. `level` triangles go first: they have no plane, and were
+    /// made to continue the facet beyond.
+    pub(super) fn make_convex(&mut self, level: Vec<Level>) -> Result<(), Failure> {
+        if level.is_empty() && self.cone_is_convex() {
+            return Ok(());
         }
-        let mut best = (NONE, f64::MAX, (0.0, 0.0));
-        if size > SOME_VERTICES {
-            for k in 0..self.facets[facet].ridges.len() {
-                let ridge = self.ridges[self.facets[facet].ridges[k]];
-                if ridge.nonconvex {
-                    self.try_neighbor(facet, ridge.other(facet), by_center, &mut best);
+        self.grown.clear();
+        let mut united = self.join_level(level)?;
+        united |= self.unite_inverted()?;
+        let mut bends = self.bends_of_fresh();
+        loop {
+            while !bends.is_empty() {
+                for bend in bends {
+                    united |= self.straighten(bend)?;
                 }
+                bends = self.bends_of_changed();
+            }
+            if !united || !self.dissolve_vertices()? {
+                break;
+            }
+            united = false;
+            bends = self.bends_of_changed();
+        }
+        match self.surface.agenda.order().first_fresh() {
+            Some(_) => Ok(()),
+            None => Err(Failure("all fresh facets were united with others")),
+        }
+    }
+
+    /// Unites each level triangle with the facet beyond; whether there was one.
+    fn join_level(&mut self, level: Vec<Level>) -> Result<bool, Failure> {
+        let united = !level.is_empty();
+        let mut extended = Marks::default();
+        for Level { triangle, beyond } in level {
+            self.absorb(triangle, beyond)?;
+            extended.add(beyond);
+        }
+        let mut at = self.surface.agenda.order().first_fresh();
+        while let Some(facet) = at {
+            if extended.has(facet) {
+                self.find_covered_neighbors(facet);
+            }
+            at = self.surface.agenda.order().after(facet);
+        }
+        self.unite_slivers()?;
+        Ok(united)
+    }
+
+    /// Unites the facets that face the interior with their neighbours; whether there was one.
+    fn unite_inverted(&mut self) -> Result<bool, Failure> {
+        let order = self.surface.agenda.order();
+        let inverted: Vec<FacetId> =
+            order.fresh().filter(|&facet| self.surface.facets[facet].inverted).collect();
+        let mut united = false;
+        for facet in inverted {
+            if !self.surface.facets[facet].phase.is_removed() {
+                let host = self.host_of(facet)?;
+                self.merge(facet, host)?;
+                united = true;
             }
         }
-        if best.0 == NONE {
-            for k in 0..self.facets[facet].neighbors.len() {
-                self.try_neighbor(facet, self.facets[facet].neighbors[k], by_center, &mut best);
+        self.unite_slivers()?;
+        Ok(united)
+    }
+
+    /// Unites one of two facets that are not convex to each other with the neighbour that fits best; false if
+    /// they have changed since.
+    fn straighten(&mut self, bend: Bend) -> Result<bool, Failure> {
+        let Bend { kind, first, second, .. } = bend;
+        let facets = &self.surface.facets;
+        if facets[first].phase.is_removed() || facets[second].phase.is_removed() {
+            return Ok(false);
+        }
+        let changed = |facet: FacetId| !facets[facet].tested && facets[facet].phase == Phase::Fresh;
+        if kind == BendKind::Flat && (changed(first) || changed(second)) {
+            return Ok(false);
+        }
+        let (a, b) = if facets[first].phase == Phase::Fresh { (first, second) } else { (second, first) };
+        let [for_a, for_b] = [self.host_of(a)?, self.host_of(b)?];
+        if for_a.range.largest() < for_b.range.largest() {
+            self.merge(a, for_a)?;
+        } else {
+            self.merge(b, for_b)?;
+        }
+        self.unite_slivers()?;
+        Ok(true)
+    }
+
+    /// Dissolves the vertices inside edges of grown facets; whether facets became slivers and were united.
+    fn dissolve_vertices(&mut self) -> Result<bool, Failure> {
+        let mut united = false;
+        loop {
+            let mut at = self.surface.agenda.order().first_fresh();
+            while let Some(facet) = at {
+                if self.grown.remove(facet) {
+                    for changed in self.surface.dissolve_corners(facet) {
+                        self.find_sliver(changed);
+                    }
+                }
+                at = self.surface.agenda.order().after(facet);
+            }
+            if !self.unite_slivers()? {
+                break;
+            }
+            united = true;
+        }
+        self.surface.tighten();
+        Ok(united)
+    }
+
+    /// The neighbour whose plane is nearest to the corners of `facet`, the first of equals. An upright one
+    /// is not given up for an inverted one if the facet is inverted itself.
+    fn host_of(&mut self, facet: FacetId) -> Result<Host, Failure> {
+        let corners = self.surface.facets[facet].corners.len();
+        let center = (corners > MANY_CORNERS).then(|| self.center_of(facet));
+        let nonconvex = if corners > SOME_CORNERS { self.nonconvex_neighbors(facet) } else { Vec::new() };
+        let neighbors =
+            if nonconvex.is_empty() { self.surface.facets[facet].neighbors.clone() } else { nonconvex };
+        let inverted = self.surface.facets[facet].inverted;
+        let mut best: Option<Host> = None;
+        for neighbor in neighbors {
+            let range = match center {
+                Some(center) => Range::of(std::iter::once(CENTER_FACTOR * self.height(center, neighbor))),
+                None => self.corner_range(facet, neighbor),
+            };
+            let host = Host { facet: neighbor, range, inverted: self.surface.facets[neighbor].inverted };
+            let better = best.is_none_or(|best| {
+                !(inverted && host.inverted && !best.inverted) && range.largest() < best.range.largest()
+            });
+            if better {
+                best = Some(host);
             }
         }
-        if best.0 == NONE {
-            return Err(Failure("a facet has no neighbour to merge with"));
-        }
-        if by_center {
-            best.2 = self.vertex_range(facet, best.0).1;
+        let mut best = best.ok_or(Failure("a facet has no neighbour to be united with"))?;
+        if center.is_some() {
+            best.range = self.corner_range(facet, best.facet);
         }
         Ok(best)
     }
 
-    fn try_neighbor(
-        &mut self,
-        facet: usize,
-        neighbor: usize,
-        by_center: bool,
-        best: &mut (usize, f64, Range),
-    ) {
-        if self.facets[facet].flipped
-            && self.facets[neighbor].flipped
-            && best.0 != NONE
-            && !self.facets[best.0].flipped
-        {
+    fn nonconvex_neighbors(&self, facet: FacetId) -> Vec<FacetId> {
+        let ridges = self.surface.facets[facet].ridges.iter().map(|&ridge| &self.surface.ridges[ridge]);
+        ridges
+            .filter(|ridge| ridge.convexity == Convexity::Nonconvex)
+            .map(|ridge| ridge.beyond(facet))
+            .collect()
+    }
+
+    /// Heights of the corners of `facet` that are not shared, above and below the plane of `neighbor`.
+    fn corner_range(&mut self, facet: FacetId, neighbor: FacetId) -> Range {
+        self.surface.mark_corners(neighbor);
+        let surface = &self.surface;
+        let corners = surface.facets[facet].corners.iter().filter(|&&corner| !surface.own.has(corner));
+        Range::of(corners.map(|&corner| self.height(self.points[surface.vertices[corner].point], neighbor)))
+    }
+
+    /// Unites a facet with its host and looks for slivers around them.
+    fn merge(&mut self, facet: FacetId, host: Host) -> Result<(), Failure> {
+        let Host { facet: into, range, .. } = host;
+        self.slack.allow(range.above);
+        if range.largest() > self.tol.wide {
+            self.surface.facets[into].pinned = true;
+        }
+        self.absorb(facet, into)?;
+        self.find_slivers_around(facet, into);
+        Ok(())
+    }
+
+    fn absorb(&mut self, facet: FacetId, into: FacetId) -> Result<(), Failure> {
+        self.slack.count_union();
+        let removed = [facet, into].iter().any(|&facet| self.surface.facets[facet].phase.is_removed());
+        if removed || facet == into {
+            return Err(Failure("a facet was to be united twice"));
+        }
+        if self.surface.agenda.order().len() <= 4 {
+            return Err(Failure("too few facets are left"));
+        }
+        self.surface.unite(facet, into)?;
+        self.grown.add(into);
+        Ok(())
+    }
+
+    /// Unites all slivers with others; whether there was one.
+    fn unite_slivers(&mut self) -> Result<bool, Failure> {
+        let mut united = false;
+        while let Some(sliver) = self.slivers.next() {
+            match sliver {
+                Sliver::Covered { facet, .. } | Sliver::Thin(facet)
+                    if self.surface.facets[facet].phase.is_removed() => {}
+                Sliver::Covered { facet, by } => {
+                    let lost = Failure("a covered facet has lost its neighbour");
+                    let into = self.surface.heir(by).ok_or(lost)?;
+                    if into != facet {
+                        self.absorb(facet, into)?;
+                        self.find_slivers_around(facet, into);
+                        united = true;
+                    }
+                }
+                Sliver::Thin(facet) => {
+                    if self.surface.facets[facet].neighbors.len() < 3 {
+                        let host = self.host_of(facet)?;
+                        self.merge(facet, host)?;
+                        united = true;
+                    }
+                }
+            }
+        }
+        Ok(united)
+    }
+
+    /// Looks for slivers where `gone` has been united with `into`.
+    fn find_slivers_around(&mut self, gone: FacetId, into: FacetId) {
+        self.find_covered_neighbors(into);
+        for k in 0..self.surface.facets[gone].neighbors.len() {
+            let neighbor = self.surface.facets[gone].neighbors[k];
+            if self.surface.facets[neighbor].neighbors.len() < 3 {
+                self.slivers.add_thin(neighbor);
+            }
+        }
+        self.find_sliver(into);
+    }
+
+    /// Notes neighbours whose corners are all corners of `facet`, or that `facet` itself is thin. An inverted
+    /// facet does not take an upright one.
+    fn find_covered_neighbors(&mut self, facet: FacetId) {
+        if self.surface.facets[facet].neighbors.len() < 3 {
+            self.slivers.add_thin(facet);
             return;
         }
-        let (distance, range) = if by_center {
-            let height = 3.0 * self.distance(self.facets[facet].center.unwrap_or_default(), neighbor);
-            (height.abs(), (height.min(0.0), height.max(0.0)))
-        } else {
-            self.vertex_range(facet, neighbor)
-        };
-        if distance < best.1 {
-            *best = (neighbor, distance, range);
+        self.surface.mark_corners(facet);
+        let inverted = self.surface.facets[facet].inverted;
+        for &neighbor in &self.surface.facets[facet].neighbors {
+            let protected = inverted && !self.surface.facets[neighbor].inverted;
+            if !self.slivers.has(neighbor) && !protected && self.surface.all_corners_marked(neighbor) {
+                self.slivers.add_covered(neighbor, facet);
+            }
         }
     }
 
-    /// Largest distance, and its range, of the vertices of `facet` from the plane of `neighbor`.
-    fn vertex_range(&mut self, facet: usize, neighbor: usize) -> (f64, Range) {
-        let shared = self.visit_vertices(neighbor);
-        let (mut below, mut above) = (0.0, 0.0);
-        for &v in &self.facets[facet].vertices {
-            if self.vertices[v].visit == shared {
-                continue;
-            }
-            let distance = self.distance(self.point(v), neighbor);
-            if distance < below {
-                below = distance;
-            } else if distance > above {
-                above = distance;
-            }
-        }
-        (above.max(-below), (below, above))
-    }
-
-    /// Merges `from` into `into`. `range` says how far the vertices are from the plane; a facet that is
-    /// coplanar with its horizon contributes its apex.
-    pub(super) fn merge_facet(
-        &mut self,
-        from: usize,
-        into: usize,
-        reason: Reason,
-        range: Option<Range>,
-    ) -> Result<(), Failure> {
-        self.merge_count += 1;
-        if from == into || self.facets[from].visible || self.facets[into].visible {
-            return Err(Failure("a facet was merged twice"));
-        }
-        if self.facet_count - self.visible_count <= 4 {
-            return Err(Failure("merging leaves too few facets"));
-        }
-        self.ensure_vertex_neighbors();
-        self.make_ridges(from);
-        self.make_ridges(into);
-        if let Some((below, above)) = range {
-            self.max_outside = self.max_outside.max(above);
-            if above > self.tol.wide || below < -self.tol.wide {
-                self.facets[into].keep_center = true;
-            }
-        }
-        self.facets[into].new_merge = true;
-        self.forget_tests(from, into);
-        if self.facets[from].vertices.len() == 3 {
-            self.merge_triangle(from, into, reason == Reason::CoplanarHorizon)?;
-        } else {
-            let own = self.visit_vertices(into);
-            self.merge_neighbors(from, into)?;
-            self.merge_vertices(from, into);
-            self.merge_ridges(from, into);
-            for v in self.facets[from].vertices.clone() {
-                if self.vertices[v].visit == own {
-                    self.drop_vertex_neighbor(v, from, into);
-                } else {
-                    replace_item(&mut self.vertices[v].neighbors, from, into)?;
-                }
-            }
-            if !self.facets[into].new {
-                self.renew_vertices(into);
-            }
-        }
-        self.requeue(into);
-        self.facets[into].new = true;
-        self.facets[into].tested = false;
-        if reason != Reason::CoplanarHorizon {
-            self.queue_redundant_neighbors(into);
-            self.queue_degenerate_neighbors(from);
-            self.queue_if_degenerate_or_redundant(into);
-        }
-        self.will_delete(from, into);
-        Ok(())
-    }
-
-    /// Convexity has to be tested again around a merged facet.
-    fn forget_tests(&mut self, from: usize, into: usize) {
-        self.facets[into].tested = false;
-        for k in 0..self.facets[from].ridges.len() {
-            let r = self.facets[from].ridges[k];
-            self.ridges[r].tested = false;
-        }
-        let facet = &mut self.facets[into];
-        if facet.center.is_none() {
+    /// Notes `facet` if all its corners are a neighbour's, or if it is thin.
+    fn find_sliver(&mut self, facet: FacetId) {
+        if self.surface.facets[facet].inverted {
             return;
         }
-        let size = facet.vertices.len();
-        if !facet.keep_center {
-            facet.keep_center = size > KEEP_CENTER_VERTICES;
-        } else if size == 3 {
-            facet.keep_center = false;
-        }
-        if !facet.keep_center {
-            facet.center = None;
-            for k in 0..self.facets[into].ridges.len() {
-                let r = self.facets[into].ridges[k];
-                self.ridges[r].tested = false;
-            }
-        }
-    }
-
-    /// Removes a facet from around a vertex; without a second facet the vertex is no longer one.
-    fn drop_vertex_neighbor(&mut self, vertex: usize, from: usize, into: usize) {
-        remove_unordered(&mut self.vertices[vertex].neighbors, from);
-        if self.vertices[vertex].neighbors.len() < 2 {
-            remove_ordered(&mut self.facets[into].vertices, vertex);
-            self.mark_deleted(vertex);
-        }
-    }
-
-    /// Merge of a triangle: it adds at most the vertex opposite the shared ridge.
-    fn merge_triangle(&mut self, from: usize, into: usize, apex: bool) -> Result<(), Failure> {
-        let corners: Vec<usize> = self.facets[from].vertices.clone();
-        let (opposite, is_new);
-        if apex {
-            opposite = corners[0];
-            if !self.facets[into].new {
-                self.renew_vertices(into);
-            }
-            is_new = self.facets[into].vertices[0] != opposite;
-            if is_new {
-                self.facets[into].vertices.insert(0, opposite);
-            }
-        } else {
-            let ridges = &self.facets[from].ridges;
-            let shared = ridges.iter().map(|&r| self.ridges[r]).find(|ridge| ridge.other(from) == into);
-            let shared = shared.map_or([NONE; 2], |ridge| ridge.vertices);
-            for v in shared.into_iter().filter(|&v| v != NONE) {
-                self.vertices[v].lost_ridge = true;
-            }
-            opposite = corners.iter().copied().find(|v| !shared.contains(v)).unwrap_or(corners[0]);
-            is_new = self.add_vertex_to_facet(into, opposite);
-            if !self.facets[into].new {
-                self.renew_vertices(into);
-            } else if !self.vertices[opposite].new {
-                self.remove_vertex(opposite);
-                self.append_vertex(opposite);
-            }
-        }
-        for &v in &corners {
-            if v == opposite && is_new {
-                replace_item(&mut self.vertices[v].neighbors, from, into)?;
-            } else {
-                self.drop_vertex_neighbor(v, from, into);
-            }
-        }
-        self.visit += 1;
-        let visit = self.visit;
-        for k in 0..self.facets[into].neighbors.len() {
-            let n = self.facets[into].neighbors[k];
-            self.facets[n].visit = visit;
-        }
-        let mut k = 0;
-        while k < self.facets[from].ridges.len() {
-            let r = self.facets[from].ridges[k];
-            let other = self.ridges[r].other(from);
-            if other == into {
-                self.delete_ridge(r);
-                remove_unordered(&mut self.facets[into].neighbors, from);
+        for k in 0..self.surface.facets[facet].neighbors.len() {
+            let neighbor = self.surface.facets[facet].neighbors[k];
+            if self.surface.facets[neighbor].inverted {
                 continue;
             }
-            self.facets[into].ridges.push(r);
-            if self.facets[other].visit != visit {
-                self.facets[into].neighbors.push(other);
-                replace_item(&mut self.facets[other].neighbors, from, into)?;
-                self.facets[other].visit = visit;
-            } else {
-                self.make_ridges(other);
-                let list = &mut self.facets[other].neighbors;
-                if list.first() == Some(&from) {
-                    remove_unordered(list, into);
-                    replace_item(list, from, into)?;
-                } else {
-                    remove_unordered(list, from);
-                }
-            }
-            self.hand_over_ridge(r, from, into);
-            k += 1;
-        }
-        Ok(())
-    }
-
-    fn hand_over_ridge(&mut self, ridge: usize, from: usize, into: usize) {
-        let ridge = &mut self.ridges[ridge];
-        if ridge.top == from {
-            ridge.top = into;
-            ridge.simplicial_top = false;
-        } else {
-            ridge.bottom = into;
-            ridge.simplicial_bottom = false;
-        }
-    }
-
-    fn merge_neighbors(&mut self, from: usize, into: usize) -> Result<(), Failure> {
-        self.visit += 1;
-        let visit = self.visit;
-        for k in 0..self.facets[into].neighbors.len() {
-            let n = self.facets[into].neighbors[k];
-            self.facets[n].visit = visit;
-        }
-        for n in self.facets[from].neighbors.clone() {
-            if self.facets[n].visit == visit {
-                self.make_ridges(n);
-                let list = &mut self.facets[n].neighbors;
-                if list.first() == Some(&from) {
-                    remove_unordered(list, into);
-                    replace_item(list, from, into)?;
-                } else {
-                    remove_unordered(list, from);
-                }
-            } else if n != into {
-                self.facets[into].neighbors.push(n);
-                replace_item(&mut self.facets[n].neighbors, from, into)?;
+            self.surface.mark_corners(neighbor);
+            if self.surface.all_corners_marked(facet) {
+                self.slivers.add_covered(facet, neighbor);
+                return;
             }
         }
-        remove_unordered(&mut self.facets[from].neighbors, into);
-        remove_unordered(&mut self.facets[into].neighbors, from);
-        Ok(())
-    }
-
-    /// Union of the vertices in decreasing order.
-    fn merge_vertices(&mut self, from: usize, into: usize) {
-        let mut union = self.facets[from].vertices.clone();
-        union.extend(&self.facets[into].vertices);
-        union.sort_unstable_by(|a, b| b.cmp(a));
-        union.dedup();
-        self.facets[into].vertices = union;
-    }
-
-    fn merge_ridges(&mut self, from: usize, into: usize) {
-        let mut k = 0;
-        while k < self.facets[into].ridges.len() {
-            let r = self.facets[into].ridges[k];
-            if self.ridges[r].top == from || self.ridges[r].bottom == from {
-                self.delete_ridge(r);
-            } else {
-                k += 1;
-            }
+        if self.surface.facets[facet].neighbors.len() < 3 {
+            self.slivers.add_thin(facet);
         }
-        for r in self.facets[from].ridges.clone() {
-            self.hand_over_ridge(r, from, into);
-            self.facets[into].ridges.push(r);
-        }
-    }
-
-    /// Removes a ridge; another ridge between the same facets inherits that it is not convex.
-    pub(super) fn delete_ridge(&mut self, id: usize) {
-        let ridge = self.ridges[id];
-        if ridge.nonconvex {
-            self.pass_on_nonconvexity(id);
-        }
-        for v in ridge.vertices {
-            self.vertices[v].lost_ridge = true;
-        }
-        remove_unordered(&mut self.facets[ridge.top].ridges, id);
-        remove_unordered(&mut self.facets[ridge.bottom].ridges, id);
-    }
-
-    fn pass_on_nonconvexity(&mut self, id: usize) {
-        let Some(ridge) = self.ridges.get_mut(id) else { return };
-        ridge.nonconvex = false;
-        let (facet, other) = (ridge.top, ridge.bottom);
-        for k in 0..self.facets[facet].ridges.len() {
-            let r = self.facets[facet].ridges[k];
-            if r != id && (self.ridges[r].top == other || self.ridges[r].bottom == other) {
-                self.ridges[r].nonconvex = true;
-                break;
-            }
-        }
-    }
-
-    /// Inserts a vertex in decreasing order; whether it was not there yet.
-    fn add_vertex_to_facet(&mut self, facet: usize, vertex: usize) -> bool {
-        let list = &mut self.facets[facet].vertices;
-        let at = list.iter().position(|&v| v <= vertex).unwrap_or(list.len());
-        if list.get(at) == Some(&vertex) {
-            return false;
-        }
-        list.insert(at, vertex);
-        true
     }
 }

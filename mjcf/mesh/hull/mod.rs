@@ -1,24 +1,48 @@
-//! Convex hull of the vertices of a mesh: Quickhull with merged facets (Barber, Dobkin & Huhdanpaa
-//! 1996, "The Quickhull algorithm for convex hulls", ACM TOMS 22(4)).
+//! Convex hull of the vertices of a mesh, after Barber, Dobkin & Huhdanpaa 1996, "The Quickhull algorithm
+//! for convex hulls", ACM TOMS 22(4).
 //!
-//! Points are added one by one, each time the one farthest above some facet; the facets it sees are
-//! replaced by a cone to the horizon. A new facet within round-off of the plane of its horizon facet is
-//! merged with it, so that facets are polygons; they are cut into triangles at the end. Tolerances,
-//! order of insertion and order of every list are those of Qhull, because contacts depend on which of
-//! several nearly coplanar points is a vertex, and on the order of vertices and faces.
+//! A tetrahedron of four points grows by one point at a time. Every point that is still above some facet
+//! waits at one such facet; the facet at the head of the agenda gives the point farthest above it. The
+//! facets below that point disappear, and a cone of triangles joins it to the horizon around them.
+//! Coordinates have round-off, so neighbouring facets are united where they are not clearly convex, and a
+//! finished facet may be a polygon; polygons are cut into triangles at the end.
+//!
+//! | step | file |
+//! |---|---|
+//! | first tetrahedron | `seed` |
+//! | points above facets, and which facet a point belongs to | `waiting`, `locate` |
+//! | facets below a point, horizon, cone | `cone` |
+//! | facets that are not clearly convex, their union | `convexity`, `merge`, `unite`, `dissolve` |
+//! | triangles | `fan` |
+//! | facets, ridges, vertices and their orders | `surface`, `sequence`, `id` |
+//! | planes and error bounds | `plane`, `tolerance` |
+//!
+//! Contacts depend on which of several nearly coplanar points are vertices, and the compiled arrays on the
+//! order of vertices and triangles. Both follow from the order in which points are added, facets are searched
+//! and neighbours are listed; comments say where an order or a tie matters to the result. The error bounds
+//! and these orders agree with the hulls that MuJoCo compiles.
 
 mod cone;
 mod convexity;
-mod cycle;
+mod dissolve;
+mod fan;
+mod id;
 mod locate;
 mod merge;
-mod polytope;
-mod simplex;
-mod triangulate;
-mod vertices;
+mod plane;
+mod seed;
+mod sequence;
+mod surface;
+mod tolerance;
+mod unite;
+mod waiting;
 
 use crate::vector::{cross, dot, sub};
-use polytope::Polytope;
+use id::{FacetId, Marks};
+use locate::Search;
+use merge::Slivers;
+use surface::Surface;
+use tolerance::{Slack, Tolerances};
 
 /// A triangulated convex hull; all indices are input points.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -52,12 +76,53 @@ pub fn convex_hull(points: &[[f64; 3]], max_vert: i32) -> Result<Hull, String> {
     }
 }
 
+/// The hull while it grows: the surface, and what decides where it lies.
+struct Builder<'a> {
+    points: &'a [[f64; 3]],
+    tol: Tolerances,
+    slack: Slack,
+    /// A point inside the first tetrahedron, and so inside every later hull.
+    interior: [f64; 3],
+    /// The first tetrahedron is so flat that points near a facet count as above it.
+    narrow: bool,
+    surface: Surface,
+    search: Search,
+    slivers: Slivers,
+    /// Facets united with others since their corners were last examined.
+    grown: Marks<FacetId>,
+}
+
 fn build(points: &[[f64; 3]], limit: Option<usize>) -> Result<Hull, Failure> {
-    let mut hull = Polytope::simplex(points)?;
-    hull.partition_all();
-    hull.grow(limit)?;
-    hull.triangulate()?;
-    Ok(hull.export())
+    let mut builder = Builder::tetrahedron(points)?;
+    builder.assign_all();
+    // A point that a union takes from the hull may come again, but not forever.
+    let mut room = 4 * points.len() + 100;
+    while let Some((point, facet)) = builder.next_point(limit.is_some()) {
+        room = room.checked_sub(1).ok_or(Failure("points leave the hull and come again"))?;
+        if limit.is_some_and(|limit| builder.surface.vertex_order.len() >= limit) {
+            break;
+        }
+        builder.add_point(point, facet)?;
+    }
+    builder.surface.triangulated()
+}
+
+impl Builder<'_> {
+    /// Extends the hull by a point that waited at `facet`.
+    fn add_point(&mut self, point: usize, facet: FacetId) -> Result<(), Failure> {
+        self.slack.raise_limit(&self.tol);
+        let horizon = self.trace_horizon(point, facet)?;
+        let level = self.raise_cone(point, horizon)?;
+        self.make_convex(level)?;
+        self.reassign();
+        self.surface.finish_step();
+        Ok(())
+    }
+
+    /// Height of a point above the plane of a facet.
+    fn height(&self, point: [f64; 3], facet: FacetId) -> f64 {
+        self.surface.facets[facet].plane.height(point)
+    }
 }
 
 /// Points that are not within `MINVAL` of a plane, as MuJoCo tests it.
