@@ -6,15 +6,25 @@
 //!   mass of the kinematic tree.
 //! - Arrays have MuJoCo's names. Indices are `usize` in code; stored references are `i32`, -1 for none.
 //! - A stage takes the model, the stage structs it reads, and `&mut` the one it writes.
+//! - Elements are found by name and viewed by id, see [`elements`]; a model changes only through [`Model::edit`].
 //! - The same bits everywhere: transcendental functions come from [`math::ops`], sums have a fixed order, and no
 //!   multiply-add is fused.
+//!
+//! ```
+//! use robohive_physics::{Data, step};
+//!
+//! let text = "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+//! let model = robohive_mjcf::load_str(text)?.model;
+//! let mut data = Data::new(&model);
+//! (0..100).try_for_each(|_| step(&model, &mut data))?;
+//! let ball = model.body("ball").ok_or("no ball")?;
+//! assert!(data.body(ball).xpos()[2] < -0.19);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
-pub mod acceleration;
-pub mod actuation;
 pub mod collision;
 pub mod consistency;
 pub mod constants;
-pub mod constraint;
 pub mod data;
 pub mod derivative;
 pub mod elements;
@@ -26,9 +36,20 @@ pub mod on_demand;
 pub mod pipeline;
 pub mod position;
 pub mod ray;
-pub mod sensor;
-pub mod solver;
 pub mod table;
+
+// Stages of a step, one at a time: what validation and tests call, and programs do not need.
+#[doc(hidden)]
+pub mod acceleration;
+#[doc(hidden)]
+pub mod actuation;
+#[doc(hidden)]
+pub mod constraint;
+#[doc(hidden)]
+pub mod sensor;
+#[doc(hidden)]
+pub mod solver;
+#[doc(hidden)]
 pub mod velocity;
 
 pub use constants::length_range::set_length_ranges;

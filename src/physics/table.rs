@@ -3,6 +3,17 @@
 //!
 //! A row reads `name: type [rows; width]`: `width` is a constant (the element becomes `[type; width]`), or
 //! `[rows, n; width]` where `n` is a run-time size and the array is kept flat.
+//!
+//! ```
+//! let model = robohive_mjcf::load_str("<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>")?.model;
+//! let mut shapes = Vec::new();
+//! model.visit(&mut |name, shape, values| {
+//!     assert_eq!(shape.iter().product::<usize>(), values.len());
+//!     shapes.push((name, shape));
+//! });
+//! assert!(shapes.contains(&("geom_size", vec![1, 3])));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 /// A borrowed array with its element type, as reflection hands it out.
 #[derive(Clone, Copy, Debug, PartialEq)]

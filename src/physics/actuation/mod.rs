@@ -1,12 +1,12 @@
 //! Actuator forces: `gain · input + bias`, limited per actuator, tendon and joint (documentation: Computation,
 //! "Actuation model"). The input is the control or the activation.
 
-pub mod activation;
-pub mod dc_motor;
-pub mod history;
-pub mod muscle;
-pub mod reflected_load;
-pub mod servo;
+pub(crate) mod activation;
+pub(crate) mod dc_motor;
+pub(crate) mod history;
+pub(crate) mod muscle;
+pub(crate) mod reflected_load;
+pub(crate) mod servo;
 pub mod transmission;
 
 use crate::actuation::activation::{

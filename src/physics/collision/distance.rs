@@ -1,4 +1,22 @@
 //! Signed distance between two geoms and the segment that spans it (documentation: `mj_geomDistance`).
+//!
+//! ```
+//! use robohive_physics::collision::distance::{DistanceScratch, geom_distance};
+//! use robohive_physics::{Data, forward};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let (floor, ball) = (model.geom("floor").ok_or("no floor")?, model.geom("ball").ok_or("no ball")?);
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! let mut scratch = DistanceScratch::default();
+//! let (distance, [on_floor, _]) =
+//!     geom_distance(&model, &data.kin, floor.index(), ball.index(), 10.0, &mut scratch);
+//! assert!((distance - 1.9).abs() < 1e-12 && on_floor == [0.0; 3]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use super::convex::{ConvexScratch, convex_distance};
 use super::{PreContact, pair_function};

@@ -1,30 +1,52 @@
 //! Collision detection: from poses of geoms to contacts, in the order MuJoCo lists them
 //! (documentation: Computation, "Collision detection").
 //!
-//! Bodies that may touch come from a sweep ([`broad_phase`]); their geoms from bounding volumes ([`mid_phase`]);
+//! Bodies that may touch come from a sweep (`broad_phase.rs`); their geoms from bounding volumes (`mid_phase.rs`);
 //! the points of contact from one function for each pair of geom types ([`pair_function`]); their friction and
 //! softness from both geoms ([`mixing`]).
+//!
+//! ```
+//! use robohive_physics::{Data, forward};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 .09'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! let contact = data.contacts().next().ok_or("no contact")?;
+//! assert_eq!(contact.geoms().map(|geom| model.geom(geom).name()), ["floor", "ball"]);
+//! assert!((contact.dist() + 0.01).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+#[doc(hidden)]
 pub mod box_box;
-pub mod broad_phase;
-pub mod capsule;
+pub(crate) mod broad_phase;
+pub(crate) mod capsule;
+#[doc(hidden)]
 pub mod capsule_box;
-pub mod climb;
+pub(crate) mod climb;
+#[doc(hidden)]
 pub mod convex;
 pub mod distance;
-pub mod epa;
+pub(crate) mod epa;
+#[doc(hidden)]
 pub mod gjk;
-pub mod hfield;
-pub mod hull;
-pub mod mid_phase;
+pub(crate) mod hfield;
+pub(crate) mod hull;
+pub(crate) mod mid_phase;
+#[doc(hidden)]
 pub mod mixing;
+#[doc(hidden)]
 pub mod mpr;
-pub mod multicontact;
-pub mod plane;
-pub mod polyhedron;
-pub mod polytope;
-pub mod round_normal;
-pub mod sphere;
+pub(crate) mod multicontact;
+pub(crate) mod plane;
+pub(crate) mod polyhedron;
+pub(crate) mod polytope;
+pub(crate) mod round_normal;
+pub(crate) mod sphere;
+#[doc(hidden)]
 pub mod support;
 
 use crate::data::{Contact, Contacts, Demand, Kinematics, OverBudget, StepBudget};

@@ -1,5 +1,16 @@
 //! The invariants between the arrays of a model: every reference leads to an element, every address into its array,
 //! trees and paths are well formed. The compiler makes such models; what comes from a file is checked.
+//!
+//! ```
+//! use robohive_physics::model::EditError;
+//!
+//! let mut model = robohive_mjcf::load_str("<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>")?.model;
+//! match model.edit(|m| m.geom_bodyid[0] = 7) {
+//!     Err(EditError::Inconsistent(what)) => assert_eq!((what.array, what.index), ("geom_bodyid", 0)),
+//!     other => panic!("{other:?}"),
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod device;
 mod mesh;

@@ -1,5 +1,18 @@
 //! Ranges of actuator lengths, found by pulling each actuator from both ends with all other forces off (MuJoCo
 //! documentation, Modeling, "Actuator length range").
+//!
+//! ```
+//! use robohive_physics::constants::length_range::{LengthRangeOptions, set_length_ranges};
+//! use robohive_physics::model::LengthRangeMode;
+//!
+//! let text = "<mujoco><worldbody><body><joint name='j' axis='0 1 0' limited='true' range='-90 90'/>
+//!     <geom size='.1' pos='1 0 0'/></body></worldbody><actuator><motor joint='j'/></actuator></mujoco>";
+//! let mut model = robohive_mjcf::load_str(text)?.model;
+//! let options = LengthRangeOptions { mode: LengthRangeMode::All, uselimit: true, ..Default::default() };
+//! set_length_ranges(&mut model, &options)?;
+//! assert_eq!(model.actuator_lengthrange, model.jnt_range);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::actuation::transmission::moment;
 use crate::data::Data;

@@ -2,6 +2,15 @@
 //! `mj_setConst`).
 //!
 //! The compiler calls this last; tasks that edit masses, poses or lengths of a model call it again.
+//!
+//! ```
+//! let text = "<mujoco><worldbody><body name='a'><freejoint/><geom size='.1' mass='2'/></body></worldbody></mujoco>";
+//! let mut model = robohive_mjcf::load_str(text)?.model;
+//! let before = model.to_bytes();
+//! robohive_physics::set_const(&mut model)?;
+//! assert!(model.to_bytes() == before, "a compiled model is complete");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::actuation::reflected_load::Driven;
 use crate::constants::inverse_weight::set_inverse_weights;

@@ -1,4 +1,18 @@
 //! Everything that changes while a model moves, grouped by the stage that writes it.
+//!
+//! ```
+//! use robohive_physics::{Data, step};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='.1' pos='1 0 0'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut data = Data::new(&model);
+//! step(&model, &mut data)?;
+//! assert_eq!(data.time(), model.opt.timestep);
+//! assert!(data.state.qvel[0] > 0.0 && data.acc.qacc[0] > 9.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod budget;
 mod configuration;

@@ -3,6 +3,20 @@
 //!
 //! Kept in compressed rows (`D_rownnz`, `D_rowadr`, `D_colind`) over pairs of degrees of freedom on one chain of a
 //! tree. What couples others, such as a damped tendon between two trees, is left out of the integrator's matrix.
+//!
+//! ```
+//! use robohive_physics::derivative::transition::transition;
+//! use robohive_physics::Data;
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='.1' pos='1 0 0'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! // One step adds the velocity, times its duration, to the position.
+//! let linear = transition(&model, &mut Data::new(&model), 1e-6, true)?;
+//! assert!((linear.a[1] - model.opt.timestep).abs() < 1e-5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod actuation;
 mod bias;

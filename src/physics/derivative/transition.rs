@@ -1,6 +1,20 @@
 //! Finite-difference derivatives of a step and of inverse dynamics (MuJoCo documentation, API reference,
 //! `mjd_transitionFD` and `mjd_inverseFD`). Stages that a nudge cannot change are not evaluated again, and matrix
 //! factors are kept as there.
+//!
+//! ```
+//! use robohive_physics::derivative::transition::inverse_slope;
+//! use robohive_physics::Data;
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><body><joint axis='0 1 0'/><geom size='.1' pos='1 0 0'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! // The slope of force with acceleration is the inertia.
+//! let slope = inverse_slope(&model, &mut Data::new(&model), 1e-6)?;
+//! assert!((slope.acceleration[0] - model.dof_M0[0]).abs() < 1e-4 * model.dof_M0[0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::data::{Data, State};
 use crate::integration::integrate::{differentiate_pos, integrate_pos};

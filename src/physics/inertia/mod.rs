@@ -1,7 +1,26 @@
 //! Joint-space inertia `M`, its factor, and products and solutions with them. `M` is kept as its lower triangle in
 //! compressed rows whose pattern is the chain of ancestors, diagonal last; its factor `L'DL` has the same pattern
 //! (Featherstone 2008, sections 6.2 composite rigid bodies, 6.5 sparse factorisation).
+//!
+//! ```
+//! use robohive_physics::inertia::{mul_inertia_matrix, solve};
+//! use robohive_physics::{Data, forward};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! let (mut force, velocity) = ([0.0; 6], [1.0, 2.0, 3.0, 0.1, 0.2, 0.3]);
+//! mul_inertia_matrix(&model, &data.inertia.M, &velocity, &mut force);
+//! assert!((force[2] - 3.0).abs() < 1e-12, "a kilogram");
+//! solve(&model, &data.inertia, &mut force);
+//! assert!(force.iter().zip(velocity).all(|(x, v)| (x - v).abs() < 1e-12));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+#[doc(hidden)]
 pub mod sparsity;
 
 use crate::actuation::reflected_load::Driven;

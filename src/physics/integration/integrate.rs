@@ -1,5 +1,21 @@
 //! Numerical integration: semi-implicit Euler with implicit joint damping, Euler implicit in all smooth forces of
 //! velocity, and fourth-order Runge-Kutta (MuJoCo documentation, Computation, "Numerical integration").
+//!
+//! ```
+//! use robohive_physics::integration::integrate::{differentiate_pos, integrate_pos};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut qpos = model.qpos0.clone();
+//! integrate_pos(&model, &mut qpos, &[0.0, 0.0, 1.0, 0.0, 0.0, 0.4], 0.5);
+//! assert_eq!(qpos[2], 2.5);
+//! let mut qvel = [0.0; 6];
+//! differentiate_pos(&model, &model.qpos0, &qpos, 0.5, &mut qvel);
+//! assert!((qvel[5] - 0.4).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::actuation::activation::advance_activations;
 use crate::actuation::history;

@@ -1,7 +1,16 @@
 //! Small fixed-size algebra: vectors, quaternions, rotations, spatial vectors. Arrays by value, no allocation.
+//!
+//! ```
+//! use robohive_physics::math::{distance, quat_from_axis_angle, quat_to_mat, mul_mat_vec};
+//!
+//! let quarter = quat_from_axis_angle([0.0, 0.0, 1.0], std::f64::consts::FRAC_PI_2);
+//! let turned = mul_mat_vec(&quat_to_mat(quarter), [1.0, 0.0, 0.0]);
+//! assert!(distance(turned, [0.0, 1.0, 0.0]) < 1e-15);
+//! ```
 
-pub mod bit_set;
-pub mod cholesky;
+pub(crate) mod bit_set;
+pub(crate) mod cholesky;
+#[doc(hidden)]
 pub mod dense;
 #[cfg_attr(system_math, allow(dead_code))]
 mod double_double;

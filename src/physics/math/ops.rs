@@ -2,6 +2,12 @@
 //!
 //! Compiled with `--cfg system_math` they come from the C library of the system instead: for comparison with a MuJoCo
 //! that uses the same library, not for simulation. No feature does that, since features must not change results.
+//!
+//! ```
+//! use robohive_physics::math::ops;
+//!
+//! assert_eq!(ops::sin(1.0).to_bits(), 0x3fea_ed54_8f09_0cee);
+//! ```
 
 #[cfg(not(system_math))]
 pub use portable::*;

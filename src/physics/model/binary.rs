@@ -12,6 +12,17 @@
 //! Zeros fill up each array, and what stands before the first, to whole words of eight bytes.
 //!
 //! The tables of the fields are the schema, so a row added to them changes the fingerprint and older files are refused.
+//!
+//! ```
+//! use robohive_physics::Model;
+//!
+//! let model = robohive_mjcf::load_str("<mujoco><worldbody><geom name='g' size='.1'/></worldbody></mujoco>")?.model;
+//! let bytes = model.to_bytes();
+//! let again = Model::from_bytes(&bytes)?;
+//! assert!(again.geom("g").is_some() && again.to_bytes() == bytes);
+//! assert!(Model::from_bytes(&bytes[1..]).is_err());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub use super::reader::checksum;
 use super::reader::{Reader, WORD, sum};

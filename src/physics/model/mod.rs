@@ -1,4 +1,15 @@
 //! The compiled model: arrays, options, and the enumerations their integers stand for.
+//!
+//! ```
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! assert_eq!((model.nq, model.nv, model.nbody), (7, 6, 2));
+//! let ball = model.body("ball").ok_or("no ball")?;
+//! assert_eq!(model.body_mass[ball.index()], model.body(ball).mass());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod binary;
 mod declare;

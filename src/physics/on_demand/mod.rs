@@ -1,6 +1,24 @@
 //! Quantities that the step computes only when a sensor or a flag asks for them.
+//!
+//! ```
+//! use robohive_physics::{Data, derive_on_demand, forward};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut data = Data::new(&model);
+//! data.state.qvel[2] = 3.0;
+//! forward(&model, &mut data)?;
+//! derive_on_demand(&model, &mut data);
+//! let [potential, kinetic] = data.energy;
+//! assert!((potential - 2.0 * 9.81).abs() < 1e-12 && (kinetic - 4.5).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
+#[doc(hidden)]
 pub mod energy;
+#[doc(hidden)]
 pub mod momentum;
 
 use crate::acceleration::rne_post::rne_post_constraint;

@@ -1,4 +1,20 @@
 //! Why a step, a forward pass or a model is refused.
+//!
+//! ```
+//! use robohive_physics::{Data, StepError, step};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><body><joint name='hinge' axis='0 1 0'/><geom size='.1' pos='1 0 0'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut data = Data::new(&model);
+//! data.state.qvel[0] = f64::NAN;
+//! match step(&model, &mut data) {
+//!     Err(StepError::BadQvel(bad)) => assert!(bad.element.contains("hinge")),
+//!     other => panic!("{other:?}"),
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::data::OverBudget;
 use std::fmt;

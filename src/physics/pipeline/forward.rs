@@ -1,5 +1,18 @@
 //! Forward dynamics and the time step: the order of all stages (MuJoCo documentation, Computation, "Forward
 //! dynamics" and "Simulation pipeline").
+//!
+//! ```
+//! use robohive_physics::{Data, forward};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! assert_eq!((data.acc.qacc[2], data.time()), (-9.81, 0.0));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::acceleration::rne_post::rne_post_constraint;
 use crate::actuation::actuation;

@@ -1,5 +1,20 @@
 //! Inverse dynamics: the force that makes a given acceleration, constraints included (MuJoCo documentation,
 //! Computation, "Inverse dynamics"). Constraint forces follow from the acceleration row by row, without iteration.
+//!
+//! ```
+//! use robohive_physics::{Data, inverse};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! // What force holds a kilogram still?
+//! let mut data = Data::new(&model);
+//! data.acc.qacc.fill(0.0);
+//! inverse(&model, &mut data)?;
+//! assert!((data.implicit.qfrc_inverse[2] - 9.81).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::data::Data;
 use crate::derivative::inputs_of;

@@ -1,4 +1,26 @@
 //! Stages of a step, told to an observer as they end. Physics has no clock: who wants durations brings one.
+//!
+//! ```
+//! use robohive_physics::pipeline::watch::{Stage, Watch};
+//! use robohive_physics::{Data, step_watched};
+//!
+//! struct Order(Vec<Stage>);
+//!
+//! impl Watch for Order {
+//!     fn ended(&mut self, stage: Stage) {
+//!         self.0.push(stage);
+//!     }
+//! }
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut order = Order(Vec::new());
+//! step_watched(&model, &mut Data::new(&model), &mut order)?;
+//! assert_eq!((order.0.first(), order.0.last()), (Some(&Stage::Checks), Some(&Stage::Integration)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 /// A part of the step. Every instant of a step belongs to one part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]

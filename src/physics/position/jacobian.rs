@@ -1,8 +1,23 @@
 //! Jacobians of points and orientations: how velocities of degrees of freedom move the world (MuJoCo documentation,
 //! API reference, `mj_jac` and its relatives).
 //!
-//! Matrices are `3 * nv`, row-major. Constraints and tendons do not build them: they walk [`chain`] and take
-//! columns.
+//! Matrices are `3 * nv`, row-major. Constraints and tendons do not build them: they walk chains of degrees of freedom
+//! and take columns.
+//!
+//! ```
+//! use robohive_physics::{Data, forward};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><body name='rod' pos='0 0 1'><joint axis='0 1 0'/><geom name='bob' size='.1' pos='1 0 0'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let bob = model.geom("bob").ok_or("no bob")?;
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! let [linear, angular] = data.jacobian(&model, bob).velocity(&[2.0]);
+//! assert_eq!((linear, angular), ([0.0, 0.0, -2.0], [0.0, 2.0, 0.0]));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::data::{Com, Kinematics, Velocity};
 use crate::math::{Vec3, add, cross, cross_motion, linear, mul_mat_t_vec, mul_mat_vec, rotational, sub};

@@ -5,6 +5,23 @@
 //!
 //! Every shape is met in its own frame. A ray `origin + x · direction` is not normalised: distances count in
 //! lengths of `direction`.
+//!
+//! ```
+//! use robohive_physics::ray::{Ray, RayFilter};
+//! use robohive_physics::{Data, forward};
+//!
+//! let model = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='ball' pos='0 0 2'><freejoint/><geom name='ball' size='.1' mass='1'/></body></worldbody></mujoco>",
+//! )?
+//! .model;
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! let down = Ray { origin: [0.0, 0.0, 3.0], direction: [0.0, 0.0, -1.0] };
+//! let (geom, hit) = data.cast_ray(&model, down, RayFilter::default()).ok_or("nothing")?;
+//! assert_eq!(model.geom(geom).name(), "ball");
+//! assert!((hit.distance - 0.9).abs() < 1e-12);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod hfield;
 mod mesh;

@@ -2,6 +2,6 @@
 
 pub mod bias;
 pub mod com_vel;
-pub mod fluid;
+pub(crate) mod fluid;
 pub mod passive;
-pub mod polynomial;
+pub(crate) mod polynomial;
