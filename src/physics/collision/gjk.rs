@@ -64,73 +64,121 @@ fn toward_origin(x: Vec3, length: f64) -> Vec3 {
 
 /// Distance between two bodies by GJK. Leaves the last simplex in `simplex`.
 pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mut [Vertex; 4]) -> Proximity {
-    let discrete = a.is_discrete() && b.is_discrete();
-    // Polytopes end after finitely many steps, so nothing but rounding needs a tolerance.
-    let gap_tolerance = if discrete { 0.0 } else { 0.5 * (limits.tolerance * limits.tolerance) };
-    let touching = if discrete { MINVAL } else { limits.tolerance };
-    let mut try_enclosing = limits.cutoff <= 0.0;
-
-    let mut lambda = [0.0; 4];
     let mut nearest = [a.center(), b.center()];
-    let mut x = sub(nearest[0], nearest[1]);
-    let (mut x_norm, mut x_norm_before) = (norm(x), 0.0_f64);
-    let (mut n, mut k) = (0, 0);
-    let mut farthest = None;
-    while k < limits.iterations {
-        if x_norm < touching || (x_norm_before - x_norm).abs() < MINVAL {
-            break;
-        }
-        support(a, b, toward_origin(x, x_norm), &mut simplex[n]);
-        let s = simplex[n].diff;
-        // Frank–Wolfe duality gap: an upper bound on |x - x_min|².
-        if dot(x, sub(x, s)) < gap_tolerance {
-            farthest = Some(s);
-            break;
-        }
-        // A support plane at this distance times |x| has the origin in front of it.
-        let lower = dot(x, s);
-        if lower > 0.0 && is_beyond(lower, x_norm, limits.cutoff) {
-            return APART;
-        }
-        if n == 3 && try_enclosing {
-            match enclose_origin(a, b, simplex, &mut k, limits.iterations) {
-                Enclosure::Inside => {
-                    return Proximity { dist: 0.0, separated: false, n: 4, nearest: None };
-                }
-                Enclosure::Outside => return APART,
-                Enclosure::Unknown => try_enclosing = false,
-            }
-        }
-        lambda = barycentric(simplex, n + 1);
-        n = drop_unused(simplex, &mut lambda);
-        if n == 0 {
-            return APART;
-        }
-        x = combine(&lambda, n, |i| simplex[i].diff);
-        x_norm_before = x_norm;
-        x_norm = norm(x);
-        if n == 4 {
-            break;
-        }
-        k += 1;
-    }
-
+    let x = sub(nearest[0], nearest[1]);
+    let mut walk = Walk { a, b, simplex, weights: [0.0; 4], n: 0, x, length: norm(x) };
+    let farthest = match walk.approach(limits) {
+        Arrival::Apart => return APART,
+        Arrival::Inside => return Proximity { dist: 0.0, separated: false, n: 4, nearest: None },
+        Arrival::Nearest(farthest) => farthest.unwrap_or_else(|| walk.farthest()),
+    };
+    let Walk { n, x, length, .. } = walk;
     if n > 0 {
-        nearest = [combine(&lambda, n, |i| simplex[i].a), combine(&lambda, n, |i| simplex[i].b)];
+        nearest = [walk.mean(|v| v.a), walk.mean(|v| v.b)];
     }
-    let farthest = farthest.unwrap_or_else(|| {
-        let mut last = Vertex::default();
-        support(a, b, toward_origin(x, x_norm), &mut last);
-        last.diff
-    });
     let separated = dot(x, farthest) > 0.0;
-    let dist = if n == 4 && !separated { 0.0 } else { x_norm };
+    let dist = if n == 4 && !separated { 0.0 } else { length };
     Proximity { dist, separated, n, nearest: Some(nearest) }
 }
 
-/// Compares `lower / x_norm` with the cut-off, in squares: exact ties decide as in MuJoCo's release.
-fn is_beyond(lower: f64, x_norm: f64, cutoff: f64) -> bool {
-    cutoff <= 0.0 || (cutoff < BEYOND && lower * lower >= x_norm * x_norm * (cutoff * cutoff))
+/// Where the walk ended.
+enum Arrival {
+    /// Past the cut-off.
+    Apart,
+    /// In a tetrahedron that holds the origin.
+    Inside,
+    /// At the point of the simplex nearest to the origin; with the last support point if it was of no use.
+    Nearest(Option<Vec3>),
+}
+
+/// A walk of simplices toward the origin.
+struct Walk<'s, 'a, 'b> {
+    a: &'s mut ConvexBody<'a>,
+    b: &'s mut ConvexBody<'b>,
+    simplex: &'s mut [Vertex; 4],
+    /// Weights of the vertices in the nearest point.
+    weights: [f64; 4],
+    /// Vertices in use.
+    n: usize,
+    /// Point of the simplex nearest to the origin, at first the difference of the centres.
+    x: Vec3,
+    /// Length of `x`.
+    length: f64,
+}
+
+impl Walk<'_, '_, '_> {
+    #[inline(always)]
+    fn approach(&mut self, limits: &Limits) -> Arrival {
+        let discrete = self.a.is_discrete() && self.b.is_discrete();
+        // Polytopes end after finitely many steps, so nothing but rounding needs a tolerance.
+        let gap_tolerance = if discrete { 0.0 } else { 0.5 * (limits.tolerance * limits.tolerance) };
+        let touching = if discrete { MINVAL } else { limits.tolerance };
+        let mut try_enclosing = limits.cutoff <= 0.0;
+        let mut length_before = 0.0_f64;
+        let mut rounds = 0;
+        while rounds < limits.iterations {
+            let stalled = (length_before - self.length).abs() < MINVAL;
+            if self.length < touching || stalled {
+                break;
+            }
+            support(self.a, self.b, toward_origin(self.x, self.length), &mut self.simplex[self.n]);
+            let (x, s) = (self.x, self.simplex[self.n].diff);
+            // Frank–Wolfe duality gap: an upper bound on |x - x_min|².
+            if dot(x, sub(x, s)) < gap_tolerance {
+                return Arrival::Nearest(Some(s));
+            }
+            // A support plane at this distance times |x| has the origin in front of it.
+            let lower = dot(x, s);
+            if lower > 0.0 && is_beyond(lower, self.length, limits.cutoff) {
+                return Arrival::Apart;
+            }
+            if self.n == 3 && try_enclosing {
+                match enclose_origin(self.a, self.b, self.simplex, &mut rounds, limits.iterations) {
+                    Enclosure::Inside => return Arrival::Inside,
+                    Enclosure::Outside => return Arrival::Apart,
+                    Enclosure::Unknown => try_enclosing = false,
+                }
+            }
+            length_before = self.length;
+            match self.reduce() {
+                0 => return Arrival::Apart,
+                4 => break,
+                _ => rounds += 1,
+            }
+        }
+        Arrival::Nearest(None)
+    }
+
+    /// Moves to the nearest point of the simplex with the vertex that was added, and drops the vertices that are not
+    /// needed for it; returns how many remain.
+    #[inline(always)]
+    fn reduce(&mut self) -> usize {
+        self.weights = barycentric(self.simplex, self.n + 1);
+        self.n = drop_unused(self.simplex, &mut self.weights);
+        if self.n > 0 {
+            self.x = self.mean(|v| v.diff);
+            self.length = norm(self.x);
+        }
+        self.n
+    }
+
+    /// Mean of a point of the vertices.
+    #[inline(always)]
+    fn mean(&self, point: impl Fn(&Vertex) -> Vec3) -> Vec3 {
+        combine(&self.weights, self.n, |i| point(&self.simplex[i]))
+    }
+
+    /// Support point toward the origin from where the walk ended.
+    fn farthest(&mut self) -> Vec3 {
+        let mut last = Vertex::default();
+        support(self.a, self.b, toward_origin(self.x, self.length), &mut last);
+        last.diff
+    }
+}
+
+/// Compares `lower / length` with the cut-off, in squares: exact ties decide as in MuJoCo's release.
+fn is_beyond(lower: f64, length: f64, cutoff: f64) -> bool {
+    cutoff <= 0.0 || (cutoff < BEYOND && lower * lower >= length * length * (cutoff * cutoff))
 }
 
 const APART: Proximity = Proximity { dist: BEYOND, separated: true, n: 0, nearest: None };
@@ -161,42 +209,43 @@ enum Enclosure {
 }
 
 /// Turns a tetrahedron until it holds the origin: the vertex opposite the face nearest to the origin, or most
-/// beyond it, gives way to a support point of that face. `k` counts iterations. A simplex of which nothing is known
-/// stays.
+/// beyond it, gives way to a support point of that face. `rounds` counts iterations. A simplex of which nothing is
+/// known stays.
 fn enclose_origin(
     a: &mut ConvexBody,
     b: &mut ConvexBody,
     simplex: &mut [Vertex; 4],
-    k: &mut usize,
+    rounds: &mut usize,
     iterations: usize,
 ) -> Enclosure {
     let mut before = None;
-    while *k < iterations {
+    while *rounds < iterations {
         let [v1, v2, v3, v4] = diffs(simplex);
+        // Face `k` is opposite vertex `k`; normals look outward.
         let faces = [
             oriented_distance(v3, v2, v4),
             oriented_distance(v1, v3, v4),
             oriented_distance(v2, v1, v4),
             oriented_distance(v1, v2, v3),
         ];
-        let dist = faces.map(|f| f.1);
+        let dist = faces.map(|face| face.1);
         if dist.contains(&0.0) {
             break;
         }
-        let i = if dist[0] < dist[1] { 0 } else { 1 };
-        let j = if dist[2] < dist[3] { 2 } else { 3 };
-        let worst = if dist[i] < dist[j] { i } else { j };
-        if dist[worst] > 0.0 {
+        let lower = |k: usize, than: usize| if dist[k] < dist[than] { k } else { than };
+        let opposite = lower(lower(0, 1), lower(2, 3));
+        let (normal, depth) = faces[opposite];
+        if depth > 0.0 {
             return Enclosure::Inside;
         }
         before = before.or(Some(*simplex));
-        let normal = faces[worst].0;
-        support(a, b, normal, &mut simplex[worst]);
-        if dot(normal, simplex[worst].diff) < 0.0 {
+        support(a, b, normal, &mut simplex[opposite]);
+        if dot(normal, simplex[opposite].diff) < 0.0 {
             return Enclosure::Outside;
         }
-        simplex.swap((worst + 1) % 4, (worst + 2) % 4);
-        *k += 1;
+        // The new vertex is on the other side of the face: exchanging two others turns the normals outward again.
+        simplex.swap((opposite + 1) % 4, (opposite + 2) % 4);
+        *rounds += 1;
     }
     *simplex = before.unwrap_or(*simplex);
     Enclosure::Unknown
