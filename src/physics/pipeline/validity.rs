@@ -76,6 +76,10 @@ fn check_array(
     values: &[f64],
     joint: fn(&Model, usize) -> usize,
 ) -> Result<(), BadNumber> {
+    // Without branches, which vectorises; NaN compares as false.
+    if values.iter().fold(true, |good, x| good & (x.abs() <= MAXVAL)) {
+        return Ok(());
+    }
     match values.iter().position(|&x| is_bad(x)) {
         None => Ok(()),
         Some(index) => {
