@@ -42,6 +42,8 @@ impl Range {
 #[derive(Debug, Clone, Copy)]
 struct Host {
     facet: FacetId,
+    /// How far the plane is from the corners of the other facet, estimated at its centre if there are many.
+    distance: f64,
     range: Range,
     inverted: bool,
 }
@@ -176,7 +178,7 @@ impl Builder<'_> {
         }
         let (a, b) = if facets[first].phase == Phase::Fresh { (first, second) } else { (second, first) };
         let [for_a, for_b] = [self.host_of(a)?, self.host_of(b)?];
-        if for_a.range.largest() < for_b.range.largest() {
+        if for_a.distance < for_b.distance {
             self.merge(a, for_a)?;
         } else {
             self.merge(b, for_b)?;
@@ -222,9 +224,11 @@ impl Builder<'_> {
                 Some(center) => Range::of(std::iter::once(CENTER_FACTOR * self.height(center, neighbor))),
                 None => self.corner_range(facet, neighbor),
             };
-            let host = Host { facet: neighbor, range, inverted: self.surface.facets[neighbor].inverted };
+            let distance = range.largest();
+            let host =
+                Host { facet: neighbor, distance, range, inverted: self.surface.facets[neighbor].inverted };
             let better = best.is_none_or(|best| {
-                !(inverted && host.inverted && !best.inverted) && range.largest() < best.range.largest()
+                !(inverted && host.inverted && !best.inverted) && distance < best.distance
             });
             if better {
                 best = Some(host);

@@ -47,7 +47,7 @@ pub struct Cloud {
 /// Name and maker.
 pub type Kind = (&'static str, fn(&mut Random) -> Vec<[f64; 3]>);
 
-pub const KINDS: [Kind; 17] = [
+pub const KINDS: [Kind; 18] = [
     ("lattice", lattice),
     ("turned lattice", |r| turned(r, lattice)),
     ("cube of divided faces", divided_cube),
@@ -65,6 +65,7 @@ pub const KINDS: [Kind; 17] = [
     ("shallow cap", shallow_cap),
     ("points on triangles", on_triangles),
     ("nearly cospherical", nearly_cospherical),
+    ("many sides", many_sides),
 ];
 
 /// Cloud number `seed`.
@@ -276,5 +277,20 @@ fn nearly_cospherical(random: &mut Random) -> Vec<[f64; 3]> {
         .collect();
     points.push([0.0, 0.0, -1.0]);
     turn(random, &mut points);
+    points
+}
+
+/// A prism of so many sides that its ends are compared by their centres, with noise of the order of round-off.
+fn many_sides(random: &mut Random) -> Vec<[f64; 3]> {
+    let (sides, size) = (random.between(30, 70), random.small(14, 17));
+    let mut points = Vec::new();
+    for k in 0..2 * sides {
+        let t = 2.0 * (k / 2) as f64 / sides as f64 - 1.0;
+        let side = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let [x, y] = [side * (1.0 - t * t) / (1.0 + t * t), 2.0 * t / (1.0 + t * t)];
+        points.extend([[x, y, 0.0], [x, y, 1.0]]);
+    }
+    turn(random, &mut points);
+    points.iter_mut().flatten().for_each(|x| *x += size * random.unit());
     points
 }
