@@ -27,8 +27,8 @@ pub fn run(a: &Man) -> Result<(), Failure> {
 
 /// The page of a command.
 fn page(command: &clap::Command) -> std::io::Result<Vec<u8>> {
-    let man =
-        clap_mangen::Man::new(command.clone().version(crate::arguments::VERSION)).manual("RoboHive manual");
+    let man = clap_mangen::Man::new(command.clone().version(crate::arguments::VERSION))
+        .source(concat!("robohive ", env!("CARGO_PKG_VERSION")));
     let mut page = Vec::new();
     man.render_title(&mut page)?;
     man.render_name_section(&mut page)?;

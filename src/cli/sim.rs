@@ -35,7 +35,7 @@ pub fn run(a: &Sim) -> Result<(), Failure> {
         _ => String::new(),
     };
     match run.end {
-        End::Completed(_) => Ok(()),
+        End::Completed => Ok(()),
         End::Interrupted(code) => {
             Err(Failure { code, ..Failure::new(format!("interrupted at {:.6} s{kept}", d.state.time)) })
         }
@@ -59,19 +59,21 @@ struct Run {
     steps: u64,
     seconds: f64,
     most_contacts: usize,
+    /// Energy and contacts of the last state, unless its step failed.
+    last: Option<Box<Data>>,
     end: End,
 }
 
 enum End {
-    /// All steps were taken; energy and contacts of the last state.
-    Completed(Box<Data>),
+    /// All steps were taken.
+    Completed,
     /// A signal came; the exit code.
     Interrupted(u8),
     /// A state could not be stepped.
     Failed(StepError),
 }
 
-/// Takes the steps, and one more aside, which checks and measures the last state.
+/// Takes the steps until a signal comes, and one more aside, which checks and measures the last state.
 fn advance(
     m: &Model,
     d: &mut Data,
@@ -79,40 +81,37 @@ fn advance(
     mut recording: Option<&mut Recording>,
     bar: &ProgressBar,
 ) -> Result<Run, Failure> {
-    // Without a file to complete, signals end the process as ever.
+    // Without a file to complete, signals end the process at once.
     let interrupt = recording.is_some().then(Interrupt::listen).transpose().map_err(Failure::new)?;
-    let mut run = Run { steps: 0, seconds: 0.0, most_contacts: 0, end: End::Interrupted(0) };
     let began = Instant::now();
-    run.end = loop {
-        if let Some(code) = interrupt.as_ref().and_then(Interrupt::code) {
-            break End::Interrupted(code);
-        }
-        if let Some(recording) = &mut recording {
-            recording.state(d)?;
-        }
-        let mut last = (run.steps == steps).then(|| Box::new(d.clone()));
-        if last.is_some() {
+    let mut run = Run { steps: 0, seconds: 0.0, most_contacts: 0, last: None, end: End::Completed };
+    loop {
+        let asked = interrupt.as_ref().and_then(Interrupt::code);
+        let stops = asked.is_some() || run.steps == steps;
+        if stops {
             run.seconds = began.elapsed().as_secs_f64();
+            run.end = asked.map_or(End::Completed, End::Interrupted);
+            run.last = Some(Box::new(d.clone()));
         }
-        let stepped = last.as_deref_mut().unwrap_or(d);
+        let stepped = run.last.as_deref_mut().unwrap_or(d);
+        if let Some(recording) = &mut recording {
+            recording.state(stepped)?;
+        }
         let outcome = step(m, stepped);
         if let Some(recording) = &mut recording {
             recording.measurements(stepped, outcome.is_ok())?;
         }
         if let Err(error) = outcome {
-            break End::Failed(error);
+            run.seconds = began.elapsed().as_secs_f64();
+            return Ok(Run { last: None, end: End::Failed(error), ..run });
         }
         run.most_contacts = run.most_contacts.max(stepped.con.contact.len());
-        if let Some(last) = last {
-            break End::Completed(last);
+        if stops {
+            return Ok(run);
         }
         run.steps += 1;
         bar.inc(1);
-    };
-    if !matches!(run.end, End::Completed(_)) {
-        run.seconds = began.elapsed().as_secs_f64();
     }
-    Ok(run)
 }
 
 fn show_summary(m: &Model, d: &Data, run: &Run) {
@@ -123,7 +122,7 @@ fn show_summary(m: &Model, d: &Data, run: &Run) {
         let real_time = steps * m.opt.timestep / run.seconds;
         show!("speed        {:.0} steps/s, {real_time:.1} x real time", steps / run.seconds);
     }
-    if let End::Completed(last) = &run.end {
+    if let Some(last) = &run.last {
         show!("energy       potential {:.6} J, kinetic {:.6} J", last.energy[0], last.energy[1]);
         show!("contacts     {} now, {} at most", last.con.contact.len(), run.most_contacts);
     } else {

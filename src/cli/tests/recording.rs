@@ -159,10 +159,11 @@ fn signals_end_a_run_with_a_complete_file() {
         signal(&child, name);
         let out = child.wait_with_output().unwrap();
         assert_eq!(out.status.code(), Some(code), "{}", text(&out.stderr));
-        assert!(text(&out.stderr).contains("interrupted at"), "{}", text(&out.stderr));
         let (archive, rows) = complete(&path);
         assert!(rows >= told, "{rows} rows, {told} were there before");
         let time = values(&archive, "time");
+        let end = format!("interrupted at {:.6} s", time[rows - 1]);
+        assert!(text(&out.stderr).contains(&end), "{end}: {}", text(&out.stderr));
         assert_eq!(time[0], 0.0);
         assert!(time.windows(2).all(|pair| pair[0] < pair[1]));
         assert!(values(&archive, "energy").iter().all(|e| e.is_finite()));
