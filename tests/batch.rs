@@ -3,7 +3,7 @@
 mod state;
 
 use robohive::physics::model::Arrays;
-use robohive::physics::{Batch, Model, StepError, step};
+use robohive::physics::{Batch, Data, Model, Snapshot, StepError, step};
 use state::bits;
 use std::sync::Arc;
 
@@ -90,6 +90,27 @@ fn every_environment_that_failed_is_named_and_the_others_go_on() {
             assert!((d.time() - steps * m.opt.timestep).abs() < 1e-15, "environment {environment}");
         }
     }
+}
+
+/// Models are shared by threads; data and batches go from one to another.
+#[test]
+fn models_and_data_go_to_other_threads() {
+    fn shared<T: Send + Sync>(value: T) -> T {
+        value
+    }
+    let model = shared(load("pile/pile"));
+    let (data, snapshot) = (shared(Data::new(&model)), shared(Snapshot::default()));
+    let batch = shared(Batch::new(model, 2, 1).unwrap());
+    let time = std::thread::scope(|scope| {
+        let thread = scope.spawn(|| {
+            let (mut data, mut snapshot) = (data, snapshot);
+            step(batch.model(0), &mut data).unwrap();
+            data.save(&mut snapshot);
+            snapshot.time()
+        });
+        thread.join().unwrap()
+    });
+    assert_eq!(time, batch.model(1).opt.timestep);
 }
 
 #[test]

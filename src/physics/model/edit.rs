@@ -58,7 +58,9 @@ impl Model {
     /// Changes numbers of the model, then recomputes all that follows from them (masses of subtrees, inverse weights,
     /// lengths at `qpos0`, statistics: [`set_const`]) and drops caches. Statistics that the file or the edit gives are
     /// kept. Length ranges of actuators stay as they are, see
-    /// [`set_length_ranges`](crate::constants::length_range::set_length_ranges).
+    /// [`set_length_ranges`](crate::constants::length_range::set_length_ranges). So do the bounds by which collision
+    /// skips geoms (`geom_rbound`, `geom_aabb`, `bvh_aabb`, `body_margin`, `body_contype`, `body_conaffinity`): an
+    /// edit that makes geoms larger, moves them in their body, or changes what they touch sets them too.
     ///
     /// The cost is that of a copy of the model and of one position stage; options alone are cheaper to change with
     /// [`Model::options_mut`].
