@@ -132,7 +132,10 @@ impl Expansion<'_> {
     ) -> Result<Vec<Element>, (Loc, String)> {
         let fail = |loc: Loc, message: String| Err((loc, message));
         if !element.children.is_empty() {
-            return fail(element.loc, "<include> cannot have children".into());
+            return fail(
+                element.loc,
+                "<include> holds nothing: move the elements inside it behind it".into(),
+            );
         }
         if let Some(other) = element.attributes.iter().find(|a| a.name != "file") {
             return fail(other.loc, format!("unknown attribute '{}' of <include>", other.name));
@@ -146,7 +149,10 @@ impl Expansion<'_> {
             return fail(loc, format!("'{}' includes itself", place.path));
         }
         if state.included.contains(&place.key) {
-            return fail(loc, format!("file '{}' is already included", place.key));
+            return fail(
+                loc,
+                format!("file '{}' is included a second time: remove one of the two", place.key),
+            );
         }
         let bytes = match self.files.read(&place.path) {
             Ok(bytes) => bytes,

@@ -2,10 +2,14 @@
 
 use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::values::{bounded, push_user, resolve_limited};
+use super::values::{bounded, push_user, resolve_limited, rising};
 use crate::spec::{Actuator, Spec};
 use physics::model::input::{self, EXPONENTIAL_MAP, FEED_FORWARD, POSITION, QUATERNION, VELOCITY, VOLTAGE};
 use physics::model::{Arrays, BiasType, DynType, GainType, JointType, ObjType, TrnType};
+
+/// What is wrong with an actuator that names nothing to act on.
+const NO_TARGET: &str =
+    "it acts on nothing: set joint, jointinparent, tendon, site, body, or cranksite and slidersite";
 
 /// Inputs, outputs and activations that a type of actuator has.
 struct Block {
@@ -42,7 +46,7 @@ pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) 
 fn transmission(actuator: &Actuator, lookup: &Lookup, what: &str, log: &mut Log) -> [i32; 2] {
     let loc = actuator.loc;
     if actuator.target.is_empty() {
-        log.error(loc, format!("{what}: no transmission target"));
+        log.error(loc, format!("{what}: {NO_TARGET}"));
         return [-1, -1];
     }
     let mut find = |kind, name: &str| match lookup.require(kind, name, loc, what, log) {
@@ -59,11 +63,14 @@ fn transmission(actuator: &Actuator, lookup: &Lookup, what: &str, log: &mut Log)
             [find(ObjType::Site, &actuator.target), reference]
         }
         TrnType::Slidercrank if actuator.slidersite.is_empty() => {
-            log.error(loc, format!("{what}: a slider-crank needs slidersite"));
+            log.error(loc, format!("{what}: 'cranksite' moves a crank along a slide: set 'slidersite' too"));
             [-1, -1]
         }
         TrnType::Slidercrank if actuator.cranklength <= 0.0 => {
-            log.error(loc, format!("{what}: cranklength must be positive"));
+            log.error(
+                loc,
+                format!("{what}: attribute 'cranklength' is {}: set a length above 0", actuator.cranklength),
+            );
             [-1, -1]
         }
         TrnType::Slidercrank => {
@@ -71,7 +78,7 @@ fn transmission(actuator: &Actuator, lookup: &Lookup, what: &str, log: &mut Log)
             [find(ObjType::Site, &actuator.target), slider]
         }
         TrnType::So3 | TrnType::Undefined => {
-            log.error(loc, format!("{what}: no transmission target"));
+            log.error(loc, format!("{what}: {NO_TARGET}"));
             [-1, -1]
         }
     }
@@ -89,28 +96,36 @@ fn block(m: &Arrays, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Resul
         _ => {}
     }
     if a.dyntype == DynType::Pid && a.gaintype != GainType::Pid {
-        return Err("dyntype 'pid' requires gaintype 'pid'".into());
+        return Err("dyntype=\"pid\" works only with gaintype=\"pid\": set both, or another dyntype".into());
     }
     if a.ctrlspec != 0 && !matches!(a.gaintype, GainType::So3 | GainType::Pid | GainType::Dcmotor) {
-        return Err("input is only for so3, pid and dcmotor actuators".into());
+        return Err(
+            "attribute 'input' means something to so3, pid and dcmotor actuators alone: remove it".into()
+        );
     }
     let stateless = a.dyntype == DynType::None;
     if block.actdim > 1 && !matches!(a.dyntype, DynType::User | DynType::Dcmotor) && !block.so3 {
         // MuJoCo 3.12 applies this rule to pid controllers too.
-        return Err("actdim above 1 is only for dyntype 'user' and 'dcmotor'".into());
+        return Err(format!(
+            "attribute 'actdim' is {}: dyntypes other than 'user' and 'dcmotor' have at most one activation",
+            block.actdim
+        ));
     }
     bounded(block.actdim.max(0).into(), "actdim")?;
     if block.actdim == 1 && stateless {
-        return Err("actdim 1 in a stateless actuator".into());
+        return Err(
+            "attribute 'actdim' is 1, but dyntype=\"none\" has no activation: remove it, or set a dyntype"
+                .into(),
+        );
     }
     if block.actdim == 0 && !stateless && a.dyntype != DynType::Dcmotor {
-        return Err("actdim 0 in a stateful actuator".into());
+        return Err("attribute 'actdim' is 0, but this dyntype has an activation: remove it".into());
     }
     if block.actdim < 0 {
         block.actdim = i32::from(!stateless && a.dyntype != DynType::Dcmotor);
     }
     if a.dyntype == DynType::Dcmotor && !a.actearly {
-        return Err("a dcmotor needs actearly".into());
+        return Err("attribute 'actearly' must be true for a dcmotor: remove it, or set it to true".into());
     }
     Ok(block)
 }
@@ -123,22 +138,25 @@ fn so3_block(
     block: &mut Block,
 ) -> Result<(), String> {
     if a.gaintype != GainType::So3 || a.biastype != BiasType::So3 {
-        return Err("gaintype and biastype must both be 'so3'".into());
+        return Err("gaintype=\"so3\" and biastype=\"so3\" go together: set both or neither".into());
     }
     if !matches!(a.dyntype, DynType::None | DynType::Integrator) {
-        return Err("so3 requires dyntype 'none' or 'integrator'".into());
+        return Err("attribute 'dyntype' of an so3 actuator: choose 'none' or 'integrator'".into());
     }
     if a.gainprm[0] != -a.biasprm[1] {
-        return Err("so3 requires gainprm[0] == -biasprm[1]".into());
+        return Err("an so3 actuator has one stiffness: the second number of 'biasprm' must be minus the first of 'gainprm'".into());
     }
     let ball = a.trntype == TrnType::Joint && m.jnt_type[trnid[0] as usize] == JointType::Ball.code();
     let sites = a.trntype == TrnType::Site && trnid[1] >= 0;
     if !ball && !sites {
-        return Err("so3 requires a ball joint, or a site with refsite".into());
+        return Err("an so3 actuator turns a ball joint, or a site against another: set 'joint', or 'site' and 'refsite'".into());
     }
     if a.dyntype == DynType::Integrator {
         if a.actdim > 0 && a.actdim != 3 {
-            return Err("an so3 integrator requires actdim 3".into());
+            return Err(format!(
+                "attribute 'actdim' is {}, but an so3 integrator has 3 activations: remove it",
+                a.actdim
+            ));
         }
         block.actdim = 3;
     }
@@ -146,11 +164,15 @@ fn so3_block(
     block.ctrlnum = match block.ctrlspec {
         EXPONENTIAL_MAP => 3,
         QUATERNION if a.dyntype == DynType::None => 4,
-        QUATERNION => return Err("so3 quat input requires dyntype 'none'".into()),
-        _ => return Err("so3 input must be expmap or quat".into()),
+        QUATERNION => {
+            return Err(
+                "input=\"quat\" cannot be integrated: set dyntype=\"none\", or input=\"expmap\"".into()
+            );
+        }
+        _ => return Err("attribute 'input' of an so3 actuator: choose expmap or quat".into()),
     };
     if limited && a.forcerange[0] != 0.0 {
-        return Err("forcerange bounds the norm of an so3 torque: its lower bound must be 0".into());
+        return Err("attribute 'forcerange' of an so3 actuator bounds the size of a torque: its first number must be 0".into());
     }
     block.outnum = 3;
     block.so3 = true;
@@ -159,30 +181,40 @@ fn so3_block(
 
 fn pid_block(a: &Actuator, block: &mut Block) -> Result<(), String> {
     if a.biastype != BiasType::Affine || !matches!(a.dyntype, DynType::None | DynType::Pid) {
-        return Err("pid requires biastype 'affine' and dyntype 'none' or 'pid'".into());
+        return Err(
+            "gaintype=\"pid\" goes with biastype=\"affine\", and dyntype 'none' or 'pid': set these".into()
+        );
     }
     if a.dyntype == DynType::None && a.gainprm[0] != 0.0 {
-        return Err("ki requires dyntype 'pid'".into());
+        return Err(
+            "the integral gain (first number of 'gainprm') needs an activation: set dyntype=\"pid\"".into()
+        );
     }
     if a.trntype == TrnType::Body {
-        return Err("pid cannot act on a body".into());
+        return Err("a pid actuator cannot act on a body: set joint, tendon or site".into());
     }
     if a.dyntype == DynType::Pid {
         if a.dynprm[0] < 0.0 || a.dynprm[1] < 0.0 {
-            return Err("imax and slewmax cannot be negative".into());
+            return Err(
+                "the first two numbers of 'dynprm' (imax and slewmax) are bounds: set them to 0 or more"
+                    .into(),
+            );
         }
         let states = i32::from(a.dynprm[1] > 0.0) + i32::from(a.gainprm[0] > 0.0);
         if a.actdim > 0 && a.actdim != states {
-            return Err(format!("actdim must be {states}"));
+            return Err(format!(
+                "attribute 'actdim' is {}, but the gains make it {states}: remove it",
+                a.actdim
+            ));
         }
         block.actdim = states;
     }
     block.ctrlspec = if a.ctrlspec == 0 { POSITION | VELOCITY } else { a.ctrlspec };
     if block.ctrlspec & !(POSITION | VELOCITY | FEED_FORWARD) != 0 {
-        return Err("pid inputs are a subset of [pos, vel, ff]".into());
+        return Err("attribute 'input' of a pid actuator: use only the words pos, vel and ff".into());
     }
     if a.dyntype == DynType::Pid && block.ctrlspec & POSITION == 0 {
-        return Err("pid controller states require the pos input".into());
+        return Err("integral and slew rate follow a commanded position: add pos to attribute 'input'".into());
     }
     block.ctrlnum = block.ctrlspec.count_ones() as usize;
     Ok(())
@@ -191,17 +223,26 @@ fn pid_block(a: &Actuator, block: &mut Block) -> Result<(), String> {
 fn dcmotor_block(a: &Actuator, block: &mut Block) -> Result<(), String> {
     block.ctrlspec = if a.ctrlspec == 0 { VOLTAGE } else { a.ctrlspec };
     if block.ctrlspec != input::NONE && block.ctrlspec & !input::ALL != 0 {
-        return Err("dcmotor inputs are 'none' or a subset of [pos, vel, ff, voltage]".into());
+        return Err(
+            "attribute 'input' of a dcmotor: write none, or words among pos, vel, ff and voltage".into()
+        );
     }
     let controller = block.ctrlspec & (POSITION | VELOCITY | FEED_FORWARD) != 0;
     if controller && a.gainprm[1] <= 0.0 {
-        return Err("dcmotor controller inputs require a positive motor constant".into());
+        return Err(
+            "the inputs pos, vel and ff are turned into a voltage by 'motorconst': set it above 0".into()
+        );
     }
     if !controller && (a.gainprm[4..7].iter().any(|&g| g != 0.0) || a.dynprm[7] > 0.0) {
-        return Err("dcmotor controller gains require an input of [pos, vel, ff]".into());
+        return Err(
+            "attribute 'controller' has no input to act on: add pos, vel or ff to 'input', or remove it"
+                .into(),
+        );
     }
     if a.gainprm[5] > 0.0 && block.ctrlspec & POSITION == 0 {
-        return Err("dcmotor integral gain requires the pos input".into());
+        return Err(
+            "the integral gain in 'controller' acts on a commanded position: add pos to 'input'".into()
+        );
     }
     block.ctrlnum = (block.ctrlspec & input::ALL).count_ones() as usize;
     Ok(())
@@ -221,17 +262,20 @@ fn ranges(m: &Arrays, a: &Actuator, trnid: [i32; 2]) -> Result<([f64; 2], [f64; 
             m.jnt_range[id]
         }
         TrnType::Tendon => m.tendon_range.get(id).copied().unwrap_or_default(),
-        _ => return Err("inheritrange needs a hinge, a slide or a tendon".into()),
+        _ => return Err("attribute 'inheritrange' takes the range of a hinge, a slide or a tendon: act on one, or remove it".into()),
     };
     if target[0] == target[1] {
-        return Err(format!("inheritrange, but '{}' has no range", a.target));
+        return Err(format!(
+            "attribute 'inheritrange' finds no range: give '{}' one, or remove it",
+            a.target
+        ));
     }
     let mean = 0.5 * (target[1] + target[0]);
     let radius = 0.5 * (target[1] - target[0]) * a.inheritrange;
     let range = match a.dyntype {
         DynType::None | DynType::Filterexact | DynType::Pid => &mut ctrl,
         DynType::Integrator => &mut act,
-        _ => return Err("inheritrange is only for position and intvelocity actuators".into()),
+        _ => return Err("attribute 'inheritrange' fits no actuator of this dyntype: set 'ctrlrange' or 'actrange' instead".into()),
     };
     *range = [mean - radius, mean + radius];
     Ok((ctrl, act))
@@ -239,13 +283,16 @@ fn ranges(m: &Arrays, a: &Actuator, trnid: [i32; 2]) -> Result<([f64; 2], [f64; 
 
 fn check_muscle(prm: &[f64; 10]) -> Result<(), String> {
     if prm[0] >= prm[1] {
-        return Err("range[0] < range[1] required in a muscle".into());
+        return Err(rising("range", [prm[0], prm[1]]));
     }
     if prm[4] >= 1.0 || prm[5] <= 1.0 {
-        return Err("lmin < 1 < lmax required in a muscle".into());
+        return Err(format!(
+            "a muscle works around length 1: 'lmin' is {}, set it below; 'lmax' is {}, set it above",
+            prm[4], prm[5]
+        ));
     }
     if prm[3] <= 0.0 || prm[6] <= 0.0 || prm[7] <= 0.0 || prm[8] <= 0.0 {
-        return Err("positive scale, vmax, fpmax and fvmax required in a muscle".into());
+        return Err("attributes 'scale', 'vmax', 'fpmax' and 'fvmax' of a muscle: set each above 0".into());
     }
     Ok(())
 }
@@ -253,7 +300,7 @@ fn check_muscle(prm: &[f64; 10]) -> Result<(), String> {
 fn check(a: &Actuator, block: &Block) -> Result<(), String> {
     let chained = matches!(a.trntype, TrnType::Joint | TrnType::Jointinparent | TrnType::Tendon);
     if !chained && (a.damping != [0.0; 3] || a.armature != 0.0) {
-        return Err("damping and armature require a joint or tendon".into());
+        return Err("attributes 'damping' and 'armature' belong to a joint or tendon: remove them".into());
     }
     if a.gaintype == GainType::Muscle {
         check_muscle(&a.gainprm)?;
@@ -262,10 +309,13 @@ fn check(a: &Actuator, block: &Block) -> Result<(), String> {
         check_muscle(&a.biasprm)?;
     }
     if a.delay > 0.0 && a.nsample <= 0 {
-        return Err("delay needs a history buffer (nsample)".into());
+        return Err("attribute 'delay' reads past inputs: set 'nsample' to the number that is kept".into());
     }
     if (a.delay > 0.0 || a.nsample > 0) && block.ctrlnum == 0 {
-        return Err("history and delay require an input".into());
+        return Err(
+            "attributes 'delay' and 'nsample' keep past inputs, and this actuator has none: remove them"
+                .into(),
+        );
     }
     Ok(())
 }
@@ -292,11 +342,13 @@ fn fill_actuator(
         (actlimited, actrange, "act"),
     ] {
         if limited && range[0] >= range[1] {
-            return Err(format!("{name}range[0] must be smaller than {name}range[1]"));
+            return Err(rising(&format!("{name}range"), range));
         }
     }
     if actlimited && a.dyntype == DynType::None {
-        return Err("actrange, but dyntype is 'none'".into());
+        return Err(
+            "attribute 'actrange' bounds an activation, and dyntype=\"none\" has none: remove it".into()
+        );
     }
     check(a, &block)?;
     let samples = if a.nsample > 0 { 2 + 2 * i64::from(a.nsample) } else { 0 };

@@ -160,12 +160,17 @@ fn set_inertia(node: &mut BodyNode, model: &Spec) -> Result<(), String> {
     node.inertia = node.inertia.map(|x| x.max(settings.boundinertia));
     let [a, b, c] = node.inertia;
     if node.mass < 0.0 || a < 0.0 || b < 0.0 || c < 0.0 {
-        return Err("mass and inertia cannot be negative".into());
+        return Err(format!(
+            "mass {} or inertia {a} {b} {c} is negative: set 'mass' and the inertia to 0 or more",
+            node.mass
+        ));
     }
     if a + b < c || a + c < b || b + c < a {
         if !settings.balanceinertia {
             return Err(
-                "inertia must satisfy A + B >= C; `balanceinertia` of the compiler corrects it".into()
+                "one moment of inertia exceeds the sum of the others, which no solid has: correct it, or set \
+                 balanceinertia=\"true\" in <compiler>"
+                    .into()
             );
         }
         node.inertia = [(a + b + c) / 3.0; 3];
@@ -256,7 +261,12 @@ pub(super) fn check_moving_mass(tree: &Tree, log: &mut Log) {
         }
         if !found {
             let what = title("body", body.name());
-            log.error(body.spec.loc, format!("{what}: mass and inertia of a moving body must be positive"));
+            log.error(
+                body.spec.loc,
+                format!(
+                    "{what}: a body that moves needs mass and inertia: add <inertial>, or a geom with mass"
+                ),
+            );
         }
     }
 }

@@ -39,7 +39,7 @@ pub(super) fn compile<'s>(spec: &'s Geom, context: &Context) -> Result<GeomNode<
         return Err(format!("condim must be 1, 3, 4 or 6, is {}", spec.condim));
     }
     if kind == GeomType::Plane && !context.fixed {
-        return Err("a plane is only allowed in a static body".into());
+        return Err("a plane cannot move: put it into the world, or remove the joints above it".into());
     }
     let mesh = find_mesh(spec, context.assets)?;
     let hfield = find_hfield(spec, context.assets)?;
@@ -97,7 +97,7 @@ fn find_mesh<'a>(spec: &Geom, assets: &'a Assets) -> Result<Option<(usize, &'a C
         return if spec.kind == GeomType::Mesh { Err("a mesh geom needs a mesh".into()) } else { Ok(None) };
     }
     if spec.fromto.is_some() {
-        return Err("fromto cannot be used with a mesh".into());
+        return Err("attribute 'fromto' does not place meshes: use 'pos' and 'quat'".into());
     }
     if matches!(spec.kind, GeomType::Plane | GeomType::Hfield) {
         return Err("a plane or height field cannot be fitted to a mesh".into());
@@ -147,7 +147,7 @@ pub(super) fn stretched(
 ) -> Result<(Pose, Vec3), String> {
     let flat = matches!(kind, GeomType::Ellipsoid | GeomType::Box);
     if !flat && !matches!(kind, GeomType::Capsule | GeomType::Cylinder) {
-        return Err("fromto requires a capsule, cylinder, box or ellipsoid".into());
+        return Err("attribute 'fromto' gives a length to a capsule, cylinder, box or ellipsoid: change 'type', or use 'pos'".into());
     }
     if pos != [0.0; 3] {
         return Err("pos and fromto exclude each other".into());
@@ -178,7 +178,7 @@ fn weigh(spec: &Geom, size: Vec3, mesh: Option<&CompiledMesh>) -> Result<(f64, V
         None => spec.density * volume,
     };
     if mass < 0.0 || spec.density < 0.0 {
-        return Err("mass, inertia or density is negative".into());
+        return Err("attributes 'mass' and 'density': set each to 0 or more".into());
     }
     let inertia = match mesh {
         _ if mass == 0.0 => [0.0; 3],

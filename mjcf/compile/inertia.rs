@@ -18,7 +18,7 @@ pub(super) fn principal(full: [f64; 6]) -> Result<(Vec3, Quat), String> {
     let [xx, yy, zz, xy, xz, yz] = full;
     let (moments, quat) = principal_axes(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
     if moments[2] < EPS || moments[2].is_nan() {
-        return Err("inertia must have positive eigenvalues".into());
+        return Err("a principal moment of inertia is not above 0: check 'fullinertia', or the shapes that mass comes from".into());
     }
     Ok((moments, quat))
 }

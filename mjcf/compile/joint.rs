@@ -3,7 +3,7 @@
 use super::frame::{Pose, direction};
 use super::log::{Log, title};
 use super::nodes::{BodyNode, JointNode};
-use super::values::{push_user, resolve_limited};
+use super::values::{push_user, resolve_limited, rising};
 use crate::spec::{Compiler, Joint, joint_dimensions};
 use crate::vector::{EPS, normalize};
 use physics::model::bounds::MINVAL;
@@ -19,7 +19,9 @@ pub(super) fn compile<'s>(
     let kind = spec.kind;
     let [timeconst, dampratio] = spec.springdamper;
     if (timeconst != 0.0 || dampratio != 0.0) && (timeconst <= 0.0 || dampratio <= 0.0) {
-        return Err("springdamper values must be positive".into());
+        return Err(
+            "attribute 'springdamper' is a time constant and a damping ratio: set both above 0".into()
+        );
     }
     let limited =
         kind != JointType::Free && resolve_limited(spec.limited, spec.range, settings.autolimits, "")?;
@@ -34,7 +36,7 @@ pub(super) fn compile<'s>(
     let actfrclimited =
         scalar && resolve_limited(spec.actfrclimited, spec.actfrcrange, settings.autolimits, "actuatorfrc")?;
     if actfrclimited && spec.actfrcrange[0] >= spec.actfrcrange[1] {
-        return Err("actuatorfrcrange[0] must be smaller than actuatorfrcrange[1]".into());
+        return Err(rising("actuatorfrcrange", spec.actfrcrange));
     }
     let mut axis = match frame {
         _ if !scalar => [0.0, 0.0, 1.0],
@@ -56,9 +58,13 @@ pub(super) fn compile<'s>(
 
 fn check_range(kind: JointType, range: [f64; 2]) -> Result<(), String> {
     if kind == JointType::Ball {
-        return if range[0] == 0.0 { Ok(()) } else { Err("range[0] of a ball joint must be 0".into()) };
+        return if range[0] == 0.0 {
+            Ok(())
+        } else {
+            Err("attribute 'range' of a ball joint bounds an angle: its first number must be 0".into())
+        };
     }
-    if range[0] >= range[1] { Err("range[0] must be smaller than range[1]".into()) } else { Ok(()) }
+    if range[0] >= range[1] { Err(rising("range", range)) } else { Ok(()) }
 }
 
 /// Appends the joints of `body` and their degrees of freedom.

@@ -71,16 +71,21 @@ fn fill_sensor(m: &mut Arrays, sensor: &Sensor, object: i32, base: i32) -> Resul
 /// Noise, cutoff and times of a sensor.
 fn check_numbers(sensor: &Sensor) -> Result<(), String> {
     if sensor.noise < 0.0 || sensor.cutoff < 0.0 || sensor.interval[0] < 0.0 {
-        return Err("noise, cutoff and interval cannot be negative".into());
+        return Err("attributes 'noise', 'cutoff' and 'interval': set each to 0 or more".into());
     }
     let [period, phase] = sensor.interval;
     if phase > 0.0 || (period > 0.0 && phase <= -period) {
         return Err("the phase of interval must lie in (-period, 0]".into());
     }
     if sensor.delay > 0.0 && sensor.nsample <= 0 {
-        return Err("delay needs a history buffer (nsample)".into());
+        return Err("attribute 'delay' reads past values: set 'nsample' to the number that is kept".into());
     }
     Ok(())
+}
+
+/// An error unless something holds.
+fn ensure(holds: bool, otherwise: &str) -> Result<(), String> {
+    if holds { Ok(()) } else { Err(otherwise.into()) }
 }
 
 /// Which objects a sensor may be attached to.
@@ -100,7 +105,7 @@ fn check(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), Stri
         Camprojection => {
             on(&[ObjType::Site])?;
             let sized = m.cam_resolution.get(base as usize).is_some_and(|r| r[0] != 0 && r[1] != 0);
-            if sized { Ok(()) } else { Err("the camera needs a resolution".into()) }
+            ensure(sized, "the camera needs a resolution")
         }
         Rangefinder => {
             on(&[ObjType::Site, ObjType::Camera])?;
@@ -109,34 +114,34 @@ fn check(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), Stri
         Jointpos | Jointvel | Jointactfrc => {
             on(&[ObjType::Joint])?;
             let scalar = matches!(joint(), Some(JointType::Slide | JointType::Hinge));
-            if scalar { Ok(()) } else { Err("the joint must be a slide or hinge".into()) }
+            ensure(scalar, "attribute 'joint' must name a hinge or a slide")
         }
         Ballquat | Ballangvel => {
             on(&[ObjType::Joint])?;
-            if joint() == Some(JointType::Ball) { Ok(()) } else { Err("the joint must be a ball".into()) }
+            ensure(joint() == Some(JointType::Ball), "attribute 'joint' must name a ball joint")
         }
         Jointlimitpos | Jointlimitvel | Jointlimitfrc => {
             on(&[ObjType::Joint])?;
             let limited = m.jnt_limited.get(object as usize) == Some(&true);
-            if limited { Ok(()) } else { Err("the joint must be limited".into()) }
+            ensure(limited, "attribute 'joint' must name a joint with limits: give it a 'range'")
         }
         Tendonpos | Tendonvel | Tendonactfrc => on(&[ObjType::Tendon]),
         Tendonlimitpos | Tendonlimitvel | Tendonlimitfrc => {
             on(&[ObjType::Tendon])?;
             let limited = m.tendon_limited.get(object as usize) == Some(&true);
-            if limited { Ok(()) } else { Err("the tendon must be limited".into()) }
+            ensure(limited, "attribute 'tendon' must name a tendon with limits: give it a 'range'")
         }
         Actuatorpos | Actuatorvel | Actuatorfrc => on(&[ObjType::Actuator]),
         Framepos | Framequat | Framexaxis | Frameyaxis | Framezaxis | Framelinvel | Frameangvel
         | Framelinacc | Frameangacc => {
             on(&spatial)?;
             let based = sensor.reftype == ObjType::Unknown || spatial.contains(&sensor.reftype);
-            if based { Ok(()) } else { Err("the reference must have a frame".into()) }
+            ensure(based, "the reference must have a frame")
         }
         Subtreecom | Subtreelinvel | Subtreeangmom => on(&[ObjType::Body]),
         Insidesite => {
             on(&spatial)?;
-            if sensor.reftype == ObjType::Site { Ok(()) } else { Err("needs a site".into()) }
+            ensure(sensor.reftype == ObjType::Site, "needs a site")
         }
         Geomdist | Geomnormal | Geomfromto => check_distance(m, sensor, object, base),
         Contact => {
@@ -151,7 +156,7 @@ fn check(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), Stri
         User => match (sensor.datatype, sensor.dim) {
             (DataType::Axis, dim) if dim != 3 => Err("an axis has dim 3".into()),
             (DataType::Quaternion, dim) if dim != 4 => Err("a quaternion has dim 4".into()),
-            (_, dim) if dim < 0 => Err("dim cannot be negative".into()),
+            (_, dim) if dim < 0 => Err(format!("attribute 'dim' is {dim}: set it to 0 or more")),
             _ => Ok(()),
         },
         Tactile | Plugin => Err("tactile and plugin sensors are not supported".into()),
@@ -165,7 +170,9 @@ fn check_fields(fields: i32, count: u32) -> Result<(), String> {
 fn check_distance(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
     let ends = [(sensor.objtype, object), (sensor.reftype, base)];
     if ends.iter().any(|(kind, _)| !matches!(kind, ObjType::Body | ObjType::Geom)) {
-        return Err("must be attached to a body or geom".into());
+        return Err(
+            "distances lie between bodies or geoms: set 'body1' or 'geom1', and 'body2' or 'geom2'".into()
+        );
     }
     if ends[0] == ends[1] {
         return Err("both ends are the same".into());

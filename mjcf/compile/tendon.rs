@@ -2,7 +2,7 @@
 
 use super::log::{Log, title};
 use super::lookup::Lookup;
-use super::values::{push_user, resolve_limited};
+use super::values::{push_user, resolve_limited, rising};
 use crate::spec::{Spec, Tendon, Wrap, WrapKind};
 use physics::model::{Arrays, GeomType, ObjType, WrapType};
 
@@ -72,10 +72,10 @@ fn check_path(m: &Arrays, tendon: &Tendon) -> Result<(), String> {
         return Err("a spatial tendon needs at least two path elements".into());
     }
     if tendon.width <= 0.0 {
-        return Err("width must be positive".into());
+        return Err(format!("attribute 'width' is {}: set it above 0", tendon.width));
     }
     if tendon.armature < 0.0 {
-        return Err("armature cannot be negative".into());
+        return Err(format!("attribute 'armature' is {}: set it to 0 or more", tendon.armature));
     }
     for i in 0..count {
         let open = |at: Option<usize>| at.is_none_or(|k| k >= count || is(k, WrapType::Pulley));
@@ -88,7 +88,7 @@ fn check_path(m: &Arrays, tendon: &Tendon) -> Result<(), String> {
         }
         if is(i, WrapType::Site) {
             if open(before) && open(after) {
-                return Err("a site needs a neighbour that is not a pulley".into());
+                return Err("a site with nothing but pulleys and ends beside it has no segment: add a site next to it".into());
             }
             if is(i + 1, WrapType::Site) && m.wrap_objid[first + i] == m.wrap_objid[first + i + 1] {
                 return Err("a site follows itself".into());
@@ -110,7 +110,7 @@ fn fill_tendon(m: &mut Arrays, tendon: &Tendon, autolimits: bool) -> Result<(), 
     let limited = resolve_limited(tendon.limited, tendon.range, autolimits, "")?;
     let force_limited = resolve_limited(tendon.actfrclimited, tendon.actfrcrange, autolimits, "actuatorfrc")?;
     if limited && tendon.range[0] >= tendon.range[1] {
-        return Err("range[0] must be smaller than range[1]".into());
+        return Err(rising("range", tendon.range));
     }
     let [low, high] = tendon.actfrcrange;
     if force_limited && (low >= high || low > 0.0 || high < 0.0) {

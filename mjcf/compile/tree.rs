@@ -28,7 +28,7 @@ pub(super) fn compile<'s>(spec: &'s Spec, assets: &Assets, log: &mut Log) -> Tre
     while let Some((body, parent)) = pending.pop() {
         let id = tree.bodies.len();
         if id == 0 && !body.joints.is_empty() {
-            log.error(body.joints[0].loc, "joint in the world body");
+            log.error(body.joints[0].loc, "the world does not move: put the joint into a <body>");
         }
         let context = body::Context { tree: &tree, model: spec, assets, frames: &frames };
         let node = body::compile(body, parent, &context, log);

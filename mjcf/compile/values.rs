@@ -30,6 +30,11 @@ pub(super) fn resolve_limited(
     }
 }
 
+/// What is wrong with a range that ends where it begins, or below.
+pub(super) fn rising(attribute: &str, [low, high]: [f64; 2]) -> String {
+    format!("attribute '{attribute}' goes from {low} to {high}: set the second number above the first")
+}
+
 /// Appends user data padded to the width of the model.
 pub(super) fn push_user(
     array: &mut Vec<f64>,

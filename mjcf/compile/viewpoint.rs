@@ -77,7 +77,10 @@ fn compile_camera<'s>(
         return Ok(CameraNode { spec, pose, intrinsic, fovy: spec.fovy });
     }
     if spec.resolution.iter().any(|&r| r <= 0) {
-        return Err("sensorsize requires a positive resolution".into());
+        return Err(
+            "attribute 'sensorsize' is shared out among pixels: set 'resolution' to how many there are"
+                .into(),
+        );
     }
     let length = |pixels: [f32; 2], length: [f32; 2], k: usize| {
         let density = spec.resolution[k] as f32 / spec.sensor_size[k];
@@ -103,7 +106,7 @@ fn compile_light<'s>(spec: &'s Light, frame: Option<&Pose>) -> Result<LightNode<
         return Err("direction has no length".into());
     }
     if !(0.0..=1.0).contains(&spec.softness) {
-        return Err("softness must be between 0 and 1".into());
+        return Err(format!("attribute 'softness' is {}: set it from 0 to 1", spec.softness));
     }
     Ok(LightNode { spec, pos, dir })
 }

@@ -101,7 +101,9 @@ fn cube_from_one(source: &TextureSource, file: &FileImage) -> Result<CompiledTex
     let image = load(source, file)?;
     let width = image.width / columns;
     if width != image.height / rows || image.width % columns != 0 || image.height % rows != 0 {
-        return fail("image size must be an integer multiple of gridsize with square cells");
+        return fail(
+            "the image does not divide into square cells: change 'gridsize', or the size of the image",
+        );
     }
     let colorspace = resolve(source.colorspace, image.srgb);
     if rows == 1 && columns == 1 {

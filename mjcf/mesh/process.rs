@@ -151,7 +151,7 @@ fn check_orientation(arrays: &Arrays, name: &str) -> Result<(), AssetError> {
     match edges.windows(2).find(|pair| pair[0] == pair[1]) {
         None => Ok(()),
         Some(pair) => Err(AssetError::geometry(format!(
-            "faces of mesh '{name}' have inconsistent orientation: check those with vertices {} and {}",
+            "mesh '{name}': two triangles follow the edge from vertex {} to vertex {}: reverse one of them",
             pair[0].0 + 1,
             pair[0].1 + 1
         ))),
@@ -235,7 +235,9 @@ fn weigh(arrays: &Arrays, hull: Option<&Hull>, mode: MeshInertia, name: &str) ->
     let fail = |what: &str| Err(AssetError::geometry(format!("mesh '{name}': {what}")));
     let (area, apex) = face_centroid(&arrays.vert, &arrays.face);
     if area.is_nan() || area < MINVAL {
-        return fail("surface area is too small");
+        return fail(&format!(
+            "its triangles have almost no area, {area:.1e} m²: check the units, or set 'scale'"
+        ));
     }
     let solid = match (mode, hull) {
         (MeshInertia::Convex, Some(hull)) => &hull.face,
@@ -243,10 +245,12 @@ fn weigh(arrays: &Arrays, hull: Option<&Hull>, mode: MeshInertia, name: &str) ->
     };
     let (volume, com) = center_of_mass(&arrays.vert, solid, apex, mode);
     if volume < 0.0 {
-        return fail("volume is negative: triangles are misoriented");
+        return fail("its triangles face inwards: order their corners counterclockwise as seen from outside");
     }
     if volume.is_nan() || volume < MINVAL {
-        return fail("volume is too small; try inertia=\"shell\"");
+        return fail(&format!(
+            "it encloses almost no volume, {volume:.1e} m³: set inertia=\"shell\" for a thin mesh"
+        ));
     }
     let (volume, matrix) = inertia(&arrays.vert, solid, com, mode);
     let ([a, b, c], quat) = principal_axes(&matrix);

@@ -78,13 +78,15 @@ pub fn builtin(shape: Shape, params: &[f64]) -> Result<RawMesh, AssetError> {
             return fail("exponents must not be negative");
         }
         Shape::Supersphere => supersphere(count(0), params[1], params[2]),
-        Shape::Supertorus if params[1] <= 0.0 || params[1] > 1.0 => return fail("radius must be in (0, 1]"),
+        Shape::Supertorus if params[1] <= 0.0 || params[1] > 1.0 => {
+            return fail("the radius must be above 0 and at most 1");
+        }
         Shape::Supertorus if params[2] <= 0.0 || params[3] <= 0.0 => {
-            return fail("exponents must be positive");
+            return fail("both exponents must be above 0");
         }
         Shape::Supertorus => supertorus(count(0), params[1], params[2], params[3]),
         Shape::Wedge | Shape::Plate if count(0) == 0 || count(1) == 0 => {
-            return fail("resolutions must be positive");
+            return fail("both resolutions must be 1 or more");
         }
         Shape::Wedge | Shape::Plate if params[0] * params[1] > MAX_VERTICES => {
             return fail("resolutions are too large");
@@ -92,7 +94,9 @@ pub fn builtin(shape: Shape, params: &[f64]) -> Result<RawMesh, AssetError> {
         Shape::Wedge if params[2] <= 0.0 || params[2] > 180.0 || params[3] <= 0.0 || params[3] > 90.0 => {
             return fail("fields of view must be in (0, 180] and (0, 90] degrees");
         }
-        Shape::Wedge if !(0.0..=1.0).contains(&params[4]) => return fail("foveation must be in [0, 1]"),
+        Shape::Wedge if !(0.0..=1.0).contains(&params[4]) => {
+            return fail("the foveation must be from 0 to 1");
+        }
         Shape::Wedge => wedge([count(0), count(1)], [params[2], params[3]], params[4]),
         Shape::Plate => plate([count(0), count(1)]),
         Shape::Cone if count(0) < 3 || params[0] > MAX_VERTICES => {

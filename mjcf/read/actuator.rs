@@ -84,7 +84,10 @@ impl Reader<'_> {
         }
         let codes = self.keywords(element, input, TOGETHER)?;
         if !codes.is_sorted() {
-            self.error(input.value_loc, "inputs must stand in the order pos, vel, ff, voltage");
+            self.error(
+                input.value_loc,
+                "attribute 'input': write the words in the order pos, vel, ff, voltage",
+            );
         }
         Some(codes.iter().fold(0, |all, code| all | code))
     }
@@ -174,7 +177,7 @@ fn kinds(a: &mut Actuator, dynamics: DynType, gain: GainType, bias: BiasType) {
 
 fn not_negative(value: Option<f64>, name: &str) -> Result<(), String> {
     match value {
-        Some(x) if x < 0.0 => Err(format!("attribute '{name}' cannot be negative")),
+        Some(x) if x < 0.0 => Err(format!("attribute '{name}' is negative: set it to 0 or more")),
         _ => Ok(()),
     }
 }

@@ -47,7 +47,7 @@ pub(super) fn apply(motor: &Motor, a: &mut Actuator) -> Result<(), String> {
     a.biasprm[..3].copy_from_slice(&motor.cogging);
     let [inductance, time] = motor.inductance;
     if inductance < 0.0 || time < 0.0 {
-        return Err("attribute 'inductance' cannot be negative".into());
+        return Err("attribute 'inductance' is negative: set it to 0 or more".into());
     }
     a.dynprm[0] = if inductance > 0.0 { inductance / resistance } else { time };
     let heats = heat(motor, a)?;

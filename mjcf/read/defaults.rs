@@ -11,8 +11,10 @@ impl Reader<'_> {
     /// A `default` section at the top adds to the class `main`.
     pub(super) fn top_default(&mut self, section: &Element) {
         if let Some(name) = section.attribute("class").filter(|n| n.value != "main") {
-            let message =
-                format!("top-level default class '{}' is read as 'main': it cannot be renamed", name.value);
+            let message = format!(
+                "the outermost default class is 'main', not '{}': nest a <default> of that name in it",
+                name.value
+            );
             self.warning(name.loc, message);
         }
         self.default_class(section, 0);

@@ -143,7 +143,10 @@ impl Reader<'_> {
                     let mut text = Text { loc: element.loc, ..Text::default() };
                     self.rows(element, &TEXT_ROWS, &mut text);
                     if let Some(data) = element.attribute("data").filter(|a| a.value.is_empty()) {
-                        self.error(data.value_loc, "attribute 'data' of <text> cannot be empty");
+                        self.error(
+                            data.value_loc,
+                            "attribute 'data' of <text> is empty: write the text, or remove the element",
+                        );
                     }
                     self.spec.texts.push(text);
                 }

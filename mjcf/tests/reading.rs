@@ -188,9 +188,9 @@ fn motors_and_servos_follow_their_data_sheets() {
         ("<dcmotor joint='j' resistance='2'/>", "positive motor constant"),
         ("<dcmotor joint='j' motorconst='1' resistance='2' thermal='0 0 1'/>", "must be positive"),
         ("<pid joint='j' kp='1' input='vel pos'/>", "in the order"),
-        ("<pid joint='j' kp='1' input='voltage'/>", "subset of [pos, vel, ff]"),
-        ("<pid joint='j' kp='1' slewmax='-1'/>", "'slewmax' cannot be negative"),
-        ("<orientation joint='j' kp='1'/>", "requires a ball joint"),
+        ("<pid joint='j' kp='1' input='voltage'/>", "use only the words pos, vel and ff"),
+        ("<pid joint='j' kp='1' slewmax='-1'/>", "attribute 'slewmax' is negative"),
+        ("<orientation joint='j' kp='1'/>", "an so3 actuator turns a ball joint"),
     ] {
         let message = model(actuator).expect_err("the model must be refused");
         assert!(message.contains(expected), "{actuator}: {message}");
