@@ -18,153 +18,139 @@ fn world(content: &str) -> String {
     format!("<mujoco>\n<worldbody>\n{content}\n</worldbody>\n</mujoco>")
 }
 
+/// What may stand in `<worldbody>`, and what is said of it.
+const IN_THE_WORLD: [(&str, &str); 21] = [
+    (
+        "<geom size='1' masss='2'/>",
+        "<text>:3:16: error: unknown attribute 'masss' of <geom>; did you mean 'mass'?",
+    ),
+    ("<geoms size='1'/>", "<text>:3:1: error: unknown element <geoms> in <worldbody>; did you mean <geom>?"),
+    ("<geom size='1 2 3 4'/>", "<text>:3:13: error: attribute 'size' of <geom> takes 1 to 3 numbers, not 4"),
+    ("<geom size='1' pos='0 1'/>", "<text>:3:21: error: attribute 'pos' of <geom> takes 3 numbers, not 2"),
+    ("<geom size='1' pos='0 1 2x'/>", "<text>:3:25: error: attribute 'pos' of <geom>: '2x' is not a number"),
+    (
+        "<geom size='1' condim='3.5'/>",
+        "<text>:3:24: error: attribute 'condim' of <geom>: '3.5' is not an integer",
+    ),
+    (
+        "<geom size='1' condim='30000000000'/>",
+        "<text>:3:24: error: attribute 'condim' of <geom>: integer '30000000000' is too large",
+    ),
+    (
+        "<geom size='nan'/>",
+        "<text>:3:13: error: attribute 'size' of <geom>: 'nan' is not allowed: values must be numbers",
+    ),
+    (
+        "<geom size='1' mass='1e309'/>",
+        "<text>:3:22: error: attribute 'mass' of <geom>: number '1e309' is too large",
+    ),
+    (
+        "<geom size='1' rgba='1 1e308 1 1'/>",
+        "<text>:3:24: error: attribute 'rgba' of <geom>: number '1e308' is too large",
+    ),
+    (
+        "<geom size='1' mass='1e308'/>",
+        "<text>:3:22: error: attribute 'mass' of <geom>: number '1e308' is too large: at most 1e100 in magnitude",
+    ),
+    (
+        "<geom size='1' pos='0 -inf 0'/>",
+        "<text>:3:23: error: attribute 'pos' of <geom>: number '-inf' is too large: at most 1e100 in magnitude",
+    ),
+    (
+        "<geom type='capsul' size='1'/>",
+        "<text>:3:13: error: attribute 'type' of <geom> cannot be 'capsul'; did you mean 'capsule'?",
+    ),
+    ("<geom size='1' quat='0 0 0 0'/>", "<text>:3:22: error: a quaternion cannot be zero"),
+    (
+        "<body name='a'/><body name='a'/>",
+        "<text>:3:29: error: duplicate body name 'a'; the first is at <text>:3:13",
+    ),
+    ("<geom class='fat' size='1'/>", "<text>:3:14: error: no default class is named 'fat'"),
+    ("<joint/>", "<text>:3:1: error: unknown element <joint> in <worldbody>"),
+    ("<body><inertial mass='1'/></body>", "<text>:3:7: error: <inertial> needs the attribute 'pos'"),
+    (
+        "<body><inertial pos='0 0 0' mass='1'/><inertial pos='0 0 0' mass='1'/></body>",
+        "<text>:3:39: error: <inertial> may stand only once in <body>",
+    ),
+    (
+        "<geom size='1' euler='0 0 1' quat='1 0 0 0'/>",
+        "<text>:3:1: error: <geom> takes only one of 'quat' or 'axisangle' or 'xyaxes' or 'zaxis' or 'euler'",
+    ),
+    (
+        "<flexcomp name='f' type='grid'/>",
+        "<text>:3:1: error: <flexcomp> is not supported: deformable bodies are not simulated",
+    ),
+];
+
+/// Whole texts, and what is said of them.
+const WHOLE_TEXTS: [(&str, &str); 16] = [
+    (
+        "<mujoco><keyframe><key qpos='0 inf'/></keyframe></mujoco>",
+        "<text>:1:32: error: attribute 'qpos' of <key>: number 'inf' is too large: at most 1e100 in magnitude",
+    ),
+    (
+        "<mujoco><option timestep='nan'/></mujoco>",
+        "<text>:1:27: error: attribute 'timestep' of <option>: 'nan' is not allowed: values must be numbers",
+    ),
+    (
+        "<mujoco><option timestep='1e308'/></mujoco>",
+        "<text>:1:27: error: attribute 'timestep' of <option>: number '1e308' is too large: at most 1e100 in magnitude",
+    ),
+    (
+        "<mujoco><option timestep='0'/></mujoco>",
+        "<text>:1:27: error: attribute 'timestep' of <option> must be positive, is 0",
+    ),
+    (
+        "<mujoco><option gravity='0 0 -9.81' timestep='-0.002'/></mujoco>",
+        "<text>:1:47: error: attribute 'timestep' of <option> must be positive, is -0.002",
+    ),
+    (
+        "<mujoco><actuator><motor joint='elbov'/></actuator><worldbody><body><joint name='elbow'/></body></worldbody></mujoco>",
+        "<text>:1:33: error: no joint is named 'elbov'; did you mean 'elbow'?",
+    ),
+    (
+        "<mujoco><sensor><touch name='t'/></sensor></mujoco>",
+        "<text>:1:17: error: <touch> needs the attribute 'site'",
+    ),
+    (
+        "<mujoco><sensor><framepos objtype='bodyy' objname='world'/></sensor></mujoco>",
+        "<text>:1:36: error: attribute 'objtype' of <framepos> cannot be 'bodyy'; did you mean 'body'?",
+    ),
+    (
+        "<mujoco><compiler eulerseq='xyq'/></mujoco>",
+        "<text>:1:29: error: attribute 'eulerseq' takes three of the letters xyzXYZ",
+    ),
+    (
+        "<mujoco><option><flag contact='off'/></option></mujoco>",
+        "<text>:1:32: error: attribute 'contact' of <flag> cannot be 'off'; one of disable, enable",
+    ),
+    (
+        "<mujoco><size memory='12Q'/></mujoco>",
+        "<text>:1:23: error: attribute 'memory' takes a number of bytes such as 512K or 15M",
+    ),
+    (
+        "<mujoco><default><default class='a'><geom name='g'/></default></default></mujoco>",
+        "<text>:1:43: error: attribute 'name' of <geom> cannot have a default",
+    ),
+    ("<robot name='r'/>", "<text>:1:1: error: this is URDF: only MJCF is supported"),
+    ("<model/>", "<text>:1:1: error: root element <model> is not <mujoco>"),
+    (
+        "<mujoco><actuator><general joint='j' dyntype='user'/></actuator><worldbody><body><joint name='j'/></body></worldbody></mujoco>",
+        "<text>:1:19: error: user actuators are not supported: they are not simulated",
+    ),
+    (
+        "<mujoco><option collision='predefined'/></mujoco>",
+        "<text>:1:17: error: attribute 'collision' of <option> is no longer supported; only 'all' is accepted: pairs and excludes now decide alone",
+    ),
+];
+
 #[test]
 fn every_fault_is_named_where_it_stands() {
-    let cases = [
-        (
-            world("<geom size='1' masss='2'/>"),
-            "<text>:3:16: error: unknown attribute 'masss' of <geom>; did you mean 'mass'?",
-        ),
-        (
-            world("<geoms size='1'/>"),
-            "<text>:3:1: error: unknown element <geoms> in <worldbody>; did you mean <geom>?",
-        ),
-        (
-            world("<geom size='1 2 3 4'/>"),
-            "<text>:3:13: error: attribute 'size' of <geom> takes 1 to 3 numbers, not 4",
-        ),
-        (world("<geom size='1' pos='0 1'/>"), "<text>:3:21: error: attribute 'pos' of <geom> takes 3 numbers, not 2"),
-        (
-            world("<geom size='1' pos='0 1 2x'/>"),
-            "<text>:3:25: error: attribute 'pos' of <geom>: '2x' is not a number",
-        ),
-        (
-            world("<geom size='1' condim='3.5'/>"),
-            "<text>:3:24: error: attribute 'condim' of <geom>: '3.5' is not an integer",
-        ),
-        (
-            world("<geom size='1' condim='30000000000'/>"),
-            "<text>:3:24: error: attribute 'condim' of <geom>: integer '30000000000' is too large",
-        ),
-        (
-            world("<geom size='nan'/>"),
-            "<text>:3:13: error: attribute 'size' of <geom>: 'nan' is not allowed: values must be numbers",
-        ),
-        (
-            world("<geom size='1' mass='1e309'/>"),
-            "<text>:3:22: error: attribute 'mass' of <geom>: number '1e309' is too large",
-        ),
-        (
-            world("<geom size='1' rgba='1 1e308 1 1'/>"),
-            "<text>:3:24: error: attribute 'rgba' of <geom>: number '1e308' is too large",
-        ),
-        (
-            world("<geom size='1' mass='1e308'/>"),
-            "<text>:3:22: error: attribute 'mass' of <geom>: number '1e308' is too large: at most 1e100 in magnitude",
-        ),
-        (
-            world("<geom size='1' pos='0 -inf 0'/>"),
-            "<text>:3:23: error: attribute 'pos' of <geom>: number '-inf' is too large: at most 1e100 in magnitude",
-        ),
-        (
-            "<mujoco><keyframe><key qpos='0 inf'/></keyframe></mujoco>".into(),
-            "<text>:1:32: error: attribute 'qpos' of <key>: number 'inf' is too large: at most 1e100 in magnitude",
-        ),
-        (
-            "<mujoco><option timestep='nan'/></mujoco>".into(),
-            "<text>:1:27: error: attribute 'timestep' of <option>: 'nan' is not allowed: values must be numbers",
-        ),
-        (
-            "<mujoco><option timestep='1e308'/></mujoco>".into(),
-            "<text>:1:27: error: attribute 'timestep' of <option>: number '1e308' is too large: at most 1e100 in magnitude",
-        ),
-        (
-            "<mujoco><option timestep='0'/></mujoco>".into(),
-            "<text>:1:27: error: attribute 'timestep' of <option> must be positive, is 0",
-        ),
-        (
-            "<mujoco><option gravity='0 0 -9.81' timestep='-0.002'/></mujoco>".into(),
-            "<text>:1:47: error: attribute 'timestep' of <option> must be positive, is -0.002",
-        ),
-        (
-            world("<geom type='capsul' size='1'/>"),
-            "<text>:3:13: error: attribute 'type' of <geom> cannot be 'capsul'; did you mean 'capsule'?",
-        ),
-        (
-            world("<geom size='1' quat='0 0 0 0'/>"),
-            "<text>:3:22: error: a quaternion cannot be zero",
-        ),
-        (
-            world("<body name='a'/><body name='a'/>"),
-            "<text>:3:29: error: duplicate body name 'a'; the first is at <text>:3:13",
-        ),
-        (
-            world("<geom class='fat' size='1'/>"),
-            "<text>:3:14: error: no default class is named 'fat'",
-        ),
-        (
-            world("<joint/>"),
-            "<text>:3:1: error: unknown element <joint> in <worldbody>",
-        ),
-        (
-            world("<body><inertial mass='1'/></body>"),
-            "<text>:3:7: error: <inertial> needs the attribute 'pos'",
-        ),
-        (
-            world("<body><inertial pos='0 0 0' mass='1'/><inertial pos='0 0 0' mass='1'/></body>"),
-            "<text>:3:39: error: <inertial> may stand only once in <body>",
-        ),
-        (
-            world("<geom size='1' euler='0 0 1' quat='1 0 0 0'/>"),
-            "<text>:3:1: error: <geom> takes only one of 'quat' or 'axisangle' or 'xyaxes' or 'zaxis' or 'euler'",
-        ),
-        (
-            "<mujoco><actuator><motor joint='elbov'/></actuator><worldbody><body><joint name='elbow'/></body></worldbody></mujoco>"
-                .into(),
-            "<text>:1:33: error: no joint is named 'elbov'; did you mean 'elbow'?",
-        ),
-        (
-            "<mujoco><sensor><touch name='t'/></sensor></mujoco>".into(),
-            "<text>:1:17: error: <touch> needs the attribute 'site'",
-        ),
-        (
-            "<mujoco><sensor><framepos objtype='bodyy' objname='world'/></sensor></mujoco>".into(),
-            "<text>:1:36: error: attribute 'objtype' of <framepos> cannot be 'bodyy'; did you mean 'body'?",
-        ),
-        (
-            "<mujoco><compiler eulerseq='xyq'/></mujoco>".into(),
-            "<text>:1:29: error: attribute 'eulerseq' takes three of the letters xyzXYZ",
-        ),
-        (
-            "<mujoco><option><flag contact='off'/></option></mujoco>".into(),
-            "<text>:1:32: error: attribute 'contact' of <flag> cannot be 'off'; one of disable, enable",
-        ),
-        (
-            "<mujoco><size memory='12Q'/></mujoco>".into(),
-            "<text>:1:23: error: attribute 'memory' takes a number of bytes such as 512K or 15M",
-        ),
-        (
-            "<mujoco><default><default class='a'><geom name='g'/></default></default></mujoco>".into(),
-            "<text>:1:43: error: attribute 'name' of <geom> cannot have a default",
-        ),
-        ("<robot name='r'/>".into(), "<text>:1:1: error: this is URDF: only MJCF is supported"),
-        ("<model/>".into(), "<text>:1:1: error: root element <model> is not <mujoco>"),
-        (
-            world("<flexcomp name='f' type='grid'/>"),
-            "<text>:3:1: error: <flexcomp> is not supported: deformable bodies are not simulated",
-        ),
-        (
-            "<mujoco><actuator><general joint='j' dyntype='user'/></actuator><worldbody><body><joint name='j'/></body></worldbody></mujoco>"
-                .into(),
-            "<text>:1:19: error: user actuators are not supported: they are not simulated",
-        ),
-        (
-            "<mujoco><option collision='predefined'/></mujoco>".into(),
-            "<text>:1:17: error: attribute 'collision' of <option> is no longer supported; only 'all' is accepted: pairs and excludes now decide alone",
-        ),
-    ];
-    for (text, expected) in cases {
-        assert_eq!(first(&text), expected, "for {text}");
+    for (content, expected) in IN_THE_WORLD {
+        assert_eq!(first(&world(content)), expected, "for {content}");
+    }
+    for (text, expected) in WHOLE_TEXTS {
+        assert_eq!(first(text), expected, "for {text}");
     }
 }
 

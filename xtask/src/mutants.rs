@@ -38,6 +38,7 @@ pub fn run(words: &[&str]) -> Result<(), String> {
     command.args(["--test-package", "robohive-physics,robohive-validation", "--output", LOGS]);
     // Quick tests that compare with recorded runs, and those of the crate itself.
     command.args(["--", "--lib", "--tests", "--", "--skip", "laws_hold", "--skip", "draws"]);
+    std::fs::create_dir_all(LOGS).map_err(|error| format!("{LOGS}: {error}"))?;
     // It fails where a mutant is not noticed, which the table says.
     command.status().map_err(|error| format!("{command:?}: {error}"))?;
     let table = table(all)?;
