@@ -12,9 +12,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use tree::{Crate, crates, root, sources};
 
 /// Lines of a file.
-const FILE: usize = 550;
+const FILE: usize = 500;
 /// Lines of a function, from its signature to its closing brace.
-const FUNCTION: usize = 150;
+const FUNCTION: usize = 113;
 /// Arguments of a function, `self` among them.
 const ARGUMENTS: usize = 7;
 
@@ -48,7 +48,7 @@ const OUTSIDE: [&str; 5] = ["std::fs", "std::net", "std::env", "std::process", "
 const EMPTY_NAMES: [&str; 8] = ["util", "utils", "helper", "helpers", "common", "misc", "shared", "tools"];
 
 /// Crates in which no two modules need each other, directly or through others.
-const CIRCLE_FREE: [&str; 1] = ["src/dataset"];
+const CIRCLE_FREE: [&str; 3] = ["mjcf", "src/dataset", "src/random"];
 
 /// Fails with the list of everything that breaks a rule.
 fn none(broken: Vec<String>, rule: &str) {

@@ -100,10 +100,13 @@ pub fn circles(folder: &str) -> Vec<Vec<String>> {
     });
     let modules: BTreeMap<Path, Vec<Path>> =
         library.map(|file| (inside(&file.path), paths(&file.syntax()))).collect();
-    let needs: BTreeMap<&Path, BTreeSet<Path>> = modules
-        .iter()
-        .map(|(from, paths)| (from, paths.iter().filter_map(|path| resolve(&modules, from, path)).collect()))
-        .collect();
+    // A module belongs to those around it, whatever it takes from them.
+    let others = |from: &Path, paths: &[Path]| -> BTreeSet<Path> {
+        let found = paths.iter().filter_map(|path| resolve(&modules, from, path));
+        found.filter(|to| !from.starts_with(to)).collect()
+    };
+    let needs: BTreeMap<&Path, BTreeSet<Path>> =
+        modules.iter().map(|(from, paths)| (from, others(from, paths))).collect();
     let reached: BTreeMap<&Path, BTreeSet<Path>> =
         needs.keys().map(|&from| (from, reach(&needs, from))).collect();
     let circle = |from: &Path| -> Vec<String> {
