@@ -3,6 +3,7 @@
 //! A node's box encloses its leaves; the leaves are split at the median of the longest axis of that
 //! box. Nodes are numbered in preorder, the left child right after its parent, as `bvh_*` stores them.
 
+use crate::quickselect::select;
 use crate::vector::{rotate, sub};
 
 /// Boxes thinner than this are inflated, and coordinates closer than this tie.
@@ -82,7 +83,7 @@ fn split(bvh: &mut Bvh, elements: &mut [Element], depth: i32, ipos: [f64; 3], qi
         let (x, y) = (a.local[axis], b.local[axis]);
         if (x - y).abs() > EPS { x < y } else { a.order < b.order }
     };
-    nth_element(elements, median, before);
+    select(elements, median, &before);
     let (left, right) = elements.split_at_mut(median);
     let left = split(bvh, left, depth + 1, ipos, qinv);
     let right = split(bvh, right, depth + 1, ipos, qinv);
@@ -140,164 +141,4 @@ fn longest_axis(edges: [f64; 3]) -> usize {
         axis = 2;
     }
     axis
-}
-
-/// Moves the `nth` element into place with everything before it ordered before it.
-///
-/// Degenerate faces have positions that are not numbers, so `before` need not be a strict weak order;
-/// then the outcome depends on the sequence of comparisons, and that of LLVM's `std::nth_element`
-/// (quickselect, median of three) is kept.
-fn nth_element<T>(items: &mut [T], nth: usize, before: impl Fn(&T, &T) -> bool) {
-    const SELECTION_SORT_BELOW: usize = 7;
-    let (mut first, mut last) = (0, items.len());
-    'narrow: loop {
-        if nth == last || last - first < 2 {
-            return;
-        }
-        if last - first == 2 {
-            if before(&items[last - 1], &items[first]) {
-                items.swap(first, last - 1);
-            }
-            return;
-        }
-        if last - first == 3 {
-            sort3(items, first, first + 1, first + 2, &before);
-            return;
-        }
-        if last - first <= SELECTION_SORT_BELOW {
-            return selection_sort(&mut items[first..last], &before);
-        }
-        let mut pivot = first + (last - first) / 2;
-        let end = last - 1;
-        let mut swaps = sort3(items, first, pivot, end, &before);
-        let (mut i, mut j) = (first, end);
-        if !before(&items[i], &items[pivot]) {
-            // The first element ties with the pivot: look from the right for one that is smaller.
-            loop {
-                j -= 1;
-                if i == j {
-                    // Nothing is smaller: split off the elements that tie with the first one.
-                    i += 1;
-                    j = end;
-                    if !before(&items[first], &items[j]) {
-                        loop {
-                            if i == j {
-                                return;
-                            }
-                            if before(&items[first], &items[i]) {
-                                items.swap(i, j);
-                                i += 1;
-                                break;
-                            }
-                            i += 1;
-                        }
-                    }
-                    if i == j {
-                        return;
-                    }
-                    loop {
-                        while i < end && !before(&items[first], &items[i]) {
-                            i += 1;
-                        }
-                        j -= 1;
-                        while j > first && before(&items[first], &items[j]) {
-                            j -= 1;
-                        }
-                        if i >= j {
-                            break;
-                        }
-                        items.swap(i, j);
-                        i += 1;
-                    }
-                    if nth < i {
-                        return;
-                    }
-                    first = i;
-                    continue 'narrow;
-                }
-                if before(&items[j], &items[pivot]) {
-                    items.swap(i, j);
-                    swaps += 1;
-                    break;
-                }
-            }
-        }
-        i += 1;
-        if i < j {
-            loop {
-                while i < end && before(&items[i], &items[pivot]) {
-                    i += 1;
-                }
-                j -= 1;
-                while j > first && !before(&items[j], &items[pivot]) {
-                    j -= 1;
-                }
-                if i >= j {
-                    break;
-                }
-                items.swap(i, j);
-                swaps += 1;
-                if pivot == i {
-                    pivot = j;
-                }
-                i += 1;
-            }
-        }
-        if i != pivot && before(&items[pivot], &items[i]) {
-            items.swap(i, pivot);
-            swaps += 1;
-        }
-        if nth == i {
-            return;
-        }
-        if swaps == 0 && already_sorted(items, if nth < i { first..i } else { i..last }, &before) {
-            return;
-        }
-        if nth < i {
-            last = i;
-        } else {
-            first = i + 1;
-        }
-    }
-}
-
-fn already_sorted<T>(items: &[T], range: std::ops::Range<usize>, before: impl Fn(&T, &T) -> bool) -> bool {
-    items[range].windows(2).all(|pair| !before(&pair[1], &pair[0]))
-}
-
-/// Orders three elements, returns the number of swaps.
-fn sort3<T>(items: &mut [T], x: usize, y: usize, z: usize, before: impl Fn(&T, &T) -> bool) -> usize {
-    if !before(&items[y], &items[x]) {
-        if !before(&items[z], &items[y]) {
-            return 0;
-        }
-        items.swap(y, z);
-        if before(&items[y], &items[x]) {
-            items.swap(x, y);
-            return 2;
-        }
-        return 1;
-    }
-    if before(&items[z], &items[y]) {
-        items.swap(x, z);
-        return 1;
-    }
-    items.swap(x, y);
-    if before(&items[z], &items[y]) {
-        items.swap(y, z);
-        return 2;
-    }
-    1
-}
-
-fn selection_sort<T>(items: &mut [T], before: impl Fn(&T, &T) -> bool) {
-    for first in 0..items.len().saturating_sub(1) {
-        let mut least = first;
-        for i in first + 1..items.len() {
-            if before(&items[i], &items[least]) {
-                least = i;
-            }
-        }
-        items.swap(first, least);
-    }
 }

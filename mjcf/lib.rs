@@ -34,6 +34,7 @@ mod include;
 mod loaded;
 mod loader;
 pub mod mesh;
+mod quickselect;
 mod read;
 mod schema;
 pub mod spec;
