@@ -68,7 +68,8 @@ impl Budget {
 }
 
 /// How to raise the limit.
-pub(crate) const ADVICE: &str = "raise `memory` in the limits of the `Loader` if it is meant";
+pub(crate) const ADVICE: &str =
+    "if it is meant, raise `memory` in the limits of the `Loader`, or give the command `--memory`";
 
 /// Bytes that the content of a file takes, decoded and in the arrays of the model.
 pub(crate) fn decoded(content: Content, bytes: &[u8]) -> usize {

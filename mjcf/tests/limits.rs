@@ -146,7 +146,8 @@ fn the_budget_can_be_raised_and_lowered() {
     let (refusal, bytes) = within(1_000_000);
     let found = refusal.map(|loaded| loaded.model.ngeom).expect_err("refused").to_string();
     let expected = "<text>:1:20: error: 2000 copies of <replicate>: needs 5 MB of memory, 5 MB with what stands before, \
-                    more than the budget of 1 MB; raise `memory` in the limits of the `Loader` if it is meant";
+                    more than the budget of 1 MB; if it is meant, raise `memory` in the limits of the `Loader`, or give \
+                    the command `--memory`";
     assert_eq!(found, expected);
     assert!(bytes < 200_000, "{bytes} bytes");
     let (refusal, _) = within(5_000_000);

@@ -88,6 +88,9 @@ pub struct Reading {
     /// [default: the environment variable ROBOHIVE_CACHE, else none are kept]
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub cache: Option<PathBuf>,
+    /// Memory that the model may ask for, in MiB
+    #[arg(long, value_name = "MIB", default_value_t = 2048, value_parser = clap::value_parser!(u32).range(1..))]
+    pub memory: u32,
 }
 
 /// Summarise a model, or write out every compiled array

@@ -25,7 +25,8 @@ const MAX_LISTED: usize = 12;
 
 /// Loads a model and shows its warnings on standard error.
 pub fn load(path: &Path, reading: &Reading) -> Result<Model, Failure> {
-    let mut loader = mjcf::Loader::default();
+    let memory = usize::try_from(u64::from(reading.memory) << 20).unwrap_or(usize::MAX);
+    let mut loader = mjcf::Loader::default().limits(mjcf::Limits { memory, ..mjcf::Limits::default() });
     let named = std::env::var_os("ROBOHIVE_CACHE").filter(|folder| !folder.is_empty());
     if let Some(folder) = reading.cache.clone().or(named.map(Into::into)) {
         loader = loader.cache(mjcf::Cache::new(folder));

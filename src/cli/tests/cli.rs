@@ -387,3 +387,16 @@ fn models_are_cached_in_a_folder() {
     assert_eq!(text(&third.stdout), text(&first.stdout));
     assert!(text(&third.stderr).contains("damaged; it was compiled again"), "{}", text(&third.stderr));
 }
+
+#[test]
+fn memory_of_a_model_is_bounded_as_asked() {
+    let file = scratch("field.xml");
+    let field = "<mujoco>\n<asset><hfield name='h' nrow='1000' ncol='1000' size='1 1 1 1'/></asset></mujoco>";
+    std::fs::write(&file, field).unwrap();
+    let file = file.to_str().unwrap();
+    let refused = robohive(&["inspect", file, "--memory", "1"]);
+    assert_eq!(refused.status.code(), Some(2));
+    let message = text(&refused.stderr);
+    assert!(message.contains("field.xml:2:8: error: ") && message.contains("`--memory`"), "{message}");
+    assert!(robohive(&["inspect", file, "--memory", "64"]).status.success());
+}
