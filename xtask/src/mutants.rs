@@ -41,13 +41,13 @@ pub fn run(words: &[&str]) -> Result<(), String> {
     std::fs::create_dir_all(LOGS).map_err(|error| format!("{LOGS}: {error}"))?;
     // It fails where a mutant is not noticed, which the table says.
     command.status().map_err(|error| format!("{command:?}: {error}"))?;
-    let table = table(all)?;
+    let table = table(all, count)?;
     print!("{table}");
     std::fs::write(TABLE, table).map_err(|error| format!("{TABLE}: {error}"))
 }
 
-/// The outcome of the last run.
-fn table(all: usize) -> Result<String, String> {
+/// The outcome of the last run, of `count` mutants asked for.
+fn table(all: usize, count: usize) -> Result<String, String> {
     let folder = Path::new(LOGS).join("mutants.out");
     let read = |file: &str| {
         let path = folder.join(file);
@@ -62,7 +62,7 @@ fn table(all: usize) -> Result<String, String> {
     let mut text = format!(
         "# Mutants\n\nFaults put into `src/physics` one at a time, and whether the tests notice them: {} of {all} possible ones, \
          spread\nevenly. Of those that compile {share:.0} % are noticed.\n\n```sh\ncargo install cargo-mutants\n\
-         cargo xtask mutants {COUNT}\n```\n\n| outcome | mutants |\n|---|---|\n",
+         cargo xtask mutants {count}\n```\n\n| outcome | mutants |\n|---|---|\n",
         numbers.iter().sum::<usize>()
     );
     for ((outcome, _), number) in OUTCOMES.iter().zip(numbers) {
