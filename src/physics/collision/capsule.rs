@@ -3,64 +3,78 @@
 
 use super::sphere::{Ball, balls, clip};
 use super::{PreContact, Shape};
-use crate::math::{add_scaled, dot, scale, sub};
+use crate::math::{Vec3, add_scaled, dot, scale, sub};
 use crate::model::bounds::MINVAL;
 
 /// Two capsules: one contact, or up to two when the segments are parallel.
 pub fn capsule_capsule(a: &Shape, b: &Shape, margin: f64, out: &mut Vec<PreContact>) {
-    let axis1 = scale(a.axis(), a.size[1]);
-    let axis2 = scale(b.axis(), b.size[1]);
-    let dif = sub(a.pos, b.pos);
-
-    // Normal equations of the squared distance in the segment parameters, each in [-1, 1].
-    let ma = dot(axis1, axis1);
-    let mb = -dot(axis1, axis2);
-    let mc = dot(axis2, axis2);
-    let u = -dot(axis1, dif);
-    let v = dot(axis2, dif);
-    let det = ma * mc - mb * mb;
-
-    let at = |x1: f64, x2: f64| {
-        let p1 = Ball { centre: add_scaled(a.pos, axis1, x1), radius: a.size[0], mat: &a.mat };
-        let p2 = Ball { centre: add_scaled(b.pos, axis2, x2), radius: b.size[0], mat: &b.mat };
-        balls(p1, p2, margin)
+    let halves = [scale(a.axis(), a.size[1]), scale(b.axis(), b.size[1])];
+    let segments = Segments::new(halves, sub(a.pos, b.pos));
+    let balls_at = |[x, y]: [f64; 2]| {
+        let first = Ball { centre: add_scaled(a.pos, halves[0], x), radius: a.size[0], mat: &a.mat };
+        let second = Ball { centre: add_scaled(b.pos, halves[1], y), radius: b.size[0], mat: &b.mat };
+        balls(first, second, margin)
     };
-    if det.abs() >= MINVAL {
-        let (x1, x2) = nearest_parameters(ma, mb, mc, u, v, det);
-        out.extend(at(x1, x2));
+    if let Some(nearest) = segments.nearest() {
+        out.extend(balls_at(nearest));
         return;
     }
-
     // Parallel: the ends of the first against the second, then the reverse, until there are two.
-    let first = out.len();
-    for x1 in [1.0, -1.0] {
-        out.extend(at(x1, clip((v - x1 * mb) / mc, 1.0)));
+    let before = out.len();
+    for end in [1.0, -1.0] {
+        out.extend(balls_at([end, clip(segments.beside(1, end), 1.0)]));
     }
-    for x2 in [1.0, -1.0] {
-        if out.len() >= first + 2 {
-            return;
+    for end in [1.0, -1.0] {
+        if out.len() < before + 2 {
+            out.extend(balls_at([clip(segments.beside(0, end), 1.0), end]));
         }
-        out.extend(at(clip((u - x2 * mb) / ma, 1.0), x2));
     }
 }
 
-/// Parameters of the nearest points, clipped to the first segment, then to the second.
-fn nearest_parameters(ma: f64, mb: f64, mc: f64, u: f64, v: f64, det: f64) -> (f64, f64) {
-    let mut x1 = (mc * u - mb * v) / det;
-    let mut x2 = (ma * v - mb * u) / det;
-    if x1 > 1.0 {
-        x1 = 1.0;
-        x2 = (v - mb) / mc;
-    } else if x1 < -1.0 {
-        x1 = -1.0;
-        x2 = (v + mb) / mc;
+/// The squared distance between points of two segments, as a quadratic function of where they are: from -1 at one end
+/// of a segment to 1 at the other.
+struct Segments {
+    /// Coefficients of the square of each parameter.
+    square: [f64; 2],
+    /// Coefficient of the product.
+    mixed: f64,
+    /// Where the gradient vanishes, `square[k] x[k] + mixed x[other] = linear[k]`.
+    linear: [f64; 2],
+}
+
+impl Segments {
+    /// Segments of these half-axes; `between` leads from the centre of the second to that of the first.
+    fn new([first, second]: [Vec3; 2], between: Vec3) -> Self {
+        Segments {
+            square: [dot(first, first), dot(second, second)],
+            mixed: -dot(first, second),
+            linear: [-dot(first, between), dot(second, between)],
+        }
     }
-    if x2 > 1.0 {
-        x2 = 1.0;
-        x1 = clip((u - mb) / ma, 1.0);
-    } else if x2 < -1.0 {
-        x2 = -1.0;
-        x1 = clip((u + mb) / ma, 1.0);
+
+    /// Where the line of segment `k` is nearest to a point of the other segment.
+    fn beside(&self, k: usize, other: f64) -> f64 {
+        (self.linear[k] - other * self.mixed) / self.square[k]
     }
-    (x1, x2)
+
+    /// The nearest points; `None` for parallel segments. A parameter beyond its range is put on the limit and the other
+    /// one follows, first for the first segment, then for the second.
+    fn nearest(&self) -> Option<[f64; 2]> {
+        let Segments { square, mixed, linear } = self;
+        let determinant = square[0] * square[1] - mixed * mixed;
+        if determinant.abs() < MINVAL {
+            return None;
+        }
+        let free = |k: usize| (square[1 - k] * linear[k] - mixed * linear[1 - k]) / determinant;
+        let (mut x, mut y) = (free(0), free(1));
+        if x.abs() > 1.0 {
+            x = 1.0f64.copysign(x);
+            y = self.beside(1, x);
+        }
+        if y.abs() > 1.0 {
+            y = 1.0f64.copysign(y);
+            x = clip(self.beside(0, y), 1.0);
+        }
+        Some([x, y])
+    }
 }
