@@ -78,3 +78,33 @@ impl Segments {
         Some([x, y])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{GeomType, Model};
+
+    #[test]
+    fn parallel_capsules_touch_at_both_ends_of_the_overlap() {
+        let m = Model::default();
+        let mat = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        let upright = |pos: Vec3, half: f64| Shape {
+            kind: GeomType::Capsule,
+            pos,
+            mat,
+            size: [0.1, half, 0.0],
+            geom: 0,
+            m: &m,
+        };
+        let [first, second] = [upright([0.0; 3], 0.3), upright([0.19, 0.0, 0.4], 0.25)];
+        for pair in [[&first, &second], [&second, &first]] {
+            let mut found = Vec::new();
+            capsule_capsule(pair[0], pair[1], 0.0, &mut found);
+            let mut heights: Vec<f64> = found.iter().map(|c| c.pos[2]).collect();
+            heights.sort_by(f64::total_cmp);
+            assert_eq!(heights.len(), 2);
+            assert!((heights[0] - 0.15).abs() < 1e-12 && (heights[1] - 0.3).abs() < 1e-12, "{heights:?}");
+            assert!(found.iter().all(|c| (c.dist + 0.01).abs() < 1e-12 && (c.pos[0] - 0.095).abs() < 1e-12));
+        }
+    }
+}

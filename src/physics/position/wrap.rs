@@ -374,6 +374,20 @@ mod tests {
         assert!(w.points.iter().all(|p| (norm(*p) - r).abs() < 1e-12));
     }
 
+    /// Ends below the sphere, a side site above it: the tangents touch at the angle `atan(x/y) + acos(r/far)` from below.
+    #[test]
+    fn string_over_the_far_side_covers_more_than_half_the_circle() {
+        let (r, x, y) = (0.3_f64, 0.2_f64, 0.5_f64);
+        let ends = [[-x, -y, 0.0], [x, -y, 0.0]];
+        let far = (x * x + y * y).sqrt();
+        let expected = r * (2.0 * PI - 2.0 * ((x / y).atan() + (r / far).acos()));
+        assert!(expected > r * PI);
+        for ends in [ends, [ends[1], ends[0]]] {
+            let w = wrap(WrapShape::Sphere, r, [0.0; 3], &UPRIGHT, ends, Some([0.0, 0.4, 0.0])).unwrap();
+            assert!((w.length - expected).abs() < 1e-12, "{} {expected}", w.length);
+        }
+    }
+
     #[test]
     fn helix_meets_cylinder_at_constant_slope() {
         let ends = [[-0.5, 0.1, -0.2], [0.5, 0.1, 0.4]];
