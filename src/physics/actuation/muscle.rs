@@ -150,7 +150,16 @@ mod tests {
         let muscle = Muscle { lengthrange: [0.0, 0.3], acc0: 1.0, prm: &DEFAULTS };
         assert!((muscle.gain(0.25, 0.0) + 100.0).abs() < 1e-12);
         assert_eq!(muscle.bias(0.25), 0.0);
-        assert!(muscle.bias(0.3) < -0.1);
+    }
+
+    /// Half of `fpmax` in the middle between the resting length and `lmax`, a quarter of that half-way there, and
+    /// one and a half of `fpmax` at `lmax`.
+    #[test]
+    fn stretched_muscle_pulls_by_a_parabola_then_a_line() {
+        let muscle = Muscle { lengthrange: [0.0, 0.3], acc0: 1.0, prm: &DEFAULTS };
+        for (length, force) in [(0.4, -16.25), (0.55, -65.0), (0.85, -195.0)] {
+            assert!((muscle.bias(length) - force).abs() < 1e-12, "{length}: {}", muscle.bias(length));
+        }
     }
 
     #[test]
