@@ -79,7 +79,7 @@ impl Slack {
         self.unions += 1;
     }
 
-    /// Whether so many facets have been united that only comparing all fresh facets finds the highest.
+    /// After many unions a walk from facet to facet may miss the highest one, so all fresh facets are compared.
     pub(super) fn many_unions(&self) -> bool {
         self.unions > MANY_UNIONS
     }

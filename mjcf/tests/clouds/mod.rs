@@ -280,7 +280,7 @@ fn nearly_cospherical(random: &mut Random) -> Vec<[f64; 3]> {
     points
 }
 
-/// A prism of so many sides that its ends are compared by their centres, with noise of the order of round-off.
+/// A prism with enough sides that unions of its ends are compared by their centres, with noise of the order of round-off.
 fn many_sides(random: &mut Random) -> Vec<[f64; 3]> {
     let (sides, size) = (random.between(30, 70), random.small(14, 17));
     let mut points = Vec::new();
