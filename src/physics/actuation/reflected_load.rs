@@ -13,13 +13,18 @@ pub enum Driven {
 }
 
 impl Driven {
+    /// The only actuator that adds to the element; -1 for none, below that several.
+    fn recorded(self, m: &Arrays) -> i32 {
+        match self {
+            Driven::Joint(j) => m.jnt_actuatorid[j],
+            Driven::Tendon(t) => m.tendon_actuatorid[t],
+        }
+    }
+
     /// Actuators that drive the element through a plain transmission, in order.
     fn actuators(self, m: &Arrays) -> impl Iterator<Item = usize> + '_ {
-        let (recorded, id) = match self {
-            Driven::Joint(j) => (m.jnt_actuatorid[j], j),
-            Driven::Tendon(t) => (m.tendon_actuatorid[t], t),
-        };
-        // One actuator is recorded by index; -1 means none, below that several.
+        let (Driven::Joint(id) | Driven::Tendon(id)) = self;
+        let recorded = self.recorded(m);
         let candidates = match recorded {
             -1 => 0..0,
             k if k >= 0 => k as usize..k as usize + 1,
@@ -39,6 +44,9 @@ impl Driven {
 
     /// Own damping `law` plus what actuators add.
     pub fn damping(self, m: &Model, law: Polynomial) -> Polynomial {
+        if self.recorded(m) == -1 {
+            return law;
+        }
         let mut poly = law.poly;
         let mut added = 0.0;
         for k in self.actuators(m) {
@@ -53,6 +61,9 @@ impl Driven {
 
     /// Armature that actuators add.
     pub fn armature(self, m: &Arrays) -> f64 {
+        if self.recorded(m) == -1 {
+            return 0.0;
+        }
         self.actuators(m).map(|k| m.actuator_armature[k] * gear_squared(m, k)).fold(0.0, |a, b| a + b)
     }
 }

@@ -135,7 +135,8 @@ fn each(
     if m.nhistory > 0 {
         fresh.resize(m.nsensordata, 0.0);
     }
-    for i in (0..m.nsensor).filter(|&i| m.sensor_needstage[i] == stage.code()) {
+    let wanted = m.sensor_needstage.iter().enumerate().filter(|&(_, &needed)| needed == stage.code());
+    for (i, _) in wanted {
         let Some(kind) = SensorType::from_code(m.sensor_type[i]) else { continue };
         let first = m.sensor_adr[i] as usize;
         let data = &mut sensordata[first..first + m.sensor_dim[i] as usize];
