@@ -21,7 +21,6 @@
 
 pub mod asset;
 mod budget;
-mod bvh;
 mod cache;
 mod compile;
 pub mod diagnostic;
@@ -34,7 +33,6 @@ mod include;
 mod loaded;
 mod loader;
 pub mod mesh;
-mod quickselect;
 mod read;
 mod schema;
 pub mod spec;

@@ -35,7 +35,7 @@ pub(crate) fn compose(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
 
 /// `v` rotated by the unit quaternion `q`.
 pub(crate) fn rotate(v: [f64; 3], q: [f64; 4]) -> [f64; 3] {
-    if v == [0.0; 3] { v } else { quat_rotate(q, v) }
+    quat_rotate(q, v)
 }
 
 /// Eigenvalues of a symmetric matrix in decreasing order and the orientation of their axes.

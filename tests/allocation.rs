@@ -1,4 +1,4 @@
-//! Steps, resets, snapshots and views allocate no memory once their buffers have grown: heap traffic would make their
+//! Steps, resets, snapshots, views and overwriting a model allocate no memory once their buffers have grown: heap traffic would make their
 //! duration unpredictable.
 
 use robohive::physics::{Data, Model, Snapshot, step};
@@ -44,6 +44,17 @@ fn pass(m: &mut Model, d: &mut Data, start: &mut Snapshot, drive: Drive) -> usiz
     changes
 }
 
+/// A reset that writes into the model, as tasks do that place objects.
+fn place(m: &mut Model, x: f64) {
+    m.overwrite(|m| {
+        let body = m.nbody - 1;
+        m.body_pos[body] = [x, 0.0, 1.0];
+        m.geom_size[1][0] = 0.1 + x;
+        m.geom_rgba[1][0] = 0.5;
+    })
+    .unwrap();
+}
+
 /// What moves a model: the number of the step, the model, its data.
 type Drive = fn(usize, &mut Model, &mut Data);
 
@@ -65,5 +76,11 @@ fn steps_do_not_allocate() {
         }
         let stats = region.change();
         assert_eq!((stats.allocations, stats.reallocations), (0, 0), "{name}");
+        let mut own = model.clone();
+        place(&mut own, 0.05);
+        let region = Region::new(HEAP);
+        (0..REPEATS).for_each(|i| place(&mut own, 0.01 * i as f64));
+        let stats = region.change();
+        assert_eq!((stats.allocations, stats.reallocations), (0, 0), "{name}: overwriting");
     }
 }

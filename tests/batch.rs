@@ -2,7 +2,7 @@
 
 mod state;
 
-use robohive::physics::model::Arrays;
+use robohive::physics::model::Draft;
 use robohive::physics::{Batch, Data, Model, Snapshot, StepError, step};
 use state::bits;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ fn diverse(m: &Arc<Model>, threads: usize) -> Batch {
             *v = 0.1 * ((environment + 3 * dof) as f64).sin();
         }
         if environment % 3 == 1 {
-            let lighter = |m: &mut Arrays| {
+            let lighter = |m: &mut Draft<'_>| {
                 m.opt.gravity[0] = 0.5 * environment as f64;
                 m.geom_friction.iter_mut().for_each(|friction| friction[0] *= 0.5);
             };

@@ -5,7 +5,7 @@ use super::lookup::Lookup;
 use super::values::{bounded, push_user, resolve_limited, rising};
 use crate::spec::{Actuator, Spec};
 use physics::model::input::{self, EXPONENTIAL_MAP, FEED_FORWARD, POSITION, QUATERNION, VELOCITY, VOLTAGE};
-use physics::model::{Arrays, BiasType, DynType, GainType, JointType, ObjType, TrnType};
+use physics::model::{BiasType, DynType, GainType, JointType, ObjType, Rows, TrnType};
 
 /// What is wrong with an actuator that names nothing to act on.
 const NO_TARGET: &str =
@@ -21,7 +21,7 @@ struct Block {
 }
 
 /// Appends all actuators.
-pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     let (mut actadr, mut historyadr) = (0, 0);
     for actuator in &spec.actuators {
         let what = title("actuator", &actuator.name);
@@ -85,7 +85,7 @@ fn transmission(actuator: &Actuator, lookup: &Lookup, what: &str, log: &mut Log)
 }
 
 /// Checks the type-specific rules and finds the sizes.
-fn block(m: &Arrays, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Result<Block, String> {
+fn block(m: &Rows, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Result<Block, String> {
     let mut block = Block { ctrlspec: 0, ctrlnum: 1, outnum: 1, actdim: a.actdim, so3: false };
     if a.gaintype == GainType::So3 || a.biastype == BiasType::So3 {
         so3_block(m, a, trnid, forcelimited, &mut block)?;
@@ -131,7 +131,7 @@ fn block(m: &Arrays, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Resul
 }
 
 fn so3_block(
-    m: &Arrays,
+    m: &Rows,
     a: &Actuator,
     trnid: [i32; 2],
     limited: bool,
@@ -249,7 +249,7 @@ fn dcmotor_block(a: &Actuator, block: &mut Block) -> Result<(), String> {
 }
 
 /// `ctrlrange` and `actrange`, one of them from the target when `inheritrange` is set.
-fn ranges(m: &Arrays, a: &Actuator, trnid: [i32; 2]) -> Result<([f64; 2], [f64; 2]), String> {
+fn ranges(m: &Rows, a: &Actuator, trnid: [i32; 2]) -> Result<([f64; 2], [f64; 2]), String> {
     let (mut ctrl, mut act) = (a.ctrlrange, a.actrange);
     let position =
         (a.gaintype == GainType::Fixed && a.gainprm[0] == -a.biasprm[1]) || a.gaintype == GainType::Pid;
@@ -321,7 +321,7 @@ fn check(a: &Actuator, block: &Block) -> Result<(), String> {
 }
 
 fn fill_actuator(
-    m: &mut Arrays,
+    m: &mut Rows,
     a: &Actuator,
     trnid: [i32; 2],
     autolimits: bool,
@@ -393,7 +393,7 @@ fn fill_actuator(
 }
 
 /// One control range an input; pid servos bound velocity and feedforward apart.
-fn fill_inputs(m: &mut Arrays, a: &Actuator, block: &Block, limited: bool, range: [f64; 2]) {
+fn fill_inputs(m: &mut Rows, a: &Actuator, block: &Block, limited: bool, range: [f64; 2]) {
     let mut inputs = vec![(limited, range); block.ctrlnum];
     if a.gaintype == GainType::Pid {
         inputs.clear();

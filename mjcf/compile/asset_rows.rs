@@ -5,10 +5,10 @@ use super::log::{Log, title};
 use super::lookup::Lookup;
 use crate::mesh::CompiledMesh;
 use crate::spec::Spec;
-use physics::model::{Arrays, ObjType};
+use physics::model::{ObjType, Rows};
 
 /// Appends all assets except the hierarchies, which follow those of the bodies.
-pub(super) fn fill(m: &mut Arrays, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     m.tex_data.reserve_exact(assets.textures.iter().map(|asset| asset.compiled.data.len()).sum());
     let total =
         |count: fn(&CompiledMesh) -> usize| assets.meshes.iter().map(|asset| count(&asset.compiled)).sum();
@@ -53,7 +53,7 @@ pub(super) fn fill(m: &mut Arrays, assets: &Assets, spec: &Spec, lookup: &Lookup
     }
 }
 
-fn fill_mesh(m: &mut Arrays, mesh: &CompiledMesh) {
+fn fill_mesh(m: &mut Rows, mesh: &CompiledMesh) {
     let address = |count: usize, next: usize| if count == 0 { -1 } else { next as i32 };
     m.mesh_vertadr.push(m.mesh_vert.len() as i32);
     m.mesh_vertnum.push(mesh.vert.len() as i32);

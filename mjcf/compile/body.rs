@@ -12,7 +12,7 @@ use super::viewpoint;
 use crate::spec::{AlignFree, Body, Compiler, Geom, InertiaFromGeom, Inertial, Spec, resolve};
 use crate::vector::{EPS, normalize};
 use physics::model::bounds::MINVAL;
-use physics::model::{Arrays, JointType, SameFrame};
+use physics::model::{JointType, Rows, SameFrame};
 
 /// What a body's compile needs to know.
 pub(super) struct Context<'a, 's> {
@@ -272,7 +272,7 @@ pub(super) fn check_moving_mass(tree: &Tree, log: &mut Log) {
 }
 
 /// Appends the row of a body.
-pub(super) fn fill(m: &mut Arrays, node: &BodyNode, id: usize, tree: &Tree, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, node: &BodyNode, id: usize, tree: &Tree, log: &mut Log) {
     let parent = node.parent;
     let dofs = node.dofs();
     let root = if id == 0 || parent == 0 { id as i32 } else { m.body_rootid[parent] };
@@ -315,7 +315,7 @@ pub(super) fn fill(m: &mut Arrays, node: &BodyNode, id: usize, tree: &Tree, log:
 }
 
 /// Takes back simplicity that the joints forbid; level 2 is for sliders only.
-pub(super) fn settle_simple(m: &mut Arrays, node: &BodyNode, id: usize) {
+pub(super) fn settle_simple(m: &mut Rows, node: &BodyNode, id: usize) {
     let mut rotates = false;
     for joint in &node.joints {
         let aligned = joint.axis.iter().filter(|x| x.abs() > EPS).count() == 1;
@@ -332,7 +332,7 @@ pub(super) fn settle_simple(m: &mut Arrays, node: &BodyNode, id: usize) {
 }
 
 /// Scales masses and inertias to the given total.
-pub(super) fn scale_mass(m: &mut Arrays, total: f64) {
+pub(super) fn scale_mass(m: &mut Rows, total: f64) {
     let now: f64 = m.body_mass.iter().skip(1).fold(0.0, |sum, mass| sum + mass);
     let scale = (total / now.max(MINVAL)).max(MINVAL);
     for b in 1..m.body_mass.len() {

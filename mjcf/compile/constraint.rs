@@ -3,10 +3,10 @@
 use super::log::{Log, title};
 use super::lookup::Lookup;
 use crate::spec::{Equality, Pair, SOLIMP, SOLREF, Spec};
-use physics::model::{Arrays, EqType, JointType, ObjType};
+use physics::model::{EqType, JointType, ObjType, Rows};
 
 /// Appends pairs and excludes, sorted by signature, and equality constraints.
-pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     let mut pairs: Vec<PairRow> = spec.pairs.iter().filter_map(|p| pair_row(m, p, lookup, log)).collect();
     pairs.sort_by_key(|row| row.signature);
     pairs.iter().for_each(|row| fill_pair(m, row));
@@ -29,7 +29,7 @@ fn signature(body1: usize, body2: usize) -> i32 {
 }
 
 /// Order in which pairs and excludes are numbered: stable by signature.
-pub(super) fn sorted_names(spec: &Spec, m: &Arrays, kind: ObjType, lookup: &Lookup) -> Vec<String> {
+pub(super) fn sorted_names(spec: &Spec, m: &Rows, kind: ObjType, lookup: &Lookup) -> Vec<String> {
     let body_of = |name: &str| lookup.find(ObjType::Geom, name).map_or(0, |g| m.geom_bodyid[g] as usize);
     let body = |name: &str| lookup.find(ObjType::Body, name).unwrap_or(0);
     let mut keyed: Vec<(i32, &str)> = if kind == ObjType::Pair {
@@ -65,7 +65,7 @@ struct PairRow {
 
 /// The pair of geoms, ordered by body; what the file leaves open has fixed defaults (MuJoCo 3.12 no longer takes
 /// it from the geoms).
-fn pair_row(m: &Arrays, pair: &Pair, lookup: &Lookup, log: &mut Log) -> Option<PairRow> {
+fn pair_row(m: &Rows, pair: &Pair, lookup: &Lookup, log: &mut Log) -> Option<PairRow> {
     let what = title("contact pair", &pair.name);
     let first = lookup.require(ObjType::Geom, &pair.geomname1, pair.loc, &what, log);
     let second = lookup.require(ObjType::Geom, &pair.geomname2, pair.loc, &what, log);
@@ -91,7 +91,7 @@ fn pair_row(m: &Arrays, pair: &Pair, lookup: &Lookup, log: &mut Log) -> Option<P
     })
 }
 
-fn fill_pair(m: &mut Arrays, row: &PairRow) {
+fn fill_pair(m: &mut Rows, row: &PairRow) {
     m.pair_dim.push(row.dim);
     m.pair_geom1.push(row.geoms[0] as i32);
     m.pair_geom2.push(row.geoms[1] as i32);
@@ -105,7 +105,7 @@ fn fill_pair(m: &mut Arrays, row: &PairRow) {
     m.pair_friction.push(row.friction);
 }
 
-fn fill_equality(m: &mut Arrays, equality: &Equality, lookup: &Lookup, log: &mut Log) {
+fn fill_equality(m: &mut Rows, equality: &Equality, lookup: &Lookup, log: &mut Log) {
     let what = title("equality constraint", &equality.name);
     let loc = equality.loc;
     let kind = match equality.kind {

@@ -4,10 +4,10 @@ use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::values::bounded;
 use crate::spec::Spec;
-use physics::model::Arrays;
+use physics::model::Rows;
 
 /// Appends all custom data.
-pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     for numeric in &spec.numerics {
         let what = title("numeric", &numeric.name);
         let size =

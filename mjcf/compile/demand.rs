@@ -5,7 +5,7 @@ use super::log::Log;
 use crate::diagnostic::Loc;
 use crate::spec::{Body, Spec};
 use physics::Data;
-use physics::model::{Arrays, JointType};
+use physics::model::{Arrays, JointType, Rows};
 
 /// Elements of one kind: what messages call them, where they stand, and how their number sets sizes.
 struct Family {
@@ -32,7 +32,7 @@ struct Tree {
 
 /// Charges the arrays whose sizes follow from the number of elements; `sizes` has the widths of user data. False,
 /// with an error at the element that asks for too much, when they are beyond the budget.
-pub(super) fn charge(sizes: &Arrays, spec: &Spec, log: &mut Log) -> bool {
+pub(super) fn charge(sizes: &Rows, spec: &Spec, log: &mut Log) -> bool {
     let tree = Tree::of(&spec.world);
     let mut m = widths(sizes);
     (m.nq, m.nv, m.nmocap, m.nuserdata) =
@@ -69,7 +69,7 @@ pub(super) fn charge_patterns(m: &Arrays, spec: &Spec, log: &mut Log) -> bool {
     let mut depth = vec![0_usize; m.nbody];
     (1..m.nbody).for_each(|b| depth[b] = depth[m.body_parentid[b] as usize] + 1);
     let longest = above.iter().copied().max().unwrap_or(0);
-    let mut p = Arrays { nv: m.nv, nbody: m.nbody, ..widths(&Arrays::default()) };
+    let mut p = Arrays { nv: m.nv, nbody: m.nbody, ..widths(&Rows::default()) };
     p.nC = above.iter().sum();
     p.nM = p.nC;
     p.nD = 2 * p.nC;
@@ -141,7 +141,7 @@ fn families(tree: Tree, spec: &Spec) -> Vec<Family> {
 }
 
 /// Sizes of which only the widths of user data are set.
-fn widths(m: &Arrays) -> Arrays {
+fn widths(m: &Rows) -> Arrays {
     Arrays {
         nuser_body: m.nuser_body,
         nuser_jnt: m.nuser_jnt,

@@ -8,17 +8,18 @@ use physics::model::{Arrays, SleepPolicy, WrapType};
 pub(super) fn fill(m: &mut Arrays, tree: &Tree, log: &mut Log) {
     number_trees(m);
     demote_bodies_under_heavy_tendons(m);
-    m.dof_simplenum = simple_runs(m);
+    m.dof_simplenum = simple_runs(m).into();
     given_sleep_policies(m, tree, log);
 }
 
 /// A degree of freedom without one above it starts a tree.
 fn number_trees(m: &mut Arrays) {
     let mut tree = -1;
-    for dof in 0..m.nv {
-        tree += i32::from(m.dof_parentid[dof] < 0);
-        m.dof_treeid.push(tree);
-    }
+    let numbers = m.dof_parentid.iter().map(|&above| {
+        tree += i32::from(above < 0);
+        tree
+    });
+    m.dof_treeid = numbers.collect();
 }
 
 /// A tendon with armature couples the bodies it touches, which then are not simple.
@@ -53,7 +54,7 @@ fn simple_runs(m: &Arrays) -> Vec<i32> {
 
 /// Sleep policies that the file gives, to the first body of a tree only.
 fn given_sleep_policies(m: &mut Arrays, tree: &Tree, log: &mut Log) {
-    m.tree_sleep_policy = vec![SleepPolicy::Auto.code(); m.ntree];
+    m.tree_sleep_policy = vec![SleepPolicy::Auto.code(); m.ntree].into();
     for (id, node) in tree.bodies.iter().enumerate() {
         if node.spec.sleep == SleepPolicy::Auto {
             continue;

@@ -6,14 +6,14 @@ use super::frame::{Pose, add, direction, same_frame_in_body, segment};
 use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::nodes::{BodyNode, GeomNode};
-use super::shape;
 use super::values::push_user;
 use crate::image::CompiledHfield;
 use crate::mesh::{CompiledMesh, Primitive, fit_primitive};
 use crate::spec::{Compiler, Geom, resolve};
 use crate::vector::{EPS, cross, normalize};
+use physics::geometry::shape;
 use physics::math::Vec3;
-use physics::model::{Arrays, GeomType, ObjType};
+use physics::model::{GeomType, ObjType, Rows};
 
 /// What a geom's compile needs to know.
 pub(super) struct Context<'a> {
@@ -189,7 +189,7 @@ fn weigh(spec: &Geom, size: Vec3, mesh: Option<&CompiledMesh>) -> Result<(f64, V
 }
 
 /// Appends the geoms of `body`.
-pub(super) fn fill(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
     for node in &body.geoms {
         let spec = node.spec;
         let what = title("geom", &spec.name);

@@ -2,11 +2,11 @@
 
 use super::assets::Assets;
 use super::nodes::Tree;
-use crate::bvh::{self, Bvh, Leaf};
-use physics::model::Arrays;
+use physics::geometry::hierarchy::{self as bvh, Bvh, Leaf};
+use physics::model::Rows;
 
 /// Bounding volume hierarchies over the geoms of each body, in its inertial frame.
-pub(super) fn fill_bodies(m: &mut Arrays, tree: &Tree) {
+pub(super) fn fill_bodies(m: &mut Rows, tree: &Tree) {
     for (id, node) in tree.bodies.iter().enumerate() {
         let first = m.body_geomadr[id];
         let leaves: Vec<Leaf> = node
@@ -30,7 +30,7 @@ pub(super) fn fill_bodies(m: &mut Arrays, tree: &Tree) {
 }
 
 /// Appends the hierarchies of meshes.
-pub(super) fn fill_meshes(m: &mut Arrays, assets: &Assets) {
+pub(super) fn fill_meshes(m: &mut Rows, assets: &Assets) {
     let nodes = assets.meshes.iter().map(|asset| asset.compiled.bvh.depth.len()).sum();
     m.bvh_depth.reserve_exact(nodes);
     m.bvh_child.reserve_exact(nodes);
@@ -45,7 +45,7 @@ pub(super) fn fill_meshes(m: &mut Arrays, assets: &Assets) {
 }
 
 /// Appends the nodes of a hierarchy.
-fn append(m: &mut Arrays, tree: &Bvh) {
+fn append(m: &mut Rows, tree: &Bvh) {
     m.bvh_depth.extend(&tree.depth);
     m.bvh_child.extend(&tree.child);
     m.bvh_nodeid.extend(&tree.nodeid);

@@ -7,7 +7,7 @@ use super::values::{push_user, resolve_limited, rising};
 use crate::spec::{Compiler, Joint, joint_dimensions};
 use crate::vector::{EPS, normalize};
 use physics::model::bounds::MINVAL;
-use physics::model::{Arrays, JointType};
+use physics::model::{Arrays, JointType, Rows};
 use std::f64::consts::PI;
 
 /// Compiles a joint that stands in `frame`.
@@ -68,7 +68,7 @@ fn check_range(kind: JointType, range: [f64; 2]) -> Result<(), String> {
 }
 
 /// Appends the joints of `body` and their degrees of freedom.
-pub(super) fn fill(m: &mut Arrays, body: &BodyNode, id: usize, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, body: &BodyNode, id: usize, log: &mut Log) {
     let mut parent_dof = last_dof_above(m, id);
     for node in &body.joints {
         let spec = node.spec;
@@ -127,7 +127,7 @@ pub(super) fn set_springdampers(m: &mut Arrays, springdampers: &[[f64; 2]]) {
 }
 
 /// Positions of the joint at the reference and at the spring's rest.
-fn fill_reference(m: &mut Arrays, body: &BodyNode, node: &JointNode) {
+fn fill_reference(m: &mut Rows, body: &BodyNode, node: &JointNode) {
     match node.spec.kind {
         JointType::Free => {
             m.qpos0.extend(body.pose.pos);
@@ -147,7 +147,7 @@ fn fill_reference(m: &mut Arrays, body: &BodyNode, node: &JointNode) {
 }
 
 /// The last degree of freedom of the nearest ancestor that has any, -1 for none.
-fn last_dof_above(m: &Arrays, id: usize) -> i32 {
+fn last_dof_above(m: &Rows, id: usize) -> i32 {
     let mut b = id;
     while b > 0 {
         b = m.body_parentid[b] as usize;

@@ -4,7 +4,7 @@ use super::log::{Log, title};
 use super::nodes::Tree;
 use crate::diagnostic::Loc;
 use crate::spec::{Key, KeyPart, Keyed, Spec};
-use physics::model::{Arrays, JointType};
+use physics::model::{JointType, Rows};
 
 /// Name and place of every keyframe: those of the file, empty ones up to `size/nkey`, those of attached models.
 pub(super) fn names(spec: &Spec) -> impl Iterator<Item = (&str, Loc)> {
@@ -15,7 +15,7 @@ pub(super) fn names(spec: &Spec) -> impl Iterator<Item = (&str, Loc)> {
 }
 
 /// Appends the keyframes of the file, empty ones up to `size/nkey`, and those of attached models.
-pub(super) fn fill(m: &mut Arrays, tree: &Tree, spec: &Spec, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, tree: &Tree, spec: &Spec, log: &mut Log) {
     let (nq, nv, nu) = (m.qpos0.len(), m.dof_bodyid.len(), m.actuator_ctrllimited.len());
     let na: i32 = m.actuator_actnum.iter().sum();
     let mocap: Vec<usize> = (0..m.body_mocapid.len()).filter(|&b| m.body_mocapid[b] >= 0).collect();
@@ -41,7 +41,7 @@ pub(super) fn fill(m: &mut Arrays, tree: &Tree, spec: &Spec, log: &mut Log) {
 }
 
 /// A keyframe of an attached model: what its elements took along, and the reference elsewhere.
-fn gather(m: &Arrays, tree: &Tree, spec: &Spec, index: usize) -> Key {
+fn gather(m: &Rows, tree: &Tree, spec: &Spec, index: usize) -> Key {
     let head = &spec.kept_keys[index];
     let mut key = Key { name: head.name.clone(), loc: head.loc, time: head.time, ..Key::default() };
     let mut put = |keyed: &[Keyed], part: KeyPart, address: i32, default: &[f64]| {
@@ -105,7 +105,7 @@ impl Part<'_, '_> {
     }
 }
 
-fn normalize_rotations(m: &Arrays, qpos: &mut [f64]) {
+fn normalize_rotations(m: &Rows, qpos: &mut [f64]) {
     for joint in 0..m.jnt_type.len() {
         let start = match JointType::from_code(m.jnt_type[joint]) {
             Some(JointType::Free) => m.jnt_qposadr[joint] as usize + 3,

@@ -26,7 +26,6 @@ mod lookup;
 mod names;
 mod nodes;
 mod sensor;
-mod shape;
 mod sizes;
 mod tendon;
 mod tree;
@@ -45,7 +44,7 @@ use physics::Model;
 use physics::constants::length_range::set_length_ranges;
 use physics::constants::set_const::set_const;
 use physics::inertia::sparsity;
-use physics::model::Arrays;
+use physics::model::{Arrays, Rows};
 use physics::pipeline::validity::check_model;
 
 /// Compiles `spec`; files of assets come from `files`, processed meshes from `meshes`, findings go to `diagnostics`,
@@ -123,7 +122,7 @@ fn compile_static(
     meshes: Option<&dyn MeshStore>,
     log: &mut Log,
 ) -> Option<(Arrays, Vec<[f64; 2]>)> {
-    let mut m = Arrays { name: spec.modelname.clone(), ..Arrays::default() };
+    let mut m = Rows { name: spec.modelname.clone(), ..Rows::default() };
     sizes::set_user_widths(&mut m, spec, log);
     if log.diagnostics.has_errors() || !demand::charge(&m, spec, log) {
         return None;
@@ -159,6 +158,7 @@ fn compile_static(
         return None;
     }
     names::fill(&mut m, spec, &tree, &assets, &lookup);
+    let mut m = m.finish();
     sizes::set(&mut m, spec);
     fixed::fill(&mut m, &tree, log);
     if !demand::charge_patterns(&m, spec, log) {

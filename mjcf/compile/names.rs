@@ -5,10 +5,10 @@ use super::constraint::sorted_names;
 use super::lookup::Lookup;
 use super::nodes::Tree;
 use crate::spec::Spec;
-use physics::model::{Arrays, ObjType};
+use physics::model::{ObjType, Rows};
 
 /// Fills names, hash table and paths.
-pub(super) fn fill(m: &mut Arrays, spec: &Spec, tree: &Tree, assets: &Assets, lookup: &Lookup) {
+pub(super) fn fill(m: &mut Rows, spec: &Spec, tree: &Tree, assets: &Assets, lookup: &Lookup) {
     m.names.extend(spec.modelname.bytes());
     m.names.push(0);
     let pairs = sorted_names(spec, m, ObjType::Pair, lookup);

@@ -4,10 +4,10 @@ use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::values::{bounded, push_user};
 use crate::spec::{Sensor, Spec};
-use physics::model::{Arrays, DataType, GeomType, JointType, ObjType, SensorType, Stage};
+use physics::model::{DataType, GeomType, JointType, ObjType, Rows, SensorType, Stage};
 
 /// Appends all sensors; history buffers follow those of the actuators.
-pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     for sensor in &spec.sensors {
         let what = title("sensor", &sensor.name);
         let before = log.diagnostics.list.len();
@@ -31,7 +31,7 @@ fn reference(kind: ObjType, name: &str, sensor: &Sensor, lookup: &Lookup, what: 
     }
 }
 
-fn fill_sensor(m: &mut Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+fn fill_sensor(m: &mut Rows, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
     check_numbers(sensor)?;
     check(m, sensor, object, base)?;
     let user = sensor.kind == SensorType::User;
@@ -89,7 +89,7 @@ fn ensure(holds: bool, otherwise: &str) -> Result<(), String> {
 }
 
 /// Which objects a sensor may be attached to.
-fn check(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+fn check(m: &Rows, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
     use SensorType::*;
     let on = |kinds: &[ObjType]| {
         if kinds.contains(&sensor.objtype) {
@@ -167,7 +167,7 @@ fn check_fields(fields: i32, count: u32) -> Result<(), String> {
     if fields > 0 && fields < 1 << count { Ok(()) } else { Err(format!("invalid data fields {fields:#b}")) }
 }
 
-fn check_distance(m: &Arrays, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+fn check_distance(m: &Rows, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
     let ends = [(sensor.objtype, object), (sensor.reftype, base)];
     if ends.iter().any(|(kind, _)| !matches!(kind, ObjType::Body | ObjType::Geom)) {
         return Err(
@@ -204,7 +204,7 @@ fn needstage(kind: SensorType) -> Stage {
     }
 }
 
-fn dimension(m: &Arrays, sensor: &Sensor, object: i32) -> Result<i64, String> {
+fn dimension(m: &Rows, sensor: &Sensor, object: i32) -> Result<i64, String> {
     use SensorType::*;
     let id = object as usize;
     Ok(match sensor.kind {

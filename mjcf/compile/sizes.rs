@@ -4,10 +4,10 @@ use super::log::Log;
 use super::values::bounded;
 use crate::diagnostic::Loc;
 use crate::spec::{Body, Spec};
-use physics::model::{Arrays, EqType};
+use physics::model::{Arrays, EqType, Rows};
 
 /// Widths of user data: as the file says, else the longest row.
-pub(super) fn set_user_widths(m: &mut Arrays, spec: &Spec, log: &mut Log) {
+pub(super) fn set_user_widths(m: &mut Rows, spec: &Spec, log: &mut Log) {
     let size = &spec.size;
     let (mut longest, mut count) = ([0; 5], [0; 5]);
     let mut pending: Vec<&Body> = vec![&spec.world];
@@ -108,33 +108,33 @@ fn rows(kind: i32) -> usize {
 
 /// Room for what `set_const` computes.
 pub(super) fn allocate_derived(m: &mut Arrays) {
-    m.body_subtreemass = vec![0.0; m.nbody];
-    m.body_treeid = vec![-1; m.nbody];
-    m.tree_bodyadr = vec![0; m.ntree];
-    m.tree_bodynum = vec![0; m.ntree];
-    m.tree_dofadr = vec![0; m.ntree];
-    m.tree_dofnum = vec![0; m.ntree];
-    m.jnt_actuatorid = vec![-1; m.njnt];
-    m.tendon_actuatorid = vec![-1; m.ntendon];
-    m.tendon_treenum = vec![0; m.ntendon];
-    m.tendon_treeid = vec![[-1; 2]; m.ntendon];
-    m.ten_J_rownnz = vec![0; m.ntendon];
-    m.ten_J_rowadr = vec![0; m.ntendon];
-    m.ten_J_colind = vec![0; m.nJten];
-    m.body_invweight0 = vec![[0.0; 2]; m.nbody];
-    m.dof_invweight0 = vec![0.0; m.nv];
-    m.dof_M0 = vec![0.0; m.nv];
-    m.dof_length = vec![0.0; m.nv];
-    m.tendon_length0 = vec![0.0; m.ntendon];
-    m.tendon_invweight0 = vec![0.0; m.ntendon];
-    m.actuator_acc0 = vec![0.0; m.nout];
-    m.actuator_length0 = vec![0.0; m.nout];
-    m.cam_poscom0 = vec![[0.0; 3]; m.ncam];
-    m.cam_pos0 = vec![[0.0; 3]; m.ncam];
-    m.cam_mat0 = vec![[0.0; 9]; m.ncam];
-    m.light_poscom0 = vec![[0.0; 3]; m.nlight];
-    m.light_pos0 = vec![[0.0; 3]; m.nlight];
-    m.light_dir0 = vec![[0.0; 3]; m.nlight];
+    m.body_subtreemass = vec![0.0; m.nbody].into();
+    m.body_treeid = vec![-1; m.nbody].into();
+    m.tree_bodyadr = vec![0; m.ntree].into();
+    m.tree_bodynum = vec![0; m.ntree].into();
+    m.tree_dofadr = vec![0; m.ntree].into();
+    m.tree_dofnum = vec![0; m.ntree].into();
+    m.jnt_actuatorid = vec![-1; m.njnt].into();
+    m.tendon_actuatorid = vec![-1; m.ntendon].into();
+    m.tendon_treenum = vec![0; m.ntendon].into();
+    m.tendon_treeid = vec![[-1; 2]; m.ntendon].into();
+    m.ten_J_rownnz = vec![0; m.ntendon].into();
+    m.ten_J_rowadr = vec![0; m.ntendon].into();
+    m.ten_J_colind = vec![0; m.nJten].into();
+    m.body_invweight0 = vec![[0.0; 2]; m.nbody].into();
+    m.dof_invweight0 = vec![0.0; m.nv].into();
+    m.dof_M0 = vec![0.0; m.nv].into();
+    m.dof_length = vec![0.0; m.nv].into();
+    m.tendon_length0 = vec![0.0; m.ntendon].into();
+    m.tendon_invweight0 = vec![0.0; m.ntendon].into();
+    m.actuator_acc0 = vec![0.0; m.nout].into();
+    m.actuator_length0 = vec![0.0; m.nout].into();
+    m.cam_poscom0 = vec![[0.0; 3]; m.ncam].into();
+    m.cam_pos0 = vec![[0.0; 3]; m.ncam].into();
+    m.cam_mat0 = vec![[0.0; 9]; m.ncam].into();
+    m.light_poscom0 = vec![[0.0; 3]; m.nlight].into();
+    m.light_pos0 = vec![[0.0; 3]; m.nlight].into();
+    m.light_dir0 = vec![[0.0; 3]; m.nlight].into();
 }
 
 /// Every array must have the size that the table of fields says.

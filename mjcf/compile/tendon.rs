@@ -4,10 +4,10 @@ use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::values::{push_user, resolve_limited, rising};
 use crate::spec::{Spec, Tendon, Wrap, WrapKind};
-use physics::model::{Arrays, GeomType, ObjType, WrapType};
+use physics::model::{GeomType, ObjType, Rows, WrapType};
 
 /// Appends all tendons.
-pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     for tendon in &spec.tendons {
         let what = title("tendon", &tendon.name);
         m.tendon_adr.push(m.wrap_type.len() as i32);
@@ -23,7 +23,7 @@ pub(super) fn fill(m: &mut Arrays, spec: &Spec, lookup: &Lookup, log: &mut Log) 
     }
 }
 
-fn fill_wrap(m: &mut Arrays, wrap: &Wrap, what: &str, lookup: &Lookup, log: &mut Log) {
+fn fill_wrap(m: &mut Rows, wrap: &Wrap, what: &str, lookup: &Lookup, log: &mut Log) {
     let mut find = |kind, name: &str| match lookup.require(kind, name, wrap.loc, what, log) {
         Some(id) => id as i32,
         None => -1,
@@ -56,7 +56,7 @@ fn fill_wrap(m: &mut Arrays, wrap: &Wrap, what: &str, lookup: &Lookup, log: &mut
 }
 
 /// What may follow what (XML reference, `tendon/spatial`).
-fn check_path(m: &Arrays, tendon: &Tendon) -> Result<(), String> {
+fn check_path(m: &Rows, tendon: &Tendon) -> Result<(), String> {
     let count = tendon.path.len();
     let first = m.wrap_type.len() - count;
     let kinds = &m.wrap_type[first..];
@@ -106,7 +106,7 @@ fn check_path(m: &Arrays, tendon: &Tendon) -> Result<(), String> {
     Ok(())
 }
 
-fn fill_tendon(m: &mut Arrays, tendon: &Tendon, autolimits: bool) -> Result<(), String> {
+fn fill_tendon(m: &mut Rows, tendon: &Tendon, autolimits: bool) -> Result<(), String> {
     let limited = resolve_limited(tendon.limited, tendon.range, autolimits, "")?;
     let force_limited = resolve_limited(tendon.actfrclimited, tendon.actfrcrange, autolimits, "actuatorfrc")?;
     if limited && tendon.range[0] >= tendon.range[1] {

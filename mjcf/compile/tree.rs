@@ -11,7 +11,7 @@ use super::lookup::Lookup;
 use super::nodes::Tree;
 use super::viewpoint;
 use crate::spec::{Body, Spec};
-use physics::model::Arrays;
+use physics::model::Rows;
 
 /// Compiles every body of the spec.
 pub(super) fn compile<'s>(spec: &'s Spec, assets: &Assets, log: &mut Log) -> Tree<'s> {
@@ -42,7 +42,7 @@ pub(super) fn compile<'s>(spec: &'s Spec, assets: &Assets, log: &mut Log) -> Tre
 }
 
 /// Fills the arrays of bodies and all that is fixed to them.
-pub(super) fn fill(m: &mut Arrays, tree: &Tree, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, tree: &Tree, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     body::check_moving_mass(tree, log);
     for (id, node) in tree.bodies.iter().enumerate() {
         body::fill(m, node, id, tree, log);

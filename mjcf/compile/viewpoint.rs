@@ -5,12 +5,12 @@ use super::geom;
 use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::nodes::{BodyNode, CameraNode, LightNode, SiteNode};
-use super::shape;
 use super::values::push_user;
 use crate::spec::{Camera, Compiler, Light, Site, Spec, resolve};
 use crate::vector::{EPS, normalize};
+use physics::geometry::shape;
 use physics::math::ops;
-use physics::model::{Arrays, GeomType, ObjType};
+use physics::model::{GeomType, ObjType, Rows};
 use std::f64::consts::PI;
 
 /// Compiles sites, cameras and lights of a body.
@@ -112,7 +112,7 @@ fn compile_light<'s>(spec: &'s Light, frame: Option<&Pose>) -> Result<LightNode<
 }
 
 /// Appends the sites of `body`.
-pub(super) fn fill_sites(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill_sites(m: &mut Rows, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
     for node in &body.sites {
         let spec = node.spec;
         let what = title("site", &spec.name);
@@ -131,7 +131,7 @@ pub(super) fn fill_sites(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lo
 }
 
 /// Appends the cameras of `body`.
-pub(super) fn fill_cameras(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill_cameras(m: &mut Rows, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
     for node in &body.cameras {
         let spec = node.spec;
         let what = title("camera", &spec.name);
@@ -153,7 +153,7 @@ pub(super) fn fill_cameras(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &
 }
 
 /// Appends the lights of `body`.
-pub(super) fn fill_lights(m: &mut Arrays, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill_lights(m: &mut Rows, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
     for node in &body.lights {
         let spec = node.spec;
         let what = title("light", &spec.name);

@@ -1,6 +1,6 @@
 //! What a mesh is compiled to.
 
-use crate::bvh::Bvh;
+use physics::geometry::hierarchy::Bvh;
 
 /// The rows one mesh contributes to a model. Addresses inside are relative to the mesh's own first
 /// row; the model compiler adds its offsets.

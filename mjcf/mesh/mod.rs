@@ -32,12 +32,12 @@ mod source;
 mod stl;
 pub(crate) mod stored;
 
-pub use crate::bvh::Bvh;
 pub use compiled::CompiledMesh;
 pub use decode::decode;
 pub use fit::{Primitive, fit_primitive};
 pub use hull::{Hull, convex_hull};
 pub use mass::MeshInertia;
+pub use physics::geometry::hierarchy::Bvh;
 pub use process::process;
 pub use shapes::{Shape, builtin, vertex_count};
 pub use source::{Format, MeshSource, RawMesh};

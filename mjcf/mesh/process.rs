@@ -8,8 +8,8 @@ use super::normals::{normalize_given, vertex_normals};
 use super::polygons::Polygons;
 use super::source::{Format, MeshSource, RawMesh};
 use crate::asset::AssetError;
-use crate::bvh::{self, Bvh, Leaf};
 use crate::vector::{apply, cross, dot, matrix, normalize, principal_axes, sub, transpose};
+use physics::geometry::hierarchy::{self as bvh, Bvh, Leaf};
 use physics::model::bounds::MINVAL;
 
 /// The arrays of a mesh while it is processed, coordinates in double precision.

@@ -73,8 +73,8 @@ mod rows {
         let (bytes, rest) = rest.split_at_checked(rows.checked_mul(F::ROW_BYTES)?)?;
         *from = rest;
         let mut field = F::default();
-        field.restart(rows);
-        field.append(bytes);
+        field.allocate(rows, 1);
+        field.write(0, bytes);
         Some(field)
     }
 }

@@ -28,6 +28,7 @@ pub mod constants;
 pub mod data;
 pub mod derivative;
 pub mod elements;
+pub mod geometry;
 pub mod inertia;
 pub mod integration;
 pub mod math;

@@ -91,13 +91,15 @@ impl Slice<'_> {
 }
 
 /// The scalar type of a field.
-pub trait Scalar: Copy + Default {
+pub trait Scalar: Copy + Default + PartialEq + std::fmt::Debug + Send + Sync + 'static {
     /// Wraps a slice with its type.
     fn slice(s: &[Self]) -> Slice<'_>;
     /// Converts flat f64 values, the common currency of injected arrays.
     fn from_f64(x: f64) -> Self;
     /// Bytes in a compiled file.
     const BYTES: usize;
+    /// Zero.
+    const ZERO: Self;
     /// Reads `BYTES` little-endian bytes.
     fn from_bytes(bytes: &[u8]) -> Self;
 }
@@ -108,7 +110,7 @@ fn head<const N: usize>(bytes: &[u8]) -> [u8; N] {
 }
 
 macro_rules! scalar {
-    ($t:ty, $v:ident, |$x:ident| $e:expr, |$bytes:ident| $read:expr) => {
+    ($t:ty, $v:ident, $zero:literal, |$x:ident| $e:expr, |$bytes:ident| $read:expr) => {
         impl Scalar for $t {
             fn slice(s: &[Self]) -> Slice<'_> {
                 Slice::$v(s)
@@ -117,20 +119,81 @@ macro_rules! scalar {
                 $e
             }
             const BYTES: usize = size_of::<$t>();
+            const ZERO: Self = $zero;
             fn from_bytes($bytes: &[u8]) -> Self {
                 $read
             }
         }
+
+        impl Row for $t {
+            const COLUMNS: usize = 1;
+            const BYTES: usize = <$t as Scalar>::BYTES;
+            const ZERO: Self = $zero;
+            fn scalars(rows: &[Self]) -> Slice<'_> {
+                Slice::$v(rows)
+            }
+            fn from_f64(values: &[f64]) -> Self {
+                <$t as Scalar>::from_f64(values[0])
+            }
+            fn from_bytes(bytes: &[u8]) -> Self {
+                <$t as Scalar>::from_bytes(bytes)
+            }
+        }
     };
 }
-scalar!(bool, Bool, |x| x != 0.0, |bytes| bytes[0] != 0);
-scalar!(u8, U8, |x| x as u8, |bytes| bytes[0]);
-scalar!(i32, I32, |x| x as i32, |bytes| i32::from_le_bytes(head(bytes)));
-scalar!(i64, I64, |x| x as i64, |bytes| i64::from_le_bytes(head(bytes)));
-scalar!(f32, F32, |x| x as f32, |bytes| f32::from_le_bytes(head(bytes)));
-scalar!(f64, F64, |x| x, |bytes| f64::from_le_bytes(head(bytes)));
+scalar!(bool, Bool, false, |x| x != 0.0, |bytes| bytes[0] != 0);
+scalar!(u8, U8, 0, |x| x as u8, |bytes| bytes[0]);
+scalar!(i32, I32, 0, |x| x as i32, |bytes| i32::from_le_bytes(head(bytes)));
+scalar!(i64, I64, 0, |x| x as i64, |bytes| i64::from_le_bytes(head(bytes)));
+scalar!(f32, F32, 0.0, |x| x as f32, |bytes| f32::from_le_bytes(head(bytes)));
+scalar!(f64, F64, 0.0, |x| x, |bytes| f64::from_le_bytes(head(bytes)));
 
-/// Storage of one field: `Vec<T>`, `Vec<[T; N]>`, `T` or `[T; N]`.
+/// One row of an array: a scalar, or a short vector of them.
+pub trait Row: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
+    /// Scalars of a row.
+    const COLUMNS: usize;
+    /// Bytes of a row in a compiled file.
+    const BYTES: usize;
+    /// The row of zeros.
+    const ZERO: Self;
+    /// All scalars of some rows, in row-major order.
+    fn scalars(rows: &[Self]) -> Slice<'_>;
+    /// A row of `COLUMNS` values.
+    fn from_f64(values: &[f64]) -> Self;
+    /// Reads `BYTES` little-endian bytes.
+    fn from_bytes(bytes: &[u8]) -> Self;
+}
+
+impl<T: Scalar, const N: usize> Row for [T; N] {
+    const COLUMNS: usize = N;
+    const BYTES: usize = N * T::BYTES;
+    const ZERO: Self = [T::ZERO; N];
+    fn scalars(rows: &[Self]) -> Slice<'_> {
+        T::slice(rows.as_flattened())
+    }
+    fn from_f64(values: &[f64]) -> Self {
+        std::array::from_fn(|i| T::from_f64(values[i]))
+    }
+    fn from_bytes(bytes: &[u8]) -> Self {
+        std::array::from_fn(|i| T::from_bytes(&bytes[i * T::BYTES..]))
+    }
+}
+
+/// Writes flat values over rows; false, with nothing written, when there are more or fewer.
+pub(crate) fn assign_rows<R: Row>(rows: &mut [R], values: &[f64]) -> bool {
+    let fits = values.len() == rows.len() * R::COLUMNS;
+    if fits {
+        rows.iter_mut().zip(values.chunks_exact(R::COLUMNS)).for_each(|(row, v)| *row = R::from_f64(v));
+    }
+    fits
+}
+
+/// Writes the rows that `bytes` holds over the first ones.
+pub(crate) fn write_rows<R: Row>(rows: &mut [R], bytes: &[u8]) {
+    rows.iter_mut().zip(bytes.chunks_exact(R::BYTES)).for_each(|(row, b)| *row = R::from_bytes(b));
+}
+
+/// Storage of one field: an array of rows.
 pub trait Field {
     /// All scalars in row-major order.
     fn scalars(&self) -> Slice<'_>;
@@ -138,66 +201,54 @@ pub trait Field {
     fn allocate(&mut self, rows: usize, width: usize);
     /// Replaces the content by flat values; false when they do not fill whole rows.
     fn assign(&mut self, values: &[f64]) -> bool;
-    /// Empties the array and makes room for `rows` rows.
-    fn restart(&mut self, rows: usize);
-    /// Appends as many rows as `bytes`, a multiple of `ROW_BYTES`, holds.
-    fn append(&mut self, bytes: &[u8]);
+    /// Overwrites rows from `first` on by as many as `bytes`, a multiple of `ROW_BYTES`, holds.
+    fn write(&mut self, first: usize, bytes: &[u8]);
     /// Fixed columns of one row (1 for scalar rows).
     const COLUMNS: usize;
     /// Bytes of those columns in a compiled file.
     const ROW_BYTES: usize;
 }
 
-impl<T: Scalar> Field for Vec<T> {
+impl<R: Row> Field for Vec<R> {
     fn scalars(&self) -> Slice<'_> {
-        T::slice(self)
+        R::scalars(self)
     }
     fn allocate(&mut self, rows: usize, width: usize) {
         self.clear();
-        self.resize(rows * width, T::default());
+        self.resize(rows * width, R::ZERO);
     }
     fn assign(&mut self, values: &[f64]) -> bool {
-        self.clear();
-        self.extend(values.iter().map(|&x| T::from_f64(x)));
-        true
+        let whole = values.len().is_multiple_of(R::COLUMNS);
+        if whole {
+            self.clear();
+            self.extend(values.chunks_exact(R::COLUMNS).map(R::from_f64));
+        }
+        whole
     }
-    fn restart(&mut self, rows: usize) {
-        self.clear();
-        self.reserve_exact(rows);
+    fn write(&mut self, first: usize, bytes: &[u8]) {
+        write_rows(&mut self[first..], bytes);
     }
-    fn append(&mut self, bytes: &[u8]) {
-        self.extend(bytes.chunks_exact(T::BYTES).map(T::from_bytes));
-    }
-    const COLUMNS: usize = 1;
-    const ROW_BYTES: usize = T::BYTES;
+    const COLUMNS: usize = R::COLUMNS;
+    const ROW_BYTES: usize = R::BYTES;
 }
 
-impl<T: Scalar, const N: usize> Field for Vec<[T; N]> {
-    fn scalars(&self) -> Slice<'_> {
-        T::slice(self.as_flattened())
-    }
-    fn allocate(&mut self, rows: usize, width: usize) {
-        self.clear();
-        self.resize(rows * width, [T::default(); N]);
-    }
-    fn assign(&mut self, values: &[f64]) -> bool {
-        if !values.len().is_multiple_of(N) {
-            return false;
-        }
-        self.clear();
-        self.extend(values.chunks_exact(N).map(|row| std::array::from_fn(|i| T::from_f64(row[i]))));
-        true
-    }
-    fn restart(&mut self, rows: usize) {
-        self.clear();
-        self.reserve_exact(rows);
-    }
-    fn append(&mut self, bytes: &[u8]) {
-        let row = |row: &[u8]| std::array::from_fn(|i| T::from_bytes(&row[i * T::BYTES..]));
-        self.extend(bytes.chunks_exact(Self::ROW_BYTES).map(row));
-    }
-    const COLUMNS: usize = N;
-    const ROW_BYTES: usize = N * T::BYTES;
+macro_rules! row_type {
+    ($t:ty, [$rows:ident; $n:literal]) => {
+        [$t; $n]
+    };
+    ($t:ty, [$rows:ident $(, $w:ident)? $(; $n:literal)?]) => {
+        $t
+    };
+}
+
+/// What the rows of an array are numbered by; arrays of run-time width are flat, and numbered by nothing.
+macro_rules! row_count {
+    ([$rows:ident $(; $n:literal)?]) => {
+        crate::model::counts::$rows
+    };
+    ([$rows:ident, $w:ident $(; $n:literal)?]) => {
+        crate::model::counts::Flat
+    };
 }
 
 macro_rules! field_type {
@@ -317,4 +368,4 @@ macro_rules! stage {
     };
 }
 
-pub(crate) use {field_rows, field_shape, field_type, field_width, stage};
+pub(crate) use {field_rows, field_shape, field_type, field_width, row_count, row_type, stage};

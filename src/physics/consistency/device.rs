@@ -79,7 +79,7 @@ pub(super) fn history_length(m: &Arrays) -> i64 {
 }
 
 /// Inputs, outputs, states and histories follow each other in the order of actuators.
-fn actuators(m: &Arrays) -> Result<(), Inconsistent> {
+pub(super) fn actuators(m: &Arrays) -> Result<(), Inconsistent> {
     let (mut ctrl, mut out, mut act, mut history) = (0, 0, 0, 0);
     for i in 0..m.nactuator {
         let (inputs, outputs, states) = block(m, i)?;

@@ -27,6 +27,11 @@ pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     }
     textures(m)?;
     (0..m.nmesh).try_for_each(|mesh| check_mesh(m, mesh))?;
+    geoms(m)
+}
+
+/// Geoms have the mesh or height field that their type needs.
+pub(super) fn geoms(m: &Arrays) -> Result<(), Inconsistent> {
     (0..m.ngeom).try_for_each(|geom| geom_data(m, geom))
 }
 

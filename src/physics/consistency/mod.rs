@@ -53,6 +53,23 @@ pub fn check_consistency(m: &Arrays) -> Result<(), Inconsistent> {
     patterns::check(m)
 }
 
+/// Checks types, meshes and contact dimensions of geoms and pairs.
+///
+/// # Errors
+/// As [`check_consistency`].
+pub(crate) fn check_geoms(m: &Arrays) -> Result<(), Inconsistent> {
+    mesh::geoms(m)?;
+    dimensions(m)
+}
+
+/// Checks that types, parameters and targets of actuators fit each other.
+///
+/// # Errors
+/// As [`check_consistency`].
+pub(crate) fn check_actuators(m: &Arrays) -> Result<(), Inconsistent> {
+    device::actuators(m)
+}
+
 /// Refuses unless `holds`.
 fn require(
     holds: bool,
@@ -198,6 +215,11 @@ fn plain_references(m: &Arrays) -> Result<(), Inconsistent> {
         tendon_adr tendon_num m.nwrap;
         ten_J_rowadr ten_J_rownnz m.nJten;
     }
+    dimensions(m)
+}
+
+/// Contacts have one of four dimensions.
+fn dimensions(m: &Arrays) -> Result<(), Inconsistent> {
     let dims = m.geom_condim.iter().map(|d| ("geom_condim", d));
     for (i, (array, dim)) in dims.chain(m.pair_dim.iter().map(|d| ("pair_dim", d))).enumerate() {
         require([1, 3, 4, 6].contains(dim), array, i, "a contact dimension")?;

@@ -9,7 +9,7 @@ pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     sizes(m)?;
     let p = Patterns::of(m);
     let [ancestors, lower, square] = &p.maps;
-    for (array, is, expected) in [
+    let arrays: [(_, &[i32], _); 14] = [
         ("dof_Madr", &m.dof_Madr, &p.diagonal.0),
         ("M_rownnz", &m.M_rownnz, &p.lower.count),
         ("M_rowadr", &m.M_rowadr, &p.lower.address),
@@ -24,7 +24,8 @@ pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
         ("mapM2M", &m.mapM2M, ancestors),
         ("mapM2D", &m.mapM2D, lower),
         ("mapD2M", &m.mapD2M, square),
-    ] {
+    ];
+    for (array, is, expected) in arrays {
         require(is == expected, array, 0, "what follows from the tree")?;
     }
     require(m.nM == p.diagonal.1, "nM", 0, "what follows from the tree")?;

@@ -119,13 +119,14 @@ fn trees(m: &Arrays) -> Result<(), Inconsistent> {
     }
     require(m.ntree as i64 == i64::from(tree) + 1, "ntree", 0, "what follows from the dofs")?;
     let trees = Trees::of(m);
-    for (array, is, expected) in [
+    let arrays: [(_, &[i32], _); 5] = [
         ("body_treeid", &m.body_treeid, &trees.body),
         ("tree_bodyadr", &m.tree_bodyadr, &trees.bodies.0),
         ("tree_bodynum", &m.tree_bodynum, &trees.bodies.1),
         ("tree_dofadr", &m.tree_dofadr, &trees.dofs.0),
         ("tree_dofnum", &m.tree_dofnum, &trees.dofs.1),
-    ] {
+    ];
+    for (array, is, expected) in arrays {
         require(is == expected, array, 0, "what follows from the dofs")?;
     }
     Ok(())

@@ -21,9 +21,11 @@ pub(crate) fn set_inverse_weights(m: &mut Model, d: &Data) {
     let dofs = dof_weights(m, &d.inertia, &mut rows);
     let tendons = tendon_weights(m, d, &mut rows);
     let actuators = actuator_accelerations(m, d, &mut rows);
-    let arrays = m.unchecked_mut();
-    (arrays.body_invweight0, arrays.dof_invweight0) = (bodies, dofs);
-    (arrays.tendon_invweight0, arrays.actuator_acc0) = (tendons, actuators);
+    let arrays = m.derived_mut();
+    arrays.body_invweight0.update(&bodies);
+    arrays.dof_invweight0.update(&dofs);
+    arrays.tendon_invweight0.update(&tendons);
+    arrays.actuator_acc0.update(&actuators);
 }
 
 /// A row and `M⁻¹` times it; both all zero between uses.

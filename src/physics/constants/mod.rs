@@ -14,5 +14,6 @@
 
 mod inverse_weight;
 pub mod length_range;
+pub(crate) mod reference;
 pub mod set_const;
 pub(crate) mod statistic;

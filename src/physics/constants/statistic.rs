@@ -1,6 +1,6 @@
 //! Statistics of a model at `qpos0` (documentation: XML reference, `statistic`).
 
-use crate::data::{Data, Kinematics};
+use crate::data::{Inertia, Kinematics};
 use crate::math::{Vec3, add, distance, scale};
 use crate::model::{Arrays, GeomType, JointType};
 
@@ -13,10 +13,10 @@ const BACKGROUND_SHARE: f64 = 0.1;
 /// Radius with which an infinite plane counts [m].
 const INFINITE_PLANE: f64 = 0.01;
 
-/// Sets `stat` and `dof_length` from the poses and the inertia at `qpos0`.
-pub fn set_statistic(m: &mut Arrays, d: &Data) {
-    extent(m, &d.kin);
-    let sizes = body_sizes(m, &d.kin);
+/// Sets `dof_length` and all of `stat` but the mean inertia, from poses at `qpos0` and masses.
+pub fn set_geometry(m: &mut Arrays, kin: &Kinematics) {
+    extent(m, kin);
+    let sizes = body_sizes(m, kin);
     if m.nbody > 1 {
         let bodies = (m.nbody - 1) as f64;
         m.stat.meansize = 0.0;
@@ -36,10 +36,15 @@ pub fn set_statistic(m: &mut Arrays, d: &Data) {
             Some(JointType::Free) => offset >= 3,
             _ => false,
         };
-        m.dof_length[v] = if angular { sizes[m.dof_bodyid[v] as usize] } else { 1.0 };
+        let length = if angular { sizes[m.dof_bodyid[v] as usize] } else { 1.0 };
+        m.dof_length.update_row(v, length);
     }
+}
+
+/// Sets the mean inertia, from the inertia matrix at `qpos0`.
+pub fn set_inertia(m: &mut Arrays, inertia: &Inertia) {
     if m.nv > 0 {
-        let diagonal = |v: usize| d.inertia.M[(m.M_rowadr[v] + m.M_rownnz[v] - 1) as usize];
+        let diagonal = |v: usize| inertia.M[(m.M_rowadr[v] + m.M_rownnz[v] - 1) as usize];
         m.stat.meaninertia = (0..m.nv).map(diagonal).sum::<f64>() / m.nv as f64;
     }
 }

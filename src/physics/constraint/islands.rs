@@ -249,9 +249,9 @@ mod tests {
             nv: 4,
             ntree: 4,
             neq: 1,
-            eq_type: vec![EqType::Joint.code()],
-            dof_treeid: vec![0, 1, 2, 3],
-            tree_dofnum: vec![1; 4],
+            eq_type: vec![EqType::Joint.code()].into(),
+            dof_treeid: vec![0, 1, 2, 3].into(),
+            tree_dofnum: vec![1; 4].into(),
             ..Arrays::default()
         });
         let mut efc = Constraints::default();

@@ -34,6 +34,23 @@ use crate::model::{Arrays, Model};
 use crate::table::Slice;
 use std::fmt;
 
+impl State {
+    /// The reference configuration at time zero: zero velocities, activations and inputs, mocap bodies at their model
+    /// poses, equality constraints as the model says.
+    pub(crate) fn reset(&mut self, m: &Model) {
+        self.clear(m);
+        self.qpos.copy_from_slice(&m.qpos0);
+        history::reset(m, &mut self.history);
+        self.eq_active.copy_from_slice(&m.eq_active0);
+        for b in 0..m.nbody {
+            if let Ok(k) = usize::try_from(m.body_mocapid[b]) {
+                self.mocap_pos[k] = m.body_pos[b];
+                self.mocap_quat[k] = m.body_quat[b];
+            }
+        }
+    }
+}
+
 /// State, stage outputs and scratch memory of one simulation.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
@@ -123,16 +140,7 @@ impl Data {
     /// allocated.
     pub fn reset(&mut self, m: &Model) {
         self.energy = [0.0; 2];
-        self.state.clear(m);
-        self.state.qpos.copy_from_slice(&m.qpos0);
-        history::reset(m, &mut self.state.history);
-        self.state.eq_active.copy_from_slice(&m.eq_active0);
-        for b in 0..m.nbody {
-            if let Ok(k) = usize::try_from(m.body_mocapid[b]) {
-                self.state.mocap_pos[k] = m.body_pos[b];
-                self.state.mocap_quat[k] = m.body_quat[b];
-            }
-        }
+        self.state.reset(m);
     }
 
     /// Resets, then takes time, positions, velocities, activations, mocap poses and controls of keyframe `key`. Nothing
@@ -148,7 +156,7 @@ impl Data {
         let state = &mut self.state;
         state.time = m.key_time[key];
         for (values, keys) in [
-            (&mut state.qpos[..], &m.key_qpos),
+            (&mut state.qpos[..], &m.key_qpos[..]),
             (&mut state.qvel, &m.key_qvel),
             (&mut state.act, &m.key_act),
             (&mut state.ctrl, &m.key_ctrl),

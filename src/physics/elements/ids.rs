@@ -1,7 +1,8 @@
 //! The table of ids: one row for each kind of named element.
 
 use super::{Element, Key, Span};
-use crate::model::{Arrays, JointType, Model, ObjType};
+use crate::model::array::Place;
+use crate::model::{Arrays, JointType, Model, ObjType, counts};
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $id:ident $kind:ident $count:ident $one:ident $many:ident $names:ident
@@ -37,6 +38,18 @@ macro_rules! ids {
 
             fn index(self) -> usize {
                 self.index as usize
+            }
+        }
+
+        impl<R> Place<R, counts::$count> for $id {
+            type Output = R;
+
+            fn of(self, rows: &[R]) -> &R {
+                &rows[self.index()]
+            }
+
+            fn of_mut(self, rows: &mut [R]) -> &mut R {
+                &mut rows[self.index()]
             }
         }
 

@@ -12,6 +12,8 @@
 //! | `d.joint(id)` | what a simulation says: `.qpos()`, `.qvel()` |
 //! | `d.joint_mut(id)` | the same to write: `.set_qpos(…)` |
 //!
+//! An id also indexes the arrays of its kind: `m.jnt_range[id]`, and to write, `m.edit(|m| m.jnt_range[id] = [0.0, 1.0])`.
+//!
 //! The same holds for bodies, geoms, sites, cameras, lights, tendons, actuators, sensors and equality constraints;
 //! meshes, textures and the like have ids and names. An id belongs to its model and to models edited from it. With that
 //! of another model a view shows another element, or panics where there is none.

@@ -38,13 +38,15 @@ pub struct Patterns {
 /// Fills all patterns and their sizes.
 pub fn fill(m: &mut Arrays) {
     let p = Patterns::of(m);
-    (m.dof_Madr, m.nM) = p.diagonal;
+    (m.dof_Madr, m.nM) = (p.diagonal.0.into(), p.diagonal.1);
     (m.nC, m.nD, m.nB) = (p.lower.column.len(), p.symmetric.column.len(), p.subtree.column.len());
-    (m.M_rownnz, m.M_rowadr, m.M_colind) = (p.lower.count, p.lower.address, p.lower.column);
-    (m.D_rownnz, m.D_rowadr, m.D_colind) = (p.symmetric.count, p.symmetric.address, p.symmetric.column);
-    (m.B_rownnz, m.B_rowadr, m.B_colind) = (p.subtree.count, p.subtree.address, p.subtree.column);
-    m.D_diag = p.symmetric_diagonal;
-    [m.mapM2M, m.mapM2D, m.mapD2M] = p.maps;
+    (m.M_rownnz, m.M_rowadr) = (p.lower.count.into(), p.lower.address.into());
+    (m.D_rownnz, m.D_rowadr) = (p.symmetric.count.into(), p.symmetric.address.into());
+    (m.B_rownnz, m.B_rowadr) = (p.subtree.count.into(), p.subtree.address.into());
+    (m.M_colind, m.D_colind) = (p.lower.column.into(), p.symmetric.column.into());
+    (m.B_colind, m.D_diag) = (p.subtree.column.into(), p.symmetric_diagonal.into());
+    let [ancestors, lower, square] = p.maps;
+    (m.mapM2M, m.mapM2D, m.mapD2M) = (ancestors.into(), lower.into(), square.into());
     m.nJten = tendon_entries(m);
     m.nJmom = moment_size(m);
 }

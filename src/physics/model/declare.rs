@@ -3,21 +3,20 @@
 
 macro_rules! model {
     (sizes { $($size:ident $count:literal,)* } arrays { $($field:ident : $t:ident $shape:tt $doc:literal,)* }) => {
-        /// The numbers of a [`Model`](crate::Model): options, sizes, arrays.
+        /// The numbers of a [`Model`](crate::Model): options, sizes, arrays, in one of three [forms](Form).
         ///
         /// Every array has MuJoCo's name and holds MuJoCo's numbers; the doc of each begins with its shape, rows
         /// first. References to other elements are indices, -1 for none.
-        #[derive(Clone, Debug, Default)]
         #[allow(non_snake_case)]
-        pub struct Arrays {
+        pub struct Columns<F: Form> {
             /// Name of the model.
-            pub name: String,
+            pub name: F::Label,
             /// Simulation options.
-            pub opt: Options,
+            pub opt: F::Group<Options>,
             /// Visualisation options; the physics does not read them.
-            pub vis: Visual,
+            pub vis: F::Group<Visual>,
             /// Statistics of the model at `qpos0`.
-            pub stat: Statistic,
+            pub stat: F::Group<Statistic>,
             /// Some body has gravity compensation.
             pub flg_gravcomp: bool,
             /// Some geom has a surface velocity.
@@ -25,10 +24,181 @@ macro_rules! model {
             /// Some geom or pair has adhesion.
             pub flg_adhesion: bool,
             $(#[doc = $count] pub $size: usize,)*
-            $(#[doc = concat!("`", stringify!($shape), "` ", $doc)] pub $field: field_type!($t, $shape),)*
+            $(#[doc = concat!("`", stringify!($shape), "` ", $doc)]
+            pub $field: F::Column<row_type!($t, $shape), row_count!($shape)>,)*
+        }
+
+        /// The numbers of a [`Model`](crate::Model), to read.
+        pub type Arrays = Columns<Finished>;
+
+        /// The numbers of a model to which a compiler appends row by row.
+        pub type Rows = Columns<Growing>;
+
+        /// The numbers of a [`Model`](crate::Model), to write: no size and no length can change.
+        pub type Draft<'a> = Columns<Drafted<'a>>;
+
+        /// What numbers the rows of an array: one type for each size of a model.
+        pub mod counts {
+            $(#[doc = $count] #[allow(non_camel_case_types)] #[derive(Debug)] pub enum $size {})*
+            /// Rows of run-time width are stored flat; single numbers belong to no element.
+            #[derive(Debug)]
+            pub enum Flat {}
+        }
+
+        /// One of the arrays.
+        #[allow(non_camel_case_types)]
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(crate) enum ArrayId {
+            $($field,)*
+        }
+
+        impl ArrayId {
+            /// All of them, in declaration order.
+            pub(crate) const ALL: &[ArrayId] = &[$(ArrayId::$field,)*];
+        }
+
+        /// Names of the sizes, in declaration order.
+        const SIZES: &[&str] = &[$(stringify!($size),)*];
+
+        impl Default for Arrays {
+            fn default() -> Self {
+                Rows::default().finish()
+            }
+        }
+
+        impl Default for Rows {
+            fn default() -> Self {
+                Columns {
+                    name: String::new(),
+                    opt: Options::default(),
+                    vis: Visual::default(),
+                    stat: Statistic::default(),
+                    flg_gravcomp: false,
+                    flg_surfacevel: false,
+                    flg_adhesion: false,
+                    $($size: 0,)*
+                    $($field: Vec::new(),)*
+                }
+            }
+        }
+
+        impl Clone for Arrays {
+            /// Shares every array.
+            fn clone(&self) -> Self {
+                Columns {
+                    name: self.name.clone(),
+                    opt: self.opt.clone(),
+                    vis: self.vis.clone(),
+                    stat: self.stat.clone(),
+                    $($field: self.$field.clone(),)*
+                    ..*self
+                }
+            }
+        }
+
+        impl std::fmt::Debug for Arrays {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                let mut show = f.debug_struct("Arrays");
+                show.field("name", &self.name).field("opt", &self.opt).field("stat", &self.stat);
+                self.visit_sizes(&mut |name, size| _ = show.field(name, &size));
+                self.visit(&mut |name, _, values| _ = show.field(name, &values));
+                show.finish()
+            }
+        }
+
+        impl Rows {
+            /// The arrays, as long as they are now.
+            pub fn finish(self) -> Arrays {
+                Columns {
+                    name: self.name,
+                    opt: self.opt,
+                    vis: self.vis,
+                    stat: self.stat,
+                    flg_gravcomp: self.flg_gravcomp,
+                    flg_surfacevel: self.flg_surfacevel,
+                    flg_adhesion: self.flg_adhesion,
+                    $($size: self.$size,)*
+                    $($field: self.$field.into(),)*
+                }
+            }
+        }
+
+        impl Draft<'_> {
+            /// Overwrites the array called `name`; `None` when there is none, `Some(false)` on a size mismatch.
+            pub fn assign(&mut self, name: &str, values: &[f64]) -> Option<bool> {
+                match name {
+                    $(stringify!($field) => Some(self.$field.assign(values)),)*
+                    _ => None,
+                }
+            }
+
+            /// The sizes, in declaration order.
+            pub(super) fn sizes(&self) -> [usize; SIZES.len()] {
+                [$(self.$size,)*]
+            }
         }
 
         impl Arrays {
+            /// The numbers to write; what they were is kept until [`Arrays::settle`] or [`Arrays::revert`].
+            pub(super) fn draft(&mut self) -> Draft<'_> {
+                Columns {
+                    name: &self.name,
+                    opt: &mut self.opt,
+                    vis: &mut self.vis,
+                    stat: &mut self.stat,
+                    flg_gravcomp: self.flg_gravcomp,
+                    flg_surfacevel: self.flg_surfacevel,
+                    flg_adhesion: self.flg_adhesion,
+                    $($size: self.$size,)*
+                    $($field: Writer(&mut self.$field),)*
+                }
+            }
+
+            /// Name, value and given value of the first size that differs from the given ones.
+            pub(super) fn different_size(&self, given: &[usize]) -> Option<(&'static str, usize, usize)> {
+                let own = [$(self.$size,)*];
+                let at = (0..SIZES.len()).find(|&i| own[i] != given[i])?;
+                Some((SIZES[at], own[at], given[at]))
+            }
+
+            /// The arrays that the edit under way wrote.
+            pub(super) fn written(&self) -> Written {
+                let mut written = Written::default();
+                $(if self.$field.is_written() {
+                    written.insert(ArrayId::$field);
+                })*
+                written
+            }
+
+            /// Calls `f(name, before, now)` for every array that the edit under way wrote.
+            pub(super) fn visit_written(&self, f: &mut dyn FnMut(&'static str, Slice<'_>, Slice<'_>)) {
+                $(if self.$field.is_written() {
+                    f(stringify!($field), Row::scalars(self.$field.before()), Row::scalars(&self.$field));
+                })*
+            }
+
+            /// Accepts what the edit under way wrote.
+            pub(super) fn settle(&mut self) {
+                $(self.$field.settle();)*
+            }
+
+            /// Takes back what the edit under way wrote to arrays.
+            pub(super) fn revert(&mut self) {
+                $(self.$field.revert();)*
+            }
+
+            /// These numbers with the arrays as they were before the edit under way.
+            pub(super) fn previous(&self) -> Arrays {
+                Columns {
+                    name: self.name.clone(),
+                    opt: self.opt.clone(),
+                    vis: self.vis.clone(),
+                    stat: self.stat.clone(),
+                    $($field: self.$field.previous(),)*
+                    ..*self
+                }
+            }
+
             /// Allocates every array, zeroed, from the sizes set so far.
             pub fn allocate(&mut self) {
                 $({

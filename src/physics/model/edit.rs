@@ -1,10 +1,11 @@
 //! Changing the numbers of a compiled model: the closure writes, the model checks and derives.
 
-use super::{Arrays, Model, Statistic};
-use crate::consistency::{Inconsistent, check_consistency};
-use crate::constants::set_const::{SetConstError, set_const};
+use super::consequences::{Consequences, check, drop_caches};
+use super::written::Written;
+use super::{Arrays, Draft, Model, Options, Statistic, Visual};
+use crate::consistency::Inconsistent;
+use crate::constants::set_const::SetConstError;
 use crate::pipeline::error::NotSimulated;
-use crate::pipeline::validity::check_model;
 use crate::table::Slice;
 use std::fmt;
 
@@ -12,11 +13,11 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EditError {
-    /// A size was changed, or an array was made longer or shorter.
+    /// A size was changed.
     Size {
-        /// Name of the size or array.
+        /// Name of the size.
         field: &'static str,
-        /// Value of the size, or number of scalars in the array, before.
+        /// Its value before.
         expected: usize,
         /// The same after the edit.
         found: usize,
@@ -55,21 +56,30 @@ impl fmt::Display for EditError {
 impl std::error::Error for EditError {}
 
 impl Model {
-    /// Changes numbers of the model, then recomputes all that follows from them (masses of subtrees, inverse weights,
-    /// lengths at `qpos0`, statistics: [`set_const`]) and drops caches. Statistics that the file or the edit gives are
-    /// kept. Length ranges of actuators stay as they are, see
-    /// [`set_length_ranges`](crate::constants::length_range::set_length_ranges). So do the bounds by which collision
-    /// skips geoms (`geom_rbound`, `geom_aabb`, `bvh_aabb`, `body_margin`, `body_contype`, `body_conaffinity`): an
-    /// edit that makes geoms larger, moves them in their body, or changes what they touch sets them too.
+    /// Changes numbers of the model, then recomputes what follows from those that changed: masses of subtrees, inverse
+    /// weights, lengths, statistics and offsets at `qpos0` (as [`set_const`](crate::set_const) does); and the bounds by
+    /// which collision skips geoms (`geom_rbound`, `geom_aabb`, the hierarchies of bodies, `body_margin`, `body_contype`,
+    /// `body_conaffinity`), from type, size, pose, margin and contact types of the geoms. Statistics that the file or the
+    /// edit gives are kept.
     ///
-    /// The cost is that of a copy of the model and of one position stage; options alone are cheaper to change with
-    /// [`Model::options_mut`].
+    /// What is no function of the compiled arrays stays as it is: `body_mass` and `body_inertia`, which an edit of shapes
+    /// sets itself where it wants to ([`shape`](crate::geometry::shape) computes them), length ranges of actuators (see
+    /// [`set_length_ranges`](crate::set_length_ranges)), the fluid coefficients `geom_fluid`, and what the compiler filled in
+    /// where the text gave nothing: relative poses of welds, damping from damping ratios, lengths of tendon springs.
+    ///
+    /// Only arrays that are written stop being shared with clones of the model. The cost follows from what is written:
+    /// colours, friction, gains or forces cost the check of those numbers, poses of sites and static bodies one pass of
+    /// positions, masses and poses of moving bodies all constants; structure (types, references) a check of the model.
     ///
     /// # Errors
     /// The edit changed a size, set a number to NaN, broke a reference, or asks for what the compiled structure cannot
     /// represent; then the model is unchanged.
-    pub fn edit(&mut self, change: impl FnOnce(&mut Arrays)) -> Result<(), EditError> {
-        *self = self.edited(change)?;
+    pub fn edit(&mut self, change: impl FnOnce(&mut Draft<'_>)) -> Result<(), EditError> {
+        let mut session = Session::begin(self);
+        let written = session.write(change)?;
+        check(session.model, written)?;
+        Consequences::of(&session.model.arrays, written).derive(session.model)?;
+        session.accept();
         Ok(())
     }
 
@@ -77,76 +87,103 @@ impl Model {
     ///
     /// # Errors
     /// As [`Model::edit`].
-    pub fn edited(&self, change: impl FnOnce(&mut Arrays)) -> Result<Model, EditError> {
-        let mut arrays = Arrays::clone(self);
-        change(&mut arrays);
-        check_sizes(self, &arrays)?;
-        check_numbers(self, &arrays)?;
-        check_consistency(&arrays).map_err(EditError::Inconsistent)?;
-        let given = arrays.stat.clone();
-        let mut edited = Model::unchecked(arrays);
-        set_const(&mut edited).map_err(EditError::Structure)?;
-        if edited.stat != given {
-            let mut plain = self.clone();
-            set_const(&mut plain).map_err(EditError::Structure)?;
-            keep_given(&given, &plain.stat, &mut edited.arrays.stat);
-        }
-        check_model(&edited).map_err(EditError::NotSimulated)?;
+    pub fn edited(&self, change: impl FnOnce(&mut Draft<'_>)) -> Result<Model, EditError> {
+        let mut edited = self.clone();
+        edited.edit(change)?;
         Ok(edited)
+    }
+
+    /// Writes numbers and derives nothing from them, as programs do that write into MuJoCo's `mjModel`: bounds, frames
+    /// that coincide (`site_sameframe`), inverse weights and lengths keep the values they had, however wrong they now are.
+    ///
+    /// Takes time in proportion to the arrays that are written, and no memory once the model has written each of them.
+    ///
+    /// # Errors
+    /// Those of [`Model::edit`]; the model is then unchanged.
+    pub fn overwrite(&mut self, change: impl FnOnce(&mut Draft<'_>)) -> Result<(), EditError> {
+        let mut session = Session::begin(self);
+        let written = session.write(change)?;
+        check(session.model, written)?;
+        drop_caches(&mut session.model.caches, written);
+        session.accept();
+        Ok(())
     }
 }
 
-/// Sizes are the old ones, and every array fills its shape.
-fn check_sizes(old: &Arrays, new: &Arrays) -> Result<(), EditError> {
-    let mut sizes = Vec::new();
-    old.visit_sizes(&mut |_, n| sizes.push(n));
-    let mut sizes = sizes.into_iter();
-    let mut result = Ok(());
-    let mut expect = |field, expected: usize, found| {
-        if expected != found && result.is_ok() {
-            result = Err(EditError::Size { field, expected, found });
+/// Settings before an edit.
+struct Settings {
+    opt: Options,
+    vis: Visual,
+    stat: Statistic,
+}
+
+/// An edit under way, taken back unless it is accepted.
+struct Session<'m> {
+    model: &'m mut Model,
+    before: Settings,
+    accepted: bool,
+}
+
+impl<'m> Session<'m> {
+    fn begin(model: &'m mut Model) -> Self {
+        let Arrays { opt, vis, stat, .. } = &model.arrays;
+        let before = Settings { opt: opt.clone(), vis: vis.clone(), stat: stat.clone() };
+        Session { model, before, accepted: false }
+    }
+
+    /// Lets `change` write, and checks sizes and numbers.
+    fn write(&mut self, change: impl FnOnce(&mut Draft<'_>)) -> Result<Written, EditError> {
+        let arrays = &mut self.model.arrays;
+        let mut draft = arrays.draft();
+        change(&mut draft);
+        let sizes = draft.sizes();
+        if let Some((field, expected, found)) = arrays.different_size(&sizes) {
+            return Err(EditError::Size { field, expected, found });
         }
-    };
-    new.visit_sizes(&mut |field, n| expect(field, sizes.next().unwrap_or(0), n));
-    new.visit(&mut |field, shape, values| expect(field, shape.iter().product(), values.len()));
-    result
+        check_numbers(arrays)?;
+        Ok(arrays.written())
+    }
+
+    fn accept(mut self) {
+        self.model.arrays.settle();
+        self.accepted = true;
+    }
+}
+
+impl Drop for Session<'_> {
+    fn drop(&mut self) {
+        if !self.accepted {
+            let arrays = &mut self.model.arrays;
+            arrays.revert();
+            std::mem::swap(&mut arrays.opt, &mut self.before.opt);
+            std::mem::swap(&mut arrays.vis, &mut self.before.vis);
+            std::mem::swap(&mut arrays.stat, &mut self.before.stat);
+        }
+    }
 }
 
 /// No NaN where there was none.
-fn check_numbers(old: &Arrays, new: &Arrays) -> Result<(), EditError> {
-    let mut nans = Vec::new();
-    new.visit(&mut |field, _, values| {
-        if let Some(index) = first_nan(values) {
-            nans.push((field, index));
+fn check_numbers(arrays: &Arrays) -> Result<(), EditError> {
+    let mut result = Ok(());
+    arrays.visit_written(&mut |field, before, now| {
+        if result.is_ok()
+            && let Some(index) = new_nan(before, now)
+        {
+            result = Err(EditError::NotANumber { field, index });
         }
     });
-    if nans.is_empty() {
-        return Ok(());
-    }
-    let mut before = Vec::new();
-    old.visit(&mut |field, _, values| before.extend(first_nan(values).map(|index| (field, index))));
-    match nans.into_iter().find(|nan| !before.contains(nan)) {
-        Some((field, index)) => Err(EditError::NotANumber { field, index }),
-        None => Ok(()),
-    }
+    result
 }
 
-fn first_nan(values: Slice<'_>) -> Option<usize> {
-    match values {
-        Slice::F64(x) => x.iter().position(|x| x.is_nan()),
-        Slice::F32(x) => x.iter().position(|x| x.is_nan()),
+/// First place of a NaN that is none in `before`.
+fn new_nan(before: Slice<'_>, now: Slice<'_>) -> Option<usize> {
+    match (before, now) {
+        (Slice::F64(old), Slice::F64(new)) => {
+            old.iter().zip(new).position(|(x, y)| y.is_nan() && !x.is_nan())
+        }
+        (Slice::F32(old), Slice::F32(new)) => {
+            old.iter().zip(new).position(|(x, y)| y.is_nan() && !x.is_nan())
+        }
         _ => None,
-    }
-}
-
-/// Statistics that are not those computed from the unedited model were given, and win over the computed ones.
-fn keep_given(given: &Statistic, plain: &Statistic, stat: &mut Statistic) {
-    let pick = |given: f64, plain: f64, computed: f64| if given == plain { computed } else { given };
-    stat.meaninertia = pick(given.meaninertia, plain.meaninertia, stat.meaninertia);
-    stat.meanmass = pick(given.meanmass, plain.meanmass, stat.meanmass);
-    stat.meansize = pick(given.meansize, plain.meansize, stat.meansize);
-    stat.extent = pick(given.extent, plain.extent, stat.extent);
-    if given.center != plain.center {
-        stat.center = given.center;
     }
 }

@@ -1,10 +1,12 @@
 //! The table of the compiled model: sizes, then one line an array.
 
+use super::array::{Drafted, Finished, Form, Growing, Writer};
 use super::binary::BinaryError;
 use super::declare::model;
 use super::reader::{Reader, array_bytes};
+use super::written::Written;
 use crate::model::{Options, Statistic, Visual};
-use crate::table::{Field, Slice, field_rows, field_shape, field_type, field_width};
+use crate::table::{Field, Row, Slice, field_rows, field_shape, field_width, row_count, row_type};
 
 model! {
     sizes {

@@ -7,22 +7,33 @@
 //! .model;
 //! assert_eq!((model.nq, model.nv, model.nbody), (7, 6, 2));
 //! let ball = model.body("ball").ok_or("no ball")?;
-//! assert_eq!(model.body_mass[ball.index()], model.body(ball).mass());
+//! assert_eq!(model.body_mass[ball], model.body(ball).mass());
+//!
+//! let mut wide = model.clone();
+//! let geom = wide.geom("ball").ok_or("no geom")?;
+//! wide.edit(|m| m.geom_size[geom][0] = 0.2)?;
+//! assert_eq!((wide.geom_rbound[geom], model.geom_rbound[geom]), (0.2, 0.1));
+//! wide.overwrite(|m| m.geom_size[geom][0] = 0.3)?;
+//! assert_eq!(wide.geom_rbound[geom], 0.2, "nothing is derived");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod array;
 pub mod binary;
+mod consequences;
 mod declare;
 mod edit;
 mod fields;
 mod flags;
+mod follow;
 mod names;
 mod options;
 mod reader;
 mod types;
+mod written;
 
 pub use edit::EditError;
-pub use fields::Arrays;
+pub use fields::{Arrays, Columns, Draft, Rows, counts};
 pub use flags::{Disable, Enable};
 pub use options::*;
 pub use types::*;
@@ -30,25 +41,28 @@ pub use types::*;
 use crate::collision::climb::Slopes;
 use names::NameIndex;
 use std::ops::Deref;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// A compiled model: constant while a simulation runs, shared by any number of [`Data`](crate::Data).
 ///
 /// All its numbers are read through [`Arrays`], to which a model dereferences: `m.nq`, `m.body_mass`. They are changed
-/// with [`Model::edit`], options also with [`Model::options_mut`].
+/// with [`Model::edit`] and [`Model::overwrite`], options also with [`Model::options_mut`]. Clones share every array and
+/// cache; an array becomes a model's own when it is first written.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
     arrays: Arrays,
     caches: Caches,
 }
 
-/// What is derived from the arrays when first needed. Whoever gets the arrays to write empties the caches.
+/// What is derived from the arrays when first needed. Clones share it; whoever writes what a cache depends on drops it.
 #[derive(Clone, Debug, Default)]
 struct Caches {
     /// Hulls in the layout that collision climbs.
-    slopes: OnceLock<Slopes>,
+    slopes: Arc<OnceLock<Slopes>>,
     /// Ids by name.
-    names: NameIndex,
+    names: Arc<NameIndex>,
+    /// Statistics that follow from the arrays, where those of the model may be given.
+    statistic: Arc<OnceLock<Statistic>>,
 }
 
 impl Deref for Model {
@@ -71,6 +85,11 @@ impl Model {
     #[doc(hidden)]
     pub fn unchecked_mut(&mut self) -> &mut Arrays {
         self.caches = Caches::default();
+        &mut self.arrays
+    }
+
+    /// The arrays to write what is derived from others; caches stay.
+    pub(crate) fn derived_mut(&mut self) -> &mut Arrays {
         &mut self.arrays
     }
 

@@ -174,13 +174,14 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn rows<F: Field>(&mut self, field: &mut F, rows: usize) -> Result<(), BinaryError> {
-        field.restart(rows);
-        let mut missing = rows * F::ROW_BYTES;
+        field.allocate(rows, 1);
+        let all = rows * F::ROW_BYTES;
+        let mut missing = all;
         while missing > 0 {
             self.need(F::ROW_BYTES)?;
             let whole = (self.end - self.used) / F::ROW_BYTES * F::ROW_BYTES;
             let piece = whole.min(missing);
-            field.append(&self.block[self.used..self.used + piece]);
+            field.write((all - missing) / F::ROW_BYTES, &self.block[self.used..self.used + piece]);
             self.used += piece;
             missing -= piece;
         }

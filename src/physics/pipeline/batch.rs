@@ -28,7 +28,7 @@
 //! ```
 
 use crate::data::{Data, Scratch};
-use crate::model::{Arrays, EditError, Model};
+use crate::model::{Draft, EditError, Model};
 use crate::pipeline::error::StepError;
 use crate::pipeline::forward::step;
 use std::fmt;
@@ -200,10 +200,9 @@ impl<P> Batch<P> {
     pub fn edit_model(
         &mut self,
         environment: usize,
-        change: impl FnOnce(&mut Arrays),
+        change: impl FnOnce(&mut Draft<'_>),
     ) -> Result<(), EditError> {
-        self.models[environment] = Arc::new(self.models[environment].edited(change)?);
-        Ok(())
+        Arc::make_mut(&mut self.models[environment]).edit(change)
     }
 }
 

@@ -16,10 +16,34 @@ pub fn cameras_and_lights(m: &Model, com: &Com, kin: &mut Kinematics) {
     }
 }
 
-fn camera(m: &Model, com: &Com, c: usize, kin: &mut Kinematics) {
+/// The same as if all cameras and lights were fixed to their bodies.
+pub fn fixed_cameras_and_lights(m: &Model, kin: &mut Kinematics) {
+    for c in 0..m.ncam {
+        fixed_camera(m, c, kin);
+    }
+    for l in 0..m.nlight {
+        let (pos, dir) = fixed_light(m, l, kin);
+        kin.light_xpos[l] = pos;
+        kin.light_xdir[l] = normalize(dir).0;
+    }
+}
+
+fn fixed_camera(m: &Model, c: usize, kin: &mut Kinematics) {
     let b = m.cam_bodyid[c] as usize;
     kin.cam_xpos[c] = attached_pos(kin, b, m.cam_pos[c]);
     kin.cam_xmat[c] = attached_mat(kin, b, m.cam_quat[c]);
+}
+
+/// Position and direction.
+#[inline]
+fn fixed_light(m: &Model, l: usize, kin: &Kinematics) -> (Vec3, Vec3) {
+    let b = m.light_bodyid[l] as usize;
+    (attached_pos(kin, b, m.light_pos[l]), quat_rotate(kin.xquat[b], m.light_dir[l]))
+}
+
+fn camera(m: &Model, com: &Com, c: usize, kin: &mut Kinematics) {
+    let b = m.cam_bodyid[c] as usize;
+    fixed_camera(m, c, kin);
     match TrackMode::from_code(m.cam_mode[c]) {
         Some(TrackMode::Track) => {
             kin.cam_xmat[c] = m.cam_mat0[c];
@@ -40,8 +64,7 @@ fn camera(m: &Model, com: &Com, c: usize, kin: &mut Kinematics) {
 
 fn light(m: &Model, com: &Com, l: usize, kin: &mut Kinematics) {
     let b = m.light_bodyid[l] as usize;
-    let mut pos = attached_pos(kin, b, m.light_pos[l]);
-    let mut dir = quat_rotate(kin.xquat[b], m.light_dir[l]);
+    let (mut pos, mut dir) = fixed_light(m, l, kin);
     match TrackMode::from_code(m.light_mode[l]) {
         Some(TrackMode::Track) => {
             dir = m.light_dir0[l];

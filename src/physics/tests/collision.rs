@@ -86,7 +86,7 @@ fn contact_types_welds_and_excludes_filter_pairs() {
     let pairs = |m: &Model| contacts(m, &kin).iter().map(|c| c.geom).collect::<Vec<_>>();
     assert_eq!(pairs(&m), [[0, 1], [0, 2], [1, 2]]);
     m.unchecked_mut().nexclude = 1;
-    m.unchecked_mut().exclude_signature = vec![(1 << 16) + 3];
+    m.unchecked_mut().exclude_signature = vec![(1 << 16) + 3].into();
     assert_eq!(pairs(&m), [[0, 1], [1, 2]]);
     m.unchecked_mut().body_weldid[2] = 1;
     assert_eq!(pairs(&m), [[1, 2]]);
@@ -113,10 +113,10 @@ fn parents_do_not_touch_their_children_unless_asked() {
 #[test]
 fn parameters_mix_by_priority_and_weight() {
     let (mut m, kin) = spheres(&[[0.0; 3], [0.1, 0.0, 0.0]], 0.1);
-    m.unchecked_mut().geom_solmix = vec![1.0, 3.0];
+    m.unchecked_mut().geom_solmix = vec![1.0, 3.0].into();
     m.unchecked_mut().geom_solref[1] = [0.06, 3.0];
     m.unchecked_mut().geom_friction[1] = [0.5, 0.01, 0.0];
-    m.unchecked_mut().geom_margin = vec![0.01, 0.02];
+    m.unchecked_mut().geom_margin = vec![0.01, 0.02].into();
     let c = contacts(&m, &kin)[0];
     assert!((c.solref[0] - 0.05).abs() < 1e-15 && (c.solref[1] - 2.5).abs() < 1e-15);
     assert_eq!(c.friction, [1.0, 1.0, 0.01, 1e-5, 1e-5]);

@@ -81,17 +81,18 @@ fn model(kinds: &[(GeomType, Vec3)], points: &[Vec3], faces: &[Vec<usize>]) -> (
     }
     m.mesh_vertnum[0] = n as i32;
     m.mesh_polynum[0] = faces.len() as i32;
-    m.mesh_graph = vec![n as i32, faces.len() as i32];
+    let mut graph = vec![n as i32, faces.len() as i32];
     let mut start = 0;
     for around in &neighbours {
-        m.mesh_graph.push(start);
+        graph.push(start);
         start += around.len() as i32 + 1;
     }
-    m.mesh_graph.extend(0..n as i32);
+    graph.extend(0..n as i32);
     for around in &neighbours {
-        m.mesh_graph.extend(around.iter().map(|&v| v as i32));
-        m.mesh_graph.push(-1);
+        graph.extend(around.iter().map(|&v| v as i32));
+        graph.push(-1);
     }
+    m.mesh_graph = graph.into();
     let mut at = 0;
     for (f, face) in faces.iter().enumerate() {
         (m.mesh_polyvertadr[f], m.mesh_polyvertnum[f]) = (at as i32, face.len() as i32);

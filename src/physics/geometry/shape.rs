@@ -2,15 +2,27 @@
 //!
 //! Solids: textbook formulas. Shells have their mass on the surface; the ellipsoid's area is Thomsen's
 //! approximation and its shell inertia the difference of two solids (XML reference, `geom/shellinertia`).
+//!
+//! ```
+//! use robohive_physics::geometry::shape::{bounding_radius, inertia, volume};
+//! use robohive_physics::model::GeomType;
+//!
+//! let size = [0.1, 0.2, 0.3];
+//! let mass = 1000.0 * volume(GeomType::Box, size, false);
+//! assert!((mass - 48.0).abs() < 1e-9);
+//! let [x, _, _] = inertia(GeomType::Box, size, mass, false);
+//! assert!((x - mass * (0.4 * 0.4 + 0.6 * 0.6) / 12.0).abs() < 1e-12);
+//! assert!((bounding_radius(GeomType::Box, size) - 0.14_f64.sqrt()).abs() < 1e-15);
+//! ```
 
-use physics::math::Vec3;
-use physics::math::ops;
-use physics::model::GeomType;
-use physics::model::bounds::MAXVAL;
+use crate::math::Vec3;
+use crate::math::ops;
+use crate::model::GeomType;
+use crate::model::bounds::MAXVAL;
 use std::f64::consts::PI;
 
 /// Number of size parameters a shape needs.
-pub(super) fn size_count(kind: GeomType) -> usize {
+pub fn size_count(kind: GeomType) -> usize {
     match kind {
         GeomType::Plane | GeomType::Ellipsoid | GeomType::Box => 3,
         GeomType::Capsule | GeomType::Cylinder => 2,
@@ -20,7 +32,7 @@ pub(super) fn size_count(kind: GeomType) -> usize {
 }
 
 /// Checks the sizes a shape needs; a plane needs only its grid spacing.
-pub(super) fn check_size(kind: GeomType, size: Vec3) -> Result<(), String> {
+pub fn check_size(kind: GeomType, size: Vec3) -> Result<(), String> {
     let needed = if kind == GeomType::Plane { 2..3 } else { 0..size_count(kind) };
     for k in needed {
         if size[k] <= 0.0 || size[k].is_nan() {
@@ -31,7 +43,7 @@ pub(super) fn check_size(kind: GeomType, size: Vec3) -> Result<(), String> {
 }
 
 /// Volume in m³, or area in m² of a shell.
-pub(super) fn volume(kind: GeomType, s: Vec3, shell: bool) -> f64 {
+pub fn volume(kind: GeomType, s: Vec3, shell: bool) -> f64 {
     let (r, height) = (s[0], 2.0 * s[1]);
     match (kind, shell) {
         (GeomType::Sphere, false) => 4.0 * PI * r * r * r / 3.0,
@@ -53,7 +65,7 @@ pub(super) fn volume(kind: GeomType, s: Vec3, shell: bool) -> f64 {
 }
 
 /// Principal moments of a shape of the given mass about its centre, kg m².
-pub(super) fn inertia(kind: GeomType, s: Vec3, mass: f64, shell: bool) -> Vec3 {
+pub fn inertia(kind: GeomType, s: Vec3, mass: f64, shell: bool) -> Vec3 {
     match kind {
         GeomType::Sphere => [2.0 * mass * s[0] * s[0] / if shell { 3.0 } else { 5.0 }; 3],
         GeomType::Capsule => capsule(s[0], s[1], mass, shell),
@@ -135,7 +147,7 @@ fn box_shell(s: Vec3, mass: f64) -> Vec3 {
 }
 
 /// Radius of the sphere about the geom frame's origin that contains the shape; 0 for a plane.
-pub(super) fn bounding_radius(kind: GeomType, s: Vec3) -> f64 {
+pub fn bounding_radius(kind: GeomType, s: Vec3) -> f64 {
     match kind {
         GeomType::Sphere => s[0],
         GeomType::Capsule => s[0] + s[1],
@@ -147,7 +159,7 @@ pub(super) fn bounding_radius(kind: GeomType, s: Vec3) -> f64 {
 }
 
 /// Bounding box in the geom frame: centre, half sizes.
-pub(super) fn bounding_box(kind: GeomType, s: Vec3) -> [f64; 6] {
+pub fn bounding_box(kind: GeomType, s: Vec3) -> [f64; 6] {
     let half = match kind {
         GeomType::Sphere => [s[0]; 3],
         GeomType::Capsule => [s[0], s[0], s[0] + s[1]],
@@ -161,12 +173,12 @@ pub(super) fn bounding_box(kind: GeomType, s: Vec3) -> [f64; 6] {
 }
 
 /// Bounding box of a height field: it rises by `size[2]` and reaches down by `size[3]`.
-pub(super) fn hfield_box(size: [f64; 4]) -> [f64; 6] {
+pub fn hfield_box(size: [f64; 4]) -> [f64; 6] {
     [0.0, 0.0, (size[2] - size[3]) / 2.0, size[0], size[1], (size[2] + size[3]) / 2.0]
 }
 
 /// Bounding radius of a height field.
-pub(super) fn hfield_radius(size: [f64; 4]) -> f64 {
+pub fn hfield_radius(size: [f64; 4]) -> f64 {
     let rise = (size[2] * size[2]).max(size[3] * size[3]);
     (size[0] * size[0] + size[1] * size[1] + rise).sqrt()
 }

@@ -3,8 +3,8 @@
 //! A node's box encloses its leaves; the leaves are split at the median of the longest axis of that
 //! box. Nodes are numbered in preorder, the left child right after its parent, as `bvh_*` stores them.
 
-use crate::quickselect::select;
-use crate::vector::{rotate, sub};
+use super::quickselect::select;
+use crate::math::{quat_rotate, sub};
 
 /// Boxes thinner than this are inflated, and coordinates closer than this tie.
 const EPS: f64 = 1e-14;
@@ -37,6 +37,16 @@ pub struct Bvh {
     pub aabb: Vec<[f64; 6]>,
 }
 
+impl Bvh {
+    /// Appends the nodes of another.
+    pub(super) fn extend(&mut self, other: &Bvh) {
+        self.depth.extend(&other.depth);
+        self.child.extend(&other.child);
+        self.nodeid.extend(&other.nodeid);
+        self.aabb.extend(&other.aabb);
+    }
+}
+
 struct Element<'a> {
     leaf: &'a Leaf,
     order: usize,
@@ -50,7 +60,7 @@ pub fn build(leaves: &[Leaf], ipos: [f64; 3], iquat: [f64; 4]) -> Bvh {
         .iter()
         .enumerate()
         .filter(|(_, leaf)| leaf.collides)
-        .map(|(order, leaf)| Element { leaf, order, local: rotate(sub(leaf.pos, ipos), qinv) })
+        .map(|(order, leaf)| Element { leaf, order, local: quat_rotate(qinv, sub(leaf.pos, ipos)) })
         .collect();
     let mut bvh = Bvh::default();
     if !elements.is_empty() {
@@ -108,14 +118,14 @@ fn enclosing(elements: &[Element], ipos: [f64; 3], qinv: [f64; 4]) -> ([f64; 3],
         };
         for corner in 0..8 {
             let pick = |k: usize| if corner >> k & 1 == 1 { max[k] } else { min[k] };
-            let turned = rotate([pick(0), pick(1), pick(2)], quat);
+            let turned = quat_rotate(quat, [pick(0), pick(1), pick(2)]);
             let pos = element.leaf.pos;
             let moved = [
                 turned[0] + (pos[0] - ipos[0]),
                 turned[1] + (pos[1] - ipos[1]),
                 turned[2] + (pos[2] - ipos[2]),
             ];
-            let local = rotate(moved, qinv);
+            let local = quat_rotate(qinv, moved);
             for k in 0..3 {
                 lo[k] = lo[k].min(local[k]);
                 hi[k] = hi[k].max(local[k]);
