@@ -18,7 +18,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::escape::Escaped;
-use crate::suggestion::Suggestions;
+use physics::model::Suggestions;
 
 /// A byte position in one of the model's source files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -36,7 +36,6 @@ pub mod mesh;
 mod read;
 mod schema;
 pub mod spec;
-mod suggestion;
 mod vector;
 mod xml;
 

@@ -11,8 +11,7 @@ use crate::image::{self, CompiledHfield, CompiledTexture, FileImage, HfieldSourc
 use crate::mesh::stored::MeshStore;
 use crate::mesh::{self, CompiledMesh, MeshInertia, MeshSource, RawMesh, Shape};
 use crate::spec::{Body, Hfield, Mesh, Spec, Texture, asset_name};
-use crate::suggestion::Suggestions;
-use physics::model::{GeomType, TextureType};
+use physics::model::{GeomType, Suggestions, TextureType};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

@@ -29,6 +29,7 @@ mod follow;
 mod names;
 mod options;
 mod reader;
+mod suggestion;
 mod types;
 mod written;
 
@@ -36,6 +37,7 @@ pub use edit::EditError;
 pub use fields::{Arrays, Columns, Draft, Rows, counts};
 pub use flags::{Disable, Enable};
 pub use options::*;
+pub use suggestion::Suggestions;
 pub use types::*;
 
 use crate::collision::climb::Slopes;

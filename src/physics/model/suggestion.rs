@@ -1,7 +1,7 @@
 //! What to write instead of a name that does not exist: the nearest of the names that do.
 
-/// Names compared in one load. Findings beyond it come without advice, so that many of them over many names
-/// cannot make a load slow.
+/// Names compared by one `Suggestions`. Findings beyond it come without advice, so that many of them over many names
+/// cannot make a program slow.
 const MAX_COMPARED: usize = 1 << 22;
 
 /// Longest misspelt name that is compared, in bytes.
@@ -12,18 +12,14 @@ const MAX_BYTES: usize = 4;
 
 /// Finds the nearest names and counts the names compared.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(crate) struct Suggestions {
+pub struct Suggestions {
     compared: usize,
 }
 
 impl Suggestions {
     /// The candidate nearest to `word`, the first of several, when near enough to be a misspelling
     /// (Levenshtein distance, letters compared in lower case).
-    pub(crate) fn nearest<'a>(
-        &mut self,
-        word: &str,
-        candidates: impl Iterator<Item = &'a str>,
-    ) -> Option<&'a str> {
+    pub fn nearest<'a>(&mut self, word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
         if word.len() > MAX_WORD {
             return None;
         }

@@ -1,0 +1,208 @@
+//! What a robot is made of: devices, each with sensors, actuators and cameras, from a file.
+//!
+//! Two forms say the same. RoboHive's `.config` is a Python literal, read by a parser that evaluates no code; the form
+//! of this crate is TOML, with the same keys:
+//!
+//! ```
+//! use robohive_robot::Config;
+//!
+//! let literal = "{'arm': {'interface': {'type': 'dynamixel'},
+//!   'sensor': [{'name': 'jp', 'range': (-1, 1), 'noise': 0.05, 'hdr_id': 10, 'scale': -1, 'offset': 3*np.pi/2}],
+//!   'actuator': [{'name': 'jm', 'pos_range': (-1, 1), 'vel_range': (-2*np.pi/4, 2*np.pi/4), 'hdr_id': 10}]}}";
+//! let config = Config::from_literal(literal, "arm.config")?;
+//! assert_eq!(config.devices[0].sensors[0].offset, 3.0 * std::f64::consts::PI / 2.0);
+//! assert_eq!(Config::from_toml(&config.to_toml(), "arm.toml")?, config);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! | key | of | meaning | when missing |
+//! |---|---|---|---|
+//! | `name` | all | name in the model; of devices, name in messages | error |
+//! | `interface` | device | `type` names the driver of the hardware, the rest are its parameters | none |
+//! | `sensor`, `actuator`, `cam` | device | lists | empty |
+//! | `range` | sensor, camera | readings are clipped to it | error |
+//! | `noise` | sensor, camera | largest uniform noise, or standard deviation of Gaussian noise | 0 |
+//! | `pos_range`, `vel_range` | actuator | limits of the commanded position and of its rate [rad or m, 1/s] | error |
+//! | `effort_range` | actuator | limits of the joint's force or torque [N, N m] | none |
+//! | `mode` | actuator | operating mode of the motor, for the driver | none |
+//! | `hdr_id` | sensor, actuator, camera | number or name on the hardware | place in the list |
+//! | `scale`, `offset` | sensor, actuator, camera | hardware to model of sensors, model to hardware of actuators | 1, 0 |
+
+mod error;
+mod literal;
+mod node;
+mod schema;
+mod text_literal;
+mod toml_reader;
+mod toml_writer;
+
+pub use error::ConfigError;
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Longest text of a config, in bytes.
+const MAX_TEXT: usize = 1 << 20;
+
+/// The devices of a robot, in the order of the file.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Config {
+    /// Devices.
+    pub devices: Vec<DeviceConfig>,
+}
+
+/// Sensors and actuators behind one driver.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DeviceConfig {
+    /// Name in messages and logs.
+    pub name: String,
+    /// How the hardware is reached.
+    pub interface: Interface,
+    /// Sensors.
+    pub sensors: Vec<SensorConfig>,
+    /// Actuators.
+    pub actuators: Vec<ActuatorConfig>,
+    /// Cameras.
+    pub cameras: Vec<CameraConfig>,
+}
+
+/// How the hardware of a device is reached.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Interface {
+    /// The driver; `None` for what exists in simulation only.
+    pub kind: Option<String>,
+    /// Everything else, for the driver.
+    pub parameters: BTreeMap<String, Value>,
+}
+
+/// A parameter of an interface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// Python's `None`; TOML has no word for it.
+    None,
+    /// A truth value.
+    Bool(bool),
+    /// A whole number.
+    Integer(i64),
+    /// Any other number.
+    Number(f64),
+    /// Text.
+    Text(String),
+    /// A list or a tuple.
+    List(Vec<Value>),
+    /// A dictionary.
+    Table(BTreeMap<String, Value>),
+}
+
+/// What hardware calls a sensor, an actuator or a stream of a camera.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum HardwareId {
+    /// A number; negative where there is no hardware.
+    Number(i64),
+    /// A name.
+    Name(String),
+}
+
+/// A sensor of the model that the robot reads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorConfig {
+    /// Name in the model, of a sensor of a joint's position or velocity.
+    pub name: String,
+    /// Readings are clipped to it [rad, m, rad/s, m/s].
+    pub range: [f64; 2],
+    /// Noise at `noise_scale` 1: largest of uniform noise, standard deviation of Gaussian noise.
+    pub noise: f64,
+    /// Number on the hardware.
+    pub hardware: HardwareId,
+    /// reading = hardware × scale + offset.
+    pub scale: f64,
+    /// See `scale`.
+    pub offset: f64,
+}
+
+/// An actuator of the model that the robot commands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ActuatorConfig {
+    /// Name in the model, of an actuator of a joint.
+    pub name: String,
+    /// Limits of the commanded position [rad, m].
+    pub position_range: [f64; 2],
+    /// Limits of the rate at which the command leaves the measured position [rad/s, m/s].
+    pub velocity_range: [f64; 2],
+    /// Limits of the joint's torque or force [N m, N]; `None` for the model's alone.
+    pub effort_range: Option<[f64; 2]>,
+    /// Operating mode of the motor, for the driver.
+    pub mode: Option<String>,
+    /// Number on the hardware.
+    pub hardware: HardwareId,
+    /// hardware = command × scale + offset.
+    pub scale: f64,
+    /// See `scale`.
+    pub offset: f64,
+}
+
+/// A stream of a camera.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraConfig {
+    /// Name of the stream.
+    pub name: String,
+    /// Range of its values.
+    pub range: [f64; 2],
+    /// Noise at `noise_scale` 1.
+    pub noise: f64,
+    /// `rgb` or `d`.
+    pub hardware: HardwareId,
+    /// value = hardware × scale + offset.
+    pub scale: f64,
+    /// See `scale`.
+    pub offset: f64,
+}
+
+impl Config {
+    /// Reads RoboHive's form, a Python literal: dictionaries, lists, tuples, texts, numbers, `True`, `False`, `None`, and
+    /// `+ - * /` over numbers and `np.pi`. Nothing is evaluated beyond that. `file` names the text in errors.
+    ///
+    /// # Errors
+    /// Texts that are no such literal, unknown, missing and repeated keys, values that are wrong: with line and column.
+    pub fn from_literal(text: &str, file: &str) -> Result<Config, ConfigError> {
+        let source = error::Source::new(text, file)?;
+        let root = literal::parse(&source)?;
+        schema::named_devices(&source, root)
+    }
+
+    /// Reads the TOML form. `file` names the text in errors.
+    ///
+    /// # Errors
+    /// Texts that are no TOML, unknown, missing and repeated keys, values that are wrong: with line and column.
+    pub fn from_toml(text: &str, file: &str) -> Result<Config, ConfigError> {
+        let source = error::Source::new(text, file)?;
+        let root = toml_reader::parse(&source)?;
+        schema::listed_devices(&source, root)
+    }
+
+    /// Reads a file: `.toml` as TOML, every other as RoboHive's literal.
+    ///
+    /// # Errors
+    /// Files that cannot be read or are no UTF-8, and what [`Config::from_literal`] and [`Config::from_toml`] refuse.
+    pub fn read(path: impl AsRef<Path>) -> Result<Config, ConfigError> {
+        let path = path.as_ref();
+        let file = path.display().to_string();
+        let unreadable = |message: String| ConfigError { file: file.clone(), position: None, message };
+        let size = std::fs::metadata(path).map_err(|error| unreadable(error.to_string()))?.len();
+        if size > MAX_TEXT as u64 {
+            return Err(unreadable(error::too_long(size)));
+        }
+        let text = std::fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;
+        if path.extension().is_some_and(|extension| extension == "toml") {
+            Config::from_toml(&text, &file)
+        } else {
+            Config::from_literal(&text, &file)
+        }
+    }
+
+    /// The config as TOML, which [`Config::from_toml`] reads as an equal one. Parameters that are `None` are left out,
+    /// since TOML has no word for it.
+    pub fn to_toml(&self) -> String {
+        toml_writer::text(self)
+    }
+}

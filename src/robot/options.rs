@@ -1,0 +1,102 @@
+//! How a robot acts and how well it senses.
+
+use crate::compat::Compat;
+
+/// What a policy's actions mean.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ActionMode {
+    /// Positions of joints.
+    #[default]
+    Position,
+    /// Velocities of joints, held for one control period from the measured position.
+    Velocity,
+    /// Torques or forces of joints, held at what the actuator makes of them at the beginning of the control period.
+    Torque,
+}
+
+impl std::fmt::Display for ActionMode {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            ActionMode::Position => "pos",
+            ActionMode::Velocity => "vel",
+            ActionMode::Torque => "torque",
+        })
+    }
+}
+
+/// A name that no [`ActionMode`] has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownMode(String);
+
+impl std::fmt::Display for UnknownMode {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "no action mode '{}'; there are 'pos', 'vel' and 'torque'", self.0)
+    }
+}
+
+impl std::error::Error for UnknownMode {}
+
+impl std::str::FromStr for ActionMode {
+    type Err = UnknownMode;
+
+    fn from_str(name: &str) -> Result<ActionMode, UnknownMode> {
+        [ActionMode::Position, ActionMode::Velocity, ActionMode::Torque]
+            .into_iter()
+            .find(|mode| mode.to_string() == name)
+            .ok_or_else(|| UnknownMode(name.to_owned()))
+    }
+}
+
+/// Distribution of the noise of sensors, in units of `noise_scale` × the sensor's `noise`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Noise {
+    /// Uniform from -1 to 1.
+    #[default]
+    Uniform,
+    /// Normal with standard deviation 1.
+    Gaussian,
+}
+
+/// How a robot acts and senses. The default is RoboHive's: normalised positions, exact readings without delay.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// What actions mean.
+    pub mode: ActionMode,
+    /// Actions are between -1 and 1; otherwise they have units.
+    pub normalized: bool,
+    /// Factor of every sensor's noise; 0 for none.
+    pub noise_scale: f64,
+    /// Distribution of the noise.
+    pub noise: Noise,
+    /// Readings that are kept, the newest among them.
+    pub history: usize,
+    /// Age of a reading, in time steps of the model.
+    pub delay_steps: usize,
+    /// Largest further age, drawn for each reading, in time steps of the model. A reading is never older than the one
+    /// before.
+    pub jitter_steps: usize,
+    /// Controls are rounded to single precision, as those of RoboHive are when actions are `float32` and there is a
+    /// config.
+    pub single_precision: bool,
+    /// Devices are those of the registry that the config's interfaces name, instead of simulated ones.
+    pub hardware: bool,
+    /// Whether peculiarities of the original are kept.
+    pub compat: Compat,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options {
+            mode: ActionMode::Position,
+            normalized: true,
+            noise_scale: 0.0,
+            noise: Noise::Uniform,
+            history: 5,
+            delay_steps: 0,
+            jitter_steps: 0,
+            single_precision: false,
+            hardware: false,
+            compat: Compat::Fixed,
+        }
+    }
+}
