@@ -61,7 +61,8 @@ fn none(broken: Vec<String>, rule: &str) {
 fn crates_depend_on_those_before_them() {
     let order: BTreeMap<_, _> = ORDER.into_iter().collect();
     let others: BTreeMap<_, _> = OTHERS.into_iter().collect();
-    let ours: BTreeSet<_> = ["physics", "mjcf", "dataset", "random", "robot", "validation", "robohive"].into();
+    let ours: BTreeSet<_> =
+        ["physics", "mjcf", "dataset", "random", "robot", "validation", "robohive"].into();
     let found = crates();
     assert_eq!(found.len(), order.len(), "{:?}", found.iter().map(|c| &c.name).collect::<Vec<_>>());
     let mut broken = Vec::new();

@@ -58,11 +58,14 @@ mod device;
 mod effort;
 mod error;
 mod interval;
+mod inverse_kinematics;
 mod links;
 mod options;
+mod pacer;
 mod reading;
 mod remap;
 mod robot;
+mod symmetric;
 
 pub use compat::{Compat, QUIRKS, Quirk, UnknownCompat};
 pub use config::{
@@ -71,7 +74,9 @@ pub use config::{
 };
 pub use device::{Device, Fault, Record, Registry, Replay, Simulated, Units};
 pub use error::{Part, RobotError};
+pub use inverse_kinematics::{Pose, Search, Solution};
 pub use options::{ActionMode, Noise, Options, UnknownMode};
+pub use pacer::{Clock, Pacer, WallClock};
 pub use reading::Readings;
 pub use remap::Space;
 pub use robot::Robot;
