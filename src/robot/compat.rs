@@ -59,6 +59,23 @@ pub struct Quirk {
     pub reproduced: bool,
 }
 
+impl Quirk {
+    /// The peculiarities as a table of Markdown.
+    ///
+    /// ```
+    /// let table = robohive_robot::Quirk::table(robohive_robot::QUIRKS);
+    /// assert!(table.contains("| unlisted-actuators | controls of actuators that the config does not list are"));
+    /// ```
+    pub fn table(quirks: &[Quirk]) -> String {
+        let rows = quirks.iter().map(|Quirk { name, original, fixed, reproduced }| {
+            let kept = if *reproduced { "as the original" } else { "fixed" };
+            format!("| {name} | {original} | {fixed} | {kept} |\n")
+        });
+        let head = "| name | RoboHive 0.7 | here | with `robohive-0.7` |\n|---|---|---|---|\n";
+        head.to_owned() + &rows.collect::<String>()
+    }
+}
+
 /// All peculiarities of RoboHive's robot that are known; the table of the documentation is made of them.
 pub const QUIRKS: &[Quirk] = &[
     Quirk {

@@ -11,6 +11,7 @@
 use super::error::{ConfigError, Source};
 use super::node::{Content, Key, Node};
 use super::text_literal::TextLiteral;
+use std::collections::HashSet;
 
 /// Deepest nesting of brackets and signs.
 const MAX_DEPTH: usize = 64;
@@ -185,13 +186,14 @@ impl<'a> Parser<'a> {
     fn table(&mut self) -> Result<Content, ConfigError> {
         self.at += 1;
         let mut entries: Vec<(Key, Node)> = Vec::new();
+        let mut names = HashSet::new();
         while !self.take('}') {
             let key = self.sum()?;
             let kind = key.kind();
             let Content::Text(name) = key.content else {
                 return Err(self.source.error(key.at, format!("a key that is {kind}; keys are texts")));
             };
-            if entries.iter().any(|(other, _)| other.name == name) {
+            if !names.insert(name.clone()) {
                 return Err(self.source.error(key.at, format!("the key '{name}' a second time")));
             }
             if !self.take(':') {

@@ -4,6 +4,7 @@ use super::error::{ConfigError, Source};
 use super::node::{Content, Key, Node};
 use super::{ActuatorConfig, CameraConfig, Config, DeviceConfig, HardwareId, Interface, SensorConfig};
 use physics::model::Suggestions;
+use std::collections::HashSet;
 
 /// Keys of a device; `cams` stands in one of RoboHive's files.
 const DEVICE: [&str; 5] = ["interface", "sensor", "actuator", "cam", "cams"];
@@ -32,13 +33,13 @@ pub(super) fn named_devices(source: &Source, root: Node) -> Outcome<Config> {
 /// `{device: [{name: …}, …]}`.
 pub(super) fn listed_devices(source: &Source, root: Node) -> Outcome<Config> {
     let mut top = Fields::new(source, "the config", root, &["device"])?;
-    let mut devices: Vec<DeviceConfig> = Vec::new();
+    let (mut devices, mut names) = (Vec::new(), HashSet::new());
     for node in top.list("device")? {
         let at = node.at;
         let keys: Vec<_> = DEVICE.iter().chain(&["name"]).copied().collect();
         let mut fields = Fields::new(source, "a device", node, &keys)?;
         let name = fields.text("name")?.ok_or_else(|| fields.missing("name"))?;
-        if devices.iter().any(|other| other.name == name) {
+        if !names.insert(name.clone()) {
             return Err(source.error(at, format!("the device '{name}' a second time")));
         }
         fields.owner = format!("device '{name}'");

@@ -1,7 +1,7 @@
 //! Actions: modes, limits, and what is refused.
 
 use physics::{Data, Model, forward, step};
-use robohive_robot::{ActionMode, Compat, Config, Options, Part, QUIRKS, Robot, RobotError, Space};
+use robohive_robot::{ActionMode, Compat, Config, Options, Part, QUIRKS, Quirk, Robot, RobotError, Space};
 use std::str::FromStr;
 
 /// A ball joint before two hinges with a servo and a motor, and a sensor of three values before theirs.
@@ -315,6 +315,9 @@ fn quirks_have_names_of_their_own_and_say_both_sides() {
     let names: std::collections::BTreeSet<_> = QUIRKS.iter().map(|quirk| quirk.name).collect();
     assert_eq!(names.len(), QUIRKS.len());
     assert!(QUIRKS.iter().all(|quirk| !quirk.original.is_empty() && !quirk.fixed.is_empty()));
+    let table = Quirk::table(QUIRKS);
+    assert_eq!(table.lines().count(), QUIRKS.len() + 2);
+    assert!(table.lines().all(|row| row.matches('|').count() == 5), "{table}");
     assert!(QUIRKS.iter().any(|quirk| quirk.reproduced) && QUIRKS.iter().any(|quirk| !quirk.reproduced));
 }
 

@@ -287,3 +287,55 @@ fn files_are_read_by_extension() {
     assert_eq!((missing.position, missing.file.ends_with("none.toml")), (None, true));
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+#[test]
+fn damaged_texts_end_in_a_config_or_an_error() {
+    let text = "{'arm': {'interface': {'type': 'dxl', 'port': \"/dev/ttyUSB0\", 'x': [None, True, {'y': r'a\\b'}]}, # é
+        'sensor': [{'name': '''q''', 'range': (-1*(-3*np.pi/2), 5e0), 'noise': 0.05, 'hdr_id': -1, 'scale': +1}],
+        'actuator': [{'name': 'm\\x41', 'pos_range': (-.5, 00), 'vel_range': (-2*np.pi/4, 2), 'offset': 1_0}]}}";
+    let toml = Config::from_literal(text, "arm.config").unwrap().to_toml();
+    let mut rng = random::Generator::pcg64(1_u64);
+    let (mut read, mut refused) = (0, 0);
+    for (original, parse) in
+        [(text, Config::from_literal as fn(&str, &str) -> _), (toml.as_str(), Config::from_toml)]
+    {
+        let characters: Vec<char> = original.chars().collect();
+        for _ in 0..20_000 {
+            let damaged = damaged(&characters, &mut rng);
+            match parse(&damaged, "damaged") {
+                Ok(config) => {
+                    read += 1;
+                    assert!(Config::from_toml(&config.to_toml(), "again").is_ok(), "{damaged}");
+                }
+                Err(error) => {
+                    refused += 1;
+                    assert!(error.position.is_some(), "{error}");
+                }
+            }
+        }
+    }
+    assert!(read > 1000 && refused > 10_000, "{read} read, {refused} refused");
+}
+
+/// The text with one to three characters replaced or inserted, or cut off.
+fn damaged(characters: &[char], rng: &mut random::Generator<random::Pcg64>) -> String {
+    let mut damaged = characters.to_vec();
+    for _ in 0..rng.integer(1..=3).unwrap() {
+        let from = rng.integer(0..characters.len() as u64).unwrap() as usize;
+        let to = rng.integer(0..damaged.len() as u64).unwrap() as usize;
+        match rng.integer(0..20).unwrap() {
+            0 => damaged.truncate(to + 1),
+            1..10 => damaged[to] = characters[from],
+            _ => damaged.insert(to, characters[from]),
+        }
+    }
+    damaged.into_iter().collect()
+}
+
+#[test]
+fn many_keys_are_read_in_time_that_grows_with_their_number() {
+    let keys: String = (0..50_000).map(|k| format!("'{k}': 1,")).collect();
+    let config =
+        Config::from_literal(&format!("{{'d': {{'interface': {{{keys}}}}}}}"), "keys.config").unwrap();
+    assert_eq!(config.devices[0].interface.parameters.len(), 50_000);
+}
