@@ -26,12 +26,14 @@ impl Links {
         options: &Options,
         registry: &Registry,
     ) -> Result<Links, RobotError> {
-        let mut devices = Vec::new();
+        let buffer = vec![0.0; width.max(binding.actuators.len())];
+        // Devices that are connected are closed should a later one fail.
+        let mut links = Links { devices: Vec::new(), hardware: options.hardware, buffer, fault: None };
         for (place, group) in binding.devices.iter().enumerate() {
             let used = !(group.sensors.is_empty() && group.actuators.is_empty());
             let mut device: Box<dyn Device> = match (config, options.hardware) {
                 _ if !used => {
-                    devices.push(None);
+                    links.devices.push(None);
                     continue;
                 }
                 (_, false) => Box::new(Simulated::new(group.sensors.len())),
@@ -39,10 +41,9 @@ impl Links {
                 (None, true) => return Err(undriven(&group.name, None, registry)),
             };
             device.connect().map_err(|fault| failed(group, fault))?;
-            devices.push(Some(device));
+            links.devices.push(Some(device));
         }
-        let buffer = vec![0.0; width.max(binding.actuators.len())];
-        Ok(Links { devices, hardware: options.hardware, buffer, fault: None })
+        Ok(links)
     }
 
     /// Tells simulated devices what `readings` holds, then reads all devices into it. A device that fails keeps what it
@@ -140,7 +141,7 @@ impl Links {
         self.fault.clone().map_or(Ok(()), Err)
     }
 
-    /// Begins to wait for failures again.
+    /// Drops the failure, before an episode begins.
     pub(crate) fn forget_fault(&mut self) {
         self.fault = None;
     }

@@ -13,6 +13,9 @@ use crate::reading::{History, Readings};
 use physics::{Data, Model};
 use random::{BitGenerator, Generator};
 
+/// Readings that are kept for history or delay.
+const MAX_STEPS: usize = 1 << 16;
+
 /// Devices that act on a model and sense it, or hardware that the model mirrors.
 ///
 /// Control and sensing allocate nothing after the first reading.
@@ -281,6 +284,37 @@ impl Robot {
     }
 }
 
+impl Robot {
+    /// Turns controls with units into -1 to 1, in place: of the config's actuators by the range of the action mode, clipped.
+    ///
+    /// # Errors
+    /// Not one number for each control.
+    pub fn normalize(&self, model: &Model, controls: &mut [f64]) -> Result<(), RobotError> {
+        self.check_length(controls)?;
+        self.actions.normalize(model, &self.binding, controls);
+        Ok(())
+    }
+
+    /// Turns actions from -1 to 1, clipped for the config's actuators, into controls with units, in place.
+    ///
+    /// # Errors
+    /// Not one number for each control.
+    pub fn unnormalize(&self, model: &Model, actions: &mut [f64]) -> Result<(), RobotError> {
+        self.check_length(actions)?;
+        self.actions.unnormalize(model, &self.binding, actions);
+        Ok(())
+    }
+
+    fn check_length(&self, vector: &[f64]) -> Result<(), RobotError> {
+        let (given, expected) = (vector.len(), self.action_len());
+        if given == expected {
+            Ok(())
+        } else {
+            Err(RobotError::Length { what: "an action", given, expected })
+        }
+    }
+}
+
 /// Writes `value`; tells whether its bits differ from those that stood there.
 fn write(place: &mut f64, value: f64) -> bool {
     let differs = place.to_bits() != value.to_bits();
@@ -315,38 +349,4 @@ fn check(options: &Options) -> Result<(), RobotError> {
         }
     }
     Ok(())
-}
-
-/// Readings that are kept for history or delay.
-const MAX_STEPS: usize = 1 << 16;
-
-impl Robot {
-    /// Turns controls with units into -1 to 1, in place: of the config's actuators by the range of the action mode, clipped.
-    ///
-    /// # Errors
-    /// Not one number for each control.
-    pub fn normalize(&self, model: &Model, controls: &mut [f64]) -> Result<(), RobotError> {
-        self.check_length(controls)?;
-        self.actions.normalize(model, &self.binding, controls);
-        Ok(())
-    }
-
-    /// Turns actions from -1 to 1, clipped for the config's actuators, into controls with units, in place.
-    ///
-    /// # Errors
-    /// Not one number for each control.
-    pub fn unnormalize(&self, model: &Model, actions: &mut [f64]) -> Result<(), RobotError> {
-        self.check_length(actions)?;
-        self.actions.unnormalize(model, &self.binding, actions);
-        Ok(())
-    }
-
-    fn check_length(&self, vector: &[f64]) -> Result<(), RobotError> {
-        let (given, expected) = (vector.len(), self.action_len());
-        if given == expected {
-            Ok(())
-        } else {
-            Err(RobotError::Length { what: "an action", given, expected })
-        }
-    }
 }

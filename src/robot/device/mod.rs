@@ -63,8 +63,7 @@ pub enum Units {
 
 /// A device: it has the sensors and actuators of one [`DeviceConfig`](crate::DeviceConfig), in the order of that config.
 ///
-/// Calls neither wait for the next control period nor sleep; a device that measures on its own returns its newest
-/// reading. Times are seconds since [`Device::connect`], of simulated devices the simulation's.
+/// Calls return at once, but for [`Device::reset`]; a device that measures on its own gives its newest reading. Times are seconds since [`Device::connect`], of simulated devices the simulation's.
 pub trait Device: Send {
     /// Opens the connection; the first call.
     ///

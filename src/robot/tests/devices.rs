@@ -1,6 +1,6 @@
 //! One flag puts other devices behind a robot; their faults are told and never lost.
 
-use physics::{Data, Model, forward};
+use physics::{Data, Model, forward, step};
 use random::Generator;
 use robohive_robot::{
     Config, Device, DeviceConfig, Fault, Options, Record, Registry, Replay, Robot, RobotError, Units, Value,
@@ -88,6 +88,39 @@ fn the_end_of_a_log_is_a_fault_that_stops_the_robot() {
     assert_eq!(fault.to_string(), "device 'arm': its record has ended");
     assert_eq!(robot.control(&model, &data, &[0.5], 0.1), Err(fault.clone()));
     assert_eq!(robot.reset(&model, &data, &mut rng), Err(fault));
+}
+
+#[test]
+fn what_a_simulated_robot_read_is_read_again_from_its_log() {
+    let (model, mut data, config) = arm();
+    let mut rng = Generator::pcg64(1_u64);
+    let noisy = Options { noise_scale: 1.0, ..Options::default() };
+    let mut robot = Robot::new(&model, Some(&config), noisy).unwrap();
+    let mut records = Vec::new();
+    for _ in 0..20 {
+        step(&model, &mut data).unwrap();
+        let readings = robot.sense(&model, &data, &mut rng).clone();
+        let values = robot.values_of("arm", &readings).unwrap().to_vec();
+        records.push(Record { time: readings.time, values });
+    }
+    let (mut registry, log) = (Registry::default(), records.clone());
+    registry.register("log", move |_: &DeviceConfig| Ok(Box::new(Replay::new(log.clone(), Units::Model))));
+    let mut robot = Robot::with_devices(&model, Some(&config), hardware(), &registry).unwrap();
+    for Record { time, values } in &records {
+        let readings = robot.sense(&model, &data, &mut rng);
+        assert_eq!((readings.time, &readings.values), (*time, values));
+    }
+    assert!(records.windows(2).all(|pair| pair[0] != pair[1]));
+}
+
+#[test]
+fn robots_go_from_thread_to_thread() {
+    let (model, data, config) = arm();
+    let mut robot = Robot::new(&model, Some(&config), Options::default()).unwrap();
+    let control = std::thread::scope(|scope| {
+        scope.spawn(|| robot.control(&model, &data, &[0.5], 0.1).unwrap()[0]).join().unwrap()
+    });
+    assert_eq!(control, 0.5);
 }
 
 #[test]
@@ -201,6 +234,19 @@ fn devices_get_commands_in_their_units_and_are_closed() {
 
     lines.lock().unwrap().clear();
     drop(Robot::with_devices(&model, Some(&config), hardware(), &registry).unwrap());
+    assert_eq!(*lines.lock().unwrap(), ["connect", "close"]);
+}
+
+#[test]
+fn devices_are_closed_when_a_later_one_cannot_be_connected() {
+    let (model, _, _) = arm();
+    let (mut registry, lines) = diary("");
+    registry.register("lost", |_| Err(Fault::Unreachable("no port".to_owned())));
+    let two = CONFIG.to_owned()
+        + "\n[[device]]\nname = 'leg'\ninterface = { type = 'lost' }\nsensor = [{ name = 'v', range = [-1, 1] }]";
+    let config = Config::from_toml(&two, "two.toml").unwrap();
+    let error = Robot::with_devices(&model, Some(&config), hardware(), &registry).err().unwrap();
+    assert_eq!(error.to_string(), "device 'leg': it cannot be reached: no port");
     assert_eq!(*lines.lock().unwrap(), ["connect", "close"]);
 }
 
