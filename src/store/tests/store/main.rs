@@ -1,0 +1,6 @@
+//! Stores as a program uses them.
+
+mod hostile;
+mod import;
+mod interruption;
+mod sources;
