@@ -61,6 +61,8 @@ pub enum Command {
     Check(Check),
     /// Measure steps per second
     Bench(Bench),
+    /// Keep the model files of RoboHive: import, list and verify them
+    Assets(crate::assets::Assets),
     /// Print completions for a shell
     Completions(Completions),
     /// Print or write manual pages

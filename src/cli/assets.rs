@@ -9,7 +9,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use store::{
-    Damage, Entry, Fault, ImportOptions, Imported, Licence, Limits, Progress, Store, StoreError, default_folder,
+    Damage, Entry, Fault, ImportOptions, Imported, Licence, Limits, Progress, Store, StoreError,
+    default_folder,
 };
 
 /// Most names of one sort that the summary of an import lists.
@@ -135,9 +136,10 @@ fn open(place: &Place) -> Result<Store, Failure> {
 /// Exit code 1 where the machine is at fault, 2 where the input is.
 fn failure(error: StoreError) -> Failure {
     match error {
-        StoreError::Io { .. } | StoreError::Busy { .. } | StoreError::Gone { .. } | StoreError::Manifest { .. } => {
-            Failure::new(error)
-        }
+        StoreError::Io { .. }
+        | StoreError::Busy { .. }
+        | StoreError::Gone { .. }
+        | StoreError::Manifest { .. } => Failure::new(error),
         error => Failure::usage(error),
     }
 }
@@ -184,13 +186,18 @@ fn show_import(store: &Store, imported: &Imported, seconds: f64) {
     show!("imported     {files} files, {} in {seconds:.1} s", HumanBytes(*bytes));
     show!("             {added} new, {unchanged} already there, {} replaced", replaced.len());
     replaced.iter().take(LISTED).for_each(|path| show!("replaced     {path}"));
+    if replaced.len() > LISTED {
+        show!("             and {} more", replaced.len() - LISTED);
+    }
     let kinds: Vec<_> = skipped.kinds.iter().map(|(kind, n)| format!("{n} {kind}")).collect();
     if !kinds.is_empty() {
         show!("skipped      {}", kinds.join(", "));
     }
     show!("store        {}, {} files", store.folder().display(), store.entries().len());
     for link in skipped.links.iter().take(LISTED) {
-        note(&format!("robohive: skipped {link}, a link out of the folder or to nothing; import what it leads to"));
+        note(&format!(
+            "robohive: skipped {link}, a link out of the folder or to nothing; import what it leads to"
+        ));
     }
     if skipped.links.len() > LISTED {
         note(&format!("robohive: skipped {} more such links", skipped.links.len() - LISTED));

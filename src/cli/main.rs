@@ -1,6 +1,7 @@
 //! The `robohive` command: one subcommand a file.
 
 mod arguments;
+mod assets;
 mod bench;
 mod check;
 mod compile;
@@ -52,6 +53,7 @@ fn main() -> ExitCode {
         Command::Trace(a) => trace::run(&a),
         Command::Check(a) => check::run(&a),
         Command::Bench(a) => bench::run(&a),
+        Command::Assets(a) => assets::run(&a),
         Command::Completions(a) => completions::run(&a),
         Command::Man(a) => man::run(&a),
     };

@@ -16,13 +16,18 @@ pub fn run(a: &Man) -> Result<(), Failure> {
         return Ok(());
     };
     std::fs::create_dir_all(folder).map_err(unwritable(folder))?;
-    for command in std::iter::once(&main).chain(main.get_subcommands()) {
+    for command in with_subcommands(&main) {
         let name = command.get_display_name().unwrap_or_else(|| command.get_name());
         let path = folder.join(format!("{name}.1"));
         std::fs::write(&path, page(command).map_err(Failure::new)?).map_err(unwritable(&path))?;
         show!("{}", path.display());
     }
     Ok(())
+}
+
+/// A command, its subcommands, and theirs.
+fn with_subcommands(command: &clap::Command) -> Vec<&clap::Command> {
+    std::iter::once(command).chain(command.get_subcommands().flat_map(with_subcommands)).collect()
 }
 
 /// The page of a command.

@@ -17,6 +17,27 @@ fn subcommands() -> Vec<String> {
     names.into_iter().filter(|name| name != "help").collect()
 }
 
+/// The words of all commands, those of subcommands included.
+fn commands() -> Vec<Vec<String>> {
+    let nested = |name: String| {
+        let help = text(&robohive(&[&name, "--help"]).stdout);
+        let (_, list) = help.split_once("\nCommands:\n").unwrap_or_default();
+        let lines = list.lines().take_while(|line| line.starts_with("  "));
+        let inner = lines.filter_map(|line| line.split_whitespace().next()).filter(|&inner| inner != "help");
+        let mut words: Vec<_> = inner.map(|inner| vec![name.clone(), inner.to_owned()]).collect();
+        words.insert(0, vec![name]);
+        words
+    };
+    let commands: Vec<_> = subcommands().into_iter().flat_map(nested).collect();
+    assert!(commands.contains(&vec!["assets".to_owned(), "import".to_owned()]), "{commands:?}");
+    commands
+}
+
+/// The help of a command.
+fn help(words: &[String]) -> String {
+    text(&command().args(words).arg("--help").output().unwrap().stdout)
+}
+
 /// One example: its words, and the file that it reads as standard input.
 struct Example {
     words: Vec<String>,
@@ -47,13 +68,21 @@ fn examples_of_every_help_run() {
     for shared in ["assets", "validation"] {
         link(&Path::new(ROOT).join(shared), &folder.join(shared));
     }
-    for name in subcommands() {
-        let help = text(&robohive(&[&name, "--help"]).stdout);
-        let examples = examples(&help);
-        assert!(examples.iter().any(|example| example.words[0] == name), "{name}: {help}");
+    let model = folder.join("simhive/Adroit/hand.xml");
+    std::fs::create_dir_all(model.parent().unwrap()).unwrap();
+    std::fs::write(model, "<mujoco/>").unwrap();
+    for name in commands() {
+        let examples = examples(&help(&name));
+        assert!(examples.iter().any(|example| example.words.starts_with(&name)), "{name:?}");
         for Example { words, input } in examples {
             let input = input.map_or(Stdio::null(), |path| File::open(folder.join(path)).unwrap().into());
-            let out = command().args(&words).current_dir(&folder).stdin(input).output().unwrap();
+            let out = command()
+                .args(&words)
+                .current_dir(&folder)
+                .env("ROBOHIVE_STORE", folder.join("store"))
+                .stdin(input)
+                .output();
+            let out = out.unwrap();
             assert!(out.status.success(), "{words:?}: {}{}", text(&out.stdout), text(&out.stderr));
             assert!(!out.stdout.is_empty() || words[0] == "trace", "{words:?} prints nothing");
         }
@@ -72,10 +101,10 @@ fn link(from: &Path, to: &Path) {
 
 #[test]
 fn help_fits_eighty_columns() {
-    for name in subcommands() {
-        let out = command().args([&name, "--help"]).env("COLUMNS", "80").output().unwrap();
+    for name in commands() {
+        let out = command().args(&name).arg("--help").env("COLUMNS", "80").output().unwrap();
         for line in text(&out.stdout).lines().filter(|line| !line.contains("robohive ")) {
-            assert!(line.chars().count() <= 80, "{name}: {line}");
+            assert!(line.chars().count() <= 80, "{name:?}: {line}");
         }
     }
 }
@@ -115,10 +144,13 @@ fn every_command_has_a_manual_page_with_its_examples() {
     _ = std::fs::remove_dir_all(&folder);
     let out = robohive(&["man", "--out", folder.to_str().unwrap()]);
     assert!(out.status.success(), "{}", text(&out.stderr));
-    for name in subcommands() {
-        let page = std::fs::read_to_string(folder.join(format!("robohive-{name}.1"))).unwrap();
+    for name in commands() {
+        let page = std::fs::read_to_string(folder.join(format!("robohive-{}.1", name.join("-")))).unwrap();
         let (_, examples) = page.split_once(".SH EXAMPLES\n").unwrap();
-        assert!(page.contains(".TH ") && examples.contains(&format!("robohive {name}")), "{page}");
+        assert!(
+            page.contains(".TH ") && examples.contains(&format!("robohive {}", name.join(" "))),
+            "{page}"
+        );
     }
     let main = std::fs::read_to_string(folder.join("robohive.1")).unwrap();
     assert_eq!(text(&robohive(&["man"]).stdout), main);

@@ -10,9 +10,11 @@ pub const ROOT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
 pub fn command() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_robohive"));
     command.current_dir(ROOT);
-    for variable in ["ROBOHIVE_CACHE", "NO_COLOR", "CLICOLOR_FORCE", "COLUMNS"] {
+    for variable in ["ROBOHIVE_CACHE", "NO_COLOR", "CLICOLOR_FORCE", "COLUMNS", "ROBOHIVE_ASSETS"] {
         command.env_remove(variable);
     }
+    // Never the store of whoever runs the tests.
+    command.env("ROBOHIVE_STORE", scratch("store"));
     command
 }
 
