@@ -63,6 +63,8 @@ pub enum Command {
     Bench(Bench),
     /// Keep the model files of RoboHive: import, list and verify them
     Assets(crate::assets::Assets),
+    /// Look into recordings of episodes, repair them, convert them
+    Data(crate::data::Data),
     /// Print completions for a shell
     Completions(Completions),
     /// Print or write manual pages

@@ -6,6 +6,7 @@ mod bench;
 mod check;
 mod compile;
 mod completions;
+mod data;
 mod fields;
 mod inspect;
 mod interrupt;
@@ -54,6 +55,7 @@ fn main() -> ExitCode {
         Command::Check(a) => check::run(&a),
         Command::Bench(a) => bench::run(&a),
         Command::Assets(a) => assets::run(&a),
+        Command::Data(a) => data::run(&a),
         Command::Completions(a) => completions::run(&a),
         Command::Man(a) => man::run(&a),
     };

@@ -1,9 +1,16 @@
-//! Array files. Numpy archives (`.npz`) carry states, trajectories and compiled models in and out.
+//! Array files. Numpy archives (`.npz`) carry states, trajectories and compiled models in and out; recordings of episodes
+//! (feature `hdf5`) are HDF5 files in the layouts of RoboHive and RoboSet.
 
 pub mod growing;
+pub mod half;
+#[cfg(feature = "hdf5")]
+pub mod hdf5;
 pub mod npy;
 pub mod npz;
+#[cfg(feature = "hdf5")]
+pub mod trace;
 
 pub use growing::GrowingNpz;
-pub use npy::{Array, Dtype, Values};
+pub use half::F16;
+pub use npy::{Array, Dtype, Scalar, Values};
 pub use npz::{NpzError, NpzReader, NpzWriter};

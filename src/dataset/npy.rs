@@ -1,62 +1,145 @@
 //! The numpy array format, versions 1.0 to 3.0 (numpy documentation: `numpy.lib.format`).
 
+use crate::half::F16;
+
 /// Largest number of scalars an array may hold: 1 GiB of f64.
 pub const MAX_SCALARS: usize = 1 << 27;
 
-/// Type of an array's scalars.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dtype {
-    /// `|b1`
-    Bool,
-    /// `|u1`
-    U8,
-    /// `<i4`
-    I32,
-    /// `<i8`
-    I64,
-    /// `<f4`
-    F32,
-    /// `<f8`
-    F64,
+/// A type that arrays hold.
+pub trait Scalar: Copy + 'static {
+    /// How numpy calls it.
+    const DTYPE: Dtype;
+
+    /// Appends its bytes, little-endian.
+    fn put(self, out: &mut Vec<u8>);
+
+    /// From as many bytes as [`Dtype::bytes`] says, little-endian.
+    fn take(bytes: &[u8]) -> Self;
+
+    /// The nearest double.
+    fn as_f64(self) -> f64;
 }
 
-impl Dtype {
-    /// Bytes of one scalar.
-    pub fn bytes(self) -> usize {
-        match self {
-            Dtype::Bool | Dtype::U8 => 1,
-            Dtype::I32 | Dtype::F32 => 4,
-            Dtype::I64 | Dtype::F64 => 8,
+/// Declares the types that arrays hold: variant, type, bytes, name in numpy's format, and conversions.
+macro_rules! dtypes {
+    ($($variant:ident: $scalar:ty, $bytes:literal, $descr:literal, $name:literal, $put:expr, $take:expr, $as_f64:expr;)*) => {
+        /// Type of an array's scalars.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum Dtype {
+            $(#[doc = concat!("`", $descr, "`")] $variant,)*
         }
-    }
 
-    fn descr(self) -> &'static str {
-        match self {
-            Dtype::Bool => "|b1",
-            Dtype::U8 => "|u1",
-            Dtype::I32 => "<i4",
-            Dtype::I64 => "<i8",
-            Dtype::F32 => "<f4",
-            Dtype::F64 => "<f8",
+        impl Dtype {
+            /// All of them.
+            pub const ALL: [Dtype; 12] = [$(Dtype::$variant,)*];
+
+            /// Bytes of one scalar.
+            pub fn bytes(self) -> usize {
+                match self {
+                    $(Dtype::$variant => $bytes,)*
+                }
+            }
+
+            /// Numpy's name, as in `float64`.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Dtype::$variant => $name,)*
+                }
+            }
+
+            fn descr(self) -> &'static str {
+                match self {
+                    $(Dtype::$variant => $descr,)*
+                }
+            }
         }
-    }
+
+        /// Scalars of an array in row-major order.
+        #[derive(Clone, Debug, PartialEq)]
+        pub enum Values {
+            $(#[doc = concat!("`", $descr, "`")] $variant(Vec<$scalar>),)*
+        }
+
+        impl Values {
+            /// Number of scalars.
+            pub fn len(&self) -> usize {
+                match self {
+                    $(Values::$variant(v) => v.len(),)*
+                }
+            }
+
+            /// True when there is no scalar.
+            pub fn is_empty(&self) -> bool {
+                self.len() == 0
+            }
+
+            /// Every scalar as f64.
+            pub fn to_f64(&self) -> Vec<f64> {
+                match self {
+                    $(Values::$variant(v) => v.iter().map(|&x| x.as_f64()).collect(),)*
+                }
+            }
+
+            /// Type of the scalars.
+            pub fn dtype(&self) -> Dtype {
+                match self {
+                    $(Values::$variant(_) => Dtype::$variant,)*
+                }
+            }
+
+            /// Appends the bytes of all scalars, little-endian.
+            pub fn put_bytes(&self, out: &mut Vec<u8>) {
+                match self {
+                    $(Values::$variant(v) => v.iter().for_each(|&x| x.put(out)),)*
+                }
+            }
+
+            /// The scalars of little-endian bytes; of a last scalar that is not whole, nothing is read.
+            pub fn from_bytes(dtype: Dtype, bytes: &[u8]) -> Self {
+                match dtype {
+                    $(Dtype::$variant => {
+                        Values::$variant(bytes.chunks_exact($bytes).map(<$scalar>::take).collect())
+                    })*
+                }
+            }
+        }
+
+        $(impl Scalar for $scalar {
+            const DTYPE: Dtype = Dtype::$variant;
+
+            fn put(self, out: &mut Vec<u8>) {
+                let put: fn($scalar) -> [u8; $bytes] = $put;
+                out.extend_from_slice(&put(self));
+            }
+
+            fn take(bytes: &[u8]) -> Self {
+                let take: fn([u8; $bytes]) -> $scalar = $take;
+                let mut own = [0; $bytes];
+                own.copy_from_slice(&bytes[..$bytes]);
+                take(own)
+            }
+
+            fn as_f64(self) -> f64 {
+                let convert: fn($scalar) -> f64 = $as_f64;
+                convert(self)
+            }
+        })*
+    };
 }
 
-/// Scalars of an array in row-major order.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Values {
-    /// `|b1`
-    Bool(Vec<bool>),
-    /// `|u1`
-    U8(Vec<u8>),
-    /// `<i4`
-    I32(Vec<i32>),
-    /// `<i8`
-    I64(Vec<i64>),
-    /// `<f4`
-    F32(Vec<f32>),
-    /// `<f8`
-    F64(Vec<f64>),
+dtypes! {
+    Bool: bool, 1, "|b1", "bool", |x| [u8::from(x)], |b| b[0] != 0, |x| f64::from(u8::from(x));
+    U8: u8, 1, "|u1", "uint8", u8::to_le_bytes, u8::from_le_bytes, f64::from;
+    U16: u16, 2, "<u2", "uint16", u16::to_le_bytes, u16::from_le_bytes, f64::from;
+    U32: u32, 4, "<u4", "uint32", u32::to_le_bytes, u32::from_le_bytes, f64::from;
+    U64: u64, 8, "<u8", "uint64", u64::to_le_bytes, u64::from_le_bytes, |x| x as f64;
+    I8: i8, 1, "|i1", "int8", i8::to_le_bytes, i8::from_le_bytes, f64::from;
+    I16: i16, 2, "<i2", "int16", i16::to_le_bytes, i16::from_le_bytes, f64::from;
+    I32: i32, 4, "<i4", "int32", i32::to_le_bytes, i32::from_le_bytes, f64::from;
+    I64: i64, 8, "<i8", "int64", i64::to_le_bytes, i64::from_le_bytes, |x| x as f64;
+    F16: F16, 2, "<f2", "float16", |x| x.0.to_le_bytes(), |b| F16(u16::from_le_bytes(b)), F16::to_f64;
+    F32: f32, 4, "<f4", "float32", f32::to_le_bytes, f32::from_le_bytes, f64::from;
+    F64: f64, 8, "<f8", "float64", f64::to_le_bytes, f64::from_le_bytes, |x| x;
 }
 
 /// An n-dimensional array.
@@ -66,49 +149,6 @@ pub struct Array {
     pub shape: Vec<usize>,
     /// Scalars, row-major.
     pub values: Values,
-}
-
-impl Values {
-    /// Number of scalars.
-    pub fn len(&self) -> usize {
-        match self {
-            Values::Bool(v) => v.len(),
-            Values::U8(v) => v.len(),
-            Values::I32(v) => v.len(),
-            Values::I64(v) => v.len(),
-            Values::F32(v) => v.len(),
-            Values::F64(v) => v.len(),
-        }
-    }
-
-    /// True when there is no scalar.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Every scalar as f64.
-    pub fn to_f64(&self) -> Vec<f64> {
-        match self {
-            Values::Bool(v) => v.iter().map(|&x| f64::from(u8::from(x))).collect(),
-            Values::U8(v) => v.iter().map(|&x| f64::from(x)).collect(),
-            Values::I32(v) => v.iter().map(|&x| f64::from(x)).collect(),
-            Values::I64(v) => v.iter().map(|&x| x as f64).collect(),
-            Values::F32(v) => v.iter().map(|&x| f64::from(x)).collect(),
-            Values::F64(v) => v.clone(),
-        }
-    }
-
-    /// Type of the scalars.
-    pub fn dtype(&self) -> Dtype {
-        match self {
-            Values::Bool(_) => Dtype::Bool,
-            Values::U8(_) => Dtype::U8,
-            Values::I32(_) => Dtype::I32,
-            Values::I64(_) => Dtype::I64,
-            Values::F32(_) => Dtype::F32,
-            Values::F64(_) => Dtype::F64,
-        }
-    }
 }
 
 impl Array {
@@ -130,14 +170,7 @@ impl Array {
     /// The bytes of a `.npy` file, version 1.0.
     pub fn encode(&self) -> Vec<u8> {
         let mut out = header(self.values.dtype(), &self.shape, 0);
-        match &self.values {
-            Values::Bool(v) => out.extend(v.iter().map(|&x| u8::from(x))),
-            Values::U8(v) => out.extend(v),
-            Values::I32(v) => out.extend(v.iter().flat_map(|x| x.to_le_bytes())),
-            Values::I64(v) => out.extend(v.iter().flat_map(|x| x.to_le_bytes())),
-            Values::F32(v) => out.extend(v.iter().flat_map(|x| x.to_le_bytes())),
-            Values::F64(v) => out.extend(v.iter().flat_map(|x| x.to_le_bytes())),
-        }
+        self.values.put_bytes(&mut out);
         out
     }
 
@@ -213,23 +246,13 @@ fn parse_header(header: &str) -> Result<(String, bool, Vec<usize>), String> {
 }
 
 fn decode_values(bytes: &[u8], descr: &str, count: usize) -> Result<Values, String> {
-    fn chunks<const N: usize>(bytes: &[u8], count: usize) -> Result<impl Iterator<Item = [u8; N]>, String> {
-        if bytes.len() != count * N {
-            return Err(format!("{} bytes of data where the shape needs {}", bytes.len(), count * N));
-        }
-        Ok(bytes.as_chunks::<N>().0.iter().copied())
+    let dtype = Dtype::ALL.into_iter().find(|dtype| dtype.descr() == descr).ok_or_else(|| {
+        let names: Vec<_> = Dtype::ALL.iter().map(|dtype| dtype.name()).collect();
+        format!("dtype {descr:?} is not read: use one of {}", names.join(", "))
+    })?;
+    if bytes.len() != count * dtype.bytes() {
+        let needed = count * dtype.bytes();
+        return Err(format!("{} bytes of data where the shape needs {needed}", bytes.len()));
     }
-    Ok(match descr {
-        "|b1" => Values::Bool(chunks::<1>(bytes, count)?.map(|b| b[0] != 0).collect()),
-        "|u1" => Values::U8(chunks::<1>(bytes, count)?.map(|b| b[0]).collect()),
-        "<i4" => Values::I32(chunks(bytes, count)?.map(i32::from_le_bytes).collect()),
-        "<i8" => Values::I64(chunks(bytes, count)?.map(i64::from_le_bytes).collect()),
-        "<f4" => Values::F32(chunks(bytes, count)?.map(f32::from_le_bytes).collect()),
-        "<f8" => Values::F64(chunks(bytes, count)?.map(f64::from_le_bytes).collect()),
-        other => {
-            return Err(format!(
-                "dtype {other:?} is not read: use bool, uint8, int32, int64, float32 or float64"
-            ));
-        }
-    })
+    Ok(Values::from_bytes(dtype, bytes))
 }
