@@ -37,7 +37,7 @@ const ORDER: [(&str, &[&str]); 12] = [
 /// What the library may use of others: all of it pure Rust.
 const OTHERS: [(&str, &[&str]); 7] = [
     ("robohive-physics", &["libm", "rayon"]),
-    ("robohive-dataset", &["zip"]),
+    ("robohive-dataset", &["zip", "flate2"]),
     ("robohive-random", &["libm"]),
     ("robohive-store", &["flate2", "lzma-rust2", "sha2", "zip"]),
     ("robohive-mjcf", &["roxmltree", "fdeflate"]),

@@ -1,11 +1,13 @@
 //! Continuous integration as a program. `cargo xtask ci` runs what every change must pass, in minutes; `cargo xtask long`
 //! what takes longer; `cargo xtask NAME…` single checks. With `--strict` what this machine cannot check counts as a failure.
 //! `cargo xtask instructions --update` records new counts, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder,
+//! `cargo xtask crash-safety [KILLS]` kills recordings at random moments and reads what they leave,
 //! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice.
 
 mod builds;
 mod check;
 mod command;
+mod crash_safety;
 mod fuzz;
 mod instructions;
 mod mutants;
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
         ["fuzz", ref rest @ ..] => verdict(fuzz::run(rest)),
+        ["crash-safety", ref rest @ ..] => verdict(crash_safety::run(rest)),
         ["mutants", ref rest @ ..] => verdict(mutants::run(rest)),
         ["instructions", "--update"] => verdict(instructions::run(true).map(drop)),
         _ => match chosen(&words) {
@@ -68,6 +71,7 @@ fn usage() -> ExitCode {
     let names: Vec<_> = QUICK.iter().chain(&LONG).map(|check| check.name).collect();
     eprintln!("usage: cargo xtask [--strict] ci | long | {}", names.join(" | "));
     eprintln!("       cargo xtask instructions --update");
+    eprintln!("       cargo xtask crash-safety [KILLS]");
     eprintln!("       cargo xtask mutants [COUNT]");
     eprintln!("       cargo xtask fuzz [SECONDS | keep] [TARGET...]");
     ExitCode::from(2)
