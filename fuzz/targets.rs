@@ -3,6 +3,7 @@
 
 use std::io::Cursor;
 
+use dataset::trace::{TraceReader, summarise};
 use dataset::{Array, NpzReader};
 use mjcf::files::Memory;
 use mjcf::image::{CompiledHfield, FileImage, HfieldSource, TextureSource, TextureType};
@@ -15,7 +16,7 @@ use physics::{Data, Model, forward, step};
 pub type Target = fn(&[u8]);
 
 /// Every target by name.
-pub const TARGETS: [(&str, Target); 9] = [
+pub const TARGETS: [(&str, Target); 10] = [
     ("mjcf", mjcf),
     ("stl", stl),
     ("obj", obj),
@@ -24,6 +25,7 @@ pub const TARGETS: [(&str, Target); 9] = [
     ("image", image),
     ("hfield", hfield),
     ("npz", npz),
+    ("hdf5", hdf5),
     ("binary", binary),
 ];
 
@@ -140,6 +142,13 @@ pub fn npz(data: &[u8]) {
     if let Ok(array) = Array::decode(data) {
         assert_eq!(array.values.len(), array.shape.iter().product::<usize>());
         assert_eq!(Array::decode(&array.encode()).map(|again| again.shape), Ok(array.shape));
+    }
+}
+
+/// A recording of episodes, read whole.
+pub fn hdf5(data: &[u8]) {
+    if let Ok(trace) = TraceReader::memory("recording", data.to_vec()) {
+        let _ = summarise(&trace);
     }
 }
 

@@ -9,6 +9,7 @@ use super::header::Message;
 use super::heap;
 use super::index::{self, Chunk, Grid, Index};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry::{Occupied, Vacant};
 use std::ops::Range;
 
 /// Axes of a dataset at most.
@@ -171,10 +172,11 @@ pub fn referred(source: &Source, heaps: &mut Heaps, reference: &[u8]) -> Decoded
     if length == 0 {
         return Ok(Vec::new());
     }
-    if !heaps.contains_key(&address) {
-        heaps.insert(address, heap::global(source, address)?);
-    }
-    let object = heaps[&address].get(&index).and_then(|object| object.get(..length));
+    let heap = match heaps.entry(address) {
+        Occupied(known) => known.into_mut(),
+        Vacant(new) => new.insert(heap::global(source, address)?),
+    };
+    let object = heap.get(&index).and_then(|object| object.get(..length));
     let missing =
         || format!("the heap at {address} has no object {index} of {length} bytes: the file is damaged");
     object.map(<[u8]>::to_vec).ok_or_else(missing)

@@ -117,6 +117,15 @@ fn unshuffle(bytes: &[u8], element: usize) -> Vec<u8> {
     out
 }
 
+/// Puts bytes of equal significance together, in `out`.
+fn shuffle<'a>(bytes: &[u8], element: usize, out: &'a mut Vec<u8>) -> &'a [u8] {
+    out.clear();
+    for byte in 0..element {
+        out.extend(bytes.iter().skip(byte).step_by(element));
+    }
+    out
+}
+
 /// Compresses chunks, in memory that is used again.
 pub struct Packer {
     deflate: Compress,
@@ -124,28 +133,25 @@ pub struct Packer {
     packed: Vec<u8>,
 }
 
-impl Packer {
-    /// One without memory yet.
-    pub fn new() -> Self {
+impl Default for Packer {
+    fn default() -> Self {
         let deflate = Compress::new(Compression::new(DEFLATE_LEVEL), true);
         Packer { deflate, shuffled: Vec::new(), packed: Vec::new() }
     }
+}
 
+impl Packer {
     /// Shuffles elements of `element` bytes, and deflates.
     ///
     /// # Errors
     /// The compressor fails.
     pub fn pack(&mut self, bytes: &[u8], element: usize) -> std::io::Result<&[u8]> {
-        let count = bytes.len() / element;
-        self.shuffled.clear();
-        for byte in 0..element {
-            self.shuffled.extend((0..count).map(|i| bytes[i * element + byte]));
-        }
+        let shuffled = if element == 1 { bytes } else { shuffle(bytes, element, &mut self.shuffled) };
         self.deflate.reset();
         self.packed.clear();
         // Stored blocks: five bytes each, of at least 16 KiB; and zlib's frame.
         self.packed.reserve(bytes.len() + bytes.len() / 1024 + 64);
-        let status = self.deflate.compress_vec(&self.shuffled, &mut self.packed, FlushCompress::Finish)?;
+        let status = self.deflate.compress_vec(shuffled, &mut self.packed, FlushCompress::Finish)?;
         match status {
             Status::StreamEnd => Ok(&self.packed),
             _ => Err(std::io::Error::other("a chunk does not compress into the room that it needs at most")),
@@ -170,7 +176,7 @@ mod tests {
 
     #[test]
     fn chunks_come_back_whatever_is_in_them() {
-        let mut packer = Packer::new();
+        let mut packer = Packer::default();
         for bytes in [noise(8), noise(1 << 20), vec![0; 1 << 20], vec![7; 24]] {
             let packed = packer.pack(&bytes, 8).unwrap().to_vec();
             assert!(undo(&PIPELINE, 0, packed, bytes.len() as u64).unwrap() == bytes);
@@ -179,7 +185,7 @@ mod tests {
 
     #[test]
     fn damage_is_told() {
-        let mut packer = Packer::new();
+        let mut packer = Packer::default();
         let packed = packer.pack(&noise(4096), 8).unwrap().to_vec();
         let wrong = |bytes: Vec<u8>, expected| undo(&PIPELINE, 0, bytes, expected).unwrap_err();
         assert!(wrong(packed.clone(), 4088).contains("do not end"));

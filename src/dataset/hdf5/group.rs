@@ -40,7 +40,7 @@ pub fn members(source: &Source, messages: &[Message]) -> Decoded<Option<Vec<(Str
                 if at.long()? != UNDEFINED {
                     return Err(
                         "a group with dense links (libver=\"latest\", more than eight members) is not read: \
-                        write the file with h5py's default libver, or `h5repack --low=0 --high=1`"
+                        write the file with h5py's default libver"
                             .into(),
                     );
                 }

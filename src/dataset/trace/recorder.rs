@@ -31,7 +31,7 @@ pub struct Recorder {
 
 enum Out {
     Hdf5(Box<(Appender, Packer)>),
-    Npz(NpzWriter<BufWriter<File>>),
+    Npz(Box<NpzWriter<BufWriter<File>>>),
 }
 
 /// An episode that is being recorded. What is dropped without [`Trial::finish`] is not kept.
@@ -92,7 +92,7 @@ impl Recorder {
     ) -> Result<Self, TraceError> {
         let fail = |e| TraceError::new(path, "", e);
         let out = if is_npz(path) {
-            Out::Npz(NpzWriter::create(path).map_err(fail)?)
+            Out::Npz(Box::new(NpzWriter::create(path).map_err(fail)?))
         } else {
             let writer = (WRITER, concat!("robohive ", env!("CARGO_PKG_VERSION")));
             let attributes = attributes.iter().filter(|(name, _)| *name != WRITER);
@@ -101,7 +101,7 @@ impl Recorder {
                 .chain(attributes)
                 .map(|&(name, text)| (name.to_owned(), text.to_owned()))
                 .collect();
-            Out::Hdf5(Box::new((Appender::create(path, &owned).map_err(fail)?, Packer::new())))
+            Out::Hdf5(Box::new((Appender::create(path, &owned).map_err(fail)?, Packer::default())))
         };
         let (names, unmapped) = (HashSet::new(), BTreeSet::new());
         Ok(Recorder { path: path.to_owned(), out, translation, precision, names, unmapped })
@@ -118,7 +118,7 @@ impl Recorder {
             Layout::RoboHive => Translation::None,
             Layout::RoboSet => Translation::ToRoboSet,
         };
-        let out = Out::Hdf5(Box::new((file, Packer::new())));
+        let out = Out::Hdf5(Box::new((file, Packer::default())));
         Ok(Recorder { path: path.to_owned(), out, translation, precision, names, unmapped: BTreeSet::new() })
     }
 
