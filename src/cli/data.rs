@@ -197,7 +197,7 @@ fn show_summary(path: &Path, summary: &Summary, each: bool) {
         for trial in &summary.trials {
             show!("");
             show!("{} with {} rows", trial.name, trial.rows);
-            show_columns(trial.columns.iter().map(|column| Merged::of(column)).collect());
+            show_columns(trial.columns.iter().map(Merged::of).collect());
         }
     } else if !summary.trials.is_empty() {
         show!("");
