@@ -150,6 +150,9 @@ pub fn next_state(m: &Model, i: usize, k: usize, act: f64, act_dot: f64, velocit
 }
 
 /// Torque of the current in motor `i`.
+///
+/// Not inlined, so that the addresses of its arrays are loaded only where such an actuator exists.
+#[inline(never)]
 pub fn electrical_force(
     m: &Model,
     act: &[f64],

@@ -124,6 +124,7 @@ fn start(history: &mut [f64], address: i32, n: usize, dim: usize, last: f64, tim
 }
 
 /// Control `k`, of actuator `i`, as it acts at `time`.
+#[cold]
 pub fn control(m: &Model, history: &[f64], ctrl: &[f64], time: f64, k: usize) -> f64 {
     let i = m.actuator_ctrladr.partition_point(|&first| first as usize <= k) - 1;
     let [n, interp] = m.actuator_history[i];

@@ -135,6 +135,9 @@ fn bias(m: &Model, i: usize, length: f64, velocity: f64) -> f64 {
 }
 
 /// Torque of a servo on orientation, along the shortest rotation to the target.
+///
+/// Not inlined, so that the addresses of its arrays are loaded only where such an actuator exists.
+#[inline(never)]
 fn orientation_servo(
     m: &Model,
     state: &State,

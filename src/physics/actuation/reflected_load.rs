@@ -43,10 +43,13 @@ impl Driven {
     }
 
     /// Own damping `law` plus what actuators add.
+    #[inline]
     pub fn damping(self, m: &Model, law: Polynomial) -> Polynomial {
-        if self.recorded(m) == -1 {
-            return law;
-        }
+        if self.recorded(m) == -1 { law } else { self.damping_with_actuators(m, law) }
+    }
+
+    #[cold]
+    fn damping_with_actuators(self, m: &Model, law: Polynomial) -> Polynomial {
         let mut poly = law.poly;
         let mut added = 0.0;
         for k in self.actuators(m) {
@@ -60,10 +63,13 @@ impl Driven {
     }
 
     /// Armature that actuators add.
+    #[inline]
     pub fn armature(self, m: &Arrays) -> f64 {
-        if self.recorded(m) == -1 {
-            return 0.0;
-        }
+        if self.recorded(m) == -1 { 0.0 } else { self.armature_of_actuators(m) }
+    }
+
+    #[cold]
+    fn armature_of_actuators(self, m: &Arrays) -> f64 {
         self.actuators(m).map(|k| m.actuator_armature[k] * gear_squared(m, k)).fold(0.0, |a, b| a + b)
     }
 }

@@ -83,6 +83,9 @@ pub fn pid_rates(
 }
 
 /// Part of the force of a `pid` servo that its inputs and its integral make; the bias has the rest.
+///
+/// Not inlined, so that the addresses of its arrays are loaded only where such an actuator exists.
+#[inline(never)]
 pub fn pid_force(
     m: &Model,
     act: &[f64],

@@ -43,6 +43,8 @@ pub(super) fn block_length(m: &Model, con: &Contacts, efc: &Constraints, i: usiz
     }
 }
 
+/// Not inlined, so that the addresses of its arrays are loaded only where equalities exist.
+#[inline(never)]
 fn equality(m: &Model, eq: usize, out: &mut [f64]) {
     let ids = [m.eq_obj1id[eq], m.eq_obj2id[eq]];
     let bodies = || {

@@ -19,7 +19,7 @@ pub(super) fn equality(
     efc: &mut Constraints,
     scratch: &mut ConstraintScratch,
 ) {
-    if m.opt.disableflags.contains(Disable::EQUALITY) {
+    if m.neq == 0 || m.opt.disableflags.contains(Disable::EQUALITY) {
         return;
     }
     for eq in (0..m.neq).filter(|&eq| state.eq_active[eq]) {

@@ -116,11 +116,6 @@ fn solver_parameters(
 ) -> SolverParameters {
     let id = efc.efc_id[i] as usize;
     let (mut solref, mut solreffriction, mut solimp) = match kind {
-        Some(ConstraintType::FrictionDof) => (m.dof_solref[id], [0.0; 2], m.dof_solimp[id]),
-        Some(ConstraintType::FrictionTendon) => (m.tendon_solref_fri[id], [0.0; 2], m.tendon_solimp_fri[id]),
-        Some(ConstraintType::LimitJoint) => (m.jnt_solref[id], [0.0; 2], m.jnt_solimp[id]),
-        Some(ConstraintType::LimitTendon) => (m.tendon_solref_lim[id], [0.0; 2], m.tendon_solimp_lim[id]),
-        Some(ConstraintType::Equality) | None => (m.eq_solref[id], [0.0; 2], m.eq_solimp[id]),
         Some(
             ConstraintType::ContactFrictionless
             | ConstraintType::ContactPyramidal
@@ -128,6 +123,10 @@ fn solver_parameters(
         ) => {
             let c = &con.contact[id];
             (c.solref, c.solreffriction, c.solimp)
+        }
+        _ => {
+            let (solref, solimp) = element_parameters(m, id, kind);
+            (*solref, [0.0; 2], *solimp)
         }
     };
     let mixed = |r: [f64; 2]| (r[0] > 0.0) != (r[1] > 0.0);
@@ -150,6 +149,20 @@ fn solver_parameters(
     solimp[2] = solimp[2].max(0.0);
     solimp[4] = solimp[4].max(1.0);
     SolverParameters { solref, solreffriction, solimp }
+}
+
+/// `solref` and `solimp` of the element that makes rows of `kind`, which is not a contact.
+///
+/// Not inlined, so that the addresses of two arrays are loaded instead of ten.
+#[inline(never)]
+fn element_parameters(m: &Model, id: usize, kind: Option<ConstraintType>) -> (&[f64; 2], &[f64; 5]) {
+    match kind {
+        Some(ConstraintType::FrictionDof) => (&m.dof_solref[id], &m.dof_solimp[id]),
+        Some(ConstraintType::FrictionTendon) => (&m.tendon_solref_fri[id], &m.tendon_solimp_fri[id]),
+        Some(ConstraintType::LimitJoint) => (&m.jnt_solref[id], &m.jnt_solimp[id]),
+        Some(ConstraintType::LimitTendon) => (&m.tendon_solref_lim[id], &m.tendon_solimp_lim[id]),
+        _ => (&m.eq_solref[id], &m.eq_solimp[id]),
+    }
 }
 
 /// Impedance and its derivative at distance `pos`: a sigmoid of two power segments that meet at the midpoint.

@@ -57,6 +57,8 @@ fn ball_limit(m: &Model, state: &State, joint: usize, efc: &mut Constraints) {
     }
 }
 
+/// Not inlined, so that the addresses of its arrays are loaded only where tendons are limited.
+#[inline(never)]
 fn tendon_limit(m: &Model, ten: &Tendons, tendon: usize, efc: &mut Constraints, signed: &mut Vec<f64>) {
     let margin = m.tendon_margin[tendon];
     let row = RowKind { kind: ConstraintType::LimitTendon, id: tendon, margin, frictionloss: 0.0 };

@@ -74,6 +74,9 @@ pub fn tendon_armature(m: &Model, t: usize) -> f64 {
 }
 
 /// `matrix += s r'r` with a sparse row `r`, columns ascending, on the pattern of `M`.
+///
+/// Not inlined, so that the addresses of its arrays are loaded only where tendons have armature.
+#[inline(never)]
 pub fn add_outer_product(m: &Model, columns: &[i32], values: &[f64], s: f64, matrix: &mut [f64]) {
     for (&dof, &value) in columns.iter().zip(values).filter(|(_, v)| **v != 0.0) {
         let target = row(m, dof as usize);

@@ -58,16 +58,16 @@ pub fn check(m: &Model) -> Result<(), NotSimulated> {
     Ok(())
 }
 
-/// True when some sensor of type in `types` exists and sensors are on.
-fn any_of(m: &Model, types: &[SensorType]) -> bool {
+/// True when some sensor of a `wanted` type exists and sensors are on.
+fn any_of(m: &Model, wanted: impl Fn(SensorType) -> bool) -> bool {
     !m.opt.disableflags.contains(Disable::SENSOR)
-        && m.sensor_type.iter().any(|&code| types.iter().any(|t| t.code() == code))
+        && m.sensor_type.iter().any(|&code| SensorType::from_code(code).is_some_and(&wanted))
 }
 
 /// True when some sensor reads body accelerations or the forces between bodies.
 pub fn needs_body_forces(m: &Model) -> bool {
     use SensorType::{Accelerometer, Force, Frameangacc, Framelinacc, Torque};
-    any_of(m, &[Accelerometer, Force, Torque, Framelinacc, Frameangacc])
+    any_of(m, |kind| matches!(kind, Accelerometer | Force | Torque | Framelinacc | Frameangacc))
 }
 
 /// Reads the sensors of the position stage.
@@ -93,7 +93,7 @@ pub fn velocity_sensors(
     scratch: &mut SensorScratch,
     out: &mut Sensors,
 ) {
-    if any_of(m, &[SensorType::Subtreelinvel, SensorType::Subtreeangmom]) {
+    if any_of(m, |kind| matches!(kind, SensorType::Subtreelinvel | SensorType::Subtreeangmom)) {
         subtree_momentum(m, inputs.kin, inputs.com, inputs.vel, out);
     }
     let Sensors { sensordata, subtree_linvel, subtree_angmom, .. } = out;

@@ -117,6 +117,9 @@ fn tendon_bias(
 }
 
 /// `dJ/dt qvel` of tendon `t`, the acceleration of its length at zero `qacc`. Zero for fixed tendons.
+///
+/// Not inlined, so that the addresses of its arrays are loaded only where tendons have armature.
+#[inline(never)]
 fn tendon_rate(m: &Model, state: &State, kin: &Kinematics, com: &Com, vel: &Velocity, t: usize) -> f64 {
     let first = m.tendon_adr[t] as usize;
     let last = first + m.tendon_num[t] as usize;
