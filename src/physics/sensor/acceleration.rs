@@ -28,9 +28,6 @@ pub(super) struct BodyForces<'a> {
 }
 
 /// Reads sensor `i` of type `kind` into zeroed `out`.
-///
-/// Not inlined, so that a sensor loads the addresses of the arrays that it reads, not those of all sensors.
-#[inline(never)]
 pub(super) fn read(
     m: &Model,
     d: &AccelerationInputs,

@@ -22,9 +22,6 @@ pub struct PositionInputs<'a> {
 }
 
 /// Reads sensor `i` into zeroed `out`.
-///
-/// Not inlined, so that a sensor loads the addresses of the arrays that it reads, not those of all sensors.
-#[inline(never)]
 pub(super) fn read(
     m: &Model,
     d: &PositionInputs,

@@ -20,9 +20,6 @@ pub struct VelocityInputs<'a> {
 }
 
 /// Reads sensor `i` into zeroed `out`. `subtree` holds the linear velocity and angular momentum of all subtrees.
-///
-/// Not inlined, so that a sensor loads the addresses of the arrays that it reads, not those of all sensors.
-#[inline(never)]
 pub(super) fn read(
     m: &Model,
     d: &VelocityInputs,
