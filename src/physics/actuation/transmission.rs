@@ -23,32 +23,46 @@ pub fn transmission(
     efc: &Constraints,
     trn: &mut Transmission,
 ) {
-    let Configuration { state, kin, com, ten } = *at;
     let mut rows = Rows { trn, out: 0, next: 0 };
     for i in 0..m.nactuator {
-        let (first, second) = (m.actuator_trnid[i][0] as usize, usize::try_from(m.actuator_trnid[i][1]).ok());
-        let gear = m.actuator_gear[m.actuator_outadr[i] as usize];
-        let halves = [[gear[0], gear[1], gear[2]], [gear[3], gear[4], gear[5]]];
-        rows.begin(m.actuator_outadr[i] as usize);
-        match (TrnType::from_code(m.actuator_trntype[i]), second) {
-            (Some(TrnType::Joint), _) => joint(m, state, first, halves, false, &mut rows),
-            (Some(TrnType::Jointinparent), _) => joint(m, state, first, halves, true, &mut rows),
-            (Some(TrnType::Slidercrank), Some(slider)) => {
-                let crank = Crank { pin: first, slider, rod: m.actuator_cranklength[i] };
-                slider_crank(m, kin, com, &crank, gear[0], &mut rows);
-            }
-            (Some(TrnType::Tendon), _) => tendon_row(m, ten, first, gear[0], &mut rows),
-            (Some(TrnType::Site), None) => site(m, kin, com, first, halves, &mut rows),
-            (Some(TrnType::Site), Some(reference)) => {
-                relative_site(m, kin, com, first, reference, halves, &mut rows)
-            }
-            (Some(TrnType::Body), _) => body_adhesion(m, com, con, efc, first, &mut rows),
-            (Some(TrnType::So3), None) => ball_rotation(m, state, first, &mut rows),
-            (Some(TrnType::So3), Some(reference)) => site_rotation(m, kin, com, first, reference, &mut rows),
-            (Some(TrnType::Slidercrank), None) | (Some(TrnType::Undefined) | None, _) => rows.finish(0.0),
+        let (first, out) = (m.actuator_trnid[i][0] as usize, m.actuator_outadr[i] as usize);
+        rows.begin(out);
+        match TrnType::from_code(m.actuator_trntype[i]) {
+            Some(TrnType::Joint) => joint(m, at.state, first, halves(m, out), false, &mut rows),
+            Some(TrnType::Jointinparent) => joint(m, at.state, first, halves(m, out), true, &mut rows),
+            Some(TrnType::Tendon) => tendon_row(m, at.ten, first, m.actuator_gear[out][0], &mut rows),
+            _ => other_kind(m, at, con, efc, i, &mut rows),
         }
     }
     rows.clear_rest();
+}
+
+/// Actuator `i`, of a kind other than joint and tendon.
+///
+/// Not inlined, so that the addresses of its arrays are loaded only where such an actuator exists.
+#[inline(never)]
+fn other_kind(m: &Model, at: &Configuration, con: &Contacts, efc: &Constraints, i: usize, rows: &mut Rows) {
+    let Configuration { state, kin, com, .. } = *at;
+    let (first, second) = (m.actuator_trnid[i][0] as usize, usize::try_from(m.actuator_trnid[i][1]).ok());
+    let gear = halves(m, rows.out);
+    match (TrnType::from_code(m.actuator_trntype[i]), second) {
+        (Some(TrnType::Slidercrank), Some(slider)) => {
+            let crank = Crank { pin: first, slider, rod: m.actuator_cranklength[i] };
+            slider_crank(m, kin, com, &crank, gear[0][0], rows);
+        }
+        (Some(TrnType::Site), None) => site(m, kin, com, first, gear, rows),
+        (Some(TrnType::Site), Some(reference)) => relative_site(m, kin, com, first, reference, gear, rows),
+        (Some(TrnType::Body), _) => body_adhesion(m, com, con, efc, first, rows),
+        (Some(TrnType::So3), None) => ball_rotation(m, state, first, rows),
+        (Some(TrnType::So3), Some(reference)) => site_rotation(m, kin, com, first, reference, rows),
+        _ => rows.finish(0.0),
+    }
+}
+
+/// Gear of output `out`: that of forces, that of torques.
+fn halves(m: &Model, out: usize) -> [Vec3; 2] {
+    let [x, y, z, a, b, c] = m.actuator_gear[out];
+    [[x, y, z], [a, b, c]]
 }
 
 /// Velocities of all actuators, after those of tendons: moments times joint velocities; zero when actuation is
