@@ -1,5 +1,6 @@
 //! Array files. Numpy archives (`.npz`) carry states, trajectories and compiled models in and out; recordings of episodes
-//! (feature `hdf5`) are HDF5 files in the layouts of RoboHive and RoboSet.
+//! (feature `hdf5`) are HDF5 files in the layouts of RoboHive and RoboSet; pickles of
+//! arrays and models are read without being executed.
 
 pub mod growing;
 pub mod half;
@@ -7,6 +8,7 @@ pub mod half;
 pub mod hdf5;
 pub mod npy;
 pub mod npz;
+pub mod pickle;
 #[cfg(feature = "hdf5")]
 pub mod trace;
 

@@ -60,6 +60,7 @@ mod error;
 mod interval;
 mod inverse_kinematics;
 mod links;
+mod memory;
 mod options;
 mod pacer;
 mod reading;
@@ -75,6 +76,7 @@ pub use config::{
 pub use device::{Device, Fault, Record, Registry, Replay, Simulated, Units};
 pub use error::{Part, RobotError};
 pub use inverse_kinematics::{Pose, Search, Solution};
+pub use memory::Memory;
 pub use options::{ActionMode, Noise, Options, UnknownMode};
 pub use pacer::{Clock, Pacer, WallClock};
 pub use reading::Readings;

@@ -46,6 +46,17 @@ impl Links {
         Ok(links)
     }
 
+    /// Simulated devices for all of `binding`, which together read `width` values.
+    pub(crate) fn simulated(binding: &Binding, width: usize) -> Links {
+        let device = |group: &Group| -> Option<Box<dyn Device>> {
+            let used = !(group.sensors.is_empty() && group.actuators.is_empty());
+            let mut device = Simulated::new(group.sensors.len());
+            (used && device.connect().is_ok()).then(|| Box::new(device) as Box<dyn Device>)
+        };
+        let buffer = vec![0.0; width.max(binding.actuators.len())];
+        Links { devices: binding.devices.iter().map(device).collect(), hardware: false, buffer, fault: None }
+    }
+
     /// Tells simulated devices what `readings` holds, then reads all devices into it. A device that fails keeps what it
     /// has.
     pub(crate) fn read(&mut self, binding: &Binding, time: f64, readings: &mut Readings) {

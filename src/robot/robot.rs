@@ -24,13 +24,13 @@ pub struct Robot {
     pub(crate) options: Options,
     pub(crate) actions: Actions,
     /// No config: the whole state is read, every actuator commanded.
-    default: bool,
-    links: Links,
-    controls: Vec<f64>,
+    pub(crate) default: bool,
+    pub(crate) links: Links,
+    pub(crate) controls: Vec<f64>,
     /// What the devices say, before clipping, noise and delay.
-    raw: Readings,
-    history: History,
-    delay: Option<Delay>,
+    pub(crate) raw: Readings,
+    pub(crate) history: History,
+    pub(crate) delay: Option<Delay>,
 }
 
 impl Robot {
@@ -305,7 +305,7 @@ impl Robot {
         Ok(())
     }
 
-    fn check_length(&self, vector: &[f64]) -> Result<(), RobotError> {
+    pub(crate) fn check_length(&self, vector: &[f64]) -> Result<(), RobotError> {
         let (given, expected) = (vector.len(), self.action_len());
         if given == expected {
             Ok(())

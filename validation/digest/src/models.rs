@@ -32,21 +32,6 @@ pub const MODELS: [Case; 12] = [
     case("pile_pgs_noslip", "pile/pile.xml", r#"solver="PGS" noslip_iterations="3""#),
 ];
 
-macro_rules! files {
-    ($($path:literal,)*) => { [$(($path, include_str!(concat!("../../../assets/", $path))),)*] };
-}
-
-const FILES: [(&str, &str); 8] = files![
-    "elbow/elbow.xml",
-    "franka/franka_table.xml",
-    "humanoid/humanoid.xml",
-    "pile/pile.xml",
-    "quadruped/quadruped.xml",
-    "workbench/workbench.xml",
-    "yard/parts/crane.xml",
-    "yard/yard.xml",
-];
-
 impl Case {
     /// Compiles the model.
     ///
@@ -54,7 +39,7 @@ impl Case {
     /// What the reader says of it.
     pub fn load(&self) -> Result<Model, String> {
         let mut files = Memory::default();
-        for (path, text) in FILES {
+        for (path, text) in assets::FILES {
             files.insert(path, text.as_bytes());
         }
         let loader =

@@ -1,0 +1,77 @@
+//! What can be wrong with a policy.
+
+use dataset::pickle::PickleError;
+use env::EnvError;
+use std::fmt;
+use std::path::PathBuf;
+
+/// Why a policy cannot be read, or cannot act.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum PolicyError {
+    /// The file cannot be read.
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// The file holds no policy that is understood.
+    Content {
+        /// The file; `None` for bytes that came from elsewhere.
+        path: Option<PathBuf>,
+        /// What is wrong.
+        message: String,
+    },
+    /// The policy is one for another environment.
+    Foreign {
+        /// The environment's id.
+        id: String,
+        /// What does not fit.
+        message: String,
+    },
+    /// The environment cannot say what it is asked.
+    Env(EnvError),
+}
+
+impl PolicyError {
+    pub(crate) fn content(message: impl Into<String>) -> Self {
+        PolicyError::Content { path: None, message: message.into() }
+    }
+
+    /// The same error about a file.
+    pub(crate) fn within(self, file: &std::path::Path) -> Self {
+        match self {
+            PolicyError::Content { message, .. } => PolicyError::Content { path: Some(file.into()), message },
+            other => other,
+        }
+    }
+}
+
+impl fmt::Display for PolicyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            PolicyError::File { path, error } => write!(f, "the policy {}: {error}", path.display()),
+            PolicyError::Content { path: Some(path), message } => {
+                write!(f, "the policy {}: {message}", path.display())
+            }
+            PolicyError::Content { path: None, message } => write!(f, "the policy: {message}"),
+            PolicyError::Foreign { id, message } => write!(f, "the policy is not one for {id}: {message}"),
+            PolicyError::Env(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for PolicyError {}
+
+impl From<PickleError> for PolicyError {
+    fn from(error: PickleError) -> Self {
+        PolicyError::content(error.to_string())
+    }
+}
+
+impl From<EnvError> for PolicyError {
+    fn from(error: EnvError) -> Self {
+        PolicyError::Env(error)
+    }
+}

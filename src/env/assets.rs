@@ -1,0 +1,91 @@
+//! Where the files of a registry come from.
+
+use mjcf::Loader;
+use mjcf::files::Memory;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Files by the paths that the registry uses, such as `envs/arms/franka/assets/franka_reach_v0.xml`.
+pub trait Assets: Send + Sync {
+    /// A loader that finds the model at `path` and all that it includes, and the path to give it.
+    ///
+    /// # Errors
+    /// The file is not there: how to get it.
+    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String>;
+
+    /// The content of a file.
+    ///
+    /// # Errors
+    /// The file is not there, or cannot be read: why, and how to get it.
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, String>;
+}
+
+/// Files in a folder.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    root: PathBuf,
+    cache: Option<mjcf::Cache>,
+}
+
+impl Folder {
+    /// The files below `root`.
+    pub fn new(root: impl AsRef<Path>) -> Self {
+        Folder { root: root.as_ref().into(), cache: None }
+    }
+
+    /// Keeps compiled models in `cache`.
+    pub fn cache(mut self, cache: mjcf::Cache) -> Self {
+        self.cache = Some(cache);
+        self
+    }
+
+    fn find(&self, path: &str) -> Result<PathBuf, String> {
+        let file = self.root.join(path);
+        if file.is_file() { Ok(file) } else { Err(format!("{} does not exist", file.display())) }
+    }
+}
+
+impl Assets for Folder {
+    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String> {
+        let file = self.find(path)?;
+        let loader = Loader::default();
+        Ok((if let Some(cache) = &self.cache { loader.cache(cache.clone()) } else { loader }, file))
+    }
+
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
+        let file = self.find(path)?;
+        std::fs::read(&file).map(Into::into).map_err(|error| format!("{}: {error}", file.display()))
+    }
+}
+
+/// What the paths of models begin with that are compiled into this crate.
+const OWN: &str = "hive/";
+
+/// A loader for a model of our own, and the path to give it; `None` for paths of other models.
+///
+/// # Errors
+/// We have no such model.
+pub(crate) fn own_model(path: &str) -> Option<Result<(Loader, PathBuf), String>> {
+    let path = path.strip_prefix(OWN)?;
+    if !assets::FILES.iter().any(|(name, _)| *name == path) {
+        let names: Vec<_> = assets::FILES.iter().map(|(name, _)| *name).collect();
+        return Some(Err(format!("our own models are {}", names.join(", "))));
+    }
+    let mut files = Memory::default();
+    assets::FILES.iter().for_each(|(name, text)| files.insert(name, text.as_bytes()));
+    Some(Ok((Loader::default().files(files), path.into())))
+}
+
+/// No files at all: enough for models of our own.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OwnModels;
+
+impl Assets for OwnModels {
+    fn model(&self, _: &str) -> Result<(Loader, PathBuf), String> {
+        Err("only models of our own (hive/...) are here".into())
+    }
+
+    fn read(&self, _: &str) -> Result<Arc<[u8]>, String> {
+        Err("only models of our own (hive/...) are here".into())
+    }
+}

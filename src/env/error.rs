@@ -1,0 +1,200 @@
+//! What can be wrong with an environment, in whole sentences.
+
+use physics::StepError;
+use physics::model::EditError;
+use random::RandomError;
+use robot::{ConfigError, RobotError};
+use std::fmt;
+
+/// Why an environment could not be made, reset or stepped.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum EnvError {
+    /// No environment has this id.
+    UnknownId {
+        /// What was asked for.
+        id: String,
+        /// The ids closest to it.
+        nearest: Vec<String>,
+    },
+    /// A file that the id needs is not there.
+    MissingFile {
+        /// The id.
+        id: String,
+        /// The file as the registry names it.
+        path: String,
+        /// How to get it.
+        hint: String,
+    },
+    /// The model does not load.
+    Model {
+        /// The file.
+        path: String,
+        /// All findings, each with its place.
+        diagnostics: Box<mjcf::diagnostic::Diagnostics>,
+    },
+    /// A setting has a wrong type or value, or is unknown.
+    Setting {
+        /// The id.
+        id: String,
+        /// What is wrong, and where.
+        message: String,
+    },
+    /// The model lacks an element that the task names.
+    Element {
+        /// Kind of element.
+        kind: &'static str,
+        /// Name asked for.
+        name: String,
+        /// Closest names of that kind.
+        nearest: Vec<String>,
+    },
+    /// An action of the wrong length.
+    ActionLength {
+        /// Values that the environment takes.
+        expected: usize,
+        /// Values given.
+        found: usize,
+    },
+    /// An action that holds NaN or an infinity.
+    ActionValue {
+        /// Where it stands.
+        index: usize,
+        /// The value.
+        value: f64,
+    },
+    /// A step after the end of an episode that only a reset can continue.
+    NeedsReset,
+    /// Physics refuses the state.
+    Physics(StepError),
+    /// The robot's configuration is malformed.
+    Config(ConfigError),
+    /// The model cannot be what a task makes of it.
+    Edit(EditError),
+    /// The robot refuses its configuration or an action.
+    Robot(RobotError),
+    /// A range or population that cannot be drawn from.
+    Draw(RandomError),
+    /// A saved state of another environment.
+    ForeignState {
+        /// What does not fit.
+        message: String,
+    },
+    /// Images were asked for where none can be drawn.
+    NoImages {
+        /// The visual key.
+        key: String,
+    },
+}
+
+impl EnvError {
+    /// The model has no element of this kind and name; the closest of `names` are suggested.
+    pub fn missing<'a>(kind: &'static str, name: &str, names: impl Iterator<Item = &'a str>) -> Self {
+        let nearest = nearest(name, names, 3);
+        EnvError::Element { kind, name: name.to_string(), nearest }
+    }
+}
+
+impl fmt::Display for EnvError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            EnvError::UnknownId { id, nearest } => {
+                write!(f, "there is no environment {id}{}; `robohive list` shows all", suggestion(nearest))
+            }
+            EnvError::MissingFile { id, path, hint } => {
+                write!(f, "{id} needs {path}, which is not here: {hint}")
+            }
+            EnvError::Model { path, diagnostics } => {
+                write!(f, "the model {path} does not load:\n{diagnostics}")
+            }
+            EnvError::Setting { id, message } => write!(f, "a setting of {id} is wrong: {message}"),
+            EnvError::Element { kind, name, nearest } => {
+                write!(f, "the model has no {kind} named {name}{}", suggestion(nearest))
+            }
+            EnvError::ActionLength { expected, found } => {
+                write!(f, "an action has {expected} values here, and {found} were given")
+            }
+            EnvError::ActionValue { index, value } => {
+                write!(f, "value {index} of the action is {value}; actions are finite numbers")
+            }
+            EnvError::NeedsReset => {
+                write!(f, "physics refused the last step, which ended the episode: reset first")
+            }
+            EnvError::Physics(error) => write!(f, "{error}"),
+            EnvError::Config(error) => write!(f, "{error}"),
+            EnvError::Edit(error) => write!(f, "{error}"),
+            EnvError::Robot(error) => write!(f, "{error}"),
+            EnvError::Draw(error) => write!(f, "{error}"),
+            EnvError::ForeignState { message } => write!(f, "the saved state does not fit: {message}"),
+            EnvError::NoImages { key } => {
+                write!(
+                    f,
+                    "{key} asks for an image, and this build draws none; the state observations are available"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for EnvError {}
+
+impl From<StepError> for EnvError {
+    fn from(error: StepError) -> Self {
+        EnvError::Physics(error)
+    }
+}
+
+impl From<EditError> for EnvError {
+    fn from(error: EditError) -> Self {
+        EnvError::Edit(error)
+    }
+}
+
+impl From<RobotError> for EnvError {
+    fn from(error: RobotError) -> Self {
+        EnvError::Robot(error)
+    }
+}
+
+impl From<ConfigError> for EnvError {
+    fn from(error: ConfigError) -> Self {
+        EnvError::Config(error)
+    }
+}
+
+impl From<RandomError> for EnvError {
+    fn from(error: RandomError) -> Self {
+        EnvError::Draw(error)
+    }
+}
+
+fn suggestion(nearest: &[String]) -> String {
+    if nearest.is_empty() { String::new() } else { format!("; did you mean {}?", nearest.join(" or ")) }
+}
+
+/// Up to `count` of `names` that differ least from `name`, by edit distance, capitals aside, the closest first; none
+/// that differ in more than half of their characters.
+pub(crate) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>, count: usize) -> Vec<String> {
+    let word = name.to_lowercase();
+    let mut close: Vec<_> = names
+        .map(|other| (strsim::damerau_levenshtein(&word, &other.to_lowercase()), other))
+        .filter(|(distance, other)| 2 * distance <= name.len().max(other.len()))
+        .collect();
+    close.sort();
+    close.into_iter().take(count).map(|(_, other)| other.to_string()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_names_come_first() {
+        let names = ["FrankaReachFixed-v0", "FrankaReachRandom-v0", "door-v1"];
+        assert_eq!(
+            nearest("frankareachfixd-v0", names.into_iter(), 2),
+            ["FrankaReachFixed-v0", "FrankaReachRandom-v0"]
+        );
+        assert!(nearest("unrelated text", names.into_iter(), 2).is_empty());
+    }
+}

@@ -1,0 +1,40 @@
+//! RoboHive's environments: a robot in a world with a task, made by id.
+//!
+//! An id names a [`Spec`] in the [`Registry`]: a task, a model, and settings. [`Env`] runs it by the contract of Gymnasium:
+//! `reset` with a seed, `step` with an action; an episode that the task ends is terminated, one that its length or the
+//! physics ends is truncated. A task ([`Task`]) is a file in [`suite`]: what is observed, what is rewarded, where episodes
+//! start.
+
+mod assets;
+pub mod check;
+mod description;
+mod environment;
+pub mod episode;
+mod error;
+mod parts;
+mod paths;
+pub mod registry;
+pub mod rotation;
+mod rows;
+mod scene;
+mod spec;
+mod state;
+pub mod suite;
+mod task;
+mod vector;
+pub mod visual;
+
+pub use crate::assets::{Assets, Folder, OwnModels};
+pub use environment::{Env, Options, Step};
+pub use error::EnvError;
+pub use paths::PathReward;
+pub use registry::Registry;
+pub use robot::Compat;
+pub use rows::{Name, Row, Rows};
+pub use scene::Scene;
+pub use spec::{RewardMode, Settings, Spec};
+#[doc(hidden)]
+pub use state::Injected;
+pub use state::{EnvState, WorldState};
+pub use task::{Defaults, Episode, Pose, Rng, Setup, Success, Task, Turn, Verdict, View};
+pub use vector::{Autoreset, VecEnv};

@@ -1,0 +1,85 @@
+//! The parts that an environment is made of: model, robot, initial pose.
+
+use crate::assets::{Assets, own_model};
+use crate::error::EnvError;
+use crate::scene::Scene;
+use crate::spec::{Settings, Spec};
+use crate::task::Pose;
+use physics::Model;
+use physics::model::{JointType, TrnType};
+use robot::{Compat, Config, ConfigError, Robot};
+
+/// Loads the model with the replacements and moves that the settings ask for.
+pub(crate) fn load(spec: &Spec, settings: &Settings, assets: &dyn Assets) -> Result<Model, EnvError> {
+    let path = &settings.model_path;
+    let missing = |hint| EnvError::MissingFile { id: spec.id.clone(), path: path.clone(), hint };
+    let (mut loader, file) = own_model(path).unwrap_or_else(|| assets.model(path)).map_err(missing)?;
+    for [from, to] in &settings.define {
+        loader = loader.define(from, to);
+    }
+    for [body, parent] in &settings.reparent {
+        loader = loader.reparent(body, parent);
+    }
+    let wrong = |diagnostics| EnvError::Model {
+        path: file.display().to_string(),
+        diagnostics: Box::new(diagnostics),
+    };
+    Ok(loader.load(&file).map_err(wrong)?.model)
+}
+
+/// Reads the robot's configuration, where the settings name one.
+pub(crate) fn read_config(
+    spec: &Spec,
+    settings: &Settings,
+    assets: &dyn Assets,
+) -> Result<Option<Config>, EnvError> {
+    let Some(path) = &settings.config_path else { return Ok(None) };
+    let missing = |hint| EnvError::MissingFile { id: spec.id.clone(), path: path.clone(), hint };
+    let bytes = assets.read(path).map_err(missing)?;
+    Ok(Some(parse_config(&String::from_utf8_lossy(&bytes), path)?))
+}
+
+/// Finds what the robot's configuration names in the model.
+pub(crate) fn build_robot(
+    spec: &Spec,
+    settings: &Settings,
+    config: Option<&Config>,
+    model: &Model,
+    compat: Compat,
+) -> Result<Robot, EnvError> {
+    let options = robot::Options {
+        mode: settings.action_mode().map_err(|message| spec.wrong(message))?,
+        normalized: settings.normalize_act,
+        noise_scale: settings.noise_scale,
+        compat,
+        ..robot::Options::default()
+    };
+    Ok(Robot::new(model, config, options)?)
+}
+
+/// The reference configuration; where actions are normalised, every hinge and slide that an actuator moves is in the
+/// middle of its range.
+pub(crate) fn initial_pose(scene: &Scene, normalized: bool) -> Pose {
+    let m = &scene.model;
+    let mut pose = Pose { qpos: scene.data.state.qpos.clone(), qvel: scene.data.state.qvel.clone() };
+    if normalized {
+        for actuator in 0..m.nactuator {
+            let joint = m.actuator_trnid[actuator][0];
+            if m.actuator_trntype[actuator] != TrnType::Joint as i32 || joint < 0 {
+                continue;
+            }
+            let joint = joint as usize;
+            let kind = m.jnt_type[joint];
+            if kind == JointType::Hinge as i32 || kind == JointType::Slide as i32 {
+                let [low, high] = m.jnt_range[joint];
+                pose.qpos[m.jnt_qposadr[joint] as usize] = (low + high) / 2.0;
+            }
+        }
+    }
+    pose
+}
+
+/// Reads TOML from files of that extension, and RoboHive's literals from all others.
+fn parse_config(text: &str, path: &str) -> Result<Config, ConfigError> {
+    if path.ends_with(".toml") { Config::from_toml(text, path) } else { Config::from_literal(text, path) }
+}

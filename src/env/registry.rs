@@ -1,0 +1,222 @@
+//! Every id, from the tables in `registry/`.
+
+use crate::error::{EnvError, nearest};
+use crate::spec::Spec;
+use std::collections::HashMap;
+use std::sync::LazyLock;
+use toml::Table;
+
+/// The tables, one for each suite: its name, then one row an id. A row names its task, model and settings, or the id that it
+/// varies (`from`) and what differs. A rule under `variants` adds a variant of every row whose id begins like `from` and ends
+/// like `to`: `from = "myo*"` and `to = "myoSarc*"` make `myoSarcLegWalk-v0` of `myoLegWalk-v0`.
+const TABLES: [&str; 10] = [
+    include_str!("registry/hive.toml"),
+    include_str!("registry/arms.toml"),
+    include_str!("registry/claws.toml"),
+    include_str!("registry/fm.toml"),
+    include_str!("registry/hands.toml"),
+    include_str!("registry/multitask.toml"),
+    include_str!("registry/myobase.toml"),
+    include_str!("registry/myochallenge.toml"),
+    include_str!("registry/myodm.toml"),
+    include_str!("registry/quadrupeds.toml"),
+];
+
+static BUILTIN: LazyLock<Registry> = LazyLock::new(|| {
+    let mut registry = Registry::default();
+    for table in TABLES {
+        registry.add_table(table).expect("the built-in tables are well formed, which a test checks");
+    }
+    registry
+});
+
+/// Ids and what they stand for.
+#[derive(Clone, Debug, Default)]
+pub struct Registry {
+    specs: Vec<Spec>,
+    by_id: HashMap<String, usize>,
+}
+
+impl Registry {
+    /// The environments that come with this crate.
+    pub fn builtin() -> &'static Registry {
+        &BUILTIN
+    }
+
+    /// Every environment, in order of registration.
+    pub fn specs(&self) -> &[Spec] {
+        &self.specs
+    }
+
+    /// What an id stands for.
+    ///
+    /// # Errors
+    /// There is no such id; the closest are named.
+    pub fn spec(&self, id: &str) -> Result<&Spec, EnvError> {
+        let unknown = || EnvError::UnknownId {
+            id: id.into(),
+            nearest: nearest(id, self.by_id.keys().map(String::as_str), 3),
+        };
+        self.by_id.get(id).map(|&index| &self.specs[index]).ok_or_else(unknown)
+    }
+
+    /// Adds an environment, or replaces the one of the same id.
+    pub fn register(&mut self, spec: Spec) {
+        match self.by_id.get(&spec.id) {
+            Some(&index) => self.specs[index] = spec,
+            None => {
+                self.by_id.insert(spec.id.clone(), self.specs.len());
+                self.specs.push(spec);
+            }
+        }
+    }
+
+    /// Adds an environment that differs from `base` in some settings, and returns its id: `id`, or the base's with the
+    /// changed settings appended.
+    ///
+    /// # Errors
+    /// There is no `base`; a setting is wrong.
+    pub fn register_variant(
+        &mut self,
+        base: &str,
+        changes: &Table,
+        id: Option<&str>,
+    ) -> Result<String, EnvError> {
+        let mut spec = self.spec(base)?.with(changes)?;
+        spec.id = id.map_or_else(|| variant_id(base, changes), Into::into);
+        let id = spec.id.clone();
+        self.register(spec);
+        Ok(id)
+    }
+
+    /// Adds every row of a table.
+    ///
+    /// # Errors
+    /// The table is malformed; a row lacks its task or varies an id that is unknown.
+    pub fn add_table(&mut self, text: &str) -> Result<(), String> {
+        let mut table: Table = text.parse().map_err(|error| format!("{error}"))?;
+        let suite =
+            table.remove("suite").and_then(|suite| suite.as_str().map(String::from)).ok_or("no suite")?;
+        let rules = table.remove("variants").map_or(Ok(Vec::new()), Rule::read)?;
+        let mut specs = Vec::new();
+        for (id, row) in table {
+            let toml::Value::Table(row) = row else { return Err(format!("{id} is no table")) };
+            let spec = self.row(&suite, &id, row).map_err(|error| format!("{id}: {error}"))?;
+            specs.push(spec.clone());
+            self.register(spec);
+        }
+        for rule in &rules {
+            for spec in &specs {
+                if let Some(id) = rule.id(&spec.id) {
+                    let variant = spec.with(&rule.changes).map_err(|error| error.to_string())?;
+                    self.register(Spec { id, ..variant });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn row(&self, suite: &str, id: &str, mut row: Table) -> Result<Spec, String> {
+        let mut spec = match row.remove("from") {
+            Some(base) => {
+                self.spec(base.as_str().unwrap_or_default()).map_err(|error| error.to_string())?.clone()
+            }
+            None => {
+                let task =
+                    row.remove("task").and_then(|task| task.as_str().map(String::from)).ok_or("no task")?;
+                Spec { id: id.into(), suite: suite.into(), task, max_episode_steps: 0, args: Table::new() }
+            }
+        };
+        spec.id = id.into();
+        spec.suite = suite.into();
+        spec = spec.with(&row).map_err(|error| error.to_string())?;
+        if spec.max_episode_steps == 0 { Err("no max_episode_steps".into()) } else { Ok(spec) }
+    }
+}
+
+/// A rule that varies many rows in the same way.
+struct Rule {
+    /// How ids of the rows begin.
+    from: String,
+    /// How ids of the variants begin instead.
+    to: String,
+    changes: Table,
+}
+
+impl Rule {
+    fn read(rules: toml::Value) -> Result<Vec<Rule>, String> {
+        let toml::Value::Array(rules) = rules else { return Err("variants are an array of tables".into()) };
+        rules.into_iter().map(Self::read_one).collect()
+    }
+
+    fn read_one(rule: toml::Value) -> Result<Rule, String> {
+        let toml::Value::Table(mut changes) = rule else { return Err("a variant is a table".into()) };
+        let mut beginning = |key: &str| {
+            let pattern = changes.remove(key);
+            let pattern = pattern.as_ref().and_then(|pattern| pattern.as_str());
+            pattern
+                .and_then(|pattern| pattern.strip_suffix('*'))
+                .map(String::from)
+                .ok_or_else(|| format!("`{key}` of a variant is the beginning of an id and a `*`"))
+        };
+        let (from, to) = (beginning("from")?, beginning("to")?);
+        Ok(Rule { from, to, changes })
+    }
+
+    /// The id of the variant of `id`; `None` where the rule is for others.
+    fn id(&self, id: &str) -> Option<String> {
+        Some(format!("{}{}", self.to, id.strip_prefix(&self.from)?))
+    }
+}
+
+/// The id of a variant: `base-key_value`, one pair for each setting that differs.
+fn variant_id(base: &str, changes: &Table) -> String {
+    let text = |value: &toml::Value| value.as_str().map_or_else(|| value.to_string(), String::from);
+    changes.iter().fold(base.to_string(), |id, (key, value)| format!("{id}-{key}_{}", text(value)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_builtin_tables_are_well_formed() {
+        let mut registry = Registry::default();
+        for table in TABLES {
+            registry.add_table(table).unwrap();
+        }
+        assert!(registry.spec("FrankaReachFixed-v0").is_ok());
+    }
+
+    #[test]
+    fn rules_vary_every_row_that_they_fit() {
+        let text = "suite = 's'
+            variants = [{ from = 'a*', to = 'aWeak*', gain = 0.5 }]
+            ab-v0 = { task = 't', max_episode_steps = 5, model_path = 'a.xml' }
+            b-v0 = { from = 'ab-v0', max_episode_steps = 7 }";
+        let mut registry = Registry::default();
+        registry.add_table(text).unwrap();
+        let ids: Vec<_> = registry.specs().iter().map(|spec| spec.id.as_str()).collect();
+        assert_eq!(ids, ["ab-v0", "b-v0", "aWeakb-v0"]);
+        let weak = registry.spec("aWeakb-v0").unwrap();
+        assert_eq!((weak.max_episode_steps, weak.args["gain"].as_float()), (5, Some(0.5)));
+        let error = registry.add_table("suite = 's'\nvariants = [{ from = 'a', to = 'b*' }]").unwrap_err();
+        assert!(error.contains("`from`") && error.contains("`*`"), "{error}");
+    }
+
+    #[test]
+    fn an_unknown_id_names_the_nearest() {
+        let error = Registry::builtin().spec("FrankaReachFixed-v1").unwrap_err().to_string();
+        assert!(error.contains("FrankaReachFixed-v0"), "{error}");
+    }
+
+    #[test]
+    fn variants_are_named_after_what_differs() {
+        let mut registry = Registry::builtin().clone();
+        let id = registry
+            .register_variant("FrankaReachFixed-v0", &"frame_skip = 20".parse().unwrap(), None)
+            .unwrap();
+        assert_eq!(id, "FrankaReachFixed-v0-frame_skip_20");
+        assert_eq!(registry.spec(&id).unwrap().args["frame_skip"].as_integer(), Some(20));
+    }
+}

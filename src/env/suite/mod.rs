@@ -1,0 +1,67 @@
+//! The tasks, one a file, by the suites of RoboHive.
+
+pub mod arms;
+mod baoding;
+mod bonus;
+mod circling;
+pub mod claws;
+mod fatigue;
+pub mod fm;
+pub mod hands;
+pub mod multitask;
+pub mod muscle;
+pub mod myobase;
+pub mod myochallenge;
+pub mod myodm;
+mod named;
+pub mod quadrupeds;
+pub mod quirks;
+mod ranges;
+
+pub use bonus::bonus;
+pub use ranges::Ranges;
+
+use crate::assets::Assets;
+use crate::error::EnvError;
+use crate::spec::Spec;
+use crate::task::{Setup, Task};
+use toml::Table;
+
+/// Builds a task: from the id with all its settings, those that are the task's own, files, and the world.
+pub type Build = fn(&Spec, Table, &dyn Assets, &mut Setup<'_>) -> Result<Box<dyn Task>, EnvError>;
+
+/// A task: the name that rows of the registry use, and what builds it.
+pub type Entry = (&'static str, Build);
+
+/// The tasks of every suite.
+const SUITES: [&[Entry]; 9] = [
+    arms::TASKS,
+    claws::TASKS,
+    fm::TASKS,
+    hands::TASKS,
+    multitask::TASKS,
+    myobase::TASKS,
+    myochallenge::TASKS,
+    myodm::TASKS,
+    quadrupeds::TASKS,
+];
+
+/// Builds the task of an id.
+///
+/// # Errors
+/// The task is unknown, or its settings or the model do not fit.
+pub fn build(
+    spec: &Spec,
+    own: Table,
+    assets: &dyn Assets,
+    setup: &mut Setup<'_>,
+) -> Result<Box<dyn Task>, EnvError> {
+    let tasks = || SUITES.iter().copied().flatten();
+    match tasks().find(|(name, _)| *name == spec.task) {
+        Some((_, build)) => build(spec, own, assets, setup),
+        None => {
+            let names: Vec<_> = tasks().map(|(name, _)| *name).collect();
+            Err(spec.wrong(format!("there is no task {}; there are {}", spec.task, names.join(", "))))
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Four-legged robots.
+
+mod kitty;
+mod orient;
+mod stand;
+mod walk;
+
+use super::Entry;
+
+/// The tasks of this suite by name.
+pub const TASKS: &[Entry] =
+    &[("kitty_walk", walk::build), ("kitty_orient", orient::build), ("kitty_stand", stand::build)];

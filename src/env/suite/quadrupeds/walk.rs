@@ -1,0 +1,92 @@
+//! Walking: the robot is to come to a target, looking at it.
+
+use super::kitty::{Args, Kitty};
+use crate::assets::Assets;
+use crate::error::EnvError;
+use crate::rotation::norm;
+use crate::rows::Rows;
+use crate::scene::Scene;
+use crate::spec::Spec;
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
+use toml::Table;
+
+/// Distance of the target [m], where the id gives none.
+const DISTANCE: [f64; 2] = [2.3, 2.3];
+
+#[derive(Clone)]
+struct Walk {
+    kitty: Kitty,
+    upright: f64,
+    /// Mean distance of the target [m].
+    distance: f64,
+    height: f64,
+}
+
+/// Builds the task.
+///
+/// # Errors
+/// Settings, elements or the configuration are missing.
+pub fn build(
+    spec: &Spec,
+    own: Table,
+    _: &dyn Assets,
+    setup: &mut Setup<'_>,
+) -> Result<Box<dyn Task>, EnvError> {
+    let args: Args = spec.task_args(own)?;
+    let distance = args.target_distance_range.unwrap_or(DISTANCE);
+    let mean = |[low, high]: [f64; 2]| (low + high) / 2.0;
+    Ok(Box::new(Walk {
+        kitty: Kitty::new(spec, &args, distance, setup)?,
+        upright: args.upright_threshold.unwrap_or(0.9),
+        distance: mean(distance),
+        height: mean(args.target_height_range),
+    }))
+}
+
+impl Task for Walk {
+    fn defaults(&self) -> Defaults {
+        let weights = [
+            ("target_dist_cost", 4.0),
+            ("upright", 1.0),
+            ("falling", 100.0),
+            ("heading", 2.0),
+            ("height", 0.5),
+            ("bonus_small", 5.0),
+            ("bonus_big", 10.0),
+        ];
+        Kitty::defaults(&["upright", "kitty_qpos", "heading", "target_error", "last_a"], &weights)
+    }
+
+    fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
+        self.kitty.centre(pose);
+        Ok(())
+    }
+
+    fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
+        self.kitty.start(episode)
+    }
+
+    fn observe(&self, view: &View<'_>, rows: &mut Rows) {
+        self.kitty.observe("last_a", view, rows);
+    }
+
+    fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
+        let distance = norm(&rows["target_error"]);
+        let (heading, upright, height) = (rows["heading"][0], rows["upright"][0], rows["root_pos"][2]);
+        let fallen = upright < self.upright;
+        let (ahead, near) =
+            (f64::from(heading > 0.9), |share: f64| f64::from(distance < share * self.distance));
+        terms.set("target_dist_cost", "m", [-distance]);
+        terms.set("upright", "", [upright - self.upright]);
+        terms.set("falling", "", [-f64::from(fallen)]);
+        terms.set("heading", "", [(heading - 0.9) / 0.1]);
+        terms.set("height", "m", [-(height - self.height).abs()]);
+        terms.set("bonus_small", "", [near(0.75) + ahead]);
+        terms.set("bonus_big", "", [near(0.5) * ahead]);
+        Verdict { sparse: -distance, solved: distance < 0.5, done: fallen }
+    }
+
+    fn boxed(&self) -> Box<dyn Task> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,202 @@
+//! What an environment asks of a task: where episodes start, what is observed, what is rewarded.
+
+use crate::error::EnvError;
+use crate::rows::Rows;
+use crate::scene::Scene;
+use physics::{Data, Model};
+use robot::{Compat, Config};
+
+/// numpy's default generator, by which all draws of an environment are made.
+pub type Rng = random::Generator<random::Pcg64>;
+
+/// What a task is built from.
+pub struct Setup<'a> {
+    /// The world, at its reference configuration and forwarded; edits made here last for all episodes.
+    pub scene: &'a mut Scene,
+    /// Whether quirks of the original are reproduced.
+    pub compat: Compat,
+    /// Draws made at construction.
+    pub rng: &'a mut Rng,
+    /// The robot's configuration, where the id has one.
+    pub config: Option<&'a Config>,
+}
+
+/// A configuration to start from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pose {
+    /// Joint positions (nq).
+    pub qpos: Vec<f64>,
+    /// Joint velocities (nv).
+    pub qvel: Vec<f64>,
+}
+
+/// The beginning of an episode, to be decided by the task.
+pub struct Episode<'a> {
+    /// The world. Its state is still that of the last episode when [`Task::reset`] is called.
+    pub scene: &'a mut Scene,
+    /// Draws of this environment.
+    pub rng: &'a mut Rng,
+    /// Where the episode starts: the environment's initial pose unless changed here.
+    pub start: &'a mut Pose,
+    /// The initial pose.
+    pub initial: &'a Pose,
+}
+
+/// The time between a policy's action and the physics that follows it.
+pub struct Turn<'a> {
+    /// The world, which the task may change.
+    pub scene: &'a mut Scene,
+    /// Draws of this environment.
+    pub rng: &'a mut Rng,
+    /// The action as the policy gave it (nu).
+    pub wanted: &'a [f64],
+    /// The action within its space (nu); what stands here goes to the robot.
+    pub action: &'a mut [f64],
+    /// Set to send the action to the actuators as controls, without normalisation.
+    pub raw: bool,
+    /// Control period [s].
+    pub dt: f64,
+    /// Steps taken in this episode.
+    pub steps: usize,
+}
+
+/// The world as the robot's sensors show it, from which observations and rewards follow.
+pub struct View<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// The observed state and what follows from it.
+    pub data: &'a Data,
+    /// Controls applied in the last step (nu), within the robot's limits.
+    pub control: &'a [f64],
+    /// Control period [s].
+    pub dt: f64,
+    /// Steps taken in this episode.
+    pub steps: usize,
+}
+
+/// What a reward decides beside its weighted terms.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Verdict {
+    /// The sparse reward.
+    pub sparse: f64,
+    /// Whether the task is solved in this state.
+    pub solved: bool,
+    /// Whether the episode ends here.
+    pub done: bool,
+}
+
+/// When an episode counts as a success.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Success {
+    /// It was solved in more than this many steps.
+    MoreThan(usize),
+    /// As the share of its horizon in which it was solved.
+    Share,
+}
+
+/// The settings that an id may leave out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Defaults {
+    /// Rows of the observation vector, in order.
+    pub obs_keys: Vec<String>,
+    /// Terms of the dense reward with their weights.
+    pub weights: Vec<(String, f64)>,
+    /// Rows of the proprioception; `None` where a task has none.
+    pub proprio_keys: Option<Vec<String>>,
+    /// Time steps of the physics in one step of the environment.
+    pub frame_skip: usize,
+    /// When an episode counts as a success.
+    pub success: Success,
+}
+
+impl Defaults {
+    /// Defaults of a task that has rows, weights and a frame skip, whose success is RoboHive's: more than five
+    /// solved steps.
+    pub fn new(obs_keys: &[&str], weights: &[(&str, f64)], frame_skip: usize) -> Self {
+        Defaults {
+            obs_keys: obs_keys.iter().map(ToString::to_string).collect(),
+            weights: weights.iter().map(|&(key, weight)| (key.to_string(), weight)).collect(),
+            proprio_keys: None,
+            frame_skip,
+            success: Success::MoreThan(5),
+        }
+    }
+
+    /// The same with proprioception.
+    pub fn proprio(mut self, keys: &[&str]) -> Self {
+        self.proprio_keys = Some(keys.iter().map(ToString::to_string).collect());
+        self
+    }
+}
+
+/// A task: three functions over a world, and what they remember between steps.
+pub trait Task: Send + Sync {
+    /// The settings that an id may leave out.
+    fn defaults(&self) -> Defaults;
+
+    /// Changes the initial pose, which is the model's reference configuration with every actuated joint in the middle
+    /// of its range.
+    ///
+    /// # Errors
+    /// The model does not fit the task.
+    fn initial_pose(&self, _scene: &Scene, _pose: &mut Pose) -> Result<(), EnvError> {
+        Ok(())
+    }
+
+    /// Restarts draws that the task makes from a generator of its own.
+    fn seed(&mut self, _seed: u64) {}
+
+    /// Decides how the next episode starts.
+    ///
+    /// # Errors
+    /// Ranges that cannot be drawn from; a world that physics refuses.
+    fn reset(&mut self, _episode: &mut Episode<'_>) -> Result<(), EnvError> {
+        Ok(())
+    }
+
+    /// Changes the world after the robot was reset and before the first observation.
+    ///
+    /// # Errors
+    /// As [`Task::reset`].
+    fn begin(&mut self, _episode: &mut Episode<'_>) -> Result<(), EnvError> {
+        Ok(())
+    }
+
+    /// Changes the action or the world before the physics advances.
+    ///
+    /// # Errors
+    /// A world that physics refuses.
+    fn act(&mut self, _turn: &mut Turn<'_>) -> Result<(), EnvError> {
+        Ok(())
+    }
+
+    /// Writes the observation dictionary. `time` stands in it already.
+    fn observe(&self, view: &View<'_>, rows: &mut Rows);
+
+    /// Writes the terms of the reward, from the observation alone where that suffices.
+    fn reward(&self, view: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict;
+
+    /// Whether [`Task::reward`] needs nothing but the observation, so that rewards of recorded paths can be recomputed.
+    fn rewards_paths(&self) -> bool {
+        true
+    }
+
+    /// Rows of the observation that never change under these settings: goals that are fixed, for one.
+    fn constant_rows(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Rows of the observation that random actions may leave as they are: contacts that take skill, doors that are far.
+    fn resting_rows(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// A copy, for saved states and parallel environments.
+    fn boxed(&self) -> Box<dyn Task>;
+}
+
+impl Clone for Box<dyn Task> {
+    fn clone(&self) -> Self {
+        self.boxed()
+    }
+}
