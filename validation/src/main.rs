@@ -3,7 +3,8 @@
 use physics::Model;
 use robohive_validation::reference::{Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
-use robohive_validation::{bits, c_library, collide_table, draws, hulls, laws, solver};
+use robohive_validation::{bits, c_library, collide_table, demonstrations, draws, environments};
+use robohive_validation::{hulls, laws, policies, solver};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -14,12 +15,22 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation collide [--from FILE] [--write README.md]
        robohive-validation laws [--write README.md]
        robohive-validation draws [--write README.md]
+       robohive-validation environments --models FOLDER --references FOLDER [--only TEXT] [--write README.md]
+       robohive-validation policies --models FOLDER --policies FOLDER [--only TEXT] [--write README.md]
+       robohive-validation demonstrations --models FOLDER --from FILE [--write README.md]
+       robohive-validation quirks [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
 and with --write replaces the text between the table markers of a file; with --section between the markers of that
 section. With --brief the written table leaves out the models without a fault.
 
+quirks: what RoboHive does otherwise than it means to, robot and tasks.
+environments: sets every state that robohive.py recorded, and compares observations, rewards and the draws of resets;
+models are the folder with RoboHive's envs and simhive.
+policies: runs the policies of hand_dapg (its folder dapg/policies) in our environments, and fails when they solve fewer
+episodes than in RoboHive.
+demonstrations: replays those of hand_dapg for the door (dapg/demonstrations/door-v0_demos.pickle).
 draws: makes every recorded random draw with all seeds and compares it with numpy's; fails when any differs.
 bits: counts the values that are MuJoCo's to the last bit. Without a list on the own models, where it fails when the table is
 not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; with it the exit code is 3 where the C library
@@ -44,6 +55,7 @@ struct Arguments {
     list: PathBuf,
     references: PathBuf,
     problems: PathBuf,
+    policies: PathBuf,
     from: Option<PathBuf>,
     only: String,
     write: Option<PathBuf>,
@@ -99,6 +111,21 @@ fn run() -> Result<(), String> {
         Some("draws") => {
             let (table, verdict) = draws::render(&draws::compare(Path::new(draws::RECORDED), usize::MAX)?);
             ("draws", table, verdict)
+        }
+        Some("quirks") => ("quirks", environments::quirk_table(), Ok(())),
+        Some("environments") => {
+            let rows = environments::compare(&a.models, &a.references, &a.only)?;
+            let (table, verdict) = environments::render(&rows);
+            ("environments", table, verdict)
+        }
+        Some("policies") => {
+            let (table, verdict) = policies::render(&policies::run(&a.models, &a.policies, &a.only)?);
+            ("policies", table, verdict)
+        }
+        Some("demonstrations") => {
+            let file = a.from.as_deref().ok_or(USAGE)?;
+            let replays = demonstrations::replay(&a.models, file)?;
+            ("demonstrations", demonstrations::render(&replays), Ok(()))
         }
         Some("laws") => {
             let references: Vec<_> =
@@ -189,6 +216,7 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
             "--list" => a.list = value()?.into(),
             "--references" => a.references = value()?.into(),
             "--problems" => a.problems = value()?.into(),
+            "--policies" => a.policies = value()?.into(),
             "--from" => a.from = Some(value()?.into()),
             "--only" => a.only = value()?,
             "--write" => a.write = Some(value()?.into()),

@@ -217,7 +217,11 @@ pub fn own_models() -> Result<Vec<(PathBuf, Reference)>, Box<dyn std::error::Err
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut models = Vec::new();
     for folder in std::fs::read_dir(root.join("../assets"))? {
-        for file in std::fs::read_dir(folder?.path())? {
+        let folder = folder?.path();
+        if !folder.is_dir() {
+            continue;
+        }
+        for file in std::fs::read_dir(folder)? {
             let path = file?.path();
             if path.extension().is_some_and(|extension| extension == "xml") {
                 models.push(path);
