@@ -1,5 +1,11 @@
 //! Arguments of every command, and the help that teaches them.
 
+use crate::bench_env::BenchEnv;
+use crate::check_env::CheckEnv;
+use crate::info::Info;
+use crate::list::List;
+use crate::rollout::Rollout;
+use crate::run::Run;
 use clap::{Args, Parser, Subcommand, ValueHint, value_parser};
 use std::path::PathBuf;
 
@@ -49,6 +55,18 @@ pub struct Arguments {
 /// The commands.
 #[derive(Subcommand)]
 pub enum Command {
+    /// List environments
+    List(List),
+    /// Describe an environment: spaces, rewards, model
+    Info(Info),
+    /// Play episodes of an environment
+    Run(Run),
+    /// Replay recorded actions or states in an environment
+    Rollout(Rollout),
+    /// Measure environment steps per second
+    BenchEnv(BenchEnv),
+    /// Check that environments keep their contract
+    CheckEnv(CheckEnv),
     /// Summarise a model, or write out every compiled array
     Inspect(Inspect),
     /// Compile a model into one file that loads in milliseconds

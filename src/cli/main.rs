@@ -3,16 +3,23 @@
 mod arguments;
 mod assets;
 mod bench;
+mod bench_env;
 mod check;
+mod check_env;
 mod compile;
 mod completions;
 mod data;
 mod fields;
+mod info;
 mod inspect;
 mod interrupt;
+mod library;
+mod list;
 mod loading;
 mod man;
 mod memory;
+mod rollout;
+mod run;
 mod sim;
 mod terminal;
 mod trace;
@@ -46,8 +53,20 @@ impl Failure {
     }
 }
 
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message.as_deref().unwrap_or_default())
+    }
+}
+
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
+        Command::List(a) => list::run(&a),
+        Command::Info(a) => info::run(&a),
+        Command::Run(a) => run::run(&a),
+        Command::Rollout(a) => rollout::run(&a),
+        Command::BenchEnv(a) => bench_env::run(&a),
+        Command::CheckEnv(a) => check_env::run(&a),
         Command::Inspect(a) => inspect::run(&a),
         Command::Compile(a) => compile::run(&a),
         Command::Sim(a) => sim::run(&a),

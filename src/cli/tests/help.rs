@@ -71,6 +71,8 @@ fn examples_of_every_help_run() {
     let model = folder.join("simhive/Adroit/hand.xml");
     std::fs::create_dir_all(model.parent().unwrap()).unwrap();
     std::fs::write(model, "<mujoco/>").unwrap();
+    archive(&folder.join("A.npz"), "actions", vec![3, 8]);
+    archive(&folder.join("S.npz"), "time", vec![2, 1]);
     for name in commands() {
         let examples = examples(&help(&name));
         assert!(examples.iter().any(|example| example.words.starts_with(&name)), "{name:?}");
@@ -87,6 +89,14 @@ fn examples_of_every_help_run() {
             assert!(!out.stdout.is_empty() || words[0] == "trace", "{words:?} prints nothing");
         }
     }
+}
+
+/// An archive of one array of zeros.
+fn archive(path: &Path, name: &str, shape: Vec<usize>) {
+    let mut archive = dataset::NpzWriter::create(path).unwrap();
+    let values = vec![0.0; shape.iter().product()];
+    archive.add(name, &dataset::Array::f64(shape, values)).unwrap();
+    archive.finish().unwrap();
 }
 
 #[cfg(unix)]
@@ -146,6 +156,8 @@ fn every_command_has_a_manual_page_with_its_examples() {
     assert!(out.status.success(), "{}", text(&out.stderr));
     for name in commands() {
         let page = std::fs::read_to_string(folder.join(format!("robohive-{}.1", name.join("-")))).unwrap();
+        // Manual pages escape hyphens.
+        let page = page.replace("\\-", "-");
         let (_, examples) = page.split_once(".SH EXAMPLES\n").unwrap();
         assert!(
             page.contains(".TH ") && examples.contains(&format!("robohive {}", name.join(" "))),

@@ -1,0 +1,120 @@
+//! `check-env`: whether environments keep their contract.
+
+use crate::Failure;
+use crate::library::Making;
+use crate::terminal::{show, show_verdict};
+use clap::Args;
+use env::check::{STEPS, check};
+use env::{Registry, Spec};
+use indicatif::{ProgressBar, ProgressStyle};
+use std::collections::BTreeMap;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Check the contract of environments: finite, repeatable, restorable, observations that change
+#[derive(Args)]
+#[command(
+    after_help = "Every environment is made, plays an episode of seeded random actions twice, is reset with \
+other seeds, and returns to a saved state. The table counts those that keep the contract, suite by suite.
+
+Examples:
+  robohive check-env hive                  a suite; all of them without a name
+  robohive check-env hive/FrankaReach-v0   one id"
+)]
+pub struct CheckEnv {
+    /// Ids or suites; all without one
+    #[arg(value_name = "ID|SUITE")]
+    which: Vec<String>,
+    /// How they are made
+    #[command(flatten)]
+    making: Making,
+    /// Seed of the episodes
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    seed: u64,
+    /// Longest episode [steps]
+    #[arg(long, value_name = "N", default_value_t = STEPS)]
+    steps: usize,
+    /// Threads; 0 for as many as there are cores
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+}
+
+/// Runs the command.
+pub fn run(a: &CheckEnv) -> Result<(), Failure> {
+    let specs = chosen(&a.which)?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = if a.threads == 0 { cores } else { a.threads.min(specs.len()) };
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} environments, {eta} left, {msg}");
+    let bar = ProgressBar::new(specs.len() as u64)
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let next = AtomicUsize::new(0);
+    let findings: Mutex<BTreeMap<usize, Vec<String>>> = Mutex::default();
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some(spec) = specs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    let found = examine(a, spec);
+                    let place = specs.iter().position(|other| other.id == spec.id).unwrap_or_default();
+                    findings.lock().unwrap_or_else(|error| error.into_inner()).insert(place, found);
+                    bar.set_message(spec.id.clone());
+                    bar.inc(1);
+                }
+            });
+        }
+    });
+    bar.finish_and_clear();
+    let findings = findings.into_inner().unwrap_or_else(|error| error.into_inner());
+    report(&specs, &findings)
+}
+
+fn chosen(which: &[String]) -> Result<Vec<&'static Spec>, Failure> {
+    let registry = Registry::builtin();
+    if which.is_empty() {
+        return Ok(registry.specs().iter().collect());
+    }
+    let mut specs: Vec<&Spec> = Vec::new();
+    for word in which {
+        let suite: Vec<_> = registry.specs().iter().filter(|spec| spec.suite == *word).collect();
+        if suite.is_empty() {
+            specs.push(registry.spec(word).map_err(Failure::usage)?);
+        } else {
+            specs.extend(suite);
+        }
+    }
+    Ok(specs)
+}
+
+/// What an environment breaks.
+fn examine(a: &CheckEnv, spec: &Spec) -> Vec<String> {
+    let mut env = match a.making.make(&spec.id) {
+        Ok(env) => env,
+        Err(failure) => return vec![failure.to_string()],
+    };
+    match check(&mut env, a.seed, a.steps) {
+        Ok(report) => report.violations.iter().map(ToString::to_string).collect(),
+        Err(error) => vec![error.to_string()],
+    }
+}
+
+fn report(specs: &[&Spec], findings: &BTreeMap<usize, Vec<String>>) -> Result<(), Failure> {
+    let mut suites: Vec<(&str, usize, usize)> = Vec::new();
+    for (place, spec) in specs.iter().enumerate() {
+        let found = findings.get(&place).map_or(&[][..], Vec::as_slice);
+        found.iter().for_each(|finding| show!("{}: {finding}", spec.id));
+        let kept = usize::from(found.is_empty());
+        match suites.iter_mut().find(|(suite, ..)| *suite == spec.suite) {
+            Some((_, all, good)) => (*all, *good) = (*all + 1, *good + kept),
+            None => suites.push((&spec.suite, 1, kept)),
+        }
+    }
+    show!("{:<16} {:>12} {:>18}", "suite", "environments", "keep the contract");
+    suites.iter().for_each(|(suite, all, good)| show!("{suite:<16} {all:>12} {good:>18}"));
+    let good: usize = suites.iter().map(|(_, _, good)| good).sum();
+    show_verdict(
+        good == specs.len(),
+        "",
+        if good == specs.len() { "passed" } else { "failed" },
+        &format!(": {good} of {} environments keep their contract", specs.len()),
+    );
+    if good == specs.len() { Ok(()) } else { Err(Failure::silent(1)) }
+}

@@ -1,0 +1,122 @@
+//! From the arguments to an environment.
+
+use crate::Failure;
+use clap::{Args, ValueHint};
+use env::{Assets, Compat, Env, Options};
+use mjcf::Loader;
+use std::path::PathBuf;
+use std::sync::Arc;
+use store::Search;
+use toml::Table;
+
+/// An environment and how it is made.
+#[derive(Args)]
+pub struct Source {
+    /// Id of the environment, as `robohive list` shows them
+    #[arg(value_name = "ID")]
+    pub id: String,
+    /// How it is made
+    #[command(flatten)]
+    pub making: Making,
+}
+
+/// How environments are made.
+#[derive(Args)]
+pub struct Making {
+    /// Change a setting, e.g. frame_skip=20 or target_xyz_range.low=[0,0,1]; VALUE is TOML, or text
+    #[arg(long = "set", value_name = "SETTING=VALUE")]
+    pub settings: Vec<String>,
+    /// Whose behaviour: `fixed`, or `robohive-0.7` with the original's quirks
+    #[arg(long, value_name = "VERSION", default_value_t = Compat::Fixed)]
+    pub compat: Compat,
+    /// Folder with RoboHive's envs and simhive, instead of the imported assets
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    pub assets: Option<PathBuf>,
+    /// Keep compiled models in this folder [default: the environment variable ROBOHIVE_CACHE, else the user's cache folder]
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    pub cache: Option<PathBuf>,
+}
+
+impl Source {
+    /// Makes the environment.
+    pub fn make(&self) -> Result<Env, Failure> {
+        self.making.make(&self.id)
+    }
+}
+
+impl Making {
+    /// Makes an environment.
+    pub fn make(&self, id: &str) -> Result<Env, Failure> {
+        let options = Options { compat: self.compat, changes: self.changes()?, ..Options::default() };
+        Env::make(id, &self.assets()?, &options).map_err(Failure::usage)
+    }
+
+    /// The settings that differ.
+    pub fn changes(&self) -> Result<Table, Failure> {
+        let mut changes = Table::new();
+        for setting in &self.settings {
+            let (name, value) = setting
+                .split_once('=')
+                .filter(|(name, _)| !name.is_empty())
+                .ok_or_else(|| Failure::usage(format!("--set {setting:?} is not SETTING=VALUE")))?;
+            // What is no TOML value is text, so that names need no quotes.
+            let parsed = format!("{name} = {value}").parse::<Table>();
+            let quoted = || format!("{name} = {}", toml::Value::String(value.into())).parse::<Table>();
+            let table = parsed
+                .or_else(|_| quoted())
+                .map_err(|error| Failure::usage(format!("--set {setting:?}: {}", error.message())))?;
+            changes.extend(table);
+        }
+        Ok(changes)
+    }
+
+    /// Where files come from.
+    pub fn assets(&self) -> Result<impl Assets, Failure> {
+        let search = match &self.assets {
+            Some(folder) => Search::new(None, vec![folder.clone()]),
+            None => Search::from_environment().map_err(Failure::new)?,
+        };
+        let named =
+            || std::env::var_os("ROBOHIVE_CACHE").filter(|value| !value.is_empty()).map(PathBuf::from);
+        let folder = self.cache.clone().or_else(named).or_else(cache_folder);
+        Ok(Library { search, cache: folder.map(mjcf::Cache::new) })
+    }
+}
+
+/// Imported files, and a cache of compiled models.
+struct Library {
+    search: Search,
+    cache: Option<mjcf::Cache>,
+}
+
+impl Assets for Library {
+    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String> {
+        let file = self.search.resolve(path).map_err(|error| error.to_string())?;
+        let loader = Loader::default();
+        Ok((if let Some(cache) = &self.cache { loader.cache(cache.clone()) } else { loader }, file))
+    }
+
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
+        let file = self.search.resolve(path).map_err(|error| error.to_string())?;
+        std::fs::read(&file).map(Into::into).map_err(|error| format!("{}: {error}", file.display()))
+    }
+}
+
+/// The user's folder for files that can be made again.
+fn cache_folder() -> Option<PathBuf> {
+    let absolute = |name: &str| {
+        std::env::var_os(name)
+            .filter(|value| !value.is_empty())
+            .map(PathBuf::from)
+            .filter(|path| path.is_absolute())
+    };
+    let home = |below: &str| absolute("HOME").map(|home| home.join(below));
+    let folder = if cfg!(windows) {
+        absolute("LOCALAPPDATA")
+    } else if cfg!(target_os = "macos") {
+        home("Library/Caches")
+    } else {
+        absolute("XDG_CACHE_HOME").or_else(|| home(".cache"))
+    };
+    folder.map(|folder| folder.join("robohive"))
+}
