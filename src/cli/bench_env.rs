@@ -1,6 +1,7 @@
 //! `bench-env`: environment steps per second, and where the time goes.
 
 use crate::Failure;
+use crate::env_requests::Subject;
 use crate::library::Making;
 use crate::terminal::{show, show_json};
 use clap::Args;
@@ -34,6 +35,9 @@ pub struct BenchEnv {
     /// Print one JSON array instead
     #[arg(long)]
     json: bool,
+    /// Answer requests of standard input for parts of the time of one environment, a line of JSON each
+    #[arg(long, hide = true, conflicts_with = "json")]
+    requests: bool,
 }
 
 /// Steps between two looks at the clock.
@@ -54,6 +58,9 @@ struct Speed {
 /// Runs the command.
 pub fn run(a: &BenchEnv) -> Result<(), Failure> {
     let mut rows = Vec::new();
+    if a.requests {
+        return a.ids.iter().try_for_each(|id| answer(id, a));
+    }
     if !a.json {
         show!("{:<40} {:>12} {:>8} {:>14} {:>10}", "id", "steps/s", "layer", "batch steps/s", "x one");
     }
@@ -79,6 +86,11 @@ pub fn run(a: &BenchEnv) -> Result<(), Failure> {
         show_json(&rows.into());
     }
     Ok(())
+}
+
+fn answer(id: &str, a: &BenchEnv) -> Result<(), Failure> {
+    let count = PER_THREAD * usize::from(a.threads);
+    Subject { id, making: &a.making, env: a.making.make(id)?, count, seconds: a.seconds }.answer()
 }
 
 fn measure(env: &Env, a: &BenchEnv) -> Result<Speed, Failure> {
@@ -129,14 +141,15 @@ fn single(env: &Env, seconds: f64) -> Result<(f64, f64), Failure> {
 fn again(scene: &mut Scene, controls: &[Vec<f64>], frame_skip: usize) {
     for control in controls {
         scene.data.state.ctrl.copy_from_slice(control);
-        if scene.advance(frame_skip, |_| ()).and_then(|()| scene.forward()).is_err() {
+        if scene.advance(frame_skip, |_| ()).is_err() {
             return;
         }
+        scene.complete();
     }
 }
 
 /// Steps per second of `count` environments on a number of threads.
-fn batch_speed(env: &Env, count: usize, threads: usize, seconds: f64) -> Result<f64, Failure> {
+pub fn batch_speed(env: &Env, count: usize, threads: usize, seconds: f64) -> Result<f64, Failure> {
     let mut envs = VecEnv::new(env, count, Autoreset::NextStep, threads).map_err(Failure::new)?;
     let mut rng = Rng::pcg64(1_u64);
     let mut actions = vec![0.0; count * env.action_len()];

@@ -9,6 +9,7 @@ mod check_env;
 mod compile;
 mod completions;
 mod data;
+mod env_requests;
 mod fields;
 mod info;
 mod inspect;

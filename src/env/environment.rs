@@ -47,6 +47,15 @@ pub struct Step {
     pub fault: Option<StepError>,
 }
 
+/// What happened to the world since physics last looked at it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Past {
+    /// Anything.
+    Unknown,
+    /// [`Scene::advance`], and nothing after it.
+    Advance,
+}
+
 /// An environment with one episode in progress.
 pub struct Env {
     pub(crate) spec: Arc<Spec>,
@@ -150,7 +159,7 @@ impl Env {
         if self.compat == Compat::RoboHive07 {
             self.advance(&vec![0.0; self.scene.model.nu])??;
         }
-        self.perceive()?;
+        self.perceive(Past::Unknown)?;
         self.judge();
         let keys = self.obs_keys().to_vec();
         self.obs_places = self.places(&keys)?;
@@ -250,7 +259,7 @@ impl Env {
             initial: &self.initial,
         };
         self.task.begin(&mut episode)?;
-        self.perceive()?;
+        self.perceive(Past::Unknown)?;
         self.judge();
         self.gather();
         Ok(&self.observation)
@@ -273,7 +282,7 @@ impl Env {
         }
         let mut outcome = self.advance(action)?;
         self.steps += 1;
-        outcome = outcome.and_then(|()| self.perceive());
+        outcome = outcome.and_then(|()| self.perceive(Past::Advance));
         let truncated = self.steps >= self.spec.max_episode_steps;
         if let Err(fault) = outcome {
             self.faulty = true;
@@ -320,23 +329,22 @@ impl Env {
     }
 
     /// Reads the sensors, and writes the observation dictionary of the state that they show.
-    pub(crate) fn perceive(&mut self) -> Result<(), StepError> {
+    pub(crate) fn perceive(&mut self, past: Past) -> Result<(), StepError> {
         let Scene { model, data } = &mut self.scene;
         self.robot.sense(model, data, &mut self.rng);
+        // The original writes what it read into the simulation itself.
+        let written = self.compat == Compat::RoboHive07 && self.robot.write_readings(data);
+        if past == Past::Unknown || written {
+            self.scene.forward()?
+        } else {
+            self.scene.complete()
+        }
         self.differs = false;
-        match self.compat {
-            // The original writes what it read into the simulation itself.
-            Compat::RoboHive07 => {
-                self.robot.write_readings(data);
-                physics::forward(model, data)?;
-            }
-            Compat::Fixed => {
-                physics::forward(model, data)?;
-                self.observed.state.clone_from(&data.state);
-                if self.robot.write_readings(&mut self.observed) {
-                    physics::forward(model, &mut self.observed)?;
-                    self.differs = true;
-                }
+        if self.compat == Compat::Fixed {
+            self.observed.state.clone_from(&self.scene.data.state);
+            if self.robot.write_readings(&mut self.observed) {
+                physics::forward(&self.scene.model, &mut self.observed)?;
+                self.differs = true;
             }
         }
         self.write_rows();

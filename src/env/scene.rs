@@ -51,6 +51,11 @@ impl Scene {
         physics::step1(&self.model, &mut self.data)
     }
 
+    /// [`Scene::forward`] right after [`Scene::advance`], which has done most of it.
+    pub fn complete(&mut self) {
+        physics::forward_after_step1(&self.model, &mut self.data);
+    }
+
     /// Writes numbers of the model as they are; nothing is derived from them.
     ///
     /// # Errors

@@ -1,7 +1,7 @@
 //! States of an environment: saved ones, which continue an episode exactly, and recorded ones, which hold what RoboHive
 //! writes into its traces.
 
-use crate::environment::Env;
+use crate::environment::{Env, Past};
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
@@ -253,7 +253,7 @@ impl Env {
         }
         self.faulty = false;
         self.scene.forward()?;
-        self.perceive()?;
+        self.perceive(Past::Unknown)?;
         self.judge();
         self.gather();
         Ok(&self.observation)

@@ -59,5 +59,5 @@ pub use data::{Data, Snapshot};
 pub use model::Model;
 pub use on_demand::derive_on_demand;
 pub use pipeline::batch::{Batch, BatchError, Environment};
-pub use pipeline::forward::{StepError, forward, step, step_watched, step1, step2};
+pub use pipeline::forward::{StepError, forward, forward_after_step1, step, step_watched, step1, step2};
 pub use pipeline::inverse::inverse;

@@ -47,6 +47,13 @@ pub fn forward(m: &Model, d: &mut Data) -> Result<(), StepError> {
     evaluate(m, d, true, &mut ())
 }
 
+/// [`forward`] right after [`step1`], with nothing written in between but inputs: what depends on positions and velocities
+/// alone is kept.
+pub fn forward_after_step1(m: &Model, d: &mut Data) {
+    acceleration(m, d, &mut ());
+    acceleration_sensors(m, d);
+}
+
 /// Advances the simulation by one time step.
 ///
 /// # Errors
@@ -116,8 +123,7 @@ pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// As `step`.
 pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
     check_state(m, d)?;
-    acceleration(m, d, &mut ());
-    acceleration_sensors(m, d);
+    forward_after_step1(m, d);
     check_acceleration(m, d)?;
     compare_if_asked(m, d)?;
     advance_once(m, d, Factors::Fresh);
