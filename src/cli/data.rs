@@ -1,18 +1,19 @@
-//! `data`: what is in recordings of episodes, repair, conversion.
+//! `data`: what is in recordings of episodes, repair, conversion, replay.
 
 use crate::Failure;
+use crate::recording::{LayoutName, PrecisionName};
+use crate::replay::{self, Replay};
 use crate::terminal::{note, show, show_json};
-use clap::{Args, Subcommand, ValueEnum, ValueHint};
+use clap::{Args, Subcommand, ValueHint};
 use dataset::trace::{
-    ColumnSummary, Layout, Precision, Summary, Target, TraceError, TraceReader, TrialSummary, convert,
-    repair, summarise,
+    ColumnSummary, Layout, Summary, Target, TraceError, TraceReader, TrialSummary, convert, repair, summarise,
 };
 use serde_json::{Value, json};
 use std::ffi::OsString;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// Look into recordings of episodes, repair them, convert them
+/// Look into recordings of episodes, repair, convert and replay them
 #[derive(Args)]
 #[command(
     after_help = "A recording is an HDF5 file in the layout of RoboHive (TrialN/time, observations, actions, rewards, \
@@ -36,6 +37,8 @@ enum Command {
     Repair(Repair),
     /// Write a recording in another layout, format or precision
     Convert(Convert),
+    /// Replay the actions of a recording and say how far it ends from what was recorded
+    Replay(Replay),
 }
 
 /// Say what is in a recording: layout, trials, and of each name type, shape and range
@@ -116,20 +119,6 @@ struct Convert {
     force: bool,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-enum LayoutName {
-    Robohive,
-    Roboset,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum PrecisionName {
-    /// All bits
-    Full,
-    /// Uint8, int8, float16
-    Reduced,
-}
-
 /// Solved rows from which on a trial is not solved by chance.
 const SOLVED_ROWS: usize = 5;
 
@@ -139,11 +128,12 @@ pub fn run(a: &Data) -> Result<(), Failure> {
         Command::Inspect(a) => inspect(a),
         Command::Repair(a) => run_repair(a),
         Command::Convert(a) => run_convert(a),
+        Command::Replay(a) => replay::run(a),
     }
 }
 
 /// Opens a recording; `-` is standard input.
-fn open(path: &Path) -> Result<TraceReader, Failure> {
+pub fn open(path: &Path) -> Result<TraceReader, Failure> {
     if path.as_os_str() != "-" {
         return TraceReader::open(path).map_err(Failure::usage);
     }
@@ -366,16 +356,7 @@ fn run_convert(a: &Convert) -> Result<(), Failure> {
         return Err(Failure::usage(format!("{}: input and output are one file", a.out.display())));
     }
     let trace = open(&a.input)?;
-    let target = Target {
-        layout: a.layout.map(|layout| match layout {
-            LayoutName::Robohive => Layout::RoboHive,
-            LayoutName::Roboset => Layout::RoboSet,
-        }),
-        precision: match a.precision {
-            PrecisionName::Full => Precision::Full,
-            PrecisionName::Reduced => Precision::Reduced,
-        },
-    };
+    let target = Target { layout: a.layout.map(Layout::from), precision: a.precision.into() };
     let done = convert(&trace, &a.out, target).map_err(|error| {
         // Half a recording would look like a whole one.
         _ = std::fs::remove_file(&a.out);

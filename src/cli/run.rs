@@ -1,13 +1,17 @@
 //! `run`: play episodes of an environment.
 
 use crate::Failure;
+use crate::interrupt::Interrupt;
 use crate::library::Source;
-use crate::terminal::{show, show_json};
-use clap::Args;
+use crate::recording::{self, LayoutName, PrecisionName, Recording};
+use crate::terminal::{listed, note, show, show_json};
+use clap::{Args, ValueHint};
+use dataset::trace::is_npz;
 use env::episode::{Summary, evaluate};
 use env::{Env, Rng};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
+use std::path::PathBuf;
 use std::time::Instant;
 
 /// Play episodes of an environment and print returns, success and speed
@@ -15,10 +19,21 @@ use std::time::Instant;
 #[command(
     after_help = "The episode of index k is seeded with SEED + k, so every episode can be played again by itself.
 
+--record writes every episode in the schema of RoboHive's logger, TrialN/ for episode N: time, observations, actions, \
+rewards, done, and env_infos/ with time, rwd_dense, rwd_sparse, solved, done, obs_dict/*, proprio_dict/*, rwd_dict/* and \
+state/*. An episode of h steps has h+1 rows: row t holds a state and the action taken in it, the last row the last state \
+and a NaN action. seed is the seed of the reset. Attributes of an HDF5 file name the environment, its settings, the \
+policy and the first seed; numpy archives (.npz) hold no attributes.
+
+Rows are written as the episode runs. An HDF5 file can be read at any moment and holds every episode that was finished, \
+whatever ends the process; a numpy archive is complete when the command ends, also by Ctrl-C. `robohive data replay` \
+plays a recording again.
+
 Examples:
   robohive run hive/FrankaReach-v0
   robohive run hive/FrankaReach-v0 --policy zero --episodes 20 --seed 7
-  robohive run hive/FrankaReach-v0 --set max_episode_steps=20 --json"
+  robohive run hive/FrankaReach-v0 --set max_episode_steps=20 --json
+  robohive run hive/FrankaReach-v0 --record reach.h5"
 )]
 pub struct Run {
     /// The environment
@@ -33,6 +48,18 @@ pub struct Run {
     /// Seed of the first episode
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     seed: u64,
+    /// Record every episode in this file, .npz or HDF5; replaces it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    record: Option<PathBuf>,
+    /// Names of the recorded rows
+    #[arg(long, default_value = "robohive", requires = "record")]
+    layout: LayoutName,
+    /// Precision of the recorded numbers; that of RoboHive's own files is reduced
+    #[arg(long, default_value = "full", requires = "record")]
+    precision: PrecisionName,
+    /// Print a line for every episode; where it is recorded, when the file holds it
+    #[arg(long, conflicts_with = "json")]
+    each: bool,
     /// Print one JSON object instead
     #[arg(long)]
     json: bool,
@@ -73,36 +100,96 @@ impl Policy {
 pub fn run(a: &Run) -> Result<(), Failure> {
     let policy = Policy::open(&a.policy)?;
     let mut env = a.source.make()?;
+    let mut recording = a.record.as_ref().map(|_| open_recording(a)).transpose()?;
     let bar = if a.quiet || a.json { ProgressBar::hidden() } else { progress(a.episodes) };
+    let interrupt = Interrupt::listen().map_err(Failure::new)?;
     let mut episodes = Vec::new();
     let began = Instant::now();
     for index in 0..a.episodes {
-        let episode = play(&mut env, &policy, a.seed.wrapping_add(u64::from(index)))?;
+        let seed = a.seed.wrapping_add(u64::from(index));
+        let Some(episode) = play(&mut env, &policy, seed, recording.as_mut(), &interrupt)? else { break };
         bar.set_message(format!("return {:.2}, {} solved", episode.reward, episode.solved));
         bar.inc(1);
+        if a.each {
+            bar.suspend(|| show_episode(seed, &episode));
+        }
         episodes.push(episode);
     }
     let seconds = began.elapsed().as_secs_f64();
     bar.finish_and_clear();
     show_result(a, &env, &episodes, seconds);
-    Ok(())
+    let kept = recording.map(|recording| close_recording(recording, a.json)).transpose()?;
+    match interrupt.code().filter(|_| episodes.len() < a.episodes as usize) {
+        None => Ok(()),
+        Some(code) => {
+            let message = format!("interrupted in episode {}{}", episodes.len(), kept.unwrap_or_default());
+            Err(Failure { code, ..Failure::new(message) })
+        }
+    }
 }
 
-/// Plays one episode.
-fn play(env: &mut Env, policy: &Policy, seed: u64) -> Result<Summary, Failure> {
+/// Makes the file of `--record`.
+fn open_recording(a: &Run) -> Result<Recording, Failure> {
+    let path = a.record.as_deref().ok_or_else(|| Failure::usage("--record is needed"))?;
+    let settings = a.source.making.changes()?.to_string();
+    let (compat, seed) = (a.source.making.compat.to_string(), a.seed.to_string());
+    let attributes = [
+        (recording::ID, &a.source.id[..]),
+        (recording::COMPAT, &compat),
+        (recording::SETTINGS, settings.trim_end()),
+        ("policy", &a.policy),
+        ("seed", &seed),
+    ];
+    Recording::create(path, a.layout.into(), a.precision.into(), &attributes)
+}
+
+/// Completes the file, and says what it holds.
+fn close_recording(recording: Recording, json: bool) -> Result<String, Failure> {
+    let (path, episodes, unmapped) = recording.close()?;
+    if !unmapped.is_empty() {
+        note(&format!("not recorded, for want of a place in the layout: {}", listed(&unmapped, 8)));
+    }
+    if !json {
+        let hint = if is_npz(&path) { "; numpy archives name no environment" } else { "" };
+        show!("recorded     {episodes} episodes in {}{hint}", path.display());
+    }
+    Ok(format!("; {} holds the {episodes} episodes before it", path.display()))
+}
+
+/// Plays one episode; `None` if a signal ends it, which is then not recorded.
+fn play(
+    env: &mut Env,
+    policy: &Policy,
+    seed: u64,
+    recording: Option<&mut Recording>,
+    interrupt: &Interrupt,
+) -> Result<Option<Summary>, Failure> {
     let mut rng = Rng::pcg64(seed);
     let mut action = vec![0.0; env.action_len()];
     let mut episode = Summary::default();
+    let mut record = recording.map(|recording| recording.begin(seed)).transpose()?;
     env.reset(Some(seed)).map_err(Failure::new)?;
     while !episode.terminated && !episode.truncated {
+        if interrupt.code().is_some() {
+            return Ok(None);
+        }
         policy.act(env, &mut rng, &mut action)?;
+        if let Some(record) = &mut record {
+            record.row(env, &action)?;
+        }
         let step = env.step(&action).map_err(Failure::new)?;
         episode.add(env, &step);
         if let Some(fault) = &step.fault {
-            crate::terminal::note(&format!("seed {seed}, step {}: {fault}", episode.steps));
+            note(&format!("seed {seed}, step {}: {fault}", episode.steps));
         }
     }
-    Ok(episode)
+    record.map(|record| record.finish(env)).transpose()?;
+    Ok(Some(episode))
+}
+
+fn show_episode(seed: u64, episode: &Summary) {
+    let Summary { steps, reward, solved, .. } = episode;
+    show!("seed {seed}: {steps} steps, return {reward:.3}, {solved} solved");
 }
 
 fn show_result(a: &Run, env: &Env, episodes: &[Summary], seconds: f64) {

@@ -79,6 +79,7 @@ pub fn to_roboset(key: &str) -> Vec<Route> {
         "env_infos/obs_dict/pos_ee" => vec![Route::Join { to: "derived/pose_ee".into(), part: 0 }],
         "env_infos/obs_dict/rot_ee" => vec![Route::Join { to: "derived/pose_ee".into(), part: 1 }],
         "user_cmt" => whole("config/solved".into()),
+        "seed" => whole("config/seed".into()),
         _ => {
             if let Some(state) = key.strip_prefix(OBSERVED).filter(|name| STATES.contains(name)) {
                 return whole(format!("data/{state}"));
@@ -107,6 +108,7 @@ pub fn to_robohive(key: &str, row: &[usize]) -> Vec<Route> {
             vec![Route::Split { at: POSITION, to: [observed("pos_ee"), observed("rot_ee")] }]
         }
         "config/solved" => vec![Route::Whole("user_cmt".into())],
+        "config/seed" => vec![Route::Whole("seed".into())],
         _ => {
             let Some(name) = key.strip_prefix("data/") else { return Vec::new() };
             if STATES.contains(&name) {
@@ -134,7 +136,7 @@ mod tests {
         let images = ["rgb", "d"].iter().flat_map(|kind| {
             CAMERAS.map(|camera| format!("env_infos/visual_dict/{kind}:{camera}_cam:240x424:2d"))
         });
-        for name in names.chain(images).chain(["user_cmt".to_owned()]) {
+        for name in names.chain(images).chain(["user_cmt", "seed"].map(String::from)) {
             let there = to_roboset(&name);
             let [Route::Whole(over)] = &there[..] else { panic!("{name}: {there:?}") };
             assert_eq!(to_robohive(over, &row), [Route::Whole(name)]);

@@ -41,6 +41,6 @@ pub use error::TraceError;
 pub use layout::Layout;
 pub use precision::Precision;
 pub use reader::{Entry, EntryType, TraceReader};
-pub use recorder::{Recorder, Trial};
+pub use recorder::{Recorder, Trial, is_npz};
 pub use repair::{Repaired, repair};
 pub use summary::{ColumnSummary, Summary, TrialSummary, summarise};

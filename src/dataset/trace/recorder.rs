@@ -9,7 +9,7 @@ use crate::hdf5::append::Appender;
 use crate::hdf5::encode::{self, Element, WRITER};
 use crate::hdf5::file::Hdf5Reader;
 use crate::hdf5::filter::Packer;
-use crate::npy::{Array, Scalar, Values};
+use crate::npy::{Array, Dtype, Scalar, Values};
 use crate::npz::NpzWriter;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::fs::File;
@@ -201,13 +201,7 @@ impl Trial<'_> {
     }
 
     /// Sends the rows in `scratch` to their columns, and complete chunks to the file.
-    fn route(
-        &mut self,
-        key: &str,
-        dtype: crate::Dtype,
-        row: &[usize],
-        count: usize,
-    ) -> Result<(), TraceError> {
+    fn route(&mut self, key: &str, dtype: Dtype, row: &[usize], count: usize) -> Result<(), TraceError> {
         let rows = Rows { dtype, row, count, bytes: &self.scratch };
         let pushed = self.router.push(key, rows);
         pushed.map_err(|message| self.fail(key, message))?;
@@ -217,12 +211,14 @@ impl Trial<'_> {
         flushed.map_err(|e| self.fail(key, e))
     }
 
-    /// Sets a dataset that has no rows, such as `user_cmt`.
+    /// Sets a dataset that has no rows, such as `user_cmt`. Integers, which may be seeds, keep all their bits at every
+    /// precision.
     ///
     /// # Errors
     /// The name is taken, or a number does not fit the precision.
     pub fn set(&mut self, key: &str, array: &Array) -> Result<(), TraceError> {
-        let precision = self.recorder.precision;
+        let reducible = matches!(array.values.dtype(), Dtype::F16 | Dtype::F32 | Dtype::F64);
+        let precision = if reducible { self.recorder.precision } else { Precision::Full };
         let mut bytes = Vec::new();
         precision.put_values(&array.values, &mut bytes).map_err(|message| self.fail(key, message))?;
         let values = Values::from_bytes(precision.kept(array.values.dtype()), &bytes);
