@@ -22,7 +22,8 @@ Its actions follow. For each trial there is the distance between the last record
 |qpos| [rad, m] and |qvel| [rad/s, m/s], and over all rows the greatest difference of an observation and of the reward; \
 a histogram counts trials by |qpos|. A recording in full precision, made by this program, is replayed exactly.
 
-Recordings of RoboHive itself have no attributes: name the ID. Their default precision, float16, is too coarse to repeat \
+Recordings of RoboHive itself have no attributes: name the ID, and with --seed what env.seed() was given, so that the \
+resets draw shapes and masses that the recorded states do not hold. Their default precision, float16, is too coarse to repeat \
 a motion in contact; its Trace keeps all bits after close(f_res=numpy.float64).
 
 RoboSet's layout holds the joints of arm and gripper: they are set before the actions and compared at the end.
@@ -41,6 +42,9 @@ pub struct Replay {
     /// Trials to replay, counted from 0 [default: all]
     #[arg(long, value_name = "LIST", value_parser = parse_list)]
     trials: Option<Places>,
+    /// Seed that the recorder of trials without one gave the environment before the first of them
+    #[arg(long, value_name = "SEED")]
+    seed: Option<u64>,
     /// Whose behaviour: `fixed` or `robohive-0.7` [default: what the recording names, else that of RoboHive 0.7]
     #[arg(long, value_name = "VERSION")]
     compat: Option<Compat>,
@@ -59,6 +63,12 @@ pub struct Replay {
 #[derive(Clone)]
 struct Places(Vec<[usize; 2]>);
 
+impl Places {
+    fn hold(&self, number: usize) -> bool {
+        self.0.iter().any(|[low, high]| (*low..=*high).contains(&number))
+    }
+}
+
 fn parse_list(text: &str) -> Result<Places, String> {
     let range = |part: &str| {
         let (low, high) = part.split_once('-').unwrap_or((part, part));
@@ -71,12 +81,18 @@ fn parse_list(text: &str) -> Result<Places, String> {
 /// Runs the command.
 pub fn run(a: &Replay) -> Result<(), Failure> {
     let trace = open(&a.file)?;
-    let names = selected(a, &trace)?;
+    check_trials(a, &trace)?;
     let (id, mut env) = make(a, &trace)?;
     let mut outcomes = Vec::new();
-    for name in names {
-        let trial = Recorded::read(&trace, name)?;
-        outcomes.push(replay(&mut env, name, &trial)?);
+    for (number, name) in trace.trials().iter().enumerate() {
+        let seed = a.seed.filter(|_| number == 0);
+        if a.trials.as_ref().is_none_or(|places| places.hold(number)) {
+            let trial = Recorded::read(&trace, name)?;
+            outcomes.push(replay(&mut env, name, &trial, a.seed.is_some(), seed)?);
+        } else if a.seed.is_some() {
+            // Its reset draws, too.
+            env.reset(seed).map_err(Failure::new)?;
+        }
     }
     if a.json {
         show_json(&json!({ "id": id, "trials": outcomes.iter().map(Outcome::json).collect::<Vec<_>>() }));
@@ -86,15 +102,17 @@ pub fn run(a: &Replay) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Names of the trials to replay.
-fn selected<'a>(a: &Replay, trace: &'a TraceReader) -> Result<Vec<&'a str>, Failure> {
-    let all = trace.trials();
-    let Some(Places(ranges)) = &a.trials else { return Ok(all.iter().map(String::as_str).collect()) };
-    if let Some([_, high]) = ranges.iter().find(|[_, high]| *high >= all.len()) {
-        let message = format!("{} has {} trials, none of number {high}", trace.path().display(), all.len());
-        return Err(Failure::usage(message));
+/// Refuses trials that the recording does not have.
+fn check_trials(a: &Replay, trace: &TraceReader) -> Result<(), Failure> {
+    let count = trace.trials().len();
+    let ranges = a.trials.iter().flat_map(|places| &places.0);
+    match ranges.map(|[_, high]| *high).find(|high| *high >= count) {
+        None => Ok(()),
+        Some(high) => {
+            let path = trace.path().display();
+            Err(Failure::usage(format!("{path} has {count} trials, none of number {high}")))
+        }
     }
-    Ok(ranges.iter().flat_map(|&[low, high]| &all[low..=high]).map(String::as_str).collect())
 }
 
 /// The environment that the arguments name, or else the recording.
@@ -152,14 +170,22 @@ impl Outcome {
 }
 
 /// Plays a trial again.
-fn replay(env: &mut Env, name: &str, trial: &Recorded) -> Result<Outcome, Failure> {
+///
+/// It starts from the reset with its own seed, or with `seed`; `drawn` says that this reset draws what the recorded one drew.
+fn replay(
+    env: &mut Env,
+    name: &str,
+    trial: &Recorded,
+    drawn: bool,
+    seed: Option<u64>,
+) -> Result<Outcome, Failure> {
     let fail =
         |step: usize, error: &dyn std::fmt::Display| Failure::usage(format!("{name}, step {step}: {error}"));
-    env.reset(trial.seed).map_err(Failure::new)?;
-    if trial.seed.is_none() && trial.part("qpos").is_none() {
-        note(&format!("{name} holds neither a seed nor a state: it starts from a reset of seed 0"));
-        env.reset(Some(0)).map_err(Failure::new)?;
+    let drawn = drawn || trial.seed.is_some();
+    if !drawn && trial.part("qpos").is_none() {
+        note(&format!("{name} holds neither a seed nor a state: it starts from a reset with seed 0"));
     }
+    env.reset(trial.seed.or(if drawn { seed } else { Some(0) })).map_err(Failure::new)?;
     let start = trial.start(env);
     if let Some(world) = &start {
         env.set_world(world).map_err(|error| fail(0, &error))?;
@@ -181,7 +207,7 @@ fn replay(env: &mut Env, name: &str, trial: &Recorded) -> Result<Outcome, Failur
     Ok(Outcome {
         trial: name.to_owned(),
         steps,
-        from_seed: trial.seed.is_some() && start.is_none(),
+        from_seed: drawn && start.is_none(),
         qpos: last("qpos", &state.qpos),
         qvel: last("qvel", &state.qvel),
         observations: rows.observations,
