@@ -1,4 +1,4 @@
-//! Our own models as text, for programs that carry them along. What each shows, and where its numbers come from, stands in
+//! Our own models as text, with limits of their robots, for programs that carry them along. What each shows, and where its numbers come from, stands in
 //! the README of its folder.
 //!
 //! ```
@@ -16,10 +16,12 @@ pub const FILES: &[(&str, &str)] = files![
     "delays/delays.xml",
     "elbow/elbow.xml",
     "franka/franka_table.xml",
+    "franka/tasks/arm.toml",
     "franka/tasks/reach.xml",
     "humanoid/humanoid.xml",
     "pile/pile.xml",
     "quadruped/quadruped.xml",
+    "quadruped/tasks/walk.xml",
     "servos/servos.xml",
     "workbench/workbench.xml",
     "yard/parts/crane.xml",

@@ -5,10 +5,11 @@ use crate::interrupt::Interrupt;
 use crate::library::Source;
 use crate::recording::{self, LayoutName, PrecisionName, Recording};
 use crate::terminal::{listed, note, show, show_json};
+use agents::Policy;
 use clap::{Args, ValueHint};
 use dataset::trace::is_npz;
+use env::Env;
 use env::episode::{Summary, evaluate};
-use env::{Env, Rng};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
 use std::path::PathBuf;
@@ -39,7 +40,7 @@ pub struct Run {
     /// The environment
     #[command(flatten)]
     source: Source,
-    /// What acts: random or zero
+    /// What acts: random, zero, or a file with a policy made for RoboHive by mjrl (a pickle, which is not executed)
     #[arg(long, value_name = "POLICY", default_value = "random")]
     policy: String,
     /// Episodes to play
@@ -68,37 +69,28 @@ pub struct Run {
     quiet: bool,
 }
 
-/// What acts.
-enum Policy {
-    /// Every component uniform within its bounds.
-    Random,
-    /// Nothing but zeros.
-    Zero,
+/// What acts in an episode of this seed.
+fn policy(name: &str, seed: u64, read: Option<&Policy>) -> Policy {
+    match (name, read) {
+        (_, Some(policy)) => policy.clone(),
+        ("zero", None) => Policy::Zero,
+        _ => Policy::random(seed),
+    }
 }
 
-impl Policy {
-    fn open(name: &str) -> Result<Self, Failure> {
-        match name {
-            "random" => Ok(Policy::Random),
-            "zero" => Ok(Policy::Zero),
-            _ => Err(Failure::usage(format!("--policy is random or zero, not {name:?}"))),
-        }
-    }
-
-    fn act(&self, env: &Env, rng: &mut Rng, action: &mut [f64]) -> Result<(), Failure> {
-        match self {
-            Policy::Random => env.random_action(rng, action).map_err(Failure::new),
-            Policy::Zero => {
-                action.fill(0.0);
-                Ok(())
-            }
-        }
+/// Reads the file that `--policy` names, if it is one.
+fn read_policy(name: &str) -> Result<Option<Policy>, Failure> {
+    match name {
+        "random" | "zero" => Ok(None),
+        path => Policy::open(path).map(Some).map_err(|error| {
+            Failure::usage(format!("--policy is random, zero or a file with a policy: {error}"))
+        }),
     }
 }
 
 /// Runs the command.
 pub fn run(a: &Run) -> Result<(), Failure> {
-    let policy = Policy::open(&a.policy)?;
+    let read = read_policy(&a.policy)?;
     let mut env = a.source.make()?;
     let mut recording = a.record.as_ref().map(|_| open_recording(a)).transpose()?;
     let bar = if a.quiet || a.json { ProgressBar::hidden() } else { progress(a.episodes) };
@@ -107,7 +99,8 @@ pub fn run(a: &Run) -> Result<(), Failure> {
     let began = Instant::now();
     for index in 0..a.episodes {
         let seed = a.seed.wrapping_add(u64::from(index));
-        let Some(episode) = play(&mut env, &policy, seed, recording.as_mut(), &interrupt)? else { break };
+        let acting = policy(&a.policy, seed, read.as_ref());
+        let Some(episode) = play(&mut env, acting, seed, recording.as_mut(), &interrupt)? else { break };
         bar.set_message(format!("return {:.2}, {} solved", episode.reward, episode.solved));
         bar.inc(1);
         if a.each {
@@ -159,12 +152,11 @@ fn close_recording(recording: Recording, json: bool) -> Result<String, Failure> 
 /// Plays one episode; `None` if a signal ends it, which is then not recorded.
 fn play(
     env: &mut Env,
-    policy: &Policy,
+    mut policy: Policy,
     seed: u64,
     recording: Option<&mut Recording>,
     interrupt: &Interrupt,
 ) -> Result<Option<Summary>, Failure> {
-    let mut rng = Rng::pcg64(seed);
     let mut action = vec![0.0; env.action_len()];
     let mut episode = Summary::default();
     let mut record = recording.map(|recording| recording.begin(seed)).transpose()?;
@@ -173,7 +165,7 @@ fn play(
         if interrupt.code().is_some() {
             return Ok(None);
         }
-        policy.act(env, &mut rng, &mut action)?;
+        policy.action(env, &mut action).map_err(Failure::usage)?;
         if let Some(record) = &mut record {
             record.row(env, &action)?;
         }

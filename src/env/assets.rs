@@ -76,6 +76,12 @@ pub(crate) fn own_model(path: &str) -> Option<Result<(Loader, PathBuf), String>>
     Some(Ok((Loader::default().files(files), path.into())))
 }
 
+/// The content of a file of our own; `None` for paths of other files, and for files that we do not have.
+pub(crate) fn own_file(path: &str) -> Option<Arc<[u8]>> {
+    let path = path.strip_prefix(OWN)?;
+    assets::FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| Arc::from(text.as_bytes()))
+}
+
 /// No files at all: enough for models of our own.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OwnModels;

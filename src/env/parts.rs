@@ -1,6 +1,6 @@
 //! The parts that an environment is made of: model, robot, initial pose.
 
-use crate::assets::{Assets, own_model};
+use crate::assets::{Assets, own_file, own_model};
 use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::spec::{Settings, Spec};
@@ -35,7 +35,7 @@ pub(crate) fn read_config(
 ) -> Result<Option<Config>, EnvError> {
     let Some(path) = &settings.config_path else { return Ok(None) };
     let missing = |hint| EnvError::MissingFile { id: spec.id.clone(), path: path.clone(), hint };
-    let bytes = assets.read(path).map_err(missing)?;
+    let bytes = own_file(path).map_or_else(|| assets.read(path), Ok).map_err(missing)?;
     Ok(Some(parse_config(&String::from_utf8_lossy(&bytes), path)?))
 }
 

@@ -1,5 +1,6 @@
 //! Four-legged robots.
 
+mod free_walk;
 mod kitty;
 mod orient;
 mod stand;
@@ -8,5 +9,9 @@ mod walk;
 use super::Entry;
 
 /// The tasks of this suite by name.
-pub const TASKS: &[Entry] =
-    &[("kitty_walk", walk::build), ("kitty_orient", orient::build), ("kitty_stand", stand::build)];
+pub const TASKS: &[Entry] = &[
+    ("free_walk", free_walk::build),
+    ("kitty_walk", walk::build),
+    ("kitty_orient", orient::build),
+    ("kitty_stand", stand::build),
+];
