@@ -1,0 +1,84 @@
+//! A step of an environment allocates nothing once its buffers have grown in an earlier episode: heap traffic would make
+//! its duration unpredictable.
+//!
+//! RoboHive's ids need its models. Over all of them, with models that were imported:
+//!
+//! ```text
+//! ROBOHIVE_STORE=FOLDER cargo test --profile ci -p robohive-env --test allocation -- --nocapture
+//! ROBOHIVE_IDS=FrankaPush names a part of the ids.
+//! ```
+
+use mjcf::Loader;
+use robohive_env::{Assets, Env, Options, Registry, Rng};
+use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
+use std::alloc::System;
+use std::path::PathBuf;
+use std::sync::Arc;
+use store::Search;
+
+#[global_allocator]
+static HEAP: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
+
+/// Longest part of an episode that is looked at.
+const STEPS: usize = 60;
+
+/// Models that were imported, or that stand in the folders of `ROBOHIVE_ASSETS`.
+struct Imported(Search);
+
+impl Assets for Imported {
+    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String> {
+        let file = self.0.resolve(path).map_err(|error| error.to_string())?;
+        Ok((Loader::default(), file))
+    }
+
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
+        let file = self.0.resolve(path).map_err(|error| error.to_string())?;
+        std::fs::read(file).map(Into::into).map_err(|error| error.to_string())
+    }
+}
+
+/// Plays the same seeded episode; how many allocations its steps made.
+fn allocations(env: &mut Env) -> usize {
+    let (mut rng, mut action) = (Rng::pcg64(7_u64), vec![0.0; env.action_len()]);
+    env.reset(Some(3)).unwrap();
+    let mut found = 0;
+    for _ in 0..STEPS {
+        env.random_action(&mut rng, &mut action).unwrap();
+        let region = Region::new(HEAP);
+        let step = env.step(&action).unwrap();
+        let change = region.change();
+        found += change.allocations + change.reallocations;
+        if step.terminated || step.truncated {
+            break;
+        }
+    }
+    found
+}
+
+/// One test, since others in this process would be counted too.
+#[test]
+fn steps_allocate_nothing_after_the_first_episode() {
+    let named = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+    let imported = named("ROBOHIVE_STORE") || named("ROBOHIVE_ASSETS");
+    let search = if imported { Search::from_environment().unwrap() } else { Search::new(None, Vec::new()) };
+    let assets = Imported(search);
+    let part = std::env::var("ROBOHIVE_IDS").unwrap_or_default();
+    let (mut checked, mut left, mut wrong) = (0, 0, Vec::new());
+    for spec in Registry::builtin().specs() {
+        if !spec.id.contains(&part) || !imported && !spec.id.starts_with("hive/") {
+            left += 1;
+            continue;
+        }
+        let mut env = Env::make(&spec.id, &assets, &Options::default()).unwrap();
+        allocations(&mut env);
+        let found = allocations(&mut env);
+        if found > 0 {
+            wrong.push(format!("{}: {found}", spec.id));
+        }
+        checked += 1;
+    }
+    println!(
+        "steps of {checked} environments counted; {left} left out, which are in no ROBOHIVE_STORE or ROBOHIVE_ASSETS, or not named"
+    );
+    assert!(checked > 0 && wrong.is_empty(), "allocations in steps:\n{}", wrong.join("\n"));
+}
