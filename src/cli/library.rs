@@ -1,6 +1,7 @@
 //! From the arguments to an environment.
 
 use crate::Failure;
+use crate::terminal::note;
 use clap::{Args, ValueHint};
 use env::{Assets, Compat, Env, Options};
 use mjcf::Loader;
@@ -38,9 +39,11 @@ pub struct Making {
 }
 
 impl Source {
-    /// Makes the environment.
+    /// Makes the environment, and shows the warnings of its model on standard error.
     pub fn make(&self) -> Result<Env, Failure> {
-        self.making.make(&self.id)
+        let env = self.making.make(&self.id)?;
+        env.warnings().warnings().for_each(|warning| note(&warning.to_string()));
+        Ok(env)
     }
 }
 

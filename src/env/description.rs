@@ -7,6 +7,7 @@ use crate::scene::Scene;
 use crate::spec::{RewardMode, Settings, Spec};
 use crate::task::{Rng, Success, Verdict};
 use crate::visual::VisualKey;
+use mjcf::diagnostic::Diagnostics;
 use robot::Robot;
 
 impl Env {
@@ -71,6 +72,12 @@ impl Env {
     /// What the id stands for.
     pub fn spec(&self) -> &Spec {
         &self.spec
+    }
+
+    /// What was ignored or assumed when the model was read: how it is read otherwise than the MuJoCo that it was written for
+    /// did.
+    pub fn warnings(&self) -> &Diagnostics {
+        &self.warnings
     }
 
     /// The settings of the environment.

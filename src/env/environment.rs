@@ -10,6 +10,7 @@ use crate::spec::{Settings, Spec};
 use crate::suite;
 use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
 use crate::visual::{VisualKey, parse_keys};
+use mjcf::diagnostic::Diagnostics;
 use physics::{Data, StepError};
 use robot::{Compat, Robot};
 use std::ops::Range;
@@ -60,6 +61,7 @@ pub(crate) enum Past {
 pub struct Env {
     pub(crate) spec: Arc<Spec>,
     pub(crate) settings: Arc<Settings>,
+    pub(crate) warnings: Arc<Diagnostics>,
     pub(crate) defaults: Arc<Defaults>,
     pub(crate) compat: Compat,
     pub(crate) task: Box<dyn Task>,
@@ -104,7 +106,8 @@ impl Env {
     pub fn build(spec: &Spec, assets: &dyn Assets, options: &Options) -> Result<Self, EnvError> {
         let spec = spec.with(&options.changes)?;
         let (settings, own) = spec.settings()?;
-        let mut scene = Scene::new(load(&spec, &settings, assets)?)?;
+        let loaded = load(&spec, &settings, assets)?;
+        let mut scene = Scene::new(loaded.model)?;
         let mut rng = Rng::pcg64(options.seed);
         let config = read_config(&spec, &settings, assets)?;
         let mut setup =
@@ -128,6 +131,7 @@ impl Env {
             visual_keys: visual_keys.into(),
             spec: Arc::new(spec),
             settings: Arc::new(settings),
+            warnings: Arc::new(loaded.warnings),
             defaults: Arc::new(defaults),
             compat: options.compat,
             task,
@@ -195,6 +199,7 @@ impl Env {
         Ok(Env {
             spec: self.spec.clone(),
             settings: self.settings.clone(),
+            warnings: self.warnings.clone(),
             defaults: self.defaults.clone(),
             compat: self.compat,
             task: self.task.clone(),

@@ -5,12 +5,13 @@ use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::spec::{Settings, Spec};
 use crate::task::Pose;
+use mjcf::Loaded;
 use physics::Model;
 use physics::model::{JointType, TrnType};
 use robot::{Compat, Config, ConfigError, Robot};
 
 /// Loads the model with the replacements and moves that the settings ask for.
-pub(crate) fn load(spec: &Spec, settings: &Settings, assets: &dyn Assets) -> Result<Model, EnvError> {
+pub(crate) fn load(spec: &Spec, settings: &Settings, assets: &dyn Assets) -> Result<Loaded, EnvError> {
     let path = &settings.model_path;
     let missing = |hint| EnvError::MissingFile { id: spec.id.clone(), path: path.clone(), hint };
     let (mut loader, file) = own_model(path).unwrap_or_else(|| assets.model(path)).map_err(missing)?;
@@ -24,7 +25,7 @@ pub(crate) fn load(spec: &Spec, settings: &Settings, assets: &dyn Assets) -> Res
         path: file.display().to_string(),
         diagnostics: Box::new(diagnostics),
     };
-    Ok(loader.load(&file).map_err(wrong)?.model)
+    loader.load(&file).map_err(wrong)
 }
 
 /// Reads the robot's configuration, where the settings name one.
