@@ -1,10 +1,11 @@
-//! The tasks, one a file, by the suites of RoboHive.
+//! The tasks, one a file, by the suites of RoboHive, and ROBEL's claw.
 
 pub mod arms;
 mod baoding;
 mod bonus;
 mod circling;
 pub mod claws;
+pub mod dclaw;
 mod fatigue;
 pub mod fm;
 pub mod hands;
@@ -34,9 +35,10 @@ pub type Build = fn(&Spec, Table, &dyn Assets, &mut Setup<'_>) -> Result<Box<dyn
 pub type Entry = (&'static str, Build);
 
 /// The tasks of every suite.
-const SUITES: [&[Entry]; 9] = [
+const SUITES: [&[Entry]; 10] = [
     arms::TASKS,
     claws::TASKS,
+    dclaw::TASKS,
     fm::TASKS,
     hands::TASKS,
     multitask::TASKS,
