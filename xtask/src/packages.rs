@@ -4,9 +4,15 @@ use crate::check::{Missing, Outcome};
 use crate::command::{cargo, compiler};
 use std::path::{Path, PathBuf};
 
-/// Removes the sources of our crates that cargo unpacked of earlier archives: it takes an archive of the same version for the
+/// Where the archives are built.
+const BUILT: &str = "target/packages";
+
+/// Removes what cargo unpacked and built of earlier archives of our crates: it takes an archive of the same version for the
 /// same, although the crate has changed since.
 fn forget_archives() -> Result<(), String> {
+    if Path::new(BUILT).exists() {
+        std::fs::remove_dir_all(BUILT).map_err(|error| format!("{BUILT}: {error}"))?;
+    }
     let home = |name: &str, below: &str| std::env::var_os(name).map(|home| Path::new(&home).join(below));
     let Some(home) = home("CARGO_HOME", "").or_else(|| home("HOME", ".cargo")) else { return Ok(()) };
     let folders = |path: &Path| -> Vec<PathBuf> {
@@ -28,7 +34,7 @@ fn forget_archives() -> Result<(), String> {
 pub fn run() -> Outcome {
     forget_archives()?;
     // Profiles and the lock file are the workspace's; a dirty tree is what a change under way has.
-    cargo(&["publish", "--workspace", "--dry-run", "--allow-dirty"])
+    cargo(&["publish", "--workspace", "--dry-run", "--allow-dirty", "--target-dir", BUILT])
 }
 
 /// Whether all checks of this run used the compiler that `rust-version` promises to be enough.
