@@ -49,7 +49,7 @@ const OTHERS: [(&str, &[&str]); 10] = [
     ("robohive-store", &["flate2", "lzma-rust2", "sha2", "zip"]),
     ("robohive-mjcf", &["roxmltree", "fdeflate"]),
     ("robohive-robot", &["toml"]),
-    ("robohive-env", &["rayon", "serde", "strsim", "toml"]),
+    ("robohive-env", &["rayon", "serde", "toml"]),
     ("robohive-agents", &["libm"]),
     ("robohive", &[]),
 ];

@@ -7,8 +7,6 @@ use clap::Args;
 use env::check::{STEPS, check};
 use env::{Registry, Spec};
 use indicatif::{ProgressBar, ProgressStyle};
-use std::collections::BTreeMap;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Check the contract of environments: finite, repeatable, restorable, observations that change
@@ -48,22 +46,23 @@ pub fn run(a: &CheckEnv) -> Result<(), Failure> {
     let bar = ProgressBar::new(specs.len() as u64)
         .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
     let next = AtomicUsize::new(0);
-    let findings: Mutex<BTreeMap<usize, Vec<String>>> = Mutex::default();
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                while let Some(spec) = specs.get(next.fetch_add(1, Ordering::Relaxed)) {
-                    let found = examine(a, spec);
-                    let place = specs.iter().position(|other| other.id == spec.id).unwrap_or_default();
-                    findings.lock().unwrap_or_else(|error| error.into_inner()).insert(place, found);
-                    bar.set_message(spec.id.clone());
-                    bar.inc(1);
-                }
-            });
+    let work = || {
+        let mut found = Vec::new();
+        loop {
+            let place = next.fetch_add(1, Ordering::Relaxed);
+            let Some(spec) = specs.get(place) else { return found };
+            found.push((place, examine(a, spec)));
+            bar.set_message(spec.id.clone());
+            bar.inc(1);
         }
+    };
+    let mut findings: Vec<_> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        workers.into_iter().flat_map(|worker| worker.join().expect("a panic ends the command")).collect()
     });
     bar.finish_and_clear();
-    let findings = findings.into_inner().unwrap_or_else(|error| error.into_inner());
+    findings.sort_by_key(|(place, _)| *place);
+    let findings: Vec<_> = findings.into_iter().map(|(_, found)| found).collect();
     report(&specs, &findings)
 }
 
@@ -96,10 +95,9 @@ fn examine(a: &CheckEnv, spec: &Spec) -> Vec<String> {
     }
 }
 
-fn report(specs: &[&Spec], findings: &BTreeMap<usize, Vec<String>>) -> Result<(), Failure> {
+fn report(specs: &[&Spec], findings: &[Vec<String>]) -> Result<(), Failure> {
     let mut suites: Vec<(&str, usize, usize)> = Vec::new();
-    for (place, spec) in specs.iter().enumerate() {
-        let found = findings.get(&place).map_or(&[][..], Vec::as_slice);
+    for (spec, found) in specs.iter().zip(findings) {
         found.iter().for_each(|finding| show!("{}: {finding}", spec.id));
         let kept = usize::from(found.is_empty());
         match suites.iter_mut().find(|(suite, ..)| *suite == spec.suite) {

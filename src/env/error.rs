@@ -1,7 +1,7 @@
 //! What can be wrong with an environment, in whole sentences.
 
 use physics::StepError;
-use physics::model::EditError;
+use physics::model::{EditError, Suggestions};
 use random::RandomError;
 use robot::{ConfigError, RobotError};
 use std::fmt;
@@ -14,8 +14,8 @@ pub enum EnvError {
     UnknownId {
         /// What was asked for.
         id: String,
-        /// The ids closest to it.
-        nearest: Vec<String>,
+        /// The id nearest to it.
+        nearest: Option<String>,
     },
     /// A file that the id needs is not there.
     MissingFile {
@@ -46,8 +46,8 @@ pub enum EnvError {
         kind: &'static str,
         /// Name asked for.
         name: String,
-        /// Closest names of that kind.
-        nearest: Vec<String>,
+        /// The nearest name of that kind.
+        nearest: Option<String>,
     },
     /// An action of the wrong length.
     ActionLength {
@@ -88,9 +88,9 @@ pub enum EnvError {
 }
 
 impl EnvError {
-    /// The model has no element of this kind and name; the closest of `names` are suggested.
+    /// The model has no element of this kind and name; the nearest of `names` is suggested.
     pub fn missing<'a>(kind: &'static str, name: &str, names: impl Iterator<Item = &'a str>) -> Self {
-        let nearest = nearest(name, names, 3);
+        let nearest = Suggestions::default().nearest(name, names).map(str::to_owned);
         EnvError::Element { kind, name: name.to_string(), nearest }
     }
 }
@@ -99,7 +99,11 @@ impl fmt::Display for EnvError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             EnvError::UnknownId { id, nearest } => {
-                write!(f, "there is no environment {id}{}; `robohive list` shows all", suggestion(nearest))
+                write!(
+                    f,
+                    "there is no environment {id}{}; `robohive list` shows all",
+                    suggestion(nearest.as_deref())
+                )
             }
             EnvError::MissingFile { id, path, hint } => {
                 write!(f, "{id} needs {path}, which is not here: {hint}")
@@ -109,7 +113,7 @@ impl fmt::Display for EnvError {
             }
             EnvError::Setting { id, message } => write!(f, "a setting of {id} is wrong: {message}"),
             EnvError::Element { kind, name, nearest } => {
-                write!(f, "the model has no {kind} named {name}{}", suggestion(nearest))
+                write!(f, "the model has no {kind} named {name}{}", suggestion(nearest.as_deref()))
             }
             EnvError::ActionLength { expected, found } => {
                 write!(f, "an action has {expected} values here, and {found} were given")
@@ -168,33 +172,6 @@ impl From<RandomError> for EnvError {
     }
 }
 
-fn suggestion(nearest: &[String]) -> String {
-    if nearest.is_empty() { String::new() } else { format!("; did you mean {}?", nearest.join(" or ")) }
-}
-
-/// Up to `count` of `names` that differ least from `name`, by edit distance, capitals aside, the closest first; none
-/// that differ in more than half of their characters.
-pub(crate) fn nearest<'a>(name: &str, names: impl Iterator<Item = &'a str>, count: usize) -> Vec<String> {
-    let word = name.to_lowercase();
-    let mut close: Vec<_> = names
-        .map(|other| (strsim::damerau_levenshtein(&word, &other.to_lowercase()), other))
-        .filter(|(distance, other)| 2 * distance <= name.len().max(other.len()))
-        .collect();
-    close.sort();
-    close.into_iter().take(count).map(|(_, other)| other.to_string()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_nearest_names_come_first() {
-        let names = ["FrankaReachFixed-v0", "FrankaReachRandom-v0", "door-v1"];
-        assert_eq!(
-            nearest("frankareachfixd-v0", names.into_iter(), 2),
-            ["FrankaReachFixed-v0", "FrankaReachRandom-v0"]
-        );
-        assert!(nearest("unrelated text", names.into_iter(), 2).is_empty());
-    }
+fn suggestion(nearest: Option<&str>) -> String {
+    nearest.map_or_else(String::new, |nearest| format!("; did you mean {nearest}?"))
 }

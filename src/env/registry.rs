@@ -1,7 +1,8 @@
 //! Every id, from the tables in `registry/`.
 
-use crate::error::{EnvError, nearest};
+use crate::error::EnvError;
 use crate::spec::Spec;
+use physics::model::Suggestions;
 use std::collections::HashMap;
 use std::sync::LazyLock;
 use toml::Table;
@@ -52,11 +53,13 @@ impl Registry {
     /// What an id stands for.
     ///
     /// # Errors
-    /// There is no such id; the closest are named.
+    /// There is no such id; the nearest is named.
     pub fn spec(&self, id: &str) -> Result<&Spec, EnvError> {
         let unknown = || EnvError::UnknownId {
             id: id.into(),
-            nearest: nearest(id, self.by_id.keys().map(String::as_str), 3),
+            nearest: Suggestions::default()
+                .nearest(id, self.specs.iter().map(|spec| spec.id.as_str()))
+                .map(str::to_owned),
         };
         self.by_id.get(id).map(|&index| &self.specs[index]).ok_or_else(unknown)
     }

@@ -54,7 +54,8 @@ impl Dataset {
             return Ok(None);
         };
         let shape = dataspace(space)?;
-        let element = Cursor(datatype.get(4..).unwrap_or_default()).number(4)? as usize;
+        let element = Cursor(datatype.get(4..).ok_or("a datatype is cut off: the file is damaged")?)
+            .number(4)? as usize;
         if element == 0 {
             return Err("the elements have no bytes: the file is damaged".into());
         }

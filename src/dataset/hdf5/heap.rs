@@ -40,7 +40,8 @@ pub fn global(source: &Source, address: u64) -> Decoded<HashMap<u64, Vec<u8>>> {
     at.take(4)?;
     let bytes = at.long()?;
     let heap = source.read(address, bytes)?;
-    let mut at = Cursor(heap.get(16..).unwrap_or_default());
+    let mut at =
+        Cursor(heap.get(16..).ok_or("a heap of texts is shorter than its own header: the file is damaged")?);
     let mut out = HashMap::new();
     while at.0.len() >= 16 {
         let index = at.number(2)?;

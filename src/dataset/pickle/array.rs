@@ -1,7 +1,7 @@
 //! Numpy arrays and scalars in pickles.
 
 use super::{PickleError, Value};
-use crate::npy::{Array, MAX_SCALARS};
+use crate::npy::{Array, Dtype, MAX_SCALARS, Values};
 
 /// Modules that numpy has kept its array type in.
 const MODULES: [&str; 2] = ["numpy.core.multiarray", "numpy._core.multiarray"];
@@ -42,22 +42,20 @@ pub(super) fn scalars(shape: &[usize]) -> Option<usize> {
 
 /// Numbers of the type that `dtype` describes.
 fn decode(dtype: Value<'_>, bytes: &[u8]) -> Result<Vec<f64>, String> {
-    fn each<const N: usize>(bytes: &[u8], number: impl Fn([u8; N]) -> f64) -> Result<Vec<f64>, String> {
-        match bytes.as_chunks::<N>() {
-            (chunks, []) => Ok(chunks.iter().map(|&chunk| number(chunk)).collect()),
-            _ => Err("its last number is cut off".into()),
-        }
-    }
     let name = dtype.call("numpy", "dtype").and_then(|arguments| arguments.item(0)?.text());
     let big = dtype.state().and_then(|state| state.item(1)?.text()) == Some(">");
-    match name {
-        _ if big => Err("its numbers are big-endian, which is not read".into()),
-        Some("f8") => each(bytes, f64::from_le_bytes),
-        Some("f4") => each(bytes, |number| f32::from_le_bytes(number).into()),
-        Some("i8") => each(bytes, |number| i64::from_le_bytes(number) as f64),
-        Some("i4") => each(bytes, |number| i32::from_le_bytes(number).into()),
-        Some("b1") => each::<1>(bytes, |number| f64::from(u8::from(number[0] != 0))),
-        Some(other) => Err(format!("its type {other} is not read; f8, f4, i8, i4 and b1 are")),
-        None => Err("its type is not described".into()),
+    let dtype = match name {
+        _ if big => return Err("its numbers are big-endian, which is not read".into()),
+        Some("f8") => Dtype::F64,
+        Some("f4") => Dtype::F32,
+        Some("i8") => Dtype::I64,
+        Some("i4") => Dtype::I32,
+        Some("b1") => Dtype::Bool,
+        Some(other) => return Err(format!("its type {other} is not read; f8, f4, i8, i4 and b1 are")),
+        None => return Err("its type is not described".into()),
+    };
+    if !bytes.len().is_multiple_of(dtype.bytes()) {
+        return Err("its last number is cut off".into());
     }
+    Ok(Values::from_bytes(dtype, bytes).to_f64())
 }
