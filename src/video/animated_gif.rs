@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use gif::{Encoder, EncodingError, Repeat};
 
+use crate::changes::Changes;
 use crate::frame::Frame;
 use crate::palette::indexed;
 
@@ -13,13 +14,15 @@ const UNITS: f64 = 100.0;
 /// Fewest units that a frame is shown: players slow faster videos down to ten frames a second.
 const SHORTEST: u64 = 2;
 
-/// Writes a video frame by frame, each with its own palette, repeated without end.
+/// Writes a video frame by frame, repeated without end. Of each frame the rectangle that changed is stored, with a palette
+/// of its own.
 ///
 /// Frame i begins at `100 i / rate` hundredths of a second, rounded down. A video of more than 50 frames a second plays at its own
 /// speed too: of frames that would be shown for less than 0.02 s only one is kept.
 pub(crate) struct GifWriter<W: Write> {
     encoder: Encoder<W>,
     frames_per_second: f64,
+    changes: Changes,
     /// Frames pushed.
     pushed: u64,
     /// Units of time taken by the frames written.
@@ -32,7 +35,7 @@ impl<W: Write> GifWriter<W> {
         // Frame sizes are at most 16384.
         let mut encoder = Encoder::new(out, width as u16, height as u16, &[]).map_err(into_io)?;
         encoder.set_repeat(Repeat::Infinite).map_err(into_io)?;
-        Ok(GifWriter { encoder, frames_per_second, pushed: 0, written: 0 })
+        Ok(GifWriter { encoder, frames_per_second, changes: Changes::default(), pushed: 0, written: 0 })
     }
 
     /// Adds a frame.
@@ -48,12 +51,17 @@ impl<W: Write> GifWriter<W> {
             return Ok(());
         }
         self.written += shown;
-        let indexed = indexed(frame);
+        let change = self.changes.next(frame);
+        let part = change.image.frame();
+        let indexed = indexed(&part);
         self.encoder
             .write_frame(&gif::Frame {
-                width: frame.width() as u16,
-                height: frame.height() as u16,
+                left: change.left as u16,
+                top: change.top as u16,
+                width: part.width() as u16,
+                height: part.height() as u16,
                 delay: shown as u16,
+                dispose: gif::DisposalMethod::Keep,
                 palette: Some(indexed.palette.into_flattened()),
                 buffer: indexed.indices.into(),
                 ..gif::Frame::default()

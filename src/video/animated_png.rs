@@ -2,16 +2,18 @@
 
 use std::io::{self, Seek, SeekFrom, Write};
 
+use crate::changes::{Change, Changes};
 use crate::frame::Frame;
 use crate::png_file::encode_png;
 
 /// Bytes of the signature that begins a PNG.
 const SIGNATURE: usize = 8;
 
-/// Writes a video frame by frame, repeated without end.
+/// Writes a video frame by frame, repeated without end. Of each frame the rectangle that changed is stored.
 #[derive(Debug)]
 pub(crate) struct ApngWriter<W> {
     out: W,
+    changes: Changes,
     /// Seconds that a frame is shown, as a fraction.
     delay: (u16, u16),
     frames: u32,
@@ -28,6 +30,7 @@ impl<W: Write + Seek> ApngWriter<W> {
     pub(crate) fn new(out: W, frames_per_second: f64) -> Self {
         ApngWriter {
             out,
+            changes: Changes::default(),
             delay: delay(frames_per_second),
             frames: 0,
             sequence: 0,
@@ -39,13 +42,14 @@ impl<W: Write + Seek> ApngWriter<W> {
     /// Adds a frame; all frames have the size of the first.
     pub(crate) fn push(&mut self, frame: &Frame<'_>) -> io::Result<()> {
         self.still.clear();
-        encode_png(&mut self.still, frame)?;
+        let change = self.changes.next(frame);
+        encode_png(&mut self.still, &change.image.frame())?;
         if self.frames == 0 {
             self.begin()?;
         }
         let too_long = || io::Error::new(io::ErrorKind::FileTooLarge, "an animated PNG holds fewer frames");
         let next = self.frames.checked_add(1).ok_or_else(too_long)?;
-        write_chunk(&mut self.out, b"fcTL", &frame_control(frame, self.sequence, self.delay))?;
+        write_chunk(&mut self.out, b"fcTL", &frame_control(&change, self.sequence, self.delay))?;
         self.sequence = self.sequence.checked_add(1).ok_or_else(too_long)?;
         for (name, data) in chunks(&self.still) {
             if name != b"IDAT" {
@@ -92,9 +96,10 @@ fn animation_control(frames: u32) -> [u8; 8] {
     [a, b, c, d, 0, 0, 0, 0]
 }
 
-/// Number, size, offset and time of a frame, which covers the whole picture and replaces the one before.
-fn frame_control(frame: &Frame<'_>, sequence: u32, (seconds, parts): (u16, u16)) -> Vec<u8> {
-    let place = [sequence, frame.width(), frame.height(), 0, 0].map(u32::to_be_bytes);
+/// Number, size, offset and time of a part that replaces what was there and stays.
+fn frame_control(change: &Change, sequence: u32, (seconds, parts): (u16, u16)) -> Vec<u8> {
+    let part = change.image.frame();
+    let place = [sequence, part.width(), part.height(), change.left, change.top].map(u32::to_be_bytes);
     let time = [seconds, parts].map(u16::to_be_bytes);
     [place.as_flattened(), time.as_flattened(), &[0, 0]].concat()
 }

@@ -30,6 +30,7 @@
 
 mod animated_gif;
 mod animated_png;
+mod changes;
 mod error;
 mod false_colour;
 mod frame;

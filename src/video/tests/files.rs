@@ -31,6 +31,15 @@ fn read_png(bytes: &[u8]) -> (png::ColorType, png::BitDepth, (u32, u32), Vec<u8>
     (info.color_type, info.bit_depth, (info.width, info.height), pixels)
 }
 
+/// Copies a part of so many columns and rows into a picture of `stride` columns.
+fn place(picture: &mut [u8], stride: usize, part: &[u8], [left, top, width, height]: [usize; 4]) {
+    assert_eq!(part.len(), 3 * width * height);
+    for (row, y) in part.chunks(3 * width).zip(top..) {
+        let start = 3 * (y * stride + left);
+        picture[start..start + row.len()].copy_from_slice(row);
+    }
+}
+
 #[test]
 fn png_is_lossless() {
     let folder = Folder::new("png");
@@ -62,6 +71,7 @@ fn depth_is_in_millimetres_and_saturates() {
 #[test]
 fn gif_keeps_time_and_size() {
     let folder = Folder::new("gif");
+    let mut parts = 0;
     // 15 frames at 30 a second take half a second; at 125 a second every third or second one fits.
     for (rate, frames, written, hundredths) in [(30.0, 15, 15, 50), (125.0, 125, 50, 100), (0.5, 2, 2, 400)] {
         let path = folder.join("scene.gif");
@@ -73,14 +83,17 @@ fn gif_keeps_time_and_size() {
         let mut options = gif::DecodeOptions::new();
         options.set_color_output(gif::ColorOutput::RGBA);
         let mut reader = options.read_info(BufReader::new(File::open(&path).unwrap())).unwrap();
-        assert_eq!(reader.repeat(), gif::Repeat::Infinite);
+        assert_eq!((reader.width(), reader.height(), reader.repeat()), (40, 30, gif::Repeat::Infinite));
         let (mut count, mut time) = (0, 0);
+        let mut shown = vec![0; 40 * 30 * 3];
         while let Some(frame) = reader.read_next_frame().unwrap() {
-            assert_eq!((frame.width, frame.height), (40, 30));
-            let rgb: Vec<u8> =
+            let part: Vec<u8> =
                 frame.buffer.as_chunks::<4>().0.iter().flat_map(|p| [p[0], p[1], p[2]]).collect();
+            let size = (frame.left, frame.top, frame.width, frame.height);
+            place(&mut shown, 40, &part, [size.0, size.1, size.2, size.3].map(usize::from));
+            parts += usize::from(size != (0, 0, 40, 30));
             if written == frames {
-                let difference = psnr(&luma(&rgb), &luma(&scene(40, 30, count)));
+                let difference = psnr(&luma(&shown), &luma(&scene(40, 30, count)));
                 assert!(difference >= 32.0, "frame {count}: {difference:.1} dB");
             }
             assert!(frame.delay >= 2);
@@ -90,6 +103,7 @@ fn gif_keeps_time_and_size() {
         assert!(count.abs_diff(written) <= 1, "{rate}: {count} frames");
         assert!(time.abs_diff(hundredths) <= 2, "{rate}: {time} hundredths");
     }
+    assert!(parts > 10, "only {parts} frames are stored in part");
 }
 
 #[test]
@@ -105,11 +119,14 @@ fn animated_png_reads_back_frame_by_frame() {
     let animation = *reader.info().animation_control().unwrap();
     assert_eq!((animation.num_frames, animation.num_plays), (7, 0));
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+    let mut shown = vec![0; 50 * 20 * 3];
     for time in 0..7 {
-        reader.next_frame(&mut pixels).unwrap();
-        let control = reader.info().frame_control().unwrap();
+        let read = reader.next_frame(&mut pixels).unwrap();
+        let control = *reader.info().frame_control().unwrap();
         assert_eq!(f64::from(control.delay_den) / f64::from(control.delay_num), 62.5);
-        assert_eq!(pixels, scene(50, 20, time), "frame {time}");
+        let rectangle = [control.x_offset, control.y_offset, control.width, control.height];
+        place(&mut shown, 50, &pixels[..read.buffer_size()], rectangle.map(|side| side as usize));
+        assert_eq!(shown, scene(50, 20, time), "frame {time}");
     }
 }
 
