@@ -19,7 +19,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with those of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 16] = [
+const ORDER: [(&str, &[&str]); 17] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -28,21 +28,34 @@ const ORDER: [(&str, &[&str]); 16] = [
     ("robohive-video", &[]),
     ("robohive-mjcf", &["physics"]),
     ("robohive-robot", &["physics", "random"]),
+    ("robohive-render", &["physics"]),
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot"]),
     ("robohive-agents", &["dataset", "env"]),
     ("robohive", &["physics", "mjcf", "dataset", "random"]),
-    ("robohive-validation", &["physics", "mjcf", "dataset", "random", "robot", "env", "agents"]),
+    ("robohive-validation", &["physics", "mjcf", "dataset", "random", "robot", "render", "env", "agents"]),
     ("robohive-digest", &["assets", "physics", "mjcf"]),
     (
         "robohive-cli",
-        &["physics", "mjcf", "dataset", "random", "store", "robot", "env", "agents", "validation"],
+        &[
+            "physics",
+            "mjcf",
+            "dataset",
+            "random",
+            "store",
+            "robot",
+            "render",
+            "video",
+            "env",
+            "agents",
+            "validation",
+        ],
     ),
     ("xtask", &[]),
     ("robohive-fuzz", &["physics", "mjcf", "dataset"]),
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 11] = [
+const OTHERS: [(&str, &[&str]); 12] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
     ("robohive-dataset", &["zip", "flate2"]),
@@ -54,6 +67,7 @@ const OTHERS: [(&str, &[&str]); 11] = [
     ),
     ("robohive-mjcf", &["roxmltree", "fdeflate"]),
     ("robohive-robot", &["toml"]),
+    ("robohive-render", &["rayon", "wide"]),
     ("robohive-env", &["rayon", "serde", "toml"]),
     ("robohive-agents", &["libm"]),
     ("robohive", &[]),
@@ -88,6 +102,7 @@ fn crates_depend_on_those_before_them() {
         "env",
         "validation",
         "video",
+        "render",
         "robohive",
     ]
     .into();

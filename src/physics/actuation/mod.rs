@@ -9,8 +9,10 @@ pub(crate) mod reflected_load;
 pub(crate) mod servo;
 pub mod transmission;
 
+pub use activation::is_disabled;
+
 use crate::actuation::activation::{
-    activation_rates, activations, clip, is_disabled, nearest_setpoint, next_activation, setpoint_period,
+    activation_rates, activations, clip, nearest_setpoint, next_activation, setpoint_period,
 };
 use crate::actuation::muscle::Muscle;
 use crate::actuation::transmission::moment;

@@ -4,7 +4,7 @@
 mod acceleration;
 mod contact;
 mod distance;
-mod pinhole;
+pub mod pinhole;
 mod position;
 mod rangefinder;
 mod velocity;

@@ -37,7 +37,7 @@ pub(super) fn project(m: &Model, kin: &Kinematics, camera: usize, point: Vec3) -
 
 /// What turns pixels of a camera into rays.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pinhole {
+pub struct Pinhole {
     focal: [f64; 2],
     center: [f64; 2],
     /// Height of the view of an orthographic camera [m]; `None` for a perspective one.
@@ -45,7 +45,8 @@ pub(super) struct Pinhole {
 }
 
 impl Pinhole {
-    pub(super) fn of_camera(m: &Model, camera: usize) -> Self {
+    /// The pinhole of a camera of the model.
+    pub fn of_camera(m: &Model, camera: usize) -> Self {
         let size = m.cam_resolution[camera].map(f64::from);
         let half = [size[0] / 2.0, size[1] / 2.0];
         if m.cam_projection[camera] == Projection::Orthographic.code() {
@@ -60,7 +61,7 @@ impl Pinhole {
     }
 
     /// Ray of the pixel in column `x` and row `y`, counted from the top left.
-    pub(super) fn pixel_ray(&self, kin: &Kinematics, camera: usize, x: usize, y: usize) -> Ray {
+    pub fn pixel_ray(&self, kin: &Kinematics, camera: usize, x: usize, y: usize) -> Ray {
         let (pos, mat) = (kin.cam_xpos[camera], &kin.cam_xmat[camera]);
         let across = (x as f64 + 0.5 - self.center[0]) / self.focal[0];
         let down = (y as f64 + 0.5 - self.center[1]) / self.focal[1];

@@ -1,0 +1,15 @@
+//! Triangles: what every shape of a scene consists of, prepared once per model.
+
+mod assets;
+mod builder;
+mod flat;
+mod hfield;
+mod mesh;
+mod parts;
+mod round;
+mod source;
+mod surface;
+
+pub use assets::Assets;
+pub use parts::{Paint, Part};
+pub use surface::{Corners, Surface};

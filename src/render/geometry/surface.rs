@@ -1,0 +1,91 @@
+//! Triangles of one shape.
+
+/// Which rows of a surface's arrays light and paint the three corners of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Corners {
+    /// Rows of `normals`.
+    pub normal: [u32; 3],
+    /// Rows of `texcoords`; all 0 where a surface has none.
+    pub texcoord: [u32; 3],
+}
+
+/// Triangles of one shape, in its own coordinates, counter-clockwise from outside.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Surface {
+    /// Positions, every one once.
+    pub positions: Vec<[f32; 3]>,
+    /// Unit normals.
+    pub normals: Vec<[f32; 3]>,
+    /// Texture coordinates; empty where the shape has none.
+    pub texcoords: Vec<[f32; 2]>,
+    /// Rows of `positions` of the corners of each triangle, in the order of drawing.
+    pub faces: Vec<[u32; 3]>,
+    /// The same triangles' light and paint, which only those seen need.
+    pub corners: Vec<Corners>,
+    /// Middle and half sides of the box about the positions.
+    pub bounds: [[f32; 3]; 2],
+}
+
+impl Surface {
+    /// Bytes that its arrays take.
+    pub fn bytes(&self) -> usize {
+        std::mem::size_of_val(&self.positions[..])
+            + std::mem::size_of_val(&self.normals[..])
+            + std::mem::size_of_val(&self.texcoords[..])
+            + std::mem::size_of_val(&self.faces[..])
+            + std::mem::size_of_val(&self.corners[..])
+    }
+
+    /// Adds a triangle by the rows of its positions, normals and texture coordinates.
+    pub(super) fn push(&mut self, position: [u32; 3], normal: [u32; 3], texcoord: [u32; 3]) {
+        self.faces.push(position);
+        self.corners.push(Corners { normal, texcoord });
+    }
+
+    /// Cuts a quadrilateral along the diagonal that OpenGL drivers use: from its second to its fourth corner.
+    pub(super) fn push_quad(&mut self, position: [u32; 4], normal: u32, texcoord: [u32; 4]) {
+        for [i, j, k] in [[0, 1, 3], [1, 2, 3]] {
+            self.push(
+                [position[i], position[j], position[k]],
+                [normal; 3],
+                [texcoord[i], texcoord[j], texcoord[k]],
+            );
+        }
+    }
+
+    /// Sets `bounds` from the positions that triangles use.
+    pub(super) fn fit_bounds(&mut self) {
+        let mut low = [f32::INFINITY; 3];
+        let mut high = [f32::NEG_INFINITY; 3];
+        for p in self.faces.iter().flatten().map(|&row| self.positions[row as usize]) {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(p[axis]);
+                high[axis] = high[axis].max(p[axis]);
+            }
+        }
+        self.bounds = match self.faces.is_empty() {
+            true => [[0.0; 3]; 2],
+            false => [
+                [0, 1, 2].map(|axis| 0.5 * (low[axis] + high[axis])),
+                [0, 1, 2].map(|axis| 0.5 * (high[axis] - low[axis])),
+            ],
+        };
+    }
+}
+
+/// Unit normal of a triangle, or +z where its area vanishes.
+pub(super) fn face_normal(a: [f32; 3], b: [f32; 3], c: [f32; 3]) -> [f32; 3] {
+    let side = |p: [f32; 3]| [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
+    let (u, v) = (side(b), side(c));
+    unit([u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]])
+}
+
+/// The vector scaled to length 1, or +z for one shorter than 1e-10.
+pub(super) fn unit(v: [f32; 3]) -> [f32; 3] {
+    let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    if length < 1e-10 {
+        return [0.0, 0.0, 1.0];
+    }
+    let scale = 1.0 / length;
+    v.map(|x| x * scale)
+}

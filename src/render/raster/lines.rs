@@ -1,0 +1,95 @@
+//! Lines some pixels wide: rays of rangefinders, edges of boxes.
+//!
+//! With four samples a line is a rectangle about its middle; with one, a parallelogram with two sides along the columns or the
+//! rows, whichever it is farther from (OpenGL 2.1 specification, section 3.4.2).
+
+use super::clip::{Corner, clip_line};
+use super::coverage::{Facing, Pattern, Triangle};
+use super::layer::Lens;
+use super::vertices::{SUBPIXELS, Vertex, inside};
+use crate::scene::{Item, Scene, Shape};
+
+/// Width of the edges of boxes, in units of the line width.
+const EDGE: f32 = 1.5;
+
+/// One line, world frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// The item that it belongs to.
+    pub item: usize,
+    /// Its ends [m].
+    ends: [[f64; 3]; 2],
+    /// Its width, in units of the line width.
+    width: f32,
+}
+
+/// Appends the lines of a scene.
+pub fn list(scene: &Scene, out: &mut Vec<Line>) {
+    out.clear();
+    for (index, item) in scene.items.iter().enumerate() {
+        match item.shape {
+            Shape::Line => {
+                let ends = [place(item, [0.0; 3]), place(item, [0.0, 0.0, item.size[2]])];
+                out.push(Line { item: index, ends, width: item.size[0] });
+            }
+            Shape::LineBox => {
+                for (axis, sides) in (0..12).map(|k| (k / 4, k % 4)) {
+                    let end = |along: f32| {
+                        let mut p = [0.0; 3];
+                        p[axis] = along * item.size[axis];
+                        for (bit, other) in [(axis + 1) % 3, (axis + 2) % 3].into_iter().enumerate() {
+                            p[other] =
+                                if sides >> bit & 1 == 0 { -item.size[other] } else { item.size[other] };
+                        }
+                        place(item, p)
+                    };
+                    out.push(Line { item: index, ends: [end(-1.0), end(1.0)], width: EDGE });
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn place(item: &Item, p: [f32; 3]) -> [f64; 3] {
+    std::array::from_fn(|i| {
+        let turned = (0..3).map(|j| f64::from(item.mat[3 * i + j]) * f64::from(p[j])).sum::<f64>();
+        turned + f64::from(item.pos[i])
+    })
+}
+
+impl Line {
+    /// Calls `see` with the two triangles that the line covers.
+    pub fn triangles(&self, lens: &Lens, pattern: &Pattern, line_width: f32, mut see: impl FnMut(&Triangle)) {
+        let project = |p: [f64; 3]| -> Corner {
+            let [x, y, z, w] =
+                lens.projection.0.map(|row| (row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]) as f32);
+            let side =
+                lens.mirror.map_or(1.0, |plane| (0..3).map(|k| plane[k] * p[k]).sum::<f64>() + plane[3]);
+            [x, y, z, w, side as f32]
+        };
+        let Some(ends) = clip_line(self.ends.map(project)) else { return };
+        let [a, b] = ends.map(|end| inside(&end));
+        let (dx, dy) = ((b.x - a.x) as f32, (b.y - a.y) as f32);
+        let half = 0.5 * self.width * line_width * SUBPIXELS as f32;
+        let (x, y) = if *pattern == Pattern::FOUR {
+            let length = (dx * dx + dy * dy).sqrt().max(1.0);
+            (-dy * half / length, dx * half / length)
+        } else if dx.abs() > dy.abs() {
+            (0.0, half)
+        } else {
+            (half, 0.0)
+        };
+        let (x, y) = (x.round_ties_even() as i32, y.round_ties_even() as i32);
+        let beside = |v: Vertex, sign: i32| {
+            let (x, y) = (v.x + sign * x, v.y + sign * y);
+            Vertex { x, y, at: [x, y].map(|x| x as f32 / SUBPIXELS as f32), ..v }
+        };
+        let [p, q, r, s] = [beside(a, 1), beside(a, -1), beside(b, -1), beside(b, 1)];
+        for corners in [[p, q, s], [q, r, s]] {
+            if let Some(triangle) = Triangle::new(corners, Facing::Both, pattern, lens.extent) {
+                see(&triangle);
+            }
+        }
+    }
+}

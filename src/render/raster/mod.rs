@@ -1,0 +1,29 @@
+//! The CPU renderer: from a scene to a picture.
+//!
+//! What is seen is decided first, sample by sample ([`visibility`]), then each visible triangle's corners are lit, and each
+//! fragment is shaded once. The result is that of MuJoCo's many passes over all triangles.
+
+mod clip;
+mod coverage;
+mod draws;
+mod image;
+mod layer;
+mod lighting;
+mod lines;
+mod mirror;
+mod paint;
+mod power;
+mod renderer;
+mod seen;
+mod settings;
+mod shadow;
+mod sky;
+mod stage;
+mod transparency;
+mod vertices;
+mod visibility;
+mod window;
+
+pub use renderer::Renderer;
+pub use settings::{Samples, Settings};
+pub use shadow::ShadowSettings;

@@ -1,0 +1,146 @@
+//! The colour of a fragment: light times texture, in eight bits.
+
+use super::seen::{Fragment, Seen, SeenTriangle};
+use crate::geometry::{Assets, Paint};
+use crate::scene::Fog;
+
+/// A colour and its opacity in eight bits each.
+pub type Rgba = [u8; 4];
+
+/// What fades with distance.
+#[derive(Clone, Copy, Debug)]
+pub struct Veil {
+    fog: Fog,
+    /// Distance from the eye's plane as a function of a point of the world.
+    depth: [f32; 4],
+}
+
+impl Veil {
+    /// Fog seen along `forward` from `eye`.
+    pub fn new(fog: Fog, eye: [f64; 3], forward: [f64; 3]) -> Self {
+        let shift = -(0..3).map(|k| eye[k] * forward[k]).sum::<f64>();
+        Veil { fog, depth: [forward[0], forward[1], forward[2], shift].map(|x| x as f32) }
+    }
+
+    /// Share of a point's own colour that is left.
+    fn clear(&self, p: [f32; 3]) -> f32 {
+        let depth = (0..3).map(|k| self.depth[k] * p[k]).sum::<f32>() + self.depth[3];
+        ((self.fog.end - depth) / (self.fog.end - self.fog.start)).clamp(0.0, 1.0)
+    }
+}
+
+/// What shading needs beside the triangles.
+#[derive(Clone, Copy)]
+pub struct Brush<'a> {
+    /// Textures.
+    pub assets: &'a Assets,
+    /// Fog, where there is any.
+    pub veil: Option<Veil>,
+}
+
+impl Brush<'_> {
+    /// The texture's colour at the middle of a fragment's pixel, where the surface has a texture.
+    #[inline]
+    fn texel(
+        &self,
+        triangle: &SeenTriangle,
+        paint: &Paint,
+        fragment: &Fragment,
+        weights: [f32; 3],
+    ) -> Option<[f32; 4]> {
+        let (texture, cube) = match *paint {
+            Paint::Plain => return None,
+            Paint::Explicit { texture, .. } | Paint::Planar { texture, .. } => (texture, false),
+            Paint::Cube { texture, .. } => (texture, true),
+        };
+        let texture = self.assets.textures.get(texture)?;
+        // Differences within the aligned square of four pixels that this one belongs to.
+        let corner = |x: u16, y: u16| {
+            triangle.texture(
+                triangle
+                    .weights(f32::from((fragment.x & !1) + x) + 0.5, f32::from((fragment.y & !1) + y) + 0.5),
+            )
+        };
+        let here = triangle.texture(weights);
+        let (origin, right, above) = (corner(0, 0), corner(1, 0), corner(0, 1));
+        let across: [f32; 3] = std::array::from_fn(|k| right[k] - origin[k]);
+        let up: [f32; 3] = std::array::from_fn(|k| above[k] - origin[k]);
+        Some(if cube {
+            texture.sample_cube(here, texture.lod_cube(origin, across, up))
+        } else {
+            texture.sample_2d(here[0], here[1], texture.lod_2d(across[0], across[1], up[0], up[1]))
+        })
+    }
+
+    /// The colour of a fragment under the lamps without shadows and those with shadows that reach it.
+    #[inline]
+    pub fn colour(&self, seen: &Seen, paint: &Paint, alpha: f32, fragment: &Fragment) -> Rgba {
+        let triangle = &seen.triangles[fragment.triangle as usize];
+        let weights = triangle.weights(f32::from(fragment.x) + 0.5, f32::from(fragment.y) + 0.5);
+        let texel = self.texel(triangle, paint, fragment, weights);
+        let clear = self.veil.map(|veil| (veil.clear(triangle.position(weights)), veil.fog.rgb));
+        let painted = |pass: usize, fog: [f32; 3]| {
+            let mut c = seen.colour(triangle, weights, pass);
+            if let Some(texel) = texel {
+                c = std::array::from_fn(|k| c[k] * texel[k]);
+            }
+            if let Some((clear, _)) = clear {
+                c = std::array::from_fn(|k| clear * c[k] + (1.0 - clear) * fog[k]);
+            }
+            c.map(eight_bits)
+        };
+        let mut sum = painted(0, clear.map_or([0.0; 3], |(_, fog)| fog));
+        let mut lit = fragment.lit;
+        while lit != 0 {
+            let pass = 1 + lit.trailing_zeros() as usize;
+            lit &= lit - 1;
+            let more = painted(pass, [0.0; 3]);
+            sum = std::array::from_fn(|k| sum[k].saturating_add(more[k]));
+        }
+        let alpha = eight_bits((alpha * texel.map_or(1.0, |texel| texel[3])).clamp(0.0, 1.0));
+        [sum[0], sum[1], sum[2], alpha]
+    }
+}
+
+/// A number from 0 to 1 as a byte.
+#[inline]
+pub fn eight_bits(x: f32) -> u8 {
+    (255.0 * x + 0.5) as u8
+}
+
+/// Colours of all samples of a window, four a group as in its visibility.
+#[derive(Clone, Debug, Default)]
+pub struct Canvas {
+    /// The samples.
+    pub groups: Vec<[Rgba; 4]>,
+}
+
+impl Canvas {
+    /// A black window of `groups` groups.
+    pub fn clear(&mut self, groups: usize) {
+        self.groups.clear();
+        self.groups.resize(groups, [[0; 4]; 4]);
+    }
+
+    /// Changes the samples of a fragment.
+    #[inline]
+    pub fn touch(&mut self, fragment: &Fragment, change: impl Fn(Rgba) -> Rgba) {
+        for (lane, sample) in self.groups[fragment.group as usize].iter_mut().enumerate() {
+            if fragment.lanes >> lane & 1 != 0 {
+                *sample = change(*sample);
+            }
+        }
+    }
+}
+
+/// A colour laid over another with its opacity, in arithmetic of eight bits.
+#[inline]
+pub fn over(top: Rgba, below: Rgba) -> Rgba {
+    let product = |a: u8, b: u8| {
+        let t = u32::from(a) * u32::from(b) + 128;
+        ((t + (t >> 8)) >> 8) as u8
+    };
+    let alpha = top[3];
+    let mix = |k: usize| product(top[k], alpha).saturating_add(product(below[k], 255 - alpha));
+    [mix(0), mix(1), mix(2), below[3]]
+}

@@ -1,0 +1,397 @@
+//! The triangles that are seen, lit at their corners, and the fragments of the picture that they make up.
+//!
+//! A fragment is one triangle in one pixel. It is shaded once, at the middle of the pixel, for all of the triangle's samples there.
+
+use super::coverage::Pattern;
+use super::coverage::Triangle;
+use super::draws::Draw;
+use super::lighting::{Corners, Lamp, Material, add_lamp, clamped, own_light, unit};
+use super::stage::Stage;
+use super::visibility::Visibility;
+use super::window::Columns;
+use crate::geometry::{Assets, Paint};
+use crate::scene::{Item, Scene};
+use wide::bytemuck::cast;
+use wide::{f32x8, i32x4};
+
+/// One triangle in one pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Fragment {
+    /// Column [pixel].
+    pub x: u16,
+    /// Row from below [pixel].
+    pub y: u16,
+    /// Group of its samples.
+    pub group: u32,
+    /// Index into the triangles seen.
+    pub triangle: u32,
+    /// Bits of its samples in the group.
+    pub lanes: u8,
+    /// Bits of the shadow lamps that reach it.
+    pub lit: u8,
+}
+
+/// A triangle ready for shading.
+#[derive(Clone, Copy, Debug)]
+pub struct SeenTriangle {
+    /// Index of its surface among the draws.
+    pub draw: u32,
+    /// First colours of its corners.
+    rows: [u32; 3],
+    /// What multiplies column, row and 1 to give each corner's share before normalisation, counted from `anchor`.
+    shares: [[f32; 3]; 3],
+    /// Pixel from which columns and rows are counted, so that small numbers are multiplied.
+    anchor: [f32; 2],
+    /// Texture coordinates or directions of its corners.
+    texture: [[f32; 3]; 3],
+    /// Its corners, world frame [m].
+    corners: [[f32; 3]; 3],
+}
+
+impl SeenTriangle {
+    /// Shares of the corners in a point of the window [pixel]; they add up to 1.
+    #[inline]
+    pub fn weights(&self, x: f32, y: f32) -> [f32; 3] {
+        let (x, y) = (x - self.anchor[0], y - self.anchor[1]);
+        let e = self.shares.map(|[a, b, c]| a * x + b * y + c);
+        let scale = 1.0 / (e[0] + e[1] + e[2]);
+        e.map(|e| e * scale)
+    }
+
+    /// The point in the world.
+    #[inline]
+    pub fn position(&self, weights: [f32; 3]) -> [f32; 3] {
+        mix(weights, &self.corners)
+    }
+
+    /// Texture coordinates or direction.
+    #[inline]
+    pub fn texture(&self, weights: [f32; 3]) -> [f32; 3] {
+        mix(weights, &self.texture)
+    }
+}
+
+#[inline]
+fn mix(w: [f32; 3], at: &[[f32; 3]; 3]) -> [f32; 3] {
+    std::array::from_fn(|k| w[0] * at[0][k] + w[1] * at[1][k] + w[2] * at[2][k])
+}
+
+/// Which light falls on the triangles of a layer.
+#[derive(Clone, Debug, Default)]
+pub struct Illumination {
+    /// Lamps without shadows, all added up.
+    pub base: Vec<Lamp>,
+    /// Lamps whose colours are kept apart, since shadows take them away pixel by pixel; at most 8.
+    pub shadowed: Vec<Lamp>,
+    /// Light from everywhere.
+    pub ambient: f32,
+    /// Factor of the items' own colours.
+    pub reflectance: f32,
+    /// Where highlights are seen from, world frame [m].
+    pub eye: [f32; 3],
+}
+
+impl Illumination {
+    /// The lights of a scene, seen from `eye`. Those that cast shadows are kept apart where shadows are wanted.
+    pub fn set(&mut self, scene: &Scene, eye: [f32; 3], shadows: bool) {
+        self.base.clear();
+        self.shadowed.clear();
+        for light in &scene.lights {
+            let list = if shadows && light.shadow { &mut self.shadowed } else { &mut self.base };
+            list.push(Lamp::new(light));
+        }
+        (self.ambient, self.reflectance, self.eye) = (scene.ambient, 1.0, eye);
+    }
+}
+
+/// The triangles and fragments that are seen in a window.
+#[derive(Clone, Debug, Default)]
+pub struct Seen {
+    /// The triangles.
+    pub triangles: Vec<SeenTriangle>,
+    /// The fragments, row by row from below.
+    pub fragments: Vec<Fragment>,
+    /// Where each fragment lies, world frame [m]; only where lamps are kept apart.
+    pub positions: Vec<[f32; 3]>,
+    /// Lamps kept apart, and one.
+    passes: usize,
+    /// Colours of lit corners, one for each pass.
+    colours: Vec<[f32; 3]>,
+    /// Number of each triangle seen, and the pixel where it was seen first.
+    numbers: Vec<(u32, [u16; 2])>,
+    /// For each triangle of the scene its place among those seen, counted from 1; 0 for none.
+    places: Vec<u32>,
+    /// Places sorted by number.
+    order: Vec<u32>,
+    /// Rows of the colours by position, where the position has been lit with one normal.
+    stamps: Vec<Stamp>,
+    frame: u32,
+    /// Corners of the current surface that wait to be lit.
+    waiting: Vec<(u32, u32)>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Stamp {
+    frame: u32,
+    normal: u32,
+    row: u32,
+}
+
+impl Seen {
+    /// Forgets the last picture's triangles, and makes room for a scene with so many.
+    pub fn begin(&mut self, triangles: u32) {
+        for &(number, _) in &self.numbers {
+            self.places[number as usize] = 0;
+        }
+        self.numbers.clear();
+        self.fragments.clear();
+        self.triangles.clear();
+        self.colours.clear();
+        self.places.resize(triangles as usize, 0);
+    }
+
+    /// Collects what a window shows.
+    pub fn collect(&mut self, visibility: &Visibility, width: usize, triangles: u32) {
+        self.begin(triangles);
+        let one_pixel = visibility.pattern == Pattern::FOUR;
+        for (y, row) in visibility.groups.chunks_exact(visibility.per_row).enumerate() {
+            for (column, group) in row.iter().enumerate() {
+                let numbers = group.triangle.to_array();
+                let index = (y * visibility.per_row + column) as u32;
+                if one_pixel {
+                    self.add_pixel(numbers, [column as u16, y as u16], index);
+                } else {
+                    for (lane, &number) in numbers.iter().enumerate() {
+                        let x = 4 * column + lane;
+                        if number != 0 && x < width {
+                            self.add(number, [x as u16, y as u16], index, 1 << lane);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// The fragments of a pixel with four samples.
+    #[inline]
+    fn add_pixel(&mut self, numbers: [u32; 4], pixel: [u16; 2], group: u32) {
+        let mut left = 0b1111_u8;
+        for lane in 0..4 {
+            if left >> lane & 1 == 0 || numbers[lane] == 0 {
+                continue;
+            }
+            let same = (lane..4).fold(0, |bits, k| bits | u8::from(numbers[k] == numbers[lane]) << k);
+            left &= !same;
+            self.add(numbers[lane], pixel, group, same);
+        }
+    }
+
+    /// Adds the fragments of a triangle where it is not behind what a window shows.
+    #[inline]
+    pub fn cover(&mut self, shown: &Visibility, number: u32, triangle: &Triangle) {
+        let pattern = shown.pattern;
+        triangle.cover(&pattern, |row, column, mask, depth| {
+            let index = row * shown.per_row + column;
+            let depth: i32x4 = cast(depth.simd_ge(shown.groups[index].depth));
+            let lanes = (mask & depth).to_bitmask() as u8;
+            if lanes != 0 && pattern == Pattern::FOUR {
+                self.add(number, [column as u16, row as u16], index as u32, lanes);
+            } else {
+                for lane in (0..4).filter(|lane| lanes >> lane & 1 != 0) {
+                    self.add(number, [(4 * column + lane) as u16, row as u16], index as u32, 1 << lane);
+                }
+            }
+        });
+    }
+
+    /// Adds a fragment.
+    #[inline]
+    pub fn add(&mut self, number: u32, pixel: [u16; 2], group: u32, lanes: u8) {
+        // Lines are numbered beyond the triangles and need no light.
+        let Some(place) = self.places.get_mut(number as usize) else { return };
+        if *place == 0 {
+            self.numbers.push((number, pixel));
+            *place = self.numbers.len() as u32;
+        }
+        let [x, y] = pixel;
+        self.fragments.push(Fragment { x, y, group, triangle: *place - 1, lanes, lit: 0 });
+    }
+
+    /// Prepares the triangles collected: shares of their corners in the window, texture coordinates, light.
+    pub fn light(&mut self, stage: &Stage<'_>, light: &Illumination) {
+        let Stage { assets, scene, draws, layer, .. } = *stage;
+        self.passes = 1 + light.shadowed.len();
+        self.frame = self.frame.wrapping_add(1);
+        self.stamps.resize(draws.vertices, Stamp::default());
+        self.order.clear();
+        self.order.extend(0..self.numbers.len() as u32);
+        let numbers = &self.numbers;
+        self.order.sort_unstable_by_key(|&place| numbers[place as usize].0);
+        let empty = SeenTriangle {
+            draw: 0,
+            rows: [0; 3],
+            shares: [[0.0; 3]; 3],
+            anchor: [0.0; 2],
+            texture: [[0.0; 3]; 3],
+            corners: [[0.0; 3]; 3],
+        };
+        self.triangles.resize(self.numbers.len(), empty);
+        let mut next = 0;
+        while let Some(&place) = self.order.get(next) {
+            let index = draws.of_triangle(self.numbers[place as usize].0);
+            let end = draws.list.get(index + 1).map_or(u32::MAX, |draw| draw.first_triangle);
+            let draw = &draws.list[index];
+            let numbers = &self.numbers;
+            let count = self.order[next..].partition_point(|&place| numbers[place as usize].0 < end);
+            if let Some(columns) = layer.columns(index) {
+                for k in next..next + count {
+                    let place = self.order[k] as usize;
+                    self.triangles[place] = self.prepare(assets, (index, draw), columns, place);
+                }
+            }
+            self.light_waiting(assets, draw, &scene.items[draw.item], light);
+            next += count;
+        }
+        self.positions.clear();
+        if self.passes > 1 {
+            let triangles = &self.triangles;
+            self.positions.extend(self.fragments.iter().map(|fragment| {
+                let triangle = &triangles[fragment.triangle as usize];
+                triangle.position(triangle.weights(f32::from(fragment.x) + 0.5, f32::from(fragment.y) + 0.5))
+            }));
+        }
+    }
+
+    /// A triangle without its colours, whose corners wait to be lit.
+    fn prepare(
+        &mut self,
+        assets: &Assets,
+        (index, draw): (usize, &Draw),
+        columns: &Columns,
+        place: usize,
+    ) -> SeenTriangle {
+        let (number, [x, y]) = self.numbers[place];
+        let surface = draw.surface(assets);
+        let index_in_surface = (number - draw.first_triangle) as usize;
+        let (face, corners) = (surface.faces[index_in_surface], &surface.corners[index_in_surface]);
+        let points = face.map(|i| surface.positions[i as usize]);
+        let anchor = [f32::from(x) + 0.5, f32::from(y) + 0.5];
+        let rows = std::array::from_fn(|k| {
+            let stamp = &mut self.stamps[draw.first_vertex + face[k] as usize];
+            if stamp.frame != self.frame || stamp.normal != corners.normal[k] {
+                let row = (self.colours.len() / self.passes + self.waiting.len()) as u32;
+                *stamp = Stamp { frame: self.frame, normal: corners.normal[k], row };
+                self.waiting.push((face[k], corners.normal[k]));
+            }
+            stamp.row
+        });
+        let texture = std::array::from_fn(|k| match draw.paint {
+            Paint::Plain => [0.0; 3],
+            Paint::Explicit { scale, offset, .. } => {
+                let [u, v] = surface.texcoords[corners.texcoord[k] as usize];
+                [scale[0] * u + offset[0], scale[1] * v + offset[1], 0.0]
+            }
+            Paint::Planar { scale, .. } => {
+                [scale[0] * points[k][0] - 0.5, scale[1] * points[k][1] - 0.5, 0.0]
+            }
+            Paint::Cube { scale, .. } => std::array::from_fn(|i| scale[i] * points[k][i]),
+        });
+        let shares = shares(points.map(|p| columns.apply(p)), anchor);
+        SeenTriangle {
+            draw: index as u32,
+            rows,
+            shares,
+            anchor,
+            texture,
+            corners: points.map(|p| draw.place(p)),
+        }
+    }
+
+    /// Lights the corners of one surface that wait, eight at a time.
+    fn light_waiting(&mut self, assets: &Assets, draw: &Draw, item: &Item, light: &Illumination) {
+        let surface = draw.surface(assets);
+        let material = Material::of(item, light.reflectance, draw.alpha(item));
+        for block in self.waiting.chunks(8) {
+            let (mut local, mut normal) = ([[0.0; 8]; 3], [[0.0; 8]; 3]);
+            for (lane, &(p, n)) in block.iter().enumerate() {
+                let (position, direction) = (surface.positions[p as usize], surface.normals[n as usize]);
+                for k in 0..3 {
+                    (local[k][lane], normal[k][lane]) = (position[k], direction[k]);
+                }
+            }
+            let (local, normal) = (local.map(f32x8::new), normal.map(f32x8::new));
+            let world = |row: [f64; 4]| {
+                let [a, b, c, d] = row.map(|x| f32x8::splat(x as f32));
+                a * local[0] + b * local[1] + c * local[2] + d
+            };
+            let turned = |row: [f32; 3]| {
+                let [a, b, c] = row.map(f32x8::splat);
+                a * normal[0] + b * normal[1] + c * normal[2]
+            };
+            let corners =
+                Corners { position: draw.world.map(world), normal: unit(draw.normals.map(turned)).0 };
+            let mut base = own_light(&material, light.ambient);
+            light.base.iter().for_each(|lamp| add_lamp(&mut base, &corners, &material, lamp, light.eye));
+            let mut passes = [[f32x8::ZERO; 3]; 9];
+            passes[0] = clamped(base);
+            for (pass, lamp) in passes[1..].iter_mut().zip(&light.shadowed) {
+                add_lamp(pass, &corners, &material, lamp, light.eye);
+                *pass = clamped(*pass);
+            }
+            let lanes = passes.map(|pass| pass.map(|c| c.to_array()));
+            for i in 0..block.len() {
+                self.colours.extend(lanes[..self.passes].iter().map(|pass| pass.map(|c| c[i])));
+            }
+        }
+        self.waiting.clear();
+    }
+
+    /// The colour of a triangle under one pass, before its texture.
+    #[inline]
+    pub fn colour(&self, triangle: &SeenTriangle, weights: [f32; 3], pass: usize) -> [f32; 3] {
+        let corners = triangle.rows.map(|row| self.colours[row as usize * self.passes + pass]);
+        mix(weights, &corners)
+    }
+
+    /// Whether a pass gives a triangle any light at all.
+    #[inline]
+    pub fn is_lit(&self, triangle: &SeenTriangle, pass: usize) -> bool {
+        triangle.rows.iter().any(|&row| self.colours[row as usize * self.passes + pass] != [0.0; 3])
+    }
+}
+
+/// What multiplies column, row and 1, counted from `anchor`, to give the share of each corner: with corners (x w, y w, w) as rows
+/// of a matrix, the columns of its inverse (Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997).
+pub fn shares(corners: [[f32; 4]; 3], anchor: [f32; 2]) -> [[f32; 3]; 3] {
+    let rows = corners.map(|[x, y, _, w]| {
+        let w = f64::from(w);
+        [f64::from(x) - f64::from(anchor[0]) * w, f64::from(y) - f64::from(anchor[1]) * w, w]
+    });
+    let normals: [[f64; 3]; 3] = std::array::from_fn(|i| {
+        let (a, b) = (rows[(i + 1) % 3], rows[(i + 2) % 3]);
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    });
+    let determinant: f64 = (0..3).map(|k| rows[0][k] * normals[0][k]).sum();
+    normals.map(|n| n.map(|x| (x / determinant) as f32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shares_are_those_of_perspective() {
+        // Corners at distances 1, 2 and 4 from the eye: halfway in the window between the first two, the nearer one counts 2 / 3.
+        let corners = [[10.0, 10.0, 0.0, 1.0], [60.0, 20.0, 0.0, 2.0], [40.0, 200.0, 0.0, 4.0]];
+        let triangle = SeenTriangle {
+            draw: 0,
+            rows: [0; 3],
+            shares: shares(corners, [15.5, 10.5]),
+            anchor: [15.5, 10.5],
+            texture: [[0.0; 3]; 3],
+            corners: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        };
+        let [near, far, other] = triangle.position(triangle.weights(20.0, 10.0));
+        assert!((near - 2.0 / 3.0).abs() < 1e-6 && (far - 1.0 / 3.0).abs() < 1e-6 && other.abs() < 1e-6);
+    }
+}

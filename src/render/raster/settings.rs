@@ -1,0 +1,46 @@
+//! How finely a renderer draws.
+
+use super::shadow::ShadowSettings;
+use physics::Model;
+
+/// How finely a renderer draws; what a model says in `visual/quality` and `visual/map`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Samples of a pixel: 4, or 1.
+    pub samples: Samples,
+    /// Shadow maps.
+    pub shadow: ShadowSettings,
+    /// Slices of the sky.
+    pub slices: usize,
+    /// Width of lines [pixel].
+    pub line_width: f32,
+}
+
+/// Samples of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Samples {
+    /// In the middle.
+    One,
+    /// At OpenGL's four standard places.
+    Four,
+}
+
+/// Largest shadow map [texel]: positions in it are kept in 16 bits, and its edge functions in 64.
+const MAX_SHADOW: i32 = 8192;
+
+impl Settings {
+    /// The settings of a model. `offsamples` of 2 or more are four samples; a `shadowsize` of 0 is no shadow.
+    pub fn of(model: &Model) -> Self {
+        let (quality, map) = (&model.vis.quality, &model.vis.map);
+        Settings {
+            samples: if quality.offsamples > 1 { Samples::Four } else { Samples::One },
+            shadow: ShadowSettings {
+                size: quality.shadowsize.clamp(0, MAX_SHADOW) as usize,
+                clip: (f64::from(map.shadowclip) * model.stat.extent) as f32,
+                scale: map.shadowscale,
+            },
+            slices: quality.numslices.max(3) as usize,
+            line_width: model.vis.global.linewidth,
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Which triangle is seen at every sample.
+//!
+//! The nearest wins, and of equally near ones that with the larger number, which is drawn later: the result does not depend on
+//! the order in which triangles come.
+
+use super::coverage::{Pattern, Triangle};
+use wide::bytemuck::cast;
+use wide::{f32x4, u32x4};
+
+/// Four samples.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Group {
+    /// Reversed depth of the nearest triangle; 0 where there is none.
+    pub depth: f32x4,
+    /// Its number; 0 for none.
+    pub triangle: u32x4,
+}
+
+/// A window of samples.
+#[derive(Clone, Debug)]
+pub struct Visibility {
+    /// Where the samples lie.
+    pub pattern: Pattern,
+    /// Groups in a row.
+    pub per_row: usize,
+    /// The samples, row by row from below.
+    pub groups: Vec<Group>,
+}
+
+impl Visibility {
+    /// A window without pixels.
+    pub fn new(pattern: Pattern) -> Self {
+        Visibility { pattern, per_row: 0, groups: Vec::new() }
+    }
+
+    /// A window in which nothing is seen yet.
+    pub fn clear(&mut self, pattern: Pattern, width: usize, height: usize) {
+        (self.pattern, self.per_row) = (pattern, pattern.groups(width));
+        self.groups.clear();
+        self.groups.resize(self.per_row * height, Group::default());
+    }
+
+    /// A window of the shape of another, in which nothing is seen yet.
+    pub fn copy_shape(&mut self, other: &Visibility) {
+        (self.pattern, self.per_row) = (other.pattern, other.per_row);
+        self.groups.clear();
+        self.groups.resize(other.groups.len(), Group::default());
+    }
+
+    /// Draws a triangle.
+    #[inline]
+    pub fn draw(&mut self, number: u32, triangle: &Triangle) {
+        let Visibility { pattern, per_row, groups } = self;
+        let number = u32x4::splat(number);
+        triangle.cover(pattern, |row, group, mask, depth| {
+            let at = &mut groups[row * *per_row + group];
+            let nearer: u32x4 = cast(depth.simd_gt(at.depth));
+            let as_near: u32x4 = cast(depth.simd_eq(at.depth));
+            let mask: u32x4 = cast::<_, u32x4>(mask) & (nearer | (as_near & number.simd_gt(at.triangle)));
+            at.triangle = mask.select(number, at.triangle);
+            at.depth = cast::<_, f32x4>(mask).select(depth, at.depth);
+        });
+    }
+}

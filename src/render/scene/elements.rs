@@ -1,0 +1,120 @@
+//! Geoms and sites.
+
+use super::item::Shape;
+use super::options::{LabelChoice, is_visible};
+use super::sink::{Form, Items, Source, element};
+use crate::RenderError;
+use physics::math::{Vec3, add_scaled, column, dot, sub};
+use physics::model::{GeomType, ObjType};
+
+/// Adds the visible geoms; `eye` is where infinite planes are centred [m].
+pub(super) fn geoms(from: Source<'_>, eye: Vec3, items: &mut Items<'_>) -> Result<(), RenderError> {
+    let Source { m, options, .. } = from;
+    for i in 0..m.ngeom {
+        let category = from.category(m.geom_bodyid[i] as usize);
+        if !from.shows(category) || !is_visible(&options.groups.geoms, m.geom_group[i]) {
+            continue;
+        }
+        let coat = from.coat(m.geom_matid[i], m.geom_rgba[i], category);
+        let mut coat = from.island_coat(m.geom_bodyid[i], coat);
+        if coat.rgba[3] == 0.0 {
+            continue;
+        }
+        coat.look.emission += from.glow(m.geom_bodyid[i]);
+        let item = items.add(&form(from, i, eye)?, coat, element(ObjType::Geom, i), category);
+        item.rbound = m.geom_rbound[i] as f32;
+        if options.label == LabelChoice::Geom {
+            item.label = from.label(ObjType::Geom, i);
+        }
+    }
+    Ok(())
+}
+
+/// Adds the visible sites.
+pub(super) fn sites(from: Source<'_>, items: &mut Items<'_>) -> Result<(), RenderError> {
+    let Source { m, d, options } = from;
+    for i in 0..m.nsite {
+        let category = from.category(m.site_bodyid[i] as usize);
+        if !from.shows(category) || !is_visible(&options.groups.sites, m.site_group[i]) {
+            continue;
+        }
+        let mut coat = from.coat(m.site_matid[i], m.site_rgba[i], category);
+        if coat.rgba[3] == 0.0 {
+            continue;
+        }
+        coat.look.emission += from.glow(m.site_bodyid[i]);
+        let (pos, mat) = (d.kin.site_xpos[i], &d.kin.site_xmat[i]);
+        let form = Form::primitive(m.site_type[i], m.site_size[i], pos, mat)
+            .ok_or_else(|| shapeless(from, ObjType::Site, i))?;
+        let item = items.add(&form, coat, element(ObjType::Site, i), category);
+        if options.label == LabelChoice::Site {
+            item.label = from.label(ObjType::Site, i);
+        }
+    }
+    Ok(())
+}
+
+impl Source<'_> {
+    /// Emission that is added to what belongs to the selected body.
+    pub fn glow(&self, body: i32) -> f32 {
+        let selected = self.options.selection.is_some_and(|s| s.body > 0 && s.body == body as usize);
+        if selected { self.m.vis.global.glow } else { 0.0 }
+    }
+}
+
+fn shapeless(from: Source<'_>, kind: ObjType, id: usize) -> RenderError {
+    RenderError::Model { message: format!("{} has no shape that can be drawn", from.m.label_of(kind, id)) }
+}
+
+/// Shape and place of a geom.
+fn form(from: Source<'_>, i: usize, eye: Vec3) -> Result<Form, RenderError> {
+    let Source { m, d, .. } = from;
+    let (size, pos, mat) = (m.geom_size[i], d.kin.geom_xpos[i], &d.kin.geom_xmat[i]);
+    if let Some(form) = Form::primitive(m.geom_type[i], size, pos, mat) {
+        return Ok(form);
+    }
+    let data = usize::try_from(m.geom_dataid[i]).ok();
+    let shape = match (GeomType::from_code(m.geom_type[i]), data) {
+        (Some(GeomType::Plane), _) => {
+            let pos = plane_center(from, i, eye);
+            return Ok(Form { shape: Shape::Plane { geom: i }, size, pos, mat: *mat });
+        }
+        (Some(GeomType::Hfield), Some(hfield)) => Shape::Hfield { hfield },
+        (Some(GeomType::Mesh | GeomType::Sdf), Some(mesh)) => {
+            let collides = m.geom_contype[i] != 0 || m.geom_conaffinity[i] != 0;
+            if from.options.show.convex_hulls && collides && m.mesh_graphadr[mesh] >= 0 {
+                Shape::Hull { mesh }
+            } else {
+                Shape::Mesh { mesh }
+            }
+        }
+        _ => return Err(shapeless(from, ObjType::Geom, i)),
+    };
+    Ok(Form { shape, size, pos, mat: *mat })
+}
+
+/// Cells along a side of a plane, at most.
+const PLANE_GRID: f64 = 200.0;
+
+/// Where a plane is drawn. Infinite ones follow the eye in steps of twice the period of their texture, or of a cell of
+/// their grid, so that they seem to stand still.
+fn plane_center(from: Source<'_>, i: usize, eye: Vec3) -> Vec3 {
+    let Source { m, d, .. } = from;
+    let (origin, mat) = (d.kin.geom_xpos[i], &d.kin.geom_xmat[i]);
+    let mut center = origin;
+    for k in 0..2 {
+        if m.geom_size[i][k] > 0.0 {
+            continue;
+        }
+        let repeat = usize::try_from(m.geom_matid[i]).map_or(0.0, |material| m.mat_texrepeat[material][k]);
+        let step = if repeat > 0.0 {
+            f64::from(2.0 / repeat)
+        } else {
+            2.1 * f64::from(m.vis.map.zfar) * m.stat.extent / (PLANE_GRID - 2.0)
+        };
+        let axis = column(mat, k);
+        let steps = (0.5 * dot(sub(eye, origin), axis) / step).round();
+        center = add_scaled(center, axis, 2.0 * step * steps);
+    }
+    center
+}

@@ -1,0 +1,280 @@
+//! What a scene shows: groups, kinds of elements, decorations, effects (documentation: `mjvOption`).
+
+use physics::math::{Quat, Vec3};
+
+/// Groups that elements can be put into.
+pub const GROUPS: usize = 6;
+
+/// Groups that are visible unless somebody asks for others.
+const VISIBLE: [bool; GROUPS] = [true, true, true, false, false, false];
+
+/// Visible groups of each kind of element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Groups {
+    /// Of geoms.
+    pub geoms: [bool; GROUPS],
+    /// Of sites.
+    pub sites: [bool; GROUPS],
+    /// Of joints.
+    pub joints: [bool; GROUPS],
+    /// Of tendons.
+    pub tendons: [bool; GROUPS],
+    /// Of actuators.
+    pub actuators: [bool; GROUPS],
+}
+
+impl Default for Groups {
+    /// The first three of each kind.
+    fn default() -> Self {
+        Groups { geoms: VISIBLE, sites: VISIBLE, joints: VISIBLE, tendons: VISIBLE, actuators: VISIBLE }
+    }
+}
+
+/// True when an element of `group` is visible; groups beyond the last count as the last.
+pub(super) fn is_visible(visible: &[bool; GROUPS], group: i32) -> bool {
+    visible[group.clamp(0, GROUPS as i32 - 1) as usize]
+}
+
+/// Kinds of elements and decorations. All off but textures, tendons, rangefinders, static bodies and the perturbation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Show {
+    /// Textures of materials.
+    pub textures: bool,
+    /// Geoms, sites and decorations of bodies that are fixed to the world.
+    pub static_bodies: bool,
+    /// Spatial tendons.
+    pub tendons: bool,
+    /// Rays of rangefinders and nearest points of `fromto` sensors.
+    pub rangefinders: bool,
+    /// Convex hulls instead of the meshes that collide.
+    pub convex_hulls: bool,
+    /// Moving bodies in `visual/map alpha` of their opacity.
+    pub transparent: bool,
+    /// Colours by constraint island.
+    pub islands: bool,
+    /// Joint axes.
+    pub joints: bool,
+    /// Actuators, coloured by control.
+    pub actuators: bool,
+    /// Actuators are coloured by activation.
+    pub activations: bool,
+    /// Cameras, with their frustums where they have a resolution.
+    pub cameras: bool,
+    /// Lights.
+    pub lights: bool,
+    /// Anchors of connect and weld constraints.
+    pub constraints: bool,
+    /// Equivalent inertias as boxes or ellipsoids.
+    pub inertias: bool,
+    /// Equivalent inertias have the density of water.
+    pub scaled_inertias: bool,
+    /// Centres of mass of the kinematic trees.
+    pub centers_of_mass: bool,
+    /// Capsules from body to body through the joints.
+    pub connections: bool,
+    /// Contacts.
+    pub contact_points: bool,
+    /// Contact forces.
+    pub contact_forces: bool,
+    /// Normal and friction forces apart.
+    pub split_forces: bool,
+    /// User forces on bodies.
+    pub applied_forces: bool,
+    /// The spring or the target of a perturbation.
+    pub perturbation: bool,
+    /// The selected point.
+    pub selected_point: bool,
+    /// Bounding volumes of bodies, at [`SceneOptions::tree_depth`].
+    pub body_trees: bool,
+    /// Bounding volumes of meshes, at [`SceneOptions::tree_depth`].
+    pub mesh_trees: bool,
+}
+
+impl Show {
+    /// Nothing but bare geoms, sites and slider cranks.
+    pub const NOTHING: Self = Show {
+        textures: false,
+        static_bodies: false,
+        tendons: false,
+        rangefinders: false,
+        convex_hulls: false,
+        transparent: false,
+        islands: false,
+        joints: false,
+        actuators: false,
+        activations: false,
+        cameras: false,
+        lights: false,
+        constraints: false,
+        inertias: false,
+        scaled_inertias: false,
+        centers_of_mass: false,
+        connections: false,
+        contact_points: false,
+        contact_forces: false,
+        split_forces: false,
+        applied_forces: false,
+        perturbation: false,
+        selected_point: false,
+        body_trees: false,
+        mesh_trees: false,
+    };
+}
+
+impl Default for Show {
+    fn default() -> Self {
+        Show {
+            textures: true,
+            static_bodies: true,
+            tendons: true,
+            rangefinders: true,
+            perturbation: true,
+            ..Show::NOTHING
+        }
+    }
+}
+
+/// Elements that get a label.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum LabelChoice {
+    #[default]
+    None,
+    Body,
+    Joint,
+    Geom,
+    Site,
+    Camera,
+    Light,
+    Tendon,
+    Actuator,
+    Constraint,
+    /// The selected body.
+    Selection,
+    /// Coordinates of the selected point.
+    SelectedPoint,
+    /// Names of the geoms that touch.
+    ContactPoint,
+    /// Magnitude of contact forces [N].
+    ContactForce,
+    /// Numbers of constraint islands.
+    Island,
+}
+
+/// Elements whose frames are shown; those of cameras and lights only together with the elements.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum FrameChoice {
+    #[default]
+    None,
+    /// Of all bodies but the world.
+    Body,
+    Geom,
+    Site,
+    Camera,
+    Light,
+    Contact,
+    World,
+}
+
+/// Categories of items that a scene holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Categories {
+    /// Of bodies that are fixed to the world.
+    pub fixed: bool,
+    /// Of bodies that move, tendons and slider cranks.
+    pub dynamic: bool,
+    /// Decorations.
+    pub decor: bool,
+}
+
+impl Default for Categories {
+    /// All.
+    fn default() -> Self {
+        Categories { fixed: true, dynamic: true, decor: true }
+    }
+}
+
+/// How a body is pulled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Pull {
+    /// Towards a position.
+    pub translation: bool,
+    /// Towards an orientation.
+    pub rotation: bool,
+}
+
+/// A selected body, and where it is pulled to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Selection {
+    /// Body of the model, not the world.
+    pub body: usize,
+    /// The selected point, body frame [m].
+    pub point: Vec3,
+    /// How the body is pulled.
+    pub pull: Pull,
+    /// How it is pulled by a second hand, shown in another colour.
+    pub second_pull: Pull,
+    /// Where the selected point is pulled to, world frame [m].
+    pub target: Vec3,
+    /// Orientation to which the body's inertial frame is pulled.
+    pub orientation: Quat,
+}
+
+/// Effects of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effects {
+    /// Lights cast shadows.
+    pub shadows: bool,
+    /// The first reflective item is a mirror.
+    pub reflections: bool,
+    /// The texture of the sky.
+    pub sky: bool,
+    /// Haze at the horizon of an infinite plane.
+    pub haze: bool,
+    /// Fog in the distance.
+    pub fog: bool,
+}
+
+impl Default for Effects {
+    /// All but fog.
+    fn default() -> Self {
+        Effects { shadows: true, reflections: true, sky: true, haze: true, fog: false }
+    }
+}
+
+/// What a scene shows. The default is that of MuJoCo's renderer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SceneOptions {
+    /// Visible groups.
+    pub groups: Groups,
+    /// Kinds of elements and decorations.
+    pub show: Show,
+    /// Elements that get a label.
+    pub label: LabelChoice,
+    /// Elements whose frames are shown.
+    pub frame: FrameChoice,
+    /// Categories of items.
+    pub categories: Categories,
+    /// The selected body.
+    pub selection: Option<Selection>,
+    /// Depth at which bounding volume trees are shown.
+    pub tree_depth: i32,
+    /// Effects of the picture.
+    pub effects: Effects,
+}
+
+impl Default for SceneOptions {
+    fn default() -> Self {
+        SceneOptions {
+            groups: Groups::default(),
+            show: Show::default(),
+            label: LabelChoice::None,
+            frame: FrameChoice::None,
+            categories: Categories::default(),
+            selection: None,
+            tree_depth: 1,
+            effects: Effects::default(),
+        }
+    }
+}
