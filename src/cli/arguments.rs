@@ -1,6 +1,7 @@
 //! Arguments of every command, and the help that teaches them.
 
 use crate::bench_env::BenchEnv;
+use crate::bench_render::BenchRender;
 use crate::check_env::CheckEnv;
 use crate::info::Info;
 use crate::list::List;
@@ -65,6 +66,8 @@ pub enum Command {
     Rollout(Rollout),
     /// Measure environment steps per second
     BenchEnv(BenchEnv),
+    /// Measure how long pictures of a model take
+    BenchRender(BenchRender),
     /// Check that environments keep their contract
     CheckEnv(CheckEnv),
     /// Summarise a model, or write out every compiled array

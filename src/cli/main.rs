@@ -4,6 +4,7 @@ mod arguments;
 mod assets;
 mod bench;
 mod bench_env;
+mod bench_render;
 mod check;
 mod check_env;
 mod compile;
@@ -21,6 +22,7 @@ mod man;
 mod memory;
 mod recorded;
 mod recording;
+mod render_requests;
 mod replay;
 mod rollout;
 mod run;
@@ -70,6 +72,7 @@ fn main() -> ExitCode {
         Command::Run(a) => run::run(&a),
         Command::Rollout(a) => rollout::run(&a),
         Command::BenchEnv(a) => bench_env::run(&a),
+        Command::BenchRender(a) => bench_render::run(&a),
         Command::CheckEnv(a) => check_env::run(&a),
         Command::Inspect(a) => inspect::run(&a),
         Command::Compile(a) => compile::run(&a),

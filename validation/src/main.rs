@@ -4,7 +4,7 @@ use physics::Model;
 use robohive_validation::reference::{Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
 use robohive_validation::{bits, c_library, collide_table, demonstrations, draws, environments};
-use robohive_validation::{hulls, laws, policies, solver};
+use robohive_validation::{hulls, laws, pictures, policies, scenes, solver};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -18,6 +18,9 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation environments --models FOLDER --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation policies --models FOLDER --policies FOLDER [--only TEXT] [--write README.md]
        robohive-validation demonstrations --models FOLDER --from FILE [--write README.md]
+       robohive-validation pictures --models FOLDER --references FOLDER [--only TEXT] [--compare FOLDER] [--dump FOLDER]
+       [--write README.md]
+       robohive-validation scenes --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation quirks [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
 
@@ -31,6 +34,10 @@ models are the folder with RoboHive's envs and simhive.
 policies: runs the policies of hand_dapg (its folder dapg/policies) in our environments, and fails when they solve fewer
 episodes than in RoboHive.
 demonstrations: replays those of hand_dapg for the door (dapg/demonstrations/door-v0_demos.pickle).
+pictures: draws the scenes of validation/pictures.toml and compares them with what pictures.py recorded; fails when a bar is
+missed. Models are the folder with RoboHive's envs and simhive and MuJoCo's model. With --compare another folder of recordings
+stands in for our pictures; --dump writes ours, the recorded one and eight times their difference side by side.
+scenes: assembles the scenes that items.py recorded and compares items, lights and cameras; fails when any differs.
 draws: makes every recorded random draw with all seeds and compares it with numpy's; fails when any differs.
 bits: counts the values that are MuJoCo's to the last bit. Without a list on the own models, where it fails when the table is
 not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; with it the exit code is 3 where the C library
@@ -64,6 +71,7 @@ struct Arguments {
     folders: Vec<PathBuf>,
     record: Option<PathBuf>,
     compare: Option<PathBuf>,
+    dump: Option<PathBuf>,
 }
 
 /// Exit code where the C library's functions are not those of the recorded MuJoCo.
@@ -122,10 +130,25 @@ fn run() -> Result<(), String> {
             let (table, verdict) = policies::render(&policies::run(&a.models, &a.policies, &a.only)?);
             ("policies", table, verdict)
         }
+        Some("pictures") => {
+            let inputs = pictures::Inputs {
+                models: &a.models,
+                references: &a.references,
+                only: &a.only,
+                other: a.compare.as_deref(),
+                dump: a.dump.as_deref(),
+            };
+            let (table, verdict) = pictures::measure(&inputs)?;
+            ("pictures", table, verdict)
+        }
         Some("demonstrations") => {
             let file = a.from.as_deref().ok_or(USAGE)?;
             let replays = demonstrations::replay(&a.models, file)?;
             ("demonstrations", demonstrations::render(&replays), Ok(()))
+        }
+        Some("scenes") => {
+            let (table, verdict) = scenes::render(&assembled(&a)?);
+            ("scenes", table, verdict)
         }
         Some("laws") => {
             let references: Vec<_> =
@@ -152,6 +175,20 @@ fn chosen(a: &Arguments) -> Result<Vec<(String, PathBuf, PathBuf)>, String> {
         (line.to_owned(), a.models.join(line), a.references.join(name + ".npz"))
     };
     Ok(list.split_whitespace().filter(|line| line.contains(&a.only)).map(files).collect())
+}
+
+/// How the scenes of every listed model compare.
+fn assembled(a: &Arguments) -> Result<Vec<scenes::Compared>, String> {
+    let mut rows = Vec::new();
+    for (line, model, reference) in chosen(a)? {
+        let row = scenes::measure(&model, &reference);
+        match &row {
+            Ok(report) => println!("{}\n{}", report.line(&line), report.notes.join("\n")),
+            Err(error) => println!("{line}: {error}"),
+        }
+        rows.push((line, row));
+    }
+    Ok(rows)
 }
 
 /// The summary of the hulls of all mesh files below the folders.
@@ -223,6 +260,7 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
             "--section" => a.section = value()?,
             "--brief" => a.brief = true,
             "--record" => a.record = Some(value()?.into()),
+            "--dump" => a.dump = Some(value()?.into()),
             "--compare" => a.compare = Some(value()?.into()),
             folder if !folder.starts_with("--") => a.folders.push(folder.into()),
             _ => return Err(format!("unknown argument {word}\n{USAGE}")),

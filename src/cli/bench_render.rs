@@ -1,0 +1,196 @@
+//! `bench-render`: how long pictures of a model take.
+
+use crate::Failure;
+use crate::arguments::Reading;
+use crate::loading::load;
+use crate::render_requests::Requests;
+use crate::terminal::{show, show_json};
+use clap::{Args, ValueHint};
+use physics::{Data, Model, forward, step};
+use render::picture::Channels;
+use render::scene::{Camera, Effects, SceneOptions};
+use render::{Assets, Picture, Profile, Renderer, Scene, Settings};
+use serde_json::json;
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Measure how long pictures of a model take
+#[derive(Args)]
+#[command(
+    after_help = "Each picture is of another state of a short motion from keyframe 0, or qpos0, and its time is that of \
+listing what is to be drawn and drawing it; neither physics nor loading are in it. One thread draws.
+
+Examples:
+  robohive bench-render assets/franka/franka_table.xml --camera front
+  robohive bench-render assets/humanoid/humanoid.xml --size 84 --frames 100 --json"
+)]
+pub struct BenchRender {
+    /// MJCF file or compiled model
+    #[arg(value_name = "MODEL", value_hint = ValueHint::FilePath)]
+    model: PathBuf,
+    /// How it is read
+    #[command(flatten)]
+    reading: Reading,
+    /// Camera of the model, or `free`
+    #[arg(long, value_name = "NAME", default_value = "free")]
+    camera: String,
+    /// Columns and rows of the pictures
+    #[arg(long, value_name = "N", default_value_t = 224, value_parser = clap::value_parser!(u16).range(1..=8192))]
+    size: u16,
+    /// Pictures of each kind
+    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    frames: u32,
+    /// Print one JSON object instead
+    #[arg(long)]
+    json: bool,
+    /// Draw what standard input asks for and answer each line by one of JSON, for a program that measures processor time
+    #[arg(long, hide = true, conflicts_with = "json")]
+    requests: bool,
+}
+
+/// States of the motion that pictures go through.
+const STATES: usize = 8;
+/// Steps between two of them.
+const APART: usize = 5;
+
+/// What a picture is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Colours, four samples a pixel unless the model has fewer.
+    Rgb,
+    /// Colours without shadows.
+    Plain,
+    /// Distances.
+    Depth,
+    /// Segmentation.
+    Ids,
+}
+
+impl Kind {
+    /// All of them, by the names that they are asked for.
+    pub const ALL: [(&'static str, Kind); 4] =
+        [("rgb", Kind::Rgb), ("plain", Kind::Plain), ("depth", Kind::Depth), ("ids", Kind::Ids)];
+
+    fn channels(self) -> Channels {
+        match self {
+            Kind::Rgb | Kind::Plain => Channels::RGB,
+            Kind::Depth => Channels::DEPTH,
+            Kind::Ids => Channels::SEGMENTATION,
+        }
+    }
+}
+
+/// What draws one model on one thread.
+pub struct Studio<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// Its triangles and textures.
+    pub assets: &'a Assets,
+    renderer: Renderer,
+    scene: Scene,
+    picture: Picture,
+}
+
+impl<'a> Studio<'a> {
+    /// A studio with its own memory for pictures.
+    pub fn new(model: &'a Model, assets: &'a Assets) -> Self {
+        let renderer = Renderer::new(Settings::of(model));
+        Studio { model, assets, renderer, scene: Scene::new(), picture: Picture::new(0, 0) }
+    }
+
+    /// Lists what is to be drawn of a state and draws it.
+    pub fn take(
+        &mut self,
+        data: &Data,
+        camera: &Camera,
+        side: usize,
+        kind: Kind,
+    ) -> Result<&Picture, Failure> {
+        let effects = Effects { shadows: kind != Kind::Plain, ..Effects::default() };
+        let options = SceneOptions { effects, ..SceneOptions::default() };
+        let view = camera.view(self.model, data).map_err(Failure::new)?;
+        self.scene.update(self.model, data, view, &options).map_err(Failure::new)?;
+        (self.picture.width, self.picture.height) = (side, side);
+        let drawn = self.renderer.draw(self.assets, &self.scene, kind.channels(), &mut self.picture);
+        drawn.map_err(Failure::new)?;
+        Ok(&self.picture)
+    }
+
+    /// Items of the last scene, and triangles of one pass over them.
+    pub fn load(&self) -> [usize; 2] {
+        let mut parts = Vec::new();
+        self.scene.items.iter().for_each(|item| self.assets.parts(item, &mut parts));
+        let triangles = parts.iter().map(|part| self.assets.surfaces[part.surface].faces.len()).sum();
+        [self.scene.items.len(), triangles]
+    }
+}
+
+/// The camera of this name, or the free one.
+pub fn camera(model: &Model, name: &str) -> Result<Camera, Failure> {
+    Camera::named(model, name).map_err(Failure::usage)
+}
+
+/// Runs the command.
+pub fn run(a: &BenchRender) -> Result<(), Failure> {
+    let model = load(&a.model, &a.reading)?;
+    let assets = Assets::new(&model, Profile::default()).map_err(Failure::new)?;
+    let camera = camera(&model, &a.camera)?;
+    let mut studio = Studio::new(&model, &assets);
+    if a.requests {
+        return Requests::new(studio, camera).answer();
+    }
+    let states = motion(&model)?;
+    let mut found = serde_json::Map::new();
+    for (name, kind) in Kind::ALL {
+        let side = usize::from(a.size);
+        for data in &states {
+            studio.take(data, &camera, side, kind)?;
+        }
+        let began = Instant::now();
+        for data in states.iter().cycle().take(a.frames as usize) {
+            studio.take(data, &camera, side, kind)?;
+        }
+        let milliseconds = 1e3 * began.elapsed().as_secs_f64() / f64::from(a.frames);
+        found.insert(format!("{name}_ms"), milliseconds.into());
+    }
+    let [items, triangles] = studio.load();
+    if a.json {
+        found.extend([("items".to_owned(), items.into()), ("triangles".to_owned(), triangles.into())]);
+        found.insert("size".to_owned(), json!(a.size));
+        show_json(&found.into());
+        return Ok(());
+    }
+    show!("{items} items, {triangles} triangles, {0} x {0} pixels", a.size);
+    for (name, _) in Kind::ALL {
+        let text = match name {
+            "plain" => "without shadows",
+            "ids" => "segmentation",
+            name => name,
+        };
+        show!("{text:<16} {:>9.2} ms", found[&format!("{name}_ms")].as_f64().unwrap_or(f64::NAN));
+    }
+    Ok(())
+}
+
+/// Data at keyframe 0, or at `qpos0`.
+pub fn start(model: &Model) -> Result<Data, Failure> {
+    let mut data = Data::new(model);
+    if model.nkey > 0 {
+        data.reset_to_key(model, 0).map_err(Failure::new)?;
+    }
+    Ok(data)
+}
+
+/// States of a short motion without controls.
+fn motion(model: &Model) -> Result<Vec<Data>, Failure> {
+    let mut data = start(model)?;
+    let mut states = Vec::new();
+    for _ in 0..STATES {
+        for _ in 0..APART {
+            step(model, &mut data).map_err(Failure::new)?;
+        }
+        forward(model, &mut data).map_err(Failure::new)?;
+        states.push(data.clone());
+    }
+    Ok(states)
+}
