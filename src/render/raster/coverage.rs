@@ -1,8 +1,8 @@
 //! Which samples a triangle covers, and its depth there.
 //!
 //! Edge functions are exact integers on a grid of 1/256 pixel; an edge that passes through a sample gives it to the triangle on
-//! its right or above, the top-left rule in a memory whose first row is the lowest. Samples lie on a grid of 1/8 pixel, so that a tile of 16 by 16 pixels needs 32 bits
-//! an edge function: `floor(e / 32)` has the sign of `e`, and moves by whole steps from sample to sample.
+//! its right or above, the top-left rule in a memory whose first row is the lowest. Samples lie on a grid of 1/8 pixel, so
+//! that a tile of 16 by 16 pixels needs 32 bits an edge function: `floor(e / 32)` has the sign of `e`, and moves by whole steps from sample to sample.
 
 use super::vertices::Vertex;
 use wide::{f32x4, f32x8, i32x4};
@@ -42,12 +42,9 @@ impl Pattern {
         self.x[lane] / 8
     }
 
-    /// The first and last pixel of a row or column whose samples can lie between two coordinates [1/256 pixel].
-    fn pixels(offsets: [i32; 4], columns: i32, low: i32, high: i32) -> (i32, i32) {
-        let in_pixel = offsets.map(|offset| offset % 8);
-        let (first, last) = in_pixel.iter().fold((8, 0), |(a, b), &x| (a.min(x), b.max(x)));
-        let (first, last) = if columns > 1 { (4, 4) } else { (first, last) };
-        ((low - 32 * last + 255) >> 8, (high - 32 * first) >> 8)
+    /// First and last place of a sample along the columns or rows of its pixel [1/8 pixel].
+    fn places(offsets: [i32; 4]) -> (i32, i32) {
+        offsets.iter().fold((8, 0), |(first, last), &x| (first.min(x % 8), last.max(x % 8)))
     }
 }
 
@@ -60,6 +57,22 @@ pub struct Extent {
     pub height: i32,
 }
 
+impl Extent {
+    /// All of the window.
+    pub fn region(self) -> Region {
+        Region { low: [0, 0], high: [self.width - 1, self.height - 1] }
+    }
+}
+
+/// Part of a window, in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// First column and row.
+    pub low: [i32; 2],
+    /// Last column and row.
+    pub high: [i32; 2],
+}
+
 /// Which side of triangles is seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Facing {
@@ -69,6 +82,34 @@ pub enum Facing {
     Back,
     /// Both.
     Both,
+}
+
+/// The samples that triangles are drawn into, with what finds the pixels of a triangle's box.
+#[derive(Clone, Copy, Debug)]
+pub struct Target {
+    /// Which side is seen.
+    facing: Facing,
+    /// Columns and rows in the first two lanes: what is added to a box before its pixels are those of its samples
+    /// [1/256 pixel], and the pixels that there are.
+    before: i32x4,
+    after: i32x4,
+    first: i32x4,
+    last: i32x4,
+}
+
+impl Target {
+    /// The samples of a region.
+    pub fn new(pattern: Pattern, facing: Facing, region: &Region) -> Self {
+        let (x, y) = (Pattern::places(pattern.x), Pattern::places(pattern.y));
+        let lanes = |[x, y]: [i32; 2]| i32x4::new([x, y, 0, 0]);
+        Target {
+            facing,
+            before: lanes([x.1, y.1].map(|place| 255 - 32 * place)),
+            after: lanes([x.0, y.0].map(|place| -32 * place)),
+            first: lanes(region.low),
+            last: lanes(region.high),
+        }
+    }
 }
 
 /// A triangle whose coverage can be asked for.
@@ -95,34 +136,37 @@ struct Edge {
 }
 
 impl Triangle {
-    /// The part of a triangle that lies in the window; none where it covers no sample for its facing or size.
+    /// The part of a triangle that lies in the target; none where it covers no sample for its facing or size.
     #[inline]
-    pub fn new(v: [Vertex; 3], facing: Facing, pattern: &Pattern, extent: Extent) -> Option<Self> {
-        let [p, q, r] = v;
-        let area = i64::from(q.x - p.x) * i64::from(r.y - p.y) - i64::from(r.x - p.x) * i64::from(q.y - p.y);
-        let (q, r) = match (facing, area) {
-            (_, 0) => return None,
-            (Facing::Front | Facing::Both, 1..) => (q, r),
-            (Facing::Back | Facing::Both, ..0) => (r, q),
-            _ => return None,
-        };
-        let least_and_most = |a: i32, b: i32, c: i32| (a.min(b).min(c), a.max(b).max(c));
-        let (left, right) = least_and_most(p.x, q.x, r.x);
-        let (first, last) = Pattern::pixels(pattern.x, pattern.columns, left, right);
-        let columns = (first.max(0), last.min(extent.width - 1));
-        let (bottom, top) = least_and_most(p.y, q.y, r.y);
-        let (first, last) = Pattern::pixels(pattern.y, pattern.columns, bottom, top);
-        let rows = (first.max(0), last.min(extent.height - 1));
-        if columns.0 > columns.1 || rows.0 > rows.1 {
+    pub fn new(v: [Vertex; 3], target: &Target) -> Option<Self> {
+        let [p, q, r] = v.map(|v| v.on_grid());
+        let (low, high) = (p.min(q).min(r) + target.before, p.max(q).max(r) + target.after);
+        let first: i32x4 = low >> 8_i32;
+        let first = first.max(target.first).to_array();
+        let last: i32x4 = high >> 8_i32;
+        let last = last.min(target.last).to_array();
+        if first[0] > last[0] || first[1] > last[1] {
             return None;
         }
+        let [p, q, r] = [p, q, r].map(|v| [v.to_array()[0], v.to_array()[1]]);
+        let area =
+            i64::from(q[0] - p[0]) * i64::from(r[1] - p[1]) - i64::from(r[0] - p[0]) * i64::from(q[1] - p[1]);
+        let turned = match (target.facing, area) {
+            (_, 0) => return None,
+            (Facing::Front | Facing::Both, 1..) => false,
+            (Facing::Back | Facing::Both, ..0) => true,
+            _ => return None,
+        };
+        let (q, r) = if turned { (r, q) } else { (q, r) };
         // Depth is that of the plane through the corners themselves, coverage that of the grid.
-        let side = |v: Vertex| [v.at[0] - p.at[0], v.at[1] - p.at[1], v.z - p.z];
-        let ([dx, dy, dz], [ex, ey, ez]) = (side(q), side(r));
+        let [origin, second, third] = v.map(|v| v.at());
+        let side = |at: [f32; 2], z: f32| [at[0] - origin[0], at[1] - origin[1], z - v[0].z()];
+        let ([dx, dy, dz], [ex, ey, ez]) = (side(second, v[1].z()), side(third, v[2].z()));
         let scale = 1.0 / (dx * ey - dy * ex);
         let slope = [(dz * ey - ez * dy) * scale, (ez * dx - dz * ex) * scale];
-        let origin = p.at;
-        Some(Triangle { edges: [edge(q, r), edge(r, p), edge(p, q)], origin, z: p.z, slope, columns, rows })
+        let edges = [edge(q, r), edge(r, p), edge(p, q)];
+        let (columns, rows) = ((first[0], last[0]), (first[1], last[1]));
+        Some(Triangle { edges, origin, z: v[0].z(), slope, columns, rows })
     }
 
     /// First and last column with samples in the window.
@@ -261,10 +305,10 @@ impl Edge {
 
 /// The edge function of the line from `p` to `q`, at least 0 on its left; on the line itself only where the triangle is right of
 /// or above it.
-fn edge(p: Vertex, q: Vertex) -> Edge {
-    let (a, b) = (p.y - q.y, q.x - p.x);
+fn edge(p: [i32; 2], q: [i32; 2]) -> Edge {
+    let (a, b) = (p[1] - q[1], q[0] - p[0]);
     let owns = a > 0 || (a == 0 && b > 0);
-    let c = -(i64::from(a) * i64::from(p.x) + i64::from(b) * i64::from(p.y));
+    let c = -(i64::from(a) * i64::from(p[0]) + i64::from(b) * i64::from(p[1]));
     Edge { a, b, c: if owns { c } else { c - 1 } }
 }
 
@@ -275,7 +319,11 @@ mod tests {
     const EXTENT: Extent = Extent { width: 100, height: 90 };
 
     fn vertex(x: i32, y: i32, z: f32) -> Vertex {
-        Vertex { x, y, z, beyond: 0, at: [x as f32 / 256.0, y as f32 / 256.0] }
+        Vertex::new([x, y].map(|x| x as f32 / 256.0), z)
+    }
+
+    fn target(pattern: Pattern, facing: Facing) -> Target {
+        Target::new(pattern, facing, &EXTENT.region())
     }
 
     /// How often each sample is covered by some triangles.
@@ -283,7 +331,7 @@ mod tests {
         let groups = pattern.groups(EXTENT.width as usize);
         let mut counts = vec![0; groups * EXTENT.height as usize * 4];
         for &v in triangles {
-            let Some(triangle) = Triangle::new(v, Facing::Both, pattern, EXTENT) else { continue };
+            let Some(triangle) = Triangle::new(v, &target(*pattern, Facing::Both)) else { continue };
             triangle.cover(pattern, |row, group, mask, _| {
                 for (lane, &set) in mask.to_array().iter().enumerate() {
                     counts[(row * groups + group) * 4 + lane] += u32::from(set != 0);
@@ -329,7 +377,7 @@ mod tests {
     #[test]
     fn coverage_and_depth_agree_with_their_definition() {
         let v = [vertex(1000, 500, 0.1), vertex(20_000, 3000, 0.7), vertex(6000, 19_000, 0.4)];
-        let triangle = Triangle::new(v, Facing::Front, &Pattern::FOUR, EXTENT).expect("it is seen");
+        let triangle = Triangle::new(v, &target(Pattern::FOUR, Facing::Front)).expect("it is seen");
         let mut covered = 0;
         triangle.cover(&Pattern::FOUR, |row, group, mask, depth| {
             for lane in 0..4 {
@@ -346,14 +394,14 @@ mod tests {
         let area = (19_000.0 * 18_500.0 - 5000.0 * 2500.0) / 2.0 / 65536.0;
         assert!((f64::from(covered) / 4.0 - area).abs() < 0.01 * area, "{covered} samples, {area} pixels");
         for (corner, z) in v.iter().zip([0.1, 0.7, 0.4]) {
-            assert!((triangle.depth(corner.x as f32 / 256.0, corner.y as f32 / 256.0) - z).abs() < 1e-5);
+            assert!((triangle.depth(corner.at()[0], corner.at()[1]) - z).abs() < 1e-5);
         }
     }
 
     #[test]
     fn the_far_side_is_not_seen() {
         let v = [vertex(0, 0, 0.5), vertex(0, 9000, 0.5), vertex(9000, 0, 0.5)];
-        assert!(Triangle::new(v, Facing::Front, &Pattern::FOUR, EXTENT).is_none());
-        assert!(Triangle::new(v, Facing::Back, &Pattern::FOUR, EXTENT).is_some());
+        assert!(Triangle::new(v, &target(Pattern::FOUR, Facing::Front)).is_none());
+        assert!(Triangle::new(v, &target(Pattern::FOUR, Facing::Back)).is_some());
     }
 }

@@ -1,9 +1,9 @@
 //! The surfaces of a scene under one projection: window positions, and which triangles can be seen.
 
-use super::clip::clip;
-use super::coverage::{Extent, Facing, Pattern, Triangle};
+use super::clip::{GUARD, clip};
+use super::coverage::{Extent, Facing, Pattern, Region, Target, Triangle};
 use super::draws::{Draw, Draws};
-use super::vertices::{HalfSpace, Vertex, distance, inside, project};
+use super::vertices::{HalfSpace, Vertex, distance, inside, project, project_whole};
 use super::window::{Columns, Projection};
 use crate::geometry::{Assets, Surface};
 
@@ -14,10 +14,25 @@ pub struct Lens {
     pub projection: Projection,
     /// Size of the window [pixel].
     pub extent: Extent,
+    /// The part of it that is looked at.
+    pub region: Region,
+    /// What lies wholly beyond this depth is left out.
+    pub deepest: f32,
     /// Only points with `normal . p + shift >= 0` in the world are drawn, and the sides of all triangles are exchanged.
     pub mirror: Option<[f64; 4]>,
-    /// Both sides of all triangles are seen.
-    pub two_sided: bool,
+    /// Which sides of triangles are drawn.
+    pub sides: Sides,
+}
+
+/// Which sides of triangles a layer shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// Those that are seen.
+    Seen,
+    /// Both.
+    Both,
+    /// Those turned away.
+    Averted,
 }
 
 /// Window positions of all surfaces.
@@ -33,7 +48,18 @@ enum Reach {
     /// Beside the window, or left out.
     Unseen,
     /// Maybe in it: the map that its positions took, and the side of the mirror.
-    Seen(Columns, Option<HalfSpace>),
+    Seen { columns: Columns, half: Option<HalfSpace>, whole: bool },
+}
+
+/// How a surface's box lies to the space that can be drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    /// Beside the window, before the near plane, beyond the far one, or behind the mirror.
+    Beside,
+    /// All of it can be drawn.
+    Whole,
+    /// Some of it may have to be cut away.
+    Cut,
 }
 
 impl Layer {
@@ -49,12 +75,16 @@ impl Layer {
             let surface = draw.surface(assets);
             let columns = lens.projection.after(&draw.world);
             let half = lens.mirror.map(|plane| local(plane, draw));
-            if is_beside(&columns, half, lens.extent, surface) {
+            let side = side(&columns, half, lens, surface);
+            if side == Side::Beside {
                 continue;
             }
-            let range = draw.first_vertex..draw.first_vertex + surface.positions.len();
-            project(&columns, half, &surface.positions, &mut self.vertices[range]);
-            *reach = Reach::Seen(columns, half);
+            let out = &mut self.vertices[draw.first_vertex..draw.first_vertex + surface.positions.len()];
+            match side {
+                Side::Whole => project_whole(&columns, &surface.positions, out),
+                _ => project(&columns, half, &surface.positions, out),
+            }
+            *reach = Reach::Seen { columns, half, whole: side == Side::Whole };
         }
     }
 
@@ -69,31 +99,32 @@ impl Layer {
         pattern: &Pattern,
         mut see: impl FnMut(u32, &Triangle),
     ) {
-        let Reach::Seen(columns, half) = &self.reach[index] else { return };
-        let facing = match (draw.facing, lens.mirror.is_some(), lens.two_sided) {
-            (_, _, true) => Facing::Both,
-            (facing, false, _) => facing,
-            (Facing::Front, true, _) => Facing::Back,
-            (Facing::Back, true, _) => Facing::Front,
-            (Facing::Both, true, _) => Facing::Both,
+        let Reach::Seen { columns, half, whole } = &self.reach[index] else { return };
+        let facing = match (draw.facing, lens.mirror.is_some(), lens.sides) {
+            (_, _, Sides::Both) => Facing::Both,
+            (_, _, Sides::Averted) => Facing::Back,
+            (facing, false, Sides::Seen) => facing,
+            (Facing::Front, true, Sides::Seen) => Facing::Back,
+            (Facing::Back, true, Sides::Seen) => Facing::Front,
+            (Facing::Both, true, Sides::Seen) => Facing::Both,
         };
+        let target = Target::new(*pattern, facing, &lens.region);
         let surface = draw.surface(assets);
         let vertices = &self.vertices[draw.first_vertex..draw.first_vertex + surface.positions.len()];
         for (number, face) in (draw.first_triangle..).zip(&surface.faces) {
             let v = face.map(|i| vertices[i as usize]);
-            if (v[0].beyond | v[1].beyond | v[2].beyond) == 0 {
-                if let Some(triangle) = Triangle::new(v, facing, pattern, lens.extent) {
+            if *whole || (v[0].beyond() | v[1].beyond() | v[2].beyond()) == 0 {
+                if let Some(triangle) = Triangle::new(v, &target) {
                     see(number, &triangle);
                 }
-            } else if (v[0].beyond & v[1].beyond & v[2].beyond) == 0 {
+            } else if (v[0].beyond() & v[1].beyond() & v[2].beyond()) == 0 {
                 let corners = face.map(|i| {
                     let p = surface.positions[i as usize];
                     let [x, y, z, w] = columns.apply(p);
                     [x, y, z, w, half.map_or(1.0, |half| distance(half, p))]
                 });
                 for piece in clip(corners).triangles() {
-                    let v = piece.map(|corner| inside(&corner));
-                    if let Some(triangle) = Triangle::new(v, facing, pattern, lens.extent) {
+                    if let Some(triangle) = Triangle::new(piece.map(|corner| inside(&corner)), &target) {
                         see(number, &triangle);
                     }
                 }
@@ -104,7 +135,7 @@ impl Layer {
     /// The map from a surface's coordinates to the window, where the surface was projected.
     pub fn columns(&self, index: usize) -> Option<&Columns> {
         match &self.reach[index] {
-            Reach::Seen(columns, _) => Some(columns),
+            Reach::Seen { columns, .. } => Some(columns),
             Reach::Unseen => None,
         }
     }
@@ -118,27 +149,44 @@ fn local(plane: [f64; 4], draw: &Draw) -> HalfSpace {
     })
 }
 
-/// Whether a surface's box lies beyond one side of the window, before the near plane, beyond the far one, or behind the
-/// mirror.
-fn is_beside(columns: &Columns, half: Option<HalfSpace>, extent: Extent, surface: &Surface) -> bool {
+/// How a surface's box lies to the space that can be drawn and looked at.
+fn side(columns: &Columns, half: Option<HalfSpace>, lens: &Lens, surface: &Surface) -> Side {
     let [middle, size] = surface.bounds;
-    let mut beyond = u32::MAX;
+    // A pixel more all round, so that rounding leaves nothing out.
+    let ([left, bottom], [right, top]) =
+        (lens.region.low.map(|x| (x - 1) as f32), lens.region.high.map(|x| (x + 2) as f32));
+    let (mut beyond, mut cut) = (u32::MAX, false);
     for corner in 0..8_u32 {
         let p: [f32; 3] =
             std::array::from_fn(
-                |k| if corner >> k & 1 == 0 { middle[k] - size[k] } else { middle[k] + size[k] },
+                |k| {
+                    if corner >> k & 1 == 0 { middle[k] - size[k] } else { middle[k] + size[k] }
+                },
             );
         let [x, y, z, w] = columns.apply(p);
+        let behind = half.is_some_and(|half| distance(half, p) < 0.0);
         let faces = [
-            x < 0.0,
-            x > w * extent.width as f32,
-            y < 0.0,
-            y > w * extent.height as f32,
-            z > w,
+            x < w * left,
+            x > w * right,
+            y < w * bottom,
+            y > w * top,
+            z > w * (lens.deepest + DEEPER),
             z < 0.0,
-            half.is_some_and(|half| distance(half, p) < 0.0),
+            behind,
         ];
         beyond &= faces.iter().enumerate().fold(0, |bits, (bit, &is)| bits | u32::from(is) << bit);
+        let reach = INNER * GUARD * w;
+        let drawn = z <= INNER * w && z >= 0.0 && x.abs() <= reach && y.abs() <= reach && !behind;
+        cut |= !drawn;
     }
-    beyond != 0
+    match (beyond, cut) {
+        (1.., _) => Side::Beside,
+        (0, true) => Side::Cut,
+        (0, false) => Side::Whole,
+    }
 }
+
+/// What is farther than the deepest by less than this is kept.
+const DEEPER: f32 = 1e-4;
+/// Boxes that reach nearer to the faces than this may have positions beyond them, rounding included.
+const INNER: f32 = 0.999;

@@ -4,9 +4,9 @@
 //! rows, whichever it is farther from (OpenGL 2.1 specification, section 3.4.2).
 
 use super::clip::{Corner, clip_line};
-use super::coverage::{Facing, Pattern, Triangle};
+use super::coverage::{Facing, Pattern, Target, Triangle};
 use super::layer::Lens;
-use super::vertices::{SUBPIXELS, Vertex, inside};
+use super::vertices::{Vertex, inside};
 use crate::scene::{Item, Scene, Shape};
 
 /// Width of the edges of boxes, in units of the line width.
@@ -70,24 +70,21 @@ impl Line {
         };
         let Some(ends) = clip_line(self.ends.map(project)) else { return };
         let [a, b] = ends.map(|end| inside(&end));
-        let (dx, dy) = ((b.x - a.x) as f32, (b.y - a.y) as f32);
-        let half = 0.5 * self.width * line_width * SUBPIXELS as f32;
+        let (dx, dy) = (b.at()[0] - a.at()[0], b.at()[1] - a.at()[1]);
+        let half = 0.5 * self.width * line_width;
         let (x, y) = if *pattern == Pattern::FOUR {
-            let length = (dx * dx + dy * dy).sqrt().max(1.0);
+            let length = (dx * dx + dy * dy).sqrt().max(1e-3);
             (-dy * half / length, dx * half / length)
         } else if dx.abs() > dy.abs() {
             (0.0, half)
         } else {
             (half, 0.0)
         };
-        let (x, y) = (x.round_ties_even() as i32, y.round_ties_even() as i32);
-        let beside = |v: Vertex, sign: i32| {
-            let (x, y) = (v.x + sign * x, v.y + sign * y);
-            Vertex { x, y, at: [x, y].map(|x| x as f32 / SUBPIXELS as f32), ..v }
-        };
-        let [p, q, r, s] = [beside(a, 1), beside(a, -1), beside(b, -1), beside(b, 1)];
+        let beside = |v: Vertex, sign: f32| Vertex::new([v.at()[0] + sign * x, v.at()[1] + sign * y], v.z());
+        let [p, q, r, s] = [beside(a, 1.0), beside(a, -1.0), beside(b, -1.0), beside(b, 1.0)];
+        let target = Target::new(*pattern, Facing::Both, &lens.region);
         for corners in [[p, q, s], [q, r, s]] {
-            if let Some(triangle) = Triangle::new(corners, Facing::Both, pattern, lens.extent) {
+            if let Some(triangle) = Triangle::new(corners, &target) {
                 see(&triangle);
             }
         }

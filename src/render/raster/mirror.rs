@@ -1,14 +1,19 @@
 //! The mirror image in the one item that may reflect.
 
+use super::backdrop::Known;
+use super::draws::Draw;
 use super::layer::{Layer, Lens};
-use super::paint::{Brush, Canvas};
+use super::opaque::Frame;
+use super::paint::Canvas;
+use super::renderer::look;
 use super::seen::{Illumination, Seen};
 use super::stage::Stage;
+use super::still::{Kept, Plan};
 use super::transparency::Transparency;
 use super::visibility::Visibility;
 use super::window::mirror;
-use crate::scene::Shape;
-use wide::f32x4;
+use crate::scene::{Scene, Shape};
+use wide::{f32x4, u32x4};
 
 /// The mirror image of a picture.
 #[derive(Clone, Debug)]
@@ -16,6 +21,7 @@ pub struct Mirror {
     layer: Layer,
     visibility: Visibility,
     seen: Seen,
+    known: Vec<Known>,
     light: Illumination,
     transparency: Transparency,
 }
@@ -26,6 +32,7 @@ impl Default for Mirror {
             layer: Layer::default(),
             visibility: Visibility::new(super::coverage::Pattern::CENTER),
             seen: Seen::default(),
+            known: Vec::new(),
             light: Illumination::default(),
             transparency: Transparency::default(),
         }
@@ -42,49 +49,61 @@ impl Mirror {
     pub fn draw(
         &mut self,
         stage: &Stage<'_>,
-        item: usize,
-        shown: &Visibility,
-        brush: &Brush<'_>,
+        (item, shown): (usize, &Visibility),
+        frame: &Frame<'_>,
+        kept: &mut Kept,
         canvas: &mut Canvas,
     ) {
-        let (scene, lens) = (stage.scene, stage.lens);
-        let plane = &scene.items[item];
-        let normal = [plane.mat[2], plane.mat[5], plane.mat[8]].map(f64::from);
-        let rise = if plane.shape == Shape::Box { f64::from(plane.size[2]) } else { 0.0 };
-        let point: [f64; 3] = std::array::from_fn(|k| f64::from(plane.pos[k]) + rise * normal[k]);
-        let shift = -(0..3).map(|k| normal[k] * point[k]).sum::<f64>();
-        let eye = scene.view.eye;
-        if (0..3).map(|k| normal[k] * eye[k]).sum::<f64>() + shift < 0.0 || !self.open(stage, item, shown) {
+        let scene = stage.scene;
+        let Some(lens) = reflected(stage.lens, scene, item) else { return };
+        let turn = mirror(lens.point, lens.normal);
+        let seen_from = |p: [f64; 3]| turn.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
+        self.light.set(scene, seen_from(scene.view.eye).map(|x| x as f32), false);
+        self.light.reflectance = scene.items[item].look.reflectance;
+        let is_kept = frame.plan != Plan::Without && kept.stills.has_item(item);
+        let still = |kept: &Kept, draw: &Draw| is_kept && kept.stills.has(draw) && !draw.transparent;
+        let width = stage.lens.extent.width as usize;
+        let lens = lens.lens;
+        self.visibility.copy_shape(shown);
+        if is_kept && frame.plan == Plan::Make {
+            let wanted = |draw: &Draw| draw.item != item && still(kept, draw);
+            self.layer.update(stage.assets, stage.draws, &lens, wanted);
+            let stage = Stage { layer: &self.layer, lens: &lens, ..*stage };
+            look(&stage, &mut self.visibility, wanted);
+            self.seen.collect(&self.visibility, width, stage.draws.triangles, |_, _| false);
+            self.seen.light(&stage, &self.light);
+            kept.mirror.keep(&self.visibility, &self.seen, stage.draws, frame.brush);
+        }
+        if is_kept {
+            self.visibility.clone_from(&kept.mirror.visibility);
+        }
+        if !self.open(stage, item, shown) {
             return;
         }
-        let lens = Lens {
-            projection: lens.projection.mirrored(point, normal),
-            mirror: Some([normal[0], normal[1], normal[2], shift]),
-            ..*lens
-        };
-        self.layer.update(stage.assets, stage.draws, &lens, |draw| draw.item != item);
+        let wanted = |draw: &Draw| draw.item != item && !still(kept, draw);
+        self.layer.update(stage.assets, stage.draws, &lens, wanted);
         let stage = Stage { layer: &self.layer, lens: &lens, ..*stage };
-        for (index, draw) in stage.draws.list.iter().enumerate().filter(|(_, draw)| !draw.transparent) {
-            let pattern = self.visibility.pattern;
-            stage.layer.triangles(stage.assets, (index, draw), &lens, &pattern, |number, triangle| {
-                self.visibility.draw(number, triangle);
-            });
-        }
-        let turn = mirror(point, normal);
-        let seen_from = |p: [f64; 3]| turn.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
-        self.light.set(scene, seen_from(eye).map(|x| x as f32), false);
-        self.light.reflectance = plane.look.reflectance;
-        self.seen.collect(&self.visibility, lens.extent.width as usize, stage.draws.triangles);
+        look(&stage, &mut self.visibility, |draw| !draw.transparent && wanted(draw));
+        self.known.clear();
+        self.seen.collect(&self.visibility, width, stage.draws.triangles, |fragment, number| {
+            let found = if is_kept { kept.mirror.find(fragment, number) } else { None };
+            self.known.extend(found);
+            found.is_some()
+        });
         self.seen.light(&stage, &self.light);
         for fragment in &self.seen.fragments {
             let draw = &stage.draws.list[self.seen.triangles[fragment.triangle as usize].draw as usize];
-            let colour = brush.colour(&self.seen, &draw.paint, 1.0, fragment);
+            let colour = frame.brush.colour(&self.seen, &draw.paint, 1.0, fragment);
             canvas.touch(fragment, |_| colour);
         }
-        self.transparency.draw(&stage, &self.visibility, &self.light, brush, canvas);
+        for known in &self.known {
+            let colour = kept.mirror.colour(known);
+            canvas.touch(&known.fragment, |_| colour);
+        }
+        self.transparency.draw(&stage, &self.visibility, &self.light, frame.brush, canvas);
     }
 
-    /// Opens the samples at which the item's upper side is seen; whether there are any.
+    /// Closes the samples at which the item's upper side is not seen; whether any are left.
     fn open(&mut self, stage: &Stage<'_>, item: usize, shown: &Visibility) -> bool {
         let draws = &stage.draws.list;
         let first = draws.partition_point(|draw| draw.item < item);
@@ -96,16 +115,42 @@ impl Mirror {
             let face = &surface.corners[(number - numbers.start) as usize];
             surface.normals[face.normal[0] as usize][2] > UPPER
         };
-        self.visibility.copy_shape(shown);
         let mut any = false;
-        for (open, shown) in self.visibility.groups.iter_mut().zip(&shown.groups) {
-            let depth = shown.triangle.to_array().map(|number| {
-                let is_open = numbers.contains(&number) && upper(number);
-                any |= is_open;
-                if is_open { 0.0 } else { CLOSED }
-            });
-            open.depth = f32x4::new(depth);
+        for (mirrored, shown) in self.visibility.groups.iter_mut().zip(&shown.groups) {
+            let (mut depth, mut number) = (mirrored.depth.to_array(), mirrored.triangle.to_array());
+            for (lane, &seen) in shown.triangle.to_array().iter().enumerate() {
+                if numbers.contains(&seen) && upper(seen) {
+                    any = true;
+                } else {
+                    (depth[lane], number[lane]) = (CLOSED, 0);
+                }
+            }
+            (mirrored.depth, mirrored.triangle) = (f32x4::new(depth), u32x4::new(number));
         }
         any
     }
+}
+
+/// A lens that looks into a mirror.
+struct Reflected {
+    lens: Lens,
+    /// A point of the mirror and its normal, world frame.
+    point: [f64; 3],
+    normal: [f64; 3],
+}
+
+/// The lens that sees what an item's upper side mirrors; none where the eye is below it.
+fn reflected(lens: &Lens, scene: &Scene, item: usize) -> Option<Reflected> {
+    let plane = &scene.items[item];
+    let normal = [plane.mat[2], plane.mat[5], plane.mat[8]].map(f64::from);
+    let rise = if plane.shape == Shape::Box { f64::from(plane.size[2]) } else { 0.0 };
+    let point: [f64; 3] = std::array::from_fn(|k| f64::from(plane.pos[k]) + rise * normal[k]);
+    let along = |p: [f64; 3]| (0..3).map(|k| normal[k] * p[k]).sum::<f64>();
+    let shift = -along(point);
+    let lens = Lens {
+        projection: lens.projection.mirrored(point, normal),
+        mirror: Some([normal[0], normal[1], normal[2], shift]),
+        ..*lens
+    };
+    (along(scene.view.eye) + shift >= 0.0).then_some(Reflected { lens, point, normal })
 }

@@ -3,6 +3,8 @@
 //! What is seen is decided first, sample by sample ([`visibility`]), then each visible triangle's corners are lit, and each
 //! fragment is shaded once. The result is that of MuJoCo's many passes over all triangles.
 
+mod backdrop;
+mod batch;
 mod clip;
 mod coverage;
 mod draws;
@@ -11,6 +13,7 @@ mod layer;
 mod lighting;
 mod lines;
 mod mirror;
+mod opaque;
 mod paint;
 mod power;
 mod renderer;
@@ -19,11 +22,13 @@ mod settings;
 mod shadow;
 mod sky;
 mod stage;
+mod still;
 mod transparency;
 mod vertices;
 mod visibility;
 mod window;
 
+pub use batch::{Batch, Shot};
 pub use renderer::Renderer;
 pub use settings::{Samples, Settings};
 pub use shadow::ShadowSettings;

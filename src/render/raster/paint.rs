@@ -75,31 +75,71 @@ impl Brush<'_> {
     /// The colour of a fragment under the lamps without shadows and those with shadows that reach it.
     #[inline]
     pub fn colour(&self, seen: &Seen, paint: &Paint, alpha: f32, fragment: &Fragment) -> Rgba {
+        let shade = self.shade(seen, paint, fragment);
+        let mut sum = shade.pass(0);
+        let mut lit = fragment.lit;
+        while lit != 0 {
+            sum = added(sum, shade.pass(1 + lit.trailing_zeros() as usize));
+            lit &= lit - 1;
+        }
+        let opacity = alpha * shade.texel.map_or(1.0, |texel| texel[3]);
+        [sum[0], sum[1], sum[2], eight_bits(opacity.clamp(0.0, 1.0))]
+    }
+
+    /// The colours of an opaque fragment under the lamps without shadows and under each of the others, `passes` in all.
+    pub fn passes(
+        &self,
+        seen: &Seen,
+        paint: &Paint,
+        fragment: &Fragment,
+        passes: usize,
+        out: &mut Vec<Rgba>,
+    ) {
+        let shade = self.shade(seen, paint, fragment);
+        out.extend((0..passes).map(|pass| shade.pass(pass)));
+    }
+
+    #[inline]
+    fn shade<'a>(&self, seen: &'a Seen, paint: &Paint, fragment: &Fragment) -> Shade<'a> {
         let triangle = &seen.triangles[fragment.triangle as usize];
         let weights = triangle.weights(f32::from(fragment.x) + 0.5, f32::from(fragment.y) + 0.5);
         let texel = self.texel(triangle, paint, fragment, weights);
-        let clear = self.veil.map(|veil| (veil.clear(triangle.position(weights)), veil.fog.rgb));
-        let painted = |pass: usize, fog: [f32; 3]| {
-            let mut c = seen.colour(triangle, weights, pass);
-            if let Some(texel) = texel {
-                c = std::array::from_fn(|k| c[k] * texel[k]);
-            }
-            if let Some((clear, _)) = clear {
-                c = std::array::from_fn(|k| clear * c[k] + (1.0 - clear) * fog[k]);
-            }
-            c.map(eight_bits)
-        };
-        let mut sum = painted(0, clear.map_or([0.0; 3], |(_, fog)| fog));
-        let mut lit = fragment.lit;
-        while lit != 0 {
-            let pass = 1 + lit.trailing_zeros() as usize;
-            lit &= lit - 1;
-            let more = painted(pass, [0.0; 3]);
-            sum = std::array::from_fn(|k| sum[k].saturating_add(more[k]));
-        }
-        let alpha = eight_bits((alpha * texel.map_or(1.0, |texel| texel[3])).clamp(0.0, 1.0));
-        [sum[0], sum[1], sum[2], alpha]
+        let fog = self.veil.map(|veil| (veil.clear(triangle.position(weights)), veil.fog.rgb));
+        Shade { seen, triangle, weights, texel, fog }
     }
+}
+
+/// A fragment about to be painted.
+struct Shade<'a> {
+    seen: &'a Seen,
+    triangle: &'a SeenTriangle,
+    weights: [f32; 3],
+    texel: Option<[f32; 4]>,
+    /// Share of its own colour that fog leaves, and the fog's.
+    fog: Option<(f32, [f32; 3])>,
+}
+
+impl Shade<'_> {
+    /// The colour that a pass gives, opaque. Fog is black in all but the first, as these are added.
+    #[inline]
+    fn pass(&self, pass: usize) -> Rgba {
+        let mut c = self.seen.colour(self.triangle, self.weights, pass);
+        if let Some(texel) = self.texel {
+            c = std::array::from_fn(|k| c[k] * texel[k]);
+        }
+        if let Some((clear, fog)) = self.fog {
+            let fog = if pass == 0 { fog } else { [0.0; 3] };
+            c = std::array::from_fn(|k| clear * c[k] + (1.0 - clear) * fog[k]);
+        }
+        let [r, g, b] = c.map(eight_bits);
+        [r, g, b, 255]
+    }
+}
+
+/// The sum of two colours, at most white.
+#[inline]
+pub fn added(a: Rgba, b: Rgba) -> Rgba {
+    std::array::from_fn(|k| a[k].saturating_add(b[k]))
 }
 
 /// A number from 0 to 1 as a byte.

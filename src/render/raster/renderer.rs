@@ -1,16 +1,17 @@
 //! From a scene to a picture.
 
 use super::coverage::{Extent, Pattern};
-use super::draws::Draws;
+use super::draws::{Draw, Draws};
 use super::image::{Image, write_depth, write_rgb, write_segmentation};
-use super::layer::{Layer, Lens};
+use super::layer::{Layer, Lens, Sides};
 use super::mirror::Mirror;
+use super::opaque::{Frame, Opaque};
 use super::paint::{Brush, Canvas, Veil, eight_bits};
-use super::seen::{Illumination, Seen};
+use super::seen::Illumination;
 use super::settings::{Samples, Settings};
-use super::shadow::Shadows;
 use super::sky::Surroundings;
 use super::stage::Stage;
+use super::still::{Kept, Plan, Views};
 use super::transparency::Transparency;
 use super::visibility::Visibility;
 use super::window::Projection;
@@ -27,12 +28,11 @@ pub struct Renderer {
     draws: Draws,
     layer: Layer,
     visibility: Visibility,
-    seen: Seen,
-    light: Illumination,
-    shadows: Shadows,
+    opaque: Opaque,
     mirror: Mirror,
     transparency: Transparency,
     canvas: Canvas,
+    views: Views,
 }
 
 impl Renderer {
@@ -43,12 +43,11 @@ impl Renderer {
             draws: Draws::default(),
             layer: Layer::default(),
             visibility: Visibility::new(Pattern::CENTER),
-            seen: Seen::default(),
-            light: Illumination::default(),
-            shadows: Shadows::default(),
+            opaque: Opaque::default(),
             mirror: Mirror::default(),
             transparency: Transparency::default(),
             canvas: Canvas::default(),
+            views: Views::default(),
         }
     }
 
@@ -79,14 +78,24 @@ impl Renderer {
         }
         let projection = Projection::of(&scene.view, width, height)?;
         let extent = Extent { width: width as i32, height: height as i32 };
-        let lens = Lens { projection, extent, mirror: None, two_sided: false };
+        let lens = Lens {
+            projection,
+            extent,
+            region: extent.region(),
+            deepest: 1.0,
+            mirror: None,
+            sides: Sides::Seen,
+        };
         self.draws.update(assets, scene);
-        self.layer.update(assets, &self.draws, &lens, |_| true);
         picture.rgb.clear();
         picture.depth.clear();
         picture.segmentation.clear();
         if channels.depth || channels.segmentation {
-            self.look(assets, &lens, Pattern::CENTER, |_, unlisted| !unlisted, scene);
+            self.layer.update(assets, &self.draws, &lens, |draw| !scene.items[draw.item].unlisted);
+            let stage = Stage { assets, scene, draws: &self.draws, layer: &self.layer, lens: &lens };
+            self.visibility.clear(Pattern::CENTER, width, height);
+            look(&stage, &mut self.visibility, |draw| !scene.items[draw.item].unlisted);
+            look_at_lines(&stage, &self.settings, &mut self.visibility);
             let image = Image { visibility: &self.visibility, extent };
             if channels.depth {
                 write_depth(&image, &scene.view.frustum, &mut picture.depth);
@@ -102,78 +111,43 @@ impl Renderer {
         Ok(())
     }
 
-    /// Finds what is seen at the samples of a pattern, among the draws that `wanted(transparent, unlisted)` picks.
-    fn look(
-        &mut self,
-        assets: &Assets,
-        lens: &Lens,
-        pattern: Pattern,
-        wanted: impl Fn(bool, bool) -> bool,
-        scene: &Scene,
-    ) {
-        let (width, height) = (lens.extent.width as usize, lens.extent.height as usize);
-        self.visibility.clear(pattern, width, height);
-        let Renderer { settings, visibility, layer, draws, .. } = self;
-        for (index, draw) in draws.list.iter().enumerate() {
-            if wanted(draw.transparent, scene.items[draw.item].unlisted) {
-                layer.triangles(assets, (index, draw), lens, &pattern, |number, triangle| {
-                    visibility.draw(number, triangle);
-                });
-            }
-        }
-        for (number, line) in (draws.triangles..).zip(&draws.lines) {
-            if wanted(false, scene.items[line.item].unlisted) {
-                line.triangles(lens, &pattern, settings.line_width, |triangle| {
-                    visibility.draw(number, triangle)
-                });
-            }
-        }
-    }
-
     /// Paints all samples of a picture.
     fn colour(&mut self, assets: &Assets, scene: &Scene, lens: &Lens) {
-        let pattern = match self.settings.samples {
+        let Renderer {
+            settings, draws, layer, visibility, opaque, mirror, transparency, canvas, views, ..
+        } = self;
+        let nothing = &mut Kept::nothing(scene);
+        let (kept, plan) = match settings.keep {
+            true => views.find(assets, scene, draws, lens.extent, *settings),
+            false => (nothing, Plan::Without),
+        };
+        let view = &scene.view;
+        let brush = Brush { assets, veil: scene.fog.map(|fog| Veil::new(fog, view.eye, view.forward)) };
+        let frame = Frame { settings, brush: &brush, plan };
+        let pattern = match settings.samples {
             Samples::One => Pattern::CENTER,
             Samples::Four => Pattern::FOUR,
         };
-        self.look(assets, lens, pattern, |transparent, _| !transparent, scene);
-        let Renderer {
-            settings,
-            draws,
-            layer,
-            visibility,
-            seen,
-            light,
-            shadows,
-            mirror,
-            transparency,
-            canvas,
-        } = self;
+        visibility.clear(pattern, lens.extent.width as usize, lens.extent.height as usize);
+        if plan == Plan::Make {
+            layer.update(assets, draws, lens, |draw| kept.stills.has(draw) && !draw.transparent);
+            let stage = Stage { assets, scene, draws, layer, lens };
+            look(&stage, visibility, |draw| kept.stills.has(draw) && !draw.transparent);
+            opaque.keep(&stage, &frame, visibility, kept);
+        }
+        if plan != Plan::Without {
+            visibility.clone_from(&kept.main.visibility);
+        }
+        layer.update(assets, draws, lens, |draw| draw.transparent || !kept.stills.has(draw));
         let stage = Stage { assets, scene, draws, layer, lens };
-        let view = &scene.view;
-        let brush = Brush { assets, veil: scene.fog.map(|fog| Veil::new(fog, view.eye, view.forward)) };
+        look(&stage, visibility, |draw| !draw.transparent && !kept.stills.has(draw));
+        look_at_lines(&stage, settings, visibility);
         canvas.clear(visibility.groups.len());
         let reflective = draws.reflective(scene);
         if let Some(item) = reflective {
-            mirror.draw(&stage, item, visibility, &brush, canvas);
+            mirror.draw(&stage, (item, visibility), &frame, kept, canvas);
         }
-        seen.collect(visibility, lens.extent.width as usize, draws.triangles);
-        let eye = view.eye.map(|x| x as f32);
-        light.set(scene, eye, scene.shadows && settings.shadow.size > 0);
-        seen.light(&stage, light);
-        let casting = scene.lights.iter().filter(|light| light.shadow).take(light.shadowed.len());
-        for (bit, light) in casting.enumerate() {
-            shadows.cast(&stage, (light, bit), &settings.shadow, seen);
-        }
-        for fragment in &seen.fragments {
-            let draw = &draws.list[seen.triangles[fragment.triangle as usize].draw as usize];
-            let colour = brush.colour(seen, &draw.paint, 1.0, fragment);
-            if reflective == Some(draw.item) {
-                canvas.touch(fragment, |below| std::array::from_fn(|k| colour[k].saturating_add(below[k])));
-            } else {
-                canvas.touch(fragment, |_| colour);
-            }
-        }
+        opaque.draw(&stage, &frame, visibility, kept, (reflective, canvas));
         if !draws.lines.is_empty() {
             paint_lines(scene, draws, visibility, canvas);
         }
@@ -190,8 +164,30 @@ impl Renderer {
                 around.haze(haze, canvas);
             }
         }
-        light.set(scene, eye, false);
-        transparency.draw(&stage, visibility, light, &brush, canvas);
+        let light = Illumination::without_shadows(scene);
+        transparency.draw(&stage, visibility, &light, &brush, canvas);
+    }
+}
+
+/// Finds what is seen at the samples of a window, among the draws that `wanted` picks.
+pub fn look(stage: &Stage<'_>, visibility: &mut Visibility, wanted: impl Fn(&Draw) -> bool) {
+    let pattern = visibility.pattern;
+    for (index, draw) in stage.draws.list.iter().enumerate().filter(|(_, draw)| wanted(draw)) {
+        stage.layer.triangles(stage.assets, (index, draw), stage.lens, &pattern, |number, triangle| {
+            visibility.draw(number, triangle);
+        });
+    }
+}
+
+/// Adds the lines.
+fn look_at_lines(stage: &Stage<'_>, settings: &Settings, visibility: &mut Visibility) {
+    let pattern = visibility.pattern;
+    for (number, line) in (stage.draws.triangles..).zip(&stage.draws.lines) {
+        if pattern == Pattern::FOUR || !stage.scene.items[line.item].unlisted {
+            line.triangles(stage.lens, &pattern, settings.line_width, |triangle| {
+                visibility.draw(number, triangle);
+            });
+        }
     }
 }
 

@@ -2,8 +2,7 @@
 //!
 //! A fragment is one triangle in one pixel. It is shaded once, at the middle of the pixel, for all of the triangle's samples there.
 
-use super::coverage::Pattern;
-use super::coverage::Triangle;
+use super::coverage::{Extent, Pattern, Triangle};
 use super::draws::Draw;
 use super::lighting::{Corners, Lamp, Material, add_lamp, clamped, own_light, unit};
 use super::stage::Stage;
@@ -40,7 +39,7 @@ pub struct SeenTriangle {
     rows: [u32; 3],
     /// What multiplies column, row and 1 to give each corner's share before normalisation, counted from `anchor`.
     shares: [[f32; 3]; 3],
-    /// Pixel from which columns and rows are counted, so that small numbers are multiplied.
+    /// Point of the window from which columns and rows are counted, so that small numbers are multiplied [pixel].
     anchor: [f32; 2],
     /// Texture coordinates or directions of its corners.
     texture: [[f32; 3]; 3],
@@ -92,6 +91,13 @@ pub struct Illumination {
 }
 
 impl Illumination {
+    /// The lights of a scene, none with shadows.
+    pub fn without_shadows(scene: &Scene) -> Self {
+        let mut light = Illumination::default();
+        light.set(scene, scene.view.eye.map(|x| x as f32), false);
+        light
+    }
+
     /// The lights of a scene, seen from `eye`. Those that cast shadows are kept apart where shadows are wanted.
     pub fn set(&mut self, scene: &Scene, eye: [f32; 3], shadows: bool) {
         self.base.clear();
@@ -117,8 +123,8 @@ pub struct Seen {
     passes: usize,
     /// Colours of lit corners, one for each pass.
     colours: Vec<[f32; 3]>,
-    /// Number of each triangle seen, and the pixel where it was seen first.
-    numbers: Vec<(u32, [u16; 2])>,
+    /// Number of each triangle seen.
+    numbers: Vec<u32>,
     /// For each triangle of the scene its place among those seen, counted from 1; 0 for none.
     places: Vec<u32>,
     /// Places sorted by number.
@@ -140,7 +146,7 @@ struct Stamp {
 impl Seen {
     /// Forgets the last picture's triangles, and makes room for a scene with so many.
     pub fn begin(&mut self, triangles: u32) {
-        for &(number, _) in &self.numbers {
+        for &number in &self.numbers {
             self.places[number as usize] = 0;
         }
         self.numbers.clear();
@@ -150,39 +156,34 @@ impl Seen {
         self.places.resize(triangles as usize, 0);
     }
 
-    /// Collects what a window shows.
-    pub fn collect(&mut self, visibility: &Visibility, width: usize, triangles: u32) {
+    /// Collects what a window shows, but for the fragments that `keep(fragment, number)` takes.
+    pub fn collect(
+        &mut self,
+        visibility: &Visibility,
+        width: usize,
+        triangles: u32,
+        mut keep: impl FnMut(Fragment, u32) -> bool,
+    ) {
         self.begin(triangles);
         let one_pixel = visibility.pattern == Pattern::FOUR;
         for (y, row) in visibility.groups.chunks_exact(visibility.per_row).enumerate() {
             for (column, group) in row.iter().enumerate() {
                 let numbers = group.triangle.to_array();
                 let index = (y * visibility.per_row + column) as u32;
-                if one_pixel {
-                    self.add_pixel(numbers, [column as u16, y as u16], index);
-                } else {
-                    for (lane, &number) in numbers.iter().enumerate() {
-                        let x = 4 * column + lane;
-                        if number != 0 && x < width {
-                            self.add(number, [x as u16, y as u16], index, 1 << lane);
-                        }
+                let mut take = |number: u32, x: usize, lanes: u8| {
+                    let (x, y) = (x as u16, y as u16);
+                    let fragment = Fragment { x, y, group: index, triangle: 0, lanes, lit: 0 };
+                    if number != 0 && !keep(fragment, number) {
+                        self.add(number, fragment);
                     }
+                };
+                if one_pixel {
+                    same_numbers(numbers, |number, lanes| take(number, column, lanes));
+                } else {
+                    let pixels = numbers.into_iter().enumerate().take(width.saturating_sub(4 * column));
+                    pixels.for_each(|(lane, number)| take(number, 4 * column + lane, 1 << lane));
                 }
             }
-        }
-    }
-
-    /// The fragments of a pixel with four samples.
-    #[inline]
-    fn add_pixel(&mut self, numbers: [u32; 4], pixel: [u16; 2], group: u32) {
-        let mut left = 0b1111_u8;
-        for lane in 0..4 {
-            if left >> lane & 1 == 0 || numbers[lane] == 0 {
-                continue;
-            }
-            let same = (lane..4).fold(0, |bits, k| bits | u8::from(numbers[k] == numbers[lane]) << k);
-            left &= !same;
-            self.add(numbers[lane], pixel, group, same);
         }
     }
 
@@ -194,39 +195,42 @@ impl Seen {
             let index = row * shown.per_row + column;
             let depth: i32x4 = cast(depth.simd_ge(shown.groups[index].depth));
             let lanes = (mask & depth).to_bitmask() as u8;
-            if lanes != 0 && pattern == Pattern::FOUR {
-                self.add(number, [column as u16, row as u16], index as u32, lanes);
-            } else {
+            let fragment = |x: usize, lanes: u8| {
+                let (x, y) = (x as u16, row as u16);
+                Fragment { x, y, group: index as u32, triangle: 0, lanes, lit: 0 }
+            };
+            if pattern != Pattern::FOUR {
                 for lane in (0..4).filter(|lane| lanes >> lane & 1 != 0) {
-                    self.add(number, [(4 * column + lane) as u16, row as u16], index as u32, 1 << lane);
+                    self.add(number, fragment(4 * column + lane, 1 << lane));
                 }
+            } else if lanes != 0 {
+                self.add(number, fragment(column, lanes));
             }
         });
     }
 
-    /// Adds a fragment.
+    /// Adds a fragment of a triangle.
     #[inline]
-    pub fn add(&mut self, number: u32, pixel: [u16; 2], group: u32, lanes: u8) {
+    fn add(&mut self, number: u32, fragment: Fragment) {
         // Lines are numbered beyond the triangles and need no light.
         let Some(place) = self.places.get_mut(number as usize) else { return };
         if *place == 0 {
-            self.numbers.push((number, pixel));
+            self.numbers.push(number);
             *place = self.numbers.len() as u32;
         }
-        let [x, y] = pixel;
-        self.fragments.push(Fragment { x, y, group, triangle: *place - 1, lanes, lit: 0 });
+        self.fragments.push(Fragment { triangle: *place - 1, ..fragment });
     }
 
     /// Prepares the triangles collected: shares of their corners in the window, texture coordinates, light.
     pub fn light(&mut self, stage: &Stage<'_>, light: &Illumination) {
-        let Stage { assets, scene, draws, layer, .. } = *stage;
+        let Stage { assets, scene, draws, layer, lens } = *stage;
         self.passes = 1 + light.shadowed.len();
         self.frame = self.frame.wrapping_add(1);
         self.stamps.resize(draws.vertices, Stamp::default());
         self.order.clear();
         self.order.extend(0..self.numbers.len() as u32);
         let numbers = &self.numbers;
-        self.order.sort_unstable_by_key(|&place| numbers[place as usize].0);
+        self.order.sort_unstable_by_key(|&place| numbers[place as usize]);
         let empty = SeenTriangle {
             draw: 0,
             rows: [0; 3],
@@ -238,15 +242,16 @@ impl Seen {
         self.triangles.resize(self.numbers.len(), empty);
         let mut next = 0;
         while let Some(&place) = self.order.get(next) {
-            let index = draws.of_triangle(self.numbers[place as usize].0);
+            let index = draws.of_triangle(self.numbers[place as usize]);
             let end = draws.list.get(index + 1).map_or(u32::MAX, |draw| draw.first_triangle);
             let draw = &draws.list[index];
             let numbers = &self.numbers;
-            let count = self.order[next..].partition_point(|&place| numbers[place as usize].0 < end);
+            let count = self.order[next..].partition_point(|&place| numbers[place as usize] < end);
             if let Some(columns) = layer.columns(index) {
                 for k in next..next + count {
                     let place = self.order[k] as usize;
-                    self.triangles[place] = self.prepare(assets, (index, draw), columns, place);
+                    self.triangles[place] =
+                        self.prepare((assets, lens.extent), (index, draw), columns, place);
                 }
             }
             self.light_waiting(assets, draw, &scene.items[draw.item], light);
@@ -265,17 +270,18 @@ impl Seen {
     /// A triangle without its colours, whose corners wait to be lit.
     fn prepare(
         &mut self,
-        assets: &Assets,
+        (assets, extent): (&Assets, Extent),
         (index, draw): (usize, &Draw),
         columns: &Columns,
         place: usize,
     ) -> SeenTriangle {
-        let (number, [x, y]) = self.numbers[place];
+        let number = self.numbers[place];
         let surface = draw.surface(assets);
         let index_in_surface = (number - draw.first_triangle) as usize;
         let (face, corners) = (surface.faces[index_in_surface], &surface.corners[index_in_surface]);
         let points = face.map(|i| surface.positions[i as usize]);
-        let anchor = [f32::from(x) + 0.5, f32::from(y) + 0.5];
+        let window = points.map(|p| columns.apply(p));
+        let anchor = anchor(window[0], extent);
         let rows = std::array::from_fn(|k| {
             let stamp = &mut self.stamps[draw.first_vertex + face[k] as usize];
             if stamp.frame != self.frame || stamp.normal != corners.normal[k] {
@@ -296,7 +302,7 @@ impl Seen {
             }
             Paint::Cube { scale, .. } => std::array::from_fn(|i| scale[i] * points[k][i]),
         });
-        let shares = shares(points.map(|p| columns.apply(p)), anchor);
+        let shares = shares(window, anchor);
         SeenTriangle {
             draw: index as u32,
             rows,
@@ -346,6 +352,16 @@ impl Seen {
         self.waiting.clear();
     }
 
+    /// Passes that corners are lit in.
+    pub fn passes(&self) -> usize {
+        self.passes
+    }
+
+    /// Number of a fragment's triangle.
+    pub fn number(&self, fragment: &Fragment) -> u32 {
+        self.numbers[fragment.triangle as usize]
+    }
+
     /// The colour of a triangle under one pass, before its texture.
     #[inline]
     pub fn colour(&self, triangle: &SeenTriangle, weights: [f32; 3], pass: usize) -> [f32; 3] {
@@ -358,6 +374,26 @@ impl Seen {
     pub fn is_lit(&self, triangle: &SeenTriangle, pass: usize) -> bool {
         triangle.rows.iter().any(|&row| self.colours[row as usize * self.passes + pass] != [0.0; 3])
     }
+}
+
+/// Calls `take(number, lanes)` for each number among four, with the bits of the lanes that have it.
+#[inline]
+fn same_numbers(numbers: [u32; 4], mut take: impl FnMut(u32, u8)) {
+    let mut left = 0b1111_u8;
+    while left != 0 {
+        let number = numbers[left.trailing_zeros() as usize];
+        let same = (0..4).fold(0, |bits, k| bits | u8::from(numbers[k] == number) << k);
+        left &= !same;
+        take(number, same);
+    }
+}
+
+/// The pixel of the window nearest to a corner, or the first where the corner is behind the eye. It depends on nothing but
+/// the triangle, as its colours then do.
+fn anchor([x, y, _, w]: [f32; 4], extent: Extent) -> [f32; 2] {
+    let near =
+        |x: f32, pixels: i32| if w > 0.0 { (x / w).clamp(0.0, pixels as f32).floor() + 0.5 } else { 0.5 };
+    [near(x, extent.width), near(y, extent.height)]
 }
 
 /// What multiplies column, row and 1, counted from `anchor`, to give the share of each corner: with corners (x w, y w, w) as rows

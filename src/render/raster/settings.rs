@@ -14,6 +14,8 @@ pub struct Settings {
     pub slices: usize,
     /// Width of lines [pixel].
     pub line_width: f32,
+    /// What stands still in a view is kept from picture to picture. The pictures are the same without.
+    pub keep: bool,
 }
 
 /// Samples of a pixel.
@@ -28,6 +30,19 @@ pub enum Samples {
 /// Largest shadow map [texel]: positions in it are kept in 16 bits, and its edge functions in 64.
 const MAX_SHADOW: i32 = 8192;
 
+impl Default for Settings {
+    /// Those of a model that sets none, but for shadows, which need the model's extent.
+    fn default() -> Self {
+        Settings {
+            samples: Samples::Four,
+            shadow: ShadowSettings { size: 0, clip: 0.0, scale: 0.0 },
+            slices: 28,
+            line_width: 1.0,
+            keep: true,
+        }
+    }
+}
+
 impl Settings {
     /// The settings of a model. `offsamples` of 2 or more are four samples; a `shadowsize` of 0 is no shadow.
     pub fn of(model: &Model) -> Self {
@@ -41,6 +56,7 @@ impl Settings {
             },
             slices: quality.numslices.max(3) as usize,
             line_width: model.vis.global.linewidth,
+            keep: true,
         }
     }
 }

@@ -6,12 +6,12 @@
 //!
 //! Depth here is u = 0 at the near plane and 1 at the far one, so that what is near keeps its bits.
 
-use super::coverage::{Extent, Pattern, Triangle};
-use super::draws::Draws;
-use super::layer::{Layer, Lens};
-use super::seen::Seen;
+use super::coverage::{Extent, Pattern, Region, Triangle};
+use super::draws::Draw;
+use super::layer::{Layer, Lens, Sides};
 use super::stage::Stage;
 use super::window::Projection;
+use crate::profile::Profile;
 use crate::scene::{Category, Light, LightKind, Scene};
 use physics::math::ops::tan;
 use std::ops::Range;
@@ -19,9 +19,17 @@ use wide::f32x8;
 
 /// Texels left free at every side of the map.
 const MARGIN: f64 = 1.0;
-/// Added to the depth of casters, in units of the map's 24 bits and in slopes a texel (`glPolygonOffset`).
-const OFFSET: f32 = 4.0 / 16_777_216.0;
-const SLOPES: f32 = 1.5;
+/// What is added to the depth of casters.
+#[derive(Clone, Copy)]
+struct Offset {
+    /// In slopes a texel.
+    slopes: f32,
+    /// Depth.
+    constant: f32,
+}
+
+/// `glPolygonOffset` of -1.5 and -4; pictures of Mesa fit best where its unit is two steps of the map's 24 bits.
+const OFFSET: Offset = Offset { slopes: 1.5, constant: 8.0 / 16_777_216.0 };
 /// Widest full angle of a spot's map [deg].
 const WIDEST: f32 = 160.0;
 /// Cells along a side of the grid.
@@ -38,23 +46,24 @@ pub struct ShadowSettings {
     pub scale: f32,
 }
 
-/// A fragment's question.
+/// A point's question.
 #[derive(Clone, Copy, Debug, Default)]
 struct Lookup {
     x: u16,
     y: u16,
-    /// Depth of the fragment.
+    /// Depth of the point.
     depth: f32,
-    fragment: u32,
+    /// The point that asks.
+    asked: u32,
 }
 
-/// Texels that fragments ask for, in the cells of a grid.
+/// Texels that points ask for, in the cells of a grid.
 #[derive(Clone, Debug, Default)]
 pub struct Shadows {
     layer: Layer,
     asked: Vec<Lookup>,
-    /// Fragments outside the map.
-    outside: Vec<u32>,
+    /// Whether the lamp reaches each point.
+    reached: Vec<bool>,
     /// The same, cell by cell.
     sorted: Sorted,
     cells: Vec<Cell>,
@@ -69,7 +78,7 @@ struct Sorted {
     y: Vec<f32>,
     /// Depth of the fragment; -1 in shadow.
     depth: Vec<f32>,
-    fragment: Vec<u32>,
+    asked: Vec<u32>,
 }
 
 /// Lookups read together.
@@ -83,23 +92,28 @@ impl Sorted {
         self.x.resize(length, 0.0);
         self.y.resize(length, 0.0);
         self.depth.resize(length, SHADED);
-        self.fragment.resize(length, 0);
+        self.asked.resize(length, 0);
         self.depth[count.min(length)..].fill(SHADED);
     }
 
     fn set(&mut self, at: usize, lookup: &Lookup) {
         (self.x[at], self.y[at]) = (f32::from(lookup.x) + 0.5, f32::from(lookup.y) + 0.5);
-        (self.depth[at], self.fragment[at]) = (lookup.depth, lookup.fragment);
+        (self.depth[at], self.asked[at]) = (lookup.depth, lookup.asked);
     }
 
     /// Puts those among a range that lie behind a triangle in its shadow, and maybe some after it.
     #[inline]
     fn shade(&mut self, range: Range<usize>, triangle: &Triangle, offset: f32) {
+        let middle = |x: i32| f32x8::splat(x as f32 + 0.5);
+        let ((left, right), (bottom, top)) = (triangle.columns(), triangle.rows());
+        let (left, right, bottom, top) = (middle(left), middle(right), middle(bottom), middle(top));
         for start in range.step_by(LANES) {
             let lanes = start..start + LANES;
             let read = |column: &[f32]| column[lanes.clone()].try_into().map_or(f32x8::ZERO, f32x8::new);
             let (x, y, depth) = (read(&self.x), read(&self.y), read(&self.depth));
-            let mut behind = (triangle.depths(x, y) + f32x8::splat(offset)).simd_lt(depth).to_bitmask();
+            let behind = (triangle.depths(x, y) + f32x8::splat(offset)).simd_lt(depth);
+            let boxed = x.simd_ge(left) & x.simd_le(right) & y.simd_ge(bottom) & y.simd_le(top);
+            let mut behind = (behind & boxed).to_bitmask();
             while behind != 0 {
                 let at = start + behind.trailing_zeros() as usize;
                 behind &= behind - 1;
@@ -130,6 +144,8 @@ struct Grid {
     high: [i32; 2],
     /// Texels along a side of a cell.
     cell: i32,
+    /// Largest depth of a fragment.
+    deepest: f32,
 }
 
 impl Grid {
@@ -145,61 +161,53 @@ struct Maps {
     lookups: Projection,
 }
 
+/// A point that a lamp may reach, world frame [m], and what its asker calls it.
+pub type Question = (u32, [f32; 3]);
+
 impl Shadows {
-    /// Sets bit `bit` of every fragment of `seen` that `light` reaches.
+    /// Keeps those of `questions` that `light` reaches past the draws that `casters` picks.
     pub fn cast(
         &mut self,
         stage: &Stage<'_>,
-        (light, bit): (&Light, usize),
+        light: &Light,
         settings: &ShadowSettings,
-        seen: &mut Seen,
+        casters: impl Fn(&Draw) -> bool,
+        questions: &mut Vec<Question>,
     ) {
+        if questions.is_empty() {
+            return;
+        }
         let maps = maps(light, stage.scene, settings);
-        self.ask(&maps.lookups, stage.draws, settings, seen, bit);
+        self.ask(&maps.lookups, settings, questions);
         if !self.asked.is_empty() {
             self.sort();
-            self.draw_casters(stage, maps.casters, settings.size as i32);
+            self.draw_casters(stage, maps.casters, settings.size as i32, casters);
         }
-        for (&depth, &fragment) in self.sorted.depth.iter().zip(&self.sorted.fragment) {
-            if depth >= 0.0 {
-                seen.fragments[fragment as usize].lit |= 1 << bit;
-            }
+        for (&depth, &asked) in self.sorted.depth.iter().zip(&self.sorted.asked) {
+            self.reached[asked as usize] |= depth >= 0.0;
         }
+        let mut reached = self.reached.iter();
+        questions.retain(|_| reached.next() == Some(&true));
     }
 
-    /// Asks for the texel of every fragment that the lamp would light; those outside the map are lit.
-    fn ask(
-        &mut self,
-        map: &Projection,
-        draws: &Draws,
-        settings: &ShadowSettings,
-        seen: &mut Seen,
-        bit: usize,
-    ) {
+    /// Asks for the texel of every point; those outside the map are lit.
+    fn ask(&mut self, map: &Projection, settings: &ShadowSettings, questions: &[Question]) {
         self.asked.clear();
-        self.outside.clear();
+        self.reached.clear();
         self.sorted.resize(0);
         let rows = map.0.map(|row| row.map(|x| x as f32));
         let last = settings.size as f32 - 1.0;
-        for (index, fragment) in seen.fragments.iter().enumerate() {
-            let triangle = &seen.triangles[fragment.triangle as usize];
-            if draws.list[triangle.draw as usize].transparent || !seen.is_lit(triangle, 1 + bit) {
-                continue;
-            }
-            let p = seen.positions[index];
+        for (index, (_, p)) in questions.iter().enumerate() {
             let [s, t, r, q] = rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
             let scale = 1.0 / q;
             let (x, y) = ((s * scale).floor(), (t * scale).floor());
             // The outermost texels are never drawn: what falls on or beyond them is lit.
-            if !(q > 0.0 && x >= 1.0 && y >= 1.0 && x < last && y < last) {
-                self.outside.push(index as u32);
-                continue;
+            let inside = q > 0.0 && x >= 1.0 && y >= 1.0 && x < last && y < last;
+            self.reached.push(!inside);
+            if inside {
+                let depth = (r * scale).clamp(0.0, 1.0);
+                self.asked.push(Lookup { x: x as u16, y: y as u16, depth, asked: index as u32 });
             }
-            let depth = (r * scale).clamp(0.0, 1.0);
-            self.asked.push(Lookup { x: x as u16, y: y as u16, depth, fragment: index as u32 });
-        }
-        for &index in &self.outside {
-            seen.fragments[index as usize].lit |= 1 << bit;
         }
     }
 
@@ -211,7 +219,8 @@ impl Shadows {
         let low = [fold(|l| l.x, u16::min, u16::MAX), fold(|l| l.y, u16::min, u16::MAX)];
         let high = [fold(|l| l.x, u16::max, 0), fold(|l| l.y, u16::max, 0)];
         let side = (high[0] - low[0]).max(high[1] - low[1]) + 1;
-        self.grid = Grid { low, high, cell: (side + CELLS - 1) / CELLS };
+        let deepest = self.asked.iter().map(|lookup| lookup.depth).fold(0.0, f32::max);
+        self.grid = Grid { low, high, cell: (side + CELLS - 1) / CELLS, deepest };
         self.cells.clear();
         self.cells.resize((CELLS * CELLS + 1) as usize, Cell::default());
         let place = |lookup: &Lookup| self.grid.cell_of(lookup.x.into(), lookup.y.into());
@@ -237,15 +246,29 @@ impl Shadows {
     }
 
     /// Marks the texels behind a caster with a negative depth.
-    fn draw_casters(&mut self, stage: &Stage<'_>, projection: Projection, size: i32) {
+    fn draw_casters(
+        &mut self,
+        stage: &Stage<'_>,
+        projection: Projection,
+        size: i32,
+        casters: impl Fn(&Draw) -> bool,
+    ) {
         let Stage { assets, scene, draws, .. } = *stage;
         let extent = Extent { width: size, height: size };
-        let lens = Lens { projection, extent, mirror: None, two_sided: true };
         let Shadows { layer, sorted, cells, grid, .. } = self;
-        layer.update(assets, draws, &lens, |draw| scene.items[draw.item].category != Category::Decor);
+        // MuJoCo 3.1.3 draws into its maps what faces away from the lamp, as it is.
+        let (sides, offset) = match assets.profile() {
+            Profile::Mujoco312 => (Sides::Both, OFFSET),
+            Profile::Mujoco313 => (Sides::Averted, Offset { slopes: 0.0, constant: 0.0 }),
+        };
+        let region = Region { low: grid.low, high: grid.high };
+        let lens = Lens { projection, extent, region, deepest: grid.deepest, mirror: None, sides };
+        layer.update(assets, draws, &lens, |draw| {
+            scene.items[draw.item].category != Category::Decor && casters(draw)
+        });
         for (index, draw) in draws.list.iter().enumerate() {
             layer.triangles(assets, (index, draw), &lens, &Pattern::CENTER, |_, triangle| {
-                shade(triangle, grid, cells, sorted);
+                shade(triangle, offset, (grid, cells), sorted);
             });
         }
     }
@@ -253,14 +276,10 @@ impl Shadows {
 
 /// Marks the texels of the grid that lie behind a triangle.
 #[inline]
-fn shade(triangle: &Triangle, grid: &Grid, cells: &[Cell], sorted: &mut Sorted) {
-    let clamp = |range: (i32, i32), k: usize| (range.0.max(grid.low[k]), range.1.min(grid.high[k]));
-    let (columns, rows) = (clamp(triangle.columns(), 0), clamp(triangle.rows(), 1));
-    if columns.0 > columns.1 || rows.0 > rows.1 {
-        return;
-    }
+fn shade(triangle: &Triangle, offset: Offset, (grid, cells): (&Grid, &[Cell]), sorted: &mut Sorted) {
+    let (columns, rows) = (triangle.columns(), triangle.rows());
     let slope = triangle.slope();
-    let offset = SLOPES * slope[0].abs().max(slope[1].abs()) + OFFSET;
+    let offset = offset.slopes * slope[0].abs().max(slope[1].abs()) + offset.constant;
     // The least depth of the triangle's plane within the box: nothing nearer than it can be in its shadow.
     let low = |range: (i32, i32), slope: f32| if slope > 0.0 { range.0 } else { range.1 + 1 };
     let least = triangle.depth(low(columns, slope[0]) as f32, low(rows, slope[1]) as f32) + offset;

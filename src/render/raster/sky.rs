@@ -1,7 +1,7 @@
 //! What surrounds the items: the sky, and haze over the horizon.
 
 use super::clip::clip;
-use super::coverage::{Extent, Facing, Triangle};
+use super::coverage::{Extent, Facing, Target, Triangle};
 use super::paint::{Canvas, Rgba, eight_bits, over};
 use super::seen::shares;
 use super::vertices::inside;
@@ -112,9 +112,12 @@ impl Surroundings<'_> {
         let Visibility { pattern, per_row, groups } = self.visibility;
         let middle = [0.5 * self.extent.width as f32, 0.5 * self.extent.height as f32];
         let shares = shares(window, middle);
+        let target = Target::new(*pattern, Facing::Both, &self.extent.region());
         for piece in clip(window.map(|[x, y, z, w]| [x, y, z, w, 1.0])).triangles() {
             let v = piece.map(|corner| inside(&corner));
-            let Some(triangle) = Triangle::new(v, Facing::Both, pattern, self.extent) else { continue };
+            let Some(triangle) = Triangle::new(v, &target) else {
+                continue;
+            };
             triangle.cover(pattern, |row, column, mask, depth| {
                 let index = row * per_row + column;
                 let (mask, depth, below) =

@@ -2,24 +2,47 @@
 
 use super::clip::{Corner, GUARD};
 use super::window::Columns;
-use wide::f32x4;
+use wide::{f32x4, i32x4};
 
 /// Steps of window coordinates in a pixel.
 pub const SUBPIXELS: i32 = 256;
 
-/// One position in the window.
+/// One position in the window: column from the left and row from below, reversed depth, and bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Vertex {
-    /// Column from the left [1/256 pixel].
-    pub x: i32,
-    /// Row from below [1/256 pixel].
-    pub y: i32,
+    lanes: f32x4,
+}
+
+impl Vertex {
+    /// A position in the window [pixel] that can be drawn.
+    pub fn new([x, y]: [f32; 2], z: f32) -> Self {
+        Vertex { lanes: f32x4::new([x, y, z, 0.0]) }
+    }
+
+    /// Column and row [pixel].
+    #[inline]
+    pub fn at(&self) -> [f32; 2] {
+        let [x, y, ..] = self.lanes.to_array();
+        [x, y]
+    }
+
     /// Reversed depth.
-    pub z: f32,
-    /// Column and row, not rounded [pixel].
-    pub at: [f32; 2],
+    #[inline]
+    pub fn z(&self) -> f32 {
+        self.lanes.to_array()[2]
+    }
+
     /// Bits of the faces that it lies beyond; its other numbers say nothing then.
-    pub beyond: u32,
+    #[inline]
+    pub fn beyond(&self) -> u32 {
+        self.lanes.to_array()[3].to_bits()
+    }
+
+    /// Column and row in the first two lanes [1/256 pixel].
+    #[inline]
+    pub fn on_grid(&self) -> i32x4 {
+        (self.lanes * f32x4::splat(SUBPIXELS as f32)).fast_round_int()
+    }
 }
 
 /// Bits of [`Vertex::beyond`].
@@ -36,17 +59,28 @@ mod face {
 /// A half space that is drawn: points with `normal . p + shift >= 0`, in the surface's coordinates.
 pub type HalfSpace = [f32; 4];
 
-/// The window positions of `positions`, written over `out`.
+/// The window positions of `positions`, written over `out`; all of them can be drawn.
+pub fn project_whole(columns: &Columns, positions: &[[f32; 3]], out: &mut [Vertex]) {
+    let [a, b, c, d] = columns.0.map(f32x4::new);
+    for (p, out) in positions.iter().zip(out) {
+        let corner = a * f32x4::splat(p[0]) + b * f32x4::splat(p[1]) + c * f32x4::splat(p[2]) + d;
+        out.lanes = corner * f32x4::splat(1.0 / corner.to_array()[3]) * DRAWN;
+    }
+}
+
+/// Clears the bits.
+const DRAWN: f32x4 = f32x4::new([1.0, 1.0, 1.0, 0.0]);
+
+/// The window positions of `positions`, written over `out`, marked where they cannot be drawn.
 pub fn project(columns: &Columns, mirror: Option<HalfSpace>, positions: &[[f32; 3]], out: &mut [Vertex]) {
     let [a, b, c, d] = columns.0.map(f32x4::new);
-    for (p, out) in positions.iter().zip(&mut *out) {
+    for (&p, out) in positions.iter().zip(&mut *out) {
         let corner = a * f32x4::splat(p[0]) + b * f32x4::splat(p[1]) + c * f32x4::splat(p[2]) + d;
-        *out = window(corner.to_array());
-    }
-    if let Some(half) = mirror {
-        for (&p, out) in positions.iter().zip(out) {
-            out.beyond |= if distance(half, p) < 0.0 { face::MIRROR } else { 0 };
-        }
+        let behind = mirror.is_some_and(|half| distance(half, p) < 0.0);
+        let bits = beyond(corner.to_array()) | if behind { face::MIRROR } else { 0 };
+        let mut lanes = (corner * f32x4::splat(1.0 / corner.to_array()[3])).to_array();
+        lanes[3] = f32::from_bits(bits);
+        out.lanes = f32x4::new(lanes);
     }
 }
 
@@ -59,31 +93,23 @@ pub fn distance(half: HalfSpace, p: [f32; 3]) -> f32 {
 pub fn inside(corner: &Corner) -> Vertex {
     let [x, y, z, w, _] = *corner;
     let scale = 1.0 / w;
-    let limit = GUARD * SUBPIXELS as f32;
-    let snap = |x: f32| (x * SUBPIXELS as f32).clamp(-limit, limit).round_ties_even() as i32;
-    let at = [x * scale, y * scale];
-    Vertex { x: snap(at[0]), y: snap(at[1]), at, z: (z * scale).clamp(0.0, 1.0), beyond: 0 }
+    let snap = |x: f32| (x * scale).clamp(-GUARD, GUARD);
+    Vertex::new([snap(x), snap(y)], (z * scale).clamp(0.0, 1.0))
 }
 
-/// Division, snapping to the grid, and the faces beyond which the corner lies.
-fn window([x, y, z, w]: [f32; 4]) -> Vertex {
+/// Bits of the faces beyond which a corner lies.
+fn beyond([x, y, z, w]: [f32; 4]) -> u32 {
     let reach = GUARD * w;
     let faces = [
-        (z > w, face::NEAR),
+        // A w of 0 or less is before the near plane.
+        (z > w || w.is_nan() || w <= 0.0, face::NEAR),
         (z < 0.0, face::FAR),
         (x < -reach, face::LEFT),
         (x > reach, face::RIGHT),
         (y < -reach, face::BELOW),
         (y > reach, face::ABOVE),
     ];
-    let beyond = faces.iter().fold(0, |bits, &(is, bit)| bits | if is { bit } else { 0 });
-    let scale = 1.0 / w;
-    let at = f32x4::new([x, y, 0.0, 0.0]) * f32x4::splat(scale);
-    let [x, y, ..] = (at * f32x4::splat(SUBPIXELS as f32)).fast_round_int().to_array();
-    let [column, row, ..] = at.to_array();
-    // A w of 0 or less is beyond the near plane, whose z is below every such w only there.
-    let beyond = if w > 0.0 { beyond } else { beyond | face::NEAR };
-    Vertex { x, y, at: [column, row], z: z * scale, beyond }
+    faces.iter().fold(0, |bits, &(is, bit)| bits | if is { bit } else { 0 })
 }
 
 #[cfg(test)]
@@ -97,9 +123,13 @@ mod tests {
         let positions = [[3.0, 5.0, 2.0], [1.0, 1.0, -1.0], [1e9, 0.0, 1.0], [0.0, 0.0, 0.25]];
         let mut out = [Vertex::default(); 4];
         project(&identity, Some([0.0, 1.0, 0.0, -0.5]), &positions, &mut out);
-        assert_eq!((out[0].x, out[0].y, out[0].z, out[0].beyond), (384, 640, 0.25, 0));
-        assert!(out[1].beyond & face::NEAR != 0);
-        assert_eq!(out[2].beyond, face::RIGHT | face::MIRROR);
-        assert_eq!(out[3].beyond & face::NEAR, face::NEAR);
+        assert_eq!((out[0].at(), out[0].z(), out[0].beyond()), ([1.5, 2.5], 0.25, 0));
+        assert_eq!(out[0].on_grid().to_array()[..2], [384, 640]);
+        assert!(out[1].beyond() & face::NEAR != 0);
+        assert_eq!(out[2].beyond(), face::RIGHT | face::MIRROR);
+        assert_eq!(out[3].beyond() & face::NEAR, face::NEAR);
+        let mut whole = [Vertex::default()];
+        project_whole(&identity, &positions[..1], &mut whole);
+        assert_eq!(whole[0], out[0]);
     }
 }

@@ -1,0 +1,227 @@
+//! Which items stand still in a view, and the backdrops made of them.
+//!
+//! An item that has not changed for some pictures of a view is taken into the view's backdrop; when one of them changes, the
+//! backdrop is made again without it.
+
+use super::backdrop::{Backdrop, Stills};
+use super::coverage::Extent;
+use super::draws::Draws;
+use super::settings::Settings;
+use crate::geometry::{Assets, Paint, Surface};
+use crate::scene::{Category, Fog, Item, Light, Scene};
+use crate::texture::Texture;
+use crate::view::View;
+use std::sync::Arc;
+
+/// Pictures after which an item of a body that can move stands still.
+const QUIET: u16 = 8;
+/// The same for items that are fixed to the world.
+const QUIET_STATIC: u16 = 1;
+/// Share of the triangles at rest that may be missing from a backdrop before it is made again.
+const MISSING: f64 = 0.2;
+/// Views that are kept; the one used longest ago gives way.
+const VIEWS: usize = 16;
+
+/// What to do with the backdrop of a view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plan {
+    /// Nothing stands still.
+    Without,
+    /// It is to be made first.
+    Make,
+    /// It holds.
+    Use,
+}
+
+/// The views of a renderer.
+#[derive(Clone, Debug, Default)]
+pub struct Views {
+    views: Vec<Kept>,
+    now: u64,
+}
+
+/// One view and its backdrops.
+#[derive(Clone, Debug)]
+pub struct Kept {
+    around: Around,
+    surfaces: Vec<Arc<Surface>>,
+    textures: Vec<Arc<Texture>>,
+    items: Vec<Item>,
+    paints: Vec<Paint>,
+    quiet: Vec<u16>,
+    used: u64,
+    /// What its backdrops show.
+    pub stills: Stills,
+    /// Of the picture itself.
+    pub main: Backdrop,
+    /// Of what its mirror shows, and the item that mirrors.
+    pub mirror: Backdrop,
+}
+
+/// Everything but items that decides on a picture.
+#[derive(Clone, Debug, PartialEq)]
+struct Around {
+    view: View,
+    extent: Extent,
+    settings: Settings,
+    lights: Vec<Light>,
+    ambient: f32,
+    fog: Option<Fog>,
+    shadows: bool,
+    reflections: bool,
+}
+
+impl Views {
+    /// The view that a scene is seen from, and what to do with its backdrop.
+    pub fn find(
+        &mut self,
+        assets: &Assets,
+        scene: &Scene,
+        draws: &Draws,
+        extent: Extent,
+        settings: Settings,
+    ) -> (&mut Kept, Plan) {
+        self.now += 1;
+        let same = |kept: &Kept| kept.around.view == scene.view && kept.around.extent == extent;
+        let place = self.views.iter().position(same).unwrap_or_else(|| {
+            if self.views.len() < VIEWS {
+                self.views.push(Kept::new(scene, extent, settings));
+                return self.views.len() - 1;
+            }
+            (0..VIEWS).min_by_key(|&place| self.views[place].used).unwrap_or(0)
+        });
+        let kept = &mut self.views[place];
+        kept.used = self.now;
+        let plan = kept.plan(assets, scene, draws, extent, settings);
+        (kept, plan)
+    }
+}
+
+impl Kept {
+    fn new(scene: &Scene, extent: Extent, settings: Settings) -> Self {
+        let around = Around {
+            view: scene.view,
+            extent,
+            settings,
+            lights: Vec::new(),
+            ambient: 0.0,
+            fog: None,
+            shadows: false,
+            reflections: false,
+        };
+        Kept {
+            around,
+            surfaces: Vec::new(),
+            textures: Vec::new(),
+            items: Vec::new(),
+            paints: Vec::new(),
+            quiet: Vec::new(),
+            used: 0,
+            stills: Stills::default(),
+            main: Backdrop::default(),
+            mirror: Backdrop::default(),
+        }
+    }
+
+    /// A view in which nothing stands still.
+    pub fn nothing(scene: &Scene) -> Self {
+        Kept::new(scene, Extent { width: 0, height: 0 }, Settings::default())
+    }
+
+    fn plan(
+        &mut self,
+        assets: &Assets,
+        scene: &Scene,
+        draws: &Draws,
+        extent: Extent,
+        settings: Settings,
+    ) -> Plan {
+        if !self.is_as_before(assets, scene, draws, extent, settings) {
+            self.remember(assets, scene, draws, extent, settings);
+            self.quiet.clear();
+            self.quiet.resize(scene.items.len(), 0);
+            self.stills.set(scene.items.len(), |_| false);
+            return Plan::Without;
+        }
+        let holds = self.count_quiet(scene, draws);
+        let rests = |kept: &Kept, item: usize| {
+            let enough = if scene.items[item].category == Category::Static { QUIET_STATIC } else { QUIET };
+            kept.quiet[item] >= enough
+        };
+        let (mut at_rest, mut missing) = (0, 0);
+        for draw in &draws.list {
+            if rests(self, draw.item) {
+                let triangles = draw.surface(assets).faces.len();
+                at_rest += triangles;
+                missing += if self.stills.has(draw) { 0 } else { triangles };
+            }
+        }
+        if holds && f64::from(missing as u32) <= MISSING * f64::from(at_rest as u32) {
+            return if self.stills.any() { Plan::Use } else { Plan::Without };
+        }
+        let mut stills = std::mem::take(&mut self.stills);
+        stills.set(scene.items.len(), |item| rests(self, item));
+        self.stills = stills;
+        if self.stills.any() { Plan::Make } else { Plan::Without }
+    }
+
+    /// Whether nothing but items has changed, and no item has changed its shape.
+    fn is_as_before(
+        &self,
+        assets: &Assets,
+        scene: &Scene,
+        draws: &Draws,
+        extent: Extent,
+        settings: Settings,
+    ) -> bool {
+        let a = &self.around;
+        let around = a.view == scene.view && a.extent == extent && a.settings == settings;
+        let lights = a.lights == scene.lights && a.ambient == scene.ambient && a.fog == scene.fog;
+        let flags = a.shadows == scene.shadows && a.reflections == scene.reflections;
+        let surfaces = self.surfaces.len() == assets.surfaces.len()
+            && self.surfaces.iter().zip(&assets.surfaces).all(|(a, b)| Arc::ptr_eq(a, b));
+        let textures = self.textures.len() == assets.textures.len()
+            && self.textures.iter().zip(&assets.textures).all(|(a, b)| Arc::ptr_eq(a, b));
+        let shapes = self.items.len() == scene.items.len()
+            && self.items.iter().zip(&scene.items).all(|(a, b)| a.shape == b.shape);
+        around && lights && flags && surfaces && textures && shapes && self.paints.len() == draws.list.len()
+    }
+
+    fn remember(
+        &mut self,
+        assets: &Assets,
+        scene: &Scene,
+        draws: &Draws,
+        extent: Extent,
+        settings: Settings,
+    ) {
+        let a = &mut self.around;
+        (a.view, a.extent, a.settings) = (scene.view, extent, settings);
+        a.lights.clone_from(&scene.lights);
+        (a.ambient, a.fog) = (scene.ambient, scene.fog);
+        (a.shadows, a.reflections) = (scene.shadows, scene.reflections);
+        self.surfaces.clone_from(&assets.surfaces);
+        self.textures.clone_from(&assets.textures);
+        self.items.clone_from(&scene.items);
+        self.paints.clear();
+        self.paints.extend(draws.list.iter().map(|draw| draw.paint));
+    }
+
+    /// Counts for how long each item has been as it is; whether all in the backdrop still are.
+    fn count_quiet(&mut self, scene: &Scene, draws: &Draws) -> bool {
+        for ((old, new), quiet) in self.items.iter_mut().zip(&scene.items).zip(&mut self.quiet) {
+            if old == new {
+                *quiet = quiet.saturating_add(1);
+            } else {
+                old.clone_from(new);
+                *quiet = 0;
+            }
+        }
+        for (old, draw) in self.paints.iter_mut().zip(&draws.list) {
+            if *old != draw.paint {
+                (*old, self.quiet[draw.item]) = (draw.paint, 0);
+            }
+        }
+        self.stills.all(|item| self.quiet[item] > 0)
+    }
+}
