@@ -3,10 +3,11 @@
 
     apt-get install libegl1 libegl-mesa0 libgl1-mesa-dri
     pip install mujoco==3.12.0 pyopengl scikit-image
-    python pictures.py --models FOLDER --out DIR [--only TEXT] [--again]
+    python pictures.py [--models FOLDER] --out DIR [--only TEXT] [--sizes 84,224,256] [--again]
     python pictures.py --measures FILE
 
-FOLDER has RoboHive's `envs` and `simhive` and, of MuJoCo's sources, `model`; links will do. It is copied, not changed:
+FOLDER has RoboHive's `envs` and `simhive` and, of MuJoCo's sources, `model`; links will do. Without it own models alone are
+recorded; those of `reference/pictures` at a size of 84, for the tests. The folder is copied, not changed:
 what 3.12.0 refuses in RoboHive's files is repaired in the copy, as `record.py` does. No display is needed: Mesa's software
 rasterisers draw. A recorded scene is skipped, so that an interrupted run goes on where it stopped (`--again` records it
 once more). With mujoco==3.1.3, RoboHive's version, the same command records what RoboHive's users saw, of RoboHive's
@@ -233,8 +234,10 @@ def draw(rasteriser, listed, args):
             continue
         if floor and scene["bars"] != "floor" or old(mujoco) and not scene["file"].startswith(ROBOHIVE):
             continue
+        if not args.models and not scene["file"].startswith("assets/"):
+            continue
         try:
-            arrays = (record_floor if floor else record)(scene, listed["sizes"], args.copy)
+            arrays = (record_floor if floor else record)(scene, args.sizes or listed["sizes"], args.copy)
             meta = {"scene": scene, "mujoco": mujoco.__version__, "opengl": name}
             partial = path.with_suffix(".partial.npz")
             np.savez_compressed(partial, meta=np.frombuffer(json.dumps(meta).encode(), np.uint8), **arrays)
@@ -320,6 +323,7 @@ def main():
     parser.add_argument("--models", type=Path)
     parser.add_argument("--out", type=Path)
     parser.add_argument("--only", default="", help="scenes whose name contains this")
+    parser.add_argument("--sizes", type=lambda text: [int(side) for side in text.split(",")])
     parser.add_argument("--again", action="store_true")
     parser.add_argument("--measures", type=Path, metavar="FILE")
     parser.add_argument("--child", choices=RASTERISERS, help=argparse.SUPPRESS)
@@ -327,14 +331,15 @@ def main():
     args = parser.parse_args()
     if args.measures:
         return record_measures(args.measures)
-    if not (args.models and args.out):
-        parser.error("--models and --out are needed")
+    if not args.out:
+        parser.error("--out is needed")
     if args.child:
         sys.exit(0 if draw(args.child, tomllib.loads(SCENES.read_text()), args) else 1)
     os.environ["MUJOCO_GL"] = "disable"
     import mujoco
     with tempfile.TemporaryDirectory(prefix="models-") as copy:
-        copy_models(args.models, Path(copy), repaired=not old(mujoco))
+        if args.models:
+            copy_models(args.models, Path(copy), repaired=not old(mujoco))
         failures = 0
         for rasteriser in RASTERISERS:
             environment = os.environ | {"GALLIUM_DRIVER": rasteriser} | RASTERISERS[rasteriser]

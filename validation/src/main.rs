@@ -18,7 +18,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation environments --models FOLDER --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation policies --models FOLDER --policies FOLDER [--only TEXT] [--write README.md]
        robohive-validation demonstrations --models FOLDER --from FILE [--write README.md]
-       robohive-validation pictures --models FOLDER --references FOLDER [--only TEXT] [--compare FOLDER] [--dump FOLDER]
+       robohive-validation pictures [--models FOLDER] --references FOLDER [--only TEXT] [--compare FOLDER] [--dump FOLDER]
        [--write README.md]
        robohive-validation scenes --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation quirks [--write README.md]
@@ -35,7 +35,8 @@ policies: runs the policies of hand_dapg (its folder dapg/policies) in our envir
 episodes than in RoboHive.
 demonstrations: replays those of hand_dapg for the door (dapg/demonstrations/door-v0_demos.pickle).
 pictures: draws the scenes of validation/pictures.toml and compares them with what pictures.py recorded; fails when a bar is
-missed. Models are the folder with RoboHive's envs and simhive and MuJoCo's model. With --compare another folder of recordings
+missed. Models are the folder with RoboHive's envs and simhive and MuJoCo's model; without it own models alone are drawn. With
+--compare another folder of recordings
 stands in for our pictures; --dump writes ours, the recorded one and eight times their difference side by side.
 scenes: assembles the scenes that items.py recorded and compares items, lights and cameras; fails when any differs.
 draws: makes every recorded random draw with all seeds and compares it with numpy's; fails when any differs.
@@ -132,7 +133,7 @@ fn run() -> Result<(), String> {
         }
         Some("pictures") => {
             let inputs = pictures::Inputs {
-                models: &a.models,
+                models: Some(a.models.as_path()).filter(|folder| !folder.as_os_str().is_empty()),
                 references: &a.references,
                 only: &a.only,
                 other: a.compare.as_deref(),

@@ -3,6 +3,7 @@
 use dataset::{NpzReader, Values};
 use robohive_validation::pictures::measures::{Geometry, compare_colours, compare_shapes, interior};
 use robohive_validation::pictures::plan::Plan;
+use robohive_validation::pictures::{Inputs, measure};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -65,10 +66,10 @@ fn the_scenes_are_listed_once_and_held_to_bars() {
 #[test]
 fn own_models_of_scenes_exist() {
     let plan = Plan::listed().expect("the list of scenes");
-    let own: Vec<_> = plan.scenes.iter().filter(|scene| scene.file.starts_with("assets/")).collect();
+    let own: Vec<_> = plan.scenes.iter().filter(|scene| scene.is_own()).collect();
     assert!(own.len() >= 5, "own models are drawn too");
     for scene in own {
-        let path = scene.path(Path::new(""));
+        let path = scene.path(None);
         let model = mjcf::load(&path).expect("an own model loads").model;
         let camera = scene.camera.as_deref();
         assert!(
@@ -77,4 +78,13 @@ fn own_models_of_scenes_exist() {
             scene.file
         );
     }
+}
+
+#[test]
+fn pictures_of_own_models_are_those_of_mujoco() {
+    let references = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/pictures");
+    let inputs = Inputs { models: None, references: &references, only: "", other: None, dump: None };
+    let (table, verdict) = measure(&inputs).expect("the recorded pictures");
+    assert!(table.contains("| franka_table | 84 |"), "nothing was compared:\n{table}");
+    assert_eq!(verdict, Ok(()), "{table}");
 }

@@ -10,7 +10,7 @@ use physics::{Data, Model, forward};
 use render::picture::Channels;
 use render::raster::{Renderer, Samples, Settings};
 use render::scene::{Camera, Effects, SceneOptions};
-use render::{Assets, Picture, Scene};
+use render::{Assets, Picture, Profile, Scene};
 use std::path::Path;
 
 /// A scene in its recorded pose, and what draws it.
@@ -27,7 +27,7 @@ impl Drawn {
     ///
     /// # Errors
     /// The model does not load, or is not the recorded one.
-    pub fn open(models: &Path, scene: &SceneRow, recorded: &Recording) -> Result<Self, String> {
+    pub fn open(models: Option<&Path>, scene: &SceneRow, recorded: &Recording) -> Result<Self, String> {
         let path = scene.path(models);
         let loader =
             scene.define.iter().fold(mjcf::Loader::default(), |loader, (from, to)| loader.define(from, to));
@@ -84,6 +84,10 @@ impl Views for Drawn {
     }
 
     fn differences(&mut self, recorded: &Recording) -> Result<Option<Differences>, String> {
+        // MuJoCo 3.1.3 computes other frames of inertia for meshes, and so other numbers for the same places.
+        if recorded.profile()? != Profile::Mujoco312 {
+            return Ok(None);
+        }
         compare(recorded, &self.scene(true)?).map(Some)
     }
 }

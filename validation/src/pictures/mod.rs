@@ -60,8 +60,8 @@ impl Views for Recording {
 
 /// What is compared with what.
 pub struct Inputs<'a> {
-    /// Folder with RoboHive's `envs` and `simhive` and MuJoCo's `model`.
-    pub models: &'a Path,
+    /// Folder with RoboHive's `envs` and `simhive` and MuJoCo's `model`; scenes of own models alone without it.
+    pub models: Option<&'a Path>,
     /// Folder of recordings.
     pub references: &'a Path,
     /// Scenes whose name contains this.
@@ -81,8 +81,12 @@ pub fn measure(inputs: &Inputs<'_>) -> Result<(String, Result<(), String>), Stri
     let (mut rows, mut remarks) = (Vec::new(), Vec::new());
     // Of RoboHive's version of MuJoCo its own scenes are recorded alone.
     let first = plan.scenes.iter().find_map(|scene| Recording::open(inputs.references, scene).ok());
-    let all = first.map_or(Ok(Profile::default()), |recorded| recorded.profile())? == Profile::Mujoco312;
-    let chosen = |scene: &&SceneRow| scene.name.contains(inputs.only) && (all || scene.is_of_robohive());
+    let profile = first.map_or(Ok(Profile::default()), |recorded| recorded.profile())?;
+    let chosen = |scene: &&SceneRow| {
+        scene.name.contains(inputs.only)
+            && (inputs.models.is_some() || scene.is_own())
+            && (profile == Profile::Mujoco312 || scene.is_of_robohive())
+    };
     for scene in plan.scenes.iter().filter(chosen) {
         let mut remark = Remark { scene: scene.name.clone(), note: scene.note.clone(), ..Remark::default() };
         match Recording::open(inputs.references, scene).and_then(|recorded| {
@@ -127,7 +131,8 @@ impl Compared<'_> {
             Held::Listed => self.plan.bars_of(scene)?,
         };
         let differences = views.differences(recorded)?;
-        let rows = self.plan.sizes.iter().map(|&side| self.measure_side(&mut *views, side, bars));
+        let sides = self.plan.sizes.iter().filter(|side| recorded.has(&format!("{side}/rgb")));
+        let rows = sides.map(|&side| self.measure_side(&mut *views, side, bars));
         Ok((rows.collect::<Result<_, _>>()?, differences))
     }
 

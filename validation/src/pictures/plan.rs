@@ -131,9 +131,14 @@ impl SceneRow {
         ["envs/", "simhive/"].iter().any(|folder| self.file.starts_with(folder))
     }
 
+    /// The model is one of this repository.
+    pub fn is_own(&self) -> bool {
+        self.file.starts_with("assets/")
+    }
+
     /// The model file: of this repository, or below the folder of other models.
-    pub fn path(&self, models: &Path) -> PathBuf {
+    pub fn path(&self, models: Option<&Path>) -> PathBuf {
         let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-        if self.file.starts_with("assets/") { own.join(&self.file) } else { models.join(&self.file) }
+        models.filter(|_| !self.is_own()).unwrap_or(&own).join(&self.file)
     }
 }
