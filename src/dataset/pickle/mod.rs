@@ -22,6 +22,7 @@ mod machine;
 mod torch;
 mod value;
 
+pub use torch::LegacyStream;
 pub use value::Value;
 
 use std::fmt;
@@ -130,6 +131,13 @@ impl<'a> Pickle<'a> {
     /// The value that the pickle stands for.
     pub fn root(&self) -> Value<'_> {
         self.value(self.root)
+    }
+
+    /// Everything that refers to a value outside the pickle.
+    pub fn persistent(&self) -> impl Iterator<Item = Value<'_>> {
+        let references =
+            self.nodes.iter().enumerate().filter(|(_, node)| matches!(node, Node::Persistent(_)));
+        references.map(|(id, _)| self.value(id as Id))
     }
 
     fn value(&self, id: Id) -> Value<'_> {

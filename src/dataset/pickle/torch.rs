@@ -63,29 +63,49 @@ fn gather(
     values.ok_or_else(|| wrong("it shows more than its storage holds"))
 }
 
-/// The numbers of a storage: five pickles (magic integer, version, byte order, a reference to the one storage, its key), then
-/// their count and bytes.
+/// What `torch.save` wrote before 1.6: pickles, then the storages that they refer to.
+pub struct LegacyStream<'a> {
+    /// What was saved.
+    pub object: Pickle<'a>,
+    /// A list of the keys of the storages, in the order in which they follow.
+    pub keys: Pickle<'a>,
+    /// For each storage its length in 8 bytes and its numbers.
+    pub storages: &'a [u8],
+}
+
+impl<'a> LegacyStream<'a> {
+    /// Reads the pickles: magic integer, version, byte order, the object, and the keys of its storages.
+    ///
+    /// # Errors
+    /// A pickle is malformed, or the stream is no such one, of another version or big-endian.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, PickleError> {
+        let (magic, rest) = Pickle::parse_prefix(bytes)?;
+        if magic.root().long() != Some(&MAGIC) {
+            return Err(wrong("its storage does not begin as a legacy stream of PyTorch does"));
+        }
+        let (version, rest) = Pickle::parse_prefix(rest)?;
+        if version.root().int() != Some(VERSION) {
+            return Err(wrong(format!("its storage is of another version than {VERSION}")));
+        }
+        let (system, rest) = Pickle::parse_prefix(rest)?;
+        if system.root().get("little_endian").and_then(Value::bool) != Some(true) {
+            return Err(wrong("its storage is big-endian, which is not read"));
+        }
+        let (object, rest) = Pickle::parse_prefix(rest)?;
+        let (keys, storages) = Pickle::parse_prefix(rest)?;
+        Ok(LegacyStream { object, keys, storages })
+    }
+}
+
+/// The numbers of a stream with one storage.
 fn storage(bytes: &[u8]) -> Result<Vec<f64>, PickleError> {
-    let (magic, rest) = Pickle::parse_prefix(bytes)?;
-    if magic.root().long() != Some(&MAGIC) {
-        return Err(wrong("its storage does not begin as a legacy stream of PyTorch does"));
-    }
-    let (version, rest) = Pickle::parse_prefix(rest)?;
-    if version.root().int() != Some(VERSION) {
-        return Err(wrong(format!("its storage is of another version than {VERSION}")));
-    }
-    let (system, rest) = Pickle::parse_prefix(rest)?;
-    if system.root().get("little_endian").and_then(Value::bool) != Some(true) {
-        return Err(wrong("its storage is big-endian, which is not read"));
-    }
-    let (reference, rest) = Pickle::parse_prefix(rest)?;
-    let (keys, rest) = Pickle::parse_prefix(rest)?;
-    let kind = reference.root().persistent_id().and_then(|id| id.item(1)?.callable());
+    let LegacyStream { object, keys, storages } = LegacyStream::parse(bytes)?;
+    let kind = object.root().persistent_id().and_then(|id| id.item(1)?.callable());
     if keys.root().len() != Some(1) {
         return Err(wrong("its stream holds more than one storage"));
     }
     let (count, numbers) =
-        rest.split_first_chunk::<8>().ok_or_else(|| wrong("the storage is cut off before its length"))?;
+        storages.split_first_chunk::<8>().ok_or_else(|| wrong("the storage is cut off before its length"))?;
     let count =
         usize::try_from(i64::from_le_bytes(*count)).map_err(|_| wrong("its storage has no length"))?;
     let values: Vec<f64> = match kind {
