@@ -78,3 +78,13 @@ fn headers_that_ask_for_too_much_are_refused() {
     assert!(told(r#"{"a":{"dtype":"F4","shape":[],"data_offsets":[0,0]}}"#).contains("type F4 is not read"));
     assert!(told(r#"{"a":7}"#).contains("tensor a"));
 }
+
+#[test]
+fn a_header_of_any_length_is_recognised() {
+    for length in 100..400 {
+        let mut header = r#"{"a":{"dtype":"F32","shape":[1],"data_offsets":[0,4]}}"#.to_owned();
+        header.push_str(&" ".repeat(length - header.len()));
+        let bytes = [&(length as u64).to_le_bytes()[..], header.as_bytes(), &2.5f32.to_le_bytes()].concat();
+        assert_eq!(open(bytes).unwrap().read("a").unwrap(), [2.5], "{length}");
+    }
+}

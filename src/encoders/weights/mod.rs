@@ -198,10 +198,11 @@ fn index(mut file: Box<dyn Stream>) -> Result<(BTreeMap<String, Entry>, Source),
         let entries = torch::index_archive(&mut archive)?;
         return Ok((entries, Source::Archive(Box::new(archive), length)));
     }
-    let entries = if start.starts_with(&[0x80]) {
-        torch::index_legacy(&mut *file, length)?
-    } else if start.len() == 9 && start[8] == b'{' {
+    // The first byte of a safetensors file is part of a length, and may be that of a pickle too.
+    let entries = if start.len() == 9 && start[8] == b'{' {
         safetensors::index(&mut *file, length)?
+    } else if start.starts_with(&[0x80]) {
+        torch::index_legacy(&mut *file, length)?
     } else {
         return Err("it is neither a safetensors file nor one that torch.save wrote".into());
     };
