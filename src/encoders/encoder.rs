@@ -31,14 +31,19 @@ impl Encoder {
         })
     }
 
+    /// An encoder with a network that was built for `encoding`.
+    #[cfg(feature = "networks")]
+    pub fn with_network(encoding: Encoding, network: Network, profile: Profile) -> Self {
+        Encoder { encoding, network: Some((network, profile)) }
+    }
+
     /// The network of `encoding` with the weights of a file: safetensors, or what `torch.save` wrote.
     ///
     /// # Errors
     /// The encoder is no network, the file cannot be read, or its tensors are not those of the network.
     #[cfg(feature = "networks")]
     pub fn load(encoding: Encoding, weights: &Path, profile: Profile) -> Result<Self, EncoderError> {
-        let network = Network::load(encoding, weights)?;
-        Ok(Encoder { encoding, network: Some((network, profile)) })
+        Ok(Self::with_network(encoding, Network::load(encoding, weights)?, profile))
     }
 
     /// The network of `encoding` with the weights of a file: safetensors, or what `torch.save` wrote.

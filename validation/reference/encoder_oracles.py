@@ -14,7 +14,7 @@ import sys
 
 import numpy as np
 import torch
-import torchvision.transforms as T
+import torchvision
 from encoders import transform
 from PIL import Image
 from safetensors.torch import save_file
@@ -64,6 +64,12 @@ def tiny_resnet(block, counts, width):
     return net.eval()
 
 
+def whole_resnet():
+    net = torchvision.models.resnet18()
+    net.fc = torch.nn.Identity()
+    return net.eval()
+
+
 def network(kind, net, side, sizes):
     layout = [name for name in net.state_dict() if not name.endswith("num_batches_tracked")]
     with torch.no_grad():
@@ -79,6 +85,7 @@ def networks():
     return [
         network("basic", tiny_resnet(BasicBlock, [1, 2, 1, 1], 4), 64, [1, 2, 1, 1, 4]),
         network("bottleneck", tiny_resnet(Bottleneck, [1, 1, 2, 1], 4), 45, [1, 1, 2, 1, 4]),
+        network("basic", whole_resnet(), 224, [2, 2, 2, 2, 64]),
         network("transformer", VisionTransformer(**vit).eval(), 24, [8, 12, 2, 3]),
     ]
 

@@ -1,5 +1,5 @@
 //! The same bits from every build: unoptimised, with wide vectors, static, and WebAssembly. Each build steps the
-//! models of `validation/digest` and compares its hashes with the recorded ones. And the builds with fewer features.
+//! models of `validation/digest` and compares its hashes with the recorded ones. And the builds with fewer or more features.
 
 use crate::check::{Missing, Outcome};
 use crate::command::{cargo, installed, output, succeed, target_folder};
@@ -10,8 +10,12 @@ const DIGEST: [&str; 2] = ["-p", "robohive-digest"];
 const STATIC_TARGET: &str = "x86_64-unknown-linux-gnu";
 const WEB_TARGET: &str = "wasm32-unknown-unknown";
 
-/// The library without its default features: here, and for WebAssembly where the target is installed.
+/// Encoders with their networks; and the library without its default features, here and for WebAssembly where the target is
+/// installed.
 pub fn features() -> Outcome {
+    let networks = ["--profile", "ci", "-p", "robohive-encoders", "--features", "networks"];
+    cargo(&[&["clippy"], &networks[..], &["--all-targets", "--", "-D", "warnings"]].concat())?;
+    cargo(&[&["test"], &networks[..]].concat())?;
     let bare = ["check", "--profile", "ci", "--no-default-features"];
     for package in ["robohive", "robohive-physics", "robohive-digest"] {
         cargo(&[&bare[..], &["-p", package]].concat())?;

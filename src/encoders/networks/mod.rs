@@ -17,7 +17,7 @@ use crate::encoding::{Depth, Encoding, Size};
 use crate::error::EncoderError;
 use crate::picture::Picture;
 use crate::prepare::{Profile, SIDE, prepare};
-use crate::weights::{Parameters, WeightFile};
+use crate::weights::{Naming, Parameter, Parameters, WeightFile};
 use rayon::prelude::*;
 use std::path::Path;
 
@@ -29,35 +29,77 @@ pub enum Network {
     Transformer(Transformer),
 }
 
+/// Sizes of the network of an encoding.
+enum Shape {
+    Resnet(ResnetShape),
+    Transformer(TransformerShape),
+}
+
+impl Shape {
+    fn of(encoding: Encoding) -> Result<Self, EncoderError> {
+        Ok(match encoding {
+            Encoding::Flat | Encoding::Picture => {
+                return Err(EncoderError::TakesNoWeights { encoding: encoding.name() });
+            }
+            Encoding::R3m(Depth::D18) | Encoding::Rrl(Depth::D18) => Shape::Resnet(ResnetShape::resnet18()),
+            Encoding::R3m(Depth::D34) | Encoding::Rrl(Depth::D34) => Shape::Resnet(ResnetShape::resnet34()),
+            Encoding::R3m(Depth::D50) | Encoding::Rrl(Depth::D50) => Shape::Resnet(ResnetShape::resnet50()),
+            Encoding::Vc1(Size::Base) => Shape::Transformer(TransformerShape::base(SIDE)),
+            Encoding::Vc1(Size::Large) => Shape::Transformer(TransformerShape::large(SIDE)),
+        })
+    }
+
+    fn layout(&self) -> Vec<Parameter> {
+        match self {
+            Shape::Resnet(shape) => shape.layout(),
+            Shape::Transformer(shape) => shape.layout(),
+        }
+    }
+
+    fn naming(&self) -> &'static Naming {
+        match self {
+            Shape::Resnet(_) => &resnet::NAMING,
+            Shape::Transformer(_) => &transformer::NAMING,
+        }
+    }
+
+    fn build(self, parameters: &mut Parameters) -> Network {
+        match self {
+            Shape::Resnet(shape) => Network::Resnet(Resnet::new(shape, parameters)),
+            Shape::Transformer(shape) => Network::Transformer(Transformer::new(shape, parameters)),
+        }
+    }
+}
+
 impl Network {
+    /// The tensors that the network of an encoding needs.
+    ///
+    /// # Errors
+    /// The encoding is no network.
+    pub fn layout(encoding: Encoding) -> Result<Vec<Parameter>, EncoderError> {
+        Ok(Shape::of(encoding)?.layout())
+    }
+
+    /// The network of an encoding over tensors of its layout, which it takes.
+    ///
+    /// # Errors
+    /// The encoding is no network.
+    ///
+    /// # Panics
+    /// `parameters` were collected for another layout.
+    pub fn new(encoding: Encoding, parameters: &mut Parameters) -> Result<Self, EncoderError> {
+        Ok(Shape::of(encoding)?.build(parameters))
+    }
+
     /// The network of an encoding, with the weights of a file.
     ///
     /// # Errors
     /// The encoding is no network, the file cannot be read, or its tensors are not those of the network.
     pub fn load(encoding: Encoding, path: &Path) -> Result<Self, EncoderError> {
-        let depth = match encoding {
-            Encoding::Flat | Encoding::Picture => {
-                return Err(EncoderError::TakesNoWeights { encoding: encoding.name() });
-            }
-            Encoding::Vc1(size) => {
-                let shape = match size {
-                    Size::Base => TransformerShape::base(SIDE),
-                    Size::Large => TransformerShape::large(SIDE),
-                };
-                let mut file = WeightFile::open(path)?;
-                let mut parameters = Parameters::read(&mut file, &shape.layout(), &transformer::NAMING)?;
-                return Ok(Network::Transformer(Transformer::new(shape, &mut parameters)));
-            }
-            Encoding::R3m(depth) | Encoding::Rrl(depth) => depth,
-        };
-        let shape = match depth {
-            Depth::D18 => ResnetShape::resnet18(),
-            Depth::D34 => ResnetShape::resnet34(),
-            Depth::D50 => ResnetShape::resnet50(),
-        };
+        let shape = Shape::of(encoding)?;
         let mut file = WeightFile::open(path)?;
-        let mut parameters = Parameters::read(&mut file, &shape.layout(), &resnet::NAMING)?;
-        Ok(Network::Resnet(Resnet::new(shape, &mut parameters)))
+        let mut parameters = Parameters::read(&mut file, &shape.layout(), shape.naming())?;
+        Ok(shape.build(&mut parameters))
     }
 
     /// Features of a prepared picture, 3 × [`SIDE`] × [`SIDE`].

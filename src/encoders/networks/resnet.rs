@@ -125,6 +125,9 @@ pub struct Resnet {
 
 impl Resnet {
     /// A network over the tensors of its layout, which it takes.
+    ///
+    /// # Panics
+    /// `parameters` were collected for another layout.
     pub fn new(shape: ResnetShape, parameters: &mut Parameters) -> Self {
         let stem = Convolution::new(shape.stem(), parameters);
         let blocks = shape.block_shapes().into_iter().map(|block| Block {
@@ -135,7 +138,11 @@ impl Resnet {
     }
 
     /// Features of a prepared picture, 3 × `side` × `side`.
+    ///
+    /// # Panics
+    /// `prepared` has another length.
     pub fn features(&self, prepared: Vec<f32>, side: usize) -> Vec<f32> {
+        assert_eq!(prepared.len(), 3 * side * side);
         let gathered = &mut Vec::new();
         let picture = Map { channels: 3, side, values: prepared };
         let mut map = self.stem.start(&picture);

@@ -98,6 +98,9 @@ pub struct Transformer {
 
 impl Transformer {
     /// A network over the tensors of its layout, which it takes.
+    ///
+    /// # Panics
+    /// `parameters` were collected for another layout.
     pub fn new(shape: TransformerShape, parameters: &mut Parameters) -> Self {
         let positions = Array2::from_shape_vec((shape.tokens(), shape.width), parameters.take("pos_embed"))
             .expect("the shape was compared with the layout");
@@ -118,7 +121,11 @@ impl Transformer {
     }
 
     /// Features of a prepared picture, 3 × side × side.
+    ///
+    /// # Panics
+    /// `prepared` has another length.
     pub fn features(&self, prepared: &[f32]) -> Vec<f32> {
+        assert_eq!(prepared.len(), 3 * self.shape.side * self.shape.side);
         let mut tokens = self.positions.clone();
         let embedded = self.embedding.apply(self.patches(prepared).view());
         let (mut of_class, mut of_patches) = tokens.view_mut().split_at(Axis(0), 1);

@@ -2,7 +2,7 @@
 //! bounded by the file.
 
 use robohive_encoders::EncoderError;
-use robohive_encoders::weights::{MAX_HEADER, WeightFile};
+use robohive_encoders::weights::{MAX_HEADER, Naming, Parameter, Parameters, WeightFile};
 use std::io::Cursor;
 use std::path::Path;
 
@@ -87,4 +87,15 @@ fn a_header_of_any_length_is_recognised() {
         let bytes = [&(length as u64).to_le_bytes()[..], header.as_bytes(), &2.5f32.to_le_bytes()].concat();
         assert_eq!(open(bytes).unwrap().read("a").unwrap(), [2.5], "{length}");
     }
+}
+
+#[test]
+fn a_negative_variance_is_refused() {
+    let header = r#"{"bn1.running_var":{"dtype":"F32","shape":[2],"data_offsets":[0,8]}}"#;
+    let numbers = [1f32, -0.5].map(f32::to_le_bytes).concat();
+    let bytes = [&(header.len() as u64).to_le_bytes()[..], header.as_bytes(), &numbers].concat();
+    let layout = [Parameter::new("bn1.running_var", &[2])];
+    let naming = Naming { prefixes: &[""], ignored: |_| false };
+    let error = Parameters::read(&mut open(bytes).unwrap(), &layout, &naming).err().unwrap().to_string();
+    assert!(error.contains("bn1.running_var") && error.contains("-0.5"), "{error}");
 }

@@ -1,11 +1,11 @@
-//! Networks of a few channels, resizing and preparation, beside what torch, torchvision, timm and Pillow made of the same
+//! Networks, most of them of few channels, resizing and preparation, beside what torch, torchvision, timm and Pillow made of the same
 //! numbers (`validation/reference/encoder_oracles.py`).
 
-use robohive_encoders::networks::{Resnet, ResnetShape, Transformer, TransformerShape};
+use robohive_encoders::networks::{Network, Resnet, ResnetShape, Transformer, TransformerShape};
 use robohive_encoders::prepare::prepare;
 use robohive_encoders::resample::{self, Filter, Window};
 use robohive_encoders::weights::{Parameter, Parameters};
-use robohive_encoders::{Encoding, Picture, Profile};
+use robohive_encoders::{Encoder, Encoding, Picture, Profile};
 use serde_json::Value;
 use std::convert::Infallible;
 
@@ -71,9 +71,9 @@ fn parameters(network: &Value, layout: &[Parameter]) -> Parameters {
 }
 
 #[test]
-fn small_networks_give_the_features_of_torch() {
+fn networks_give_the_features_of_torch() {
     let networks = oracle("networks");
-    assert_eq!(networks.len(), 3);
+    assert_eq!(networks.len(), 4);
     for network in networks {
         let (kind, side) = (network["kind"].as_str().unwrap(), network["side"].as_u64().unwrap() as usize);
         let sizes = counts(&network["sizes"]);
@@ -141,5 +141,28 @@ fn pictures_are_prepared_as_torchvision_does() {
             let off = (f64::from(prepared[place]) - expected).abs() / largest;
             assert!(off < PREPARED, "{encoding} {profile:?} {height} x {width}: {off:e} at {place}");
         }
+    }
+}
+
+#[test]
+fn features_depend_neither_on_the_batch_nor_on_threads() {
+    let encoding = Encoding::parse("rrl18").unwrap();
+    let network = oracle("networks").swap_remove(2);
+    let mut parameters = parameters(&network, &Network::layout(encoding).unwrap());
+    let network = Network::new(encoding, &mut parameters).unwrap();
+    let encoder = Encoder::with_network(encoding, network, Profile::RoboHive07);
+    let sizes = [(224, 224), (60, 80), (300, 257)];
+    let pixels = sizes.map(|(height, width)| picture(height, width));
+    let pictures: Vec<Picture<'_>> = sizes
+        .iter()
+        .zip(&pixels)
+        .map(|(&(height, width), pixels)| Picture::new(height, width, pixels).unwrap())
+        .collect();
+    let bits = |features: Vec<f32>| features.into_iter().map(f32::to_bits).collect::<Vec<u32>>();
+    let single = bits(pictures.iter().flat_map(|picture| encoder.encode(&[*picture])).collect());
+    assert_eq!(single.len(), 3 * encoding.output_len(224, 224));
+    for threads in [1, 2, 3] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        assert!(bits(pool.install(|| encoder.encode(&pictures))) == single, "{threads} threads");
     }
 }

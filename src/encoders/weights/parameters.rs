@@ -38,12 +38,19 @@ impl Parameters {
     ///
     /// # Errors
     /// Those of `values`.
+    ///
+    /// # Panics
+    /// `values` gives more or fewer numbers than a tensor has.
     pub fn collect<E>(
         layout: &[Parameter],
         mut values: impl FnMut(&Parameter) -> Result<Vec<f32>, E>,
     ) -> Result<Self, E> {
-        let pairs = layout.iter().map(|parameter| Ok((parameter.name.clone(), values(parameter)?)));
-        Ok(Parameters { values: pairs.collect::<Result<_, E>>()? })
+        let pair = |parameter: &Parameter| {
+            let numbers = values(parameter)?;
+            assert_eq!(numbers.len(), parameter.shape.iter().product::<usize>(), "{}", parameter.name);
+            Ok((parameter.name.clone(), numbers))
+        };
+        Ok(Parameters { values: layout.iter().map(pair).collect::<Result<_, E>>()? })
     }
 
     /// Reads the tensors of `layout` from a file.
@@ -56,7 +63,16 @@ impl Parameters {
             |prefix: &&str| layout.iter().any(|p| file.shape(&format!("{prefix}{}", p.name)).is_some());
         let prefix = naming.prefixes.iter().copied().find(fits).unwrap_or("");
         check(file, layout, prefix, naming)?;
-        Self::collect(layout, |parameter| file.read(&format!("{prefix}{}", parameter.name)))
+        Self::collect(layout, |parameter| {
+            let values = file.read(&format!("{prefix}{}", parameter.name))?;
+            match negative_variance(&parameter.name, &values) {
+                Some(value) => Err(EncoderError::Weights {
+                    path: file.path().to_owned(),
+                    reason: format!("tensor {}: a variance of {value} is negative", parameter.name),
+                }),
+                None => Ok(values),
+            }
+        })
     }
 
     /// Takes out a tensor of the layout.
@@ -66,6 +82,11 @@ impl Parameters {
     pub(crate) fn take(&mut self, name: &str) -> Vec<f32> {
         self.values.remove(name).unwrap_or_else(|| panic!("{name} is in no layout, or was taken"))
     }
+}
+
+/// The first number that is no variance, in a tensor of variances.
+fn negative_variance(name: &str, values: &[f32]) -> Option<f32> {
+    if name.ends_with("running_var") { values.iter().copied().find(|&value| value < 0.0) } else { None }
 }
 
 /// Compares names and shapes of a file with a layout.
