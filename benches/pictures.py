@@ -39,9 +39,9 @@ from robohive import ROOT, Process, binary, geometric_mean, write
 # `pictures` is then the recorder, not this file.
 sys.path.insert(0, str(ROOT / "validation" / "reference"))
 
-STATES = 8
+STATES = 24  # More than the views that our renderer keeps, so that no picture of a moving camera returns.
 KINDS = {"rgb": (8, 15), "plain": (3, 5), "depth": (2, 3), "ids": (2, 3)}
-OURS_FRAMES = 8  # Pictures a request: one of each state.
+OURS_FRAMES = STATES  # Pictures a request: one of each state.
 PEER_SECONDS = 0.4  # Time of a request to MuJoCo, at least one picture.
 
 

@@ -49,7 +49,7 @@ pub struct BenchRender {
 }
 
 /// States of the motion that pictures go through.
-const STATES: usize = 8;
+const STATES: usize = 24;
 /// Steps between two of them.
 const APART: usize = 5;
 

@@ -23,8 +23,16 @@ pub struct Surface {
     /// The same triangles' light and paint, which only those seen need.
     pub corners: Vec<Corners>,
     /// Middle and half sides of the box about the positions.
-    pub bounds: [[f32; 3]; 2],
+    pub bounds: Bounds,
+    /// Boxes about each run of [`CLUSTER`] triangles.
+    pub clusters: Vec<Bounds>,
 }
+
+/// Middle and half sides of a box.
+pub type Bounds = [[f32; 3]; 2];
+
+/// Triangles that share a box in [`Surface::clusters`].
+pub const CLUSTER: usize = 64;
 
 impl Surface {
     /// Bytes that its arrays take.
@@ -53,24 +61,29 @@ impl Surface {
         }
     }
 
-    /// Sets `bounds` from the positions that triangles use.
+    /// Sets the boxes from the positions that triangles use.
     pub(super) fn fit_bounds(&mut self) {
-        let mut low = [f32::INFINITY; 3];
-        let mut high = [f32::NEG_INFINITY; 3];
-        for p in self.faces.iter().flatten().map(|&row| self.positions[row as usize]) {
-            for axis in 0..3 {
-                low[axis] = low[axis].min(p[axis]);
-                high[axis] = high[axis].max(p[axis]);
-            }
-        }
-        self.bounds = match self.faces.is_empty() {
-            true => [[0.0; 3]; 2],
-            false => [
-                [0, 1, 2].map(|axis| 0.5 * (low[axis] + high[axis])),
-                [0, 1, 2].map(|axis| 0.5 * (high[axis] - low[axis])),
-            ],
-        };
+        self.bounds = bounds(&self.faces, &self.positions);
+        self.clusters = self.faces.chunks(CLUSTER).map(|faces| bounds(faces, &self.positions)).collect();
     }
+}
+
+/// The box about some triangles; without them a point.
+fn bounds(faces: &[[u32; 3]], positions: &[[f32; 3]]) -> Bounds {
+    if faces.is_empty() {
+        return [[0.0; 3]; 2];
+    }
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for p in faces.iter().flatten().map(|&row| positions[row as usize]) {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(p[axis]);
+            high[axis] = high[axis].max(p[axis]);
+        }
+    }
+    [
+        [0, 1, 2].map(|axis| 0.5 * (low[axis] + high[axis])),
+        [0, 1, 2].map(|axis| 0.5 * (high[axis] - low[axis])),
+    ]
 }
 
 /// Unit normal of a triangle, or +z where its area vanishes.

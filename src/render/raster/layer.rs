@@ -5,7 +5,7 @@ use super::coverage::{Extent, Facing, Pattern, Region, Target, Triangle};
 use super::draws::{Draw, Draws};
 use super::vertices::{HalfSpace, Vertex, distance, inside, project, project_whole};
 use super::window::{Columns, Projection};
-use crate::geometry::{Assets, Surface};
+use crate::geometry::{Assets, Bounds, CLUSTER, Surface};
 
 /// What a layer shows.
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +97,20 @@ impl Layer {
         (index, draw): (usize, &Draw),
         lens: &Lens,
         pattern: &Pattern,
+        see: impl FnMut(u32, &Triangle),
+    ) {
+        self.triangles_where(assets, (index, draw), lens, pattern, |_| true, see);
+    }
+
+    /// The same without the triangles in boxes that do not matter.
+    #[inline]
+    pub fn triangles_where(
+        &self,
+        assets: &Assets,
+        (index, draw): (usize, &Draw),
+        lens: &Lens,
+        pattern: &Pattern,
+        matters: impl Fn(&Reached) -> bool,
         mut see: impl FnMut(u32, &Triangle),
     ) {
         let Reach::Seen { columns, half, whole } = &self.reach[index] else { return };
@@ -111,7 +125,7 @@ impl Layer {
         let target = Target::new(*pattern, facing, &lens.region);
         let surface = draw.surface(assets);
         let vertices = &self.vertices[draw.first_vertex..draw.first_vertex + surface.positions.len()];
-        for (number, face) in (draw.first_triangle..).zip(&surface.faces) {
+        let mut see_face = |number: u32, face: &[u32; 3]| {
             let v = face.map(|i| vertices[i as usize]);
             if *whole || (v[0].beyond() | v[1].beyond() | v[2].beyond()) == 0 {
                 if let Some(triangle) = Triangle::new(v, &target) {
@@ -128,6 +142,17 @@ impl Layer {
                         see(number, &triangle);
                     }
                 }
+            }
+        };
+        for ((first, faces), bounds) in
+            (draw.first_triangle..).step_by(CLUSTER).zip(surface.faces.chunks(CLUSTER)).zip(&surface.clusters)
+        {
+            // A box costs as much as some triangles.
+            let hidden = faces.len() > SMALL
+                && reached(columns, lens, bounds)
+                    .is_some_and(|reached| reached.is_empty() || !matters(&reached));
+            if !hidden {
+                (first..).zip(faces).for_each(|(number, face)| see_face(number, face));
             }
         }
     }
@@ -147,6 +172,50 @@ fn local(plane: [f64; 4], draw: &Draw) -> HalfSpace {
         let along = (0..3).map(|i| plane[i] * draw.world[i][j]).sum::<f64>();
         (along + if j == 3 { plane[3] } else { 0.0 }) as f32
     })
+}
+
+/// The part of a region that a box covers, and its depths.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reached {
+    /// First and last column and row [pixel].
+    pub region: Region,
+    /// Least and largest depth.
+    pub depths: (f32, f32),
+}
+
+impl Reached {
+    /// Whether nothing of the region is covered.
+    fn is_empty(&self) -> bool {
+        self.region.low[0] > self.region.high[0] || self.region.low[1] > self.region.high[1]
+    }
+}
+
+/// Triangles below which their box is not looked at.
+const SMALL: usize = 16;
+
+/// What a box covers of the region, a pixel more all round for rounding; none where it reaches before the near plane.
+fn reached(columns: &Columns, lens: &Lens, [middle, size]: &Bounds) -> Option<Reached> {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    for corner in 0..8_u32 {
+        let p: [f32; 3] =
+            std::array::from_fn(
+                |k| {
+                    if corner >> k & 1 == 0 { middle[k] - size[k] } else { middle[k] + size[k] }
+                },
+            );
+        let [x, y, z, w] = columns.apply(p);
+        if !(w > 0.0 && z <= w && z >= 0.0) {
+            return None;
+        }
+        let scale = 1.0 / w;
+        for (k, x) in [x * scale, y * scale, z * scale].into_iter().enumerate() {
+            (low[k], high[k]) = (low[k].min(x), high[k].max(x));
+        }
+    }
+    let from = |k: usize| ((low[k] - 1.0).floor() as i32).max(lens.region.low[k]);
+    let to = |k: usize| ((high[k] + 1.0) as i32).min(lens.region.high[k]);
+    let region = Region { low: [from(0), from(1)], high: [to(0), to(1)] };
+    Some(Reached { region, depths: (low[2], high[2]) })
 }
 
 /// How a surface's box lies to the space that can be drawn and looked at.

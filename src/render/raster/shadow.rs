@@ -8,7 +8,7 @@
 
 use super::coverage::{Extent, Pattern, Region, Triangle};
 use super::draws::Draw;
-use super::layer::{Layer, Lens, Sides};
+use super::layer::{Layer, Lens, Reached, Sides};
 use super::stage::Stage;
 use super::window::Projection;
 use crate::profile::Profile;
@@ -152,6 +152,15 @@ impl Grid {
     fn cell_of(&self, x: i32, y: i32) -> usize {
         ((y - self.low[1]) / self.cell * CELLS + (x - self.low[0]) / self.cell) as usize
     }
+
+    /// Whether a point asks for a texel that something covers and lies deeper than its nearest part.
+    fn has_deeper(&self, cells: &[Cell], reached: &Reached) -> bool {
+        let Region { low, high } = reached.region;
+        let (first, last) = (self.cell_of(low[0], low[1]), self.cell_of(high[0], high[1]));
+        let across = last % CELLS as usize - first % CELLS as usize;
+        let mut lines = (first..=last).step_by(CELLS as usize);
+        lines.any(|line| cells[line..=line + across].iter().any(|cell| cell.deepest > reached.depths.0))
+    }
 }
 
 /// Maps of the world to a lamp's map: `casters` for triangles, in texels of the inner map; `lookups` for fragments, in texels
@@ -267,7 +276,8 @@ impl Shadows {
             scene.items[draw.item].category != Category::Decor && casters(draw)
         });
         for (index, draw) in draws.list.iter().enumerate() {
-            layer.triangles(assets, (index, draw), &lens, &Pattern::CENTER, |_, triangle| {
+            let hides = |reached: &Reached| grid.has_deeper(cells, reached);
+            layer.triangles_where(assets, (index, draw), &lens, &Pattern::CENTER, hides, |_, triangle| {
                 shade(triangle, offset, (grid, cells), sorted);
             });
         }
