@@ -3,8 +3,11 @@
 use crate::bench_env::BenchEnv;
 use crate::bench_render::BenchRender;
 use crate::check_env::CheckEnv;
+use crate::film::FilmArguments;
+use crate::gallery::Gallery;
 use crate::info::Info;
 use crate::list::List;
+use crate::render::Render;
 use crate::rollout::Rollout;
 use crate::run::Run;
 use clap::{Args, Parser, Subcommand, ValueHint, value_parser};
@@ -62,6 +65,10 @@ pub enum Command {
     Info(Info),
     /// Play episodes of an environment
     Run(Run),
+    /// Draw a model or an environment
+    Render(Render),
+    /// Draw many environments on one sheet
+    Gallery(Gallery),
     /// Replay recorded actions or states in an environment
     Rollout(Rollout),
     /// Measure environment steps per second
@@ -169,9 +176,12 @@ memory, to FILE.part/NAME.npy, of which FILE is made at the end. Ctrl-C and inst
 all rows so far, the last one, if its step failed, with sensor readings and energy NaN. Of a process that is killed \
 remains FILE.part, whose arrays numpy can load.
 
+A video has at most 50 frames for each simulated second unless --fps says otherwise; it, too, is complete after Ctrl-C.
+
 Examples:
   robohive sim assets/pile/pile.xml --seconds 2
   robohive sim assets/franka/franka_table.xml --keyframe ready --out run.npz
+  robohive sim assets/pile/pile.xml --seconds 1 --video pile.gif --size 160x120 --fps 20
   python -c \"import numpy; print(numpy.load('run.npz')['qpos'].shape)\""
 )]
 pub struct Sim {
@@ -190,6 +200,9 @@ pub struct Sim {
     /// No progress on standard error
     #[arg(long, short)]
     pub quiet: bool,
+    /// Its video
+    #[command(flatten)]
+    pub film: FilmArguments,
 }
 
 /// Step or forward recorded inputs and write the named fields

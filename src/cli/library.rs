@@ -50,8 +50,12 @@ impl Source {
 impl Making {
     /// Makes an environment.
     pub fn make(&self, id: &str) -> Result<Env, Failure> {
-        let options = Options { compat: self.compat, changes: self.changes()?, ..Options::default() };
-        Env::make(id, &self.assets()?, &options).map_err(Failure::usage)
+        Env::make(id, &self.assets()?, &self.options()?).map_err(Failure::usage)
+    }
+
+    /// How they are made.
+    pub fn options(&self) -> Result<Options, Failure> {
+        Ok(Options { compat: self.compat, changes: self.changes()?, ..Options::default() })
     }
 
     /// The settings that differ.

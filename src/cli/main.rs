@@ -10,23 +10,30 @@ mod check_env;
 mod compile;
 mod completions;
 mod data;
+mod drawing;
 mod env_requests;
 mod fields;
+mod film;
+mod gallery;
 mod info;
 mod inspect;
 mod interrupt;
 mod library;
 mod list;
 mod loading;
+mod look;
 mod man;
 mod memory;
+mod preview;
 mod recorded;
 mod recording;
+mod render;
 mod render_requests;
 mod replay;
 mod rollout;
 mod run;
 mod sim;
+mod subject;
 mod terminal;
 mod trace;
 
@@ -70,6 +77,8 @@ fn main() -> ExitCode {
         Command::List(a) => list::run(&a),
         Command::Info(a) => info::run(&a),
         Command::Run(a) => run::run(&a),
+        Command::Render(a) => render::run(&a),
+        Command::Gallery(a) => gallery::run(&a),
         Command::Rollout(a) => rollout::run(&a),
         Command::BenchEnv(a) => bench_env::run(&a),
         Command::BenchRender(a) => bench_render::run(&a),

@@ -1,9 +1,11 @@
 //! `run`: play episodes of an environment.
 
 use crate::Failure;
+use crate::film::{Film, FilmArguments};
 use crate::interrupt::Interrupt;
 use crate::library::Source;
 use crate::recording::{self, LayoutName, PrecisionName, Recording};
+use crate::subject::camera_of;
 use crate::terminal::{listed, note, show, show_json};
 use agents::Policy;
 use clap::{Args, ValueHint};
@@ -30,11 +32,14 @@ Rows are written as the episode runs. An HDF5 file can be read at any moment and
 whatever ends the process; a numpy archive is complete when the command ends, also by Ctrl-C. `robohive data replay` \
 plays a recording again.
 
+--video shows one episode after the other, each from the state of its reset, in simulated time: at most 50 frames a second unless --fps says otherwise. The file has its name when the command ends, also by Ctrl-C.
+
 Examples:
   robohive run hive/FrankaReach-v0
   robohive run hive/FrankaReach-v0 --policy zero --episodes 20 --seed 7
   robohive run hive/FrankaReach-v0 --set max_episode_steps=20 --json
-  robohive run hive/FrankaReach-v0 --record reach.h5"
+  robohive run hive/FrankaReach-v0 --record reach.h5
+  robohive run hive/FrankaReach-v0 --episodes 1 --video reach.mp4 --camera front"
 )]
 pub struct Run {
     /// The environment
@@ -67,6 +72,9 @@ pub struct Run {
     /// Show no progress
     #[arg(long, short)]
     quiet: bool,
+    /// Its video
+    #[command(flatten)]
+    film: FilmArguments,
 }
 
 /// What acts in an episode of this seed.
@@ -93,14 +101,17 @@ pub fn run(a: &Run) -> Result<(), Failure> {
     let read = read_policy(&a.policy)?;
     let mut env = a.source.make()?;
     let mut recording = a.record.as_ref().map(|_| open_recording(a)).transpose()?;
-    let bar = if a.quiet || a.json { ProgressBar::hidden() } else { progress(a.episodes) };
+    let mut film = a.film.film(&env.scene().model, camera_of(&env), env.dt())?;
+    let hidden = a.quiet || a.json || a.film.previews();
+    let bar = if hidden { ProgressBar::hidden() } else { progress(a.episodes) };
     let interrupt = Interrupt::listen().map_err(Failure::new)?;
     let mut episodes = Vec::new();
     let began = Instant::now();
     for index in 0..a.episodes {
         let seed = a.seed.wrapping_add(u64::from(index));
         let acting = policy(&a.policy, seed, read.as_ref());
-        let Some(episode) = play(&mut env, acting, seed, recording.as_mut(), &interrupt)? else { break };
+        let witnesses = Witnesses { recording: recording.as_mut(), film: film.as_mut() };
+        let Some(episode) = play(&mut env, acting, seed, witnesses, &interrupt)? else { break };
         bar.set_message(format!("return {:.2}, {} solved", episode.reward, episode.solved));
         bar.inc(1);
         if a.each {
@@ -111,6 +122,10 @@ pub fn run(a: &Run) -> Result<(), Failure> {
     let seconds = began.elapsed().as_secs_f64();
     bar.finish_and_clear();
     show_result(a, &env, &episodes, seconds);
+    let finished = film.map(Film::finish).transpose()?.flatten();
+    if let Some(finished) = finished.filter(|_| !a.json) {
+        show!("video        {finished}");
+    }
     let kept = recording.map(|recording| close_recording(recording, a.json)).transpose()?;
     match interrupt.code().filter(|_| episodes.len() < a.episodes as usize) {
         None => Ok(()),
@@ -149,18 +164,29 @@ fn close_recording(recording: Recording, json: bool) -> Result<String, Failure> 
     Ok(format!("; {} holds the {episodes} episodes before it", path.display()))
 }
 
+/// What keeps what happens in an episode.
+struct Witnesses<'a> {
+    recording: Option<&'a mut Recording>,
+    film: Option<&'a mut Film>,
+}
+
 /// Plays one episode; `None` if a signal ends it, which is then not recorded.
 fn play(
     env: &mut Env,
     mut policy: Policy,
     seed: u64,
-    recording: Option<&mut Recording>,
+    witnesses: Witnesses<'_>,
     interrupt: &Interrupt,
 ) -> Result<Option<Summary>, Failure> {
     let mut action = vec![0.0; env.action_len()];
     let mut episode = Summary::default();
+    let Witnesses { recording, mut film } = witnesses;
     let mut record = recording.map(|recording| recording.begin(seed)).transpose()?;
     env.reset(Some(seed)).map_err(Failure::new)?;
+    if let Some(film) = &mut film {
+        film.begin();
+        film.show(&env.scene().model, &env.scene().data, 0.0)?;
+    }
     while !episode.terminated && !episode.truncated {
         if interrupt.code().is_some() {
             return Ok(None);
@@ -171,6 +197,9 @@ fn play(
         }
         let step = env.step(&action).map_err(Failure::new)?;
         episode.add(env, &step);
+        if let Some(film) = film.as_mut().filter(|_| step.fault.is_none()) {
+            film.show(&env.scene().model, &env.scene().data, env.steps() as f64 * env.dt())?;
+        }
         if let Some(fault) = &step.fault {
             note(&format!("seed {seed}, step {}: {fault}", episode.steps));
         }

@@ -1,6 +1,7 @@
 //! `sim`: let a model move.
 
 use crate::arguments::{MAX_STEPS, Sim};
+use crate::film::Film;
 use crate::interrupt::Interrupt;
 use crate::loading::{load, start};
 use crate::terminal::show;
@@ -10,7 +11,7 @@ use dataset::{Dtype, GrowingNpz};
 use indicatif::{ProgressBar, ProgressStyle};
 use physics::model::Enable;
 use physics::table::Slice;
-use physics::{Data, Model, StepError, step};
+use physics::{Data, Model, StepError, forward, step};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -22,10 +23,15 @@ pub fn run(a: &Sim) -> Result<(), Failure> {
     let mut d = start(&m, a.keyframe.as_deref())?;
     let steps = number_of_steps(a.seconds, m.opt.timestep)?;
     let mut recording = a.out.as_deref().map(|path| Recording::create(path, &d)).transpose()?;
-    let bar = if a.quiet { ProgressBar::hidden() } else { progress(steps) };
-    let run = advance(&m, &mut d, steps, recording.as_mut(), &bar)?;
+    let mut pictures = a.film.film(&m, "free", m.opt.timestep)?.map(|film| Pictures::new(film, &d));
+    let bar = if a.quiet || a.film.previews() { ProgressBar::hidden() } else { progress(steps) };
+    let run = advance(&m, &mut d, steps, (recording.as_mut(), pictures.as_mut()), &bar)?;
     bar.finish_and_clear();
     show_summary(&m, &d, &run);
+    let finished = pictures.map(|pictures| pictures.film.finish()).transpose()?.flatten();
+    if let Some(finished) = finished {
+        show!("video        {finished}");
+    }
     let kept = match (&a.out, recording) {
         (Some(path), Some(recording)) => {
             let rows = recording.finish().map_err(unwritable(path))?;
@@ -78,11 +84,12 @@ fn advance(
     m: &Model,
     d: &mut Data,
     steps: u64,
-    mut recording: Option<&mut Recording>,
+    (mut recording, mut pictures): (Option<&mut Recording>, Option<&mut Pictures>),
     bar: &ProgressBar,
 ) -> Result<Run, Failure> {
     // Without a file to complete, signals end the process at once.
-    let interrupt = recording.is_some().then(Interrupt::listen).transpose().map_err(Failure::new)?;
+    let writes = recording.is_some() || pictures.is_some();
+    let interrupt = writes.then(Interrupt::listen).transpose().map_err(Failure::new)?;
     let began = Instant::now();
     let mut run = Run { steps: 0, seconds: 0.0, most_contacts: 0, last: None, end: End::Completed };
     loop {
@@ -96,6 +103,9 @@ fn advance(
         let stepped = run.last.as_deref_mut().unwrap_or(d);
         if let Some(recording) = &mut recording {
             recording.state(stepped)?;
+        }
+        if let Some(pictures) = &mut pictures {
+            pictures.state(m, stepped)?;
         }
         let outcome = step(m, stepped);
         if let Some(recording) = &mut recording {
@@ -135,6 +145,34 @@ fn progress(steps: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} steps, {eta} left")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
     ProgressBar::new(steps).with_style(style)
+}
+
+/// A video of the motion.
+struct Pictures {
+    film: Film,
+    /// The state that is drawn, forwarded here so that the motion is that of a run without a video.
+    posed: Data,
+    began: f64,
+}
+
+impl Pictures {
+    fn new(mut film: Film, d: &Data) -> Self {
+        film.begin();
+        Pictures { film, posed: d.clone(), began: d.state.time }
+    }
+
+    /// Shows a state. One that physics refuses is left out: its step fails next.
+    fn state(&mut self, m: &Model, d: &Data) -> Result<(), Failure> {
+        let time = d.state.time - self.began;
+        if !self.film.is_due(time) {
+            return Ok(());
+        }
+        self.posed.state.clone_from(&d.state);
+        match forward(m, &mut self.posed) {
+            Ok(()) => self.film.show(m, &self.posed, time),
+            Err(_) => Ok(()),
+        }
+    }
 }
 
 /// A trajectory that is being written. A row is a state, the controls in force from then on, and what the step from that

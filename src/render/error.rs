@@ -50,8 +50,8 @@ impl fmt::Display for RenderError {
                     write!(f, "; did you mean {nearest}?")?;
                 }
                 match cameras.as_slice() {
-                    [] => write!(f, " It has no cameras of its own; `free` is always there"),
-                    names => write!(f, " Its cameras: {}, and `free`", names.join(", ")),
+                    [] => write!(f, "; it has none of its own, and `free` is always there"),
+                    names => write!(f, "; there are {}, and `free`", names.join(", ")),
                 }
             }
             RenderError::Size { width, height } => {

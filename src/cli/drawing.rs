@@ -1,0 +1,62 @@
+//! Pictures of a model's states, one after the other.
+
+use crate::Failure;
+use crate::look::Size;
+use physics::{Data, Model};
+use render::picture::Channels;
+use render::scene::{Camera, SceneOptions};
+use render::{Assets, Picture, Profile, Renderer, Scene, Settings};
+use video::Frame;
+
+/// How a model is drawn.
+pub struct Plan {
+    /// From where.
+    pub camera: Camera,
+    /// At which size.
+    pub size: Size,
+    /// With what.
+    pub options: SceneOptions,
+    /// How finely.
+    pub settings: Settings,
+}
+
+/// Draws states of a model, with the memory of its pictures.
+pub struct Drawing {
+    plan: Plan,
+    assets: Assets,
+    renderer: Renderer,
+    scene: Scene,
+    picture: Picture,
+}
+
+impl Drawing {
+    /// Prepares triangles and textures of a model.
+    ///
+    /// # Errors
+    /// The model cannot be drawn.
+    pub fn new(model: &Model, plan: Plan) -> Result<Self, Failure> {
+        let assets = Assets::new(model, Profile::default()).map_err(Failure::new)?;
+        let renderer = Renderer::new(plan.settings);
+        let picture = Picture::new(plan.size.width, plan.size.height);
+        Ok(Drawing { plan, assets, renderer, scene: Scene::new(), picture })
+    }
+
+    /// Draws a state of which a forward pass has computed all that is shown. The model is the one that the drawing was
+    /// made for, but may have been edited.
+    ///
+    /// # Errors
+    /// The camera sees nothing, or something in the scene is not finite.
+    pub fn take(&mut self, model: &Model, data: &Data, channels: Channels) -> Result<&Picture, Failure> {
+        self.assets.refresh(model).map_err(Failure::new)?;
+        let view = self.plan.camera.view(model, data).map_err(Failure::new)?;
+        self.scene.update(model, data, view, &self.plan.options).map_err(Failure::new)?;
+        let drawn = self.renderer.draw(&self.assets, &self.scene, channels, &mut self.picture);
+        drawn.map_err(Failure::new)?;
+        Ok(&self.picture)
+    }
+}
+
+/// The colours of a picture.
+pub fn frame(picture: &Picture) -> Result<Frame<'_>, Failure> {
+    Frame::new(picture.width as u32, picture.height as u32, &picture.rgb).map_err(Failure::new)
+}
