@@ -5,7 +5,7 @@ use crate::drawing::{Drawing, Plan, frame};
 use crate::library::Making;
 use crate::look::Size;
 use crate::preview::{Choice, Screen};
-use crate::subject::camera_of;
+use crate::subject::{are_related, camera_of};
 use crate::terminal::{listed, note, show};
 use clap::{Args, ValueHint};
 use env::{Env, EnvError, Registry, Spec};
@@ -20,8 +20,8 @@ use video::{Sheet, write_png};
 /// Draw many environments on one sheet
 #[derive(Args)]
 #[command(
-    after_help = "Every environment is reset with the same seed and drawn from the first camera that it observes, else from \
-the free one; its id stands below. Ids that run one task on one model are a family, of which the first is drawn, or all \
+    after_help = "Every environment is reset with the same seed and drawn from the first camera that it, or an id \
+with the same task and model, observes, else from the free one; its id stands below. Ids that run one task on one model are a family, of which the first is drawn, or all \
 with --all. Environments whose models are not imported are left out, and a note says so. The sheet does not depend on \
 the number of threads.
 
@@ -125,14 +125,12 @@ fn chosen(a: &Gallery) -> Result<Vec<&'static Spec>, Failure> {
     let filter = a.filter.as_deref().unwrap_or_default();
     let in_suite = specs.iter().any(|spec| spec.suite == filter);
     let wanted = |spec: &&Spec| if in_suite { spec.suite == filter } else { spec.id.contains(filter) };
-    let mut families = Vec::new();
-    let mut found: Vec<&Spec> = specs.iter().filter(wanted).collect();
-    found.retain(|spec| {
-        let family = (&spec.suite, &spec.task, spec.args.get("model_path"));
-        let first = !families.contains(&family);
-        families.push(family);
-        a.all || first
-    });
+    let mut found: Vec<&Spec> = Vec::new();
+    for spec in specs.iter().filter(wanted) {
+        if a.all || !found.iter().any(|other| are_related(spec, other)) {
+            found.push(spec);
+        }
+    }
     if found.is_empty() {
         return Err(Failure::usage(format!(
             "no suite is named {filter:?} and no id contains it; `robohive list` shows all"
@@ -179,7 +177,7 @@ fn draw_all(a: &Gallery, specs: &[&Spec]) -> Result<Vec<Outcome>, Failure> {
 fn draw(a: &Gallery, mut env: Env) -> Result<Picture, Failure> {
     env.reset(Some(a.seed)).map_err(Failure::new)?;
     let model = &env.scene().model;
-    let camera = Camera::named(model, camera_of(&env)).map_err(Failure::new)?;
+    let camera = Camera::named(model, &camera_of(&env)).map_err(Failure::new)?;
     let plan = Plan { camera, size: a.size, options: SceneOptions::default(), settings: Settings::of(model) };
     Drawing::new(model, plan)?.take(model, &env.scene().data, Channels::RGB).cloned()
 }

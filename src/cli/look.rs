@@ -46,8 +46,8 @@ impl fmt::Display for Size {
 /// Where pictures are taken from.
 #[derive(Args)]
 pub struct Viewpoint {
-    /// Camera of the model, by name or number, or `free` [default: the first camera that an environment observes, else
-    /// `free`]
+    /// Camera of the model, by name or number, or `free` [default: the first that an environment, or its visual
+    /// variant, observes, else `free`]
     #[arg(long, value_name = "NAME")]
     pub camera: Option<String>,
     /// Direction in which the free camera looks, about the vertical from x [deg]

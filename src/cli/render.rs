@@ -100,7 +100,7 @@ pub fn run(a: &Render) -> Result<(), Failure> {
     let options = a.look.options()?;
     let subject = a.subject.find()?;
     let model = subject.model();
-    let (camera, camera_name) = a.viewpoint.camera(model, subject.camera())?;
+    let (camera, camera_name) = a.viewpoint.camera(model, &subject.camera())?;
     let plan = Plan { camera, size: a.size, options, settings: a.look.settings(model) };
     let channels = match (a.depth, a.segmentation) {
         (Some(_), _) => Channels::DEPTH,

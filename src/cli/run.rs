@@ -101,7 +101,7 @@ pub fn run(a: &Run) -> Result<(), Failure> {
     let read = read_policy(&a.policy)?;
     let mut env = a.source.make()?;
     let mut recording = a.record.as_ref().map(|_| open_recording(a)).transpose()?;
-    let mut film = a.film.film(&env.scene().model, camera_of(&env), env.dt())?;
+    let mut film = a.film.film(&env.scene().model, &camera_of(&env), env.dt())?;
     let hidden = a.quiet || a.json || a.film.previews();
     let bar = if hidden { ProgressBar::hidden() } else { progress(a.episodes) };
     let interrupt = Interrupt::listen().map_err(Failure::new)?;

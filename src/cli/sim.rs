@@ -4,6 +4,7 @@ use crate::arguments::{MAX_STEPS, Sim};
 use crate::film::Film;
 use crate::interrupt::Interrupt;
 use crate::loading::{load, start};
+use crate::subject::FREE;
 use crate::terminal::show;
 use crate::{Failure, unwritable};
 use dataset::growing::ColumnId;
@@ -23,7 +24,7 @@ pub fn run(a: &Sim) -> Result<(), Failure> {
     let mut d = start(&m, a.keyframe.as_deref())?;
     let steps = number_of_steps(a.seconds, m.opt.timestep)?;
     let mut recording = a.out.as_deref().map(|path| Recording::create(path, &d)).transpose()?;
-    let mut pictures = a.film.film(&m, "free", m.opt.timestep)?.map(|film| Pictures::new(film, &d));
+    let mut pictures = a.film.film(&m, FREE, m.opt.timestep)?.map(|film| Pictures::new(film, &d));
     let bar = if a.quiet || a.film.previews() { ProgressBar::hidden() } else { progress(steps) };
     let run = advance(&m, &mut d, steps, (recording.as_mut(), pictures.as_mut()), &bar)?;
     bar.finish_and_clear();

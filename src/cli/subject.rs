@@ -5,7 +5,8 @@ use crate::arguments::Reading;
 use crate::library::{Making, Source};
 use crate::loading::{STANDARD_INPUT, load, start};
 use clap::{Args, ValueHint};
-use env::{Compat, Env, Registry};
+use env::visual::VisualKey;
+use env::{Compat, Env, Registry, Spec};
 use physics::{Data, Model, forward};
 use std::path::{Path, PathBuf};
 
@@ -77,20 +78,38 @@ impl Subject {
     }
 
     /// The camera that shows it where none is asked for.
-    pub fn camera(&self) -> &str {
+    pub fn camera(&self) -> String {
         match self {
-            Subject::Model(..) => FREE,
+            Subject::Model(..) => FREE.to_owned(),
             Subject::Env(env) => camera_of(env),
         }
     }
 }
 
 /// The camera that every model has.
-const FREE: &str = "free";
+pub const FREE: &str = "free";
 
-/// The camera that an environment observes first; the free one where it observes none.
-pub fn camera_of(env: &Env) -> &str {
-    env.visual_keys().first().map_or(FREE, |key| &key.camera)
+/// Whether two environments run one task on one model.
+pub fn are_related(a: &Spec, b: &Spec) -> bool {
+    let model = |spec: &Spec| spec.args.get("model_path").cloned();
+    a.suite == b.suite && a.task == b.task && model(a) == model(b)
+}
+
+/// The camera that an environment observes first; where it observes none, that of an id that runs the same task on the same
+/// model, or the free one.
+pub fn camera_of(env: &Env) -> String {
+    if let Some(key) = env.visual_keys().first() {
+        return key.camera.clone();
+    }
+    let is_there = |camera: &String| env.scene().model.camera(camera).is_some();
+    let related = Registry::builtin().specs().iter().filter(|spec| are_related(spec, env.spec()));
+    related.filter_map(first_camera).find(is_there).unwrap_or_else(|| FREE.to_owned())
+}
+
+/// The camera that environments of this specification observe first.
+fn first_camera(spec: &Spec) -> Option<String> {
+    let key: VisualKey = spec.args.get("visual_keys")?.get(0)?.as_str()?.parse().ok()?;
+    Some(key.camera)
 }
 
 impl SubjectArguments {
@@ -156,5 +175,20 @@ impl SubjectArguments {
             None => Ok(()),
             Some((option, _)) => Err(Failure::usage(format!("{option} {before} {} {after}", self.name))),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn visual_variants_name_a_camera_for_the_others() {
+        let registry = Registry::builtin();
+        let door = registry.spec("door-v1").ok().unwrap();
+        assert_eq!(first_camera(door), None);
+        let related: Vec<_> = registry.specs().iter().filter(|spec| are_related(spec, door)).collect();
+        assert!(related.len() > 1 && related.iter().all(|spec| spec.id.starts_with("door")));
+        assert_eq!(related.into_iter().find_map(first_camera).as_deref(), Some("vil_camera"));
     }
 }
