@@ -3,6 +3,7 @@
 
 use crate::environment::Env;
 use crate::error::EnvError;
+use crate::exteroception::{Exteroception, Pixels};
 use crate::task::Rng;
 use std::fmt;
 
@@ -44,6 +45,23 @@ pub enum Violation {
         /// The row.
         name: String,
     },
+    /// An image holds NaN or infinities.
+    ImageNotFinite {
+        /// The visual key.
+        key: String,
+    },
+    /// All pixels of an image are the same.
+    Blank {
+        /// The visual key.
+        key: String,
+    },
+    /// The same state was drawn otherwise.
+    ImageNotRepeatable {
+        /// The visual key.
+        key: String,
+        /// How the state came back.
+        after: &'static str,
+    },
 }
 
 impl fmt::Display for Violation {
@@ -58,6 +76,11 @@ impl fmt::Display for Violation {
             Violation::Constant { name } => write!(f, "the observation {name} never changes"),
             Violation::NotConstant { name } => {
                 write!(f, "the observation {name} is called constant, and changes")
+            }
+            Violation::ImageNotFinite { key } => write!(f, "{key} is not finite"),
+            Violation::Blank { key } => write!(f, "{key} shows nothing: its pixels are all the same"),
+            Violation::ImageNotRepeatable { key, after } => {
+                write!(f, "{key} differs after {after}, in the same state")
             }
         }
     }
@@ -110,6 +133,47 @@ pub fn check(env: &mut Env, seed: u64, steps: usize) -> Result<Report, EnvError>
         report.violations.push(Violation::StateLost { step });
     }
     Ok(report)
+}
+
+/// Steps before an image is drawn.
+const BEFORE_IMAGES: usize = 3;
+
+/// Draws the images of the visual keys in a state, and once more after the same episode and from the saved state: finite,
+/// not constant, the same to the last bit.
+///
+/// # Errors
+/// The environment cannot be reset or stepped at all, or its images cannot be drawn.
+pub fn check_images(env: &mut Env, seed: u64) -> Result<Vec<Violation>, EnvError> {
+    let mut violations = Vec::new();
+    episode(env, seed, BEFORE_IMAGES, None)?;
+    let (saved, seen) = (env.state(), env.exteroception()?.clone());
+    for image in seen.images() {
+        let key = image.name().to_string();
+        let (finite, varied) = match image.pixels() {
+            Pixels::Bytes(bytes) => (true, bytes.iter().any(|byte| *byte != bytes[0])),
+            Pixels::Numbers(x) => (x.iter().all(|x| x.is_finite()), x.iter().any(|value| *value != x[0])),
+        };
+        if !finite {
+            violations.push(Violation::ImageNotFinite { key });
+        } else if !varied {
+            violations.push(Violation::Blank { key });
+        }
+    }
+    let mut compare = |again: &Exteroception, after| {
+        let pairs = seen.images().iter().zip(again.images());
+        let differing = pairs.filter(|(first, second)| first.pixels() != second.pixels());
+        violations.extend(differing.map(|(image, _)| {
+            let key = image.name().to_string();
+            Violation::ImageNotRepeatable { key, after }
+        }));
+    };
+    episode(env, seed, BEFORE_IMAGES, None)?;
+    compare(env.exteroception()?, "the same episode");
+    env.reset(Some(seed + 1))?;
+    env.exteroception()?;
+    env.set_state(&saved)?;
+    compare(env.exteroception()?, "the return to a saved state");
+    Ok(violations)
 }
 
 /// The rows after a seeded reset.

@@ -61,14 +61,6 @@ impl Env {
         &self.visual_keys
     }
 
-    /// The images of the exteroception.
-    ///
-    /// # Errors
-    /// Always where there are any: nothing draws them yet.
-    pub fn exteroception(&self) -> Result<(), EnvError> {
-        self.visual_keys.first().map_or(Ok(()), |key| Err(EnvError::NoImages { key: key.to_string() }))
-    }
-
     /// What the id stands for.
     pub fn spec(&self) -> &Spec {
         &self.spec

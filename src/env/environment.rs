@@ -2,16 +2,23 @@
 
 use crate::assets::Assets;
 use crate::error::EnvError;
+use crate::exteroception::Eyes;
+use crate::network::{Networks, NoNetworks};
 use crate::parts::{build_robot, initial_pose, load, read_config};
+use crate::randomize::Look;
 use crate::registry::Registry;
+use crate::rendering::Rendering;
 use crate::rows::Rows;
 use crate::scene::Scene;
+use crate::sight::Sight;
 use crate::spec::{Settings, Spec};
 use crate::suite;
 use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
 use crate::visual::{VisualKey, parse_keys};
 use mjcf::diagnostic::Diagnostics;
 use physics::{Data, StepError};
+use render::scene::SceneOptions;
+use render::{Picture, Profile};
 use robot::{Compat, Robot};
 use std::ops::Range;
 use std::sync::Arc;
@@ -26,11 +33,21 @@ pub struct Options {
     pub compat: Compat,
     /// Settings that differ from the id's, by their names.
     pub changes: Table,
+    /// What [`Env::render`] returns.
+    pub rendering: Rendering,
+    /// Networks for visual keys.
+    pub networks: Arc<dyn Networks>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 0, compat: Compat::Fixed, changes: Table::new() }
+        Options {
+            seed: 0,
+            compat: Compat::Fixed,
+            changes: Table::new(),
+            rendering: Rendering::default(),
+            networks: Arc::new(NoNetworks),
+        }
     }
 }
 
@@ -76,6 +93,13 @@ pub struct Env {
     pub(crate) frame_skip: usize,
     pub(crate) weights: Vec<(String, f64)>,
     pub(crate) visual_keys: Arc<[VisualKey]>,
+    pub(crate) eyes: Eyes,
+    pub(crate) sight: Sight,
+    /// What changes in the look of the scene, where anything does.
+    pub(crate) look: Option<Look>,
+    pub(crate) rendering: Rendering,
+    /// What [`Env::render`] drew.
+    pub(crate) rendered: Picture,
     pub(crate) obs_places: Vec<Range<usize>>,
     pub(crate) proprio_places: Vec<Range<usize>>,
     pub(crate) start: Pose,
@@ -124,10 +148,20 @@ impl Env {
         let cameras = scene.model.camera_names().map(|(_, name)| name);
         let visual_keys =
             parse_keys(&settings.visual_keys, cameras).map_err(|message| spec.wrong(message))?;
+        let look = settings.visual_randomization.as_ref();
+        let look = look
+            .map(|config| Look::new(config, &scene.model, options.seed))
+            .transpose()
+            .map_err(|message| spec.wrong(message))?;
         let nu = scene.model.nu;
         let mut env = Env {
             frame_skip: settings.frame_skip.unwrap_or(defaults.frame_skip),
             weights: weights.unwrap_or_else(|| defaults.weights.clone()),
+            eyes: Eyes::new(&visual_keys, &scene.model, options.networks.clone())?,
+            sight: sight(&defaults, options.compat),
+            look,
+            rendering: options.rendering.clone(),
+            rendered: Picture::default(),
             visual_keys: visual_keys.into(),
             spec: Arc::new(spec),
             settings: Arc::new(settings),
@@ -212,6 +246,11 @@ impl Env {
             frame_skip: self.frame_skip,
             weights: self.weights.clone(),
             visual_keys: self.visual_keys.clone(),
+            eyes: self.eyes.fork(),
+            sight: self.sight.clone(),
+            look: self.look.clone(),
+            rendering: self.rendering.clone(),
+            rendered: Picture::default(),
             obs_places: self.obs_places.clone(),
             proprio_places: self.proprio_places.clone(),
             start: self.start.clone(),
@@ -231,6 +270,9 @@ impl Env {
     pub fn seed(&mut self, seed: u64) {
         self.rng = Rng::pcg64(seed);
         self.task.seed(seed);
+        if let Some(look) = &mut self.look {
+            look.seed(seed);
+        }
     }
 
     /// Starts an episode and returns its first observation. A seed restarts all draws first.
@@ -251,6 +293,9 @@ impl Env {
             initial: &self.initial,
         };
         self.task.reset(&mut episode)?;
+        if let Some(look) = &mut self.look {
+            look.draw(&mut self.scene)?;
+        }
         self.robot.clip_reset(&mut self.start.qpos, &mut self.start.qvel);
         self.scene.data.reset(&self.scene.model);
         self.scene.data.state.qpos.copy_from_slice(&self.start.qpos);
@@ -344,6 +389,13 @@ impl Env {
         } else {
             self.scene.complete()
         }
+        self.observe_readings()?;
+        self.write_rows();
+        Ok(())
+    }
+
+    /// Computes the state as the last readings show it, where that is kept apart from the true one.
+    pub(crate) fn observe_readings(&mut self) -> Result<(), StepError> {
         self.differs = false;
         if self.compat == Compat::Fixed {
             self.observed.state.clone_from(&self.scene.data.state);
@@ -352,12 +404,12 @@ impl Env {
                 self.differs = true;
             }
         }
-        self.write_rows();
         Ok(())
     }
 
     /// Writes the observation dictionary.
     pub(crate) fn write_rows(&mut self) {
+        self.eyes.close();
         let mut rows = std::mem::take(&mut self.rows);
         rows.begin();
         rows.set("time", "s", [self.scene.data.time()]);
@@ -396,6 +448,19 @@ impl Env {
             steps: self.steps,
         }
     }
+}
+
+/// What the pictures of an environment follow: MuJoCo 3.1.3, RoboHive's own, where its quirks are reproduced. Tasks of muscles
+/// show them by activation.
+fn sight(defaults: &Defaults, compat: Compat) -> Sight {
+    let profile = match compat {
+        Compat::RoboHive07 => Profile::Mujoco313,
+        Compat::Fixed => Profile::Mujoco312,
+    };
+    let mut options = SceneOptions::default();
+    options.show.actuators = defaults.show_actuators;
+    options.show.activations = defaults.show_actuators;
+    Sight::new(profile, options)
 }
 
 pub(crate) fn action_bounds(scene: &Scene, normalized: bool, k: usize) -> [f64; 2] {

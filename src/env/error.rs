@@ -3,6 +3,7 @@
 use physics::StepError;
 use physics::model::{EditError, Suggestions};
 use random::RandomError;
+use render::RenderError;
 use robot::{ConfigError, RobotError};
 use std::fmt;
 
@@ -80,10 +81,14 @@ pub enum EnvError {
         /// What does not fit.
         message: String,
     },
-    /// Images were asked for where none can be drawn.
-    NoImages {
+    /// The model, a camera or a size cannot be drawn.
+    Render(RenderError),
+    /// A visual key needs a network that is not there.
+    Network {
         /// The visual key.
         key: String,
+        /// Which file to bring, and where to put it.
+        message: String,
     },
 }
 
@@ -130,12 +135,8 @@ impl fmt::Display for EnvError {
             EnvError::Robot(error) => write!(f, "{error}"),
             EnvError::Draw(error) => write!(f, "{error}"),
             EnvError::ForeignState { message } => write!(f, "the saved state does not fit: {message}"),
-            EnvError::NoImages { key } => {
-                write!(
-                    f,
-                    "{key} asks for an image, and this build draws none; the state observations are available"
-                )
-            }
+            EnvError::Render(error) => write!(f, "{error}"),
+            EnvError::Network { key, message } => write!(f, "{key} cannot be encoded: {message}"),
         }
     }
 }
@@ -163,6 +164,12 @@ impl From<RobotError> for EnvError {
 impl From<ConfigError> for EnvError {
     fn from(error: ConfigError) -> Self {
         EnvError::Config(error)
+    }
+}
+
+impl From<RenderError> for EnvError {
+    fn from(error: RenderError) -> Self {
+        EnvError::Render(error)
     }
 }
 

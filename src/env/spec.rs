@@ -1,6 +1,7 @@
 //! What an id stands for: a task, its settings, and how long an episode lasts.
 
 use crate::error::EnvError;
+use crate::randomize::VisualRandomization;
 use robot::ActionMode;
 use serde::Deserialize;
 use toml::{Table, Value};
@@ -46,6 +47,9 @@ pub struct Settings {
     /// Images of the exteroception.
     #[serde(default)]
     pub visual_keys: Vec<String>,
+    /// What changes in the look of the scene from episode to episode.
+    #[serde(default)]
+    pub visual_randomization: Option<VisualRandomization>,
     /// Which reward a step returns.
     #[serde(default)]
     pub reward_mode: RewardMode,
@@ -93,7 +97,7 @@ fn position() -> String {
 }
 
 /// Names of [`Settings`].
-const SETTINGS: [&str; 18] = [
+const SETTINGS: [&str; 19] = [
     "model_path",
     "define",
     "reparent",
@@ -104,6 +108,7 @@ const SETTINGS: [&str; 18] = [
     "proprio_keys",
     "proprio_keys_wt",
     "visual_keys",
+    "visual_randomization",
     "reward_mode",
     "frame_skip",
     "normalize_act",

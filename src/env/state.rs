@@ -3,6 +3,7 @@
 
 use crate::environment::{Env, Past};
 use crate::error::EnvError;
+use crate::randomize::{Look, LookState};
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::task::{Rng, Task, Verdict};
@@ -18,6 +19,7 @@ pub struct EnvState {
     pub(crate) task: Box<dyn Task>,
     pub(crate) robot: Memory,
     pub(crate) rng: Rng,
+    pub(crate) look: Option<LookState>,
     pub(crate) rows: Rows,
     pub(crate) terms: Rows,
     pub(crate) verdict: Verdict,
@@ -149,6 +151,7 @@ impl Env {
             task: self.task.clone(),
             robot: self.robot.memory(),
             rng: self.rng.clone(),
+            look: self.look.as_ref().map(Look::state),
             rows: self.rows.clone(),
             terms: self.terms.clone(),
             verdict: self.verdict,
@@ -174,10 +177,15 @@ impl Env {
         self.task = state.task.clone();
         self.robot.restore(&state.robot);
         self.rng = state.rng.clone();
+        if let (Some(look), Some(state)) = (&mut self.look, &state.look) {
+            look.restore(state);
+        }
         self.rows.clone_from(&state.rows);
         self.terms.clone_from(&state.terms);
         (self.verdict, self.dense) = (state.verdict, state.dense);
         (self.steps, self.faulty) = (state.steps, state.faulty);
+        self.observe_readings()?;
+        self.eyes.close();
         self.gather();
         Ok(())
     }

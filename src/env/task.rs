@@ -107,6 +107,8 @@ pub struct Defaults {
     pub frame_skip: usize,
     /// When an episode counts as a success.
     pub success: Success,
+    /// Pictures show actuators, coloured by activation.
+    pub show_actuators: bool,
 }
 
 impl Defaults {
@@ -119,6 +121,7 @@ impl Defaults {
             proprio_keys: None,
             frame_skip,
             success: Success::MoreThan(5),
+            show_actuators: false,
         }
     }
 

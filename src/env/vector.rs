@@ -2,6 +2,7 @@
 
 use crate::environment::{Env, Step};
 use crate::error::EnvError;
+use crate::exteroception::Exteroception;
 
 /// What happens after an episode has ended (Gymnasium's `AutoresetMode`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -131,6 +132,23 @@ impl VecEnv {
             }
         }
         Ok(&self.observations)
+    }
+
+    /// Draws the images of every environment, on the pool, each as [`Env::exteroception`] draws them, and returns them.
+    ///
+    /// # Errors
+    /// The first environment whose images cannot be drawn.
+    pub fn exteroception(&mut self) -> Result<impl ExactSizeIterator<Item = &Exteroception>, EnvError> {
+        let draw = |slot: &mut Slot| slot.env.exteroception().map(|_| ());
+        #[cfg(feature = "threads")]
+        {
+            use rayon::prelude::*;
+            let envs = &mut self.envs;
+            self.pool.install(|| envs.par_iter_mut().with_max_len(1).try_for_each(draw))?;
+        }
+        #[cfg(not(feature = "threads"))]
+        self.envs.iter_mut().try_for_each(draw)?;
+        Ok(self.envs.iter().map(|slot| slot.env.visuals().expect("they were drawn")))
     }
 
     /// What the last call yielded, environment by environment.

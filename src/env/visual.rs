@@ -71,6 +71,12 @@ pub struct VisualKey {
     pub encoder: Encoder,
 }
 
+impl fmt::Display for Encoder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(ENCODERS.iter().find(|(_, encoder)| encoder == self).map_or("", |(name, _)| name))
+    }
+}
+
 impl FromStr for VisualKey {
     type Err = String;
 
@@ -105,9 +111,7 @@ impl FromStr for VisualKey {
 impl fmt::Display for VisualKey {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let channel = if self.channel == Channel::Rgb { "rgb" } else { "d" };
-        let encoder =
-            ENCODERS.iter().find(|(_, encoder)| *encoder == self.encoder).map_or("", |(name, _)| name);
-        write!(f, "{channel}:{}:{}x{}:{encoder}", self.camera, self.height, self.width)
+        write!(f, "{channel}:{}:{}x{}:{}", self.camera, self.height, self.width, self.encoder)
     }
 }
 

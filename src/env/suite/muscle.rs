@@ -97,7 +97,7 @@ impl Muscles {
 
     /// Defaults of a muscle task: its rows, then the activations where there are any.
     pub fn defaults(&self, obs_keys: &[&str], weights: &[(&str, f64)]) -> Defaults {
-        let mut defaults = Defaults::new(obs_keys, weights, FRAME_SKIP);
+        let mut defaults = Defaults { show_actuators: true, ..Defaults::new(obs_keys, weights, FRAME_SKIP) };
         if self.na > 0 && !obs_keys.contains(&"act") {
             defaults.obs_keys.push("act".into());
         }
