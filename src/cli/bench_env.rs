@@ -1,6 +1,7 @@
 //! `bench-env`: environment steps per second, and where the time goes.
 
 use crate::Failure;
+use crate::bench_visual::{self, Measuring};
 use crate::env_requests::Subject;
 use crate::library::Making;
 use crate::terminal::{show, show_json};
@@ -13,11 +14,13 @@ use std::time::Instant;
 #[derive(Args)]
 #[command(
     after_help = "Random actions, episodes reset as they end. `layer` is the share of a step that is not physics: the \
-same controls are sent through the same physics again without robot, observation and reward.
+same controls are sent through the same physics again without robot, observation and reward. With --visual every step draws \
+the images of the visual keys; `first` is the time until the first of them, for which triangles and textures are prepared.
 
 Examples:
   robohive bench-env hive/FrankaReach-v0
-  robohive bench-env hive/FrankaReach-v0 --threads 2 --seconds 1 --json"
+  robohive bench-env hive/FrankaReach-v0 --threads 2 --seconds 1 --json
+  robohive bench-env hive/FrankaReach_v2d-v0 --visual"
 )]
 pub struct BenchEnv {
     /// Ids of environments
@@ -32,6 +35,9 @@ pub struct BenchEnv {
     /// Time to measure for [s]
     #[arg(long, value_name = "S", default_value_t = 2.0)]
     seconds: f64,
+    /// Draw the images of the visual keys in every step
+    #[arg(long, conflicts_with = "requests")]
+    visual: bool,
     /// Print one JSON array instead
     #[arg(long)]
     json: bool,
@@ -61,6 +67,9 @@ pub fn run(a: &BenchEnv) -> Result<(), Failure> {
     if a.requests {
         return a.ids.iter().try_for_each(|id| answer(id, a));
     }
+    if a.visual {
+        return visual(a);
+    }
     if !a.json {
         show!("{:<40} {:>12} {:>8} {:>14} {:>10}", "id", "steps/s", "layer", "batch steps/s", "x one");
     }
@@ -81,6 +90,29 @@ pub fn run(a: &BenchEnv) -> Result<(), Failure> {
             None => ["".into(), "".into()],
         };
         show!("{id:<40} {:>12.0} {layer:>7.1}% {all:>14} {ratio:>10}", speed.single);
+    }
+    if a.json {
+        show_json(&rows.into());
+    }
+    Ok(())
+}
+
+/// Measures with images.
+fn visual(a: &BenchEnv) -> Result<(), Failure> {
+    let threads = usize::from(a.threads);
+    let measuring = Measuring { seconds: a.seconds, threads, count: PER_THREAD * threads };
+    let mut rows = Vec::new();
+    if !a.json {
+        bench_visual::show_header();
+    }
+    for id in &a.ids {
+        let speed = bench_visual::measure(&a.making.make(id)?, &measuring)
+            .map_err(|error| Failure { code: error.code, ..Failure::new(format!("{id}: {error}")) })?;
+        if a.json {
+            rows.push(speed.json(id, threads));
+        } else {
+            speed.show(id);
+        }
     }
     if a.json {
         show_json(&rows.into());

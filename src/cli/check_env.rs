@@ -4,7 +4,7 @@ use crate::Failure;
 use crate::library::Making;
 use crate::terminal::{show, show_verdict};
 use clap::Args;
-use env::check::{STEPS, check};
+use env::check::{STEPS, check, check_images};
 use env::{Registry, Spec};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,7 +17,8 @@ other seeds, and returns to a saved state. The table counts those that keep the 
 
 Examples:
   robohive check-env hive                  a suite; all of them without a name
-  robohive check-env hive/FrankaReach-v0   one id"
+  robohive check-env hive/FrankaReach-v0   one id
+  robohive check-env hive --visual         images too"
 )]
 pub struct CheckEnv {
     /// Ids or suites; all without one
@@ -32,6 +33,9 @@ pub struct CheckEnv {
     /// Longest episode [steps]
     #[arg(long, value_name = "N", default_value_t = STEPS)]
     steps: usize,
+    /// Draw the images of the visual keys too: finite, not constant, repeatable, restorable
+    #[arg(long)]
+    visual: bool,
     /// Threads; 0 for as many as there are cores
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
@@ -89,10 +93,17 @@ fn examine(a: &CheckEnv, spec: &Spec) -> Vec<String> {
         Ok(env) => env,
         Err(failure) => return vec![failure.to_string()],
     };
-    match check(&mut env, a.seed, a.steps) {
+    let mut found = match check(&mut env, a.seed, a.steps) {
         Ok(report) => report.violations.iter().map(ToString::to_string).collect(),
         Err(error) => vec![error.to_string()],
+    };
+    if a.visual {
+        match check_images(&mut env, a.seed) {
+            Ok(violations) => found.extend(violations.iter().map(ToString::to_string)),
+            Err(error) => found.push(error.to_string()),
+        }
     }
+    found
 }
 
 fn report(specs: &[&Spec], findings: &[Vec<String>]) -> Result<(), Failure> {

@@ -19,6 +19,8 @@ enum Request {
     Record(usize),
     /// `env`: the recorded actions once more, without resets.
     Env,
+    /// `images`: the recorded actions once more, with the images of the visual keys after each.
+    Images,
     /// `physics`: the recorded controls through physics alone.
     Physics,
     /// `resets N`
@@ -37,6 +39,7 @@ impl Request {
         Some(match name {
             "record" => Request::Record(number()?),
             "env" => Request::Env,
+            "images" => Request::Images,
             "physics" => Request::Physics,
             "resets" => Request::Resets(number()?),
             "makes" => Request::Makes(number()?),
@@ -78,7 +81,7 @@ impl Subject<'_> {
             let line = line.map_err(Failure::new)?;
             let request = Request::parse(&line).ok_or_else(|| {
                 Failure::usage(format!(
-                    "request {line:?} is not `record N`, `env`, `physics`, `resets N`, `makes N` or `batch T`"
+                    "request {line:?} is not `record N`, `env`, `images`, `physics`, `resets N`, `makes N` or `batch T`"
                 ))
             })?;
             show_json(&self.serve(request, &mut episodes)?);
@@ -89,7 +92,13 @@ impl Subject<'_> {
     fn serve(&mut self, request: Request, episodes: &mut Vec<Episode>) -> Result<Value, Failure> {
         match request {
             Request::Record(steps) => *episodes = record(&mut self.env, steps)?,
-            Request::Env => episodes.iter().try_for_each(|episode| repeat(&mut self.env, episode))?,
+            Request::Env => {
+                episodes.iter().try_for_each(|episode| repeat(&mut self.env, episode, |_| Ok(())))?;
+            }
+            Request::Images => {
+                let draw = |env: &mut Env| env.exteroception().map(drop).map_err(Failure::usage);
+                episodes.iter().try_for_each(|episode| repeat(&mut self.env, episode, draw))?;
+            }
             Request::Physics => {
                 let mut scene = self.env.scene().clone();
                 episodes.iter().for_each(|episode| physics(&mut scene, episode, self.env.frame_skip()));
@@ -139,10 +148,16 @@ fn record(env: &mut Env, steps: usize) -> Result<Vec<Episode>, Failure> {
     Ok(episodes)
 }
 
-fn repeat(env: &mut Env, episode: &Episode) -> Result<(), Failure> {
+/// Takes the actions of an episode, and does something after each.
+fn repeat(
+    env: &mut Env,
+    episode: &Episode,
+    each: impl Fn(&mut Env) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     env.set_state(&episode.start).map_err(Failure::new)?;
     for action in episode.actions.chunks_exact(env.action_len().max(1)) {
         env.step(action).map_err(Failure::new)?;
+        each(env)?;
     }
     Ok(())
 }

@@ -4,6 +4,7 @@ use crate::Failure;
 use crate::library::Source;
 use crate::terminal::{show, show_json};
 use clap::Args;
+use env::visual::{Channel, VisualKey};
 use env::{Env, Registry, Row, Success};
 use serde_json::{Value, json};
 
@@ -74,7 +75,10 @@ fn describe(env: &Env) {
     if let Some(keys) = env.proprio_keys() {
         show!("proprio      {}", keys.join(", "));
     }
-    env.visual_keys().iter().for_each(|key| show!("image        {key}"));
+    for key in env.visual_keys() {
+        let shape: Vec<_> = key.shape().iter().map(ToString::to_string).collect();
+        show!("image        {key:<36} {}, {}", shape.join(" x "), values(key));
+    }
     show!("reward       the sum of");
     for (name, weight) in env.weights() {
         let unit = env.terms().rows().iter().find(|row| row.name() == name).map_or("", Row::unit);
@@ -85,6 +89,15 @@ fn describe(env: &Env) {
         Success::Share => "share of the steps in which it is solved".into(),
     };
     show!("success      {success}");
+}
+
+/// What the values of an image are.
+fn values(key: &VisualKey) -> &'static str {
+    match key.channel {
+        Channel::Depth => "depth in metres, float32",
+        Channel::Rgb if key.is_encoded() => "features, float32",
+        Channel::Rgb => "colours, uint8",
+    }
 }
 
 fn bounds(env: &Env) -> String {
@@ -105,6 +118,8 @@ fn describe_json(env: &Env, value: &mut Value) {
     value["observation"] =
         json!({"len": env.observation().len(), "keys": env.obs_keys(), "rows": rows(env.rows().rows())});
     value["proprioception"] = json!(env.proprio_keys());
-    value["images"] = env.visual_keys().iter().map(ToString::to_string).collect();
+    let image =
+        |key: &VisualKey| json!({"key": key.to_string(), "shape": key.shape(), "values": values(key)});
+    value["images"] = env.visual_keys().iter().map(image).collect();
     value["reward"] = json!({"terms": rows(env.terms().rows()), "weights": env.weights()});
 }

@@ -2,6 +2,7 @@
 
 use crate::Failure;
 use crate::terminal::note;
+use crate::weights::Weights;
 use clap::{Args, ValueHint};
 use env::{Assets, Compat, Env, Options};
 use mjcf::Loader;
@@ -55,7 +56,8 @@ impl Making {
 
     /// How they are made.
     pub fn options(&self) -> Result<Options, Failure> {
-        Ok(Options { compat: self.compat, changes: self.changes()?, ..Options::default() })
+        let networks = Arc::new(Weights::from_environment());
+        Ok(Options { compat: self.compat, changes: self.changes()?, networks, ..Options::default() })
     }
 
     /// The settings that differ.

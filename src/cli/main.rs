@@ -5,6 +5,7 @@ mod assets;
 mod bench;
 mod bench_env;
 mod bench_render;
+mod bench_visual;
 mod check;
 mod check_env;
 mod compile;
@@ -36,6 +37,7 @@ mod sim;
 mod subject;
 mod terminal;
 mod trace;
+mod weights;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

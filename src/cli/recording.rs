@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use dataset::Array;
 use dataset::Values;
 use dataset::trace::{Layout, Precision, Recorder, TraceError, Trial};
-use env::{Env, WorldState};
+use env::{Env, Pixels, WorldState};
 use std::path::{Path, PathBuf};
 
 /// Names of rows in the files.
@@ -55,11 +55,17 @@ pub const SEED: &str = "seed";
 /// The datasets of a trial that hold its states.
 pub const STATE: &str = "env_infos/state/";
 
+/// The datasets of a trial that hold what was drawn of the look of its scene.
+pub const LOOK: &str = "visual_randomization/";
+/// The datasets of a trial that hold its images.
+const IMAGES: &str = "env_infos/visual_dict/";
+
 /// A file of episodes that is being written.
 pub struct Recording {
     recorder: Recorder,
     path: PathBuf,
     episodes: usize,
+    images: bool,
 }
 
 impl Recording {
@@ -74,7 +80,12 @@ impl Recording {
         attributes: &[(&str, &str)],
     ) -> Result<Self, Failure> {
         let recorder = Recorder::create_with(path, layout, precision, attributes).map_err(Failure::new)?;
-        Ok(Recording { recorder, path: path.to_owned(), episodes: 0 })
+        Ok(Recording { recorder, path: path.to_owned(), episodes: 0, images: false })
+    }
+
+    /// Records the images of the visual keys too.
+    pub fn with_images(self) -> Self {
+        Recording { images: true, ..self }
     }
 
     /// Begins the next episode, which starts from the reset with `seed`. Without [`EpisodeRecording::finish`] it is not
@@ -86,7 +97,7 @@ impl Recording {
         let mut trial = self.recorder.begin(&format!("Trial{}", self.episodes)).map_err(Failure::new)?;
         let seed = Array { shape: Vec::new(), values: Values::U64(vec![seed]) };
         trial.set(SEED, &seed).map_err(Failure::new)?;
-        Ok(EpisodeRecording { trial, episodes: &mut self.episodes })
+        Ok(EpisodeRecording { trial, episodes: &mut self.episodes, images: self.images, rows: 0 })
     }
 
     /// Completes the file: where it is, its finished episodes, and the names that had no place in its layout.
@@ -104,14 +115,23 @@ impl Recording {
 pub struct EpisodeRecording<'a> {
     trial: Trial<'a>,
     episodes: &'a mut usize,
+    images: bool,
+    rows: usize,
 }
 
 impl EpisodeRecording<'_> {
     /// Adds the row of the current state and of the action that is taken in it.
     ///
     /// # Errors
-    /// Writing fails, or a number does not fit the precision.
-    pub fn row(&mut self, env: &Env, action: &[f64]) -> Result<(), Failure> {
+    /// Writing fails, a number does not fit the precision, or an image cannot be drawn.
+    pub fn row(&mut self, env: &mut Env, action: &[f64]) -> Result<(), Failure> {
+        if self.images {
+            env.exteroception().map_err(Failure::usage)?;
+        }
+        if self.rows == 0 {
+            set_look(&mut self.trial, env).map_err(Failure::new)?;
+        }
+        self.rows += 1;
         self.push(env, action).map_err(Failure::new)
     }
 
@@ -141,6 +161,7 @@ impl EpisodeRecording<'_> {
             trial.push(&format!("env_infos/obs_dict/{}", row.name()), shape, values)?;
         }
         push_proprioception(trial, env)?;
+        push_images(trial, env)?;
         push_state(trial, env)
     }
 
@@ -149,7 +170,7 @@ impl EpisodeRecording<'_> {
     ///
     /// # Errors
     /// Writing fails.
-    pub fn finish(mut self, env: &Env) -> Result<(), Failure> {
+    pub fn finish(mut self, env: &mut Env) -> Result<(), Failure> {
         self.row(env, &vec![f64::NAN; env.action_len()])?;
         self.trial.finish().map_err(Failure::new)?;
         *self.episodes += 1;
@@ -170,6 +191,28 @@ fn push_proprioception(trial: &mut Trial<'_>, env: &Env) -> Result<(), TraceErro
         }
     }
     Ok(())
+}
+
+/// The images that were drawn of this state.
+fn push_images(trial: &mut Trial<'_>, env: &Env) -> Result<(), TraceError> {
+    let Some(seen) = env.visuals() else { return Ok(()) };
+    trial.push(&format!("{IMAGES}time"), &[1], &[seen.time()])?;
+    for image in seen.images() {
+        let key = format!("{IMAGES}{}", image.name());
+        match image.pixels() {
+            Pixels::Bytes(bytes) => trial.push(&key, image.shape(), bytes)?,
+            Pixels::Numbers(numbers) => trial.push(&key, image.shape(), numbers)?,
+        }
+    }
+    Ok(())
+}
+
+/// What the reset drew of the look of the scene.
+fn set_look(trial: &mut Trial<'_>, env: &Env) -> Result<(), TraceError> {
+    env.look().into_iter().flat_map(|look| look.iter()).try_for_each(|(row, values)| {
+        let array = Array { shape: vec![values.len()], values: Values::F64(values.to_vec()) };
+        trial.set(&format!("{LOOK}{}", row.name()), &array)
+    })
 }
 
 /// The parts of the state, bodies and sites a row each; NaN where the model has no such part, as the original writes it.

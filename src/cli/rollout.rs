@@ -6,7 +6,7 @@ use crate::{Failure, unwritable};
 use clap::{Args, ValueHint};
 use dataset::npz::{NpzReader, NpzWriter};
 use dataset::{Array, Values};
-use env::{Env, Rows, WorldState};
+use env::{Env, Exteroception, Pixels, Rows, WorldState};
 use std::path::{Path, PathBuf};
 
 /// Replay recorded actions, or observe recorded states, and write all that the environment says
@@ -18,7 +18,7 @@ these, and of `actions` (the last action before each state) or `ctrl` (the contr
 itself. What is missing keeps its value after the reset.
 
 O.npz holds, with T+1 rows of which the first is the reset (with --states one row a state): the state under the same names, \
-obs, obs_dict/KEY, rwd_dict/KEY (all terms, dense, sparse, solved, done); and with T rows reward, terminated, truncated.
+obs, obs_dict/KEY, rwd_dict/KEY (all terms, dense, sparse, solved, done), with --visual visual_dict/KEY; and with T rows reward, terminated, truncated.
 
 Examples:
   robohive rollout hive/FrankaReach-v0 --actions A.npz --out O.npz
@@ -37,6 +37,9 @@ pub struct Rollout {
     /// States to observe
     #[arg(long, value_name = "S.npz", value_hint = ValueHint::FilePath, conflicts_with = "actions")]
     states: Option<PathBuf>,
+    /// Draw the images of the visual keys too
+    #[arg(long)]
+    visual: bool,
     /// File to write
     #[arg(long, value_name = "O.npz", value_hint = ValueHint::FilePath)]
     out: PathBuf,
@@ -46,7 +49,7 @@ pub struct Rollout {
 pub fn run(a: &Rollout) -> Result<(), Failure> {
     let mut env = a.source.make()?;
     env.reset(Some(a.seed)).map_err(Failure::new)?;
-    let mut log = Log::default();
+    let mut log = Log { visual: a.visual, ..Log::default() };
     match (&a.actions, &a.states) {
         (Some(path), _) => replay(&mut env, path, &mut log)?,
         (None, Some(path)) => observe(&mut env, path, &mut log)?,
@@ -109,7 +112,7 @@ fn replay(env: &mut Env, path: &Path, log: &mut Log) -> Result<(), Failure> {
     if world != WorldState::default() {
         env.set_world(&world).map_err(Failure::usage)?;
     }
-    log.state(env);
+    log.state(env)?;
     for step in 0..steps {
         let action = file.row("actions", step).ok_or_else(|| file.lacks("actions"))?;
         let outcome =
@@ -117,7 +120,7 @@ fn replay(env: &mut Env, path: &Path, log: &mut Log) -> Result<(), Failure> {
         if let Some(fault) = &outcome.fault {
             return Err(Failure::new(format!("step {}: {fault}", step + 1)));
         }
-        log.state(env);
+        log.state(env)?;
         log.step("reward", outcome.reward);
         log.step("terminated", f64::from(outcome.terminated));
         log.step("truncated", f64::from(outcome.truncated));
@@ -137,7 +140,7 @@ fn observe(env: &mut Env, path: &Path, log: &mut Log) -> Result<(), Failure> {
             );
         }
         env.set_world(&world).map_err(|error| Failure::usage(format!("row {state}: {error}")))?;
-        log.state(env);
+        log.state(env)?;
     }
     Ok(())
 }
@@ -147,6 +150,10 @@ fn observe(env: &mut Env, path: &Path, log: &mut Log) -> Result<(), Failure> {
 struct Log {
     columns: Vec<(String, usize, Vec<f64>)>,
     states: usize,
+    /// Whether images are drawn.
+    visual: bool,
+    /// Images by their keys: the shape of one, and the values of all.
+    images: Vec<(String, Vec<usize>, Pixels)>,
 }
 
 impl Log {
@@ -165,7 +172,10 @@ impl Log {
         }
     }
 
-    fn state(&mut self, env: &Env) {
+    fn state(&mut self, env: &mut Env) -> Result<(), Failure> {
+        if self.visual {
+            self.draw(env.exteroception().map_err(Failure::usage)?);
+        }
         env.world().parts().for_each(|(name, values)| self.push(name, &values));
         self.push("obs", env.observation());
         self.rows("obs_dict", env.rows());
@@ -176,6 +186,21 @@ impl Log {
         self.push("rwd_dict/solved", &[f64::from(verdict.solved)]);
         self.push("rwd_dict/done", &[f64::from(verdict.done)]);
         self.states += 1;
+        Ok(())
+    }
+
+    fn draw(&mut self, seen: &Exteroception) {
+        self.push("visual_dict/time", &[seen.time()]);
+        for image in seen.images() {
+            let kept = self.images.iter_mut().find(|(name, ..)| name == image.name());
+            match (kept.map(|(.., pixels)| pixels), image.pixels()) {
+                (Some(Pixels::Bytes(kept)), Pixels::Bytes(bytes)) => kept.extend_from_slice(bytes),
+                (Some(Pixels::Numbers(kept)), Pixels::Numbers(numbers)) => kept.extend_from_slice(numbers),
+                (_, pixels) => {
+                    self.images.push((image.name().into(), image.shape().to_vec(), pixels.clone()));
+                }
+            }
+        }
     }
 
     fn rows(&mut self, folder: &str, rows: &Rows) {
@@ -190,6 +215,16 @@ impl Log {
             let shape = rows.map_or_else(|| vec![values.len()], |rows| vec![rows, width]);
             let array = Array { shape, values: Values::F64(values) };
             archive.add(&name, &array).map_err(unwritable(path))?;
+        }
+        for (name, shape, pixels) in self.images {
+            let shape = [&[self.states][..], &shape].concat();
+            let values = match pixels {
+                Pixels::Bytes(bytes) => Values::U8(bytes),
+                Pixels::Numbers(numbers) => Values::F32(numbers),
+            };
+            archive
+                .add(&format!("visual_dict/{name}"), &Array { shape, values })
+                .map_err(unwritable(path))?;
         }
         archive.finish().map_err(unwritable(path))?;
         Ok(self.states)

@@ -24,7 +24,7 @@ use std::time::Instant;
 
 --record writes every episode in the schema of RoboHive's logger, TrialN/ for episode N: time, observations, actions, \
 rewards, done, and env_infos/ with time, rwd_dense, rwd_sparse, solved, done, obs_dict/*, proprio_dict/*, rwd_dict/* and \
-state/*. An episode of h steps has h+1 rows: row t holds a state and the action taken in it, the last row the last state \
+state/*; with --visual also visual_dict/*, an image of each visual key. An episode of h steps has h+1 rows: row t holds a state and the action taken in it, the last row the last state \
 and a NaN action. seed is the seed of the reset. Attributes of an HDF5 file name the environment, its settings, the \
 policy and the first seed; numpy archives (.npz) hold no attributes.
 
@@ -39,7 +39,8 @@ Examples:
   robohive run hive/FrankaReach-v0 --policy zero --episodes 20 --seed 7
   robohive run hive/FrankaReach-v0 --set max_episode_steps=20 --json
   robohive run hive/FrankaReach-v0 --record reach.h5
-  robohive run hive/FrankaReach-v0 --episodes 1 --video reach.mp4 --camera front"
+  robohive run hive/FrankaReach-v0 --episodes 1 --video reach.mp4 --camera front
+  robohive run hive/FrankaReach_v2d-v0 --episodes 2 --record reach.h5 --visual"
 )]
 pub struct Run {
     /// The environment
@@ -63,6 +64,9 @@ pub struct Run {
     /// Precision of the recorded numbers; that of RoboHive's own files is reduced
     #[arg(long, default_value = "full", requires = "record")]
     precision: PrecisionName,
+    /// Record the images of the visual keys too, which takes their drawing
+    #[arg(long, requires = "record")]
+    visual: bool,
     /// Print a line for every episode; where it is recorded, when the file holds it
     #[arg(long, conflicts_with = "json")]
     each: bool,
@@ -148,7 +152,8 @@ fn open_recording(a: &Run) -> Result<Recording, Failure> {
         ("policy", &a.policy),
         ("seed", &seed),
     ];
-    Recording::create(path, a.layout.into(), a.precision.into(), &attributes)
+    let recording = Recording::create(path, a.layout.into(), a.precision.into(), &attributes)?;
+    Ok(if a.visual { recording.with_images() } else { recording })
 }
 
 /// Completes the file, and says what it holds.
