@@ -117,7 +117,7 @@ impl Assets {
         if same_quality && same_far && self.source.is_current(model) {
             return Ok(());
         }
-        if !same_quality || self.source.layout_moved(model) {
+        if !same_quality || self.source.layout_moved(model) || !self.has_planes_of(model) {
             *self = Assets::new(model, self.profile)?;
             return Ok(());
         }
@@ -169,6 +169,12 @@ impl Assets {
     /// The convex hull of a mesh; one without a hull has no triangles.
     pub(super) fn hull_surface(&self, mesh: usize) -> Option<usize> {
         Some(self.first_hull + mesh).filter(|&surface| surface < self.surfaces.len())
+    }
+
+    /// Whether the geoms that are planes are still those of the model.
+    fn has_planes_of(&self, model: &Model) -> bool {
+        let known = (0..self.planes.len()).filter(|&geom| self.planes[geom].is_some());
+        self.planes.len() == model.geom_type.len() && plane_geoms(model).eq(known)
     }
 
     fn refresh_planes(&mut self, model: &Model) {

@@ -35,7 +35,6 @@ macro_rules! source {
 
 source! {
     layout_moved {
-        geom_type: i32 [ngeom],
         mesh_vertadr: i32 [nmesh],
         mesh_vertnum: i32 [nmesh],
         mesh_faceadr: i32 [nmesh],
@@ -70,6 +69,7 @@ source! {
         tex_data: u8 [ntexdata],
     }
     planes_moved {
+        geom_type: i32 [ngeom],
         geom_size: [f64; 3] [ngeom],
         geom_matid: i32 [ngeom],
         mat_texrepeat: [f32; 2] [nmat],
