@@ -84,7 +84,7 @@ pub fn add_lamp(sum: &mut Triple, corners: &Corners, material: &Material, lamp: 
             let (to_light, distance) = unit(away);
             let fall = f32x8::splat(k0) + distance * (f32x8::splat(k1) + distance * f32x8::splat(k2));
             let along = f32x8::ZERO - dot(to_light, light.dir.map(f32x8::splat));
-            let cone = power(along.max(f32x8::ZERO).min(f32x8::ONE), exponent) / fall;
+            let cone = power(share(along), exponent) / fall;
             (to_light, along.simd_lt(f32x8::splat(lamp.cos_cutoff)).select(f32x8::ZERO, cone))
         }
     };
@@ -93,11 +93,11 @@ pub fn add_lamp(sum: &mut Triple, corners: &Corners, material: &Material, lamp: 
     }
     let facing = dot(corners.normal, to_light);
     let lit = facing.simd_gt(f32x8::ZERO);
-    let diffuse = facing.max(f32x8::ZERO);
+    let diffuse = lit.select(facing, f32x8::ZERO);
     let highlight = if material.specular > 0.0 && lit.any() {
         let (to_eye, _) = unit(subtract(eye.map(f32x8::splat), corners.position));
         let (half, _) = unit(std::array::from_fn(|k| to_light[k] + to_eye[k]));
-        let shine = dot(corners.normal, half).max(f32x8::ZERO).min(f32x8::ONE);
+        let shine = share(dot(corners.normal, half));
         lit.select(power(shine, material.exponent) * f32x8::splat(material.specular), f32x8::ZERO)
     } else {
         f32x8::ZERO
@@ -111,7 +111,14 @@ pub fn add_lamp(sum: &mut Triple, corners: &Corners, material: &Material, lamp: 
 
 /// Colours between 0 and 1.
 pub fn clamped(colour: Triple) -> Triple {
-    colour.map(|c| c.max(f32x8::ZERO).min(f32x8::ONE))
+    colour.map(share)
+}
+
+/// Numbers between 0 and 1; 0 for what is none. Selected, since the least and greatest of vectors have the sign of either zero,
+/// as each processor does.
+fn share(x: f32x8) -> f32x8 {
+    let positive = x.simd_gt(f32x8::ZERO).select(x, f32x8::ZERO);
+    positive.simd_lt(f32x8::ONE).select(positive, f32x8::ONE)
 }
 
 /// Vectors of length 1, and their lengths before; those of length 0 stay.

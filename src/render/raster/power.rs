@@ -3,10 +3,10 @@
 use wide::bytemuck::cast;
 use wide::{f32x8, i32x8};
 
-/// `x` to the power of `exponent`, for `x` from 0 to 1 and an exponent of at least 0; relative error below 1e-6 times the
+/// `x` to the power of `exponent`, for `x` from 0 to 1 and an exponent above 0, else 1; relative error below 1e-6 times the
 /// exponent.
 pub fn power(x: f32x8, exponent: f32) -> f32x8 {
-    if exponent == 0.0 {
+    if exponent.is_nan() || exponent <= 0.0 {
         return f32x8::ONE;
     }
     let tiny = x.simd_lt(f32x8::splat(1e-20));
@@ -29,11 +29,17 @@ fn log2(x: f32x8) -> f32x8 {
     f32x8::from_i32x8(exponent) + t * sum
 }
 
+/// 1.5 * 2^23: adding it rounds to an integer on every machine alike, which the conversions of vectors do not.
+const ROUND: f32 = 12_582_912.0;
+
 /// 2 to the power of `x`, for `x` of at most 0; 0 below -126.
 fn exp2(x: f32x8) -> f32x8 {
-    let small = x.simd_lt(f32x8::splat(-126.0));
-    let x = x.max(f32x8::splat(-126.0));
-    let whole = x.round_ties_even();
+    let least = f32x8::splat(-126.0);
+    let small = x.simd_lt(least);
+    let x = x.simd_gt(least).select(x, least);
+    // The sum is a whole number, ties to even, in its lowest bits.
+    let sum = x + f32x8::splat(ROUND);
+    let whole = sum - f32x8::splat(ROUND);
     let rest = x - whole;
     // Taylor series of 2^rest, |rest| <= 1/2.
     let series = [
@@ -45,9 +51,10 @@ fn exp2(x: f32x8) -> f32x8 {
         0.001_333_355_8,
         0.000_154_035_3,
     ];
-    let sum = series.iter().rev().fold(f32x8::ZERO, |sum, &c| sum * rest + f32x8::splat(c));
-    let scale: f32x8 = cast((whole.fast_trunc_int() + i32x8::splat(127)) << 23);
-    small.select(f32x8::ZERO, sum * scale)
+    let power = series.iter().rev().fold(f32x8::ZERO, |sum, &c| sum * rest + f32x8::splat(c));
+    let exponent = cast::<f32x8, i32x8>(sum) - i32x8::splat(ROUND.to_bits() as i32 - 127);
+    let scale: f32x8 = cast(exponent << 23);
+    small.select(f32x8::ZERO, power * scale)
 }
 
 #[cfg(test)]

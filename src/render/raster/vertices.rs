@@ -2,10 +2,14 @@
 
 use super::clip::{Corner, GUARD};
 use super::window::Columns;
+use wide::bytemuck::cast;
 use wide::{f32x4, i32x4};
 
 /// Steps of window coordinates in a pixel.
 pub const SUBPIXELS: i32 = 256;
+/// 1.5 * 2^23: adding it to a number within 2^22 rounds that to an integer, ties to even, on every machine. The conversions of
+/// vectors round ties to even or away from zero, as each processor does.
+const ROUND: f32 = 12_582_912.0;
 
 /// One position in the window: column from the left and row from below, reversed depth, and bits.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,8 +18,9 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    /// A position in the window [pixel] that can be drawn.
-    pub fn new([x, y]: [f32; 2], z: f32) -> Self {
+    /// The position in the space that can be drawn that is nearest to one in the window [pixel]; its origin for no number.
+    pub fn new(at: [f32; 2], z: f32) -> Self {
+        let [x, y] = at.map(|x| if x.is_nan() { 0.0 } else { x.clamp(-GUARD, GUARD) });
         Vertex { lanes: f32x4::new([x, y, z, 0.0]) }
     }
 
@@ -41,7 +46,8 @@ impl Vertex {
     /// Column and row in the first two lanes [1/256 pixel].
     #[inline]
     pub fn on_grid(&self) -> i32x4 {
-        (self.lanes * f32x4::splat(SUBPIXELS as f32)).fast_round_int()
+        let rounded: i32x4 = cast(self.lanes * f32x4::splat(SUBPIXELS as f32) + f32x4::splat(ROUND));
+        rounded - i32x4::splat(ROUND.to_bits() as i32)
     }
 }
 
@@ -93,8 +99,7 @@ pub fn distance(half: HalfSpace, p: [f32; 3]) -> f32 {
 pub fn inside(corner: &Corner) -> Vertex {
     let [x, y, z, w, _] = *corner;
     let scale = 1.0 / w;
-    let snap = |x: f32| (x * scale).clamp(-GUARD, GUARD);
-    Vertex::new([snap(x), snap(y)], (z * scale).clamp(0.0, 1.0))
+    Vertex::new([x * scale, y * scale], (z * scale).clamp(0.0, 1.0))
 }
 
 /// Bits of the faces beyond which a corner lies.
@@ -115,6 +120,18 @@ fn beyond([x, y, z, w]: [f32; 4]) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn ties_are_snapped_to_even_steps() {
+        let half = 0.5 / SUBPIXELS as f32;
+        let snapped = |x: f32, y: f32| {
+            let [x, y, ..] = Vertex::new([x, y], 0.5).on_grid().to_array();
+            [x, y]
+        };
+        let found = [1.0, 3.0, 5.0, -7.0].map(|x| snapped(x * half, -x * half));
+        assert_eq!(found, [[0, 0], [2, -2], [2, -2], [-4, 4]]);
+        assert_eq!(snapped(GUARD, -GUARD), [GUARD as i32 * SUBPIXELS, -GUARD as i32 * SUBPIXELS]);
+    }
 
     #[test]
     fn positions_are_snapped_and_marked() {
