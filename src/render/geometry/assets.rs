@@ -159,16 +159,16 @@ impl Assets {
     }
 
     pub(super) fn hfield_surface(&self, hfield: usize) -> Option<usize> {
-        Some(self.first_hfield + hfield).filter(|&surface| surface < self.first_mesh)
+        self.first_hfield.checked_add(hfield).filter(|&surface| surface < self.first_mesh)
     }
 
     pub(super) fn mesh_surface(&self, mesh: usize) -> Option<usize> {
-        Some(self.first_mesh + mesh).filter(|&surface| surface < self.first_hull)
+        self.first_mesh.checked_add(mesh).filter(|&surface| surface < self.first_hull)
     }
 
     /// The convex hull of a mesh; one without a hull has no triangles.
     pub(super) fn hull_surface(&self, mesh: usize) -> Option<usize> {
-        Some(self.first_hull + mesh).filter(|&surface| surface < self.surfaces.len())
+        self.first_hull.checked_add(mesh).filter(|&surface| surface < self.surfaces.len())
     }
 
     /// Whether the geoms that are planes are still those of the model.
@@ -279,6 +279,11 @@ fn hfield_of(model: &Model, id: usize, quads: usize) -> Result<Surface, RenderEr
     let data = &model.hfield_data[hfield_range(model, id)?];
     let size = model.hfield_size[id].map(|x| x as f32);
     let [rows, columns] = [model.hfield_nrow[id] as usize, model.hfield_ncol[id] as usize];
+    if let Some(place) = data.iter().position(|x| !x.is_finite()) {
+        let label = model.label_of(ObjType::Hfield, id);
+        let message = format!("elevation {place} of {label} is {}, not a finite number", data[place]);
+        return Err(RenderError::Model { message });
+    }
     Ok(hfield::hfield(&Relief { size, rows, columns, data, quads }))
 }
 
@@ -298,6 +303,10 @@ fn mesh_of(model: &Model, id: usize) -> Result<Surface, RenderError> {
         ..0 => 0..0,
         first => range("texture coordinates", first, m.mesh_texcoordnum[id], m.mesh_texcoord.len())?,
     };
+    if let Some(vertex) = m.mesh_vert[vertices.clone()].iter().position(|p| !p.iter().all(|x| x.is_finite()))
+    {
+        return Err(fail(&format!("vertex {vertex} is not finite")));
+    }
     let rows = MeshRows {
         vertices: &m.mesh_vert[vertices],
         normals: &m.mesh_normal[normals],

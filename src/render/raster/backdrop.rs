@@ -60,7 +60,7 @@ impl Default for Backdrop {
 impl Backdrop {
     /// Keeps what `seen` has collected and lit of `visibility`.
     pub fn keep(&mut self, visibility: &Visibility, seen: &Seen, draws: &Draws, brush: &Brush<'_>) {
-        self.visibility.clone_from(visibility);
+        self.visibility.copy(visibility);
         self.passes = seen.passes();
         self.kept.clear();
         self.colours.clear();

@@ -3,6 +3,7 @@
 use super::coverage::Facing;
 use super::lines::{Line, list};
 use super::window::Affine;
+use crate::error::RenderError;
 use crate::geometry::{Assets, Paint, Part, Surface};
 use crate::scene::{Item, Scene, Shape};
 use std::ops::Range;
@@ -30,6 +31,19 @@ pub struct Draw {
     pub first_vertex: usize,
     /// Number of its first triangle; 0 is no triangle.
     pub first_triangle: u32,
+}
+
+/// Most triangles, and most positions, of a scene.
+const MAX_TRIANGLES: usize = 1 << 27;
+
+/// The error for a scene with more.
+fn too_many(scene: &Scene) -> RenderError {
+    let message = format!(
+        "its {} items have more than {MAX_TRIANGLES} triangles; draw fewer items, or lower numslices, numstacks and numquads of \
+         visual/quality",
+        scene.items.len()
+    );
+    RenderError::Model { message }
 }
 
 /// Opacity from which on an item is opaque.
@@ -72,7 +86,10 @@ pub struct Draws {
 
 impl Draws {
     /// Lists the surfaces of a scene.
-    pub fn update(&mut self, assets: &Assets, scene: &Scene) {
+    ///
+    /// # Errors
+    /// There are more than [`MAX_TRIANGLES`] triangles or positions.
+    pub fn update(&mut self, assets: &Assets, scene: &Scene) -> Result<(), RenderError> {
         self.list.clear();
         (self.vertices, self.triangles) = (0, 1);
         list(scene, &mut self.lines);
@@ -103,9 +120,13 @@ impl Draws {
                     first_triangle: self.triangles,
                 });
                 self.vertices += surface.positions.len();
+                if self.vertices.max(self.triangles as usize + surface.faces.len()) > MAX_TRIANGLES {
+                    return Err(too_many(scene));
+                }
                 self.triangles += surface.faces.len() as u32;
             }
         }
+        Ok(())
     }
 
     /// The item that mirrors the others: the first plane or box that is opaque and has a reflectance.

@@ -218,7 +218,8 @@ fn reached(columns: &Columns, lens: &Lens, [middle, size]: &Bounds) -> Option<Re
     Some(Reached { region, depths: (low[2], high[2]) })
 }
 
-/// How a surface's box lies to the space that can be drawn and looked at.
+/// How a surface's box lies to the space that can be drawn and looked at. One that leaves the range of single precision lies
+/// beside it: it cannot be drawn.
 fn side(columns: &Columns, half: Option<HalfSpace>, lens: &Lens, surface: &Surface) -> Side {
     let [middle, size] = surface.bounds;
     // A pixel more all round, so that rounding leaves nothing out.
@@ -233,6 +234,9 @@ fn side(columns: &Columns, half: Option<HalfSpace>, lens: &Lens, surface: &Surfa
                 },
             );
         let [x, y, z, w] = columns.apply(p);
+        if !(x.abs() + y.abs() + z.abs() + w.abs()).is_finite() {
+            return Side::Beside;
+        }
         let behind = half.is_some_and(|half| distance(half, p) < 0.0);
         let faces = [
             x < w * left,

@@ -75,7 +75,7 @@ impl Mirror {
             kept.mirror.keep(&self.visibility, &self.seen, stage.draws, frame.brush);
         }
         if is_kept {
-            self.visibility.clone_from(&kept.mirror.visibility);
+            self.visibility.copy(&kept.mirror.visibility);
         }
         if !self.open(stage, item, shown) {
             return;

@@ -31,6 +31,8 @@ pub struct Renderer {
     opaque: Opaque,
     mirror: Mirror,
     transparency: Transparency,
+    /// The lights, none with shadows.
+    light: Illumination,
     canvas: Canvas,
     views: Views,
 }
@@ -46,6 +48,7 @@ impl Renderer {
             opaque: Opaque::default(),
             mirror: Mirror::default(),
             transparency: Transparency::default(),
+            light: Illumination::default(),
             canvas: Canvas::default(),
             views: Views::default(),
         }
@@ -64,7 +67,7 @@ impl Renderer {
     /// Draws a scene of the model that `assets` were made of into the wanted channels of a picture, at its size.
     ///
     /// # Errors
-    /// The picture has no pixels or too many, or the view's frustum is empty or not finite.
+    /// The picture has no pixels or too many, the view's frustum is empty or not finite, or the scene has too many triangles.
     pub fn draw(
         &mut self,
         assets: &Assets,
@@ -78,6 +81,7 @@ impl Renderer {
         }
         let projection = Projection::of(&scene.view, width, height)?;
         let extent = Extent { width: width as i32, height: height as i32 };
+        self.settings = self.settings.within_limits();
         let lens = Lens {
             projection,
             extent,
@@ -86,7 +90,7 @@ impl Renderer {
             mirror: None,
             sides: Sides::Seen,
         };
-        self.draws.update(assets, scene);
+        self.draws.update(assets, scene)?;
         picture.rgb.clear();
         picture.depth.clear();
         picture.segmentation.clear();
@@ -114,7 +118,16 @@ impl Renderer {
     /// Paints all samples of a picture.
     fn colour(&mut self, assets: &Assets, scene: &Scene, lens: &Lens) {
         let Renderer {
-            settings, draws, layer, visibility, opaque, mirror, transparency, canvas, views, ..
+            settings,
+            draws,
+            layer,
+            visibility,
+            opaque,
+            mirror,
+            transparency,
+            light,
+            canvas,
+            views,
         } = self;
         let nothing = &mut Kept::nothing(scene);
         let (kept, plan) = match settings.keep {
@@ -136,7 +149,7 @@ impl Renderer {
             opaque.keep(&stage, &frame, visibility, kept);
         }
         if plan != Plan::Without {
-            visibility.clone_from(&kept.main.visibility);
+            visibility.copy(&kept.main.visibility);
         }
         layer.update(assets, draws, lens, |draw| draw.transparent || !kept.stills.has(draw));
         let stage = Stage { assets, scene, draws, layer, lens };
@@ -164,8 +177,8 @@ impl Renderer {
                 around.haze(haze, canvas);
             }
         }
-        let light = Illumination::without_shadows(scene);
-        transparency.draw(&stage, visibility, &light, &brush, canvas);
+        light.set(scene, scene.view.eye.map(|x| x as f32), false);
+        transparency.draw(&stage, visibility, light, &brush, canvas);
     }
 }
 

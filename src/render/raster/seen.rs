@@ -75,6 +75,9 @@ fn mix(w: [f32; 3], at: &[[f32; 3]; 3]) -> [f32; 3] {
     std::array::from_fn(|k| w[0] * at[0][k] + w[1] * at[1][k] + w[2] * at[2][k])
 }
 
+/// Most lamps whose shadows are drawn: a fragment has a bit for each.
+const MAX_SHADOWED: usize = 8;
+
 /// Which light falls on the triangles of a layer.
 #[derive(Clone, Debug, Default)]
 pub struct Illumination {
@@ -91,19 +94,13 @@ pub struct Illumination {
 }
 
 impl Illumination {
-    /// The lights of a scene, none with shadows.
-    pub fn without_shadows(scene: &Scene) -> Self {
-        let mut light = Illumination::default();
-        light.set(scene, scene.view.eye.map(|x| x as f32), false);
-        light
-    }
-
-    /// The lights of a scene, seen from `eye`. Those that cast shadows are kept apart where shadows are wanted.
+    /// The lights of a scene, seen from `eye`. The first eight that cast shadows are kept apart where shadows are wanted.
     pub fn set(&mut self, scene: &Scene, eye: [f32; 3], shadows: bool) {
         self.base.clear();
         self.shadowed.clear();
         for light in &scene.lights {
-            let list = if shadows && light.shadow { &mut self.shadowed } else { &mut self.base };
+            let apart = shadows && light.shadow && self.shadowed.len() < MAX_SHADOWED;
+            let list = if apart { &mut self.shadowed } else { &mut self.base };
             list.push(Lamp::new(light));
         }
         (self.ambient, self.reflectance, self.eye) = (scene.ambient, 1.0, eye);
@@ -338,7 +335,7 @@ impl Seen {
                 Corners { position: draw.world.map(world), normal: unit(draw.normals.map(turned)).0 };
             let mut base = own_light(&material, light.ambient);
             light.base.iter().for_each(|lamp| add_lamp(&mut base, &corners, &material, lamp, light.eye));
-            let mut passes = [[f32x8::ZERO; 3]; 9];
+            let mut passes = [[f32x8::ZERO; 3]; 1 + MAX_SHADOWED];
             passes[0] = clamped(base);
             for (pass, lamp) in passes[1..].iter_mut().zip(&light.shadowed) {
                 add_lamp(pass, &corners, &material, lamp, light.eye);

@@ -3,14 +3,15 @@
 use super::shadow::ShadowSettings;
 use physics::Model;
 
-/// How finely a renderer draws; what a model says in `visual/quality` and `visual/map`.
+/// How finely a renderer draws; what a model says in `visual/quality` and `visual/map`. Numbers beyond the limits given here
+/// count as the limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Samples of a pixel: 4, or 1.
     pub samples: Samples,
     /// Shadow maps.
     pub shadow: ShadowSettings,
-    /// Slices of the sky.
+    /// Slices of the sky, 3 to 1024.
     pub slices: usize,
     /// Width of lines [pixel].
     pub line_width: f32,
@@ -28,7 +29,9 @@ pub enum Samples {
 }
 
 /// Largest shadow map [texel]: positions in it are kept in 16 bits, and its edge functions in 64.
-const MAX_SHADOW: i32 = 8192;
+const MAX_SHADOW: usize = 8192;
+/// Most slices of the sky.
+const MAX_SLICES: usize = 1024;
 
 impl Default for Settings {
     /// Those of a model that sets none, but for shadows, which need the model's extent.
@@ -50,13 +53,24 @@ impl Settings {
         Settings {
             samples: if quality.offsamples > 1 { Samples::Four } else { Samples::One },
             shadow: ShadowSettings {
-                size: quality.shadowsize.clamp(0, MAX_SHADOW) as usize,
+                size: quality.shadowsize.max(0) as usize,
                 clip: (f64::from(map.shadowclip) * model.stat.extent) as f32,
                 scale: map.shadowscale,
             },
             slices: quality.numslices.max(3) as usize,
             line_width: model.vis.global.linewidth,
             keep: true,
+        }
+        .within_limits()
+    }
+
+    /// The same with every number in its range.
+    pub(super) fn within_limits(&self) -> Self {
+        let size = self.shadow.size.min(MAX_SHADOW);
+        Settings {
+            shadow: ShadowSettings { size, ..self.shadow },
+            slices: self.slices.clamp(3, MAX_SLICES),
+            ..*self
         }
     }
 }

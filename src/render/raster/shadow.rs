@@ -38,7 +38,7 @@ const CELLS: i32 = 256;
 /// What every shadow of a scene needs beside its lamp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShadowSettings {
-    /// Texels along a side of the map.
+    /// Texels along a side of the map, at most 8192; none is drawn for 0.
     pub size: usize,
     /// Half the width of the map of a directional light [m].
     pub clip: f32,

@@ -71,15 +71,19 @@ impl Transparency {
             let item = &stage.scene.items[draw.item];
             self.items.push((distance(item, eye), draw.item, 0..0));
         }
-        self.items.sort_by(|a, b| a.0.total_cmp(&b.0));
+        self.items.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
 }
 
-/// Distance of an item's nearest point, by a ball about it; very far for planes.
+/// Distance of what is behind everything else [m].
+const FARTHEST: f32 = 1e10;
+
+/// Distance of an item's nearest point, by a ball about it; very far for planes, and where it is not a number.
 fn distance(item: &Item, eye: [f32; 3]) -> f32 {
     if matches!(item.shape, Shape::Plane { .. }) {
-        return 1e10;
+        return FARTHEST;
     }
     let away: f32 = (0..3).map(|k| (item.pos[k] - eye[k]) * (item.pos[k] - eye[k])).sum();
-    away.sqrt() - item.rbound
+    let nearest = away.sqrt() - item.rbound;
+    if nearest.is_nan() { FARTHEST } else { nearest }
 }

@@ -47,6 +47,12 @@ impl Visibility {
         self.groups.resize(other.groups.len(), Group::default());
     }
 
+    /// A window that shows the same as another, in its own memory.
+    pub fn copy(&mut self, other: &Visibility) {
+        (self.pattern, self.per_row) = (other.pattern, other.per_row);
+        self.groups.clone_from(&other.groups);
+    }
+
     /// Draws a triangle.
     #[inline]
     pub fn draw(&mut self, number: u32, triangle: &Triangle) {

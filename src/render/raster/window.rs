@@ -8,6 +8,10 @@ use crate::view::View;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection(pub [[f64; 4]; 4]);
 
+/// Least distance of the near plane and greatest of the far one [m]: their product and quotient are numbers of single
+/// precision.
+const REACH: [f64; 2] = [1e-18, 1e18];
+
 /// A map of points: three rows of a linear part and a shift.
 pub type Affine = [[f64; 4]; 3];
 
@@ -30,6 +34,12 @@ impl Projection {
         }
         if f.near <= 0.0 || f.far <= f.near {
             return fails("its near plane must lie before its far plane, and before that the eye");
+        }
+        if f.near < REACH[0] || f.far > REACH[1] {
+            let [least, most] = REACH;
+            return fails(&format!(
+                "its near plane must be {least:e} m away or more, its far plane {most:e} m or less"
+            ));
         }
         let right = cross(view.forward, view.up);
         let from_eye = |axis: [f64; 3]| [axis[0], axis[1], axis[2], -dot(axis, view.eye)];
