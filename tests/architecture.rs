@@ -34,7 +34,7 @@ const ORDER: [(&str, &[&str]); 18] = [
     ("robohive-agents", &["dataset", "env"]),
     ("robohive", &["physics", "mjcf", "dataset", "random"]),
     ("robohive-validation", &["physics", "mjcf", "dataset", "random", "robot", "render", "env", "agents"]),
-    ("robohive-digest", &["assets", "physics", "mjcf"]),
+    ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
     (
         "robohive-cli",
         &[
@@ -53,7 +53,7 @@ const ORDER: [(&str, &[&str]); 18] = [
         ],
     ),
     ("xtask", &[]),
-    ("robohive-fuzz", &["physics", "mjcf", "dataset"]),
+    ("robohive-fuzz", &["physics", "mjcf", "dataset", "render"]),
 ];
 
 /// What the library may use of others: all of it pure Rust.

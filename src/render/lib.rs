@@ -12,6 +12,11 @@
 //! - Depth inside is reversed: 1 at the near plane, 0 at the far one. Depth of a [`Picture`] is in metres.
 //! - All arithmetic of a picture is `f32` in a fixed order; transcendental functions come from `physics::math::ops` or from
 //!   polynomials of this crate.
+//! - Vectors of numbers are only added, subtracted, multiplied, divided, compared, selected and rooted, where IEEE 754 leaves no
+//!   choice. Their conversions to integers, minima, maxima and fused products differ between processors and are not used, nor
+//!   does the sign or payload of a NaN reach a picture. Other processors of 64 bits, such as aarch64, whose vectors keep
+//!   denormal numbers and round to nearest, hence draw the same bits; the table of builds compares x86-64 with and without
+//!   AVX2 and WebAssembly with and without vectors.
 
 pub mod error;
 pub mod geometry;

@@ -1,5 +1,6 @@
-//! The same bits from every build: unoptimised, with wide vectors, static, and WebAssembly. Each build steps the
-//! models of `validation/digest` and compares its hashes with the recorded ones. And the builds with fewer or more features.
+//! The same bits from every build: unoptimised, with wide vectors, static, and WebAssembly with and without vectors. Each build
+//! steps the models of `validation/digest`, draws their pictures and compares its hashes with the recorded ones. And the
+//! builds with fewer or more features.
 
 use crate::check::{Missing, Outcome};
 use crate::command::{cargo, installed, output, succeed, target_folder};
@@ -17,7 +18,7 @@ pub fn features() -> Outcome {
     cargo(&[&["clippy"], &networks[..], &["--all-targets", "--", "-D", "warnings"]].concat())?;
     cargo(&[&["test"], &networks[..]].concat())?;
     let bare = ["check", "--profile", "ci", "--no-default-features"];
-    for package in ["robohive", "robohive-physics", "robohive-digest"] {
+    for package in ["robohive", "robohive-physics", "robohive-render", "robohive-digest"] {
         cargo(&[&bare[..], &["-p", package]].concat())?;
     }
     if !web_target_installed()? {
@@ -37,8 +38,10 @@ pub fn run() -> Outcome {
     missing.extend(wide_build()?);
     println!("-- static");
     missing.extend(static_build()?);
-    println!("-- WebAssembly");
-    missing.extend(web_build()?);
+    for (name, flags) in [("WebAssembly", ""), ("WebAssembly with vectors", "-C target-feature=+simd128")] {
+        println!("-- {name}");
+        missing.extend(web_build(flags)?);
+    }
     Ok(missing)
 }
 
@@ -93,12 +96,12 @@ fn asks_for_loader(elf: &[u8]) -> bool {
 }
 
 /// The digest as a module, under node.
-fn web_build() -> Result<Option<Missing>, String> {
+fn web_build(flags: &str) -> Result<Option<Missing>, String> {
     if !web_target_installed()? {
         return Ok(Some(web_target_missing("hashes from WebAssembly")));
     }
     let module = ["--lib", "--crate-type", "cdylib", "--no-default-features", "--target", WEB_TARGET];
-    digest(&[&["rustc", "--quiet", "--release"][..], &module].concat(), &[], "")?;
+    digest(&[&["rustc", "--quiet", "--release"][..], &module].concat(), &[], flags)?;
     if !installed("node") {
         let what = "hashes from WebAssembly (the module is built; node, which runs it, is not installed)";
         return Ok(Some(Missing::new(what, "install Node.js, https://nodejs.org")));

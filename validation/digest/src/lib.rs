@@ -1,14 +1,16 @@
-//! Hashes of final states: one number for a model, equal on every machine, build and number of threads.
+//! Hashes of final states and of pictures: one number each, equal on every machine, build and number of threads.
 //!
-//! The hash takes in every bit of the compiled model and of all that a simulation holds at its end. The models lie in
+//! The hash of a state takes in every bit of the compiled model and of all that a simulation holds at its end. The models lie in
 //! the program, so that it also runs where there is no file system.
 
 mod fnv;
 mod models;
+mod pictures;
 #[cfg(target_arch = "wasm32")]
 mod web;
 
-pub use models::{Case, MODELS};
+use models::{Case, MODELS};
+use pictures::SHOTS;
 
 use fnv::Fnv;
 use physics::math::ops::sin;
@@ -22,11 +24,28 @@ pub const ENVIRONMENTS: usize = 4;
 /// The recorded hashes, lines of a name and 16 hexadecimal digits.
 pub const TABLE: &str = include_str!("../digests.txt");
 
+/// Names of the table, in its order: models, then pictures.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    MODELS.iter().map(|case| case.name).chain(SHOTS.iter().map(|shot| shot.name))
+}
+
+/// The hash with this number among the [`names`], computed on `threads` threads.
+///
+/// # Errors
+/// There is no such hash, the model does not load, a state is refused, or a picture cannot be drawn.
+pub fn hash(number: usize, threads: usize) -> Result<u64, String> {
+    match (MODELS.get(number), SHOTS.get(number.wrapping_sub(MODELS.len()))) {
+        (Some(case), _) => digest(case, threads),
+        (None, Some(shot)) => pictures::hash_of(shot, threads),
+        (None, None) => Err(format!("there is no hash {number}")),
+    }
+}
+
 /// Hash of `case` after [`STEPS`] steps of [`ENVIRONMENTS`] simulations on `threads` threads.
 ///
 /// # Errors
 /// The model does not load, a state is refused, or the threads cannot be started; in words.
-pub fn digest(case: &Case, threads: usize) -> Result<u64, String> {
+fn digest(case: &Case, threads: usize) -> Result<u64, String> {
     let model = case.load()?;
     let mut hash = Fnv::default();
     model.visit(&mut |name, shape, values| hash.array(name, &shape, values));
@@ -61,7 +80,7 @@ fn set_controls(m: &Model, ctrl: &mut [f64], step: usize, environment: usize) {
     }
 }
 
-/// The recorded hash of the model called `name`.
+/// The recorded hash called `name`.
 pub fn recorded(name: &str) -> Option<u64> {
     let row = TABLE.lines().filter_map(|line| line.split_once(' ')).find(|row| row.0 == name)?;
     u64::from_str_radix(row.1.trim(), 16).ok()

@@ -32,14 +32,22 @@ pub const MODELS: [Case; 12] = [
     case("pile_pgs_noslip", "pile/pile.xml", r#"solver="PGS" noslip_iterations="3""#),
 ];
 
+/// A model that shows everything that a picture can.
+const GALLERY: (&str, &str) = ("gallery.xml", include_str!("gallery.xml"));
+
 impl Case {
+    /// A model as its file has it.
+    pub(crate) const fn of(name: &'static str, file: &'static str) -> Case {
+        case(name, file, "")
+    }
+
     /// Compiles the model.
     ///
     /// # Errors
     /// What the reader says of it.
     pub fn load(&self) -> Result<Model, String> {
         let mut files = Memory::default();
-        for (path, text) in assets::FILES {
+        for (path, text) in assets::FILES.iter().chain([&GALLERY]) {
             files.insert(path, text.as_bytes());
         }
         let loader =
