@@ -1,5 +1,8 @@
-//! One function for each decoder that reads bytes of unknown origin. It may refuse them, quickly and within
-//! little memory; a panic, more than a second or more than a gigabyte is a finding.
+//! One function for each decoder that reads bytes of unknown origin, and for the renderer, whose scenes and models are made
+//! up from bytes. It may refuse them, quickly and within little memory; a panic, more than a second or more than a gigabyte
+//! is a finding.
+
+pub mod pictures;
 
 use std::io::Cursor;
 
@@ -16,7 +19,7 @@ use physics::{Data, Model, forward, step};
 pub type Target = fn(&[u8]);
 
 /// Every target by name.
-pub const TARGETS: [(&str, Target); 10] = [
+pub const TARGETS: [(&str, Target); 11] = [
     ("mjcf", mjcf),
     ("stl", stl),
     ("obj", obj),
@@ -27,6 +30,7 @@ pub const TARGETS: [(&str, Target); 10] = [
     ("npz", npz),
     ("hdf5", hdf5),
     ("binary", binary),
+    ("render", pictures::render),
 ];
 
 /// Files that a model of the `mjcf` target may name, in the order in which the input gives them.
