@@ -46,12 +46,13 @@ impl fmt::Display for RenderError {
         match self {
             RenderError::UnknownCamera { name, cameras, nearest } => {
                 write!(f, "the model has no camera named {name}")?;
-                if let Some(nearest) = nearest {
-                    write!(f, "; did you mean {nearest}?")?;
+                match nearest {
+                    Some(nearest) => write!(f, "; did you mean {nearest}? ")?,
+                    None => write!(f, ". ")?,
                 }
                 match cameras.as_slice() {
-                    [] => write!(f, "; it has none of its own, and `free` is always there"),
-                    names => write!(f, "; there are {}, and `free`", names.join(", ")),
+                    [] => write!(f, "It has none of its own; `free` is always there"),
+                    names => write!(f, "Its cameras: {}, and `free`", names.join(", ")),
                 }
             }
             RenderError::Size { width, height } => {
