@@ -18,9 +18,9 @@ pub struct Line {
     /// The item that it belongs to.
     pub item: usize,
     /// Its ends [m].
-    ends: [[f64; 3]; 2],
+    pub ends: [[f64; 3]; 2],
     /// Its width, in units of the line width.
-    width: f32,
+    pub width: f32,
 }
 
 /// Appends the lines of a scene.

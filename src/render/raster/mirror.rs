@@ -12,7 +12,7 @@ use super::still::{Kept, Plan};
 use super::transparency::Transparency;
 use super::visibility::Visibility;
 use super::window::mirror;
-use crate::scene::{Scene, Shape};
+use crate::scene::{Item, Scene, Shape};
 use wide::{f32x4, u32x4};
 
 /// The mirror image of a picture.
@@ -142,9 +142,7 @@ struct Reflected {
 /// The lens that sees what an item's upper side mirrors; none where the eye is below it.
 fn reflected(lens: &Lens, scene: &Scene, item: usize) -> Option<Reflected> {
     let plane = &scene.items[item];
-    let normal = [plane.mat[2], plane.mat[5], plane.mat[8]].map(f64::from);
-    let rise = if plane.shape == Shape::Box { f64::from(plane.size[2]) } else { 0.0 };
-    let point: [f64; 3] = std::array::from_fn(|k| f64::from(plane.pos[k]) + rise * normal[k]);
+    let (point, normal) = plane_of(plane);
     let along = |p: [f64; 3]| (0..3).map(|k| normal[k] * p[k]).sum::<f64>();
     let shift = -along(point);
     let lens = Lens {
@@ -153,4 +151,11 @@ fn reflected(lens: &Lens, scene: &Scene, item: usize) -> Option<Reflected> {
         ..*lens
     };
     (along(scene.view.eye) + shift >= 0.0).then_some(Reflected { lens, point, normal })
+}
+
+/// The plane that an item mirrors in: a point and its unit normal. A box mirrors in its upper side.
+pub fn plane_of(item: &Item) -> ([f64; 3], [f64; 3]) {
+    let normal = [item.mat[2], item.mat[5], item.mat[8]].map(f64::from);
+    let rise = if item.shape == Shape::Box { f64::from(item.size[2]) } else { 0.0 };
+    (std::array::from_fn(|k| f64::from(item.pos[k]) + rise * normal[k]), normal)
 }

@@ -29,6 +29,12 @@ mod visibility;
 mod window;
 
 pub use batch::{Batch, Shot};
+pub use coverage::Facing;
+pub use draws::{Draw, Draws};
+pub use lines::Line;
+pub use mirror::plane_of as mirror_plane;
 pub use renderer::Renderer;
 pub use settings::{Samples, Settings};
-pub use shadow::ShadowSettings;
+pub use shadow::{CasterRule, Maps as ShadowMaps, ShadowSettings, maps as shadow_maps};
+pub use transparency::distance as distance_of_nearest_point;
+pub use window::{Affine, Projection, mirror as mirror_map};

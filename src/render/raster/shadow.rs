@@ -19,17 +19,28 @@ use wide::f32x8;
 
 /// Texels left free at every side of the map.
 const MARGIN: f64 = 1.0;
-/// What is added to the depth of casters.
-#[derive(Clone, Copy)]
-struct Offset {
-    /// In slopes a texel.
-    slopes: f32,
-    /// Depth.
-    constant: f32,
+/// How casters are drawn into a shadow map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CasterRule {
+    /// Only what faces away from the lamp is.
+    pub averted: bool,
+    /// Added to their depth, in slopes a texel.
+    pub slopes: f32,
+    /// Added to their depth.
+    pub constant: f32,
 }
 
-/// `glPolygonOffset` of -1.5 and -4; pictures of Mesa fit best where its unit is two steps of the map's 24 bits.
-const OFFSET: Offset = Offset { slopes: 1.5, constant: 8.0 / 16_777_216.0 };
+impl CasterRule {
+    /// That of a version of MuJoCo. `glPolygonOffset` of -1.5 and -4 in 3.12; pictures of Mesa fit best where its unit is
+    /// two steps of the map's 24 bits. MuJoCo 3.1.3 draws what faces away from the lamp, as it is.
+    pub fn of(profile: Profile) -> Self {
+        match profile {
+            Profile::Mujoco312 => CasterRule { averted: false, slopes: 1.5, constant: 8.0 / 16_777_216.0 },
+            Profile::Mujoco313 => CasterRule { averted: true, slopes: 0.0, constant: 0.0 },
+        }
+    }
+}
+
 /// Widest full angle of a spot's map [deg].
 const WIDEST: f32 = 160.0;
 /// Cells along a side of the grid.
@@ -165,9 +176,12 @@ impl Grid {
 
 /// Maps of the world to a lamp's map: `casters` for triangles, in texels of the inner map; `lookups` for fragments, in texels
 /// of the whole.
-struct Maps {
-    casters: Projection,
-    lookups: Projection,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Maps {
+    /// From the world to the texels that casters are drawn to.
+    pub casters: Projection,
+    /// From the world to the texels that are looked up.
+    pub lookups: Projection,
 }
 
 /// A point that a lamp may reach, world frame [m], and what its asker calls it.
@@ -265,11 +279,8 @@ impl Shadows {
         let Stage { assets, scene, draws, .. } = *stage;
         let extent = Extent { width: size, height: size };
         let Shadows { layer, sorted, cells, grid, .. } = self;
-        // MuJoCo 3.1.3 draws into its maps what faces away from the lamp, as it is.
-        let (sides, offset) = match assets.profile() {
-            Profile::Mujoco312 => (Sides::Both, OFFSET),
-            Profile::Mujoco313 => (Sides::Averted, Offset { slopes: 0.0, constant: 0.0 }),
-        };
+        let rule = CasterRule::of(assets.profile());
+        let sides = if rule.averted { Sides::Averted } else { Sides::Both };
         let region = Region { low: grid.low, high: grid.high };
         let lens = Lens { projection, extent, region, deepest: grid.deepest, mirror: None, sides };
         layer.update(assets, draws, &lens, |draw| {
@@ -278,7 +289,7 @@ impl Shadows {
         for (index, draw) in draws.list.iter().enumerate() {
             let hides = |reached: &Reached| grid.has_deeper(cells, reached);
             layer.triangles_where(assets, (index, draw), &lens, &Pattern::CENTER, hides, |_, triangle| {
-                shade(triangle, offset, (grid, cells), sorted);
+                shade(triangle, rule, (grid, cells), sorted);
             });
         }
     }
@@ -286,10 +297,10 @@ impl Shadows {
 
 /// Marks the texels of the grid that lie behind a triangle.
 #[inline]
-fn shade(triangle: &Triangle, offset: Offset, (grid, cells): (&Grid, &[Cell]), sorted: &mut Sorted) {
+fn shade(triangle: &Triangle, rule: CasterRule, (grid, cells): (&Grid, &[Cell]), sorted: &mut Sorted) {
     let (columns, rows) = (triangle.columns(), triangle.rows());
     let slope = triangle.slope();
-    let offset = offset.slopes * slope[0].abs().max(slope[1].abs()) + offset.constant;
+    let offset = rule.slopes * slope[0].abs().max(slope[1].abs()) + rule.constant;
     // The least depth of the triangle's plane within the box: nothing nearer than it can be in its shadow.
     let low = |range: (i32, i32), slope: f32| if slope > 0.0 { range.0 } else { range.1 + 1 };
     let least = triangle.depth(low(columns, slope[0]) as f32, low(rows, slope[1]) as f32) + offset;
@@ -312,7 +323,7 @@ fn shade(triangle: &Triangle, offset: Offset, (grid, cells): (&Grid, &[Cell]), s
 }
 
 /// The maps of a lamp, with its depth as `u`.
-fn maps(light: &Light, scene: &Scene, settings: &ShadowSettings) -> Maps {
+pub fn maps(light: &Light, scene: &Scene, settings: &ShadowSettings) -> Maps {
     let frustum = &scene.view.frustum;
     let (near, far) = (frustum.near, frustum.far);
     let forward = unit(light.dir.map(f64::from));

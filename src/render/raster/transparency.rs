@@ -78,8 +78,9 @@ impl Transparency {
 /// Distance of what is behind everything else [m].
 const FARTHEST: f32 = 1e10;
 
-/// Distance of an item's nearest point, by a ball about it; very far for planes, and where it is not a number.
-fn distance(item: &Item, eye: [f32; 3]) -> f32 {
+/// Distance of an item's nearest point, by a ball about it; very far for planes, and where it is not a number. Transparent
+/// items are sorted by it.
+pub fn distance(item: &Item, eye: [f32; 3]) -> f32 {
     if matches!(item.shape, Shape::Plane { .. }) {
         return FARTHEST;
     }

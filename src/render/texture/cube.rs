@@ -1,5 +1,6 @@
 //! Cube textures, looked up by direction.
 
+use super::LevelImage;
 use super::halving::Halving;
 use super::lerp::{lerp_f32, unpack};
 use super::lod;
@@ -86,6 +87,20 @@ impl CubeMap {
             }
             faces = faces.halved();
         }
+    }
+
+    pub fn images(&self) -> impl Iterator<Item = LevelImage<'_>> {
+        self.levels.iter().enumerate().flat_map(move |(level, &Level { side, start })| {
+            let stride = side + 2;
+            (0..6).map(move |face| LevelImage {
+                level,
+                face,
+                width: side,
+                height: side,
+                stride,
+                pixels: &self.texels[start + face * stride * stride + stride + 1..],
+            })
+        })
     }
 
     pub fn bytes(&self) -> usize {

@@ -1,5 +1,6 @@
 //! Two-dimensional textures, repeated in both directions.
 
+use super::LevelImage;
 use super::halving::Halving;
 use super::lerp::{lerp, lerp_f32, unpack};
 use super::lod;
@@ -77,6 +78,21 @@ impl FlatMap {
             pair[1].fill(coarser, pair[0], &finer[pair[0].start as usize..], srgb);
         }
         FlatMap { levels, texels, srgb }
+    }
+
+    pub fn is_srgb(&self) -> bool {
+        self.srgb
+    }
+
+    pub fn images(&self) -> impl Iterator<Item = LevelImage<'_>> {
+        self.levels.iter().enumerate().map(|(level, &Level { width, height, start })| LevelImage {
+            level,
+            face: 0,
+            width: width as usize,
+            height: height as usize,
+            stride: width as usize + 1,
+            pixels: &self.texels[start as usize..],
+        })
     }
 
     pub fn bytes(&self) -> usize {

@@ -20,6 +20,23 @@ use crate::profile::Profile;
 use physics::Model;
 use std::ops::Range;
 
+/// The image of one mip level, or of one face of it.
+#[derive(Clone, Copy, Debug)]
+pub struct LevelImage<'a> {
+    /// Mip level, 0 for the finest.
+    pub level: usize,
+    /// Face of a cube, 0 otherwise.
+    pub face: usize,
+    /// Columns.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Pixels from one row to the next.
+    pub stride: usize,
+    /// Pixels from the first on, packed as red, green, blue, alpha from the lowest byte on.
+    pub pixels: &'a [u32],
+}
+
 /// One texture of a model.
 #[derive(Clone, Debug, Default)]
 pub struct Texture {
@@ -64,6 +81,20 @@ impl Texture {
     /// It is looked up by direction.
     pub fn is_cube(&self) -> bool {
         matches!(self.map, Map::Cube(_))
+    }
+
+    /// Its numbers are decoded from sRGB before they are filtered.
+    pub fn is_srgb(&self) -> bool {
+        matches!(&self.map, Map::Flat(map) if map.is_srgb())
+    }
+
+    /// Images of its mip levels, the finest first; of a cube, the faces of a level in the order +x, -x, +y, -y, +z, -z.
+    pub fn images(&self) -> Vec<LevelImage<'_>> {
+        match &self.map {
+            Map::Empty => Vec::new(),
+            Map::Flat(map) => map.images().collect(),
+            Map::Cube(map) => map.images().collect(),
+        }
     }
 
     /// Bytes that its mip levels take.
