@@ -20,6 +20,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation demonstrations --models FOLDER --from FILE [--write README.md]
        robohive-validation pictures [--models FOLDER] --references FOLDER [--only TEXT] [--compare FOLDER] [--dump FOLDER]
        [--write README.md]
+       robohive-validation pictures-gpu [--models FOLDER] --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation scenes --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation quirks [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
@@ -38,6 +39,7 @@ pictures: draws the scenes of validation/pictures.toml and compares them with wh
 missed. Models are the folder with RoboHive's envs and simhive and MuJoCo's model; without it own models alone are drawn. With
 --compare another folder of recordings
 stands in for our pictures; --dump writes ours, the recorded one and eight times their difference side by side.
+pictures-gpu: draws the same scenes on a GPU and compares them with those of the CPU renderer (builds with feature gpu).
 scenes: assembles the scenes that items.py recorded and compares items, lights and cameras; fails when any differs.
 draws: makes every recorded random draw with all seeds and compares it with numpy's; fails when any differs.
 bits: counts the values that are MuJoCo's to the last bit. Without a list on the own models, where it fails when the table is
@@ -73,6 +75,19 @@ struct Arguments {
     record: Option<PathBuf>,
     compare: Option<PathBuf>,
     dump: Option<PathBuf>,
+}
+
+impl Arguments {
+    /// What pictures are compared.
+    fn pictures(&self) -> pictures::Inputs<'_> {
+        pictures::Inputs {
+            models: Some(self.models.as_path()).filter(|folder| !folder.as_os_str().is_empty()),
+            references: &self.references,
+            only: &self.only,
+            other: self.compare.as_deref(),
+            dump: self.dump.as_deref(),
+        }
+    }
 }
 
 /// Exit code where the C library's functions are not those of the recorded MuJoCo.
@@ -132,16 +147,16 @@ fn run() -> Result<(), String> {
             ("policies", table, verdict)
         }
         Some("pictures") => {
-            let inputs = pictures::Inputs {
-                models: Some(a.models.as_path()).filter(|folder| !folder.as_os_str().is_empty()),
-                references: &a.references,
-                only: &a.only,
-                other: a.compare.as_deref(),
-                dump: a.dump.as_deref(),
-            };
-            let (table, verdict) = pictures::measure(&inputs)?;
+            let (table, verdict) = pictures::measure(&a.pictures())?;
             ("pictures", table, verdict)
         }
+        #[cfg(feature = "gpu")]
+        Some("pictures-gpu") => {
+            let (table, verdict) = pictures::gpu::measure(&a.pictures())?;
+            ("pictures-gpu", table, verdict)
+        }
+        #[cfg(not(feature = "gpu"))]
+        Some("pictures-gpu") => return Err("pictures-gpu needs a build with --features gpu".into()),
         Some("demonstrations") => {
             let file = a.from.as_deref().ok_or(USAGE)?;
             let replays = demonstrations::replay(&a.models, file)?;

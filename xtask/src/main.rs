@@ -9,6 +9,7 @@ mod check;
 mod command;
 mod crash_safety;
 mod fuzz;
+mod gpu;
 mod instructions;
 mod mutants;
 mod packages;
@@ -30,13 +31,14 @@ const QUICK: [Check; 5] = [
     Check { name: "features", run: builds::features },
 ];
 
-const LONG: [Check; 6] = [
+const LONG: [Check; 7] = [
     Check { name: "tolerances", run: tolerances::run },
     Check { name: "recorded-bits", run: recorded_bits::run },
     Check { name: "builds", run: builds::run },
     Check { name: "packages", run: packages::run },
     Check { name: "rust-version", run: packages::rust_version },
     Check { name: "instructions", run: || instructions::run(false) },
+    Check { name: "gpu", run: gpu::run },
 ];
 
 fn main() -> ExitCode {

@@ -53,8 +53,21 @@ impl Drawn {
         Ok(Drawn { model, data, camera, assets, renderer })
     }
 
+    /// The triangles and textures of the model.
+    pub fn assets(&self) -> &Assets {
+        &self.assets
+    }
+
+    /// How finely it is drawn.
+    pub fn settings(&self) -> &Settings {
+        self.renderer.settings()
+    }
+
     /// What is to be drawn.
-    fn scene(&self, shadows: bool) -> Result<Scene, String> {
+    ///
+    /// # Errors
+    /// The scene cannot be assembled.
+    pub fn scene(&self, shadows: bool) -> Result<Scene, String> {
         let view = self.camera.view(&self.model, &self.data).map_err(|error| error.to_string())?;
         let options =
             SceneOptions { effects: Effects { shadows, ..Effects::default() }, ..SceneOptions::default() };

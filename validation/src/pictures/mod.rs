@@ -7,6 +7,8 @@
 pub mod drawn;
 pub mod dump;
 pub mod floor;
+#[cfg(feature = "gpu")]
+pub mod gpu;
 pub mod items;
 pub mod measures;
 pub mod plan;

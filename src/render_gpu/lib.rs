@@ -1,0 +1,34 @@
+//! Pictures of many simulations at once, drawn by a GPU: the same scenes from the same assets as the CPU renderer of
+//! [`render`], whose picture is the reference.
+//!
+//! # Dataflow
+//! A batch of scenes becomes a list of instances and calls (`stage`), which is uploaded at once. Surfaces and textures are
+//! uploaded when they are first seen, or change. The commands (`encode`) draw all pictures side by side into one atlas,
+//! which is read back once.
+//!
+//! # Conventions
+//! - On the GPU the world is relative to the eye of each picture, so that single precision suffices.
+//! - Row 0 of a target is the lowest of a picture: the patterns of samples of Vulkan, Metal and Direct3D, upside down, are
+//!   OpenGL's. Rows are exchanged when they are read back.
+//! - Depth of pictures is reversed, 1 at the near plane; that of shadow maps is 0 there.
+
+mod adapter;
+mod atlas;
+mod device;
+mod either;
+mod encode;
+mod error;
+mod growing;
+mod lamps;
+mod list;
+mod meshes;
+mod passes;
+mod pipelines;
+mod renderer;
+mod stage;
+mod textures;
+
+pub use adapter::{Adapter, Choice, adapters};
+pub use either::EitherRenderer;
+pub use error::GpuError;
+pub use renderer::GpuRenderer;

@@ -1,0 +1,34 @@
+//! The GPU renderer, where the machine has a GPU or a driver that stands in for one.
+
+use crate::check::{Missing, Outcome};
+use crate::command::{output, succeed};
+use std::process::Command;
+
+/// What its tests print where there is no GPU.
+const ABSENT: &str = "not checked: there is no GPU";
+
+/// Lints what is built for it alone, runs its tests, and sees from what they print whether anything was drawn.
+pub fn run() -> Outcome {
+    let lint = [
+        "clippy",
+        "--profile",
+        "ci",
+        "-p",
+        "robohive-validation",
+        "--features",
+        "gpu",
+        "--",
+        "-D",
+        "warnings",
+    ];
+    succeed(Command::new("cargo").args(lint))?;
+    let tests = ["test", "--profile", "ci", "-p", "robohive-render-gpu", "--", "--nocapture"];
+    let (printed, _) = output(Command::new("cargo").args(tests))?;
+    if !printed.contains(ABSENT) {
+        return Ok(Vec::new());
+    }
+    Ok(vec![Missing::new(
+        "pictures of a GPU beside those of the CPU (there is none)",
+        "run on a machine with a GPU, or install a driver that computes on the CPU (apt-get install mesa-vulkan-drivers)",
+    )])
+}
