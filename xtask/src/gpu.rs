@@ -9,19 +9,11 @@ const ABSENT: &str = "not checked: there is no GPU";
 
 /// Lints what is built for it alone, runs its tests, and sees from what they print whether anything was drawn.
 pub fn run() -> Outcome {
-    let lint = [
-        "clippy",
-        "--profile",
-        "ci",
-        "-p",
-        "robohive-validation",
-        "--features",
-        "gpu",
-        "--",
-        "-D",
-        "warnings",
-    ];
-    succeed(Command::new("cargo").args(lint))?;
+    let packages =
+        ["-p", "robohive-render-gpu", "-p", "robohive-validation", "--features", "robohive-validation/gpu"];
+    let mut lint = Command::new("cargo");
+    lint.args(["clippy", "--profile", "ci", "--all-targets"]).args(packages).args(["--", "-D", "warnings"]);
+    succeed(&mut lint)?;
     let tests = ["test", "--profile", "ci", "-p", "robohive-render-gpu", "--", "--nocapture"];
     let (printed, _) = output(Command::new("cargo").args(tests))?;
     if !printed.contains(ABSENT) {
