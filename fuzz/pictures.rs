@@ -274,7 +274,7 @@ fn item(bytes: &mut Bytes<'_>, id: usize) -> Item {
 /// A model in text whose numbers are the bytes', written over with others where that is allowed.
 fn made_up_model(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
     let limits = Limits { copies: 300, memory: 64 << 20, ..Limits::default() };
-    let mut model = Loader::default().limits(limits).load_str(&text(bytes)).ok()?.model;
+    let mut model = Loader::default().limits(limits).load_str(text(bytes)).ok()?.model;
     let over: [f32; 6] = bytes.numbers();
     let _ = model.overwrite(|draft| {
         let wide = over.map(f64::from);
