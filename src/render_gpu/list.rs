@@ -1,5 +1,6 @@
 //! What a batch of pictures draws: instances of surfaces, and the calls that draw runs of them.
 
+use crate::passes::{Lens, clip_columns};
 use crate::pipelines::Paint;
 use render::Assets;
 use render::raster::{Draw, Draws, Facing, Line, distance_of_nearest_point};
@@ -7,7 +8,7 @@ use render::scene::{Category, Scene};
 use std::ops::Range;
 
 /// Floats of an instance in the shader.
-pub const INSTANCE: usize = 36;
+pub const INSTANCE: usize = 52;
 
 /// Instances of one surface in a row, drawn by one call.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,14 +78,13 @@ impl List {
         assets: &Assets,
         scene: &Scene,
         draws: &Draws,
-        line_width: f32,
+        (line_width, lens): (f32, &Lens<'_>),
         seen: impl Fn(&Draw) -> bool,
     ) -> Calls {
         let first = self.instances.len() as u32;
         self.arrange(draws);
-        let eye = scene.view.eye;
         let List { instances, order, .. } = self;
-        instances.extend(order.iter().map(|&index| instance(scene, &draws.list[index], eye)));
+        instances.extend(order.iter().map(|&index| instance(scene, &draws.list[index], lens)));
         let reflective = draws.reflective(scene);
         let solid = |draw: &Draw| !draw.transparent && reflective != Some(draw.item);
         let scene_calls = |list: &mut List, wanted: &dyn Fn(&Draw) -> bool| {
@@ -189,8 +189,9 @@ impl List {
     }
 }
 
-/// An instance as the shader reads it, relative to `eye`.
-fn instance(scene: &Scene, draw: &Draw, eye: [f64; 3]) -> [f32; INSTANCE] {
+/// An instance as the shader reads it, relative to the eye.
+fn instance(scene: &Scene, draw: &Draw, lens: &Lens<'_>) -> [f32; INSTANCE] {
+    let eye = scene.view.eye;
     let item = &scene.items[draw.item];
     let look = [item.look.emission, item.look.specular, 128.0 * item.look.shininess];
     let [r, g, b, _] = item.rgba;
@@ -206,6 +207,9 @@ fn instance(scene: &Scene, draw: &Draw, eye: [f64; 3]) -> [f32; INSTANCE] {
     rows[6] = [r, g, b, draw.alpha(item)];
     rows[7] = scale;
     rows[8] = [offset[0], offset[1], f32::from_bits(draw.item as u32 + 1), 0.0];
+    for (row, column) in rows[9..].iter_mut().zip(clip_columns(lens, &draw.world)) {
+        *row = column;
+    }
     out
 }
 

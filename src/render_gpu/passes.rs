@@ -19,6 +19,8 @@ pub const LIGHTS: usize = 8;
 const LIGHT_FLOATS: usize = 24;
 /// Bit of the lights that stands for emission.
 pub const EMISSION: u32 = 1 << 8;
+/// Bit of the lights that stands for a mirror: positions are projected by the pass, not by the instances.
+pub const MIRROR: u32 = 1 << 9;
 /// Radius and half height of the sky, in units of the far plane's distance.
 const SKY: f64 = 0.7;
 
@@ -138,6 +140,29 @@ pub fn clip_rows(projection: &Projection, eye: [f64; 3], [width, height]: [f64; 
     let columns = std::array::from_fn(|k| 2.0 * x[k] / width - w[k]);
     let rows = std::array::from_fn(|k| w[k] - 2.0 * y[k] / height);
     [columns, rows, z, w].map(|row| relative(row, eye))
+}
+
+/// A projection to a window of these sizes.
+#[derive(Clone, Copy, Debug)]
+pub struct Lens<'a> {
+    /// To pixels from the lower left corner.
+    pub projection: &'a Projection,
+    /// Columns and rows [pixel].
+    pub window: [f64; 2],
+}
+
+/// Columns that take a point which `map` moves first to clip coordinates, as [`clip_rows`] are.
+pub fn clip_columns(lens: &Lens<'_>, map: &Affine) -> [[f32; 4]; 4] {
+    let [x, y, z, w] = lens.projection.0;
+    let columns = std::array::from_fn(|k| 2.0 * x[k] / lens.window[0] - w[k]);
+    let rows = std::array::from_fn(|k| w[k] - 2.0 * y[k] / lens.window[1]);
+    let rows: [[f64; 4]; 4] = [columns, rows, z, w];
+    std::array::from_fn(|j| {
+        rows.map(|row| {
+            let moved = (0..3).map(|k| row[k] * map[k][j]).sum::<f64>();
+            (moved + if j == 3 { row[3] } else { 0.0 }) as f32
+        })
+    })
 }
 
 /// A row for points relative to `eye`.

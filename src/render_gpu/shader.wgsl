@@ -48,6 +48,8 @@ struct Instance {
     // Item, counted from 1.
     item: u32,
     unused: u32,
+    // Columns that take a point of the surface to clip coordinates of the picture, rounded once.
+    clip: array<vec4f, 4>,
 }
 
 struct Light {
@@ -97,6 +99,15 @@ fn place(instance: u32, position: vec3f) -> vec3f {
     let p = vec4f(position, 1.0);
     let rows = instances[instance].world;
     return vec3f(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p));
+}
+
+// Clip coordinates of a point of a surface: of the picture itself, or of a mirror.
+fn project(instance: u32, position: vec3f, world: vec3f) -> vec4f {
+    if (current.counts.y & 512u) != 0u {
+        return times(current.clip, world);
+    }
+    let columns = instances[instance].clip;
+    return columns[0] * position.x + columns[1] * position.y + columns[2] * position.z + columns[3];
 }
 
 fn unit(v: vec3f) -> vec3f {
@@ -164,7 +175,7 @@ fn corner(at: Corner, @builtin(instance_index) index: u32) -> Lit {
         }
     }
     var out: Lit;
-    out.position = times(current.clip, world);
+    out.position = project(index, at.position, world);
     out.colour = clamp(colour, vec3f(0.0), vec3f(1.0));
     out.world = world;
     out.alpha = rgba.a;
@@ -272,7 +283,7 @@ struct Listed {
 
 @vertex
 fn listed(at: Corner, @builtin(instance_index) index: u32) -> Listed {
-    return Listed(times(current.clip, place(index, at.position)), instances[index].item);
+    return Listed(project(index, at.position, at.position), instances[index].item);
 }
 
 // The item, and the bits of its depth.
@@ -341,7 +352,7 @@ fn write_item_of_line(in: Line) -> @location(0) vec2u {
 // The upper side of what mirrors, at depth 0.
 @vertex
 fn opening(at: Corner, @builtin(instance_index) index: u32) -> @builtin(position) vec4f {
-    let clip = times(current.clip, place(index, at.position));
+    let clip = project(index, at.position, at.position);
     if at.normal.z <= 0.5 {
         return vec4f(2.0, 2.0, 2.0, 1.0);
     }

@@ -5,7 +5,9 @@ use crate::error::GpuError;
 use crate::growing::Growing;
 use crate::lamps::{Lamp, Lamps, Shadow, same_casters};
 use crate::list::{Calls, INSTANCE, List};
-use crate::passes::{self, EMISSION, LIGHTS, Pass, STRIDE, clip_rows, moved, relative, write_lights};
+use crate::passes::{
+    self, EMISSION, LIGHTS, Lens, MIRROR, Pass, STRIDE, clip_rows, moved, relative, write_lights,
+};
 use render::raster::{CasterRule, Draw, Draws, Projection, Settings, mirror_map, mirror_plane, shadow_maps};
 use render::scene::{LightKind, Scene};
 use render::{Assets, RenderError};
@@ -118,7 +120,13 @@ impl Stage {
         self.draws.update(assets, scene);
         let window = [width as f64, height as f64];
         let seen = |draw: &Draw| !is_beside(&projection, assets, draw, window);
-        let calls = self.list.add(assets, scene, &self.draws, settings.line_width, seen);
+        let calls = self.list.add(
+            assets,
+            scene,
+            &self.draws,
+            (settings.line_width, &Lens { projection: &projection, window }),
+            seen,
+        );
         let first_light = self.lights.len() as u32;
         write_lights(scene, &mut self.lights);
         let clip = clip_rows(&projection, scene.view.eye, window);
@@ -139,7 +147,7 @@ impl Stage {
             0 => base,
             _ => self.push(&Pass { lights: open | shadowed | EMISSION, ..common.clone() }),
         };
-        let mirror = self.mirror(&common, &projection, open | shadowed | EMISSION, window);
+        let mirror = self.mirror(&common, &projection, open | shadowed | EMISSION | MIRROR, window);
         let tile = self.tiles.len();
         let near = before.len().saturating_sub(CAMERAS)..before.len();
         let twin = match shadowed {
