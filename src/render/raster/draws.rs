@@ -88,7 +88,7 @@ impl Draws {
     /// Lists the surfaces of a scene.
     ///
     /// # Errors
-    /// There are more than [`MAX_TRIANGLES`] triangles or positions.
+    /// There are more than `MAX_TRIANGLES` triangles or positions.
     pub fn update(&mut self, assets: &Assets, scene: &Scene) -> Result<(), RenderError> {
         self.list.clear();
         (self.vertices, self.triangles) = (0, 1);

@@ -1,6 +1,6 @@
 //! The CPU renderer: from a scene to a picture.
 //!
-//! What is seen is decided first, sample by sample ([`visibility`]), then each visible triangle's corners are lit, and each
+//! What is seen is decided first, sample by sample (`visibility`), then each visible triangle's corners are lit, and each
 //! fragment is shaded once. The result is that of MuJoCo's many passes over all triangles.
 
 mod backdrop;

@@ -7,7 +7,7 @@ use std::path::Path;
 /// Factor of the shown difference.
 const GAIN: u8 = 8;
 
-/// Writes `FOLDER/NAME.png`: our square picture, the recorded one, and [`GAIN`] times their absolute difference.
+/// Writes `FOLDER/NAME.png`: our square picture, the recorded one, and `GAIN` times their absolute difference.
 ///
 /// # Errors
 /// The file cannot be written.

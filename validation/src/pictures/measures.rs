@@ -94,7 +94,7 @@ pub fn compare_shapes(recorded: &Geometry, ours: &Geometry, interior: &[bool]) -
     }
 }
 
-/// Pixels about which, in a square of [`MARGIN`] to each side, all show the same object.
+/// Pixels about which, in a square of `MARGIN` to each side, all show the same object.
 pub fn interior(ids: &[[i32; 2]], width: usize) -> Vec<bool> {
     let height = ids.len() / width;
     let inside = |k: usize| {
