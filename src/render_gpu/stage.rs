@@ -105,7 +105,7 @@ impl Stage {
     /// Adds a picture of the last of these scenes; those before it are in the batch already.
     ///
     /// # Errors
-    /// The view's frustum is empty or not finite.
+    /// The view's frustum is empty or not finite, or the scene has too many triangles.
     pub fn add(
         &mut self,
         assets: &Assets,
@@ -117,7 +117,7 @@ impl Stage {
         let Some((&scene, before)) = scenes.split_last() else { return Ok(()) };
         let [width, height] = size;
         let projection = Projection::of(&scene.view, width, height)?;
-        self.draws.update(assets, scene);
+        self.draws.update(assets, scene)?;
         let window = [width as f64, height as f64];
         let seen = |draw: &Draw| !is_beside(&projection, assets, draw, window);
         let calls = self.list.add(
