@@ -5,6 +5,27 @@
 //! A [`Model`](physics::Model) is prepared once as [`Assets`]: triangles and textures, shared by every picture. For each
 //! state a [`Scene`] lists what is to be drawn from one camera. A renderer turns both into a [`Picture`].
 //!
+//! ```
+//! use physics::{Data, forward};
+//! use robohive_render::picture::Channels;
+//! use robohive_render::scene::{Camera, SceneOptions};
+//! use robohive_render::{Assets, Picture, Profile, Renderer, Scene, Settings};
+//!
+//! let text = "<mujoco><worldbody><geom type='plane' size='2 2 .1'/><geom size='.5' pos='0 0 .5'/></worldbody></mujoco>";
+//! let model = robohive_mjcf::load_str(text)?.model;
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! let assets = Assets::new(&model, Profile::Mujoco312)?;
+//! let view = Camera::named(&model, "free")?.view(&model, &data)?;
+//! let mut scene = Scene::new();
+//! scene.update(&model, &data, view, &SceneOptions::default())?;
+//! let mut picture = Picture::new(64, 48);
+//! Renderer::new(Settings::of(&model)).draw(&assets, &scene, Channels::ALL, &mut picture)?;
+//! // The ball, geom 1, is in the middle.
+//! assert_eq!(picture.segmentation[24 * 64 + 32][0], 1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Conventions
 //! - World z up, metres. A camera looks along its own -z with +y up.
 //! - Pictures have row 0 at the top. Inside the rasteriser row 0 is at the bottom, as in OpenGL, since the pattern of

@@ -1,8 +1,9 @@
 //! Which samples a triangle covers, and its depth there.
 //!
-//! Edge functions are exact integers on a grid of 1/256 pixel; an edge that passes through a sample gives it to the triangle on
-//! its right or above, the top-left rule in a memory whose first row is the lowest. Samples lie on a grid of 1/8 pixel, so
-//! that a tile of 16 by 16 pixels needs 32 bits an edge function: `floor(e / 32)` has the sign of `e`, and moves by whole steps from sample to sample.
+//! Edge functions are exact integers on a grid of 1/256 pixel; an edge that passes through a sample gives it to the
+//! triangle on its right or above, the top-left rule in a memory whose first row is the lowest. Samples lie on a grid of
+//! 1/8 pixel, so that a tile of 16 by 16 pixels needs 32 bits an edge function: `floor(e / 32)` has the sign of `e`, and
+//! moves by whole steps from sample to sample.
 
 use super::vertices::Vertex;
 use wide::{f32x4, f32x8, i32x4};
