@@ -100,7 +100,8 @@ impl FilmArguments {
 /// Most frames a second where the rate is not chosen: what GIF can show.
 const MOST: f64 = 50.0;
 
-/// Frames a second of what has a picture every `period` [s]: all pictures, or every so many.
+/// Default frame rate [1/s] where a picture is made every `period` [s]: all pictures, or every n-th where that is
+/// more than [`MOST`].
 fn default_rate(period: f64) -> f64 {
     let pictures = 1.0 / period;
     // A hair below, so that 1 / 0.02 is 50.

@@ -12,6 +12,7 @@ pub struct Weights(Search);
 impl Weights {
     /// Those that the environment names, that of this project's data, and those of the networks' own programs.
     pub fn from_environment() -> Self {
+        // A machine without a data folder has the other places; what is not found is an error that lists them.
         let data = store::default_folder().ok();
         Weights(Search::from_environment(data.as_deref()))
     }

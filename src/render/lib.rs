@@ -31,7 +31,7 @@
 //! - Pictures have row 0 at the top. Inside the rasteriser row 0 is at the bottom, as in OpenGL, since the pattern of
 //!   samples and the groups of 2 by 2 pixels that texture filters need are fixed there.
 //! - Depth inside is reversed: 1 at the near plane, 0 at the far one. Depth of a [`Picture`] is in metres.
-//! - All arithmetic of a picture is `f32` in a fixed order; transcendental functions come from `physics::math::ops` or from
+//! - Arithmetic has a fixed order, `f32` for triangles and colours, `f64` for projections and the sky; transcendental functions come from `physics::math::ops` or from
 //!   polynomials of this crate.
 //! - Vectors of numbers are only added, subtracted, multiplied, divided, compared, selected and rooted, where IEEE 754 leaves no
 //!   choice. Their conversions to integers, minima, maxima and fused products differ between processors and are not used, nor

@@ -122,7 +122,7 @@ pub struct ReadBack<'a> {
 }
 
 impl Atlas {
-    /// No targets yet, for so many samples a pixel.
+    /// An atlas without targets, for `samples` samples a pixel.
     pub fn new(gpu: &Gpu, samples: u32) -> Self {
         let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let read_back = Growing::new(&gpu.device, "read back", usage);
@@ -212,7 +212,7 @@ impl Atlas {
         Ok(())
     }
 
-    /// Bytes of so many rows of colours and of items.
+    /// Bytes of `rows` rows of colours and of items.
     fn sizes(&self, rows: usize) -> [usize; 2] {
         [rows * self.pitch(4), rows * self.pitch(8)]
     }

@@ -19,7 +19,7 @@ impl Growing {
         Growing { label, usage, buffer: create(device, label, usage, LEAST) }
     }
 
-    /// Makes room for so many bytes; true when the buffer is another one afterwards, without what was in it.
+    /// Makes room for `bytes`; true when the buffer was replaced, and its contents are lost.
     pub fn reserve(&mut self, device: &wgpu::Device, bytes: u64) -> bool {
         if bytes <= self.buffer.size() {
             return false;

@@ -75,7 +75,7 @@ pub struct Maps {
 }
 
 impl Lamps {
-    /// No layers yet, for maps with so many texels along a side.
+    /// Lamps without layers, for maps with `size` texels along a side.
     pub fn new(gpu: &Gpu, size: usize) -> Self {
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: Some("shadow maps"),
@@ -103,13 +103,13 @@ impl Lamps {
         self.size
     }
 
-    /// Layers that may be used at once by so many shadow maps.
+    /// Layers that `shadows` shadow maps may use at once.
     pub fn layers(&self, shadows: usize) -> usize {
         let most = MEMORY / (4 * self.size * self.size).max(1);
         shadows.clamp(1, most.clamp(1, LAYERS))
     }
 
-    /// Makes at least so many layers.
+    /// Makes at least `layers` layers.
     pub fn reserve(&mut self, gpu: &Gpu, layers: usize) -> &Maps {
         if self.maps.as_ref().is_some_and(|maps| maps.layers.len() < layers) {
             self.maps = None;

@@ -129,7 +129,7 @@ impl Flat {
                     let [p, n, t] = rows.map(|row| row as usize);
                     let [x, y, z] = surface.positions[p];
                     let [i, j, k] = surface.normals[n];
-                    let [u, v] = surface.texcoords.get(t).copied().unwrap_or_default();
+                    let [u, v] = if surface.texcoords.is_empty() { [0.0; 2] } else { surface.texcoords[t] };
                     flat.corners.push([x, y, z, i, j, k, u, v]);
                     flat.corners.len() as u32 - 1
                 });

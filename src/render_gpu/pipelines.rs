@@ -129,7 +129,7 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
-    /// No pipelines yet, for pictures with so many samples a pixel and groups of these layouts.
+    /// No pipelines yet, for pictures with `samples` samples a pixel and bind groups of these layouts.
     pub fn new(gpu: &Gpu, samples: u32, groups: [&BindGroupLayout; 3]) -> Self {
         let device = &gpu.device;
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {

@@ -245,7 +245,7 @@ impl Stage {
         }
     }
 
-    /// Brings the batch to the GPU, whose shadow maps have so many layers.
+    /// Uploads the batch; shadow maps have `layers` layers.
     pub fn upload(&mut self, gpu: &Gpu, layers: usize) -> Result<(), GpuError> {
         self.arrange_lamps(layers);
         let Stage { list, passes, lights, buffers, layout, group, .. } = self;

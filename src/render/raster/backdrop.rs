@@ -32,7 +32,7 @@ struct Kept {
     lanes: u8,
     /// Bits of the lamps that reach it past what stands still.
     lit: u8,
-    /// Where it lies, world frame [m].
+    /// Where it lies, world frame [m]; the origin where no lamp casts shadows, and nobody asks.
     position: [f32; 3],
 }
 
@@ -74,7 +74,7 @@ impl Backdrop {
                 item: draw.item as u32,
                 lanes: fragment.lanes,
                 lit: fragment.lit,
-                position: seen.positions.get(index).copied().unwrap_or_default(),
+                position: if self.passes > 1 { seen.positions[index] } else { [0.0; 3] },
             });
             brush.passes(seen, &draw.paint, fragment, self.passes, &mut self.colours);
             self.starts[fragment.group as usize + 1] = self.kept.len() as u32;

@@ -141,7 +141,7 @@ struct Stamp {
 }
 
 impl Seen {
-    /// Forgets the last picture's triangles, and makes room for a scene with so many.
+    /// Forgets the last picture's triangles, and makes room for the numbers of a scene with `triangles` of them.
     pub fn begin(&mut self, triangles: u32) {
         for &number in &self.numbers {
             self.places[number as usize] = 0;

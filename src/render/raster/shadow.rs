@@ -14,6 +14,7 @@ use super::window::Projection;
 use crate::profile::Profile;
 use crate::scene::{Category, Light, LightKind, Scene};
 use physics::math::ops::tan;
+use physics::math::{cross, dot};
 use std::ops::Range;
 use wide::f32x8;
 
@@ -353,12 +354,4 @@ pub fn maps(light: &Light, scene: &Scene, settings: &ShadowSettings) -> Maps {
 fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = dot(v, v).sqrt();
     v.map(|x| x / length)
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

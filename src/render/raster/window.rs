@@ -2,6 +2,7 @@
 
 use crate::error::RenderError;
 use crate::view::View;
+use physics::math::{cross, dot};
 
 /// Four rows that take a point (x, y, z, 1) to (x w, y w, z w, w): x and y in pixels from the lower left corner, reversed
 /// depth z, and w, which is the distance from the eye's plane or 1.
@@ -103,14 +104,6 @@ pub fn mirror(point: [f64; 3], normal: [f64; 3]) -> Affine {
             _ => f64::from(u8::from(i == j)) - 2.0 * normal[i] * normal[j],
         })
     })
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 #[cfg(test)]

@@ -84,7 +84,7 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// A scene of nothing, to be updated.
+    /// An empty scene, to be updated.
     pub fn new() -> Self {
         Scene::default()
     }

@@ -100,6 +100,6 @@ mod tests {
     fn a_multiplexer_hides_the_terminal_around_it() {
         let inside = [("TERM", "tmux-256color"), ("KITTY_WINDOW_ID", "1"), ("COLORTERM", "truecolor")];
         assert_eq!(found(&inside), Some(Protocol::HalfBlocks));
-        assert_eq!(found(&[("TERM", "xterm-kitty"), ("TMUX", "/tmp/x,1,0")]), Some(Protocol::HalfBlocks256));
+        assert_eq!(found(&[("TERM", "xterm-kitty"), ("TMUX", "socket,1,0")]), Some(Protocol::HalfBlocks256));
     }
 }

@@ -11,7 +11,7 @@ use crate::png_file::png_bytes;
 /// Most bytes of text that Kitty takes at once, a multiple of 4.
 const PIECE: usize = 4096;
 
-/// The text for Kitty: transmit and show (`a=T`) a PNG (`f=100`) in so many cells, without an answer (`q=2`).
+/// The text for Kitty: transmit and show (`a=T`) a PNG (`f=100`) over `columns` by `rows` cells, without an answer (`q=2`).
 pub(super) fn kitty(frame: &Frame<'_>, (columns, rows): (u32, u32)) -> String {
     let encoded = BASE64_STANDARD.encode(png_bytes(frame));
     let last = encoded.len().div_ceil(PIECE) - 1;

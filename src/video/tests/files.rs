@@ -31,7 +31,7 @@ fn read_png(bytes: &[u8]) -> (png::ColorType, png::BitDepth, (u32, u32), Vec<u8>
     (info.color_type, info.bit_depth, (info.width, info.height), pixels)
 }
 
-/// Copies a part of so many columns and rows into a picture of `stride` columns.
+/// Copies a part of `width` by `height` pixels into a picture of `stride` columns.
 fn place(picture: &mut [u8], stride: usize, part: &[u8], [left, top, width, height]: [usize; 4]) {
     assert_eq!(part.len(), 3 * width * height);
     for (row, y) in part.chunks(3 * width).zip(top..) {
