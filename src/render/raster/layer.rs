@@ -194,15 +194,9 @@ impl Reached {
 const SMALL: usize = 16;
 
 /// What a box covers of the region, a pixel more all round for rounding; none where it reaches before the near plane.
-fn reached(columns: &Columns, lens: &Lens, [middle, size]: &Bounds) -> Option<Reached> {
+fn reached(columns: &Columns, lens: &Lens, bounds: &Bounds) -> Option<Reached> {
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
-    for corner in 0..8_u32 {
-        let p: [f32; 3] =
-            std::array::from_fn(
-                |k| {
-                    if corner >> k & 1 == 0 { middle[k] - size[k] } else { middle[k] + size[k] }
-                },
-            );
+    for p in corners(*bounds) {
         let [x, y, z, w] = columns.apply(p);
         if !(w > 0.0 && z <= w && z >= 0.0) {
             return None;
@@ -218,21 +212,22 @@ fn reached(columns: &Columns, lens: &Lens, [middle, size]: &Bounds) -> Option<Re
     Some(Reached { region, depths: (low[2], high[2]) })
 }
 
+/// The corners of a box.
+fn corners([middle, size]: Bounds) -> impl Iterator<Item = [f32; 3]> {
+    let side = move |corner: u32, k: usize| {
+        if corner >> k & 1 == 0 { middle[k] - size[k] } else { middle[k] + size[k] }
+    };
+    (0..8).map(move |corner| [side(corner, 0), side(corner, 1), side(corner, 2)])
+}
+
 /// How a surface's box lies to the space that can be drawn and looked at. One that leaves the range of single precision lies
 /// beside it: it cannot be drawn.
 fn side(columns: &Columns, half: Option<HalfSpace>, lens: &Lens, surface: &Surface) -> Side {
-    let [middle, size] = surface.bounds;
     // A pixel more all round, so that rounding leaves nothing out.
     let ([left, bottom], [right, top]) =
         (lens.region.low.map(|x| (x - 1) as f32), lens.region.high.map(|x| (x + 2) as f32));
     let (mut beyond, mut cut) = (u32::MAX, false);
-    for corner in 0..8_u32 {
-        let p: [f32; 3] =
-            std::array::from_fn(
-                |k| {
-                    if corner >> k & 1 == 0 { middle[k] - size[k] } else { middle[k] + size[k] }
-                },
-            );
+    for p in corners(surface.bounds) {
         let [x, y, z, w] = columns.apply(p);
         if !(x.abs() + y.abs() + z.abs() + w.abs()).is_finite() {
             return Side::Beside;

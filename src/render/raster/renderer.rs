@@ -11,7 +11,7 @@ use super::seen::Illumination;
 use super::settings::{Samples, Settings};
 use super::sky::Surroundings;
 use super::stage::Stage;
-use super::still::{Kept, Plan, Views};
+use super::still::{Kept, Plan, Present, Views};
 use super::transparency::Transparency;
 use super::visibility::Visibility;
 use super::window::Projection;
@@ -131,7 +131,7 @@ impl Renderer {
         } = self;
         let nothing = &mut Kept::nothing(scene);
         let (kept, plan) = match settings.keep {
-            true => views.find(assets, scene, draws, lens.extent, *settings),
+            true => views.find(&Present { assets, scene, draws, extent: lens.extent, settings: *settings }),
             false => (nothing, Plan::Without),
         };
         let view = &scene.view;

@@ -33,6 +33,21 @@ pub enum Plan {
     Use,
 }
 
+/// A picture that is about to be drawn.
+#[derive(Clone, Copy)]
+pub struct Present<'a> {
+    /// Triangles and textures.
+    pub assets: &'a Assets,
+    /// What there is to draw.
+    pub scene: &'a Scene,
+    /// Its surfaces.
+    pub draws: &'a Draws,
+    /// Size of the window [pixel].
+    pub extent: Extent,
+    /// How finely it is drawn.
+    pub settings: Settings,
+}
+
 /// The views of a renderer.
 #[derive(Clone, Debug, Default)]
 pub struct Views {
@@ -73,14 +88,8 @@ struct Around {
 
 impl Views {
     /// The view that a scene is seen from, and what to do with its backdrop.
-    pub fn find(
-        &mut self,
-        assets: &Assets,
-        scene: &Scene,
-        draws: &Draws,
-        extent: Extent,
-        settings: Settings,
-    ) -> (&mut Kept, Plan) {
+    pub fn find(&mut self, now: &Present<'_>) -> (&mut Kept, Plan) {
+        let Present { scene, extent, settings, .. } = *now;
         self.now += 1;
         let same = |kept: &Kept| kept.around.view == scene.view && kept.around.extent == extent;
         let place = self.views.iter().position(same).unwrap_or_else(|| {
@@ -92,7 +101,7 @@ impl Views {
         });
         let kept = &mut self.views[place];
         kept.used = self.now;
-        let plan = kept.plan(assets, scene, draws, extent, settings);
+        let plan = kept.plan(now);
         (kept, plan)
     }
 }
@@ -128,16 +137,10 @@ impl Kept {
         Kept::new(scene, Extent { width: 0, height: 0 }, Settings::default())
     }
 
-    fn plan(
-        &mut self,
-        assets: &Assets,
-        scene: &Scene,
-        draws: &Draws,
-        extent: Extent,
-        settings: Settings,
-    ) -> Plan {
-        if !self.is_as_before(assets, scene, draws, extent, settings) {
-            self.remember(assets, scene, draws, extent, settings);
+    fn plan(&mut self, now: &Present<'_>) -> Plan {
+        let Present { assets, scene, draws, .. } = *now;
+        if !self.is_as_before(now) {
+            self.remember(now);
             self.quiet.clear();
             self.quiet.resize(scene.items.len(), 0);
             self.stills.set(scene.items.len(), |_| false);
@@ -166,14 +169,8 @@ impl Kept {
     }
 
     /// Whether nothing but items has changed, and no item has changed its shape.
-    fn is_as_before(
-        &self,
-        assets: &Assets,
-        scene: &Scene,
-        draws: &Draws,
-        extent: Extent,
-        settings: Settings,
-    ) -> bool {
+    fn is_as_before(&self, now: &Present<'_>) -> bool {
+        let Present { assets, scene, draws, extent, settings } = *now;
         let a = &self.around;
         let around = a.view == scene.view && a.extent == extent && a.settings == settings;
         let lights = a.lights == scene.lights && a.ambient == scene.ambient && a.fog == scene.fog;
@@ -187,14 +184,8 @@ impl Kept {
         around && lights && flags && surfaces && textures && shapes && self.paints.len() == draws.list.len()
     }
 
-    fn remember(
-        &mut self,
-        assets: &Assets,
-        scene: &Scene,
-        draws: &Draws,
-        extent: Extent,
-        settings: Settings,
-    ) {
+    fn remember(&mut self, now: &Present<'_>) {
+        let Present { assets, scene, draws, extent, settings } = *now;
         let a = &mut self.around;
         (a.view, a.extent, a.settings) = (scene.view, extent, settings);
         a.lights.clone_from(&scene.lights);
