@@ -2,13 +2,11 @@
 
 use crate::Failure;
 use crate::terminal::note;
-use crate::weights::Weights;
+use ::library::{Library, Weights};
 use clap::{Args, ValueHint};
-use env::{Assets, Compat, Env, Options};
-use mjcf::Loader;
+use env::{Compat, Env, Options};
 use std::path::PathBuf;
 use std::sync::Arc;
-use store::Search;
 use toml::Table;
 
 /// An environment and how it is made.
@@ -80,52 +78,7 @@ impl Making {
     }
 
     /// Where files come from.
-    pub fn assets(&self) -> Result<impl Assets, Failure> {
-        let search = match &self.assets {
-            Some(folder) => Search::new(None, vec![folder.clone()]),
-            None => Search::from_environment().map_err(Failure::new)?,
-        };
-        let named =
-            || std::env::var_os("ROBOHIVE_CACHE").filter(|value| !value.is_empty()).map(PathBuf::from);
-        let folder = self.cache.clone().or_else(named).or_else(cache_folder);
-        Ok(Library { search, cache: folder.map(mjcf::Cache::new) })
+    pub fn assets(&self) -> Result<Library, Failure> {
+        Library::from_environment(self.assets.as_deref(), self.cache.as_deref()).map_err(Failure::new)
     }
-}
-
-/// Imported files, and a cache of compiled models.
-struct Library {
-    search: Search,
-    cache: Option<mjcf::Cache>,
-}
-
-impl Assets for Library {
-    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String> {
-        let file = self.search.resolve(path).map_err(|error| error.to_string())?;
-        let loader = Loader::default();
-        Ok((if let Some(cache) = &self.cache { loader.cache(cache.clone()) } else { loader }, file))
-    }
-
-    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
-        let file = self.search.resolve(path).map_err(|error| error.to_string())?;
-        std::fs::read(&file).map(Into::into).map_err(|error| format!("{}: {error}", file.display()))
-    }
-}
-
-/// The user's folder for files that can be made again.
-fn cache_folder() -> Option<PathBuf> {
-    let absolute = |name: &str| {
-        std::env::var_os(name)
-            .filter(|value| !value.is_empty())
-            .map(PathBuf::from)
-            .filter(|path| path.is_absolute())
-    };
-    let home = |below: &str| absolute("HOME").map(|home| home.join(below));
-    let folder = if cfg!(windows) {
-        absolute("LOCALAPPDATA")
-    } else if cfg!(target_os = "macos") {
-        home("Library/Caches")
-    } else {
-        absolute("XDG_CACHE_HOME").or_else(|| home(".cache"))
-    };
-    folder.map(|folder| folder.join("robohive"))
 }

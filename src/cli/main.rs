@@ -37,7 +37,6 @@ mod sim;
 mod subject;
 mod terminal;
 mod trace;
-mod weights;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

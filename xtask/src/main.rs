@@ -13,6 +13,7 @@ mod gpu;
 mod instructions;
 mod mutants;
 mod packages;
+mod python;
 mod recorded_bits;
 mod tolerances;
 
@@ -20,10 +21,12 @@ use check::{Check, Outcome, run_all};
 use command::{cargo, succeed};
 use std::process::ExitCode;
 
-/// All packages but the renderer that needs a GPU's interface, which takes minutes to compile: `gpu` checks it.
-const EVERYTHING: &[&str] = &["--workspace", "--exclude", "robohive-render-gpu"];
+/// All packages but two that checks of their own build: the renderer that needs a GPU's interface, which takes minutes to
+/// compile (`gpu`), and the extension module for Python (`python`).
+const EVERYTHING: &[&str] =
+    &["--workspace", "--exclude", "robohive-render-gpu", "--exclude", "robohive-python"];
 
-const QUICK: [Check; 5] = [
+const QUICK: [Check; 6] = [
     Check { name: "format", run: || cargo(&["fmt", "--all", "--check"]) },
     Check {
         name: "lint",
@@ -37,6 +40,7 @@ const QUICK: [Check; 5] = [
     Check { name: "test", run: || cargo(&[&["test", "--profile", "ci"], EVERYTHING].concat()) },
     Check { name: "docs", run: docs },
     Check { name: "features", run: builds::features },
+    Check { name: "python", run: python::run },
 ];
 
 const LONG: [Check; 7] = [
