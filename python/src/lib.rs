@@ -1,11 +1,23 @@
 //! The extension module `robohive._core`: what the Python package calls.
 
+mod actions;
+mod arrays;
+mod env;
+mod exceptions;
+mod infos;
+mod own_state;
+mod request;
+mod settings;
+mod world;
+
 use pyo3::pymodule;
 
 /// Environments of RoboHive in Rust.
 #[pymodule]
 mod _core {
-    use env::Registry;
+    #[pymodule_export]
+    use super::env::PyEnv;
+    use ::env::Registry;
     use pyo3::prelude::*;
 
     /// Version of the package.

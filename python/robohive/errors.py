@@ -1,0 +1,9 @@
+"""Exceptions of their own; all others are Python's, numpy's and Gymnasium's."""
+
+
+class SettingError(ValueError, TypeError):
+    """A keyword argument is unknown to an environment (as Python's `TypeError`), or has a wrong type or value."""
+
+
+class PhysicsError(RuntimeError):
+    """Physics refuses a state: numbers that are not finite, or beyond what it can simulate."""

@@ -1,0 +1,229 @@
+//! `robohive._core.Env`.
+
+use super::live::Place;
+use crate::actions;
+use crate::exceptions::exception;
+use crate::infos::{shaped, visual_dict};
+use crate::request::Request;
+use crate::world;
+use env::{Env, RenderMode};
+use numpy::{PyArray1, PyReadonlyArrayDyn};
+use pyo3::prelude::*;
+use pyo3::types::{PyAny, PyDict, PyString};
+use render::Picture;
+
+/// One environment. Calls from several threads at once are refused; the interpreter's lock is released while physics
+/// runs.
+#[pyclass(frozen, name = "Env", module = "robohive._core")]
+pub struct PyEnv {
+    place: Place,
+    request: Request,
+}
+
+/// Observation, reward, terminated, truncated, infos.
+type Stepped<'py> = (Bound<'py, PyArray1<f64>>, f64, bool, bool, Bound<'py, PyDict>);
+
+#[pymethods]
+impl PyEnv {
+    #[new]
+    fn new(
+        py: Python<'_>,
+        id: &str,
+        settings: &Bound<'_, PyDict>,
+        making: &Bound<'_, PyDict>,
+    ) -> PyResult<Self> {
+        let request = Request::read(id, settings, making)?;
+        let env = request.make(py)?;
+        Ok(PyEnv { place: Place::of(py, env), request })
+    }
+
+    /// Starts an episode: its first observation and infos.
+    #[pyo3(signature = (seed = None))]
+    fn reset<'py>(
+        &self,
+        py: Python<'py>,
+        seed: Option<u64>,
+    ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyDict>)> {
+        let mut taken = self.place.take(py, "reset")?;
+        let env = &mut taken.live().env;
+        py.detach(|| env.reset(seed).map(|_| ())).map_err(|error| exception(py, &error))?;
+        Ok((PyArray1::from_slice(py, env.observation()), self.place.names.infos(py, env)?))
+    }
+
+    /// One control period. A step that physics refuses ends the episode as truncated, with `fault` in the infos.
+    #[pyo3(signature = (action, exteroception = false))]
+    fn step<'py>(
+        &self,
+        py: Python<'py>,
+        action: &Bound<'py, PyAny>,
+        exteroception: bool,
+    ) -> PyResult<Stepped<'py>> {
+        let mut taken = self.place.take(py, "step")?;
+        let live = taken.live();
+        actions::read(action, &mut live.action)?;
+        let (env, action) = (&mut live.env, &live.action);
+        let step = py.detach(|| {
+            let step = env.step(action)?;
+            if exteroception {
+                env.exteroception()?;
+            }
+            Ok(step)
+        });
+        let step = step.map_err(|error| exception(py, &error))?;
+        let infos = self.place.names.infos(py, env)?;
+        if let Some(fault) = &step.fault {
+            infos.set_item("fault", fault.to_string())?;
+        }
+        let observation = PyArray1::from_slice(py, env.observation());
+        Ok((observation, step.reward, step.terminated, step.truncated, infos))
+    }
+
+    /// A picture as the render mode asks for it: H x W x 3 bytes of colour, or H x W depths [m]; `None` without a mode.
+    fn render<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        let mut taken = self.place.take(py, "render")?;
+        let env = &mut taken.live().env;
+        let picture = py.detach(|| env.render()).map_err(|error| exception(py, &error))?;
+        let mode = self.request.options.rendering.mode;
+        picture.zip(mode).map(|(picture, mode)| pixels(py, picture, mode)).transpose()
+    }
+
+    /// Frees the environment; again, nothing.
+    fn close(&self) -> PyResult<bool> {
+        self.place.close()
+    }
+
+    /// Another environment in the same state, which goes on by itself.
+    fn fork(&self, py: Python<'_>) -> PyResult<Self> {
+        let mut taken = self.place.take(py, "copy")?;
+        let fork = taken.live().env.fork().map_err(|error| exception(py, &error))?;
+        Ok(PyEnv { place: Place::of(py, fork), request: self.request.clone() })
+    }
+
+    /// The observation vector of the present state.
+    fn observation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.with(py, "get_obs", |env| Ok(PyArray1::from_slice(py, env.observation())))
+    }
+
+    /// The observation dictionary of the present state.
+    fn obs_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.with(py, "get_obs_dict", |env| self.place.names.obs_dict(py, env))
+    }
+
+    /// The terms of the reward of the present state.
+    fn rwd_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.with(py, "get_reward_dict", |env| self.place.names.rwd_dict(py, env))
+    }
+
+    /// The rows of the proprioception.
+    fn proprio_dict<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
+        self.with(py, "get_proprioception", |env| self.place.names.proprio_dict(py, env))
+    }
+
+    /// The images of the visual keys, drawn where they are not of the present state.
+    fn visual_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let mut taken = self.place.take(py, "get_exteroception")?;
+        let env = &mut taken.live().env;
+        py.detach(|| env.exteroception().map(|_| ())).map_err(|error| exception(py, &error))?;
+        env.visuals().map_or_else(|| Ok(PyDict::new(py)), |seen| visual_dict(py, seen))
+    }
+
+    /// What a step returns last.
+    fn infos<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.with(py, "get_env_infos", |env| self.place.names.infos(py, env))
+    }
+
+    /// The state of the world.
+    fn world<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.with(py, "get_env_state", |env| world::world(py, env, &self.place.names.own))
+    }
+
+    /// Takes over a state of the world, and observes and rewards it.
+    fn set_world(&self, py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<()> {
+        let mut taken = self.place.take(py, "set_env_state")?;
+        let env = &mut taken.live().env;
+        let world = world::read(env, &self.place.names.own, state)?;
+        py.detach(|| env.set_world(&world).map(|_| ())).map_err(|error| exception(py, &error))
+    }
+
+    /// Restarts all draws.
+    fn seed(&self, py: Python<'_>, seed: u64) -> PyResult<()> {
+        let mut taken = self.place.take(py, "seed")?;
+        taken.live().env.seed(seed);
+        Ok(())
+    }
+
+    /// `dense` and `sparse` rewards and `done` of a path's observations (T x length), of which the reward of a step
+    /// belongs to the observation after it.
+    fn path_rewards<'py>(
+        &self,
+        py: Python<'py>,
+        observations: PyReadonlyArrayDyn<'py, f64>,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let values: Vec<f64> = observations.as_array().iter().copied().collect();
+        self.with(py, "compute_path_rewards", |env| {
+            let rewards = env.path_rewards(&values).map_err(|error| exception(py, &error))?;
+            let dense: Vec<_> = rewards.iter().map(|reward| reward.dense).collect();
+            let sparse: Vec<_> = rewards.iter().map(|reward| reward.verdict.sparse).collect();
+            let done: Vec<_> = rewards.iter().map(|reward| reward.verdict.done).collect();
+            let dict = PyDict::new(py);
+            dict.set_item("dense", PyArray1::from_vec(py, dense))?;
+            dict.set_item("sparse", PyArray1::from_vec(py, sparse))?;
+            dict.set_item("done", PyArray1::from_vec(py, done))?;
+            Ok(dict)
+        })
+    }
+
+    /// What does not change after the environment was made, by name.
+    fn description<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        self.with(py, "description", |env| describe(py, env, self.request.options.compat))
+    }
+
+    /// An array of the model (`model`) or of the simulation (`data`) under MuJoCo's name, as a copy; `None` where there is
+    /// none.
+    fn array<'py>(&self, py: Python<'py>, of: &str, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.with(py, of, |env| crate::arrays::named(py, env.scene(), of, name))
+    }
+}
+
+impl PyEnv {
+    fn with<T>(&self, py: Python<'_>, call: &str, f: impl FnOnce(&Env) -> PyResult<T>) -> PyResult<T> {
+        f(&self.place.take(py, call)?.live().env)
+    }
+}
+
+fn pixels<'py>(py: Python<'py>, picture: &Picture, mode: RenderMode) -> PyResult<Bound<'py, PyAny>> {
+    let (height, width) = (picture.height, picture.width);
+    match mode {
+        RenderMode::RgbArray => Ok(shaped(py, &[height, width, 3], &picture.rgb)?.into_any()),
+        RenderMode::DepthArray => Ok(shaped(py, &[height, width], &picture.depth)?.into_any()),
+    }
+}
+
+fn describe<'py>(py: Python<'py>, env: &Env, compat: env::Compat) -> PyResult<Bound<'py, PyDict>> {
+    let dict = PyDict::new(py);
+    let bounds: Vec<_> = (0..env.action_len()).map(|k| env.action_bounds(k)).collect();
+    let edge = |side: usize| bounds.iter().map(|bound| bound[side]).collect::<Vec<_>>();
+    let visual: Vec<_> = env.visual_keys().iter().map(ToString::to_string).collect();
+    let weights = PyDict::new(py);
+    env.weights().iter().try_for_each(|(name, weight)| weights.set_item(name, weight))?;
+    dict.set_item("id", &env.spec().id)?;
+    dict.set_item("suite", &env.spec().suite)?;
+    dict.set_item("task", &env.spec().task)?;
+    dict.set_item("compat", compat.to_string())?;
+    dict.set_item("horizon", env.spec().max_episode_steps)?;
+    dict.set_item("frame_skip", env.frame_skip())?;
+    dict.set_item("dt", env.dt())?;
+    dict.set_item("normalize_act", env.settings().normalize_act)?;
+    dict.set_item("obs_range", env.settings().obs_range)?;
+    dict.set_item("obs_size", env.observation().len())?;
+    dict.set_item("obs_keys", env.obs_keys())?;
+    dict.set_item("proprio_keys", env.proprio_keys())?;
+    dict.set_item("visual_keys", visual)?;
+    dict.set_item("weights", weights)?;
+    dict.set_item("sparse", env.settings().reward_mode == env::RewardMode::Sparse)?;
+    dict.set_item("share", env.success() == env::Success::Share)?;
+    dict.set_item("action_low", PyArray1::from_vec(py, edge(0)))?;
+    dict.set_item("action_high", PyArray1::from_vec(py, edge(1)))?;
+    dict.set_item("warnings", PyString::new(py, &env.warnings().to_string()))?;
+    Ok(dict)
+}

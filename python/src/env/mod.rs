@@ -1,0 +1,6 @@
+//! One environment, as Python holds it.
+
+mod class;
+mod live;
+
+pub use class::PyEnv;

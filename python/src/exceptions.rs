@@ -1,0 +1,39 @@
+//! Errors of environments as the exceptions that users of Gymnasium and numpy expect.
+
+use env::EnvError;
+use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+/// The exception for an error of an environment, with its text.
+///
+/// | error | exception |
+/// |---|---|
+/// | unknown id | `gymnasium.error.NameNotFound` |
+/// | a step that needs a reset first | `gymnasium.error.ResetNeeded` |
+/// | a setting that is unknown or wrong | `robohive.SettingError`, a `ValueError` and a `TypeError` |
+/// | physics refuses a state | `robohive.PhysicsError`, a `RuntimeError` |
+/// | missing models and weights | `FileNotFoundError` |
+/// | all else: actions, states, pictures, models | `ValueError` |
+pub fn exception(py: Python<'_>, error: &EnvError) -> PyErr {
+    let text = error.to_string();
+    match error {
+        EnvError::UnknownId { .. } => named(py, "gymnasium.error", "NameNotFound", text),
+        EnvError::NeedsReset => named(py, "gymnasium.error", "ResetNeeded", text),
+        EnvError::Setting { .. } => named(py, "robohive.errors", "SettingError", text),
+        EnvError::Physics(_) => named(py, "robohive.errors", "PhysicsError", text),
+        EnvError::MissingFile { .. } | EnvError::Network { .. } => PyFileNotFoundError::new_err(text),
+        _ => PyValueError::new_err(text),
+    }
+}
+
+/// The exception for a call of an environment that was closed: `gymnasium.error.ClosedEnvironmentError`.
+pub fn closed(py: Python<'_>, call: &str) -> PyErr {
+    let text = format!("{call} was called on a closed environment; make another");
+    named(py, "gymnasium.error", "ClosedEnvironmentError", text)
+}
+
+/// An exception of a Python module; a `RuntimeError` where Gymnasium is not installed.
+fn named(py: Python<'_>, module: &str, class: &str, text: String) -> PyErr {
+    let made = py.import(module).and_then(|module| module.getattr(class)?.call1((&text,)));
+    made.map_or_else(|_| PyRuntimeError::new_err(text), PyErr::from_value)
+}

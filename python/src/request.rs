@@ -1,0 +1,86 @@
+//! Which environment is asked for: an id, settings that differ from its own, and how it is made.
+
+use crate::exceptions::exception;
+use crate::settings::table;
+use env::{Env, EnvError, Options, Registry, RenderMode, Rendering, Spec};
+use library::{Library, Weights};
+use pyo3::exceptions::{PyOSError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::Arc;
+use toml::Table;
+
+/// A specification, with what making an environment of it takes beside.
+#[derive(Clone)]
+pub struct Request {
+    /// The id's, without the settings that were overridden.
+    pub spec: Spec,
+    /// Options, changed settings among them.
+    pub options: Options,
+}
+
+/// Options as Python gives them: keyword arguments of every environment that are no settings.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Making {
+    seed: Option<u64>,
+    compat: String,
+    render_mode: Option<String>,
+    camera: Option<String>,
+    width: Option<usize>,
+    height: Option<usize>,
+    override_keys: Vec<String>,
+}
+
+impl Request {
+    /// Reads a request: an id of the registry; `settings`, a dictionary that differs from the id's; and `making`, a
+    /// dictionary of [`Making`].
+    ///
+    /// # Errors
+    /// The id is unknown, a setting is none, or an option has a wrong value.
+    pub fn read(id: &str, settings: &Bound<'_, PyDict>, making: &Bound<'_, PyDict>) -> PyResult<Self> {
+        let py = settings.py();
+        let mut spec = Registry::builtin().spec(id).map_err(|error| exception(py, &error))?.clone();
+        let changes = table(settings)?;
+        let making: Making = making.extract()?;
+        forget(&mut spec, &making.override_keys, &changes)?;
+        let wrong = |message: String| PyValueError::new_err(message);
+        let default = Rendering::default();
+        let mode = making.render_mode.map(|mode| mode.parse::<RenderMode>()).transpose().map_err(wrong)?;
+        let rendering = Rendering {
+            mode,
+            camera: making.camera.unwrap_or(default.camera),
+            width: making.width.unwrap_or(default.width),
+            height: making.height.unwrap_or(default.height),
+        };
+        let compat = making.compat.parse().map_err(|error| wrong(format!("compat: {error}")))?;
+        let networks = Arc::new(Weights::from_environment());
+        let seed = making.seed.unwrap_or(Options::default().seed);
+        Ok(Request { spec, options: Options { seed, compat, changes, rendering, networks } })
+    }
+
+    /// Makes the environment, from the models of this machine; the interpreter's lock is released meanwhile.
+    ///
+    /// # Errors
+    /// Files are missing or wrong; settings do not fit.
+    pub fn make(&self, py: Python<'_>) -> PyResult<Env> {
+        let made = py.detach(|| {
+            let library = Library::from_environment(None, None).map_err(|error| error.to_string())?;
+            Ok::<Result<Env, EnvError>, String>(Env::build(&self.spec, &library, &self.options))
+        });
+        made.map_err(PyOSError::new_err)?.map_err(|error| exception(py, &error))
+    }
+}
+
+/// Takes settings away from a specification, so that the changes replace them rather than being merged into them.
+fn forget(spec: &mut Spec, keys: &[String], changes: &Table) -> PyResult<()> {
+    for key in keys {
+        if spec.args.remove(key).is_none() && !changes.contains_key(key) {
+            let id = &spec.id;
+            return Err(PyValueError::new_err(format!(
+                "override_keys: {id} has no setting {key} to override"
+            )));
+        }
+    }
+    Ok(())
+}

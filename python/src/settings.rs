@@ -1,0 +1,68 @@
+//! Keyword arguments and dictionaries of Python to the settings of an environment, which are TOML.
+
+use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
+use toml::{Table, Value};
+
+/// A dictionary as a table of settings. Numbers, strings, lists, tuples, dictionaries, numpy's arrays and numbers, and paths
+/// are settings; one that is `None` is left out, so that the registry's holds.
+///
+/// # Errors
+/// A key that is no string, or a value that is no setting: `TypeError`, with the place (`visual_randomization.lights[0]`).
+pub fn table(settings: &Bound<'_, PyDict>) -> PyResult<Table> {
+    below("", settings)
+}
+
+fn below(place: &str, dict: &Bound<'_, PyDict>) -> PyResult<Table> {
+    let mut table = Table::new();
+    for (key, item) in dict.iter() {
+        let Ok(key) = key.cast::<PyString>().map(|key| key.to_string()) else {
+            let place = if place.is_empty() { "a setting" } else { place };
+            return Err(PyTypeError::new_err(format!(
+                "{place}: names of settings are strings, and {} is none",
+                key.repr()?
+            )));
+        };
+        let place = if place.is_empty() { key.clone() } else { format!("{place}.{key}") };
+        if !item.is_none() {
+            table.insert(key, value(&place, &item)?);
+        }
+    }
+    Ok(table)
+}
+
+fn value(place: &str, item: &Bound<'_, PyAny>) -> PyResult<Value> {
+    if item.is_instance_of::<PyBool>() {
+        return item.extract().map(Value::Boolean);
+    }
+    if item.is_instance_of::<PyInt>() {
+        let number = item.extract().map(Value::Integer);
+        return number.map_err(|_| PyValueError::new_err(format!("{place}: {item} has more than 64 bits")));
+    }
+    if item.is_instance_of::<PyFloat>() {
+        return item.extract().map(Value::Float);
+    }
+    if item.is_instance_of::<PyString>() {
+        return item.extract().map(Value::String);
+    }
+    if let Ok(dict) = item.cast::<PyDict>() {
+        return below(place, dict).map(Value::Table);
+    }
+    if item.is_instance_of::<PyList>() || item.is_instance_of::<PyTuple>() {
+        let values = item.try_iter()?.enumerate();
+        let values: PyResult<_> =
+            values.map(|(index, item)| value(&format!("{place}[{index}]"), &item?)).collect();
+        return values.map(Value::Array);
+    }
+    // Numbers and arrays of numpy, then paths.
+    for method in ["tolist", "__fspath__"] {
+        if item.hasattr(method)? {
+            return value(place, &item.call_method0(method)?);
+        }
+    }
+    let kind = item.get_type().name()?;
+    Err(PyTypeError::new_err(format!(
+        "{place}: a {kind} is no setting; settings are numbers, strings, lists, dictionaries and numpy's arrays"
+    )))
+}
