@@ -4,6 +4,7 @@ mod actions;
 mod arrays;
 mod env;
 mod exceptions;
+mod film;
 mod infos;
 mod own_state;
 mod request;
@@ -17,6 +18,8 @@ use pyo3::pymodule;
 mod _core {
     #[pymodule_export]
     use super::env::PyEnv;
+    #[pymodule_export]
+    use super::film::write_video;
     use ::env::Registry;
     use pyo3::prelude::*;
 
@@ -24,9 +27,17 @@ mod _core {
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-    /// Ids with the names of their suites, in the registry's order.
+    /// Ids with the names of their suites and the steps of an episode, in the registry's order.
     #[pyfunction]
-    fn ids() -> Vec<(String, String)> {
-        Registry::builtin().specs().iter().map(|spec| (spec.id.clone(), spec.suite.clone())).collect()
+    fn ids() -> Vec<(String, String, usize)> {
+        let row = |spec: &::env::Spec| (spec.id.clone(), spec.suite.clone(), spec.max_episode_steps);
+        Registry::builtin().specs().iter().map(row).collect()
+    }
+
+    /// Steps of an episode of an id.
+    #[pyfunction]
+    fn horizon(py: Python<'_>, id: &str) -> PyResult<usize> {
+        let spec = Registry::builtin().spec(id).map_err(|error| super::exceptions::exception(py, &error))?;
+        Ok(spec.max_episode_steps)
     }
 }

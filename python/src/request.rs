@@ -17,6 +17,8 @@ pub struct Request {
     pub spec: Spec,
     /// Options, changed settings among them.
     pub options: Options,
+    /// Steps of an episode, whoever counts them.
+    pub horizon: usize,
 }
 
 /// Options as Python gives them: keyword arguments of every environment that are no settings.
@@ -30,6 +32,8 @@ pub struct Making {
     width: Option<usize>,
     height: Option<usize>,
     override_keys: Vec<String>,
+    /// Whether the environment ends episodes at their length itself; otherwise a wrapper does.
+    time_limit: bool,
 }
 
 impl Request {
@@ -41,7 +45,7 @@ impl Request {
     pub fn read(id: &str, settings: &Bound<'_, PyDict>, making: &Bound<'_, PyDict>) -> PyResult<Self> {
         let py = settings.py();
         let mut spec = Registry::builtin().spec(id).map_err(|error| exception(py, &error))?.clone();
-        let changes = table(settings)?;
+        let mut changes = table(settings)?;
         let making: Making = making.extract()?;
         forget(&mut spec, &making.override_keys, &changes)?;
         let wrong = |message: String| PyValueError::new_err(message);
@@ -56,7 +60,11 @@ impl Request {
         let compat = making.compat.parse().map_err(|error| wrong(format!("compat: {error}")))?;
         let networks = Arc::new(Weights::from_environment());
         let seed = making.seed.unwrap_or(Options::default().seed);
-        Ok(Request { spec, options: Options { seed, compat, changes, rendering, networks } })
+        let horizon = spec.with(&changes).map_err(|error| exception(py, &error))?.max_episode_steps;
+        if !making.time_limit {
+            changes.insert("max_episode_steps".into(), i64::MAX.into());
+        }
+        Ok(Request { spec, horizon, options: Options { seed, compat, changes, rendering, networks } })
     }
 
     /// Makes the environment, from the models of this machine; the interpreter's lock is released meanwhile.

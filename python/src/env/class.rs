@@ -2,15 +2,19 @@
 
 use super::live::Place;
 use crate::actions;
+use crate::arrays;
 use crate::exceptions::exception;
 use crate::infos::{shaped, visual_dict};
 use crate::request::Request;
 use crate::world;
 use env::{Env, RenderMode};
 use numpy::{PyArray1, PyReadonlyArrayDyn};
+use physics::model::ObjType;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyAny, PyDict, PyString};
 use render::Picture;
+use render::picture::Channels;
 
 /// One environment. Calls from several threads at once are refused; the interpreter's lock is released while physics
 /// runs.
@@ -175,13 +179,51 @@ impl PyEnv {
 
     /// What does not change after the environment was made, by name.
     fn description<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.with(py, "description", |env| describe(py, env, self.request.options.compat))
+        self.with(py, "description", |env| describe(py, env, &self.request))
     }
 
-    /// An array of the model (`model`) or of the simulation (`data`) under MuJoCo's name, as a copy; `None` where there is
-    /// none.
+    /// Simulation time [s].
+    fn time(&self, py: Python<'_>) -> PyResult<f64> {
+        self.with(py, "time", |env| Ok(env.scene().data.time()))
+    }
+
+    /// An array or size of the model (`model`), an array of the simulation (`data`), or an option (`option`), under MuJoCo's
+    /// name, as a copy; `None` where there is none.
     fn array<'py>(&self, py: Python<'py>, of: &str, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
-        self.with(py, of, |env| crate::arrays::named(py, env.scene(), of, name))
+        self.with(py, "sim", |env| arrays::named(py, env.scene(), of, name))
+    }
+
+    /// The number of an element of the model.
+    fn element(&self, py: Python<'_>, kind: &str, name: &str) -> PyResult<usize> {
+        self.with(py, "sim", |env| arrays::element(env.scene(), kind, name))
+    }
+
+    /// The name of the camera of a number.
+    fn camera_name(&self, py: Python<'_>, number: usize) -> PyResult<String> {
+        self.with(py, "sim", |env| {
+            let model = &env.scene().model;
+            let missing = || PyValueError::new_err(format!("the model has {} cameras", model.ncam));
+            let known = (number < model.ncam).then(|| model.name_of(ObjType::Camera, number).to_string());
+            known.ok_or_else(missing)
+        })
+    }
+
+    /// Colours of the present state from a camera, and depths [m] where they are wanted.
+    fn draw<'py>(
+        &self,
+        py: Python<'py>,
+        camera: &str,
+        width: usize,
+        height: usize,
+        depth: bool,
+    ) -> PyResult<(Bound<'py, PyAny>, Option<Bound<'py, PyAny>>)> {
+        let mut taken = self.place.take(py, "render")?;
+        let env = &mut taken.live().env;
+        let mut picture = Picture::new(width, height);
+        let channels = Channels { rgb: true, depth, segmentation: false };
+        py.detach(|| env.draw(camera, channels, &mut picture)).map_err(|error| exception(py, &error))?;
+        let depths = depth.then(|| pixels(py, &picture, RenderMode::DepthArray)).transpose()?;
+        Ok((pixels(py, &picture, RenderMode::RgbArray)?, depths))
     }
 }
 
@@ -199,7 +241,7 @@ fn pixels<'py>(py: Python<'py>, picture: &Picture, mode: RenderMode) -> PyResult
     }
 }
 
-fn describe<'py>(py: Python<'py>, env: &Env, compat: env::Compat) -> PyResult<Bound<'py, PyDict>> {
+fn describe<'py>(py: Python<'py>, env: &Env, request: &Request) -> PyResult<Bound<'py, PyDict>> {
     let dict = PyDict::new(py);
     let bounds: Vec<_> = (0..env.action_len()).map(|k| env.action_bounds(k)).collect();
     let edge = |side: usize| bounds.iter().map(|bound| bound[side]).collect::<Vec<_>>();
@@ -209,8 +251,10 @@ fn describe<'py>(py: Python<'py>, env: &Env, compat: env::Compat) -> PyResult<Bo
     dict.set_item("id", &env.spec().id)?;
     dict.set_item("suite", &env.spec().suite)?;
     dict.set_item("task", &env.spec().task)?;
-    dict.set_item("compat", compat.to_string())?;
-    dict.set_item("horizon", env.spec().max_episode_steps)?;
+    dict.set_item("compat", request.options.compat.to_string())?;
+    let mode = request.options.rendering.mode.map(|mode| mode.to_string());
+    dict.set_item("render_mode", mode)?;
+    dict.set_item("horizon", request.horizon)?;
     dict.set_item("frame_skip", env.frame_skip())?;
     dict.set_item("dt", env.dt())?;
     dict.set_item("normalize_act", env.settings().normalize_act)?;

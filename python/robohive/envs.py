@@ -1,0 +1,439 @@
+"""One environment, by the contract of Gymnasium and with RoboHive's methods."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, ClassVar
+
+import gymnasium
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import ArrayLike, NDArray
+
+from robohive import _core
+from robohive.examine import Policy, examine_policy
+from robohive.paths import success, truncate
+from robohive.simulation import Simulation
+
+Floats = NDArray[np.float64]
+
+
+class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
+    """An environment of RoboHive.
+
+    Observations are vectors of 64-bit numbers, one copy for each call. They are not bounded, and the space says so; with
+    `compat="robohive-0.7"` it says what RoboHive's does (-10 to 10, 32 bits), which its observations do not keep. Actions are
+    in -1 to 1 unless `normalize_act=False`; larger ones are clipped, as in RoboHive.
+
+    All draws are made in Rust, by numpy's default generator: `reset(seed=s)` starts the episode that RoboHive starts after
+    `env.seed(s)`. `np_random` is a generator of its own, seeded with the same number, which no reset draws from.
+
+    Calls from two threads at once raise `RuntimeError`; each is made with the interpreter's lock released.
+    """
+
+    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array", "depth_array"], "render_fps": 30}
+
+    def __init__(
+        self,
+        env_id: str,
+        *,
+        seed: int | None = None,
+        compat: str = "fixed",
+        render_mode: str | None = None,
+        camera_name: str | None = None,
+        width: int | None = None,
+        height: int | None = None,
+        time_limit: bool = False,
+        override_keys: Iterable[str] = (),
+        **settings: Any,
+    ) -> None:
+        """Makes the environment of an id.
+
+        Args:
+            env_id: An id of `robohive.ids()`.
+            seed: Seed of all draws; without one, from the operating system.
+            compat: `fixed`, or `robohive-0.7` to reproduce what RoboHive computes otherwise than it means to.
+            render_mode: `rgb_array` or `depth_array`; `gymnasium.make` shows `human` through `rgb_array`.
+            camera_name: Camera of pictures, by its name in the model, or `free`.
+            width: Columns of pictures; 640 without it.
+            height: Rows of pictures; 480 without it.
+            time_limit: Whether episodes end at their length; `gymnasium.make` has a wrapper for that.
+            override_keys: Settings of the id that `settings` replaces rather than merges.
+            settings: Settings that differ from the id's, by RoboHive's names (`reward_mode`, `obs_keys`, `frame_skip` …).
+        """
+        if seed is None:
+            seed = int(np.random.SeedSequence().generate_state(1, np.uint64)[0])
+        making = {
+            "seed": _seed(seed),
+            "compat": compat,
+            "render_mode": render_mode,
+            "camera": camera_name,
+            "width": width,
+            "height": height,
+            "time_limit": time_limit,
+            "override_keys": list(override_keys),
+        }
+        self._start(_core.Env(env_id, settings, making))
+
+    def _start(self, core: _core.Env) -> None:
+        about = core.description()
+        self._core = core
+        self._about = about
+        self._input_seed: int | None = None
+        self.render_mode: str | None = about["render_mode"]
+        self.metadata = {**type(self).metadata, "render_fps": round(1 / about["dt"])}
+        low, high = about["action_low"], about["action_high"]
+        self.action_space = spaces.Box(low.astype(np.float32), high.astype(np.float32), dtype=np.float32)
+        size = about["obs_size"]
+        if about["compat"] == "robohive-0.7":
+            least, most = about["obs_range"]
+            self.observation_space = spaces.Box(least, most, (size,), dtype=np.float32)  # type: ignore[assignment]
+        else:
+            self.observation_space = spaces.Box(-np.inf, np.inf, (size,), dtype=np.float64)
+
+    # Gymnasium's contract.
+
+    def reset(
+        self,
+        *,
+        seed: int | None = None,
+        options: dict[str, Any] | None = None,
+        reset_qpos: ArrayLike | None = None,
+        reset_qvel: ArrayLike | None = None,
+    ) -> tuple[Floats, dict[str, Any]]:
+        """Starts an episode.
+
+        Args:
+            seed: Restarts all draws first.
+            options: `reset_qpos` and `reset_qvel`, for those who call through wrappers.
+            reset_qpos: Joint positions (nq) that replace the drawn ones.
+            reset_qvel: Joint velocities (nv) that replace the drawn ones.
+
+        Returns:
+            The first observation, and the infos of `get_env_infos`.
+        """
+        super().reset(seed=seed)
+        if seed is not None:
+            self._input_seed = _seed(seed)
+        result = self._core.reset(self._input_seed if seed is not None else None)
+        given = {"reset_qpos": reset_qpos, "reset_qvel": reset_qvel}
+        for key, value in (options or {}).items():
+            if key not in given:
+                raise ValueError(f"no reset has an option {key}; there are {', '.join(given)}")
+            given[key] = value
+        state = {key.removeprefix("reset_"): value for key, value in given.items() if value is not None}
+        if state:
+            self._core.set_world(state)
+            return self._core.observation(), self._core.infos()
+        return result
+
+    def step(
+        self, a: ArrayLike, *, update_proprioception: bool = True, update_exteroception: bool = False
+    ) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
+        """Applies an action for one control period.
+
+        Args:
+            a: One number for each actuator.
+            update_proprioception: Of no effect: the proprioception is part of the infos.
+            update_exteroception: Draws the images of the visual keys, which the infos then have.
+
+        Returns:
+            Observation, reward, terminated, truncated, infos. A step that physics refuses is truncated, has the reward 0 and
+            the reason as `fault` in its infos, and must be followed by a reset.
+        """
+        return self._core.step(a, update_exteroception)
+
+    def render(self) -> NDArray[Any] | None:  # type: ignore[override]
+        """A picture of the present state: H x W x 3 bytes of colour, or H x W depths [m] of 32 bits."""
+        if self.render_mode is None:
+            gymnasium.logger.warn("render was called without a render_mode; make the environment with one")
+        return self._core.render()
+
+    def close(self) -> None:
+        """Frees the simulation. Calls after it raise `gymnasium.error.ClosedEnvironmentError`, but for another `close`."""
+        self._core.close()
+
+    # Copies.
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> RoboHiveEnv:
+        """An environment in the same state, which goes on by itself: its steps and draws are those of this one."""
+        other = type(self).__new__(type(self))
+        memo[id(self)] = other
+        for key, value in self.__dict__.items():
+            other.__dict__[key] = self._core.fork() if key == "_core" else copy.deepcopy(value, memo)
+        return other
+
+    # RoboHive's methods and properties.
+
+    @property
+    def id(self) -> str:
+        """The id."""
+        return self.spec.id if self.spec is not None else str(self._about["id"])
+
+    @property
+    def horizon(self) -> int:
+        """Steps of an episode."""
+        return int(self._about["horizon"])
+
+    @property
+    def dt(self) -> float:
+        """Control period [s]."""
+        return float(self._about["dt"])
+
+    @property
+    def time(self) -> float:
+        """Simulation time [s]."""
+        return float(self._core.time())
+
+    @property
+    def frame_skip(self) -> int:
+        """Time steps of the physics in one step of the environment."""
+        return int(self._about["frame_skip"])
+
+    @property
+    def normalize_act(self) -> bool:
+        """Whether actions are in -1 to 1."""
+        return bool(self._about["normalize_act"])
+
+    @property
+    def obs_keys(self) -> list[str]:
+        """Rows of the observation vector, in order."""
+        return list(self._about["obs_keys"])
+
+    @property
+    def proprio_keys(self) -> list[str] | None:
+        """Rows of the proprioception."""
+        keys = self._about["proprio_keys"]
+        return None if keys is None else list(keys)
+
+    @property
+    def visual_keys(self) -> list[str] | None:
+        """Images of the exteroception."""
+        return list(self._about["visual_keys"]) or None
+
+    @property
+    def rwd_keys_wt(self) -> dict[str, float]:
+        """Terms of the dense reward with their weights."""
+        return dict(self._about["weights"])
+
+    @property
+    def rwd_mode(self) -> str:
+        """Which reward a step returns: `dense` or `sparse`."""
+        return "sparse" if self._about["sparse"] else "dense"
+
+    @property
+    def obs_dict(self) -> dict[str, Floats]:
+        """The observation dictionary of the present state, as infos have it."""
+        return self._core.obs_dict()
+
+    @property
+    def rwd_dict(self) -> dict[str, NDArray[Any]]:
+        """The terms of the reward of the present state, as infos have them."""
+        return self._core.rwd_dict()
+
+    @property
+    def proprio_dict(self) -> dict[str, Floats] | None:
+        """The proprioception of the present state, as infos have it."""
+        return self._core.proprio_dict()
+
+    @property
+    def visual_dict(self) -> dict[str, NDArray[Any]]:
+        """The images of the present state, as infos have them: empty unless they were drawn."""
+        return dict(self._core.infos()["visual_dict"])
+
+    @property
+    def sim(self) -> Simulation:
+        """Arrays of the model and the simulation, to read."""
+        return Simulation(self._core)
+
+    sim_obsd = sim
+
+    def seed(self, seed: int | None = None) -> list[int]:
+        """Restarts all draws, as RoboHive's `seed` does."""
+        if seed is None:
+            seed = int(np.random.SeedSequence().generate_state(1, np.uint64)[0])
+        self._input_seed = _seed(seed)
+        self._core.seed(self._input_seed)
+        return [self._input_seed]
+
+    def get_input_seed(self) -> int | None:
+        """The seed that was given last."""
+        return self._input_seed
+
+    def forward(self, **kwargs: Any) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
+        """What a step returns, of the present state; takes the keyword arguments of `get_obs`."""
+        observation = self.get_obs(**kwargs)
+        infos = self.get_env_infos()
+        return observation, infos["rwd_" + self.rwd_mode], infos["done"], False, infos
+
+    def get_obs(self, update_proprioception: bool = True, update_exteroception: bool = False) -> Floats:
+        """The observation vector of the present state."""
+        if update_exteroception:
+            self._core.visual_dict()
+        return self._core.observation()
+
+    def get_obs_dict(self, sim: Simulation | None = None) -> dict[str, Floats]:
+        """The observation dictionary of the present state, every row with one axis."""
+        return {key: np.atleast_1d(row) for key, row in self._core.obs_dict().items()}
+
+    def get_reward_dict(self, obs_dict: Mapping[str, ArrayLike] | None = None) -> dict[str, NDArray[Any]]:
+        """The terms of the reward of the present state.
+
+        Raises:
+            ValueError: `obs_dict` is of another state; `compute_path_rewards` rewards recorded observations.
+        """
+        if obs_dict is not None:
+            present = self._core.obs_dict()
+            same = obs_dict.keys() == present.keys() and all(
+                np.array_equal(np.ravel(np.asarray(obs_dict[key])), np.ravel(present[key])) for key in present
+            )
+            if not same:
+                raise ValueError(
+                    "obs_dict is not that of the present state; compute_path_rewards rewards recorded observations"
+                )
+        return self._core.rwd_dict()
+
+    def get_proprioception(
+        self, obs_dict: Mapping[str, Floats] | None = None
+    ) -> tuple[Floats, Floats, dict[str, Floats]] | tuple[None, None, None]:
+        """Time, the rows of the proprioception one after the other, and a dictionary of them; three times `None` where the
+        task has none."""
+        keys = self.proprio_keys
+        if keys is None:
+            return None, None, None
+        rows = self._core.obs_dict() if obs_dict is None else obs_dict
+        vector = np.concatenate([np.zeros(0), *(np.ravel(rows[key]) for key in keys)])
+        return rows["time"], vector, {"time": rows["time"], **{key: rows[key] for key in keys}}
+
+    def get_exteroception(self, **kwargs: Any) -> dict[str, NDArray[Any]] | None:
+        """The images of the visual keys; takes the arguments of `get_visuals`."""
+        return self.get_visuals(**kwargs)
+
+    def get_visuals(
+        self,
+        sim: Simulation | None = None,
+        visual_keys: Sequence[str] | None = None,
+        device_id: int | None = None,
+    ) -> dict[str, NDArray[Any]] | None:
+        """The images of the visual keys by their names, and `time`; `None` for an environment without any.
+
+        Args:
+            sim: Of no effect; there is one simulation.
+            visual_keys: Those to return, of the environment's; all of them without it.
+            device_id: Of no effect; pictures need no GPU.
+
+        Raises:
+            KeyError: a key is none of the environment's.
+        """
+        if self.visual_keys is None:
+            return None
+        images = self._core.visual_dict()
+        if visual_keys is None:
+            return images
+        return {key: images[key] for key in ["time", *visual_keys]}
+
+    def get_env_infos(self) -> dict[str, Any]:
+        """`time`, `rwd_dense`, `rwd_sparse`, `solved`, `done`, and the dictionaries `obs_dict`, `visual_dict`, `proprio_dict`,
+        `rwd_dict` and `state` of the present state; all of them copies."""
+        return self._core.infos()
+
+    def get_env_state(self) -> dict[str, Any]:
+        """Time, positions, velocities, activations, mocap bodies, and where sites and bodies stand."""
+        return self._core.world()
+
+    def set_env_state(self, state_dict: Mapping[str, Any]) -> None:
+        """Takes over a state of `get_env_state`, and observes and rewards it; keys that are missing keep their values.
+
+        Raises:
+            KeyError: a key that no state has.
+            ValueError: values of another shape.
+        """
+        self._core.set_world(dict(state_dict))
+
+    def compute_path_rewards(self, paths: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+        """Writes `rewards` and `done` of a path from its `observations`: T x size, or N x T x size for several.
+
+        The reward of a step belongs to the observation after it; the last is repeated.
+        """
+        observations = np.asarray(paths["observations"], dtype=np.float64)
+        batch = observations if observations.ndim == 3 else observations[None]
+        rewards = [self._core.path_rewards(path) for path in batch]
+        kept = slice(None) if len(rewards) > 1 else 0
+        paths["rewards"] = np.stack([reward[self.rwd_mode] for reward in rewards])[kept]
+        paths["done"] = np.stack([reward["done"] for reward in rewards])[kept]
+        return paths
+
+    def truncate_paths(self, paths: list[dict[str, Any]]) -> list[dict[str, Any]]:
+        """Cuts every path behind the step that ended it, and writes `terminated`."""
+        return truncate(paths)
+
+    def evaluate_success(
+        self, paths: Sequence[Mapping[str, Any]], logger: Any = None, successful_steps: int = 5
+    ) -> float:
+        """Share of paths that were solved in more than `successful_steps` steps [%]; tasks that RoboHive evaluates by the share
+        of their horizon solved give the mean of that.
+
+        Args:
+            paths: As `examine_policy` returns them.
+            logger: Anything with `log_kv(key, value)`, which gets `rwd_sparse`, `rwd_dense` and `success_percentage`.
+            successful_steps: Solved steps that are not yet a success.
+        """
+        return success(paths, self.horizon, bool(self._about["share"]), logger, successful_steps)
+
+    def examine_policy(
+        self,
+        policy: Policy,
+        horizon: int = 1000,
+        num_episodes: int = 1,
+        mode: str = "exploration",
+        render: str | None = None,
+        camera_name: str | None = None,
+        frame_size: tuple[int, int] = (640, 480),
+        output_dir: str = "/tmp/",
+        filename: str = "newvid",
+        device_id: int = 0,
+    ) -> list[dict[str, Any]]:
+        """Plays episodes of a policy and returns their paths.
+
+        Args:
+            policy: Its `get_action(observation)` returns an action and a dictionary with `evaluation`, the action
+                without exploration.
+            horizon: Most steps of an episode.
+            num_episodes: How many.
+            mode: `exploration` or `evaluation`.
+            render: `offscreen` writes a video of every episode, `output_dir` + `filename` + number + `.mp4`; None does not.
+            camera_name: Camera of the videos; the free one without it.
+            frame_size: Width and height of the videos.
+            output_dir: Where they go.
+            filename: How their names begin.
+            device_id: Of no effect; pictures need no GPU.
+        """
+        return examine_policy(
+            self,
+            policy,
+            horizon=horizon,
+            num_episodes=num_episodes,
+            mode=mode,
+            render=render,
+            camera=camera_name or "free",
+            frame_size=frame_size,
+            video=f"{output_dir}{filename}",
+        )
+
+    def mj_render(self) -> None:
+        """RoboHive's window.
+
+        Raises:
+            gymnasium.error.UnsupportedMode: always; this build opens no window.
+        """
+        raise gymnasium.error.UnsupportedMode(
+            "this build opens no window; render_mode rgb_array and sim.renderer.render_offscreen return pictures"
+        )
+
+
+def _seed(seed: int) -> int:
+    """A seed as Rust takes it."""
+    if isinstance(seed, (bool, float)) or not 0 <= int(seed) < 2**64:
+        raise gymnasium.error.Error(f"a seed is an integer of 0 to 2**64 - 1, not {seed!r}")
+    return int(seed)
