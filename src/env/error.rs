@@ -83,6 +83,28 @@ pub enum EnvError {
     },
     /// The model, a camera or a size cannot be drawn.
     Render(RenderError),
+    /// An error of one environment among many.
+    InBatch {
+        /// Which one.
+        index: usize,
+        /// Its error.
+        error: Box<EnvError>,
+    },
+    /// Environments of a batch that do not exist or are not at hand.
+    Selection {
+        /// Which, and why.
+        message: String,
+    },
+    /// An environment met a fault of this program, and cannot go on.
+    Panicked {
+        /// What the fault says of itself.
+        message: String,
+    },
+    /// Threads cannot be started.
+    Threads {
+        /// What the system says.
+        message: String,
+    },
     /// A visual key needs a network that is not there.
     Network {
         /// The visual key.
@@ -136,6 +158,12 @@ impl fmt::Display for EnvError {
             EnvError::Draw(error) => write!(f, "{error}"),
             EnvError::ForeignState { message } => write!(f, "the saved state does not fit: {message}"),
             EnvError::Render(error) => write!(f, "{error}"),
+            EnvError::InBatch { index, error } => write!(f, "environment {index}: {error}"),
+            EnvError::Selection { message } => write!(f, "{message}"),
+            EnvError::Panicked { message } => {
+                write!(f, "a fault of this program, please report it: {message}; make the environments again")
+            }
+            EnvError::Threads { message } => write!(f, "no threads can be started: {message}"),
             EnvError::Network { key, message } => write!(f, "{key} cannot be encoded: {message}"),
         }
     }

@@ -45,4 +45,4 @@ pub use spec::{RewardMode, Settings, Spec};
 pub use state::Injected;
 pub use state::{EnvState, WorldState};
 pub use task::{Defaults, Episode, Pose, Rng, Setup, Success, Task, Turn, Verdict, View};
-pub use vector::{Autoreset, VecEnv};
+pub use vector::{Autoreset, Final, Real, VecEnv};

@@ -1,66 +1,65 @@
 //! Many environments of one id, stepped together.
 
+#[cfg(feature = "threads")]
+mod asynchronous;
+mod pool;
+mod real;
+mod slot;
+#[cfg(feature = "threads")]
+mod workers;
+
+pub use real::Real;
+pub use slot::{Autoreset, Final};
+
 use crate::environment::{Env, Step};
 use crate::error::EnvError;
 use crate::exteroception::Exteroception;
-
-/// What happens after an episode has ended (Gymnasium's `AutoresetMode`).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Autoreset {
-    /// The next step ignores its action and resets.
-    #[default]
-    NextStep,
-    /// The step that ends an episode resets; the last observation is kept aside.
-    SameStep,
-    /// Nothing: the caller resets.
-    Disabled,
-}
+use pool::Pool;
+use slot::{Order, Slot};
 
 /// Environments stepped together, each with its own model edits, state and draws. Results do not depend on the number of
 /// threads, to the last bit.
+///
+/// All step at once ([`VecEnv::step`]), or some are sent actions and those that finish first are received (`VecEnv::send`
+/// and `VecEnv::receive`, feature `threads`).
 pub struct VecEnv {
-    envs: Vec<Slot>,
-    autoreset: Autoreset,
+    /// `None` where an environment is under way on a thread.
+    slots: Vec<Option<Box<Slot>>>,
     width: usize,
+    action_width: usize,
     observations: Vec<f64>,
+    pool: Pool,
+    /// Environments that were sent and not received.
+    under_way: usize,
+    /// Those of them that have finished.
     #[cfg(feature = "threads")]
-    pool: rayon::ThreadPool,
-}
-
-struct Slot {
-    env: Env,
-    /// The last step ended the episode.
-    ended: bool,
-    /// What the last call yielded.
-    outcome: Result<Step, EnvError>,
-    /// The observation that ended the episode, where the same step reset.
-    last: Option<Vec<f64>>,
+    arrived: std::collections::VecDeque<(usize, Box<Slot>)>,
+    #[cfg(feature = "threads")]
+    workers: Option<workers::Workers>,
 }
 
 impl VecEnv {
-    /// `count` copies of an environment on a pool of threads; 0 threads are as many as there are cores.
+    /// `count` copies of an environment on a number of threads, which start when they are needed; 0 threads are as many as
+    /// there are cores.
     ///
     /// # Errors
-    /// The threads cannot be started; the robot is hardware.
+    /// The robot is hardware.
     pub fn new(env: &Env, count: usize, autoreset: Autoreset, threads: usize) -> Result<Self, String> {
-        #[cfg(not(feature = "threads"))]
-        let _ = threads;
         let slot = |_| {
-            let outcome = Ok(Step { reward: 0.0, terminated: false, truncated: false, fault: None });
-            env.fork()
-                .map(|env| Slot { env, ended: false, outcome, last: None })
-                .map_err(|error| error.to_string())
+            let env = env.fork().map_err(|error| error.to_string())?;
+            Ok::<_, String>(Some(Box::new(Slot::new(env, autoreset))))
         };
         Ok(VecEnv {
-            envs: (0..count).map(slot).collect::<Result<_, _>>()?,
-            autoreset,
+            slots: (0..count).map(slot).collect::<Result<_, _>>()?,
             width: env.observation().len(),
+            action_width: env.action_len(),
             observations: vec![0.0; count * env.observation().len()],
+            pool: Pool::new(threads),
+            under_way: 0,
             #[cfg(feature = "threads")]
-            pool: rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .map_err(|error| error.to_string())?,
+            arrived: std::collections::VecDeque::new(),
+            #[cfg(feature = "threads")]
+            workers: None,
         })
     }
 
@@ -69,11 +68,10 @@ impl VecEnv {
     /// # Errors
     /// The first environment that cannot be reset.
     pub fn reset(&mut self, seed: Option<u64>) -> Result<&[f64], EnvError> {
-        self.run(|index, slot, observation| {
-            let seed = seed.map(|seed| seed.wrapping_add(index as u64));
-            slot.reset(seed, observation);
-        });
-        self.first_error()
+        let count = self.len();
+        let seeds: Vec<_> =
+            (0..count).map(|index| seed.map(|seed| seed.wrapping_add(index as u64))).collect();
+        self.with_observations(|envs, rows| envs.reset_into(&seeds, &vec![true; count], rows))
     }
 
     /// Resets the environments that are chosen, without seeding them.
@@ -84,130 +82,232 @@ impl VecEnv {
     /// # Panics
     /// `chosen` has another length than there are environments.
     pub fn reset_only(&mut self, chosen: &[bool]) -> Result<&[f64], EnvError> {
-        assert_eq!(chosen.len(), self.envs.len(), "one flag for each environment");
-        self.run(|index, slot, observation| {
+        let seeds = vec![None; self.len()];
+        self.with_observations(|envs, rows| envs.reset_into(&seeds, chosen, rows))
+    }
+
+    /// Resets the environments that are chosen, each with its own seed, and writes the observations of all (count x
+    /// observation length).
+    ///
+    /// # Errors
+    /// The first environment that cannot be reset; some are under way.
+    ///
+    /// # Panics
+    /// `seeds`, `chosen` or `observations` have other lengths than there are environments.
+    pub fn reset_into<T: Real>(
+        &mut self,
+        seeds: &[Option<u64>],
+        chosen: &[bool],
+        observations: &mut [T],
+    ) -> Result<(), EnvError> {
+        assert_eq!([seeds.len(), chosen.len()], [self.len(); 2], "one seed and flag for each environment");
+        self.run(observations, |index, slot| {
             if chosen[index] {
-                slot.reset(None, observation);
+                slot.run(Order::Reset(seeds[index]));
             }
-        });
-        self.first_error()
+        })
     }
 
     /// Steps every environment with its row of `actions` (count x action length), and returns the observations (count x
     /// observation length). What the steps yielded follows with [`VecEnv::steps`].
     ///
     /// # Errors
-    /// The first environment that cannot take its action; the others have stepped.
+    /// As [`VecEnv::step_into`].
     pub fn step(&mut self, actions: &[f64]) -> Result<&[f64], EnvError> {
-        let width = self.envs.first().map_or(0, |slot| slot.env.action_len());
-        if actions.len() != width * self.envs.len() {
-            return Err(EnvError::ActionLength { expected: width * self.envs.len(), found: actions.len() });
-        }
-        let autoreset = self.autoreset;
-        self.run(|index, slot, observation| {
-            slot.step(&actions[index * width..(index + 1) * width], autoreset, observation);
-        });
-        self.first_error()
+        self.with_observations(|envs, rows| envs.step_into(actions, rows))
     }
 
-    fn run(&mut self, each: impl Fn(usize, &mut Slot, &mut [f64]) + Sync) {
-        let rows = self.observations.chunks_exact_mut(self.width.max(1));
-        #[cfg(feature = "threads")]
-        {
-            use rayon::prelude::*;
-            let mut work: Vec<_> = self.envs.iter_mut().zip(rows).enumerate().collect();
-            self.pool.install(|| {
-                work.par_iter_mut().with_max_len(1).for_each(|(index, (slot, row))| each(*index, slot, row));
-            });
-        }
-        #[cfg(not(feature = "threads"))]
-        self.envs.iter_mut().zip(rows).enumerate().for_each(|(index, (slot, row))| each(index, slot, row));
-    }
-
-    fn first_error(&mut self) -> Result<&[f64], EnvError> {
-        for slot in &mut self.envs {
-            if slot.outcome.is_err() {
-                let quiet = Ok(Step { reward: 0.0, terminated: false, truncated: true, fault: None });
-                std::mem::replace(&mut slot.outcome, quiet)?;
-            }
-        }
-        Ok(&self.observations)
-    }
-
-    /// Draws the images of every environment, on the pool, each as [`Env::exteroception`] draws them, and returns them.
+    /// Steps every environment, and writes the observations where the caller keeps them.
     ///
     /// # Errors
-    /// The first environment whose images cannot be drawn.
+    /// Actions of another length or that are not finite, or environments that are under way: then none has stepped. The
+    /// first environment that fails; the others have stepped.
+    ///
+    /// # Panics
+    /// `observations` has another length.
+    pub fn step_into<A: Real, T: Real>(
+        &mut self,
+        actions: &[A],
+        observations: &mut [T],
+    ) -> Result<(), EnvError> {
+        self.check_actions(self.len(), actions)?;
+        let width = self.action_width;
+        self.run(observations, |index, slot| {
+            slot.set_action(&actions[index * width..(index + 1) * width]);
+            slot.run(Order::Step);
+        })
+    }
+
+    /// Draws the images of every environment, on the threads, each as [`Env::exteroception`] draws them, and returns them.
+    ///
+    /// # Errors
+    /// The first environment whose images cannot be drawn; some are under way.
     pub fn exteroception(&mut self) -> Result<impl ExactSizeIterator<Item = &Exteroception>, EnvError> {
-        let draw = |slot: &mut Slot| slot.env.exteroception().map(|_| ());
-        #[cfg(feature = "threads")]
-        {
-            use rayon::prelude::*;
-            let envs = &mut self.envs;
-            self.pool.install(|| envs.par_iter_mut().with_max_len(1).try_for_each(draw))?;
-        }
-        #[cfg(not(feature = "threads"))]
-        self.envs.iter_mut().try_for_each(draw)?;
-        Ok(self.envs.iter().map(|slot| slot.env.visuals().expect("they were drawn")))
+        self.check_at_home()?;
+        let mut outcomes: Vec<_> = self.slots.iter().map(|_| Ok(())).collect();
+        let work: Vec<_> = self.slots.iter_mut().flatten().zip(&mut outcomes).collect();
+        self.pool
+            .each(work, |(slot, outcome)| *outcome = slot.env.exteroception().map(|_| ()))
+            .map_err(|message| EnvError::Threads { message })?;
+        outcomes.into_iter().collect::<Result<(), _>>()?;
+        Ok(self.slots.iter().map(|slot| at_home(slot).env.visuals().expect("they were drawn")))
     }
 
     /// What the last call yielded, environment by environment.
+    ///
+    /// # Panics
+    /// Environments are under way.
     pub fn steps(&self) -> impl ExactSizeIterator<Item = &Step> {
-        self.envs.iter().map(|slot| slot.outcome.as_ref().expect("errors are taken out before"))
+        (0..self.len()).map(|index| self.last_step(index))
+    }
+
+    /// What the last call yielded of one environment.
+    ///
+    /// # Panics
+    /// It is under way.
+    pub fn last_step(&self, index: usize) -> &Step {
+        at_home(&self.slots[index]).outcome.as_ref().expect("errors are taken out before")
     }
 
     /// The observation that ended an episode in the last call, where [`Autoreset::SameStep`] has replaced it.
     pub fn final_observation(&self, index: usize) -> Option<&[f64]> {
-        self.envs[index].last.as_deref()
+        self.last(index).map(|last| last.observation.as_slice())
     }
 
-    /// The observations of the last call (count x observation length).
+    /// What an episode ended with in the last call, where [`Autoreset::SameStep`] has replaced it.
+    ///
+    /// # Panics
+    /// The environment is under way.
+    pub fn last(&self, index: usize) -> Option<&Final> {
+        at_home(&self.slots[index]).last()
+    }
+
+    /// Whether the episode of an environment is over, so that a reset follows.
+    ///
+    /// # Panics
+    /// It is under way.
+    pub fn has_ended(&self, index: usize) -> bool {
+        at_home(&self.slots[index]).ended
+    }
+
+    /// The observations of the last [`VecEnv::step`] or [`VecEnv::reset`] (count x observation length).
     pub fn observations(&self) -> &[f64] {
         &self.observations
     }
 
     /// The environments.
+    ///
+    /// # Panics
+    /// Some are under way.
     pub fn envs(&self) -> impl ExactSizeIterator<Item = &Env> {
-        self.envs.iter().map(|slot| &slot.env)
+        self.slots.iter().map(|slot| &at_home(slot).env)
+    }
+
+    /// One environment; `None` while it is under way.
+    pub fn env(&self, index: usize) -> Option<&Env> {
+        self.slots[index].as_ref().map(|slot| &slot.env)
+    }
+
+    /// One environment, to be changed; `None` while it is under way.
+    pub fn env_mut(&mut self, index: usize) -> Option<&mut Env> {
+        self.slots[index].as_mut().map(|slot| &mut slot.env)
     }
 
     /// How many there are.
     pub fn len(&self) -> usize {
-        self.envs.len()
+        self.slots.len()
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.envs.is_empty()
-    }
-}
-
-impl Slot {
-    fn reset(&mut self, seed: Option<u64>, observation: &mut [f64]) {
-        self.ended = false;
-        self.last = None;
-        self.outcome = self.env.reset(seed).map(|first| {
-            observation.copy_from_slice(first);
-            Step { reward: 0.0, terminated: false, truncated: false, fault: None }
-        });
+        self.slots.is_empty()
     }
 
-    fn step(&mut self, action: &[f64], autoreset: Autoreset, observation: &mut [f64]) {
-        if self.ended && autoreset == Autoreset::NextStep {
-            return self.reset(None, observation);
+    /// The number of values in an observation of one environment.
+    pub fn observation_len(&self) -> usize {
+        self.width
+    }
+
+    /// The number of values in an action of one environment.
+    pub fn action_len(&self) -> usize {
+        self.action_width
+    }
+
+    /// Fails while environments are under way.
+    ///
+    /// # Errors
+    /// How many are.
+    pub fn check_at_home(&self) -> Result<(), EnvError> {
+        match self.under_way {
+            0 => Ok(()),
+            count => Err(EnvError::Selection {
+                message: format!("{count} environments are still under way: receive them first"),
+            }),
         }
-        self.last = None;
-        self.outcome = self.env.step(action);
-        observation.copy_from_slice(self.env.observation());
-        let Ok(step) = &self.outcome else { return };
-        self.ended = step.terminated || step.truncated;
-        if self.ended && autoreset == Autoreset::SameStep {
-            let (step, last) = (step.clone(), self.env.observation().to_vec());
-            self.reset(None, observation);
-            self.last = Some(last);
-            if self.outcome.is_ok() {
-                self.outcome = Ok(step);
+    }
+
+    /// Runs `each` on every environment, writes the observations, and fails with the first error.
+    fn run<T: Real>(
+        &mut self,
+        observations: &mut [T],
+        each: impl Fn(usize, &mut Slot) + Sync,
+    ) -> Result<(), EnvError> {
+        self.check_at_home()?;
+        let count = self.len();
+        assert_eq!(observations.len(), count * self.width, "one row for each environment");
+        let rows = rows(observations, count, self.width);
+        let work: Vec<_> = self.slots.iter_mut().flatten().zip(rows).enumerate().collect();
+        let each = |(index, (slot, row)): (usize, (&mut Box<Slot>, &mut [T]))| {
+            each(index, slot);
+            slot.write(row);
+        };
+        self.pool.each(work, each).map_err(|message| EnvError::Threads { message })?;
+        for (index, slot) in self.slots.iter_mut().flatten().enumerate() {
+            slot.take_error().map_err(|error| EnvError::InBatch { index, error: error.into() })?;
+        }
+        Ok(())
+    }
+
+    /// Runs something that writes observations where this batch keeps its own.
+    fn with_observations(
+        &mut self,
+        run: impl FnOnce(&mut Self, &mut [f64]) -> Result<(), EnvError>,
+    ) -> Result<&[f64], EnvError> {
+        let mut observations = std::mem::take(&mut self.observations);
+        let outcome = run(self, &mut observations);
+        self.observations = observations;
+        outcome.map(|()| self.observations.as_slice())
+    }
+
+    fn check_actions<A: Real>(&self, count: usize, actions: &[A]) -> Result<(), EnvError> {
+        let expected = count * self.action_width;
+        if actions.len() != expected {
+            return Err(EnvError::ActionLength { expected, found: actions.len() });
+        }
+        match actions.iter().position(|value| !value.to_f64().is_finite()) {
+            None => Ok(()),
+            Some(place) => {
+                let value = actions[place].to_f64();
+                let error = EnvError::ActionValue { index: place % self.action_width, value };
+                Err(EnvError::InBatch { index: place / self.action_width, error: error.into() })
             }
         }
     }
+
+    #[cfg(feature = "threads")]
+    fn slot_mut(&mut self, index: usize) -> &mut Slot {
+        self.slots[index].as_mut().expect("ids were checked")
+    }
+}
+
+fn at_home(slot: &Option<Box<Slot>>) -> &Slot {
+    slot.as_ref().expect("environments that are under way are received first")
+}
+
+/// Rows of a flat batch, also of rows without values.
+fn rows<T>(batch: &mut [T], count: usize, width: usize) -> Vec<&mut [T]> {
+    if width > 0 {
+        return batch.chunks_exact_mut(width).collect();
+    }
+    (0..count).map(|_| Default::default()).collect()
 }
