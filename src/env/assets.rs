@@ -76,6 +76,28 @@ pub(crate) fn own_model(path: &str) -> Option<Result<(Loader, PathBuf), String>>
     Some(Ok((Loader::default().files(files), path.into())))
 }
 
+/// What the paths of models begin with that belong to Gymnasium's package.
+const GYMNASIUM: &str = "gymnasium:";
+
+/// A loader for a model anywhere on this machine, named by an absolute path; `None` for paths within assets.
+///
+/// # Errors
+/// The file does not exist; the path names a model of a package that the user is to bring.
+pub(crate) fn foreign_model(path: &str) -> Option<Result<(Loader, PathBuf), String>> {
+    if let Some(name) = path.strip_prefix(GYMNASIUM) {
+        return Some(Err(format!(
+            "it is a file of the Python package gymnasium; set model_path to the absolute path of an MJCF file such as \
+             gymnasium/envs/mujoco/assets/{name} there"
+        )));
+    }
+    let file = Path::new(path);
+    if !file.is_absolute() {
+        return None;
+    }
+    let missing = || format!("{path} does not exist");
+    Some(if file.is_file() { Ok((Loader::default(), file.into())) } else { Err(missing()) })
+}
+
 /// The content of a file of our own; `None` for paths of other files, and for files that we do not have.
 pub(crate) fn own_file(path: &str) -> Option<Arc<[u8]>> {
     let path = path.strip_prefix(OWN)?;

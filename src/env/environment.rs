@@ -13,7 +13,7 @@ use crate::scene::Scene;
 use crate::sight::Sight;
 use crate::spec::{Settings, Spec};
 use crate::suite;
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Timing, Turn, Verdict, View};
 use crate::visual::{VisualKey, parse_keys};
 use mjcf::diagnostic::Diagnostics;
 use physics::{Data, StepError};
@@ -72,6 +72,8 @@ pub(crate) enum Past {
     Unknown,
     /// [`Scene::advance`], and nothing after it.
     Advance,
+    /// [`Scene::advance_plainly`], after which nothing is recomputed.
+    Plain,
 }
 
 /// An environment with one episode in progress.
@@ -332,7 +334,11 @@ impl Env {
         }
         let mut outcome = self.advance(action)?;
         self.steps += 1;
-        outcome = outcome.and_then(|()| self.perceive(Past::Advance));
+        let past = match self.task.timing() {
+            Timing::Forwarded => Past::Advance,
+            Timing::Plain => Past::Plain,
+        };
+        outcome = outcome.and_then(|()| self.perceive(past));
         let truncated = self.steps >= self.spec.max_episode_steps;
         if let Err(fault) = outcome {
             self.faulty = true;
@@ -371,11 +377,17 @@ impl Env {
             self.robot.control(model, data, &self.action, dt)?
         };
         data.state.ctrl.copy_from_slice(control);
-        if self.robot.tracks_steps() {
-            let robot = &mut self.robot;
-            return Ok(self.scene.advance(self.frame_skip, |data| robot.track(data)));
-        }
-        Ok(self.scene.advance(self.frame_skip, |_| ()))
+        let robot = &mut self.robot;
+        let tracks = robot.tracks_steps();
+        let track = |data: &Data| {
+            if tracks {
+                robot.track(data);
+            }
+        };
+        Ok(match self.task.timing() {
+            Timing::Forwarded => self.scene.advance(self.frame_skip, track),
+            Timing::Plain => self.scene.advance_plainly(self.frame_skip, track),
+        })
     }
 
     /// Reads the sensors, and writes the observation dictionary of the state that they show.
@@ -386,7 +398,7 @@ impl Env {
         let written = self.compat == Compat::RoboHive07 && self.robot.write_readings(data);
         if past == Past::Unknown || written {
             self.scene.forward()?
-        } else {
+        } else if past == Past::Advance {
             self.scene.complete()
         }
         self.observe_readings()?;

@@ -44,5 +44,5 @@ pub use spec::{RewardMode, Settings, Spec};
 #[doc(hidden)]
 pub use state::Injected;
 pub use state::{EnvState, WorldState};
-pub use task::{Defaults, Episode, Pose, Rng, Setup, Success, Task, Turn, Verdict, View};
+pub use task::{Defaults, Episode, Pose, Rng, Setup, Success, Task, Timing, Turn, Verdict, View};
 pub use vector::{Autoreset, Final, Real, VecEnv};

@@ -1,6 +1,6 @@
 //! The parts that an environment is made of: model, robot, initial pose.
 
-use crate::assets::{Assets, own_file, own_model};
+use crate::assets::{Assets, foreign_model, own_file, own_model};
 use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::spec::{Settings, Spec};
@@ -14,7 +14,10 @@ use robot::{Compat, Config, ConfigError, Robot};
 pub(crate) fn load(spec: &Spec, settings: &Settings, assets: &dyn Assets) -> Result<Loaded, EnvError> {
     let path = &settings.model_path;
     let missing = |hint| EnvError::MissingFile { id: spec.id.clone(), path: path.clone(), hint };
-    let (mut loader, file) = own_model(path).unwrap_or_else(|| assets.model(path)).map_err(missing)?;
+    let (mut loader, file) = own_model(path)
+        .or_else(|| foreign_model(path))
+        .unwrap_or_else(|| assets.model(path))
+        .map_err(missing)?;
     for [from, to] in &settings.define {
         loader = loader.define(from, to);
     }

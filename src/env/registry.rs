@@ -24,11 +24,15 @@ const TABLES: [&str; 11] = [
     include_str!("registry/quadrupeds.toml"),
 ];
 
+/// Tables of ids on models that neither come with this crate nor are imported: a setting names the model.
+const GUESTS: [&str; 1] = [include_str!("registry/gymnasium.toml")];
+
 static BUILTIN: LazyLock<Registry> = LazyLock::new(|| {
-    let mut registry = Registry::default();
-    for table in TABLES {
-        registry.add_table(table).expect("the built-in tables are well formed, which a test checks");
-    }
+    const FORM: &str = "the built-in tables are well formed, which a test checks";
+    let (mut registry, mut guests) = (Registry::default(), Registry::default());
+    TABLES.iter().for_each(|table| registry.add_table(table).expect(FORM));
+    GUESTS.iter().for_each(|table| guests.add_table(table).expect(FORM));
+    registry.guests = guests.specs;
     registry
 });
 
@@ -37,6 +41,7 @@ static BUILTIN: LazyLock<Registry> = LazyLock::new(|| {
 pub struct Registry {
     specs: Vec<Spec>,
     by_id: HashMap<String, usize>,
+    guests: Vec<Spec>,
 }
 
 impl Registry {
@@ -50,18 +55,26 @@ impl Registry {
         &self.specs
     }
 
+    /// Environments on models of other packages, whose setting `model_path` names the user's copy. They can be made as all
+    /// others, and are not among [`Registry::specs`], which run without settings.
+    pub fn guests(&self) -> &[Spec] {
+        &self.guests
+    }
+
     /// What an id stands for.
     ///
     /// # Errors
     /// There is no such id; the nearest is named.
     pub fn spec(&self, id: &str) -> Result<&Spec, EnvError> {
+        let all = || self.specs.iter().chain(&self.guests);
         let unknown = || EnvError::UnknownId {
             id: id.into(),
             nearest: Suggestions::default()
-                .nearest(id, self.specs.iter().map(|spec| spec.id.as_str()))
+                .nearest(id, all().map(|spec| spec.id.as_str()))
                 .map(str::to_owned),
         };
-        self.by_id.get(id).map(|&index| &self.specs[index]).ok_or_else(unknown)
+        let listed = self.by_id.get(id).map(|&index| &self.specs[index]);
+        listed.or_else(|| self.guests.iter().find(|spec| spec.id == id)).ok_or_else(unknown)
     }
 
     /// Adds an environment, or replaces the one of the same id.
@@ -186,7 +199,7 @@ mod tests {
     #[test]
     fn the_builtin_tables_are_well_formed() {
         let mut registry = Registry::default();
-        for table in TABLES {
+        for table in TABLES.iter().chain(&GUESTS) {
             registry.add_table(table).unwrap();
         }
         assert!(registry.spec("FrankaReachFixed-v0").is_ok());

@@ -51,6 +51,19 @@ impl Scene {
         physics::step1(&self.model, &mut self.data)
     }
 
+    /// Advances by `count` whole time steps, and computes accelerations and forces of bodies from the last one.
+    ///
+    /// # Errors
+    /// Physics refuses a step; the state is the one that it refused.
+    pub fn advance_plainly(&mut self, count: usize, mut each: impl FnMut(&Data)) -> Result<(), StepError> {
+        for _ in 0..count {
+            physics::step(&self.model, &mut self.data)?;
+            each(&self.data);
+        }
+        physics::derive_body_forces(&self.model, &mut self.data);
+        Ok(())
+    }
+
     /// [`Scene::forward`] right after [`Scene::advance`], which has done most of it.
     pub fn complete(&mut self) {
         physics::forward_after_step1(&self.model, &mut self.data);

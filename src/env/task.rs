@@ -85,6 +85,18 @@ pub struct Verdict {
     pub done: bool,
 }
 
+/// How a step advances the physics.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Timing {
+    /// RoboHive's order: second half of a step, whole steps, first half, and a forward pass. All that is observed is of
+    /// the new state.
+    #[default]
+    Forwarded,
+    /// Whole steps, then forces and accelerations of bodies (`mj_rnePostConstraint`). Positions and velocities of joints
+    /// are of the new state, all that follows from them of the state one time step before.
+    Plain,
+}
+
 /// When an episode counts as a success.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Success {
@@ -136,6 +148,11 @@ impl Defaults {
 pub trait Task: Send + Sync {
     /// The settings that an id may leave out.
     fn defaults(&self) -> Defaults;
+
+    /// How a step advances the physics.
+    fn timing(&self) -> Timing {
+        Timing::Forwarded
+    }
 
     /// Changes the initial pose, which is the model's reference configuration with every actuated joint in the middle
     /// of its range.

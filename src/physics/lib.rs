@@ -57,7 +57,7 @@ pub use constants::length_range::set_length_ranges;
 pub use constants::set_const::set_const;
 pub use data::{Data, Snapshot};
 pub use model::Model;
-pub use on_demand::derive_on_demand;
+pub use on_demand::{derive_body_forces, derive_on_demand};
 pub use pipeline::batch::{Batch, BatchError, Environment};
 pub use pipeline::forward::{StepError, forward, forward_after_step1, step, step_watched, step1, step2};
 pub use pipeline::inverse::inverse;

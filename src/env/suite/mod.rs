@@ -1,4 +1,4 @@
-//! The tasks, one a file, by the suites of RoboHive, and ROBEL's claw.
+//! The tasks, one a file, by the suites of RoboHive, ROBEL's claw, and Gymnasium's locomotion.
 
 pub mod arms;
 mod baoding;
@@ -8,6 +8,7 @@ pub mod claws;
 pub mod dclaw;
 mod fatigue;
 pub mod fm;
+pub mod gymnasium;
 pub mod hands;
 pub mod multitask;
 pub mod muscle;
@@ -35,11 +36,12 @@ pub type Build = fn(&Spec, Table, &dyn Assets, &mut Setup<'_>) -> Result<Box<dyn
 pub type Entry = (&'static str, Build);
 
 /// The tasks of every suite.
-const SUITES: [&[Entry]; 10] = [
+const SUITES: [&[Entry]; 11] = [
     arms::TASKS,
     claws::TASKS,
     dclaw::TASKS,
     fm::TASKS,
+    gymnasium::TASKS,
     hands::TASKS,
     multitask::TASKS,
     myobase::TASKS,

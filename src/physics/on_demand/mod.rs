@@ -32,5 +32,11 @@ pub fn derive_on_demand(m: &Model, d: &mut Data) {
     let momentum = &mut d.scratch.sensor.momentum;
     d.energy = [potential(m, &d.state, &d.kin, &d.ten), kinetic(m, &d.state, &d.inertia, momentum)];
     subtree_momentum(m, &d.kin, &d.com, &d.vel, &mut d.sensor);
+    derive_body_forces(m, d);
+}
+
+/// Accelerations of bodies and forces on them (`cacc`, `cfrc_int`, `cfrc_ext`), from the last forward pass or step, as
+/// `mj_rnePostConstraint` computes them.
+pub fn derive_body_forces(m: &Model, d: &mut Data) {
     rne_post_constraint(m, &configuration_of!(d), &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
 }
