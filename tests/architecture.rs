@@ -40,7 +40,7 @@ const ORDER: [(&str, &[&str]); 21] = [
     ),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
     ("robohive-library", &["mjcf", "store", "encoders", "env"]),
-    ("robohive-python", &["library", "env"]),
+    ("robohive-python", &["physics", "mjcf", "dataset", "random", "library", "render", "video", "env"]),
     (
         "robohive-cli",
         &[
