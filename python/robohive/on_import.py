@@ -43,7 +43,7 @@ class After(MetaPathFinder):
 
 def after(module: str, call: Callable[[], None]) -> None:
     """Calls `call` now where the module is imported, otherwise after its first import."""
-    if module in sys.modules:
+    if sys.modules.get(module) is not None:
         call()
     else:
         sys.meta_path.insert(0, After(module, call))

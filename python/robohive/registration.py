@@ -6,8 +6,6 @@ import copy
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from gymnasium.envs.registration import EnvSpec, register, registry
-
 from robohive import _core
 
 if TYPE_CHECKING:
@@ -23,6 +21,9 @@ def register_envs() -> None:
     An id that another package registered before stays that package's: `make` of this package still makes ours. RoboHive's
     ids have no namespace; those on models of this project are in the namespace `hive`.
     """
+    # Not before it is called: Gymnasium's own import calls it.
+    from gymnasium.envs.registration import register, registry
+
     for id, _, horizon in _core.ids():
         if id not in registry:
             register(
@@ -36,6 +37,8 @@ def register_envs() -> None:
 
 def make(id: str, **kwargs: Any) -> RoboHiveEnv:
     """As `robohive.make`."""
+    from gymnasium.envs.registration import EnvSpec, registry
+
     from robohive.envs import RoboHiveEnv
 
     base = registry.get(id)
@@ -66,10 +69,9 @@ def register_env_variant(
     override_keys: str | Iterable[str] | None = None,
 ) -> str:
     """As `robohive.register_env_variant`."""
-    register_envs()
-    if env_id not in registry:
-        _core.horizon(env_id)
-    base = registry[env_id]
+    from gymnasium.envs.registration import register, spec
+
+    base = spec(env_id)
     changes = {key: copy.deepcopy(value) for key, value in variants.items() if key != "max_episode_steps"}
     horizon = variants.get("max_episode_steps", base.max_episode_steps)
     overridden = [override_keys] if isinstance(override_keys, str) else list(override_keys or ())

@@ -4,7 +4,7 @@ use crate::own_state::OwnState;
 use env::{Env, WorldState};
 use numpy::ndarray::ArrayView2;
 use numpy::{PyArray1, PyArray2, PyReadonlyArrayDyn};
-use pyo3::exceptions::PyKeyError;
+use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::intern;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -32,7 +32,7 @@ pub fn world<'py>(py: Python<'py>, env: &Env, own: &OwnState) -> PyResult<Bound<
 /// Reads what [`world`] writes, for [`Env::set_world`]; keys may be missing or `None`.
 ///
 /// # Errors
-/// A key that no state has: `KeyError`; values that are no numbers: `TypeError`.
+/// A key that no state has: `KeyError`; values that are no numbers, or not finite: `ValueError`.
 pub fn read(env: &Env, own: &OwnState, dict: &Bound<'_, PyDict>) -> PyResult<WorldState> {
     let mut world = WorldState::default();
     let mut derived = Vec::new();
@@ -42,6 +42,10 @@ pub fn read(env: &Env, own: &OwnState, dict: &Bound<'_, PyDict>) -> PyResult<Wor
             continue;
         }
         let values = numbers(&item)?;
+        if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+            let message = format!("value {index} of {key} is {}; states are finite numbers", values[index]);
+            return Err(PyValueError::new_err(message));
+        }
         if !world.set(&key, &values) {
             derived.push((key, values));
         }

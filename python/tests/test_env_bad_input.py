@@ -1,0 +1,163 @@
+"""Bad input ends in the exception that users of Gymnasium and numpy expect."""
+
+import threading
+
+import gymnasium
+import numpy as np
+import pytest
+import robohive
+
+
+@pytest.mark.parametrize(
+    ("action", "error", "message"),
+    [
+        (np.zeros(3), ValueError, r"shape \(8,\) here, and \(3,\) was given"),
+        (np.zeros((1, 8)), ValueError, r"\(1, 8,\) was given"),
+        (0.0, ValueError, r"\(\) was given"),
+        ("left", TypeError, "not of <U4"),
+        (np.zeros(8, complex), TypeError, "not of complex128"),
+        (np.array([None] * 8), TypeError, "not of object"),
+        ([[0], [0, 1]], ValueError, "inhomogeneous"),
+        (np.array([0, 0, np.nan, 0, 0, 0, 0, 0]), ValueError, "value 2 of the action is NaN"),
+        (np.full(8, np.inf), ValueError, "value 0 of the action is inf"),
+    ],
+)
+def test_actions_are_checked(env, action, error, message):
+    with pytest.raises(error, match=message):
+        env.step(action)
+    assert env.step(np.zeros(8))[1] != 0.0
+
+
+@pytest.mark.parametrize("dtype", [np.float16, np.float32, np.float64, np.int8, np.uint64, bool, ">f4", "longdouble"])
+def test_all_real_numbers_are_actions(env, dtype):
+    other = robohive.make("hive/FrankaReach-v0")
+    other.reset(seed=0)
+    action = np.array([0, 1, 0, 1, 0, 1, 1, 1])
+    assert np.array_equal(env.step(action.astype(dtype))[0], other.step(list(action))[0])
+
+
+def test_views_that_are_not_contiguous_are_actions(env):
+    other = robohive.make("hive/FrankaReach-v0")
+    other.reset(seed=0)
+    wide = np.linspace(-1, 1, 24, dtype=np.float32)
+    assert np.array_equal(env.step(wide[::-3])[0], other.step(wide[::-3].copy())[0])
+
+
+def test_a_closed_environment_says_so(env):
+    env.close()
+    env.close()
+    calls = [
+        env.reset,
+        lambda: env.step(np.zeros(8)),
+        env.render,
+        env.get_obs,
+        env.get_env_infos,
+        env.get_env_state,
+        lambda: env.set_env_state({}),
+        lambda: env.sim.data.qpos,
+        lambda: env.seed(1),
+        lambda: env.time,
+    ]
+    for call in calls:
+        with pytest.raises(gymnasium.error.ClosedEnvironmentError, match="closed"):
+            call()
+    assert env.observation_space.shape == (60,)
+
+
+def test_unknown_ids_name_the_nearest():
+    with pytest.raises(gymnasium.error.NameNotFound, match=r"did you mean FrankaReachRandom-v0\?"):
+        robohive.make("FrankaReachRandm-v0")
+    with pytest.raises(gymnasium.error.NameNotFound, match="FrankaReachRandom"):
+        gymnasium.make("FrankaReachRandm-v0")
+
+
+@pytest.mark.parametrize(
+    ("kwargs", "error", "message"),
+    [
+        ({"frame_skips": 3}, TypeError, "frame_skips"),
+        ({"frame_skip": "a"}, ValueError, "frame_skip"),
+        ({"frame_skip": 0}, ValueError, "1 or more"),
+        ({"frame_skip": object()}, TypeError, "frame_skip: a object is no setting"),
+        ({"obs_range": [0, {1: 2}]}, TypeError, r"obs_range\[1\]"),
+        ({"obs_keys": ["qp_robt"]}, ValueError, "qp_robt"),
+        ({"weighted_reward_keys": {"reach": 2**70}}, ValueError, "64 bits"),
+        ({"weighted_reward_keys": {"raech": 1.0}}, ValueError, "raech"),
+        ({"reward_mode": "densest"}, ValueError, "dense"),
+        ({"compat": "robohive-0.6"}, ValueError, "robohive-0.7"),
+        ({"render_mode": "ansi"}, ValueError, "rgb_array"),
+        ({"seed": -1}, gymnasium.error.Error, "2\\*\\*64"),
+        ({"max_episode_steps": 0}, ValueError, "1 or more"),
+        ({"override_keys": ["nothing"]}, ValueError, "no setting nothing"),
+        ({"visual_keys": ["rgb:nowhere:8x8:2d"]}, ValueError, "nowhere"),
+        ({"config_path": "nowhere.config"}, FileNotFoundError, "nowhere.config"),
+    ],
+)
+def test_settings_are_checked(kwargs, error, message):
+    with pytest.raises(error, match=message):
+        robohive.make("hive/FrankaReach-v0", **kwargs)
+
+
+def test_cameras_and_sizes_are_checked_when_a_picture_is_drawn():
+    env = robohive.make("hive/FrankaReach-v0", render_mode="rgb_array", camera_name="nowhere")
+    with pytest.raises(ValueError, match="nowhere"):
+        env.render()
+    env = robohive.make("hive/FrankaReach-v0", render_mode="rgb_array", width=10**9)
+    with pytest.raises(ValueError):
+        env.render()
+
+
+def test_states_are_checked(env):
+    state = env.get_env_state()
+    with pytest.raises(ValueError, match="qpos has 2 values"):
+        env.set_env_state({"qpos": [1.0, 2.0]})
+    with pytest.raises(KeyError, match="qpoz"):
+        env.set_env_state({"qpoz": [1.0]})
+    with pytest.raises((TypeError, ValueError)):
+        env.set_env_state({"qpos": "left"})
+    env.set_env_state(state)
+    with pytest.raises(ValueError, match="value 0 of qpos is NaN"):
+        env.set_env_state({**state, "qpos": state["qpos"] * np.nan})
+    env.reset(seed=0)
+
+
+def test_resets_are_checked(env):
+    with pytest.raises(gymnasium.error.Error):
+        env.reset(seed=-1)
+    with pytest.raises(gymnasium.error.Error, match="2\\*\\*64"):
+        env.reset(seed=2**64)
+    with pytest.raises(ValueError, match="no reset has an option start"):
+        env.reset(options={"start": 1})
+
+
+def test_a_step_that_physics_refuses_ends_the_episode(env):
+    state = env.get_env_state()
+    env.set_env_state({"qvel": np.full_like(state["qvel"], 1e9)})
+    for _ in range(200):
+        _, reward, terminated, truncated, info = env.step(np.ones(8))
+        if "fault" in info:
+            break
+    assert (reward, terminated, truncated) == (0.0, False, True) and info["fault"]
+    with pytest.raises(gymnasium.error.ResetNeeded, match="reset first"):
+        env.step(np.zeros(8))
+    assert "fault" not in env.reset(seed=0)[1]
+    env.step(np.zeros(8))
+
+
+def test_two_threads_are_refused_or_take_turns(env):
+    """No call is lost: each steps or raises, and what steps is in some order."""
+    outcomes = []
+
+    def work():
+        for _ in range(100):
+            try:
+                env.step(np.zeros(8))
+                outcomes.append("stepped")
+            except RuntimeError as error:
+                assert "another thread" in str(error)
+                outcomes.append("refused")
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    [thread.start() for thread in threads]
+    [thread.join() for thread in threads]
+    assert len(outcomes) == 400
+    assert env.time == pytest.approx(outcomes.count("stepped") * env.dt)
