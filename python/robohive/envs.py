@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -32,7 +32,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
     Calls from two threads at once raise `RuntimeError`; each is made with the interpreter's lock released.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array", "depth_array"], "render_fps": 30}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "depth_array"], "render_fps": 30}
 
     def __init__(
         self,
@@ -74,7 +74,8 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             "time_limit": time_limit,
             "override_keys": list(override_keys),
         }
-        self._start(_core.Env(env_id, settings, making))
+        self._arguments = (env_id, settings, making)
+        self._start(_core.Env(*self._arguments))
 
     def _start(self, core: _core.Env) -> None:
         about = core.description()
@@ -129,12 +130,12 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         return result
 
     def step(
-        self, a: ArrayLike, *, update_proprioception: bool = True, update_exteroception: bool = False
+        self, action: ArrayLike, *, update_proprioception: bool = True, update_exteroception: bool = False
     ) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """Applies an action for one control period.
 
         Args:
-            a: One number for each actuator.
+            action: One number for each actuator.
             update_proprioception: Of no effect: the proprioception is part of the infos.
             update_exteroception: Draws the images of the visual keys, which the infos then have.
 
@@ -142,9 +143,9 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             Observation, reward, terminated, truncated, infos. A step that physics refuses is truncated, has the reward 0 and
             the reason as `fault` in its infos, and must be followed by a reset.
         """
-        return self._core.step(a, update_exteroception)
+        return self._core.step(action, update_exteroception)
 
-    def render(self) -> NDArray[Any] | None:  # type: ignore[override]
+    def render(self) -> NDArray[Any] | None:
         """A picture of the present state: H x W x 3 bytes of colour, or H x W depths [m] of 32 bits."""
         if self.render_mode is None:
             gymnasium.logger.warn("render was called without a render_mode; make the environment with one")
@@ -156,12 +157,21 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
 
     # Copies.
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Pickles how the environment was made and all that decides its next steps and episodes: it goes on to the last bit,
+        in another process too. The models are read there."""
+        rest = {key: value for key, value in self.__dict__.items() if key != "_core"}
+        memory = None if self._core.closed() else self._core.memory()
+        return _restored, (type(self), rest, memory)
+
     def __deepcopy__(self, memo: dict[int, Any]) -> RoboHiveEnv:
         """An environment in the same state, which goes on by itself: its steps and draws are those of this one."""
         other = type(self).__new__(type(self))
         memo[id(self)] = other
         for key, value in self.__dict__.items():
-            other.__dict__[key] = self._core.fork() if key == "_core" else copy.deepcopy(value, memo)
+            other.__dict__[key] = value if key == "_core" else copy.deepcopy(value, memo)
+        if not self._core.closed():
+            other._core = self._core.fork()
         return other
 
     # RoboHive's methods and properties.
@@ -430,6 +440,21 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         raise gymnasium.error.UnsupportedMode(
             "this build opens no window; render_mode rgb_array and sim.renderer.render_offscreen return pictures"
         )
+
+
+def _restored(
+    cls: type[RoboHiveEnv], rest: dict[str, Any], memory: tuple[dict[str, Floats], NDArray[np.uint64]] | None
+) -> RoboHiveEnv:
+    """An environment of its pickle."""
+    env = cls.__new__(cls)
+    env.__dict__.update(rest)
+    env._core = _core.Env(*rest["_arguments"])
+    if memory is None:
+        env._core.close()
+    else:
+        edits, words = memory
+        env._core.set_memory(list(edits.items()), words)
+    return env
 
 
 def _seed(seed: int) -> int:

@@ -59,7 +59,10 @@ def _episode(
     frames: list[NDArray[np.uint8]] | None,
 ) -> dict[str, Any]:
     observation, _ = env.reset()
-    observations, actions, rewards, infos = [], [], [], []
+    observations: list[NDArray[np.float64]] = []
+    actions: list[NDArray[Any]] = []
+    rewards: list[float] = []
+    infos: list[dict[str, Any]] = []
     done = False
     while len(rewards) < horizon and not done:
         action, details = policy.get_action(observation)

@@ -125,7 +125,7 @@ class Renderer:
             raise NotImplementedError("segmentation is drawn by `robohive render --segmentation`, not for Python")
         camera = "free" if camera_id in (None, -1) else camera_id
         if not isinstance(camera, str):
-            camera = self._core.camera_name(int(camera))  # type: ignore[arg-type]
+            camera = self._core.camera_name(int(camera))
         colours, depths = self._core.draw(camera, width, height, depth)
         return (colours, depths) if rgb and depth else depths if depth else colours
 

@@ -4,7 +4,7 @@ use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use physics::{Data, Model};
-use robot::{Compat, Config};
+use robot::{Compat, Config, Keeper};
 
 /// numpy's default generator, by which all draws of an environment are made.
 pub type Rng = random::Generator<random::Pcg64>;
@@ -210,6 +210,10 @@ pub trait Task: Send + Sync {
     fn resting_rows(&self) -> Vec<String> {
         Vec::new()
     }
+
+    /// Writes, or reads, what the task remembers from step to step and from episode to episode. What stands in the model
+    /// or follows from the settings is kept elsewhere.
+    fn keep(&mut self, _keeper: &mut Keeper) {}
 
     /// A copy, for saved states and parallel environments.
     fn boxed(&self) -> Box<dyn Task>;

@@ -1,5 +1,7 @@
 //! Readings that arrive late: what the sensors said, by time, in memory that is allocated once.
 
+use crate::keeper::Keeper;
+
 /// Part of a time step by which times may differ and still be the same.
 const SAME: f64 = 1e-6;
 
@@ -35,6 +37,17 @@ impl Delay {
             filled: 0,
             delivered: f64::NEG_INFINITY,
         }
+    }
+
+    /// Writes it, or reads one of as many steps.
+    pub(crate) fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.numbers(&mut self.times);
+        keeper.numbers(&mut self.values);
+        let (mut newest, mut filled) = (self.newest, self.filled);
+        keeper.count(&mut newest);
+        keeper.count(&mut filled);
+        (self.newest, self.filled) = (newest % self.times.len(), filled.min(self.times.len()));
+        keeper.number(&mut self.delivered);
     }
 
     /// Forgets everything.

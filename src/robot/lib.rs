@@ -59,6 +59,7 @@ mod effort;
 mod error;
 mod interval;
 mod inverse_kinematics;
+mod keeper;
 mod links;
 mod memory;
 mod options;
@@ -76,6 +77,7 @@ pub use config::{
 pub use device::{Device, Fault, Record, Registry, Replay, Simulated, Units};
 pub use error::{Part, RobotError};
 pub use inverse_kinematics::{Pose, Search, Solution};
+pub use keeper::{ForeignWords, Keeper};
 pub use memory::Memory;
 pub use options::{ActionMode, Noise, Options, UnknownMode};
 pub use pacer::{Clock, Pacer, WallClock};

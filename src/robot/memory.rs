@@ -2,6 +2,7 @@
 
 use crate::delay::Delay;
 use crate::error::RobotError;
+use crate::keeper::Keeper;
 use crate::links::Links;
 use crate::reading::{History, Readings};
 use crate::robot::Robot;
@@ -12,6 +13,17 @@ pub struct Memory {
     controls: Vec<f64>,
     history: History,
     delay: Option<Delay>,
+}
+
+impl Memory {
+    /// Writes it, or reads it into the memory of a robot of the same config and options.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.numbers(&mut self.controls);
+        self.history.keep(keeper);
+        if let Some(delay) = &mut self.delay {
+            delay.keep(keeper);
+        }
+    }
 }
 
 impl Robot {

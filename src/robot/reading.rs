@@ -1,5 +1,7 @@
 //! What a robot read: values with the time of measurement, and the last few of them.
 
+use crate::keeper::Keeper;
+
 /// Values of all sensors of all devices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Readings {
@@ -14,6 +16,12 @@ pub struct Readings {
 impl Readings {
     pub(crate) fn new(values: usize, devices: usize) -> Self {
         Readings { time: 0.0, values: vec![0.0; values], stamps: vec![0.0; devices] }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.number(&mut self.time);
+        keeper.numbers(&mut self.values);
+        keeper.numbers(&mut self.stamps);
     }
 
     /// Takes the numbers of another reading of the same robot.
@@ -35,6 +43,14 @@ impl History {
     /// Room for `length` readings, at least one.
     pub(crate) fn new(length: usize, values: usize, devices: usize) -> Self {
         History { ring: vec![Readings::new(values, devices); length.max(1)], newest: 0 }
+    }
+
+    /// Writes it, or reads that of the same robot.
+    pub(crate) fn keep(&mut self, keeper: &mut Keeper) {
+        self.ring.iter_mut().for_each(|readings| readings.keep(keeper));
+        let mut newest = self.newest;
+        keeper.count(&mut newest);
+        self.newest = newest % self.ring.len();
     }
 
     /// Drops the oldest reading; returns its place for the newest.

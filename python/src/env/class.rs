@@ -7,8 +7,8 @@ use crate::exceptions::exception;
 use crate::infos::{shaped, visual_dict};
 use crate::request::Request;
 use crate::world;
-use env::{Env, RenderMode};
-use numpy::{PyArray1, PyReadonlyArrayDyn};
+use env::{Env, EnvMemory, RenderMode};
+use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArrayDyn};
 use physics::model::ObjType;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -96,6 +96,11 @@ impl PyEnv {
         self.place.close()
     }
 
+    /// Whether it was closed.
+    fn closed(&self) -> PyResult<bool> {
+        self.place.closed()
+    }
+
     /// Another environment in the same state, which goes on by itself.
     fn fork(&self, py: Python<'_>) -> PyResult<Self> {
         let mut taken = self.place.take(py, "copy")?;
@@ -147,6 +152,37 @@ impl PyEnv {
         let env = &mut taken.live().env;
         let world = world::read(env, &self.place.names.own, state)?;
         py.detach(|| env.set_world(&world).map(|_| ())).map_err(|error| exception(py, &error))
+    }
+
+    /// What another process goes on from: arrays of the model that differ from those it was made with, by name, and
+    /// words of everything else.
+    fn memory<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyArray1<u64>>)> {
+        let made = self.request.make(py)?;
+        let memory = self.place.take(py, "pickle")?.live().env.memory(&made);
+        let edits = PyDict::new(py);
+        memory
+            .edits
+            .iter()
+            .try_for_each(|(name, values)| edits.set_item(name, PyArray1::from_slice(py, values)))?;
+        Ok((edits, PyArray1::from_vec(py, memory.words)))
+    }
+
+    /// Goes on from what [`memory`](Self::memory) returned.
+    fn set_memory(
+        &self,
+        py: Python<'_>,
+        edits: Vec<(String, PyReadonlyArray1<'_, f64>)>,
+        words: PyReadonlyArray1<'_, u64>,
+    ) -> PyResult<()> {
+        let edit = |(name, values): &(String, PyReadonlyArray1<'_, f64>)| {
+            (name.clone(), values.as_array().iter().copied().collect())
+        };
+        let memory = EnvMemory {
+            edits: edits.iter().map(edit).collect(),
+            words: words.as_array().iter().copied().collect(),
+        };
+        let mut taken = self.place.take(py, "unpickle")?;
+        taken.live().env.set_memory(memory).map_err(|error| exception(py, &error))
     }
 
     /// Restarts all draws.

@@ -46,6 +46,14 @@ impl Place {
         Ok(self.guard("close")?.take().is_some())
     }
 
+    /// Whether the environment was dropped.
+    ///
+    /// # Errors
+    /// Another thread is in a call of it.
+    pub fn closed(&self) -> PyResult<bool> {
+        Ok(self.guard("closed")?.is_none())
+    }
+
     fn guard(&self, call: &str) -> PyResult<MutexGuard<'_, Option<Live>>> {
         match self.live.try_lock() {
             Ok(guard) => Ok(guard),

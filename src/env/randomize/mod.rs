@@ -15,12 +15,14 @@ pub use config::{
 
 use crate::environment::Env;
 use crate::error::EnvError;
+use crate::memory::keep_rows;
 use crate::rows::{Name, Rows};
 use crate::scene::Scene;
 use crate::task::Rng;
 use dial::{Dial, WIDTH};
 use physics::Model;
 use random::SeedSequence;
+use robot::Keeper;
 
 /// Which descendant of an environment's seed the look of a scene is drawn from.
 const STREAM: u64 = 1;
@@ -78,6 +80,22 @@ impl Look {
                 dial.write(values, &self.base, m);
             }
         })
+    }
+
+    /// Writes what was drawn and where the sequence of draws stands, or reads it; the model is kept elsewhere.
+    pub(crate) fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.generator(&mut self.rng);
+        let mut drawn = !self.drawn.rows().is_empty();
+        keeper.flag(&mut drawn);
+        if drawn && self.drawn.rows().is_empty() {
+            let dials = &self.dials;
+            dials.iter().for_each(|dial| {
+                self.drawn.set(Name(&dial.name), dial.unit, [0.0; WIDTH][..dial.width()].iter());
+            });
+        }
+        if drawn {
+            keep_rows(&mut self.drawn, keeper);
+        }
     }
 
     pub(crate) fn state(&self) -> LookState {

@@ -4,6 +4,7 @@ use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::suite::baoding::{BALLS, Orbit, Pairs};
 use crate::task::{Pose, Rng};
+use robot::Keeper;
 
 /// Middle of the path in the palm [m].
 const CENTER: [f64; 2] = [-0.0125, -0.07];
@@ -38,6 +39,14 @@ impl Circling {
     pub fn new(scene: &Scene, radii: [f64; 2], period: f64, starts: [f64; 2]) -> Result<Self, EnvError> {
         let orbit = Orbit { radii, center: CENTER, period, direction: 1.0, jumps: None };
         Ok(Circling { pairs: Pairs::find(scene)?, orbit, starts })
+    }
+
+    /// Writes or reads what an episode drew of the path.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.numbers(&mut self.orbit.radii);
+        keeper.number(&mut self.orbit.period);
+        keeper.number(&mut self.orbit.direction);
+        keeper.numbers(&mut self.starts);
     }
 
     /// Moves the targets to where they are when a control period `dt` [s] has passed `steps` times.

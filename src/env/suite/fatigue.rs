@@ -6,7 +6,7 @@ use crate::suite::muscle::{PEAK_FORCE, peak_force};
 use physics::math::ops;
 use physics::model::GainType;
 use physics::{Data, Model};
-use robot::Compat;
+use robot::{Compat, Keeper};
 
 /// How fast a muscle at its peak force fatigues [1/s]: once per minute.
 const RATE: f64 = 1.0 / 60.0;
@@ -66,6 +66,13 @@ impl Fatigue {
             };
         }
         self.steps += 1;
+    }
+
+    /// Writes or reads what was spent.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.numbers(&mut self.spent);
+        keeper.numbers(&mut self.largest);
+        keeper.count(&mut self.steps);
     }
 
     /// Rests all muscles.

@@ -11,7 +11,7 @@ use physics::Model;
 use physics::elements::ActuatorId;
 use physics::math::ops;
 use physics::model::GainType;
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 
 /// Where a muscle's parameters hold its peak force [N]; negative where it follows from the model.
@@ -102,6 +102,13 @@ impl Muscles {
             defaults.obs_keys.push("act".into());
         }
         defaults
+    }
+
+    /// Writes or reads what muscles remember.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        if let State::Fatigue(fatigue) = &mut self.state {
+            fatigue.keep(keeper);
+        }
     }
 
     /// Starts an episode. The original's fatigue goes on from the episode before.

@@ -8,6 +8,7 @@ use crate::rows::Rows;
 use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
 use physics::math::ops;
+use robot::Keeper;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_6, PI};
 use toml::Table;
@@ -161,6 +162,14 @@ impl Task for Posing {
         terms.set("pose_error_cost", "rad", [-norm(errors)]);
         terms.set("joint_vel_cost", "rad/s", [-excess(&rows["qvel"], FAST)]);
         Verdict { sparse: 1.0 - (mean / LOST).min(1.0), solved: mean < SOLVED, done: false }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        for goal in &mut self.goals {
+            keeper.number(&mut goal.centre);
+            keeper.number(&mut goal.amplitude);
+            keeper.number(&mut goal.frequency);
+        }
     }
 
     fn boxed(&self) -> Box<dyn Task> {

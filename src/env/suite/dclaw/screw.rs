@@ -6,6 +6,7 @@ use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
+use robot::Keeper;
 use toml::Table;
 
 /// Error of the angle [rad] below which the task is solved.
@@ -61,6 +62,11 @@ impl Task for Screw {
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         self.valve.reward(rows, terms)
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.number(&mut self.angle);
+        keeper.number(&mut self.velocity);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

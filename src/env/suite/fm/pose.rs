@@ -9,7 +9,7 @@ use crate::spec::Spec;
 use crate::suite::bonus;
 use crate::task::{Defaults, Episode, Rng, Setup, Task, Verdict, View};
 use physics::Model;
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use toml::Table;
 
@@ -133,6 +133,10 @@ impl Task for Reach {
         terms.set("bonus", "", [bonus(self.compat, &[distance < 1.0, distance < 2.0])]);
         terms.set("penalty", "", [f64::from(distance > FAR)]);
         Verdict { sparse: -distance, solved: distance < 0.5, done: distance > FAR }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.numbers(&mut self.target);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -10,6 +10,7 @@ use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::ops;
+use robot::Keeper;
 use toml::Table;
 
 /// Share of a robot joint's span over which it starts.
@@ -91,6 +92,10 @@ impl Task for Appliance {
 
     fn resting_rows(&self) -> Vec<String> {
         ["objs_jnt", "goal_err"].map(String::from).into()
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.chore.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

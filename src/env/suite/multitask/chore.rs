@@ -9,6 +9,7 @@ use crate::task::{Defaults, Pose, Rng, Setup, Verdict, View};
 use physics::elements::{BodyId, JointId, SiteId};
 use physics::math::sub;
 use physics::model::JointType;
+use robot::Keeper;
 use serde::Deserialize;
 use std::f64::consts::PI;
 use toml::{Table, Value};
@@ -215,6 +216,12 @@ impl Chore {
             self.first.push((self.objects[*object].place, wish.fulfil(rng)?));
         }
         Ok(())
+    }
+
+    /// Writes or reads what was drawn.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        self.objects.iter_mut().for_each(|object| keeper.number(&mut object.goal));
+        self.first.iter_mut().for_each(|(_, position)| keeper.number(position));
     }
 
     /// Puts the first positions of objects into a pose.

@@ -9,6 +9,7 @@ use crate::spec::Spec;
 use crate::suite::Ranges;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::math::{Vec3, add};
+use robot::Keeper;
 use serde::Deserialize;
 use toml::{Table, Value};
 
@@ -107,6 +108,10 @@ impl Task for Kitchen {
 
     fn constant_rows(&self) -> Vec<String> {
         self.chore.constant_rows()
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.chore.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -9,7 +9,7 @@ use crate::suite::baoding::{Following, KEYS, jumps, wrist_error};
 use crate::suite::circling::{Circling, draw_radii, open_hand};
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_4;
 use toml::Table;
@@ -148,6 +148,11 @@ impl Task for Baoding {
             solved: following.both() && !following.fallen,
             done: following.fallen,
         }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
+        self.circling.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -10,6 +10,7 @@ use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::{add, sub};
+use robot::Keeper;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 use toml::Table;
@@ -141,6 +142,10 @@ impl Task for KeyTurn {
         terms.set("bonus", "", [turned(FRAC_PI_2) + turned(PI)]);
         terms.set("penalty", "", [-off(index) - off(thumb)]);
         Verdict { sparse: angle, solved: angle > self.goal, done: index > FAR || thumb > FAR }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -13,7 +13,7 @@ use crate::suite::named::Named;
 use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
 use physics::Model;
 use physics::model::JointType;
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use toml::Table;
 
@@ -129,6 +129,10 @@ impl Task for LegStand {
 
     fn rewards_paths(&self) -> bool {
         false
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -11,7 +11,7 @@ use crate::suite::muscle::{Condition, Muscles, effort, observe_activations, obse
 use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::{Vec3, add_scaled, ops, scale, sub};
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
 use toml::Table;
@@ -308,6 +308,10 @@ impl Task for LegWalk {
         terms.set("act_mag", "", [effort(rows)]);
         terms.set("done", "", [f64::from(done)]);
         Verdict { sparse: velocity, solved: velocity >= 1.0, done }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -12,7 +12,7 @@ use physics::elements::{BodyId, GeomId, SiteId};
 use physics::geometry::shape::{inertia, volume};
 use physics::math::{add, sub};
 use physics::model::GeomType;
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use toml::Table;
 
@@ -145,6 +145,10 @@ impl Task for ObjectHold {
         terms.set("act_reg", "", [-effort(rows)]);
         terms.set("penalty", "", [-f64::from(dropped)]);
         Verdict { sparse: -distance, solved: distance < NEAR, done: dropped }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -12,6 +12,7 @@ use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::Data;
 use physics::elements::{BodyId, SiteId};
 use physics::math::{Vec3, scale, sub};
+use robot::Keeper;
 use serde::Deserialize;
 use toml::Table;
 
@@ -117,6 +118,10 @@ impl Task for PenTwirl {
 
     fn constant_rows(&self) -> Vec<String> {
         if self.randomize { Vec::new() } else { vec!["obj_des_rot".into()] }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -10,7 +10,7 @@ use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
 use crate::suite::named::Named;
 use crate::task::{Defaults, Episode, Rng, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::TAU;
 use toml::Table;
@@ -214,6 +214,11 @@ impl Task for Pose {
         terms.set("penalty", "", [-f64::from(far)]);
         terms.set("act_reg", "", [-effort(rows)]);
         Verdict { sparse: -distance, solved: distance < self.near, done: far }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
+        keeper.numbers(&mut self.target);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -8,6 +8,7 @@ use crate::suite::muscle::{Condition, Muscles, effort};
 use crate::suite::myobase::tips::Tips;
 use crate::suite::named::Named;
 use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
+use robot::Keeper;
 use serde::Deserialize;
 use toml::Table;
 
@@ -80,6 +81,10 @@ impl Task for Reach {
 
     fn rewards_paths(&self) -> bool {
         false
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -13,7 +13,7 @@ use physics::elements::{BodyId, GeomId, SiteId};
 use physics::geometry::shape::inertia;
 use physics::math::{scale, sub};
 use physics::model::GeomType;
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::sync::Arc;
 use toml::Table;
@@ -227,6 +227,11 @@ impl Task for ShapeReorient {
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         turning::reward(rows, terms)
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
+        self.shaped.iter_mut().for_each(|shaped| keeper.number(&mut shaped.length));
     }
 
     fn boxed(&self) -> Box<dyn Task> {

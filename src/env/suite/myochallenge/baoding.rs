@@ -13,7 +13,7 @@ use physics::elements::{BodyId, GeomId};
 use physics::geometry::shape;
 use physics::math::Vec3;
 use physics::model::{Draft, GeomType};
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 use toml::Table;
@@ -226,6 +226,11 @@ impl Task for Baoding {
             solved: following.both() && !following.fallen,
             done: following.fallen,
         }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
+        self.circling.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

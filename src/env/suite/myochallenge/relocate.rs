@@ -12,7 +12,7 @@ use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
 use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::sub;
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use toml::Table;
 
@@ -229,6 +229,10 @@ impl Task for Relocate {
     fn constant_rows(&self) -> Vec<String> {
         let names = ["goal_pos", "goal_rot"].iter().zip(&self.targets);
         names.filter(|(_, range)| range.low == range.high).map(|(name, _)| name.to_string()).collect()
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

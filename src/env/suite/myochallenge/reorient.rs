@@ -11,7 +11,7 @@ use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, GeomId, SiteId};
 use physics::math::{Vec3, add, sub};
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::sync::Arc;
 use toml::Table;
@@ -190,6 +190,10 @@ impl Task for Reorient {
         let ranges = [("goal_pos", self.args.goal_pos), ("goal_rot", self.args.goal_rot)];
         let fixed = ranges.iter().filter(|(_, [low, high])| low == high);
         fixed.map(|(name, _)| name.to_string()).collect()
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -5,7 +5,7 @@ use crate::error::EnvError;
 use crate::task::Rng;
 use dataset::NpzReader;
 use physics::math::{ops, quat_normalize};
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::io::Cursor;
 use std::ops::Range;
@@ -218,6 +218,16 @@ impl Reference {
         }
         between(&bounds.object, &mut self.shown.object)?;
         Ok(())
+    }
+
+    /// Writes or reads the target, if it is random.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        if self.bounds.is_none() {
+            return;
+        }
+        let Frames { robot, robot_vel, object, .. } = &mut self.shown;
+        let rows = robot.iter_mut().chain(robot_vel.iter_mut().flatten()).chain(object);
+        rows.for_each(|row| keeper.numbers(row));
     }
 
     /// Joint positions that the robot starts in.

@@ -11,7 +11,7 @@ use crate::suite::muscle::{Condition, Muscles, observe_activations};
 use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::{ops, sub};
-use robot::Compat;
+use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::PI;
 use toml::Table;
@@ -201,6 +201,12 @@ impl Task for Track {
 
     fn constant_rows(&self) -> Vec<String> {
         self.reference.constant_rows().into_iter().map(String::from).collect()
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
+        self.reference.keep(keeper);
+        keeper.generator(&mut self.own_rng);
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -18,7 +18,7 @@ use crate::suite::muscle::{Condition, Muscles, effort, observe_activations, obse
 use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
 use opponent::Opponent;
 use physics::elements::{BodyId, GeomId, SensorId, SiteId};
-use robot::Compat;
+use robot::{Compat, Keeper};
 use settings::{Args, Choice};
 use start::Start;
 use terrain::{Terrain, flatten};
@@ -265,6 +265,20 @@ impl Task for ChaseTag {
 
     fn resting_rows(&self) -> Vec<String> {
         vec!["opponent_vel".into()]
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.muscles.keep(keeper);
+        self.opponent.keep(keeper);
+        let (mut known, (mut pose, mut velocity)) = (self.before.is_some(), self.before.unwrap_or_default());
+        keeper.flag(&mut known);
+        keeper.numbers(&mut pose);
+        keeper.numbers(&mut velocity);
+        self.before = known.then_some((pose, velocity));
+        keeper.choice(&mut self.role, &[Role::Chase, Role::Evade]);
+        if let Some(terrain) = &mut self.terrain {
+            terrain.keep(keeper);
+        }
     }
 
     fn boxed(&self) -> Box<dyn Task> {

@@ -4,6 +4,7 @@
 use crate::error::EnvError;
 use crate::task::Rng;
 use physics::math::ops;
+use robot::Keeper;
 use std::f64::consts::{SQRT_2, TAU};
 use std::sync::LazyLock;
 
@@ -75,6 +76,13 @@ impl Noise {
         }
         self.next = 0;
         Ok(())
+    }
+
+    /// Writes or reads the series and the place in it.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        self.series.iter_mut().for_each(|row| keeper.numbers(row));
+        keeper.count(&mut self.next);
+        self.next = self.next.min(LENGTH);
     }
 
     /// The next number of each series.

@@ -9,6 +9,7 @@ use crate::task::Rng;
 use physics::Data;
 use physics::elements::BodyId;
 use physics::math::ops;
+use robot::Keeper;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// The opponent stays within this distance of the middle, along x and along y [m].
@@ -86,6 +87,15 @@ impl Opponent {
         };
         opponent.appear(false, scene, rng)?;
         Ok(opponent)
+    }
+
+    /// Writes or reads what an episode drew of it, its motion, and the noise that it follows.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        use Policy::{Chasing, Fixed, Random, Repelled, Stationary};
+        keeper.choice(&mut self.policy, &[Fixed, Stationary, Random, Repelled, Chasing]);
+        keeper.numbers(&mut self.velocity);
+        keeper.number(&mut self.chase_speed);
+        self.noise.keep(keeper);
     }
 
     /// Starts an episode: draws noise, policy, place and speed.

@@ -4,6 +4,7 @@ use crate::error::EnvError;
 use crate::task::Rng;
 use physics::math::ops;
 use random::RandomState;
+use robot::Keeper;
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
@@ -82,6 +83,13 @@ impl Terrain {
         if let Some(placing) = &mut self.placing {
             // numpy's legacy generator takes seeds of 32 bits.
             *placing = RandomState::new(seed as u32);
+        }
+    }
+
+    /// Writes or reads the draws of the relief's place.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        if let Some(placing) = &mut self.placing {
+            keeper.random_state(placing);
         }
     }
 
