@@ -22,27 +22,26 @@ def flat(infos, above=""):
 
 @pytest.mark.parametrize("id", ["door-v1", "FrankaReachRandom-v0"])
 def test_infos_are_the_originals(id):
-    env = make_or_skip(id, compat="robohive-0.7", seed=7)
+    """Of states that RoboHive reached: its MuJoCo 3.1.3 moves otherwise than 3.12, which is followed here."""
+    env = make_or_skip(id, compat="robohive-0.7")
     recorded = np.load(RECORDED / f"{id}.npz")
     first, _ = env.reset(seed=7)
-    assert np.abs(first - recorded["reset"][0]).max() <= TOLERANCE
-    rng = np.random.default_rng(7)
-    env = env.unwrapped
+    assert np.array_equal(first, recorded["reset"][0])
     kinds = dict(line.split(": ") for line in bytes(recorded["kinds"]).decode().splitlines())
-    for step in range(100):
-        observation, reward, terminated, _, infos = env.step(rng.uniform(-1, 1, env.action_space.shape))
-        assert reward == pytest.approx(recorded["reward"][step], abs=TOLERANCE)
-        assert terminated == recorded["terminated"][step]
-        if step % 10 != 9:
-            continue
-        assert np.abs(observation - recorded["observation"][step // 10]).max() <= TOLERANCE
-        ours = dict(flat(infos))
+    worlds = [key for key in recorded if key.startswith("world/")]
+    assert len(recorded["reward"]) == 20
+    for row, reward in enumerate(recorded["reward"]):
+        env.set_env_state({key.removeprefix("world/"): recorded[key][row] for key in worlds})
+        observation, ours, terminated, _, infos = env.forward()
+        assert ours == pytest.approx(reward, abs=TOLERANCE)
+        assert terminated == recorded["terminated"][row]
+        assert np.abs(observation - recorded["observation"][row]).max() <= TOLERANCE
+        values = dict(flat(infos))
         # The state of the original's hands lacks what the state of all other tasks has.
-        assert {key for key in ours if not key.startswith("state/")} == {
-            key for key in kinds if not key.startswith("state/")
-        }
+        beside = {key for key in values if not key.startswith("state/")}
+        assert beside == {key for key in kinds if not key.startswith("state/")}
         for key, kind in kinds.items():
-            value = np.asarray(ours[key])
+            value = np.asarray(values[key])
             if key not in UNCONVERTED:
                 assert f"{value.dtype} {value.shape}" == kind, key
-            assert np.abs(value.astype(float) - recorded[key][step // 10]).max() <= TOLERANCE, key
+            assert np.abs(value.astype(float) - recorded[key][row]).max() <= TOLERANCE, key

@@ -2,8 +2,9 @@
 
     PYTHON_OF_ROBOHIVE -P validation/reference/python_infos.py python/tests/recorded
 
-needs RoboHive 0.7.0 (-P: the folder of this script has modules of its name) under MuJoCo 3.1.3 and gymnasium 0.29.1. Writes ID.npz for each id: rewards of all steps, and of every
-tenth step all infos, flattened to `obs_dict/time` and so on, with types as text.
+needs RoboHive 0.7.0 (-P: the folder of this script has modules of its name) under MuJoCo 3.1.3 and gymnasium 0.29.1. Writes ID.npz for each id: the first observation, and of every
+fifth of 100 steps the observation, the reward and all infos, flattened to `obs_dict/time` and so on, with types as text, and the
+whole state (`world/qpos`), to which the state in the infos of some tasks does not suffice.
 """
 
 import sys
@@ -12,10 +13,12 @@ from pathlib import Path
 import gymnasium
 import numpy as np
 import robohive  # noqa: F401
+from robohive.envs.env_base import MujocoEnv
 
 IDS = ["door-v1", "FrankaReachRandom-v0"]
 SEED = 7
 STEPS = 100
+EVERY = 5
 
 
 def flat(infos, above=""):
@@ -39,13 +42,17 @@ def record(id):
     for step in range(STEPS):
         action = rng.uniform(-1, 1, env.action_space.shape)
         observation, reward, terminated, _, infos = env.step(action)
+        if step % EVERY != EVERY - 1:
+            continue
+        columns.setdefault("observation", []).append(observation)
         columns.setdefault("reward", []).append(reward)
         columns.setdefault("terminated", []).append(terminated)
-        if step % 10 == 9:
-            columns.setdefault("observation", []).append(observation)
-            for path, value in flat(infos):
-                columns.setdefault(path, []).append(np.copy(value))
-                kinds[path] = f"{np.asarray(value).dtype} {np.asarray(value).shape}"
+        for path, value in flat(infos):
+            columns.setdefault(path, []).append(np.copy(value))
+            kinds[path] = f"{np.asarray(value).dtype} {np.asarray(value).shape}"
+        world = {**MujocoEnv.get_env_state(env), "ctrl": env.sim.data.ctrl}
+        for path, value in flat(world, "world/"):
+            columns.setdefault(path, []).append(np.copy(value))
     text = "\n".join(f"{path}: {kind}" for path, kind in sorted(kinds.items()))
     arrays = {key: np.array(rows) for key, rows in columns.items()}
     return {"kinds": np.frombuffer(text.encode(), np.uint8), **arrays}
