@@ -19,6 +19,8 @@ pub enum VelocityNoise {
 pub fn start(episode: &mut Episode<'_>, scale: f64, velocity: VelocityNoise) -> Result<(), EnvError> {
     let Episode { scene, rng, initial, .. } = episode;
     scene.data.reset(&scene.model);
+    // A forward pass computes no forces on bodies; those of the last episode are not of this one.
+    scene.data.sensor.cfrc_ext.fill([0.0; 6]);
     let state = &mut scene.data.state;
     for (place, reference) in state.qpos.iter_mut().zip(&initial.qpos) {
         *place = reference + rng.uniform(-scale, scale)?;
