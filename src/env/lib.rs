@@ -47,4 +47,4 @@ pub use spec::{RewardMode, Settings, Spec};
 pub use state::Injected;
 pub use state::{EnvState, WorldState};
 pub use task::{Defaults, Episode, Pose, Rng, Setup, Success, Task, Timing, Turn, Verdict, View};
-pub use vector::{Autoreset, Final, Real, VecEnv};
+pub use vector::{Autoreset, Final, Real, StepRecord, VecEnv};

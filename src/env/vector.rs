@@ -9,7 +9,7 @@ mod slot;
 mod workers;
 
 pub use real::Real;
-pub use slot::{Autoreset, Final};
+pub use slot::{Autoreset, Final, StepRecord};
 
 use crate::environment::{Env, Step};
 use crate::error::EnvError;
@@ -25,6 +25,7 @@ use slot::{Order, Slot};
 pub struct VecEnv {
     /// `None` where an environment is under way on a thread.
     slots: Vec<Option<Box<Slot>>>,
+    records: Vec<StepRecord>,
     width: usize,
     action_width: usize,
     observations: Vec<f64>,
@@ -51,9 +52,33 @@ impl VecEnv {
         };
         Ok(VecEnv {
             slots: (0..count).map(slot).collect::<Result<_, _>>()?,
+            records: vec![StepRecord::default(); count],
             width: env.observation().len(),
             action_width: env.action_len(),
             observations: vec![0.0; count * env.observation().len()],
+            pool: Pool::new(threads),
+            under_way: 0,
+            #[cfg(feature = "threads")]
+            arrived: std::collections::VecDeque::new(),
+            #[cfg(feature = "threads")]
+            workers: None,
+        })
+    }
+
+    /// Another batch in the same state, which goes on by itself on threads of its own.
+    ///
+    /// # Errors
+    /// The robot is hardware; environments are under way.
+    pub fn fork(&self, threads: usize) -> Result<Self, EnvError> {
+        self.check_at_home()?;
+        let slots = self.slots.iter().flatten();
+        let forks: Result<_, EnvError> = slots.map(|slot| Ok(Some(Box::new(slot.fork()?)))).collect();
+        Ok(VecEnv {
+            slots: forks?,
+            records: self.records.clone(),
+            width: self.width,
+            action_width: self.action_width,
+            observations: self.observations.clone(),
             pool: Pool::new(threads),
             under_way: 0,
             #[cfg(feature = "threads")]
@@ -169,6 +194,12 @@ impl VecEnv {
         at_home(&self.slots[index]).outcome.as_ref().expect("errors are taken out before")
     }
 
+    /// What the last call yielded of every environment, in few bytes each. Of an environment that is under way, what it yielded
+    /// before.
+    pub fn records(&self) -> &[StepRecord] {
+        &self.records
+    }
+
     /// The observation that ended an episode in the last call, where [`Autoreset::SameStep`] has replaced it.
     pub fn final_observation(&self, index: usize) -> Option<&[f64]> {
         self.last(index).map(|last| last.observation.as_slice())
@@ -180,14 +211,6 @@ impl VecEnv {
     /// The environment is under way.
     pub fn last(&self, index: usize) -> Option<&Final> {
         at_home(&self.slots[index]).last()
-    }
-
-    /// Whether the episode of an environment is over, so that a reset follows.
-    ///
-    /// # Panics
-    /// It is under way.
-    pub fn has_ended(&self, index: usize) -> bool {
-        at_home(&self.slots[index]).ended
     }
 
     /// The observations of the last [`VecEnv::step`] or [`VecEnv::reset`] (count x observation length).
@@ -256,16 +279,24 @@ impl VecEnv {
         let count = self.len();
         assert_eq!(observations.len(), count * self.width, "one row for each environment");
         let rows = rows(observations, count, self.width);
-        let work: Vec<_> = self.slots.iter_mut().flatten().zip(rows).enumerate().collect();
-        let each = |(index, (slot, row)): (usize, (&mut Box<Slot>, &mut [T]))| {
+        let slots = self.slots.iter_mut().flatten().map(AsMut::as_mut);
+        let places = slots.zip(&mut self.records).zip(rows).enumerate();
+        let work = |(index, ((slot, record), row))| Work { index, slot, record, row };
+        let work: Vec<Work<'_, T>> = places.map(work).collect();
+        let each = |Work { index, slot, record, row }: Work<'_, T>| {
             each(index, slot);
             slot.write(row);
+            *record = slot.record();
         };
         self.pool.each(work, each).map_err(|message| EnvError::Threads { message })?;
-        for (index, slot) in self.slots.iter_mut().flatten().enumerate() {
-            slot.take_error().map_err(|error| EnvError::InBatch { index, error: error.into() })?;
-        }
-        Ok(())
+        let failed: Vec<_> = (0..count).filter(|&index| self.records[index].failed).collect();
+        let mut outcomes = failed.into_iter().map(|index| {
+            let outcome = self.slots[index].as_mut().map_or(Ok(()), |slot| slot.take_error());
+            outcome.map_err(|error| EnvError::InBatch { index, error: error.into() })
+        });
+        let first = outcomes.next().unwrap_or(Ok(()));
+        outcomes.for_each(drop);
+        first
     }
 
     /// Runs something that writes observations where this batch keeps its own.
@@ -298,6 +329,14 @@ impl VecEnv {
     fn slot_mut(&mut self, index: usize) -> &mut Slot {
         self.slots[index].as_mut().expect("ids were checked")
     }
+}
+
+/// One environment of a batch, and where what it yields is written.
+struct Work<'a, T> {
+    index: usize,
+    slot: &'a mut Slot,
+    record: &'a mut StepRecord,
+    row: &'a mut [T],
 }
 
 fn at_home(slot: &Option<Box<Slot>>) -> &Slot {

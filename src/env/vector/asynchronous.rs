@@ -61,6 +61,7 @@ impl VecEnv {
         for (place, (index, slot)) in ids.iter_mut().zip(self.arrived.drain(..count)) {
             *place = index;
             rows.next().into_iter().for_each(|row| slot.write(row));
+            self.records[index] = slot.record();
             self.slots[index] = Some(slot);
         }
         self.under_way -= count;

@@ -45,6 +45,32 @@ impl Final {
     }
 }
 
+/// What the last call of an environment yielded, in few bytes. Those of a batch lie side by side, so that reading all of them
+/// touches no environment.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepRecord {
+    /// The reward; 0 after a reset.
+    pub reward: f64,
+    /// The task ended the episode.
+    pub terminated: bool,
+    /// The episode is over for another reason.
+    pub truncated: bool,
+    /// The episode is over, and nothing has reset since.
+    pub ended: bool,
+    /// The episode was over, and the same step has reset.
+    pub replaced: bool,
+    /// Physics refused the step: [`Step::fault`].
+    pub faulty: bool,
+    /// Simulation time [s].
+    pub time: f64,
+    /// The weighted sum of the terms of the reward in the present state.
+    pub dense: f64,
+    /// What the reward decides beside it.
+    pub verdict: Verdict,
+    /// The call failed.
+    pub(super) failed: bool,
+}
+
 /// What one environment is to do.
 #[derive(Clone, Copy, Debug)]
 pub enum Order {
@@ -85,6 +111,23 @@ impl Slot {
         }
     }
 
+    /// Another one in the same state.
+    ///
+    /// # Errors
+    /// The robot is hardware.
+    pub fn fork(&self) -> Result<Self, EnvError> {
+        Ok(Slot {
+            env: self.env.fork()?,
+            action: self.action.clone(),
+            outcome: self.outcome.as_ref().map_or(Ok(QUIET), |step| Ok(step.clone())),
+            ended: self.ended,
+            autoreset: self.autoreset,
+            replaced: self.replaced,
+            last: self.last.clone(),
+            broken: self.broken.clone(),
+        })
+    }
+
     /// Sets the action of the next step.
     pub fn set_action<A: Real>(&mut self, action: &[A]) {
         self.action.iter_mut().zip(action).for_each(|(to, from)| *to = from.to_f64());
@@ -105,6 +148,23 @@ impl Slot {
             let message = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
             self.outcome = Err(EnvError::Panicked { message: message.clone() });
             self.broken = Some(message);
+        }
+    }
+
+    /// What the last call yielded.
+    pub fn record(&self) -> StepRecord {
+        let step = self.outcome.as_ref().unwrap_or(&QUIET);
+        StepRecord {
+            reward: step.reward,
+            terminated: step.terminated,
+            truncated: step.truncated,
+            ended: self.ended,
+            replaced: self.replaced,
+            faulty: step.fault.is_some(),
+            time: self.env.rows().values()[0],
+            dense: self.env.dense(),
+            verdict: self.env.verdict(),
+            failed: self.outcome.is_err(),
         }
     }
 
