@@ -12,11 +12,18 @@ use pyo3::prelude::*;
 /// | a step that needs a reset first | `gymnasium.error.ResetNeeded` |
 /// | a setting that is unknown or wrong | `robohive.SettingError`, a `ValueError` and a `TypeError` |
 /// | physics refuses a state | `robohive.PhysicsError`, a `RuntimeError` |
+/// | a fault of this program; threads that do not start | `RuntimeError` |
+/// | one of these in one environment of many | as without the others |
 /// | missing models and weights | `FileNotFoundError` |
 /// | all else: actions, states, pictures, models | `ValueError` |
 pub fn exception(py: Python<'_>, error: &EnvError) -> PyErr {
-    let text = error.to_string();
+    with_text(py, error, error.to_string())
+}
+
+fn with_text(py: Python<'_>, error: &EnvError, text: String) -> PyErr {
     match error {
+        EnvError::InBatch { error, .. } => with_text(py, error, text),
+        EnvError::Panicked { .. } | EnvError::Threads { .. } => PyRuntimeError::new_err(text),
         EnvError::UnknownId { .. } => named(py, "gymnasium.error", "NameNotFound", text),
         EnvError::NeedsReset => named(py, "gymnasium.error", "ResetNeeded", text),
         EnvError::Setting { .. } => named(py, "robohive.errors", "SettingError", text),

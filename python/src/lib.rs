@@ -9,6 +9,8 @@ mod infos;
 mod own_state;
 mod request;
 mod settings;
+mod turns;
+mod vector;
 mod world;
 
 use pyo3::pymodule;
@@ -20,6 +22,8 @@ mod _core {
     use super::env::PyEnv;
     #[pymodule_export]
     use super::film::write_video;
+    #[pymodule_export]
+    use super::vector::PyVecEnv;
     use ::env::Registry;
     use pyo3::prelude::*;
 

@@ -103,9 +103,7 @@ impl PyEnv {
 
     /// Another environment in the same state, which goes on by itself.
     fn fork(&self, py: Python<'_>) -> PyResult<Self> {
-        let mut taken = self.place.take(py, "copy")?;
-        let fork = taken.live().env.fork().map_err(|error| exception(py, &error))?;
-        Ok(PyEnv { place: Place::of(py, fork), request: self.request.clone() })
+        Ok(self.like(py, self.copy(py)?))
     }
 
     /// The observation vector of the present state.
@@ -264,6 +262,20 @@ impl PyEnv {
 }
 
 impl PyEnv {
+    /// Another environment in the same state.
+    ///
+    /// # Errors
+    /// This one was closed, or is in a call of another thread.
+    pub fn copy(&self, py: Python<'_>) -> PyResult<Env> {
+        let mut taken = self.place.take(py, "copy")?;
+        taken.live().env.fork().map_err(|error| exception(py, &error))
+    }
+
+    /// An environment that was made by the same request.
+    pub fn like(&self, py: Python<'_>, env: Env) -> Self {
+        PyEnv { place: Place::of(py, env), request: self.request.clone() }
+    }
+
     fn with<T>(&self, py: Python<'_>, call: &str, f: impl FnOnce(&Env) -> PyResult<T>) -> PyResult<T> {
         f(&self.place.take(py, call)?.live().env)
     }
