@@ -2,6 +2,7 @@
 
 mod actions;
 mod arrays;
+mod data;
 mod env;
 mod exceptions;
 mod film;
@@ -26,6 +27,12 @@ mod _core {
     use super::vector::PyVecEnv;
     use ::env::Registry;
     use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::data::{
+        LeRobotFrames, LeRobotWriter, MinariWriter, Trace, TraceWriter, convert_trace, env_spec,
+        export_lerobot, export_minari, repair_trace,
+    };
 
     /// Version of the package.
     #[pymodule_export]

@@ -1,6 +1,7 @@
 //! `data`: what is in recordings of episodes, repair, conversion, replay.
 
 use crate::Failure;
+use crate::export::{self, Export};
 use crate::recording::{LayoutName, PrecisionName};
 use crate::replay::{self, Replay};
 use crate::terminal::{note, show, show_json};
@@ -37,6 +38,8 @@ enum Command {
     Repair(Repair),
     /// Write a recording in another layout, format or precision
     Convert(Convert),
+    /// Write a recording as a dataset that Minari or LeRobot loads
+    Export(Export),
     /// Replay the actions of a recording and say how far it ends from what was recorded
     Replay(Replay),
 }
@@ -128,6 +131,7 @@ pub fn run(a: &Data) -> Result<(), Failure> {
         Command::Inspect(a) => inspect(a),
         Command::Repair(a) => run_repair(a),
         Command::Convert(a) => run_convert(a),
+        Command::Export(a) => export::run(a),
         Command::Replay(a) => replay::run(a),
     }
 }

@@ -13,6 +13,7 @@ mod completions;
 mod data;
 mod drawing;
 mod env_requests;
+mod export;
 mod fields;
 mod film;
 mod gallery;

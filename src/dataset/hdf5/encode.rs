@@ -316,6 +316,19 @@ pub fn text_attribute(name: &str, text: &str, heap: u64, index: u32) -> Vec<u8> 
     let mut datatype = vec![0x19, 0x01, 0x01, 0];
     datatype.extend(16u32.to_le_bytes());
     datatype.extend(integer(1, false));
+    let mut value = (text.len() as u32).to_le_bytes().to_vec();
+    value.extend(heap.to_le_bytes());
+    value.extend(index.to_le_bytes());
+    attribute(name, &datatype, &value)
+}
+
+/// An integer by the name of `name`.
+pub fn integer_attribute(name: &str, value: i64) -> Vec<u8> {
+    attribute(name, &integer(8, true), &value.to_le_bytes())
+}
+
+/// A single value of this type by the name of `name`.
+fn attribute(name: &str, datatype: &[u8], value: &[u8]) -> Vec<u8> {
     let space = dataspace(&[]);
     let mut data = vec![3, 0];
     for length in [name.len() + 1, datatype.len(), space.len()] {
@@ -325,8 +338,6 @@ pub fn text_attribute(name: &str, text: &str, heap: u64, index: u32) -> Vec<u8> 
     data.extend(name.bytes().chain([0]));
     data.extend(datatype);
     data.extend(space);
-    data.extend((text.len() as u32).to_le_bytes());
-    data.extend(heap.to_le_bytes());
-    data.extend(index.to_le_bytes());
+    data.extend(value);
     message(kind::ATTRIBUTE, false, &data)
 }

@@ -7,6 +7,7 @@ use super::encode::{SIGNATURE, WRITER, kind};
 use super::error::{Decoded, Hdf5Error};
 use super::group;
 use super::header::{self, Message};
+use crate::npy::Dtype;
 use std::collections::HashMap;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -137,12 +138,25 @@ impl Hdf5Reader {
     /// # Errors
     /// The file is damaged.
     pub fn attributes(&self) -> Result<Vec<(String, String)>, Hdf5Error> {
-        let texts = || -> Decoded<Vec<(String, String)>> {
-            let messages = header::messages(&self.source, self.root)?;
-            let attributes = messages.iter().filter(|message| message.kind == kind::ATTRIBUTE);
-            attributes.filter_map(|message| text_attribute(&self.source, &message.data).transpose()).collect()
-        };
-        texts().map_err(|message| self.fail("/", message))
+        let text = |value| if let Value::Text(text) = value { Some(text) } else { None };
+        self.values(self.root).map(|all| only(all, text)).map_err(|message| self.fail("/", message))
+    }
+
+    /// Integers that are attributes of the group at a path, in the order of the file.
+    ///
+    /// # Errors
+    /// There is no such group, or the file is damaged.
+    pub fn integers(&self, path: &str) -> Result<Vec<(String, i64)>, Hdf5Error> {
+        let integer = |value| if let Value::Integer(n) = value { Some(n) } else { None };
+        let found = self.resolve(self.root, path, MAX_LINKS).and_then(|address| self.values(address));
+        found.map(|all| only(all, integer)).map_err(|message| self.fail(path, message))
+    }
+
+    /// Attributes of an object that are single texts or integers.
+    fn values(&self, address: u64) -> Decoded<Vec<(String, Value)>> {
+        let messages = header::messages(&self.source, address)?;
+        let attributes = messages.iter().filter(|message| message.kind == kind::ATTRIBUTE);
+        attributes.filter_map(|message| attribute(&self.source, &message.data).transpose()).collect()
     }
 
     /// Members of the group at a path, `""` for the root, in the order of the file.
@@ -303,8 +317,19 @@ fn superblock(source: &Source) -> Decoded<Superblock> {
     Ok(Superblock { base: found.base.max(start), ..found })
 }
 
-/// An attribute that is one text; nothing for others.
-fn text_attribute(source: &Source, body: &[u8]) -> Decoded<Option<(String, String)>> {
+/// Value of an attribute.
+enum Value {
+    Text(String),
+    Integer(i64),
+}
+
+/// Attributes of one kind.
+fn only<T>(all: Vec<(String, Value)>, kind: impl Fn(Value) -> Option<T>) -> Vec<(String, T)> {
+    all.into_iter().filter_map(|(name, value)| Some((name, kind(value)?))).collect()
+}
+
+/// Name and value of an attribute; nothing for an array, or elements of another type.
+fn attribute(source: &Source, body: &[u8]) -> Decoded<Option<(String, Value)>> {
     let mut at = Cursor(body);
     let version = at.byte()?;
     at.byte()?;
@@ -317,8 +342,12 @@ fn text_attribute(source: &Source, body: &[u8]) -> Decoded<Option<(String, Strin
         return Ok(None);
     }
     let value = match super::datatype::decode(datatype)? {
-        Datatype::FixedText(bytes) => text(at.take(bytes as usize)?),
-        Datatype::Text => text(&referred(source, &mut HashMap::new(), at.take(16)?)?),
+        Datatype::FixedText(bytes) => Value::Text(text(at.take(bytes as usize)?)),
+        Datatype::Text => Value::Text(text(&referred(source, &mut HashMap::new(), at.take(16)?)?)),
+        Datatype::Number { dtype: Dtype::I64, big_endian: false } => {
+            let bytes = at.take(8)?.first_chunk::<8>().ok_or("an attribute is cut off")?;
+            Value::Integer(i64::from_le_bytes(*bytes))
+        }
         _ => return Ok(None),
     };
     Ok(Some((text(name), value)))

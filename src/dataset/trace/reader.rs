@@ -164,6 +164,17 @@ impl TraceReader {
         }
     }
 
+    /// Integers that are attributes of a trial's group.
+    ///
+    /// # Errors
+    /// There is no such trial, or the file is damaged.
+    pub fn integers(&self, trial: &str) -> Result<Vec<(String, i64)>, TraceError> {
+        match &self.store {
+            Store::Hdf5 { file, .. } => Ok(file.integers(trial)?),
+            Store::Npz(_) => Ok(Vec::new()),
+        }
+    }
+
     /// The datasets of a trial, sorted by key.
     ///
     /// # Errors

@@ -43,12 +43,20 @@ pub struct Trial<'a> {
     router: Router,
     /// Whole datasets, which have no rows.
     values: Vec<(String, Value)>,
+    attributes: Vec<(String, i64)>,
     scratch: Vec<u8>,
 }
 
 enum Value {
     Array(Array),
-    Text { shape: Vec<usize>, texts: Vec<String> },
+    /// Rows, whose number is not that of the trial.
+    Series(Array),
+    Text {
+        shape: Vec<usize>,
+        texts: Vec<String>,
+    },
+    /// A group without members.
+    Group,
 }
 
 /// True for the name of a numpy archive.
@@ -143,6 +151,7 @@ impl Recorder {
             start,
             router,
             values: Vec::new(),
+            attributes: Vec::new(),
             scratch: Vec::new(),
         })
     }
@@ -225,6 +234,40 @@ impl Trial<'_> {
         self.keep(key, Value::Array(Array { shape: array.shape.clone(), values }))
     }
 
+    /// Sets a dataset of rows, whose number may differ from that of the other names; all its bits are kept.
+    ///
+    /// # Errors
+    /// The name is taken, or the array is a scalar.
+    pub fn set_series(&mut self, key: &str, array: Array) -> Result<(), TraceError> {
+        if array.shape.is_empty() {
+            return Err(self.fail(key, "a scalar has no rows"));
+        }
+        self.keep(key, Value::Series(array))
+    }
+
+    /// Sets a group without members.
+    ///
+    /// # Errors
+    /// The name is taken.
+    pub fn set_group(&mut self, key: &str) -> Result<(), TraceError> {
+        self.keep(key, Value::Group)
+    }
+
+    /// Sets an attribute of the trial's group.
+    ///
+    /// # Errors
+    /// The trial has this attribute, or the file is a numpy archive.
+    pub fn set_attribute(&mut self, name: &str, value: i64) -> Result<(), TraceError> {
+        if matches!(self.recorder.out, Out::Npz(_)) {
+            return Err(self.fail("", "numpy archives hold no attributes"));
+        }
+        if self.attributes.iter().any(|(other, _)| other == name) {
+            return Err(self.fail("", format!("the trial has attribute {name:?} already")));
+        }
+        self.attributes.push((name.to_owned(), value));
+        Ok(())
+    }
+
     /// Sets a dataset of texts, such as `config/task`; an empty shape is one text.
     ///
     /// # Errors
@@ -268,8 +311,16 @@ impl Trial<'_> {
         }
         let columns = std::mem::take(&mut self.router.columns);
         let values = std::mem::take(&mut self.values);
+        let attributes = std::mem::take(&mut self.attributes);
         let written = match &mut self.recorder.out {
-            Out::Hdf5(out) => write_hdf5(&mut out.0, &mut out.1, &self.name, columns, values),
+            Out::Hdf5(out) => {
+                let (file, packer) = &mut **out;
+                write_objects(file, packer, columns, values).and_then(|objects| {
+                    let members: Vec<(&str, u64)> = objects.iter().map(|(key, at)| (&key[..], *at)).collect();
+                    let group = write_group(file, &members, &attributes)?;
+                    file.publish(&self.name, group)
+                })
+            }
             Out::Npz(writer) => write_npz(writer, &self.name, columns, values),
         };
         written.map_err(|e| TraceError::new(&self.recorder.path, &self.name[..], e))?;
@@ -303,55 +354,71 @@ fn write_npz(
         writer.add(&name, &Array { shape, values })?;
     }
     for (key, value) in values {
-        if let Value::Array(array) = value {
+        if let Value::Array(array) | Value::Series(array) = value {
             writer.add(&format!("{trial}/{key}"), &array)?;
         }
     }
     Ok(())
 }
 
-fn write_hdf5(
+/// Writes the datasets of a trial: their keys, and where their headers are.
+fn write_objects(
     file: &mut Appender,
     packer: &mut Packer,
-    trial: &str,
     columns: Vec<Column>,
     values: Vec<(String, Value)>,
-) -> std::io::Result<()> {
+) -> std::io::Result<Vec<(String, u64)>> {
     let mut objects = Vec::new();
     for column in columns {
         objects.push((column.key.clone(), column.finish(file, packer)?));
     }
     for (key, value) in values {
-        objects.push((key, write_value(file, value)?));
+        let address = match value {
+            Value::Group => write_group(file, &[], &[])?,
+            Value::Series(Array { shape, values }) => {
+                let mut column = Column::new(key.clone(), values.dtype(), shape[1..].to_vec());
+                let mut bytes = Vec::new();
+                values.put_bytes(&mut bytes);
+                column.hold(shape[0], &bytes);
+                column.flush(file, packer)?;
+                column.finish(file, packer)?
+            }
+            Value::Array(Array { shape, values }) => {
+                let mut bytes = Vec::new();
+                values.put_bytes(&mut bytes);
+                write_whole(file, Element::Number(values.dtype()), &shape, &bytes)?
+            }
+            Value::Text { shape, texts } => {
+                let width = texts.iter().map(String::len).max().unwrap_or(0).max(1);
+                let mut bytes = Vec::new();
+                for text in &texts {
+                    bytes.extend(text.bytes());
+                    bytes.resize(bytes.len() + width - text.len(), 0);
+                }
+                write_whole(file, Element::Text(width as u32), &shape, &bytes)?
+            }
+        };
+        objects.push((key, address));
     }
-    let members: Vec<(&str, u64)> = objects.iter().map(|(key, address)| (&key[..], *address)).collect();
-    let group = write_group(file, &members)?;
-    file.publish(trial, group)
+    Ok(objects)
 }
 
-fn write_value(file: &mut Appender, value: Value) -> std::io::Result<u64> {
-    let mut bytes = Vec::new();
-    let (element, shape) = match value {
-        Value::Array(Array { shape, values }) => {
-            values.put_bytes(&mut bytes);
-            (Element::Number(values.dtype()), shape)
-        }
-        Value::Text { shape, texts } => {
-            let width = texts.iter().map(String::len).max().unwrap_or(0).max(1);
-            for text in &texts {
-                bytes.extend(text.bytes());
-                bytes.resize(bytes.len() + width - text.len(), 0);
-            }
-            (Element::Text(width as u32), shape)
-        }
-    };
-    let address = file.write(&bytes)?;
-    file.write(&encode::whole_dataset(element, &shape, address))
+/// Writes a dataset whose scalars stand together.
+fn write_whole(file: &mut Appender, element: Element, shape: &[usize], bytes: &[u8]) -> std::io::Result<u64> {
+    let address = file.write(bytes)?;
+    file.write(&encode::whole_dataset(element, shape, address))
 }
 
 /// Writes a group of objects, whose paths may lead through groups inside of it.
-fn write_group(file: &mut Appender, objects: &[(&str, u64)]) -> std::io::Result<u64> {
+fn write_group(
+    file: &mut Appender,
+    objects: &[(&str, u64)],
+    attributes: &[(String, i64)],
+) -> std::io::Result<u64> {
     let mut links = encode::group_info();
+    for (name, value) in attributes {
+        links.extend(encode::integer_attribute(name, *value));
+    }
     let mut inner: BTreeMap<&str, Vec<(&str, u64)>> = BTreeMap::new();
     for &(path, address) in objects {
         match path.split_once('/') {
@@ -360,7 +427,7 @@ fn write_group(file: &mut Appender, objects: &[(&str, u64)]) -> std::io::Result<
         }
     }
     for (name, objects) in inner {
-        let address = write_group(file, &objects)?;
+        let address = write_group(file, &objects, &[])?;
         links.extend(encode::link(name, address));
     }
     file.write(&encode::object_header(&links))

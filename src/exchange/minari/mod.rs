@@ -1,0 +1,14 @@
+//! Minari's datasets: a folder `ID/data` with `main_data.hdf5`, a group an episode, and `metadata.json`.
+//!
+//! An episode of `n` steps has `observations` of `n + 1` rows, `actions`, `rewards`, `terminations` and `truncations` of
+//! `n`, and `infos/…` of `n + 1`; observations and actions may be groups. Images are stored without loss.
+
+mod export;
+mod id;
+mod metadata;
+mod writer;
+
+pub use export::{Target, export};
+pub use id::DatasetId;
+pub use metadata::{About, box_space, env_spec};
+pub use writer::{Columns, MinariWriter};
