@@ -36,6 +36,11 @@ pub enum RenderError {
         /// What is wrong with it.
         message: String,
     },
+    /// What draws has failed, such as a GPU.
+    Device {
+        /// What it says.
+        message: String,
+    },
 }
 
 /// Most columns or rows of a picture.
@@ -66,6 +71,7 @@ impl fmt::Display for RenderError {
                 write!(f, "{what} has a pose or size that is not finite, so there is nothing to draw")
             }
             RenderError::Model { message } => write!(f, "the model cannot be drawn: {message}"),
+            RenderError::Device { message } => f.write_str(message),
         }
     }
 }

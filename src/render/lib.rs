@@ -41,6 +41,7 @@
 
 pub mod error;
 pub mod geometry;
+pub mod painter;
 pub mod picture;
 pub mod profile;
 pub mod raster;
@@ -50,6 +51,7 @@ pub mod view;
 
 pub use error::RenderError;
 pub use geometry::Assets;
+pub use painter::{Painter, Painters};
 pub use picture::Picture;
 pub use profile::Profile;
 pub use raster::{Renderer, Settings};

@@ -3,11 +3,10 @@
 use crate::adapter::Choice;
 use crate::error::GpuError;
 use crate::renderer::GpuRenderer;
-use render::picture::Channels;
-use render::raster::Settings;
-use render::scene::Scene;
-use render::{Assets, Picture, Renderer};
-use std::sync::Once;
+use render::painter::{Painter, Painters};
+use render::raster::{Settings, Shot};
+use render::{RenderError, Renderer};
+use std::sync::{Arc, Mutex, Once, PoisonError};
 
 /// A renderer on a GPU or on the CPU; both draw the same picture but for rounding.
 #[derive(Debug)]
@@ -31,53 +30,84 @@ impl EitherRenderer {
             |renderer| EitherRenderer::Gpu(Box::new(renderer)),
         )
     }
+}
 
-    /// What draws, for people.
-    pub fn name(&self) -> String {
+impl Painter for EitherRenderer {
+    fn paint(&mut self, settings: &Settings, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
+        match self {
+            EitherRenderer::Gpu(renderer) => {
+                renderer.set(settings)?;
+                Ok(renderer.draw_batch(shots)?)
+            }
+            EitherRenderer::Cpu(renderer) => renderer.paint(settings, shots),
+        }
+    }
+
+    fn draws_batches(&self) -> bool {
+        matches!(self, EitherRenderer::Gpu(_))
+    }
+
+    fn name(&self) -> String {
         match self {
             EitherRenderer::Gpu(renderer) => renderer.adapter().to_string(),
-            EitherRenderer::Cpu(_) => "CPU".into(),
+            EitherRenderer::Cpu(renderer) => renderer.name(),
         }
     }
+}
 
-    /// Draws a scene, as [`Renderer::draw`] does.
-    ///
-    /// # Errors
-    /// As [`Renderer::draw`], or the GPU failed.
-    pub fn draw(
-        &mut self,
-        assets: &Assets,
-        scene: &Scene,
-        channels: Channels,
-        picture: &mut Picture,
-    ) -> Result<(), GpuError> {
-        match self {
-            EitherRenderer::Gpu(renderer) => renderer.draw(assets, scene, channels, picture),
-            EitherRenderer::Cpu(renderer) => Ok(renderer.draw(assets, scene, channels, picture)?),
-        }
+/// Painters on a GPU, or on the CPU where it cannot be had. One that is dropped is lent again, since it takes long to open a
+/// GPU.
+#[derive(Debug, Default)]
+pub struct EitherPainters {
+    choice: Choice,
+    idle: Arc<Mutex<Vec<EitherRenderer>>>,
+}
+
+impl EitherPainters {
+    /// Painters on the GPU that is chosen.
+    pub fn new(choice: Choice) -> Self {
+        EitherPainters { choice, idle: Arc::default() }
+    }
+}
+
+impl Painters for EitherPainters {
+    fn painter(&self, settings: &Settings) -> Box<dyn Painter> {
+        let idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner).pop();
+        let renderer = idle.unwrap_or_else(|| EitherRenderer::new(*settings, &self.choice));
+        Box::new(Lent { renderer: Some(renderer), idle: self.idle.clone() })
+    }
+}
+
+/// A renderer that returns to where it came from.
+#[derive(Debug)]
+struct Lent {
+    renderer: Option<EitherRenderer>,
+    idle: Arc<Mutex<Vec<EitherRenderer>>>,
+}
+
+impl Lent {
+    fn renderer(&self) -> &EitherRenderer {
+        self.renderer.as_ref().expect("only dropping it takes the renderer away")
+    }
+}
+
+impl Drop for Lent {
+    fn drop(&mut self) {
+        self.idle.lock().unwrap_or_else(PoisonError::into_inner).extend(self.renderer.take());
+    }
+}
+
+impl Painter for Lent {
+    fn paint(&mut self, settings: &Settings, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
+        self.renderer.as_mut().expect("only dropping it takes the renderer away").paint(settings, shots)
     }
 
-    /// Draws scenes, as [`GpuRenderer::draw_batch`] does; on the CPU one after the other.
-    ///
-    /// # Errors
-    /// As [`GpuRenderer::draw_batch`].
-    pub fn draw_batch(
-        &mut self,
-        assets: &Assets,
-        scenes: &[&Scene],
-        channels: Channels,
-        pictures: &mut [Picture],
-    ) -> Result<(), GpuError> {
-        match self {
-            EitherRenderer::Gpu(renderer) => renderer.draw_batch(assets, scenes, channels, pictures),
-            EitherRenderer::Cpu(_) if scenes.len() != pictures.len() => {
-                Err(GpuError::Batch { scenes: scenes.len(), pictures: pictures.len() })
-            }
-            EitherRenderer::Cpu(renderer) => scenes
-                .iter()
-                .zip(pictures)
-                .try_for_each(|(scene, picture)| Ok(renderer.draw(assets, scene, channels, picture)?)),
-        }
+    fn draws_batches(&self) -> bool {
+        self.renderer().draws_batches()
+    }
+
+    fn name(&self) -> String {
+        self.renderer().name()
     }
 }
 

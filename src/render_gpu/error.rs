@@ -39,13 +39,6 @@ pub enum GpuError {
         /// What it says.
         message: String,
     },
-    /// Scenes and pictures of a batch are not equally many.
-    Batch {
-        /// Number of scenes.
-        scenes: usize,
-        /// Number of pictures.
-        pictures: usize,
-    },
     /// The scene or the picture is at fault; the CPU renderer says the same.
     Render(RenderError),
 }
@@ -71,9 +64,6 @@ impl fmt::Display for GpuError {
                 write!(f, "the memory of the GPU does not suffice; draw fewer or smaller pictures at once")
             }
             GpuError::Refused { message } => write!(f, "the driver of the GPU refused a command: {message}"),
-            GpuError::Batch { scenes, pictures } => {
-                write!(f, "a batch needs as many pictures as scenes, but has {pictures} for {scenes}")
-            }
             GpuError::Render(error) => error.fmt(f),
         }
     }
@@ -91,5 +81,14 @@ impl std::error::Error for GpuError {
 impl From<RenderError> for GpuError {
     fn from(error: RenderError) -> Self {
         GpuError::Render(error)
+    }
+}
+
+impl From<GpuError> for RenderError {
+    fn from(error: GpuError) -> Self {
+        match error {
+            GpuError::Render(error) => error,
+            error => RenderError::Device { message: error.to_string() },
+        }
     }
 }

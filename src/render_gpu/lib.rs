@@ -24,11 +24,12 @@ mod list;
 mod meshes;
 mod passes;
 mod pipelines;
+mod places;
 mod renderer;
 mod stage;
 mod textures;
 
 pub use adapter::{Adapter, Choice, adapters};
-pub use either::EitherRenderer;
+pub use either::{EitherPainters, EitherRenderer};
 pub use error::GpuError;
 pub use renderer::GpuRenderer;

@@ -2,6 +2,7 @@
 
 use crate::passes::{Lens, clip_columns};
 use crate::pipelines::Paint;
+use crate::places::Places;
 use render::Assets;
 use render::raster::{Draw, Draws, Facing, Line, distance_of_nearest_point};
 use render::scene::{Category, Scene};
@@ -13,13 +14,13 @@ pub const INSTANCE: usize = 52;
 /// Instances of one surface in a row, drawn by one call.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Call {
-    /// Index into the surfaces of the assets.
+    /// Number of the surface in the memory of the GPU.
     pub surface: usize,
     /// First instance.
     pub first: u32,
     /// Number of instances.
     pub count: u32,
-    /// Index into the textures of the assets.
+    /// Number of the texture there.
     pub texture: Option<usize>,
     /// How they are textured.
     pub paint: Paint,
@@ -50,6 +51,19 @@ pub struct Calls {
     pub listed_lines: Range<u32>,
 }
 
+/// What is listed of one picture.
+#[derive(Clone, Copy)]
+pub struct Listing<'a> {
+    /// Surfaces of its model.
+    pub assets: &'a Assets,
+    /// Where they lie in the memory of the GPU.
+    pub places: &'a Places,
+    /// What it shows.
+    pub scene: &'a Scene,
+    /// The same, surface by surface.
+    pub draws: &'a Draws,
+}
+
 /// Instances and calls of a batch. It keeps its memory.
 #[derive(Clone, Debug, Default)]
 pub struct List {
@@ -75,12 +89,11 @@ impl List {
     /// Adds a picture's draws; `seen` tells which of them may be in the window.
     pub fn add(
         &mut self,
-        assets: &Assets,
-        scene: &Scene,
-        draws: &Draws,
+        listing: &Listing<'_>,
         (line_width, lens): (f32, &Lens<'_>),
         seen: impl Fn(&Draw) -> bool,
     ) -> Calls {
+        let Listing { assets, places, scene, draws } = *listing;
         let first = self.instances.len() as u32;
         self.arrange(draws);
         let List { instances, order, .. } = self;
@@ -92,7 +105,7 @@ impl List {
             for place in 0..list.order.len() {
                 let draw = &draws.list[list.order[place]];
                 if wanted(draw) && !assets.surfaces[draw.surface].faces.is_empty() {
-                    list.push(begin, draw, first + place as u32);
+                    list.push(begin, places, draw, first + place as u32);
                 }
             }
             begin..list.calls.len()
@@ -106,8 +119,8 @@ impl List {
             ..Calls::default()
         };
         self.sort_transparent(scene, draws);
-        let front_to_back = self.add_transparent(draws, first, false);
-        let back_to_front = self.add_transparent(draws, first, true);
+        let front_to_back = self.add_transparent(listing, first, false);
+        let back_to_front = self.add_transparent(listing, first, true);
         let first_line = self.instances.len() as u32;
         self.add_lines(scene, draws, line_width, false);
         let first_unlisted = self.instances.len() as u32;
@@ -154,14 +167,15 @@ impl List {
     }
 
     /// Adds the transparent items in their order or the reverse.
-    fn add_transparent(&mut self, draws: &Draws, first: u32, reverse: bool) -> Range<usize> {
+    fn add_transparent(&mut self, listing: &Listing<'_>, first: u32, reverse: bool) -> Range<usize> {
+        let Listing { places, draws, .. } = *listing;
         let begin = self.calls.len();
         let count = self.transparent.len();
         for k in 0..count {
             let (_, item) = self.transparent[if reverse { count - 1 - k } else { k }];
             let from = draws.list.partition_point(|draw| draw.item < item);
             for index in (from..draws.list.len()).take_while(|&index| draws.list[index].item == item) {
-                self.push(begin, &draws.list[index], first + self.numbers[index]);
+                self.push(begin, places, &draws.list[index], first + self.numbers[index]);
             }
         }
         begin..self.calls.len()
@@ -174,10 +188,10 @@ impl List {
     }
 
     /// Adds an instance to the last call since `begin`, or a call of its own.
-    fn push(&mut self, begin: usize, draw: &Draw, instance: u32) {
+    fn push(&mut self, begin: usize, places: &Places, draw: &Draw, instance: u32) {
         let (paint, texture) = Paint::of(&draw.paint);
-        let call =
-            Call { surface: draw.surface, first: instance, count: 1, texture, paint, facing: draw.facing };
+        let (surface, texture) = (places.surfaces[draw.surface], texture.map(|index| places.textures[index]));
+        let call = Call { surface, first: instance, count: 1, texture, paint, facing: draw.facing };
         if let Some(last) = self.calls[begin..].last_mut() {
             let joined = Call { first: last.first, count: last.count, ..call };
             if joined == *last && last.first + last.count == instance {

@@ -1,10 +1,10 @@
-//! The surfaces of a model in the memory of the GPU.
+//! The surfaces of a batch in the memory of the GPU.
 
 use crate::device::Gpu;
 use crate::growing::Growing;
 use render::Assets;
 use render::geometry::Surface;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 use wgpu::{BufferUsages, VertexAttribute, VertexBufferLayout, VertexFormat, VertexStepMode};
 
@@ -34,11 +34,19 @@ pub struct Place {
     corners: u32,
 }
 
-/// Corners and triangles of all surfaces of a model.
+/// A surface and where it lies.
+#[derive(Clone, Debug)]
+struct Slot {
+    surface: Arc<Surface>,
+    place: Place,
+}
+
+/// Corners and triangles of the surfaces of a batch.
 #[derive(Clone, Debug)]
 pub struct Meshes {
-    surfaces: Vec<Arc<Surface>>,
-    places: Vec<Place>,
+    slots: Vec<Slot>,
+    /// Numbers of the slots, by the address of their surface.
+    numbers: HashMap<usize, usize>,
     corners: Growing,
     indices: Growing,
 }
@@ -48,36 +56,44 @@ impl Meshes {
     pub fn new(gpu: &Gpu) -> Self {
         let device = &gpu.device;
         Meshes {
-            surfaces: Vec::new(),
-            places: Vec::new(),
+            slots: Vec::new(),
+            numbers: HashMap::new(),
             corners: Growing::new(device, "corners", BufferUsages::VERTEX | BufferUsages::COPY_DST),
             indices: Growing::new(device, "triangles", BufferUsages::INDEX | BufferUsages::COPY_DST),
         }
     }
 
-    /// Uploads what is not there yet: all surfaces of another model, and of the same one those that changed.
-    pub fn update(&mut self, gpu: &Gpu, assets: &Assets) {
-        if self.surfaces.len() != assets.surfaces.len() {
-            return self.replace(gpu, assets);
-        }
-        for index in 0..self.surfaces.len() {
-            let surface = &assets.surfaces[index];
-            if Arc::ptr_eq(&self.surfaces[index], surface) {
+    /// Uploads the surfaces that are not there yet. One that takes the place of another of its size, such as one that was
+    /// edited, is uploaded alone; others make all be uploaded.
+    pub fn update(&mut self, gpu: &Gpu, assets: &[&Assets]) {
+        let mut wanted = HashSet::new();
+        let all = assets.iter().flat_map(|assets| &assets.surfaces);
+        let all: Vec<_> = all.filter(|surface| wanted.insert(address(surface))).collect();
+        for surface in &all {
+            if self.numbers.contains_key(&address(surface)) {
                 continue;
             }
             let flat = Flat::of(surface);
-            let place = self.places[index];
-            if (flat.corners.len(), flat.indices.len()) != (place.corners as usize, place.indices as usize) {
-                return self.replace(gpu, assets);
-            }
-            self.write(gpu, place, &flat);
-            self.surfaces[index] = surface.clone();
+            let sizes = (flat.corners.len() as u32, flat.indices.len() as u32);
+            let free = self.slots.iter().position(|slot| {
+                (slot.place.corners, slot.place.indices) == sizes && !wanted.contains(&address(&slot.surface))
+            });
+            let Some(number) = free else { return self.replace(gpu, &all) };
+            self.write(gpu, self.slots[number].place, &flat);
+            self.numbers.remove(&address(&self.slots[number].surface));
+            self.numbers.insert(address(surface), number);
+            self.slots[number].surface = Arc::clone(surface);
         }
     }
 
+    /// The number of a surface that was uploaded.
+    pub fn number(&self, surface: &Arc<Surface>) -> usize {
+        self.numbers[&address(surface)]
+    }
+
     /// Where a surface lies.
-    pub fn place(&self, surface: usize) -> Place {
-        self.places[surface]
+    pub fn place(&self, number: usize) -> Place {
+        self.slots[number].place
     }
 
     /// Has a pass read corners and triangles from here.
@@ -86,22 +102,24 @@ impl Meshes {
         pass.set_index_buffer(self.indices.buffer().slice(..), wgpu::IndexFormat::Uint32);
     }
 
-    fn replace(&mut self, gpu: &Gpu, assets: &Assets) {
-        let flat: Vec<Flat> = assets.surfaces.iter().map(|surface| Flat::of(surface)).collect();
+    fn replace(&mut self, gpu: &Gpu, surfaces: &[&Arc<Surface>]) {
+        let flat: Vec<Flat> = surfaces.iter().map(|surface| Flat::of(surface)).collect();
         let (mut first_corner, mut first_index) = (0, 0);
-        self.places.clear();
-        for flat in &flat {
+        self.slots.clear();
+        self.numbers.clear();
+        for (surface, flat) in surfaces.iter().zip(&flat) {
             let (corners, indices) = (flat.corners.len() as u32, flat.indices.len() as u32);
-            self.places.push(Place { first_index, indices, first_corner: first_corner as i32, corners });
+            let place = Place { first_index, indices, first_corner: first_corner as i32, corners };
+            self.numbers.insert(address(surface), self.slots.len());
+            self.slots.push(Slot { surface: Arc::clone(surface), place });
             first_corner += corners;
             first_index += indices;
         }
         self.corners.reserve(&gpu.device, u64::from(first_corner) * size_of::<Corner>() as u64);
         self.indices.reserve(&gpu.device, u64::from(first_index) * size_of::<u32>() as u64);
-        for (place, flat) in self.places.iter().zip(&flat) {
-            self.write(gpu, *place, flat);
+        for (slot, flat) in self.slots.iter().zip(&flat) {
+            self.write(gpu, slot.place, flat);
         }
-        self.surfaces.clone_from(&assets.surfaces);
     }
 
     fn write(&self, gpu: &Gpu, place: Place, flat: &Flat) {
@@ -110,6 +128,11 @@ impl Meshes {
         gpu.queue.write_buffer(self.corners.buffer(), corner, bytemuck::cast_slice(&flat.corners));
         gpu.queue.write_buffer(self.indices.buffer(), index, bytemuck::cast_slice(&flat.indices));
     }
+}
+
+/// What tells a surface from the others that are kept.
+fn address(surface: &Arc<Surface>) -> usize {
+    Arc::as_ptr(surface).addr()
 }
 
 /// A surface whose corners have one index each.

@@ -4,12 +4,13 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::growing::Growing;
 use crate::lamps::{Lamp, Lamps, Shadow, same_casters};
-use crate::list::{Calls, INSTANCE, List};
+use crate::list::{Calls, INSTANCE, List, Listing};
 use crate::passes::{
     self, EMISSION, LIGHTS, Lens, MIRROR, Pass, STRIDE, clip_rows, moved, relative, write_lights,
 };
+use crate::places::Seen;
 use render::raster::{CasterRule, Draw, Draws, Projection, Settings, mirror_map, mirror_plane, shadow_maps};
-use render::scene::{LightKind, Scene};
+use render::scene::LightKind;
 use render::{Assets, RenderError};
 use wgpu::{
     BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutEntry, BindingResource, BindingType,
@@ -102,30 +103,27 @@ impl Stage {
         self.lights.clear();
     }
 
-    /// Adds a picture of the last of these scenes; those before it are in the batch already.
+    /// Adds the last of these pictures; those before it are in the batch already.
     ///
     /// # Errors
     /// The view's frustum is empty or not finite, or the scene has too many triangles.
     pub fn add(
         &mut self,
-        assets: &Assets,
-        scenes: &[&Scene],
+        seen: &[Seen<'_>],
         size: [usize; 2],
         settings: &Settings,
         maps: &Lamps,
     ) -> Result<(), RenderError> {
-        let Some((&scene, before)) = scenes.split_last() else { return Ok(()) };
+        let Some((Seen { assets, scene, places }, before)) = seen.split_last() else { return Ok(()) };
         let [width, height] = size;
         let projection = Projection::of(&scene.view, width, height)?;
         self.draws.update(assets, scene)?;
         let window = [width as f64, height as f64];
-        let seen = |draw: &Draw| !is_beside(&projection, assets, draw, window);
+        let in_window = |draw: &Draw| !is_beside(&projection, assets, draw, window);
         let calls = self.list.add(
-            assets,
-            scene,
-            &self.draws,
+            &Listing { places, scene, draws: &self.draws, assets },
             (settings.line_width, &Lens { projection: &projection, window }),
-            seen,
+            in_window,
         );
         let first_light = self.lights.len() as u32;
         write_lights(scene, &mut self.lights);
@@ -152,12 +150,15 @@ impl Stage {
         let near = before.len().saturating_sub(CAMERAS)..before.len();
         let twin = match shadowed {
             0 => None,
-            _ => near.rev().find(|&tile| same_casters(before[tile], scene)),
+            _ => near
+                .rev()
+                .find(|&tile| same_casters(before[tile].scene, scene) && before[tile].places == *places),
         };
         for bit in (0..LIGHTS as u32).filter(|bit| shadowed >> bit & 1 != 0) {
             self.lamp(CasterRule::of(assets.profile()), &common, (tile, twin), bit, settings);
         }
         let sky = scene.sky.filter(|&sky| assets.textures.get(sky).is_some_and(|texture| texture.is_cube()));
+        let sky = sky.map(|sky| places.textures[sky]);
         let haze = sky.is_some() && scene.haze.is_some();
         self.tiles.push(Tile { size, calls, base, all, mirror, sky, haze, slices: settings.slices as u32 });
         Ok(())

@@ -1,8 +1,9 @@
-//! The textures of a model in the memory of the GPU, with the mip chains that the CPU renderer filters.
+//! The textures of a batch in the memory of the GPU, with the mip chains that the CPU renderer filters.
 
 use crate::device::Gpu;
 use render::Assets;
 use render::texture::{LevelImage, Texture};
+use std::collections::HashSet;
 use std::sync::Arc;
 use wgpu::{
     AddressMode, BindGroup, BindGroupEntry, BindGroupLayout, BindGroupLayoutEntry, BindingResource,
@@ -19,8 +20,14 @@ pub struct Textures {
     /// White, where there is no flat or no cube texture.
     white: [TextureView; 2],
     plain: BindGroup,
-    textures: Vec<Arc<Texture>>,
-    groups: Vec<BindGroup>,
+    ready: Vec<Ready>,
+}
+
+/// A texture, ready to be bound.
+#[derive(Clone, Debug)]
+struct Ready {
+    texture: Arc<Texture>,
+    group: BindGroup,
 }
 
 impl Textures {
@@ -46,7 +53,7 @@ impl Textures {
             upload(gpu, &[0, 1, 2, 3, 4, 5].map(pixel), TextureFormat::Rgba8Unorm, true),
         ];
         let plain = group(gpu, &layout, &samplers, [&white[0], &white[1]]);
-        Textures { layout, samplers, white, plain, textures: Vec::new(), groups: Vec::new() }
+        Textures { layout, samplers, white, plain, ready: Vec::new() }
     }
 
     /// How pipelines read textures.
@@ -54,27 +61,27 @@ impl Textures {
         &self.layout
     }
 
-    /// Uploads the textures that are not there yet.
-    pub fn update(&mut self, gpu: &Gpu, assets: &Assets) {
-        self.textures.truncate(assets.textures.len());
-        self.groups.truncate(assets.textures.len());
-        for (index, texture) in assets.textures.iter().enumerate() {
-            if self.textures.get(index).is_some_and(|known| Arc::ptr_eq(known, texture)) {
-                continue;
-            }
+    /// Uploads the textures that are not there yet, and drops those that no assets have.
+    pub fn update(&mut self, gpu: &Gpu, assets: &[&Assets]) {
+        let all = || assets.iter().flat_map(|assets| &assets.textures);
+        let wanted: HashSet<_> = all().map(Arc::as_ptr).collect();
+        self.ready.retain(|ready| wanted.contains(&Arc::as_ptr(&ready.texture)));
+        let mut known: HashSet<_> = self.ready.iter().map(|ready| Arc::as_ptr(&ready.texture)).collect();
+        for texture in all().filter(|texture| known.insert(Arc::as_ptr(texture))) {
             let group = self.prepare(gpu, texture);
-            if index < self.textures.len() {
-                (self.textures[index], self.groups[index]) = (texture.clone(), group);
-            } else {
-                self.textures.push(texture.clone());
-                self.groups.push(group);
-            }
+            self.ready.push(Ready { texture: texture.clone(), group });
         }
+    }
+
+    /// The number of a texture that was uploaded.
+    pub fn number(&self, texture: &Arc<Texture>) -> usize {
+        let found = self.ready.iter().position(|ready| Arc::ptr_eq(&ready.texture, texture));
+        found.expect("every texture of a batch is uploaded before it is drawn")
     }
 
     /// A texture ready to be bound, or white for none.
     pub fn group(&self, texture: Option<usize>) -> &BindGroup {
-        texture.and_then(|index| self.groups.get(index)).unwrap_or(&self.plain)
+        texture.and_then(|number| self.ready.get(number)).map_or(&self.plain, |ready| &ready.group)
     }
 
     fn prepare(&self, gpu: &Gpu, texture: &Texture) -> BindGroup {

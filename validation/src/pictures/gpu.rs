@@ -6,6 +6,7 @@ use super::plan::{Plan, SceneRow};
 use super::recording::Recording;
 use super::{Inputs, Views};
 use render::picture::Channels;
+use render::raster::Shot;
 use render::scene::Scene;
 use render::{Assets, Picture};
 use render_gpu::{Choice, GpuRenderer};
@@ -126,12 +127,13 @@ fn draw(assets: &Assets, scene: &Scene, side: usize, gpu: &mut GpuRenderer) -> R
 
 /// The second of two batches: memory and pipelines are there.
 fn pictures_per_second(assets: &Assets, scene: &Scene, gpu: &mut GpuRenderer) -> Result<f64, String> {
-    let scenes = [scene; BATCH];
     let mut pictures = vec![Picture::new(BATCH_SIDE, BATCH_SIDE); BATCH];
     let mut seconds = 0.0;
     for _ in 0..2 {
         let began = Instant::now();
-        gpu.draw_batch(assets, &scenes, Channels::RGB, &mut pictures).map_err(|error| error.to_string())?;
+        let shots =
+            pictures.iter_mut().map(|picture| Shot { assets, scene, channels: Channels::RGB, picture });
+        gpu.draw_batch(&mut shots.collect::<Vec<_>>()).map_err(|error| error.to_string())?;
         seconds = began.elapsed().as_secs_f64();
     }
     Ok(BATCH as f64 / seconds)

@@ -1,8 +1,9 @@
 //! Many pictures at once.
 
-use super::{Measures, Shot, renderer};
+use super::{Measures, Shot, batch, renderer};
 use render::picture::Channels;
-use render::scene::{Scene, SceneOptions};
+use render::raster::{Samples, Settings};
+use render::scene::SceneOptions;
 use render::{Assets, Picture, Profile};
 
 const WORLD: &str = "<mujoco><asset><texture name='t' type='2d' builtin='checker' width='16' height='16' rgb1='1 1 1'/>
@@ -25,17 +26,17 @@ fn a_batch_holds_single_pictures_of_any_size() {
     let shots = shots();
     let Some(mut gpu) = renderer(shots[0].settings) else { return };
     let sizes = [[64, 48], [33, 61], [97, 19], [100, 30], [64, 64]];
-    let scenes: Vec<&Scene> = (0..40).map(|k| &shots[k % 3].scene).collect();
+    let shown: Vec<&Shot> = (0..40).map(|k| &shots[k % 3]).collect();
     let empty: Vec<Picture> = (0..40).map(|k| Picture::new(sizes[k % 5][0], sizes[k % 5][1])).collect();
     let mut pictures = empty.clone();
-    gpu.draw_batch(&shots[0].assets, &scenes, Channels::ALL, &mut pictures).expect("a batch");
+    batch(&mut gpu, &shown, Channels::ALL, &mut pictures);
     for (k, picture) in pictures.iter().enumerate() {
         let single = shots[k % 3].on_gpu(&mut gpu, sizes[k % 5]);
         Measures::of(&single, picture).check_small(&format!("picture {k}"));
     }
     // The memory of the first batch is used for another one.
     let mut again = empty;
-    gpu.draw_batch(&shots[0].assets, &scenes, Channels::ALL, &mut again).expect("a batch");
+    batch(&mut gpu, &shown, Channels::ALL, &mut again);
     assert!(pictures == again);
 }
 
@@ -43,9 +44,9 @@ fn a_batch_holds_single_pictures_of_any_size() {
 fn more_pixels_than_an_atlas_holds_are_drawn_in_turn() {
     let shots = shots();
     let Some(mut gpu) = renderer(shots[0].settings) else { return };
-    let scenes: Vec<&Scene> = shots.iter().map(|shot| &shot.scene).collect();
+    let shown: Vec<&Shot> = shots.iter().collect();
     let mut pictures = vec![Picture::new(1700, 1300); 3];
-    gpu.draw_batch(&shots[0].assets, &scenes, Channels::SEGMENTATION, &mut pictures).expect("a batch");
+    batch(&mut gpu, &shown, Channels::SEGMENTATION, &mut pictures);
     for (shot, picture) in shots.iter().zip(&pictures) {
         assert!(
             picture.segmentation.len() == 1700 * 1300 && picture.rgb.is_empty() && picture.depth.is_empty()
@@ -100,10 +101,56 @@ fn cameras_of_two_states_keep_their_own_shadows() {
         .flat_map(|model| cameras.map(|camera| Shot::of(model, camera, &SceneOptions::default())))
         .collect();
     let Some(mut gpu) = renderer(shots[0].settings) else { return };
-    let scenes: Vec<&Scene> = shots.iter().map(|shot| &shot.scene).collect();
-    let mut pictures = vec![Picture::new(64, 48); scenes.len()];
-    gpu.draw_batch(&shots[0].assets, &scenes, Channels::ALL, &mut pictures).expect("a batch");
+    let shown: Vec<&Shot> = shots.iter().collect();
+    let mut pictures = vec![Picture::new(64, 48); shown.len()];
+    batch(&mut gpu, &shown, Channels::ALL, &mut pictures);
     for (shot, picture) in shots.iter().zip(&pictures) {
         Measures::of(&shot.on_cpu([64, 48]), picture).check_small("a state");
     }
+}
+
+/// Environments of a batch each have their own edits of textures and shapes, and may be of different models.
+#[test]
+fn a_batch_shows_every_model_with_its_own_edits() {
+    let model = mjcf::load_str(WORLD).expect("a model").model;
+    let (mut darker, mut other) = (model.clone(), model.clone());
+    darker.overwrite(|draft| draft.tex_data.iter_mut().for_each(|byte| *byte /= 3)).expect("a sound edit");
+    other.overwrite(|draft| draft.geom_size[0] = [0.4, 0.6, 0.05]).expect("a sound edit");
+    let ball = "<mujoco><worldbody><light pos='0 0 2'/><geom size='.3' pos='0 0 .2'/><camera name='a' pos='0 -1 2'/></worldbody></mujoco>";
+    let ball = mjcf::load_str(ball).expect("a model").model;
+    let base = Shot::of(&model, "a", &SceneOptions::default());
+    let mut shots = vec![Shot::of(&ball, "a", &SceneOptions::default())];
+    for edited in [&model, &darker, &other, &model] {
+        let mut shot = Shot::of(edited, "a", &SceneOptions::default());
+        shot.assets = base.assets.clone();
+        shot.assets.refresh(edited).expect("sound assets");
+        shots.push(shot);
+    }
+    shots.iter_mut().for_each(|shot| shot.settings = base.settings);
+    let Some(mut gpu) = renderer(base.settings) else { return };
+    let shown: Vec<&Shot> = shots.iter().collect();
+    for round in 0..2 {
+        let mut pictures = vec![Picture::new(64, 48); shown.len()];
+        batch(&mut gpu, &shown, Channels::ALL, &mut pictures);
+        for (k, (shot, picture)) in shots.iter().zip(&pictures).enumerate() {
+            Measures::of(&shot.on_cpu([64, 48]), picture).check_small(&format!("round {round}, model {k}"));
+        }
+        assert!(pictures[1].rgb != pictures[2].rgb && pictures[1].rgb != pictures[3].rgb, "edits are seen");
+    }
+}
+
+#[test]
+fn a_renderer_takes_other_settings() {
+    let shot = &shots()[0];
+    let Some(mut gpu) = renderer(shot.settings) else { return };
+    let before = shot.on_gpu(&mut gpu, [64, 48]);
+    let mut coarse = Shot::of(&mjcf::load_str(WORLD).expect("a model").model, "a", &SceneOptions::default());
+    coarse.settings = Settings { samples: Samples::One, ..shot.settings };
+    coarse.settings.shadow.size = 256;
+    gpu.set(&coarse.settings).expect("settings");
+    let after = coarse.on_gpu(&mut gpu, [64, 48]);
+    assert!(before != after);
+    Measures::of(&coarse.on_cpu([64, 48]), &after).check_small("one sample");
+    gpu.set(&shot.settings).expect("settings");
+    assert!(before == shot.on_gpu(&mut gpu, [64, 48]));
 }

@@ -10,7 +10,7 @@ mod synthetic;
 use compare::Measures;
 use physics::{Data, Model, forward};
 use render::picture::Channels;
-use render::raster::{Renderer, Settings};
+use render::raster::{self, Renderer, Settings};
 use render::scene::{Camera, Scene, SceneOptions};
 use render::{Assets, Picture, Profile};
 use robohive_render_gpu::{Choice, GpuError, GpuRenderer};
@@ -69,4 +69,13 @@ impl Shot {
         let ours = self.on_gpu(&mut renderer(self.settings)?, size);
         Some(Measures::of(&self.on_cpu(size), &ours))
     }
+}
+
+/// Draws shots in one batch.
+fn batch(gpu: &mut GpuRenderer, shown: &[&Shot], channels: Channels, pictures: &mut [Picture]) {
+    let pairs = shown.iter().zip(pictures);
+    let mut shots: Vec<_> = pairs
+        .map(|(Shot { assets, scene, .. }, picture)| raster::Shot { assets, scene, channels, picture })
+        .collect();
+    gpu.draw_batch(&mut shots).expect("a batch");
 }
