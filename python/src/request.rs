@@ -64,7 +64,8 @@ impl Request {
         if !making.time_limit {
             changes.insert("max_episode_steps".into(), i64::MAX.into());
         }
-        Ok(Request { spec, horizon, options: Options { seed, compat, changes, rendering, networks } })
+        let options = Options { seed, compat, changes, rendering, networks, ..Options::default() };
+        Ok(Request { spec, horizon, options })
     }
 
     /// Makes the environment, from the models of this machine; the interpreter's lock is released meanwhile.

@@ -17,6 +17,7 @@ use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Timing, Turn, Verdi
 use crate::visual::{VisualKey, parse_keys};
 use mjcf::diagnostic::Diagnostics;
 use physics::{Data, StepError};
+use render::painter::{Cpu, Painters};
 use render::scene::SceneOptions;
 use render::{Picture, Profile};
 use robot::{Compat, Robot};
@@ -37,6 +38,8 @@ pub struct Options {
     pub rendering: Rendering,
     /// Networks for visual keys.
     pub networks: Arc<dyn Networks>,
+    /// What draws.
+    pub painters: Arc<dyn Painters>,
 }
 
 impl Default for Options {
@@ -47,6 +50,7 @@ impl Default for Options {
             changes: Table::new(),
             rendering: Rendering::default(),
             networks: Arc::new(NoNetworks),
+            painters: Arc::new(Cpu),
         }
     }
 }
@@ -160,7 +164,7 @@ impl Env {
             frame_skip: settings.frame_skip.unwrap_or(defaults.frame_skip),
             weights: weights.unwrap_or_else(|| defaults.weights.clone()),
             eyes: Eyes::new(&visual_keys, &scene.model, options.networks.clone())?,
-            sight: sight(&defaults, options.compat),
+            sight: sight(&defaults, options),
             look,
             rendering: options.rendering.clone(),
             rendered: Picture::default(),
@@ -464,15 +468,15 @@ impl Env {
 
 /// What the pictures of an environment follow: MuJoCo 3.1.3, RoboHive's own, where its quirks are reproduced. Tasks of muscles
 /// show them by activation.
-fn sight(defaults: &Defaults, compat: Compat) -> Sight {
-    let profile = match compat {
+fn sight(defaults: &Defaults, options: &Options) -> Sight {
+    let profile = match options.compat {
         Compat::RoboHive07 => Profile::Mujoco313,
         Compat::Fixed => Profile::Mujoco312,
     };
-    let mut options = SceneOptions::default();
-    options.show.actuators = defaults.show_actuators;
-    options.show.activations = defaults.show_actuators;
-    Sight::new(profile, options)
+    let mut shown = SceneOptions::default();
+    shown.show.actuators = defaults.show_actuators;
+    shown.show.activations = defaults.show_actuators;
+    Sight::new(profile, shown, options.painters.clone())
 }
 
 pub(crate) fn action_bounds(scene: &Scene, normalized: bool, k: usize) -> [f64; 2] {

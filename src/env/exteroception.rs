@@ -3,12 +3,12 @@
 use crate::environment::Env;
 use crate::error::EnvError;
 use crate::network::{Network, Networks};
-use crate::sight::{Shot, Sight};
+use crate::sight::Shot;
 use crate::visual::{Channel, Encoder, VisualKey};
 use physics::Model;
-use render::Picture;
 use render::picture::Channels;
 use render::scene::Camera;
+use render::{Picture, Scene, raster};
 use robot::Compat;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -94,6 +94,8 @@ impl Exteroception {
 /// The visual keys of an environment, and what draws them.
 pub(crate) struct Eyes {
     takes: Vec<Take>,
+    /// What the takes show, where they are drawn together with those of other environments.
+    scenes: Vec<Scene>,
     seen: Exteroception,
     current: bool,
     network: Arc<Loaded>,
@@ -144,13 +146,20 @@ impl Eyes {
         }
         let images = keys.iter().map(Image::empty).collect();
         let network = Arc::new(Loaded { networks, network: Mutex::default() });
-        Ok(Eyes { takes, seen: Exteroception { time: 0.0, images }, current: false, network })
+        let seen = Exteroception { time: 0.0, images };
+        Ok(Eyes { takes, scenes: Vec::new(), seen, current: false, network })
     }
 
     /// Others for the same keys, which share the network.
     pub(crate) fn fork(&self) -> Self {
-        let Eyes { takes, seen, current, network } = self;
-        Eyes { takes: takes.clone(), seen: seen.clone(), current: *current, network: network.clone() }
+        let Eyes { takes, seen, current, network, .. } = self;
+        Eyes {
+            takes: takes.clone(),
+            scenes: Vec::new(),
+            seen: seen.clone(),
+            current: *current,
+            network: network.clone(),
+        }
     }
 
     /// Forgets that the images are those of the present state.
@@ -182,19 +191,69 @@ impl Env {
     /// # Errors
     /// The model or a camera cannot be drawn; a network is missing, with the file that has its weights.
     pub fn exteroception(&mut self) -> Result<&Exteroception, EnvError> {
-        let (first, compat) = (self.visual_keys.iter().find(|key| key.is_encoded()), self.compat);
         if self.eyes.current {
             return Ok(&self.eyes.seen);
         }
-        let network = first.map(|key| self.eyes.network.get(key, compat)).transpose()?;
+        let network = self.network()?;
         let data = if self.differs { &self.observed } else { &self.scene.data };
-        let Eyes { takes, seen, .. } = &mut self.eyes;
-        draw(&mut self.sight, (&self.scene.model, data), takes)?;
+        let shots = self.eyes.takes.iter_mut().map(|take| Shot {
+            camera: take.camera,
+            channels: take.channels,
+            picture: &mut take.picture,
+        });
+        self.sight.draw(&self.scene.model, data, shots)?;
+        self.take_images(network.as_deref())
+    }
+
+    /// The network of the visual keys, where one of them needs it.
+    fn network(&self) -> Result<Option<Arc<dyn Network>>, EnvError> {
+        let encoded = self.visual_keys.iter().find(|key| key.is_encoded());
+        encoded.map(|key| self.eyes.network.get(key, self.compat)).transpose()
+    }
+
+    /// Lists what the images show, where they are not those of the present state: [`Env::shots`] draw them.
+    pub(crate) fn list_images(&mut self) -> Result<(), EnvError> {
+        if self.eyes.current {
+            return Ok(());
+        }
+        self.network()?;
+        let data = if self.differs { &self.observed } else { &self.scene.data };
+        let Eyes { takes, scenes, .. } = &mut self.eyes;
+        self.sight.list(&self.scene.model, data, takes.iter().map(|take| take.camera), scenes)
+    }
+
+    /// What was listed, to be drawn; [`Env::finish_images`] follows.
+    pub(crate) fn shots(&mut self) -> impl Iterator<Item = raster::Shot<'_>> {
+        let Eyes { takes, scenes, current, .. } = &mut self.eyes;
+        let assets = self.sight.assets().filter(|_| !*current);
+        let listed = takes.iter_mut().zip(&*scenes);
+        assets.into_iter().zip(std::iter::once(listed)).flat_map(|(assets, listed)| {
+            listed.map(move |(take, scene)| raster::Shot {
+                assets,
+                scene,
+                channels: take.channels,
+                picture: &mut take.picture,
+            })
+        })
+    }
+
+    /// Makes images of the drawings, where they are not those of the present state.
+    pub(crate) fn finish_images(&mut self) -> Result<(), EnvError> {
+        if !self.eyes.current {
+            let network = self.network()?;
+            self.take_images(network.as_deref())?;
+        }
+        Ok(())
+    }
+
+    /// Makes images of the drawings.
+    fn take_images(&mut self, network: Option<&dyn Network>) -> Result<&Exteroception, EnvError> {
+        let Eyes { takes, seen, current, .. } = &mut self.eyes;
         seen.time = self.scene.data.time();
         for take in takes {
             if let Some(index) = take.rgb {
                 let Image { name, pixels, .. } = &mut seen.images[index];
-                encode(take, network.as_deref(), pixels)
+                encode(take, network, pixels)
                     .map_err(|message| EnvError::Network { key: name.clone(), message })?;
             }
             if let Some(index) = take.depth
@@ -203,27 +262,14 @@ impl Env {
                 std::mem::swap(depth, &mut take.picture.depth);
             }
         }
-        self.eyes.current = true;
-        Ok(&self.eyes.seen)
+        *current = true;
+        Ok(seen)
     }
 
     /// The images, where they were drawn of the present state; RoboHive's `visual_dict`, which is empty otherwise.
     pub fn visuals(&self) -> Option<&Exteroception> {
         self.eyes.current.then_some(&self.eyes.seen)
     }
-}
-
-fn draw(
-    sight: &mut Sight,
-    (model, data): (&Model, &physics::Data),
-    takes: &mut [Take],
-) -> Result<(), EnvError> {
-    let shots = takes.iter_mut().map(|take| Shot {
-        camera: take.camera,
-        channels: take.channels,
-        picture: &mut take.picture,
-    });
-    sight.draw(model, data, shots)
 }
 
 /// Turns the colours of a drawing into the values of an image. Bytes change places with those of the image before, whose

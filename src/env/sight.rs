@@ -1,10 +1,11 @@
-//! What an environment draws with: triangles and textures of its model, and the memory of a picture.
+//! What an environment draws with: triangles and textures of its model, and the memory of pictures.
 
 use crate::error::EnvError;
 use physics::{Data, Model};
+use render::painter::{Painter, Painters};
 use render::picture::Channels;
 use render::scene::{Camera, SceneOptions};
-use render::{Assets, Picture, Profile, RenderError, Renderer, Scene, Settings};
+use render::{Assets, Picture, Profile, RenderError, Scene, Settings, raster};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The pictures of one environment. Clones share what was prepared from the model, and the memory of pictures: there is as
@@ -13,6 +14,7 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub(crate) struct Sight {
     profile: Profile,
     options: SceneOptions,
+    painters: Arc<dyn Painters>,
     /// Prepared by the first that draws.
     prepared: Arc<Mutex<Option<Assets>>>,
     /// `prepared` with the edits of this environment's model.
@@ -20,10 +22,11 @@ pub(crate) struct Sight {
     studios: Arc<Mutex<Vec<Studio>>>,
 }
 
-/// The memory of a picture that is being drawn.
+/// The memory of pictures that are being drawn.
 struct Studio {
-    scene: Scene,
-    renderer: Renderer,
+    /// As many as were drawn at once.
+    scenes: Vec<Scene>,
+    painter: Box<dyn Painter>,
 }
 
 /// A camera and the picture that it fills.
@@ -35,8 +38,8 @@ pub(crate) struct Shot<'a> {
 
 impl Sight {
     /// Nothing is prepared before the first picture.
-    pub(crate) fn new(profile: Profile, options: SceneOptions) -> Self {
-        Sight { profile, options, prepared: Arc::default(), assets: None, studios: Arc::default() }
+    pub(crate) fn new(profile: Profile, options: SceneOptions, painters: Arc<dyn Painters>) -> Self {
+        Sight { profile, options, painters, prepared: Arc::default(), assets: None, studios: Arc::default() }
     }
 
     /// Whose pictures are followed.
@@ -55,16 +58,94 @@ impl Sight {
         shots: impl IntoIterator<Item = Shot<'a>>,
     ) -> Result<(), EnvError> {
         let assets = current(&mut self.assets, &self.prepared, model, self.profile)?;
-        let idle = lock(&self.studios).pop();
-        let mut studio = idle
-            .unwrap_or_else(|| Studio { scene: Scene::new(), renderer: Renderer::new(Settings::of(model)) });
-        *studio.renderer.settings_mut() = Settings::of(model);
-        let outcome = shots.into_iter().try_for_each(|shot| {
-            studio.scene.update(model, data, shot.camera.view(model, data)?, &self.options)?;
-            studio.renderer.draw(assets, &studio.scene, shot.channels, shot.picture)
-        });
-        lock(&self.studios).push(studio);
+        let settings = Settings::of(model);
+        let mut studio = idle(&self.studios, &*self.painters, &settings);
+        let Studio { scenes, painter } = &mut studio;
+        let list = |scene: &mut Scene, camera: &Camera| {
+            scene.update(model, data, camera.view(model, data)?, &self.options)
+        };
+        let draw =
+            || -> Result<(), RenderError> {
+                if !painter.draws_batches() {
+                    scenes.resize_with(1, Scene::new);
+                    return shots.into_iter().try_for_each(|Shot { camera, channels, picture }| {
+                        list(&mut scenes[0], &camera)?;
+                        let scene = &scenes[0];
+                        painter.paint(&settings, &mut [raster::Shot { assets, scene, channels, picture }])
+                    });
+                }
+                let shots: Vec<_> = shots.into_iter().collect();
+                scenes.resize_with(shots.len(), Scene::new);
+                scenes.iter_mut().zip(&shots).try_for_each(|(scene, shot)| list(scene, &shot.camera))?;
+                let all = scenes.iter().zip(shots).map(|(scene, Shot { channels, picture, .. })| {
+                    raster::Shot { assets, scene, channels, picture }
+                });
+                painter.paint(&settings, &mut all.collect::<Vec<_>>())
+            };
+        let outcome = draw();
+        keep(&self.studios, studio, &outcome);
         Ok(outcome?)
+    }
+
+    /// Whether pictures of many environments are drawn in less time together.
+    pub(crate) fn draws_batches(&self, model: &Model) -> bool {
+        let studio = idle(&self.studios, &*self.painters, &Settings::of(model));
+        let draws_batches = studio.painter.draws_batches();
+        keep(&self.studios, studio, &Ok(()));
+        draws_batches
+    }
+
+    /// Lists what cameras see of a state, for pictures that are drawn together with those of others.
+    ///
+    /// # Errors
+    /// As [`Sight::draw`].
+    pub(crate) fn list(
+        &mut self,
+        model: &Model,
+        data: &Data,
+        cameras: impl ExactSizeIterator<Item = Camera>,
+        scenes: &mut Vec<Scene>,
+    ) -> Result<(), EnvError> {
+        current(&mut self.assets, &self.prepared, model, self.profile)?;
+        scenes.resize_with(cameras.len(), Scene::new);
+        for (scene, camera) in scenes.iter_mut().zip(cameras) {
+            scene.update(model, data, camera.view(model, data)?, &self.options)?;
+        }
+        Ok(())
+    }
+
+    /// Triangles and textures of what was listed or drawn last.
+    pub(crate) fn assets(&self) -> Option<&Assets> {
+        self.assets.as_ref()
+    }
+
+    /// Draws pictures of several environments, as finely as the settings beside them say.
+    ///
+    /// # Errors
+    /// As [`Sight::draw`].
+    pub(crate) fn draw_listed(
+        &self,
+        model: &Model,
+        batches: &mut [(Settings, Vec<raster::Shot<'_>>)],
+    ) -> Result<(), EnvError> {
+        let mut studio = idle(&self.studios, &*self.painters, &Settings::of(model));
+        let outcome =
+            batches.iter_mut().try_for_each(|(settings, shots)| studio.painter.paint(settings, shots));
+        keep(&self.studios, studio, &outcome);
+        Ok(outcome?)
+    }
+}
+
+/// Memory for pictures that nobody uses.
+fn idle(studios: &Mutex<Vec<Studio>>, painters: &dyn Painters, settings: &Settings) -> Studio {
+    let idle = lock(studios).pop();
+    idle.unwrap_or_else(|| Studio { scenes: Vec::new(), painter: painters.painter(settings) })
+}
+
+/// Keeps memory for the next pictures, unless what draws in it has failed.
+fn keep(studios: &Mutex<Vec<Studio>>, studio: Studio, outcome: &Result<(), RenderError>) {
+    if !matches!(outcome, Err(RenderError::Device { .. })) {
+        lock(studios).push(studio);
     }
 }
 

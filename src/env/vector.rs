@@ -2,6 +2,7 @@
 
 #[cfg(feature = "threads")]
 mod asynchronous;
+mod images;
 mod pool;
 mod real;
 mod slot;
@@ -13,7 +14,6 @@ pub use slot::{Autoreset, Final, StepRecord};
 
 use crate::environment::{Env, Step};
 use crate::error::EnvError;
-use crate::exteroception::Exteroception;
 use pool::Pool;
 use slot::{Order, Slot};
 
@@ -161,21 +161,6 @@ impl VecEnv {
             slot.set_action(&actions[index * width..(index + 1) * width]);
             slot.run(Order::Step);
         })
-    }
-
-    /// Draws the images of every environment, on the threads, each as [`Env::exteroception`] draws them, and returns them.
-    ///
-    /// # Errors
-    /// The first environment whose images cannot be drawn; some are under way.
-    pub fn exteroception(&mut self) -> Result<impl ExactSizeIterator<Item = &Exteroception>, EnvError> {
-        self.check_at_home()?;
-        let mut outcomes: Vec<_> = self.slots.iter().map(|_| Ok(())).collect();
-        let work: Vec<_> = self.slots.iter_mut().flatten().zip(&mut outcomes).collect();
-        self.pool
-            .each(work, |(slot, outcome)| *outcome = slot.env.exteroception().map(|_| ()))
-            .map_err(|message| EnvError::Threads { message })?;
-        outcomes.into_iter().collect::<Result<(), _>>()?;
-        Ok(self.slots.iter().map(|slot| at_home(slot).env.visuals().expect("they were drawn")))
     }
 
     /// What the last call yielded, environment by environment.

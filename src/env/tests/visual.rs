@@ -1,13 +1,15 @@
 //! Visual observations on a model of our own: shapes, what they show, when they are drawn, threads, networks, `render`.
 
-use render::Profile;
+use render::painter::Cpu;
+use render::raster::Shot;
+use render::{Painter, Painters, Profile, RenderError, Settings};
 use robohive_env::visual::Encoder;
 use robohive_env::{
     Autoreset, Compat, Env, EnvError, Exteroception, Network, Networks, Options, OwnModels, Pixels,
     RenderMode, Rendering, VecEnv,
 };
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
 
 const ID: &str = "hive/FrankaReach-v0";
 
@@ -121,6 +123,63 @@ fn threads_change_no_pixel() {
     }
     assert_eq!(*alone.exteroception().unwrap(), one[3 * 5 + 2]);
     assert_ne!(bytes(&one[15], key), bytes(&one[16], key));
+}
+
+/// Draws on the CPU, and counts the shots of each call.
+#[derive(Clone, Debug, Default)]
+struct Together(Arc<Mutex<Vec<usize>>>);
+
+impl Painters for Together {
+    fn painter(&self, settings: &Settings) -> Box<dyn Painter> {
+        Box::new(Counting(Cpu.painter(settings), self.clone()))
+    }
+}
+
+struct Counting(Box<dyn Painter>, Together);
+
+impl Painter for Counting {
+    fn paint(&mut self, settings: &Settings, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
+        self.1.0.lock().unwrap().push(shots.len());
+        self.0.paint(settings, shots)
+    }
+
+    fn draws_batches(&self) -> bool {
+        true
+    }
+
+    fn name(&self) -> String {
+        "counting".into()
+    }
+}
+
+#[test]
+fn painters_of_batches_draw_all_images_of_all_environments_at_once() {
+    let keys = "'rgb:front:16x16:2d', 'd:front:16x16:2d'";
+    let together = Together::default();
+    let options = Options { painters: Arc::new(together.clone()), ..options(keys) };
+    let mut one = Env::make(ID, &OwnModels, &options).unwrap();
+    let mut batch = VecEnv::new(&one, 5, Autoreset::NextStep, 2).unwrap();
+    let mut plain = VecEnv::new(&make(keys), 5, Autoreset::NextStep, 2).unwrap();
+    for step in 0..3 {
+        let rows: Vec<f64> = (0..5).flat_map(|k| action(step + 7 * k, 8)).collect();
+        for envs in [&mut batch, &mut plain] {
+            if step == 0 {
+                envs.reset(Some(1)).map(drop).unwrap()
+            } else {
+                envs.step(&rows).map(drop).unwrap()
+            }
+        }
+        let drawn: Vec<_> = batch.exteroception().unwrap().cloned().collect();
+        assert_eq!(drawn, plain.exteroception().unwrap().cloned().collect::<Vec<_>>(), "step {step}");
+        assert_eq!(batch.exteroception().unwrap().cloned().collect::<Vec<_>>(), drawn, "drawn once");
+    }
+    assert_eq!(*together.0.lock().unwrap(), [5; 3], "five environments, a drawing of each");
+    one.reset(Some(1)).unwrap();
+    let seen = one.exteroception().unwrap().clone();
+    let mut other = make(keys);
+    other.reset(Some(1)).unwrap();
+    assert_eq!(seen, *other.exteroception().unwrap());
+    assert_eq!(together.0.lock().unwrap().last(), Some(&1));
 }
 
 /// A network that says how bright a picture is.
