@@ -56,6 +56,7 @@ const ORDER: [(&str, &[&str]); 22] = [
             "robot",
             "library",
             "render",
+            "render_gpu",
             "video",
             "exchange",
             "env",

@@ -4,10 +4,13 @@ use crate::Failure;
 use crate::bench_visual::{self, Measuring};
 use crate::env_requests::Subject;
 use crate::library::Making;
+use crate::renderer::RendererArguments;
 use crate::terminal::{show, show_json};
 use clap::Args;
 use env::{Autoreset, Env, Rng, Scene, VecEnv};
+use render::Painters;
 use serde_json::json;
+use std::sync::Arc;
 use std::time::Instant;
 
 /// Measure environment steps per second, and the share of the environment's own layer
@@ -38,6 +41,9 @@ pub struct BenchEnv {
     /// Draw the images of the visual keys in every step
     #[arg(long, conflicts_with = "requests")]
     visual: bool,
+    /// What draws them
+    #[command(flatten)]
+    renderer: RendererArguments,
     /// Print one JSON array instead
     #[arg(long)]
     json: bool,
@@ -64,11 +70,12 @@ struct Speed {
 /// Runs the command.
 pub fn run(a: &BenchEnv) -> Result<(), Failure> {
     let mut rows = Vec::new();
+    let painters = a.renderer.painters_if(a.visual, "--visual")?;
     if a.requests {
         return a.ids.iter().try_for_each(|id| answer(id, a));
     }
     if a.visual {
-        return visual(a);
+        return visual(a, &painters);
     }
     if !a.json {
         show!("{:<40} {:>12} {:>8} {:>14} {:>10}", "id", "steps/s", "layer", "batch steps/s", "x one");
@@ -98,7 +105,7 @@ pub fn run(a: &BenchEnv) -> Result<(), Failure> {
 }
 
 /// Measures with images.
-fn visual(a: &BenchEnv) -> Result<(), Failure> {
+fn visual(a: &BenchEnv, painters: &Arc<dyn Painters>) -> Result<(), Failure> {
     let threads = usize::from(a.threads);
     let measuring = Measuring { seconds: a.seconds, threads, count: PER_THREAD * threads };
     let mut rows = Vec::new();
@@ -106,7 +113,7 @@ fn visual(a: &BenchEnv) -> Result<(), Failure> {
         bench_visual::show_header();
     }
     for id in &a.ids {
-        let speed = bench_visual::measure(&a.making.make(id)?, &measuring)
+        let speed = bench_visual::measure(&a.making.make_with(id, painters.clone())?, &measuring)
             .map_err(|error| Failure { code: error.code, ..Failure::new(format!("{id}: {error}")) })?;
         if a.json {
             rows.push(speed.json(id, threads));

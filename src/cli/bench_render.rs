@@ -4,12 +4,14 @@ use crate::Failure;
 use crate::arguments::Reading;
 use crate::loading::load;
 use crate::render_requests::Requests;
+use crate::renderer::RendererArguments;
 use crate::terminal::{show, show_json};
 use clap::{Args, ValueHint};
 use physics::{Data, Model, forward, step};
 use render::picture::Channels;
+use render::raster::Shot;
 use render::scene::{Camera, Effects, SceneOptions};
-use render::{Assets, Picture, Profile, Renderer, Scene, Settings};
+use render::{Assets, Painter, Painters, Picture, Profile, Scene, Settings};
 use serde_json::json;
 use std::path::PathBuf;
 use std::time::Instant;
@@ -18,7 +20,8 @@ use std::time::Instant;
 #[derive(Args)]
 #[command(
     after_help = "Each picture is of another state of a short motion from keyframe 0, or qpos0, and its time is that of \
-listing what is to be drawn and drawing it; neither physics nor loading are in it. One thread draws.
+listing what is to be drawn and drawing it; neither physics nor loading are in it. One thread draws. For a renderer \
+that draws many pictures at once, such as a GPU, the time of a picture in batches of 24 follows.
 
 Examples:
   robohive bench-render assets/franka/franka_table.xml --camera front
@@ -37,6 +40,9 @@ pub struct BenchRender {
     /// Columns and rows of the pictures
     #[arg(long, value_name = "N", default_value_t = 224, value_parser = clap::value_parser!(u16).range(1..=8192))]
     size: u16,
+    /// What draws
+    #[command(flatten)]
+    renderer: RendererArguments,
     /// Pictures of each kind
     #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     frames: u32,
@@ -86,16 +92,18 @@ pub struct Studio<'a> {
     pub model: &'a Model,
     /// Its triangles and textures.
     pub assets: &'a Assets,
-    renderer: Renderer,
+    painter: Box<dyn Painter>,
+    settings: Settings,
     scene: Scene,
     picture: Picture,
 }
 
 impl<'a> Studio<'a> {
     /// A studio with its own memory for pictures.
-    pub fn new(model: &'a Model, assets: &'a Assets) -> Self {
-        let renderer = Renderer::new(Settings::of(model));
-        Studio { model, assets, renderer, scene: Scene::new(), picture: Picture::new(0, 0) }
+    pub fn new(model: &'a Model, assets: &'a Assets, painters: &dyn Painters) -> Self {
+        let settings = Settings::of(model);
+        let painter = painters.painter(&settings);
+        Studio { model, assets, painter, settings, scene: Scene::new(), picture: Picture::new(0, 0) }
     }
 
     /// Lists what is to be drawn of a state and draws it.
@@ -111,9 +119,24 @@ impl<'a> Studio<'a> {
         let view = camera.view(self.model, data).map_err(Failure::new)?;
         self.scene.update(self.model, data, view, &options).map_err(Failure::new)?;
         (self.picture.width, self.picture.height) = (side, side);
-        let drawn = self.renderer.draw(self.assets, &self.scene, kind.channels(), &mut self.picture);
-        drawn.map_err(Failure::new)?;
+        let Studio { assets, painter, settings, scene, picture, .. } = self;
+        let shot = Shot { assets, scene, channels: kind.channels(), picture };
+        painter.paint(settings, &mut [shot]).map_err(Failure::new)?;
         Ok(&self.picture)
+    }
+
+    /// Draws all states in colours at once.
+    fn take_batch(&mut self, states: &[Data], camera: &Camera, side: usize) -> Result<(), Failure> {
+        let mut scenes = vec![Scene::new(); states.len()];
+        for (scene, data) in scenes.iter_mut().zip(states) {
+            let view = camera.view(self.model, data).map_err(Failure::new)?;
+            scene.update(self.model, data, view, &SceneOptions::default()).map_err(Failure::new)?;
+        }
+        let mut pictures = vec![Picture::new(side, side); states.len()];
+        let Studio { assets, painter, settings, .. } = self;
+        let shots = scenes.iter().zip(&mut pictures);
+        let shots = shots.map(|(scene, picture)| Shot { assets, scene, channels: Channels::RGB, picture });
+        painter.paint(settings, &mut shots.collect::<Vec<_>>()).map_err(Failure::new)
     }
 
     /// Items of the last scene, and triangles of one pass over them.
@@ -135,8 +158,11 @@ pub fn run(a: &BenchRender) -> Result<(), Failure> {
     let model = load(&a.model, &a.reading)?;
     let assets = Assets::new(&model, Profile::default()).map_err(Failure::new)?;
     let camera = camera(&model, &a.camera)?;
-    let mut studio = Studio::new(&model, &assets);
+    let mut studio = Studio::new(&model, &assets, &*a.renderer.painters()?);
     if a.requests {
+        if a.renderer.is_gpu() {
+            return Err(Failure::usage("--requests measures the CPU"));
+        }
         return Requests::new(studio, camera).answer();
     }
     let states = motion(&model)?;
@@ -153,14 +179,18 @@ pub fn run(a: &BenchRender) -> Result<(), Failure> {
         let milliseconds = 1e3 * began.elapsed().as_secs_f64() / f64::from(a.frames);
         found.insert(format!("{name}_ms"), milliseconds.into());
     }
+    let batch =
+        studio.painter.draws_batches().then(|| batch(&mut studio, &states, &camera, a)).transpose()?;
     let [items, triangles] = studio.load();
+    let renderer = studio.painter.name();
     if a.json {
         found.extend([("items".to_owned(), items.into()), ("triangles".to_owned(), triangles.into())]);
+        found.extend([("renderer".to_owned(), renderer.into()), ("batch_rgb_ms".to_owned(), batch.into())]);
         found.insert("size".to_owned(), json!(a.size));
         show_json(&found.into());
         return Ok(());
     }
-    show!("{items} items, {triangles} triangles, {0} x {0} pixels", a.size);
+    show!("{items} items, {triangles} triangles, {0} x {0} pixels, {renderer}", a.size);
     for (name, _) in Kind::ALL {
         let text = match name {
             "plain" => "without shadows",
@@ -169,7 +199,22 @@ pub fn run(a: &BenchRender) -> Result<(), Failure> {
         };
         show!("{text:<16} {:>9.2} ms", found[&format!("{name}_ms")].as_f64().unwrap_or(f64::NAN));
     }
+    if let Some(batch) = batch {
+        show!("{:<16} {batch:>9.2} ms", "rgb in batches");
+    }
     Ok(())
+}
+
+/// Milliseconds of a picture in colours, in batches of all states.
+fn batch(studio: &mut Studio<'_>, states: &[Data], camera: &Camera, a: &BenchRender) -> Result<f64, Failure> {
+    let side = usize::from(a.size);
+    studio.take_batch(states, camera, side)?;
+    let began = Instant::now();
+    let batches = (a.frames as usize).div_ceil(states.len());
+    for _ in 0..batches {
+        studio.take_batch(states, camera, side)?;
+    }
+    Ok(1e3 * began.elapsed().as_secs_f64() / (batches * states.len()) as f64)
 }
 
 /// Data at keyframe 0, or at `qpos0`.

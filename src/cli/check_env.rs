@@ -2,11 +2,14 @@
 
 use crate::Failure;
 use crate::library::Making;
+use crate::renderer::RendererArguments;
 use crate::terminal::{show, show_verdict};
 use clap::Args;
 use env::check::{STEPS, check, check_images};
 use env::{Registry, Spec};
 use indicatif::{ProgressBar, ProgressStyle};
+use render::Painters;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Check the contract of environments: finite, repeatable, restorable, observations that change
@@ -36,6 +39,9 @@ pub struct CheckEnv {
     /// Draw the images of the visual keys too: finite, not constant, repeatable, restorable
     #[arg(long)]
     visual: bool,
+    /// What draws them
+    #[command(flatten)]
+    renderer: RendererArguments,
     /// Threads; 0 for as many as there are cores
     #[arg(long, value_name = "N", default_value_t = 0)]
     threads: usize,
@@ -44,6 +50,7 @@ pub struct CheckEnv {
 /// Runs the command.
 pub fn run(a: &CheckEnv) -> Result<(), Failure> {
     let specs = chosen(&a.which)?;
+    let painters = a.renderer.painters_if(a.visual, "--visual")?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if a.threads == 0 { cores } else { a.threads.min(specs.len()) };
     let style = ProgressStyle::with_template("{bar:30} {pos}/{len} environments, {eta} left, {msg}");
@@ -55,7 +62,7 @@ pub fn run(a: &CheckEnv) -> Result<(), Failure> {
         loop {
             let place = next.fetch_add(1, Ordering::Relaxed);
             let Some(spec) = specs.get(place) else { return found };
-            found.push((place, examine(a, spec)));
+            found.push((place, examine(a, spec, painters.clone())));
             bar.set_message(spec.id.clone());
             bar.inc(1);
         }
@@ -88,8 +95,8 @@ fn chosen(which: &[String]) -> Result<Vec<&'static Spec>, Failure> {
 }
 
 /// What an environment breaks.
-fn examine(a: &CheckEnv, spec: &Spec) -> Vec<String> {
-    let mut env = match a.making.make(&spec.id) {
+fn examine(a: &CheckEnv, spec: &Spec, painters: Arc<dyn Painters>) -> Vec<String> {
+    let mut env = match a.making.make_with(&spec.id, painters) {
         Ok(env) => env,
         Err(failure) => return vec![failure.to_string()],
     };

@@ -4,8 +4,9 @@ use crate::Failure;
 use crate::look::Size;
 use physics::{Data, Model};
 use render::picture::Channels;
+use render::raster::Shot;
 use render::scene::{Camera, SceneOptions};
-use render::{Assets, Picture, Profile, Renderer, Scene, Settings};
+use render::{Assets, Painter, Painters, Picture, Profile, Scene, Settings};
 use video::Frame;
 
 /// How a model is drawn.
@@ -24,7 +25,7 @@ pub struct Plan {
 pub struct Drawing {
     plan: Plan,
     assets: Assets,
-    renderer: Renderer,
+    painter: Box<dyn Painter>,
     scene: Scene,
     picture: Picture,
 }
@@ -34,11 +35,11 @@ impl Drawing {
     ///
     /// # Errors
     /// The model cannot be drawn.
-    pub fn new(model: &Model, plan: Plan) -> Result<Self, Failure> {
+    pub fn new(model: &Model, plan: Plan, painters: &dyn Painters) -> Result<Self, Failure> {
         let assets = Assets::new(model, Profile::default()).map_err(Failure::new)?;
-        let renderer = Renderer::new(plan.settings);
+        let painter = painters.painter(&plan.settings);
         let picture = Picture::new(plan.size.width, plan.size.height);
-        Ok(Drawing { plan, assets, renderer, scene: Scene::new(), picture })
+        Ok(Drawing { plan, assets, painter, scene: Scene::new(), picture })
     }
 
     /// Draws a state of which a forward pass has computed all that is shown. The model is the one that the drawing was
@@ -50,7 +51,8 @@ impl Drawing {
         self.assets.refresh(model).map_err(Failure::new)?;
         let view = self.plan.camera.view(model, data).map_err(Failure::new)?;
         self.scene.update(model, data, view, &self.plan.options).map_err(Failure::new)?;
-        let drawn = self.renderer.draw(&self.assets, &self.scene, channels, &mut self.picture);
+        let Drawing { plan, assets, painter, scene, picture } = self;
+        let drawn = painter.paint(&plan.settings, &mut [Shot { assets, scene, channels, picture }]);
         drawn.map_err(Failure::new)?;
         Ok(&self.picture)
     }

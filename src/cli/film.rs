@@ -4,12 +4,14 @@ use crate::Failure;
 use crate::drawing::{Drawing, Plan, frame};
 use crate::look::{Size, Viewpoint};
 use crate::preview::{Choice, Player, Screen};
+use crate::renderer::RendererArguments;
 use clap::{Args, ValueHint};
 use physics::{Data, Model};
-use render::Settings;
 use render::picture::Channels;
 use render::scene::{Effects, SceneOptions};
+use render::{Painters, Settings};
 use std::path::PathBuf;
+use std::sync::Arc;
 use video::{FRAME_RATES, VideoFormat, VideoWriter};
 
 /// Whether and how a video is made.
@@ -34,6 +36,9 @@ pub struct FilmArguments {
     /// Draw no shadows
     #[arg(long)]
     no_shadows: bool,
+    /// What draws
+    #[command(flatten)]
+    renderer: RendererArguments,
 }
 
 /// Size of a video where none is given.
@@ -57,7 +62,13 @@ impl FilmArguments {
     ///
     /// # Errors
     /// An option needs a video, and none is asked for; the camera is unknown; the file cannot be written.
-    pub fn film(&self, model: &Model, camera: &str, period: f64) -> Result<Option<Film>, Failure> {
+    pub fn film(
+        &self,
+        model: &Model,
+        camera: &str,
+        period: f64,
+        painters: &dyn Painters,
+    ) -> Result<Option<Film>, Failure> {
         if self.video.is_none() && self.preview.is_none() {
             return self.refuse_without().map(|()| None);
         }
@@ -65,7 +76,8 @@ impl FilmArguments {
         let size = self.size.unwrap_or(SIZE);
         let effects = Effects { shadows: !self.no_shadows, ..Effects::default() };
         let options = SceneOptions { effects, ..SceneOptions::default() };
-        let drawing = Drawing::new(model, Plan { camera, size, options, settings: Settings::of(model) })?;
+        let plan = Plan { camera, size, options, settings: Settings::of(model) };
+        let drawing = Drawing::new(model, plan, painters)?;
         let rate = self.fps.unwrap_or_else(|| default_rate(period));
         let player = self.preview.map(|choice| -> Result<Player, Failure> {
             Ok(Player::new(Screen::require(choice, "write a file with --video FILE.mp4")?, rate))
@@ -76,6 +88,15 @@ impl FilmArguments {
         };
         let video = self.video.as_ref().map(open).transpose()?;
         Ok(Some(Film { drawing, video, player, rate, shown: 0, path: self.video.clone() }))
+    }
+
+    /// What draws the video, and the images where `visual` says that there are some.
+    ///
+    /// # Errors
+    /// A GPU is asked for that this build does not know, or something for a command that draws nothing.
+    pub fn painters(&self, visual: bool) -> Result<Arc<dyn Painters>, Failure> {
+        let draws = visual || self.video.is_some() || self.preview.is_some();
+        self.renderer.painters_if(draws, "--video FILE, --preview and images")
     }
 
     /// Whether the terminal shows it.

@@ -5,6 +5,7 @@ use crate::drawing::{Drawing, Plan, frame};
 use crate::library::Making;
 use crate::look::Size;
 use crate::preview::{Choice, Screen};
+use crate::renderer::RendererArguments;
 use crate::subject::{are_related, camera_of};
 use crate::terminal::{listed, note, show};
 use clap::{Args, ValueHint};
@@ -12,7 +13,7 @@ use env::{Env, EnvError, Registry, Spec};
 use indicatif::{ProgressBar, ProgressStyle};
 use render::picture::Channels;
 use render::scene::{Camera, SceneOptions};
-use render::{Picture, Settings};
+use render::{Painters, Picture, Settings};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use video::{Sheet, write_png};
@@ -51,6 +52,9 @@ pub struct Gallery {
     /// Seed of the resets
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     seed: u64,
+    /// What draws
+    #[command(flatten)]
+    renderer: RendererArguments,
     /// How environments are made
     #[command(flatten)]
     making: Making,
@@ -143,6 +147,7 @@ fn chosen(a: &Gallery) -> Result<Vec<&'static Spec>, Failure> {
 fn draw_all(a: &Gallery, specs: &[&Spec]) -> Result<Vec<Outcome>, Failure> {
     let options = a.making.options()?;
     let assets = a.making.assets()?;
+    let painters = a.renderer.painters()?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if a.threads == 0 { cores } else { a.threads }.min(specs.len());
     let bar = if a.quiet { ProgressBar::hidden() } else { progress(specs.len()) };
@@ -154,9 +159,8 @@ fn draw_all(a: &Gallery, specs: &[&Spec]) -> Result<Vec<Outcome>, Failure> {
             let Some(spec) = specs.get(place) else { return outcomes };
             bar.set_message(spec.id.clone());
             let outcome = match Env::make(&spec.id, &assets, &options) {
-                Ok(env) => {
-                    draw(a, env).map_or_else(|failure| Outcome::Failed(failure.to_string()), Outcome::Drawn)
-                }
+                Ok(env) => draw(a, env, &*painters)
+                    .map_or_else(|failure| Outcome::Failed(failure.to_string()), Outcome::Drawn),
                 Err(error @ EnvError::MissingFile { .. }) => Outcome::Missing(error.to_string()),
                 Err(error) => Outcome::Failed(error.to_string()),
             };
@@ -174,12 +178,12 @@ fn draw_all(a: &Gallery, specs: &[&Spec]) -> Result<Vec<Outcome>, Failure> {
 }
 
 /// The picture of an environment after a reset.
-fn draw(a: &Gallery, mut env: Env) -> Result<Picture, Failure> {
+fn draw(a: &Gallery, mut env: Env, painters: &dyn Painters) -> Result<Picture, Failure> {
     env.reset(Some(a.seed)).map_err(Failure::new)?;
     let model = &env.scene().model;
     let camera = Camera::named(model, &camera_of(&env)).map_err(Failure::new)?;
     let plan = Plan { camera, size: a.size, options: SceneOptions::default(), settings: Settings::of(model) };
-    Drawing::new(model, plan)?.take(model, &env.scene().data, Channels::RGB).cloned()
+    Drawing::new(model, plan, painters)?.take(model, &env.scene().data, Channels::RGB).cloned()
 }
 
 fn progress(environments: usize) -> ProgressBar {

@@ -5,6 +5,8 @@ use crate::terminal::note;
 use ::library::{Library, Weights};
 use clap::{Args, ValueHint};
 use env::{Compat, Env, Options};
+use render::Painters;
+use render::painter::Cpu;
 use std::path::PathBuf;
 use std::sync::Arc;
 use toml::Table;
@@ -40,7 +42,12 @@ pub struct Making {
 impl Source {
     /// Makes the environment, and shows the warnings of its model on standard error.
     pub fn make(&self) -> Result<Env, Failure> {
-        let env = self.making.make(&self.id)?;
+        self.make_with(Arc::new(Cpu))
+    }
+
+    /// The same for one whose pictures these painters draw.
+    pub fn make_with(&self, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
+        let env = self.making.make_with(&self.id, painters)?;
         env.warnings().warnings().for_each(|warning| note(&warning.to_string()));
         Ok(env)
     }
@@ -49,7 +56,13 @@ impl Source {
 impl Making {
     /// Makes an environment.
     pub fn make(&self, id: &str) -> Result<Env, Failure> {
-        Env::make(id, &self.assets()?, &self.options()?).map_err(Failure::usage)
+        self.make_with(id, Arc::new(Cpu))
+    }
+
+    /// Makes an environment whose pictures these painters draw.
+    pub fn make_with(&self, id: &str, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
+        let options = Options { painters, ..self.options()? };
+        Env::make(id, &self.assets()?, &options).map_err(Failure::usage)
     }
 
     /// How they are made.

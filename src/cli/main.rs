@@ -31,6 +31,7 @@ mod recorded;
 mod recording;
 mod render;
 mod render_requests;
+mod renderer;
 mod replay;
 mod rollout;
 mod run;

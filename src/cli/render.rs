@@ -3,6 +3,7 @@
 use crate::drawing::{Drawing, Plan, frame};
 use crate::look::{Look, Size, Viewpoint};
 use crate::preview::{Choice, Screen};
+use crate::renderer::RendererArguments;
 use crate::subject::SubjectArguments;
 use crate::terminal::show;
 use crate::{Failure, unwritable};
@@ -17,7 +18,7 @@ use video::{Frame, Image, depth_image, segmentation_image, write_depth_png, writ
 #[derive(Args)]
 #[command(
     after_help = "Pictures are those of MuJoCo 3.12's offscreen renderer, drawn on the CPU without a display: the same \
-bits on every machine.
+bits on every machine. --renderer gpu draws them on a GPU, where colours differ by rounding.
 
 What the file holds follows from its name. A .png has colours, 8 bits each; depth in whole millimetres, 16 bits, 65535 \
 for all that is farther than 65.5 m; or with --depth=colours and --segmentation false colours for people. A .npy \
@@ -57,6 +58,9 @@ pub struct Render {
     /// What is shown
     #[command(flatten)]
     look: Look,
+    /// What draws
+    #[command(flatten)]
+    renderer: RendererArguments,
     /// Write the picture to this file, .png or .npy
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = picture_file)]
     out: Option<PathBuf>,
@@ -98,6 +102,7 @@ pub fn run(a: &Render) -> Result<(), Failure> {
         }
     };
     let options = a.look.options()?;
+    let painters = a.renderer.painters()?;
     let subject = a.subject.find()?;
     let model = subject.model();
     let (camera, camera_name) = a.viewpoint.camera(model, &subject.camera())?;
@@ -107,7 +112,7 @@ pub fn run(a: &Render) -> Result<(), Failure> {
         (None, true) => Channels::SEGMENTATION,
         (None, false) => Channels::RGB,
     };
-    let mut drawing = Drawing::new(model, plan)?;
+    let mut drawing = Drawing::new(model, plan, &*painters)?;
     let picture = drawing.take(model, subject.data(), channels)?;
     let colours = false_colours(picture)?;
     let frame = colours.as_ref().map_or_else(|| frame(picture), |image| Ok(image.frame()))?;

@@ -4,6 +4,7 @@ use crate::Failure;
 use crate::bench_render::{Kind, Studio, camera, start};
 use crate::terminal::show_json;
 use physics::{Data, forward};
+use render::painter::Cpu;
 use render::scene::Camera;
 use serde_json::{Value, json};
 use std::time::Instant;
@@ -127,9 +128,9 @@ impl<'a> Requests<'a> {
 
     /// Wall time [s] of one picture of every environment, the threads' memory being there.
     fn batch(&self, side: usize, threads: usize) -> Result<f64, Failure> {
-        let (model, assets) = (self.studio.model, self.studio.assets);
+        let (model, assets, camera) = (self.studio.model, self.studio.assets, self.camera);
         let environments: Vec<&Data> = self.states.iter().cycle().take(ENVIRONMENTS).collect();
-        let mut studios: Vec<Studio<'_>> = (0..threads).map(|_| Studio::new(model, assets)).collect();
+        let mut studios: Vec<Studio<'_>> = (0..threads).map(|_| Studio::new(model, assets, &Cpu)).collect();
         let mut began = Instant::now();
         for _ in 0..2 {
             began = Instant::now();
@@ -138,10 +139,9 @@ impl<'a> Requests<'a> {
                 let parts = studios.iter_mut().zip(environments.chunks(share));
                 let running: Vec<_> = parts
                     .map(|(studio, part)| {
-                        scope.spawn(|| {
-                            part.iter().try_for_each(|data| {
-                                studio.take(data, &self.camera, side, Kind::Rgb).map(|_| ())
-                            })
+                        scope.spawn(move || {
+                            part.iter()
+                                .try_for_each(|data| studio.take(data, &camera, side, Kind::Rgb).map(|_| ()))
                         })
                     })
                     .collect();

@@ -1,6 +1,7 @@
 //! `rollout`: replay recorded actions, or observe recorded states, for comparison with other implementations.
 
 use crate::library::Source;
+use crate::renderer::RendererArguments;
 use crate::terminal::show;
 use crate::{Failure, unwritable};
 use clap::{Args, ValueHint};
@@ -40,6 +41,9 @@ pub struct Rollout {
     /// Draw the images of the visual keys too
     #[arg(long)]
     visual: bool,
+    /// What draws them
+    #[command(flatten)]
+    renderer: RendererArguments,
     /// File to write
     #[arg(long, value_name = "O.npz", value_hint = ValueHint::FilePath)]
     out: PathBuf,
@@ -47,7 +51,7 @@ pub struct Rollout {
 
 /// Runs the command.
 pub fn run(a: &Rollout) -> Result<(), Failure> {
-    let mut env = a.source.make()?;
+    let mut env = a.source.make_with(a.renderer.painters_if(a.visual, "--visual")?)?;
     env.reset(Some(a.seed)).map_err(Failure::new)?;
     let mut log = Log { visual: a.visual, ..Log::default() };
     match (&a.actions, &a.states) {

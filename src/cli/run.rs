@@ -103,9 +103,10 @@ fn read_policy(name: &str) -> Result<Option<Policy>, Failure> {
 /// Runs the command.
 pub fn run(a: &Run) -> Result<(), Failure> {
     let read = read_policy(&a.policy)?;
-    let mut env = a.source.make()?;
+    let painters = a.film.painters(a.visual)?;
+    let mut env = a.source.make_with(painters.clone())?;
     let mut recording = a.record.as_ref().map(|_| open_recording(a)).transpose()?;
-    let mut film = a.film.film(&env.scene().model, &camera_of(&env), env.dt())?;
+    let mut film = a.film.film(&env.scene().model, &camera_of(&env), env.dt(), &*painters)?;
     let hidden = a.quiet || a.json || a.film.previews();
     let bar = if hidden { ProgressBar::hidden() } else { progress(a.episodes) };
     let interrupt = Interrupt::listen().map_err(Failure::new)?;

@@ -18,13 +18,14 @@ use std::time::Instant;
 
 /// Runs the command.
 pub fn run(a: &Sim) -> Result<(), Failure> {
+    let painters = a.film.painters(false)?;
     let mut m = load(&a.model.path, &a.model.reading)?;
     // Every step then computes the energy of the state that it starts from.
     m.options_mut().enableflags.set(Enable::ENERGY, true);
     let mut d = start(&m, a.keyframe.as_deref())?;
     let steps = number_of_steps(a.seconds, m.opt.timestep)?;
     let mut recording = a.out.as_deref().map(|path| Recording::create(path, &d)).transpose()?;
-    let mut pictures = a.film.film(&m, FREE, m.opt.timestep)?.map(|film| Pictures::new(film, &d));
+    let mut pictures = a.film.film(&m, FREE, m.opt.timestep, &*painters)?.map(|film| Pictures::new(film, &d));
     let bar = if a.quiet || a.film.previews() { ProgressBar::hidden() } else { progress(steps) };
     let run = advance(&m, &mut d, steps, (recording.as_mut(), pictures.as_mut()), &bar)?;
     bar.finish_and_clear();

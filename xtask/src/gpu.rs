@@ -9,14 +9,20 @@ const ABSENT: &str = "not checked: there is no GPU";
 
 /// Lints what is built for it alone, runs its tests, and sees from what they print whether anything was drawn.
 pub fn run() -> Outcome {
-    let packages =
-        ["-p", "robohive-render-gpu", "-p", "robohive-validation", "--features", "robohive-validation/gpu"];
+    let packages = ["-p", "robohive-render-gpu", "-p", "robohive-validation", "-p", "robohive-cli"];
+    let features = ["--features", "robohive-validation/gpu,robohive-cli/gpu"];
     let mut lint = Command::new("cargo");
-    lint.args(["clippy", "--profile", "ci", "--all-targets"]).args(packages).args(["--", "-D", "warnings"]);
-    succeed(&mut lint)?;
-    let tests = ["test", "--profile", "ci", "-p", "robohive-render-gpu", "--", "--nocapture"];
-    let (printed, _) = output(Command::new("cargo").args(tests))?;
-    if !printed.contains(ABSENT) {
+    lint.args(["clippy", "--profile", "ci", "--all-targets"]).args(packages).args(features);
+    succeed(lint.args(["--", "-D", "warnings"]))?;
+    let renderer = ["-p", "robohive-render-gpu"].as_slice();
+    let command = ["-p", "robohive-cli", "--features", "robohive-cli/gpu", "--test", "gpu"].as_slice();
+    let mut absent = false;
+    for tests in [renderer, command] {
+        let mut test = Command::new("cargo");
+        test.args(["test", "--profile", "ci"]).args(tests).args(["--", "--nocapture"]);
+        absent |= output(&mut test)?.0.contains(ABSENT);
+    }
+    if !absent {
         return Ok(Vec::new());
     }
     Ok(vec![Missing::new(

@@ -163,6 +163,17 @@ fn wrong_requests_say_what_is_right() {
     assert!(refused(&["run", REACH, "--video", "x.avi"]).contains(".mp4, .gif or .png"));
     assert!(refused(&["run", REACH, "--preview"]).contains("--video FILE.mp4"));
     assert!(refused(&["run", REACH, "--video", &out, "--fps", "0"]).contains("frames a second"));
+    assert!(refused(&["run", REACH, "--renderer", "cpu"]).contains("--video"));
+    assert!(
+        refused(&["rollout", REACH, "--actions", "x.npz", "--out", &out, "--renderer", "cpu"])
+            .contains("--visual")
+    );
+    assert!(refused(&["render", ARM, "--out", &out, "--renderer", "cuda"]).contains("gpu:NAME"));
+    #[cfg(not(feature = "gpu"))]
+    for command in [&["render", ARM][..], &["gallery", "hive"]] {
+        let said = refused(&[command, &["--out", &out, "--renderer", "gpu"]].concat());
+        assert!(said.contains("cargo install --path src/cli --features gpu"), "{said}");
+    }
     assert!(refused(&["gallery", "no_such_suite", "--out", &out]).contains("robohive list"));
     assert!(!Path::new(&out).exists());
 }
