@@ -83,7 +83,7 @@ const OTHERS: [(&str, &[&str]); 15] = [
     ("robohive-encoders", &["libm", "ndarray", "rayon", "serde", "serde_json", "zip"]),
     ("robohive-mjcf", &["roxmltree", "fdeflate"]),
     ("robohive-robot", &["toml"]),
-    ("robohive-render", &["rayon", "wide"]),
+    ("robohive-render", &["font8x8", "rayon", "wide"]),
     ("robohive-render-gpu", &["bytemuck", "pollster", "wgpu"]),
     ("robohive-env", &["rayon", "serde", "toml"]),
     ("robohive-agents", &["libm"]),

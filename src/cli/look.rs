@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 use physics::Model;
 use render::Settings;
 use render::raster::Samples;
-use render::scene::{Camera, FrameChoice, FreeCamera, GROUPS, SceneOptions};
+use render::scene::{Camera, FrameChoice, FreeCamera, GROUPS, LabelChoice, SceneOptions};
 use std::fmt;
 use std::str::FromStr;
 
@@ -202,6 +202,58 @@ impl Decoration {
     }
 }
 
+/// What a picture can name.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Label {
+    /// Bodies
+    Bodies,
+    /// Joints, with their axes
+    Joints,
+    /// Geoms
+    Geoms,
+    /// Sites
+    Sites,
+    /// Cameras, which are shown
+    Cameras,
+    /// Lights, which are shown
+    Lights,
+    /// Tendons
+    Tendons,
+    /// Actuators, which are shown
+    Actuators,
+    /// Equality constraints, with their anchors
+    Constraints,
+    /// Geoms that touch, with their contacts
+    Contacts,
+    /// Contact forces, with their strength [N]
+    Forces,
+    /// Constraint islands, by number
+    Islands,
+}
+
+impl Label {
+    /// Adds it, and the decoration that carries it, to what is shown.
+    fn add(self, options: &mut SceneOptions) {
+        use Decoration as Shown;
+        let (label, shown) = match self {
+            Label::Bodies => (LabelChoice::Body, None),
+            Label::Joints => (LabelChoice::Joint, Some(Shown::Joints)),
+            Label::Geoms => (LabelChoice::Geom, None),
+            Label::Sites => (LabelChoice::Site, None),
+            Label::Cameras => (LabelChoice::Camera, Some(Shown::Cameras)),
+            Label::Lights => (LabelChoice::Light, Some(Shown::Lights)),
+            Label::Tendons => (LabelChoice::Tendon, None),
+            Label::Actuators => (LabelChoice::Actuator, Some(Shown::Actuators)),
+            Label::Constraints => (LabelChoice::Constraint, Some(Shown::Constraints)),
+            Label::Contacts => (LabelChoice::ContactPoint, Some(Shown::Contacts)),
+            Label::Forces => (LabelChoice::ContactForce, Some(Shown::Forces)),
+            Label::Islands => (LabelChoice::Island, Some(Shown::Islands)),
+        };
+        options.label = label;
+        shown.into_iter().for_each(|shown| shown.add(options));
+    }
+}
+
 /// What a picture can go without.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Omission {
@@ -252,6 +304,9 @@ pub struct Look {
     /// Decorations, separated by commas
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub show: Vec<Decoration>,
+    /// Names to write beside what they belong to
+    #[arg(long, value_name = "WHAT")]
+    pub label: Option<Label>,
     /// What to leave out, separated by commas
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     pub hide: Vec<Omission>,
@@ -279,6 +334,7 @@ impl Look {
             return Err(Failure::usage(format!("--show {names}: a picture shows one kind of frames")));
         }
         self.show.iter().for_each(|decoration| decoration.add(&mut options));
+        self.label.iter().for_each(|label| label.add(&mut options));
         self.hide.iter().for_each(|omission| omission.remove(&mut options));
         options.effects.shadows &= !self.no_shadows;
         if !self.groups.is_empty() {

@@ -34,6 +34,7 @@ Examples:
   robohive render hive/FrankaReach-v0 --seed 3 --size 224 --depth --out depth.npy
   robohive render hive/FrankaReach-v0 --segmentation --out parts.png
   robohive render assets/pile/pile.xml --show contacts,forces --out forces.png
+  robohive render assets/elbow/elbow.xml --label tendons --out tendons.png
   robohive render hive/FrankaReach-v0 --preview=blocks"
 )]
 pub struct Render {

@@ -13,7 +13,7 @@ use crate::stage::Stage;
 use crate::textures::Textures;
 use render::error::MAX_SIDE;
 use render::picture::Channels;
-use render::raster::{Samples, Settings, Shot};
+use render::raster::{Samples, Settings, Shot, draw_labels};
 use render::scene::Scene;
 use render::{Assets, Picture, RenderError};
 use std::sync::Arc;
@@ -195,6 +195,7 @@ fn take(back: &ReadBack<'_>, cell: usize, shot: &mut Shot<'_>) {
         for row in back.colours(cell, size) {
             picture.rgb.extend(row.as_chunks::<4>().0.iter().flat_map(|&[r, g, b, _]| [r, g, b]));
         }
+        draw_labels(scene, picture);
     }
     if !channels.depth && !channels.segmentation {
         return;

@@ -88,6 +88,8 @@ struct Lit {
     @location(1) texture: vec3f,
     @location(2) world: vec3f,
     @location(3) @interpolate(flat) alpha: f32,
+    // Distance from the eye's plane; that of corners behind the eye counts as positive, as in Mesa.
+    @location(4) away: f32,
 }
 
 fn times(rows: array<vec4f, 4>, point: vec3f) -> vec4f {
@@ -179,6 +181,7 @@ fn corner(at: Corner, @builtin(instance_index) index: u32) -> Lit {
     out.colour = clamp(colour, vec3f(0.0), vec3f(1.0));
     out.world = world;
     out.alpha = rgba.a;
+    out.away = abs(dot(current.depth, vec4f(world, 1.0)));
     let scale = instances[index].scale;
     let offset = instances[index].offset;
     if scale.w == 0.0 {
@@ -191,14 +194,14 @@ fn corner(at: Corner, @builtin(instance_index) index: u32) -> Lit {
     return out;
 }
 
-// Share of a point's own colour that fog leaves.
-fn clearness(world: vec3f) -> f32 {
-    let depth = dot(current.depth, vec4f(world, 1.0));
+// Share of its own colour that fog leaves of what lies this far from the eye's plane.
+fn clearness(depth: f32) -> f32 {
     return clamp((current.numbers.y - depth) / (current.numbers.y - current.numbers.x), 0.0, 1.0);
 }
 
 fn shade(in: Lit, fog: vec3f) -> vec4f {
-    var colour = clamp(in.colour, vec3f(0.0), vec3f(1.0));
+    // Beyond the corners of a triangle colours may leave their range; they return to it with the texture's.
+    var colour = in.colour;
     var alpha = in.alpha;
     if PAINT == 1u {
         let texel = textureSample(flat_texture, flat_sampler, in.texture.xy);
@@ -211,7 +214,7 @@ fn shade(in: Lit, fog: vec3f) -> vec4f {
         alpha *= texel.a;
     }
     if current.fog.w != 0.0 {
-        colour = mix(fog, colour, clearness(in.world));
+        colour = mix(fog, colour, clearness(in.away));
     }
     return vec4f(colour, clamp(alpha, 0.0, 1.0));
 }
@@ -245,8 +248,8 @@ fn paint_mirrored(in: Lit) -> Mirrored {
     return Mirrored(shade(in, current.fog.rgb), samples);
 }
 
-// Opacity from which on a surface takes the light of lamps that cast shadows.
-const OPAQUE = 0.99;
+// Opacity from which on a surface takes the light of lamps that cast shadows: 252 in eight bits.
+const OPAQUE = 251.5 / 255.0;
 
 // Whether a lamp reaches a point: the map is asked at its nearest texel, and lights everything outside.
 fn is_reached(world: vec3f) -> bool {
@@ -375,6 +378,7 @@ fn write_nothing() -> @location(0) vec4f {
 struct Sky {
     @builtin(position) position: vec4f,
     @location(0) direction: vec3f,
+    @location(1) world: vec3f,
 }
 
 const TURN = 6.283185307179586;
@@ -392,7 +396,7 @@ fn sky(@builtin(vertex_index) index: u32) -> Sky {
     let angle = TURN * f32(edge) / f32(current.counts.w);
     let reach = select(1.0, 0.0, column == 2u);
     let at = current.around[0].w * vec3f(reach * cos(angle), reach * sin(angle), heights[part]);
-    return Sky(times(current.clip, at), select(at, current.gaze.xyz, current.gaze.w != 0.0));
+    return Sky(times(current.clip, at), select(at, current.gaze.xyz, current.gaze.w != 0.0), at);
 }
 
 @fragment
@@ -400,7 +404,7 @@ fn paint_sky(in: Sky) -> @location(0) vec4f {
     let d = in.direction;
     var colour = textureSample(cube_texture, cube_sampler, vec3f(d.x, d.z, -d.y)).rgb;
     if current.fog.w != 0.0 {
-        colour = mix(current.fog.rgb, colour, clearness(d));
+        colour = mix(current.fog.rgb, colour, clearness(dot(current.gaze.xyz, in.world)));
     }
     return vec4f(colour, 1.0);
 }
@@ -408,6 +412,7 @@ fn paint_sky(in: Sky) -> @location(0) vec4f {
 struct Haze {
     @builtin(position) position: vec4f,
     @location(0) alpha: f32,
+    @location(1) world: vec3f,
 }
 
 // Two rings of a cone over the horizon: from the plane up to the densest height, and from there to the eye's.
@@ -425,10 +430,14 @@ fn haze(@builtin(vertex_index) index: u32) -> Haze {
     let rise = current.around[1].w * (height - 1.0);
     let at = reach * (cos(angle) * current.around[0].xyz + sin(angle) * current.around[1].xyz)
         + rise * current.around[2].xyz;
-    return Haze(times(current.clip, at), select(0.0, 1.0, level == 1u));
+    return Haze(times(current.clip, at), select(0.0, 1.0, level == 1u), at);
 }
 
 @fragment
 fn paint_haze(in: Haze) -> @location(0) vec4f {
-    return vec4f(current.haze.rgb, clamp(in.alpha, 0.0, 1.0));
+    var colour = current.haze.rgb;
+    if current.fog.w != 0.0 {
+        colour = mix(current.fog.rgb, colour, clearness(dot(current.gaze.xyz, in.world)));
+    }
+    return vec4f(colour, clamp(in.alpha, 0.0, 1.0));
 }

@@ -121,10 +121,12 @@ fn what_is_shown_changes_the_picture() {
     };
     let plain = picture("plain.png", &[]);
     let moved = "--qpos=0.3,0,0.5,1,0,0,0";
-    let asked: [&[&str]; 8] = [
+    let asked: [&[&str]; 10] = [
         &["--samples", "1"],
         &["--hide", "static"],
         &["--show", "world-frame,cameras"],
+        &["--label", "geoms"],
+        &["--label", "cameras"],
         &["--groups", "3"],
         &["--azimuth", "-30", "--elevation=-70"],
         &["--lookat", "-1,0,0.5", "--distance", "2"],

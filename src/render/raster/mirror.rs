@@ -4,7 +4,7 @@ use super::backdrop::Known;
 use super::draws::Draw;
 use super::layer::{Layer, Lens};
 use super::opaque::Frame;
-use super::paint::Canvas;
+use super::paint::{Brush, Canvas, Veil};
 use super::renderer::look;
 use super::seen::{Illumination, Seen};
 use super::stage::Stage;
@@ -60,6 +60,8 @@ impl Mirror {
         let seen_from = |p: [f64; 3]| turn.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
         self.light.set(scene, seen_from(scene.view.eye).map(|x| x as f32), false);
         self.light.reflectance = scene.items[item].look.reflectance;
+        let veil = scene.fog.map(|fog| Veil::mirrored(fog, scene.view.eye, scene.view.forward, &turn));
+        let brush = &Brush { veil, ..*frame.brush };
         let is_kept = frame.plan != Plan::Without && kept.stills.has_item(item);
         let still = |kept: &Kept, draw: &Draw| is_kept && kept.stills.has(draw) && !draw.transparent;
         let width = stage.lens.extent.width as usize;
@@ -72,7 +74,7 @@ impl Mirror {
             look(&stage, &mut self.visibility, wanted);
             self.seen.collect(&self.visibility, width, stage.draws.triangles, |_, _| false);
             self.seen.light(&stage, &self.light);
-            kept.mirror.keep(&self.visibility, &self.seen, stage.draws, frame.brush);
+            kept.mirror.keep(&self.visibility, &self.seen, stage.draws, brush);
         }
         if is_kept {
             self.visibility.copy(&kept.mirror.visibility);
@@ -93,14 +95,14 @@ impl Mirror {
         self.seen.light(&stage, &self.light);
         for fragment in &self.seen.fragments {
             let draw = &stage.draws.list[self.seen.triangles[fragment.triangle as usize].draw as usize];
-            let colour = frame.brush.colour(&self.seen, &draw.paint, 1.0, fragment);
+            let colour = brush.colour(&self.seen, &draw.paint, 1.0, fragment);
             canvas.touch(fragment, |_| colour);
         }
         for known in &self.known {
             let colour = kept.mirror.colour(known);
             canvas.touch(&known.fragment, |_| colour);
         }
-        self.transparency.draw(&stage, &self.visibility, &self.light, frame.brush, canvas);
+        self.transparency.draw(&stage, &self.visibility, &self.light, brush, canvas);
     }
 
     /// Closes the samples at which the item's upper side is not seen; whether any are left.

@@ -1,8 +1,13 @@
 //! The colour of a fragment: light times texture, in eight bits.
 
 use super::seen::{Fragment, Seen, SeenTriangle};
+use super::window::Affine;
 use crate::geometry::{Assets, Paint};
 use crate::scene::Fog;
+
+/// Opacity from which on a fragment takes the light of lamps that cast shadows; the others light it whatever it is. MuJoCo's
+/// 0.99, as Mesa compares it in eight bits.
+const SOLID: u8 = 252;
 
 /// A colour and its opacity in eight bits each.
 pub type Rgba = [u8; 4];
@@ -22,10 +27,18 @@ impl Veil {
         Veil { fog, depth: [forward[0], forward[1], forward[2], shift].map(|x| x as f32) }
     }
 
-    /// Share of a point's own colour that is left.
-    fn clear(&self, p: [f32; 3]) -> f32 {
-        let depth = (0..3).map(|k| self.depth[k] * p[k]).sum::<f32>() + self.depth[3];
-        ((self.fog.end - depth) / (self.fog.end - self.fog.start)).clamp(0.0, 1.0)
+    /// The same for points that are seen where `mirror` moves them.
+    pub fn mirrored(fog: Fog, eye: [f64; 3], forward: [f64; 3], mirror: &Affine) -> Self {
+        let row = |j: usize| (0..3).map(|i| forward[i] * mirror[i][j]).sum::<f64>();
+        let shift = (0..3).map(|i| forward[i] * (mirror[i][3] - eye[i])).sum::<f64>();
+        Veil { fog, depth: [row(0), row(1), row(2), shift].map(|x| x as f32) }
+    }
+
+    /// Share of its own colour that is left of a point of a triangle. Distances of the corners count as positive, those behind
+    /// the eye too, as in Mesa: between them the distance is interpolated.
+    fn clear(&self, triangle: &SeenTriangle, weights: [f32; 3]) -> f32 {
+        let away = |p: [f32; 3]| ((0..3).map(|k| self.depth[k] * p[k]).sum::<f32>() + self.depth[3]).abs();
+        self.fog.clearness(triangle.mean(weights, away))
     }
 }
 
@@ -76,13 +89,13 @@ impl Brush<'_> {
     #[inline]
     pub fn colour(&self, seen: &Seen, paint: &Paint, alpha: f32, fragment: &Fragment) -> Rgba {
         let shade = self.shade(seen, paint, fragment);
+        let opacity = alpha * shade.opacity();
         let mut sum = shade.pass(0);
-        let mut lit = fragment.lit;
+        let mut lit = if eight_bits(opacity) < SOLID { 0 } else { fragment.lit };
         while lit != 0 {
             sum = added(sum, shade.pass(1 + lit.trailing_zeros() as usize));
             lit &= lit - 1;
         }
-        let opacity = alpha * shade.texel.map_or(1.0, |texel| texel[3]);
         [sum[0], sum[1], sum[2], eight_bits(opacity.clamp(0.0, 1.0))]
     }
 
@@ -96,7 +109,9 @@ impl Brush<'_> {
         out: &mut Vec<Rgba>,
     ) {
         let shade = self.shade(seen, paint, fragment);
-        out.extend((0..passes).map(|pass| shade.pass(pass)));
+        let lit = if eight_bits(shade.opacity()) < SOLID { 1 } else { passes };
+        out.extend((0..lit).map(|pass| shade.pass(pass)));
+        out.extend((lit..passes).map(|_| [0, 0, 0, 255]));
     }
 
     #[inline]
@@ -104,7 +119,7 @@ impl Brush<'_> {
         let triangle = &seen.triangles[fragment.triangle as usize];
         let weights = triangle.weights(f32::from(fragment.x) + 0.5, f32::from(fragment.y) + 0.5);
         let texel = self.texel(triangle, paint, fragment, weights);
-        let fog = self.veil.map(|veil| (veil.clear(triangle.position(weights)), veil.fog.rgb));
+        let fog = self.veil.map(|veil| (veil.clear(triangle, weights), veil.fog.rgb));
         Shade { seen, triangle, weights, texel, fog }
     }
 }
@@ -120,6 +135,12 @@ struct Shade<'a> {
 }
 
 impl Shade<'_> {
+    /// The texture's.
+    #[inline]
+    fn opacity(&self) -> f32 {
+        self.texel.map_or(1.0, |texel| texel[3])
+    }
+
     /// The colour that a pass gives, opaque. Fog is black in all but the first, as these are added.
     #[inline]
     fn pass(&self, pass: usize) -> Rgba {

@@ -3,6 +3,7 @@
 use super::coverage::{Extent, Pattern};
 use super::draws::{Draw, Draws};
 use super::image::{Image, write_depth, write_rgb, write_segmentation};
+use super::labels;
 use super::layer::{Layer, Lens, Sides};
 use super::mirror::Mirror;
 use super::opaque::{Frame, Opaque};
@@ -111,6 +112,7 @@ impl Renderer {
         if channels.rgb {
             self.colour(assets, scene, &lens);
             write_rgb(&Image { visibility: &self.visibility, extent }, &self.canvas, &mut picture.rgb);
+            labels::draw(scene, picture);
         }
         Ok(())
     }

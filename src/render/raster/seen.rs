@@ -63,6 +63,12 @@ impl SeenTriangle {
         mix(weights, &self.corners)
     }
 
+    /// What the corners have by their position, world frame, between them.
+    #[inline]
+    pub fn mean(&self, weights: [f32; 3], of: impl Fn([f32; 3]) -> f32) -> f32 {
+        (0..3).map(|k| weights[k] * of(self.corners[k])).sum()
+    }
+
     /// Texture coordinates or direction.
     #[inline]
     pub fn texture(&self, weights: [f32; 3]) -> [f32; 3] {

@@ -9,6 +9,7 @@ use super::visibility::Visibility;
 use super::window::Projection;
 use crate::scene::{Haze, Scene};
 use crate::texture::Texture;
+use crate::view::View;
 use physics::math::ops::{atan, atan2, cos, sin, sqrt};
 use std::f64::consts::PI;
 
@@ -55,7 +56,16 @@ impl Surroundings<'_> {
                 let at = [f64::from(x) + 0.5, y + 0.5];
                 let (colour, limit) = match last {
                     Some((column, colour, limit)) if column == x => (colour, limit),
-                    _ => (sky_colour(texture, &rays, at), None),
+                    _ => {
+                        let clear = self.scene.fog.map(|fog| {
+                            let away = wall(rays.direction(at[0], at[1]), radius, self.slices);
+                            (fog, fog.clearness(away as f32))
+                        });
+                        let own = sky_colour(texture, &rays, at);
+                        let [r, g, b] =
+                            clear.map_or(own, |(fog, clear)| fog.over(clear, own)).map(eight_bits);
+                        ([r, g, b, 255], None)
+                    }
                 };
                 let limit = limit.unwrap_or_else(|| match depth {
                     0.0 => f32::MAX,
@@ -109,6 +119,8 @@ impl Surroundings<'_> {
             self.projection.0.map(|row| (row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]) as f32)
         });
         let [r, g, b] = haze.rgb.map(eight_bits);
+        let View { eye, forward, .. } = self.scene.view;
+        let away = corners.map(|(p, _)| (0..3).map(|k| forward[k] * (p[k] - eye[k])).sum::<f64>() as f32);
         let Visibility { pattern, per_row, groups } = self.visibility;
         let middle = [0.5 * self.extent.width as f32, 0.5 * self.extent.height as f32];
         let shares = shares(window, middle);
@@ -129,7 +141,12 @@ impl Surroundings<'_> {
                     let x = column as i32 * pattern.pixels_in_group() + pattern.pixel_of(lane);
                     let (x, y) = (x as f32 + 0.5 - middle[0], row as f32 + 0.5 - middle[1]);
                     let e = shares.map(|[a, b, c]| a * x + b * y + c);
-                    let alpha = (0..3).map(|k| e[k] * corners[k].1).sum::<f32>() / (e[0] + e[1] + e[2]);
+                    let mean =
+                        |at: [f32; 3]| (0..3).map(|k| e[k] * at[k]).sum::<f32>() / (e[0] + e[1] + e[2]);
+                    let [r, g, b] = self.scene.fog.map_or([r, g, b], |fog| {
+                        fog.over(fog.clearness(mean(away)), haze.rgb).map(eight_bits)
+                    });
+                    let alpha = mean(corners.map(|(_, alpha)| alpha));
                     let colour = [r, g, b, eight_bits(alpha.clamp(0.0, 1.0))];
                     let sample = &mut canvas.groups[index][lane];
                     *sample = over(colour, *sample);
@@ -151,7 +168,7 @@ fn wall(direction: [f64; 3], radius: f64, slices: usize) -> f64 {
 }
 
 /// The sky in the middle of a pixel.
-fn sky_colour(texture: &Texture, rays: &Rays, [x, y]: [f64; 2]) -> Rgba {
+fn sky_colour(texture: &Texture, rays: &Rays, [x, y]: [f64; 2]) -> [f32; 3] {
     // The sky turns its y axis up.
     let look = |x: f64, y: f64| {
         let [a, b, c] = rays.direction(x, y);
@@ -162,8 +179,8 @@ fn sky_colour(texture: &Texture, rays: &Rays, [x, y]: [f64; 2]) -> Rgba {
     let across = std::array::from_fn(|k| right[k] - origin[k]);
     let up = std::array::from_fn(|k| above[k] - origin[k]);
     let lod = texture.lod_cube(origin, across, up);
-    let [r, g, b, _] = texture.sample_cube(look(x, y), lod).map(eight_bits);
-    [r, g, b, 255]
+    let [r, g, b, _] = texture.sample_cube(look(x, y), lod);
+    [r, g, b]
 }
 
 /// Directions of the world that the pixels of a window look in.

@@ -166,6 +166,18 @@ pub struct Fog {
     pub rgb: [f32; 3],
 }
 
+impl Fog {
+    /// Share of its own colour that is left of what lies this far from the eye's plane [m].
+    pub fn clearness(&self, depth: f32) -> f32 {
+        ((self.end - depth) / (self.end - self.start)).clamp(0.0, 1.0)
+    }
+
+    /// A colour seen through a share of clear air.
+    pub fn over(&self, clear: f32, rgb: [f32; 3]) -> [f32; 3] {
+        std::array::from_fn(|k| clear * rgb[k] + (1.0 - clear) * self.rgb[k])
+    }
+}
+
 /// Haze where an infinite plane meets the sky.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Haze {

@@ -3,7 +3,7 @@
 use super::{Measures, Shot};
 use physics::Model;
 use render::raster::{Samples, Settings};
-use render::scene::{Effects, SceneOptions, Show};
+use render::scene::{Effects, Fog, LabelChoice, SceneOptions, Show};
 
 /// Around the worldbody of every model here.
 const HEAD: &str = "<mujoco><statistic extent='1.2' center='0 0 .3'/><asset>
@@ -111,12 +111,39 @@ fn decorations() {
 
 #[test]
 fn fog() {
-    let effects = Effects { fog: true, sky: false, ..Effects::default() };
-    let options = SceneOptions { effects, ..options() };
-    let mut shot = Shot::of(&model(&format!("{FLOOR}{LAMP}")), "near", &options);
-    shot.scene.fog.iter_mut().for_each(|fog| (fog.start, fog.end, fog.rgb) = (1.0, 3.0, [0.7, 0.8, 0.9]));
-    assert!(shot.scene.fog.is_some());
-    shot.measure([150, 111]).iter().for_each(|found| found.check("fog"));
+    let mirror = "<geom type='plane' size='2 2 .1' material='mirror'/>";
+    let endless = "<geom type='plane' size='0 0 .1' material='floor'/>";
+    for (plane, camera, end) in
+        [(FLOOR, "near", 3.0), (mirror, "near", 3.0), (endless, "near", 60.0), (FLOOR, "flat", 60.0)]
+    {
+        let effects = Effects { fog: true, ..Effects::default() };
+        let options = SceneOptions { effects, ..options() };
+        let mut shot = Shot::of(&model(&format!("{plane}{LAMP}")), camera, &options);
+        let set = |fog: &mut Fog| *fog = Fog { start: 1.0, end, rgb: [0.7, 0.8, 0.9] };
+        shot.scene.fog.iter_mut().for_each(set);
+        assert!(shot.scene.fog.is_some() && shot.scene.sky.is_some());
+        shot.measure([150, 111]).iter().for_each(|found| found.check("fog"));
+    }
+}
+
+#[test]
+fn labels_are_those_of_the_cpu() {
+    check(FLOOR, "near", &SceneOptions { label: LabelChoice::Geom, ..options() });
+}
+
+#[test]
+fn a_texture_that_lets_light_through() {
+    let mut model = model(&format!("{FLOOR}{LAMP}{SUN}"));
+    let arrays = model.unchecked_mut();
+    let count = arrays.tex_data.len() / 3;
+    let opacity = |pixel: usize| [255, 253, 250, 0][pixel / 7 % 4];
+    let data = arrays.tex_data.as_chunks::<3>().0.iter().enumerate();
+    arrays.tex_data = data.flat_map(|(k, &[r, g, b])| [r, g, b, opacity(k)]).collect::<Vec<u8>>().into();
+    arrays.tex_nchannel.iter_mut().for_each(|channels| *channels = 4);
+    arrays.tex_adr.iter_mut().for_each(|address| *address = *address / 3 * 4);
+    assert_eq!(arrays.tex_data.len(), 4 * count);
+    let shot = Shot::of(&model, "near", &options());
+    shot.measure([150, 111]).iter().for_each(|found| found.check("opacity"));
 }
 
 #[test]
