@@ -126,7 +126,7 @@ fn what_is_shown_changes_the_picture() {
         &["--hide", "static"],
         &["--show", "world-frame,cameras"],
         &["--label", "geoms"],
-        &["--label", "cameras"],
+        &["--label", "bodies"],
         &["--groups", "3"],
         &["--azimuth", "-30", "--elevation=-70"],
         &["--lookat", "-1,0,0.5", "--distance", "2"],
