@@ -34,7 +34,8 @@
 //! - Arithmetic has a fixed order, `f32` for triangles and colours, `f64` for projections and the sky; transcendental functions come from `physics::math::ops` or from
 //!   polynomials of this crate.
 //! - Vectors of numbers are only added, subtracted, multiplied, divided, compared, selected and rooted, where IEEE 754 leaves no
-//!   choice. Their conversions to integers, minima, maxima and fused products differ between processors and are not used, nor
+//!   choice. Their conversions to integers and fused products differ between processors and are not used, minima and maxima only
+//!   where neither NaN nor the sign of zero matters, nor
 //!   does the sign or payload of a NaN reach a picture. Other processors of 64 bits, such as aarch64, whose vectors keep
 //!   denormal numbers and round to nearest, hence draw the same bits; the table of builds compares x86-64 with and without
 //!   AVX2 and WebAssembly with and without vectors.

@@ -41,7 +41,7 @@ impl Builder {
 
     /// The surface, with its bounds.
     pub fn finish(mut self) -> Surface {
-        self.surface.fit_bounds();
+        self.surface.finish();
         self.surface
     }
 }

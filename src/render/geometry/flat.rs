@@ -91,7 +91,7 @@ pub(super) fn plane(shape: PlaneShape) -> Surface {
             surface.push_quad(quad, 0, quad);
         }
     }
-    surface.fit_bounds();
+    surface.finish();
     surface
 }
 

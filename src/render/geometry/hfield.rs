@@ -38,7 +38,7 @@ pub(super) fn hfield(relief: &Relief) -> Surface {
     add_relief(&mut surface, relief);
     add_sides(&mut surface, relief);
     add_bottom(&mut surface, relief);
-    surface.fit_bounds();
+    surface.finish();
     surface
 }
 

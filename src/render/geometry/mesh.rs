@@ -56,7 +56,7 @@ pub(super) fn mesh(rows: MeshRows) -> Result<Surface, usize> {
         };
         surface.push(position, normal, texcoord);
     }
-    surface.fit_bounds();
+    surface.finish();
     Ok(surface)
 }
 
@@ -78,7 +78,7 @@ pub(super) fn hull(graph: &[i32], vertices: &[[f32; 3]]) -> Option<Surface> {
             face.map(|row| keep(&mut surface.positions, &mut kept[row as usize], vertices[row as usize]));
         surface.push(position, normal, [0; 3]);
     }
-    surface.fit_bounds();
+    surface.finish();
     Some(surface)
 }
 

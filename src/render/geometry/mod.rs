@@ -12,4 +12,4 @@ mod surface;
 
 pub use assets::Assets;
 pub use parts::{Paint, Part};
-pub use surface::{Bounds, CLUSTER, Corners, Surface};
+pub use surface::{Bounds, CLUSTER, Cluster, Corners, Surface};

@@ -24,14 +24,27 @@ pub struct Surface {
     pub corners: Vec<Corners>,
     /// Middle and half sides of the box about the positions.
     pub bounds: Bounds,
-    /// Boxes about each run of [`CLUSTER`] triangles.
-    pub clusters: Vec<Bounds>,
+    /// Each run of [`CLUSTER`] triangles.
+    pub clusters: Vec<Cluster>,
+    /// Rows of `positions` that each cluster uses, cluster by cluster, every one once.
+    pub rows: Vec<u32>,
+    /// The faces again, as places among the rows of their cluster.
+    pub places: Vec<[u8; 3]>,
+}
+
+/// A run of triangles, which are looked at together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cluster {
+    /// The box about its triangles.
+    pub bounds: Bounds,
+    /// Its first place in [`Surface::rows`].
+    pub first_row: u32,
 }
 
 /// Middle and half sides of a box.
 pub type Bounds = [[f32; 3]; 2];
 
-/// Triangles that share a box in [`Surface::clusters`].
+/// Triangles of a cluster: few enough for their corners to be numbered by bytes.
 pub const CLUSTER: usize = 64;
 
 impl Surface {
@@ -42,6 +55,8 @@ impl Surface {
             + std::mem::size_of_val(&self.texcoords[..])
             + std::mem::size_of_val(&self.faces[..])
             + std::mem::size_of_val(&self.corners[..])
+            + std::mem::size_of_val(&self.rows[..])
+            + std::mem::size_of_val(&self.places[..])
     }
 
     /// Adds a triangle by the rows of its positions, normals and texture coordinates.
@@ -61,10 +76,35 @@ impl Surface {
         }
     }
 
-    /// Sets the boxes from the positions that triangles use.
-    pub(super) fn fit_bounds(&mut self) {
+    /// Sets the box, and gathers the triangles into clusters.
+    pub(super) fn finish(&mut self) {
         self.bounds = bounds(&self.faces, &self.positions);
-        self.clusters = self.faces.chunks(CLUSTER).map(|faces| bounds(faces, &self.positions)).collect();
+        self.places.reserve_exact(self.faces.len());
+        // For each position the cluster that used it last, counted from 1, and its place there.
+        let mut last = vec![(0, 0); self.positions.len()];
+        for (number, faces) in (1_u32..).zip(self.faces.chunks(CLUSTER)) {
+            let first_row = self.rows.len();
+            self.clusters
+                .push(Cluster { bounds: bounds(faces, &self.positions), first_row: first_row as u32 });
+            for face in faces {
+                self.places.push(face.map(|row| {
+                    let (user, place) = &mut last[row as usize];
+                    if *user != number {
+                        (*user, *place) = (number, (self.rows.len() - first_row) as u8);
+                        self.rows.push(row);
+                    }
+                    *place
+                }));
+            }
+        }
+        self.rows.shrink_to_fit();
+    }
+
+    /// The rows of `positions` that a cluster uses.
+    pub fn rows_of(&self, cluster: usize) -> &[u32] {
+        let first = |cluster: &Cluster| cluster.first_row as usize;
+        let end = self.clusters.get(cluster + 1).map_or(self.rows.len(), first);
+        &self.rows[first(&self.clusters[cluster])..end]
     }
 }
 

@@ -5,7 +5,7 @@
 //! 1/8 pixel, so that a tile of 16 by 16 pixels needs 32 bits an edge function: `floor(e / 32)` has the sign of `e`, and
 //! moves by whole steps from sample to sample.
 
-use super::vertices::Vertex;
+use super::vertices::{Vertex, box_on_grid};
 use wide::{f32x4, f32x8, i32x4};
 
 /// Columns and rows of a tile [pixel].
@@ -116,17 +116,33 @@ impl Target {
 /// A triangle whose coverage can be asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle {
-    /// Edge functions `a x + b y + c`, at least 0 inside.
-    edges: [Edge; 3],
+    edges: Edges,
+    plane: Plane,
+    boxed: Boxed,
+}
+
+/// First and last columns and rows with samples of a triangle's box [pixel].
+#[derive(Clone, Copy, Debug)]
+pub struct Boxed {
+    /// Columns.
+    pub columns: (i32, i32),
+    /// Rows.
+    pub rows: (i32, i32),
+}
+
+/// Edge functions `a x + b y + c` of a triangle, at least 0 inside.
+#[derive(Clone, Copy, Debug)]
+pub struct Edges([Edge; 3]);
+
+/// Depth of a triangle.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane {
     /// First corner [pixel].
     origin: [f32; 2],
     /// Depth at the first corner.
     z: f32,
     /// Change of depth along a row and a column [1/pixel].
     slope: [f32; 2],
-    /// First and last column and row with samples [pixel].
-    columns: (i32, i32),
-    rows: (i32, i32),
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -136,48 +152,58 @@ struct Edge {
     c: i64,
 }
 
-impl Triangle {
-    /// The part of a triangle that lies in the target; none where it covers no sample for its facing or size.
+impl Target {
+    /// The box of a triangle; none where it has no sample in the region.
     #[inline]
-    pub fn new(v: [Vertex; 3], target: &Target) -> Option<Self> {
-        let [p, q, r] = v.map(|v| v.on_grid());
-        let (low, high) = (p.min(q).min(r) + target.before, p.max(q).max(r) + target.after);
-        let first: i32x4 = low >> 8_i32;
-        let first = first.max(target.first).to_array();
-        let last: i32x4 = high >> 8_i32;
-        let last = last.min(target.last).to_array();
-        if first[0] > last[0] || first[1] > last[1] {
-            return None;
-        }
-        let [p, q, r] = [p, q, r].map(|v| [v.to_array()[0], v.to_array()[1]]);
+    pub fn boxed(&self, v: &[Vertex; 3]) -> Option<Boxed> {
+        let [low, high] = box_on_grid(v);
+        let first: i32x4 = (low + self.before) >> 8_i32;
+        let first = first.max(self.first).to_array();
+        let last: i32x4 = (high + self.after) >> 8_i32;
+        let last = last.min(self.last).to_array();
+        let some = first[0] <= last[0] && first[1] <= last[1];
+        some.then_some(Boxed { columns: (first[0], last[0]), rows: (first[1], last[1]) })
+    }
+
+    /// The edges of a triangle; none where it has no area or is seen from the wrong side.
+    #[inline]
+    pub fn edges(&self, v: &[Vertex; 3]) -> Option<Edges> {
+        let place = |v: &Vertex| {
+            let [x, y, ..] = v.on_grid().to_array();
+            [x, y]
+        };
+        let (p, q, r) = (place(&v[0]), place(&v[1]), place(&v[2]));
         let area =
             i64::from(q[0] - p[0]) * i64::from(r[1] - p[1]) - i64::from(r[0] - p[0]) * i64::from(q[1] - p[1]);
-        let turned = match (target.facing, area) {
+        let turned = match (self.facing, area) {
             (_, 0) => return None,
             (Facing::Front | Facing::Both, 1..) => false,
             (Facing::Back | Facing::Both, ..0) => true,
             _ => return None,
         };
         let (q, r) = if turned { (r, q) } else { (q, r) };
-        // Depth is that of the plane through the corners themselves, coverage that of the grid.
-        let [origin, second, third] = v.map(|v| v.at());
+        Some(Edges([edge(q, r), edge(r, p), edge(p, q)]))
+    }
+}
+
+impl Edges {
+    /// Whether a point lies inside, in 1/256 pixel.
+    #[inline]
+    pub fn contain(&self, x: i32, y: i32) -> bool {
+        self.0.iter().all(|e| i64::from(e.a) * i64::from(x) + i64::from(e.b) * i64::from(y) + e.c >= 0)
+    }
+}
+
+impl Plane {
+    /// The plane through the corners themselves, where coverage is that of the grid.
+    #[inline]
+    pub fn of(v: &[Vertex; 3]) -> Self {
+        let (origin, second, third) = (v[0].at(), v[1].at(), v[2].at());
         let side = |at: [f32; 2], z: f32| [at[0] - origin[0], at[1] - origin[1], z - v[0].z()];
         let ([dx, dy, dz], [ex, ey, ez]) = (side(second, v[1].z()), side(third, v[2].z()));
         let scale = 1.0 / (dx * ey - dy * ex);
         let slope = [(dz * ey - ez * dy) * scale, (ez * dx - dz * ex) * scale];
-        let edges = [edge(q, r), edge(r, p), edge(p, q)];
-        let (columns, rows) = ((first[0], last[0]), (first[1], last[1]));
-        Some(Triangle { edges, origin, z: v[0].z(), slope, columns, rows })
-    }
-
-    /// First and last column with samples in the window.
-    pub fn columns(&self) -> (i32, i32) {
-        self.columns
-    }
-
-    /// First and last row with samples in the window.
-    pub fn rows(&self) -> (i32, i32) {
-        self.rows
+        Plane { origin, z: v[0].z(), slope }
     }
 
     /// Change of depth along a row and a column [1/pixel].
@@ -197,10 +223,15 @@ impl Triangle {
         let [left, bottom] = self.origin.map(f32x8::splat);
         f32x8::splat(self.z) + (across * (x - left) + up * (y - bottom))
     }
+}
 
-    /// Whether a point lies inside, in 1/256 pixel.
-    pub fn contains(&self, x: i32, y: i32) -> bool {
-        self.edges.iter().all(|e| i64::from(e.a) * i64::from(x) + i64::from(e.b) * i64::from(y) + e.c >= 0)
+impl Triangle {
+    /// The part of a triangle that lies in the target; none where it covers no sample for its facing or size.
+    #[inline]
+    pub fn new(v: &[Vertex; 3], target: &Target) -> Option<Self> {
+        let boxed = target.boxed(v)?;
+        let edges = target.edges(v)?;
+        Some(Triangle { edges, plane: Plane::of(v), boxed })
     }
 
     /// Calls `draw(row, group, mask, depth)` for every group with covered samples; lanes of the mask are all ones where a sample
@@ -208,14 +239,15 @@ impl Triangle {
     #[inline]
     pub fn cover(&self, pattern: &Pattern, mut draw: impl FnMut(usize, usize, i32x4, f32x4)) {
         let group = pattern.columns;
-        let first = self.columns.0 / group * group;
-        for bottom in (self.rows.0..=self.rows.1).step_by(TILE as usize) {
-            for left in (first..=self.columns.1).step_by(TILE as usize) {
+        let Boxed { columns, rows } = self.boxed;
+        let first = columns.0 / group * group;
+        for bottom in (rows.0..=rows.1).step_by(TILE as usize) {
+            for left in (first..=columns.1).step_by(TILE as usize) {
                 let span = Span {
                     left,
                     bottom,
-                    groups: (self.columns.1.min(left + TILE - 1) - left) / group + 1,
-                    rows: self.rows.1.min(bottom + TILE - 1) - bottom + 1,
+                    groups: (columns.1.min(left + TILE - 1) - left) / group + 1,
+                    rows: rows.1.min(bottom + TILE - 1) - bottom + 1,
                 };
                 self.cover_tile(pattern, span, &mut draw);
             }
@@ -225,21 +257,21 @@ impl Triangle {
     #[inline]
     fn cover_tile(&self, pattern: &Pattern, span: Span, draw: &mut impl FnMut(usize, usize, i32x4, f32x4)) {
         let mut steps = [Step::default(); 3];
-        for (step, edge) in steps.iter_mut().zip(&self.edges) {
+        for (step, edge) in steps.iter_mut().zip(&self.edges.0) {
             let Some(found) = edge.in_tile(pattern, &span) else { return };
             *step = found;
         }
         let [s, t, u] = steps;
+        let Plane { origin, z, slope } = self.plane;
         let lane = |offsets: [i32; 4]| i32x4::new(offsets).round_float() * f32x4::splat(0.125);
         let (lane_x, lane_y) = (lane(pattern.x), lane(pattern.y));
-        let x = lane_x + f32x4::splat(span.left as f32 - self.origin[0]);
-        let across = f32x4::splat(self.slope[0] * pattern.columns as f32);
+        let x = lane_x + f32x4::splat(span.left as f32 - origin[0]);
+        let across = f32x4::splat(slope[0] * pattern.columns as f32);
         let first_group = (span.left / pattern.columns) as usize;
         for row in 0..span.rows {
             let line = span.bottom + row;
-            let y = lane_y + f32x4::splat(line as f32 - self.origin[1]);
-            let depth =
-                f32x4::splat(self.z) + (f32x4::splat(self.slope[0]) * x + f32x4::splat(self.slope[1]) * y);
+            let y = lane_y + f32x4::splat(line as f32 - origin[1]);
+            let depth = f32x4::splat(z) + (f32x4::splat(slope[0]) * x + f32x4::splat(slope[1]) * y);
             let mut e = [s, t, u].map(|step| step.start + i32x4::splat(step.up * row));
             for group in 0..span.groups {
                 let outside = e[0] | e[1] | e[2];
@@ -331,7 +363,7 @@ mod tests {
     fn counts(triangles: &[[Vertex; 3]], pattern: &Pattern) -> Vec<u32> {
         let groups = pattern.groups(EXTENT.width as usize);
         let mut counts = vec![0; groups * EXTENT.height as usize * 4];
-        for &v in triangles {
+        for v in triangles {
             let Some(triangle) = Triangle::new(v, &target(*pattern, Facing::Both)) else { continue };
             triangle.cover(pattern, |row, group, mask, _| {
                 for (lane, &set) in mask.to_array().iter().enumerate() {
@@ -378,15 +410,15 @@ mod tests {
     #[test]
     fn coverage_and_depth_agree_with_their_definition() {
         let v = [vertex(1000, 500, 0.1), vertex(20_000, 3000, 0.7), vertex(6000, 19_000, 0.4)];
-        let triangle = Triangle::new(v, &target(Pattern::FOUR, Facing::Front)).expect("it is seen");
+        let triangle = Triangle::new(&v, &target(Pattern::FOUR, Facing::Front)).expect("it is seen");
         let mut covered = 0;
         triangle.cover(&Pattern::FOUR, |row, group, mask, depth| {
             for lane in 0..4 {
                 let (x, y) =
                     (8 * group as i32 + Pattern::FOUR.x[lane], 8 * row as i32 + Pattern::FOUR.y[lane]);
                 let inside = mask.to_array()[lane] != 0;
-                assert_eq!(inside, triangle.contains(32 * x, 32 * y));
-                let expected = triangle.depth(x as f32 / 8.0, y as f32 / 8.0);
+                assert_eq!(inside, triangle.edges.contain(32 * x, 32 * y));
+                let expected = triangle.plane.depth(x as f32 / 8.0, y as f32 / 8.0);
                 assert!(!inside || (depth.to_array()[lane] - expected).abs() < 1e-5);
                 covered += u32::from(inside);
             }
@@ -395,14 +427,14 @@ mod tests {
         let area = (19_000.0 * 18_500.0 - 5000.0 * 2500.0) / 2.0 / 65536.0;
         assert!((f64::from(covered) / 4.0 - area).abs() < 0.01 * area, "{covered} samples, {area} pixels");
         for (corner, z) in v.iter().zip([0.1, 0.7, 0.4]) {
-            assert!((triangle.depth(corner.at()[0], corner.at()[1]) - z).abs() < 1e-5);
+            assert!((triangle.plane.depth(corner.at()[0], corner.at()[1]) - z).abs() < 1e-5);
         }
     }
 
     #[test]
     fn the_far_side_is_not_seen() {
         let v = [vertex(0, 0, 0.5), vertex(0, 9000, 0.5), vertex(9000, 0, 0.5)];
-        assert!(Triangle::new(v, &target(Pattern::FOUR, Facing::Front)).is_none());
-        assert!(Triangle::new(v, &target(Pattern::FOUR, Facing::Back)).is_some());
+        assert!(Triangle::new(&v, &target(Pattern::FOUR, Facing::Front)).is_none());
+        assert!(Triangle::new(&v, &target(Pattern::FOUR, Facing::Back)).is_some());
     }
 }

@@ -5,7 +5,7 @@ use super::lines::{Line, list};
 use super::window::Affine;
 use crate::error::RenderError;
 use crate::geometry::{Assets, Paint, Part, Surface};
-use crate::scene::{Item, Scene, Shape};
+use crate::scene::{Category, Item, Scene, Shape};
 use std::ops::Range;
 
 /// One surface to draw.
@@ -27,6 +27,10 @@ pub struct Draw {
     pub behind: bool,
     /// It is blended over what is behind it.
     pub transparent: bool,
+    /// It casts shadows.
+    pub casts: bool,
+    /// It is the same in all pictures that are drawn together.
+    pub shared: bool,
     /// Its first position in the layers.
     pub first_vertex: usize,
     /// Number of its first triangle; 0 is no triangle.
@@ -85,13 +89,19 @@ pub struct Draws {
 }
 
 impl Draws {
+    /// Lists nothing.
+    pub fn clear(&mut self) {
+        self.list.clear();
+        self.lines.clear();
+        (self.vertices, self.triangles) = (0, 1);
+    }
+
     /// Lists the surfaces of a scene.
     ///
     /// # Errors
     /// There are more than `MAX_TRIANGLES` triangles or positions.
     pub fn update(&mut self, assets: &Assets, scene: &Scene) -> Result<(), RenderError> {
-        self.list.clear();
-        (self.vertices, self.triangles) = (0, 1);
+        self.clear();
         list(scene, &mut self.lines);
         let eye = scene.view.eye.map(|x| x as f32);
         for (index, item) in scene.items.iter().enumerate() {
@@ -116,6 +126,8 @@ impl Draws {
                     facing,
                     behind,
                     transparent,
+                    casts: item.category != Category::Decor,
+                    shared: true,
                     first_vertex: self.vertices,
                     first_triangle: self.triangles,
                 });
@@ -152,6 +164,29 @@ impl Draws {
     /// The surface that a triangle belongs to.
     pub fn of_triangle(&self, triangle: u32) -> usize {
         self.list.partition_point(|draw| draw.first_triangle <= triangle) - 1
+    }
+}
+
+/// Marks the surfaces that the pictures have in common: those of one item, of one shape and in one place.
+pub fn mark_shared(all: &mut [Draws]) {
+    let Some((first, others)) = all.split_first_mut() else { return };
+    for draws in &*others {
+        let same_length = draws.list.len() == first.list.len();
+        for (a, b) in first.list.iter_mut().zip(&draws.list) {
+            a.shared &= same_length
+                && a.item == b.item
+                && a.surface == b.surface
+                && a.world == b.world
+                && a.casts == b.casts;
+        }
+        if !same_length {
+            first.list.iter_mut().for_each(|draw| draw.shared = false);
+        }
+    }
+    for draws in others {
+        for (index, draw) in draws.list.iter_mut().enumerate() {
+            draw.shared = first.list.get(index).is_some_and(|first| first.shared);
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! The surfaces of a scene under one projection: window positions, and which triangles can be seen.
+//! The surfaces of a scene under one projection: which can be seen, and their triangles in the window.
 
 use super::clip::{GUARD, clip};
 use super::coverage::{Extent, Facing, Pattern, Region, Target, Triangle};
@@ -35,10 +35,9 @@ pub enum Sides {
     Averted,
 }
 
-/// Window positions of all surfaces.
+/// Where all surfaces lie.
 #[derive(Clone, Debug, Default)]
 pub struct Layer {
-    vertices: Vec<Vertex>,
     reach: Vec<Reach>,
 }
 
@@ -47,7 +46,7 @@ pub struct Layer {
 enum Reach {
     /// Beside the window, or left out.
     Unseen,
-    /// Maybe in it: the map that its positions took, and the side of the mirror.
+    /// Maybe in it: the map that its positions take, and the side of the mirror.
     Seen { columns: Columns, half: Option<HalfSpace>, whole: bool },
 }
 
@@ -63,29 +62,20 @@ enum Side {
 }
 
 impl Layer {
-    /// Projects the surfaces that `wanted` picks and whose boxes are not beside the window.
+    /// Places the surfaces that `wanted` picks and whose boxes are not beside the window.
     pub fn update(&mut self, assets: &Assets, draws: &Draws, lens: &Lens, wanted: impl Fn(&Draw) -> bool) {
-        self.vertices.resize(draws.vertices, Vertex::default());
-        self.reach.resize(draws.list.len(), Reach::Unseen);
-        for (draw, reach) in draws.list.iter().zip(&mut self.reach) {
-            *reach = Reach::Unseen;
+        self.reach.clear();
+        self.reach.extend(draws.list.iter().map(|draw| {
             if !wanted(draw) {
-                continue;
+                return Reach::Unseen;
             }
-            let surface = draw.surface(assets);
             let columns = lens.projection.after(&draw.world);
             let half = lens.mirror.map(|plane| local(plane, draw));
-            let side = side(&columns, half, lens, surface);
-            if side == Side::Beside {
-                continue;
+            match side(&columns, half, lens, draw.surface(assets)) {
+                Side::Beside => Reach::Unseen,
+                side => Reach::Seen { columns, half, whole: side == Side::Whole },
             }
-            let out = &mut self.vertices[draw.first_vertex..draw.first_vertex + surface.positions.len()];
-            match side {
-                Side::Whole => project_whole(&columns, &surface.positions, out),
-                _ => project(&columns, half, &surface.positions, out),
-            }
-            *reach = Reach::Seen { columns, half, whole: side == Side::Whole };
-        }
+        }));
     }
 
     /// Calls `see(number, triangle)` for every triangle of a surface that covers samples; one that is cut gives several with the
@@ -97,62 +87,66 @@ impl Layer {
         (index, draw): (usize, &Draw),
         lens: &Lens,
         pattern: &Pattern,
-        see: impl FnMut(u32, &Triangle),
+        mut see: impl FnMut(u32, &Triangle),
     ) {
-        self.triangles_where(assets, (index, draw), lens, pattern, |_| true, see);
+        let target = Target::new(*pattern, facing(draw, lens), &lens.region);
+        self.corners(
+            assets,
+            (index, draw),
+            lens,
+            |_| true,
+            |number, corners| {
+                if let Some(triangle) = Triangle::new(corners, &target) {
+                    see(number, &triangle);
+                }
+            },
+        );
     }
 
-    /// The same without the triangles in boxes that do not matter.
+    /// Calls `see(number, corners)` for every triangle of a surface that can be drawn, in pieces where it is cut, without
+    /// those in boxes that do not matter.
     #[inline]
-    pub fn triangles_where(
+    pub fn corners(
         &self,
         assets: &Assets,
         (index, draw): (usize, &Draw),
         lens: &Lens,
-        pattern: &Pattern,
         matters: impl Fn(&Reached) -> bool,
-        mut see: impl FnMut(u32, &Triangle),
+        mut see: impl FnMut(u32, &[Vertex; 3]),
     ) {
         let Reach::Seen { columns, half, whole } = &self.reach[index] else { return };
-        let facing = match (draw.facing, lens.mirror.is_some(), lens.sides) {
-            (_, _, Sides::Both) => Facing::Both,
-            (_, _, Sides::Averted) => Facing::Back,
-            (facing, false, Sides::Seen) => facing,
-            (Facing::Front, true, Sides::Seen) => Facing::Back,
-            (Facing::Back, true, Sides::Seen) => Facing::Front,
-            (Facing::Both, true, Sides::Seen) => Facing::Both,
-        };
-        let target = Target::new(*pattern, facing, &lens.region);
         let surface = draw.surface(assets);
-        let vertices = &self.vertices[draw.first_vertex..draw.first_vertex + surface.positions.len()];
-        let mut see_face = |number: u32, face: &[u32; 3]| {
-            let v = face.map(|i| vertices[i as usize]);
-            if *whole || (v[0].beyond() | v[1].beyond() | v[2].beyond()) == 0 {
-                if let Some(triangle) = Triangle::new(v, &target) {
-                    see(number, &triangle);
-                }
-            } else if (v[0].beyond() & v[1].beyond() & v[2].beyond()) == 0 {
-                let corners = face.map(|i| {
-                    let p = surface.positions[i as usize];
-                    let [x, y, z, w] = columns.apply(p);
-                    [x, y, z, w, half.map_or(1.0, |half| distance(half, p))]
-                });
-                for piece in clip(corners).triangles() {
-                    if let Some(triangle) = Triangle::new(piece.map(|corner| inside(&corner)), &target) {
-                        see(number, &triangle);
-                    }
-                }
-            }
-        };
-        for ((first, faces), bounds) in
-            (draw.first_triangle..).step_by(CLUSTER).zip(surface.faces.chunks(CLUSTER)).zip(&surface.clusters)
+        // As many as a byte can number.
+        let mut window = [Vertex::default(); 256];
+        let clusters = surface.clusters.iter().zip(surface.places.chunks(CLUSTER));
+        for ((index, (cluster, faces)), first) in
+            clusters.enumerate().zip((draw.first_triangle..).step_by(CLUSTER))
         {
             // A box costs as much as some triangles.
             let hidden = faces.len() > SMALL
-                && reached(columns, lens, bounds)
+                && reached(columns, lens, &cluster.bounds)
                     .is_some_and(|reached| reached.is_empty() || !matters(&reached));
-            if !hidden {
-                (first..).zip(faces).for_each(|(number, face)| see_face(number, face));
+            if hidden {
+                continue;
+            }
+            let rows = surface.rows_of(index);
+            if *whole {
+                project_whole(columns, &surface.positions, rows, &mut window);
+                for (number, &[a, b, c]) in (first..).zip(faces) {
+                    see(number, &[window[usize::from(a)], window[usize::from(b)], window[usize::from(c)]]);
+                }
+                continue;
+            }
+            project(columns, *half, (&surface.positions, rows), &mut window);
+            for (number, face) in (first..).zip(faces) {
+                let [a, b, c] = *face;
+                let v = [window[usize::from(a)], window[usize::from(b)], window[usize::from(c)]];
+                if (v[0].beyond() | v[1].beyond() | v[2].beyond()) == 0 {
+                    see(number, &v);
+                } else if (v[0].beyond() & v[1].beyond() & v[2].beyond()) == 0 {
+                    let points = face.map(|place| surface.positions[rows[usize::from(place)] as usize]);
+                    cut(columns, *half, points, |corners| see(number, corners));
+                }
             }
         }
     }
@@ -163,6 +157,30 @@ impl Layer {
             Reach::Seen { columns, .. } => Some(columns),
             Reach::Unseen => None,
         }
+    }
+}
+
+/// Which side of a surface's triangles a lens shows.
+pub fn facing(draw: &Draw, lens: &Lens) -> Facing {
+    match (draw.facing, lens.mirror.is_some(), lens.sides) {
+        (_, _, Sides::Both) => Facing::Both,
+        (_, _, Sides::Averted) => Facing::Back,
+        (facing, false, Sides::Seen) => facing,
+        (Facing::Front, true, Sides::Seen) => Facing::Back,
+        (Facing::Back, true, Sides::Seen) => Facing::Front,
+        (Facing::Both, true, Sides::Seen) => Facing::Both,
+    }
+}
+
+/// Calls `see` for the pieces of a triangle that can be drawn.
+#[inline(never)]
+fn cut(columns: &Columns, half: Option<HalfSpace>, points: [[f32; 3]; 3], mut see: impl FnMut(&[Vertex; 3])) {
+    let corners = points.map(|p| {
+        let [x, y, z, w] = columns.apply(p);
+        [x, y, z, w, half.map_or(1.0, |half| distance(half, p))]
+    });
+    for piece in clip(corners).triangles() {
+        see(&piece.map(|corner| inside(&corner)));
     }
 }
 

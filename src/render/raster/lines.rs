@@ -84,7 +84,7 @@ impl Line {
         let [p, q, r, s] = [beside(a, 1.0), beside(a, -1.0), beside(b, -1.0), beside(b, 1.0)];
         let target = Target::new(*pattern, Facing::Both, &lens.region);
         for corners in [[p, q, s], [q, r, s]] {
-            if let Some(triangle) = Triangle::new(corners, &target) {
+            if let Some(triangle) = Triangle::new(&corners, &target) {
                 see(&triangle);
             }
         }

@@ -1,7 +1,7 @@
 //! From a scene to a picture.
 
 use super::coverage::{Extent, Pattern};
-use super::draws::{Draw, Draws};
+use super::draws::{Draw, Draws, mark_shared};
 use super::image::{Image, write_depth, write_rgb, write_segmentation};
 use super::labels;
 use super::layer::{Layer, Lens, Sides};
@@ -12,45 +12,79 @@ use super::seen::Illumination;
 use super::settings::{Samples, Settings};
 use super::sky::Surroundings;
 use super::stage::Stage;
-use super::still::{Kept, Plan, Present, Views};
+use super::still::{Place, Plan, Present, Views};
 use super::transparency::Transparency;
+use super::umbra::{Cast, Umbra};
 use super::visibility::Visibility;
 use super::window::Projection;
 use crate::error::{MAX_SIDE, RenderError};
 use crate::geometry::Assets;
 use crate::picture::{Channels, Picture};
-use crate::scene::Scene;
+use crate::scene::{Light, Scene};
 
-/// Draws scenes on the CPU. It keeps the memory of a picture, so that the next one of the same size and scene allocates
+/// One picture to draw.
+pub struct Shot<'a> {
+    /// Triangles and textures of the scene's model.
+    pub assets: &'a Assets,
+    /// What is drawn.
+    pub scene: &'a Scene,
+    /// Which arrays are wanted.
+    pub channels: Channels,
+    /// Where they go, at its size.
+    pub picture: &'a mut Picture,
+}
+
+/// Draws scenes on the CPU. It keeps the memory of pictures, so that the next ones of the same sizes and scenes allocate
 /// nothing.
 #[derive(Clone, Debug)]
 pub struct Renderer {
     settings: Settings,
-    draws: Draws,
-    layer: Layer,
-    visibility: Visibility,
-    opaque: Opaque,
+    /// Surfaces of every picture of a group.
+    draws: Vec<Draws>,
+    opaques: Vec<Opaque>,
+    sheets: Vec<Sheet>,
     mirror: Mirror,
     transparency: Transparency,
+    umbra: Umbra,
     /// The lights, none with shadows.
     light: Illumination,
-    canvas: Canvas,
     views: Views,
 }
+
+/// The samples of a picture.
+#[derive(Clone, Debug)]
+struct Sheet {
+    layer: Layer,
+    visibility: Visibility,
+    canvas: Canvas,
+    /// What its colours are drawn with, where they are wanted.
+    colour: Option<Colour>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Colour {
+    lens: Lens,
+    place: Place,
+    plan: Plan,
+    /// The item that mirrors.
+    reflective: Option<usize>,
+}
+
+/// Most pictures that are drawn together; the views that are kept are more.
+const TOGETHER: usize = 8;
 
 impl Renderer {
     /// A renderer with the settings of a model, see [`Settings::of`].
     pub fn new(settings: Settings) -> Self {
         Renderer {
             settings,
-            draws: Draws::default(),
-            layer: Layer::default(),
-            visibility: Visibility::new(Pattern::CENTER),
-            opaque: Opaque::default(),
+            draws: Vec::new(),
+            opaques: Vec::new(),
+            sheets: Vec::new(),
             mirror: Mirror::default(),
             transparency: Transparency::default(),
+            umbra: Umbra::default(),
             light: Illumination::default(),
-            canvas: Canvas::default(),
             views: Views::default(),
         }
     }
@@ -76,85 +110,110 @@ impl Renderer {
         channels: Channels,
         picture: &mut Picture,
     ) -> Result<(), RenderError> {
-        let (width, height) = (picture.width, picture.height);
-        if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
-            return Err(RenderError::Size { width, height });
-        }
-        let projection = Projection::of(&scene.view, width, height)?;
-        let extent = Extent { width: width as i32, height: height as i32 };
+        self.draw_all(&mut [Shot { assets, scene, channels, picture }])
+    }
+
+    /// Draws several pictures, each with the bits that it has alone. Pictures of one state from several cameras that follow
+    /// each other share the work on shadows.
+    ///
+    /// # Errors
+    /// As [`Renderer::draw`], that of the first shot that fails; the others are drawn.
+    pub fn draw_all(&mut self, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
         self.settings = self.settings.within_limits();
-        let lens = Lens {
-            projection,
-            extent,
-            region: extent.region(),
-            deepest: 1.0,
-            mirror: None,
-            sides: Sides::Seen,
-        };
-        self.draws.update(assets, scene)?;
+        let mut outcome = Ok(());
+        let mut rest = shots;
+        while !rest.is_empty() {
+            let (group, others) = rest.split_at_mut(together(rest));
+            outcome = outcome.and(self.draw_group(group));
+            rest = others;
+        }
+        outcome
+    }
+
+    fn draw_group(&mut self, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
+        let count = shots.len();
+        while self.sheets.len() < count {
+            self.sheets.push(Sheet::new());
+            self.draws.push(Draws::default());
+            self.opaques.push(Opaque::default());
+        }
+        let mut outcome = Ok(());
+        for (view, shot) in shots.iter_mut().enumerate() {
+            let seen = self.look(view, shot);
+            if seen.is_err() {
+                self.sheets[view].colour = None;
+                self.opaques[view].clear();
+            }
+            outcome = outcome.and(seen);
+        }
+        mark_shared(&mut self.draws[..count]);
+        self.shade(shots);
+        for (view, shot) in shots.iter_mut().enumerate() {
+            self.paint(view, shot);
+        }
+        outcome
+    }
+
+    /// Finds what a shot shows: its depth and segmentation, and what its colours are of.
+    fn look(&mut self, view: usize, shot: &mut Shot<'_>) -> Result<(), RenderError> {
+        let Shot { assets, scene, channels, ref mut picture } = *shot;
+        let (draws, sheet) = (&mut self.draws[view], &mut self.sheets[view]);
+        draws.clear();
+        let lens = lens(scene, picture)?;
+        draws.update(assets, scene)?;
         picture.rgb.clear();
         picture.depth.clear();
         picture.segmentation.clear();
         if channels.depth || channels.segmentation {
-            self.layer.update(assets, &self.draws, &lens, |draw| !scene.items[draw.item].unlisted);
-            let stage = Stage { assets, scene, draws: &self.draws, layer: &self.layer, lens: &lens };
-            self.visibility.clear(Pattern::CENTER, width, height);
-            look(&stage, &mut self.visibility, |draw| !scene.items[draw.item].unlisted);
-            look_at_lines(&stage, &self.settings, &mut self.visibility);
-            let image = Image { visibility: &self.visibility, extent };
+            let Sheet { layer, visibility, .. } = sheet;
+            layer.update(assets, draws, &lens, |draw| !scene.items[draw.item].unlisted);
+            let stage = Stage { assets, scene, draws, layer, lens: &lens };
+            visibility.clear(Pattern::CENTER, picture.width, picture.height);
+            look(&stage, visibility, |draw| !scene.items[draw.item].unlisted);
+            look_at_lines(&stage, &self.settings, visibility);
+            let image = Image { visibility, extent: lens.extent };
             if channels.depth {
                 write_depth(&image, &scene.view.frustum, &mut picture.depth);
             }
             if channels.segmentation {
-                write_segmentation(&image, &self.draws, &scene.items, &mut picture.segmentation);
+                write_segmentation(&image, draws, &scene.items, &mut picture.segmentation);
             }
         }
-        if channels.rgb {
-            self.colour(assets, scene, &lens);
-            write_rgb(&Image { visibility: &self.visibility, extent }, &self.canvas, &mut picture.rgb);
-            labels::draw(scene, picture);
+        match channels.rgb {
+            true => self.look_at_colours(view, (assets, scene), lens),
+            false => {
+                self.sheets[view].colour = None;
+                self.opaques[view].clear();
+            }
         }
         Ok(())
     }
 
-    /// Paints all samples of a picture.
-    fn colour(&mut self, assets: &Assets, scene: &Scene, lens: &Lens) {
-        let Renderer {
-            settings,
-            draws,
-            layer,
-            visibility,
-            opaque,
-            mirror,
-            transparency,
-            light,
-            canvas,
-            views,
-        } = self;
-        let nothing = &mut Kept::nothing(scene);
-        let (kept, plan) = match settings.keep {
-            true => views.find(&Present { assets, scene, draws, extent: lens.extent, settings: *settings }),
-            false => (nothing, Plan::Without),
-        };
-        let view = &scene.view;
-        let brush = Brush { assets, veil: scene.fog.map(|fog| Veil::new(fog, view.eye, view.forward)) };
-        let frame = Frame { settings, brush: &brush, plan };
+    /// Finds what is seen at all samples of a picture, lights it, and paints what is mirrored.
+    fn look_at_colours(&mut self, view: usize, (assets, scene): (&Assets, &Scene), lens: Lens) {
+        let Renderer { settings, draws, opaques, sheets, mirror, umbra, views, .. } = self;
+        let (draws, opaque) = (&draws[view], &mut opaques[view]);
+        let Sheet { layer, visibility, canvas, colour } = &mut sheets[view];
+        let (place, plan) =
+            views.find(&Present { assets, scene, draws, extent: lens.extent, settings: *settings });
+        let kept = views.kept_mut(place);
+        let frame = Frame { settings, brush: &brush(assets, scene), plan };
         let pattern = match settings.samples {
             Samples::One => Pattern::CENTER,
             Samples::Four => Pattern::FOUR,
         };
         visibility.clear(pattern, lens.extent.width as usize, lens.extent.height as usize);
         if plan == Plan::Make {
-            layer.update(assets, draws, lens, |draw| kept.stills.has(draw) && !draw.transparent);
-            let stage = Stage { assets, scene, draws, layer, lens };
+            layer.update(assets, draws, &lens, |draw| kept.stills.has(draw) && !draw.transparent);
+            let stage = Stage { assets, scene, draws, layer, lens: &lens };
             look(&stage, visibility, |draw| kept.stills.has(draw) && !draw.transparent);
-            opaque.keep(&stage, &frame, visibility, kept);
+            opaque.keep(&stage, &frame, (visibility, umbra), kept);
         }
         if plan != Plan::Without {
             visibility.copy(&kept.main.visibility);
         }
-        layer.update(assets, draws, lens, |draw| draw.transparent || !kept.stills.has(draw));
-        let stage = Stage { assets, scene, draws, layer, lens };
+        layer.update(assets, draws, &lens, |draw| draw.transparent || !kept.stills.has(draw));
+        let stage = Stage { assets, scene, draws, layer, lens: &lens };
         look(&stage, visibility, |draw| !draw.transparent && !kept.stills.has(draw));
         look_at_lines(&stage, settings, visibility);
         canvas.clear(visibility.groups.len());
@@ -162,7 +221,38 @@ impl Renderer {
         if let Some(item) = reflective {
             mirror.draw(&stage, (item, visibility), &frame, kept, canvas);
         }
-        opaque.draw(&stage, &frame, visibility, kept, (reflective, canvas));
+        opaque.collect(&stage, &frame, visibility, kept);
+        *colour = Some(Colour { lens, place, plan, reflective });
+    }
+
+    /// Finds which fragments of a group lie in shadow.
+    fn shade(&mut self, shots: &[Shot<'_>]) {
+        let Renderer { settings, draws, opaques, sheets, umbra, views, .. } = self;
+        let count = shots.len();
+        let Some((view, colour)) =
+            sheets[..count].iter().enumerate().find_map(|(view, sheet)| Some((view, sheet.colour?)))
+        else {
+            return;
+        };
+        let Shot { assets, scene, .. } = shots[view];
+        let stage =
+            Stage { assets, scene, draws: &draws[view], layer: &sheets[view].layer, lens: &colour.lens };
+        let cast = Cast { stage: &stage, settings: &settings.shadow, draws: &draws[..count] };
+        umbra.fall(&cast, &mut opaques[..count], |view| {
+            let Colour { place, plan, .. } = sheets[view].colour?;
+            (plan != Plan::Without).then(|| views.kept(place))
+        });
+    }
+
+    /// Paints all samples of a picture.
+    fn paint(&mut self, view: usize, shot: &mut Shot<'_>) {
+        let Renderer { settings, draws, opaques, sheets, transparency, light, views, .. } = self;
+        let Sheet { layer, visibility, canvas, colour } = &mut sheets[view];
+        let Some(Colour { lens, place, reflective, .. }) = colour else { return };
+        let Shot { assets, scene, ref mut picture, .. } = *shot;
+        let (draws, brush) = (&draws[view], brush(assets, scene));
+        let stage = Stage { assets, scene, draws, layer, lens };
+        opaques[view].paint(&stage, &brush, views.kept(*place), (*reflective, canvas));
         if !draws.lines.is_empty() {
             paint_lines(scene, draws, visibility, canvas);
         }
@@ -181,7 +271,62 @@ impl Renderer {
         }
         light.set(scene, scene.view.eye.map(|x| x as f32), false);
         transparency.draw(&stage, visibility, light, &brush, canvas);
+        write_rgb(&Image { visibility, extent: lens.extent }, canvas, &mut picture.rgb);
+        labels::draw(scene, picture);
     }
+}
+
+impl Sheet {
+    fn new() -> Self {
+        Sheet {
+            layer: Layer::default(),
+            visibility: Visibility::new(Pattern::CENTER),
+            canvas: Canvas::default(),
+            colour: None,
+        }
+    }
+}
+
+/// How many shots from the first on are drawn together: the same lamps shine on them, in maps of the same depths, and no two
+/// are of one view, of which one thing at a time is kept.
+fn together(shots: &[Shot<'_>]) -> usize {
+    let depths = |shot: &Shot<'_>| (shot.scene.view.frustum.near, shot.scene.view.frustum.far);
+    let fits = |shot: &Shot<'_>, before: &[Shot<'_>]| {
+        let first = &before[0];
+        std::ptr::eq(shot.assets, first.assets)
+            && depths(shot) == depths(first)
+            && shot.scene.shadows == first.scene.shadows
+            && lamps(shot.scene).eq(lamps(first.scene))
+            && before.iter().all(|other| shot.scene.view != other.scene.view)
+    };
+    let most = shots.len().min(TOGETHER);
+    (1..most).find(|&count| !fits(&shots[count], &shots[..count])).unwrap_or(most)
+}
+
+/// The lamps that cast shadows.
+fn lamps(scene: &Scene) -> impl Iterator<Item = &Light> {
+    scene.lights.iter().filter(|light| light.shadow)
+}
+
+/// What a picture is seen through.
+fn lens(scene: &Scene, picture: &Picture) -> Result<Lens, RenderError> {
+    let (width, height) = (picture.width, picture.height);
+    if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
+        return Err(RenderError::Size { width, height });
+    }
+    let extent = Extent { width: width as i32, height: height as i32 };
+    Ok(Lens {
+        projection: Projection::of(&scene.view, width, height)?,
+        extent,
+        region: extent.region(),
+        deepest: 1.0,
+        mirror: None,
+        sides: Sides::Seen,
+    })
+}
+
+fn brush<'a>(assets: &'a Assets, scene: &Scene) -> Brush<'a> {
+    Brush { assets, veil: scene.fog.map(|fog| Veil::new(fog, scene.view.eye, scene.view.forward)) }
 }
 
 /// Finds what is seen at the samples of a window, among the draws that `wanted` picks.

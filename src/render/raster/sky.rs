@@ -127,7 +127,7 @@ impl Surroundings<'_> {
         let target = Target::new(*pattern, Facing::Both, &self.extent.region());
         for piece in clip(window.map(|[x, y, z, w]| [x, y, z, w, 1.0])).triangles() {
             let v = piece.map(|corner| inside(&corner));
-            let Some(triangle) = Triangle::new(v, &target) else {
+            let Some(triangle) = Triangle::new(&v, &target) else {
                 continue;
             };
             triangle.cover(pattern, |row, column, mask, depth| {

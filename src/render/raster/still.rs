@@ -49,11 +49,23 @@ pub struct Present<'a> {
 }
 
 /// The views of a renderer.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Views {
     views: Vec<Kept>,
     now: u64,
+    /// A view in which nothing stands still.
+    nothing: Kept,
 }
+
+impl Default for Views {
+    fn default() -> Self {
+        let nothing = Kept::new(View::default(), Extent { width: 0, height: 0 }, Settings::default());
+        Views { views: Vec::new(), now: 0, nothing }
+    }
+}
+
+/// Which view a picture is of; none where nothing is kept.
+pub type Place = Option<usize>;
 
 /// One view and its backdrops.
 #[derive(Clone, Debug)]
@@ -87,14 +99,18 @@ struct Around {
 }
 
 impl Views {
-    /// The view that a scene is seen from, and what to do with its backdrop.
-    pub fn find(&mut self, now: &Present<'_>) -> (&mut Kept, Plan) {
+    /// The view that a scene is seen from, and what to do with its backdrop. The view stays in its place until as many others
+    /// as there is room for are found.
+    pub fn find(&mut self, now: &Present<'_>) -> (Place, Plan) {
+        if !now.settings.keep {
+            return (None, Plan::Without);
+        }
         let Present { scene, extent, settings, .. } = *now;
         self.now += 1;
         let same = |kept: &Kept| kept.around.view == scene.view && kept.around.extent == extent;
         let place = self.views.iter().position(same).unwrap_or_else(|| {
             if self.views.len() < VIEWS {
-                self.views.push(Kept::new(scene, extent, settings));
+                self.views.push(Kept::new(scene.view, extent, settings));
                 return self.views.len() - 1;
             }
             (0..VIEWS).min_by_key(|&place| self.views[place].used).unwrap_or(0)
@@ -102,14 +118,24 @@ impl Views {
         let kept = &mut self.views[place];
         kept.used = self.now;
         let plan = kept.plan(now);
-        (kept, plan)
+        (Some(place), plan)
+    }
+
+    /// What is kept of a view.
+    pub fn kept(&self, place: Place) -> &Kept {
+        place.map_or(&self.nothing, |place| &self.views[place])
+    }
+
+    /// What is kept of a view, to change.
+    pub fn kept_mut(&mut self, place: Place) -> &mut Kept {
+        place.map_or(&mut self.nothing, |place| &mut self.views[place])
     }
 }
 
 impl Kept {
-    fn new(scene: &Scene, extent: Extent, settings: Settings) -> Self {
+    fn new(view: View, extent: Extent, settings: Settings) -> Self {
         let around = Around {
-            view: scene.view,
+            view,
             extent,
             settings,
             lights: Vec::new(),
@@ -130,11 +156,6 @@ impl Kept {
             main: Backdrop::default(),
             mirror: Backdrop::default(),
         }
-    }
-
-    /// A view in which nothing stands still.
-    pub fn nothing(scene: &Scene) -> Self {
-        Kept::new(scene, Extent { width: 0, height: 0 }, Settings::default())
     }
 
     fn plan(&mut self, now: &Present<'_>) -> Plan {

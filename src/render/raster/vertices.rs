@@ -46,9 +46,23 @@ impl Vertex {
     /// Column and row in the first two lanes [1/256 pixel].
     #[inline]
     pub fn on_grid(&self) -> i32x4 {
-        let rounded: i32x4 = cast(self.lanes * f32x4::splat(SUBPIXELS as f32) + f32x4::splat(ROUND));
-        rounded - i32x4::splat(ROUND.to_bits() as i32)
+        on_grid(self.lanes)
     }
+}
+
+#[inline]
+fn on_grid(lanes: f32x4) -> i32x4 {
+    let rounded: i32x4 = cast(lanes * f32x4::splat(SUBPIXELS as f32) + f32x4::splat(ROUND));
+    rounded - i32x4::splat(ROUND.to_bits() as i32)
+}
+
+/// Least and largest column and row of three positions that can be drawn [1/256 pixel]. Rounding keeps their order and
+/// forgets the sign of zero, the only thing that minima of vectors leave open for numbers.
+#[inline]
+pub fn box_on_grid([p, q, r]: &[Vertex; 3]) -> [i32x4; 2] {
+    let low = p.lanes.fast_min(q.lanes).fast_min(r.lanes);
+    let high = p.lanes.fast_max(q.lanes).fast_max(r.lanes);
+    [on_grid(low), on_grid(high)]
 }
 
 /// Bits of [`Vertex::beyond`].
@@ -65,10 +79,12 @@ mod face {
 /// A half space that is drawn: points with `normal . p + shift >= 0`, in the surface's coordinates.
 pub type HalfSpace = [f32; 4];
 
-/// The window positions of `positions`, written over `out`; all of them can be drawn.
-pub fn project_whole(columns: &Columns, positions: &[[f32; 3]], out: &mut [Vertex]) {
+/// The window positions of some of `positions`, written over `out`; all of them can be drawn.
+#[inline]
+pub fn project_whole(columns: &Columns, positions: &[[f32; 3]], rows: &[u32], out: &mut [Vertex]) {
     let [a, b, c, d] = columns.0.map(f32x4::new);
-    for (p, out) in positions.iter().zip(out) {
+    for (&row, out) in rows.iter().zip(out) {
+        let p = positions[row as usize];
         let corner = a * f32x4::splat(p[0]) + b * f32x4::splat(p[1]) + c * f32x4::splat(p[2]) + d;
         out.lanes = corner * f32x4::splat(1.0 / corner.to_array()[3]) * DRAWN;
     }
@@ -77,10 +93,16 @@ pub fn project_whole(columns: &Columns, positions: &[[f32; 3]], out: &mut [Verte
 /// Clears the bits.
 const DRAWN: f32x4 = f32x4::new([1.0, 1.0, 1.0, 0.0]);
 
-/// The window positions of `positions`, written over `out`, marked where they cannot be drawn.
-pub fn project(columns: &Columns, mirror: Option<HalfSpace>, positions: &[[f32; 3]], out: &mut [Vertex]) {
+/// The window positions of some of `positions`, written over `out`, marked where they cannot be drawn.
+pub fn project(
+    columns: &Columns,
+    mirror: Option<HalfSpace>,
+    (positions, rows): (&[[f32; 3]], &[u32]),
+    out: &mut [Vertex],
+) {
     let [a, b, c, d] = columns.0.map(f32x4::new);
-    for (&p, out) in positions.iter().zip(&mut *out) {
+    for (&row, out) in rows.iter().zip(out) {
+        let p = positions[row as usize];
         let corner = a * f32x4::splat(p[0]) + b * f32x4::splat(p[1]) + c * f32x4::splat(p[2]) + d;
         let behind = mirror.is_some_and(|half| distance(half, p) < 0.0);
         let bits = beyond(corner.to_array()) | if behind { face::MIRROR } else { 0 };
@@ -139,14 +161,14 @@ mod tests {
             Columns([[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.5, 0.0]]);
         let positions = [[3.0, 5.0, 2.0], [1.0, 1.0, -1.0], [1e9, 0.0, 1.0], [0.0, 0.0, 0.25]];
         let mut out = [Vertex::default(); 4];
-        project(&identity, Some([0.0, 1.0, 0.0, -0.5]), &positions, &mut out);
+        project(&identity, Some([0.0, 1.0, 0.0, -0.5]), (&positions, &[0, 1, 2, 3]), &mut out);
         assert_eq!((out[0].at(), out[0].z(), out[0].beyond()), ([1.5, 2.5], 0.25, 0));
         assert_eq!(out[0].on_grid().to_array()[..2], [384, 640]);
         assert!(out[1].beyond() & face::NEAR != 0);
         assert_eq!(out[2].beyond(), face::RIGHT | face::MIRROR);
         assert_eq!(out[3].beyond() & face::NEAR, face::NEAR);
         let mut whole = [Vertex::default()];
-        project_whole(&identity, &positions[..1], &mut whole);
+        project_whole(&identity, &positions, &[0], &mut whole);
         assert_eq!(whole[0], out[0]);
     }
 }

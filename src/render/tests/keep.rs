@@ -17,10 +17,14 @@ const MODEL: &str = "<mujoco>
     <light pos='0 0 3' castshadow='true'/>
     <light pos='2 1 3' dir='-2 -1 -3' directional='true' castshadow='true'/>
     <camera name='fixed' pos='0 -2.5 1.2' xyaxes='1 0 0 0 .4 1'/>
+    <camera name='side' pos='2.2 0 1.5' xyaxes='0 1 0 -.5 0 1'/>
     <geom type='plane' size='2 2 .1' material='tiles'/>
     <geom type='box' size='.2 .2 .1' pos='0 0 .1' rgba='.8 .3 .2 1'/>
     <geom type='sphere' size='.15' pos='.5 .3 .3' rgba='.2 .3 .8 .5'/>
-    <body pos='.05 0 1'><freejoint/><geom type='sphere' size='.1' rgba='.2 .8 .3 1'/></body>
+    <body pos='.05 0 1'><freejoint/><geom type='sphere' size='.1' rgba='.2 .8 .3 1'/>
+      <camera name='moving' mode='targetbody' target='still' pos='0 -1.5 1'/></body>
+    <body name='still' pos='0 .6 .2'><geom size='.1'/></body>
+    <geom type='plane' size='0 0 .1' pos='0 0 -.5'/>
   </worldbody>
 </mujoco>";
 
@@ -44,7 +48,12 @@ impl World {
     fn next(&mut self) -> Scene {
         (0..10).for_each(|_| step(&self.model, &mut self.data).expect("a step"));
         forward(&self.model, &mut self.data).expect("a pass");
-        let view = self.camera.view(&self.model, &self.data).expect("a view");
+        self.scene(&self.camera)
+    }
+
+    /// The present scene from a camera.
+    fn scene(&self, camera: &Camera) -> Scene {
+        let view = camera.view(&self.model, &self.data).expect("a view");
         let mut scene = Scene::new();
         scene.update(&self.model, &self.data, view, &SceneOptions::default()).expect("a scene");
         scene
@@ -119,4 +128,54 @@ fn pictures_of_a_batch_are_those_drawn_alone() {
         Batch::new(settings, threads).draw(&mut shots).expect("pictures");
         assert!(pictures == alone, "{threads} threads");
     }
+}
+
+#[test]
+fn pictures_of_one_state_drawn_together_are_those_drawn_alone() {
+    let mut world = World::new();
+    let settings = Settings::of(&world.model);
+    // Two that stand, one that moves, one of another size that a backdrop is kept for, and one that is the first again.
+    let cameras = ["fixed", "moving", "side", "free", "fixed"];
+    let cameras = cameras.map(|name| Camera::named(&world.model, name).expect("a camera"));
+    let sizes = [(64, 48), (40, 40), (56, 64), (33, 21), (64, 48)];
+    let channels = [Channels::RGB, Channels::ALL, Channels::RGB, Channels::ALL, Channels::DEPTH];
+    let mut alone = Renderer::new(Settings { keep: false, ..settings });
+    let mut together = Renderer::new(settings);
+    for frame in 0..30 {
+        world.next();
+        let scenes = cameras.map(|camera| world.scene(&camera));
+        let mut pictures = sizes.map(|(width, height)| Picture::new(width, height));
+        let mut expected = pictures.clone();
+        for ((scene, picture), channels) in scenes.iter().zip(&mut expected).zip(channels) {
+            alone.draw(&world.assets, scene, channels, picture).expect("a picture");
+        }
+        let mut shots: Vec<_> = (scenes.iter().zip(&mut pictures).zip(channels))
+            .map(|((scene, picture), channels)| Shot { assets: &world.assets, scene, channels, picture })
+            .collect();
+        together.draw_all(&mut shots).expect("pictures");
+        assert!(pictures == expected, "frame {frame}");
+    }
+}
+
+#[test]
+fn a_picture_that_fails_leaves_the_others_alone() {
+    let mut world = World::new();
+    let settings = Settings::of(&world.model);
+    let first = world.next();
+    let mut broken = first.clone();
+    broken.view.eye[0] = f64::NAN;
+    let scenes =
+        [first.clone(), broken, world.scene(&Camera::named(&world.model, "side").expect("a camera"))];
+    let draw = |scenes: &[Scene]| {
+        let mut pictures = vec![Picture::new(40, 30); scenes.len()];
+        let mut shots: Vec<_> = (scenes.iter().zip(&mut pictures))
+            .map(|(scene, picture)| Shot { assets: &world.assets, scene, channels: Channels::RGB, picture })
+            .collect();
+        let outcome = Renderer::new(settings).draw_all(&mut shots);
+        (pictures, outcome)
+    };
+    let (pictures, outcome) = draw(&scenes);
+    assert!(outcome.is_err());
+    assert!(pictures[0] == draw(&scenes[..1]).0[0] && pictures[2] == draw(&scenes[2..]).0[0]);
+    assert!(pictures[1].rgb.is_empty());
 }

@@ -1,0 +1,334 @@
+//! The texels of a shadow map that points ask for, and which of them lie behind casters.
+//!
+//! They are sorted into the cells of a grid whose columns hold as many as each other, and so its rows, since pictures ask for
+//! many texels near what they show and for few elsewhere. A triangle is compared with those in the cells that it touches.
+
+use super::coverage::{Boxed, Edges, Plane, Region, Target};
+use super::layer::Reached;
+use super::shadow::{CasterRule, Question};
+use super::vertices::Vertex;
+use super::window::Projection;
+use std::ops::Range;
+use wide::f32x8;
+
+/// The texels that points ask for.
+#[derive(Clone, Debug, Default)]
+pub struct Texels {
+    asked: Vec<Lookup>,
+    /// Whether the lamp reaches each point.
+    reached: Vec<bool>,
+    /// What is asked for, cell by cell.
+    pub sorted: Sorted,
+    /// Where it is.
+    pub grid: Grid,
+}
+
+/// A point's texel.
+#[derive(Clone, Copy, Debug, Default)]
+struct Lookup {
+    x: u16,
+    y: u16,
+    /// Depth of the point.
+    depth: f32,
+    /// The point that asks.
+    asked: u32,
+}
+
+/// Lookups by column, followed by seven that ask for nothing, so that eight can be read from each.
+#[derive(Clone, Debug, Default)]
+pub struct Sorted {
+    /// Middle of the texel [texel].
+    x: Vec<f32>,
+    y: Vec<f32>,
+    /// Depth of the fragment; -1 in shadow.
+    depth: Vec<f32>,
+    asked: Vec<u32>,
+}
+
+/// Lookups read together.
+const LANES: usize = 8;
+/// Depth of what lies in shadow: nothing is nearer.
+const SHADED: f32 = -1.0;
+
+/// A grid over the box of the texels that are asked for.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// The box of the texels.
+    pub region: Region,
+    /// Largest depth of a point.
+    pub deepest: f32,
+    /// Cells of every row.
+    across: usize,
+    /// Columns and rows of the grid by those of the map, from the first of the region.
+    columns: Vec<u16>,
+    rows: Vec<u16>,
+    /// Row by row, and one more.
+    cells: Vec<Cell>,
+}
+
+/// A cell of the grid.
+#[derive(Clone, Copy, Debug, Default)]
+struct Cell {
+    /// Its first texel among the sorted.
+    first: u32,
+    /// Largest depth of a point in it.
+    deepest: f32,
+}
+
+/// Fewest and most cells along a side of the grid.
+const CELLS: [usize; 2] = [16, 512];
+/// Lookups that are compared without a look at the depth of their cells.
+const FEW: usize = 16;
+
+impl Default for Grid {
+    fn default() -> Self {
+        let region = Region { low: [0; 2], high: [0; 2] };
+        Grid { region, deepest: 0.0, across: 0, columns: Vec::new(), rows: Vec::new(), cells: Vec::new() }
+    }
+}
+
+impl Texels {
+    /// Asks for the texel of every point in a map of `size` texels a side; those outside the map are lit.
+    pub fn ask(&mut self, map: &Projection, size: usize, questions: &[Question]) {
+        let Texels { asked, reached, sorted, grid } = self;
+        asked.clear();
+        reached.clear();
+        let rows = map.0.map(|row| row.map(|x| x as f32));
+        let last = size as f32 - 1.0;
+        for (index, Question { position: p, .. }) in questions.iter().enumerate() {
+            let [s, t, r, q] = rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
+            let scale = 1.0 / q;
+            let (x, y) = ((s * scale).floor(), (t * scale).floor());
+            // The outermost texels are never drawn: what falls on or beyond them is lit.
+            let inside = q > 0.0 && x >= 1.0 && y >= 1.0 && x < last && y < last;
+            reached.push(!inside);
+            if inside {
+                let depth = (r * scale).clamp(0.0, 1.0);
+                asked.push(Lookup { x: x as u16, y: y as u16, depth, asked: index as u32 });
+            }
+        }
+        sorted.resize(asked.len());
+        if !asked.is_empty() {
+            grid.divide(asked);
+            grid.sort(asked, sorted);
+        }
+    }
+
+    /// Whether a texel is asked for.
+    pub fn any(&self) -> bool {
+        !self.asked.is_empty()
+    }
+
+    /// Keeps the questions of the points that the lamp reaches.
+    pub fn keep_reached(&mut self, questions: &mut Vec<Question>) {
+        for (&depth, &asked) in self.sorted.depth.iter().zip(&self.sorted.asked).take(self.asked.len()) {
+            self.reached[asked as usize] |= depth >= 0.0;
+        }
+        let mut reached = self.reached.iter();
+        questions.retain(|_| reached.next() == Some(&true));
+    }
+}
+
+impl Sorted {
+    fn resize(&mut self, count: usize) {
+        let length = if count == 0 { 0 } else { count + LANES - 1 };
+        self.x.resize(length, 0.0);
+        self.y.resize(length, 0.0);
+        self.depth.resize(length, SHADED);
+        self.asked.resize(length, 0);
+        self.depth[count.min(length)..].fill(SHADED);
+    }
+
+    fn set(&mut self, at: usize, lookup: &Lookup) {
+        (self.x[at], self.y[at]) = (f32::from(lookup.x) + 0.5, f32::from(lookup.y) + 0.5);
+        (self.depth[at], self.asked[at]) = (lookup.depth, lookup.asked);
+    }
+
+    /// Puts those among a range that lie behind a caster in its shadow, and maybe some after it.
+    #[inline]
+    fn shade(&mut self, range: Range<usize>, caster: &Caster<'_>) {
+        let middle = |x: i32| f32x8::splat(x as f32 + 0.5);
+        let Boxed { columns: (left, right), rows: (bottom, top) } = caster.boxed;
+        let (left, right, bottom, top) = (middle(left), middle(right), middle(bottom), middle(top));
+        let (plane, offset) = (&caster.plane, f32x8::splat(caster.offset));
+        // Found once a texel behind the caster is; none where it has no side that casts.
+        let mut edges: Option<Option<Edges>> = None;
+        let texel = |x: f32| 256 * (x as i32) + 128;
+        for start in range.step_by(LANES) {
+            let lanes = start..start + LANES;
+            let read = |column: &[f32]| column[lanes.clone()].try_into().map_or(f32x8::ZERO, f32x8::new);
+            let (x, y, depth) = (read(&self.x), read(&self.y), read(&self.depth));
+            let behind = (plane.depths(x, y) + offset).simd_lt(depth);
+            let boxed = x.simd_ge(left) & x.simd_le(right) & y.simd_ge(bottom) & y.simd_le(top);
+            let mut behind = (behind & boxed).to_bitmask();
+            while behind != 0 {
+                let at = start + behind.trailing_zeros() as usize;
+                behind &= behind - 1;
+                let edges = edges.get_or_insert_with(|| caster.target.edges(caster.corners));
+                let covered = edges.is_some_and(|edges| edges.contain(texel(self.x[at]), texel(self.y[at])));
+                if covered && caster.questions.contains(&self.asked[at]) {
+                    self.depth[at] = SHADED;
+                }
+            }
+        }
+    }
+}
+
+impl Grid {
+    /// Lays the grid over what is asked for.
+    fn divide(&mut self, asked: &[Lookup]) {
+        let fold = |get: fn(&Lookup) -> u16, pick: fn(u16, u16) -> u16, from: u16| {
+            i32::from(asked.iter().map(get).fold(from, pick))
+        };
+        let low = [fold(|l| l.x, u16::min, u16::MAX), fold(|l| l.y, u16::min, u16::MAX)];
+        let high = [fold(|l| l.x, u16::max, 0), fold(|l| l.y, u16::max, 0)];
+        self.region = Region { low, high };
+        self.deepest = asked.iter().map(|lookup| lookup.depth).fold(0.0, f32::max);
+        self.across = asked.len().isqrt().next_power_of_two().clamp(CELLS[0], CELLS[1]);
+        // Counted in the cells, which are not needed yet.
+        let counts = &mut self.cells;
+        let sides = [(&mut self.columns, 0), (&mut self.rows, 1)];
+        for (table, axis) in sides {
+            let length = (high[axis] - low[axis]) as usize + 1;
+            counts.clear();
+            counts.resize(length, Cell::default());
+            for lookup in asked {
+                let place = i32::from([lookup.x, lookup.y][axis]) - low[axis];
+                counts[place as usize].first += 1;
+            }
+            table.clear();
+            let mut before = 0;
+            table.extend(counts.iter().map(|count| {
+                let cell = before * self.across / asked.len();
+                before += count.first as usize;
+                cell as u16
+            }));
+        }
+    }
+
+    /// Sorts what is asked for into the cells.
+    fn sort(&mut self, asked: &[Lookup], sorted: &mut Sorted) {
+        let mut cells = std::mem::take(&mut self.cells);
+        cells.clear();
+        cells.resize(self.across * self.across + 1, Cell::default());
+        let place = |lookup: &Lookup| self.row(lookup.y.into()) * self.across + self.column(lookup.x.into());
+        for lookup in asked {
+            let cell = place(lookup);
+            cells[cell + 1].first += 1;
+            cells[cell].deepest = cells[cell].deepest.max(lookup.depth);
+        }
+        for i in 1..cells.len() {
+            cells[i].first += cells[i - 1].first;
+        }
+        for lookup in asked {
+            let at = &mut cells[place(lookup)].first;
+            sorted.set(*at as usize, lookup);
+            *at += 1;
+        }
+        // Every cell's first has moved to its end, which is the next one's first.
+        for i in (1..cells.len()).rev() {
+            cells[i].first = cells[i - 1].first;
+        }
+        cells[0].first = 0;
+        self.cells = cells;
+    }
+
+    #[inline]
+    fn column(&self, x: i32) -> usize {
+        self.columns[(x - self.region.low[0]) as usize].into()
+    }
+
+    #[inline]
+    fn row(&self, y: i32) -> usize {
+        self.rows[(y - self.region.low[1]) as usize].into()
+    }
+
+    /// First cells of the grid's rows between two, and the number of cells after them.
+    #[inline]
+    fn lines(&self, columns: (i32, i32), rows: (i32, i32)) -> (impl Iterator<Item = usize> + use<>, usize) {
+        let (first, last) = (self.column(columns.0), self.column(columns.1));
+        let across = self.across;
+        let lines = self.row(rows.0)..=self.row(rows.1);
+        (lines.map(move |row| row * across + first), last - first)
+    }
+
+    /// Whether a point asks for a texel that something covers and lies deeper than its nearest part.
+    pub fn has_deeper(&self, reached: &Reached) -> bool {
+        let Region { low, high } = reached.region;
+        let (mut lines, more) = self.lines((low[0], high[0]), (low[1], high[1]));
+        lines.any(|line| self.cells[line..=line + more].iter().any(|cell| cell.deepest > reached.depths.0))
+    }
+
+    /// Puts the texels that lie behind a triangle in its shadow, where the questions are among those given.
+    #[inline]
+    pub fn shade(
+        &self,
+        corners: &[Vertex; 3],
+        target: &Target,
+        rule: CasterRule,
+        (questions, sorted): (&Range<u32>, &mut Sorted),
+    ) {
+        let Some(boxed) = target.boxed(corners) else { return };
+        let (mut lines, more) = self.lines(boxed.columns, boxed.rows);
+        let within =
+            |line: usize| self.cells[line].first as usize..self.cells[line + more + 1].first as usize;
+        let Some(first) = lines.find(|&line| !within(line).is_empty()) else { return };
+        let caster = Caster::new(corners, boxed, rule, (target, questions));
+        for line in std::iter::once(first).chain(lines) {
+            let within = within(line);
+            if within.len() <= FEW {
+                sorted.shade(within, &caster);
+            } else {
+                self.shade_deeper(line..line + more + 1, &caster, sorted);
+            }
+        }
+    }
+
+    /// The same for those cells of a line that have texels behind the caster's nearest point.
+    fn shade_deeper(&self, cells: Range<usize>, caster: &Caster<'_>, sorted: &mut Sorted) {
+        let mut cell = cells.start;
+        while cell < cells.end {
+            let start = cell;
+            while cell < cells.end && self.cells[cell].deepest > caster.least {
+                cell += 1;
+            }
+            if cell > start {
+                sorted.shade(self.cells[start].first as usize..self.cells[cell].first as usize, caster);
+            } else {
+                cell += 1;
+            }
+        }
+    }
+}
+
+/// A triangle that casts a shadow.
+struct Caster<'a> {
+    corners: &'a [Vertex; 3],
+    plane: Plane,
+    /// What is added to its depth.
+    offset: f32,
+    /// The least depth of its plane within its box: nothing nearer than it can be in its shadow.
+    least: f32,
+    boxed: Boxed,
+    target: &'a Target,
+    /// Who sees it.
+    questions: &'a Range<u32>,
+}
+
+impl<'a> Caster<'a> {
+    #[inline]
+    fn new(
+        corners: &'a [Vertex; 3],
+        boxed: Boxed,
+        rule: CasterRule,
+        (target, questions): (&'a Target, &'a Range<u32>),
+    ) -> Self {
+        let plane = Plane::of(corners);
+        let slope = plane.slope();
+        let offset = rule.slopes * slope[0].abs().max(slope[1].abs()) + rule.constant;
+        let low = |range: (i32, i32), slope: f32| if slope > 0.0 { range.0 } else { range.1 + 1 };
+        let nearest = [low(boxed.columns, slope[0]), low(boxed.rows, slope[1])].map(|x| x as f32);
+        let least = plane.depth(nearest[0], nearest[1]) + offset;
+        Caster { corners, plane, offset, least, boxed, target, questions }
+    }
+}
