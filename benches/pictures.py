@@ -19,7 +19,8 @@ rgb       colours, four samples a pixel
 plain     the same without shadows
 depth     metres
 ids       segmentation
-second    what the free camera costs after another picture of the same state, in units of its picture alone: 1 is no gain
+second    what the free camera costs when it is drawn together with another picture of the same state, in units of its picture
+          alone: 1 is no gain
 batch     64 environments in colours, two threads over one, wall time: wants two idle cores (--batches)
 memory    resident MiB of our process; of MuJoCo's, what it has above Python with its modules
 

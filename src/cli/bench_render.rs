@@ -94,8 +94,8 @@ pub struct Studio<'a> {
     pub assets: &'a Assets,
     painter: Box<dyn Painter>,
     settings: Settings,
-    scene: Scene,
-    picture: Picture,
+    scenes: Vec<Scene>,
+    pictures: Vec<Picture>,
 }
 
 impl<'a> Studio<'a> {
@@ -103,26 +103,34 @@ impl<'a> Studio<'a> {
     pub fn new(model: &'a Model, assets: &'a Assets, painters: &dyn Painters) -> Self {
         let settings = Settings::of(model);
         let painter = painters.painter(&settings);
-        Studio { model, assets, painter, settings, scene: Scene::new(), picture: Picture::new(0, 0) }
+        Studio { model, assets, painter, settings, scenes: Vec::new(), pictures: Vec::new() }
     }
 
-    /// Lists what is to be drawn of a state and draws it.
+    /// Lists what is to be drawn of a state and draws it, from all cameras together.
     pub fn take(
         &mut self,
         data: &Data,
-        camera: &Camera,
+        cameras: &[Camera],
         side: usize,
         kind: Kind,
-    ) -> Result<&Picture, Failure> {
+    ) -> Result<&[Picture], Failure> {
         let effects = Effects { shadows: kind != Kind::Plain, ..Effects::default() };
         let options = SceneOptions { effects, ..SceneOptions::default() };
-        let view = camera.view(self.model, data).map_err(Failure::new)?;
-        self.scene.update(self.model, data, view, &options).map_err(Failure::new)?;
-        (self.picture.width, self.picture.height) = (side, side);
-        let Studio { assets, painter, settings, scene, picture, .. } = self;
-        let shot = Shot { assets, scene, channels: kind.channels(), picture };
-        painter.paint(settings, &mut [shot]).map_err(Failure::new)?;
-        Ok(&self.picture)
+        self.scenes.resize_with(cameras.len(), Scene::new);
+        self.pictures.resize_with(cameras.len(), Picture::default);
+        for (scene, camera) in self.scenes.iter_mut().zip(cameras) {
+            let view = camera.view(self.model, data).map_err(Failure::new)?;
+            scene.update(self.model, data, view, &options).map_err(Failure::new)?;
+        }
+        let (assets, channels) = (self.assets, kind.channels());
+        let shot = |(scene, picture)| {
+            let picture: &mut Picture = picture;
+            (picture.width, picture.height) = (side, side);
+            Shot { assets, scene, channels, picture }
+        };
+        let mut shots: Vec<_> = self.scenes.iter().zip(&mut self.pictures).map(shot).collect();
+        self.painter.paint(&self.settings, &mut shots).map_err(Failure::new)?;
+        Ok(&self.pictures)
     }
 
     /// Draws all states in colours at once.
@@ -142,9 +150,10 @@ impl<'a> Studio<'a> {
     /// Items of the last scene, and triangles of one pass over them.
     pub fn load(&self) -> [usize; 2] {
         let mut parts = Vec::new();
-        self.scene.items.iter().for_each(|item| self.assets.parts(item, &mut parts));
+        let items = self.scenes.first().map_or(&[][..], |scene| &scene.items[..]);
+        items.iter().for_each(|item| self.assets.parts(item, &mut parts));
         let triangles = parts.iter().map(|part| self.assets.surfaces[part.surface].faces.len()).sum();
-        [self.scene.items.len(), triangles]
+        [items.len(), triangles]
     }
 }
 
@@ -170,11 +179,11 @@ pub fn run(a: &BenchRender) -> Result<(), Failure> {
     for (name, kind) in Kind::ALL {
         let side = usize::from(a.size);
         for data in &states {
-            studio.take(data, &camera, side, kind)?;
+            studio.take(data, &[camera], side, kind)?;
         }
         let began = Instant::now();
         for data in states.iter().cycle().take(a.frames as usize) {
-            studio.take(data, &camera, side, kind)?;
+            studio.take(data, &[camera], side, kind)?;
         }
         let milliseconds = 1e3 * began.elapsed().as_secs_f64() / f64::from(a.frames);
         found.insert(format!("{name}_ms"), milliseconds.into());

@@ -106,9 +106,7 @@ impl<'a> Requests<'a> {
     /// Draws pictures of `count` states, one from each camera.
     fn draw(&mut self, cameras: &[Camera], side: usize, kind: Kind, count: usize) -> Result<(), Failure> {
         for data in self.states.iter().cycle().take(count) {
-            for camera in cameras {
-                self.studio.take(data, camera, side, kind)?;
-            }
+            self.studio.take(data, cameras, side, kind)?;
         }
         Ok(())
     }
@@ -140,8 +138,9 @@ impl<'a> Requests<'a> {
                 let running: Vec<_> = parts
                     .map(|(studio, part)| {
                         scope.spawn(move || {
-                            part.iter()
-                                .try_for_each(|data| studio.take(data, &camera, side, Kind::Rgb).map(|_| ()))
+                            part.iter().try_for_each(|data| {
+                                studio.take(data, &[camera], side, Kind::Rgb).map(|_| ())
+                            })
                         })
                     })
                     .collect();

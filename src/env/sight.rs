@@ -24,10 +24,14 @@ pub(crate) struct Sight {
 
 /// The memory of pictures that are being drawn.
 struct Studio {
-    /// As many as were drawn at once.
-    scenes: Vec<Scene>,
+    scenes: [Scene; TOGETHER],
+    /// Stand where fewer pictures are drawn.
+    spare: [Picture; TOGETHER],
     painter: Box<dyn Painter>,
 }
+
+/// Pictures that are drawn together.
+const TOGETHER: usize = 8;
 
 /// A camera and the picture that it fills.
 pub(crate) struct Shot<'a> {
@@ -60,29 +64,7 @@ impl Sight {
         let assets = current(&mut self.assets, &self.prepared, model, self.profile)?;
         let settings = Settings::of(model);
         let mut studio = idle(&self.studios, &*self.painters, &settings);
-        let Studio { scenes, painter } = &mut studio;
-        let list = |scene: &mut Scene, camera: &Camera| {
-            scene.update(model, data, camera.view(model, data)?, &self.options)
-        };
-        let draw =
-            || -> Result<(), RenderError> {
-                if !painter.draws_batches() {
-                    scenes.resize_with(1, Scene::new);
-                    return shots.into_iter().try_for_each(|Shot { camera, channels, picture }| {
-                        list(&mut scenes[0], &camera)?;
-                        let scene = &scenes[0];
-                        painter.paint(&settings, &mut [raster::Shot { assets, scene, channels, picture }])
-                    });
-                }
-                let shots: Vec<_> = shots.into_iter().collect();
-                scenes.resize_with(shots.len(), Scene::new);
-                scenes.iter_mut().zip(&shots).try_for_each(|(scene, shot)| list(scene, &shot.camera))?;
-                let all = scenes.iter().zip(shots).map(|(scene, Shot { channels, picture, .. })| {
-                    raster::Shot { assets, scene, channels, picture }
-                });
-                painter.paint(&settings, &mut all.collect::<Vec<_>>())
-            };
-        let outcome = draw();
+        let outcome = studio.draw((model, data), (assets, &self.options), &settings, shots);
         keep(&self.studios, studio, &outcome);
         Ok(outcome?)
     }
@@ -139,13 +121,51 @@ impl Sight {
 /// Memory for pictures that nobody uses.
 fn idle(studios: &Mutex<Vec<Studio>>, painters: &dyn Painters, settings: &Settings) -> Studio {
     let idle = lock(studios).pop();
-    idle.unwrap_or_else(|| Studio { scenes: Vec::new(), painter: painters.painter(settings) })
+    idle.unwrap_or_else(|| Studio::new(painters.painter(settings)))
 }
 
 /// Keeps memory for the next pictures, unless what draws in it has failed.
 fn keep(studios: &Mutex<Vec<Studio>>, studio: Studio, outcome: &Result<(), RenderError>) {
     if !matches!(outcome, Err(RenderError::Device { .. })) {
         lock(studios).push(studio);
+    }
+}
+
+impl Studio {
+    fn new(painter: Box<dyn Painter>) -> Self {
+        Studio { scenes: std::array::from_fn(|_| Scene::new()), spare: Default::default(), painter }
+    }
+
+    /// Draws pictures of one state, as many together as there are scenes.
+    fn draw<'a>(
+        &mut self,
+        (model, data): (&Model, &Data),
+        (assets, options): (&Assets, &SceneOptions),
+        settings: &Settings,
+        shots: impl IntoIterator<Item = Shot<'a>>,
+    ) -> Result<(), RenderError> {
+        let mut shots = shots.into_iter();
+        loop {
+            let Studio { scenes, spare, painter } = self;
+            let (mut count, mut outcome) = (0, Ok(()));
+            let mut places = scenes.iter_mut().zip(spare);
+            let mut group = [(); TOGETHER].map(|()| {
+                let (scene, spare) = places.next().expect("there is a place for each");
+                let Some(Shot { camera, channels, picture }) = shots.next() else {
+                    return raster::Shot { assets, scene, channels: Channels::RGB, picture: spare };
+                };
+                count += 1;
+                let view = camera.view(model, data);
+                let updated = view.and_then(|view| scene.update(model, data, view, options));
+                outcome = std::mem::replace(&mut outcome, Ok(())).and(updated);
+                raster::Shot { assets, scene, channels, picture }
+            });
+            outcome?;
+            painter.paint(settings, &mut group[..count])?;
+            if count < TOGETHER {
+                return Ok(());
+            }
+        }
     }
 }
 

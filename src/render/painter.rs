@@ -40,7 +40,7 @@ impl Painters for Cpu {
 impl Painter for Renderer {
     fn paint(&mut self, settings: &Settings, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
         *self.settings_mut() = *settings;
-        shots.iter_mut().try_for_each(|shot| self.draw(shot.assets, shot.scene, shot.channels, shot.picture))
+        self.draw_all(shots)
     }
 
     fn name(&self) -> String {
