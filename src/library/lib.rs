@@ -1,11 +1,12 @@
 //! What a machine has for environments: imported models, a cache of compiled ones, weights of networks.
 //!
 //! ```no_run
-//! use robohive_env::{Env, Options};
+//! use env::{Env, Options};
+//! use std::sync::Arc;
 //! use robohive_library::{Library, Weights};
 //!
 //! let library = Library::from_environment(None, None).map_err(std::io::Error::other)?;
-//! let options = Options { networks: Weights::from_environment().into(), ..Options::default() };
+//! let options = Options { networks: Arc::new(Weights::from_environment()), ..Options::default() };
 //! let env = Env::make("door-v1", &library, &options)?;
 //! assert_eq!(env.action_len(), 28);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
