@@ -11,11 +11,14 @@ use numpy::{PyArray0, PyArray1, PyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyString};
 use pyo3::{Borrowed, intern};
+use std::ops::Range;
 
 /// The names of an environment's rows, as strings of Python that are made once.
 pub struct Names {
     rows: Vec<Py<PyString>>,
     terms: Vec<Py<PyString>>,
+    /// Which rows the proprioception has, time among them, and where their values stand; `None` where the task has none.
+    proprio: Option<Vec<(usize, Range<usize>)>>,
     /// Keys of the task's own in its states.
     pub own: OwnState,
 }
@@ -25,8 +28,14 @@ impl Names {
     pub fn of(py: Python<'_>, env: &Env) -> Self {
         let names =
             |rows: &Rows| rows.rows().iter().map(|row| PyString::intern(py, row.name()).unbind()).collect();
+        let proprio = env.proprio_keys().map(|keys| {
+            let wanted = |name: &str| name == "time" || keys.iter().any(|key| key == name);
+            let rows = env.rows().rows().iter().enumerate();
+            let rows = rows.filter(|(_, row)| wanted(row.name()));
+            rows.filter_map(|(index, row)| Some((index, env.rows().place(row.name())?))).collect()
+        });
         let own = OwnState::of(py, &env.spec().task, env.scene());
-        Names { rows: names(env.rows()), terms: names(env.terms()), own }
+        Names { rows: names(env.rows()), terms: names(env.terms()), proprio, own }
     }
 
     /// `obs_dict`: every row of the observation dictionary by its name.
@@ -47,13 +56,11 @@ impl Names {
 
     /// `proprio_dict`: `time` and the rows of the proprioception; `None` where the task has none.
     pub fn proprio_dict<'py>(&self, py: Python<'py>, env: &Env) -> PyResult<Option<Bound<'py, PyDict>>> {
-        let Some(keys) = env.proprio_keys() else { return Ok(None) };
+        let Some(proprio) = &self.proprio else { return Ok(None) };
         let dict = PyDict::new(py);
-        let wanted = |name: &str| name == "time" || keys.iter().any(|key| key == name);
-        for (name, (row, values)) in self.rows.iter().zip(env.rows().iter()) {
-            if wanted(row.name()) {
-                dict.set_item(name, PyArray1::from_slice(py, values))?;
-            }
+        for (index, place) in proprio {
+            let values = &env.rows().values()[place.clone()];
+            dict.set_item(&self.rows[*index], PyArray1::from_slice(py, values))?;
         }
         Ok(Some(dict))
     }

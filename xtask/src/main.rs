@@ -43,7 +43,7 @@ const QUICK: [Check; 6] = [
     Check { name: "python", run: python::run },
 ];
 
-const LONG: [Check; 7] = [
+const LONG: [Check; 9] = [
     Check { name: "tolerances", run: tolerances::run },
     Check { name: "recorded-bits", run: recorded_bits::run },
     Check { name: "builds", run: builds::run },
@@ -51,6 +51,8 @@ const LONG: [Check; 7] = [
     Check { name: "rust-version", run: packages::rust_version },
     Check { name: "instructions", run: || instructions::run(false) },
     Check { name: "gpu", run: gpu::run },
+    Check { name: "wheel", run: python::wheel },
+    Check { name: "python-learners", run: python::learners },
 ];
 
 fn main() -> ExitCode {

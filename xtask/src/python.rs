@@ -2,56 +2,161 @@
 
 use crate::check::{Missing, Outcome};
 use crate::command::{installed, output, succeed, target_folder};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The oldest Python that the wheel is for.
 const OLDEST: &str =
     "import sys; assert sys.version_info >= (3, 10), 'needs Python 3.10'; import venv, ensurepip";
 
-/// Lints the extension module, builds the wheel, installs it with what its tests need, and runs those.
+/// The Pythons that one wheel is for, by their minor versions.
+const MINOR_VERSIONS: std::ops::RangeInclusive<u32> = 10..=14;
+
+/// Largest wheel [bytes].
+const LARGEST_WHEEL: u64 = 20_000_000;
+
+/// What a fresh environment does first with an installed wheel; prints how long the imports took [ms].
+const FIRST_STEP: &str = "
+import time
+import numpy
+start = time.perf_counter()
+import robohive
+print(f'import robohive took {1e3 * (time.perf_counter() - start):.0f} ms beside numpy')
+import gymnasium
+env = gymnasium.make('hive/FrankaReach-v0')
+env.reset(seed=0)
+env.step(env.action_space.sample())
+";
+
+/// Lints the extension module, builds the wheel, installs it with what its tests need, checks its types, and runs the tests.
 pub fn run() -> Outcome {
     let lint =
         ["clippy", "--profile", "ci", "-p", "robohive-python", "--all-targets", "--", "-D", "warnings"];
     succeed(Command::new("cargo").args(lint))?;
-    if !installed("python3") || output(Command::new("python3").args(["-c", OLDEST])).is_err() {
-        return Ok(vec![Missing::new(
-            "the Python package (there is no Python 3.10 or later with venv)",
-            "apt-get install python3-venv",
-        )]);
-    }
-    let folder = target_folder()?.join("python");
-    let python = environment(&folder.join("venv"))?;
-    let wheels = folder.join("wheels");
-    // Of earlier builds, so that the one installed is this one.
-    if wheels.exists() {
-        std::fs::remove_dir_all(&wheels).map_err(|error| format!("{}: {error}", wheels.display()))?;
-    }
-    let maturin =
-        ["-m", "maturin", "build", "--profile", "ci", "--manifest-path", "python/Cargo.toml", "--out"];
-    succeed(Command::new(&python).args(maturin).arg(&wheels))?;
-    let find =
-        ["-m", "pip", "install", "--quiet", "--force-reinstall", "--no-deps", "--no-index", "--find-links"];
-    succeed(Command::new(&python).args(find).arg(&wheels).arg("robohive"))?;
+    let Some(python) = ready("venv", &["-r", "python/tests/requirements.txt"])? else {
+        return Ok(vec![no_python("the Python package")]);
+    };
+    let wheel = build(&python, &["--profile", "ci"])?;
+    install(&python, &["--no-deps", "--force-reinstall"], &wheel)?;
+    let types = ["-m", "mypy", "--config-file", "python/pyproject.toml", "python/robohive"];
+    succeed(Command::new(&python).args(types))?;
     succeed(Command::new(&python).args(["-m", "pytest", "-q", "python/tests"]))?;
     Ok(Vec::new())
 }
 
-/// The interpreter of a virtual environment in `folder`, with what builds and tests the package.
-fn environment(folder: &Path) -> Result<std::path::PathBuf, String> {
+/// The checkers of learners' libraries, where torch can be imported, which is too large to be installed unasked.
+pub fn learners() -> Outcome {
+    let requirements = ["--no-deps", "-r", "python/learners/requirements.txt"];
+    let (Some(python), Some(builder)) =
+        (ready("learners", &requirements)?, ready("venv", &["-r", "python/tests/requirements.txt"])?)
+    else {
+        return Ok(vec![no_python("Python environments by the checkers of learners")]);
+    };
+    if output(Command::new(&python).args(["-c", "import torch"])).is_err() {
+        return Ok(vec![Missing::new(
+            "Python environments by the checkers of Stable-Baselines3 and TorchRL (torch is not installed)",
+            format!("{} -m pip install torch", python.display()),
+        )]);
+    }
+    install(&python, &["--force-reinstall", "--no-deps"], &build(&builder, &["--profile", "ci"])?)?;
+    succeed(Command::new(&python).args(["-m", "pytest", "-q", "python/learners"]))?;
+    Ok(Vec::new())
+}
+
+/// The wheel that is published: for every Linux of the last ten years, of bounded size, the same for every Python, and
+/// ready to step in a fresh environment. Prints how long that takes.
+pub fn wheel() -> Outcome {
+    let Some(builder) = ready("venv", &["-r", "python/tests/requirements.txt", "ziglang"])? else {
+        return Ok(vec![no_python("the published wheel")]);
+    };
+    let wheel = build(&builder, &["--release", "--zig", "--compatibility", "manylinux2014"])?;
+    let size = std::fs::metadata(&wheel).map_err(|error| format!("{}: {error}", wheel.display()))?.len();
+    println!("{} has {:.1} MB", wheel.display(), size as f64 / 1e6);
+    if size > LARGEST_WHEEL {
+        return Err(format!("the wheel has more than {} MB", LARGEST_WHEEL / 1_000_000));
+    }
+    let mut missing = Vec::new();
+    for minor in MINOR_VERSIONS {
+        let Some(interpreter) = interpreter(minor) else {
+            missing.push(Missing::new(
+                format!("the wheel on Python 3.{minor} (there is none)"),
+                format!("pyenv install 3.{minor}"),
+            ));
+            continue;
+        };
+        first_step(&interpreter, &wheel, &format!("python3.{minor}"))?;
+    }
+    Ok(missing)
+}
+
+/// Makes a fresh environment, installs the wheel with Gymnasium, and takes a step.
+fn first_step(interpreter: &Path, wheel: &Path, name: &str) -> Result<(), String> {
+    let folder = target_folder()?.join("python").join(name);
+    if folder.exists() {
+        std::fs::remove_dir_all(&folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    }
+    let began = std::time::Instant::now();
+    succeed(Command::new(interpreter).args(["-m", "venv"]).arg(&folder))?;
+    let python = folder.join("bin/python");
+    install(&python, &["gymnasium"], wheel)?;
+    succeed(Command::new(&python).args(["-c", FIRST_STEP]))?;
+    println!("{name}: from nothing to a step in {:.0} s", began.elapsed().as_secs_f64());
+    Ok(())
+}
+
+/// A Python of this minor version, on the path or of pyenv.
+fn interpreter(minor: u32) -> Option<PathBuf> {
+    let name = format!("python3.{minor}");
+    let works = |python: &Path| output(Command::new(python).args(["-c", "import venv, ensurepip"])).is_ok();
+    let folder = PathBuf::from(std::env::var_os("HOME")?).join(".pyenv/versions");
+    let installed = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let found = installed.map(|entry| entry.path().join("bin").join(&name)).find(|path| path.exists());
+    found.into_iter().chain([name.into()]).find(|python| works(python))
+}
+
+fn no_python(what: &str) -> Missing {
+    Missing::new(
+        format!("{what} (there is no Python 3.10 or later with venv)"),
+        "apt-get install python3-venv",
+    )
+}
+
+/// The interpreter of a virtual environment of this package's, with what `requirements` name; `None` where this machine
+/// has no Python for it.
+fn ready(name: &str, requirements: &[&str]) -> Result<Option<PathBuf>, String> {
+    if !installed("python3") || output(Command::new("python3").args(["-c", OLDEST])).is_err() {
+        return Ok(None);
+    }
+    let folder = target_folder()?.join("python").join(name);
     let python = folder.join("bin/python");
     if !python.exists() {
-        succeed(Command::new("python3").args(["-m", "venv"]).arg(folder))?;
+        succeed(Command::new("python3").args(["-m", "venv"]).arg(&folder))?;
     }
-    let install = [
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--disable-pip-version-check",
-        "-r",
-        "python/tests/requirements.txt",
-    ];
-    succeed(Command::new(&python).args(install))?;
-    Ok(python)
+    pip(&python).args(requirements).status().map_err(|error| format!("pip: {error}")).and_then(|status| {
+        if status.success() { Ok(Some(python)) } else { Err(format!("pip install: {status}")) }
+    })
+}
+
+fn pip(python: &Path) -> Command {
+    let mut command = Command::new(python);
+    command.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    command
+}
+
+fn install(python: &Path, options: &[&str], wheel: &Path) -> Result<(), String> {
+    succeed(pip(python).args(options).arg(wheel))
+}
+
+/// Builds the wheel with these options of maturin.
+fn build(python: &Path, options: &[&str]) -> Result<PathBuf, String> {
+    let wheels = target_folder()?.join("python/wheels");
+    // Of earlier builds, so that the one found is this one.
+    if wheels.exists() {
+        std::fs::remove_dir_all(&wheels).map_err(|error| format!("{}: {error}", wheels.display()))?;
+    }
+    let maturin = ["-m", "maturin", "build", "--manifest-path", "python/Cargo.toml", "--out"];
+    succeed(Command::new(python).args(maturin).arg(&wheels).args(options))?;
+    let files = std::fs::read_dir(&wheels).into_iter().flatten().flatten();
+    let wheel = files.map(|entry| entry.path()).find(|path| path.extension().is_some_and(|end| end == "whl"));
+    wheel.ok_or_else(|| format!("maturin left no wheel in {}", wheels.display()))
 }

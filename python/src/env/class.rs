@@ -82,6 +82,16 @@ impl PyEnv {
         Ok((observation, step.reward, step.terminated, step.truncated, infos))
     }
 
+    /// The same action for many steps, of which nothing is returned: what steps cost without crossing into Python.
+    fn repeat(&self, py: Python<'_>, action: &Bound<'_, PyAny>, steps: usize) -> PyResult<()> {
+        let mut taken = self.place.take(py, "repeat")?;
+        let live = taken.live();
+        actions::read(action, &mut live.action)?;
+        let (env, action) = (&mut live.env, &live.action);
+        py.detach(|| (0..steps).try_for_each(|_| env.step(action).map(drop)))
+            .map_err(|error| exception(py, &error))
+    }
+
     /// A picture as the render mode asks for it: H x W x 3 bytes of colour, or H x W depths [m]; `None` without a mode.
     fn render<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
         let mut taken = self.place.take(py, "render")?;
