@@ -269,3 +269,18 @@ def test_pictures():
     envs.reset(seed=0)
     frames = envs.render()
     assert len(frames) == 2 and frames[0].shape == (24, 32, 3)
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+def test_a_step_that_physics_refuses_ends_the_episode_and_says_why(mode):
+    envs = RoboHiveVectorEnv("hive/FrankaReach-v0", 2, autoreset_mode=mode, infos="none", num_threads=1)
+    envs.reset(seed=1)
+    states = envs.get_attr("env_state")
+    states[1]["qvel"][0] = 1e9
+    envs.set_attr("env_state", states)
+    zeros = np.zeros(envs.action_space.shape, np.float32)
+    _, rewards, terminated, truncated, infos = envs.step(zeros)
+    assert truncated.tolist() == infos["_fault"].tolist() == [False, True] and not terminated.any()
+    assert infos["fault"][0] is None and len(infos["fault"][1]) > 20 and rewards[1] == 0
+    observations, _, _, truncated, infos = envs.step(zeros)
+    assert np.isfinite(observations).all() and not truncated.any() and "fault" not in infos
