@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterable, Sequence
-from typing import Any, ClassVar
+from typing import Any
 
 import gymnasium
 import numpy as np
@@ -52,7 +52,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
     images are left out.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array", "depth_array"]}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "depth_array"]}
 
     def __init__(
         self,
@@ -140,7 +140,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         }
         self._make_spaces(dtype)
         if not copy:
-            self._form["out"] = np.zeros(self.observation_space.shape, dtype)
+            self._form["out"] = np.zeros((self.num_envs, self._about["obs_size"]), dtype)
         self.copy = copy
 
     def _make_spaces(self, dtype: np.dtype[Any]) -> None:
@@ -192,7 +192,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         """
         return self._core.step(actions, self._form if out is None else self._handing(out))
 
-    def render(self) -> tuple[Array | None, ...]:
+    def render(self) -> tuple[Any, ...]:
         """A picture of each environment."""
         return self.call("render")
 

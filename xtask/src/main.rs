@@ -43,7 +43,7 @@ const QUICK: [Check; 6] = [
     Check { name: "python", run: python::run },
 ];
 
-const LONG: [Check; 9] = [
+const LONG: [Check; 10] = [
     Check { name: "tolerances", run: tolerances::run },
     Check { name: "recorded-bits", run: recorded_bits::run },
     Check { name: "builds", run: builds::run },
@@ -53,6 +53,7 @@ const LONG: [Check; 9] = [
     Check { name: "gpu", run: gpu::run },
     Check { name: "wheel", run: python::wheel },
     Check { name: "python-learners", run: python::learners },
+    Check { name: "python-cluster", run: python::cluster },
 ];
 
 fn main() -> ExitCode {

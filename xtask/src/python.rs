@@ -63,6 +63,25 @@ pub fn learners() -> Outcome {
     Ok(Vec::new())
 }
 
+/// Collection on a real Ray cluster of several nodes, some of which die, and RLlib's samplers where torch can be imported.
+pub fn cluster() -> Outcome {
+    let requirements = ["-r", "python/cluster/requirements.txt"];
+    let (Some(python), Some(builder)) =
+        (ready("cluster", &requirements)?, ready("venv", &["-r", "python/tests/requirements.txt"])?)
+    else {
+        return Ok(vec![no_python("collection on a Ray cluster")]);
+    };
+    install(&python, &["--force-reinstall", "--no-deps"], &build(&builder, &["--profile", "ci"])?)?;
+    succeed(Command::new(&python).args(["-m", "pytest", "-q", "-rs", "python/cluster"]))?;
+    if output(Command::new(&python).args(["-c", "import torch"])).is_err() {
+        return Ok(vec![Missing::new(
+            "RLlib over vectors of environments (torch is not installed)",
+            format!("{} -m pip install torch", python.display()),
+        )]);
+    }
+    Ok(Vec::new())
+}
+
 /// The wheel that is published: for every Linux of the last ten years, of bounded size, the same for every Python, and
 /// ready to step in a fresh environment. Prints how long that takes.
 pub fn wheel() -> Outcome {

@@ -1,0 +1,36 @@
+"""The examples that need nothing beside Gymnasium, at a small size."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+
+
+def run(name, *arguments):
+    """What an example prints."""
+    command = [sys.executable, str(EXAMPLES / name), *arguments]
+    return subprocess.run(command, check=True, capture_output=True, text=True, timeout=300).stdout
+
+
+def test_random_rollout():
+    printed = run("random_rollout.py", "--episodes", "2")
+    returns = [float(found) for found in re.findall(r"return (-?[\d.]+)", printed)]
+    assert len(returns) == 2 and all(-100 < found < 100 for found in returns)
+
+
+def test_vector_rollout():
+    printed = run("vector_rollout.py", "--envs", "4", "--steps", "10")
+    assert printed.startswith("40 steps in ")
+
+
+def test_notebook():
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    notebook = nbformat.read(EXAMPLES / "plot.ipynb", as_version=4)
+    nbclient.NotebookClient(notebook, timeout=300).execute()
+    pictures = [out for cell in notebook.cells for out in cell.get("outputs", []) if "image/png" in out.get("data", {})]
+    assert len(pictures) == 3
