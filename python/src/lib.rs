@@ -7,6 +7,7 @@ mod env;
 mod exceptions;
 mod film;
 mod infos;
+mod mujoco;
 mod own_state;
 mod request;
 mod settings;
@@ -33,6 +34,8 @@ mod _core {
         LeRobotFrames, LeRobotWriter, MinariWriter, Trace, TraceWriter, convert_trace, env_spec,
         export_lerobot, export_minari, repair_trace,
     };
+    #[pymodule_export]
+    use crate::mujoco::bindings;
 
     /// Version of the package.
     #[pymodule_export]

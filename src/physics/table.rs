@@ -32,6 +32,23 @@ pub enum Slice<'a> {
     F64(&'a [f64]),
 }
 
+/// A borrowed array to write, with its element type.
+#[derive(Debug, PartialEq)]
+pub enum SliceMut<'a> {
+    /// Truth values.
+    Bool(&'a mut [bool]),
+    /// Bytes and characters.
+    U8(&'a mut [u8]),
+    /// Integers and indices, -1 for none.
+    I32(&'a mut [i32]),
+    /// File-sized offsets.
+    I64(&'a mut [i64]),
+    /// Single precision: colours, mesh vertices, height fields.
+    F32(&'a mut [f32]),
+    /// Numbers of the computation.
+    F64(&'a mut [f64]),
+}
+
 /// Scalars handed out at a time.
 const PIECE: usize = 1024;
 
@@ -94,6 +111,8 @@ impl Slice<'_> {
 pub trait Scalar: Copy + Default + PartialEq + std::fmt::Debug + Send + Sync + 'static {
     /// Wraps a slice with its type.
     fn slice(s: &[Self]) -> Slice<'_>;
+    /// Wraps a slice to write with its type.
+    fn slice_mut(s: &mut [Self]) -> SliceMut<'_>;
     /// Converts flat f64 values, the common currency of injected arrays.
     fn from_f64(x: f64) -> Self;
     /// Bytes in a compiled file.
@@ -115,6 +134,9 @@ macro_rules! scalar {
             fn slice(s: &[Self]) -> Slice<'_> {
                 Slice::$v(s)
             }
+            fn slice_mut(s: &mut [Self]) -> SliceMut<'_> {
+                SliceMut::$v(s)
+            }
             fn from_f64($x: f64) -> Self {
                 $e
             }
@@ -131,6 +153,9 @@ macro_rules! scalar {
             const ZERO: Self = $zero;
             fn scalars(rows: &[Self]) -> Slice<'_> {
                 Slice::$v(rows)
+            }
+            fn scalars_mut(rows: &mut [Self]) -> SliceMut<'_> {
+                SliceMut::$v(rows)
             }
             fn from_f64(values: &[f64]) -> Self {
                 <$t as Scalar>::from_f64(values[0])
@@ -158,6 +183,8 @@ pub trait Row: Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static {
     const ZERO: Self;
     /// All scalars of some rows, in row-major order.
     fn scalars(rows: &[Self]) -> Slice<'_>;
+    /// The same to write.
+    fn scalars_mut(rows: &mut [Self]) -> SliceMut<'_>;
     /// A row of `COLUMNS` values.
     fn from_f64(values: &[f64]) -> Self;
     /// Reads `BYTES` little-endian bytes.
@@ -170,6 +197,9 @@ impl<T: Scalar, const N: usize> Row for [T; N] {
     const ZERO: Self = [T::ZERO; N];
     fn scalars(rows: &[Self]) -> Slice<'_> {
         T::slice(rows.as_flattened())
+    }
+    fn scalars_mut(rows: &mut [Self]) -> SliceMut<'_> {
+        T::slice_mut(rows.as_flattened_mut())
     }
     fn from_f64(values: &[f64]) -> Self {
         std::array::from_fn(|i| T::from_f64(values[i]))
@@ -353,6 +383,20 @@ macro_rules! stage {
             /// Calls `f(name, shape, values)` for every array, in declaration order.
             pub fn visit(&self, m: &crate::model::Model, f: &mut dyn FnMut(&'static str, Vec<usize>, crate::table::Slice<'_>)) {
                 $(f(stringify!($field), crate::table::field_shape!(m, $shape), crate::table::Field::scalars(&self.$field));)*
+            }
+
+            /// The array that [`Self::visit`] calls at `number`, counted from 0.
+            pub fn array(&self, number: usize) -> Option<crate::table::Slice<'_>> {
+                type Read = for<'a> fn(&'a $name) -> crate::table::Slice<'a>;
+                const READ: &[Read] = &[$(|s| crate::table::Row::scalars(&s.$field),)*];
+                READ.get(number).map(|read| read(self))
+            }
+
+            /// The same to write.
+            pub fn array_mut(&mut self, number: usize) -> Option<crate::table::SliceMut<'_>> {
+                type Write = for<'a> fn(&'a mut $name) -> crate::table::SliceMut<'a>;
+                const WRITE: &[Write] = &[$(|s| crate::table::Row::scalars_mut(&mut s.$field),)*];
+                WRITE.get(number).map(|write| write(self))
             }
 
             /// Overwrites the array called `name`; `None` when there is none, `Some(false)` on a size mismatch.

@@ -1,4 +1,4 @@
 //! What depends on accelerations: forces of contacts and between bodies once the constraints are solved.
 
 pub mod contact_force;
-pub(crate) mod rne_post;
+pub mod rne_post;

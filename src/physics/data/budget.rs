@@ -91,7 +91,7 @@ impl StepBudget {
     ///
     /// # Errors
     /// They need more than the budget.
-    pub(crate) fn check_rows(self, m: &Model, con: &Contacts) -> Result<(), OverBudget> {
+    pub fn check_rows(self, m: &Model, con: &Contacts) -> Result<(), OverBudget> {
         // Equalities, friction of joints and tendons, limits on both sides.
         let others = m.nemax + m.nv + 3 * m.ntendon + 2 * m.njnt;
         let contacts = con.contact.len();

@@ -14,6 +14,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod address;
 mod budget;
 mod configuration;
 mod constraints;
@@ -21,6 +22,7 @@ mod scratch;
 mod snapshot;
 mod stages;
 
+pub use address::ArrayAddress;
 pub use budget::{Demand, OverBudget, StepBudget};
 pub use configuration::Configuration;
 pub(crate) use configuration::configuration_of;

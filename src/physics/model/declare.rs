@@ -226,6 +226,13 @@ macro_rules! model {
                 $(f(stringify!($field), field_shape!(self, $shape), Field::scalars(&self.$field));)*
             }
 
+            /// The array that [`Arrays::visit`] calls at `number`, counted from 0.
+            pub fn array(&self, number: usize) -> Option<Slice<'_>> {
+                ArrayId::ALL.get(number).map(|id| match id {
+                    $(ArrayId::$field => Field::scalars(&self.$field),)*
+                })
+            }
+
             /// Overwrites the array called `name`; `None` when there is none, `Some(false)` on a size mismatch.
             pub fn assign(&mut self, name: &str, values: &[f64]) -> Option<bool> {
                 match name {

@@ -185,7 +185,8 @@ pub(crate) fn position_and_velocity(
 ///
 /// # Errors
 /// Contacts and constraint rows need more memory than the budget.
-pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
+#[doc(hidden)]
+pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
     let s = &mut d.scratch;
     kinematics(m, &d.state, &mut d.kin);
     com_pos(m, &d.kin, &mut d.com);
@@ -211,7 +212,8 @@ pub(crate) fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Resul
 }
 
 /// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.
-pub(crate) fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
+#[doc(hidden)]
+pub fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
     actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
     com_vel(m, &d.state, &d.com, &mut d.vel);
@@ -225,6 +227,16 @@ pub(crate) fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
 pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation);
     watch.ended(Stage::Actuation);
+    unconstrained_acceleration(m, d);
+    watch.ended(Stage::Acceleration);
+    constrained_acceleration(m, d);
+    watch.ended(Stage::Solver);
+}
+
+/// Acceleration without constraints, of the forces of actuators, springs, users and inertia.
+#[doc(hidden)]
+#[inline]
+pub fn unconstrained_acceleration(m: &Model, d: &mut Data) {
     for dof in 0..m.nv {
         d.acc.qfrc_smooth[dof] = d.passive.qfrc_passive[dof] - d.vel.qfrc_bias[dof]
             + d.state.qfrc_applied[dof]
@@ -233,14 +245,19 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     apply_user_wrenches(m, &d.kin, &d.com, &d.state.xfrc_applied, &mut d.acc.qfrc_smooth);
     d.acc.qacc_smooth.copy_from_slice(&d.acc.qfrc_smooth);
     solve(m, &d.inertia, &mut d.acc.qacc_smooth);
-    watch.ended(Stage::Acceleration);
+}
+
+/// Forces of the constraints, and the acceleration with them.
+#[doc(hidden)]
+#[inline]
+pub fn constrained_acceleration(m: &Model, d: &mut Data) {
     let inputs =
         solver::SolverInputs { m, state: &d.state, inertia: &d.inertia, con: &d.con, island: &d.island };
     solver::solve(inputs, &mut d.efc, &mut d.acc, &mut d.solver, &mut d.scratch.solver);
-    watch.ended(Stage::Solver);
 }
 
-fn position_sensors(m: &Model, d: &mut Data) {
+#[doc(hidden)]
+pub fn position_sensors(m: &Model, d: &mut Data) {
     let inputs = PositionInputs {
         state: &d.state,
         kin: &d.kin,
@@ -256,7 +273,8 @@ fn position_sensors(m: &Model, d: &mut Data) {
     d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
 }
 
-fn velocity_sensors(m: &Model, d: &mut Data) {
+#[doc(hidden)]
+pub fn velocity_sensors(m: &Model, d: &mut Data) {
     let inputs =
         VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
     let past = Past { time: d.state.time, history: &d.state.history };
@@ -266,7 +284,8 @@ fn velocity_sensors(m: &Model, d: &mut Data) {
     }
 }
 
-pub(crate) fn acceleration_sensors(m: &Model, d: &mut Data) {
+#[doc(hidden)]
+pub fn acceleration_sensors(m: &Model, d: &mut Data) {
     if sensor::needs_body_forces(m) {
         rne_post_constraint(m, &configuration_of!(d), &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
     }

@@ -20,7 +20,8 @@ pub mod camera;
 pub(crate) mod chain;
 #[doc(hidden)]
 pub mod com;
-pub(crate) mod frame;
+#[doc(hidden)]
+pub mod frame;
 pub mod jacobian;
 #[doc(hidden)]
 pub mod kinematics;

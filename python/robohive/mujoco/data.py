@@ -1,0 +1,138 @@
+"""`MjData`: one simulation, whose arrays are numpy arrays that may be written."""
+
+import copy
+from typing import Any, NoReturn
+
+import numpy as np
+
+from robohive._core import mujoco as _core
+from robohive.mujoco import named
+from robohive.mujoco.lists import MjContactList, MjSolverStatList, MjTimerStatList, MjWarningStatList
+from robohive.mujoco.model import MjModel, _refuse
+
+#: Numbers of MuJoCo's memory management, for which there is nothing here.
+_ZEROS = ("maxuse_arena", "maxuse_stack", "nplugin", "threadpool")
+#: Attributes that may be set and are no arrays.
+_SCALARS = ("time",)
+
+
+class MjData(_core.Data, named.DataElements):
+    """One simulation of a model.
+
+    Arrays are attributes of MuJoCo's names, with MuJoCo's shapes. They keep their identity: `q = data.qpos` shows the
+    new positions after `mj_step`. What is written is taken over by the next call that is given the data. Contacts and
+    constraint rows (`contact`, `efc_*`, `island_*`) change their number with every step and are read-only copies.
+
+    A call in one thread while another is at work with the same data raises a `RuntimeError`.
+    """
+
+    model: MjModel
+
+    def __new__(cls, model: MjModel) -> "MjData":
+        if not isinstance(model, MjModel):
+            raise TypeError(f"MjData is made of an MjModel, not of {type(model).__name__}")
+        return super().__new__(cls, model)
+
+    def __init__(self, model: MjModel) -> None:
+        inner = self.__dict__
+        inner["model"] = model
+        inner["_shapes"] = {name: shape for name, (_, shape) in self._describe().items()}
+
+    def __getattr__(self, name: str) -> Any:
+        inner = self.__dict__
+        if name in inner.get("_shapes", ()):
+            value = inner[name] = self._array(name)
+            return value
+        if name in _ZEROS:
+            return 0
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return self._changing(name)
+
+    def _changing(self, name: str) -> Any:
+        """What changes its length or value with every step."""
+        counts = self._counts()
+        if name in counts:
+            return counts[name]
+        if name == "efc_J" and not self._is_sparse():
+            return _fixed(_core.dense_jacobian(self, self.model.nv))
+        arrays = _core.constraints(self)
+        if name == "nJ":
+            return len(arrays["efc_J"]) if self._is_sparse() else counts["nefc"] * self.model.nv
+        if name in arrays:
+            return _fixed(arrays[name])
+        if name in ("solver_niter", "solver_nnz"):
+            islands = np.zeros(20, np.int32)
+            values = _core.solver(self)[name][:20]
+            islands[: len(values)] = values
+            return _fixed(islands)
+        raise AttributeError(f"'mujoco.MjData' object has no attribute '{name}'")
+
+    def _is_sparse(self) -> bool:
+        jacobian = self.model.opt.jacobian
+        return jacobian == 1 or (jacobian == 2 and self.model.nv >= 60)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in _SCALARS:
+            super().__setattr__(name, value)
+        elif name in self._shapes:
+            getattr(self, name)[...] = value
+        else:
+            _refuse(self, name)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._shapes, *self._counts(), *_core.constraints(self), *_ZEROS})
+
+    @property
+    def contact(self) -> MjContactList:
+        """The contacts of the last collision detection: a sequence, and an array for each field."""
+        return MjContactList(_core.contacts(self))
+
+    @property
+    def warning(self) -> MjWarningStatList:
+        """Counts of warnings, by `mjtWarning`."""
+        return MjWarningStatList(self._warnings())
+
+    @property
+    def timer(self) -> MjTimerStatList:
+        """Timers, by `mjtTimer`. Nothing is timed: all are zero."""
+        return MjTimerStatList()
+
+    @property
+    def solver(self) -> MjSolverStatList:
+        """Statistics of the constraint solver: 200 iterations for each of 20 islands, zeros where there were fewer."""
+        return MjSolverStatList(_core.solver(self))
+
+    @property
+    def signature(self) -> int:
+        """The signature of the model."""
+        return self.model.signature
+
+    def bind(self, specs: Any) -> NoReturn:
+        """Elements of an `MjSpec` cannot be bound: the reader's tree is not open to Python."""
+        raise NotImplementedError("binding elements of an MjSpec; use data.body(name), data.joint(name) and so on")
+
+    def __copy__(self) -> "MjData":
+        duplicate = type(self)(self.model)
+        duplicate._assign(self)
+        return duplicate
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> "MjData":
+        duplicate = type(self)(copy.deepcopy(self.model, memo))
+        duplicate._assign(self)
+        memo[id(self)] = duplicate
+        return duplicate
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickle, (self.model, self._dump())
+
+
+def _unpickle(model: MjModel, arrays: dict[str, Any]) -> MjData:
+    data = MjData(model)
+    data._restore(arrays)
+    return data
+
+
+def _fixed(array: Any) -> Any:
+    array.flags.writeable = False
+    return array

@@ -1,0 +1,150 @@
+"""Contacts, warnings, timers and solver statistics: sequences of records that also show each field as one array."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class _Record:
+    """One element of a list, its fields as attributes."""
+
+    def __init__(self, values: Mapping[str, Any] | None = None) -> None:
+        self.__dict__.update(values or {})
+
+    def __repr__(self) -> str:
+        rows = (f"  {name}: {value!r}" for name, value in sorted(vars(self).items()))
+        return "\n".join((f"<{type(self).__name__}", *rows, ">"))
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        mine, theirs = vars(self), vars(other)
+        return mine.keys() == theirs.keys() and all(np.array_equal(mine[name], theirs[name]) for name in mine)
+
+    __hash__ = None  # type: ignore[assignment]
+
+
+class _List:
+    """A list of records of which the fields are kept, each as one read-only array."""
+
+    _record: ClassVar[type[_Record]]
+
+    def __init__(self, fields: Mapping[str, NDArray[Any]]) -> None:
+        for array in fields.values():
+            array.flags.writeable = False
+        self._fields = dict(fields)
+        self._length = len(next(iter(fields.values())))
+
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        fields = self.__dict__.get("_fields", {})
+        if name not in fields:
+            raise AttributeError(f"'mujoco.{type(self).__name__}' object has no attribute '{name}'")
+        return fields[name]
+
+    def __dir__(self) -> list[str]:
+        return sorted(self._fields)
+
+    def __len__(self) -> int:
+        return self._length
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return type(self)._of({name: values[index] for name, values in self._fields.items()})
+        number = int(index)
+        if not -self._length <= number < self._length:
+            raise IndexError(f"index {number} is out of range: there are {self._length}")
+        return self._record({name: _scalar(values[number]) for name, values in self._fields.items()})
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self[i] for i in range(self._length))
+
+    def __repr__(self) -> str:
+        rows = (f"  {name}: {values!r}" for name, values in sorted(self._fields.items()))
+        return "\n".join((f"<{type(self).__name__}", *rows, ">"))
+
+    @classmethod
+    def _of(cls, fields: Mapping[str, NDArray[Any]]) -> Any:
+        made = cls.__new__(cls)
+        _List.__init__(made, fields)
+        return made
+
+
+def _scalar(value: Any) -> Any:
+    return value.item() if np.ndim(value) == 0 else value
+
+
+class MjContact(_Record):
+    """A contact: `dist` [m], `pos` and `frame` (normal, two tangents) in the world, `geom1`, `geom2`, and parameters."""
+
+
+class MjContactList(_List):
+    """The contacts of a simulation when it was asked for: read-only."""
+
+    _record = MjContact
+
+    def __init__(self, fields: dict[str, Any]) -> None:
+        count = fields.pop("ncon").item()
+        none = np.full((count, 2), -1, np.int32)
+        geom = fields["geom"].reshape(count, 2)
+        super().__init__({
+            **fields,
+            "geom1": geom[:, 0].copy(),
+            "geom2": geom[:, 1].copy(),
+            "flex": none,
+            "elem": none.copy(),
+            "vert": none.copy(),
+        })
+
+
+class MjWarningStat(_Record):
+    """How often a warning was given, and at which place last."""
+
+
+class MjWarningStatList(_List):
+    """Warnings by `mjtWarning`."""
+
+    _record = MjWarningStat
+
+    def __init__(self, pairs: list[tuple[int, int]]) -> None:
+        both = np.array(pairs, np.int32)
+        super().__init__({"lastinfo": both[:, 0].copy(), "number": both[:, 1].copy()})
+
+
+class MjTimerStat(_Record):
+    """A timer."""
+
+
+class MjTimerStatList(_List):
+    """Timers by `mjtTimer`, all zero: nothing is timed."""
+
+    _record = MjTimerStat
+
+    def __init__(self) -> None:
+        super().__init__({"duration": np.zeros(15), "number": np.zeros(15, np.int32)})
+
+
+class MjSolverStat(_Record):
+    """One iteration of the constraint solver."""
+
+
+class MjSolverStatList(_List):
+    """Iterations of the solver, 200 places for each of 20 islands."""
+
+    _record = MjSolverStat
+    _ISLANDS, _ITERATIONS = 20, 200
+
+    def __init__(self, statistics: dict[str, list[Any]]) -> None:
+        counts = statistics["solver_niter"]
+        fields = {}
+        for name in ("improvement", "gradient", "lineslope", "nactive", "nchange", "neval", "nupdate"):
+            values = statistics[name]
+            whole = np.zeros((self._ISLANDS, self._ITERATIONS), np.int32 if name[0] == "n" else np.float64)
+            start = 0
+            for island, count in enumerate(counts[: self._ISLANDS]):
+                kept = min(count, self._ITERATIONS)
+                whole[island, :kept] = values[start : start + kept]
+                start += count
+            fields[name] = whole.ravel()
+        super().__init__(fields)

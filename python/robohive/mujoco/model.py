@@ -1,0 +1,154 @@
+"""`MjModel`: a compiled model, whose arrays are numpy arrays that may be written."""
+
+import copy
+import warnings
+from collections.abc import Mapping
+from os import PathLike, fspath
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robohive._core import mujoco as _core
+from robohive.mujoco import empty, named
+from robohive.mujoco.options import MjOption, MjStatistic, MjVisual
+
+#: Arrays that are handed out as read-only copies: the structure that a model was compiled into, which no edit can change.
+_STRUCTURE = ("mesh_", "bvh_", "oct_", "names_map", "B_", "D_", "M_", "mapM", "mapD")
+_BYTES = ("names", "paths", "text_data")
+
+
+class MjModel(_core.Model, named.ModelElements):
+    """A compiled model.
+
+    Every array of the model is an attribute of MuJoCo's name: a numpy array with the shape of MuJoCo's, that may be
+    written. What is written takes effect in the next call that is given the model, and nothing is derived from it
+    (`mj_setConst` does). Numbers that do not fit (NaN, references to no element) make that call raise a `ValueError`
+    that names array and place, until they are corrected.
+
+    Arrays of meshes, bounding volumes and sparsity are read-only copies. `tex_data` may be written; pictures show it.
+    """
+
+    def __new__(cls, compiled: _core.CompiledModel) -> "MjModel":
+        return super().__new__(cls, compiled)
+
+    def __init__(self, compiled: _core.CompiledModel) -> None:
+        sizes = dict.fromkeys(empty.SIZES, 0) | self._sizes()
+        described = self._describe()
+        inner = self.__dict__
+        inner["_size_values"] = sizes
+        inner["_shapes"] = {name: shape for name, (_, shape) in described.items() if "." not in name}
+        inner["opt"] = MjOption(self)
+        inner["stat"] = MjStatistic(self)
+        inner["vis"] = MjVisual(self)
+        inner["_element_names"] = {}
+        inner.update(sizes)
+
+    @classmethod
+    def from_xml_path(cls, filename: str | PathLike[str], assets: Mapping[str, bytes] | None = None) -> "MjModel":
+        """Loads a model from an MJCF file; files that it names are looked for among `assets` first, then on the disk.
+
+        Raises:
+            ValueError: what is wrong, every finding with file, line, column and element.
+        """
+        return cls._of(_core.load_path(fspath(filename), _as_bytes(assets)))
+
+    @classmethod
+    def from_xml_string(cls, xml: str | bytes, assets: Mapping[str, bytes] | None = None) -> "MjModel":
+        """Loads a model from MJCF text; see `from_xml_path`."""
+        text = xml.decode() if isinstance(xml, bytes) else xml
+        return cls._of(_core.load_text(text, _as_bytes(assets)))
+
+    @classmethod
+    def from_binary_path(cls, filename: str, assets: Mapping[str, bytes] | None = None) -> "MjModel":
+        """Loads a model that `mj_saveModel` or `robohive compile` wrote.
+
+        Raises:
+            ValueError: the file is none of these; MuJoCo's own `.mjb` files are no exception.
+        """
+        content = _as_bytes(assets).get(filename)
+        if content is None:
+            with open(filename, "rb") as file:
+                content = file.read()
+        try:
+            return cls(_core.CompiledModel.from_bytes(content))
+        except ValueError as error:
+            raise ValueError(
+                f"{filename}: {error}; MuJoCo's own binary files cannot be read, load the XML that they were made of"
+            ) from None
+
+    @classmethod
+    def _of(cls, loaded: tuple[_core.CompiledModel, list[str]]) -> "MjModel":
+        compiled, findings = loaded
+        for finding in findings:
+            warnings.warn(finding, stacklevel=3)
+        return cls(compiled)
+
+    def __getattr__(self, name: str) -> Any:
+        inner = self.__dict__
+        if name in inner.get("_shapes", ()):
+            value: Any
+            if name in _BYTES:
+                value = self._bytes(name)
+            elif name.startswith(_STRUCTURE):
+                value = self._copied(name)
+                value.flags.writeable = False
+            else:
+                value = self._array(name)
+        else:
+            value = empty.array(name, inner.get("_size_values", {}))
+            if value is None:
+                raise AttributeError(f"'mujoco.MjModel' object has no attribute '{name}'")
+        inner[name] = value
+        return value
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in self._shapes:
+            _refuse(self, name)
+        getattr(self, name)[...] = value
+
+    def __dir__(self) -> list[str]:
+        return sorted({*super().__dir__(), *self._shapes, *empty.NAMES})
+
+    @property
+    def _all_sizes(self) -> dict[str, int]:
+        return self._size_values
+
+    @property
+    def _sizes_array(self) -> NDArray[np.int64]:
+        return np.array(list(self._size_values.values()), np.int64)
+
+    @property
+    def signature(self) -> int:
+        """A number that models of equal sizes share."""
+        return hash(tuple(self._size_values.values()))
+
+    def bind(self, specs: Any) -> NoReturn:
+        """Elements of an `MjSpec` cannot be bound: the reader's tree is not open to Python."""
+        raise NotImplementedError("binding elements of an MjSpec; use model.body(name), model.geom(name) and so on")
+
+    def __copy__(self) -> "MjModel":
+        return type(self)(self._compiled())
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> "MjModel":
+        duplicate = copy.copy(self)
+        memo[id(self)] = duplicate
+        return duplicate
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _unpickle, (self._to_bytes(),)
+
+
+def _unpickle(content: bytes) -> MjModel:
+    return MjModel(_core.CompiledModel.from_bytes(content))
+
+
+def _refuse(owner: Any, name: str) -> NoReturn:
+    kind = type(owner).__name__
+    if hasattr(owner, name):
+        raise AttributeError(f"'mujoco.{kind}' attribute '{name}' cannot be set")
+    raise AttributeError(f"'mujoco.{kind}' object has no attribute '{name}'")
+
+
+def _as_bytes(assets: Mapping[str, bytes] | None) -> dict[str, bytes]:
+    return {name: bytes(content) for name, content in (assets or {}).items()}

@@ -1,0 +1,79 @@
+"""Names and ids, names of types, versions, files of models."""
+
+from typing import Any
+
+import numpy as np
+
+from robohive.mujoco._constants import mjVERSION_HEADER
+from robohive.mujoco.enums_physics import mjtObj
+from robohive.mujoco.model import MjModel
+
+
+def mj_name2id(m: MjModel, type: int, name: str) -> int:
+    """Id of the element of a type (`mjtObj`) called `name`, -1 for none."""
+    return m._id(int(type), name)
+
+
+def mj_id2name(m: MjModel, type: int, id: int) -> str | None:
+    """Name of an element, None when it has none or does not exist."""
+    return m._name(int(type), id) or None
+
+
+def mju_type2Str(type: int) -> str | None:
+    """The word of MJCF for a type of object."""
+    try:
+        kind = mjtObj(int(type))
+    except ValueError:
+        return None
+    return kind.name.removeprefix("mjOBJ_").lower() if kind.name.startswith("mjOBJ_") and kind else None
+
+
+def mju_str2Type(str: str) -> int:
+    """The type of object for a word of MJCF, 0 for none."""
+    return int(getattr(mjtObj, f"mjOBJ_{str.upper()}", 0))
+
+
+def mj_version() -> int:
+    """The version of MuJoCo that is followed, as one number."""
+    return mjVERSION_HEADER
+
+
+def mj_versionString() -> str:
+    """The version of MuJoCo that is followed."""
+    return f"{mjVERSION_HEADER // 1_000_000}.{mjVERSION_HEADER // 1000 % 1000}.{mjVERSION_HEADER % 1000}"
+
+
+def mj_isSparse(m: MjModel) -> int:
+    """1 where constraint matrices are sparse."""
+    return int(m.opt.jacobian == 1 or (m.opt.jacobian == 2 and m.nv >= 60))
+
+
+def mj_isPyramidal(m: MjModel) -> int:
+    """1 with pyramidal friction cones."""
+    return int(m.opt.cone == 0)
+
+
+def mj_isDual(m: MjModel) -> int:
+    """1 where the solver works with forces."""
+    return int(m.opt.solver == 0 or m.opt.noslip_iterations > 0)
+
+
+def mj_sizeModel(m: MjModel) -> int:
+    """Bytes that `mj_saveModel` writes."""
+    return len(m._to_bytes())
+
+
+def mj_saveModel(m: MjModel, filename: str | None = None, buffer: Any = None) -> None:
+    """Writes a compiled model, in the format of `robohive compile`, into a file or a buffer of bytes.
+
+    Raises:
+        ValueError: the buffer is too small.
+    """
+    content = m._to_bytes()
+    if buffer is not None:
+        if buffer.size < len(content):
+            raise ValueError(f"the buffer has {buffer.size} bytes, the model {len(content)}")
+        buffer.ravel()[: len(content)] = np.frombuffer(content, np.uint8)
+    elif filename is not None:
+        with open(filename, "wb") as file:
+            file.write(content)

@@ -1,0 +1,151 @@
+"""`Renderer`: pictures without a display or a GPU."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from robohive._core import mujoco as _core
+from robohive.mujoco.data import MjData
+from robohive.mujoco.enums_physics import mjtObj
+from robohive.mujoco.enums_view import mjtCamera, mjtVisFlag
+from robohive.mujoco.model import MjModel
+from robohive.mujoco.view import MjvCamera, MjvOption, mjv_defaultFreeCamera
+
+_GROUPS = ("geom", "site", "joint", "tendon", "actuator")
+
+
+class Renderer:
+    """Draws pictures of simulations of one model, by the engine's own renderer.
+
+    `max_geom` and `font_scale` are accepted and have no effect: there is no bound, and no text.
+    """
+
+    def __init__(
+        self, model: MjModel, height: int = 240, width: int = 320, max_geom: int = 10000, font_scale: Any = None
+    ) -> None:
+        """Pictures of `height` and `width` pixels.
+
+        Raises:
+            ValueError: they exceed `offwidth` or `offheight` of the model.
+        """
+        sizes = model.vis.global_
+        for name, asked, most in (("width", width, sizes.offwidth), ("height", height, sizes.offheight)):
+            if asked > most:
+                raise ValueError(
+                    f'Image {name} {asked} > framebuffer {name} {most}. Give the model <visual><global off{name}="{asked}"/></visual>'
+                )
+        self._model, self._height, self._width = model, height, width
+        self._painter: _core.Painter | None = _core.Painter(width, height)
+        self._channel = "rgb"
+        self._scene_option = MjvOption()
+
+    @property
+    def model(self) -> MjModel:
+        """The model."""
+        return self._model
+
+    @property
+    def height(self) -> int:
+        """Rows of a picture."""
+        return self._height
+
+    @property
+    def width(self) -> int:
+        """Columns of a picture."""
+        return self._width
+
+    def enable_depth_rendering(self) -> None:
+        """`render` returns distances from the camera's plane [m]."""
+        self._channel = "depth"
+
+    def disable_depth_rendering(self) -> None:
+        """`render` returns colours."""
+        self._channel = "rgb"
+
+    def enable_segmentation_rendering(self) -> None:
+        """`render` returns number and type of the object seen."""
+        self._channel = "segmentation"
+
+    def disable_segmentation_rendering(self) -> None:
+        """`render` returns colours."""
+        self._channel = "rgb"
+
+    def update_scene(
+        self, data: MjData, camera: int | str | MjvCamera = -1, scene_option: MjvOption | None = None
+    ) -> None:
+        """Takes in what is seen of a simulation, whose poses must have been computed.
+
+        Args:
+            data: the simulation.
+            camera: a name or number of the model's cameras, -1 for the free one, or a camera of one's own.
+            scene_option: what is visible.
+
+        Raises:
+            ValueError: there is no such camera.
+        """
+        option = scene_option or self._scene_option
+        groups = [[bool(x) for x in getattr(option, f"{kind}group")] for kind in _GROUPS]
+        shown = [flag.name.removeprefix("mjVIS_") for flag in mjtVisFlag if flag < len(option.flags) and option.flags[flag]]
+        fixed, free = self._camera(camera)
+        look = {"camera": fixed, "free": free, "groups": groups, "shown": shown}
+        self._painting().look(self._model, data, look)
+
+    def _camera(self, camera: int | str | MjvCamera) -> tuple[int | None, dict[str, Any] | None]:
+        if isinstance(camera, str):
+            number = self._model._id(mjtObj.mjOBJ_CAMERA, camera)
+            if number < 0:
+                raise ValueError(f'The camera "{camera}" does not exist.')
+            return number, None
+        if isinstance(camera, MjvCamera):
+            if camera.type == mjtCamera.mjCAMERA_FIXED:
+                return self._checked(camera.fixedcamid), None
+        else:
+            if camera != -1:
+                return self._checked(camera), None
+            camera = MjvCamera()
+            mjv_defaultFreeCamera(self._model, camera)
+        tracked = camera.trackbodyid if camera.type == mjtCamera.mjCAMERA_TRACKING else None
+        names = ("distance", "azimuth", "elevation")
+        return None, {
+            "lookat": camera.lookat,
+            "track": tracked,
+            **{name: float(getattr(camera, name)) for name in names},
+            "orthographic": bool(camera.orthographic),
+        }
+
+    def _checked(self, number: int) -> int:
+        if not 0 <= number < self._model.ncam:
+            raise ValueError(f"The camera id {number} is out of range [-1, {self._model.ncam}).")
+        return int(number)
+
+    def _painting(self) -> _core.Painter:
+        if self._painter is None:
+            raise RuntimeError("render cannot be called after close.")
+        return self._painter
+
+    def render(self, *, out: NDArray[Any] | None = None) -> NDArray[Any]:
+        """The picture: colours `(height, width, 3)` uint8, distances `(height, width)` float32 [m], or objects
+        `(height, width, 2)` int32, number and type, -1 for none.
+
+        Raises:
+            RuntimeError: nothing was looked at yet, or the renderer is closed.
+            ValueError: `out` has another shape.
+        """
+        picture = self._painting().draw(self._channel)
+        if out is None:
+            return picture
+        if out.shape != picture.shape:
+            raise ValueError(f"Expected `out.shape == {picture.shape}`. Got `out.shape={out.shape}` instead.")
+        np.copyto(out, picture, casting="unsafe")
+        return out
+
+    def close(self) -> None:
+        """Frees the memory."""
+        self._painter = None
+
+    def __enter__(self) -> "Renderer":
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()

@@ -1,0 +1,225 @@
+//! `MjData`: one simulation, and the numpy arrays through which Python reads and writes it.
+
+use super::arena::{Engine, EngineMut};
+use super::error::FatalError;
+use super::mirror::{Layout, Mirror};
+use super::model::Model;
+use numpy::PyArray1;
+use physics::data::ArrayAddress;
+use physics::table::{Slice, SliceMut};
+use physics::{Data as Simulation, Model as Compiled};
+use pyo3::exceptions::{PyAttributeError, PyRuntimeError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+
+/// Kinds of warnings, in MuJoCo's order.
+pub const WARNINGS: usize = 7;
+
+/// How often something was noticed, and at which place last.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Warning {
+    pub last: i32,
+    pub number: i32,
+}
+
+/// One simulation. `MjData` inherits from it.
+#[pyclass(subclass, frozen, module = "robohive._core.mujoco")]
+pub struct Data {
+    model: Py<Model>,
+    held: Mutex<Held>,
+}
+
+/// What a call works with.
+pub struct Held {
+    pub simulation: Simulation,
+    pub warnings: [Warning; WARNINGS],
+    addresses: Arc<[ArrayAddress]>,
+    mirror: Mirror,
+    sizes: Arc<[usize]>,
+}
+
+struct View<'a> {
+    simulation: &'a mut Simulation,
+    addresses: &'a [ArrayAddress],
+}
+
+impl Engine for View<'_> {
+    fn read(&self, place: usize, show: &mut dyn FnMut(Slice<'_>)) {
+        if let Some(slice) = self.addresses.get(place).and_then(|&at| self.simulation.array(at)) {
+            show(slice);
+        }
+    }
+}
+
+impl EngineMut for View<'_> {
+    fn write(&mut self, place: usize) -> Option<SliceMut<'_>> {
+        self.addresses.get(place).and_then(|&at| self.simulation.array_mut(at))
+    }
+}
+
+fn lay_out(model: &Compiled, simulation: &Simulation) -> (Layout, Vec<ArrayAddress>) {
+    let (mut layout, mut addresses) = (Layout::default(), Vec::new());
+    simulation.visit_arrays(model, &mut |at, name, shape, slice| {
+        addresses.push(at);
+        layout.add(name, shape, &slice);
+    });
+    (layout, addresses)
+}
+
+impl Held {
+    /// Takes over what Python wrote into its arrays.
+    pub fn pull(&mut self, py: Python<'_>) -> PyResult<()> {
+        let Held { simulation, addresses, mirror, .. } = self;
+        mirror.pull(py, &mut View { simulation, addresses })
+    }
+
+    /// Shows what the engine computed in the arrays of Python.
+    pub fn push(&mut self, py: Python<'_>) -> PyResult<()> {
+        let Held { simulation, addresses, mirror, .. } = self;
+        mirror.push(py, &View { simulation, addresses })
+    }
+
+    /// Refuses a model of other sizes.
+    pub fn check_fits(&self, model: &Model) -> PyResult<()> {
+        if Arc::ptr_eq(&self.sizes, model.sizes()) || self.sizes == *model.sizes() {
+            return Ok(());
+        }
+        Err(FatalError::new_err("the MjData was made of another MjModel: their sizes differ"))
+    }
+}
+
+impl Data {
+    /// What the simulation holds, unless another thread is at work with it.
+    pub fn lock(&self) -> PyResult<MutexGuard<'_, Held>> {
+        match self.held.try_lock() {
+            Ok(held) => Ok(held),
+            Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+            Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(
+                "this MjData is in use by another thread; give each thread an MjData of its own",
+            )),
+        }
+    }
+
+    /// The model that it was made of.
+    pub fn model<'py>(&self, py: Python<'py>) -> &Bound<'py, Model> {
+        self.model.bind(py)
+    }
+}
+
+#[pymethods]
+impl Data {
+    #[new]
+    fn new(py: Python<'_>, model: Py<Model>) -> PyResult<Self> {
+        let compiled = model.get().current(py)?;
+        let simulation = Simulation::new(&compiled);
+        let (layout, addresses) = lay_out(&compiled, &simulation);
+        let sizes = Arc::clone(model.get().sizes());
+        let mirror = Mirror::new(Arc::new(layout));
+        let warnings = Default::default();
+        let held = Held { simulation, warnings, addresses: addresses.into(), mirror, sizes };
+        Ok(Data { model, held: Mutex::new(held) })
+    }
+
+    /// The model that the simulation was made of.
+    #[getter]
+    fn _model(&self, py: Python<'_>) -> Py<Model> {
+        self.model.clone_ref(py)
+    }
+
+    /// The array called `name`, a view that later calls keep up to date.
+    fn _array<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let mut held = self.lock()?;
+        let Held { simulation, addresses, mirror, .. } = &mut *held;
+        let found = mirror.hand(py, name, &View { simulation, addresses })?;
+        found.ok_or_else(|| PyAttributeError::new_err(format!("the data have no array {name:?}")))
+    }
+
+    /// Type and shape of every array whose length does not change.
+    fn _describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let compiled = self.model.get().current(py)?;
+        lay_out(&compiled, &self.lock()?.simulation).0.describe(py)
+    }
+
+    /// Takes over everything of `other`, a simulation of a model of the same sizes.
+    fn _assign(&self, py: Python<'_>, other: &Bound<'_, Data>) -> PyResult<()> {
+        if std::ptr::eq(self, other.get()) {
+            return Ok(());
+        }
+        let (mut held, mut from) = (self.lock()?, other.get().lock()?);
+        held.check_fits(other.get().model.get())?;
+        from.pull(py)?;
+        held.simulation.clone_from(&from.simulation);
+        held.warnings = from.warnings;
+        held.push(py)
+    }
+
+    /// Simulation time [s].
+    #[getter]
+    fn get_time(&self) -> PyResult<f64> {
+        Ok(self.lock()?.simulation.state.time)
+    }
+
+    #[setter]
+    fn set_time(&self, time: f64) -> PyResult<()> {
+        self.lock()?.simulation.state.time = time;
+        Ok(())
+    }
+
+    /// Number of contacts.
+    #[getter]
+    fn ncon(&self) -> PyResult<usize> {
+        Ok(self.lock()?.simulation.con.contact.len())
+    }
+
+    /// Numbers of constraint rows and islands by name.
+    fn _counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let (all, held) = (PyDict::new(py), self.lock()?);
+        let mut result = Ok(());
+        let mut put = |name: &'static str, count: usize| {
+            if result.is_ok() {
+                result = all.set_item(name, count);
+            }
+        };
+        held.simulation.efc.visit_counts(&mut put);
+        held.simulation.island.visit_counts(&mut put);
+        result.map(|()| all)
+    }
+
+    /// Every array and count by name, flat.
+    fn _dump<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let compiled = self.model.get().current(py)?;
+        let mut held = self.lock()?;
+        held.pull(py)?;
+        let all = PyDict::new(py);
+        let mut result = Ok(());
+        held.simulation.visit(&compiled, &mut |name, _, slice| {
+            if result.is_ok() {
+                result = all.set_item(name, PyArray1::from_vec(py, slice.to_f64()));
+            }
+        });
+        result.map(|()| all)
+    }
+
+    /// Overwrites every array by what `_dump` returned.
+    fn _restore(&self, py: Python<'_>, arrays: HashMap<String, Vec<f64>>) -> PyResult<()> {
+        let mut held = self.lock()?;
+        let simulation = &mut held.simulation;
+        simulation.con.contact.clear();
+        for (name, values) in &arrays {
+            match (name.as_str(), &values[..]) {
+                ("energy", [potential, kinetic]) => simulation.energy = [*potential, *kinetic],
+                ("solver_fwdinv", [a, b]) => simulation.solver.solver_fwdinv = [*a, *b],
+                ("nisland" | "nidof", [count]) => _ = simulation.island.set_count(name, *count as usize),
+                _ => _ = simulation.assign(name, values),
+            }
+        }
+        held.push(py)
+    }
+
+    /// Last place and number of each kind of warning.
+    fn _warnings(&self) -> PyResult<Vec<(i32, i32)>> {
+        Ok(self.lock()?.warnings.iter().map(|w| (w.last, w.number)).collect())
+    }
+}

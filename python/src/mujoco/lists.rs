@@ -1,0 +1,91 @@
+//! Arrays whose length changes from step to step: contacts, constraint rows, islands, iterations of the solver. Each is a
+//! fresh copy, since what it shows may have another length after the next call.
+
+use super::data::Data;
+use numpy::{PyArray1, PyArrayMethods};
+use physics::table::Slice;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// A fresh numpy array of these scalars.
+pub fn array<'py>(py: Python<'py>, slice: Slice<'_>, shape: Vec<usize>) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match slice {
+        Slice::Bool(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
+        Slice::U8(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
+        Slice::I32(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
+        Slice::I64(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
+        Slice::F32(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
+        Slice::F64(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
+    })
+}
+
+/// What visits arrays by name.
+type Visit<'a> = dyn Fn(&mut dyn FnMut(&'static str, Vec<usize>, Slice<'_>)) + 'a;
+
+fn gather<'py>(py: Python<'py>, visit: &Visit<'_>) -> PyResult<Bound<'py, PyDict>> {
+    let all = PyDict::new(py);
+    let mut result = Ok(());
+    visit(&mut |name, shape, slice| {
+        if result.is_ok() {
+            result = array(py, slice, shape).and_then(|values| all.set_item(name, values));
+        }
+    });
+    result.map(|()| all)
+}
+
+/// Every field of all contacts, by the field's name.
+#[pyfunction]
+pub fn contacts<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py, PyDict>> {
+    let held = d.get().lock()?;
+    gather(py, &|f| {
+        held.simulation
+            .con
+            .visit(&mut |name, shape, slice| f(name.trim_start_matches("contact."), shape, slice))
+    })
+}
+
+/// Arrays of constraint rows and islands by name.
+#[pyfunction]
+pub fn constraints<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py, PyDict>> {
+    let held = d.get().lock()?;
+    gather(py, &|f| {
+        held.simulation.efc.visit(f);
+        held.simulation.island.visit(f);
+    })
+}
+
+/// The Jacobian of the constraint rows, dense, row-major.
+#[pyfunction]
+pub fn dense_jacobian<'py>(
+    py: Python<'py>,
+    d: &Bound<'py, Data>,
+    nv: usize,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    let held = d.get().lock()?;
+    Ok(PyArray1::from_vec(py, held.simulation.efc.dense_jacobian(nv)))
+}
+
+/// Iterations and non-zeros of each island, and every iteration: improvement, gradient, slope, and the counts.
+#[pyfunction]
+pub fn solver<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py, PyDict>> {
+    let held = d.get().lock()?;
+    let statistics = &held.simulation.solver;
+    let all = PyDict::new(py);
+    all.set_item("solver_niter", &statistics.solver_niter)?;
+    all.set_item("solver_nnz", &statistics.solver_nnz)?;
+    let floats: [(&str, fn(&physics::data::SolverStat) -> f64); 3] =
+        [("improvement", |s| s.improvement), ("gradient", |s| s.gradient), ("lineslope", |s| s.lineslope)];
+    for (name, value) in floats {
+        all.set_item(name, statistics.solver.iter().map(value).collect::<Vec<_>>())?;
+    }
+    let counts: [(&str, fn(&physics::data::SolverStat) -> i32); 4] = [
+        ("nactive", |s| s.nactive),
+        ("nchange", |s| s.nchange),
+        ("neval", |s| s.neval),
+        ("nupdate", |s| s.nupdate),
+    ];
+    for (name, value) in counts {
+        all.set_item(name, statistics.solver.iter().map(value).collect::<Vec<_>>())?;
+    }
+    Ok(all)
+}

@@ -1,0 +1,76 @@
+//! A stand-in for MuJoCo's Python bindings: models and simulations with MuJoCo's names, on this engine.
+//!
+//! | file | what |
+//! |---|---|
+//! | `arena.rs`, `mirror.rs` | numpy arrays beside the engine's, copied around every call |
+//! | `model.rs`, `settings.rs`, `load.rs` | models, their options, where they come from |
+//! | `data.rs`, `lists.rs`, `saved.rs` | simulations, arrays that change length, states as vectors |
+//! | `call.rs`, `error.rs` | what every call does, and how it fails |
+//! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
+//! | `query.rs`, `algebra.rs`, `quaternion.rs` | questions about poses, matrices, rotations |
+//! | `picture.rs` | pictures |
+//!
+//! Functions with MuJoCo's signatures that write into arrays of the caller are Python (`robohive/mujoco`); here is what
+//! they call, which returns fresh values.
+
+mod algebra;
+mod arena;
+mod call;
+mod data;
+mod dynamics;
+mod error;
+mod lists;
+mod load;
+mod mirror;
+mod model;
+mod picture;
+mod quaternion;
+mod query;
+mod rollout;
+mod saved;
+mod settings;
+mod stages;
+
+use pyo3::pymodule;
+
+/// Models and simulations with MuJoCo's names.
+#[pymodule(name = "mujoco", submodule)]
+pub mod bindings {
+    #[pymodule_export]
+    use super::algebra::{
+        difference, full_matrix, inverse_slopes, moved, mul_inertia, solve_inertia, step_slopes,
+    };
+    #[pymodule_export]
+    use super::data::Data;
+    #[pymodule_export]
+    use super::dynamics::{
+        mj_forward, mj_forward_skip, mj_inverse, mj_reset_data, mj_reset_data_keyframe, mj_step, mj_step1,
+        mj_step2, set_resets,
+    };
+    #[pymodule_export]
+    use super::error::{FatalError, UnexpectedError};
+    #[pymodule_export]
+    use super::lists::{constraints, contacts, dense_jacobian, solver};
+    #[pymodule_export]
+    use super::load::{load_path, load_text};
+    #[pymodule_export]
+    use super::model::{CompiledModel, Model, default_settings};
+    #[pymodule_export]
+    use super::picture::Painter;
+    #[pymodule_export]
+    use super::quaternion::{
+        conjugate, eigen, integrate, matrix, multiply, multiply_axis, normalise, of_axis_angle, rotate,
+        subtract, velocity,
+    };
+    #[pymodule_export]
+    use super::query::{
+        axis_rates, cast_at_geom, cast_at_shape, cast_ray, cast_rays, contact_force, geom_distance, jacobian,
+        joint_forces, object_motion,
+    };
+    #[pymodule_export]
+    use super::rollout::roll_out;
+    #[pymodule_export]
+    use super::saved::{get_state, set_state, state_size};
+    #[pymodule_export]
+    use super::stages::{newton_euler, stage};
+}

@@ -1,0 +1,168 @@
+//! Pictures of a simulation: colours, depth, segmentation, without a display.
+
+use super::call::caught;
+use super::data::Data;
+use super::error::Fault;
+use super::lists::array;
+use super::model::Model;
+use physics::table::Slice;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use render::picture::{Channels, Picture};
+use render::scene::{Camera, FreeCamera, Groups, Scene, SceneOptions};
+use render::{Assets, Profile, Renderer, Settings};
+use std::sync::Mutex;
+
+/// What draws the pictures of one model.
+#[pyclass(frozen, module = "robohive._core.mujoco")]
+pub struct Painter {
+    held: Mutex<Held>,
+}
+
+struct Held {
+    assets: Option<Assets>,
+    scene: Scene,
+    renderer: Option<Renderer>,
+    picture: Picture,
+}
+
+/// A free camera: what it looks at, distance, azimuth and elevation [deg], parallel rays.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Free {
+    lookat: [f64; 3],
+    track: Option<usize>,
+    distance: f64,
+    azimuth: f64,
+    elevation: f64,
+    orthographic: bool,
+}
+
+/// What a picture shows.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Look {
+    /// A camera of the model, or the free one.
+    camera: Option<usize>,
+    free: Option<Free>,
+    /// Visible groups of geoms, sites, joints, tendons, actuators.
+    groups: [[bool; 6]; 5],
+    /// Flags by the names of the fields of `render::scene::Show` that the renderer takes.
+    shown: Vec<String>,
+}
+
+impl Look {
+    fn camera(&self, model: &physics::Model) -> Camera {
+        match (&self.camera, &self.free) {
+            (Some(id), _) => Camera::Fixed(*id),
+            (None, Some(free)) => Camera::Free(FreeCamera {
+                lookat: free.lookat,
+                track: free.track,
+                distance: free.distance,
+                azimuth: free.azimuth,
+                elevation: free.elevation,
+                orthographic: free.orthographic,
+                ..FreeCamera::of(model)
+            }),
+            (None, None) => Camera::free(model),
+        }
+    }
+
+    fn options(&self) -> SceneOptions {
+        let mut options = SceneOptions::default();
+        let [geoms, sites, joints, tendons, actuators] = self.groups;
+        options.groups = Groups { geoms, sites, joints, tendons, actuators };
+        let has = |name: &str| self.shown.iter().any(|shown| shown == name);
+        let show = &mut options.show;
+        show.textures = has("TEXTURE");
+        show.static_bodies = has("STATIC");
+        show.tendons = has("TENDON");
+        show.rangefinders = has("RANGEFINDER");
+        show.convex_hulls = has("CONVEXHULL");
+        show.transparent = has("TRANSPARENT");
+        show.joints = has("JOINT");
+        show.actuators = has("ACTUATOR");
+        show.cameras = has("CAMERA");
+        show.lights = has("LIGHT");
+        show.constraints = has("CONSTRAINT");
+        show.inertias = has("INERTIA");
+        show.centers_of_mass = has("COM");
+        show.contact_points = has("CONTACTPOINT");
+        show.contact_forces = has("CONTACTFORCE");
+        options
+    }
+}
+
+#[pymethods]
+impl Painter {
+    #[new]
+    fn new(width: usize, height: usize) -> Self {
+        let picture = Picture::new(width, height);
+        Painter { held: Mutex::new(Held { assets: None, scene: Scene::new(), renderer: None, picture }) }
+    }
+
+    /// Takes in what is seen of the present state, whose poses must have been computed.
+    fn look(&self, py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>, look: Look) -> PyResult<()> {
+        let compiled = m.get().current_for_pictures(py)?;
+        let mut simulation = d.get().lock()?;
+        simulation.check_fits(m.get())?;
+        simulation.pull(py)?;
+        let mut held = self.lock()?;
+        let (inside, simulation) = (&mut *held, &simulation.simulation);
+        Ok(py.detach(|| {
+            caught(|| {
+                let refused = |error: render::RenderError| Fault::Value(error.to_string());
+                let view = look.camera(&compiled).view(&compiled, simulation).map_err(refused)?;
+                inside.scene.update(&compiled, simulation, view, &look.options()).map_err(refused)?;
+                match &mut inside.assets {
+                    Some(assets) => assets.refresh(&compiled).map_err(refused)?,
+                    None => {
+                        inside.assets = Some(Assets::new(&compiled, Profile::default()).map_err(refused)?)
+                    }
+                }
+                let settings = Settings::of(&compiled);
+                match &mut inside.renderer {
+                    Some(renderer) => *renderer.settings_mut() = settings,
+                    None => inside.renderer = Some(Renderer::new(settings)),
+                }
+                Ok(())
+            })
+        })?)
+    }
+
+    /// Draws what was last looked at: `rgb` (height, width, 3), `depth` (height, width) [m] or `segmentation` (height,
+    /// width, 2).
+    fn draw<'py>(&self, py: Python<'py>, channel: &str) -> PyResult<Bound<'py, PyAny>> {
+        let channels = match channel {
+            "rgb" => Channels::RGB,
+            "depth" => Channels::DEPTH,
+            _ => Channels::SEGMENTATION,
+        };
+        let mut held = self.lock()?;
+        let Held { assets, scene, renderer, picture } = &mut *held;
+        let (Some(assets), Some(renderer)) = (assets.as_ref(), renderer.as_mut()) else {
+            return Err(PyRuntimeError::new_err("there is no scene yet: call update_scene before render"));
+        };
+        py.detach(|| {
+            caught(|| {
+                renderer
+                    .draw(assets, scene, channels, picture)
+                    .map_err(|error| Fault::Value(error.to_string()))
+            })
+        })?;
+        let (rows, columns) = (picture.height, picture.width);
+        match channel {
+            "rgb" => array(py, Slice::U8(&picture.rgb), vec![rows, columns, 3]),
+            "depth" => array(py, Slice::F32(&picture.depth), vec![rows, columns]),
+            _ => array(py, Slice::I32(picture.segmentation.as_flattened()), vec![rows, columns, 2]),
+        }
+    }
+}
+
+impl Painter {
+    fn lock(&self) -> PyResult<std::sync::MutexGuard<'_, Held>> {
+        self.held.try_lock().map_err(|_| {
+            PyRuntimeError::new_err("this Renderer is in use by another thread; give each its own")
+        })
+    }
+}

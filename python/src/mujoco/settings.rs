@@ -1,0 +1,52 @@
+//! Options, statistics and visual settings of a model by group and name, as `model.opt.timestep` asks for them.
+
+use physics::model::{Arrays, Draft};
+use physics::table::Slice;
+
+/// Names of the groups.
+pub const GROUPS: [&str; 8] =
+    ["opt", "stat", "vis.global", "vis.quality", "vis.headlight", "vis.map", "vis.scale", "vis.rgba"];
+
+/// Calls `f(name, values)` for every setting of `group`.
+pub fn visit(arrays: &Arrays, group: &str, f: &mut dyn FnMut(&'static str, Slice<'_>)) {
+    let vis = &arrays.vis;
+    match group {
+        "opt" => arrays.opt.visit(f),
+        "stat" => arrays.stat.visit(f),
+        "vis.global" => vis.global.visit(f),
+        "vis.quality" => vis.quality.visit(f),
+        "vis.headlight" => vis.headlight.visit(f),
+        "vis.map" => vis.map.visit(f),
+        "vis.scale" => vis.scale.visit(f),
+        "vis.rgba" => vis.rgba.visit(f),
+        _ => {}
+    }
+}
+
+/// Shows the setting `name` of `group`; false when there is none.
+pub fn read(arrays: &Arrays, group: &str, name: &str, show: &mut dyn FnMut(Slice<'_>)) -> bool {
+    let mut found = false;
+    visit(arrays, group, &mut |own, values| {
+        if own == name {
+            found = true;
+            show(values);
+        }
+    });
+    found
+}
+
+/// Overwrites a setting; `None` when there is none, `Some(false)` when the numbers do not fit it.
+pub fn assign(draft: &mut Draft<'_>, group: &str, name: &str, values: &[f64]) -> Option<bool> {
+    let vis = &mut *draft.vis;
+    match group {
+        "opt" => draft.opt.assign(name, values),
+        "stat" => draft.stat.assign(name, values),
+        "vis.global" => vis.global.assign(name, values),
+        "vis.quality" => vis.quality.assign(name, values),
+        "vis.headlight" => vis.headlight.assign(name, values),
+        "vis.map" => vis.map.assign(name, values),
+        "vis.scale" => vis.scale.assign(name, values),
+        "vis.rgba" => vis.rgba.assign(name, values),
+        _ => None,
+    }
+}
