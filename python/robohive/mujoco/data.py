@@ -6,12 +6,15 @@ from typing import Any, NoReturn
 import numpy as np
 
 from robohive._core import mujoco as _core
-from robohive.mujoco import named
+from robohive.mujoco import absent, named
+from robohive.mujoco.fields import declare
 from robohive.mujoco.lists import MjContactList, MjSolverStatList, MjTimerStatList, MjWarningStatList
 from robohive.mujoco.model import MjModel, _refuse
 
 #: Numbers of MuJoCo's memory management, for which there is nothing here.
-_ZEROS = ("maxuse_arena", "maxuse_stack", "nplugin", "threadpool")
+_ZEROS = (
+    "maxuse_arena maxuse_con maxuse_efc maxuse_stack narena nbuffer nplugin parena pbase pstack threadpool"
+).split()
 #: Attributes that may be set and are no arrays.
 _SCALARS = ("time",)
 
@@ -38,16 +41,18 @@ class MjData(_core.Data, named.DataElements):
         inner["model"] = model
         inner["_shapes"] = {name: shape for name, (_, shape) in self._describe().items()}
 
-    def __getattr__(self, name: str) -> Any:
+    def _look_up(self, name: str) -> Any:
         inner = self.__dict__
-        if name in inner.get("_shapes", ()):
+        if name in inner["_shapes"]:
             value = inner[name] = self._array(name)
             return value
         if name in _ZEROS:
             return 0
-        if name.startswith("_"):
-            raise AttributeError(name)
-        return self._changing(name)
+        value = absent.of_data(name, self.model)
+        return self._changing(name) if value is None else value
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"'mujoco.MjData' object has no attribute '{name}'")
 
     def _changing(self, name: str) -> Any:
         """What changes its length or value with every step."""
@@ -61,12 +66,10 @@ class MjData(_core.Data, named.DataElements):
             return len(arrays["efc_J"]) if self._is_sparse() else counts["nefc"] * self.model.nv
         if name in arrays:
             return _fixed(arrays[name])
-        if name in ("solver_niter", "solver_nnz"):
-            islands = np.zeros(20, np.int32)
-            values = _core.solver(self)[name][:20]
-            islands[: len(values)] = values
-            return _fixed(islands)
-        raise AttributeError(f"'mujoco.MjData' object has no attribute '{name}'")
+        islands = np.zeros(20, np.int32)
+        values = _core.solver(self)[name][:20]
+        islands[: len(values)] = values
+        return _fixed(islands)
 
     def _is_sparse(self) -> bool:
         jacobian = self.model.opt.jacobian
@@ -79,9 +82,6 @@ class MjData(_core.Data, named.DataElements):
             getattr(self, name)[...] = value
         else:
             _refuse(self, name)
-
-    def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *self._shapes, *self._counts(), *_core.constraints(self), *_ZEROS})
 
     @property
     def contact(self) -> MjContactList:
@@ -125,6 +125,10 @@ class MjData(_core.Data, named.DataElements):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _unpickle, (self.model, self._dump())
+
+
+_ARRAYS, _CHANGING = _core.data_fields()
+declare(MjData, (*_ARRAYS, *_CHANGING, *_ZEROS, *absent.DATA_NAMES, "model", "nJ", "solver_niter", "solver_nnz"))
 
 
 def _unpickle(model: MjModel, arrays: dict[str, Any]) -> MjData:

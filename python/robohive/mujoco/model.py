@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robohive._core import mujoco as _core
-from robohive.mujoco import empty, named
+from robohive.mujoco import absent, named
+from robohive.mujoco.fields import declare
 from robohive.mujoco.options import MjOption, MjStatistic, MjVisual
 
 #: Arrays that are handed out as read-only copies: the structure that a model was compiled into, which no edit can change.
@@ -33,7 +34,7 @@ class MjModel(_core.Model, named.ModelElements):
         return super().__new__(cls, compiled)
 
     def __init__(self, compiled: _core.CompiledModel) -> None:
-        sizes = dict.fromkeys(empty.SIZES, 0) | self._sizes()
+        sizes = dict.fromkeys(absent.SIZES, 0) | self._size_table()
         described = self._describe()
         inner = self.__dict__
         inner["_size_values"] = sizes
@@ -84,38 +85,46 @@ class MjModel(_core.Model, named.ModelElements):
             warnings.warn(finding, stacklevel=3)
         return cls(compiled)
 
-    def __getattr__(self, name: str) -> Any:
+    def _look_up(self, name: str) -> Any:
         inner = self.__dict__
-        if name in inner.get("_shapes", ()):
-            value: Any
-            if name in _BYTES:
-                value = self._bytes(name)
-            elif name.startswith(_STRUCTURE):
-                value = self._copied(name)
+        value: Any
+        if name in _BYTES:
+            value = self._bytes(name)
+        elif name in inner["_shapes"]:
+            value = self._copied(name) if name.startswith(_STRUCTURE) else self._array(name)
+            if name.startswith(_STRUCTURE):
                 value.flags.writeable = False
-            else:
-                value = self._array(name)
         else:
-            value = empty.array(name, inner.get("_size_values", {}))
-            if value is None:
-                raise AttributeError(f"'mujoco.MjModel' object has no attribute '{name}'")
+            value = absent.of_model(name, inner["_size_values"])
         inner[name] = value
         return value
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"'mujoco.MjModel' object has no attribute '{name}'")
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name not in self._shapes:
             _refuse(self, name)
         getattr(self, name)[...] = value
 
-    def __dir__(self) -> list[str]:
-        return sorted({*super().__dir__(), *self._shapes, *empty.NAMES})
+    @property
+    def flg_gravcomp(self) -> bool:
+        """Some body has gravity compensation."""
+        return bool(self.body_gravcomp.any())
 
     @property
-    def _all_sizes(self) -> dict[str, int]:
-        return self._size_values
+    def flg_surfacevel(self) -> bool:
+        """Some geom has a surface velocity."""
+        return bool(self.geom_surfacevel.any())
 
     @property
-    def _sizes_array(self) -> NDArray[np.int64]:
+    def flg_adhesion(self) -> bool:
+        """Some geom or pair has adhesion."""
+        return bool(self.geom_adhesion.any() or self.pair_adhesion.any())
+
+    @property
+    def _sizes(self) -> NDArray[np.int64]:
+        """All sizes, as MuJoCo's bindings have them."""
         return np.array(list(self._size_values.values()), np.int64)
 
     @property
@@ -137,6 +146,10 @@ class MjModel(_core.Model, named.ModelElements):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _unpickle, (self._to_bytes(),)
+
+
+_ARRAYS, _SIZES = _core.model_fields()
+declare(MjModel, (*_ARRAYS, *_SIZES, *absent.SIZES, *absent.MODEL_NAMES, "opt", "stat", "vis"))
 
 
 def _unpickle(content: bytes) -> MjModel:

@@ -231,7 +231,7 @@ def _locate(model: Any, kind: str, key: Any) -> tuple[int, str]:
         IndexError: there is no such id.
     """
     _, size, code = _KINDS[kind]
-    count = model._size_values[size]
+    count = getattr(model, size)
     if isinstance(key, str):
         number = model._id(code, key)
         if number < 0:

@@ -223,3 +223,16 @@ impl Data {
         Ok(self.lock()?.warnings.iter().map(|w| (w.last, w.number)).collect())
     }
 }
+
+/// Names of the arrays whose length follows from the model, and of the arrays and counts that change with every step.
+#[pyfunction]
+pub fn data_fields() -> (Vec<&'static str>, Vec<&'static str>) {
+    let (mut fixed, mut changing) = (Vec::new(), Vec::new());
+    let empty = Simulation::default();
+    empty.visit_arrays(&Compiled::default(), &mut |_, name, _, _| fixed.push(name));
+    empty.efc.visit(&mut |name, _, _| changing.push(name));
+    empty.efc.visit_counts(&mut |name, _| changing.push(name));
+    empty.island.visit(&mut |name, _, _| changing.push(name));
+    empty.island.visit_counts(&mut |name, _| changing.push(name));
+    (fixed, changing)
+}

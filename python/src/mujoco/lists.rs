@@ -3,6 +3,7 @@
 
 use super::data::Data;
 use numpy::{PyArray1, PyArrayMethods};
+use physics::data::SolverStat;
 use physics::table::Slice;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -73,19 +74,13 @@ pub fn solver<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py,
     let all = PyDict::new(py);
     all.set_item("solver_niter", &statistics.solver_niter)?;
     all.set_item("solver_nnz", &statistics.solver_nnz)?;
-    let floats: [(&str, fn(&physics::data::SolverStat) -> f64); 3] =
-        [("improvement", |s| s.improvement), ("gradient", |s| s.gradient), ("lineslope", |s| s.lineslope)];
-    for (name, value) in floats {
-        all.set_item(name, statistics.solver.iter().map(value).collect::<Vec<_>>())?;
-    }
-    let counts: [(&str, fn(&physics::data::SolverStat) -> i32); 4] = [
-        ("nactive", |s| s.nactive),
-        ("nchange", |s| s.nchange),
-        ("neval", |s| s.neval),
-        ("nupdate", |s| s.nupdate),
-    ];
-    for (name, value) in counts {
-        all.set_item(name, statistics.solver.iter().map(value).collect::<Vec<_>>())?;
-    }
+    let column = |value: fn(&SolverStat) -> f64| statistics.solver.iter().map(value).collect::<Vec<_>>();
+    all.set_item("improvement", column(|s| s.improvement))?;
+    all.set_item("gradient", column(|s| s.gradient))?;
+    all.set_item("lineslope", column(|s| s.lineslope))?;
+    all.set_item("nactive", column(|s| f64::from(s.nactive)))?;
+    all.set_item("nchange", column(|s| f64::from(s.nchange)))?;
+    all.set_item("neval", column(|s| f64::from(s.neval)))?;
+    all.set_item("nupdate", column(|s| f64::from(s.nupdate)))?;
     Ok(all)
 }

@@ -41,7 +41,7 @@ pub mod bindings {
         difference, full_matrix, inverse_slopes, moved, mul_inertia, solve_inertia, step_slopes,
     };
     #[pymodule_export]
-    use super::data::Data;
+    use super::data::{Data, data_fields};
     #[pymodule_export]
     use super::dynamics::{
         mj_forward, mj_forward_skip, mj_inverse, mj_reset_data, mj_reset_data_keyframe, mj_step, mj_step1,
@@ -54,7 +54,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::load::{load_path, load_text};
     #[pymodule_export]
-    use super::model::{CompiledModel, Model, default_settings};
+    use super::model::{CompiledModel, Model, default_settings, model_fields};
     #[pymodule_export]
     use super::picture::Painter;
     #[pymodule_export]

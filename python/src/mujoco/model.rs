@@ -213,7 +213,7 @@ impl Model {
     }
 
     /// Sizes by name.
-    fn _sizes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+    fn _size_table<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let (all, held) = (PyDict::new(py), self.lock(py)?);
         let mut result = Ok(());
         held.model.visit_sizes(&mut |name, size| {
@@ -292,6 +292,16 @@ impl Model {
 
 fn first(slice: Slice<'_>) -> Option<f64> {
     slice.to_f64().first().copied()
+}
+
+/// Names of all arrays, and of all sizes.
+#[pyfunction]
+pub fn model_fields() -> (Vec<&'static str>, Vec<&'static str>) {
+    let (mut arrays, mut sizes) = (Vec::new(), Vec::new());
+    let empty = Arrays::default();
+    empty.visit(&mut |name, _, _| arrays.push(name));
+    empty.visit_sizes(&mut |name, _| sizes.push(name));
+    (arrays, sizes)
 }
 
 /// Settings of a group before anything is set.

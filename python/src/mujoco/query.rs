@@ -13,6 +13,9 @@ use physics::position::jacobian::{Jacobian, angular_momentum_matrix, axis_rate, 
 use physics::ray::{Hit, Ray, RayFilter, multi_ray, ray, ray_geom, ray_shape};
 use pyo3::prelude::*;
 
+/// A numpy array of numbers.
+type Vector<'py> = Bound<'py, PyArray1<f64>>;
+
 /// An id among `count`, as an index.
 fn index(id: i64, count: usize, kind: &str) -> Result<usize, Fault> {
     usize::try_from(id).ok().filter(|&i| i < count).ok_or_else(|| {
@@ -30,7 +33,7 @@ pub fn jacobian<'py>(
     what: &str,
     id: i64,
     point: Vec3,
-) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+) -> PyResult<(Vector<'py>, Vector<'py>)> {
     let (pos, rot) = read(py, m, d, |m, d| {
         let mut out = Jacobian::default();
         let body = |id| index(id, m.nbody, "body");

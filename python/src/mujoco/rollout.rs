@@ -64,6 +64,9 @@ impl Inputs {
     }
 }
 
+/// A numpy array of numbers.
+type Vector<'py> = Bound<'py, PyArray1<f64>>;
+
 /// States and sensor readings of one trajectory.
 type Trace = (Vec<f64>, Vec<f64>);
 
@@ -100,7 +103,7 @@ pub fn roll_out<'py>(
     models: Vec<Bound<'py, Model>>,
     datas: Vec<Bound<'py, Data>>,
     plan: Plan<'py>,
-) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>)> {
+) -> PyResult<(Vector<'py>, Vector<'py>)> {
     let inputs = Inputs::of(&plan);
     let compiled = models.iter().map(|m| m.get().current(py)).collect::<PyResult<Vec<_>>>()?;
     let mut held = datas.iter().map(|d| d.get().lock()).collect::<PyResult<Vec<_>>>()?;

@@ -1,0 +1,144 @@
+"""Compares Gymnasium's and Gymnasium-Robotics' environments on the stand-in with the same on MuJoCo 3.12, and writes the table.
+
+    python standin.py --table ../../validation/results/standin.md [--keep FOLDER]
+
+Needs `mujoco==3.12.0`, `gymnasium`, `gymnasium-robotics` and this package. Each environment plays 1000 steps of seeded random
+actions three times: on MuJoCo, on MuJoCo from a start 1e-12 away, and on the stand-in. Up to every step of an episode,
+observations and rewards may differ by 1e-9 or ten times what MuJoCo differs from itself.
+"""
+
+import argparse
+import importlib.metadata
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from names import present, used
+
+GROUPS = {
+    "Gymnasium": "Ant Humanoid HumanoidStandup HalfCheetah Hopper Walker2d Swimmer Reacher Pusher InvertedPendulum "
+    "InvertedDoublePendulum".split(),
+    "Fetch": "FetchReach-v4 FetchPush-v4 FetchSlide-v4 FetchPickAndPlace-v4".split(),
+    "Hands": "HandReach-v3 HandManipulateBlock-v1 HandManipulateBlockRotateZ-v1 HandManipulateBlockRotateXYZ-v1 "
+    "HandManipulateBlock_BooleanTouchSensors-v1 HandManipulateBlock_ContinuousTouchSensors-v1 HandManipulateEgg-v1 "
+    "HandManipulateEggRotate-v1 HandManipulateEgg_ContinuousTouchSensors-v1 HandManipulatePen-v1 "
+    "HandManipulatePenRotate-v1 HandManipulatePen_BooleanTouchSensors-v1".split(),
+    "Mazes": "PointMaze_UMaze-v3 PointMaze_Open-v3 PointMaze_Medium-v3 PointMaze_Large-v3 PointMaze_Open_Diverse_GR-v3 "
+    "AntMaze_UMaze-v5 AntMaze_Open-v5 AntMaze_Medium-v5 AntMaze_Large-v5 AntMaze_Medium_Diverse_GR-v5".split(),
+}
+GROUPS["Gymnasium"] = [f"{name}-v5" for name in GROUPS["Gymnasium"]]
+
+#: How far observations may differ whatever MuJoCo's own divergence is.
+BAR = 1e-9
+#: How many times MuJoCo's own divergence they may differ.
+TIMES = 10.0
+NUDGE = 1e-12
+
+
+def play(folder: Path, engine: str, nudge: float, ids: list[str], steps: int) -> Path:
+    """Plays all environments in a process of its own."""
+    out = folder / f"{engine}{'_nudged' if nudge else ''}.npz"
+    if not out.exists():
+        script = Path(__file__).with_name("episodes.py")
+        command = [sys.executable, script, engine, out, "--steps", str(steps), "--nudge", str(nudge), "--ids", *ids]
+        subprocess.run([str(part) for part in command], check=True)
+    return out
+
+
+def compare(name: str, truth: dict, nudged: dict, ours: dict) -> list[str]:
+    """A row of the table: largest differences, and the verdict."""
+    errors = [f"{who}: {arrays[f'{name}/error']}" for who, arrays in
+              (("MuJoCo", truth), ("stand-in", ours)) if f"{name}/error" in arrays]
+    if errors:
+        return [name, "", "", "", "", "; ".join(errors)]
+    episodes = truth[f"{name}/episodes"]
+    same = np.array_equal(episodes, ours[f"{name}/episodes"])
+    worst, own, share, first_bad = 0.0, 0.0, 0.0, None
+    for key in ("observations", "rewards"):
+        a, b, c = (arrays[f"{name}/{key}"].reshape(len(episodes), -1) for arrays in (truth, ours, nudged))
+        difference, divergence = np.abs(a - b).max(1), np.abs(a - c).max(1)
+        for episode in np.unique(episodes):
+            at = episodes == episode
+            allowed = np.maximum(BAR, TIMES * np.maximum.accumulate(divergence[at]))
+            ratio = difference[at] / allowed
+            share = max(share, float(ratio.max()))
+            if ratio.max() > 1 and first_bad is None:
+                first_bad = int(np.flatnonzero(at)[np.argmax(ratio > 1)])
+        worst, own = max(worst, float(difference.max())), max(own, float(divergence.max()))
+    verdict = "yes" if same and share <= 1 else f"no, from step {first_bad}" if same else "other episodes"
+    count = int(episodes[-1]) + 1
+    return [name, str(count), f"{worst:.1e}", f"{own:.1e}", f"{share:.2g}", verdict]
+
+
+def version(package: str) -> str:
+    """Installed version of a package."""
+    return f"{package} {importlib.metadata.version(package)}"
+
+
+def name_rows() -> list[str]:
+    """Every name of the bindings that the environments use."""
+    import gymnasium
+    import gymnasium_robotics
+
+    roots = [Path(gymnasium.__file__).parent / "envs" / "mujoco", Path(gymnasium_robotics.__file__).parent]
+    found = set().union(*(used(root) for root in roots))
+    verdicts: dict[bool, list[str]] = {True: [], False: []}
+    for owner, name in sorted(found):
+        here = present(owner, name)
+        if here is not None:
+            verdicts[here].append(f"`{owner}.{name}`")
+    return [
+        f"{len(verdicts[True]) + len(verdicts[False])} names are used, {len(verdicts[True])} are there.",
+        "",
+        "Not there (all of them draw pictures or keep mouse and window): " + ", ".join(verdicts[False]) + ".",
+        "",
+        "There: " + ", ".join(verdicts[True]) + ".",
+    ]
+
+
+def main() -> None:
+    """Plays, compares, writes."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--table", type=Path)
+    parser.add_argument("--keep", type=Path)
+    parser.add_argument("--steps", type=int, default=1000)
+    options = parser.parse_args()
+    ids = [name for group in GROUPS.values() for name in group]
+    folder = options.keep or Path(tempfile.mkdtemp())
+    folder.mkdir(exist_ok=True)
+    runs = [("mujoco", 0.0), ("mujoco", NUDGE), ("standin", 0.0)]
+    truth, nudged, ours = (dict(np.load(play(folder, *run, ids, options.steps))) for run in runs)
+    rows = [compare(name, truth, nudged, ours) for name in ids]
+    agree = sum(row[-1] == "yes" for row in rows)
+    lines = [
+        "# Gymnasium's environments on the stand-in for `mujoco`",
+        "",
+        f"`{' '.join(['python', 'python/compare/standin.py', '--table', 'validation/results/standin.md'])}`, with "
+        + ", ".join(version(p) for p in ("mujoco", "gymnasium", "gymnasium-robotics", "numpy")) + ".",
+        "",
+        f"{agree} of {len(rows)} environments agree over {options.steps} steps of seeded random actions. A new episode, of the "
+        "next seed, begins where one ends. Difference: the largest of any observation or reward between the stand-in and "
+        "MuJoCo; own divergence: the same between MuJoCo and MuJoCo with every position moved by 1e-12 after each reset. "
+        "Share: the largest difference in units of what is allowed, 1e-9 or ten times the own divergence up to that step "
+        "of the episode. Gymnasium-Robotics' Fetch and hand environments do not start on MuJoCo 3.12's own bindings, whose "
+        "enumerations are not equal to numpy's integers; for this comparison they were replaced by integers.",
+        "",
+        "| environment | episodes | difference | own divergence | share | agrees |",
+        "|---|---|---|---|---|---|",
+        *("| " + " | ".join(row) + " |" for row in rows),
+        "",
+        "## Names",
+        "",
+        *name_rows(),
+        "",
+    ]
+    print("\n".join(lines))
+    if options.table:
+        options.table.write_text("\n".join(lines))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,109 @@
+"""Fields of features that are refused by name: flexes, skins, plugins, sleep. Sizes are zero, arrays empty, and everything is
+awake, as in MuJoCo where a model has none of them. All are read-only."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+#: Sizes that are always zero.
+SIZES = (
+    "nflex nflexnode nflexvert nflexedge nflexelem nflexelemdata nflexelemedge nflexshelldata nflexevpair nflextexcoord "
+    "nJfe nJfv nflexstiffness nflexbending nskin nskinvert nskintexvert nskinface nskinbone nskinbonevert nplugin npluginattr "
+    "npluginstate nefm0dof nefm0L"
+).split()
+
+#: Arrays of a model without rows: by type, each with its columns.
+_MODEL = {
+    "float64": "efm0_L flex_bending flex_damping flex_edgedamping flex_edgestiffness flex_friction:3 flex_gap flex_margin "
+    "flex_node:3 flex_node0:3 flex_radius flex_size:3 flex_solimp:5 flex_solmix flex_solref:2 flex_stiffness flex_vert:3 "
+    "flex_vert0:3 flex_vertmetric:4 flexedge_invweight0 flexedge_length0",
+    "float32": "flex_rgba:4 flex_texcoord:2 skin_bonebindpos:3 skin_bonebindquat:4 skin_bonevertweight skin_inflate "
+    "skin_rgba:4 skin_texcoord:2 skin_vert:3",
+    "int32": "efm0_L_colind efm0_L_rowadr efm0_L_rownnz efm0_dofid flex_activelayers flex_bendingadr flex_bvhadr flex_bvhnum "
+    "flex_cellnum:3 flex_conaffinity flex_condim flex_contype flex_dim flex_edge:2 flex_edgeadr flex_edgeequality "
+    "flex_edgeflap:2 flex_edgenum flex_elem flex_elemadr flex_elemdataadr flex_elemedge flex_elemedgeadr flex_elemlayer "
+    "flex_elemnum flex_elemtexcoord flex_evpair:2 flex_evpairadr flex_evpairnum flex_group flex_interp flex_matid "
+    "flex_nodeadr flex_nodebodyid flex_nodenum flex_passive flex_priority flex_selfcollide flex_shell flex_shelldataadr "
+    "flex_shellnum flex_stiffnessadr flex_texcoordadr flex_vertadr flex_vertbodyid flex_vertedge:2 flex_vertedgeadr "
+    "flex_vertedgenum flex_vertnum flexedge_J_colind flexedge_J_rowadr flexedge_J_rownnz flexvert_J_colind:2 "
+    "flexvert_J_rowadr:2 flexvert_J_rownnz:2 name_flexadr name_pluginadr name_skinadr plugin plugin_attradr "
+    "plugin_stateadr plugin_statenum skin_boneadr skin_bonebodyid skin_bonenum skin_bonevertadr skin_bonevertid "
+    "skin_bonevertnum skin_face:3 skin_faceadr skin_facenum skin_group skin_matid skin_pathadr skin_texcoordadr "
+    "skin_vertadr skin_vertnum",
+    "bool": "flex_centered flex_flatskin flex_internal flex_rigid flexedge_rigid",
+    "int8": "plugin_attr",
+}
+
+#: Arrays of a simulation without rows.
+_DATA = {
+    "float64": "bvh_aabb_dyn:6 flexedge_J flexedge_length flexedge_velocity flexelem_aabb:6 flexelem_krot flexvert_J:2 "
+    "flexvert_length:2 flexvert_xpos:3 plugin_state",
+    "int32": "plugin",
+    "uint64": "plugin_data",
+}
+
+#: Plugins of elements: none.
+_PLUGINS = {"body_plugin": "nbody", "geom_plugin": "ngeom", "actuator_plugin": "nactuator", "sensor_plugin": "nsensor"}
+
+#: What MuJoCo counts down to zero before a tree falls asleep, negative while it is awake.
+_AWAKE = -11
+
+
+def _parents(m: Any) -> NDArray[Any]:
+    return np.append(np.arange(1, m.nbody, dtype=np.int32), np.int32(0))
+
+
+#: Everything is awake, apart from what never moves.
+_SLEEP: dict[str, Callable[[Any], Any]] = {
+    "body_awake": lambda m: np.where(m.body_treeid < 0, -1, 1).astype(np.int32),
+    "body_awake_ind": lambda m: np.arange(m.nbody, dtype=np.int32),
+    "parent_awake_ind": _parents,
+    "dof_awake_ind": lambda m: np.arange(m.nv, dtype=np.int32),
+    "tree_awake": lambda m: np.ones(m.ntree, np.int32),
+    "tree_asleep": lambda m: np.full(m.ntree, _AWAKE, np.int32),
+    "bvh_active": lambda m: np.zeros(m.nbvh, bool),
+    "nbody_awake": lambda m: m.nbody,
+    "nparent_awake": lambda m: m.nbody - 1,
+    "ntree_awake": lambda m: m.ntree,
+    "nv_awake": lambda m: m.nv,
+}
+
+
+def _parse(table: dict[str, str]) -> dict[str, tuple[str, tuple[int, ...]]]:
+    """Type and columns by name."""
+    rows = ((dtype, *entry.partition(":")) for dtype, entries in table.items() for entry in entries.split())
+    return {name: (dtype, (int(columns),) if columns else ()) for dtype, name, _, columns in rows}
+
+
+_MODEL_SHAPES, _DATA_SHAPES = _parse(_MODEL), _parse(_DATA)
+MODEL_NAMES = (*_MODEL_SHAPES, *_PLUGINS)
+DATA_NAMES = (*_DATA_SHAPES, *_SLEEP)
+
+
+def of_model(name: str, sizes: dict[str, int]) -> Any:
+    """The array of a model called `name`, None when it is not among these."""
+    if name in _PLUGINS:
+        return _fixed(np.full(sizes[_PLUGINS[name]], -1, np.int32))
+    return _without_rows(_MODEL_SHAPES, name)
+
+
+def of_data(name: str, model: Any) -> Any:
+    """The array or count of a simulation called `name`, None when it is not among these."""
+    if name in _SLEEP:
+        return _fixed(_SLEEP[name](model))
+    return _without_rows(_DATA_SHAPES, name)
+
+
+def _without_rows(shapes: dict[str, tuple[str, tuple[int, ...]]], name: str) -> Any:
+    if name not in shapes:
+        return None
+    dtype, columns = shapes[name]
+    return _fixed(np.zeros((0, *columns), dtype))
+
+
+def _fixed(values: Any) -> Any:
+    if isinstance(values, np.ndarray):
+        values.flags.writeable = False
+    return values
