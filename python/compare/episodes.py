@@ -20,14 +20,19 @@ def flat(observation: Any) -> np.ndarray:
     return np.asarray(observation, np.float64).ravel()
 
 
+def inner_of(env: Any) -> Any:
+    """The environment that holds the simulation."""
+    inner = env.unwrapped
+    while not hasattr(inner, "data"):
+        inner = (getattr(inner, "point_env", None) or inner.ant_env).unwrapped
+    return inner
+
+
 def nudge(env: Any, size: float) -> None:
     """Moves every position of the present state by `size`."""
     import mujoco
 
-    inner = env.unwrapped
-    while not hasattr(inner, "data"):
-        inner = getattr(inner, "point_env", None) or inner.ant_env
-        inner = inner.unwrapped
+    inner = inner_of(env)
     inner.data.qpos[:] += size
     mujoco.mj_forward(inner.model, inner.data)
 
@@ -41,11 +46,15 @@ def play(name: str, steps: int, size: float) -> dict[str, np.ndarray]:
     low, high = env.action_space.low, env.action_space.high
     observations, rewards, episodes = [], [], []
     episode, running, seconds = -1, False, 0.0
+    # Resets of robots that settle start from there.
+    settles = hasattr(inner_of(env), "initial_qpos")
+    if size and settles:
+        inner_of(env).initial_qpos += size
     for _ in range(steps):
         if not running:
             episode += 1
             observation, _ = env.reset(seed=episode)
-            if size:
+            if size and not settles:
                 nudge(env, size)
             running = True
         action = draws.uniform(low, high).astype(env.action_space.dtype)

@@ -75,7 +75,7 @@ def mj_stateSize(m: MjModel, sig: int) -> int:
     """Number of scalars of a state with the bits `sig` (`mjtState`).
 
     Raises:
-        ValueError: there are other bits.
+        FatalError: there are other bits.
     """
     return _core.state_size(m, int(sig))
 
@@ -172,10 +172,10 @@ def mj_setKeyframe(m: MjModel, d: MjData, k: int) -> None:
     """Overwrites keyframe `k` of the model by the present state.
 
     Raises:
-        IndexError: the model has no such keyframe.
+        FatalError: the model has no such keyframe.
     """
     if not 0 <= k < m.nkey:
-        raise IndexError(f"keyframe {k} does not exist: the model has {m.nkey}")
+        raise _core.FatalError(f"mj_setKeyframe: index must be smaller than {m.nkey} (keyframes allocated in model)")
     m.key_time[k] = d.time
     pairs = (("qpos", d.qpos), ("qvel", d.qvel), ("act", d.act), ("ctrl", d.ctrl), ("mpos", d.mocap_pos), ("mquat", d.mocap_quat))
     for field, values in pairs:

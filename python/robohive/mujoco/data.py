@@ -2,6 +2,7 @@
 
 import copy
 from typing import Any, NoReturn
+from weakref import WeakValueDictionary
 
 import numpy as np
 
@@ -39,6 +40,7 @@ class MjData(_core.Data, named.DataElements):
     def __init__(self, model: MjModel) -> None:
         inner = self.__dict__
         inner["model"] = model
+        inner["_views"] = WeakValueDictionary()
         inner["_shapes"] = {name: shape for name, (_, shape) in self._describe().items()}
 
     def _look_up(self, name: str) -> Any:

@@ -1,5 +1,6 @@
 """Contacts, warnings, timers and solver statistics: sequences of records that also show each field as one array."""
 
+import copy
 from collections.abc import Iterator, Mapping
 from typing import Any, ClassVar
 
@@ -8,10 +9,12 @@ from numpy.typing import NDArray
 
 
 class _Record:
-    """One element of a list, its fields as attributes."""
+    """One element of a list, its fields as attributes; without values, zeros."""
+
+    _empty: ClassVar[Mapping[str, Any]] = {}
 
     def __init__(self, values: Mapping[str, Any] | None = None) -> None:
-        self.__dict__.update(values or {})
+        self.__dict__.update(copy.deepcopy(self._empty) if values is None else values)
 
     def __repr__(self) -> str:
         rows = (f"  {name}: {value!r}" for name, value in sorted(vars(self).items()))
@@ -64,6 +67,13 @@ class _List:
         rows = (f"  {name}: {values!r}" for name, values in sorted(self._fields.items()))
         return "\n".join((f"<{type(self).__name__}", *rows, ">"))
 
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, _List) or self._fields.keys() != other._fields.keys():
+            return NotImplemented
+        return all(np.array_equal(values, other._fields[name]) for name, values in self._fields.items())
+
+    __hash__ = None  # type: ignore[assignment]
+
     @classmethod
     def _of(cls, fields: Mapping[str, NDArray[Any]]) -> Any:
         made = cls.__new__(cls)
@@ -77,6 +87,15 @@ def _scalar(value: Any) -> Any:
 
 class MjContact(_Record):
     """A contact: `dist` [m], `pos` and `frame` (normal, two tangents) in the world, `geom1`, `geom2`, and parameters."""
+
+    _empty = {
+        **dict.fromkeys(("dist", "includemargin", "adhesion", "mu"), 0.0),
+        **dict.fromkeys(("dim", "exclude", "efc_address", "geom1", "geom2"), 0),
+        "pos": np.zeros(3),
+        "frame": np.zeros(9),
+        **{name: np.zeros(size) for name, size in (("friction", 5), ("solref", 2), ("solreffriction", 2), ("solimp", 5))},
+        **{name: np.zeros(2, np.int32) for name in ("geom", "flex", "elem", "vert")},
+    }
 
 
 class MjContactList(_List):
@@ -101,6 +120,8 @@ class MjContactList(_List):
 class MjWarningStat(_Record):
     """How often a warning was given, and at which place last."""
 
+    _empty = {"lastinfo": 0, "number": 0}
+
 
 class MjWarningStatList(_List):
     """Warnings by `mjtWarning`."""
@@ -115,6 +136,8 @@ class MjWarningStatList(_List):
 class MjTimerStat(_Record):
     """A timer."""
 
+    _empty = {"duration": 0.0, "number": 0}
+
 
 class MjTimerStatList(_List):
     """Timers by `mjtTimer`, all zero: nothing is timed."""
@@ -127,6 +150,11 @@ class MjTimerStatList(_List):
 
 class MjSolverStat(_Record):
     """One iteration of the constraint solver."""
+
+    _empty = {
+        **dict.fromkeys(("improvement", "gradient", "lineslope"), 0.0),
+        **dict.fromkeys(("nactive", "nchange", "neval", "nupdate"), 0),
+    }
 
 
 class MjSolverStatList(_List):

@@ -4,7 +4,8 @@ import copy
 import warnings
 from collections.abc import Mapping
 from os import PathLike, fspath
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
+from weakref import WeakValueDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from robohive.mujoco.options import MjOption, MjStatistic, MjVisual
 #: Arrays that are handed out as read-only copies: the structure that a model was compiled into, which no edit can change.
 _STRUCTURE = ("mesh_", "bvh_", "oct_", "names_map", "B_", "D_", "M_", "mapM", "mapD")
 _BYTES = ("names", "paths", "text_data")
+_Part = TypeVar("_Part", MjOption, MjStatistic, MjVisual)
 
 
 class MjModel(_core.Model, named.ModelElements):
@@ -39,10 +41,8 @@ class MjModel(_core.Model, named.ModelElements):
         inner = self.__dict__
         inner["_size_values"] = sizes
         inner["_shapes"] = {name: shape for name, (_, shape) in described.items() if "." not in name}
-        inner["opt"] = MjOption(self)
-        inner["stat"] = MjStatistic(self)
-        inner["vis"] = MjVisual(self)
-        inner["_element_names"] = {}
+        # Views hold their owner, so that it only holds them weakly.
+        inner["_views"] = WeakValueDictionary()
         inner.update(sizes)
 
     @classmethod
@@ -108,6 +108,27 @@ class MjModel(_core.Model, named.ModelElements):
         getattr(self, name)[...] = value
 
     @property
+    def opt(self) -> MjOption:
+        """Simulation options."""
+        return self._part(MjOption)
+
+    @property
+    def stat(self) -> MjStatistic:
+        """Statistics at the reference configuration, lengths in metres."""
+        return self._part(MjStatistic)
+
+    @property
+    def vis(self) -> MjVisual:
+        """Visual settings."""
+        return self._part(MjVisual)
+
+    def _part(self, kind: type[_Part]) -> _Part:
+        part = self._views.get(kind)
+        if part is None:
+            part = self._views[kind] = kind(self)
+        return part
+
+    @property
     def flg_gravcomp(self) -> bool:
         """Some body has gravity compensation."""
         return bool(self.body_gravcomp.any())
@@ -149,7 +170,7 @@ class MjModel(_core.Model, named.ModelElements):
 
 
 _ARRAYS, _SIZES = _core.model_fields()
-declare(MjModel, (*_ARRAYS, *_SIZES, *absent.SIZES, *absent.MODEL_NAMES, "opt", "stat", "vis"))
+declare(MjModel, (*_ARRAYS, *_SIZES, *absent.SIZES, *absent.MODEL_NAMES))
 
 
 def _unpickle(content: bytes) -> MjModel:

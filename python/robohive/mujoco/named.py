@@ -66,7 +66,7 @@ _OF_DOFS = (
 class _View:
     """One element; its attributes are views of the arrays of the model or the simulation."""
 
-    __slots__ = ("_kind", "_owner", "id", "name")
+    __slots__ = ("__weakref__", "_kind", "_owner", "id", "name")
 
     def __init__(self, owner: Any, kind: str, number: int, name: str) -> None:
         for field, value in (("_owner", owner), ("_kind", kind), ("id", number), ("name", name)):
@@ -250,7 +250,11 @@ def _locate(model: Any, kind: str, key: Any) -> tuple[int, str]:
 def _accessor(kind: str, view: type[_View]) -> Callable[..., Any]:
     def find(self: Any, name: str | int = "") -> Any:
         model = self if view is ModelView else self.model
-        return view(self, kind, *_locate(model, kind, name))
+        number, own_name = _locate(model, kind, name)
+        found = self._views.get((kind, number))
+        if found is None:
+            found = self._views[kind, number] = view(self, kind, number, own_name)
+        return found
 
     find.__name__ = kind
     find.__doc__ = f"The {kind} of this name or id."

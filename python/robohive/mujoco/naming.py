@@ -9,9 +9,9 @@ from robohive.mujoco.enums_physics import mjtObj
 from robohive.mujoco.model import MjModel
 
 
-def mj_name2id(m: MjModel, type: int, name: str) -> int:
+def mj_name2id(m: MjModel, type: int, name: str | bytes) -> int:
     """Id of the element of a type (`mjtObj`) called `name`, -1 for none."""
-    return m._id(int(type), name)
+    return m._id(int(type), name.decode() if isinstance(name, bytes) else name)
 
 
 def mj_id2name(m: MjModel, type: int, id: int) -> str | None:
@@ -28,9 +28,10 @@ def mju_type2Str(type: int) -> str | None:
     return kind.name.removeprefix("mjOBJ_").lower() if kind.name.startswith("mjOBJ_") and kind else None
 
 
-def mju_str2Type(str: str) -> int:
+def mju_str2Type(str: str | bytes) -> int:
     """The type of object for a word of MJCF, 0 for none."""
-    return int(getattr(mjtObj, f"mjOBJ_{str.upper()}", 0))
+    word = str.decode() if isinstance(str, bytes) else str
+    return int(getattr(mjtObj, f"mjOBJ_{word.upper()}", 0))
 
 
 def mj_version() -> int:

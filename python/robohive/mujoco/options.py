@@ -1,11 +1,18 @@
 """Options, statistics and visual settings: structs whose fields are those of the engine's tables."""
 
+from functools import cache
 from typing import Any, ClassVar
 
 import numpy as np
 
 
 from robohive._core import mujoco as _core
+
+
+@cache
+def _kinds(group: str) -> dict[str, type]:
+    """Python's type of each setting."""
+    return {name: type(value) for name, value in _core.default_settings(group).items()}
 
 
 class _Settings:
@@ -19,9 +26,9 @@ class _Settings:
     def __init__(self, model: _core.Model | None = None) -> None:
         inner = self.__dict__
         inner["_model"] = model
-        values = _core.default_settings(self._group)
-        inner["_fields"] = {name: type(value) for name, value in values.items()}
+        inner["_fields"] = _kinds(self._group)
         if model is None:
+            values = _core.default_settings(self._group)
             inner["_own"] = {
                 name: np.array(value) if isinstance(value, list) else value for name, value in values.items()
             }

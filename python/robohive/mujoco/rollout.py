@@ -56,6 +56,8 @@ def rollout(
         raise ValueError("control_spec can only contain bits in mjSTATE_USER")
     datas = [data] if isinstance(data, MjData) else list(data)
     models = [model] if isinstance(model, MjModel) else list(model)
+    if not datas:
+        raise ValueError("The list of data instances is empty")
     first = models[0]
     nstate, ncontrol = _core.state_size(first, _FULL), _core.state_size(first, int(control_spec))
     start = _shaped("initial_state", initial_state, 2, nstate)
@@ -66,8 +68,8 @@ def rollout(
         "sensordata": None if sensordata is None else _shaped("sensordata", sensordata, 3, first.nsensordata),
     }
     arrays = {"initial_state": start, "initial_warmstart": warm, "control": inputs, **outs}
-    nbatch = _common("nbatch", 0, max(len(models), 1), arrays)
-    steps = _common("nstep", 1, nstep or 1, {"control": inputs, **outs})
+    nbatch = _common(0, max(len(models), 1), arrays)
+    steps = _common(1, nstep or 1, {"control": inputs, **outs})
     if len(models) not in (1, nbatch):
         raise ValueError(f"nbatch inferred as {nbatch} but model is length {len(models)}")
     plan = {
@@ -92,7 +94,7 @@ def rollout(
 def _shaped(name: str, values: ArrayLike, axes: int, last: int) -> NDArray[np.float64]:
     array = np.asarray(values)
     if not np.issubdtype(array.dtype, np.number):
-        raise ValueError(f"{name} must be a numpy array or a sequence of numbers")
+        raise ValueError(f"{name} must be a numpy array or float")
     if array.ndim > axes:
         raise ValueError(f"{name} can have at most {axes} dimensions")
     array = np.array(array, np.float64, ndmin=axes)
@@ -101,13 +103,13 @@ def _shaped(name: str, values: ArrayLike, axes: int, last: int) -> NDArray[np.fl
     return array
 
 
-def _common(what: str, axis: int, least: int, arrays: dict[str, Any]) -> int:
+def _common(axis: int, least: int, arrays: dict[str, Any]) -> int:
     """The length of an axis that all arrays agree on; one is as good as any."""
     found = least
     for name, array in arrays.items():
         length = 1 if array is None else array.shape[axis]
         if length not in (1, found) and found != 1:
-            raise ValueError(f"dimension {axis} inferred as {found} but {name} has {length} ({what})")
+            raise ValueError(f"dimension {axis} inferred as {found} but {name} has {length}")
         found = max(found, length) if length != 1 else found
     return found
 

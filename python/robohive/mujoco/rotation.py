@@ -115,10 +115,13 @@ def mju_euler2Quat(quat: Vector, euler: ArrayLike, seq: str) -> None:
     """Quaternion of three rotations [rad] about the axes of `seq`: xyz of the moving frame, XYZ of the fixed one.
 
     Raises:
-        ValueError: `seq` is not three of these letters.
+        FatalError: `seq` is not three of these letters.
     """
-    if len(seq) != 3 or set(seq) - set("xyzXYZ"):
-        raise ValueError("seq must contain exactly 3 characters of xyzXYZ")
+    if len(seq) != 3:
+        raise _core.FatalError("mju_euler2Quat: seq must contain exactly 3 characters")
+    for place, letter in enumerate(seq):
+        if letter not in "xyzXYZ":
+            raise _core.FatalError(f"mju_euler2Quat: seq[{place}] is '{letter}', should be one of x, y, z, X, Y, Z")
     total = [1.0, 0.0, 0.0, 0.0]
     for letter, angle in zip(seq, vector(euler, "euler", 3).tolist(), strict=True):
         axis = np.eye(3)["xyz".index(letter.lower())]

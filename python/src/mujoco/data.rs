@@ -10,9 +10,10 @@ use physics::table::{Slice, SliceMut};
 use physics::{Data as Simulation, Model as Compiled};
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError};
 use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
 use pyo3::types::PyDict;
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
 
 /// Kinds of warnings, in MuJoCo's order.
 pub const WARNINGS: usize = 7;
@@ -102,9 +103,9 @@ impl Data {
         }
     }
 
-    /// The model that it was made of.
-    pub fn model<'py>(&self, py: Python<'py>) -> &Bound<'py, Model> {
-        self.model.bind(py)
+    /// The same for what only looks: waits for another thread that is at work.
+    pub fn wait(&self, py: Python<'_>) -> MutexGuard<'_, Held> {
+        self.held.lock_py_attached(py).unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -130,7 +131,7 @@ impl Data {
 
     /// The array called `name`, a view that later calls keep up to date.
     fn _array<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let mut held = self.lock()?;
+        let mut held = self.wait(py);
         let Held { simulation, addresses, mirror, .. } = &mut *held;
         let found = mirror.hand(py, name, &View { simulation, addresses })?;
         found.ok_or_else(|| PyAttributeError::new_err(format!("the data have no array {name:?}")))
@@ -139,7 +140,7 @@ impl Data {
     /// Type and shape of every array whose length does not change.
     fn _describe<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let compiled = self.model.get().current(py)?;
-        lay_out(&compiled, &self.lock()?.simulation).0.describe(py)
+        lay_out(&compiled, &self.wait(py).simulation).0.describe(py)
     }
 
     /// Takes over everything of `other`, a simulation of a model of the same sizes.
@@ -157,25 +158,24 @@ impl Data {
 
     /// Simulation time [s].
     #[getter]
-    fn get_time(&self) -> PyResult<f64> {
-        Ok(self.lock()?.simulation.state.time)
+    fn get_time(&self, py: Python<'_>) -> f64 {
+        self.wait(py).simulation.state.time
     }
 
     #[setter]
-    fn set_time(&self, time: f64) -> PyResult<()> {
-        self.lock()?.simulation.state.time = time;
-        Ok(())
+    fn set_time(&self, py: Python<'_>, time: f64) {
+        self.wait(py).simulation.state.time = time;
     }
 
     /// Number of contacts.
     #[getter]
-    fn ncon(&self) -> PyResult<usize> {
-        Ok(self.lock()?.simulation.con.contact.len())
+    fn ncon(&self, py: Python<'_>) -> usize {
+        self.wait(py).simulation.con.contact.len()
     }
 
     /// Numbers of constraint rows and islands by name.
     fn _counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (all, held) = (PyDict::new(py), self.lock()?);
+        let (all, held) = (PyDict::new(py), self.wait(py));
         let mut result = Ok(());
         let mut put = |name: &'static str, count: usize| {
             if result.is_ok() {
@@ -190,7 +190,7 @@ impl Data {
     /// Every array and count by name, flat.
     fn _dump<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let compiled = self.model.get().current(py)?;
-        let mut held = self.lock()?;
+        let mut held = self.wait(py);
         held.pull(py)?;
         let all = PyDict::new(py);
         let mut result = Ok(());
@@ -219,8 +219,8 @@ impl Data {
     }
 
     /// Last place and number of each kind of warning.
-    fn _warnings(&self) -> PyResult<Vec<(i32, i32)>> {
-        Ok(self.lock()?.warnings.iter().map(|w| (w.last, w.number)).collect())
+    fn _warnings(&self, py: Python<'_>) -> Vec<(i32, i32)> {
+        self.wait(py).warnings.iter().map(|w| (w.last, w.number)).collect()
     }
 }
 

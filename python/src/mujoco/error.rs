@@ -20,6 +20,8 @@ create_exception!(robohive.mujoco, UnexpectedError, PyException, "A fault of thi
 pub enum Fault {
     /// A step or a pass was refused.
     Step(StepError),
+    /// An argument that MuJoCo ends the program for; becomes a `FatalError`.
+    Fatal(String),
     /// An argument does not fit; becomes a `ValueError`.
     Value(String),
     /// The engine panicked.
@@ -44,6 +46,7 @@ impl From<Fault> for PyErr {
     fn from(fault: Fault) -> Self {
         match fault {
             Fault::Step(error) => FatalError::new_err(error.to_string()),
+            Fault::Fatal(text) => FatalError::new_err(text),
             Fault::Value(text) => PyValueError::new_err(text),
             Fault::Panic(text) => {
                 UnexpectedError::new_err(format!("{text} (a fault of robohive; please report it)"))

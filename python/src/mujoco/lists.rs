@@ -37,7 +37,7 @@ fn gather<'py>(py: Python<'py>, visit: &Visit<'_>) -> PyResult<Bound<'py, PyDict
 /// Every field of all contacts, by the field's name.
 #[pyfunction]
 pub fn contacts<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py, PyDict>> {
-    let held = d.get().lock()?;
+    let held = d.get().wait(py);
     gather(py, &|f| {
         held.simulation
             .con
@@ -48,7 +48,7 @@ pub fn contacts<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'p
 /// Arrays of constraint rows and islands by name.
 #[pyfunction]
 pub fn constraints<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py, PyDict>> {
-    let held = d.get().lock()?;
+    let held = d.get().wait(py);
     gather(py, &|f| {
         held.simulation.efc.visit(f);
         held.simulation.island.visit(f);
@@ -62,14 +62,14 @@ pub fn dense_jacobian<'py>(
     d: &Bound<'py, Data>,
     nv: usize,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    let held = d.get().lock()?;
+    let held = d.get().wait(py);
     Ok(PyArray1::from_vec(py, held.simulation.efc.dense_jacobian(nv)))
 }
 
 /// Iterations and non-zeros of each island, and every iteration: improvement, gradient, slope, and the counts.
 #[pyfunction]
 pub fn solver<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py, PyDict>> {
-    let held = d.get().lock()?;
+    let held = d.get().wait(py);
     let statistics = &held.simulation.solver;
     let all = PyDict::new(py);
     all.set_item("solver_niter", &statistics.solver_niter)?;

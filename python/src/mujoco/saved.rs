@@ -5,7 +5,6 @@ use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
 use numpy::{PyArray1, PyReadonlyArray1};
-use physics::Model as Compiled;
 use physics::data::State;
 use physics::table::{Slice, SliceMut};
 use pyo3::prelude::*;
@@ -30,9 +29,8 @@ fn named(signature: u32) -> impl Iterator<Item = usize> {
 }
 
 /// Scalars of a state with this signature.
-pub fn size(m: &Compiled, state: &State, signature: i64) -> Result<usize, Fault> {
+fn size(state: &State, signature: i64) -> Result<usize, Fault> {
     let bits = check(signature)?;
-    _ = m;
     let arrays: usize = named(bits).filter_map(|k| state.array(k)).map(|slice| slice.len()).sum();
     Ok(arrays + usize::from(bits & TIME != 0))
 }
@@ -86,7 +84,7 @@ fn too_short() -> Fault {
 #[pyfunction]
 pub fn state_size(py: Python<'_>, m: &Bound<'_, Model>, signature: i64) -> PyResult<usize> {
     let model = m.get().current(py)?;
-    Ok(size(&model, &State::new(&model), signature)?)
+    Ok(size(&State::new(&model), signature)?)
 }
 
 /// The parts of the state that `signature` names, as one vector.
