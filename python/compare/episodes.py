@@ -1,6 +1,6 @@
 """Plays seeded episodes of Gymnasium environments on MuJoCo or on the stand-in, and keeps observations and rewards.
 
-    python episodes.py mujoco out.npz --ids Ant-v5 FetchReach-v4 [--steps 1000] [--nudge 1e-12]
+    python episodes.py mujoco out.npz --ids Ant-v5 FetchReach-v4 [--steps 1000] [--nudge 1e-12] [--signs 3]
 """
 
 import argparse
@@ -28,16 +28,16 @@ def inner_of(env: Any) -> Any:
     return inner
 
 
-def nudge(env: Any, size: float) -> None:
-    """Moves every position of the present state by `size`."""
+def nudge(env: Any, moves: np.ndarray) -> None:
+    """Moves the positions of the present state."""
     import mujoco
 
     inner = inner_of(env)
-    inner.data.qpos[:] += size
+    inner.data.qpos[:] += moves
     mujoco.mj_forward(inner.model, inner.data)
 
 
-def play(name: str, steps: int, size: float) -> dict[str, np.ndarray]:
+def play(name: str, steps: int, size: float, signs: int) -> dict[str, np.ndarray]:
     """Observations and rewards of `steps` steps; a new episode begins where one ends."""
     import gymnasium
 
@@ -48,14 +48,15 @@ def play(name: str, steps: int, size: float) -> dict[str, np.ndarray]:
     episode, running, seconds = -1, False, 0.0
     # Resets of robots that settle start from there.
     settles = hasattr(inner_of(env), "initial_qpos")
+    moves = size * np.random.default_rng(signs).choice([-1.0, 1.0], inner_of(env).model.nq)
     if size and settles:
-        inner_of(env).initial_qpos += size
+        inner_of(env).initial_qpos += moves
     for _ in range(steps):
         if not running:
             episode += 1
             observation, _ = env.reset(seed=episode)
             if size and not settles:
-                nudge(env, size)
+                nudge(env, moves)
             running = True
         action = draws.uniform(low, high).astype(env.action_space.dtype)
         start = time.perf_counter()
@@ -95,7 +96,8 @@ def main() -> None:
     parser.add_argument("out")
     parser.add_argument("--ids", nargs="+", required=True)
     parser.add_argument("--steps", type=int, default=1000)
-    parser.add_argument("--nudge", type=float, default=0.0)
+    parser.add_argument("--nudge", type=float, default=0.0, help="how far positions at the start are moved")
+    parser.add_argument("--signs", type=int, default=0, help="seed of the directions of these moves")
     options = parser.parse_args()
     if options.engine == "standin":
         import robohive.mujoco
@@ -110,7 +112,7 @@ def main() -> None:
     kept = {}
     for name in options.ids:
         try:
-            for key, values in play(name, options.steps, options.nudge).items():
+            for key, values in play(name, options.steps, options.nudge, options.signs).items():
                 kept[f"{name}/{key}"] = values
         except Exception as error:
             kept[f"{name}/error"] = np.array(f"{type(error).__name__}: {error}")

@@ -1,6 +1,6 @@
 """Exceptions of the stand-in."""
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 
 FatalError = _core.FatalError
 UnexpectedError = _core.UnexpectedError

@@ -1,6 +1,6 @@
 """All functions, where programs look for them that know MuJoCo's own module."""
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 from robohive.mujoco.algebra import *  # noqa: F403
 from robohive.mujoco.naming import *  # noqa: F403
 from robohive.mujoco.query import *  # noqa: F403

@@ -3,11 +3,6 @@
 from collections.abc import Callable
 from typing import Any
 
-_NAMES = (
-    "mjcb_act_bias mjcb_act_dyn mjcb_act_gain mjcb_contactfilter mjcb_control mjcb_passive mjcb_sensor mjcb_time "
-    "mju_user_free mju_user_malloc"
-).split()
-
 
 def _setter(name: str) -> Callable[[Any], None]:
     def set_callback(callback: Any) -> None:
@@ -28,9 +23,26 @@ def _getter(name: str) -> Callable[[], None]:
     return get_callback
 
 
-for _name in _NAMES:
-    globals()[f"set_{_name}"] = _setter(_name)
-    globals()[f"get_{_name}"] = _getter(_name)
+set_mjcb_act_bias = _setter("mjcb_act_bias")
+get_mjcb_act_bias = _getter("mjcb_act_bias")
+set_mjcb_act_dyn = _setter("mjcb_act_dyn")
+get_mjcb_act_dyn = _getter("mjcb_act_dyn")
+set_mjcb_act_gain = _setter("mjcb_act_gain")
+get_mjcb_act_gain = _getter("mjcb_act_gain")
+set_mjcb_contactfilter = _setter("mjcb_contactfilter")
+get_mjcb_contactfilter = _getter("mjcb_contactfilter")
+set_mjcb_control = _setter("mjcb_control")
+get_mjcb_control = _getter("mjcb_control")
+set_mjcb_passive = _setter("mjcb_passive")
+get_mjcb_passive = _getter("mjcb_passive")
+set_mjcb_sensor = _setter("mjcb_sensor")
+get_mjcb_sensor = _getter("mjcb_sensor")
+set_mjcb_time = _setter("mjcb_time")
+get_mjcb_time = _getter("mjcb_time")
+set_mju_user_free = _setter("mju_user_free")
+get_mju_user_free = _getter("mju_user_free")
+set_mju_user_malloc = _setter("mju_user_malloc")
+get_mju_user_malloc = _getter("mju_user_malloc")
 
 _warning: Any = None
 
@@ -48,11 +60,3 @@ def get_mju_user_warning() -> Any:
 
 def mj_resetCallbacks() -> None:
     """Nothing to reset."""
-
-
-__all__ = [
-    *(f"{way}_{name}" for name in _NAMES for way in ("set", "get")),
-    "get_mju_user_warning",
-    "mj_resetCallbacks",
-    "set_mju_user_warning",
-]

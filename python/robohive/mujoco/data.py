@@ -1,12 +1,12 @@
 """`MjData`: one simulation, whose arrays are numpy arrays that may be written."""
 
 import copy
-from typing import Any, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 from weakref import WeakValueDictionary
 
 import numpy as np
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 from robohive.mujoco import absent, named
 from robohive.mujoco.fields import declare
 from robohive.mujoco.lists import MjContactList, MjSolverStatList, MjTimerStatList, MjWarningStatList
@@ -31,6 +31,8 @@ class MjData(_core.Data, named.DataElements):
     """
 
     model: MjModel
+    _shapes: dict[str, list[int]]
+    _views: WeakValueDictionary[Any, Any]
 
     def __new__(cls, model: MjModel) -> "MjData":
         if not isinstance(model, MjModel):
@@ -53,16 +55,18 @@ class MjData(_core.Data, named.DataElements):
         value = absent.of_data(name, self.model)
         return self._changing(name) if value is None else value
 
-    def __getattr__(self, name: str) -> NoReturn:
-        raise AttributeError(f"'mujoco.MjData' object has no attribute '{name}'")
+    if not TYPE_CHECKING:  # for checkers, what is not declared is an error
+
+        def __getattr__(self, name: str) -> NoReturn:
+            raise AttributeError(f"'mujoco.MjData' object has no attribute '{name}'")
 
     def _changing(self, name: str) -> Any:
         """What changes its length or value with every step."""
         counts = self._counts()
         if name in counts:
             return counts[name]
-        if name == "efc_J" and not self._is_sparse():
-            return _fixed(_core.dense_jacobian(self, self.model.nv))
+        if name.startswith("efc_J") and not self._is_sparse():
+            return _fixed(self._dense_jacobian(name, counts["nefc"]))
         arrays = _core.constraints(self)
         if name == "nJ":
             return len(arrays["efc_J"]) if self._is_sparse() else counts["nefc"] * self.model.nv
@@ -72,6 +76,14 @@ class MjData(_core.Data, named.DataElements):
         values = _core.solver(self)[name][:20]
         islands[: len(values)] = values
         return _fixed(islands)
+
+    def _dense_jacobian(self, name: str, rows: int) -> Any:
+        """The Jacobian as MuJoCo has it with dense matrices, which the engine keeps in compressed rows all the same."""
+        columns = self.model.nv
+        if name == "efc_J":
+            return _core.dense_jacobian(self, columns)
+        # The pattern is computed for sparse matrices only.
+        return np.zeros(rows * columns if name == "efc_J_colind" else rows, np.int32)
 
     def _is_sparse(self) -> bool:
         jacobian = self.model.opt.jacobian

@@ -32,7 +32,7 @@ def set_instability(what: str) -> str:
     Raises:
         ValueError: it is neither.
     """
-    from robohive._core import mujoco as _core
+    from robohive.mujoco import _engine as _core
 
     if what not in ("raise", "reset"):
         raise ValueError(f"an unstable simulation can raise or reset, not {what!r}")

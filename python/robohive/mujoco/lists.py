@@ -41,7 +41,7 @@ class _List:
         self._length = len(next(iter(fields.values())))
 
     def __getattr__(self, name: str) -> NDArray[Any]:
-        fields = self.__dict__.get("_fields", {})
+        fields: Mapping[str, NDArray[Any]] = self.__dict__.get("_fields", {})
         if name not in fields:
             raise AttributeError(f"'mujoco.{type(self).__name__}' object has no attribute '{name}'")
         return fields[name]

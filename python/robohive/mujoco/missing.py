@@ -3,38 +3,6 @@
 from collections.abc import Callable
 from typing import Any, NoReturn
 
-_FUNCTIONS = """
-mj_actuatorInputName mj_addContact mj_addM mj_checkAcc mj_checkPos mj_checkVel mj_clearCache mj_constraintUpdate
-mj_defaultLROpt mj_defaultOption mj_defaultSolRefImp mj_defaultVisual mj_flex mj_getCache mj_getCacheCapacity
-mj_getCacheSize mj_initCtrlHistory mj_initSensorHistory mj_invConstraint mj_invPosition mj_invVelocity mj_inverseSkip
-mj_loadAllPluginLibraries mj_loadPluginLibrary mj_maxContact mj_mulM2 mj_printData mj_printFormattedData
-mj_printFormattedModel mj_printFormattedScene mj_printModel mj_printScene mj_printSchema mj_projectConstraint mj_rayFlex
-mj_readCtrl mj_readSensor mj_resetCtrl mj_resetDataDebug mj_saveLastXML mj_setCacheCapacity mj_setLengthRange mj_solveM2
-mjd_quatIntegrate mjd_subQuat
-mju_band2Dense mju_bandDiag mju_bandMulMatVec mju_boxQP mju_cholFactorBand mju_cholSolveBand mju_cholUpdate
-mju_decodePyramid mju_dense2Band mju_dense2sparse mju_encodePyramid mju_getXMLDependencies mju_insertionSort
-mju_insertionSortInt mju_mat2Rot mju_muscleBias mju_muscleDynamics mju_muscleGain mju_printMat mju_printMatSparse
-mju_raySkin mju_springDamper mju_sqrMatTD mju_standardNormal mju_threadpool mju_warningText mju_writeLog
-mju_writeNumBytes
-mjr_addAux mjr_blitAux mjr_blitBuffer mjr_changeFont mjr_defaultRendererInfo mjr_drawPixels mjr_figure mjr_findRect
-mjr_finish mjr_getError mjr_getRendererInfo mjr_label mjr_maxViewport mjr_overlay mjr_readPixels mjr_rectangle mjr_render
-mjr_resizeOffscreen mjr_restoreBuffer mjr_setAux mjr_setBuffer mjr_text mjr_uploadHField mjr_uploadMesh
-mjr_uploadTexture
-mjv_addGeoms mjv_alignToCamera mjv_applyPerturbForce mjv_applyPerturbPose mjv_averageCamera mjv_camera2GLCamera
-mjv_cameraFrame mjv_cameraFrustum mjv_cameraInModel mjv_cameraInRoom mjv_connector mjv_defaultFigure
-mjv_frustumHeight mjv_initGeom mjv_initPerturb mjv_makeLights mjv_model2room mjv_moveCamera mjv_moveModel
-mjv_movePerturb mjv_room2model mjv_select mjv_updateCamera mjv_updateScene mjv_updateSkin
-from_zip to_zip
-""".split()
-
-_CLASSES = """
-GLContext MjLROpt MjLogConfig MjLogMessage MjPreContact MjVfs MjrContext MjrRect MjrRendererInfo MjrVertexAttribute
-MjvFigure MjvGLCamera MjvGeom MjvLight MjvPerturb MjvScene MjByteVec MjCharVec MjDoubleVec MjFloatVec MjIntVec
-MjStringVec MjsActuator MjsAuthored MjsBody MjsCamera MjsCompiler MjsDefault MjsElement MjsEquality MjsExclude MjsFlex
-MjsFrame MjsGeom MjsHField MjsJoint MjsKey MjsLight MjsMaterial MjsMesh MjsNumeric MjsOrientation MjsPair MjsPlugin
-MjsSensor MjsSite MjsSkin MjsTendon MjsTendonPath MjsText MjsTexture MjsTuple MjsWrap
-""".split()
-
 
 def _function(name: str) -> Callable[..., NoReturn]:
     def missing(*args: Any, **kwargs: Any) -> NoReturn:
@@ -45,15 +13,195 @@ def _function(name: str) -> Callable[..., NoReturn]:
     return missing
 
 
-def _refuse(self: Any, *args: Any, **kwargs: Any) -> NoReturn:
-    raise NotImplementedError(f"robohive.mujoco has no {type(self).__name__}")
+class _Missing:
+    """Not there: raises NotImplementedError."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        raise NotImplementedError(f"robohive.mujoco has no {type(self).__name__}")
 
 
-for _name in _FUNCTIONS:
-    globals()[_name] = _function(_name)
-for _name in _CLASSES:
-    globals()[_name] = type(_name, (), {"__init__": _refuse, "__doc__": "Not there: raises NotImplementedError."})
+def _class(name: str) -> Any:
+    return type(name, (_Missing,), {"__doc__": _Missing.__doc__})
+
+
+mj_actuatorInputName = _function("mj_actuatorInputName")
+mj_addContact = _function("mj_addContact")
+mj_addM = _function("mj_addM")
+mj_checkAcc = _function("mj_checkAcc")
+mj_checkPos = _function("mj_checkPos")
+mj_checkVel = _function("mj_checkVel")
+mj_clearCache = _function("mj_clearCache")
+mj_constraintUpdate = _function("mj_constraintUpdate")
+mj_defaultLROpt = _function("mj_defaultLROpt")
+mj_defaultOption = _function("mj_defaultOption")
+mj_defaultSolRefImp = _function("mj_defaultSolRefImp")
+mj_defaultVisual = _function("mj_defaultVisual")
+mj_flex = _function("mj_flex")
+mj_getCache = _function("mj_getCache")
+mj_getCacheCapacity = _function("mj_getCacheCapacity")
+mj_getCacheSize = _function("mj_getCacheSize")
+mj_initCtrlHistory = _function("mj_initCtrlHistory")
+mj_initSensorHistory = _function("mj_initSensorHistory")
+mj_invConstraint = _function("mj_invConstraint")
+mj_invPosition = _function("mj_invPosition")
+mj_invVelocity = _function("mj_invVelocity")
+mj_inverseSkip = _function("mj_inverseSkip")
+mj_loadAllPluginLibraries = _function("mj_loadAllPluginLibraries")
+mj_loadPluginLibrary = _function("mj_loadPluginLibrary")
+mj_maxContact = _function("mj_maxContact")
+mj_mulM2 = _function("mj_mulM2")
+mj_printData = _function("mj_printData")
+mj_printFormattedData = _function("mj_printFormattedData")
+mj_printFormattedModel = _function("mj_printFormattedModel")
+mj_printFormattedScene = _function("mj_printFormattedScene")
+mj_printModel = _function("mj_printModel")
+mj_printScene = _function("mj_printScene")
+mj_printSchema = _function("mj_printSchema")
+mj_projectConstraint = _function("mj_projectConstraint")
+mj_rayFlex = _function("mj_rayFlex")
+mj_readCtrl = _function("mj_readCtrl")
+mj_readSensor = _function("mj_readSensor")
+mj_resetCtrl = _function("mj_resetCtrl")
+mj_resetDataDebug = _function("mj_resetDataDebug")
+mj_saveLastXML = _function("mj_saveLastXML")
+mj_setCacheCapacity = _function("mj_setCacheCapacity")
+mj_setLengthRange = _function("mj_setLengthRange")
+mj_solveM2 = _function("mj_solveM2")
+mjd_quatIntegrate = _function("mjd_quatIntegrate")
+mjd_subQuat = _function("mjd_subQuat")
+mju_band2Dense = _function("mju_band2Dense")
+mju_bandDiag = _function("mju_bandDiag")
+mju_bandMulMatVec = _function("mju_bandMulMatVec")
+mju_boxQP = _function("mju_boxQP")
+mju_cholFactorBand = _function("mju_cholFactorBand")
+mju_cholSolveBand = _function("mju_cholSolveBand")
+mju_cholUpdate = _function("mju_cholUpdate")
+mju_decodePyramid = _function("mju_decodePyramid")
+mju_dense2Band = _function("mju_dense2Band")
+mju_dense2sparse = _function("mju_dense2sparse")
+mju_encodePyramid = _function("mju_encodePyramid")
+mju_getXMLDependencies = _function("mju_getXMLDependencies")
+mju_insertionSort = _function("mju_insertionSort")
+mju_insertionSortInt = _function("mju_insertionSortInt")
+mju_mat2Rot = _function("mju_mat2Rot")
+mju_muscleBias = _function("mju_muscleBias")
+mju_muscleDynamics = _function("mju_muscleDynamics")
+mju_muscleGain = _function("mju_muscleGain")
+mju_printMat = _function("mju_printMat")
+mju_printMatSparse = _function("mju_printMatSparse")
+mju_raySkin = _function("mju_raySkin")
+mju_springDamper = _function("mju_springDamper")
+mju_sqrMatTD = _function("mju_sqrMatTD")
+mju_standardNormal = _function("mju_standardNormal")
+mju_threadpool = _function("mju_threadpool")
+mju_warningText = _function("mju_warningText")
+mju_writeLog = _function("mju_writeLog")
+mju_writeNumBytes = _function("mju_writeNumBytes")
+mjr_addAux = _function("mjr_addAux")
+mjr_blitAux = _function("mjr_blitAux")
+mjr_blitBuffer = _function("mjr_blitBuffer")
+mjr_changeFont = _function("mjr_changeFont")
+mjr_defaultRendererInfo = _function("mjr_defaultRendererInfo")
+mjr_drawPixels = _function("mjr_drawPixels")
+mjr_figure = _function("mjr_figure")
+mjr_findRect = _function("mjr_findRect")
+mjr_finish = _function("mjr_finish")
+mjr_getError = _function("mjr_getError")
+mjr_getRendererInfo = _function("mjr_getRendererInfo")
+mjr_label = _function("mjr_label")
+mjr_maxViewport = _function("mjr_maxViewport")
+mjr_overlay = _function("mjr_overlay")
+mjr_readPixels = _function("mjr_readPixels")
+mjr_rectangle = _function("mjr_rectangle")
+mjr_render = _function("mjr_render")
+mjr_resizeOffscreen = _function("mjr_resizeOffscreen")
+mjr_restoreBuffer = _function("mjr_restoreBuffer")
+mjr_setAux = _function("mjr_setAux")
+mjr_setBuffer = _function("mjr_setBuffer")
+mjr_text = _function("mjr_text")
+mjr_uploadHField = _function("mjr_uploadHField")
+mjr_uploadMesh = _function("mjr_uploadMesh")
+mjr_uploadTexture = _function("mjr_uploadTexture")
+mjv_addGeoms = _function("mjv_addGeoms")
+mjv_alignToCamera = _function("mjv_alignToCamera")
+mjv_applyPerturbForce = _function("mjv_applyPerturbForce")
+mjv_applyPerturbPose = _function("mjv_applyPerturbPose")
+mjv_averageCamera = _function("mjv_averageCamera")
+mjv_camera2GLCamera = _function("mjv_camera2GLCamera")
+mjv_cameraFrame = _function("mjv_cameraFrame")
+mjv_cameraFrustum = _function("mjv_cameraFrustum")
+mjv_cameraInModel = _function("mjv_cameraInModel")
+mjv_cameraInRoom = _function("mjv_cameraInRoom")
+mjv_connector = _function("mjv_connector")
+mjv_defaultFigure = _function("mjv_defaultFigure")
+mjv_frustumHeight = _function("mjv_frustumHeight")
+mjv_initGeom = _function("mjv_initGeom")
+mjv_initPerturb = _function("mjv_initPerturb")
+mjv_makeLights = _function("mjv_makeLights")
+mjv_model2room = _function("mjv_model2room")
+mjv_moveCamera = _function("mjv_moveCamera")
+mjv_moveModel = _function("mjv_moveModel")
+mjv_movePerturb = _function("mjv_movePerturb")
+mjv_room2model = _function("mjv_room2model")
+mjv_select = _function("mjv_select")
+mjv_updateCamera = _function("mjv_updateCamera")
+mjv_updateScene = _function("mjv_updateScene")
+mjv_updateSkin = _function("mjv_updateSkin")
+from_zip = _function("from_zip")
+to_zip = _function("to_zip")
+GLContext = _class("GLContext")
+MjLROpt = _class("MjLROpt")
+MjLogConfig = _class("MjLogConfig")
+MjLogMessage = _class("MjLogMessage")
+MjPreContact = _class("MjPreContact")
+MjVfs = _class("MjVfs")
+MjrContext = _class("MjrContext")
+MjrRect = _class("MjrRect")
+MjrRendererInfo = _class("MjrRendererInfo")
+MjrVertexAttribute = _class("MjrVertexAttribute")
+MjvFigure = _class("MjvFigure")
+MjvGLCamera = _class("MjvGLCamera")
+MjvGeom = _class("MjvGeom")
+MjvLight = _class("MjvLight")
+MjvPerturb = _class("MjvPerturb")
+MjvScene = _class("MjvScene")
+MjByteVec = _class("MjByteVec")
+MjCharVec = _class("MjCharVec")
+MjDoubleVec = _class("MjDoubleVec")
+MjFloatVec = _class("MjFloatVec")
+MjIntVec = _class("MjIntVec")
+MjStringVec = _class("MjStringVec")
+MjsActuator = _class("MjsActuator")
+MjsAuthored = _class("MjsAuthored")
+MjsBody = _class("MjsBody")
+MjsCamera = _class("MjsCamera")
+MjsCompiler = _class("MjsCompiler")
+MjsDefault = _class("MjsDefault")
+MjsElement = _class("MjsElement")
+MjsEquality = _class("MjsEquality")
+MjsExclude = _class("MjsExclude")
+MjsFlex = _class("MjsFlex")
+MjsFrame = _class("MjsFrame")
+MjsGeom = _class("MjsGeom")
+MjsHField = _class("MjsHField")
+MjsJoint = _class("MjsJoint")
+MjsKey = _class("MjsKey")
+MjsLight = _class("MjsLight")
+MjsMaterial = _class("MjsMaterial")
+MjsMesh = _class("MjsMesh")
+MjsNumeric = _class("MjsNumeric")
+MjsOrientation = _class("MjsOrientation")
+MjsPair = _class("MjsPair")
+MjsPlugin = _class("MjsPlugin")
+MjsSensor = _class("MjsSensor")
+MjsSite = _class("MjsSite")
+MjsSkin = _class("MjsSkin")
+MjsTendon = _class("MjsTendon")
+MjsTendonPath = _class("MjsTendonPath")
+MjsText = _class("MjsText")
+MjsTexture = _class("MjsTexture")
+MjsTuple = _class("MjsTuple")
+MjsWrap = _class("MjsWrap")
 
 #: Names that raise when they are used.
-MISSING = frozenset((*_FUNCTIONS, *_CLASSES))
-__all__ = [*_FUNCTIONS, *_CLASSES]
+MISSING = frozenset(name for name in globals() if name.startswith(("mj", "Mj", "GL", "from_", "to_")))

@@ -4,13 +4,13 @@ import copy
 import warnings
 from collections.abc import Mapping
 from os import PathLike, fspath
-from typing import Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 from weakref import WeakValueDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 from robohive.mujoco import absent, named
 from robohive.mujoco.fields import declare
 from robohive.mujoco.options import MjOption, MjStatistic, MjVisual
@@ -31,6 +31,10 @@ class MjModel(_core.Model, named.ModelElements):
 
     Arrays of meshes, bounding volumes and sparsity are read-only copies. `tex_data` may be written; pictures show it.
     """
+
+    _shapes: dict[str, list[int]]
+    _size_values: dict[str, int]
+    _views: WeakValueDictionary[Any, Any]
 
     def __new__(cls, compiled: _core.CompiledModel) -> "MjModel":
         return super().__new__(cls, compiled)
@@ -99,8 +103,10 @@ class MjModel(_core.Model, named.ModelElements):
         inner[name] = value
         return value
 
-    def __getattr__(self, name: str) -> NoReturn:
-        raise AttributeError(f"'mujoco.MjModel' object has no attribute '{name}'")
+    if not TYPE_CHECKING:  # for checkers, what is not declared is an error
+
+        def __getattr__(self, name: str) -> NoReturn:
+            raise AttributeError(f"'mujoco.MjModel' object has no attribute '{name}'")
 
     def __setattr__(self, name: str, value: Any) -> None:
         if name not in self._shapes:
@@ -123,7 +129,7 @@ class MjModel(_core.Model, named.ModelElements):
         return self._part(MjVisual)
 
     def _part(self, kind: type[_Part]) -> _Part:
-        part = self._views.get(kind)
+        part: _Part | None = self._views.get(kind)
         if part is None:
             part = self._views[kind] = kind(self)
         return part

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from robohive.mujoco.enums_physics import mjtObj
+from robohive.mujoco.enums_elements import mjtObj
 
 #: Kinds of elements by the name of the accessor: prefix of the model's arrays, size, type.
 _KINDS = {
@@ -29,17 +29,6 @@ _KINDS = {
     "text": ("text", "ntext", mjtObj.mjOBJ_TEXT),
     "tuple": ("tuple", "ntuple", mjtObj.mjOBJ_TUPLE),
     "keyframe": ("key", "nkey", mjtObj.mjOBJ_KEY),
-}
-
-#: Short names of accessors.
-_SHORT = {
-    "jnt": "joint",
-    "cam": "camera",
-    "tex": "texture",
-    "mat": "material",
-    "eq": "equality",
-    "ten": "tendon",
-    "key": "keyframe",
 }
 
 #: What a simulation says of an element: attribute and array, a row of which is the element's.
@@ -264,16 +253,47 @@ def _accessor(kind: str, view: type[_View]) -> Callable[..., Any]:
 class ModelElements:
     """Accessors of a model, `body("name")` and so on."""
 
+    body = _accessor("body", ModelView)
+    joint = _accessor("joint", ModelView)
+    geom = _accessor("geom", ModelView)
+    site = _accessor("site", ModelView)
+    camera = _accessor("camera", ModelView)
+    light = _accessor("light", ModelView)
+    mesh = _accessor("mesh", ModelView)
+    hfield = _accessor("hfield", ModelView)
+    texture = _accessor("texture", ModelView)
+    material = _accessor("material", ModelView)
+    pair = _accessor("pair", ModelView)
+    exclude = _accessor("exclude", ModelView)
+    equality = _accessor("equality", ModelView)
+    tendon = _accessor("tendon", ModelView)
+    actuator = _accessor("actuator", ModelView)
+    sensor = _accessor("sensor", ModelView)
+    numeric = _accessor("numeric", ModelView)
+    text = _accessor("text", ModelView)
+    tuple = _accessor("tuple", ModelView)
+    keyframe = _accessor("keyframe", ModelView)
+    jnt = joint
+    cam = camera
+    tex = texture
+    mat = material
+    eq = equality
+    ten = tendon
+    key = keyframe
+
 
 class DataElements:
-    """Accessors of a simulation."""
+    """Accessors of a simulation, `body("name")` and so on."""
 
-
-for _kind in _KINDS:
-    setattr(ModelElements, _kind, _accessor(_kind, ModelView))
-for _kind in (*_DATA, "sensor", "actuator"):
-    setattr(DataElements, _kind, _accessor(_kind, DataView))
-for _short, _kind in _SHORT.items():
-    for _owner in (ModelElements, DataElements):
-        if hasattr(_owner, _kind):
-            setattr(_owner, _short, getattr(_owner, _kind))
+    body = _accessor("body", DataView)
+    geom = _accessor("geom", DataView)
+    site = _accessor("site", DataView)
+    camera = _accessor("camera", DataView)
+    light = _accessor("light", DataView)
+    tendon = _accessor("tendon", DataView)
+    joint = _accessor("joint", DataView)
+    sensor = _accessor("sensor", DataView)
+    actuator = _accessor("actuator", DataView)
+    jnt = joint
+    cam = camera
+    ten = tendon

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from robohive.mujoco._constants import mjVERSION_HEADER
-from robohive.mujoco.enums_physics import mjtObj
+from robohive.mujoco.enums_elements import mjtObj
 from robohive.mujoco.model import MjModel
 
 

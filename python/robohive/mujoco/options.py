@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 
 
 @cache

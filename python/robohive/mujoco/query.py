@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 from robohive.mujoco.data import MjData
 from robohive.mujoco.model import MjModel
 from robohive.mujoco.out import Vector, destination, vector, write

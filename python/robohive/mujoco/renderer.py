@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 from robohive.mujoco.data import MjData
-from robohive.mujoco.enums_physics import mjtObj
+from robohive.mujoco.enums_elements import mjtObj
 from robohive.mujoco.enums_view import mjtCamera, mjtVisFlag
 from robohive.mujoco.model import MjModel
 from robohive.mujoco.view import MjvCamera, MjvOption, mjv_defaultFreeCamera

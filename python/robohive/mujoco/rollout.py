@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 from robohive.mujoco.data import MjData
 from robohive.mujoco.enums_physics import mjtState
 from robohive.mujoco.model import MjModel

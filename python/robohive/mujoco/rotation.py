@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 from robohive.mujoco.out import Vector, destination, vector, write
 
 

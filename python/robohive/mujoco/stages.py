@@ -2,45 +2,14 @@
 
 from collections.abc import Callable
 
-from robohive._core import mujoco as _core
+from robohive.mujoco import _engine as _core
 from robohive.mujoco.data import MjData
 from robohive.mujoco.model import MjModel
 
-#: Stages by the name after `mj_`, with what they compute.
-_STAGES = {
-    "kinematics": "Poses of bodies, joints, geoms and sites.",
-    "comPos": "Centres of mass, motion axes, inertias about them.",
-    "camlight": "Poses of cameras and lights.",
-    "tendon": "Tendon paths, lengths and Jacobians.",
-    "fwdKinematics": "Poses, centres of mass, cameras, lights and tendons.",
-    "makeM": "The inertia matrix.",
-    "factorM": "The factor of the inertia matrix.",
-    "collision": "Contacts.",
-    "makeConstraint": "Constraint rows.",
-    "island": "Constraint islands.",
-    "transmission": "Lengths and moment arms of actuators.",
-    "fwdPosition": "All that depends on positions.",
-    "sensorPos": "Sensors of positions, and the potential energy.",
-    "energyPos": "Potential energy [J].",
-    "comVel": "Velocities of bodies.",
-    "passive": "Forces of springs, dampers, fluid and gravity compensation.",
-    "referenceConstraint": "Velocity and reference acceleration of constraint rows.",
-    "fwdVelocity": "All that depends on velocities.",
-    "sensorVel": "Sensors of velocities, and the kinetic energy.",
-    "energyVel": "Kinetic energy [J].",
-    "subtreeVel": "Linear velocities and angular momenta of subtrees.",
-    "fwdActuation": "Actuator forces.",
-    "fwdAcceleration": "Accelerations without constraints.",
-    "fwdConstraint": "Constraint forces and accelerations.",
-    "sensorAcc": "Sensors of accelerations and forces.",
-    "rnePostConstraint": "Accelerations of bodies, and forces between them and from outside.",
-    "compareFwdInv": "Differences of forward and inverse dynamics.",
-    "Euler": "Advances the state by Euler's method.",
-    "implicit": "Advances the state implicitly in velocity.",
-}
+_Stage = Callable[[MjModel, MjData], None]
 
 
-def _stage(name: str, summary: str) -> Callable[[MjModel, MjData], None]:
+def _stage(name: str, summary: str) -> _Stage:
     def run(m: MjModel, d: MjData) -> None:
         _core.stage(m, d, name)
 
@@ -49,8 +18,35 @@ def _stage(name: str, summary: str) -> Callable[[MjModel, MjData], None]:
     return run
 
 
-for _name, _summary in _STAGES.items():
-    globals()[f"mj_{_name}"] = _stage(_name, _summary)
+mj_kinematics = _stage("kinematics", "Poses of bodies, joints, geoms and sites.")
+mj_comPos = _stage("comPos", "Centres of mass, motion axes, inertias about them.")
+mj_camlight = _stage("camlight", "Poses of cameras and lights.")
+mj_tendon = _stage("tendon", "Tendon paths, lengths and Jacobians.")
+mj_fwdKinematics = _stage("fwdKinematics", "Poses, centres of mass, cameras, lights and tendons.")
+mj_makeM = _stage("makeM", "The inertia matrix.")
+mj_factorM = _stage("factorM", "The factor of the inertia matrix.")
+mj_collision = _stage("collision", "Contacts.")
+mj_makeConstraint = _stage("makeConstraint", "Constraint rows.")
+mj_island = _stage("island", "Constraint islands.")
+mj_transmission = _stage("transmission", "Lengths and moment arms of actuators.")
+mj_fwdPosition = _stage("fwdPosition", "All that depends on positions.")
+mj_sensorPos = _stage("sensorPos", "Sensors of positions, and the potential energy.")
+mj_energyPos = _stage("energyPos", "Potential energy [J].")
+mj_comVel = _stage("comVel", "Velocities of bodies.")
+mj_passive = _stage("passive", "Forces of springs, dampers, fluid and gravity compensation.")
+mj_referenceConstraint = _stage("referenceConstraint", "Velocity and reference acceleration of constraint rows.")
+mj_fwdVelocity = _stage("fwdVelocity", "All that depends on velocities.")
+mj_sensorVel = _stage("sensorVel", "Sensors of velocities, and the kinetic energy.")
+mj_energyVel = _stage("energyVel", "Kinetic energy [J].")
+mj_subtreeVel = _stage("subtreeVel", "Linear velocities and angular momenta of subtrees.")
+mj_fwdActuation = _stage("fwdActuation", "Actuator forces.")
+mj_fwdAcceleration = _stage("fwdAcceleration", "Accelerations without constraints.")
+mj_fwdConstraint = _stage("fwdConstraint", "Constraint forces and accelerations.")
+mj_sensorAcc = _stage("sensorAcc", "Sensors of accelerations and forces.")
+mj_rnePostConstraint = _stage("rnePostConstraint", "Accelerations of bodies, and forces between them and from outside.")
+mj_compareFwdInv = _stage("compareFwdInv", "Differences of forward and inverse dynamics.")
+mj_Euler = _stage("Euler", "Advances the state by Euler's method.")
+mj_implicit = _stage("implicit", "Advances the state implicitly in velocity.")
 
 
 def mj_crb(m: MjModel, d: MjData) -> None:
@@ -67,6 +63,3 @@ def mj_RungeKutta(m: MjModel, d: MjData, N: int) -> None:
     if N != 4:
         raise NotImplementedError(f"Runge-Kutta of order {N}; there is order 4")
     _core.stage(m, d, "RungeKutta")
-
-
-__all__ = [*(f"mj_{_name}" for _name in _STAGES), "mj_RungeKutta", "mj_crb"]
