@@ -55,3 +55,20 @@ def present(owner: str, name: str) -> bool | None:
     if not hasattr(owners(mujoco)[owner], name):
         return None
     return hasattr(owners(standin)[owner], name) and name not in standin.MISSING
+
+
+def rows_of(folders: list[Path]) -> list[str]:
+    """Lines of a table: how many names the packages use, which are missing, and which are there."""
+    found: set[tuple[str, str]] = set().union(*(used(folder) for folder in folders))
+    verdicts: dict[bool, list[str]] = {True: [], False: []}
+    for owner, name in sorted(found):
+        here = present(owner, name)
+        if here is not None:
+            verdicts[here].append(f"`{owner}.{name}`")
+    return [
+        f"{len(verdicts[True]) + len(verdicts[False])} names are used, {len(verdicts[True])} are there.",
+        "",
+        "Not there: " + ", ".join(verdicts[False]) + ".",
+        "",
+        "There: " + ", ".join(verdicts[True]) + ".",
+    ]

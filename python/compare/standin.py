@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from names import present, used
+from names import rows_of
 
 GROUPS = {
     "Gymnasium": "Ant Humanoid HumanoidStandup HalfCheetah Hopper Walker2d Swimmer Reacher Pusher InvertedPendulum "
@@ -89,20 +89,7 @@ def name_rows() -> list[str]:
     import gymnasium
     import gymnasium_robotics
 
-    roots = [Path(gymnasium.__file__).parent / "envs" / "mujoco", Path(gymnasium_robotics.__file__).parent]
-    found = set().union(*(used(root) for root in roots))
-    verdicts: dict[bool, list[str]] = {True: [], False: []}
-    for owner, name in sorted(found):
-        here = present(owner, name)
-        if here is not None:
-            verdicts[here].append(f"`{owner}.{name}`")
-    return [
-        f"{len(verdicts[True]) + len(verdicts[False])} names are used, {len(verdicts[True])} are there.",
-        "",
-        "Not there (all of them draw pictures or keep mouse and window): " + ", ".join(verdicts[False]) + ".",
-        "",
-        "There: " + ", ".join(verdicts[True]) + ".",
-    ]
+    return rows_of([Path(gymnasium.__file__).parent / "envs" / "mujoco", Path(gymnasium_robotics.__file__).parent])
 
 
 def main() -> None:

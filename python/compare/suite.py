@@ -13,6 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
+from names import rows_of
+
 STEPS = 100
 
 
@@ -48,6 +50,14 @@ def one_engine(engine: str) -> None:
     json.dump(results, sys.stdout)
 
 
+def name_rows() -> list[str]:
+    """Every name of the bindings that dm_control uses, pictures included."""
+    import dm_control
+
+    root = Path(dm_control.__file__).parent
+    return rows_of([root / "mujoco", root / "suite", root / "rl"])
+
+
 def main() -> None:
     """Plays on both engines and compares."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -81,6 +91,10 @@ def main() -> None:
         "| task | runs | difference, or what stops it |",
         "|---|---|---|",
         *("| " + " | ".join(row) + " |" for row in rows),
+        "",
+        "## Names",
+        "",
+        *name_rows(),
         "",
     ]
     print("\n".join(lines))

@@ -13,7 +13,7 @@ def install() -> None:
     Raises:
         ImportError: MuJoCo's own bindings have been imported already.
     """
-    here = __package__
+    here = "robohive.mujoco"
     own = sys.modules[here]
     present = sys.modules.get("mujoco")
     if present is own:

@@ -17,9 +17,8 @@ const BITS: u32 = 14;
 
 fn check(signature: i64) -> Result<u32, Fault> {
     u32::try_from(signature).ok().filter(|bits| *bits < 1 << BITS).ok_or_else(|| {
-        Fault::Value(format!(
-            "invalid state signature {signature}, must be at least 0 and less than 2^mjNSTATE"
-        ))
+        let beyond = if signature < 0 { "< 0" } else { ">= 2^mjNSTATE" };
+        Fault::Fatal(format!("mj_stateSize: invalid state signature {signature} {beyond}"))
     })
 }
 

@@ -18,9 +18,9 @@ def test_making_and_dropping_holds_no_memory():
     gc.collect()
     gc.disable()
     try:
-        make(300)
+        make(200)
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        make(1500)
+        make(800)
         after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     finally:
         gc.enable()
