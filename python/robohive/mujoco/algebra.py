@@ -82,13 +82,19 @@ def mj_stateSize(m: MjModel, sig: int) -> int:
 
 def mj_getState(m: MjModel, d: MjData, state: Vector, sig: int) -> None:
     """The parts of the state that `sig` names, into `state`."""
-    destination(state, "state", "size mj_stateSize", (mj_stateSize(m, sig),))
+    _check_state(m, state, sig)
     write(state, _core.get_state(m, d, int(sig)))
 
 
 def mj_setState(m: MjModel, d: MjData, state: ArrayLike, sig: int) -> None:
     """Overwrites the parts of the state that `sig` names."""
-    _core.set_state(m, d, vector(state, "state", mj_stateSize(m, sig)), int(sig))
+    _check_state(m, state, sig)
+    _core.set_state(m, d, vector(state, "state"), int(sig))
+
+
+def _check_state(m: MjModel, state: ArrayLike, sig: int) -> None:
+    if np.size(state) != mj_stateSize(m, sig):
+        raise TypeError("state size should equal mj_stateSize(m, sig)")
 
 
 def mj_copyState(m: MjModel, src: MjData, dst: MjData, sig: int) -> None:

@@ -2,7 +2,11 @@
 
 from collections.abc import Callable
 
+import numpy as np
+from numpy.typing import NDArray
+
 from robohive.mujoco import _engine as _core
+from robohive.mujoco._constants import mjMAXVAL
 from robohive.mujoco.data import MjData
 from robohive.mujoco.model import MjModel
 
@@ -63,3 +67,24 @@ def mj_RungeKutta(m: MjModel, d: MjData, N: int) -> None:
     if N != 4:
         raise NotImplementedError(f"Runge-Kutta of order {N}; there is order 4")
     _core.stage(m, d, "RungeKutta")
+
+
+def _check(values: NDArray[np.float64], array: str, d: MjData) -> None:
+    bad = np.flatnonzero(~(np.abs(values) <= mjMAXVAL))
+    if bad.size:
+        raise _core.FatalError(f"{array}[{bad[0]}] is {values[bad[0]]} at time {d.time} s; the simulation is unstable")
+
+
+def mj_checkPos(m: MjModel, d: MjData) -> None:
+    """Raises a `FatalError` for positions that are not finite or too large."""
+    _check(d.qpos, "qpos", d)
+
+
+def mj_checkVel(m: MjModel, d: MjData) -> None:
+    """Raises a `FatalError` for velocities that are not finite or too large."""
+    _check(d.qvel, "qvel", d)
+
+
+def mj_checkAcc(m: MjModel, d: MjData) -> None:
+    """Raises a `FatalError` for accelerations that are not finite or too large."""
+    _check(d.qacc, "qacc", d)

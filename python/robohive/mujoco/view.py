@@ -11,7 +11,23 @@ from robohive.mujoco.enums_view import mjtCamera, mjtFrame, mjtLabel, mjtVisFlag
 _SHOWN = ("TEXTURE", "STATIC", "TENDON", "RANGEFINDER", "SKIN", "FLEXFACE", "FLEXSKIN", "PERTOBJ", "ISLAND")
 
 
-class MjvCamera:
+class _Struct:
+    """Fields as attributes, compared and shown as such."""
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        mine, theirs = vars(self), vars(other)
+        return all(np.array_equal(mine[name], theirs[name]) for name in mine)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        rows = (f"  {name}: {value!r}" for name, value in sorted(vars(self).items()))
+        return "\n".join((f"<{type(self).__name__}", *rows, ">"))
+
+
+class MjvCamera(_Struct):
     """An abstract camera: one of the model (`type` fixed, `fixedcamid`), or a free one that looks at a point."""
 
     def __init__(self) -> None:
@@ -25,7 +41,7 @@ class MjvCamera:
         self.orthographic = 0
 
 
-class MjvOption:
+class MjvOption(_Struct):
     """What is visible: groups of elements, kinds of elements and decorations."""
 
     def __init__(self) -> None:
