@@ -105,6 +105,13 @@ def main() -> None:
     truth, *nudged = (play(folder, "mujoco", start, ids, options.steps) for start in range(STARTS + 1))
     ours = play(folder, "standin", 0, ids, options.steps)
     rows = [compare(name, truth, nudged, ours) for name in ids]
+    again = [row[0] for row in rows if row[-1].startswith("no, from")]
+    if again:
+        others = [play(folder, "standin", start, again, options.steps) for start in range(1, STARTS + 1)]
+        for row in rows:
+            if row[0] in again:
+                agreeing = sum(compare(row[0], truth, nudged, other)[-1] == "yes" for other in others)
+                row[-1] += f"; {agreeing} of {STARTS} starts of its own agree"
     agree = sum(row[-1] == "yes" for row in rows)
     lines = [
         "# Gymnasium's environments on the stand-in for `mujoco`",
@@ -116,7 +123,9 @@ def main() -> None:
         "next seed, begins where one ends. Difference: the largest of any observation or reward between the stand-in and "
         f"MuJoCo; own divergence: the same between MuJoCo and MuJoCo from {STARTS} starts, of which every position is moved by "
         "1e-12 (of robots that settle in their reset, before they do). Share: the largest difference in units of what is "
-        "allowed, 1e-9 or ten times the own divergence up to that step of the episode. Gymnasium-Robotics' Fetch and hand "
+        "allowed, 1e-9 or ten times the own divergence up to that step of the episode. Where that is exceeded, the stand-in "
+        f"plays from the same {STARTS} starts too: contacts of smooth shapes, found to a tolerance, split motions in two "
+        "branches by their last bits, and sparse rewards are steps. Gymnasium-Robotics' Fetch and hand "
         "environments do not start on MuJoCo 3.12's own bindings, whose enumerations are not equal to numpy's integers; for "
         "this comparison they were replaced by integers.",
         "",
