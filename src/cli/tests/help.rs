@@ -82,6 +82,7 @@ fn examples_of_every_help_run() {
                 .args(&words)
                 .current_dir(&folder)
                 .env("ROBOHIVE_STORE", folder.join("store"))
+                .env("MINARI_DATASETS_PATH", folder.join("minari"))
                 .stdin(input)
                 .output();
             let out = out.unwrap();
