@@ -34,3 +34,10 @@ def test_notebook():
     nbclient.NotebookClient(notebook, timeout=300).execute()
     pictures = [out for cell in notebook.cells for out in cell.get("outputs", []) if "image/png" in out.get("data", {})]
     assert len(pictures) == 3
+
+
+def test_a_script_for_mujoco():
+    printed = run("mujoco_script.py")
+    energies = [float(found) for found in re.findall(r"energy ([+-][\d.e+-]+) J", printed)]
+    assert len(energies) == 5 and all(abs(found) < 1e-3 for found in energies)
+    assert "Jacobian of the tip" in printed

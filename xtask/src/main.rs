@@ -43,7 +43,7 @@ const QUICK: [Check; 6] = [
     Check { name: "python", run: python::run },
 ];
 
-const LONG: [Check; 10] = [
+const LONG: [Check; 11] = [
     Check { name: "tolerances", run: tolerances::run },
     Check { name: "recorded-bits", run: recorded_bits::run },
     Check { name: "builds", run: builds::run },
@@ -51,6 +51,7 @@ const LONG: [Check; 10] = [
     Check { name: "rust-version", run: packages::rust_version },
     Check { name: "instructions", run: || instructions::run(false) },
     Check { name: "gpu", run: gpu::run },
+    Check { name: "python-docs", run: python::docs },
     Check { name: "wheel", run: python::wheel },
     Check { name: "python-learners", run: python::learners },
     Check { name: "python-cluster", run: python::cluster },

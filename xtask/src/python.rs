@@ -82,6 +82,18 @@ pub fn cluster() -> Outcome {
     Ok(Vec::new())
 }
 
+/// The documentation, every link and every name of it resolved.
+pub fn docs() -> Outcome {
+    let Some(python) = ready("docs", &["-r", "python/docs/requirements.txt"])? else {
+        return Ok(vec![no_python("the documentation of the Python package")]);
+    };
+    let site = target_folder()?.join("python/site");
+    let build =
+        ["-m", "mkdocs", "build", "--strict", "--quiet", "--config-file", "python/mkdocs.yml", "--site-dir"];
+    succeed(Command::new(&python).args(build).arg(site))?;
+    Ok(Vec::new())
+}
+
 /// The wheel that is published: for every Linux of the last ten years, of bounded size, the same for every Python, and
 /// ready to step in a fresh environment. Prints how long that takes.
 pub fn wheel() -> Outcome {
