@@ -4,10 +4,11 @@
     python benches/python_vector.py [--robohive PYTHON] [--cores 1,2] [--only TEXT] [--rounds N] [--write FILE]
     python benches/python_vector.py --crossing
 
-This interpreter has this repository's wheel (`maturin build --release`), gymnasium, mujoco==3.12.0 and envpool==1.2.5; PYTHON has robohive
-0.7.0, and ours finds the same models by ROBOHIVE_STORE or ROBOHIVE_ASSETS. Every side is a process of its own with
-ENVS environments, pinned to the same cores, with as many threads as cores (AsyncVectorEnv: a process an environment). Sides take turns
-of a second; all take random actions of their space that were drawn before, and episodes reset as they end.
+This interpreter has this repository's wheel (`maturin build --release`), gymnasium, mujoco==3.12.0 and envpool==1.2.5;
+PYTHON has robohive 0.7.0, and ours finds the same models by ROBOHIVE_STORE or ROBOHIVE_ASSETS. Every side is a process of its
+own with ENVS environments, pinned to the same cores, with as many threads as cores (AsyncVectorEnv: a process an
+environment). Sides take turns of a second; all take random actions of their space that were drawn before, and episodes reset
+as they end. C takes random controls for 100 steps from the model's reference configuration, over and over.
 
 wall       environment steps per second of the best round.
 processor  environment steps per second of processor time of the best round, all threads and processes of the side summed:
@@ -271,7 +272,7 @@ def crossing():
     import numpy as np
     from robohive.vector import RoboHiveVectorEnv
     lines = ["| batch of 256 | infos | observations | beyond Rust [us an environment] |", "|---|---|---|---|"]
-    for name in ("hive/ElbowPose-v0", "hive/FrankaReach-v0", "hive/QuadrupedWalk-v0"):
+    for name in ("hive/ElbowPose-v0", "hive/QuadrupedWalk-v0"):
         for infos in ("none", "sparse", "full"):
             for dtype in ("float64", "float32"):
                 env = RoboHiveVectorEnv(name, 256, num_threads=1, infos=infos, dtype=dtype, seed=0)
@@ -282,7 +283,7 @@ def crossing():
                     released, began = env._core.released_time(), time.perf_counter()
                     env.step(actions)
                     beyond.append(time.perf_counter() - began - (env._core.released_time() - released))
-                best = sorted(beyond)[len(beyond) // 4] / 256 * 1e6
+                best = min(beyond) / 256 * 1e6  # Other work on the machine only adds.
                 lines.append(f"| {name} | {infos} | {dtype} | {best:.3f} |")
                 print(lines[-1], flush=True)
     return lines
