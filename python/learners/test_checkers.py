@@ -15,7 +15,7 @@ from torchrl.envs import GymWrapper
 from torchrl.envs.utils import check_env_specs
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from conftest import CLASSES, OWN, make_or_skip
+from known_ids import CLASSES, OWN, make_or_skip
 
 
 @pytest.mark.parametrize("id", [*OWN, *CLASSES])

@@ -6,7 +6,7 @@ import gymnasium
 import numpy as np
 import pytest
 import robohive
-from conftest import CLASSES, OWN, make_or_skip
+from known_ids import CLASSES, OWN, make_or_skip
 from gymnasium.utils.env_checker import check_env, data_equivalence
 
 KEYS = {

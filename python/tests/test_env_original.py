@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import make_or_skip
+from known_ids import make_or_skip
 
 RECORDED = Path(__file__).parent / "recorded"
 #: Terms that RoboHive leaves as the integers and truth values that it computes them from; here all terms are numbers.

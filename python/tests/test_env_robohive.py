@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 import robohive
-from conftest import make_or_skip
+from known_ids import make_or_skip
 
 METHODS = (
     "compute_path_rewards evaluate_success examine_policy forward get_env_infos get_env_state get_exteroception"

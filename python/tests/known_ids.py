@@ -1,0 +1,23 @@
+"""Ids that tests go over: those on models of this project, and those whose models have to be imported."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+import robohive
+
+OWN = [id for id in robohive.ids("hive")]
+#: One id of each class of RoboHive's, by its recorded reference.
+RECORDED = Path(__file__).parents[2] / "validation" / "reference" / "robohive"
+CLASSES = sorted(path.stem for path in RECORDED.glob("*.npz"))
+
+
+def make_or_skip(id: str, **kwargs: object) -> robohive.envs.RoboHiveEnv:
+    """The environment, or a skip that says what is not checked where RoboHive's models are not on this machine."""
+    try:
+        return robohive.make(id, **kwargs)
+    except FileNotFoundError as error:
+        if id in OWN:
+            raise
+        pytest.skip(f"not checked: {id} (RoboHive's models are not imported: {error})")
