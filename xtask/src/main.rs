@@ -1,5 +1,5 @@
 //! Continuous integration as a program. `cargo xtask ci` runs what every change must pass, in minutes; `cargo xtask long`
-//! what takes longer; `cargo xtask NAME…` single checks. With `--strict` what this machine cannot check counts as a failure.
+//! what takes longer; `cargo xtask release` what a release needs beside; `cargo xtask NAME…` single checks. With `--strict` what this machine cannot check counts as a failure.
 //! `cargo xtask instructions --update` records new counts, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder,
 //! `cargo xtask crash-safety [KILLS]` kills recordings at random moments and reads what they leave,
 //! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice.
@@ -43,7 +43,7 @@ const QUICK: [Check; 6] = [
     Check { name: "python", run: python::run },
 ];
 
-const LONG: [Check; 11] = [
+const LONG: [Check; 9] = [
     Check { name: "tolerances", run: tolerances::run },
     Check { name: "recorded-bits", run: recorded_bits::run },
     Check { name: "builds", run: builds::run },
@@ -52,10 +52,12 @@ const LONG: [Check; 11] = [
     Check { name: "instructions", run: || instructions::run(false) },
     Check { name: "gpu", run: gpu::run },
     Check { name: "python-docs", run: python::docs },
-    Check { name: "wheel", run: python::wheel },
     Check { name: "python-learners", run: python::learners },
-    Check { name: "python-cluster", run: python::cluster },
 ];
+
+/// What is run before a release: it installs or builds much.
+const RELEASE: [Check; 2] =
+    [Check { name: "wheel", run: python::wheel }, Check { name: "python-cluster", run: python::cluster }];
 
 fn main() -> ExitCode {
     let mut words: Vec<String> = std::env::args().skip(1).collect();
@@ -78,7 +80,8 @@ fn chosen<'a>(words: &[&str]) -> Option<Vec<&'a Check>> {
     let named = |word: &str| match word {
         "ci" => QUICK.iter().collect(),
         "long" => LONG.iter().collect(),
-        _ => QUICK.iter().chain(&LONG).filter(|check| check.name == word).collect::<Vec<_>>(),
+        "release" => RELEASE.iter().collect(),
+        _ => QUICK.iter().chain(&LONG).chain(&RELEASE).filter(|check| check.name == word).collect::<Vec<_>>(),
     };
     let found: Vec<_> = words.iter().map(|word| named(word)).collect();
     let known = !found.is_empty() && found.iter().all(|checks| !checks.is_empty());
@@ -86,8 +89,8 @@ fn chosen<'a>(words: &[&str]) -> Option<Vec<&'a Check>> {
 }
 
 fn usage() -> ExitCode {
-    let names: Vec<_> = QUICK.iter().chain(&LONG).map(|check| check.name).collect();
-    eprintln!("usage: cargo xtask [--strict] ci | long | {}", names.join(" | "));
+    let names: Vec<_> = QUICK.iter().chain(&LONG).chain(&RELEASE).map(|check| check.name).collect();
+    eprintln!("usage: cargo xtask [--strict] ci | long | release | {}", names.join(" | "));
     eprintln!("       cargo xtask instructions --update");
     eprintln!("       cargo xtask crash-safety [KILLS]");
     eprintln!("       cargo xtask mutants [COUNT]");

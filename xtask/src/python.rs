@@ -186,7 +186,12 @@ fn build(python: &Path, options: &[&str]) -> Result<PathBuf, String> {
         std::fs::remove_dir_all(&wheels).map_err(|error| format!("{}: {error}", wheels.display()))?;
     }
     let maturin = ["-m", "maturin", "build", "--manifest-path", "python/Cargo.toml", "--out"];
-    succeed(Command::new(python).args(maturin).arg(&wheels).args(options))?;
+    // maturin finds zig by the python3 on the path.
+    let folder = python.parent().map(Path::to_owned).into_iter();
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    let path = std::env::join_paths(folder.chain(std::env::split_paths(&path)))
+        .map_err(|error| format!("PATH: {error}"))?;
+    succeed(Command::new(python).args(maturin).arg(&wheels).args(options).env("PATH", path))?;
     let files = std::fs::read_dir(&wheels).into_iter().flatten().flatten();
     let wheel = files.map(|entry| entry.path()).find(|path| path.extension().is_some_and(|end| end == "whl"));
     wheel.ok_or_else(|| format!("maturin left no wheel in {}", wheels.display()))
