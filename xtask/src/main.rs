@@ -43,21 +43,23 @@ const QUICK: [Check; 6] = [
     Check { name: "python", run: python::run },
 ];
 
-const LONG: [Check; 9] = [
+const LONG: [Check; 8] = [
     Check { name: "tolerances", run: tolerances::run },
     Check { name: "recorded-bits", run: recorded_bits::run },
     Check { name: "builds", run: builds::run },
     Check { name: "packages", run: packages::run },
     Check { name: "rust-version", run: packages::rust_version },
     Check { name: "instructions", run: || instructions::run(false) },
-    Check { name: "gpu", run: gpu::run },
     Check { name: "python-docs", run: python::docs },
     Check { name: "python-learners", run: python::learners },
 ];
 
 /// What is run before a release: it installs or builds much.
-const RELEASE: [Check; 2] =
-    [Check { name: "wheel", run: python::wheel }, Check { name: "python-cluster", run: python::cluster }];
+const RELEASE: [Check; 3] = [
+    Check { name: "gpu", run: gpu::run },
+    Check { name: "wheel", run: python::wheel },
+    Check { name: "python-cluster", run: python::cluster },
+];
 
 fn main() -> ExitCode {
     let mut words: Vec<String> = std::env::args().skip(1).collect();
