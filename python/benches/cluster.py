@@ -2,7 +2,7 @@
 """What a Ray cluster of several nodes on this machine collects, beside one process, and what is left of a collection whose
 nodes are killed.
 
-    benches/python_ray.py [--id ID] [--episodes N] [--kills N] [--nodes 1 2 4] [--write FILE]
+    python python/benches/cluster.py [--id ID] [--episodes N] [--kills N] [--nodes 1 2 4] [--write FILE]
 
 Needs the package robohive and ray. All nodes are processes of this machine with one processor each, so more nodes than
 cores cannot be faster; the episodes of every run are compared with those of one process, bit by bit.
@@ -74,7 +74,7 @@ def main():
     chosen = arguments.parse_args()
 
     lines = [
-        f"`benches/python_ray.py`: {chosen.episodes} episodes of {chosen.id}, random actions, on {os.cpu_count()} cores.",
+        f"`python python/benches/cluster.py`: {chosen.episodes} episodes of {chosen.id}, random actions, on {os.cpu_count()} cores.",
         "",
         "| run | steps/s | beside one process, one thread | actors lost | units run again | episodes | same set |",
         "|---|---|---|---|---|---|---|",

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Vectors of environments from Python: ours, EnvPool's, Gymnasium's over RoboHive's own Python, and C without environments.
 
-    python benches/python_vector.py [--robohive PYTHON] [--cores 1,2] [--only TEXT] [--rounds N] [--write FILE]
-    python benches/python_vector.py --crossing
+    python python/benches/vectors.py [--robohive PYTHON] [--cores 1,2] [--only TEXT] [--rounds N] [--write FILE]
+    python python/benches/vectors.py --crossing
 
 This interpreter has this repository's wheel (`maturin build --release`), gymnasium, mujoco==3.12.0 and envpool==1.2.5;
 PYTHON has robohive 0.7.0, and ours finds the same models by ROBOHIVE_STORE or ROBOHIVE_ASSETS. Every side is a process of its
@@ -25,9 +25,6 @@ import pathlib
 import subprocess
 import sys
 import time
-
-# Beside this file stands another robohive.
-sys.path.pop(0)
 
 ENVS = 16
 SECONDS = 1.0
