@@ -2,6 +2,8 @@ import pytest
 
 pytest.importorskip("ray")
 
+from robohive.collect import RandomPolicy
+from robohive.ray import Collector
 from robohive.ray.plan import LostEpisodes, Plan
 
 
@@ -27,7 +29,7 @@ def test_a_plan_is_over_when_every_unit_has_arrived():
     while unit := p.take():
         assert not p.is_over
         p.finish(unit)
-    assert p.is_over and p.done == {0, 1, 2}
+    assert p.is_over and p.lost == 0
 
 
 def test_a_unit_lost_at_every_attempt_is_an_error_that_names_its_episodes():
@@ -37,6 +39,7 @@ def test_a_unit_lost_at_every_attempt_is_an_error_that_names_its_episodes():
         p.lose(p.take())
 
 
-def test_units_without_episodes_are_refused():
-    with pytest.raises(ValueError, match="at least one episode, not 0"):
-        plan(size=0)
+@pytest.mark.parametrize("name", ["unit", "actors", "cpus_per_actor", "envs_per_actor", "attempts"])
+def test_numbers_that_are_not_positive_are_refused(name):
+    with pytest.raises(ValueError, match=f"{name} is positive, not 0"):
+        Collector("hive/FrankaReach-v0", 4, policy=RandomPolicy, **{name: 0})

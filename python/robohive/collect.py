@@ -81,6 +81,8 @@ class Episode:
     """Its length, or a step that physics refused, ended it."""
     version: int = 0
     """Which of the policy's parameters were used: the number of updates before them."""
+    fault: str | None = None
+    """Why physics refused the last step; None in all other episodes."""
 
     @property
     def length(self) -> int:
@@ -141,8 +143,9 @@ class EpisodeRunner:
         observations = self._begin(slots, waiting, np.ones(len(slots), bool))
         while any(slots):
             actions = self._policy.act(observations)
-            observations, rewards, terminated, truncated, _ = self._envs.step(actions)
+            observations, rewards, terminated, truncated, infos = self._envs.step(actions)
             over = terminated | truncated
+            faults = infos.get("fault", [None] * len(slots))
             for at, slot in enumerate(slots):
                 if slot is None:
                     continue
@@ -150,7 +153,7 @@ class EpisodeRunner:
                 slot.actions.append(np.array(actions[at]))
                 slot.rewards.append(float(rewards[at]))
                 if over[at]:
-                    yield slot.finish(bool(terminated[at]), bool(truncated[at]), version)
+                    yield slot.finish(bool(terminated[at]), bool(truncated[at]), version, faults[at])
                     slots[at] = None
             if over.any():
                 observations = self._begin(slots, waiting, over)
@@ -185,7 +188,7 @@ class _Slot:
         self.actions: list[Array] = []
         self.rewards: list[float] = []
 
-    def finish(self, terminated: bool, truncated: bool, version: int) -> Episode:
+    def finish(self, terminated: bool, truncated: bool, version: int, fault: str | None) -> Episode:
         return Episode(
             index=self.index,
             seed=self.seed,
@@ -195,6 +198,7 @@ class _Slot:
             terminated=terminated,
             truncated=truncated,
             version=version,
+            fault=fault,
         )
 
 

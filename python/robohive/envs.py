@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import copy
+import os
+import tempfile
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
@@ -13,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from robohive import _core
 from robohive.examine import Policy, examine_policy
+from robohive.guests import with_model
 from robohive.paths import success, truncate
 from robohive.simulation import Simulation
 
@@ -74,7 +77,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             "time_limit": time_limit,
             "override_keys": list(override_keys),
         }
-        self._arguments = (env_id, settings, making)
+        self._arguments = (env_id, with_model(env_id, settings), making)
         self._start(_core.Env(*self._arguments))
 
     def _start(self, core: _core.Env) -> None:
@@ -400,7 +403,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         render: str | None = None,
         camera_name: str | None = None,
         frame_size: tuple[int, int] = (640, 480),
-        output_dir: str = "/tmp/",
+        output_dir: str | None = None,
         filename: str = "newvid",
         device_id: int = 0,
     ) -> list[dict[str, Any]]:
@@ -412,10 +415,10 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             horizon: Most steps of an episode.
             num_episodes: How many.
             mode: `exploration` or `evaluation`.
-            render: `offscreen` writes a video of every episode, `output_dir` + `filename` + number + `.mp4`; None does not.
+            render: `offscreen` writes a video of every episode, `filename` + number + `.mp4`; None does not.
             camera_name: Camera of the videos; the free one without it.
             frame_size: Width and height of the videos.
-            output_dir: Where they go.
+            output_dir: Folder that they go to; None: the system's for temporary files.
             filename: How their names begin.
             device_id: Of no effect; pictures need no GPU.
         """
@@ -428,7 +431,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             render=render,
             camera=camera_name or "free",
             frame_size=frame_size,
-            video=f"{output_dir}{filename}",
+            video=os.path.join(output_dir or tempfile.gettempdir(), filename),
         )
 
     def mj_render(self) -> None:

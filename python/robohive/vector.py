@@ -331,7 +331,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         return other
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickles how the environments were made; what is unpickled is made anew, and is to be reset."""
+        """Pickles how the environments were made; unpickling makes new ones, which need a reset."""
         return _remake, (type(self), self._kwargs, self.spec)
 
     # How arrays are handed over.

@@ -32,13 +32,21 @@ impl<T> Turns<T> {
         Ok(self.guard("close")?.take())
     }
 
+    /// Whether the value was taken out.
+    ///
+    /// # Errors
+    /// Another thread is in a call of it.
+    pub fn is_closed(&self) -> PyResult<bool> {
+        Ok(self.guard("closed")?.is_none())
+    }
+
     fn guard(&self, call: &str) -> PyResult<MutexGuard<'_, Option<T>>> {
         match self.0.try_lock() {
             Ok(guard) => Ok(guard),
             Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
             Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(format!(
-                "{call} was called while another thread is in a call of these environments; give every thread its own, or \
-                 take a lock around each call"
+                "{call} was called while another thread is in a call of the same object; give every thread its own, or take \
+                 a lock around each call"
             ))),
         }
     }

@@ -210,3 +210,10 @@ impl From<RandomError> for EnvError {
 fn suggestion(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |nearest| format!("; did you mean {nearest}?"))
 }
+
+/// What a caught panic said.
+pub fn panic_text(payload: &(dyn std::any::Any + Send)) -> String {
+    let borrowed = payload.downcast_ref::<&str>().map(ToString::to_string);
+    let text = borrowed.or_else(|| payload.downcast_ref::<String>().cloned());
+    text.unwrap_or_else(|| "a panic without a text".into())
+}

@@ -32,7 +32,7 @@ pub mod visual;
 
 pub use crate::assets::{Assets, Folder, OwnModels};
 pub use environment::{Env, Options, Step};
-pub use error::EnvError;
+pub use error::{EnvError, panic_text};
 pub use exteroception::{Exteroception, Image, Pixels};
 pub use memory::EnvMemory;
 pub use network::{Network, Networks, NoNetworks};

@@ -23,6 +23,7 @@ class Packed:
     rewards: Array
     terminated: Array
     truncated: Array
+    faults: tuple[str | None, ...]
     version: int
 
     @classmethod
@@ -37,6 +38,7 @@ class Packed:
             rewards=np.concatenate([e.rewards for e in episodes]),
             terminated=np.array([e.terminated for e in episodes]),
             truncated=np.array([e.truncated for e in episodes]),
+            faults=tuple(e.fault for e in episodes),
             version=version,
         )
 
@@ -55,6 +57,7 @@ class Packed:
                 terminated=bool(self.terminated[at]),
                 truncated=bool(self.truncated[at]),
                 version=self.version,
+                fault=self.faults[at],
             )
 
 

@@ -65,13 +65,22 @@ class Collector:
             actors: How many actors; None: as many as the cluster's processors allow, also when nodes come and go.
             cpus_per_actor: Processors of an actor; its environments step on as many threads.
             envs_per_actor: Environments that an actor steps together.
-            unit: Episodes an actor runs in one call; None: four times its environments.
+            unit: Episodes that an actor runs in one call; None: four times its environments.
             attempts: How often a unit may be lost before `LostEpisodes` is raised.
             settings: Settings of the environment that differ from the id's.
             actor_options: Options of the actors for Ray, as `{"resources": {…}, "runtime_env": {…}}`.
+
+        Raises:
+            ValueError: A number of actors, processors, environments, episodes of a unit or attempts is not positive.
         """
-        numbers = range(episodes) if isinstance(episodes, int) else episodes
-        self._plan = Plan.of(numbers, unit or 4 * envs_per_actor, attempts)
+        unit = 4 * envs_per_actor if unit is None else unit
+        numbers = {"cpus_per_actor": cpus_per_actor, "envs_per_actor": envs_per_actor, "unit": unit, "attempts": attempts}
+        if actors is not None:
+            numbers["actors"] = actors
+        for name, number in numbers.items():
+            if not number > 0:
+                raise ValueError(f"{name} is positive, not {number}")
+        self._plan = Plan.of(range(episodes) if isinstance(episodes, int) else episodes, unit, attempts)
         threads = max(1, int(cpus_per_actor))
         self._job = Job(id, policy, seed, envs_per_actor, threads, dict(settings or {}))
         self._wanted = actors

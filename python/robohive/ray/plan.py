@@ -21,12 +21,11 @@ class Unit:
 
 @dataclass
 class Plan:
-    """Units of a collection. A unit is waiting, running or done; a lost one waits again, before all others."""
+    """Units of a collection. A unit is waiting or running until it is done; a lost one waits again, before all others."""
 
     waiting: deque[Unit]
     attempts_allowed: int
     running: dict[int, Unit] = field(default_factory=dict)
-    done: set[int] = field(default_factory=set)
     lost: int = 0
     """How often a unit was lost."""
     _attempts: dict[int, int] = field(default_factory=dict)
@@ -34,8 +33,6 @@ class Plan:
     @classmethod
     def of(cls, episodes: Iterable[int], size: int, attempts_allowed: int) -> Plan:
         """Units of `size` episodes each, the last with what remains."""
-        if size < 1:
-            raise ValueError(f"a unit has at least one episode, not {size}")
         return cls(deque(_units(episodes, size)), attempts_allowed)
 
     def take(self) -> Unit | None:
@@ -50,7 +47,6 @@ class Plan:
     def finish(self, unit: Unit) -> None:
         """The episodes of a running unit have arrived."""
         del self.running[unit.number]
-        self.done.add(unit.number)
 
     def lose(self, unit: Unit) -> None:
         """The actor of a running unit died, or its result was lost with a node.

@@ -10,17 +10,9 @@ from ray.rllib.env.single_agent_env_runner import SingleAgentEnvRunner
 
 
 class RoboHiveEnvRunner(SingleAgentEnvRunner):
-    """Samples from one vector of environments, stepped in Rust, instead of a Python environment each.
-
-    Everything else, modules, connectors, episodes, metrics, state, is RLlib's own `SingleAgentEnvRunner`.
+    """RLlib's `SingleAgentEnvRunner` in processes that know the ids: unpickling the class imports this package, which registers
+    them. With `configure`, it samples from one vector that steps in Rust instead of from a Python environment each.
     """
-
-    def make_env(self) -> None:
-        """Makes the vector that `config.env` names, `num_envs_per_env_runner` wide."""
-        # Importing registers the ids in this process, which may be a worker that has seen no user code.
-        import robohive  # noqa: F401
-
-        super().make_env()
 
 
 def configure(config: AlgorithmConfig, id: str, *, num_envs: int = 16, **settings: Any) -> AlgorithmConfig:

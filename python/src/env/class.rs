@@ -1,11 +1,11 @@
 //! `robohive._core.Env`.
 
-use super::live::Place;
 use crate::actions;
 use crate::arrays;
 use crate::exceptions::exception;
-use crate::infos::{shaped, visual_dict};
+use crate::infos::{Names, shaped, visual_dict};
 use crate::request::Request;
+use crate::turns::Turns;
 use crate::world;
 use env::{Env, EnvMemory, RenderMode};
 use numpy::{PyArray1, PyReadonlyArray1, PyReadonlyArrayDyn};
@@ -20,8 +20,17 @@ use render::picture::Channels;
 /// runs.
 #[pyclass(frozen, name = "Env", module = "robohive._core")]
 pub struct PyEnv {
-    place: Place,
+    live: Turns<Live>,
+    /// Names of its rows.
+    names: Names,
     request: Request,
+}
+
+/// An environment in use, and the memory that its calls share.
+struct Live {
+    env: Env,
+    /// The last action.
+    action: Vec<f64>,
 }
 
 /// Observation, reward, terminated, truncated, infos.
@@ -38,7 +47,7 @@ impl PyEnv {
     ) -> PyResult<Self> {
         let request = Request::read(id, settings, making)?;
         let env = request.make(py)?;
-        Ok(PyEnv { place: Place::of(py, env), request })
+        Ok(PyEnv::of(py, env, request))
     }
 
     /// Starts an episode: its first observation and infos.
@@ -48,10 +57,10 @@ impl PyEnv {
         py: Python<'py>,
         seed: Option<u64>,
     ) -> PyResult<(Bound<'py, PyArray1<f64>>, Bound<'py, PyDict>)> {
-        let mut taken = self.place.take(py, "reset")?;
-        let env = &mut taken.live().env;
+        let mut taken = self.live.take(py, "reset")?;
+        let env = &mut taken.env;
         py.detach(|| env.reset(seed).map(|_| ())).map_err(|error| exception(py, &error))?;
-        Ok((PyArray1::from_slice(py, env.observation()), self.place.names.infos(py, env)?))
+        Ok((PyArray1::from_slice(py, env.observation()), self.names.infos(py, env)?))
     }
 
     /// One control period. A step that physics refuses ends the episode as truncated, with `fault` in the infos.
@@ -62,19 +71,18 @@ impl PyEnv {
         action: &Bound<'py, PyAny>,
         exteroception: bool,
     ) -> PyResult<Stepped<'py>> {
-        let mut taken = self.place.take(py, "step")?;
-        let live = taken.live();
-        actions::read(action, &mut live.action)?;
-        let (env, action) = (&mut live.env, &live.action);
+        let mut taken = self.live.take(py, "step")?;
+        let Live { env, action: values } = &mut *taken;
+        actions::read(action, values)?;
         let step = py.detach(|| {
-            let step = env.step(action)?;
+            let step = env.step(values)?;
             if exteroception {
                 env.exteroception()?;
             }
             Ok(step)
         });
         let step = step.map_err(|error| exception(py, &error))?;
-        let infos = self.place.names.infos(py, env)?;
+        let infos = self.names.infos(py, env)?;
         if let Some(fault) = &step.fault {
             infos.set_item("fault", fault.to_string())?;
         }
@@ -84,18 +92,17 @@ impl PyEnv {
 
     /// The same action for many steps, of which nothing is returned: what steps cost without crossing into Python.
     fn repeat(&self, py: Python<'_>, action: &Bound<'_, PyAny>, steps: usize) -> PyResult<()> {
-        let mut taken = self.place.take(py, "repeat")?;
-        let live = taken.live();
-        actions::read(action, &mut live.action)?;
-        let (env, action) = (&mut live.env, &live.action);
-        py.detach(|| (0..steps).try_for_each(|_| env.step(action).map(drop)))
+        let mut taken = self.live.take(py, "repeat")?;
+        let Live { env, action: values } = &mut *taken;
+        actions::read(action, values)?;
+        py.detach(|| (0..steps).try_for_each(|_| env.step(values).map(drop)))
             .map_err(|error| exception(py, &error))
     }
 
     /// A picture as the render mode asks for it: H x W x 3 bytes of colour, or H x W depths [m]; `None` without a mode.
     fn render<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let mut taken = self.place.take(py, "render")?;
-        let env = &mut taken.live().env;
+        let mut taken = self.live.take(py, "render")?;
+        let env = &mut taken.env;
         let picture = py.detach(|| env.render()).map_err(|error| exception(py, &error))?;
         let mode = self.request.options.rendering.mode;
         picture.zip(mode).map(|(picture, mode)| pixels(py, picture, mode)).transpose()
@@ -103,12 +110,12 @@ impl PyEnv {
 
     /// Frees the environment; again, nothing.
     fn close(&self) -> PyResult<bool> {
-        self.place.close()
+        Ok(self.live.close()?.is_some())
     }
 
     /// Whether it was closed.
     fn closed(&self) -> PyResult<bool> {
-        self.place.closed()
+        self.live.is_closed()
     }
 
     /// Another environment in the same state, which goes on by itself.
@@ -123,42 +130,42 @@ impl PyEnv {
 
     /// The observation dictionary of the present state.
     fn obs_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.with(py, "get_obs_dict", |env| self.place.names.obs_dict(py, env))
+        self.with(py, "get_obs_dict", |env| self.names.obs_dict(py, env))
     }
 
     /// The terms of the reward of the present state.
     fn rwd_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.with(py, "get_reward_dict", |env| self.place.names.rwd_dict(py, env))
+        self.with(py, "get_reward_dict", |env| self.names.rwd_dict(py, env))
     }
 
     /// The rows of the proprioception.
     fn proprio_dict<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyDict>>> {
-        self.with(py, "get_proprioception", |env| self.place.names.proprio_dict(py, env))
+        self.with(py, "get_proprioception", |env| self.names.proprio_dict(py, env))
     }
 
     /// The images of the visual keys, drawn where they are not of the present state.
     fn visual_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let mut taken = self.place.take(py, "get_exteroception")?;
-        let env = &mut taken.live().env;
+        let mut taken = self.live.take(py, "get_exteroception")?;
+        let env = &mut taken.env;
         py.detach(|| env.exteroception().map(|_| ())).map_err(|error| exception(py, &error))?;
         env.visuals().map_or_else(|| Ok(PyDict::new(py)), |seen| visual_dict(py, seen))
     }
 
     /// What a step returns last.
     fn infos<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.with(py, "get_env_infos", |env| self.place.names.infos(py, env))
+        self.with(py, "get_env_infos", |env| self.names.infos(py, env))
     }
 
     /// The state of the world.
     fn world<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        self.with(py, "get_env_state", |env| world::world(py, env, &self.place.names.own))
+        self.with(py, "get_env_state", |env| world::world(py, env, &self.names.own))
     }
 
     /// Takes over a state of the world, and observes and rewards it.
     fn set_world(&self, py: Python<'_>, state: &Bound<'_, PyDict>) -> PyResult<()> {
-        let mut taken = self.place.take(py, "set_env_state")?;
-        let env = &mut taken.live().env;
-        let world = world::read(env, &self.place.names.own, state)?;
+        let mut taken = self.live.take(py, "set_env_state")?;
+        let env = &mut taken.env;
+        let world = world::read(env, &self.names.own, state)?;
         py.detach(|| env.set_world(&world).map(|_| ())).map_err(|error| exception(py, &error))
     }
 
@@ -166,7 +173,7 @@ impl PyEnv {
     /// words of everything else.
     fn memory<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyArray1<u64>>)> {
         let made = self.request.make(py)?;
-        let memory = self.place.take(py, "pickle")?.live().env.memory(&made);
+        let memory = self.live.take(py, "pickle")?.env.memory(&made);
         let edits = PyDict::new(py);
         memory
             .edits
@@ -189,14 +196,14 @@ impl PyEnv {
             edits: edits.iter().map(edit).collect(),
             words: words.as_array().iter().copied().collect(),
         };
-        let mut taken = self.place.take(py, "unpickle")?;
-        taken.live().env.set_memory(memory).map_err(|error| exception(py, &error))
+        let mut taken = self.live.take(py, "unpickle")?;
+        taken.env.set_memory(memory).map_err(|error| exception(py, &error))
     }
 
     /// Restarts all draws.
     fn seed(&self, py: Python<'_>, seed: u64) -> PyResult<()> {
-        let mut taken = self.place.take(py, "seed")?;
-        taken.live().env.seed(seed);
+        let mut taken = self.live.take(py, "seed")?;
+        taken.env.seed(seed);
         Ok(())
     }
 
@@ -261,8 +268,8 @@ impl PyEnv {
         height: usize,
         depth: bool,
     ) -> PyResult<(Bound<'py, PyAny>, Option<Bound<'py, PyAny>>)> {
-        let mut taken = self.place.take(py, "render")?;
-        let env = &mut taken.live().env;
+        let mut taken = self.live.take(py, "render")?;
+        let env = &mut taken.env;
         let mut picture = Picture::new(width, height);
         let channels = Channels { rgb: true, depth, segmentation: false };
         py.detach(|| env.draw(camera, channels, &mut picture)).map_err(|error| exception(py, &error))?;
@@ -272,22 +279,27 @@ impl PyEnv {
 }
 
 impl PyEnv {
+    fn of(py: Python<'_>, env: Env, request: Request) -> Self {
+        let (names, action) = (Names::of(py, &env), vec![0.0; env.action_len()]);
+        PyEnv { live: Turns::of(Live { env, action }), names, request }
+    }
+
     /// Another environment in the same state.
     ///
     /// # Errors
     /// This one was closed, or is in a call of another thread.
     pub fn copy(&self, py: Python<'_>) -> PyResult<Env> {
-        let mut taken = self.place.take(py, "copy")?;
-        taken.live().env.fork().map_err(|error| exception(py, &error))
+        let taken = self.live.take(py, "copy")?;
+        taken.env.fork().map_err(|error| exception(py, &error))
     }
 
     /// An environment that was made by the same request.
     pub fn like(&self, py: Python<'_>, env: Env) -> Self {
-        PyEnv { place: Place::of(py, env), request: self.request.clone() }
+        PyEnv::of(py, env, self.request.clone())
     }
 
     fn with<T>(&self, py: Python<'_>, call: &str, f: impl FnOnce(&Env) -> PyResult<T>) -> PyResult<T> {
-        f(&self.place.take(py, call)?.live().env)
+        f(&self.live.take(py, call)?.env)
     }
 }
 

@@ -31,8 +31,7 @@ pub enum Fault {
 impl Fault {
     /// The panic that was caught.
     pub fn of_panic(payload: &(dyn Any + Send)) -> Self {
-        let text = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
-        Fault::Panic(text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default())
+        Fault::Panic(env::panic_text(payload))
     }
 }
 

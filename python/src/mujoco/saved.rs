@@ -55,7 +55,7 @@ pub fn scatter(state: &mut State, signature: i64, values: &[f64]) -> Result<(), 
     let bits = check(signature)?;
     let mut rest = values;
     let mut take = |count: usize| {
-        let (head, tail) = rest.split_at_checked(count).ok_or_else(too_short)?;
+        let (head, tail) = rest.split_at_checked(count).ok_or_else(|| misfit("shorter"))?;
         rest = tail;
         Ok::<_, Fault>(head)
     };
@@ -69,14 +69,16 @@ pub fn scatter(state: &mut State, signature: i64, values: &[f64]) -> Result<(), 
                 let from = take(to.len())?;
                 to.iter_mut().zip(from).for_each(|(to, &x)| *to = x != 0.0);
             }
-            _ => {}
+            Some(_) => unreachable!("states hold numbers and truth values"),
+            // Plugins.
+            None => {}
         }
     }
-    Ok(())
+    if rest.is_empty() { Ok(()) } else { Err(misfit("longer")) }
 }
 
-fn too_short() -> Fault {
-    Fault::Value("the state is shorter than mj_stateSize says".into())
+fn misfit(than: &str) -> Fault {
+    Fault::Value(format!("the state is {than} than mj_stateSize says"))
 }
 
 /// Scalars of a state vector.

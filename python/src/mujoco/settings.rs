@@ -19,7 +19,7 @@ pub fn visit(arrays: &Arrays, group: &str, f: &mut dyn FnMut(&'static str, Slice
         "vis.map" => vis.map.visit(f),
         "vis.scale" => vis.scale.visit(f),
         "vis.rgba" => vis.rgba.visit(f),
-        _ => {}
+        _ => unreachable!("{group} is not one of GROUPS"),
     }
 }
 
@@ -47,6 +47,6 @@ pub fn assign(draft: &mut Draft<'_>, group: &str, name: &str, values: &[f64]) ->
         "vis.map" => vis.map.assign(name, values),
         "vis.scale" => vis.scale.assign(name, values),
         "vis.rgba" => vis.rgba.assign(name, values),
-        _ => None,
+        _ => unreachable!("{group} is not one of GROUPS"),
     }
 }

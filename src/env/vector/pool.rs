@@ -10,7 +10,7 @@ pub struct Pool {
 }
 
 impl Pool {
-    /// So many threads; 0 are as many as there are cores.
+    /// A pool of `threads` threads; 0 for one a core.
     #[cfg(feature = "threads")]
     pub fn new(threads: usize) -> Self {
         let cores = || std::thread::available_parallelism().map_or(1, usize::from);

@@ -2,7 +2,7 @@
 
 use super::real::Real;
 use crate::environment::{Env, Step};
-use crate::error::EnvError;
+use crate::error::{EnvError, panic_text};
 use crate::rows::Rows;
 use crate::task::Verdict;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -144,8 +144,7 @@ impl Slot {
             Order::Step => self.step(),
         }));
         if let Err(payload) = done {
-            let text = payload.downcast_ref::<&str>().map(ToString::to_string);
-            let message = text.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_default();
+            let message = panic_text(&*payload);
             self.outcome = Err(EnvError::Panicked { message: message.clone() });
             self.broken = Some(message);
         }

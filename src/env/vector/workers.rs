@@ -61,7 +61,7 @@ pub struct Workers {
 }
 
 impl Workers {
-    /// Starts so many threads.
+    /// Starts `count` threads.
     ///
     /// # Errors
     /// The system refuses a thread.
