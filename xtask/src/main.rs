@@ -1,5 +1,6 @@
 //! Continuous integration as a program. `cargo xtask ci` runs what every change must pass, in minutes; `cargo xtask long`
-//! what takes longer; `cargo xtask release` what a release needs beside; `cargo xtask NAME…` single checks. With `--strict` what this machine cannot check counts as a failure.
+//! what takes longer; `cargo xtask release` what only a release needs; `cargo xtask NAME…` single checks. With `--strict`
+//! what this machine cannot check counts as a failure.
 //! `cargo xtask instructions --update` records new counts, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder,
 //! `cargo xtask crash-safety [KILLS]` kills recordings at random moments and reads what they leave,
 //! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice.
@@ -43,20 +44,20 @@ const QUICK: [Check; 6] = [
     Check { name: "python", run: python::run },
 ];
 
-const LONG: [Check; 8] = [
+const LONG: [Check; 9] = [
     Check { name: "tolerances", run: tolerances::run },
     Check { name: "recorded-bits", run: recorded_bits::run },
     Check { name: "builds", run: builds::run },
     Check { name: "packages", run: packages::run },
     Check { name: "rust-version", run: packages::rust_version },
     Check { name: "instructions", run: || instructions::run(false) },
+    Check { name: "gpu", run: gpu::run },
     Check { name: "python-docs", run: python::docs },
     Check { name: "python-learners", run: python::learners },
 ];
 
 /// What is run before a release: it installs or builds much.
-const RELEASE: [Check; 3] = [
-    Check { name: "gpu", run: gpu::run },
+const RELEASE: [Check; 2] = [
     Check { name: "wheel", run: python::wheel },
     Check { name: "python-cluster", run: python::cluster },
 ];
