@@ -32,3 +32,22 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
         _ => Some("binary"),
     }
 }
+
+/// What MuJoCo stores its arrays after: a number of its own, and the size of its own.
+const MJB: &[u8] = b"\x31\xd4\x00\x00\x08\x00\x00\x00";
+
+/// Formats of models that are not read, by what they begin with, and what to do instead.
+const REFUSED: [(&[u8], &str); 3] = [
+    (
+        MJB,
+        "this is MJB, arrays of one version of MuJoCo, which is not read: load the MJCF it was made of, or have MuJoCo \
+         write MJCF with mj_saveLastXML; `robohive compile` makes files that load as quickly",
+    ),
+    (b"#usda", "this is OpenUSD, which is not read: convert it to MJCF with a program that reads USD"),
+    (b"PXR-USDC", "this is OpenUSD, which is not read: convert it to MJCF with a program that reads USD"),
+];
+
+/// Why a model in another format than MJCF or URDF is refused.
+pub(crate) fn refused(bytes: &[u8]) -> Option<&'static str> {
+    REFUSED.iter().find(|(beginning, _)| bytes.starts_with(beginning)).map(|(_, why)| *why)
+}

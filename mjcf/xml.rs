@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::budget::{ADVICE, ATTRIBUTE, Budget, ELEMENT};
 use crate::diagnostic::{Diagnostics, Loc, Sources};
-use crate::encoding::foreign;
+use crate::encoding::{foreign, refused};
 
 /// One XML element.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -25,7 +25,7 @@ pub struct Element {
 }
 
 /// One attribute of an element.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Attribute {
     /// Name as written.
     pub name: String,
@@ -152,14 +152,24 @@ pub(crate) fn parse(
     diagnostics: &mut Diagnostics,
 ) -> Option<Element> {
     let mut scanned = bytes.to_vec();
-    let scan = scan(&mut scanned, limits, budget).map(|joints| scanned = spaced(&scanned, &joints));
+    let scan = scan(&mut scanned, limits, budget).map(|found| {
+        scanned = spaced(&scanned, &found.joints);
+        // Joints stand before the end of the root, and have moved what follows.
+        found.ignored.map(|offset| offset + found.joints.len())
+    });
     let kept = if scan.is_ok() { &scanned[..] } else { &bytes[..bytes.len().min(limits.text_bytes)] };
     let text: Arc<str> = String::from_utf8_lossy(kept).into();
     let invalid = std::str::from_utf8(kept).err().map(|e| e.valid_up_to());
     let file = sources.add(path, text.clone(), included_at);
-    let tree = scan.and_then(|()| match invalid {
+    let tree = scan.and_then(|ignored| match invalid {
         Some(offset) => fault(offset, "text is not UTF-8"),
-        None => tree(&text, file, sources),
+        None => {
+            if let Some(offset) = ignored {
+                let message = "what follows the end of the first element is ignored";
+                diagnostics.warning(sources, Loc { file, offset: offset as u32 }, message);
+            }
+            tree(&text, file, sources)
+        }
     });
     match tree {
         Ok(root) => Some(root),
@@ -183,14 +193,25 @@ fn spaced(text: &[u8], joints: &[usize]) -> Vec<u8> {
     out
 }
 
-/// Checks structure and limits in one pass, blanks everything but elements and text, and returns the
-/// places where attributes touch.
-fn scan(text: &mut [u8], limits: &Limits, budget: &mut Budget) -> Result<Vec<usize>, Fault> {
+/// What a scan found.
+struct Scan {
+    /// Places where attributes touch.
+    joints: Vec<usize>,
+    /// Where elements begin that the reference does not read.
+    ignored: Option<usize>,
+}
+
+/// Checks structure and limits in one pass, and blanks everything but the root and text. As in the reference, elements
+/// after the root are ignored, and everything from a closing tag on that closes nothing.
+fn scan(text: &mut [u8], limits: &Limits, budget: &mut Budget) -> Result<Scan, Fault> {
     if text.len() > limits.text_bytes {
         return fault(
             0,
             format!("text has {} bytes, more than the limit of {}", text.len(), limits.text_bytes),
         );
+    }
+    if let Some(why) = refused(text) {
+        return fault(0, why);
     }
     if let Some(encoding) = foreign(text) {
         return fault(0, format!("file is {encoding}: a model is text in UTF-8"));
@@ -203,9 +224,16 @@ fn scan(text: &mut [u8], limits: &Limits, budget: &mut Budget) -> Result<Vec<usi
     }
     let mut open: Vec<(usize, usize)> = Vec::new();
     let mut joints = Vec::new();
+    let mut rest = Rest::default();
     let mut at = 0;
     while let Some(step) = text[at..].iter().position(|&b| b == b'<') {
         let start = at + step;
+        let before = joints.len();
+        if rest.complete && open.is_empty() && text.get(start + 1) == Some(&b'/') {
+            rest.ignored.get_or_insert(start);
+            erase(text, start, text.len());
+            break;
+        }
         at = match &text[start + 1..] {
             [b'!', b'-', b'-', ..] => blank(text, start, b"-->", "comment is never closed")?,
             [b'!', b'[', ..] => skip_past(text, start, b"]]>", "CDATA section is never closed")?,
@@ -214,11 +242,49 @@ fn scan(text: &mut [u8], limits: &Limits, budget: &mut Budget) -> Result<Vec<usi
             [b'/', ..] => close_tag(text, start, &mut open)?,
             _ => open_tag(text, start, &mut open, &mut joints, limits, budget)?,
         };
+        if rest.complete {
+            joints.truncate(before);
+        }
+        rest.pass(text, start, at, open.len());
     }
     match open.pop() {
         Some((start, end)) => fault(start, format!("<{}> is never closed", shown(&text[start + 1..end]))),
-        None => Ok(joints),
+        None => Ok(Scan { joints, ignored: rest.ignored }),
     }
+}
+
+/// Progress beyond the root.
+#[derive(Default)]
+struct Rest {
+    /// The root is closed.
+    complete: bool,
+    /// Where the element after it begins that is being passed.
+    from: Option<usize>,
+    ignored: Option<usize>,
+}
+
+impl Rest {
+    /// Takes note of what stands from `start` to `end`, after which `depth` elements are open.
+    fn pass(&mut self, text: &mut [u8], start: usize, end: usize, depth: usize) {
+        // What is not an element is blank already.
+        if text[start] != b'<' || text[start + 1..].starts_with(b"![") {
+            return;
+        }
+        if self.complete {
+            self.ignored.get_or_insert(start);
+            let from = *self.from.get_or_insert(start);
+            if depth == 0 {
+                erase(text, from, end);
+                self.from = None;
+            }
+        }
+        self.complete |= depth == 0;
+    }
+}
+
+/// Blanks a part of the text; lines stay.
+fn erase(text: &mut [u8], start: usize, end: usize) {
+    text[start..end].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
 }
 
 fn skip_past(text: &[u8], start: usize, end: &[u8], message: &str) -> Result<usize, Fault> {
@@ -228,7 +294,7 @@ fn skip_past(text: &[u8], start: usize, end: &[u8], message: &str) -> Result<usi
 
 fn blank(text: &mut [u8], start: usize, end: &[u8], message: &str) -> Result<usize, Fault> {
     let past = skip_past(text, start, end, message)?;
-    text[start..past].iter_mut().filter(|b| **b != b'\n').for_each(|b| *b = b' ');
+    erase(text, start, past);
     Ok(past)
 }
 

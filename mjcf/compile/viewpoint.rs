@@ -1,5 +1,6 @@
 //! Sites, cameras and lights: things with a place in a body and no mass.
 
+use super::arctangent::arctangent2;
 use super::frame::{Pose, direction, same_frame_in_body};
 use super::geom;
 use super::log::{Log, title};
@@ -9,7 +10,6 @@ use super::values::push_user;
 use crate::spec::{Camera, Compiler, Light, Site, Spec, resolve};
 use crate::vector::{EPS, normalize};
 use physics::geometry::shape;
-use physics::math::ops;
 use physics::model::{GeomType, ObjType, Rows};
 use std::f64::consts::PI;
 
@@ -92,7 +92,7 @@ fn compile_camera<'s>(
         length(spec.principal_pixel, spec.principal_length, 0),
         length(spec.principal_pixel, spec.principal_length, 1),
     ];
-    let half_angle = ops::atan2(f64::from(spec.sensor_size[1] / 2.0), f64::from(intrinsic[1])) as f32;
+    let half_angle = arctangent2(spec.sensor_size[1] / 2.0, intrinsic[1]);
     Ok(CameraNode { spec, pose, intrinsic, fovy: f64::from(half_angle) * 360.0 / PI })
 }
 

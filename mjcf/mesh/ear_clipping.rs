@@ -47,7 +47,7 @@ impl Ring {
 pub(super) fn triangulate(points: &[Point], mut emit: impl FnMut([usize; 3])) {
     let mut ring = Ring::new(points.len());
     if ring.len > 3 {
-        let area: f32 = (0..ring.len).map(|k| 0.5 * turn([0.0; 2], points[k], points[ring.next[k]])).sum();
+        let area: f32 = (0..ring.len).map(|k| sector(points[k], points[ring.next[k]])).sum();
         clip_ears(points, area, &mut ring, &mut emit);
     }
     if ring.len == 3 {
@@ -87,6 +87,12 @@ fn clip_ears(points: &[Point], area: f32, ring: &mut Ring, emit: &mut impl FnMut
         untried.extend(std::mem::take(&mut refused_for[cut]).into_iter().filter(ring_holds));
     }
     standing.tested
+}
+
+/// Signed area of the triangle of the origin and an edge, rounded as in the reference: of a tiny polygon far from the
+/// origin the sign of the sum depends on it.
+fn sector(a: Point, b: Point) -> f32 {
+    (a[0] * b[1] - a[1] * b[0]) * 0.5
 }
 
 /// Twice the signed area of the triangle `a b c`.

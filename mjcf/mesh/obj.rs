@@ -6,6 +6,9 @@ use super::source::{Format, RawMesh};
 use crate::asset::{AssetError, AssetErrorKind};
 use crate::encoding::foreign;
 
+/// Corners of the largest polygon that is drawn.
+const MOST_CORNERS: usize = 100;
+
 /// One `v/vt/vn` reference, zero-based; absent parts are -1.
 type Corner = [i32; 3];
 
@@ -105,8 +108,11 @@ fn corner(word: &str, counts: [usize; 3]) -> Option<Corner> {
     (corner[0] >= 0).then_some(corner)
 }
 
-/// Cuts a polygon into triangles.
+/// Cuts a polygon into triangles. One with too many corners leaves a hole, as in the reference.
 fn triangulate(polygon: &[Corner], mesh: &mut RawMesh) {
+    if polygon.len() > MOST_CORNERS {
+        return;
+    }
     if let [a, b, c] = *polygon {
         return push_triangle(mesh, [a, b, c]);
     }

@@ -83,7 +83,7 @@ const IN_THE_WORLD: [(&str, &str); 21] = [
 ];
 
 /// Whole texts, and what is said of them.
-const WHOLE_TEXTS: [(&str, &str); 16] = [
+const WHOLE_TEXTS: [(&str, &str); 15] = [
     (
         "<mujoco><keyframe><key qpos='0 inf'/></keyframe></mujoco>",
         "<text>:1:32: error: attribute 'qpos' of <key>: number 'inf' is too large: at most 1e100 in magnitude",
@@ -132,7 +132,6 @@ const WHOLE_TEXTS: [(&str, &str); 16] = [
         "<mujoco><default><default class='a'><geom name='g'/></default></default></mujoco>",
         "<text>:1:43: error: attribute 'name' of <geom> cannot have a default",
     ),
-    ("<robot name='r'/>", "<text>:1:1: error: this is URDF: only MJCF is supported"),
     ("<model/>", "<text>:1:1: error: root element <model> is not <mujoco>"),
     (
         "<mujoco><actuator><general joint='j' dyntype='user'/></actuator><worldbody><body><joint name='j'/></body></worldbody></mujoco>",
@@ -175,7 +174,9 @@ fn broken_xml_is_located() {
         ("<mujoco>\n <option/>", "<text>:1:1: error: <mujoco> is never closed"),
         ("<mujoco>\n <option timestep='1", "<text>:2:19: error: attribute value has no closing quote"),
         ("<mujoco>\n <option", "<text>:2:2: error: <option has no '>'"),
-        ("<mujoco></mujoco></mujoco>", "<text>:1:18: error: </mujoco> closes nothing"),
+        ("</mujoco><mujoco/>", "<text>:1:1: error: </mujoco> closes nothing"),
+        ("<mujoco/><mujoco>", "<text>:1:10: error: <mujoco> is never closed"),
+        ("<mujoco/>text", "<text>:1:10: error: not XML: unknown token"),
         ("<mujoco><!-- open </mujoco>", "<text>:1:9: error: comment is never closed"),
         ("<mujoco model='&what;'/>", "<text>:1:16: error: not XML: unknown entity reference 'what'"),
         (
@@ -185,6 +186,37 @@ fn broken_xml_is_located() {
     ];
     for (text, expected) in cases {
         assert_eq!(first(text), expected, "for {text}");
+    }
+}
+
+/// MuJoCo's parser reads one element, and stops at a closing tag that closes nothing.
+#[test]
+fn what_follows_the_model_is_ignored_with_a_warning() {
+    for rest in
+        ["</mujoco>", "</mujoco> text <", "</other>", "<mujoco><geom/></mujoco>", "<a b='1'c='2'/><!-- -->"]
+    {
+        let text = format!("<mujoco model='m'><worldbody><geom size='1'/></worldbody></mujoco>{rest}");
+        let loaded = load_str(&text).unwrap_or_else(|d| panic!("{rest}: {d}"));
+        assert_eq!((loaded.model.ngeom, loaded.model.name.as_str()), (1, "m"), "{rest}");
+        let expected = "<text>:1:67: warning: what follows the end of the first element is ignored";
+        assert_eq!(loaded.warnings.to_string(), expected, "{rest}");
+    }
+}
+
+#[test]
+fn other_formats_of_models_are_refused_with_a_way_out() {
+    let mjb = b"\x31\xd4\x00\x00\x08\x00\x00\x00b\x00\x00\x00";
+    for (path, content, expected) in [
+        ("m.mjb", &mjb[..], "m.mjb:1:1: error: this is MJB"),
+        ("m.usda", b"#usda 1.0\n", "m.usda:1:1: error: this is OpenUSD"),
+        ("m.usdc", b"PXR-USDC\x00\x07", "m.usdc:1:1: error: this is OpenUSD"),
+        ("m.mjz", b"PK\x03\x04", "m.mjz:1:1: error: file is a zip archive"),
+    ] {
+        let mut files = Memory::default();
+        files.insert(path, content);
+        let message = Loader::default().files(files).load(path).unwrap_err().to_string();
+        assert!(message.starts_with(expected), "{message}");
+        assert!(path == "m.mjz" || message.contains("MJCF"), "{message}");
     }
 }
 
