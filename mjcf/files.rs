@@ -200,6 +200,42 @@ impl FileProvider for Memory {
     }
 }
 
+/// One file of memory in front of others: a text that is to be read where it will stand.
+#[derive(Debug, Clone)]
+pub struct Overlay<F> {
+    files: F,
+    path: String,
+    content: Arc<[u8]>,
+}
+
+impl<F: FileProvider> Overlay<F> {
+    /// `content` at `path`, and `files` everywhere else.
+    pub fn new(files: F, path: impl AsRef<str>, content: impl Into<Arc<[u8]>>) -> Self {
+        Overlay { files, path: fold(path.as_ref()), content: content.into() }
+    }
+}
+
+impl<F: FileProvider> FileProvider for Overlay<F> {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError> {
+        if fold(path) == self.path { Ok(self.content.clone()) } else { self.files.read(path) }
+    }
+
+    fn open(&self, path: &str) -> Result<(Box<dyn Read>, u64), FileError> {
+        match fold(path) == self.path {
+            true => Ok((Box::new(Cursor::new(self.content.clone())), self.content.len() as u64)),
+            false => self.files.open(path),
+        }
+    }
+
+    fn exists(&self, path: &str) -> bool {
+        fold(path) == self.path || self.files.exists(path)
+    }
+
+    fn stamp(&self, path: &str) -> Option<Stamp> {
+        if fold(path) == self.path { None } else { self.files.stamp(path) }
+    }
+}
+
 /// The path of `file` seen from directory `dir`, folded.
 pub(crate) fn join(dir: &str, file: &str) -> String {
     if dir.is_empty() || is_absolute(file) {
@@ -237,4 +273,25 @@ pub(crate) fn fold(path: &str) -> String {
         }
     }
     format!("{root}{}", kept.join("/"))
+}
+
+/// How a text in directory `dir` names `file`; `None` when one of them starts at a root and the other does not, or `dir`
+/// climbs above where both start.
+pub fn relative(dir: &str, file: &str) -> Option<String> {
+    let (dir, file) = (fold(dir), fold(file));
+    if is_absolute(&dir) != is_absolute(&file) && !dir.is_empty() {
+        return None;
+    }
+    let parts =
+        |path: &str| path.split('/').filter(|part| !part.is_empty()).map(str::to_owned).collect::<Vec<_>>();
+    let (dir, parts) = (parts(&dir), parts(&file));
+    let shared = dir.iter().zip(&parts).take_while(|(a, b)| a == b).count();
+    if dir[shared..].iter().any(|part| part == "..") {
+        return None;
+    }
+    let up = std::iter::repeat_n("..", dir.len() - shared);
+    let down = parts[shared..].iter().map(String::as_str);
+    let relative = up.chain(down).collect::<Vec<_>>().join("/");
+    // From the top, a file that starts at a root keeps it.
+    Some(if dir.is_empty() && is_absolute(&file) { file } else { relative })
 }

@@ -37,6 +37,7 @@ mod read;
 mod schema;
 pub mod spec;
 mod vector;
+mod write;
 mod xml;
 
 pub use cache::Cache;

@@ -17,6 +17,7 @@ use crate::loaded::Loaded;
 use crate::mesh::stored::MeshStore;
 use crate::read;
 use crate::spec::Spec;
+use crate::write::text;
 use crate::xml::{Element, Limits};
 
 /// Reads models; the default reads from the whole disk and changes nothing.
@@ -133,6 +134,43 @@ impl Loader {
     /// All that is wrong with the texts.
     pub fn parse_str(&self, text: impl AsRef<str>) -> Result<Parsed, Diagnostics> {
         self.parse_from(&*self.files, |expansion| expansion.expand("<text>", text.as_ref().as_bytes()))
+    }
+
+    /// The text of the model at `path` with includes in their places and every edit made, and else as its author wrote
+    /// it: default classes, shortcuts and units. `name` says how the text names a file, given the path that is opened.
+    ///
+    /// # Errors
+    /// All that is wrong with the texts; a path that is not UTF-8.
+    pub fn flatten(
+        &self,
+        path: impl AsRef<Path>,
+        mut name: impl FnMut(&str) -> String,
+    ) -> Result<String, Diagnostics> {
+        let path = text_of(path.as_ref())?;
+        let (mut sources, mut diagnostics) = (Sources::default(), Diagnostics::default());
+        let mut budget = Budget::new(self.limits.memory);
+        let mut matched = vec![false; self.substitutions.len()];
+        let mut expansion = Expansion {
+            files: &*self.files,
+            substitutions: &self.substitutions,
+            matched: &mut matched,
+            limits: &self.limits,
+            budget: &mut budget,
+            sources: &mut sources,
+            diagnostics: &mut diagnostics,
+        };
+        let Some(mut root) = expansion.read(path) else { return Err(diagnostics) };
+        if root.name.eq_ignore_ascii_case("robot") {
+            return Err(Diagnostics::of_error(
+                "a URDF has no default classes to keep: write it as MJCF with all resolved",
+            ));
+        }
+        self.edit(&mut root, expansion.sources, expansion.diagnostics);
+        read::rename_files(&mut root, expansion, &mut name);
+        match diagnostics.has_errors() {
+            true => Err(diagnostics),
+            false => text::print(&root, self.limits.depth).map_err(Diagnostics::of_error),
+        }
     }
 
     /// Compiles what [`Loader::parse`] read, and what a program may have changed in it; assets come from the same

@@ -1,14 +1,12 @@
 //! `actuator`: transmissions, and shortcuts expanded to gain, bias and dynamics
 //! (XML reference: `actuator`; documentation: Computation, actuation model).
 
-use physics::model::input;
 use physics::model::{BiasType, DynType, GainType, TrnType};
 
 use super::dc_motor;
 use super::reader::Reader;
 use crate::diagnostic::Loc;
-use crate::schema::Words;
-use crate::schema::actuator::{BLOCKS, MOTOR_ROWS, Shortcut, shortcut_blocks};
+use crate::schema::actuator::{ALONE, BLOCKS, MOTOR_ROWS, Shortcut, TOGETHER, shortcut_blocks};
 use crate::spec::{Actuator, Limited};
 use crate::xml::{Attribute, Element};
 
@@ -29,7 +27,7 @@ impl Reader<'_> {
     pub(super) fn actuator(&mut self, section: &Element) {
         for element in &section.children {
             let class = self.class_of(element, "class", 0);
-            let mut actuator = Actuator { loc: element.loc, ..self.classes.get(class).actuator.clone() };
+            let mut actuator = Actuator { loc: element.loc, ..self.spec.classes.of(class).actuator.clone() };
             self.actuator_parameters(element, &mut actuator, false);
             self.spec.actuators.push(actuator);
         }
@@ -71,14 +69,6 @@ impl Reader<'_> {
 
     /// The code of an `input` attribute: a chart of orientations, nothing, or bits of inputs in their order.
     fn input_signature(&mut self, element: &Element, input: &Attribute) -> Option<i32> {
-        const ALONE: Words =
-            &[("expmap", input::EXPONENTIAL_MAP), ("quat", input::QUATERNION), ("none", input::NONE)];
-        const TOGETHER: Words = &[
-            ("pos", input::POSITION),
-            ("vel", input::VELOCITY),
-            ("ff", input::FEED_FORWARD),
-            ("voltage", input::VOLTAGE),
-        ];
         if let Some((_, code)) = ALONE.iter().find(|(word, _)| *word == input.value.trim()) {
             return Some(*code);
         }

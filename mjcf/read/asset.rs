@@ -4,13 +4,10 @@ use super::reader::Reader;
 use crate::files::{base_name, is_absolute, join};
 use crate::image::Builtin;
 use crate::mesh::vertex_count;
-use crate::schema::asset::{HFIELD_ROWS, MATERIAL_ROWS, MESH_ROWS, ROLES, TEXTURE_ROWS};
+use crate::schema::asset::{HFIELD_ROWS, MATERIAL_ROWS, MESH_ROWS, ROLES, SIDES, TEXTURE_ROWS};
 use crate::spec::{Hfield, Material, Mesh, Texture};
 use crate::xml::{Attribute, Element};
 use physics::model::TextureType;
-
-/// Sides of a cube texture in the order of `Texture::cubefiles`.
-const SIDES: [&str; 6] = ["fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"];
 
 impl Reader<'_> {
     pub(super) fn asset(&mut self, section: &Element) {
@@ -57,7 +54,7 @@ impl Reader<'_> {
 
     fn mesh(&mut self, element: &Element) {
         let class = self.class_of(element, "class", 0);
-        let mut mesh = Mesh { loc: element.loc, ..self.classes.get(class).mesh.clone() };
+        let mut mesh = Mesh { loc: element.loc, ..self.spec.classes.of(class).mesh.clone() };
         self.rows(element, &MESH_ROWS, &mut mesh);
         if let Some(file) = element.attribute("file") {
             (mesh.file, mesh.path) = self.asset_file(file, &self.spec.compiler.meshdir);
@@ -108,7 +105,7 @@ impl Reader<'_> {
         }
         for (side, attribute) in SIDES.iter().enumerate() {
             if let Some(file) = element.attribute(attribute) {
-                texture.cubefiles[side] = self.asset_file(file, &dir).0;
+                (texture.cubefiles[side], texture.cubepaths[side]) = self.asset_file(file, &dir);
             }
         }
         if let Some(layout) = element.attribute("gridlayout") {
@@ -140,7 +137,7 @@ impl Reader<'_> {
 
     fn material(&mut self, element: &Element) {
         let class = self.class_of(element, "class", 0);
-        let mut material = Material { loc: element.loc, ..self.classes.get(class).material.clone() };
+        let mut material = Material { loc: element.loc, ..self.spec.classes.of(class).material.clone() };
         self.rows(element, &MATERIAL_ROWS, &mut material);
         self.layers(element, &mut material);
         self.spec.materials.push(material);

@@ -76,7 +76,7 @@ impl Reader<'_> {
         self.copy_objects(&objects, &affix, names, None)
     }
 
-    fn attach_model(
+    pub(crate) fn attach_model(
         &mut self,
         element: &Element,
         wanted: &Attach,
@@ -102,10 +102,10 @@ impl Reader<'_> {
         let mut names = self.graft(element, source.keyed(&keys), &child.frames, place, &affix, true)?;
         self.spec.attached.insert(model.first_file, child.compiler.clone());
         self.spec.attached.extend(child.attached.iter().map(|(k, v)| (*k, v.clone())));
-        let offset = self.classes.list.len();
-        self.classes.list.extend(model.classes.list.iter().cloned());
-        for (name, id) in &model.classes.names {
-            self.classes.names.entry(format!("{}{name}", wanted.prefix)).or_insert(id + offset);
+        let offset = self.spec.classes.list.len();
+        self.spec.classes.list.extend(model.spec.classes.list.iter().cloned());
+        for (name, id) in &model.spec.classes.names {
+            self.spec.classes.names.entry(format!("{}{name}", wanted.prefix)).or_insert(id + offset);
         }
         self.copy_assets(child, &affix, &mut names)?;
         self.copy_objects(child, &affix, names, Some(&keys))

@@ -8,7 +8,7 @@ use crate::xml::{Attribute, Element};
 
 impl Reader<'_> {
     /// Reads the attributes of `rows` that `element` has into `target`.
-    pub(super) fn rows<T>(&mut self, element: &Element, rows: &[Row<T>], target: &mut T) {
+    pub(crate) fn rows<T>(&mut self, element: &Element, rows: &[Row<T>], target: &mut T) {
         for row in rows {
             if let Some(attribute) = element.attribute(row.name) {
                 self.bind(element, attribute, &row.bind, target);
@@ -36,9 +36,16 @@ impl Reader<'_> {
                     self.error(attribute.value_loc, "a quaternion cannot be zero");
                 }
             }
-            Bind::Assign { length, assign } => {
-                if let Some(values) = self.exactly::<f64>(element, attribute, length) {
-                    assign(target, &values);
+            Bind::Turn(way, field) => {
+                let values = self.exactly::<f64>(element, attribute, way.length());
+                if let Some(orientation) = values.and_then(|t| way.read(&t)) {
+                    *field(target) = Some(orientation);
+                }
+            }
+            Bind::Six(field) => {
+                let values = self.exactly::<f64>(element, attribute, 6);
+                if let Some(six) = values.and_then(|t| t.first_chunk().copied()) {
+                    *field(target) = Some(six);
                 }
             }
             Bind::RealList(field) => self.list(element, attribute, field(target)),

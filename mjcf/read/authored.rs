@@ -10,7 +10,7 @@ use crate::xml::Element;
 
 /// Settings that the text of a model gives.
 #[derive(Debug, Default)]
-pub(super) struct Authored {
+pub(crate) struct Authored {
     /// Attributes of `option` and of the parts of `visual`.
     pub values: BTreeSet<String>,
     /// Flags of `option/flag` that disable something.

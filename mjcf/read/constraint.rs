@@ -14,7 +14,7 @@ impl Reader<'_> {
     pub(super) fn contact(&mut self, section: &Element) {
         for element in section.children_named("pair") {
             let class = self.class_of(element, "class", 0);
-            let mut pair = Pair { loc: element.loc, ..self.classes.get(class).pair.clone() };
+            let mut pair = Pair { loc: element.loc, ..self.spec.classes.of(class).pair.clone() };
             self.rows(element, &PAIR_ROWS, &mut pair);
             self.spec.pairs.push(pair);
         }
@@ -30,7 +30,7 @@ impl Reader<'_> {
             // The structural check refuses all others.
             let Some((_, kind)) = EQUALITIES.iter().find(|(tag, _)| *tag == element.name) else { continue };
             let class = self.class_of(element, "class", 0);
-            let inherited = self.classes.get(class).equality.clone();
+            let inherited = self.spec.classes.of(class).equality.clone();
             let mut equality = Equality { loc: element.loc, kind: *kind, ..inherited };
             self.rows(element, &EQUALITY_ROWS, &mut equality);
             for block in equality_blocks(*kind) {
@@ -53,7 +53,7 @@ impl Reader<'_> {
     pub(super) fn tendon(&mut self, section: &Element) {
         for element in &section.children {
             let class = self.class_of(element, "class", 0);
-            let mut tendon = Tendon { loc: element.loc, ..self.classes.get(class).tendon.clone() };
+            let mut tendon = Tendon { loc: element.loc, ..self.spec.classes.of(class).tendon.clone() };
             self.rows(element, &TENDON_ROWS, &mut tendon);
             self.rows(element, &TENDON_LOOKS, &mut tendon);
             self.spring_length(element, &mut tendon);

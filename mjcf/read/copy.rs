@@ -8,7 +8,7 @@ use crate::schema::Space;
 use crate::spec::{Actuator, Body, Equality, Exclude, Pair, Sensor, Spec, Tendon, Tuple, Wrap, WrapKind};
 
 /// Names with their spaces.
-pub(super) type Names = BTreeSet<(Space, String)>;
+pub(crate) type Names = BTreeSet<(Space, String)>;
 
 /// What is put around the names of a copy.
 pub(super) struct Affix<'a> {
@@ -26,7 +26,7 @@ impl Affix<'_> {
 }
 
 /// The number of elements in `body`, itself included.
-pub(super) fn elements(body: &Body) -> usize {
+pub(crate) fn elements(body: &Body) -> usize {
     let fixed =
         body.joints.len() + body.geoms.len() + body.sites.len() + body.cameras.len() + body.lights.len();
     1 + fixed + body.bodies.iter().map(elements).sum::<usize>()
@@ -40,7 +40,7 @@ pub(super) fn forget_keys(body: &mut Body) {
 }
 
 /// Adds the names of all that `body` holds.
-pub(super) fn collect(body: &Body, names: &mut Names) {
+pub(crate) fn collect(body: &Body, names: &mut Names) {
     let mut add = |space, name: &String| {
         if !name.is_empty() {
             names.insert((space, name.clone()));
@@ -56,7 +56,7 @@ pub(super) fn collect(body: &Body, names: &mut Names) {
 }
 
 /// Adds the names of all objects outside the tree.
-pub(super) fn collect_objects(spec: &Spec, names: &mut Names) {
+pub(crate) fn collect_objects(spec: &Spec, names: &mut Names) {
     macro_rules! lists {
         ($($space:ident $field:ident)*) => {
             $(for object in spec.$field.iter().filter(|o| !o.name.is_empty()) {
@@ -133,7 +133,7 @@ impl Renaming<'_> {
 }
 
 /// Appends all that `piece` holds to `body`.
-pub(super) fn append(body: &mut Body, mut piece: Body) {
+pub(crate) fn append(body: &mut Body, mut piece: Body) {
     body.joints.append(&mut piece.joints);
     body.geoms.append(&mut piece.geoms);
     body.sites.append(&mut piece.sites);
@@ -143,7 +143,7 @@ pub(super) fn append(body: &mut Body, mut piece: Body) {
 }
 
 /// An object outside the tree that may refer into it.
-pub(super) trait Referring: Clone {
+pub(crate) trait Referring: Clone {
     /// One reference into the piece is enough; the others may lead elsewhere.
     const MIXED: bool = false;
 

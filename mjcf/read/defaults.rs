@@ -1,10 +1,10 @@
 //! Reads default classes: each starts as a copy of the one around it.
 
-use super::classes::ClassId;
 use super::reader::Reader;
 use crate::schema::asset::{MATERIAL_ROWS, MESH_ROWS};
 use crate::schema::constraint::{EQUALITY_ROWS, PAIR_ROWS, TENDON_LOOKS, TENDON_ROWS};
 use crate::schema::tree::{CAMERA_ROWS, GEOM_ROWS, JOINT_ROWS, LIGHT_ROWS, SITE_ROWS};
+use crate::spec::ClassId;
 use crate::xml::Element;
 
 impl Reader<'_> {
@@ -30,16 +30,16 @@ impl Reader<'_> {
                 self.error(nested.loc, "a nested default class needs a name");
                 continue;
             }
-            self.classes.list.push(self.classes.list[id].clone());
-            let child = self.classes.list.len() - 1;
+            self.spec.classes.list.push(self.spec.classes.list[id].clone());
+            let child = self.spec.classes.list.len() - 1;
             // A repeated name is an error of the structural check; the first one stands.
-            self.classes.names.entry(name.to_string()).or_insert(child);
+            self.spec.classes.names.entry(name.to_string()).or_insert(child);
             self.default_class(nested, child);
         }
     }
 
     fn default_element(&mut self, element: &Element, id: ClassId) {
-        let mut class = std::mem::take(&mut self.classes.list[id]);
+        let mut class = std::mem::take(&mut self.spec.classes.list[id]);
         match element.name.as_str() {
             "mesh" => self.default_rows(element, &MESH_ROWS, &mut class.mesh),
             "material" => {
@@ -61,15 +61,15 @@ impl Reader<'_> {
             // What remains are the actuators; anything else is an error of the structural check.
             _ => self.actuator_parameters(element, &mut class.actuator, true),
         }
-        self.classes.list[id] = class;
+        self.spec.classes.list[id] = class;
     }
 
     /// The class that an element names, or the one in force.
     pub(super) fn class_of(&mut self, element: &Element, attribute: &str, in_force: ClassId) -> ClassId {
         let Some(named) = element.attribute(attribute) else { return in_force };
-        let found = self.classes.names.get(&named.value).copied();
+        let found = self.spec.classes.names.get(&named.value).copied();
         if found.is_none() && !named.value.is_empty() {
-            let names = self.classes.names.keys().map(String::as_str);
+            let names = self.spec.classes.names.keys().map(String::as_str);
             let near = self.expansion.diagnostics.nearest(&named.value, names);
             let message = format!("no default class is named '{}'", named.value);
             self.error_with(named.value_loc, message, near.map(|n| format!("did you mean '{n}'?")));

@@ -9,12 +9,12 @@ mod asset;
 mod attach;
 mod attributes;
 mod authored;
-mod classes;
 mod conflict;
 mod constraint;
-mod copy;
+pub(crate) mod copy;
 mod dc_motor;
 mod defaults;
+mod kept;
 mod model_file;
 mod reader;
 mod replicate;
@@ -25,7 +25,9 @@ mod tree;
 use crate::include::Expansion;
 use crate::spec::Spec;
 use crate::xml::Element;
-use reader::{Reader, check_root};
+pub(crate) use kept::rename_files;
+use reader::check_root;
+use reader::Reader;
 
 /// Reads one section of the model.
 type Section<R> = fn(&mut R, &Element);
@@ -45,6 +47,11 @@ impl Reader<'_> {
     fn model(&mut self, root: &Element) {
         self.spec.modelname = root.value("model").unwrap_or("MuJoCo Model").to_string();
         self.spec.world.name = "world".into();
+        self.sections(root);
+    }
+
+    /// Reads the sections below `root` into what is there.
+    pub(crate) fn sections(&mut self, root: &Element) {
         let sections: [(&str, Section<Self>); 15] = [
             ("compiler", Self::compiler),
             ("option", Self::option),

@@ -1,7 +1,6 @@
 //! `asset/model`: another model, read by itself, that `attach` copies parts of.
 
 use super::reader::{ModelFile, Reader, check_root};
-use crate::spec::{KeptKey, KeyPart, Keyed, joint_dimensions};
 use crate::xml::Element;
 
 /// Models inside models.
@@ -37,51 +36,14 @@ impl Reader<'_> {
         let open_files = self.open_files.iter().cloned().chain([path]).collect();
         let mut reader = Reader::new(&root, expansion, open_files);
         reader.model(&root);
-        reader.distribute_keys();
-        let Reader { mut spec, classes, authored, .. } = reader;
+        if let Err((loc, message)) = reader.spec.distribute_keys() {
+            reader.error(loc, message);
+        }
+        let Reader { mut spec, authored, .. } = reader;
         if let Some(name) = element.value("name") {
             spec.modelname = name.to_string();
         }
         let name = spec.modelname.clone();
-        self.models.push(ModelFile { name, first_file: root.loc.file, spec, classes, authored });
-    }
-
-    /// Gives the numbers of all keyframes to the elements they belong to, so that a part of the model can take
-    /// its share along.
-    fn distribute_keys(&mut self) {
-        for key in std::mem::take(&mut self.spec.keys) {
-            let index = self.spec.kept_keys.len();
-            let mut values: [std::slice::Iter<f64>; 6] =
-                [&key.qpos, &key.qvel, &key.mpos, &key.mquat, &key.act, &key.ctrl].map(|v| v.iter());
-            let mut share = |part: KeyPart, length: usize, keyed: &mut Vec<Keyed>| {
-                let values: Vec<f64> = values[part as usize].by_ref().take(length).copied().collect();
-                if values.len() == length && length > 0 {
-                    keyed.push(Keyed { key: index, part, values });
-                }
-            };
-            let mut pending = vec![&mut self.spec.world];
-            while let Some(body) = pending.pop() {
-                for joint in &mut body.joints {
-                    let (nq, nv) = joint_dimensions(joint.kind);
-                    share(KeyPart::Qpos, nq, &mut joint.keyed);
-                    share(KeyPart::Qvel, nv, &mut joint.keyed);
-                }
-                if body.mocap {
-                    share(KeyPart::Mpos, 3, &mut body.keyed);
-                    share(KeyPart::Mquat, 4, &mut body.keyed);
-                }
-                pending.extend(body.bodies.iter_mut().rev());
-            }
-            for actuator in &mut self.spec.actuators {
-                let (states, inputs) = actuator.sizes();
-                share(KeyPart::Act, states, &mut actuator.keyed);
-                share(KeyPart::Ctrl, inputs, &mut actuator.keyed);
-            }
-            if let Some(part) = values.iter().position(|rest| rest.len() > 0) {
-                let name = ["qpos", "qvel", "mpos", "mquat", "act", "ctrl"][part];
-                self.error(key.loc, format!("keyframe '{}' has too many values in '{name}'", key.name));
-            }
-            self.spec.kept_keys.push(KeptKey { name: key.name, loc: key.loc, time: key.time, own: true });
-        }
+        self.models.push(ModelFile { name, first_file: root.loc.file, spec, authored });
     }
 }

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use super::authored::Authored;
-use super::classes::Classes;
 use crate::diagnostic::Loc;
 use crate::include::Expansion;
 use crate::schema::check;
@@ -12,12 +11,11 @@ use crate::spec::{Body, Spec};
 use crate::xml::Element;
 
 /// What reading needs to know and what it fills.
-pub(super) struct Reader<'a> {
+pub(crate) struct Reader<'a> {
     /// Where texts come from and findings go.
-    pub(super) expansion: Expansion<'a>,
+    pub(crate) expansion: Expansion<'a>,
     /// Directory of the main file, which asset paths are tried from first.
     pub(super) model_dir: String,
-    pub(super) classes: Classes,
     /// Elements made by `replicate` and `attach` so far.
     pub(super) copied: usize,
     /// Settings that the text gives, for conflicts with those of attached models.
@@ -29,20 +27,18 @@ pub(super) struct Reader<'a> {
     /// Files of the models around this one, outermost first, and its own.
     pub(super) open_files: Vec<String>,
     /// The bodies being read, outermost first.
-    pub(super) open: Vec<Body>,
-    pub(super) spec: Spec,
+    pub(crate) open: Vec<Body>,
+    pub(crate) spec: Spec,
 }
 
 /// A model whose parts may be attached.
-pub(super) struct ModelFile {
+pub(crate) struct ModelFile {
     /// What `attach` calls it.
     pub name: String,
     /// Index of its first text; those of the models inside it follow.
     pub first_file: u32,
     /// Its elements.
     pub spec: Spec,
-    /// Its default classes.
-    pub classes: Classes,
     /// The settings that its text gives.
     pub authored: Authored,
 }
@@ -56,7 +52,11 @@ pub(super) fn check_root(root: &Element, expansion: &mut Expansion<'_>) -> Optio
             diagnostics.warning(sources, root.loc, "root element <mujocoinclude> is read as <mujoco>");
         }
         "robot" => {
-            diagnostics.error(sources, root.loc, "this is URDF: only MJCF is supported");
+            diagnostics.error(
+                sources,
+                root.loc,
+                "this is URDF: parts can be attached from MJCF alone; convert it first",
+            );
             return None;
         }
         other => {
@@ -71,11 +71,10 @@ pub(super) fn check_root(root: &Element, expansion: &mut Expansion<'_>) -> Optio
 
 impl<'a> Reader<'a> {
     /// A reader of the model at `root`, inside the models of `open_files`.
-    pub(super) fn new(root: &Element, expansion: Expansion<'a>, open_files: Vec<String>) -> Self {
+    pub(crate) fn new(root: &Element, expansion: Expansion<'a>, open_files: Vec<String>) -> Self {
         Reader {
             model_dir: expansion.sources.get(root.loc.file).map_or(String::new(), |s| s.dir.clone()),
             expansion,
-            classes: Classes::default(),
             copied: 0,
             authored: Authored::default(),
             warned: BTreeSet::new(),

@@ -12,6 +12,7 @@ use crate::schema::settings::{
 use crate::schema::visual::{
     VISUAL_GLOBAL, VISUAL_HEADLIGHT, VISUAL_MAP, VISUAL_QUALITY, VISUAL_RGBA, VISUAL_SCALE,
 };
+use crate::schema::words::OBJECT_TYPES;
 use crate::spec::{Key, Numeric, Text, Tuple, TupleEntry};
 use crate::xml::{Attribute, Element};
 
@@ -207,13 +208,6 @@ impl Reader<'_> {
         }
     }
 }
-
-/// Words for object kinds, in the order of their codes from one.
-const OBJECT_TYPES: [&str; 25] = [
-    "body", "xbody", "joint", "dof", "geom", "site", "camera", "light", "flex", "mesh", "skin", "hfield",
-    "texture", "material", "pair", "exclude", "equality", "tendon", "actuator", "sensor", "numeric", "text",
-    "tuple", "key", "plugin",
-];
 
 /// Bytes of a size such as `15M`, whose suffix multiplies by a power of 1024.
 fn memory_bytes(text: &str) -> Option<i64> {

@@ -2,18 +2,18 @@
 
 use physics::model::{GeomType, JointType};
 
-use super::classes::ClassId;
 use super::reader::Reader;
 use crate::schema::tree::{
     BODY_POSE, BODY_ROWS, CAMERA_ROWS, FRAME_ROWS, FREEJOINT_ROWS, GEOM_ROWS, INERTIAL_ROWS, JOINT_ROWS,
     LIGHT_ROWS, SITE_ROWS,
 };
+use crate::spec::ClassId;
 use crate::spec::{Body, Camera, Frame, Geom, Inertial, Joint, Light, Site};
 use crate::xml::Element;
 
 /// Where an element of the tree stands.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(crate) struct Place {
     /// The innermost frame of the body around the element.
     pub frame: Option<usize>,
     /// The default class in force.
@@ -42,7 +42,7 @@ impl Reader<'_> {
     }
 
     /// Adds the children of `parent` to the open body.
-    pub(super) fn inside(&mut self, parent: &Element, place: Place) {
+    pub(crate) fn inside(&mut self, parent: &Element, place: Place) {
         for element in &parent.children {
             if place.world && matches!(element.name.as_str(), "joint" | "freejoint" | "inertial") {
                 self.error(element.loc, format!("the world cannot have <{}>", element.name));
@@ -59,7 +59,7 @@ impl Reader<'_> {
                 "inertial" => self.inertial(element),
                 "joint" => {
                     let class = self.class_of(element, "class", place.class);
-                    let inherited = self.classes.get(class).joint.clone();
+                    let inherited = self.spec.classes.of(class).joint.clone();
                     let mut joint = Joint { loc: element.loc, frame: place.frame, ..inherited };
                     self.rows(element, &JOINT_ROWS, &mut joint);
                     self.body_here().joints.push(joint);
@@ -74,21 +74,21 @@ impl Reader<'_> {
                 "geom" => self.geom(element, place),
                 "site" => {
                     let class = self.class_of(element, "class", place.class);
-                    let inherited = self.classes.get(class).site.clone();
+                    let inherited = self.spec.classes.of(class).site.clone();
                     let mut site = Site { loc: element.loc, frame: place.frame, ..inherited };
                     self.rows(element, &SITE_ROWS, &mut site);
                     self.body_here().sites.push(site);
                 }
                 "camera" => {
                     let class = self.class_of(element, "class", place.class);
-                    let inherited = self.classes.get(class).camera.clone();
+                    let inherited = self.spec.classes.of(class).camera.clone();
                     let mut camera = Camera { loc: element.loc, frame: place.frame, ..inherited };
                     self.rows(element, &CAMERA_ROWS, &mut camera);
                     self.body_here().cameras.push(camera);
                 }
                 "light" => {
                     let class = self.class_of(element, "class", place.class);
-                    let inherited = self.classes.get(class).light.clone();
+                    let inherited = self.spec.classes.of(class).light.clone();
                     let mut light = Light { loc: element.loc, frame: place.frame, ..inherited };
                     self.rows(element, &LIGHT_ROWS, &mut light);
                     self.body_here().lights.push(light);
@@ -128,7 +128,7 @@ impl Reader<'_> {
 
     fn geom(&mut self, element: &Element, place: Place) {
         let class = self.class_of(element, "class", place.class);
-        let inherited = self.classes.get(class).geom.clone();
+        let inherited = self.spec.classes.of(class).geom.clone();
         let mut geom = Geom { loc: element.loc, frame: place.frame, ..inherited };
         self.rows(element, &GEOM_ROWS, &mut geom);
         if geom.kind == GeomType::Sdf {

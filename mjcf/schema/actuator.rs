@@ -1,6 +1,6 @@
 //! `actuator`: the general form, and shortcuts that set its gain, bias and dynamics.
 
-use physics::model::{BiasType, DynType, GainType};
+use physics::model::{BiasType, DynType, GainType, input};
 
 use super::Bind::*;
 use super::tree::{CLASS, PLUGIN};
@@ -170,6 +170,17 @@ const GAIN_TYPES: Words =
 const BIAS_TYPES: Words =
     &[("none", 0), ("affine", 1), ("muscle", 2), ("dcmotor", 3), ("so3", 4), ("user", 5)];
 
+/// Values of `input` that stand alone.
+pub const ALONE: Words =
+    &[("expmap", input::EXPONENTIAL_MAP), ("quat", input::QUATERNION), ("none", input::NONE)];
+/// Values of `input` that combine, in the order that they must be listed in.
+pub const TOGETHER: Words = &[
+    ("pos", input::POSITION),
+    ("vel", input::VELOCITY),
+    ("ff", input::FEED_FORWARD),
+    ("voltage", input::VOLTAGE),
+];
+
 /// All blocks that write an [`Actuator`], in reading order.
 pub static BLOCKS: [&[Row<Actuator>]; 8] =
     [&BASE, &CTRL_LIMITED, &FORCE, &ACT_LIMITS, &DYNAMICS, &SETPOINT_RANGES, &POSITION_RANGE, &GENERAL_ROWS];
@@ -261,7 +272,8 @@ static SETPOINT_RANGES: [Row<Actuator>; 2] = [
     row("velrange", Reals { min: 2, field: |a| &mut a.velrange }, "limits of the velocity set point"),
     row("ffrange", Reals { min: 2, field: |a| &mut a.ffrange }, "limits of the feed-forward"),
 ];
-static POSITION_RANGE: [Row<Actuator>; 1] =
+/// The range of a pid servo.
+pub static POSITION_RANGE: [Row<Actuator>; 1] =
     [row("posrange", Reals { min: 2, field: |a| &mut a.ctrlrange }, "limits of the position set point")];
 static INPUT: [Row<()>; 1] = [row(
     "input",

@@ -66,6 +66,9 @@ pub const ROLES: Words = &[
     ("orm", 9),
 ];
 
+/// Sides of a cube texture in the order of `Texture::cubefiles`.
+pub const SIDES: [&str; 6] = ["fileright", "fileleft", "fileup", "filedown", "filefront", "fileback"];
+
 /// Attributes of `mesh`.
 pub static MESH_ROWS: [Row<Mesh>; 16] = [
     row("name", Name(Space::Mesh, |m| &mut m.name), "name; the file's stem if absent"),

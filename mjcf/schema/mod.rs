@@ -21,6 +21,8 @@ pub mod tree;
 pub mod visual;
 pub mod words;
 
+use crate::spec::Orientation;
+
 /// Name spaces: objects of one space have distinct names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[allow(missing_docs)]
@@ -92,6 +94,48 @@ impl Space {
 /// Keywords of an attribute with the codes they stand for.
 pub type Words = &'static [(&'static str, i32)];
 
+/// The ways to write an orientation without a quaternion.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[allow(missing_docs)]
+pub enum Way {
+    AxisAngle,
+    XyAxes,
+    ZAxis,
+    Euler,
+}
+
+impl Way {
+    /// How many numbers it takes.
+    pub fn length(self) -> usize {
+        match self {
+            Way::AxisAngle => 4,
+            Way::XyAxes => 6,
+            Way::ZAxis | Way::Euler => 3,
+        }
+    }
+
+    /// The orientation that these numbers mean; `None` when there are too few.
+    pub fn read(self, t: &[f64]) -> Option<Orientation> {
+        Some(match self {
+            Way::AxisAngle => Orientation::AxisAngle(*t.first_chunk()?),
+            Way::XyAxes => Orientation::XyAxes(*t.first_chunk()?),
+            Way::ZAxis => Orientation::ZAxis(*t.first_chunk()?),
+            Way::Euler => Orientation::Euler(*t.first_chunk()?),
+        })
+    }
+
+    /// The numbers of an orientation that is written this way.
+    pub fn numbers(self, orientation: &Orientation) -> Option<&[f64]> {
+        match (self, orientation) {
+            (Way::AxisAngle, Orientation::AxisAngle(t)) => Some(t),
+            (Way::XyAxes, Orientation::XyAxes(t)) => Some(t),
+            (Way::ZAxis, Orientation::ZAxis(t)) => Some(t),
+            (Way::Euler, Orientation::Euler(t)) => Some(t),
+            _ => None,
+        }
+    }
+}
+
 /// How the text of an attribute is read and where it goes in a `T`.
 #[allow(missing_docs)]
 pub enum Bind<T: 'static> {
@@ -101,8 +145,10 @@ pub enum Bind<T: 'static> {
     Reals { min: usize, field: fn(&mut T) -> &mut [f64] },
     /// A quaternion, not zero.
     Quat(fn(&mut T) -> &mut [f64; 4]),
-    /// Exactly `length` numbers, handed to the function.
-    Assign { length: usize, assign: fn(&mut T, &[f64]) },
+    /// An orientation that is not a quaternion.
+    Turn(Way, fn(&mut T) -> &mut Option<Orientation>),
+    /// Six numbers.
+    Six(fn(&mut T) -> &mut Option<[f64; 6]>),
     /// Any number of numbers.
     RealList(fn(&mut T) -> &mut Vec<f64>),
     /// One number, kept in single precision.
@@ -175,7 +221,8 @@ impl<T> Bind<T> {
             Bind::Real(_) => reals(1, 1),
             Bind::Reals { min, field } => reals(*min, field(&mut T::default()).len()),
             Bind::Quat(_) => reals(4, 4),
-            Bind::Assign { length, .. } => reals(*length, *length),
+            Bind::Turn(way, _) => reals(way.length(), way.length()),
+            Bind::Six(_) => reals(6, 6),
             Bind::RealList(_) => Kind::Real { min: 0, max: None },
             Bind::Single(_) => Kind::Single { min: 1, max: Some(1) },
             Bind::Singles(field) => {

@@ -5,10 +5,10 @@ use physics::model::{GeomType, JointType, LightType, Projection, SleepPolicy, Tr
 use super::Bind::*;
 use super::words::{FALSE_TRUE_AUTO, GEOM_TYPES, TRACK_MODES, limited};
 use super::{
-    Child, ElementType, Kind, Row, Rule, Space, Words, any, leaf, local, once, required, row, section,
+    Child, ElementType, Kind, Row, Rule, Space, Way, Words, any, leaf, local, once, required, row, section,
     unsupported,
 };
-use crate::spec::{AlignFree, Body, Camera, Frame, Geom, Inertial, Joint, Light, Orientation, Site};
+use crate::spec::{AlignFree, Body, Camera, Frame, Geom, Inertial, Joint, Light, Site};
 
 const SLEEP: Words = &[("auto", 0), ("never", 3), ("allowed", 4), ("init", 5)];
 const SIMPLE: Words = &[("false", 0), ("auto", 1)];
@@ -158,18 +158,10 @@ pub static BODY_ROWS: [Row<Body>; 6] = [
 pub static BODY_POSE: [Row<Body>; 6] = [
     row("pos", Reals { min: 3, field: |b| &mut b.pos }, "position, metres"),
     row("quat", Quat(|b| &mut b.quat), "orientation"),
-    row(
-        "axisangle",
-        Assign { length: 4, assign: |b, t| b.alt = Some(axis_angle(t)) },
-        "orientation by axis and angle",
-    ),
-    row(
-        "xyaxes",
-        Assign { length: 6, assign: |b, t| b.alt = Some(xy_axes(t)) },
-        "orientation by x and y axes",
-    ),
-    row("zaxis", Assign { length: 3, assign: |b, t| b.alt = Some(z_axis(t)) }, "orientation by z axis"),
-    row("euler", Assign { length: 3, assign: |b, t| b.alt = Some(euler(t)) }, "orientation by Euler angles"),
+    row("axisangle", Turn(Way::AxisAngle, |b| &mut b.alt), "orientation by axis and angle"),
+    row("xyaxes", Turn(Way::XyAxes, |b| &mut b.alt), "orientation by x and y axes"),
+    row("zaxis", Turn(Way::ZAxis, |b| &mut b.alt), "orientation by z axis"),
+    row("euler", Turn(Way::Euler, |b| &mut b.alt), "orientation by Euler angles"),
 ];
 
 /// Attributes of `frame`.
@@ -177,18 +169,10 @@ pub static FRAME_ROWS: [Row<Frame>; 7] = [
     row("name", Name(Space::Frame, |f| &mut f.name), "name"),
     row("pos", Reals { min: 3, field: |f| &mut f.pos }, "position, metres"),
     row("quat", Quat(|f| &mut f.quat), "orientation"),
-    row(
-        "axisangle",
-        Assign { length: 4, assign: |f, t| f.alt = Some(axis_angle(t)) },
-        "orientation by axis and angle",
-    ),
-    row(
-        "xyaxes",
-        Assign { length: 6, assign: |f, t| f.alt = Some(xy_axes(t)) },
-        "orientation by x and y axes",
-    ),
-    row("zaxis", Assign { length: 3, assign: |f, t| f.alt = Some(z_axis(t)) }, "orientation by z axis"),
-    row("euler", Assign { length: 3, assign: |f, t| f.alt = Some(euler(t)) }, "orientation by Euler angles"),
+    row("axisangle", Turn(Way::AxisAngle, |f| &mut f.alt), "orientation by axis and angle"),
+    row("xyaxes", Turn(Way::XyAxes, |f| &mut f.alt), "orientation by x and y axes"),
+    row("zaxis", Turn(Way::ZAxis, |f| &mut f.alt), "orientation by z axis"),
+    row("euler", Turn(Way::Euler, |f| &mut f.alt), "orientation by Euler angles"),
 ];
 
 /// What `replicate` asks for.
@@ -217,24 +201,12 @@ pub static INERTIAL_ROWS: [Row<Inertial>; 9] = [
     required("pos", Reals { min: 3, field: |i| &mut i.pos }, "centre of mass, metres"),
     required("mass", Real(|i| &mut i.mass), "mass, kg"),
     row("diaginertia", Reals { min: 3, field: |i| &mut i.inertia }, "principal moments, kg m²"),
-    row(
-        "fullinertia",
-        Assign { length: 6, assign: |i, t| i.fullinertia = Some(six(t)) },
-        "xx yy zz xy xz yz, kg m²",
-    ),
+    row("fullinertia", Six(|i| &mut i.fullinertia), "xx yy zz xy xz yz, kg m²"),
     row("quat", Quat(|i| &mut i.quat), "orientation"),
-    row(
-        "axisangle",
-        Assign { length: 4, assign: |i, t| i.alt = Some(axis_angle(t)) },
-        "orientation by axis and angle",
-    ),
-    row(
-        "xyaxes",
-        Assign { length: 6, assign: |i, t| i.alt = Some(xy_axes(t)) },
-        "orientation by x and y axes",
-    ),
-    row("zaxis", Assign { length: 3, assign: |i, t| i.alt = Some(z_axis(t)) }, "orientation by z axis"),
-    row("euler", Assign { length: 3, assign: |i, t| i.alt = Some(euler(t)) }, "orientation by Euler angles"),
+    row("axisangle", Turn(Way::AxisAngle, |i| &mut i.alt), "orientation by axis and angle"),
+    row("xyaxes", Turn(Way::XyAxes, |i| &mut i.alt), "orientation by x and y axes"),
+    row("zaxis", Turn(Way::ZAxis, |i| &mut i.alt), "orientation by z axis"),
+    row("euler", Turn(Way::Euler, |i| &mut i.alt), "orientation by Euler angles"),
 ];
 
 /// Attributes of `joint`.
@@ -328,25 +300,13 @@ pub static GEOM_ROWS: [Row<Geom>; 34] = [
         "velocity of the surface, m/s and rad/s",
     ),
     row("adhesion", Real(|g| &mut g.adhesion), "attractive contact force, N"),
-    row(
-        "fromto",
-        Assign { length: 6, assign: |g, t| g.fromto = Some(six(t)) },
-        "ends of capsule, cylinder, ellipsoid or box, metres",
-    ),
+    row("fromto", Six(|g| &mut g.fromto), "ends of capsule, cylinder, ellipsoid or box, metres"),
     row("pos", Reals { min: 3, field: |g| &mut g.pos }, "position, metres"),
     row("quat", Quat(|g| &mut g.quat), "orientation"),
-    row(
-        "axisangle",
-        Assign { length: 4, assign: |g, t| g.alt = Some(axis_angle(t)) },
-        "orientation by axis and angle",
-    ),
-    row(
-        "xyaxes",
-        Assign { length: 6, assign: |g, t| g.alt = Some(xy_axes(t)) },
-        "orientation by x and y axes",
-    ),
-    row("zaxis", Assign { length: 3, assign: |g, t| g.alt = Some(z_axis(t)) }, "orientation by z axis"),
-    row("euler", Assign { length: 3, assign: |g, t| g.alt = Some(euler(t)) }, "orientation by Euler angles"),
+    row("axisangle", Turn(Way::AxisAngle, |g| &mut g.alt), "orientation by axis and angle"),
+    row("xyaxes", Turn(Way::XyAxes, |g| &mut g.alt), "orientation by x and y axes"),
+    row("zaxis", Turn(Way::ZAxis, |g| &mut g.alt), "orientation by z axis"),
+    row("euler", Turn(Way::Euler, |g| &mut g.alt), "orientation by Euler angles"),
     row("hfield", Ref(Space::Hfield, |g| &mut g.hfieldname), "height field"),
     row("mesh", Ref(Space::Mesh, |g| &mut g.meshname), "mesh"),
     row("fitscale", Real(|g| &mut g.fitscale), "scale of a shape fitted to a mesh"),
@@ -371,25 +331,13 @@ pub static SITE_ROWS: [Row<Site>; 14] = [
     row("group", Int(|s| &mut s.group), "visual group"),
     row("pos", Reals { min: 3, field: |s| &mut s.pos }, "position, metres"),
     row("quat", Quat(|s| &mut s.quat), "orientation"),
-    row(
-        "axisangle",
-        Assign { length: 4, assign: |s, t| s.alt = Some(axis_angle(t)) },
-        "orientation by axis and angle",
-    ),
-    row(
-        "xyaxes",
-        Assign { length: 6, assign: |s, t| s.alt = Some(xy_axes(t)) },
-        "orientation by x and y axes",
-    ),
-    row("zaxis", Assign { length: 3, assign: |s, t| s.alt = Some(z_axis(t)) }, "orientation by z axis"),
-    row("euler", Assign { length: 3, assign: |s, t| s.alt = Some(euler(t)) }, "orientation by Euler angles"),
+    row("axisangle", Turn(Way::AxisAngle, |s| &mut s.alt), "orientation by axis and angle"),
+    row("xyaxes", Turn(Way::XyAxes, |s| &mut s.alt), "orientation by x and y axes"),
+    row("zaxis", Turn(Way::ZAxis, |s| &mut s.alt), "orientation by z axis"),
+    row("euler", Turn(Way::Euler, |s| &mut s.alt), "orientation by Euler angles"),
     row("material", Ref(Space::Material, |s| &mut s.material), "material"),
     row("size", Reals { min: 1, field: |s| &mut s.size }, "radii or half lengths, metres"),
-    row(
-        "fromto",
-        Assign { length: 6, assign: |s, t| s.fromto = Some(six(t)) },
-        "ends of a long shape, metres",
-    ),
+    row("fromto", Six(|s| &mut s.fromto), "ends of a long shape, metres"),
     row("rgba", Singles(|s| &mut s.rgba), "colour and opacity"),
     row("user", RealList(|s| &mut s.userdata), "user data"),
 ];
@@ -412,18 +360,10 @@ pub static CAMERA_ROWS: [Row<Camera>; 20] = [
     row("output", Flags { words: OUTPUTS, field: |c| &mut c.output }, "images that it makes"),
     row("pos", Reals { min: 3, field: |c| &mut c.pos }, "position, metres"),
     row("quat", Quat(|c| &mut c.quat), "orientation"),
-    row(
-        "axisangle",
-        Assign { length: 4, assign: |c, t| c.alt = Some(axis_angle(t)) },
-        "orientation by axis and angle",
-    ),
-    row(
-        "xyaxes",
-        Assign { length: 6, assign: |c, t| c.alt = Some(xy_axes(t)) },
-        "orientation by x and y axes",
-    ),
-    row("zaxis", Assign { length: 3, assign: |c, t| c.alt = Some(z_axis(t)) }, "orientation by z axis"),
-    row("euler", Assign { length: 3, assign: |c, t| c.alt = Some(euler(t)) }, "orientation by Euler angles"),
+    row("axisangle", Turn(Way::AxisAngle, |c| &mut c.alt), "orientation by axis and angle"),
+    row("xyaxes", Turn(Way::XyAxes, |c| &mut c.alt), "orientation by x and y axes"),
+    row("zaxis", Turn(Way::ZAxis, |c| &mut c.alt), "orientation by z axis"),
+    row("euler", Turn(Way::Euler, |c| &mut c.alt), "orientation by Euler angles"),
     row(
         "mode",
         Keyword { words: TRACK_MODES, assign: |v, c| v.mode = TrackMode::from_code(c).unwrap_or(v.mode) },
@@ -476,23 +416,3 @@ pub static LIGHT_ROWS: [Row<Light>; 20] = [
     local("target", Ref(Space::Body, |l| &mut l.targetbody), "body that it shines on"),
     local("texture", Ref(Space::Texture, |l| &mut l.texture), "image of an image light"),
 ];
-
-fn axis_angle(t: &[f64]) -> Orientation {
-    Orientation::AxisAngle([t[0], t[1], t[2], t[3]])
-}
-
-fn xy_axes(t: &[f64]) -> Orientation {
-    Orientation::XyAxes(six(t))
-}
-
-fn z_axis(t: &[f64]) -> Orientation {
-    Orientation::ZAxis([t[0], t[1], t[2]])
-}
-
-fn euler(t: &[f64]) -> Orientation {
-    Orientation::Euler([t[0], t[1], t[2]])
-}
-
-fn six(t: &[f64]) -> [f64; 6] {
-    [t[0], t[1], t[2], t[3], t[4], t[5]]
-}

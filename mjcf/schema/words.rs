@@ -34,3 +34,10 @@ pub const TRACK_MODES: Words =
 
 /// Interpolation of delayed signals.
 pub const INTERPOLATIONS: Words = &[("zoh", 0), ("linear", 1), ("cubic", 2)];
+
+/// Words for object kinds, in the order of their codes from one.
+pub const OBJECT_TYPES: [&str; 25] = [
+    "body", "xbody", "joint", "dof", "geom", "site", "camera", "light", "flex", "mesh", "skin", "hfield",
+    "texture", "material", "pair", "exclude", "equality", "tendon", "actuator", "sensor", "numeric", "text",
+    "tuple", "key", "plugin",
+];

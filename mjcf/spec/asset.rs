@@ -101,6 +101,8 @@ elements! {
         gridlayout: String = String::from("............"),
         /// Right, left, up, down, front, back; empty where none is given.
         cubefiles: [String; 6] = Default::default(),
+        /// The same files as the text names them.
+        cubepaths: [String; 6] = Default::default(),
         /// Mirror left and right.
         hflip: bool = false,
         /// Mirror top and bottom.

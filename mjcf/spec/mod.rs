@@ -24,9 +24,11 @@ use crate::diagnostic::Loc;
 
 mod actuator;
 mod asset;
+mod classes;
 mod constraint;
 mod custom;
 mod element;
+mod keys;
 mod orientation;
 mod sensor;
 mod settings;
@@ -34,6 +36,8 @@ mod tree;
 
 pub use actuator::*;
 pub use asset::*;
+pub(crate) use classes::ClassId;
+pub use classes::{Class, Classes, MAIN};
 pub use constraint::*;
 pub use custom::*;
 pub use element::{Limited, SOLIMP, SOLREF};
@@ -62,6 +66,8 @@ pub struct Spec {
     pub size: Size,
     /// The world body; everything in the tree hangs below it.
     pub world: Body,
+    /// Default classes, for elements that are added.
+    pub classes: Classes,
     /// Frames, parents before children.
     pub frames: Vec<Frame>,
     /// Meshes.

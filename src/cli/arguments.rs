@@ -3,6 +3,7 @@
 use crate::bench_env::BenchEnv;
 use crate::bench_render::BenchRender;
 use crate::check_env::CheckEnv;
+use crate::convert::Convert;
 use crate::film::FilmArguments;
 use crate::gallery::Gallery;
 use crate::info::Info;
@@ -81,6 +82,8 @@ pub enum Command {
     Inspect(Inspect),
     /// Compile a model into one file that loads in milliseconds
     Compile(Compile),
+    /// Write a model as one MJCF file that compiles to the same arrays
+    Convert(Convert),
     /// Simulate a model under the controls of a keyframe, or none
     Sim(Sim),
     /// Step or forward recorded inputs and write the named fields

@@ -25,6 +25,14 @@ const MAX_LISTED: usize = 12;
 
 /// Loads a model and shows its warnings on standard error.
 pub fn load(path: &Path, reading: &Reading) -> Result<Model, Failure> {
+    let (loader, path) = loader(path, reading)?;
+    let loaded = loader.load(path).map_err(Failure::usage)?;
+    loaded.warnings.warnings().for_each(|warning| note(&warning.to_string()));
+    Ok(loaded.model)
+}
+
+/// What reads the model at `path` as the arguments say, and how it calls that path.
+pub fn loader<'a>(path: &'a Path, reading: &Reading) -> Result<(mjcf::Loader, &'a Path), Failure> {
     let memory = usize::try_from(u64::from(reading.memory) << 20).unwrap_or(usize::MAX);
     let mut loader = mjcf::Loader::default().limits(mjcf::Limits { memory, ..mjcf::Limits::default() });
     let named = std::env::var_os("ROBOHIVE_CACHE").filter(|folder| !folder.is_empty());
@@ -38,14 +46,10 @@ pub fn load(path: &Path, reading: &Reading) -> Result<Model, Failure> {
             .ok_or_else(|| Failure::usage(format!("--define {define:?} is not TEXT=VALUE")))?;
         loader = loader.define(text, value);
     }
-    let loaded = if path == Path::new(STANDARD_INPUT) {
-        loader.files(DiskAndInput::new()?).load(LABEL)
-    } else {
-        loader.load(path)
-    };
-    let loaded = loaded.map_err(Failure::usage)?;
-    loaded.warnings.warnings().for_each(|warning| note(&warning.to_string()));
-    Ok(loaded.model)
+    if path == Path::new(STANDARD_INPUT) {
+        return Ok((loader.files(DiskAndInput::new()?), Path::new(LABEL)));
+    }
+    Ok((loader, path))
 }
 
 /// The whole disk, and standard input as a file in the working folder.

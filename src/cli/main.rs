@@ -10,6 +10,7 @@ mod check;
 mod check_env;
 mod compile;
 mod completions;
+mod convert;
 mod data;
 mod drawing;
 mod env_requests;
@@ -88,6 +89,7 @@ fn main() -> ExitCode {
         Command::CheckEnv(a) => check_env::run(&a),
         Command::Inspect(a) => inspect::run(&a),
         Command::Compile(a) => compile::run(&a),
+        Command::Convert(a) => convert::run(&a),
         Command::Sim(a) => sim::run(&a),
         Command::Trace(a) => trace::run(&a),
         Command::Check(a) => check::run(&a),

@@ -16,6 +16,7 @@ pub mod pictures;
 pub mod policies;
 pub mod rays;
 pub mod reference;
+pub mod round_trip;
 pub mod scenes;
 pub mod solver;
 pub mod stages;

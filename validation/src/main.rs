@@ -4,7 +4,7 @@ use physics::Model;
 use robohive_validation::reference::{Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
 use robohive_validation::{bits, c_library, collide_table, demonstrations, draws, environments};
-use robohive_validation::{hulls, laws, pictures, policies, scenes, solver};
+use robohive_validation::{hulls, laws, pictures, policies, round_trip, scenes, solver};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -24,6 +24,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation scenes --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation quirks [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
+       robohive-validation round-trip FOLDER... [--only TEXT] [--write README.md]
 
 Loads FOLDER/LINE for each LINE of the list, compares it with the archive that record.py made of it, prints a table,
 and with --write replaces the text between the table markers of a file; with --section between the markers of that
@@ -48,6 +49,8 @@ is another than that of the recorded MuJoCo.
 laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES.
 hulls: hashes the convex hull of every mesh file (STL, OBJ, MSH) below the folders, one line a mesh; fails when any differs
 from the recorded ones.
+round-trip: writes every model below the folders as MJCF and reads it again; fails when a bit of an array differs, or the
+text of a second round.
 solver: solves the constraint problems that solver.py recorded; the models are those that record.py recorded.
 
 collide: compares contacts, distances and rays with the stream of collide.py, from standard input or a file; fails when any
@@ -115,7 +118,7 @@ fn run() -> Result<(), String> {
         println!("\n{}", hulls(&a)?);
         return Ok(());
     }
-    if let Some(folder) = a.folders.first() {
+    if let Some(folder) = a.folders.first().filter(|_| mode.as_deref() != Some("round-trip")) {
         return Err(format!("unknown argument {}\n{USAGE}", folder.display()));
     }
     let (section, table, verdict) = match mode.as_deref() {
@@ -165,6 +168,10 @@ fn run() -> Result<(), String> {
         Some("scenes") => {
             let (table, verdict) = scenes::render(&assembled(&a)?);
             ("scenes", table, verdict)
+        }
+        Some("round-trip") => {
+            let (table, verdict) = round_trip::render(&round_trip::measure(&a.folders, &a.only)?);
+            ("round-trip", table, verdict)
         }
         Some("laws") => {
             let references: Vec<_> =
