@@ -25,6 +25,7 @@ mod cache;
 mod compile;
 pub mod diagnostic;
 mod digest;
+pub mod edit;
 mod encoding;
 mod escape;
 pub mod files;

@@ -25,9 +25,11 @@ mod tree;
 use crate::include::Expansion;
 use crate::spec::Spec;
 use crate::xml::Element;
+pub(crate) use authored::Authored;
 pub(crate) use kept::rename_files;
 use reader::check_root;
-use reader::Reader;
+pub(crate) use reader::{ModelFile, Reader};
+pub(crate) use tree::Place;
 
 /// Reads one section of the model.
 type Section<R> = fn(&mut R, &Element);

@@ -25,6 +25,17 @@ struct Check<'a> {
     names: Names,
 }
 
+/// Checks a piece of a model; the names that it uses may be declared elsewhere.
+pub fn check_piece(
+    piece: &Element,
+    element: &'static ElementType,
+    sources: &Sources,
+    diagnostics: &mut Diagnostics,
+) {
+    let names = Names { open: true, ..Names::default() };
+    Check { sources, diagnostics, names }.element(piece, element, false);
+}
+
 /// Checks `root` and everything below it against `element`.
 pub fn check(
     root: &Element,

@@ -68,3 +68,37 @@ impl Spec {
 
 /// What a model without a name is called.
 const UNNAMED: &str = "MuJoCo Model";
+
+/// Single elements, for edits.
+macro_rules! single {
+    ($($name:ident $type:ident $write:path;)*) => {
+        $(pub(crate) fn $name(element: &crate::spec::$type) -> Result<Element, String> {
+            Ok($write(element))
+        })*
+    };
+}
+
+single! {
+    joint Joint tree::joint;
+    geom Geom tree::geom;
+    site Site tree::site;
+    camera Camera tree::camera;
+    light Light tree::light;
+    mesh Mesh asset::mesh;
+    hfield Hfield asset::hfield;
+    texture Texture asset::texture;
+    material Material asset::material;
+    pair Pair constraint::pair;
+    exclude Exclude constraint::exclude;
+    equality Equality constraint::equality;
+    tendon Tendon constraint::plain_tendon;
+    numeric Numeric settings::numeric;
+    text_of Text settings::custom_text;
+    tuple Tuple settings::tuple;
+    key Key settings::key;
+}
+
+pub(crate) use actuator::actuator;
+pub(crate) fn sensor(sensor: &crate::spec::Sensor) -> Result<Element, String> {
+    sensor::sensor(sensor).ok_or_else(|| format!("sensor '{}' has no element in MJCF", sensor.name))
+}
