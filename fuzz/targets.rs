@@ -8,7 +8,7 @@ use std::io::Cursor;
 
 use dataset::trace::{TraceReader, summarise};
 use dataset::{Array, NpzReader};
-use mjcf::files::Memory;
+use mjcf::files::{Memory, Overlay};
 use mjcf::image::{CompiledHfield, FileImage, HfieldSource, TextureSource, TextureType};
 use mjcf::mesh::{MeshInertia, MeshSource, RawMesh, convex_hull, decode, process};
 use mjcf::{Limits, Loader};
@@ -19,8 +19,9 @@ use physics::{Data, Model, forward, step};
 pub type Target = fn(&[u8]);
 
 /// Every target by name.
-pub const TARGETS: [(&str, Target); 11] = [
+pub const TARGETS: [(&str, Target); 12] = [
     ("mjcf", mjcf),
+    ("urdf", urdf),
     ("stl", stl),
     ("obj", obj),
     ("msh", msh),
@@ -42,10 +43,38 @@ pub fn mjcf(data: &[u8]) {
     for (path, content) in FILES.iter().zip(data.split(|&byte| byte == 0)) {
         memory.insert(path, content);
     }
-    let limits = Limits { copies: 300, memory: 64 << 20, ..Limits::default() };
-    if let Ok(loaded) = Loader::default().files(memory).limits(limits).load(FILES[0]) {
-        assert!(loaded.model.nbody > 0);
+    come_back(memory, FILES[0]);
+}
+
+/// A robot and the mesh that it may show: two texts, a zero byte between them.
+pub fn urdf(data: &[u8]) {
+    let mut memory = Memory::default();
+    for (path, content) in ["r.urdf", "m.obj"].iter().zip(data.split(|&byte| byte == 0)) {
+        memory.insert(path, content);
     }
+    come_back(memory, "r.urdf");
+}
+
+/// Loads a model; what loads is written, and what can be written loads again with the same arrays.
+fn come_back(files: Memory, path: &str) {
+    let limits = Limits { copies: 300, memory: 64 << 20, ..Limits::default() };
+    let loader = Loader::default().files(files.clone()).limits(limits);
+    let Ok(parsed) = loader.parse(path) else { return };
+    let mut spec = parsed.spec.clone();
+    let Ok(loaded) = loader.compile(parsed) else { return };
+    assert!(loaded.model.nbody > 0);
+    spec.settle_keys(&loaded.model);
+    if spec.place_assets("").is_err() {
+        return;
+    }
+    let Ok(text) = spec.to_xml() else { return };
+    let again = Loader::default().files(Overlay::new(files, path, text.as_bytes())).load(path);
+    let again = again.unwrap_or_else(|findings| panic!("{findings}\n{text}"));
+    // Numbers that are not alike come of numbers that are no numbers; sizes are alike.
+    assert_eq!(
+        (again.model.nq, again.model.nbody, again.model.ngeom),
+        (loaded.model.nq, loaded.model.nbody, loaded.model.ngeom)
+    );
 }
 
 /// A mesh file in STL, binary or text.

@@ -2,7 +2,7 @@
 //!
 //! Sections are read in MuJoCo's order: settings, default classes, assets and constraints first, the body
 //! tree last, because `replicate` and `attach` copy what refers into it. A model file that `attach` takes parts
-//! of is read by a reader of its own.
+//! of is read by a reader of its own. URDF has other sections and the same elements.
 
 mod actuator;
 mod asset;
@@ -21,6 +21,7 @@ mod replicate;
 mod sensor;
 mod settings;
 mod tree;
+mod urdf;
 
 use crate::include::Expansion;
 use crate::spec::Spec;
@@ -37,6 +38,9 @@ type Section<R> = fn(&mut R, &Element);
 /// Checks and reads a tree; faulty values leave defaults behind and errors in the diagnostics. `None` when the
 /// root is no model.
 pub fn read(root: &Element, mut expansion: Expansion<'_>) -> Option<Spec> {
+    if root.name.eq_ignore_ascii_case("robot") {
+        return Some(urdf::read(root, expansion));
+    }
     check_root(root, &mut expansion)?;
     let path = expansion.sources.get(root.loc.file).map_or(String::new(), |s| s.path.clone());
     let mut reader = Reader::new(root, expansion, vec![path]);
