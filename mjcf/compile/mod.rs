@@ -5,7 +5,6 @@
 //! by row in the order of ids; sizes follow from them. Errors are collected, not thrown at the first.
 
 mod actuator;
-mod arctangent;
 mod asset_rows;
 mod assets;
 mod body;

@@ -1,6 +1,5 @@
 //! Sites, cameras and lights: things with a place in a body and no mass.
 
-use super::arctangent::arctangent2;
 use super::frame::{Pose, direction, same_frame_in_body};
 use super::geom;
 use super::log::{Log, title};
@@ -10,6 +9,7 @@ use super::values::push_user;
 use crate::spec::{Camera, Compiler, Light, Site, Spec, resolve};
 use crate::vector::{EPS, normalize};
 use physics::geometry::shape;
+use physics::math::ops;
 use physics::model::{GeomType, ObjType, Rows};
 use std::f64::consts::PI;
 
@@ -92,8 +92,12 @@ fn compile_camera<'s>(
         length(spec.principal_pixel, spec.principal_length, 0),
         length(spec.principal_pixel, spec.principal_length, 1),
     ];
-    let half_angle = arctangent2(spec.sensor_size[1] / 2.0, intrinsic[1]);
-    Ok(CameraNode { spec, pose, intrinsic, fovy: f64::from(half_angle) * 360.0 / PI })
+    Ok(CameraNode { spec, pose, intrinsic, fovy: field_of_view(spec.sensor_size[1] / 2.0, intrinsic[1]) })
+}
+
+/// The vertical field of view [degrees] of half a sensor's height and a focal length.
+fn field_of_view(half_height: f32, focal: f32) -> f64 {
+    f64::from(ops::atan2_single(half_height, focal)) * 360.0 / PI
 }
 
 fn compile_light<'s>(spec: &'s Light, frame: Option<&Pose>) -> Result<LightNode<'s>, String> {
@@ -176,5 +180,24 @@ pub(super) fn fill_lights(m: &mut Rows, body: &BodyNode, id: usize, lookup: &Loo
         m.light_ambient.push(spec.ambient);
         m.light_diffuse.push(spec.diffuse);
         m.light_specular.push(spec.specular);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The reference computes the angle in single precision; rounding the one of double precision differs in the last bit.
+    #[test]
+    fn fields_of_view_are_those_that_the_reference_computed() {
+        // Half a sensor, focal length, field of view in degrees, as bits.
+        let recorded: [(u32, u32, u64); 3] = [
+            (1_019_403_159, 1_027_767_904, 4_632_686_287_381_100_111),
+            (1_009_917_536, 1_017_934_522, 4_632_884_938_285_835_378),
+            (983_173_419, 1_021_326_580, 4_617_222_559_756_009_259),
+        ];
+        for (half, focal, fovy) in recorded {
+            assert_eq!(field_of_view(f32::from_bits(half), f32::from_bits(focal)).to_bits(), fovy);
+        }
     }
 }

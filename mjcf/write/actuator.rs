@@ -33,8 +33,9 @@ pub(crate) fn actuator(actuator: &Actuator) -> Result<Element, String> {
     };
     let general = std::mem::take(&mut out.attributes);
     let base = Actuator::default();
-    for block in BLOCKS.iter().filter(|b| !same(b, &POSITION_RANGE) && !(inherits && same(b, &GENERAL_ROWS)))
-    {
+    let stated =
+        |block: &[Row<Actuator>]| same(block, &POSITION_RANGE) || inherits && same(block, &GENERAL_ROWS);
+    for block in BLOCKS.iter().filter(|block| !stated(block)) {
         put_rows(&mut out, block, actuator, &base);
     }
     out.attributes.extend(general);

@@ -8,9 +8,9 @@ use clap::{Args, ValueHint};
 use mjcf::Loader;
 use mjcf::files::{Disk, FileProvider};
 use physics::Model;
-use robohive_validation::round_trip::differing;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use validation::round_trip::differing;
 
 /// Folder beside the file that assets are copied to.
 const FOLDER: &str = "assets";

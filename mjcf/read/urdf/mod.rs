@@ -111,14 +111,15 @@ impl Reader<'_> {
 
     /// MuJoCo's own settings. They are read, not checked: an attribute that is none of theirs is a warning.
     fn extension(&mut self, extension: &Element) {
-        let sections: [(&ElementType, fn(&mut Self, &Element)); 3] =
-            [(&COMPILER, Self::compiler), (&OPTION, Self::option), (&SIZE, Self::size)];
-        for (kind, read) in sections {
+        let mut section = |kind: &ElementType, read: fn(&mut Self, &Element)| {
             if let Some(section) = self.only(extension, kind.tag) {
                 self.warn_of_unknown(section, kind);
                 read(self, section);
             }
-        }
+        };
+        section(&COMPILER, Self::compiler);
+        section(&OPTION, Self::option);
+        section(&SIZE, Self::size);
         for other in &extension.children {
             if !matches!(other.name.as_str(), "compiler" | "option" | "size") {
                 let message =

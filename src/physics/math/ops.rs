@@ -23,7 +23,7 @@ pub fn sqrt(x: f64) -> f64 {
 #[cfg(not(system_math))]
 mod portable {
     pub use crate::math::sine::sincos;
-    pub use libm::{acos, asin, atan, atan2, exp, log, pow, tan, tanh};
+    pub use libm::{acos, asin, atan, atan2, atan2f as atan2_single, exp, log, pow, tan, tanh};
 
     /// Sine.
     pub fn sin(x: f64) -> f64 {
@@ -46,6 +46,10 @@ mod system {
     }
     forward!(acos(x) = acos, asin(x) = asin, atan(x) = atan, atan2(y, x) = atan2, cos(x) = cos, exp(x) = exp);
     forward!(log(x) = ln, pow(x, y) = powf, sin(x) = sin, tan(x) = tan, tanh(x) = tanh);
+
+    pub fn atan2_single(y: f32, x: f32) -> f32 {
+        y.atan2(x)
+    }
 
     pub fn sincos(x: f64) -> (f64, f64) {
         (x.sin(), x.cos())
