@@ -71,6 +71,8 @@ fn examples_of_every_help_run() {
     let model = folder.join("simhive/Adroit/hand.xml");
     std::fs::create_dir_all(model.parent().unwrap()).unwrap();
     std::fs::write(model, "<mujoco/>").unwrap();
+    let link = "<link name='base'><collision><geometry><sphere radius='1'/></geometry></collision></link>";
+    std::fs::write(folder.join("robot.urdf"), format!("<robot name='ball'>{link}</robot>")).unwrap();
     archive(&folder.join("A.npz"), "actions", vec![3, 8]);
     archive(&folder.join("S.npz"), "time", vec![2, 1]);
     for name in commands() {
