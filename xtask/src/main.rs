@@ -57,10 +57,8 @@ const LONG: [Check; 9] = [
 ];
 
 /// What is run before a release: it installs or builds much.
-const RELEASE: [Check; 2] = [
-    Check { name: "wheel", run: python::wheel },
-    Check { name: "python-cluster", run: python::cluster },
-];
+const RELEASE: [Check; 2] =
+    [Check { name: "wheel", run: python::wheel }, Check { name: "python-cluster", run: python::cluster }];
 
 fn main() -> ExitCode {
     let mut words: Vec<String> = std::env::args().skip(1).collect();
