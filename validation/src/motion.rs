@@ -5,6 +5,9 @@ use crate::reference::{Reference, ReferenceError};
 use crate::tolerance::{QACC, ROLLOUT_ABSOLUTE, STEP, TWIN_FACTOR};
 use physics::{Data, Model};
 
+/// Share of touching states that must agree.
+pub const TOUCHING_SHARE: f64 = 0.95;
+
 /// Forward passes of the recorded states.
 pub struct ForwardReport {
     /// Recorded states, and those with contacts.
@@ -21,6 +24,16 @@ pub struct ForwardReport {
     pub worst: Option<(usize, Worst)>,
     /// First failure of our own forward pass.
     pub failure: Option<String>,
+}
+
+impl ForwardReport {
+    /// The share of agreeing states reaches the bar, among touching ones where there are any.
+    pub fn agrees(&self) -> bool {
+        match self.touching {
+            0 => self.agreeing == self.states,
+            n => self.touching_agreeing as f64 >= TOUCHING_SHARE * n as f64,
+        }
+    }
 }
 
 /// Runs our forward pass on every recorded state and compares `qacc` in units of its largest component.
@@ -108,6 +121,9 @@ pub fn compare_steps(m: &Model, reference: &Reference) -> Result<StepReport, Ref
 /// Step up to which the early part of a rollout is reported.
 pub const EARLY: usize = 100;
 
+/// Positions of a twin that starts on the other side; not every recording has one.
+const SECOND_TWIN: &str = "twin.below";
+
 /// A free rollout beside the recorded one.
 pub struct RolloutReport {
     /// Steps compared.
@@ -134,15 +150,17 @@ impl RolloutReport {
 }
 
 /// Steps from keyframe 0, or `qpos0`, under the recorded controls. The bound at a step is the twin factor times the
-/// largest twin divergence so far, or the absolute one. Where we refuse a bad value and MuJoCo found one too, the
-/// rollout goes on as MuJoCo's does: from the reference configuration.
+/// largest twin divergence so far, or the absolute one. Bad values are reset where MuJoCo's run has them too.
 ///
 /// # Errors
 /// The reference lacks an array.
 pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport, ReferenceError> {
     let (theirs, steps) = reference.rows("rollout.qpos", m.nq)?;
     let ctrl = rows_along(reference, "rollout.ctrl", m.nu, steps)?;
-    let twin = rows_along(reference, "twin.qpos", m.nq, steps)?;
+    let mut twins = vec![rows_along(reference, "twin.qpos", m.nq, steps)?];
+    if reference.archive().names().any(|name| name == SECOND_TWIN) {
+        twins.push(rows_along(reference, SECOND_TWIN, m.nq, steps)?);
+    }
     let mut d = Data::new(m);
     if m.nkey > 0 {
         d.reset_to_key(m, 0).map_err(|_| ReferenceError::Shape("key_qpos".into()))?;
@@ -156,23 +174,20 @@ pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport
         by_step: Vec::new(),
         failure: None,
     };
-    let bad = reference.archive().require("rollout.bad")?.values.to_f64();
-    let mut resets = bad.first().map_or(0, |&n| n as usize);
+    d.autoreset =
+        reference.archive().require("rollout.bad")?.values.to_f64().first().is_some_and(|&n| n > 0.0);
     for step in 0..steps {
         d.state.ctrl.copy_from_slice(&ctrl[step * m.nu..(step + 1) * m.nu]);
-        let mut outcome = physics::step(m, &mut d);
-        if outcome.is_err() && resets > 0 {
-            resets -= 1;
-            d.reset(m);
-            outcome = physics::step(m, &mut d);
-        }
+        let outcome = physics::step(m, &mut d);
         if let Err(error) = outcome {
             report.failure = Some((step, error.to_string()));
             break;
         }
         let row = step * m.nq..(step + 1) * m.nq;
         report.divergence = report.divergence.max(largest_difference(&d.state.qpos, &theirs[row.clone()]));
-        report.twin = report.twin.max(largest_difference(&twin[row.clone()], &theirs[row]));
+        for twin in &twins {
+            report.twin = report.twin.max(largest_difference(&twin[row.clone()], &theirs[row.clone()]));
+        }
         report.by_step.push(report.divergence);
         if step < EARLY {
             report.early = report.divergence;
@@ -198,6 +213,11 @@ fn rows_along(
     }
 }
 
+/// Largest difference of two states; numbers that are bad in both do not differ.
 fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).fold(0.0, |worst: f64, (x, y)| worst.max((x - y).abs()))
+    a.iter().zip(b).fold(0.0, |worst: f64, (x, y)| match (x.is_finite(), y.is_finite()) {
+        (true, true) => worst.max((x - y).abs()),
+        (false, false) => worst,
+        _ => f64::INFINITY,
+    })
 }

@@ -10,9 +10,6 @@ use std::path::Path;
 /// What stands for the template text in the recorded references.
 pub const TEMPLATE: (&str, &str) = ("OBJECT_NAME", "airplane");
 
-/// Share of touching states that must agree.
-pub const TOUCHING_SHARE: f64 = 0.95;
-
 /// Steps that a model must run without a bad value.
 pub const LONG_RUN: usize = 2000;
 
@@ -41,12 +38,9 @@ impl Row {
         self.stages.as_ref().is_some_and(|s| s.outside().is_empty())
     }
 
-    /// The share of agreeing states reaches the bar, among touching ones where there are any.
+    /// Forward passes agree.
     pub fn forwards(&self) -> bool {
-        self.forward.as_ref().is_some_and(|f| match f.touching {
-            0 => f.agreeing == f.states,
-            n => f.touching_agreeing as f64 >= TOUCHING_SHARE * n as f64,
-        })
+        self.forward.as_ref().is_some_and(ForwardReport::agrees)
     }
 
     /// The rollout stays within the bound.

@@ -21,6 +21,7 @@ mod constraints;
 mod scratch;
 mod snapshot;
 mod stages;
+mod warnings;
 
 pub use address::ArrayAddress;
 pub use budget::{Demand, OverBudget, StepBudget};
@@ -30,6 +31,7 @@ pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStat, Solve
 pub use scratch::Scratch;
 pub use snapshot::{ForeignSnapshot, Snapshot};
 pub use stages::*;
+pub use warnings::Warnings;
 
 use crate::actuation::history;
 use crate::model::{Arrays, Model};
@@ -58,6 +60,10 @@ impl State {
 pub struct Data {
     /// Memory that contacts and constraint rows of one step may take.
     pub budget: StepBudget,
+    /// A bad number in a step is reset as MuJoCo does, and counted in `warnings`, instead of an error.
+    pub autoreset: bool,
+    /// What `autoreset` has done.
+    pub warnings: Warnings,
     /// Potential and kinetic energy [J].
     pub energy: [f64; 2],
     /// State and inputs.

@@ -23,6 +23,7 @@ use crate::data::{Data, configuration_of};
 use crate::inertia::{factor_inertia, make_inertia, solve};
 use crate::integration::integrate::{Factors, advance_once, integrate};
 use crate::model::{Enable, Integrator, Model};
+use crate::pipeline::autoreset::{admit_acceleration, admit_controls, admit_result, admit_state};
 use crate::pipeline::inverse::compare_with_forward;
 use crate::pipeline::validity::{check_acceleration, check_result, check_state};
 use crate::pipeline::watch::{Stage, Watch};
@@ -58,7 +59,8 @@ pub fn forward_after_step1(m: &Model, d: &mut Data) {
 ///
 /// # Errors
 /// A state or input is not finite or too large, or the state after the step is, or contacts and
-/// constraint rows need more memory than `Data::budget`; `d` keeps the state for inspection.
+/// constraint rows need more memory than `Data::budget`; `d` keeps the state for inspection. With `Data::autoreset`
+/// bad numbers are no errors.
 pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
     step_watched(m, d, &mut ())
 }
@@ -68,15 +70,15 @@ pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// # Errors
 /// As `step`.
 pub fn step_watched(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
-    check_state(m, d)?;
+    admit_state(m, d)?;
     watch.ended(Stage::Checks);
     evaluate(m, d, true, watch)?;
-    check_acceleration(m, d)?;
+    admit_acceleration(m, d)?;
     compare_if_asked(m, d)?;
     watch.ended(Stage::Checks);
     integrate(m, d, Factors::Fresh, watch)?;
     watch.ended(Stage::Integration);
-    check_result(m, d)
+    admit_result(m, d)
 }
 
 /// What of the last evaluation still holds.
@@ -113,7 +115,7 @@ fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// # Errors
 /// As `step`.
 pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    check_state(m, d)?;
+    admit_state(m, d)?;
     position_and_velocity(m, d, Known::Nothing, true, &mut ())
 }
 
@@ -122,12 +124,12 @@ pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// # Errors
 /// As `step`.
 pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    check_state(m, d)?;
+    admit_controls(m, d)?;
     forward_after_step1(m, d);
-    check_acceleration(m, d)?;
+    admit_acceleration(m, d)?;
     compare_if_asked(m, d)?;
     advance_once(m, d, Factors::Fresh);
-    check_result(m, d)
+    admit_result(m, d)
 }
 
 /// `forward`, with or without sensors.

@@ -17,6 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod autoreset;
 pub mod batch;
 pub mod error;
 pub mod forward;
