@@ -236,12 +236,13 @@ def jobs(args):
 def main():
     parser = arguments(__doc__)
     parser.add_argument("--states", type=int, default=STATES, help="independent states to record")
+    parser.add_argument("--steps", type=int, default=STEPS, help="steps of the rollout")
     args = parser.parse_args()
     failed = 0
     with jobs(args) as found:
         for name, path in found:
             try:
-                np.savez_compressed(args.out / (name + ".npz"), **record(load(path), states=args.states))
+                np.savez_compressed(args.out / (name + ".npz"), **record(load(path), states=args.states, steps=args.steps))
                 print("recorded", name, flush=True)
             except Exception as error:
                 failed += 1

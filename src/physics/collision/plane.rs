@@ -74,23 +74,21 @@ pub fn plane_cylinder(plane: &Shape, cylinder: &Shape, margin: f64, out: &mut Ve
     axis = scale(axis, half_length);
     axis_height *= half_length;
 
-    let mut lower = |dist: f64, offset: Vec3, along: Vec3| {
-        out.push(at_point(normal, dist, add(add(cylinder.pos, offset), along)));
-    };
+    let cap_point = |offset: Vec3, along: Vec3| add(add(cylinder.pos, offset), along);
     let dist = centre_height + axis_height + radial_height;
     if dist > margin {
         return;
     }
-    lower(dist, radial, axis);
+    out.push(at_point(normal, dist, cap_point(radial, axis)));
     let dist = centre_height - axis_height + radial_height;
     if dist <= margin {
-        lower(dist, radial, scale(axis, -1.0));
+        out.push(at_point(normal, dist, cap_point(radial, scale(axis, -1.0))));
     }
     let dist = centre_height + axis_height - radial_height * 0.5;
     if dist <= margin {
         let sideways = scale(normalize(cross(radial, axis)).0, radius * 3.0f64.sqrt() / 2.0);
         for side in [sideways, scale(sideways, -1.0)] {
-            lower(dist, side, add_scaled(axis, radial, -0.5));
+            out.push(at_point(normal, dist, add_scaled(cap_point(side, axis), radial, -0.5)));
         }
     }
 }

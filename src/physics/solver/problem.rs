@@ -4,7 +4,7 @@
 use super::rows::Rows;
 use crate::data::{Constraints, Contacts, Inertia};
 use crate::math::dense::dot_slice;
-use crate::math::{LowerRows, add_scaled_slice, dot_sparse, scatter_scaled};
+use crate::math::{LowerRows, add_scaled_slice, dot_sparse};
 use crate::model::Model;
 use std::ops::Range;
 
@@ -25,6 +25,8 @@ pub(super) struct Problem {
     pub row_start: Vec<usize>,
     /// Columns of compressed rows.
     pub columns: Vec<i32>,
+    /// The compressed rows transposed.
+    transposed: Transposed,
     /// Non-zeros of each inertia row.
     inertia_rownnz: Vec<i32>,
     /// Start of each inertia row.
@@ -37,6 +39,16 @@ pub(super) struct Problem {
     factor: Vec<f64>,
     /// Reciprocal of D.
     inverse_diagonal: Vec<f64>,
+}
+
+/// Entries of compressed rows by column.
+#[derive(Clone, Debug, Default)]
+struct Transposed {
+    /// Start of each column, and the end of the last.
+    start: Vec<usize>,
+    /// Rows, increasing within a column.
+    rows: Vec<i32>,
+    entries: Vec<f64>,
 }
 
 /// Selection of an island: its degrees of freedom and rows, and the sorted index of every degree of freedom.
@@ -126,6 +138,29 @@ impl Problem {
             self.jacobian.extend_from_slice(&efc.efc_J[range]);
             self.row_start.push(self.jacobian.len());
         }
+        self.transpose();
+    }
+
+    /// Transposes the compressed rows.
+    fn transpose(&mut self) {
+        let t = &mut self.transposed;
+        t.start.clear();
+        t.start.resize(self.nv + 2, 0);
+        self.columns.iter().for_each(|&c| t.start[c as usize + 2] += 1);
+        for c in 2..t.start.len() {
+            t.start[c] += t.start[c - 1];
+        }
+        t.rows.resize(self.columns.len(), 0);
+        t.entries.resize(self.columns.len(), 0.0);
+        for (row, span) in self.row_start.windows(2).enumerate() {
+            for k in span[0]..span[1] {
+                let at = &mut t.start[self.columns[k] as usize + 1];
+                t.rows[*at] = row as i32;
+                t.entries[*at] = self.jacobian[k];
+                *at += 1;
+            }
+        }
+        t.start.pop();
     }
 
     /// The inertia's structure.
@@ -170,17 +205,19 @@ impl Problem {
         }
     }
 
-    /// `out = Jᵀ f`.
+    /// `out = Jᵀ f`: full rows are added one after the other, compressed ones column by column in four lanes.
     pub fn mul_jacobian_transposed(&self, f: &[f64], out: &mut [f64]) {
+        if !self.dense {
+            let t = &self.transposed;
+            for (out, span) in out.iter_mut().zip(t.start.windows(2)) {
+                *out = dot_sparse(&t.entries[span[0]..span[1]], &t.rows[span[0]..span[1]], f);
+            }
+            return;
+        }
         out.fill(0.0);
         for (i, &f) in f.iter().enumerate().filter(|(_, f)| **f != 0.0) {
-            if self.dense {
-                let span = self.spans[i].clone();
-                add_scaled_slice(&mut out[span.clone()], &self.dense_row(i)[span], f);
-            } else {
-                let (columns, values) = self.sparse_row(i);
-                scatter_scaled(values, columns, f, out);
-            }
+            let span = self.spans[i].clone();
+            add_scaled_slice(&mut out[span.clone()], &self.dense_row(i)[span], f);
         }
     }
 

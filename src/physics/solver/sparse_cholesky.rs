@@ -2,7 +2,8 @@
 //! this order makes no fill (Featherstone 2008, section 6.5; Davis 2006, chapter 4).
 
 use super::problem::Problem;
-use crate::math::{add_scaled_slice, bit_set};
+use crate::math::{add_scaled_slice, bit_set, dot_sparse};
+use std::ops::Range;
 
 const NONE: usize = usize::MAX;
 
@@ -10,24 +11,29 @@ const NONE: usize = usize::MAX;
 #[derive(Clone, Debug, Default)]
 pub(super) struct SparseCholesky {
     n: usize,
-    /// Start of each row.
+    /// Start of each row, and the end of the last.
     start: Vec<usize>,
-    /// One past the diagonal, the last entry of each row.
-    end: Vec<usize>,
-    /// Columns, increasing within a row.
-    columns: Vec<usize>,
+    /// Columns, increasing within a row, the diagonal last.
+    columns: Vec<i32>,
+    /// Lists of the later rows with an entry in each column, those of the last column first: the list of column `c`
+    /// begins at `later_start[c + 1]` and ends at `later_start[c]`.
+    later_start: Vec<usize>,
+    /// Row of each and the place of its entry, in the order in which they are subtracted.
+    later: Vec<(usize, usize)>,
     /// Successive rows of the Jacobian with the same columns, as those of one contact: the first, and how many.
     groups: Vec<(usize, usize)>,
     /// Entries of groups by column: start of each column.
     entry_start: Vec<usize>,
     /// Group of each, and its place within the group's rows.
     entries: Vec<(usize, usize)>,
-    /// Columns of each row that are not zero, as sets; those of rows that are eliminated into it are added.
+    /// Columns of each row of the matrix that are not zero, as sets.
     patterns: Vec<u64>,
     set: Vec<u64>,
-    /// Rows whose next entry to eliminate lies in this column, and that entry.
-    waiting: Vec<usize>,
-    next: Vec<usize>,
+    /// Row that each is eliminated into first.
+    parent: Vec<usize>,
+    /// Last row whose elimination has visited each.
+    visited: Vec<usize>,
+    /// Number of entries listed so far, or their end, by row or column.
     at: Vec<usize>,
     dense: Vec<f64>,
     sums: Vec<f64>,
@@ -40,26 +46,62 @@ impl SparseCholesky {
         self.group_rows(p);
         self.list_columns(p);
         self.mark_matrix(p);
-        self.start.clear();
-        self.start.resize(p.nv, 0);
-        self.end.clone_from(&self.start);
-        self.columns.clear();
-        let words = bit_set::words(p.nv);
-        for r in (0..p.nv).rev() {
-            let (before, row) = self.patterns.split_at_mut(r * words);
-            self.start[r] = self.columns.len();
-            bit_set::for_each(&row[..=r / 64], |c| {
-                if c <= r {
-                    self.columns.push(c);
-                }
-            });
-            self.end[r] = self.columns.len();
-            if let [.., parent, _] = self.columns[self.start[r]..] {
-                bit_set::unite(&mut before[parent * words..(parent + 1) * words], &row[..words]);
-            }
-        }
+        self.follow_elimination();
+        self.place_entries();
         self.dense.clear();
         self.dense.resize(p.nv, 0.0);
+    }
+
+    /// Lists the later rows of each column: those where the matrix has an entry, in increasing order, each followed by
+    /// the rows that its elimination leads through. Floating-point sums over them depend on this order, MuJoCo's.
+    fn follow_elimination(&mut self) {
+        let (n, words) = (self.n, bit_set::words(self.n));
+        for v in [&mut self.parent, &mut self.visited] {
+            v.clear();
+            v.resize(n, NONE);
+        }
+        self.later.clear();
+        self.later_start.clear();
+        self.later_start.resize(n + 1, 0);
+        for r in (0..n).rev() {
+            self.later_start[r + 1] = self.later.len();
+            self.visited[r] = r;
+            bit_set::for_each(&self.patterns[r * words..(r + 1) * words], |c| {
+                let mut row = c;
+                while row > r && self.visited[row] != r {
+                    self.visited[row] = r;
+                    self.later.push((row, 0));
+                    if self.parent[row] == NONE {
+                        self.parent[row] = r;
+                    }
+                    row = self.parent[row];
+                }
+            });
+        }
+        self.later_start[0] = self.later.len();
+    }
+
+    /// Lays out the rows from the lists of columns.
+    fn place_entries(&mut self) {
+        let n = self.n;
+        self.start.clear();
+        self.start.resize(n + 1, 0);
+        self.later.iter().for_each(|&(row, _)| self.start[row + 1] += 1);
+        for r in 0..n {
+            self.start[r + 1] += self.start[r] + 1;
+        }
+        self.columns.clear();
+        self.columns.resize(self.start[n], 0);
+        self.at.clear();
+        self.at.extend_from_slice(&self.start[..n]);
+        for r in 0..n {
+            for (row, place) in &mut self.later[self.later_start[r + 1]..self.later_start[r]] {
+                *place = self.at[*row];
+                self.columns[*place] = r as i32;
+                self.at[*row] += 1;
+            }
+            self.columns[self.at[r]] = r as i32;
+        }
     }
 
     /// Marks the entries of each row of the matrix.
@@ -69,6 +111,11 @@ impl SparseCholesky {
         self.patterns.resize(p.nv * words, 0);
         for (r, pattern) in self.patterns.chunks_exact_mut(words).enumerate() {
             p.inertia_row(r).0.iter().for_each(|&c| bit_set::insert(pattern, c as usize));
+        }
+        for r in 0..p.nv {
+            for &c in p.inertia_row(r).0 {
+                bit_set::insert(&mut self.patterns[c as usize * words..], r);
+            }
         }
         for &(first, _) in &self.groups {
             let columns = p.sparse_row(first).0;
@@ -114,30 +161,32 @@ impl SparseCholesky {
         }
     }
 
+    /// Entries of row `r` left of the diagonal, and the place of the diagonal.
+    fn row(&self, r: usize) -> (Range<usize>, usize) {
+        let diagonal = self.start[r + 1] - 1;
+        (self.start[r]..diagonal, diagonal)
+    }
+
     /// Assembles `M + Jᵀ D J` row by row and factors it at once; returns the rank.
     pub fn factorize(&mut self, p: &Problem, active: &[f64], values: &mut Vec<f64>, least: f64) -> usize {
         values.clear();
         values.resize(self.columns.len(), 0.0);
-        for v in [&mut self.waiting, &mut self.next, &mut self.at] {
-            v.clear();
-            v.resize(self.n, NONE);
-        }
         let mut rank = self.n;
         for r in (0..self.n).rev() {
             self.assemble_row(p, active, r);
             self.eliminate_into(r, values);
-            let (start, diagonal) = (self.start[r], self.end[r] - 1);
+            let (left, diagonal) = self.row(r);
             let pivot = self.dense[r];
             rank -= usize::from(pivot < least);
             let root = pivot.max(least).sqrt();
             let inverse = 1.0 / root;
-            for k in start..diagonal {
-                values[k] = self.dense[self.columns[k]] * inverse;
-                self.dense[self.columns[k]] = 0.0;
+            for k in left {
+                let x = &mut self.dense[self.columns[k] as usize];
+                values[k] = *x * inverse;
+                *x = 0.0;
             }
             values[diagonal] = root;
             self.dense[r] = 0.0;
-            self.wait(r, diagonal);
         }
         rank
     }
@@ -168,44 +217,26 @@ impl SparseCholesky {
 
     /// Subtracts the contributions of all later rows with an entry in column `r`.
     fn eliminate_into(&mut self, r: usize, values: &[f64]) {
-        let mut row = self.waiting[r];
-        while row != NONE {
-            let (at, following) = (self.at[row], self.next[row]);
+        for &(row, at) in &self.later[self.later_start[r + 1]..self.later_start[r]] {
             let scale = values[at];
             for k in self.start[row]..=at {
-                self.dense[self.columns[k]] -= scale * values[k];
+                self.dense[self.columns[k] as usize] -= scale * values[k];
             }
-            self.wait(row, at);
-            row = following;
-        }
-    }
-
-    /// Queues `row` at the column before entry `at`.
-    fn wait(&mut self, row: usize, at: usize) {
-        if at > self.start[row] {
-            let column = self.columns[at - 1];
-            self.at[row] = at - 1;
-            self.next[row] = self.waiting[column];
-            self.waiting[column] = row;
         }
     }
 
     /// Solves `Lᵀ L x = x` in place.
     pub fn solve(&self, values: &[f64], x: &mut [f64]) {
         for i in (0..self.n).rev() {
-            let (start, diagonal) = (self.start[i], self.end[i] - 1);
+            let (left, diagonal) = self.row(i);
             x[i] /= values[diagonal];
-            for k in start..diagonal {
-                x[self.columns[k]] -= values[k] * x[i];
+            for k in left {
+                x[self.columns[k] as usize] -= values[k] * x[i];
             }
         }
         for i in 0..self.n {
-            let (start, diagonal) = (self.start[i], self.end[i] - 1);
-            let mut sum = x[i];
-            for k in start..diagonal {
-                sum -= values[k] * x[self.columns[k]];
-            }
-            x[i] = sum / values[diagonal];
+            let (left, diagonal) = self.row(i);
+            x[i] = (x[i] - dot_sparse(&values[left.clone()], &self.columns[left], x)) / values[diagonal];
         }
     }
 
@@ -230,7 +261,7 @@ impl SparseCholesky {
                 continue;
             }
             self.dense[row] = 0.0;
-            let (start, at) = (self.start[row], self.end[row] - 1);
+            let (left, at) = self.row(row);
             let diagonal = values[at];
             let mut square = if plus { diagonal * diagonal + x * x } else { diagonal * diagonal - x * x };
             if square < least {
@@ -241,8 +272,8 @@ impl SparseCholesky {
             values[at] = root;
             let (c, s) = (diagonal / root, -x / root);
             let signed = if plus { -s } else { s };
-            for k in start..at {
-                let (other, value) = (&mut self.dense[self.columns[k]], &mut values[k]);
+            for k in left {
+                let (other, value) = (&mut self.dense[self.columns[k] as usize], &mut values[k]);
                 let rotated = c * *value + signed * *other;
                 *other = s * *value + c * *other;
                 *value = rotated;

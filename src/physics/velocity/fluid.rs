@@ -78,10 +78,12 @@ fn box_wrench(side: Vec3, v: &Spatial, density: f64, viscosity: f64) -> Spatial 
         f = spatial(scale(rotational(v), turn), scale(linear(v), shift));
     }
     if density > 0.0 {
-        for k in 0..3 {
-            let (a, b) = (side[(k + 1) % 3], side[(k + 2) % 3]);
+        // MuJoCo's order of factors, to the last bit: the sides of a face as they are numbered.
+        let fourth = |x: f64| x * x * x * x;
+        for (k, face) in [[1, 2], [0, 2], [0, 1]].into_iter().enumerate() {
+            let [a, b] = face.map(|i| side[i]);
             f[3 + k] -= 0.5 * density * a * b * v[3 + k].abs() * v[3 + k];
-            f[k] -= density * side[k] * (pow4(a) + pow4(b)) * v[k].abs() * v[k] / 64.0;
+            f[k] -= density * side[k] * (fourth(a) + fourth(b)) * v[k].abs() * v[k] / 64.0;
         }
     }
     f

@@ -1,0 +1,58 @@
+//! What MuJoCo computes to the last bit where rounding shows: sums in the order of sparse matrices, boxes that meet
+//! exactly, forces of fluids, and resets of runs that diverge. The positions of these models need no trigonometric
+//! function, so that the numbers are the same from every C library.
+
+use robohive_validation::bits::count_bits;
+use robohive_validation::motion::compare_rollout;
+use robohive_validation::reference::Reference;
+use std::path::Path;
+
+fn load(name: &str) -> (physics::Model, Reference) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/details");
+    let model = mjcf::load(folder.join(name).with_extension("xml")).unwrap().model;
+    (model, Reference::open(&folder.join(name).with_extension("npz")).unwrap())
+}
+
+/// Compiled arrays, stages and forward passes of `name` are MuJoCo's to the last bit.
+#[track_caller]
+fn is_equal(name: &str) {
+    let (m, reference) = load(name);
+    let row = count_bits(name, &m, &reference).unwrap();
+    assert_eq!(row.differences(), "");
+}
+
+#[test]
+fn many_bodies_are_solved_with_the_sums_of_sparse_matrices() {
+    let (m, reference) = load("heap");
+    assert!(m.is_sparse() && reference.state_row("forward", "nefc", 0).unwrap()[0] > 30.0);
+    is_equal("heap");
+    is_equal("heap_elliptic");
+}
+
+#[test]
+fn fluids_push_and_cylinders_rest_with_the_same_sums() {
+    let (_, reference) = load("drag");
+    assert!(reference.state_row("forward", "ncon", 0).unwrap()[0] > 4.0);
+    is_equal("drag");
+}
+
+#[test]
+fn boxes_that_meet_exactly_touch_where_they_do_in_mujoco() {
+    let (_, reference) = load("touching");
+    assert_eq!(reference.state_row("forward", "ncon", 0).unwrap(), [4.0]);
+    is_equal("touching");
+}
+
+#[test]
+fn runs_that_diverge_are_reset_at_the_same_steps() {
+    let (m, reference) = load("diverging");
+    let report = compare_rollout(&m, &reference).unwrap();
+    assert_eq!((report.failure.as_ref(), report.divergence), (None, 0.0));
+    let mut d = physics::Data::new(&m);
+    d.autoreset = true;
+    let end = (0..report.steps).map(|_| physics::step(&m, &mut d)).collect::<Result<Vec<()>, _>>();
+    assert_eq!((end.is_ok(), d.warnings.bad_qacc, d.warnings.resets()), (true, 6, 6));
+    d.autoreset = false;
+    let failed = (0..report.steps).find_map(|_| physics::step(&m, &mut d).err());
+    assert!(matches!(failed, Some(physics::StepError::BadQacc(_))), "{failed:?}");
+}
