@@ -26,13 +26,16 @@ pub fn run(a: &Inspect) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Every array under its own name; options and statistics as `opt.NAME` and `stat.NAME`, sizes as scalars.
+/// Every array under its own name; options and statistics as `opt.NAME` and `stat.NAME`, what is seen as
+/// `vis.GROUP.NAME`, sizes and flags as scalars.
 fn write_arrays(m: &Model, path: &Path) -> Result<(), Failure> {
     let mut arrays: Vec<(String, Array)> = Vec::new();
     m.visit_sizes(&mut |name, n| arrays.push((name.into(), Array::scalar_i64(n as i64))));
+    m.visit_flags(&mut |name, flag| arrays.push((name.into(), Array::scalar_i64(flag.into()))));
     m.visit(&mut |name, shape, values| arrays.push((name.into(), array(shape, values))));
     m.opt.visit(&mut |name, values| arrays.push((format!("opt.{name}"), setting(values))));
     m.stat.visit(&mut |name, values| arrays.push((format!("stat.{name}"), setting(values))));
+    m.vis.visit(&mut |group, name, values| arrays.push((format!("vis.{group}.{name}"), setting(values))));
     let mut writer = NpzWriter::create(path).map_err(unwritable(path))?;
     for (name, array) in &arrays {
         writer.add(name, array).map_err(unwritable(path))?;

@@ -54,6 +54,15 @@ pub fn compare_compiled(m: &Model, reference: &Reference) -> Result<CompileRepor
     m.visit(&mut |name, _, values| ours.push((format!("model.{name}"), values.to_f64(), values.is_float())));
     m.opt.visit(&mut |name, values| ours.push((format!("opt.{name}"), values.to_f64(), values.is_float())));
     m.stat.visit(&mut |name, values| ours.push((format!("stat.{name}"), values.to_f64(), true)));
+    m.visit_flags(&mut |name, flag| {
+        ours.push((format!("size.{name}"), vec![f64::from(u8::from(flag))], false))
+    });
+    m.vis.visit(&mut |group, name, values| {
+        // MuJoCo's Python bindings show these two colours as empty.
+        if !["bv", "bvactive"].contains(&name) || group != "rgba" {
+            ours.push((format!("vis.{group}.{name}"), values.to_f64(), values.is_float()));
+        }
+    });
     let mut report = CompileReport { differences: Vec::new(), fields: ours.len(), largest: 0.0 };
     for (name, values, float) in ours {
         let theirs = archive.require(&name)?.values.to_f64();

@@ -160,19 +160,14 @@ impl Model {
         let mut head = Vec::new();
         head.extend((self.name.len() as u64).to_le_bytes());
         head.extend(self.name.as_bytes());
-        head.extend([self.flg_gravcomp, self.flg_surfacevel, self.flg_adhesion].map(u8::from));
+        self.visit_flags(&mut |_, flag| head.push(u8::from(flag)));
         self.visit_sizes(&mut |_, n| head.extend((n as isize as i64).to_le_bytes()));
         let mut setting = |_: &str, values: crate::table::Slice<'_>| {
             values.pieces(&mut |bytes| head.extend_from_slice(bytes));
         };
         self.opt.visit(&mut setting);
         self.stat.visit(&mut setting);
-        self.vis.global.visit(&mut setting);
-        self.vis.quality.visit(&mut setting);
-        self.vis.headlight.visit(&mut setting);
-        self.vis.map.visit(&mut setting);
-        self.vis.scale.visit(&mut setting);
-        self.vis.rgba.visit(&mut setting);
+        self.vis.visit(&mut |_, name, values| setting(name, values));
         head.resize(head.len().next_multiple_of(WORD), 0);
         out(&head);
         self.visit(&mut |_, _, values| {

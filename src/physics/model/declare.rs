@@ -212,6 +212,13 @@ macro_rules! model {
                 $(f(stringify!($size), self.$size);)*
             }
 
+            /// Calls `f(name, flag)` for what the model uses at all, in order of declaration.
+            pub fn visit_flags(&self, f: &mut dyn FnMut(&'static str, bool)) {
+                f("flg_gravcomp", self.flg_gravcomp);
+                f("flg_surfacevel", self.flg_surfacevel);
+                f("flg_adhesion", self.flg_adhesion);
+            }
+
             /// Sets a size by name; false when there is no such size.
             pub fn set_size(&mut self, name: &str, value: usize) -> bool {
                 match name {

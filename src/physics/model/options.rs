@@ -399,3 +399,15 @@ pub struct Visual {
     /// Colours of decorative elements.
     pub rgba: VisualRgba,
 }
+
+impl Visual {
+    /// Calls `f(group, name, values)` for every setting, group by group.
+    pub fn visit(&self, f: &mut dyn FnMut(&'static str, &'static str, Slice<'_>)) {
+        self.global.visit(&mut |name, values| f("global", name, values));
+        self.quality.visit(&mut |name, values| f("quality", name, values));
+        self.headlight.visit(&mut |name, values| f("headlight", name, values));
+        self.map.visit(&mut |name, values| f("map", name, values));
+        self.scale.visit(&mut |name, values| f("scale", name, values));
+        self.rgba.visit(&mut |name, values| f("rgba", name, values));
+    }
+}
