@@ -41,16 +41,19 @@ def reason(path, any_feature):
         model = mujoco.MjModel.from_xml_path(str(path))
     except Exception as error:
         return "refused: " + " ".join(str(error).split())
-    if any_feature:
-        return ""
+    return "" if any_feature else feature(path, model)
+
+
+def feature(path, model):
+    """What of a model is not simulated, or why it is too large; empty when there is nothing."""
     present = elements(path, set())
     if "robot" in present:
         return "URDF"
     if found := [e for e in ELEMENTS if e in present]:
         return ", ".join(found)
-    for count, feature in [(model.nflex, "flex"), (model.nskin, "skin"), (model.nplugin, "plugin")]:
+    for count, name in [(model.nflex, "flex"), (model.nskin, "skin"), (model.nplugin, "plugin")]:
         if count:
-            return feature
+            return name
     if (model.geom_type == mujoco.mjtGeom.mjGEOM_SDF).any():
         return "sdf"
     if model.nv > LARGEST:

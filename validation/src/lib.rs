@@ -22,3 +22,4 @@ pub mod solver;
 pub mod stages;
 pub mod status;
 pub mod tolerance;
+pub mod wider;

@@ -4,7 +4,7 @@ use physics::Model;
 use robohive_validation::reference::{Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
 use robohive_validation::{bits, c_library, collide_table, demonstrations, draws, environments};
-use robohive_validation::{hulls, laws, pictures, policies, round_trip, scenes, solver};
+use robohive_validation::{hulls, laws, pictures, policies, round_trip, scenes, solver, wider};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -22,6 +22,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        [--write README.md]
        robohive-validation pictures-gpu [--models FOLDER] --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation scenes --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
+       robohive-validation wider --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation quirks [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
        robohive-validation round-trip FOLDER... [--only TEXT] [--write README.md]
@@ -42,6 +43,8 @@ missed. Models are the folder with RoboHive's envs and simhive and MuJoCo's mode
 stands in for our pictures; --dump writes ours, the recorded one and eight times their difference side by side.
 pictures-gpu: draws the same scenes on a GPU and compares them with those of the CPU renderer (builds with feature gpu).
 scenes: assembles the scenes that items.py recorded and compares items, lights and cameras; fails when any differs.
+wider: compares the public models that wider.py gathered and recorded, source by source; fails when a bar is missed. Models
+are its folder sources.
 draws: makes every recorded random draw with all seeds and compares it with numpy's; fails when any differs.
 bits: counts the values that are MuJoCo's to the last bit. Without a list on the own models, where it fails when the table is
 not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; with it the exit code is 3 where the C library
@@ -173,6 +176,14 @@ fn run() -> Result<(), String> {
             let (table, verdict) = round_trip::render(&round_trip::measure(&a.folders, &a.only)?);
             ("round-trip", table, verdict)
         }
+        Some("wider") => {
+            let rows = wider_rows(&a)?;
+            let left_out = a.list.with_file_name("left_out.tsv");
+            let left_out =
+                std::fs::read_to_string(&left_out).map_err(|e| format!("{}: {e}", left_out.display()))?;
+            let (table, verdict) = wider::render(&rows, &left_out);
+            ("wider", table, verdict)
+        }
         Some("laws") => {
             let references: Vec<_> =
                 recorded().map_err(|e| e.to_string())?.into_iter().map(|(_, reference)| reference).collect();
@@ -197,7 +208,17 @@ fn chosen(a: &Arguments) -> Result<Vec<(String, PathBuf, PathBuf)>, String> {
         let name = line.trim_end_matches(".xml").replace('/', "__");
         (line.to_owned(), a.models.join(line), a.references.join(name + ".npz"))
     };
-    Ok(list.split_whitespace().filter(|line| line.contains(&a.only)).map(files).collect())
+    Ok(list.lines().filter(|line| !line.is_empty() && line.contains(&a.only)).map(files).collect())
+}
+
+/// How the listed public models compare.
+fn wider_rows(a: &Arguments) -> Result<Vec<wider::Compared>, String> {
+    let row = |(line, model, reference): (String, PathBuf, PathBuf)| {
+        let row = wider::measure(&line, &model, &reference);
+        println!("{}", row.line());
+        row
+    };
+    Ok(chosen(a)?.into_iter().map(row).collect())
 }
 
 /// How the scenes of every listed model compare.
