@@ -4,7 +4,7 @@
 use super::broad_phase::spheres_apart;
 use super::mixing;
 use crate::data::Kinematics;
-use crate::math::{Mat3, Vec3, add, dot, mul_mat_vec};
+use crate::math::{Mat3, Vec3, add, column, dot, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec, sub};
 use crate::model::Model;
 use crate::model::bounds::MAXVAL;
 
@@ -51,7 +51,8 @@ pub fn descend(
     let tree2 = Tree { m, start: m.body_bvhadr[b2] as usize };
     let body_margin =
         if mixing::overridden(m) { m.opt.o_margin } else { m.body_margin[b1] + m.body_margin[b2] };
-    let relation = Relation::new([kin.xipos[b1], kin.xipos[b2]], [&kin.ximat[b1], &kin.ximat[b2]]);
+    let relation =
+        Relation::new([kin.xipos[b1], kin.xipos[b2]], [&kin.ximat[b1], &kin.ximat[b2]], Centres::InFrame);
 
     stack.clear();
     stack.push((0, 0));
@@ -81,43 +82,10 @@ pub fn descend(
     }
 }
 
-/// Separating axis test along the six face normals of the boxes of two geoms. Centres are projected as points of the
-/// world: boxes that touch exactly are apart or not by the rounding of these sums, as in MuJoCo.
 fn geom_boxes_overlap(m: &Model, kin: &Kinematics, g1: usize, g2: usize, margin: f64) -> bool {
-    let boxes = [&m.geom_aabb[g1], &m.geom_aabb[g2]];
-    let mats = [&kin.geom_xmat[g1], &kin.geom_xmat[g2]];
-    let axes = mats.map(columns);
-    let centre = |i: usize, g: usize| {
-        add(mul_mat_vec(mats[i], [boxes[i][0], boxes[i][1], boxes[i][2]]), kin.geom_xpos[g])
-    };
-    let centres = [centre(0, g1), centre(1, g2)];
-    let apart_along = |normal: &Vec3| {
-        let shadow = |i: usize| {
-            let reach = |l: usize| (boxes[i][3 + l] * dot(axes[i][l], *normal)).abs();
-            Shadow { centre: dot(centres[i], *normal), radius: reach(0) + reach(1) + reach(2) }
-        };
-        shadow(0).apart(shadow(1), margin)
-    };
-    overlap(boxes, |j, k| apart_along(&axes[j][k]))
-}
-
-/// A box projected onto an axis.
-struct Shadow {
-    centre: f64,
-    radius: f64,
-}
-
-impl Shadow {
-    fn apart(self, other: Shadow, margin: f64) -> bool {
-        self.radius + other.radius + margin < (other.centre - self.centre).abs()
-    }
-}
-
-/// True unless `apart(j, k)` along the normal of a face `k` of box `j`. A box without end in all directions touches
-/// everything; one without end in some has no faces to test the other against.
-fn overlap(boxes: [&[f64; 6]; 2], apart: impl Fn(usize, usize) -> bool) -> bool {
-    let [(some_a, all_a), (some_b, all_b)] = boxes.map(infinite);
-    all_a || all_b || ((some_b || !(0..3).any(|k| apart(0, k))) && (some_a || !(0..3).any(|k| apart(1, k))))
+    let (pos, mat) = (&kin.geom_xpos, &kin.geom_xmat);
+    let relation = Relation::new([pos[g1], pos[g2]], [&mat[g1], &mat[g2]], Centres::InWorld);
+    relation.overlap([&m.geom_aabb[g1], &m.geom_aabb[g2]], margin)
 }
 
 /// Which of the half-sizes are infinite: (some, all).
@@ -126,40 +94,93 @@ fn infinite(aabb: &[f64; 6]) -> (bool, bool) {
     (beyond(3) || beyond(4) || beyond(5), beyond(3) && beyond(4) && beyond(5))
 }
 
-fn columns(mat: &Mat3) -> [Vec3; 3] {
-    [0, 1, 2].map(|k| [mat[k], mat[3 + k], mat[6 + k]])
+/// How MuJoCo adds up where a box is along an axis, which decides boxes that meet exactly.
+#[derive(Clone, Copy)]
+enum Centres {
+    /// The origin of the frame and the centre in it are projected one by one, as for bodies.
+    InFrame,
+    /// The centre is projected as a point of the world, as for geoms.
+    InWorld,
 }
 
-/// Two frames projected onto the axes of both: shared by all box pairs of two trees.
-struct Relation {
-    /// `product[i][j][k][l]`: axis `l` of frame `i` along axis `k` of frame `j`.
-    product: [[Mat3; 2]; 2],
-    /// `offset[i][j][k]`: origin of frame `i` along axis `k` of frame `j`.
-    offset: [[Vec3; 2]; 2],
+/// Two frames, and where one is seen from the other: shared by all box pairs of two trees.
+struct Relation<'a> {
+    pos: [Vec3; 2],
+    mat: [&'a Mat3; 2],
+    centres: Centres,
+    /// Second frame's axes (columns) in the first.
+    rot: Mat3,
+    /// From the first origin to the second, in the first frame and in the second.
+    offset: [Vec3; 2],
+    /// Sum of the origins' coordinates: rounding is a small part of it.
+    size: f64,
 }
 
-impl Relation {
-    fn new(pos: [Vec3; 2], mats: [&Mat3; 2]) -> Self {
-        let axes = mats.map(columns);
-        let product = |i: usize, j: usize| std::array::from_fn(|at| dot(axes[i][at % 3], axes[j][at / 3]));
-        let offset = |i: usize, j: usize| axes[j].map(|axis| dot(pos[i], axis));
+/// Far above the share of rounding in the sum of what is added up, and far below any difference that matters.
+const UNDECIDED: f64 = 1e-12;
+
+impl<'a> Relation<'a> {
+    fn new(pos: [Vec3; 2], mat: [&'a Mat3; 2], centres: Centres) -> Self {
+        let between = sub(pos[1], pos[0]);
         Relation {
-            product: [0, 1].map(|i| [0, 1].map(|j| product(i, j))),
-            offset: [0, 1].map(|i| [0, 1].map(|j| offset(i, j))),
+            pos,
+            mat,
+            centres,
+            rot: mul_mat_t_mat(mat[0], mat[1]),
+            offset: mat.map(|mat| mul_mat_t_vec(mat, between)),
+            size: magnitude(&pos[0]) + magnitude(&pos[1]),
         }
     }
 
-    /// Separating axis test along the six face normals of two boxes.
-    fn overlap(&self, boxes: [&[f64; 6]; 2], margin: f64) -> bool {
-        overlap(boxes, |j, k| {
-            let shadow = |i: usize| {
-                let (b, p) = (boxes[i], &self.product[i][j][3 * k..3 * k + 3]);
-                Shadow {
-                    centre: b[0] * p[0] + b[1] * p[1] + b[2] * p[2] + self.offset[i][j][k],
-                    radius: (b[3] * p[0]).abs() + (b[4] * p[1]).abs() + (b[5] * p[2]).abs(),
-                }
-            };
-            shadow(0).apart(shadow(1), margin)
-        })
+    /// Separating axis test along the six face normals of two boxes; a box without end has no faces to test the
+    /// other against. Where rounding decides an axis, the sums are MuJoCo's.
+    fn overlap(&self, [a, b]: [&[f64; 6]; 2], margin: f64) -> bool {
+        let [(some_a, all_a), (some_b, all_b)] = [infinite(a), infinite(b)];
+        if all_a || all_b {
+            return true;
+        }
+        let r = &self.rot;
+        let size = self.size + magnitude(&[a[0], a[1], a[2]]) + magnitude(&[b[0], b[1], b[2]]);
+        let decide = |frame: usize, k: usize, between: f64, radius: f64| {
+            let gap = between.abs() - (radius + margin);
+            let undecided = UNDECIDED * (size + radius);
+            if gap.abs() > undecided { gap > 0.0 } else { self.apart_along(frame, k, [a, b], margin) }
+        };
+        let apart_in_first = |k: usize| {
+            let (x, y, z) = (r[3 * k], r[3 * k + 1], r[3 * k + 2]);
+            let between = self.offset[0][k] + (b[0] * x + b[1] * y + b[2] * z) - a[k];
+            let radius = a[3 + k] + ((b[3] * x).abs() + (b[4] * y).abs() + (b[5] * z).abs());
+            decide(0, k, between, radius)
+        };
+        let apart_in_second = |k: usize| {
+            let (x, y, z) = (r[k], r[3 + k], r[6 + k]);
+            let between = self.offset[1][k] + b[k] - (a[0] * x + a[1] * y + a[2] * z);
+            let radius = ((a[3] * x).abs() + (a[4] * y).abs() + (a[5] * z).abs()) + b[3 + k];
+            decide(1, k, between, radius)
+        };
+        (some_b || !(0..3).any(apart_in_first)) && (some_a || !(0..3).any(apart_in_second))
     }
+
+    /// Whether two boxes are apart along axis `k` of a frame, by MuJoCo's sums.
+    #[cold]
+    fn apart_along(&self, frame: usize, k: usize, boxes: [&[f64; 6]; 2], margin: f64) -> bool {
+        let normal = column(self.mat[frame], k);
+        let project = |i: usize| {
+            let (b, mat) = (boxes[i], self.mat[i]);
+            let product = [0, 1, 2].map(|l| dot(column(mat, l), normal));
+            let radius = (b[3] * product[0]).abs() + (b[4] * product[1]).abs() + (b[5] * product[2]).abs();
+            let local = [b[0], b[1], b[2]];
+            let centre = match self.centres {
+                Centres::InFrame => dot(local, product) + dot(self.pos[i], normal),
+                Centres::InWorld => dot(add(mul_mat_vec(mat, local), self.pos[i]), normal),
+            };
+            (centre, radius)
+        };
+        let [(first, radius1), (second, radius2)] = [project(0), project(1)];
+        radius1 + radius2 + margin < (second - first).abs()
+    }
+}
+
+fn magnitude(v: &Vec3) -> f64 {
+    v[0].abs() + v[1].abs() + v[2].abs()
 }

@@ -82,7 +82,7 @@ impl Primal {
 
     /// Updates states, forces and gradient.
     fn evaluate(&mut self) {
-        let p = &self.problem;
+        let p = &mut self.problem;
         p.rows.update(&self.jar, &mut self.state, &mut self.force);
         p.mul_jacobian_transposed(&self.force, &mut self.qfrc_constraint);
         for i in 0..p.nv {

@@ -25,8 +25,8 @@ pub(super) struct Problem {
     pub row_start: Vec<usize>,
     /// Columns of compressed rows.
     pub columns: Vec<i32>,
-    /// The compressed rows transposed.
-    transposed: Transposed,
+    /// How products with the transposed compressed rows are added up.
+    lanes: Lanes,
     /// Non-zeros of each inertia row.
     inertia_rownnz: Vec<i32>,
     /// Start of each inertia row.
@@ -41,14 +41,32 @@ pub(super) struct Problem {
     inverse_diagonal: Vec<f64>,
 }
 
-/// Entries of compressed rows by column.
+/// Sums of a product with the transpose of compressed rows, in MuJoCo's order: the entries of a column in four lanes, and
+/// one by one those that remain.
 #[derive(Clone, Debug, Default)]
-struct Transposed {
-    /// Start of each column, and the end of the last.
-    start: Vec<usize>,
-    /// Rows, increasing within a column.
-    rows: Vec<i32>,
-    entries: Vec<f64>,
+struct Lanes {
+    /// Place of each entry among the sums.
+    places: Vec<u32>,
+    /// Entries of each column, all and those placed so far.
+    counts: Vec<[u32; 2]>,
+    /// Eight for each column: the lanes, and up to three entries that remain.
+    sums: Vec<f64>,
+}
+
+impl Lanes {
+    /// Places the entries of rows with these columns, one row after the other.
+    fn place(&mut self, nv: usize, columns: &[i32]) {
+        self.counts.clear();
+        self.counts.resize(nv, [0; 2]);
+        columns.iter().for_each(|&c| self.counts[c as usize][0] += 1);
+        self.places.clear();
+        self.places.extend(columns.iter().map(|&c| {
+            let [all, placed] = &mut self.counts[c as usize];
+            let (n, whole) = (*placed, *all & !3);
+            *placed += 1;
+            8 * c as u32 + if n < whole { n & 3 } else { 4 + n - whole }
+        }));
+    }
 }
 
 /// Selection of an island: its degrees of freedom and rows, and the sorted index of every degree of freedom.
@@ -138,29 +156,7 @@ impl Problem {
             self.jacobian.extend_from_slice(&efc.efc_J[range]);
             self.row_start.push(self.jacobian.len());
         }
-        self.transpose();
-    }
-
-    /// Transposes the compressed rows.
-    fn transpose(&mut self) {
-        let t = &mut self.transposed;
-        t.start.clear();
-        t.start.resize(self.nv + 2, 0);
-        self.columns.iter().for_each(|&c| t.start[c as usize + 2] += 1);
-        for c in 2..t.start.len() {
-            t.start[c] += t.start[c - 1];
-        }
-        t.rows.resize(self.columns.len(), 0);
-        t.entries.resize(self.columns.len(), 0.0);
-        for (row, span) in self.row_start.windows(2).enumerate() {
-            for k in span[0]..span[1] {
-                let at = &mut t.start[self.columns[k] as usize + 1];
-                t.rows[*at] = row as i32;
-                t.entries[*at] = self.jacobian[k];
-                *at += 1;
-            }
-        }
-        t.start.pop();
+        self.lanes.place(self.nv, &self.columns);
     }
 
     /// The inertia's structure.
@@ -205,19 +201,28 @@ impl Problem {
         }
     }
 
-    /// `out = Jᵀ f`: full rows are added one after the other, compressed ones column by column in four lanes.
-    pub fn mul_jacobian_transposed(&self, f: &[f64], out: &mut [f64]) {
-        if !self.dense {
-            let t = &self.transposed;
-            for (out, span) in out.iter_mut().zip(t.start.windows(2)) {
-                *out = dot_sparse(&t.entries[span[0]..span[1]], &t.rows[span[0]..span[1]], f);
+    /// `out = Jᵀ f`: full rows are added one after the other, compressed ones column by column in lanes.
+    pub fn mul_jacobian_transposed(&mut self, f: &[f64], out: &mut [f64]) {
+        let active = f.iter().enumerate().filter(|(_, f)| **f != 0.0);
+        if self.dense {
+            out.fill(0.0);
+            for (i, &f) in active {
+                let span = self.spans[i].clone();
+                add_scaled_slice(&mut out[span.clone()], &self.dense_row(i)[span], f);
             }
             return;
         }
-        out.fill(0.0);
-        for (i, &f) in f.iter().enumerate().filter(|(_, f)| **f != 0.0) {
-            let span = self.spans[i].clone();
-            add_scaled_slice(&mut out[span.clone()], &self.dense_row(i)[span], f);
+        let Lanes { places, sums, .. } = &mut self.lanes;
+        sums.clear();
+        sums.resize(8 * self.nv, 0.0);
+        for (i, &f) in active {
+            let row = self.row_start[i]..self.row_start[i + 1];
+            for (&place, x) in places[row.clone()].iter().zip(&self.jacobian[row]) {
+                sums[place as usize] += x * f;
+            }
+        }
+        for (out, s) in out.iter_mut().zip(sums.as_chunks::<8>().0) {
+            *out = (s[0] + s[2]) + (s[1] + s[3]) + s[4] + s[5] + s[6];
         }
     }
 
