@@ -177,11 +177,7 @@ fn run() -> Result<(), String> {
             ("round-trip", table, verdict)
         }
         Some("wider") => {
-            let rows = wider_rows(&a)?;
-            let left_out = a.list.with_file_name("left_out.tsv");
-            let left_out =
-                std::fs::read_to_string(&left_out).map_err(|e| format!("{}: {e}", left_out.display()))?;
-            let (table, verdict) = wider::render(&rows, &left_out);
+            let (table, verdict) = wider_table(&a)?;
             ("wider", table, verdict)
         }
         Some("laws") => {
@@ -209,6 +205,14 @@ fn chosen(a: &Arguments) -> Result<Vec<(String, PathBuf, PathBuf)>, String> {
         (line.to_owned(), a.models.join(line), a.references.join(name + ".npz"))
     };
     Ok(list.lines().filter(|line| !line.is_empty() && line.contains(&a.only)).map(files).collect())
+}
+
+/// The table of the listed public models.
+fn wider_table(a: &Arguments) -> Result<(String, Result<(), String>), String> {
+    let rows = wider_rows(a)?;
+    let left_out = a.list.with_file_name("left_out.tsv");
+    let left_out = std::fs::read_to_string(&left_out).map_err(|e| format!("{}: {e}", left_out.display()))?;
+    Ok(wider::render(&rows, &left_out))
 }
 
 /// How the listed public models compare.
