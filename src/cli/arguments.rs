@@ -212,7 +212,7 @@ pub struct Sim {
 #[derive(Args)]
 #[command(
     after_help = "IN holds any of qpos, qvel, act, ctrl, mocap_pos, mocap_quat, qfrc_applied, xfrc_applied, \
-eq_active, qacc_warmstart, time, one row a step or state; what it leaves out takes the value of a plain reset. \
+eq_active, qacc_warmstart, time, one row a step or state, or an array of the shape of the field itself as the only row; what it leaves out takes the value of a plain reset. \
 What `sim --out` writes is such a file; its sensordata and energy are not read.
 
 By default the rollout starts from row 0 and takes one row of ctrl a step; the fields are written after every step. \
@@ -242,6 +242,9 @@ pub struct Trace {
     /// Treat every row as an independent state
     #[arg(long)]
     pub forward: bool,
+    /// Reset a state that is not finite or too large, as MuJoCo does, instead of ending there
+    #[arg(long, conflicts_with = "forward")]
+    pub autoreset: bool,
 }
 
 /// Compare a model with what MuJoCo recorded of it

@@ -5,8 +5,11 @@ use crate::arguments::Trace;
 use crate::fields::{Recorder, is_ragged};
 use crate::interrupt::Interrupt;
 use crate::loading::load;
+use crate::terminal::note;
 use dataset::{Array, NpzReader};
+use physics::data::Warnings;
 use physics::{Data, Model};
+use std::collections::HashMap;
 
 const INPUTS: [&str; 11] = [
     "time",
@@ -28,8 +31,9 @@ const OUTPUTS: [&str; 2] = ["sensordata", "energy"];
 /// Runs the command. Rows before a failure or a signal are kept.
 pub fn run(a: &Trace) -> Result<(), Failure> {
     let m = load(&a.model.path, &a.model.reading)?;
-    let inputs = read_inputs(a)?;
     let mut d = Data::new(&m);
+    let inputs = read_inputs(a, &m, &d)?;
+    d.autoreset = a.autoreset;
     let mut names = a.fields.clone();
     for (prefix, count) in [("contact.", "ncon"), ("efc_", "nefc")] {
         if names.iter().any(|n| is_ragged(n) && n.starts_with(prefix)) && !names.iter().any(|n| n == count) {
@@ -52,11 +56,54 @@ pub fn run(a: &Trace) -> Result<(), Failure> {
         recorder.record(&m, &d)?;
     }
     recorder.finish()?;
+    if d.warnings != Warnings::default() {
+        let (resets, controls) = (d.warnings.resets(), d.warnings.bad_ctrl);
+        note(&format!(
+            "bad values: the state was reset {resets} times, controls were set to zero {controls} times"
+        ));
+    }
     outcome
 }
 
-/// The inputs that the archive holds, each with its rows; an unknown array is an error.
-fn read_inputs(a: &Trace) -> Result<Vec<(String, Array)>, Failure> {
+/// Rows of one input, each flat.
+struct Input {
+    name: String,
+    rows: usize,
+    values: Vec<f64>,
+}
+
+impl Input {
+    /// An array of the shape of the field itself is one row; else its first axis counts rows.
+    fn new(name: &str, array: &Array, field: &[usize]) -> Self {
+        let rows = if array.shape == field { 1 } else { array.rows() };
+        Input { name: name.to_owned(), rows, values: array.values.to_f64() }
+    }
+
+    fn row(&self, row: usize) -> Result<&[f64], Failure> {
+        let width = self.values.len() / self.rows.max(1);
+        self.values.get(row * width..(row + 1) * width).filter(|_| row < self.rows).ok_or_else(|| {
+            Failure::usage(format!("input {:?} has {} rows, row {row} is needed", self.name, self.rows))
+        })
+    }
+
+    /// Writes row `row` into `d`.
+    fn assign(&self, d: &mut Data, row: usize) -> Result<(), Failure> {
+        let values = self.row(row)?;
+        match d.assign(&self.name, values) {
+            Some(true) => Ok(()),
+            _ => Err(Failure::usage(format!(
+                "a row of input {:?} has {} values, which does not fit the model",
+                self.name,
+                values.len()
+            ))),
+        }
+    }
+}
+
+/// The inputs that the archive holds; an unknown array is an error.
+fn read_inputs(a: &Trace, m: &Model, d: &Data) -> Result<Vec<Input>, Failure> {
+    let mut shapes = HashMap::new();
+    d.visit(m, &mut |name, shape, _| _ = shapes.insert(name, shape));
     let archive = NpzReader::open(&a.input).map_err(Failure::usage)?;
     let mut inputs = Vec::new();
     for name in archive.names().filter(|name| !OUTPUTS.contains(name)) {
@@ -67,36 +114,18 @@ fn read_inputs(a: &Trace) -> Result<Vec<(String, Array)>, Failure> {
                 INPUTS.join(", ")
             )));
         }
-        inputs.push((name.to_owned(), archive.require(name).map_err(Failure::usage)?));
+        let array = archive.require(name).map_err(Failure::usage)?;
+        inputs.push(Input::new(name, &array, shapes.get(name).map_or(&[], Vec::as_slice)));
     }
     Ok(inputs)
 }
 
-/// Row `row` of an input, flat.
-fn row_of(name: &str, array: &Array, row: usize) -> Result<Vec<f64>, Failure> {
-    let width = array.values.len() / array.rows().max(1);
-    let values = array.values.to_f64();
-    values.get(row * width..(row + 1) * width).map(<[f64]>::to_vec).ok_or_else(|| {
-        Failure::usage(format!("input {name:?} has {} rows, row {row} is needed", array.rows()))
-    })
-}
-
-fn assign(d: &mut Data, name: &str, values: &[f64]) -> Result<(), Failure> {
-    match d.assign(name, values) {
-        Some(true) => Ok(()),
-        _ => Err(Failure::usage(format!(
-            "a row of input {name:?} has {} values, which does not fit the model",
-            values.len()
-        ))),
-    }
-}
-
 /// Number of rows to compute.
-fn rows_of(inputs: &[(String, Array)], forward: bool) -> Result<usize, Failure> {
+fn rows_of(inputs: &[Input], forward: bool) -> Result<usize, Failure> {
     if forward {
-        return Ok(inputs.iter().map(|(_, array)| array.rows()).max().unwrap_or(0));
+        return Ok(inputs.iter().map(|input| input.rows).max().unwrap_or(0));
     }
-    match inputs.iter().find(|(name, _)| name == "ctrl").map_or(0, |(_, array)| array.rows()) {
+    match inputs.iter().find(|input| input.name == "ctrl").map_or(0, |input| input.rows) {
         0 => Err(Failure::usage(
             "a rollout needs an array \"ctrl\" with one row a step; --forward treats rows as states",
         )),
@@ -105,20 +134,18 @@ fn rows_of(inputs: &[(String, Array)], forward: bool) -> Result<usize, Failure> 
 }
 
 /// Takes row `row` as a state and computes what follows from it.
-fn forward(m: &Model, d: &mut Data, inputs: &[(String, Array)], row: usize) -> Result<(), Failure> {
+fn forward(m: &Model, d: &mut Data, inputs: &[Input], row: usize) -> Result<(), Failure> {
     d.reset(m);
-    for (name, array) in inputs {
-        assign(d, name, &row_of(name, array, row)?)?;
-    }
+    inputs.iter().try_for_each(|input| input.assign(d, row))?;
     physics::forward(m, d).map_err(|e| Failure::new(format!("row {row}: {e}")))?;
     physics::derive_on_demand(m, d);
     Ok(())
 }
 
 /// Takes the controls of row `row`, of row 0 all inputs, and makes a step.
-fn advance(m: &Model, d: &mut Data, inputs: &[(String, Array)], row: usize) -> Result<(), Failure> {
-    for (name, array) in inputs.iter().filter(|(name, _)| row == 0 || name == "ctrl") {
-        assign(d, name, &row_of(name, array, row)?)?;
+fn advance(m: &Model, d: &mut Data, inputs: &[Input], row: usize) -> Result<(), Failure> {
+    for input in inputs.iter().filter(|input| row == 0 || input.name == "ctrl") {
+        input.assign(d, row)?;
     }
     physics::step(m, d).map_err(|e| Failure::new(format!("step {row}: {e}")))
 }

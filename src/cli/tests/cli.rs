@@ -17,6 +17,11 @@ fn write(path: &Path, arrays: &[(&str, Array)]) {
     writer.finish().unwrap();
 }
 
+/// A file of the repository, from wherever tests run.
+fn repository(path: &str) -> std::path::PathBuf {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(path)
+}
+
 #[test]
 fn inspect_writes_every_array_under_its_name() {
     let file = scratch("inspect.npz");
@@ -31,6 +36,23 @@ fn inspect_writes_every_array_under_its_name() {
     assert_eq!(inertia.shape, [summary["sizes"]["nbody"].as_u64().unwrap() as usize, 3]);
     assert!(inertia.values.to_f64()[3..].iter().any(|&i| i > 0.0));
     assert_eq!(arrays.require("opt.timestep").unwrap().values.to_f64(), [0.002]);
+    // What MuJoCo recorded of a model is there under the same names, settings of pictures and flags included.
+    let recorded = NpzReader::open(&repository("validation/reference/own/franka_table.npz")).unwrap();
+    for (recorded_name, name) in [
+        ("size.flg_gravcomp", "flg_gravcomp"),
+        ("size.flg_surfacevel", "flg_surfacevel"),
+        ("size.flg_adhesion", "flg_adhesion"),
+        ("vis.global.offwidth", "vis.global.offwidth"),
+        ("vis.headlight.diffuse", "vis.headlight.diffuse"),
+        ("vis.map.znear", "vis.map.znear"),
+        ("vis.quality.shadowsize", "vis.quality.shadowsize"),
+        ("vis.rgba.haze", "vis.rgba.haze"),
+        ("vis.scale.com", "vis.scale.com"),
+    ] {
+        let theirs = recorded.require(recorded_name).unwrap();
+        let ours = arrays.require(name).unwrap();
+        assert_eq!((ours.shape, ours.values.to_f64()), (theirs.shape, theirs.values.to_f64()), "{name}");
+    }
 }
 
 #[test]
@@ -145,6 +167,47 @@ fn trace_rolls_out_one_control_row_a_step() {
     let qpos = arrays.require("qpos").unwrap();
     assert_eq!(qpos.shape, [20, 2]);
     assert!((qpos.values.to_f64()[38] - 1.0).abs() > 1e-6, "the elbow does not move");
+}
+
+#[test]
+fn trace_takes_an_array_of_the_shape_of_a_field_as_one_row() {
+    let (input, output) = (scratch("single_in.npz"), scratch("single_out.npz"));
+    write(
+        &input,
+        &[("qpos", Array::f64(vec![2], vec![1.0, 0.5])), ("ctrl", Array::f64(vec![6], vec![0.3; 6]))],
+    );
+    let out = |more: &[&str]| {
+        let (input, output) = (input.to_str().unwrap(), output.to_str().unwrap());
+        let run =
+            ["trace", "assets/elbow/elbow.xml", "--in", input, "--out", output, "--fields", "qpos,ctrl"];
+        robohive(&[&run, more].concat())
+    };
+    let forward = out(&["--forward"]);
+    assert!(forward.status.success(), "{}", text(&forward.stderr));
+    let arrays = NpzReader::open(&output).unwrap();
+    assert_eq!(arrays.require("qpos").unwrap(), Array::f64(vec![1, 2], vec![1.0, 0.5]));
+    assert_eq!(arrays.require("ctrl").unwrap().shape, [1, 6]);
+    let step = out(&[]);
+    assert!(step.status.success(), "{}", text(&step.stderr));
+    assert_eq!(NpzReader::open(&output).unwrap().require("qpos").unwrap().shape, [1, 2]);
+}
+
+/// A run that diverges ends with an error, or is reset as MuJoCo's was.
+#[test]
+fn trace_resets_bad_values_when_asked() {
+    let folder = "validation/reference/details";
+    let recorded = NpzReader::open(&repository("validation/reference/details/diverging.npz")).unwrap();
+    let (input, output) = (scratch("diverging_in.npz"), scratch("diverging_out.npz"));
+    write(&input, &[("ctrl", recorded.require("rollout.ctrl").unwrap())]);
+    let (model, input) = (format!("{folder}/diverging.xml"), input.to_str().unwrap());
+    let run = ["trace", &model, "--in", input, "--out", output.to_str().unwrap(), "--fields", "qpos"];
+    let failed = robohive(&run);
+    assert!(!failed.status.success() && text(&failed.stderr).contains("qacc[0]"), "{}", text(&failed.stderr));
+    let reset = robohive(&[&run[..], &["--autoreset"]].concat());
+    assert!(reset.status.success(), "{}", text(&reset.stderr));
+    assert!(text(&reset.stderr).contains("reset 6 times"), "{}", text(&reset.stderr));
+    let qpos = NpzReader::open(&output).unwrap().require("qpos").unwrap();
+    assert_eq!(qpos, recorded.require("rollout.qpos").unwrap());
 }
 
 #[test]
