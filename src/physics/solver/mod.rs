@@ -29,7 +29,8 @@ use rows::Rows;
 /// Memory that the solver reuses from step to step.
 #[derive(Clone, Debug, Default)]
 pub struct SolverScratch {
-    primal: Primal,
+    /// One for each island, so that what follows from its pattern is kept from step to step.
+    primal: Vec<Primal>,
     dual: Dual,
     rows: Rows,
     /// `J qacc - aref` of all rows at the start.
@@ -95,9 +96,9 @@ pub fn solve(
         let selection =
             Selection { dofs: &all[..m.nv], rows: &all[..efc.nefc], sorted: &all[..m.nv], first: 0 };
         let scale = 1.0 / (m.stat.meaninertia * m.nv.max(1) as f64);
-        solvers.solve(inputs, Part { selection, scale: Some(scale) }, efc, acc, stats);
+        solvers.solve(inputs, Part { slot: 0, selection, scale: Some(scale) }, efc, acc, stats);
         if m.opt.solver != Solver::Pgs && m.opt.noslip_iterations == 0 {
-            write_states(&solvers.primal.state, efc);
+            write_states(&solvers.primal[0].state, efc);
         }
     }
     if dual {
@@ -182,8 +183,13 @@ fn start(inputs: SolverInputs, efc: &mut Constraints, acc: &mut Acceleration, sc
     }
 }
 
+/// Islands that have their own memory of patterns; more share it.
+const REMEMBERED: usize = 64;
+
 /// An island, or the whole model.
 struct Part<'a> {
+    /// Number of its memory.
+    slot: usize,
     selection: Selection<'a>,
     /// Scale of costs to accelerations; `None` for the reciprocal of the part's inertia.
     scale: Option<f64>,
@@ -199,13 +205,13 @@ impl<'a> Part<'a> {
             sorted: &island.map_dof2idof,
             first: first as i32,
         };
-        Part { selection, scale: None }
+        Part { slot: k % REMEMBERED, selection, scale: None }
     }
 }
 
 /// Both kinds of solvers, and the residual of all rows at the start.
 struct Solvers<'a> {
-    primal: &'a mut Primal,
+    primal: &'a mut Vec<Primal>,
     dual: &'a mut Dual,
     jar: &'a [f64],
 }
@@ -225,7 +231,10 @@ impl Solvers<'_> {
         let (mut iterations, nonzeros) = if m.opt.solver == Solver::Pgs {
             (pgs::pgs(m, self.dual, efc, contacts, s.rows, &mut stats.solver), s.rows.len() * s.rows.len())
         } else {
-            let primal = &mut *self.primal;
+            if self.primal.len() <= part.slot {
+                self.primal.resize_with(part.slot + 1, Primal::default);
+            }
+            let primal = &mut self.primal[part.slot];
             primal.problem.gather(m, inertia, efc, con, s);
             let scale = part.scale.unwrap_or_else(|| 1.0 / primal.problem.inertia_trace());
             primal.begin(acc, efc, s, scale, self.jar);

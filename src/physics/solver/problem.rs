@@ -21,24 +21,45 @@ pub(super) struct Problem {
     pub jacobian: Vec<f64>,
     /// From the first to the last entry of each full row that is not zero.
     pub spans: Vec<Range<usize>>,
-    /// Start of each compressed row, and the end of the last.
-    pub row_start: Vec<usize>,
-    /// Columns of compressed rows.
-    pub columns: Vec<i32>,
+    /// Where the entries are.
+    pub pattern: Pattern,
+    /// Where those of the problem before were.
+    before: Pattern,
+    /// How often the pattern has changed; what follows from a pattern is kept while this stays.
+    pub changes: u64,
     /// How products with the transposed compressed rows are added up.
     lanes: Lanes,
-    /// Non-zeros of each inertia row.
-    inertia_rownnz: Vec<i32>,
-    /// Start of each inertia row.
-    inertia_rowadr: Vec<i32>,
-    /// Columns of the inertia.
-    inertia_colind: Vec<i32>,
     /// Inertia, lower triangle.
     pub inertia: Vec<f64>,
     /// Its L'DL factor.
     factor: Vec<f64>,
     /// Reciprocal of D.
     inverse_diagonal: Vec<f64>,
+}
+
+/// Which entries compressed rows and the inertia have.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Pattern {
+    /// Start of each compressed row, and the end of the last.
+    pub row_start: Vec<usize>,
+    /// Columns of compressed rows.
+    pub columns: Vec<i32>,
+    /// Non-zeros of each inertia row.
+    inertia_rownnz: Vec<i32>,
+    /// Start of each inertia row.
+    inertia_rowadr: Vec<i32>,
+    /// Columns of the inertia.
+    inertia_colind: Vec<i32>,
+}
+
+impl Pattern {
+    fn clear(&mut self) {
+        self.row_start.clear();
+        self.columns.clear();
+        self.inertia_rownnz.clear();
+        self.inertia_rowadr.clear();
+        self.inertia_colind.clear();
+    }
 }
 
 /// Sums of a product with the transpose of compressed rows, in MuJoCo's order: the entries of a column in four lanes, and
@@ -86,6 +107,8 @@ impl Problem {
         self.nv = s.dofs.len();
         self.dense = !m.is_sparse();
         self.rows.gather(efc, &con.contact, s.rows);
+        std::mem::swap(&mut self.pattern, &mut self.before);
+        self.pattern.clear();
         self.gather_inertia(m, inertia, s);
         if self.dense {
             self.gather_dense(efc, s);
@@ -95,9 +118,7 @@ impl Problem {
     }
 
     fn gather_inertia(&mut self, m: &Model, inertia: &Inertia, s: Selection) {
-        self.inertia_rownnz.clear();
-        self.inertia_rowadr.clear();
-        self.inertia_colind.clear();
+        let pattern = &mut self.pattern;
         self.inertia.clear();
         self.factor.clear();
         self.inverse_diagonal.clear();
@@ -105,9 +126,10 @@ impl Problem {
             let (first, end) = (run[0] as usize, run[0] as usize + run.len());
             let entries = m.M_rowadr[first] as usize..(m.M_rowadr[end - 1] + m.M_rownnz[end - 1]) as usize;
             let shift = self.inertia.len() as i32 - m.M_rowadr[first];
-            self.inertia_rownnz.extend_from_slice(&m.M_rownnz[first..end]);
-            self.inertia_rowadr.extend(m.M_rowadr[first..end].iter().map(|adr| adr + shift));
-            self.inertia_colind
+            pattern.inertia_rownnz.extend_from_slice(&m.M_rownnz[first..end]);
+            pattern.inertia_rowadr.extend(m.M_rowadr[first..end].iter().map(|adr| adr + shift));
+            pattern
+                .inertia_colind
                 .extend(m.M_colind[entries.clone()].iter().map(|&c| s.sorted[c as usize] - s.first));
             self.inertia.extend_from_slice(&inertia.M[entries.clone()]);
             self.factor.extend_from_slice(&inertia.qLD[entries]);
@@ -118,9 +140,9 @@ impl Problem {
     /// Appends an inertia row with consecutive columns from `first` to the diagonal.
     #[cfg(test)]
     pub fn push_inertia_row(&mut self, first: i32, row: &[f64]) {
-        self.inertia_rownnz.push(row.len() as i32);
-        self.inertia_rowadr.push(self.inertia.len() as i32);
-        self.inertia_colind.extend(first..first + row.len() as i32);
+        self.pattern.inertia_rownnz.push(row.len() as i32);
+        self.pattern.inertia_rowadr.push(self.inertia.len() as i32);
+        self.pattern.inertia_colind.extend(first..first + row.len() as i32);
         self.inertia.extend_from_slice(row);
     }
 
@@ -144,31 +166,34 @@ impl Problem {
     }
 
     fn gather_sparse(&mut self, efc: &Constraints, s: Selection) {
+        let pattern = &mut self.pattern;
         self.jacobian.clear();
-        self.columns.clear();
-        self.row_start.clear();
-        self.row_start.push(0);
+        pattern.row_start.push(0);
         for &row in s.rows {
             let start = efc.efc_J_rowadr[row as usize] as usize;
             let range = start..start + efc.efc_J_rownnz[row as usize] as usize;
-            self.columns
+            pattern
+                .columns
                 .extend(efc.efc_J_colind[range.clone()].iter().map(|&c| s.sorted[c as usize] - s.first));
             self.jacobian.extend_from_slice(&efc.efc_J[range]);
-            self.row_start.push(self.jacobian.len());
+            pattern.row_start.push(self.jacobian.len());
         }
-        self.lanes.place(self.nv, &self.columns);
+        if self.pattern != self.before {
+            self.changes += 1;
+            self.lanes.place(self.nv, &self.pattern.columns);
+        }
     }
 
     /// The inertia's structure.
     pub fn inertia_rows(&self) -> LowerRows<'_> {
-        LowerRows { rownnz: &self.inertia_rownnz, rowadr: &self.inertia_rowadr, colind: &self.inertia_colind }
+        LowerRows { rownnz: &self.pattern.inertia_rownnz, rowadr: &self.pattern.inertia_rowadr, colind: &self.pattern.inertia_colind }
     }
 
     /// Columns and entries of inertia row `i`, diagonal last.
     pub fn inertia_row(&self, i: usize) -> (&[i32], &[f64]) {
-        let start = self.inertia_rowadr[i] as usize;
-        let range = start..start + self.inertia_rownnz[i] as usize;
-        (&self.inertia_colind[range.clone()], &self.inertia[range])
+        let start = self.pattern.inertia_rowadr[i] as usize;
+        let range = start..start + self.pattern.inertia_rownnz[i] as usize;
+        (&self.pattern.inertia_colind[range.clone()], &self.inertia[range])
     }
 
     /// Full row `i`.
@@ -180,8 +205,8 @@ impl Problem {
     /// Columns and entries of compressed row `i`.
     #[inline]
     pub fn sparse_row(&self, i: usize) -> (&[i32], &[f64]) {
-        let range = self.row_start[i]..self.row_start[i + 1];
-        (&self.columns[range.clone()], &self.jacobian[range])
+        let range = self.pattern.row_start[i]..self.pattern.row_start[i + 1];
+        (&self.pattern.columns[range.clone()], &self.jacobian[range])
     }
 
     /// `out = J v`.
@@ -216,7 +241,7 @@ impl Problem {
         sums.clear();
         sums.resize(8 * self.nv, 0.0);
         for (i, &f) in active {
-            let row = self.row_start[i]..self.row_start[i + 1];
+            let row = self.pattern.row_start[i]..self.pattern.row_start[i + 1];
             for (&place, x) in places[row.clone()].iter().zip(&self.jacobian[row]) {
                 sums[place as usize] += x * f;
             }
@@ -239,7 +264,7 @@ impl Problem {
     /// Sum of the diagonal of `M`.
     pub fn inertia_trace(&self) -> f64 {
         let diagonal =
-            |i: usize| self.inertia[(self.inertia_rowadr[i] + self.inertia_rownnz[i] - 1) as usize];
+            |i: usize| self.inertia[(self.pattern.inertia_rowadr[i] + self.pattern.inertia_rownnz[i] - 1) as usize];
         (0..self.nv).map(diagonal).sum()
     }
 }

@@ -11,6 +11,8 @@ const NONE: usize = usize::MAX;
 #[derive(Clone, Debug, Default)]
 pub(super) struct SparseCholesky {
     n: usize,
+    /// The problem's count of changes when its pattern was analysed.
+    analysed: Option<u64>,
     /// Start of each row, and the end of the last.
     start: Vec<usize>,
     /// Columns, increasing within a row, the diagonal last.
@@ -28,6 +30,8 @@ pub(super) struct SparseCholesky {
     entries: Vec<(usize, usize)>,
     /// Columns of each row of the matrix that are not zero, as sets.
     patterns: Vec<u64>,
+    /// The same of the pattern before.
+    patterns_before: Vec<u64>,
     set: Vec<u64>,
     /// Row that each is eliminated into first.
     parent: Vec<usize>,
@@ -40,12 +44,20 @@ pub(super) struct SparseCholesky {
 }
 
 impl SparseCholesky {
-    /// Finds the structure for the pattern of `p`.
+    /// Finds the structure for the pattern of `p`, or keeps what is known of it.
     pub fn analyse(&mut self, p: &Problem) {
-        self.n = p.nv;
+        if self.analysed == Some(p.changes) {
+            return;
+        }
+        self.analysed = Some(p.changes);
         self.group_rows(p);
         self.list_columns(p);
+        std::mem::swap(&mut self.patterns, &mut self.patterns_before);
         self.mark_matrix(p);
+        if self.n == p.nv && self.patterns == self.patterns_before {
+            return;
+        }
+        self.n = p.nv;
         self.follow_elimination();
         self.place_entries();
         self.dense.clear();
@@ -180,10 +192,8 @@ impl SparseCholesky {
             rank -= usize::from(pivot < least);
             let root = pivot.max(least).sqrt();
             let inverse = 1.0 / root;
-            for k in left {
-                let x = &mut self.dense[self.columns[k] as usize];
-                values[k] = *x * inverse;
-                *x = 0.0;
+            for (&c, value) in self.columns[left.clone()].iter().zip(&mut values[left]) {
+                *value = std::mem::take(&mut self.dense[c as usize]) * inverse;
             }
             values[diagonal] = root;
             self.dense[r] = 0.0;
@@ -200,10 +210,10 @@ impl SparseCholesky {
                 continue;
             }
             let columns = &p.sparse_row(first).0[..=at];
-            let length = p.row_start[first + 1] - p.row_start[first];
+            let length = p.pattern.row_start[first + 1] - p.pattern.row_start[first];
             self.sums.clear();
             self.sums.extend(columns.iter().map(|&c| self.dense[c as usize]));
-            let rows = p.jacobian[p.row_start[first]..].chunks_exact(length);
+            let rows = p.jacobian[p.pattern.row_start[first]..].chunks_exact(length);
             for (row, d) in rows.zip(active) {
                 add_scaled_slice(&mut self.sums, row, row[at] * d);
             }
@@ -218,9 +228,9 @@ impl SparseCholesky {
     /// Subtracts the contributions of all later rows with an entry in column `r`.
     fn eliminate_into(&mut self, r: usize, values: &[f64]) {
         for &(row, at) in &self.later[self.later_start[r + 1]..self.later_start[r]] {
-            let scale = values[at];
-            for k in self.start[row]..=at {
-                self.dense[self.columns[k] as usize] -= scale * values[k];
+            let (span, scale) = (self.start[row]..at + 1, values[at]);
+            for (&c, value) in self.columns[span.clone()].iter().zip(&values[span]) {
+                self.dense[c as usize] -= scale * value;
             }
         }
     }
@@ -229,9 +239,10 @@ impl SparseCholesky {
     pub fn solve(&self, values: &[f64], x: &mut [f64]) {
         for i in (0..self.n).rev() {
             let (left, diagonal) = self.row(i);
-            x[i] /= values[diagonal];
-            for k in left {
-                x[self.columns[k] as usize] -= values[k] * x[i];
+            let solved = x[i] / values[diagonal];
+            x[i] = solved;
+            for (&c, value) in self.columns[left.clone()].iter().zip(&values[left]) {
+                x[c as usize] -= value * solved;
             }
         }
         for i in 0..self.n {
@@ -272,8 +283,8 @@ impl SparseCholesky {
             values[at] = root;
             let (c, s) = (diagonal / root, -x / root);
             let signed = if plus { -s } else { s };
-            for k in left {
-                let (other, value) = (&mut self.dense[self.columns[k] as usize], &mut values[k]);
+            for (&column, value) in self.columns[left.clone()].iter().zip(&mut values[left]) {
+                let other = &mut self.dense[column as usize];
                 let rotated = c * *value + signed * *other;
                 *other = s * *value + c * *other;
                 *value = rotated;
@@ -306,9 +317,9 @@ mod tests {
             p.push_inertia_row(first, &row);
         }
         p.rows.d = vec![3.0, 7.0];
-        p.columns = vec![0, 2, 4, 1, 2];
+        p.pattern.columns = vec![0, 2, 4, 1, 2];
         p.jacobian = vec![1.0, -2.0, 1.5, 0.5, 2.0];
-        p.row_start = vec![0, 3, 5];
+        p.pattern.row_start = vec![0, 3, 5];
         p
     }
 
