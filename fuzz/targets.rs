@@ -10,7 +10,7 @@ use dataset::trace::{TraceReader, summarise};
 use dataset::{Array, NpzReader};
 use mjcf::files::{Memory, Overlay};
 use mjcf::image::{CompiledHfield, FileImage, HfieldSource, TextureSource, TextureType};
-use mjcf::mesh::{MeshInertia, MeshSource, RawMesh, convex_hull, decode, process};
+use mjcf::mesh::{MeshInertia, MeshSource, RawMesh, SkinSource, convex_hull, decode, process, skin};
 use mjcf::{Limits, Loader};
 use physics::model::binary::seal;
 use physics::{Data, Model, forward, step};
@@ -19,12 +19,13 @@ use physics::{Data, Model, forward, step};
 pub type Target = fn(&[u8]);
 
 /// Every target by name.
-pub const TARGETS: [(&str, Target); 12] = [
+pub const TARGETS: [(&str, Target); 13] = [
     ("mjcf", mjcf),
     ("urdf", urdf),
     ("stl", stl),
     ("obj", obj),
     ("msh", msh),
+    ("skn", skn),
     ("hull", hull),
     ("image", image),
     ("hfield", hfield),
@@ -90,6 +91,16 @@ pub fn obj(data: &[u8]) {
 /// A mesh file in MSH.
 pub fn msh(data: &[u8]) {
     mesh_file(data, "m.msh");
+}
+
+/// A skin file.
+pub fn skn(data: &[u8]) {
+    let source = SkinSource { file: Some((data.to_vec(), "s.skn".into())), ..SkinSource::default() };
+    let Ok(skin) = skin(source) else { return };
+    let vertices = skin.vert.len() as i32;
+    assert!(skin.face.iter().flatten().all(|v| (0..vertices).contains(v)));
+    let weights = skin.bones.iter().map(|bone| (bone.vertid.len(), bone.vertweight.len()));
+    assert!(weights.into_iter().all(|(ids, weights)| ids == weights && ids > 0));
 }
 
 /// Decodes and processes; hulls of clouds of any shape are the `hull` target's.

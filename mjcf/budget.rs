@@ -14,6 +14,7 @@ pub(crate) enum Content {
     Mesh,
     Texture,
     Hfield,
+    Skin,
 }
 
 /// Bytes asked for so far.
@@ -82,6 +83,6 @@ pub(crate) fn decoded(content: Content, bytes: &[u8]) -> usize {
         Content::Mesh => bytes.len().saturating_mul(4),
         // Up to four channels, or a number of four bytes; in the asset and in the model.
         _ if png => pixels().unwrap_or(usize::MAX).saturating_mul(8),
-        Content::Texture | Content::Hfield => bytes.len().saturating_mul(2),
+        Content::Texture | Content::Hfield | Content::Skin => bytes.len().saturating_mul(2),
     }
 }

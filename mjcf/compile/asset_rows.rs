@@ -1,10 +1,11 @@
 //! The rows that assets fill.
 
-use super::assets::Assets;
+use super::assets::{Asset, Assets};
 use super::log::{Log, title};
 use super::lookup::Lookup;
-use crate::mesh::CompiledMesh;
-use crate::spec::Spec;
+use crate::diagnostic::Loc;
+use crate::mesh::{CompiledMesh, CompiledSkin};
+use crate::spec::{Skin, Spec};
 use physics::model::{ObjType, Rows};
 
 /// Appends all assets except the hierarchies, which follow those of the bodies.
@@ -25,6 +26,9 @@ pub(super) fn fill(m: &mut Rows, assets: &Assets, spec: &Spec, lookup: &Lookup, 
         m.hfield_ncol.push(hfield.ncol as i32);
         m.hfield_adr.push(m.hfield_data.len() as i32);
         m.hfield_data.extend(&hfield.data);
+    }
+    for (asset, skin) in assets.skins.iter().zip(&spec.skins) {
+        fill_skin(m, asset, skin, lookup, log);
     }
     for (asset, texture) in assets.textures.iter().zip(&spec.textures) {
         let t = &asset.compiled;
@@ -50,6 +54,36 @@ pub(super) fn fill(m: &mut Rows, assets: &Assets, spec: &Spec, lookup: &Lookup, 
         m.mat_metallic.push(material.metallic);
         m.mat_roughness.push(material.roughness);
         m.mat_rgba.push(material.rgba);
+    }
+}
+
+fn fill_skin(m: &mut Rows, asset: &Asset<CompiledSkin>, spec: &Skin, lookup: &Lookup, log: &mut Log) {
+    let (skin, what) = (&asset.compiled, title("skin", &asset.name));
+    m.skin_matid.push(lookup.reference(ObjType::Material, &asset.material, asset.loc, &what, log));
+    m.skin_group.push(spec.group);
+    m.skin_rgba.push(spec.rgba);
+    m.skin_inflate.push(spec.inflate);
+    m.skin_vertadr.push(m.skin_vert.len() as i32);
+    m.skin_vertnum.push(skin.vert.len() as i32);
+    m.skin_texcoordadr.push(if skin.texcoord.is_empty() { -1 } else { m.skin_texcoord.len() as i32 });
+    m.skin_faceadr.push(m.skin_face.len() as i32);
+    m.skin_facenum.push(skin.face.len() as i32);
+    m.skin_boneadr.push(m.skin_bonebodyid.len() as i32);
+    m.skin_bonenum.push(skin.bones.len() as i32);
+    m.skin_vert.extend(&skin.vert);
+    m.skin_texcoord.extend(&skin.texcoord);
+    m.skin_face.extend(&skin.face);
+    for bone in &skin.bones {
+        // The bones of a file have no place in the text.
+        let loc = if bone.loc == Loc::NONE { asset.loc } else { bone.loc };
+        let body = lookup.require(ObjType::Body, &bone.body, loc, &what, log);
+        m.skin_bonebodyid.push(body.map_or(0, |id| id as i32));
+        m.skin_bonebindpos.push(bone.bindpos);
+        m.skin_bonebindquat.push(bone.bindquat);
+        m.skin_bonevertadr.push(m.skin_bonevertid.len() as i32);
+        m.skin_bonevertnum.push(bone.vertid.len() as i32);
+        m.skin_bonevertid.extend(&bone.vertid);
+        m.skin_bonevertweight.extend(&bone.vertweight);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Meshes, height fields, textures and materials: files are read here, compiled on all cores, and laid out in
+//! Meshes, skins, height fields, textures and materials: files are read here, compiled on all cores, and laid out in
 //! the order of the file.
 
 use super::log::{Log, title};
@@ -9,8 +9,10 @@ use crate::digest::digest_parts;
 use crate::files::FileProvider;
 use crate::image::{self, CompiledHfield, CompiledTexture, FileImage, HfieldSource, TextureSource};
 use crate::mesh::stored::MeshStore;
-use crate::mesh::{self, CompiledMesh, MeshInertia, MeshSource, RawMesh, Shape};
-use crate::spec::{Body, Hfield, Mesh, Spec, Texture, asset_name};
+use crate::mesh::{
+    self, CompiledMesh, CompiledSkin, MeshInertia, MeshSource, RawMesh, RawSkin, Shape, SkinSource,
+};
+use crate::spec::{Body, Hfield, Mesh, Skin, Spec, Texture, asset_name};
 use physics::model::{GeomType, Suggestions, TextureType};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -30,6 +32,7 @@ pub(super) struct Asset<T> {
 #[derive(Default)]
 pub(super) struct Assets {
     pub meshes: Vec<Asset<CompiledMesh>>,
+    pub skins: Vec<Asset<CompiledSkin>>,
     pub hfields: Vec<Asset<CompiledHfield>>,
     pub textures: Vec<Asset<CompiledTexture>>,
     /// Materials hold no compiled data.
@@ -68,12 +71,14 @@ enum Job<'s> {
     Mesh { spec: &'s Mesh, name: String, bytes: Option<Arc<[u8]>>, needhull: bool, discard: bool },
     Texture { source: Box<TextureSource> },
     Hfield { source: HfieldSource },
+    Skin { source: SkinSource },
 }
 
 enum Outcome {
     Mesh(Box<CompiledMesh>),
     Texture(CompiledTexture),
     Hfield(CompiledHfield),
+    Skin(CompiledSkin),
 }
 
 /// What an asset is called and where it comes from.
@@ -133,6 +138,10 @@ pub(super) fn compile(
                 assets.hfield_ids.entry(head.name.clone()).or_insert(assets.hfields.len());
                 assets.hfields.push(head.with(hfield));
             }
+            Job::Skin { .. } => {
+                let skin = if let Some(Outcome::Skin(s)) = outcome { s } else { CompiledSkin::default() };
+                assets.skins.push(head.with(skin));
+            }
         }
     }
     if !spec.compiler.discardvisual {
@@ -174,6 +183,13 @@ fn read_all<'s>(spec: &'s Spec, files: &dyn FileProvider, log: &mut Log) -> Vec<
         let (path, material) = (hfield.path.clone(), String::new());
         jobs.push((Head { name, loc: hfield.loc, path, material }, job));
     }
+    for skin in &spec.skins {
+        let name = asset_name(&skin.name, &skin.path);
+        let bytes = read(files, (Content::Skin, &skin.file), skin.loc, &title("skin", &name), log);
+        let job = Job::Skin { source: skin_source(skin, &name, bytes) };
+        let (path, material) = (skin.path.clone(), skin.material.clone());
+        jobs.push((Head { name, loc: skin.loc, path, material }, job));
+    }
     jobs
 }
 
@@ -181,6 +197,7 @@ fn check_name(name: &str, loc: Loc, job: &Job, log: &mut Log) {
     let skybox = matches!(job, Job::Texture { source } if source.kind == TextureType::Skybox);
     if name.is_empty() && !skybox {
         let kind = match job {
+            Job::Skin { .. } => return,
             Job::Mesh { .. } => "mesh",
             Job::Texture { .. } => "texture",
             Job::Hfield { .. } => "hfield",
@@ -268,6 +285,19 @@ fn hfield_source(spec: &Hfield, name: &str, bytes: Option<Arc<[u8]>>) -> HfieldS
     }
 }
 
+fn skin_source(spec: &Skin, name: &str, bytes: Option<Arc<[u8]>>) -> SkinSource {
+    SkinSource {
+        name: name.to_owned(),
+        file: bytes.map(|b| (b.to_vec(), spec.file.clone())),
+        inline: RawSkin {
+            vert: spec.vert.clone(),
+            texcoord: spec.texcoord.clone(),
+            face: spec.face.clone(),
+            bones: spec.bones.clone(),
+        },
+    }
+}
+
 /// The arrays of a mesh that is given in place or computed.
 fn inline_mesh(spec: &Mesh, discard: bool) -> Result<RawMesh, AssetError> {
     if let Some(shape) = spec.builtin {
@@ -293,6 +323,7 @@ impl Job<'_> {
                 source.file.iter().chain(source.cubefiles.iter().flatten()).map(|f| 8 * f.bytes.len()).sum()
             }
             Job::Hfield { source } => source.elevation.len(),
+            Job::Skin { source } => source.inline.vert.len(),
         }
     }
 
@@ -336,6 +367,7 @@ impl Job<'_> {
             }
             Job::Texture { source } => image::texture(source).map(Outcome::Texture),
             Job::Hfield { source } => image::hfield(source.clone()).map(Outcome::Hfield),
+            Job::Skin { source } => mesh::skin(source.clone()).map(Outcome::Skin),
         }
     }
 }

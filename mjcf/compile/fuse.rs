@@ -64,13 +64,14 @@ fn add_mass(parent: &mut BodyNode, body: &BodyNode) -> Result<(), String> {
     Ok(())
 }
 
-/// Names of bodies that cameras, lights, excludes, constraints, actuators, sensors or tuples mention.
+/// Names of bodies that cameras, lights, skins, excludes, constraints, actuators, sensors or tuples mention.
 fn referenced_bodies<'s>(spec: &'s Spec, tree: &Tree<'s>) -> BTreeSet<&'s str> {
     let is_body = |kind: ObjType| matches!(kind, ObjType::Body | ObjType::Xbody);
     let mut names = BTreeSet::new();
     names.extend(tree.cameras().map(|c| &*c.spec.targetbody));
     names.extend(tree.lights().map(|l| &*l.spec.targetbody));
     names.extend(spec.excludes.iter().flat_map(|e| [&*e.bodyname1, &*e.bodyname2]));
+    names.extend(spec.skins.iter().flat_map(|s| &s.bones).map(|bone| &*bone.body));
     let welds = spec
         .equalities
         .iter()

@@ -28,6 +28,7 @@ impl Lookup {
         lookup.add(ObjType::Camera, tree.cameras().map(|c| (&*c.spec.name, c.spec.loc)), log);
         lookup.add(ObjType::Light, tree.lights().map(|l| (&*l.spec.name, l.spec.loc)), log);
         lookup.add(ObjType::Mesh, assets.meshes.iter().map(|a| (&*a.name, a.loc)), log);
+        lookup.add(ObjType::Skin, assets.skins.iter().map(|a| (&*a.name, a.loc)), log);
         lookup.add(ObjType::Hfield, assets.hfields.iter().map(|a| (&*a.name, a.loc)), log);
         lookup.add(ObjType::Texture, assets.textures.iter().map(|a| (&*a.name, a.loc)), log);
         lookup.add(ObjType::Material, assets.materials.iter().map(|a| (&*a.name, a.loc)), log);
@@ -95,6 +96,7 @@ pub(super) fn label(kind: ObjType) -> &'static str {
         ObjType::Camera => "camera",
         ObjType::Light => "light",
         ObjType::Mesh => "mesh",
+        ObjType::Skin => "skin",
         ObjType::Hfield => "hfield",
         ObjType::Texture => "texture",
         ObjType::Material => "material",

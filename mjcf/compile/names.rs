@@ -27,6 +27,7 @@ pub(super) fn fill(m: &mut Rows, spec: &Spec, tree: &Tree, assets: &Assets, look
     list!(name_camadr, tree.cameras().map(|c| &*c.spec.name));
     list!(name_lightadr, tree.lights().map(|l| &*l.spec.name));
     list!(name_meshadr, assets.meshes.iter().map(|a| &*a.name));
+    list!(name_skinadr, assets.skins.iter().map(|a| &*a.name));
     list!(name_hfieldadr, assets.hfields.iter().map(|a| &*a.name));
     list!(name_texadr, assets.textures.iter().map(|a| &*a.name));
     list!(name_matadr, assets.materials.iter().map(|a| &*a.name));
@@ -42,6 +43,7 @@ pub(super) fn fill(m: &mut Rows, spec: &Spec, tree: &Tree, assets: &Assets, look
     list!(name_keyadr, super::keyframe::names(spec).map(|(name, _)| name));
     m.hfield_pathadr = append_paths(&mut m.paths, &assets.hfields);
     m.mesh_pathadr = append_paths(&mut m.paths, &assets.meshes);
+    m.skin_pathadr = append_paths(&mut m.paths, &assets.skins);
     m.tex_pathadr = append_paths(&mut m.paths, &assets.textures);
     if m.paths.is_empty() {
         m.paths.push(0);

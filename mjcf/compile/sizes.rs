@@ -69,6 +69,12 @@ pub(super) fn set(m: &mut Arrays, spec: &Spec) {
     m.nmeshpoly = m.mesh_polynormal.len();
     m.nmeshpolyvert = m.mesh_polyvert.len();
     m.nmeshpolymap = m.mesh_polymap.len();
+    m.nskin = m.skin_matid.len();
+    m.nskinvert = m.skin_vert.len();
+    m.nskintexvert = m.skin_texcoord.len();
+    m.nskinface = m.skin_face.len();
+    m.nskinbone = m.skin_bonebodyid.len();
+    m.nskinbonevert = m.skin_bonevertid.len();
     m.nhfield = m.hfield_size.len();
     m.nhfielddata = m.hfield_data.len();
     m.ntex = m.tex_type.len();

@@ -164,7 +164,7 @@ impl Spec {
         macro_rules! lists {
             ($($list:ident)*) => { $(self.$list.append(&mut added.$list);)* };
         }
-        lists!(meshes hfields textures materials pairs excludes equalities tendons actuators sensors numerics texts
+        lists!(meshes skins hfields textures materials pairs excludes equalities tendons actuators sensors numerics texts
                tuples keys);
         Ok(())
     }

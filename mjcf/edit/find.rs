@@ -15,6 +15,7 @@ pub(super) fn word(kind: ObjType) -> &'static str {
         ObjType::Camera => "camera",
         ObjType::Light => "light",
         ObjType::Mesh => "mesh",
+        ObjType::Skin => "skin",
         ObjType::Hfield => "hfield",
         ObjType::Texture => "texture",
         ObjType::Material => "material",
@@ -150,6 +151,7 @@ macro_rules! in_lists {
 
 in_lists! {
     Mesh mesh mesh_mut meshes Mesh |x| asset_name(&x.name, &x.path);
+    Skin skin skin_mut skins Skin |x| asset_name(&x.name, &x.path);
     Hfield hfield hfield_mut hfields Hfield |x| asset_name(&x.name, &x.path);
     Texture texture texture_mut textures Texture |x| asset_name(&x.name, &x.path);
     Material material material_mut materials Material |x| x.name;

@@ -17,11 +17,12 @@ impl Spec {
             body.lights.iter_mut().for_each(|x| x.loc = place(x.loc));
         });
         self.tendons.iter_mut().flat_map(|t| &mut t.path).for_each(|x| x.loc = place(x.loc));
+        self.skins.iter_mut().flat_map(|s| &mut s.bones).for_each(|x| x.loc = place(x.loc));
         self.size.loc = place(self.size.loc);
         macro_rules! lists {
             ($($list:ident)*) => { $(self.$list.iter_mut().for_each(|x| x.loc = place(x.loc));)* };
         }
-        lists!(frames meshes hfields textures materials pairs excludes equalities tendons actuators sensors numerics
+        lists!(frames meshes skins hfields textures materials pairs excludes equalities tendons actuators sensors numerics
                texts tuples keys kept_keys);
     }
 }

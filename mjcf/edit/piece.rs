@@ -49,6 +49,7 @@ impl Spec {
             ObjType::Camera => change.apply(self, |s| s.camera_mut(name), None),
             ObjType::Light => change.apply(self, |s| s.light_mut(name), None),
             ObjType::Mesh => change.apply(self, |s| s.mesh_mut(name), Some("asset")),
+            ObjType::Skin => change.apply(self, |s| s.skin_mut(name), Some("deformable")),
             ObjType::Hfield => change.apply(self, |s| s.hfield_mut(name), Some("asset")),
             ObjType::Texture => change.apply(self, |s| s.texture_mut(name), Some("asset")),
             ObjType::Material => change.apply(self, |s| s.material_mut(name), Some("asset")),
@@ -218,6 +219,10 @@ pieces! {
     Camera write::camera, |spec| spec.world.cameras, |new, old, _a| new.frame = old.frame;
     Light write::light, |spec| spec.world.lights, |new, old, _a| new.frame = old.frame;
     Mesh write::mesh, |spec| spec.meshes, |new, old, a| if a != "file" {
+        new.file.clone_from(&old.file);
+        new.path.clone_from(&old.path);
+    };
+    Skin write::skin, |spec| spec.skins, |new, old, a| if a != "file" {
         new.file.clone_from(&old.file);
         new.path.clone_from(&old.path);
     };

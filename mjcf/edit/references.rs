@@ -16,6 +16,7 @@ pub(super) fn space(kind: ObjType) -> Option<Space> {
         ObjType::Camera => Space::Camera,
         ObjType::Light => Space::Light,
         ObjType::Mesh => Space::Mesh,
+        ObjType::Skin => Space::Skin,
         ObjType::Hfield => Space::Hfield,
         ObjType::Texture => Space::Texture,
         ObjType::Material => Space::Material,
@@ -44,6 +45,7 @@ impl Spec {
             names.insert((space, asset_name(name, path)));
         };
         self.meshes.iter().for_each(|x| called(Space::Mesh, &x.name, &x.path));
+        self.skins.iter().for_each(|x| called(Space::Skin, &x.name, &x.path));
         self.hfields.iter().for_each(|x| called(Space::Hfield, &x.name, &x.path));
         self.textures.iter().for_each(|x| called(Space::Texture, &x.name, &x.path));
         names.extend(self.kept_keys.iter().map(|x| (Space::Key, x.name.clone())));
@@ -56,6 +58,7 @@ impl Spec {
     pub(super) fn each_reference(&mut self, visit: &mut dyn FnMut(Space, &mut String)) {
         in_body(&mut self.world, visit);
         self.meshes.iter_mut().for_each(|x| visit(Space::Material, &mut x.material));
+        self.skins.iter_mut().for_each(|x| visit(Space::Material, &mut x.material));
         for material in &mut self.materials {
             material.textures.iter_mut().for_each(|name| visit(Space::Texture, name));
         }
@@ -69,7 +72,7 @@ impl Spec {
                 })*
             };
         }
-        lists!(pairs excludes tendons equalities actuators sensors tuples);
+        lists!(skins pairs excludes tendons equalities actuators sensors tuples);
     }
 }
 

@@ -13,7 +13,7 @@ use crate::spec::{Body, Spec, asset_name};
 
 impl Spec {
     /// Removes the element called `name`; a body goes with all below it. What refers to a removed element goes too: pairs,
-    /// constraints, tendons, actuators, sensors, entries of tuples. Cameras and lights that follow a removed body stay where
+    /// skins, constraints, tendons, actuators, sensors, entries of tuples. Cameras and lights that follow a removed body stay where
     /// they are; a removed material or texture leaves what it covered without one. Keyframes keep the numbers of what remains.
     ///
     /// # Errors
@@ -77,6 +77,7 @@ impl Spec {
             Space::Camera => each_body(&mut self.world, &mut |b| b.cameras.retain(|x| x.name != name)),
             Space::Light => each_body(&mut self.world, &mut |b| b.lights.retain(|x| x.name != name)),
             Space::Mesh => self.meshes.retain(|x| asset_name(&x.name, &x.path) != name),
+            Space::Skin => self.skins.retain(|x| asset_name(&x.name, &x.path) != name),
             Space::Hfield => self.hfields.retain(|x| asset_name(&x.name, &x.path) != name),
             Space::Texture => self.textures.retain(|x| asset_name(&x.name, &x.path) != name),
             Space::Material => list!(materials),
@@ -130,6 +131,7 @@ impl Spec {
                 probe.names().1.into_iter().map(|(space, name)| !gone.contains(&(space, name.clone())));
             tuple.entries.retain(|_| keep.next().unwrap_or(true));
         }
+        drop_from(&mut self.skins, &mut gone, Space::Skin);
         drop_from(&mut self.pairs, &mut gone, Space::Pair);
         drop_from(&mut self.excludes, &mut gone, Space::Exclude);
         drop_from(&mut self.tendons, &mut gone, Space::Tendon);

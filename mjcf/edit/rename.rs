@@ -81,6 +81,7 @@ impl Spec {
                 each_body(&mut self.world, &mut |b| b.lights.iter_mut().for_each(|x| visit(&mut x.name)))
             }
             Space::Mesh => assets!(meshes),
+            Space::Skin => assets!(skins),
             Space::Hfield => assets!(hfields),
             Space::Texture => assets!(textures),
             Space::Material => list!(materials),

@@ -10,11 +10,12 @@ use super::refuse;
 use super::rename::each_body;
 use crate::diagnostic::Diagnostics;
 use crate::schema::Space;
-use crate::spec::{Body, Spec, asset_name};
+use crate::spec::{Body, Skin, Spec, asset_name};
 
 impl Spec {
     /// Scales the body called `name`, and all below it, about its origin: lengths by `factor`, given masses by its cube and
-    /// given inertias by its fifth power; densities stay. Meshes and height fields that others show too are copied. What
+    /// given inertias by its fifth power; densities stay. Meshes and height fields that others show too are copied. Skins given in
+    /// place are scaled when all their bones are. What
     /// acts on the body (stiffness, gains, forces, tendons, keyframes) stays as it is.
     ///
     /// # Errors
@@ -37,7 +38,25 @@ impl Spec {
             });
         }
         *at(&mut self.world, &path) = scaled;
+        self.scale_skins(&path, factor);
         Ok(())
+    }
+
+    /// Scales the skins that only the body at `path` and those below it move.
+    fn scale_skins(&mut self, path: &[usize], factor: f64) {
+        let mut moved = BTreeSet::new();
+        each_body(at(&mut self.world, path), &mut |body| {
+            moved.insert(body.name.clone());
+        });
+        let by = |x: &mut f32| *x = (f64::from(*x) * factor) as f32;
+        let inside = |skin: &&mut Skin| {
+            !skin.bones.is_empty() && skin.bones.iter().all(|bone| moved.contains(&bone.body))
+        };
+        for skin in self.skins.iter_mut().filter(inside) {
+            skin.vert.iter_mut().for_each(by);
+            skin.bones.iter_mut().flat_map(|bone| &mut bone.bindpos).for_each(by);
+            by(&mut skin.inflate);
+        }
     }
 
     /// Scales meshes and height fields that `body` shows, or copies that it is to show where the rest of the model does too.

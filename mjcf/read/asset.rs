@@ -4,10 +4,15 @@ use super::reader::Reader;
 use crate::files::{base_name, is_absolute, join};
 use crate::image::Builtin;
 use crate::mesh::vertex_count;
-use crate::schema::asset::{HFIELD_ROWS, MATERIAL_ROWS, MESH_ROWS, ROLES, SIDES, TEXTURE_ROWS};
-use crate::spec::{Hfield, Material, Mesh, Texture};
+use crate::schema::asset::{
+    BONE_ROWS, HFIELD_ROWS, MATERIAL_ROWS, MESH_ROWS, ROLES, SIDES, SKIN_ROWS, TEXTURE_ROWS,
+};
+use crate::spec::{Bone, Hfield, Material, Mesh, Skin, Texture};
 use crate::xml::{Attribute, Element};
 use physics::model::TextureType;
+
+/// Groups of skins.
+const GROUPS: i32 = 6;
 
 impl Reader<'_> {
     pub(super) fn asset(&mut self, section: &Element) {
@@ -17,11 +22,16 @@ impl Reader<'_> {
                 "hfield" => self.hfield(element),
                 "texture" => self.texture(element),
                 "material" => self.material(element),
+                "skin" => self.skin(element),
                 "model" => self.model_file(element),
                 // Refused by the structural check.
                 _ => {}
             }
         }
+    }
+
+    pub(super) fn deformable(&mut self, section: &Element) {
+        section.children_named("skin").for_each(|element| self.skin(element));
     }
 
     /// What to open for an asset, and the path that the model records.
@@ -94,6 +104,23 @@ impl Reader<'_> {
             }
         }
         self.spec.hfields.push(hfield);
+    }
+
+    fn skin(&mut self, element: &Element) {
+        let mut skin = Skin { loc: element.loc, ..Skin::default() };
+        self.rows(element, &SKIN_ROWS, &mut skin);
+        if let Some(file) = element.attribute("file") {
+            (skin.file, skin.path) = self.asset_file(file, &self.spec.compiler.meshdir);
+        }
+        if let Some(group) = element.attribute("group").filter(|_| !(0..GROUPS).contains(&skin.group)) {
+            self.error(group.value_loc, format!("attribute 'group' of <skin> must be 0 to {}", GROUPS - 1));
+        }
+        for element in element.children_named("bone") {
+            let mut bone = Bone { loc: element.loc, ..Bone::default() };
+            self.rows(element, &BONE_ROWS, &mut bone);
+            skin.bones.push(bone);
+        }
+        self.spec.skins.push(skin);
     }
 
     fn texture(&mut self, element: &Element) {

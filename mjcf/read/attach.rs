@@ -15,7 +15,7 @@ use crate::budget::{ADVICE, ELEMENT};
 use crate::schema::Space;
 use crate::schema::tree::{ATTACH_ROWS, Attach};
 use crate::spec::asset_name;
-use crate::spec::{Body, Frame, KeptKey, Keyed, Spec};
+use crate::spec::{Body, Frame, KeptKey, Keyed, Skin, Spec};
 use crate::xml::Element;
 
 /// Inline numbers of an asset that count as one element.
@@ -108,6 +108,7 @@ impl Reader<'_> {
             self.spec.classes.names.entry(format!("{}{name}", wanted.prefix)).or_insert(id + offset);
         }
         self.copy_assets(child, &affix, &mut names)?;
+        self.copy_skins(child, &affix, &names);
         self.copy_objects(child, &affix, names, Some(&keys))
     }
 
@@ -192,9 +193,14 @@ impl Reader<'_> {
 
     fn copy_assets(&mut self, child: &Spec, affix: &Affix<'_>, names: &mut Names) -> Result<(), String> {
         let inline = child.meshes.iter().map(|m| m.uservert.len() + m.userface.len()).sum::<usize>()
-            + child.hfields.iter().map(|h| h.userdata.len()).sum::<usize>();
+            + child.hfields.iter().map(|h| h.userdata.len()).sum::<usize>()
+            + child.skins.iter().map(numbers_of_skin).sum::<usize>();
         self.count(
-            inline / NUMBERS_PER_ELEMENT + child.meshes.len() + child.textures.len() + child.materials.len(),
+            inline / NUMBERS_PER_ELEMENT
+                + child.meshes.len()
+                + child.skins.len()
+                + child.textures.len()
+                + child.materials.len(),
         )?;
         let materials: BTreeSet<&String> = self.spec.materials.iter().map(|m| &m.name).collect();
         let mut meshes = child.meshes.clone();
@@ -233,6 +239,23 @@ impl Reader<'_> {
         self.spec.numerics.extend(copied.numerics);
         self.spec.texts.extend(copied.texts);
         Ok(())
+    }
+
+    /// Copies the skins all of whose bones are copied. The bones of a file keep their names.
+    fn copy_skins(&mut self, child: &Spec, affix: &Affix<'_>, inside: &Names) {
+        let mut target = Target { reader: self, affix, inside: inside.clone(), outside: None };
+        let mut skins = Vec::new();
+        for original in &child.skins {
+            let name = asset_name(&original.name, &original.path);
+            let Some(mut skin) = target.copy(&Skin { name, ..original.clone() }) else { continue };
+            let mut material = skin.material.clone();
+            affix.apply(&mut material);
+            if target.knows(Space::Material, &material) {
+                skin.material = material;
+            }
+            skins.push(skin);
+        }
+        self.spec.skins.extend(skins);
     }
 
     /// Copies the objects whose references lead somewhere; `inside` are the names of the piece.
@@ -281,6 +304,11 @@ impl Reader<'_> {
         self.spec.tuples.extend(tuples);
         Ok(())
     }
+}
+
+/// Numbers that a skin holds in place.
+fn numbers_of_skin(skin: &Skin) -> usize {
+    skin.vert.len() + skin.face.len() + skin.bones.iter().map(|bone| bone.vertid.len()).sum::<usize>()
 }
 
 /// What is attached.

@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 use physics::model::{ObjType, TrnType};
 
 use crate::schema::Space;
-use crate::spec::{Actuator, Body, Equality, Exclude, Pair, Sensor, Spec, Tendon, Tuple, Wrap, WrapKind};
+use crate::spec::{
+    Actuator, Body, Equality, Exclude, Pair, Sensor, Skin, Spec, Tendon, Tuple, Wrap, WrapKind,
+};
 
 /// Names with their spaces.
 pub(crate) type Names = BTreeSet<(Space, String)>;
@@ -64,7 +66,7 @@ pub(crate) fn collect_objects(spec: &Spec, names: &mut Names) {
             })*
         };
     }
-    lists!(Mesh meshes Hfield hfields Texture textures Material materials Pair pairs Exclude excludes
+    lists!(Mesh meshes Skin skins Hfield hfields Texture textures Material materials Pair pairs Exclude excludes
            Equality equalities Tendon tendons Actuator actuators Sensor sensors Numeric numerics Text texts
            Tuple tuples Key keys);
 }
@@ -159,6 +161,7 @@ fn space(kind: ObjType) -> Space {
         ObjType::Camera => Space::Camera,
         ObjType::Light => Space::Light,
         ObjType::Mesh => Space::Mesh,
+        ObjType::Skin => Space::Skin,
         ObjType::Hfield => Space::Hfield,
         ObjType::Texture => Space::Texture,
         ObjType::Material => Space::Material,
@@ -195,6 +198,12 @@ impl Referring for Exclude {
 
     fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
         (&mut self.name, vec![(Space::Body, &mut self.bodyname1), (Space::Body, &mut self.bodyname2)])
+    }
+}
+
+impl Referring for Skin {
+    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
+        (&mut self.name, self.bones.iter_mut().map(|bone| (Space::Body, &mut bone.body)).collect())
     }
 }
 

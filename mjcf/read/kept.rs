@@ -21,7 +21,9 @@ pub(crate) fn rename_files(
     for section in &mut root.children {
         match section.name.as_str() {
             "compiler" => section.attributes.retain(|a| !FOLDERS.contains(&a.name.as_str())),
-            "asset" => section.children.iter_mut().for_each(|asset| rename(asset, &reader, name)),
+            "asset" | "deformable" => {
+                section.children.iter_mut().for_each(|asset| rename(asset, &reader, name))
+            }
             _ => {}
         }
     }
@@ -31,7 +33,7 @@ fn rename(asset: &mut Element, reader: &Reader<'_>, name: &mut dyn FnMut(&str) -
     let compiler = &reader.spec.compiler;
     let dir = match asset.name.as_str() {
         "texture" => &compiler.texturedir,
-        "mesh" | "hfield" => &compiler.meshdir,
+        "mesh" | "hfield" | "skin" => &compiler.meshdir,
         _ => "",
     };
     let called = stem(asset.value("file").unwrap_or_default());

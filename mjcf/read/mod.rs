@@ -58,7 +58,7 @@ impl Reader<'_> {
 
     /// Reads the sections below `root` into what is there.
     pub(crate) fn sections(&mut self, root: &Element) {
-        let sections: [(&str, Section<Self>); 15] = [
+        let sections: [(&str, Section<Self>); 16] = [
             ("compiler", Self::compiler),
             ("option", Self::option),
             ("size", Self::size),
@@ -67,6 +67,7 @@ impl Reader<'_> {
             ("default", Self::top_default),
             ("custom", Self::custom),
             ("asset", Self::asset),
+            ("deformable", Self::deformable),
             ("contact", Self::contact),
             ("equality", Self::equality),
             ("tendon", Self::tendon),

@@ -1,15 +1,13 @@
-//! `asset`: meshes, height fields, textures and materials.
+//! `asset`: meshes, height fields, textures, materials and skins.
 
 use physics::model::{ColorSpace, TextureType};
 
 use super::Bind::*;
 use super::tree::{CLASS, PLUGIN};
-use super::{
-    ElementType, Kind, Row, Rule, Space, Words, any, leaf, local, required, row, section, unsupported,
-};
+use super::{ElementType, Kind, Row, Rule, Space, Words, any, leaf, local, required, row, section};
 use crate::image::{Builtin, Mark};
 use crate::mesh::{MeshInertia, Shape};
-use crate::spec::{Hfield, Material, Mesh, Texture};
+use crate::spec::{Bone, Hfield, Material, Mesh, Skin, Texture};
 
 /// `asset`.
 pub static ASSET: ElementType = section(
@@ -28,7 +26,9 @@ pub static MATERIAL: ElementType =
     leaf("material", "Looks of a surface", &[&CLASS, &MATERIAL_ROWS]).children(&[any(&LAYER)]);
 static LAYER: ElementType = leaf("layer", "A texture of a material in one role", &[&LAYER_ROWS]);
 /// `skin`.
-pub static SKIN: ElementType = unsupported("skin", "skins");
+pub static SKIN: ElementType =
+    leaf("skin", "A surface that follows bodies, for pictures only", &[&SKIN_ROWS]).children(&[any(&BONE)]);
+static BONE: ElementType = leaf("bone", "A body that moves vertices of a skin", &[&BONE_ROWS]);
 static MODEL: ElementType = leaf("model", "A model that parts are attached from", &[&MODEL_ROWS]);
 
 /// Attributes of `model`.
@@ -123,6 +123,32 @@ pub static HFIELD_ROWS: [Row<Hfield>; 7] = [
         "half lengths, height and base thickness, metres",
     ),
     row("elevation", SingleList(|h| &mut h.userdata), "heights, top row first"),
+];
+
+/// Attributes of `skin`.
+pub static SKIN_ROWS: [Row<Skin>; 9] = [
+    row("name", Name(Space::Skin, |s| &mut s.name), "name; the file's stem if absent"),
+    row("file", Own(Kind::File), "SKN file, in place of vertices, faces and bones"),
+    row("material", Ref(Space::Material, |s| &mut s.material), "material"),
+    row("rgba", Singles(|s| &mut s.rgba), "colour and opacity"),
+    row("inflate", Single(|s| &mut s.inflate), "distance by which vertices move along their normals, metres"),
+    row("vertex", SingleList(|s| &mut s.vert), "vertex positions in the bind pose, metres"),
+    row("texcoord", SingleList(|s| &mut s.texcoord), "texture coordinates of the vertices"),
+    row("face", IntList(|s| &mut s.face), "vertices of each triangle"),
+    row("group", Int(|s| &mut s.group), "group for visibility, 0 to 5"),
+];
+
+/// Attributes of `bone`.
+pub static BONE_ROWS: [Row<Bone>; 5] = [
+    required("body", Ref(Space::Body, |b| &mut b.body), "body that moves the vertices"),
+    required("bindpos", Singles(|b| &mut b.bindpos), "position of the body in the bind pose, metres"),
+    required("bindquat", Singles(|b| &mut b.bindquat), "orientation of the body in the bind pose"),
+    required("vertid", IntList(|b| &mut b.vertid), "vertices that it moves"),
+    required(
+        "vertweight",
+        SingleList(|b| &mut b.vertweight),
+        "weight of each; divided by the sum of a vertex",
+    ),
 ];
 
 /// Attributes of `texture`.

@@ -29,6 +29,7 @@ use crate::spec::Orientation;
 pub enum Space {
     Class,
     Mesh,
+    Skin,
     Hfield,
     Texture,
     Material,
@@ -57,6 +58,7 @@ impl Space {
         match self {
             Space::Class => "default class",
             Space::Mesh => "mesh",
+            Space::Skin => "skin",
             Space::Hfield => "hfield",
             Space::Texture => "texture",
             Space::Material => "material",
@@ -84,8 +86,8 @@ impl Space {
     pub fn from_objtype(word: &str) -> Option<Space> {
         use Space::*;
         let all = [
-            Mesh, Hfield, Texture, Material, Body, Joint, Geom, Site, Camera, Light, Pair, Exclude, Equality,
-            Tendon, Actuator, Sensor, Numeric, Text, Tuple, Key,
+            Mesh, Skin, Hfield, Texture, Material, Body, Joint, Geom, Site, Camera, Light, Pair, Exclude,
+            Equality, Tendon, Actuator, Sensor, Numeric, Text, Tuple, Key,
         ];
         if word == "xbody" { Some(Body) } else { all.into_iter().find(|s| s.word() == word) }
     }

@@ -1,6 +1,7 @@
 //! Assets (XML reference: `asset`).
 
 use super::element::elements;
+use crate::diagnostic::Loc;
 use crate::files::base_name;
 use crate::image::{Builtin, Mark};
 use crate::mesh::{MeshInertia, Shape};
@@ -64,6 +65,29 @@ elements! {
         ncol: i32 = 0,
         /// Heights, top row first.
         userdata: Vec<f32> = Vec::new(),
+    }
+    /// A surface whose vertices follow bodies.
+    Skin {
+        /// File to open, empty for a skin given in place.
+        file: String = String::new(),
+        /// Path of the file as the model keeps it.
+        path: String = String::new(),
+        /// Material.
+        material: String = String::new(),
+        /// Colour and opacity.
+        rgba: [f32; 4] = [0.5, 0.5, 0.5, 1.0],
+        /// Distance by which vertices move along their normals, metres.
+        inflate: f32 = 0.0,
+        /// Group for visibility.
+        group: i32 = 0,
+        /// Vertex positions in the bind pose, three numbers each, metres.
+        vert: Vec<f32> = Vec::new(),
+        /// Texture coordinates, two numbers a vertex, or none.
+        texcoord: Vec<f32> = Vec::new(),
+        /// Vertices of each triangle.
+        face: Vec<i32> = Vec::new(),
+        /// The bodies that move the vertices.
+        bones: Vec<Bone> = Vec::new(),
     }
     /// A texture: built in, from one file, or from six.
     Texture {
@@ -131,6 +155,23 @@ elements! {
         /// Colour and opacity.
         rgba: [f32; 4] = [1.0; 4],
     }
+}
+
+/// A body that moves vertices of a skin.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bone {
+    /// Where the element stands in the sources.
+    pub loc: Loc,
+    /// Name of the body.
+    pub body: String,
+    /// Position of the body in the bind pose, metres.
+    pub bindpos: [f32; 3],
+    /// Orientation of the body in the bind pose; any length but zero.
+    pub bindquat: [f32; 4],
+    /// Vertices that it moves.
+    pub vertid: Vec<i32>,
+    /// Weight of each.
+    pub vertweight: Vec<f32>,
 }
 
 /// Name of an asset: its own, or that of its file.

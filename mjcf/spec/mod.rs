@@ -72,6 +72,8 @@ pub struct Spec {
     pub frames: Vec<Frame>,
     /// Meshes.
     pub meshes: Vec<Mesh>,
+    /// Skins.
+    pub skins: Vec<Skin>,
     /// Height fields.
     pub hfields: Vec<Hfield>,
     /// Textures.

@@ -2,8 +2,10 @@
 
 use super::rows::{put_rows, put_some};
 use super::text::{element, numbers};
-use crate::schema::asset::{HFIELD_ROWS, MATERIAL_ROWS, MESH_ROWS, ROLES, SIDES, TEXTURE_ROWS};
-use crate::spec::{Hfield, Material, Mesh, Spec, Texture};
+use crate::schema::asset::{
+    BONE_ROWS, HFIELD_ROWS, MATERIAL_ROWS, MESH_ROWS, ROLES, SIDES, SKIN_ROWS, TEXTURE_ROWS,
+};
+use crate::spec::{Bone, Hfield, Material, Mesh, Skin, Spec, Texture};
 use crate::xml::Element;
 
 pub(super) fn assets(spec: &Spec) -> Element {
@@ -12,6 +14,12 @@ pub(super) fn assets(spec: &Spec) -> Element {
     out.children.extend(spec.materials.iter().map(material));
     out.children.extend(spec.meshes.iter().map(mesh));
     out.children.extend(spec.hfields.iter().map(hfield));
+    out
+}
+
+pub(super) fn deformable(spec: &Spec) -> Element {
+    let mut out = element("deformable");
+    out.children.extend(spec.skins.iter().map(skin));
     out
 }
 
@@ -25,6 +33,18 @@ pub(super) fn mesh(mesh: &Mesh) -> Element {
     let mut out = element("mesh");
     put_rows(&mut out, &MESH_ROWS, mesh, &Mesh::default());
     put_file(&mut out, &mesh.path);
+    out
+}
+
+pub(super) fn skin(skin: &Skin) -> Element {
+    let mut out = element("skin");
+    put_rows(&mut out, &SKIN_ROWS, skin, &Skin::default());
+    put_file(&mut out, &skin.path);
+    for bone in &skin.bones {
+        let mut child = element("bone");
+        put_rows(&mut child, &BONE_ROWS, bone, &Bone::default());
+        out.children.push(child);
+    }
     out
 }
 

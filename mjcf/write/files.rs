@@ -52,7 +52,7 @@ impl Spec {
                 })*
             };
         }
-        keep_names!(meshes hfields textures);
+        keep_names!(meshes skins hfields textures);
         self.each_file(&mut |named| *named.path = name(named.file));
         self.compiler.meshdir.clear();
         self.compiler.texturedir.clear();
@@ -84,6 +84,7 @@ impl Spec {
             }
         }
         self.meshes.iter_mut().for_each(|mesh| see(&mesh.file, &mut mesh.path, false));
+        self.skins.iter_mut().for_each(|skin| see(&skin.file, &mut skin.path, false));
         self.hfields.iter_mut().for_each(|hfield| see(&hfield.file, &mut hfield.path, false));
     }
 }

@@ -55,6 +55,7 @@ impl Spec {
         root.add(constraint::tendon_classes(&spec));
         root.add(asset::assets(&spec));
         root.add(tree::world(&spec.world, &spec.frames));
+        root.add(asset::deformable(&spec));
         root.add(constraint::contact(&spec));
         root.add(constraint::equalities(&spec));
         root.add(constraint::tendons(&spec));
@@ -85,6 +86,7 @@ single! {
     camera Camera tree::camera;
     light Light tree::light;
     mesh Mesh asset::mesh;
+    skin Skin asset::skin;
     hfield Hfield asset::hfield;
     texture Texture asset::texture;
     material Material asset::material;

@@ -219,6 +219,8 @@ pub enum Label {
     Lights,
     /// Tendons
     Tendons,
+    /// Skins
+    Skins,
     /// Actuators, which are shown
     Actuators,
     /// Equality constraints, with their anchors
@@ -243,6 +245,7 @@ impl Label {
             Label::Cameras => (LabelChoice::Camera, Some(Shown::Cameras)),
             Label::Lights => (LabelChoice::Light, Some(Shown::Lights)),
             Label::Tendons => (LabelChoice::Tendon, None),
+            Label::Skins => (LabelChoice::Skin, None),
             Label::Actuators => (LabelChoice::Actuator, Some(Shown::Actuators)),
             Label::Constraints => (LabelChoice::Constraint, Some(Shown::Constraints)),
             Label::Contacts => (LabelChoice::ContactPoint, Some(Shown::Contacts)),
@@ -263,6 +266,8 @@ pub enum Omission {
     Static,
     /// Tendons
     Tendons,
+    /// Skins
+    Skins,
     /// Rays of rangefinders
     Rays,
     /// Shadows
@@ -283,6 +288,7 @@ impl Omission {
             Omission::Textures => show.textures = false,
             Omission::Static => show.static_bodies = false,
             Omission::Tendons => show.tendons = false,
+            Omission::Skins => show.skins = false,
             Omission::Rays => show.rangefinders = false,
             Omission::Shadows => effects.shadows = false,
             Omission::Reflections => effects.reflections = false,
@@ -347,6 +353,7 @@ impl Look {
                 &mut groups.joints,
                 &mut groups.tendons,
                 &mut groups.actuators,
+                &mut groups.skins,
             ];
             kinds.into_iter().for_each(|kind| *kind = visible);
         }

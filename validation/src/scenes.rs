@@ -273,6 +273,7 @@ fn codes(m: &Model, item: &Item, place: usize) -> [i32; CODES] {
     let plane = |geom: usize| (0..geom).filter(|&g| m.geom_type[g] == GeomType::Plane.code()).count();
     let (code, data) = match item.shape {
         Shape::Plane { geom } => (0, plane(geom) as i32),
+        Shape::Skin { .. } => (106, -1),
         Shape::Hfield { hfield } => (1, hfield as i32),
         Shape::Sphere => (2, -1),
         Shape::Capsule => (3, -1),
@@ -422,7 +423,14 @@ fn groups(k: usize) -> Groups {
         _ => return Groups::default(),
     };
     let visible: [bool; GROUPS] = std::array::from_fn(|group| shown.contains(&group));
-    Groups { geoms: visible, sites: visible, joints: visible, tendons: visible, actuators: visible }
+    Groups {
+        geoms: visible,
+        sites: visible,
+        joints: visible,
+        tendons: visible,
+        actuators: visible,
+        skins: visible,
+    }
 }
 
 fn label(k: usize) -> LabelChoice {

@@ -1,4 +1,4 @@
-"""Fields of features that are refused by name: flexes, skins, plugins, sleep. Sizes are zero, arrays empty, and everything is
+"""Fields of features that are refused by name: flexes, plugins, sleep. Sizes are zero, arrays empty, and everything is
 awake, as in MuJoCo where a model has none of them. All are read-only."""
 
 from collections.abc import Callable
@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 #: Sizes that are always zero.
 SIZES = (
     "nflex nflexnode nflexvert nflexedge nflexelem nflexelemdata nflexelemedge nflexshelldata nflexevpair nflextexcoord "
-    "nJfe nJfv nflexstiffness nflexbending nskin nskinvert nskintexvert nskinface nskinbone nskinbonevert nplugin npluginattr "
-    "npluginstate nefm0dof nefm0L"
+    "nJfe nJfv nflexstiffness nflexbending nplugin npluginattr npluginstate nefm0dof nefm0L"
 ).split()
 
 #: Arrays of a model without rows: by type, each with its columns.
@@ -19,8 +18,7 @@ _MODEL = {
     "float64": "efm0_L flex_bending flex_damping flex_edgedamping flex_edgestiffness flex_friction:3 flex_gap flex_margin "
     "flex_node:3 flex_node0:3 flex_radius flex_size:3 flex_solimp:5 flex_solmix flex_solref:2 flex_stiffness flex_vert:3 "
     "flex_vert0:3 flex_vertmetric:4 flexedge_invweight0 flexedge_length0",
-    "float32": "flex_rgba:4 flex_texcoord:2 skin_bonebindpos:3 skin_bonebindquat:4 skin_bonevertweight skin_inflate "
-    "skin_rgba:4 skin_texcoord:2 skin_vert:3",
+    "float32": "flex_rgba:4 flex_texcoord:2",
     "int32": "efm0_L_colind efm0_L_rowadr efm0_L_rownnz efm0_dofid flex_activelayers flex_bendingadr flex_bvhadr flex_bvhnum "
     "flex_cellnum:3 flex_conaffinity flex_condim flex_contype flex_dim flex_edge:2 flex_edgeadr flex_edgeequality "
     "flex_edgeflap:2 flex_edgenum flex_elem flex_elemadr flex_elemdataadr flex_elemedge flex_elemedgeadr flex_elemlayer "
@@ -28,10 +26,8 @@ _MODEL = {
     "flex_nodeadr flex_nodebodyid flex_nodenum flex_passive flex_priority flex_selfcollide flex_shell flex_shelldataadr "
     "flex_shellnum flex_stiffnessadr flex_texcoordadr flex_vertadr flex_vertbodyid flex_vertedge:2 flex_vertedgeadr "
     "flex_vertedgenum flex_vertnum flexedge_J_colind flexedge_J_rowadr flexedge_J_rownnz flexvert_J_colind:2 "
-    "flexvert_J_rowadr:2 flexvert_J_rownnz:2 name_flexadr name_pluginadr name_skinadr plugin plugin_attradr "
-    "plugin_stateadr plugin_statenum skin_boneadr skin_bonebodyid skin_bonenum skin_bonevertadr skin_bonevertid "
-    "skin_bonevertnum skin_face:3 skin_faceadr skin_facenum skin_group skin_matid skin_pathadr skin_texcoordadr "
-    "skin_vertadr skin_vertnum",
+    "flexvert_J_rowadr:2 flexvert_J_rownnz:2 name_flexadr name_pluginadr plugin plugin_attradr "
+    "plugin_stateadr plugin_statenum",
     "bool": "flex_centered flex_flatskin flex_internal flex_rigid flexedge_rigid",
     "int8": "plugin_attr",
 }

@@ -16,6 +16,7 @@ _KINDS = {
     "camera": ("cam", "ncam", mjtObj.mjOBJ_CAMERA),
     "light": ("light", "nlight", mjtObj.mjOBJ_LIGHT),
     "mesh": ("mesh", "nmesh", mjtObj.mjOBJ_MESH),
+    "skin": ("skin", "nskin", mjtObj.mjOBJ_SKIN),
     "hfield": ("hfield", "nhfield", mjtObj.mjOBJ_HFIELD),
     "texture": ("tex", "ntex", mjtObj.mjOBJ_TEXTURE),
     "material": ("mat", "nmat", mjtObj.mjOBJ_MATERIAL),
@@ -260,6 +261,7 @@ class ModelElements:
     camera = _accessor("camera", ModelView)
     light = _accessor("light", ModelView)
     mesh = _accessor("mesh", ModelView)
+    skin = _accessor("skin", ModelView)
     hfield = _accessor("hfield", ModelView)
     texture = _accessor("texture", ModelView)
     material = _accessor("material", ModelView)

@@ -12,7 +12,7 @@ from robohive.mujoco.enums_view import mjtCamera, mjtVisFlag
 from robohive.mujoco.model import MjModel
 from robohive.mujoco.view import MjvCamera, MjvOption, mjv_defaultFreeCamera
 
-_GROUPS = ("geom", "site", "joint", "tendon", "actuator")
+_GROUPS = ("geom", "site", "joint", "tendon", "actuator", "skin")
 
 
 class Renderer:

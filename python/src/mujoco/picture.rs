@@ -45,8 +45,8 @@ pub struct Look {
     /// A camera of the model, or the free one.
     camera: Option<usize>,
     free: Option<Free>,
-    /// Visible groups of geoms, sites, joints, tendons, actuators.
-    groups: [[bool; 6]; 5],
+    /// Visible groups of geoms, sites, joints, tendons, actuators, skins.
+    groups: [[bool; 6]; 6],
     /// Flags by the names of the fields of `render::scene::Show` that the renderer takes.
     shown: Vec<String>,
 }
@@ -70,13 +70,14 @@ impl Look {
 
     fn options(&self) -> SceneOptions {
         let mut options = SceneOptions::default();
-        let [geoms, sites, joints, tendons, actuators] = self.groups;
-        options.groups = Groups { geoms, sites, joints, tendons, actuators };
+        let [geoms, sites, joints, tendons, actuators, skins] = self.groups;
+        options.groups = Groups { geoms, sites, joints, tendons, actuators, skins };
         let has = |name: &str| self.shown.iter().any(|shown| shown == name);
         let show = &mut options.show;
         show.textures = has("TEXTURE");
         show.static_bodies = has("STATIC");
         show.tendons = has("TENDON");
+        show.skins = has("SKIN");
         show.rangefinders = has("RANGEFINDER");
         show.convex_hulls = has("CONVEXHULL");
         show.transparent = has("TRANSPARENT");
@@ -119,6 +120,9 @@ impl Painter {
                     None => {
                         inside.assets = Some(Assets::new(&compiled, Profile::default()).map_err(refused)?)
                     }
+                }
+                if let Some(assets) = &mut inside.assets {
+                    assets.pose(&compiled, simulation).map_err(refused)?;
                 }
                 let settings = Settings::of(&compiled);
                 match &mut inside.renderer {

@@ -15,6 +15,7 @@
 mod device;
 mod mesh;
 mod patterns;
+mod skin;
 mod tree;
 
 use crate::model::{Arrays, ObjType};
@@ -49,6 +50,7 @@ pub fn check_consistency(m: &Arrays) -> Result<(), Inconsistent> {
     tree::check(m)?;
     plain_references(m)?;
     mesh::check(m)?;
+    skin::check(m)?;
     device::check(m)?;
     patterns::check(m)
 }
@@ -148,6 +150,7 @@ fn count(m: &Arrays, kind: i32) -> usize {
         Some(ObjType::Camera) => m.ncam,
         Some(ObjType::Light) => m.nlight,
         Some(ObjType::Mesh) => m.nmesh,
+        Some(ObjType::Skin) => m.nskin,
         Some(ObjType::Hfield) => m.nhfield,
         Some(ObjType::Texture) => m.ntex,
         Some(ObjType::Material) => m.nmat,
@@ -185,6 +188,9 @@ fn plain_references(m: &Arrays) -> Result<(), Inconsistent> {
         tendon_actuatorid -2 m.nactuator;
         tendon_treeid -1 m.ntree;
         mesh_pathadr -1 m.npaths;
+        skin_matid -1 m.nmat;
+        skin_bonebodyid 0 m.nbody;
+        skin_pathadr -1 m.npaths;
         hfield_pathadr -1 m.npaths;
         tex_pathadr -1 m.npaths;
         name_bodyadr 0 m.nnames;
@@ -194,6 +200,7 @@ fn plain_references(m: &Arrays) -> Result<(), Inconsistent> {
         name_camadr 0 m.nnames;
         name_lightadr 0 m.nnames;
         name_meshadr 0 m.nnames;
+        name_skinadr 0 m.nnames;
         name_hfieldadr 0 m.nnames;
         name_texadr 0 m.nnames;
         name_matadr 0 m.nnames;

@@ -92,6 +92,8 @@ ids! {
     LightId Light nlight light lights light_names {}
     /// A mesh.
     MeshId Mesh nmesh mesh meshes mesh_names {}
+    /// A skin.
+    SkinId Skin nskin skin skins skin_names {}
     /// A height field.
     HfieldId Hfield nhfield hfield hfields hfield_names {}
     /// A texture.

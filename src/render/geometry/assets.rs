@@ -4,13 +4,14 @@ use super::flat::{self, PlaneShape};
 use super::hfield::{self, Relief};
 use super::mesh::{self, MeshRows};
 use super::round::{self, Side};
+use super::skin;
 use super::source::Source;
 use super::surface::Surface;
 use crate::error::RenderError;
 use crate::profile::Profile;
 use crate::texture::Texture;
-use physics::Model;
 use physics::model::{GeomType, ObjType, TextureRole, VisualQuality};
+use physics::{Data, Model};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -47,6 +48,7 @@ pub struct Assets {
     first_hfield: usize,
     first_mesh: usize,
     first_hull: usize,
+    first_skin: usize,
     quality: [usize; 3],
     profile: Profile,
     source: Source,
@@ -90,6 +92,8 @@ impl Assets {
         for id in 0..model.mesh_graphadr.len() {
             surfaces.push(hull_of(model, id)?);
         }
+        let first_skin = surfaces.len();
+        surfaces.extend((0..model.skin_vertadr.len()).map(|id| skin::unposed(model, id)));
         let textures = (0..model.tex_type.len()).map(|id| Ok(Arc::new(Texture::new(model, id, profile)?)));
         Ok(Assets {
             surfaces: surfaces.into_iter().map(Arc::new).collect(),
@@ -100,6 +104,7 @@ impl Assets {
             first_hfield,
             first_mesh,
             first_hull,
+            first_skin,
             quality,
             profile,
             source: Source::of(model),
@@ -139,6 +144,19 @@ impl Assets {
         Ok(())
     }
 
+    /// Moves the skins to where the bodies of a state are, whose poses must have been computed. Costs nothing without skins.
+    ///
+    /// # Errors
+    /// [`RenderError::NotFinite`] names a skin that is nowhere.
+    pub fn pose(&mut self, model: &Model, data: &Data) -> Result<(), RenderError> {
+        for (skin, surface) in self.surfaces[self.first_skin..].iter_mut().enumerate() {
+            if let Some(posed) = skin::posed(model, data, skin, surface)? {
+                *surface = Arc::new(posed);
+            }
+        }
+        Ok(())
+    }
+
     /// Bytes that triangles and textures take.
     pub fn bytes(&self) -> usize {
         self.surfaces.iter().map(|s| s.bytes()).sum::<usize>()
@@ -168,7 +186,11 @@ impl Assets {
 
     /// The convex hull of a mesh; one without a hull has no triangles.
     pub(super) fn hull_surface(&self, mesh: usize) -> Option<usize> {
-        self.first_hull.checked_add(mesh).filter(|&surface| surface < self.surfaces.len())
+        self.first_hull.checked_add(mesh).filter(|&surface| surface < self.first_skin)
+    }
+
+    pub(super) fn skin_surface(&self, skin: usize) -> Option<usize> {
+        self.first_skin.checked_add(skin).filter(|&surface| surface < self.surfaces.len())
     }
 
     /// Whether the geoms that are planes are still those of the model.

@@ -7,6 +7,7 @@ mod hfield;
 mod mesh;
 mod parts;
 mod round;
+mod skin;
 mod source;
 mod surface;
 

@@ -57,11 +57,15 @@ impl Assets {
     /// not have, have none.
     pub fn parts(&self, item: &Item, out: &mut Vec<Part>) {
         let [x, y, z] = item.size;
+        let origin = match item.shape {
+            Shape::Skin { .. } => item.pos.map(|x| -x),
+            _ => [0.0; 3],
+        };
         let mut put = |surface: usize, diagonal: [f32; 3], height: f32| {
             out.push(Part {
                 surface,
                 linear: [[diagonal[0], 0.0, 0.0], [0.0, diagonal[1], 0.0], [0.0, 0.0, diagonal[2]]],
-                offset: [0.0, 0.0, height],
+                offset: [origin[0], origin[1], origin[2] + height],
                 paint: self.paint(item, surface),
                 two_sided: item.shape == Shape::Triangle,
             });
@@ -98,6 +102,7 @@ impl Assets {
             }
             Shape::Mesh { mesh } => self.mesh_surface(mesh).into_iter().for_each(|s| put(s, [1.0; 3], 0.0)),
             Shape::Hull { mesh } => self.hull_surface(mesh).into_iter().for_each(|s| put(s, [1.0; 3], 0.0)),
+            Shape::Skin { skin } => self.skin_surface(skin).into_iter().for_each(|s| put(s, [1.0; 3], 0.0)),
             Shape::Line | Shape::LineBox | Shape::Label => {}
         }
     }
@@ -108,7 +113,10 @@ impl Assets {
             return Paint::Plain;
         };
         let is_cube = self.textures[texture].is_cube();
-        let from_file = matches!(item.shape, Shape::Mesh { .. } | Shape::Hull { .. } | Shape::Hfield { .. });
+        let from_file = matches!(
+            item.shape,
+            Shape::Mesh { .. } | Shape::Hull { .. } | Shape::Hfield { .. } | Shape::Skin { .. }
+        );
         let mapped_by_file = from_file && !self.surfaces[surface].texcoords.is_empty();
         let uniform = |axis: usize| match material.uniform && item.size[axis] > 0.0 {
             true => item.size[axis],

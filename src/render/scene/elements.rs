@@ -1,11 +1,33 @@
-//! Geoms and sites.
+//! Skins, geoms and sites.
 
-use super::item::Shape;
+use super::item::{Category, Shape};
 use super::options::{LabelChoice, is_visible};
-use super::sink::{Form, Items, Source, element};
+use super::sink::{Form, Items, Source, UPRIGHT, element};
 use crate::RenderError;
 use physics::math::{Vec3, add_scaled, column, dot, sub};
 use physics::model::{GeomType, ObjType};
+
+/// Adds the visible skins, at their first bones.
+pub(super) fn skins(from: Source<'_>, items: &mut Items<'_>) {
+    let Source { m, d, options } = from;
+    if !from.shows(Category::Dynamic) || !options.show.skins {
+        return;
+    }
+    for i in 0..m.nskin {
+        let coat = from.coat(m.skin_matid[i], m.skin_rgba[i], Category::Dynamic);
+        if !is_visible(&options.groups.skins, m.skin_group[i]) || coat.rgba[3] == 0.0 {
+            continue;
+        }
+        let bone = m.skin_bonebodyid[m.skin_boneadr[i] as usize] as usize;
+        let form =
+            Form { shape: Shape::Skin { skin: i }, size: [0.1; 3], pos: d.kin.xpos[bone], mat: UPRIGHT };
+        let item = items.add(&form, coat, element(ObjType::Skin, i), Category::Dynamic);
+        item.rbound = 0.0;
+        if options.label == LabelChoice::Skin {
+            item.label = from.label(ObjType::Skin, i);
+        }
+    }
+}
 
 /// Adds the visible geoms; `eye` is where infinite planes are centred [m].
 pub(super) fn geoms(from: Source<'_>, eye: Vec3, items: &mut Items<'_>) -> Result<(), RenderError> {

@@ -31,6 +31,11 @@ pub enum Shape {
         /// Mesh of the model.
         mesh: usize,
     },
+    /// Skin of the model, whose vertices are in the world: the position only sorts it.
+    Skin {
+        /// Skin of the model.
+        skin: usize,
+    },
     /// Arrow along +z from the origin: width `size[0]`, `size[1]`, length `size[2]`.
     Arrow,
     /// Arrow without a wider head.

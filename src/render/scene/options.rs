@@ -21,12 +21,21 @@ pub struct Groups {
     pub tendons: [bool; GROUPS],
     /// Of actuators.
     pub actuators: [bool; GROUPS],
+    /// Of skins.
+    pub skins: [bool; GROUPS],
 }
 
 impl Default for Groups {
     /// The first three of each kind.
     fn default() -> Self {
-        Groups { geoms: VISIBLE, sites: VISIBLE, joints: VISIBLE, tendons: VISIBLE, actuators: VISIBLE }
+        Groups {
+            geoms: VISIBLE,
+            sites: VISIBLE,
+            joints: VISIBLE,
+            tendons: VISIBLE,
+            actuators: VISIBLE,
+            skins: VISIBLE,
+        }
     }
 }
 
@@ -35,7 +44,7 @@ pub(super) fn is_visible(visible: &[bool; GROUPS], group: i32) -> bool {
     visible[group.clamp(0, GROUPS as i32 - 1) as usize]
 }
 
-/// Kinds of elements and decorations. All off but textures, tendons, rangefinders, static bodies and the perturbation.
+/// Kinds of elements and decorations. All off but textures, tendons, rangefinders, static bodies, skins and the perturbation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Show {
     /// Textures of materials.
@@ -44,6 +53,8 @@ pub struct Show {
     pub static_bodies: bool,
     /// Spatial tendons.
     pub tendons: bool,
+    /// Skins.
+    pub skins: bool,
     /// Rays of rangefinders and nearest points of `fromto` sensors.
     pub rangefinders: bool,
     /// Convex hulls instead of the meshes that collide.
@@ -96,6 +107,7 @@ impl Show {
         textures: false,
         static_bodies: false,
         tendons: false,
+        skins: false,
         rangefinders: false,
         convex_hulls: false,
         transparent: false,
@@ -127,6 +139,7 @@ impl Default for Show {
             textures: true,
             static_bodies: true,
             tendons: true,
+            skins: true,
             rangefinders: true,
             perturbation: true,
             ..Show::NOTHING
@@ -148,6 +161,7 @@ pub enum LabelChoice {
     Light,
     Tendon,
     Actuator,
+    Skin,
     Constraint,
     /// The selected body.
     Selection,

@@ -227,10 +227,17 @@ impl<'a> Items<'a> {
     /// An error when some item is not finite.
     pub fn finish(self, m: &Model) -> Result<(), RenderError> {
         self.broken.map_or(Ok(()), |object| {
-            let kind = [ObjType::Geom, ObjType::Site, ObjType::Tendon, ObjType::Actuator, ObjType::Joint]
-                .into_iter()
-                .chain([ObjType::Body, ObjType::Camera, ObjType::Light, ObjType::Sensor, ObjType::Equality])
-                .find(|kind| kind.code() == object.kind);
+            let kind = [
+                ObjType::Skin,
+                ObjType::Geom,
+                ObjType::Site,
+                ObjType::Tendon,
+                ObjType::Actuator,
+                ObjType::Joint,
+            ]
+            .into_iter()
+            .chain([ObjType::Body, ObjType::Camera, ObjType::Light, ObjType::Sensor, ObjType::Equality])
+            .find(|kind| kind.code() == object.kind);
             let what = kind.map_or("a decoration".to_owned(), |kind| m.label_of(kind, object.id as usize));
             Err(RenderError::NotFinite { what })
         })

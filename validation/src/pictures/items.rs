@@ -13,6 +13,7 @@ pub const TOLERANCE: f64 = 2e-6;
 mod code {
     pub const PLANE: i32 = 0;
     pub const HFIELD: i32 = 1;
+    pub const SKIN: i32 = 106;
     pub const SPHERE: i32 = 2;
     pub const CAPSULE: i32 = 3;
     pub const ELLIPSOID: i32 = 4;
@@ -162,6 +163,7 @@ fn name(kind: i32, id: i32) -> String {
 fn same_shape(shape: Shape, recorded: i32, data: i32) -> bool {
     match shape {
         Shape::Plane { .. } => recorded == code::PLANE,
+        Shape::Skin { .. } => recorded == code::SKIN,
         Shape::Hfield { hfield } => recorded == code::HFIELD && data == hfield as i32,
         Shape::Sphere => matches!(recorded, code::SPHERE | code::ELLIPSOID),
         Shape::Capsule => recorded == code::CAPSULE,
