@@ -35,6 +35,7 @@ pub use warnings::Warnings;
 
 use crate::actuation::history;
 use crate::model::{Arrays, Model};
+use crate::sleep;
 use crate::table::Slice;
 use std::fmt;
 
@@ -52,6 +53,8 @@ impl State {
                 self.mocap_quat[k] = m.body_quat[b];
             }
         }
+        self.tree_asleep.fill(sleep::MOVED);
+        sleep::update(m, self);
     }
 }
 
@@ -62,6 +65,8 @@ pub struct Data {
     pub budget: StepBudget,
     /// A bad number in a step is reset as MuJoCo does, and counted in `warnings`, instead of an error.
     pub autoreset: bool,
+    /// The state has come from elsewhere, with trees that sleep: what stages keep of those is not known.
+    pub(crate) unsettled: bool,
     /// What `autoreset` has done.
     pub warnings: Warnings,
     /// Potential and kinetic energy [J].
@@ -148,7 +153,10 @@ impl Data {
     /// allocated.
     pub fn reset(&mut self, m: &Model) {
         self.energy = [0.0; 2];
+        self.unsettled = false;
         self.state.reset(m);
+        // A model whose trees cannot begin asleep is refused where it is compiled; there they are awake.
+        let _ = sleep::rest::begin(m, self);
     }
 
     /// Resets, then takes time, positions, velocities, activations, mocap poses and controls of keyframe `key`. Nothing
@@ -186,6 +194,15 @@ impl Data {
     pub fn visit(&self, m: &Model, f: &mut dyn FnMut(&'static str, Vec<usize>, Slice<'_>)) {
         f("time", vec![], Slice::F64(&[self.state.time]));
         f("energy", vec![2], Slice::F64(&self.energy));
+        let awake = &self.state;
+        for (name, n) in [
+            ("ntree_awake", awake.ntree_awake),
+            ("nbody_awake", awake.nbody_awake),
+            ("nparent_awake", awake.nparent_awake),
+            ("nv_awake", awake.nv_awake),
+        ] {
+            f(name, vec![], Slice::I32(&[n as i32]));
+        }
         self.state.visit(m, f);
         self.kin.visit(m, f);
         self.com.visit(m, f);

@@ -186,7 +186,11 @@ impl Problem {
 
     /// The inertia's structure.
     pub fn inertia_rows(&self) -> LowerRows<'_> {
-        LowerRows { rownnz: &self.pattern.inertia_rownnz, rowadr: &self.pattern.inertia_rowadr, colind: &self.pattern.inertia_colind }
+        LowerRows {
+            rownnz: &self.pattern.inertia_rownnz,
+            rowadr: &self.pattern.inertia_rowadr,
+            colind: &self.pattern.inertia_colind,
+        }
     }
 
     /// Columns and entries of inertia row `i`, diagonal last.
@@ -263,8 +267,9 @@ impl Problem {
 
     /// Sum of the diagonal of `M`.
     pub fn inertia_trace(&self) -> f64 {
-        let diagonal =
-            |i: usize| self.inertia[(self.pattern.inertia_rowadr[i] + self.pattern.inertia_rownnz[i] - 1) as usize];
+        let diagonal = |i: usize| {
+            self.inertia[(self.pattern.inertia_rowadr[i] + self.pattern.inertia_rownnz[i] - 1) as usize]
+        };
         (0..self.nv).map(diagonal).sum()
     }
 }
