@@ -116,7 +116,7 @@ fn normalise(vertices: usize, bones: &mut [Bone]) -> Result<(), String> {
             totals[v as usize] += weight;
         }
     }
-    if let Some(v) = totals.iter().position(|&total| !(f64::from(total) > MINVAL)) {
+    if let Some(v) = totals.iter().position(|&total| total.is_nan() || f64::from(total) <= MINVAL) {
         return Err(format!("the weights of vertex {v} add up to {}, not to a positive number", totals[v]));
     }
     for bone in bones {

@@ -31,7 +31,7 @@ pub(crate) fn can_sleep(m: &Model, state: &State, tree: usize, tolerance: f64) -
             velocity.iter().all(none)
         } else {
             let speeds = velocity.iter().zip(&m.dof_length[dofs(m, tree)]);
-            speeds.map(|(v, length)| length * v.abs()).all(|speed| !(speed >= tolerance))
+            speeds.map(|(v, length)| length * v.abs()).all(|speed| speed < tolerance)
         }
 }
 
