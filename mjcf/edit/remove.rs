@@ -17,7 +17,7 @@ impl Spec {
     /// they are; a removed material or texture leaves what it covered without one. Keyframes keep the numbers of what remains.
     ///
     /// # Errors
-    /// There is no such element; it is the world, or a mesh or height field that a geom shows.
+    /// There is no such element; it is the world, a frame, or a mesh or height field that a geom shows.
     pub fn remove(&mut self, kind: ObjType, name: &str) -> Result<(), Diagnostics> {
         let Some(space) = space(kind) else {
             return refuse(format!("elements of kind {kind:?} have no names"));
@@ -29,6 +29,11 @@ impl Spec {
         }
         if space == Space::Body && name == self.world.name {
             return refuse("the world cannot be removed");
+        }
+        if space == Space::Frame {
+            return refuse(format!(
+                "frame '{name}' places its elements: remove these, and nothing is left of it"
+            ));
         }
         if let Some(user) = self.geoms().find(|g| match space {
             Space::Mesh => g.meshname == name,
@@ -91,8 +96,7 @@ impl Spec {
             Space::Text => list!(texts),
             Space::Tuple => list!(tuples),
             Space::Key => self.take_key(name),
-            // A frame is what its elements are placed by; it goes with them.
-            Space::Frame | Space::Class => {}
+            Space::Frame | Space::Class => unreachable!("neither is removed by name"),
         }
         gone
     }

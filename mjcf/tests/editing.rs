@@ -174,6 +174,8 @@ fn what_refers_to_a_removed_element_goes_with_it() {
     assert!(message(spec.remove(ObjType::Mesh, "wedge")).contains("shown by the geom 'palm'"));
     assert!(message(spec.remove(ObjType::Body, "world")).contains("cannot be removed"));
     assert!(message(spec.remove(ObjType::Body, "hnd")).contains("did you mean 'hand'?"));
+    spec.add("arm", "<frame name='mount'><site name='eye'/></frame>").unwrap();
+    assert!(message(spec.remove(ObjType::Frame, "mount")).contains("places its elements"));
     spec.remove(ObjType::Material, "steel").unwrap();
     spec.remove(ObjType::Key, "up").unwrap();
     let m = compiled(&spec);
