@@ -41,5 +41,5 @@ pub use mass::MeshInertia;
 pub use physics::geometry::hierarchy::Bvh;
 pub use process::process;
 pub use shapes::{Shape, builtin, vertex_count};
-pub use skin::{CompiledSkin, RawSkin, SkinSource, skin};
+pub use skin::{Bone, CompiledSkin, RawSkin, SkinSource, skin};
 pub use source::{Format, MeshSource, RawMesh};

@@ -1,7 +1,7 @@
 //! Skins: surfaces whose vertices follow bodies, given in place or by an SKN file.
 
 use crate::asset::AssetError;
-use crate::spec::Bone;
+use crate::diagnostic::Loc;
 use physics::model::bounds::MINVAL;
 
 /// What an `asset/skin` element says, with its file already read.
@@ -39,6 +39,23 @@ pub struct CompiledSkin {
     pub face: Vec<[i32; 3]>,
     /// `skin_bone*`.
     pub bones: Vec<Bone>,
+}
+
+/// A body that moves vertices of a skin.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Bone {
+    /// Where the element stands in the sources.
+    pub loc: Loc,
+    /// Name of the body.
+    pub body: String,
+    /// Position of the body in the bind pose, metres.
+    pub bindpos: [f32; 3],
+    /// Orientation of the body in the bind pose; any length but zero.
+    pub bindquat: [f32; 4],
+    /// Vertices that it moves.
+    pub vertid: Vec<i32>,
+    /// Weight of each.
+    pub vertweight: Vec<f32>,
 }
 
 /// Checks a skin and normalises weights and orientations.

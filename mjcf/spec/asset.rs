@@ -1,9 +1,9 @@
 //! Assets (XML reference: `asset`).
 
 use super::element::elements;
-use crate::diagnostic::Loc;
 use crate::files::base_name;
 use crate::image::{Builtin, Mark};
+pub use crate::mesh::Bone;
 use crate::mesh::{MeshInertia, Shape};
 use physics::model::{ColorSpace, TextureType};
 
@@ -155,23 +155,6 @@ elements! {
         /// Colour and opacity.
         rgba: [f32; 4] = [1.0; 4],
     }
-}
-
-/// A body that moves vertices of a skin.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Bone {
-    /// Where the element stands in the sources.
-    pub loc: Loc,
-    /// Name of the body.
-    pub body: String,
-    /// Position of the body in the bind pose, metres.
-    pub bindpos: [f32; 3],
-    /// Orientation of the body in the bind pose; any length but zero.
-    pub bindquat: [f32; 4],
-    /// Vertices that it moves.
-    pub vertid: Vec<i32>,
-    /// Weight of each.
-    pub vertweight: Vec<f32>,
 }
 
 /// Name of an asset: its own, or that of its file.

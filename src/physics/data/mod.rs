@@ -58,6 +58,27 @@ impl State {
     }
 }
 
+impl State {
+    /// Calls `f(name, count)` for how many elements are awake.
+    pub fn visit_counts(&self, f: &mut dyn FnMut(&'static str, usize)) {
+        f("ntree_awake", self.ntree_awake);
+        f("nbody_awake", self.nbody_awake);
+        f("nparent_awake", self.nparent_awake);
+        f("nv_awake", self.nv_awake);
+    }
+
+    /// The count that [`Self::visit_counts`] calls `name`.
+    fn count_mut(&mut self, name: &str) -> Option<&mut usize> {
+        Some(match name {
+            "ntree_awake" => &mut self.ntree_awake,
+            "nbody_awake" => &mut self.nbody_awake,
+            "nparent_awake" => &mut self.nparent_awake,
+            "nv_awake" => &mut self.nv_awake,
+            _ => return None,
+        })
+    }
+}
+
 /// State, stage outputs and scratch memory of one simulation.
 #[derive(Clone, Debug, Default)]
 pub struct Data {
@@ -194,15 +215,7 @@ impl Data {
     pub fn visit(&self, m: &Model, f: &mut dyn FnMut(&'static str, Vec<usize>, Slice<'_>)) {
         f("time", vec![], Slice::F64(&[self.state.time]));
         f("energy", vec![2], Slice::F64(&self.energy));
-        let awake = &self.state;
-        for (name, n) in [
-            ("ntree_awake", awake.ntree_awake),
-            ("nbody_awake", awake.nbody_awake),
-            ("nparent_awake", awake.nparent_awake),
-            ("nv_awake", awake.nv_awake),
-        ] {
-            f(name, vec![], Slice::I32(&[n as i32]));
-        }
+        self.state.visit_counts(&mut |name, n| f(name, vec![], Slice::I32(&[n as i32])));
         self.state.visit(m, f);
         self.kin.visit(m, f);
         self.com.visit(m, f);
@@ -233,6 +246,12 @@ impl Data {
         }
         if let ([n], true) = (values, ["ne", "nf", "nl", "nefc"].contains(&name)) {
             return Some(self.efc.set_count(name, *n as usize));
+        }
+        if let [n] = values
+            && let Some(count) = self.state.count_mut(name)
+        {
+            *count = *n as usize;
+            return Some(true);
         }
         None.or_else(|| self.state.assign(name, values))
             .or_else(|| self.kin.assign(name, values))

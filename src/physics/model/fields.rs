@@ -4,11 +4,12 @@ use super::array::{Drafted, Finished, Form, Growing, Writer};
 use super::binary::BinaryError;
 use super::declare::model;
 use super::reader::{Reader, array_bytes};
+use super::skin_rows::model_with_skins;
 use super::written::Written;
 use crate::model::{Options, Statistic, Visual};
 use crate::table::{Field, Row, Slice, field_rows, field_shape, field_width, row_count, row_type};
 
-model! {
+model_with_skins! {
     sizes {
         nq              "Generalised positions.",
         nv              "Degrees of freedom.",
@@ -40,12 +41,6 @@ model! {
         nmeshpoly       "Polygons of all convex hulls.",
         nmeshpolyvert   "Vertices of those polygons, summed.",
         nmeshpolymap    "Entries of the vertex-to-polygon maps.",
-        nskin           "Skins.",
-        nskinvert       "Vertices of all skins.",
-        nskintexvert    "Vertices of skins that have texture coordinates.",
-        nskinface       "Triangles of all skins.",
-        nskinbone       "Bones of all skins.",
-        nskinbonevert   "Vertices of all bones, summed.",
         nhfield         "Height fields.",
         nhfielddata     "Elevations of all height fields.",
         ntex            "Textures.",
@@ -288,30 +283,8 @@ model! {
         mesh_polymapadr: i32 [nmeshvert]          "First polygon of a vertex in `mesh_polymap`.",
         mesh_polymapnum: i32 [nmeshvert]          "Number of polygons at a vertex.",
         mesh_polymap: i32 [nmeshpolymap]          "Polygons of vertices.",
-
-        skin_matid: i32 [nskin]                   "Material, -1 for none.",
-        skin_group: i32 [nskin]                   "Group for visibility.",
-        skin_rgba: f32 [nskin; 4]                 "Colour and opacity.",
-        skin_inflate: f32 [nskin]                 "Distance by which vertices move along their normals [m].",
-        skin_vertadr: i32 [nskin]                 "First vertex.",
-        skin_vertnum: i32 [nskin]                 "Number of vertices.",
-        skin_texcoordadr: i32 [nskin]             "First texture coordinate, -1 for none.",
-        skin_faceadr: i32 [nskin]                 "First triangle.",
-        skin_facenum: i32 [nskin]                 "Number of triangles.",
-        skin_boneadr: i32 [nskin]                 "First bone.",
-        skin_bonenum: i32 [nskin]                 "Number of bones.",
-        skin_vert: f32 [nskinvert; 3]             "Vertices in the bind pose [m].",
-        skin_texcoord: f32 [nskintexvert; 2]      "Texture coordinates of vertices.",
-        skin_face: i32 [nskinface; 3]             "Vertices of a triangle, counted from `skin_vertadr`.",
-        skin_bonevertadr: i32 [nskinbone]         "First of its vertices.",
-        skin_bonevertnum: i32 [nskinbone]         "Number of its vertices.",
-        skin_bonebindpos: f32 [nskinbone; 3]      "Position of the body in the bind pose [m].",
-        skin_bonebindquat: f32 [nskinbone; 4]     "Orientation of the body in the bind pose.",
-        skin_bonebodyid: i32 [nskinbone]          "Body that moves the vertices.",
-        skin_bonevertid: i32 [nskinbonevert]      "A vertex, counted from `skin_vertadr`.",
-        skin_bonevertweight: f32 [nskinbonevert]  "Its weight; those of a vertex add up to 1.",
-        skin_pathadr: i32 [nskin]                 "First byte of its path, -1 for none.",
-
+    }
+    skins arrays {
         hfield_size: f64 [nhfield; 4]             "Half width, half depth, height of the relief, depth of the base [m].",
         hfield_nrow: i32 [nhfield]                "Number of rows, along y.",
         hfield_ncol: i32 [nhfield]                "Number of columns, along x.",

@@ -29,6 +29,7 @@ mod follow;
 mod names;
 mod options;
 mod reader;
+mod skin_rows;
 mod suggestion;
 mod types;
 mod written;
