@@ -60,6 +60,16 @@ impl Pattern {
         self.inertia_rowadr.clear();
         self.inertia_colind.clear();
     }
+
+    /// Makes room for as much as `other` has, so that exchanging the two needs no more memory.
+    fn make_room(&mut self, other: &Pattern) {
+        let room = |own: usize, other: usize| other.saturating_sub(own);
+        self.row_start.reserve(room(self.row_start.len(), other.row_start.len()));
+        self.columns.reserve(room(self.columns.len(), other.columns.len()));
+        self.inertia_rownnz.reserve(room(self.inertia_rownnz.len(), other.inertia_rownnz.len()));
+        self.inertia_rowadr.reserve(room(self.inertia_rowadr.len(), other.inertia_rowadr.len()));
+        self.inertia_colind.reserve(room(self.inertia_colind.len(), other.inertia_colind.len()));
+    }
 }
 
 /// Sums of a product with the transpose of compressed rows, in MuJoCo's order: the entries of a column in four lanes, and
@@ -181,6 +191,7 @@ impl Problem {
         if self.pattern != self.before {
             self.changes += 1;
             self.lanes.place(self.nv, &self.pattern.columns);
+            self.before.make_room(&self.pattern);
         }
     }
 

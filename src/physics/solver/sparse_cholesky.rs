@@ -54,6 +54,8 @@ impl SparseCholesky {
         self.list_columns(p);
         std::mem::swap(&mut self.patterns, &mut self.patterns_before);
         self.mark_matrix(p);
+        // So that exchanging the two needs no more memory.
+        self.patterns_before.reserve(self.patterns.len().saturating_sub(self.patterns_before.len()));
         if self.n == p.nv && self.patterns == self.patterns_before {
             return;
         }
