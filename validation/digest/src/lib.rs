@@ -14,6 +14,8 @@ use pictures::SHOTS;
 
 use fnv::Fnv;
 use physics::math::ops::sin;
+use physics::model::Enable;
+use physics::table::Slice;
 use physics::{Batch, Model};
 
 /// Steps of every simulation.
@@ -48,7 +50,13 @@ pub fn hash(number: usize, threads: usize) -> Result<u64, String> {
 fn digest(case: &Case, threads: usize) -> Result<u64, String> {
     let model = case.load()?;
     let mut hash = Fnv::default();
-    model.visit(&mut |name, shape, values| hash.array(name, &shape, values));
+    let sleeps = model.opt.enableflags.contains(Enable::SLEEP);
+    let mut add = |name: &'static str, shape: Vec<usize>, values: Slice<'_>| {
+        if concerns(name, values, sleeps) {
+            hash.array(name, &shape, values);
+        }
+    };
+    model.visit(&mut add);
     let mut batch = Batch::new(model, ENVIRONMENTS, threads).map_err(|e| e.to_string())?;
     let model = batch.model(0).clone();
     if model.nkey > 0 {
@@ -65,9 +73,30 @@ fn digest(case: &Case, threads: usize) -> Result<u64, String> {
         })
         .map_err(|e| format!("{}: {e}", case.name))?;
     for (environment, data) in batch.data().iter().enumerate() {
-        data.visit(batch.model(environment), &mut |name, shape, values| hash.array(name, &shape, values));
+        data.visit(batch.model(environment), &mut add);
     }
     Ok(hash.finish())
+}
+
+/// Arrays of features that only some models use, by the beginnings of their names.
+const OPTIONAL: &[&str] = &["skin_", "name_skin"];
+/// What says who sleeps.
+const SLEEP: &[&str] = &[
+    "tree_a",
+    "body_awake",
+    "parent_awake",
+    "dof_awake",
+    "ntree_awake",
+    "nbody_awake",
+    "nparent_awake",
+    "nv_awake",
+];
+
+/// Whether an array counts. Those of a feature do where a model uses it, so that hashes of other models are the same in versions
+/// that do not know the feature.
+fn concerns(name: &str, values: Slice<'_>, sleeps: bool) -> bool {
+    let begins = |names: &[&str]| names.iter().any(|&start| name.starts_with(start));
+    !(values.is_empty() && begins(OPTIONAL)) && (sleeps || !begins(SLEEP))
 }
 
 /// Slow waves within the limits of each control, or within ±1 where it has none.
