@@ -21,6 +21,7 @@ import ray
 from ray.cluster_utils import Cluster
 from robohive.collect import RandomPolicy, collect
 from robohive.ray import Collector
+from vectors import replace
 
 ENVS = 16
 
@@ -70,12 +71,10 @@ def main():
     arguments.add_argument("--episodes", type=int, default=10_000)
     arguments.add_argument("--kills", type=int, default=20)
     arguments.add_argument("--nodes", type=int, nargs="+", default=[1, 2, 4])
-    arguments.add_argument("--write", help="file for the table")
+    arguments.add_argument("--write", help="file whose table is replaced")
     chosen = arguments.parse_args()
 
     lines = [
-        f"`python python/benches/cluster.py`: {chosen.episodes} episodes of {chosen.id}, random actions, on {os.cpu_count()} cores.",
-        "",
         "| run | steps/s | beside one process, one thread | actors lost | units run again | episodes | same set |",
         "|---|---|---|---|---|---|---|",
     ]
@@ -103,8 +102,7 @@ def main():
     *result, collector = on_cluster(chosen, 2, chosen.kills)
     report(f"2 nodes, {chosen.kills} kills", *result, (collector.actors_lost, collector.units_lost))
     if chosen.write:
-        with open(chosen.write, "w") as file:
-            file.write("# Collection on a Ray cluster\n\n" + "\n".join(lines) + "\n")
+        replace(chosen.write, "ray", lines)
 
 
 if __name__ == "__main__":
