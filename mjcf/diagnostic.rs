@@ -82,6 +82,11 @@ impl Sources {
         self.files.get(file as usize)
     }
 
+    /// The folder of the main file with its closing slash, empty for a text of no file.
+    pub fn folder(&self) -> &str {
+        self.files.first().map_or("", |source| &source.dir)
+    }
+
     /// Bytes of all texts together.
     pub(crate) fn bytes(&self) -> usize {
         self.files.iter().map(|f| f.text.len()).sum()

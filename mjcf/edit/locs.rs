@@ -19,6 +19,7 @@ impl Spec {
         self.tendons.iter_mut().flat_map(|t| &mut t.path).for_each(|x| x.loc = place(x.loc));
         self.skins.iter_mut().flat_map(|s| &mut s.bones).for_each(|x| x.loc = place(x.loc));
         self.size.loc = place(self.size.loc);
+        self.frames.iter_mut().for_each(|x| x.holder = place(x.holder));
         macro_rules! lists {
             ($($list:ident)*) => { $(self.$list.iter_mut().for_each(|x| x.loc = place(x.loc));)* };
         }

@@ -33,6 +33,7 @@
 mod add;
 mod attach;
 mod carry;
+mod conflict;
 mod find;
 mod locs;
 mod piece;
@@ -40,8 +41,11 @@ mod references;
 mod remove;
 mod rename;
 mod scale;
+mod shortcut;
 
 pub use carry::carry_state;
+pub use conflict::settle;
+pub use shortcut::set_shortcut;
 
 use crate::budget::Budget;
 use crate::diagnostic::{Diagnostics, Sources};
@@ -73,6 +77,15 @@ fn reading<R>(
     let result = read(&mut reader);
     let spec = std::mem::take(&mut reader.spec);
     if diagnostics.has_errors() { Err(diagnostics) } else { Ok((result, spec)) }
+}
+
+/// Gives the numbers of all keyframes to the elements that they belong to, where edits of the tree leave them: see
+/// [`Spec::kept_keys`] and [`Spec::settle_keys`].
+///
+/// # Errors
+/// A keyframe has more numbers than the elements take.
+pub fn spread_keys(spec: &mut Spec) -> Result<(), Diagnostics> {
+    spec.spread_keys()
 }
 
 fn refuse<T>(message: impl Into<String>) -> Result<T, Diagnostics> {

@@ -34,7 +34,7 @@ impl Reader<'_> {
     }
 
     /// Everything an actuator element sets, in a default class or not.
-    pub(super) fn actuator_parameters(&mut self, element: &Element, actuator: &mut Actuator, defaults: bool) {
+    pub(crate) fn actuator_parameters(&mut self, element: &Element, actuator: &mut Actuator, defaults: bool) {
         for block in BLOCKS {
             match defaults {
                 true => self.default_rows(element, block, actuator),

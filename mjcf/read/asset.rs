@@ -1,7 +1,7 @@
 //! `asset`, and where the files of assets are.
 
 use super::reader::Reader;
-use crate::files::{base_name, is_absolute, join};
+use crate::files::{is_absolute, join};
 use crate::image::Builtin;
 use crate::mesh::vertex_count;
 use crate::schema::asset::{
@@ -40,17 +40,14 @@ impl Reader<'_> {
     /// directory of the file that holds the element, without `dir`. `strippath` keeps the last component and
     /// seeks from the main file only.
     pub(super) fn asset_file(&self, attribute: &Attribute, dir: &str) -> (String, String) {
-        let from_model = |file: &str| join(&self.model_dir, &join(dir, file));
         let name = attribute.value.as_str();
-        if name.is_empty() {
-            return (String::new(), String::new());
-        }
-        if self.spec.compiler.strippath {
-            let name = base_name(name);
-            return (from_model(name), name.to_string());
-        }
-        if is_absolute(name) || self.expansion.files.exists(&from_model(name)) {
-            return (from_model(name), join("", name));
+        let (file, path) = self.spec.compiler.asset_file(&self.model_dir, dir, name);
+        if name.is_empty()
+            || self.spec.compiler.strippath
+            || is_absolute(name)
+            || self.expansion.files.exists(&file)
+        {
+            return (file, path);
         }
         let including = self.expansion.sources.get(attribute.loc.file);
         match including.filter(|s| s.included_at.is_some()) {
@@ -58,7 +55,7 @@ impl Reader<'_> {
                 let path = join(&source.dir, name);
                 (path.clone(), path)
             }
-            None => (from_model(name), join("", name)),
+            None => (file, path),
         }
     }
 

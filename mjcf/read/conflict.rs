@@ -73,7 +73,7 @@ enum Finding {
 
 impl Reader<'_> {
     /// Settles the settings in which an attached model differs; `false` after an error.
-    pub(super) fn settle(&mut self, child: &Spec, child_authored: &Authored, loc: Loc) -> bool {
+    pub(crate) fn settle(&mut self, child: &Spec, child_authored: &Authored, loc: Loc) -> bool {
         let mode = self.spec.compiler.conflict;
         let mut findings = Vec::new();
         for (name, merge) in SETTINGS {

@@ -111,7 +111,8 @@ impl Reader<'_> {
 
     fn frame(&mut self, element: &Element, place: Place) {
         let class = self.class_of(element, "childclass", place.class);
-        let mut frame = Frame { loc: element.loc, parent: place.frame, ..Frame::default() };
+        let holder = self.body_here().loc;
+        let mut frame = Frame { loc: element.loc, parent: place.frame, holder, ..Frame::default() };
         self.rows(element, &FRAME_ROWS, &mut frame);
         self.spec.frames.push(frame);
         let frame = Some(self.spec.frames.len() - 1);

@@ -5,7 +5,7 @@ macro_rules! elements {
     ($($(#[$meta:meta])* $name:ident { $($(#[$doc:meta])* $field:ident : $t:ty = $default:expr,)* })*) => {$(
         $(#[$meta])*
         #[derive(Clone, Debug, PartialEq)]
-                pub struct $name {
+        pub struct $name {
             /// Name of the element, empty when it has none.
             pub name: String,
             /// Where the element stands in the sources.
@@ -18,6 +18,8 @@ macro_rules! elements {
                 Self { name: String::new(), loc: crate::diagnostic::Loc::NONE, $($field: $default,)* }
             }
         }
+
+        crate::spec::field::fields!($name: name $($field)*);
     )*};
 }
 pub(super) use elements;

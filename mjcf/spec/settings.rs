@@ -1,5 +1,7 @@
 //! Compiler settings, sizes and statistics (XML reference: `compiler`, `size`, `statistic`).
 
+use super::orientation::{Orientation, resolve};
+use crate::files::{base_name, join};
 pub use physics::constants::length_range::LengthRangeOptions;
 
 /// Whether body inertia comes from the geoms.
@@ -98,6 +100,27 @@ impl Default for Compiler {
     }
 }
 
+impl Compiler {
+    /// The quaternion that `quat`, or an orientation given in another way, means under these settings.
+    ///
+    /// # Errors
+    /// The orientation has no direction.
+    pub fn quaternion(&self, quat: [f64; 4], alt: Option<Orientation>) -> Result<[f64; 4], String> {
+        resolve(quat, alt, self)
+    }
+
+    /// What is opened for the file of an asset that a model in `folder` calls `name`, in the directory `dir` of such files,
+    /// and the path that the model records.
+    pub fn asset_file(&self, folder: &str, dir: &str, name: &str) -> (String, String) {
+        if name.is_empty() {
+            return (String::new(), String::new());
+        }
+        let name = if self.strippath { base_name(name) } else { name };
+        let path = if self.strippath { name.to_owned() } else { join("", name) };
+        (join(folder, &join(dir, name)), path)
+    }
+}
+
 /// Array sizes (`size`); `None` lets the compiler choose.
 #[derive(Clone, Debug, PartialEq, Default)]
 pub struct Size {
@@ -147,3 +170,12 @@ pub struct StatisticOverride {
     /// Centre of the model, metres.
     pub center: Option<[f64; 3]>,
 }
+
+crate::spec::field::fields!(Compiler: autolimits boundmass boundinertia settotalmass balanceinertia fitaabb degree eulerseq
+    discardvisual usethread fusestatic inertiafromgeom inertiagrouprange saveinertial alignfree meshdir texturedir
+    conflict);
+crate::spec::field::fields!(Size: memory njmax nconmax nstack nuserdata nkey nuser_body nuser_jnt nuser_geom nuser_site
+    nuser_cam nuser_tendon nuser_actuator nuser_sensor);
+crate::spec::field::fields!(StatisticOverride: meaninertia meanmass meansize extent center);
+crate::spec::field::fields!(LengthRangeOptions: mode useexisting uselimit accel maxforce timeconst timestep inttotal
+    interval tolrange);

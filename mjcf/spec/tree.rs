@@ -92,6 +92,8 @@ elements! {
     Frame {
         /// The enclosing frame, if any, within the same body.
         parent: Option<usize> = None,
+        /// Where the body that it stands in begins, nowhere for the world; tells the body of a frame that holds nothing.
+        holder: crate::diagnostic::Loc = crate::diagnostic::Loc::NONE,
         /// Position, metres.
         pos: [f64; 3] = [0.0; 3],
         /// Orientation.

@@ -22,9 +22,12 @@ from robohive.mujoco.missing import *  # noqa: F403
 from robohive.mujoco.missing import MISSING
 from robohive.mujoco.naming import mj_versionString
 from robohive.mujoco.renderer import Renderer
+from robohive.mujoco.spec import *  # noqa: F403
 from robohive.mujoco.spec import MjSpec
 
 import numpy as _np
 
+from_zip = MjSpec.from_zip
+to_zip = MjSpec.to_zip
 MJTNUM_DTYPE = _np.float64
 __version__ = mj_versionString()

@@ -122,9 +122,15 @@ class MjData(_core.Data, named.DataElements):
         """The signature of the model."""
         return self.model.signature
 
-    def bind(self, specs: Any) -> NoReturn:
-        """Elements of an `MjSpec` cannot be bound: the reader's tree is not open to Python."""
-        raise NotImplementedError("binding elements of an MjSpec; use data.body(name), data.joint(name) and so on")
+    def bind(self, specs: Any) -> Any:
+        """What the simulation says of an element of the `MjSpec` that its model was compiled of, or of a list of them.
+
+        Raises:
+            ValueError: the description was compiled again, or is another one.
+        """
+        from robohive.mujoco.spec.bind import bound
+
+        return bound(self, self.model, specs)
 
     def __copy__(self) -> "MjData":
         duplicate = type(self)(self.model)

@@ -4,7 +4,7 @@ import importlib
 import sys
 
 #: Modules that programs import by their full names.
-_MODULES = ("_constants", "_enums", "_errors", "_functions", "_structs", "rollout")
+_MODULES = ("_constants", "_enums", "_errors", "_functions", "_specs", "_structs", "rollout")
 
 
 def install() -> None:

@@ -159,9 +159,15 @@ class MjModel(_core.Model, named.ModelElements):
         """A number that models of equal sizes share."""
         return hash(tuple(self._size_values.values()))
 
-    def bind(self, specs: Any) -> NoReturn:
-        """Elements of an `MjSpec` cannot be bound: the reader's tree is not open to Python."""
-        raise NotImplementedError("binding elements of an MjSpec; use model.body(name), model.geom(name) and so on")
+    def bind(self, specs: Any) -> Any:
+        """What the model says of an element of the `MjSpec` that it was compiled of, or of a list of them.
+
+        Raises:
+            ValueError: the description was compiled again, or is another one.
+        """
+        from robohive.mujoco.spec.bind import bound
+
+        return bound(self, self, specs)
 
     def __copy__(self) -> "MjModel":
         return type(self)(self._compiled())

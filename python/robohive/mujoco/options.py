@@ -149,6 +149,11 @@ class MjVisual:
         self.scale = _Scale(model)
         self.rgba = MjVisualRgba(model)
 
+    def __getattr__(self, name: str) -> _Settings:
+        if name == "global":
+            return self.global_
+        raise AttributeError(f"'mujoco.MjVisual' object has no attribute '{name}'")
+
     def __repr__(self) -> str:
         return "\n".join(("<MjVisual", *(f"  {name}: {group!r}" for name, group in vars(self).items()), ">"))
 

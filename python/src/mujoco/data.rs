@@ -4,6 +4,7 @@ use super::arena::{Engine, EngineMut};
 use super::error::FatalError;
 use super::mirror::{Layout, Mirror};
 use super::model::Model;
+use mjcf::edit::carry_state;
 use numpy::PyArray1;
 use physics::data::ArrayAddress;
 use physics::table::{Slice, SliceMut};
@@ -153,6 +154,15 @@ impl Data {
         from.pull(py)?;
         held.simulation.clone_from(&from.simulation);
         held.warnings = from.warnings;
+        held.push(py)
+    }
+
+    /// Takes over the state of `other`, a simulation of another model, for every element that both models have.
+    fn _carry(&self, py: Python<'_>, other: &Bound<'_, Data>) -> PyResult<()> {
+        let (mut held, mut from) = (self.lock()?, other.get().lock()?);
+        from.pull(py)?;
+        let (old, new) = (other.get().model.get().current(py)?, self.model.get().current(py)?);
+        held.simulation = carry_state(&old, &from.simulation, &new);
         held.push(py)
     }
 

@@ -10,13 +10,14 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 /// Files in memory before those of the disk.
-struct Layered {
+pub struct Layered {
     memory: Memory,
     disk: Disk,
 }
 
 impl Layered {
-    fn new(assets: HashMap<String, Vec<u8>>) -> Self {
+    /// These files, and those of the disk.
+    pub fn new(assets: HashMap<String, Vec<u8>>) -> Self {
         let mut memory = Memory::default();
         assets.into_iter().for_each(|(path, content)| memory.insert(path, content));
         Layered { memory, disk: Disk::everywhere() }

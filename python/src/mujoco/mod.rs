@@ -9,6 +9,7 @@
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
 //! | `query.rs`, `algebra.rs`, `quaternion.rs` | questions about poses, matrices, rotations |
 //! | `picture.rs` | pictures |
+//! | `spec/` | descriptions of models: read, compiled, written |
 //!
 //! Functions with MuJoCo's signatures that write into arrays of the caller are Python (`robohive/mujoco`); here is what
 //! they call, which returns fresh values.
@@ -29,6 +30,7 @@ mod query;
 mod rollout;
 mod saved;
 mod settings;
+mod spec;
 mod stages;
 
 use pyo3::pymodule;
@@ -71,6 +73,8 @@ pub mod bindings {
     use super::rollout::roll_out;
     #[pymodule_export]
     use super::saved::{get_state, set_state, state_size};
+    #[pymodule_export]
+    use super::spec::{Description, actuator_shortcut, orientation, spec_forms};
     #[pymodule_export]
     use super::stages::{newton_euler, stage};
 }

@@ -190,8 +190,8 @@ def test_names_without_anything_behind_them_say_so(model):
         mj.mjr_render(None, None, None)
     with pytest.raises(NotImplementedError, match="has no MjvScene"):
         mj.MjvScene(model, 100)
-    with pytest.raises(NotImplementedError, match="edit its text"):
-        mj.MjSpec.from_string(ARM).worldbody  # noqa: B018
+    with pytest.raises(NotImplementedError, match="add_flex"):
+        mj.MjSpec.from_string(ARM).add_flex(name="cloth")
     with pytest.raises(NotImplementedError, match="calls nothing back"):
         mj.set_mjcb_control(lambda m, d: None)
     assert mj.MjSpec.from_string(ARM).compile().nbody == 3
