@@ -45,7 +45,7 @@ use physics::constants::length_range::set_length_ranges;
 use physics::constants::set_const::set_const;
 use physics::inertia::sparsity;
 use physics::model::{Arrays, Rows};
-use physics::pipeline::validity::{check_model, check_start};
+use physics::pipeline::validity::check_model;
 
 /// Compiles `spec`; files of assets come from `files`, processed meshes from `meshes`, findings go to `diagnostics`,
 /// memory is taken from `budget`.
@@ -76,10 +76,6 @@ pub(crate) fn compile(
         return None;
     }
     override_statistic(m.unchecked_mut(), &spec.stat);
-    if let Err(message) = check_start(&m) {
-        log.error(Loc::NONE, message);
-        return None;
-    }
     Some(m)
 }
 

@@ -22,6 +22,16 @@ pub enum Orientation {
     Euler([f64; 3]),
 }
 
+impl Compiler {
+    /// The quaternion that `quat`, or an orientation given in another way, means under these settings.
+    ///
+    /// # Errors
+    /// The orientation has no direction.
+    pub fn quaternion(&self, quat: [f64; 4], alt: Option<Orientation>) -> Result<[f64; 4], String> {
+        resolve(quat, alt, self)
+    }
+}
+
 /// The quaternion that `quat` or the alternative gives, in MuJoCo's order of operations.
 pub(crate) fn resolve(quat: Quat, alt: Option<Orientation>, settings: &Compiler) -> Result<Quat, String> {
     let radians = |x: f64| if settings.degree { x / 180.0 * PI } else { x };

@@ -1,6 +1,5 @@
 //! Compiler settings, sizes and statistics (XML reference: `compiler`, `size`, `statistic`).
 
-use super::orientation::{Orientation, resolve};
 use crate::files::{base_name, join};
 pub use physics::constants::length_range::LengthRangeOptions;
 
@@ -101,14 +100,6 @@ impl Default for Compiler {
 }
 
 impl Compiler {
-    /// The quaternion that `quat`, or an orientation given in another way, means under these settings.
-    ///
-    /// # Errors
-    /// The orientation has no direction.
-    pub fn quaternion(&self, quat: [f64; 4], alt: Option<Orientation>) -> Result<[f64; 4], String> {
-        resolve(quat, alt, self)
-    }
-
     /// What is opened for the file of an asset that a model in `folder` calls `name`, in the directory `dir` of such files,
     /// and the path that the model records.
     pub fn asset_file(&self, folder: &str, dir: &str, name: &str) -> (String, String) {

@@ -322,7 +322,7 @@ fn sensors(m: &Model, d: &mut Data) {
     let Data { state, kin, com, ten, trn, inertia, con, efc, vel, actuation, sensor: out, .. } = d;
     let mut scratch = sensor::SensorScratch::default();
     let inputs = sensor::PositionInputs { state, kin, com, ten, trn, inertia, efc };
-    let past = sensor::Past { state };
+    let past = sensor::Past { time: state.time, history: &state.history };
     sensor::position_sensors(m, &inputs, past, &mut scratch, out);
     let inputs = sensor::VelocityInputs { state, kin, com, trn, vel, efc };
     sensor::velocity_sensors(m, &inputs, past, &mut scratch, out);

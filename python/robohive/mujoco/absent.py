@@ -1,5 +1,5 @@
-"""Fields of features that are refused by name: flexes, plugins. Sizes are zero and arrays empty, as in MuJoCo
-where a model has none of them. All are read-only."""
+"""Fields of features that are refused by name: flexes, plugins, sleep. Sizes are zero, arrays empty, and everything is
+awake, as in MuJoCo where a model has none of them. All are read-only."""
 
 from collections.abc import Callable
 from typing import Any
@@ -43,8 +43,28 @@ _DATA = {
 #: Plugins of elements: none.
 _PLUGINS = {"body_plugin": "nbody", "geom_plugin": "ngeom", "actuator_plugin": "nactuator", "sensor_plugin": "nsensor"}
 
-#: What depends on the model: no bounding volume is marked.
-_MARKS: dict[str, Callable[[Any], Any]] = {"bvh_active": lambda m: np.zeros(m.nbvh, bool)}
+#: What MuJoCo counts down to zero before a tree falls asleep, negative while it is awake.
+_AWAKE = -11
+
+
+def _parents(m: Any) -> NDArray[Any]:
+    return np.append(np.arange(1, m.nbody, dtype=np.int32), np.int32(0))
+
+
+#: Everything is awake, apart from what never moves.
+_SLEEP: dict[str, Callable[[Any], Any]] = {
+    "body_awake": lambda m: np.where(m.body_treeid < 0, -1, 1).astype(np.int32),
+    "body_awake_ind": lambda m: np.arange(m.nbody, dtype=np.int32),
+    "parent_awake_ind": _parents,
+    "dof_awake_ind": lambda m: np.arange(m.nv, dtype=np.int32),
+    "tree_awake": lambda m: np.ones(m.ntree, np.int32),
+    "tree_asleep": lambda m: np.full(m.ntree, _AWAKE, np.int32),
+    "bvh_active": lambda m: np.zeros(m.nbvh, bool),
+    "nbody_awake": lambda m: m.nbody,
+    "nparent_awake": lambda m: m.nbody - 1,
+    "ntree_awake": lambda m: m.ntree,
+    "nv_awake": lambda m: m.nv,
+}
 
 
 def _parse(table: dict[str, str]) -> dict[str, tuple[str, tuple[int, ...]]]:
@@ -55,7 +75,7 @@ def _parse(table: dict[str, str]) -> dict[str, tuple[str, tuple[int, ...]]]:
 
 _MODEL_SHAPES, _DATA_SHAPES = _parse(_MODEL), _parse(_DATA)
 MODEL_NAMES = (*_MODEL_SHAPES, *_PLUGINS)
-DATA_NAMES = (*_DATA_SHAPES, *_MARKS)
+DATA_NAMES = (*_DATA_SHAPES, *_SLEEP)
 
 
 def of_model(name: str, sizes: dict[str, int]) -> Any:
@@ -67,8 +87,8 @@ def of_model(name: str, sizes: dict[str, int]) -> Any:
 
 def of_data(name: str, model: Any) -> Any:
     """The array or count of a simulation called `name`, None when it is not among these."""
-    if name in _MARKS:
-        return _fixed(_MARKS[name](model))
+    if name in _SLEEP:
+        return _fixed(_SLEEP[name](model))
     return _without_rows(_DATA_SHAPES, name)
 
 

@@ -239,3 +239,12 @@ def test_sizes_of_sensors_are_those_of_the_model():
     spec.add_sensor(type=mj.mjtSensor.mjSENS_CONTACT, objtype=mj.mjtObj.mjOBJ_BODY, objname="torso", intprm=[0b1010011, 0, 2])
     sizes = [sensor.get_data_size() for sensor in spec.sensors]
     assert sizes == spec.compile().sensor_dim.tolist()
+
+
+def test_what_a_description_would_lose_is_refused():
+    text = """<mujoco><deformable><skin vertex='0 0 0 1 0 0 0 1 0' face='0 1 2'>
+      <bone body='world' bindpos='0 0 0' bindquat='1 0 0 0' vertid='0 1 2' vertweight='1 1 1'/>
+    </skin></deformable></mujoco>"""
+    assert mj.MjModel.from_xml_string(text).nskin == 1
+    with pytest.raises(NotImplementedError, match="does not hold skins"):
+        mj.MjSpec.from_string(text)

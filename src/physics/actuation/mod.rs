@@ -20,7 +20,6 @@ use crate::data::{Actuation, Passive, State, Transmission, Velocity};
 use crate::math::{IDENTITY, Quat, Vec3, norm, quat_difference, quat_from_axis_angle, quat_normalize, scale};
 use crate::model::bounds::{MAXVAL, MINVAL};
 use crate::model::{BiasType, Disable, DynType, GainType, JointType, Model, TrnType, input};
-use crate::sleep::{Awake, object};
 use crate::velocity::passive::has_gravity_compensation;
 
 /// Computes rates of activation, actuator forces, and their sum in joint space.
@@ -41,11 +40,9 @@ pub fn actuation(
     let is_bad = |u: f64| u.is_nan() || u.abs() > MAXVAL;
     let bad = (0..m.nu).any(|k| is_bad(clamped_control(m, state, k)));
     let ctrl = |k: usize| if bad { 0.0 } else { clamped_control(m, state, k) };
-    activation_rates(m, state, trn, vel, ctrl, &mut out.act_dot);
+    activation_rates(m, &state.act, trn, vel, ctrl, &mut out.act_dot);
 
-    let awake = Awake::of(m, state);
-    let works = |i: usize| !is_disabled(m, i) && !awake.skips(|state| object::actuator(m, state, i));
-    for i in (0..m.nactuator).filter(|&i| works(i)) {
+    for i in (0..m.nactuator).filter(|&i| !is_disabled(m, i)) {
         let first = m.actuator_outadr[i] as usize;
         if m.actuator_gaintype[i] == GainType::So3.code() {
             let force = orientation_servo(m, state, trn, vel, i, ctrl, &out.act_dot);
@@ -69,7 +66,9 @@ pub fn actuation(
     }
     limit_tendon_forces(m, &mut out.actuator_force);
     limit_forces(m, &mut out.actuator_force);
-    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == BiasType::Dcmotor.code() && works(i)) {
+    for i in
+        (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == BiasType::Dcmotor.code() && !is_disabled(m, i))
+    {
         let first = m.actuator_outadr[i] as usize;
         let length = trn.actuator_length[first];
         let force = &mut out.actuator_force[first];

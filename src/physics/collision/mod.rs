@@ -49,11 +49,10 @@ pub(crate) mod sphere;
 #[doc(hidden)]
 pub mod support;
 
-use crate::data::{Contact, Contacts, Demand, Kinematics, OverBudget, State, StepBudget};
+use crate::data::{Contact, Contacts, Demand, Kinematics, OverBudget, StepBudget};
 use crate::math::{Mat3, Vec3, column};
 use crate::model::{Disable, GeomType, Model, ObjType};
 use crate::pipeline::error::NotSimulated;
-use crate::sleep::{Awake, is_on};
 use broad_phase::{geoms, spheres_apart, types_match};
 
 /// What a narrow-phase function says about one point of contact.
@@ -214,54 +213,6 @@ pub fn collide(
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
-    find(m, Filter { sleeps: false, awake: Awake::EVERYTHING }, kin, budget, scratch, con)
-}
-
-/// [`collide`] without what sleeps: of two that meet, one is awake, and not a fixed one where the other sleeps.
-pub(crate) fn collide_awake(
-    m: &Model,
-    state: &State,
-    kin: &Kinematics,
-    budget: StepBudget,
-    scratch: &mut CollisionScratch,
-    con: &mut Contacts,
-) -> Result<(), OverBudget> {
-    let filter = Filter { sleeps: is_on(m), awake: Awake::of(m, state) };
-    if !filter.awake.is_everything() && !state.body_awake.contains(&1) {
-        con.contact.clear();
-        return Ok(());
-    }
-    find(m, filter, kin, budget, scratch, con)
-}
-
-/// Which pairs sleep leaves out.
-#[derive(Clone, Copy)]
-struct Filter<'a> {
-    /// The model lets trees sleep: of a predefined pair, one body must be able to move.
-    sleeps: bool,
-    awake: Awake<'a>,
-}
-
-impl Filter<'_> {
-    fn drops(self, m: &Model, pair: usize) -> bool {
-        let body = |geom: i32| m.geom_bodyid[geom as usize] as usize;
-        let stands = |geom: i32| {
-            let b = body(geom);
-            let fixed = m.body_treeid[b] < 0 && m.body_mocapid[m.body_rootid[b] as usize] < 0;
-            fixed || self.awake.sleeps(b)
-        };
-        self.sleeps && stands(m.pair_geom1[pair]) && stands(m.pair_geom2[pair])
-    }
-}
-
-fn find(
-    m: &Model,
-    filter: Filter,
-    kin: &Kinematics,
-    budget: StepBudget,
-    scratch: &mut CollisionScratch,
-    con: &mut Contacts,
-) -> Result<(), OverBudget> {
     con.contact.clear();
     if m.opt.disableflags.intersects(Disable::CONSTRAINT | Disable::CONTACT) || m.nbody < 2 {
         return Ok(());
@@ -269,11 +220,11 @@ fn find(
     scratch.budget = budget;
     let mut broad = std::mem::take(&mut scratch.broad);
     let most = budget.count(BODY_PAIR_BYTES);
-    broad.run(m, filter.awake, kin, most);
+    broad.run(m, kin, most);
     let result = if broad.pairs.len() > most {
         Err(budget.exceeded(Demand::BodyPairs, broad.pairs.len(), BODY_PAIR_BYTES))
     } else {
-        touch(m, filter, kin, &broad.pairs, scratch, con)
+        touch(m, kin, &broad.pairs, scratch, con)
     };
     scratch.broad = broad;
     result
@@ -282,7 +233,6 @@ fn find(
 /// Contacts of the pairs of bodies and of all predefined pairs.
 fn touch(
     m: &Model,
-    filter: Filter,
     kin: &Kinematics,
     pairs: &[u32],
     scratch: &mut CollisionScratch,
@@ -295,9 +245,7 @@ fn touch(
         let mut merged = false;
         while next < m.npair && m.pair_signature[next] as u32 <= signature {
             merged = m.pair_signature[next] as u32 == signature;
-            if !filter.drops(m, next) {
-                predefined(m, kin, next, scratch, con);
-            }
+            predefined(m, kin, next, scratch, con);
             scratch.check(con)?;
             next += 1;
         }
@@ -308,7 +256,7 @@ fn touch(
         body_pair(m, kin, (signature >> 16) as usize, (signature & 0xffff) as usize, hidden, scratch, con)?;
         scratch.check(con)?;
     }
-    for pair in (next..m.npair).filter(|&pair| !filter.drops(m, pair)) {
+    for pair in next..m.npair {
         predefined(m, kin, pair, scratch, con);
         scratch.check(con)?;
     }

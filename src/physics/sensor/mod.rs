@@ -17,11 +17,10 @@ pub use velocity::VelocityInputs;
 
 use crate::actuation::history;
 use crate::collision::distance::DistanceScratch;
-use crate::data::{Constraints, Sensors, State};
+use crate::data::{Constraints, Sensors};
 use crate::model::{ConstraintType, DataType, Disable, Model, ObjType, SensorType, Stage};
 use crate::on_demand::momentum::subtree_momentum;
 use crate::pipeline::error::NotSimulated;
-use crate::sleep::{Awake, object};
 
 /// Working memory of sensors, reused from step to step.
 #[derive(Clone, Debug, Default)]
@@ -33,11 +32,13 @@ pub struct SensorScratch {
     pub(crate) fresh: Vec<f64>,
 }
 
-/// What delayed sensors read from, and what tells which sensors sleep.
+/// What delayed sensors read from.
 #[derive(Clone, Copy, Debug)]
 pub struct Past<'a> {
-    /// The present state, with its buffers, and with what sleeps.
-    pub state: &'a State,
+    /// Present time [s].
+    pub time: f64,
+    /// Buffers of `State::history`.
+    pub history: &'a [f64],
 }
 
 /// Checks once that every sensor of the model can be read. A `user` sensor reads zero.
@@ -135,8 +136,7 @@ fn each(
         fresh.resize(m.nsensordata, 0.0);
     }
     let wanted = m.sensor_needstage.iter().enumerate().filter(|&(_, &needed)| needed == stage.code());
-    let awake = Awake::of(m, past.state);
-    for (i, _) in wanted.filter(|(i, _)| !awake.skips(|state| object::sensor(m, state, *i))) {
+    for (i, _) in wanted {
         let Some(kind) = SensorType::from_code(m.sensor_type[i]) else { continue };
         let first = m.sensor_adr[i] as usize;
         let data = &mut sensordata[first..first + m.sensor_dim[i] as usize];
@@ -145,7 +145,7 @@ fn each(
         cut_off(m, i, kind, data);
         if m.nhistory > 0 {
             fresh[first..first + data.len()].copy_from_slice(data);
-            history::show(m, &past.state.history, past.state.time, i, data);
+            history::show(m, past.history, past.time, i, data);
         }
     }
 }

@@ -14,7 +14,6 @@ use pictures::SHOTS;
 
 use fnv::Fnv;
 use physics::math::ops::sin;
-use physics::model::Enable;
 use physics::table::Slice;
 use physics::{Batch, Model};
 
@@ -50,9 +49,10 @@ pub fn hash(number: usize, threads: usize) -> Result<u64, String> {
 fn digest(case: &Case, threads: usize) -> Result<u64, String> {
     let model = case.load()?;
     let mut hash = Fnv::default();
-    let sleeps = model.opt.enableflags.contains(Enable::SLEEP);
+    // Hashes of models without a feature are the same in versions that do not know it.
+    let unused = unused(&model);
     let mut add = |name: &'static str, shape: Vec<usize>, values: Slice<'_>| {
-        if concerns(name, values, sleeps) {
+        if !unused.iter().any(|start| name.starts_with(start)) {
             hash.array(name, &shape, values);
         }
     };
@@ -78,25 +78,9 @@ fn digest(case: &Case, threads: usize) -> Result<u64, String> {
     Ok(hash.finish())
 }
 
-/// Arrays of features that only some models use, by the beginnings of their names.
-const OPTIONAL: &[&str] = &["skin_", "name_skin"];
-/// What says who sleeps.
-const SLEEP: &[&str] = &[
-    "tree_a",
-    "body_awake",
-    "parent_awake",
-    "dof_awake",
-    "ntree_awake",
-    "nbody_awake",
-    "nparent_awake",
-    "nv_awake",
-];
-
-/// Whether an array counts. Those of a feature do where a model uses it, so that hashes of other models are the same in versions
-/// that do not know the feature.
-fn concerns(name: &str, values: Slice<'_>, sleeps: bool) -> bool {
-    let begins = |names: &[&str]| names.iter().any(|&start| name.starts_with(start));
-    !(values.is_empty() && begins(OPTIONAL)) && (sleeps || !begins(SLEEP))
+/// Beginnings of the names of arrays that came with a feature which the model does not use.
+fn unused(m: &Model) -> &'static [&'static str] {
+    if m.nskin > 0 { &[] } else { &["skin_", "name_skin"] }
 }
 
 /// Slow waves within the limits of each control, or within ±1 where it has none.

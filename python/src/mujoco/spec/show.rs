@@ -4,6 +4,7 @@ use super::parts;
 use super::value::shown;
 use mjcf::diagnostic::Loc;
 use mjcf::spec::{Body, Class, Fields, Frame, KeptKey, Key, Pair, SOLIMP, SOLREF, Spec};
+use pyo3::exceptions::PyNotImplementedError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::collections::{BTreeMap, HashMap};
@@ -116,7 +117,15 @@ pub fn completed(pair: &Pair) -> Pair {
 }
 
 /// All elements by kind.
+///
+/// # Errors
+/// The description has elements that Python cannot show yet: compiled again, they would be lost.
 pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict>> {
+    if !spec.skins.is_empty() {
+        return Err(PyNotImplementedError::new_err(
+            "MjSpec does not hold skins: load this model with MjModel.from_xml_path or from_xml_string",
+        ));
+    }
     let mut rows =
         Rows { all: PyDict::new(py), holders: vec![-1; spec.frames.len()], places: BTreeMap::new() };
     rows.body(&spec.world, -1, &spec.frames, &mut 0)?;
