@@ -22,7 +22,7 @@ class MjsElement:
     _kind: ClassVar[str]
     #: Orientations other than quaternions: attribute, and prefix of the arguments that set it.
     _turns: ClassVar[dict[str, str]] = {}
-    #: What a copy shares or sets anew, as opposed to values.
+    #: What a copy shares or sets by itself, as opposed to values.
     _inner: ClassVar[frozenset[str]] = frozenset(
         ("_owner", "_origin", "_class", "_loc", "_id", "_stamp", "_parent", "_frame", "_shares", "_contents")
     )
