@@ -109,8 +109,8 @@ pub static OWN_QACC: Tolerance = Tolerance::new("OWN_QACC", 5e-14);
 pub static OWN_STEP: Tolerance = Tolerance::new("OWN_STEP", 2e-14);
 /// Rollouts of integrators that are implicit in velocity, for as long as the twin stays within [`ROLLOUT_ABSOLUTE`].
 pub static IMPLICIT_ROLLOUT: Tolerance = Tolerance::new("IMPLICIT_ROLLOUT", 5e-11);
-/// The solver from recorded rows, which takes the same decisions: rounding through the Hessian.
-pub static SOLUTION: Tolerance = Tolerance::new("SOLUTION", 2e-13);
+/// The solver from recorded rows on models of other repositories: rounding through the Hessian. On own models it is equal.
+pub static SOLUTION_ELSEWHERE: Tolerance = Tolerance::new("SOLUTION_ELSEWHERE", 2e-13);
 /// Dense and sparse rows, which stop in the same iteration: sums in another order.
 pub static STORAGE: Tolerance = Tolerance::new("STORAGE", 2e-13);
 /// The same on models of other repositories, which have more rows.
@@ -121,8 +121,8 @@ pub static STATIONARY: Tolerance = Tolerance::new("STATIONARY", 5e-12);
 pub static STATIONARY_ELSEWHERE: Tolerance = Tolerance::new("STATIONARY_ELSEWHERE", 1e-5);
 /// Excess of our cost over MuJoCo's: rounding of the sum.
 pub static COST: Tolerance = Tolerance::new("COST", 2e-14);
-/// Solutions of recorded problems with every solver: a tolerance of 1e-8 in cost, with flat directions of CG.
-pub static PROBLEM: Tolerance = Tolerance::new("PROBLEM", 2e-10);
+/// Solutions of recorded problems with every solver: rounding through the Hessian.
+pub static PROBLEM: Tolerance = Tolerance::new("PROBLEM", 2e-13);
 /// Derivatives of smooth forces, relative to the largest entry: products along the chain of bodies.
 pub static DERIVATIVE: Tolerance = Tolerance::new("DERIVATIVE", 1e-12);
 /// Forces of inverse dynamics, relative to the largest: one rounding.
