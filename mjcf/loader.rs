@@ -79,6 +79,39 @@ pub fn parse_str(text: impl AsRef<str>) -> Result<Parsed, Diagnostics> {
     Loader::default().parse_str(text)
 }
 
+/// What is gathered while one model is read.
+struct Gathered {
+    /// Which template replacements have replaced something.
+    matched: Vec<bool>,
+    budget: Budget,
+    sources: Sources,
+    diagnostics: Diagnostics,
+}
+
+impl Gathered {
+    fn of(loader: &Loader) -> Self {
+        Gathered {
+            matched: vec![false; loader.substitutions.len()],
+            budget: Budget::new(loader.limits.memory),
+            sources: Sources::default(),
+            diagnostics: Diagnostics::default(),
+        }
+    }
+
+    /// The expansion of includes that fills it.
+    fn expansion<'a>(&'a mut self, loader: &'a Loader, files: &'a dyn FileProvider) -> Expansion<'a> {
+        Expansion {
+            files,
+            substitutions: &loader.substitutions,
+            matched: &mut self.matched,
+            limits: &loader.limits,
+            budget: &mut self.budget,
+            sources: &mut self.sources,
+            diagnostics: &mut self.diagnostics,
+        }
+    }
+}
+
 impl Loader {
     /// Reads files from `files` instead of the disk.
     pub fn files(mut self, files: impl FileProvider + Send + Sync + 'static) -> Self {
@@ -147,19 +180,9 @@ impl Loader {
         mut name: impl FnMut(&str) -> String,
     ) -> Result<String, Diagnostics> {
         let path = text_of(path.as_ref())?;
-        let (mut sources, mut diagnostics) = (Sources::default(), Diagnostics::default());
-        let mut budget = Budget::new(self.limits.memory);
-        let mut matched = vec![false; self.substitutions.len()];
-        let mut expansion = Expansion {
-            files: &*self.files,
-            substitutions: &self.substitutions,
-            matched: &mut matched,
-            limits: &self.limits,
-            budget: &mut budget,
-            sources: &mut sources,
-            diagnostics: &mut diagnostics,
-        };
-        let Some(mut root) = expansion.read(path) else { return Err(diagnostics) };
+        let mut gathered = Gathered::of(self);
+        let mut expansion = gathered.expansion(self, &*self.files);
+        let Some(mut root) = expansion.read(path) else { return Err(gathered.diagnostics) };
         if root.name.eq_ignore_ascii_case("robot") {
             return Err(Diagnostics::of_error(
                 "a URDF has no default classes to keep: write it as MJCF with all resolved",
@@ -167,8 +190,8 @@ impl Loader {
         }
         self.edit(&mut root, expansion.sources, expansion.diagnostics);
         read::rename_files(&mut root, expansion, &mut name);
-        match diagnostics.has_errors() {
-            true => Err(diagnostics),
+        match gathered.diagnostics.has_errors() {
+            true => Err(gathered.diagnostics),
             false => text::print(&root, self.limits.depth).map_err(Diagnostics::of_error),
         }
     }
@@ -258,21 +281,12 @@ impl Loader {
         files: &dyn FileProvider,
         read: impl FnOnce(&mut Expansion<'_>) -> Option<Element>,
     ) -> Result<Parsed, Diagnostics> {
-        let (mut sources, mut diagnostics) = (Sources::default(), Diagnostics::default());
-        let mut budget = Budget::new(self.limits.memory);
-        let mut matched = vec![false; self.substitutions.len()];
-        let mut expansion = Expansion {
-            files,
-            substitutions: &self.substitutions,
-            matched: &mut matched,
-            limits: &self.limits,
-            budget: &mut budget,
-            sources: &mut sources,
-            diagnostics: &mut diagnostics,
-        };
-        let Some(mut root) = read(&mut expansion) else { return Err(diagnostics) };
+        let mut gathered = Gathered::of(self);
+        let mut expansion = gathered.expansion(self, files);
+        let Some(mut root) = read(&mut expansion) else { return Err(gathered.diagnostics) };
         self.edit(&mut root, expansion.sources, expansion.diagnostics);
         let spec = read::read(&root, expansion);
+        let Gathered { matched, budget, sources, mut diagnostics } = gathered;
         report_unmatched(&self.substitutions, &matched, &sources, &mut diagnostics);
         match spec.filter(|_| !diagnostics.has_errors()) {
             Some(spec) => Ok(Parsed { spec, sources, warnings: diagnostics, budget }),

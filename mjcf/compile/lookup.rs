@@ -4,6 +4,7 @@ use super::assets::Assets;
 use super::log::{Log, title};
 use super::nodes::Tree;
 use crate::diagnostic::Loc;
+use crate::schema::Space;
 use crate::spec::Spec;
 use physics::model::ObjType;
 use std::collections::BTreeMap;
@@ -89,28 +90,9 @@ impl Lookup {
 /// What messages call a kind of element.
 pub(super) fn label(kind: ObjType) -> &'static str {
     match kind {
-        ObjType::Body | ObjType::Xbody => "body",
-        ObjType::Joint => "joint",
-        ObjType::Geom => "geom",
-        ObjType::Site => "site",
-        ObjType::Camera => "camera",
-        ObjType::Light => "light",
-        ObjType::Mesh => "mesh",
-        ObjType::Skin => "skin",
-        ObjType::Hfield => "hfield",
-        ObjType::Texture => "texture",
-        ObjType::Material => "material",
         ObjType::Pair => "contact pair",
-        ObjType::Exclude => "exclude",
         ObjType::Equality => "equality constraint",
-        ObjType::Tendon => "tendon",
-        ObjType::Actuator => "actuator",
-        ObjType::Sensor => "sensor",
-        ObjType::Numeric => "numeric",
-        ObjType::Text => "text",
-        ObjType::Tuple => "tuple",
         ObjType::Key => "keyframe",
-        ObjType::Frame => "frame",
-        _ => "element",
+        _ => Space::of(kind).map_or("element", Space::word),
     }
 }

@@ -81,13 +81,13 @@ impl Spec {
         let kind = if world { &WORLDBODY } else { &BODY };
         let holder = Element { children, ..element(kind.tag, &[]) };
         let (piece, read) = reading(self.settings(), sources, |reader| {
+            reader.open = vec![Body::default()];
             let expansion = &mut reader.expansion;
             check_piece(&holder, kind, expansion.sources, expansion.diagnostics);
             if !expansion.diagnostics.has_errors() {
-                reader.open = vec![Body::default()];
                 reader.inside(&holder, Place { frame: None, class: 0, world });
             }
-            reader.open.pop().unwrap_or_default()
+            reader.open.swap_remove(0)
         })?;
         let has_inertial = self.body(onto).is_some_and(|body| body.inertial.is_some());
         if has_inertial && piece.inertial.is_some() {

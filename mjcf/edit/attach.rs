@@ -31,12 +31,11 @@ impl Spec {
         part: Option<&str>,
         prefix: &str,
     ) -> Result<(), Diagnostics> {
-        if self.body(onto).is_none() {
-            return Err(missing(ObjType::Body, onto, self.bodies().map(|body| body.name.as_str())));
-        }
-        let mut parent = self.clone();
         // A body is lent to the reader; an index path leads back to its place.
-        let path = path_to(&parent.world, onto).unwrap_or_default();
+        let Some(path) = path_to(&self.world, onto) else {
+            return Err(missing(ObjType::Body, onto, self.bodies().map(|body| body.name.as_str())));
+        };
+        let mut parent = self.clone();
         parent.spread_keys()?;
         let mut child = child.clone();
         child.distribute_keys().map_err(|(_, message)| Diagnostics::of_error(message))?;

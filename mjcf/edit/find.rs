@@ -3,35 +3,12 @@
 use physics::model::ObjType;
 
 use crate::diagnostic::Diagnostics;
+use crate::schema::Space;
 use crate::spec::*;
 
 /// What messages call a kind of element.
 pub(super) fn word(kind: ObjType) -> &'static str {
-    match kind {
-        ObjType::Body | ObjType::Xbody => "body",
-        ObjType::Joint => "joint",
-        ObjType::Geom => "geom",
-        ObjType::Site => "site",
-        ObjType::Camera => "camera",
-        ObjType::Light => "light",
-        ObjType::Mesh => "mesh",
-        ObjType::Skin => "skin",
-        ObjType::Hfield => "hfield",
-        ObjType::Texture => "texture",
-        ObjType::Material => "material",
-        ObjType::Pair => "pair",
-        ObjType::Exclude => "exclude",
-        ObjType::Equality => "equality",
-        ObjType::Tendon => "tendon",
-        ObjType::Actuator => "actuator",
-        ObjType::Sensor => "sensor",
-        ObjType::Numeric => "numeric",
-        ObjType::Text => "text",
-        ObjType::Tuple => "tuple",
-        ObjType::Key => "key",
-        ObjType::Frame => "frame",
-        _ => "element",
-    }
+    Space::of(kind).map_or("element", Space::word)
 }
 
 /// There is no element of this name; the nearest is suggested.

@@ -1,39 +1,8 @@
 //! Names of elements, and everything that refers to them.
 
-use physics::model::ObjType;
-
 use crate::read::copy::{Names, Referring, collect, collect_objects};
 use crate::schema::Space;
 use crate::spec::{Body, Spec, asset_name};
-
-/// The space of names of a kind of element; none for kinds that models do not name.
-pub(super) fn space(kind: ObjType) -> Option<Space> {
-    Some(match kind {
-        ObjType::Body | ObjType::Xbody => Space::Body,
-        ObjType::Joint => Space::Joint,
-        ObjType::Geom => Space::Geom,
-        ObjType::Site => Space::Site,
-        ObjType::Camera => Space::Camera,
-        ObjType::Light => Space::Light,
-        ObjType::Mesh => Space::Mesh,
-        ObjType::Skin => Space::Skin,
-        ObjType::Hfield => Space::Hfield,
-        ObjType::Texture => Space::Texture,
-        ObjType::Material => Space::Material,
-        ObjType::Pair => Space::Pair,
-        ObjType::Exclude => Space::Exclude,
-        ObjType::Equality => Space::Equality,
-        ObjType::Tendon => Space::Tendon,
-        ObjType::Actuator => Space::Actuator,
-        ObjType::Sensor => Space::Sensor,
-        ObjType::Numeric => Space::Numeric,
-        ObjType::Text => Space::Text,
-        ObjType::Tuple => Space::Tuple,
-        ObjType::Key => Space::Key,
-        ObjType::Frame => Space::Frame,
-        _ => return None,
-    })
-}
 
 impl Spec {
     /// All names, with their spaces.

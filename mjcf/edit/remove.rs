@@ -3,7 +3,6 @@
 use physics::model::{ObjType, TrackMode};
 
 use super::find::{missing, word};
-use super::references::space;
 use super::refuse;
 use super::rename::each_body;
 use crate::diagnostic::Diagnostics;
@@ -19,7 +18,7 @@ impl Spec {
     /// # Errors
     /// There is no such element; it is the world, a frame, or a mesh or height field that a geom shows.
     pub fn remove(&mut self, kind: ObjType, name: &str) -> Result<(), Diagnostics> {
-        let Some(space) = space(kind) else {
+        let Some(space) = Space::of(kind) else {
             return refuse(format!("elements of kind {kind:?} have no names"));
         };
         let names = self.all_names();

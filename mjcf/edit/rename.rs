@@ -3,7 +3,6 @@
 use physics::model::ObjType;
 
 use super::find::{missing, word};
-use super::references::space;
 use super::refuse;
 use crate::diagnostic::Diagnostics;
 use crate::schema::Space;
@@ -15,7 +14,7 @@ impl Spec {
     /// # Errors
     /// There is no such element; another has the new name; the new name is empty; the world is renamed.
     pub fn rename(&mut self, kind: ObjType, old: &str, new: &str) -> Result<(), Diagnostics> {
-        let Some(space) = space(kind) else {
+        let Some(space) = Space::of(kind) else {
             return refuse(format!("elements of kind {kind:?} have no names"));
         };
         let names = self.all_names();

@@ -153,32 +153,10 @@ pub(crate) trait Referring: Clone {
     fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>);
 }
 
+/// The space of what a reference of this kind names.
 fn space(kind: ObjType) -> Space {
-    match kind {
-        ObjType::Joint => Space::Joint,
-        ObjType::Geom => Space::Geom,
-        ObjType::Site => Space::Site,
-        ObjType::Camera => Space::Camera,
-        ObjType::Light => Space::Light,
-        ObjType::Mesh => Space::Mesh,
-        ObjType::Skin => Space::Skin,
-        ObjType::Hfield => Space::Hfield,
-        ObjType::Texture => Space::Texture,
-        ObjType::Material => Space::Material,
-        ObjType::Pair => Space::Pair,
-        ObjType::Exclude => Space::Exclude,
-        ObjType::Equality => Space::Equality,
-        ObjType::Tendon => Space::Tendon,
-        ObjType::Actuator => Space::Actuator,
-        ObjType::Sensor => Space::Sensor,
-        ObjType::Numeric => Space::Numeric,
-        ObjType::Text => Space::Text,
-        ObjType::Tuple => Space::Tuple,
-        ObjType::Key => Space::Key,
-        ObjType::Body | ObjType::Xbody => Space::Body,
-        // Nothing else has a name.
-        _ => Space::Class,
-    }
+    // Nothing else has a name.
+    Space::of(kind).unwrap_or(Space::Class)
 }
 
 fn given(list: Vec<(Space, &mut String)>) -> Vec<(Space, &mut String)> {

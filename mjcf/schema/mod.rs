@@ -22,6 +22,7 @@ pub mod visual;
 pub mod words;
 
 use crate::spec::Orientation;
+use physics::model::ObjType;
 
 /// Name spaces: objects of one space have distinct names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -53,6 +54,35 @@ pub enum Space {
 }
 
 impl Space {
+    /// The space of the names of a kind of element; none for kinds that models do not name.
+    pub fn of(kind: ObjType) -> Option<Space> {
+        Some(match kind {
+            ObjType::Body | ObjType::Xbody => Space::Body,
+            ObjType::Joint => Space::Joint,
+            ObjType::Geom => Space::Geom,
+            ObjType::Site => Space::Site,
+            ObjType::Camera => Space::Camera,
+            ObjType::Light => Space::Light,
+            ObjType::Mesh => Space::Mesh,
+            ObjType::Skin => Space::Skin,
+            ObjType::Hfield => Space::Hfield,
+            ObjType::Texture => Space::Texture,
+            ObjType::Material => Space::Material,
+            ObjType::Pair => Space::Pair,
+            ObjType::Exclude => Space::Exclude,
+            ObjType::Equality => Space::Equality,
+            ObjType::Tendon => Space::Tendon,
+            ObjType::Actuator => Space::Actuator,
+            ObjType::Sensor => Space::Sensor,
+            ObjType::Numeric => Space::Numeric,
+            ObjType::Text => Space::Text,
+            ObjType::Tuple => Space::Tuple,
+            ObjType::Key => Space::Key,
+            ObjType::Frame => Space::Frame,
+            _ => return None,
+        })
+    }
+
     /// The word for an object of this space in messages and in `objtype` attributes.
     pub fn word(self) -> &'static str {
         match self {

@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 
 import mujoco
 
-ELEMENTS = ["composite", "flexcomp", "flex", "skin", "plugin"]
+ELEMENTS = ["composite", "flexcomp", "flex", "plugin"]
 LARGEST = 1000
 
 
@@ -47,11 +47,9 @@ def reason(path, any_feature):
 def feature(path, model):
     """What of a model is not simulated, or why it is too large; empty when there is nothing."""
     present = elements(path, set())
-    if "robot" in present:
-        return "URDF"
     if found := [e for e in ELEMENTS if e in present]:
         return ", ".join(found)
-    for count, name in [(model.nflex, "flex"), (model.nskin, "skin"), (model.nplugin, "plugin")]:
+    for count, name in [(model.nflex, "flex"), (model.nplugin, "plugin")]:
         if count:
             return name
     if (model.geom_type == mujoco.mjtGeom.mjGEOM_SDF).any():

@@ -109,7 +109,8 @@ pub static OWN_QACC: Tolerance = Tolerance::new("OWN_QACC", 5e-14);
 pub static OWN_STEP: Tolerance = Tolerance::new("OWN_STEP", 2e-14);
 /// Rollouts of integrators that are implicit in velocity, for as long as the twin stays within [`ROLLOUT_ABSOLUTE`].
 pub static IMPLICIT_ROLLOUT: Tolerance = Tolerance::new("IMPLICIT_ROLLOUT", 5e-11);
-/// The solver from recorded rows on models of other repositories: rounding through the Hessian. On own models it is equal.
+/// The solver from recorded rows on models of other repositories: its sums are in MuJoCo's order, so that last bits of the
+/// rows alone may differ, and go through the Hessian. On own models it is equal.
 pub static SOLUTION_ELSEWHERE: Tolerance = Tolerance::new("SOLUTION_ELSEWHERE", 2e-13);
 /// Dense and sparse rows, which stop in the same iteration: sums in another order.
 pub static STORAGE: Tolerance = Tolerance::new("STORAGE", 2e-13);
@@ -121,7 +122,8 @@ pub static STATIONARY: Tolerance = Tolerance::new("STATIONARY", 5e-12);
 pub static STATIONARY_ELSEWHERE: Tolerance = Tolerance::new("STATIONARY_ELSEWHERE", 1e-5);
 /// Excess of our cost over MuJoCo's: rounding of the sum.
 pub static COST: Tolerance = Tolerance::new("COST", 2e-14);
-/// Solutions of recorded problems with every solver: rounding through the Hessian.
+/// Solutions of recorded problems with every solver: sums in MuJoCo's order make the same iterates, which stop in the same
+/// iteration, so that only rounding goes through the Hessian.
 pub static PROBLEM: Tolerance = Tolerance::new("PROBLEM", 2e-13);
 /// Derivatives of smooth forces, relative to the largest entry: products along the chain of bodies.
 pub static DERIVATIVE: Tolerance = Tolerance::new("DERIVATIVE", 1e-12);

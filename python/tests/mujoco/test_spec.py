@@ -1,6 +1,7 @@
 """Descriptions of models: what attributes take, how elements are found, and what goes wrong."""
 
 import copy
+import zipfile
 
 import numpy as np
 import pytest
@@ -228,6 +229,10 @@ def test_archives_and_encoded_files_hold_the_same_model(tmp_path):
     with pytest.raises(ValueError, match="no zip archive"):
         (tmp_path / "no.zip").write_text("nothing")
         mj.from_zip(str(tmp_path / "no.zip"))
+    with zipfile.ZipFile(tmp_path / "parts.zip", "w") as archive:
+        archive.writestr("parts/foot.xml", "<mujoco><worldbody><site name='foot'/></worldbody></mujoco>")
+        archive.writestr("whole.xml", "<mujoco><include file='parts/foot.xml'/></mujoco>")
+    assert mj.from_zip(str(tmp_path / "parts.zip")).compile().nsite == 1
     text = tmp_path / "leg.xml"
     assert mj.MjSpec.from_string(LEG).encode(str(text)) == text.stat().st_size
     with pytest.raises(mj.FatalError, match="MJCF"):

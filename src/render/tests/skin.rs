@@ -54,6 +54,26 @@ fn vertices_follow_their_bones() {
     assert!(positions.iter().all(|p| (p[2] - 1.25).abs() < 1e-6));
 }
 
+/// Vertices between two bones are where MuJoCo 3.12.0 puts them: `scene.skinvert` and `scene.skinnormal` after
+/// `mjv_updateScene` of this model.
+#[test]
+fn a_bent_and_swollen_skin_is_mujocos() {
+    let swollen = MODEL.replace("rgba", "inflate='.25' rgba");
+    let (positions, normals) = surface(&world(&swollen, 0.7).2);
+    let expected = [
+        ([-1.0, -1.0, 1.25], [0.0, 0.0, 1.0]),
+        ([1.0, -1.0, 1.25], [0.0, 0.0, 1.0]),
+        ([-1.0, -0.056731228, 1.2434781], [0.0, -0.22692491, 0.97391236]),
+        ([1.0, -0.11346245, 1.2227695], [0.0, -0.4538498, 0.89107823]),
+        ([-1.0, 0.6037878, 1.8354282], [0.0, -0.6442177, 0.7648422]),
+        ([1.0, 0.6037878, 1.8354282], [0.0, -0.6442177, 0.7648422]),
+    ];
+    assert_eq!(positions.len(), expected.len());
+    for ((position, normal), (theirs, upwards)) in positions.iter().zip(&normals).zip(expected) {
+        assert!(near(*position, theirs) && near(*normal, upwards), "{position:?} {normal:?}");
+    }
+}
+
 #[test]
 fn a_surface_changes_only_when_the_skin_moves() {
     let (model, mut data, mut assets) = world(MODEL, 0.3);

@@ -4,12 +4,16 @@ import posixpath
 import zipfile
 from typing import IO
 
+#: Most bytes that an archive unpacks to.
+LARGEST = 2 << 30
+
 
 def read(file: str | IO[bytes]) -> tuple[str, None, dict[str, bytes]]:
-    """Text and files of an archive, named from the folder of the text.
+    """Text and files of an archive, named from the folder of the text: of several, the outermost that comes first; the others
+    are files that it may include.
 
     Raises:
-        ValueError: it is no archive, or holds no text.
+        ValueError: it is no archive, holds no text, or unpacks to more than `LARGEST` bytes.
     """
     try:
         archive = zipfile.ZipFile(file)
@@ -20,10 +24,13 @@ def read(file: str | IO[bytes]) -> tuple[str, None, dict[str, bytes]]:
         texts = [name for name in names if name.lower().endswith(".xml")]
         if not texts:
             raise ValueError(f"{file} holds no file that ends in .xml")
-        folder = posixpath.dirname(texts[0]) or "."
-        others = (name for name in names if name not in texts)
-        assets = {posixpath.relpath(name, folder): archive.read(name) for name in others}
-        return archive.read(texts[0]).decode(), None, assets
+        size = sum(entry.file_size for entry in archive.infolist())
+        if size > LARGEST:
+            raise ValueError(f"{file} unpacks to {size} bytes, more than {LARGEST}")
+        model = min(texts, key=lambda name: name.count("/"))
+        folder = posixpath.dirname(model) or "."
+        assets = {posixpath.relpath(name, folder): archive.read(name) for name in names if name != model}
+        return archive.read(model).decode(), None, assets
 
 
 def write(file: str | IO[bytes], name: str, text: str, assets: dict[str, bytes]) -> None:

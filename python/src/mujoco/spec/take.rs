@@ -137,10 +137,10 @@ impl<'py> Tree<'_, 'py> {
         for (child, row) in rows.iter().enumerate().skip(1).rev() {
             let parent =
                 usize::try_from(row.1).ok().filter(|&parent| parent < child).ok_or_else(misplaced)?;
-            let body = bodies.pop().unwrap_or_default();
+            let body = bodies.pop().ok_or_else(misplaced)?;
             bodies[parent].bodies.insert(0, body);
         }
-        spec.world = bodies.pop().unwrap_or_default();
+        spec.world = bodies.pop().ok_or_else(misplaced)?;
         spec.world.name = "world".into();
         Ok(())
     }
@@ -174,7 +174,7 @@ impl<'py> Tree<'_, 'py> {
         for row in self.rows("key")? {
             let mut key = Key { loc: self.loc(&row), ..Key::default() };
             take(&row.0, &mut key)?;
-            if row.0.get_item("_kept")?.is_some_and(|kept| kept.is_truthy().unwrap_or(false)) {
+            if row.0.get_item("_kept")?.map_or(Ok(false), |kept| kept.is_truthy())? {
                 let Key { name, loc, time, .. } = key;
                 spec.kept_keys.push(KeptKey { name, loc, time, own: true });
             } else {
