@@ -140,7 +140,8 @@ impl<'py> Tree<'_, 'py> {
             let body = bodies.pop().ok_or_else(misplaced)?;
             bodies[parent].bodies.insert(0, body);
         }
-        spec.world = bodies.pop().ok_or_else(misplaced)?;
+        // Where only settings are of interest no body is given.
+        spec.world = bodies.pop().unwrap_or_default();
         spec.world.name = "world".into();
         Ok(())
     }
