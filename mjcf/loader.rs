@@ -6,10 +6,11 @@ use std::sync::Arc;
 
 use physics::Model;
 use physics::model::binary;
+use physics::plugin::Registry;
 
 use crate::budget::Budget;
 use crate::cache::{Cache, Miss, Noted};
-use crate::compile::compile;
+use crate::compile::{Resources, compile};
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::{Disk, FileProvider};
 use crate::include::{Expansion, Substitution, report_unmatched};
@@ -28,6 +29,7 @@ pub struct Loader {
     substitutions: Vec<Substitution>,
     moves: Vec<(String, String)>,
     cache: Option<Cache>,
+    plugins: Registry,
 }
 
 impl Default for Loader {
@@ -38,6 +40,7 @@ impl Default for Loader {
             substitutions: Vec::new(),
             moves: Vec::new(),
             cache: None,
+            plugins: Registry::default(),
         }
     }
 }
@@ -152,6 +155,12 @@ impl Loader {
         self
     }
 
+    /// Knows the plugins of `registry` instead of MuJoCo's alone.
+    pub fn plugins(mut self, registry: Registry) -> Self {
+        self.plugins = registry;
+        self
+    }
+
     /// Reads the model at `path` and all it includes, without compiling it.
     ///
     /// # Errors
@@ -202,7 +211,7 @@ impl Loader {
     /// # Errors
     /// All that is wrong with the elements and the assets.
     pub fn compile(&self, parsed: Parsed) -> Result<Loaded, Diagnostics> {
-        compile_from(&*self.files, parsed, None)
+        compile_from(self.resources(&*self.files, None), parsed)
     }
 
     /// Reads and compiles the model at `path`, or takes it as it is when the file holds a compiled one.
@@ -241,7 +250,7 @@ impl Loader {
         let model = if edited {
             Err("a compiled model cannot be edited; edit the text and compile it".to_owned())
         } else {
-            Model::read(source, length).map_err(|error| error.to_string())
+            Model::read_with(source, length, &self.plugins).map_err(|error| error.to_string())
         };
         match model {
             Ok(model) => Ok(Loaded { model, warnings: Diagnostics::default() }),
@@ -255,14 +264,15 @@ impl Loader {
         let counts = format!("{required:?} {}", self.moves.len());
         let replaced = self.substitutions.iter().flat_map(|s| [&*s.from, &*s.to]);
         let edits = replaced.chain(self.moves.iter().flat_map(|(body, parent)| [&**body, &**parent]));
-        let request: Vec<&str> = [path, &limits, &counts].into_iter().chain(edits).collect();
-        let damaged = match cache.find_model(&request, &*self.files) {
+        let request: Vec<&str> =
+            [path, &limits, &counts].into_iter().chain(edits).chain(self.plugins.names()).collect();
+        let damaged = match cache.find_model(&request, &*self.files, &self.plugins) {
             Ok(loaded) => return Ok(loaded),
             Err(miss) => matches!(miss, Miss::Damaged),
         };
         let noted = Noted::new(&*self.files);
         let parsed = self.parse_from(&noted, |expansion| expansion.read(path))?;
-        let mut loaded = compile_from(&noted, parsed, Some(cache))?;
+        let mut loaded = compile_from(self.resources(&noted, Some(cache)), parsed)?;
         let kept = cache.keep_model(&request, noted.reads(), &loaded);
         let mut warn = |message: String| {
             loaded.warnings.warning(&Sources::default(), Loc::NONE, format!("{path}: {message}"));
@@ -294,6 +304,10 @@ impl Loader {
         }
     }
 
+    fn resources<'a>(&'a self, files: &'a dyn FileProvider, meshes: Option<&'a Cache>) -> Resources<'a> {
+        Resources { files, meshes: meshes.map(|cache| cache as &dyn MeshStore), registry: &self.plugins }
+    }
+
     fn edit(&self, root: &mut Element, sources: &Sources, diagnostics: &mut Diagnostics) {
         for (body, parent) in &self.moves {
             if let Err(message) = root.reparent_body(body, parent) {
@@ -303,13 +317,9 @@ impl Loader {
     }
 }
 
-fn compile_from(
-    files: &dyn FileProvider,
-    parsed: Parsed,
-    meshes: Option<&dyn MeshStore>,
-) -> Result<Loaded, Diagnostics> {
+fn compile_from(resources: Resources<'_>, parsed: Parsed) -> Result<Loaded, Diagnostics> {
     let Parsed { spec, sources, warnings: mut diagnostics, budget } = parsed;
-    match compile(&spec, files, meshes, &sources, &mut diagnostics, budget) {
+    match compile(&spec, resources, &sources, &mut diagnostics, budget) {
         Some(model) => Ok(Loaded { model, warnings: diagnostics }),
         None => Err(diagnostics),
     }

@@ -21,6 +21,7 @@ use std::time::SystemTime;
 
 use physics::Model;
 use physics::model::binary;
+use physics::plugin::Registry;
 
 use crate::diagnostic::Diagnostics;
 use crate::digest::{Digest, digest_parts, hex};
@@ -93,6 +94,7 @@ impl Cache {
         &self,
         request: &[&str],
         files: &(dyn FileProvider + Sync),
+        registry: &Registry,
     ) -> Result<Loaded, Miss> {
         let path = self.entry(request);
         let mut file = File::open(&path).map_err(|_| Miss::Absent)?;
@@ -105,7 +107,7 @@ impl Cache {
             file.seek(SeekFrom::Start(start + offset))?;
             Ok(Box::new(file) as Box<dyn Read>)
         };
-        let mut model = || Model::read_parts(&mut file, left, Some(&again));
+        let mut model = || Model::read_parts(&mut file, left, Some(&again), registry);
         let (unchanged, model) = if left < binary::LARGE {
             (all_hold(), model())
         } else {

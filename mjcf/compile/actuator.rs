@@ -2,10 +2,12 @@
 
 use super::log::{Log, title};
 use super::lookup::Lookup;
+use super::plugins::Plugins;
 use super::values::{bounded, push_user, resolve_limited, rising};
 use crate::spec::{Actuator, Spec};
 use physics::model::input::{self, EXPONENTIAL_MAP, FEED_FORWARD, POSITION, QUATERNION, VELOCITY, VOLTAGE};
 use physics::model::{BiasType, DynType, GainType, JointType, ObjType, Rows, TrnType};
+use physics::plugin::Capability;
 
 /// What is wrong with an actuator that names nothing to act on.
 const NO_TARGET: &str =
@@ -21,7 +23,7 @@ struct Block {
 }
 
 /// Appends all actuators.
-pub(super) fn fill(m: &mut Rows, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, (spec, plugins): (&Spec, &Plugins), lookup: &Lookup, log: &mut Log) {
     let (mut actadr, mut historyadr) = (0, 0);
     for actuator in &spec.actuators {
         let what = title("actuator", &actuator.name);
@@ -38,6 +40,7 @@ pub(super) fn fill(m: &mut Rows, spec: &Spec, lookup: &Lookup, log: &mut Log) {
             &mut historyadr,
         );
         log.check(actuator.loc, &what, result);
+        m.actuator_plugin.push(plugins.id(actuator.plugin.as_ref(), (Capability::Actuator, &what), log));
     }
     m.nhistory = historyadr as usize;
 }
@@ -104,6 +107,13 @@ fn block(m: &Rows, a: &Actuator, trnid: [i32; 2], forcelimited: bool) -> Result<
         );
     }
     let stateless = a.dyntype == DynType::None;
+    if a.plugin.is_some() {
+        bounded(block.actdim.max(0).into(), "actdim")?;
+        if block.actdim < 0 {
+            block.actdim = i32::from(!stateless && a.dyntype != DynType::Dcmotor);
+        }
+        return Ok(block);
+    }
     if block.actdim > 1 && !matches!(a.dyntype, DynType::User | DynType::Dcmotor) && !block.so3 {
         // MuJoCo 3.12 applies this rule to pid controllers too.
         return Err(format!(

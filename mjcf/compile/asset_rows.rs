@@ -93,8 +93,12 @@ fn fill_mesh(m: &mut Rows, mesh: &CompiledMesh) {
     m.mesh_vertnum.push(mesh.vert.len() as i32);
     m.mesh_faceadr.push(m.mesh_face.len() as i32);
     m.mesh_facenum.push(mesh.face.len() as i32);
-    m.mesh_octadr.push(-1);
-    m.mesh_octnum.push(0);
+    m.mesh_octadr.push(address(mesh.octree.depth.len(), m.oct_depth.len()));
+    m.mesh_octnum.push(mesh.octree.depth.len() as i32);
+    m.oct_depth.extend(&mesh.octree.depth);
+    m.oct_child.extend(&mesh.octree.child);
+    m.oct_aabb.extend(&mesh.octree.aabb);
+    m.oct_coeff.extend(&mesh.octree.coeff);
     m.mesh_normaladr.push(m.mesh_normal.len() as i32);
     m.mesh_normalnum.push(mesh.normal.len() as i32);
     m.mesh_texcoordadr.push(address(mesh.texcoord.len(), m.mesh_texcoord.len()));

@@ -1,7 +1,9 @@
 //! Meshes, skins, height fields, textures and materials: files are read here, compiled on all cores, and laid out in
 //! the order of the file.
 
+use super::Resources;
 use super::log::{Log, title};
+use super::plugins::Plugins;
 use crate::asset::AssetError;
 use crate::budget::{Content, decoded};
 use crate::diagnostic::Loc;
@@ -14,6 +16,7 @@ use crate::mesh::{
 };
 use crate::spec::{Body, Hfield, Mesh, Skin, Spec, Texture, asset_name};
 use physics::model::{GeomType, Suggestions, TextureType};
+use physics::plugin::{Capability, Field};
 use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -68,11 +71,35 @@ impl Assets {
 
 /// Work for one core: everything an asset needs, with its bytes.
 enum Job<'s> {
-    Mesh { spec: &'s Mesh, name: String, bytes: Option<Arc<[u8]>>, needhull: bool, discard: bool },
-    Texture { source: Box<TextureSource> },
-    Hfield { source: HfieldSource },
-    Skin { source: SkinSource },
+    Mesh {
+        spec: &'s Mesh,
+        name: String,
+        bytes: Option<Arc<[u8]>>,
+        field: Option<Box<dyn Field>>,
+        needs: Needs,
+    },
+    Texture {
+        source: Box<TextureSource>,
+    },
+    Hfield {
+        source: HfieldSource,
+    },
+    Skin {
+        source: SkinSource,
+    },
 }
+
+/// What of a mesh is used.
+#[derive(Clone, Copy)]
+struct Needs {
+    hull: bool,
+    /// For signed distances.
+    octree: bool,
+    texcoord: bool,
+}
+
+/// Weight of a job that samples a field.
+const FIELD_WEIGHT: usize = 1 << 22;
 
 enum Outcome {
     Mesh(Box<CompiledMesh>),
@@ -97,13 +124,9 @@ impl Head {
 }
 
 /// Reads and compiles all assets.
-pub(super) fn compile(
-    spec: &Spec,
-    files: &dyn FileProvider,
-    meshes: Option<&dyn MeshStore>,
-    log: &mut Log,
-) -> Assets {
-    let jobs = read_all(spec, files, log);
+pub(super) fn compile(spec: &Spec, resources: Resources<'_>, plugins: &Plugins, log: &mut Log) -> Assets {
+    let Resources { files, meshes, .. } = resources;
+    let jobs = read_all(spec, files, plugins, log);
     let mut outcomes = if log.diagnostics.has_errors() {
         Vec::new()
     } else {
@@ -157,16 +180,25 @@ pub(super) fn compile(
 }
 
 /// Reads the files of all assets, which wait to be compiled.
-fn read_all<'s>(spec: &'s Spec, files: &dyn FileProvider, log: &mut Log) -> Vec<(Head, Job<'s>)> {
+fn read_all<'s>(
+    spec: &'s Spec,
+    files: &dyn FileProvider,
+    plugins: &Plugins,
+    log: &mut Log,
+) -> Vec<(Head, Job<'s>)> {
     let colliding = colliding_meshes(spec);
+    let measured = measured_meshes(spec);
     let discard = spec.compiler.discardvisual;
     let textures: &[Texture] = if discard { &[] } else { &spec.textures };
     let mut jobs = Vec::new();
     for mesh in &spec.meshes {
         let name = asset_name(&mesh.name, &mesh.path);
         let bytes = read(files, (Content::Mesh, &mesh.file), mesh.loc, &title("mesh", &name), log);
-        let needhull = mesh.inertia == MeshInertia::Convex || colliding.contains(&*name);
-        let job = Job::Mesh { spec: mesh, name: name.clone(), bytes, needhull, discard };
+        let hull = mesh.inertia == MeshInertia::Convex || colliding.contains(&*name);
+        let octree = measured.contains(&*name) && mesh.plugin.is_none();
+        let field = surface_field(mesh, &name, plugins, log);
+        let needs = Needs { hull, octree, texcoord: !discard };
+        let job = Job::Mesh { spec: mesh, name: name.clone(), bytes, field, needs };
         let (path, material) = (mesh.path.clone(), mesh.material.clone());
         jobs.push((Head { name, loc: mesh.loc, path, material }, job));
     }
@@ -212,7 +244,7 @@ fn colliding_meshes(spec: &Spec) -> BTreeSet<&str> {
     let mut names = BTreeSet::new();
     let mut pending: Vec<&Body> = vec![&spec.world];
     while let Some(body) = pending.pop() {
-        let geoms = body.geoms.iter().filter(|g| g.kind == GeomType::Mesh);
+        let geoms = body.geoms.iter().filter(|g| matches!(g.kind, GeomType::Mesh | GeomType::Sdf));
         names.extend(
             geoms
                 .filter(|g| {
@@ -223,6 +255,38 @@ fn colliding_meshes(spec: &Spec) -> BTreeSet<&str> {
         pending.extend(&body.bodies);
     }
     names
+}
+
+/// Meshes of signed distance geoms.
+fn measured_meshes(spec: &Spec) -> BTreeSet<&str> {
+    let mut names = BTreeSet::new();
+    let mut pending: Vec<&Body> = vec![&spec.world];
+    while let Some(body) = pending.pop() {
+        names.extend(body.geoms.iter().filter(|g| g.kind == GeomType::Sdf).map(|g| &*g.meshname));
+        pending.extend(&body.bodies);
+    }
+    names
+}
+
+/// The field whose surface a mesh is.
+fn surface_field(mesh: &Mesh, name: &str, plugins: &Plugins, log: &mut Log) -> Option<Box<dyn Field>> {
+    let used = mesh.plugin.as_ref()?;
+    let what = title("mesh", name);
+    let id = usize::try_from(plugins.id(Some(used), (Capability::Sdf, &what), log)).ok()?;
+    if !mesh.file.is_empty() || !mesh.uservert.is_empty() || mesh.builtin.is_some() {
+        log.error(mesh.loc, format!("{what}: it has vertices already: remove its <plugin>"));
+        return None;
+    }
+    if mesh.scale != [1.0; 3] {
+        log.error(mesh.loc, format!("{what}: attribute 'scale' does not apply to the surface of a plugin"));
+        return None;
+    }
+    let (kind, config) = plugins.list[id].config();
+    let field = log.check(used.loc, &what, kind.field(&config))?;
+    if field.is_none() {
+        log.error(used.loc, format!("{what}: plugin '{}' has no field", kind.name()));
+    }
+    field
 }
 
 /// The bytes of the file of an asset, charged with what they take when decoded.
@@ -318,6 +382,7 @@ impl Job<'_> {
     /// Bytes to process, a measure of the time it takes.
     fn weight(&self) -> usize {
         match self {
+            Job::Mesh { field: Some(_), .. } => FIELD_WEIGHT,
             Job::Mesh { spec, bytes, .. } => bytes.as_ref().map_or(spec.uservert.len(), |b| b.len()),
             Job::Texture { source } => {
                 source.file.iter().chain(source.cubefiles.iter().flatten()).map(|f| 8 * f.bytes.len()).sum()
@@ -329,8 +394,11 @@ impl Job<'_> {
 
     fn run(&self, meshes: Option<&dyn MeshStore>) -> Result<Outcome, AssetError> {
         match self {
-            Job::Mesh { spec, name, bytes, needhull, discard } => {
-                let inline = inline_mesh(spec, *discard)?;
+            Job::Mesh { spec, name, bytes, field, needs } => {
+                let inline = match field {
+                    Some(field) => mesh::surface(&**field)?,
+                    None => inline_mesh(spec, !needs.texcoord)?,
+                };
                 let source = MeshSource {
                     name: String::new(),
                     file: None,
@@ -346,7 +414,9 @@ impl Job<'_> {
                     },
                     smoothnormal: spec.smoothnormal,
                     maxhullvert: spec.maxhullvert,
-                    needhull: *needhull,
+                    needhull: needs.hull,
+                    octree: needs.octree.then_some(spec.octree_maxdepth),
+                    keep_frame: field.is_some(),
                 };
                 let process = |source, file| mesh::process(MeshSource { name: name.clone(), file, ..source });
                 let Some(bytes) = bytes else {

@@ -6,6 +6,7 @@ use super::frame::{Pose, add, direction, same_frame_in_body, segment};
 use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::nodes::{BodyNode, GeomNode};
+use super::plugins::Plugins;
 use super::values::push_user;
 use crate::image::CompiledHfield;
 use crate::mesh::{CompiledMesh, Primitive, fit_primitive};
@@ -14,6 +15,7 @@ use crate::vector::{EPS, cross, normalize};
 use physics::geometry::shape;
 use physics::math::Vec3;
 use physics::model::{GeomType, ObjType, Rows};
+use physics::plugin::Capability;
 
 /// What a geom's compile needs to know.
 pub(super) struct Context<'a> {
@@ -31,9 +33,6 @@ pub(super) fn compile<'s>(spec: &'s Geom, context: &Context) -> Result<GeomNode<
     let kind = spec.kind;
     if kind == GeomType::None {
         return Err("invalid type".into());
-    }
-    if kind == GeomType::Sdf {
-        return Err("signed distance fields are not supported".into());
     }
     if ![1, 3, 4, 6].contains(&spec.condim) {
         return Err(format!("condim must be 1, 3, 4 or 6, is {}", spec.condim));
@@ -63,7 +62,7 @@ pub(super) fn compile<'s>(spec: &'s Geom, context: &Context) -> Result<GeomNode<
         surfacevel = in_mesh_frame(surfacevel, &offset);
     }
     shape::check_size(kind, size)?;
-    let solid = mesh.filter(|_| kind == GeomType::Mesh);
+    let solid = mesh.filter(|_| matches!(kind, GeomType::Mesh | GeomType::Sdf));
     let (aabb, rbound) = match (solid, hfield) {
         (Some((_, mesh)), _) => {
             size = mesh.geom_size();
@@ -94,7 +93,11 @@ pub(super) fn compile<'s>(spec: &'s Geom, context: &Context) -> Result<GeomNode<
 
 fn find_mesh<'a>(spec: &Geom, assets: &'a Assets) -> Result<Option<(usize, &'a CompiledMesh)>, String> {
     if spec.meshname.is_empty() {
-        return if spec.kind == GeomType::Mesh { Err("a mesh geom needs a mesh".into()) } else { Ok(None) };
+        return match spec.kind {
+            GeomType::Mesh => Err("a mesh geom needs a mesh".into()),
+            GeomType::Sdf => Err("a signed distance geom needs a mesh, of its plugin or of a file".into()),
+            _ => Ok(None),
+        };
     }
     if spec.fromto.is_some() {
         return Err("attribute 'fromto' does not place meshes: use 'pos' and 'quat'".into());
@@ -189,7 +192,13 @@ fn weigh(spec: &Geom, size: Vec3, mesh: Option<&CompiledMesh>) -> Result<(f64, V
 }
 
 /// Appends the geoms of `body`.
-pub(super) fn fill(m: &mut Rows, body: &BodyNode, id: usize, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(
+    m: &mut Rows,
+    body: &BodyNode,
+    id: usize,
+    (lookup, plugins): (&Lookup, &Plugins),
+    log: &mut Log,
+) {
     for node in &body.geoms {
         let spec = node.spec;
         let what = title("geom", &spec.name);
@@ -202,6 +211,7 @@ pub(super) fn fill(m: &mut Rows, body: &BodyNode, id: usize, lookup: &Lookup, lo
         m.geom_matid.push(lookup.reference(ObjType::Material, &node.material, spec.loc, &what, log));
         m.geom_group.push(spec.group);
         m.geom_priority.push(spec.priority);
+        m.geom_plugin.push(plugins.id(spec.plugin.as_ref(), (Capability::Sdf, &what), log));
         m.geom_sameframe.push(same_frame_in_body(node.pose, body.inertial).code() as u8);
         m.geom_solmix.push(spec.solmix);
         m.geom_solref.push(spec.solref);

@@ -25,6 +25,7 @@ mod log;
 mod lookup;
 mod names;
 mod nodes;
+mod plugins;
 mod sensor;
 mod sizes;
 mod tendon;
@@ -45,7 +46,8 @@ use physics::constants::length_range::set_length_ranges;
 use physics::constants::set_const::set_const;
 use physics::inertia::sparsity;
 use physics::model::{Arrays, Rows};
-use physics::pipeline::validity::check_model;
+use physics::pipeline::validity::{check_model, check_start};
+use physics::plugin::Registry;
 
 /// Compiles `spec`; files of assets come from `files`, processed meshes from `meshes`, findings go to `diagnostics`,
 /// memory is taken from `budget`.
@@ -53,14 +55,13 @@ use physics::pipeline::validity::check_model;
 /// `None` when there is an error; then `diagnostics` says which.
 pub(crate) fn compile(
     spec: &Spec,
-    files: &dyn FileProvider,
-    meshes: Option<&dyn MeshStore>,
+    resources: Resources<'_>,
     sources: &Sources,
     diagnostics: &mut Diagnostics,
     budget: Budget,
 ) -> Option<Model> {
     let log = &mut Log { sources, diagnostics, budget };
-    let (arrays, springdampers) = compile_static(spec, files, meshes, log)?;
+    let Static { arrays, springdampers, plugins } = compile_static(spec, resources, log)?;
     let mut m = Model::unchecked(arrays);
     if let Err(error) = set_const(&mut m) {
         log.error(Loc::NONE, error.to_string());
@@ -76,7 +77,36 @@ pub(crate) fn compile(
         return None;
     }
     override_statistic(m.unchecked_mut(), &spec.stat);
+    if let Err(error) = m.start_plugins(resources.registry) {
+        let loc = plugins.get(error.instance).copied().unwrap_or(Loc::NONE);
+        log.error(loc, error.to_string());
+        return None;
+    }
+    if let Err(message) = check_start(&m) {
+        log.error(Loc::NONE, message);
+        return None;
+    }
     Some(m)
+}
+
+/// What a compile reads beside the elements.
+#[derive(Clone, Copy)]
+pub(crate) struct Resources<'a> {
+    /// Files of assets.
+    pub files: &'a dyn FileProvider,
+    /// Processed meshes.
+    pub meshes: Option<&'a dyn MeshStore>,
+    /// Plugins by name.
+    pub registry: &'a Registry,
+}
+
+/// What needs no simulation.
+struct Static {
+    arrays: Arrays,
+    /// The `springdamper` of every joint, which needs the inertia at `qpos0`.
+    springdampers: Vec<[f64; 2]>,
+    /// Where the instances of plugins are declared.
+    plugins: Vec<Loc>,
 }
 
 impl Spec {
@@ -96,9 +126,23 @@ impl Spec {
     /// # Errors
     /// All that is wrong with the elements and the assets, not the first finding alone.
     pub fn compile(&self, files: &dyn FileProvider, sources: &Sources) -> Result<Loaded, Diagnostics> {
+        self.compile_with(files, sources, &Registry::default())
+    }
+
+    /// [`Spec::compile`] of a model whose plugins are in `registry`.
+    ///
+    /// # Errors
+    /// As `compile`.
+    pub fn compile_with(
+        &self,
+        files: &dyn FileProvider,
+        sources: &Sources,
+        registry: &Registry,
+    ) -> Result<Loaded, Diagnostics> {
         let mut diagnostics = Diagnostics::default();
         let budget = Budget::new(Limits::default().memory);
-        match compile(self, files, None, sources, &mut diagnostics, budget) {
+        let resources = Resources { files, meshes: None, registry };
+        match compile(self, resources, sources, &mut diagnostics, budget) {
             Some(model) => Ok(Loaded { model, warnings: diagnostics }),
             None => Err(diagnostics),
         }
@@ -115,19 +159,15 @@ fn override_statistic(m: &mut Arrays, given: &StatisticOverride) {
     stat.center = given.center.unwrap_or(stat.center);
 }
 
-/// Everything that needs no configuration, and the `springdamper` of every joint, which needs the inertia at `qpos0`.
-fn compile_static(
-    spec: &Spec,
-    files: &dyn FileProvider,
-    meshes: Option<&dyn MeshStore>,
-    log: &mut Log,
-) -> Option<(Arrays, Vec<[f64; 2]>)> {
+/// Everything that needs no configuration.
+fn compile_static(spec: &Spec, resources: Resources<'_>, log: &mut Log) -> Option<Static> {
     let mut m = Rows { name: spec.modelname.clone(), ..Rows::default() };
     sizes::set_user_widths(&mut m, spec, log);
     if log.diagnostics.has_errors() || !demand::charge(&m, spec, log) {
         return None;
     }
-    let mut assets = assets::compile(spec, files, meshes, log);
+    let plugins = plugins::compile(spec, resources.registry, log);
+    let mut assets = assets::compile(spec, resources, &plugins, log);
     let mut tree = tree::compile(spec, &assets, log);
     if log.diagnostics.has_errors() {
         return None;
@@ -146,18 +186,19 @@ fn compile_static(
         return None;
     }
     asset_rows::fill(&mut m, &assets, spec, &lookup, log);
-    tree::fill(&mut m, &tree, spec, &lookup, log);
+    plugins.fill(&mut m, log);
+    tree::fill(&mut m, &tree, (spec, &plugins), &lookup, log);
     hierarchy::fill_meshes(&mut m, &assets);
     constraint::fill(&mut m, spec, &lookup, log);
     tendon::fill(&mut m, spec, &lookup, log);
-    actuator::fill(&mut m, spec, &lookup, log);
-    sensor::fill(&mut m, spec, &lookup, log);
+    actuator::fill(&mut m, (spec, &plugins), &lookup, log);
+    sensor::fill(&mut m, (spec, &plugins), &lookup, log);
     custom::fill(&mut m, spec, &lookup, log);
     keyframe::fill(&mut m, &tree, spec, log);
     if log.diagnostics.has_errors() {
         return None;
     }
-    names::fill(&mut m, spec, &tree, &assets, &lookup);
+    names::fill(&mut m, (spec, &plugins), &tree, &assets, &lookup);
     let mut m = m.finish();
     sizes::set(&mut m, spec);
     fixed::fill(&mut m, &tree, log);
@@ -168,5 +209,6 @@ fn compile_static(
     sizes::allocate_derived(&mut m);
     sizes::check(&m, log);
     let springdampers = tree.joints().map(|j| j.spec.springdamper).collect();
-    (!log.diagnostics.has_errors()).then_some((m, springdampers))
+    let plugins = plugins.list.iter().map(|one| one.loc).collect();
+    (!log.diagnostics.has_errors()).then_some(Static { arrays: m, springdampers, plugins })
 }

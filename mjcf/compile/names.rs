@@ -4,11 +4,18 @@ use super::assets::{Asset, Assets};
 use super::constraint::sorted_names;
 use super::lookup::Lookup;
 use super::nodes::Tree;
+use super::plugins::Plugins;
 use crate::spec::Spec;
 use physics::model::{ObjType, Rows};
 
 /// Fills names, hash table and paths.
-pub(super) fn fill(m: &mut Rows, spec: &Spec, tree: &Tree, assets: &Assets, lookup: &Lookup) {
+pub(super) fn fill(
+    m: &mut Rows,
+    (spec, plugins): (&Spec, &Plugins),
+    tree: &Tree,
+    assets: &Assets,
+    lookup: &Lookup,
+) {
     m.names.extend(spec.modelname.bytes());
     m.names.push(0);
     let pairs = sorted_names(spec, m, ObjType::Pair, lookup);
@@ -41,6 +48,7 @@ pub(super) fn fill(m: &mut Rows, spec: &Spec, tree: &Tree, assets: &Assets, look
     list!(name_textadr, spec.texts.iter().map(|t| &*t.name));
     list!(name_tupleadr, spec.tuples.iter().map(|t| &*t.name));
     list!(name_keyadr, super::keyframe::names(spec).map(|(name, _)| name));
+    list!(name_pluginadr, plugins.list.iter().map(|one| &*one.name));
     m.hfield_pathadr = append_paths(&mut m.paths, &assets.hfields);
     m.mesh_pathadr = append_paths(&mut m.paths, &assets.meshes);
     m.skin_pathadr = append_paths(&mut m.paths, &assets.skins);

@@ -2,20 +2,27 @@
 
 use super::log::{Log, title};
 use super::lookup::Lookup;
+use super::plugins::Plugins;
 use super::values::{bounded, push_user};
 use crate::spec::{Sensor, Spec};
 use physics::model::{DataType, GeomType, JointType, ObjType, Rows, SensorType, Stage};
+use physics::plugin::{Capability, Config, Plugin};
+
+const TACTILE: &str = "tactile sensors are not supported";
 
 /// Appends all sensors; history buffers follow those of the actuators.
-pub(super) fn fill(m: &mut Rows, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(m: &mut Rows, (spec, plugins): (&Spec, &Plugins), lookup: &Lookup, log: &mut Log) {
     for sensor in &spec.sensors {
         let what = title("sensor", &sensor.name);
         let before = log.diagnostics.list.len();
         let object = reference(sensor.objtype, &sensor.objname, sensor, lookup, &what, log);
         let base = reference(sensor.reftype, &sensor.refname, sensor, lookup, &what, log);
         if log.diagnostics.list.len() == before {
-            let result = fill_sensor(m, sensor, object, base);
+            let plugin = plugins.id(sensor.plugin.as_ref(), (Capability::Sensor, &what), log);
+            let kind = usize::try_from(plugin).ok().map(|id| plugins.list[id].config());
+            let result = fill_sensor(m, sensor, [object, base], kind);
             log.check(sensor.loc, &what, result);
+            m.sensor_plugin.push(plugin);
         }
     }
 }
@@ -31,13 +38,26 @@ fn reference(kind: ObjType, name: &str, sensor: &Sensor, lookup: &Lookup, what: 
     }
 }
 
-fn fill_sensor(m: &mut Rows, sensor: &Sensor, object: i32, base: i32) -> Result<(), String> {
+fn fill_sensor(
+    m: &mut Rows,
+    sensor: &Sensor,
+    [object, base]: [i32; 2],
+    plugin: Option<(&dyn Plugin, Config<'_>)>,
+) -> Result<(), String> {
     check_numbers(sensor)?;
     check(m, sensor, object, base)?;
     let user = sensor.kind == SensorType::User;
     let datatype = if user { sensor.datatype } else { datatype(sensor.kind) };
-    let needstage = if user { sensor.needstage } else { needstage(sensor.kind) };
-    let dim = bounded(dimension(m, sensor, object)?, "dim")?;
+    let needstage = match &plugin {
+        Some((kind, _)) => kind.stage(),
+        None if user => sensor.needstage,
+        None => needstage(sensor.kind),
+    };
+    let dim = match &plugin {
+        Some((kind, config)) => kind.readings(config)? as i64,
+        None => dimension(m, sensor, object)?,
+    };
+    let dim = bounded(dim, "dim")?;
     bounded((m.nsensordata + dim) as i64, "dim of all sensors")?;
     let samples = sensor.nsample.max(0) as usize;
     let history = if samples == 0 { 0 } else { 2 + samples + samples * dim };
@@ -159,7 +179,8 @@ fn check(m: &Rows, sensor: &Sensor, object: i32, base: i32) -> Result<(), String
             (_, dim) if dim < 0 => Err(format!("attribute 'dim' is {dim}: set it to 0 or more")),
             _ => Ok(()),
         },
-        Tactile | Plugin => Err("tactile and plugin sensors are not supported".into()),
+        Plugin => ensure(sensor.plugin.is_some(), "needs a plugin"),
+        Tactile => Err(TACTILE.into()),
     }
 }
 
@@ -230,7 +251,9 @@ fn dimension(m: &Rows, sensor: &Sensor, object: i32) -> Result<i64, String> {
             }
         }
         User => sensor.dim.into(),
-        Tactile | Plugin => return Err("tactile and plugin sensors are not supported".into()),
+        // Its plugin was not found, which has been reported.
+        Plugin => 0,
+        Tactile => return Err(TACTILE.into()),
     })
 }
 

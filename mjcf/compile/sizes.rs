@@ -54,6 +54,7 @@ pub(super) fn set(m: &mut Arrays, spec: &Spec) {
     m.nbody = m.body_parentid.len();
     m.nbvh = m.bvh_depth.len();
     m.nbvhstatic = m.nbvh;
+    m.noct = m.oct_depth.len();
     m.njnt = m.jnt_type.len();
     m.ntree = m.dof_parentid.iter().filter(|&&p| p < 0).count();
     m.ngeom = m.geom_type.len();
@@ -94,6 +95,8 @@ pub(super) fn set(m: &mut Arrays, spec: &Spec) {
     m.ntupledata = m.tuple_objtype.len();
     m.nkey = m.key_time.len();
     m.nmocap = m.body_mocapid.iter().filter(|&&id| id >= 0).count();
+    m.nplugin = m.plugin.len();
+    m.npluginattr = m.plugin_attr.len();
     m.nnames = m.names.len();
     m.nnames_map = m.names_map.len();
     m.npaths = m.paths.len();

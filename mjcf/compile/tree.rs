@@ -9,9 +9,11 @@ use super::joint;
 use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::nodes::Tree;
+use super::plugins::Plugins;
 use super::viewpoint;
 use crate::spec::{Body, Spec};
 use physics::model::Rows;
+use physics::plugin::Capability;
 
 /// Compiles every body of the spec.
 pub(super) fn compile<'s>(spec: &'s Spec, assets: &Assets, log: &mut Log) -> Tree<'s> {
@@ -42,13 +44,22 @@ pub(super) fn compile<'s>(spec: &'s Spec, assets: &Assets, log: &mut Log) -> Tre
 }
 
 /// Fills the arrays of bodies and all that is fixed to them.
-pub(super) fn fill(m: &mut Rows, tree: &Tree, spec: &Spec, lookup: &Lookup, log: &mut Log) {
+pub(super) fn fill(
+    m: &mut Rows,
+    tree: &Tree,
+    (spec, plugins): (&Spec, &Plugins),
+    lookup: &Lookup,
+    log: &mut Log,
+) {
     body::check_moving_mass(tree, log);
     for (id, node) in tree.bodies.iter().enumerate() {
         body::fill(m, node, id, tree, log);
+        let what = title("body", node.name());
+        let passive = (Capability::Passive, &*what);
+        m.body_plugin.push(plugins.id(node.spec.plugin.as_ref(), passive, log));
         joint::fill(m, node, id, log);
         body::settle_simple(m, node, id);
-        geom::fill(m, node, id, lookup, log);
+        geom::fill(m, node, id, (lookup, plugins), log);
         viewpoint::fill_sites(m, node, id, lookup, log);
         viewpoint::fill_cameras(m, node, id, lookup, log);
         viewpoint::fill_lights(m, node, id, lookup, log);

@@ -118,6 +118,7 @@ impl Spec {
         part.numerics.clear();
         part.texts.clear();
         part.drop_unused_assets();
+        part.drop_unused_plugins();
         name.clone_into(&mut part.modelname);
         self.remove(ObjType::Body, name)?;
         Ok(part)

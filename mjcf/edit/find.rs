@@ -142,4 +142,5 @@ in_lists! {
     Text text text_mut texts Text |x| x.name;
     Tuple tuple tuple_mut tuples Tuple |x| x.name;
     Key key key_mut keys Key |x| x.name;
+    Plugin plugin plugin_mut plugins PluginInstance |x| x.name;
 }

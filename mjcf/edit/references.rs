@@ -28,6 +28,10 @@ impl Spec {
         in_body(&mut self.world, visit);
         self.meshes.iter_mut().for_each(|x| visit(Space::Material, &mut x.material));
         self.skins.iter_mut().for_each(|x| visit(Space::Material, &mut x.material));
+        let used = self.meshes.iter_mut().filter_map(|x| x.plugin.as_mut());
+        let used = used.chain(self.actuators.iter_mut().filter_map(|x| x.plugin.as_mut()));
+        let used = used.chain(self.sensors.iter_mut().filter_map(|x| x.plugin.as_mut()));
+        used.for_each(|used| visit(Space::Plugin, &mut used.instance));
         for material in &mut self.materials {
             material.textures.iter_mut().for_each(|name| visit(Space::Texture, name));
         }
@@ -46,6 +50,8 @@ impl Spec {
 }
 
 fn in_body(body: &mut Body, visit: &mut dyn FnMut(Space, &mut String)) {
+    let used = body.plugin.iter_mut().chain(body.geoms.iter_mut().filter_map(|x| x.plugin.as_mut()));
+    used.for_each(|used| visit(Space::Plugin, &mut used.instance));
     for geom in &mut body.geoms {
         visit(Space::Material, &mut geom.material);
         visit(Space::Hfield, &mut geom.hfieldname);

@@ -1,5 +1,7 @@
 //! Elements taken out, with what refers to them.
 
+use std::collections::BTreeSet;
+
 use physics::model::{ObjType, TrackMode};
 
 use super::find::{missing, word};
@@ -45,11 +47,19 @@ impl Spec {
                 word(kind)
             ));
         }
+        if space == Space::Plugin {
+            let mut uses = false;
+            self.each_reference(&mut |of, used| uses |= of == Space::Plugin && used == name);
+            if uses {
+                return refuse(format!("the plugin instance '{name}' is in use: remove what uses it first"));
+            }
+        }
         if matches!(space, Space::Body | Space::Joint | Space::Actuator) {
             self.spread_keys()?;
         }
         let gone = self.take_out(space, name);
         self.drop_references(gone);
+        self.drop_unused_plugins();
         Ok(())
     }
 
@@ -94,6 +104,7 @@ impl Spec {
             Space::Numeric => list!(numerics),
             Space::Text => list!(texts),
             Space::Tuple => list!(tuples),
+            Space::Plugin => list!(plugins),
             Space::Key => self.take_key(name),
             Space::Frame | Space::Class => unreachable!("neither is removed by name"),
         }
@@ -124,6 +135,17 @@ impl Spec {
             body.joints.iter_mut().for_each(|joint| renumber(&mut joint.keyed));
         });
         self.actuators.iter_mut().for_each(|actuator| renumber(&mut actuator.keyed));
+    }
+
+    /// Removes instances of plugins that no element uses any more: most plugins refuse to be there for nothing.
+    pub(super) fn drop_unused_plugins(&mut self) {
+        let mut used = BTreeSet::new();
+        self.each_reference(&mut |space, name| {
+            if space == Space::Plugin {
+                used.insert(name.clone());
+            }
+        });
+        self.plugins.retain(|instance| used.contains(&instance.name));
     }
 
     /// Removes what refers to `gone`, and what refers to that.

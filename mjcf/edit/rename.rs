@@ -94,6 +94,7 @@ impl Spec {
             Space::Numeric => list!(numerics),
             Space::Text => list!(texts),
             Space::Tuple => list!(tuples),
+            Space::Plugin => list!(plugins),
             Space::Key => {
                 list!(keys);
                 list!(kept_keys);

@@ -1,5 +1,6 @@
 //! What a mesh is compiled to.
 
+use super::octree::Octree;
 use physics::geometry::hierarchy::Bvh;
 
 /// The rows one mesh contributes to a model. Addresses inside are relative to the mesh's own first
@@ -38,6 +39,8 @@ pub struct CompiledMesh {
     pub poly_mapnum: Vec<i32>,
     /// `mesh_polymap`: polygons around each vertex, numbered within the mesh.
     pub poly_map: Vec<i32>,
+    /// `oct_*` rows; empty when no geom measures distances.
+    pub octree: Octree,
     /// `mesh_scale`.
     pub scale: [f64; 3],
     /// `mesh_pos`: centre of mass in the mesh frame of the file.

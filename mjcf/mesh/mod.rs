@@ -15,6 +15,7 @@
 //! ```
 
 mod compiled;
+mod cube_triangles;
 mod decode;
 mod ear_clipping;
 mod fit;
@@ -25,6 +26,7 @@ mod mass;
 mod msh;
 mod normals;
 mod obj;
+mod octree;
 mod polygons;
 mod process;
 mod shapes;
@@ -32,14 +34,17 @@ mod skin;
 mod source;
 mod stl;
 pub(crate) mod stored;
+mod surface;
 
 pub use compiled::CompiledMesh;
 pub use decode::decode;
 pub use fit::{Primitive, fit_primitive};
 pub use hull::{Hull, convex_hull};
 pub use mass::MeshInertia;
+pub use octree::Octree;
 pub use physics::geometry::hierarchy::Bvh;
 pub use process::process;
 pub use shapes::{Shape, builtin, vertex_count};
 pub use skin::{Bone, CompiledSkin, RawSkin, SkinSource, skin};
 pub use source::{Format, MeshSource, RawMesh};
+pub use surface::surface;

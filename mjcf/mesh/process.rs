@@ -5,6 +5,7 @@ use super::graph::{extrema, graph_array};
 use super::hull::{Hull, convex_hull};
 use super::mass::{MeshInertia, center_of_mass, face_centroid, inertia, triangle};
 use super::normals::{normalize_given, vertex_normals};
+use super::octree::{self, Octree};
 use super::polygons::Polygons;
 use super::source::{Format, MeshSource, RawMesh};
 use crate::asset::AssetError;
@@ -53,12 +54,19 @@ pub fn process(source: MeshSource) -> Result<CompiledMesh, AssetError> {
         }
     }
     place(&mut arrays, refpos, refquat, scale);
-    let mass = weigh(&arrays, hull.as_ref(), mode, &name)?;
+    let mut mass = weigh(&arrays, hull.as_ref(), mode, &name)?;
+    if source.keep_frame {
+        (mass.com, mass.quat) = ([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
+    }
     let aamm = to_inertial_frame(&mut arrays, mass.com, mass.quat);
     check_size(&arrays.vert, &name)?;
     polygons.update_normals(&arrays.vert);
     let bvh = face_hierarchy(&arrays);
-    Ok(finish(arrays, hull, polygons, mass, aamm, bvh, scale))
+    let octree = match source.octree {
+        Some(depth) => octree::build(&arrays.vert, &arrays.face, &aamm, depth, &bvh),
+        None => Octree::default(),
+    };
+    Ok(CompiledMesh { octree, ..finish(arrays, hull, polygons, mass, aamm, bvh, scale) })
 }
 
 /// File arrays completed by inline ones; an array may not come from both.
@@ -357,6 +365,7 @@ fn finish(
         poly_mapadr: map.adr,
         poly_mapnum: map.num,
         poly_map: map.polygon,
+        octree: Octree::default(),
         scale,
         pos: mass.com,
         quat: mass.quat,

@@ -58,6 +58,10 @@ pub struct MeshSource {
     pub maxhullvert: i32,
     /// A geom collides with this mesh, or its inertia mode is convex.
     pub needhull: bool,
+    /// Most levels of an octree of signed distances; `None` for no octree.
+    pub octree: Option<i32>,
+    /// Vertices stay in the frame they are given in.
+    pub keep_frame: bool,
 }
 
 impl Default for MeshSource {
@@ -73,6 +77,8 @@ impl Default for MeshSource {
             smoothnormal: false,
             maxhullvert: -1,
             needhull: false,
+            octree: None,
+            keep_frame: false,
         }
     }
 }

@@ -44,6 +44,10 @@ fields! {
     rows poly_mapadr;
     rows poly_mapnum;
     rows poly_map;
+    rows octree.depth;
+    rows octree.child;
+    rows octree.aabb;
+    rows octree.coeff;
     row scale;
     row pos;
     row boxsz;

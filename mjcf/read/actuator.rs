@@ -28,6 +28,9 @@ impl Reader<'_> {
         for element in &section.children {
             let class = self.class_of(element, "class", 0);
             let mut actuator = Actuator { loc: element.loc, ..self.spec.classes.of(class).actuator.clone() };
+            if element.name == "plugin" {
+                actuator.plugin = Some(self.plugin_use(element));
+            }
             self.actuator_parameters(element, &mut actuator, false);
             self.spec.actuators.push(actuator);
         }
@@ -84,6 +87,7 @@ impl Reader<'_> {
 
     fn supported(&mut self, loc: Loc, actuator: &Actuator) {
         let feature = match (actuator.dyntype, actuator.gaintype, actuator.biastype) {
+            (DynType::User, ..) if actuator.plugin.is_some() => return,
             (DynType::User, ..) | (_, GainType::User, _) | (.., BiasType::User) => "user actuators",
             _ => return,
         };

@@ -63,6 +63,7 @@ impl Reader<'_> {
         let class = self.class_of(element, "class", 0);
         let mut mesh = Mesh { loc: element.loc, ..self.spec.classes.of(class).mesh.clone() };
         self.rows(element, &MESH_ROWS, &mut mesh);
+        mesh.plugin = self.child_plugin(element);
         if let Some(file) = element.attribute("file") {
             (mesh.file, mesh.path) = self.asset_file(file, &self.spec.compiler.meshdir);
         }

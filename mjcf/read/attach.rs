@@ -211,6 +211,8 @@ impl Reader<'_> {
                 affix.apply(&mut mesh.material);
             }
         }
+        meshes.iter_mut().filter_map(|m| m.plugin.as_mut()).for_each(|used| affix.apply(&mut used.instance));
+        self.copy_plugins(child, affix);
         let mut hfields = child.hfields.clone();
         for hfield in &mut hfields {
             hfield.name = asset_name(&hfield.name, &hfield.path);
@@ -258,6 +260,22 @@ impl Reader<'_> {
         self.spec.skins.extend(skins);
     }
 
+    /// Copies the instances of plugins that elements may refer to.
+    fn copy_plugins(&mut self, child: &Spec, affix: &Affix<'_>) {
+        for extension in &child.extensions {
+            if self.spec.extensions.iter().all(|known| known.name != extension.name) {
+                self.spec.extensions.push(extension.clone());
+            }
+        }
+        for instance in &child.plugins {
+            let mut copy = instance.clone();
+            affix.apply(&mut copy.name);
+            if self.spec.plugins.iter().all(|known| known.name != copy.name) {
+                self.spec.plugins.push(copy);
+            }
+        }
+    }
+
     /// Copies the objects whose references lead somewhere; `inside` are the names of the piece.
     fn copy_objects(
         &mut self,
@@ -283,7 +301,12 @@ impl Reader<'_> {
                 None => actuator.keyed.clear(),
             }
         }
-        let sensors = target.copies(&from.sensors, Space::Sensor);
+        let mut sensors = target.copies(&from.sensors, Space::Sensor);
+        if keys.is_some() {
+            let used = actuators.iter_mut().filter_map(|a| a.plugin.as_mut());
+            let used = used.chain(sensors.iter_mut().filter_map(|s| s.plugin.as_mut()));
+            used.for_each(|used| affix.apply(&mut used.instance));
+        }
         let tuples = target.copies(&from.tuples, Space::Tuple);
         let copied = [
             pairs.len(),

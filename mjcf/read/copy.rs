@@ -6,7 +6,7 @@ use physics::model::{ObjType, TrnType};
 
 use crate::schema::Space;
 use crate::spec::{
-    Actuator, Body, Equality, Exclude, Pair, Sensor, Skin, Spec, Tendon, Tuple, Wrap, WrapKind,
+    Actuator, Body, Equality, Exclude, Pair, PluginUse, Sensor, Skin, Spec, Tendon, Tuple, Wrap, WrapKind,
 };
 
 /// Names with their spaces.
@@ -68,7 +68,7 @@ pub(crate) fn collect_objects(spec: &Spec, names: &mut Names) {
     }
     lists!(Mesh meshes Skin skins Hfield hfields Texture textures Material materials Pair pairs Exclude excludes
            Equality equalities Tendon tendons Actuator actuators Sensor sensors Numeric numerics Text texts
-           Tuple tuples Key keys);
+           Tuple tuples Key keys Plugin plugins);
 }
 
 /// How what a body holds is renamed.
@@ -97,6 +97,7 @@ impl Renaming<'_> {
             self.affix.apply(&mut geom.name);
             geom.frame = frame(geom.frame, top);
             self.asset([&mut geom.material, &mut geom.hfieldname, &mut geom.meshname]);
+            self.plugin(&mut geom.plugin);
         }
         for site in &mut body.sites {
             self.affix.apply(&mut site.name);
@@ -116,6 +117,7 @@ impl Renaming<'_> {
         }
         for child in &mut body.bodies {
             self.affix.apply(&mut child.name);
+            self.plugin(&mut child.plugin);
             child.frame = frame(child.frame, top);
             self.contents(child, false, frame);
         }
@@ -124,6 +126,13 @@ impl Renaming<'_> {
     fn target(&self, name: &mut String) {
         if self.targets.is_none_or(|names| names.contains(&(Space::Body, name.clone()))) {
             self.affix.apply(name);
+        }
+    }
+
+    /// Instances of plugins go along with assets.
+    fn plugin(&self, used: &mut Option<PluginUse>) {
+        if let Some(used) = used {
+            self.asset([&mut used.instance]);
         }
     }
 

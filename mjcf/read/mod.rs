@@ -9,6 +9,7 @@ mod asset;
 mod attach;
 mod attributes;
 mod authored;
+mod composite;
 mod conflict;
 mod constraint;
 pub(crate) mod copy;
@@ -16,6 +17,7 @@ mod dc_motor;
 mod defaults;
 mod kept;
 mod model_file;
+mod plugin;
 mod reader;
 mod replicate;
 mod sensor;
@@ -58,13 +60,14 @@ impl Reader<'_> {
 
     /// Reads the sections below `root` into what is there.
     pub(crate) fn sections(&mut self, root: &Element) {
-        let sections: [(&str, Section<Self>); 16] = [
+        let sections: [(&str, Section<Self>); 17] = [
             ("compiler", Self::compiler),
             ("option", Self::option),
             ("size", Self::size),
             ("visual", Self::visual),
             ("statistic", Self::statistic),
             ("default", Self::top_default),
+            ("extension", Self::extensions),
             ("custom", Self::custom),
             ("asset", Self::asset),
             ("deformable", Self::deformable),

@@ -17,7 +17,7 @@ use crate::budget::{ADVICE, Budget, ELEMENT};
 use crate::schema::Space;
 use crate::schema::tree::{REPLICATE_ROWS, Replicate};
 use crate::spec::resolve;
-use crate::spec::{Body, Frame, Orientation, Spec};
+use crate::spec::{Body, Frame, Orientation, PluginInstance, Spec};
 use crate::xml::Element;
 
 impl Reader<'_> {
@@ -35,6 +35,9 @@ impl Reader<'_> {
         let mut piece = self.open.pop().unwrap_or_default();
         if let Some(inertial) = &piece.inertial {
             self.error(inertial.loc, "<replicate> cannot hold <inertial>");
+        }
+        if let Some(plugin) = &piece.plugin {
+            self.error(plugin.loc, "<replicate> cannot hold <plugin>: put it into a body");
         }
         let frames = first..self.spec.frames.len();
         let mut names = Names::new();
@@ -59,6 +62,7 @@ impl Reader<'_> {
             let renaming = Renaming { affix: &affix, targets: Some(&names), assets: false };
             let mut copy = piece.clone();
             renaming.contents(&mut copy, true, &mut |frame, _| frame.map(|f| f + shift));
+            self.copy_composites(&mut copy, suffix);
             append(self.body_here(), copy);
             // The first copy takes the keyframes of attached models along.
             forget_keys(&mut piece);
@@ -68,6 +72,26 @@ impl Reader<'_> {
         }
         if let Err(message) = copy_references(&mut self.spec, &names, &suffixes, self.expansion.budget) {
             self.error_with(element.loc, message, Some(ADVICE.into()));
+        }
+    }
+
+    /// Gives the composites of a copy instances of their own: a cable has one.
+    fn copy_composites(&mut self, copy: &mut Body, suffix: &str) {
+        let mut pending = vec![copy];
+        while let Some(body) = pending.pop() {
+            if let Some(used) = &mut body.plugin {
+                let known = |spec: &Spec, name: &str| spec.plugins.iter().position(|p| p.name == *name);
+                let made = known(&self.spec, &used.instance).filter(|&i| self.spec.plugins[i].expanded);
+                if let Some(original) = made {
+                    Affix { prefix: "", suffix }.apply(&mut used.instance);
+                    if known(&self.spec, &used.instance).is_none() {
+                        let name = used.instance.clone();
+                        let instance = PluginInstance { name, ..self.spec.plugins[original].clone() };
+                        self.spec.plugins.push(instance);
+                    }
+                }
+            }
+            pending.extend(&mut body.bodies);
         }
     }
 

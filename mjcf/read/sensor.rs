@@ -4,13 +4,20 @@ use physics::model::{ObjType, SensorType};
 
 use super::reader::Reader;
 use crate::schema::Words;
-use crate::schema::sensor::{CONTACT_DATA, MEASUREMENTS, RAY_DATA, blocks};
+use crate::schema::sensor::{
+    CONTACT_DATA, MEASUREMENTS, PLUGIN_OBJECTS, PLUGIN_ROWS, RAY_DATA, USER_DATA, blocks,
+};
 use crate::spec::Sensor;
 use crate::xml::Element;
 
 impl Reader<'_> {
     pub(super) fn sensor(&mut self, section: &Element) {
         for element in &section.children {
+            if element.name == "plugin" {
+                let sensor = self.plugin_sensor(element);
+                self.spec.sensors.push(sensor);
+                continue;
+            }
             // The structural check refuses all others.
             let Some(simple) = MEASUREMENTS.iter().find(|m| m.element.tag == element.name) else { continue };
             let mut sensor =
@@ -24,6 +31,17 @@ impl Reader<'_> {
             self.sides(element, &mut sensor);
             self.spec.sensors.push(sensor);
         }
+    }
+
+    fn plugin_sensor(&mut self, element: &Element) -> Sensor {
+        let mut sensor = Sensor { loc: element.loc, kind: SensorType::Plugin, ..Sensor::default() };
+        for block in [&PLUGIN_ROWS as &[_], &PLUGIN_OBJECTS, &USER_DATA] {
+            self.rows(element, block, &mut sensor);
+        }
+        sensor.objtype = self.object_type(element, "objtype");
+        sensor.reftype = self.object_type(element, "reftype");
+        sensor.plugin = Some(self.plugin_use(element));
+        sensor
     }
 
     /// Kinds of the objects, and data lists, that depend on which attributes are present.

@@ -1,6 +1,6 @@
 //! `worldbody` and everything below it.
 
-use physics::model::{GeomType, JointType};
+use physics::model::JointType;
 
 use super::reader::Reader;
 use crate::schema::tree::{
@@ -93,6 +93,8 @@ impl Reader<'_> {
                     self.rows(element, &LIGHT_ROWS, &mut light);
                     self.body_here().lights.push(light);
                 }
+                "plugin" => self.body_plugin(element),
+                "composite" => self.composite(element, place),
                 // Refused by the structural check.
                 _ => {}
             }
@@ -127,14 +129,19 @@ impl Reader<'_> {
         }
     }
 
+    fn body_plugin(&mut self, element: &Element) {
+        let used = self.plugin_use(element);
+        if self.body_here().plugin.replace(used).is_some() {
+            self.error(element.loc, "the body has <plugin> twice");
+        }
+    }
+
     fn geom(&mut self, element: &Element, place: Place) {
         let class = self.class_of(element, "class", place.class);
         let inherited = self.spec.classes.of(class).geom.clone();
         let mut geom = Geom { loc: element.loc, frame: place.frame, ..inherited };
         self.rows(element, &GEOM_ROWS, &mut geom);
-        if geom.kind == GeomType::Sdf {
-            self.unsupported(element.loc, "signed distance geoms");
-        }
+        geom.plugin = self.child_plugin(element);
         self.body_here().geoms.push(geom);
     }
 }

@@ -3,7 +3,8 @@
 use physics::model::{BiasType, DynType, GainType, input};
 
 use super::Bind::*;
-use super::tree::{CLASS, PLUGIN};
+use super::plugin::{CONFIG, USE_ROWS};
+use super::tree::CLASS;
 use super::words::{FALSE_TRUE_AUTO, INTERPOLATIONS, limited};
 use super::{Child, ElementType, Kind, Row, Space, Words, any, class, leaf, local, row, section};
 use crate::spec::Actuator;
@@ -45,6 +46,23 @@ pub const DEFAULTS: [Child; 12] = [
     class(&DCMOTOR),
 ];
 
+static PLUGIN: ElementType = leaf(
+    "plugin",
+    "An actuator whose force a plugin makes",
+    &[
+        &CLASS,
+        &BASE,
+        &CTRL_LIMITED,
+        &FORCE,
+        &ACT_LIMITS,
+        &DYNAMICS,
+        &TRANSMISSION,
+        &SITE,
+        &DYNAMICS_ROWS,
+        &USE_ROWS,
+    ],
+)
+.children(&[any(&CONFIG)]);
 static GENERAL: ElementType = leaf(
     "general",
     "An actuator with every parameter of its own",
@@ -59,6 +77,7 @@ static GENERAL: ElementType = leaf(
         &SITE,
         &BODY,
         &SETPOINT_RANGES,
+        &DYNAMICS_ROWS,
         &GENERAL_ROWS,
         &INPUT,
     ],
@@ -182,8 +201,17 @@ pub const TOGETHER: Words = &[
 ];
 
 /// All blocks that write an [`Actuator`], in reading order.
-pub static BLOCKS: [&[Row<Actuator>]; 8] =
-    [&BASE, &CTRL_LIMITED, &FORCE, &ACT_LIMITS, &DYNAMICS, &SETPOINT_RANGES, &POSITION_RANGE, &GENERAL_ROWS];
+pub static BLOCKS: [&[Row<Actuator>]; 9] = [
+    &BASE,
+    &CTRL_LIMITED,
+    &FORCE,
+    &ACT_LIMITS,
+    &DYNAMICS,
+    &SETPOINT_RANGES,
+    &POSITION_RANGE,
+    &DYNAMICS_ROWS,
+    &GENERAL_ROWS,
+];
 
 /// Attributes of every actuator.
 pub static BASE: [Row<Actuator>; 7] = [
@@ -239,14 +267,19 @@ static SITE: [Row<()>; 2] = [
     local("refsite", Own(Kind::Ref(Space::Site)), "site that the motion is measured against"),
 ];
 static BODY: [Row<()>; 1] = [local("body", Own(Kind::Ref(Space::Body)), "body whose contacts attract")];
-/// Attributes of `general` alone.
-pub static GENERAL_ROWS: [Row<Actuator>; 8] = [
+/// Activation dynamics of `general` and `plugin`.
+pub static DYNAMICS_ROWS: [Row<Actuator>; 4] = [
     row("actdim", Int(|a| &mut a.actdim), "activation variables, -1 for as many as the dynamics need"),
     row(
         "dyntype",
         Keyword { words: DYN_TYPES, assign: |a, c| a.dyntype = DynType::from_code(c).unwrap_or(a.dyntype) },
         "activation dynamics",
     ),
+    row("dynprm", Reals { min: 1, field: |a| &mut a.dynprm }, "parameters of the dynamics"),
+    row("actearly", Bool(|a| &mut a.actearly), "force uses the next activation"),
+];
+/// Gain and bias of `general`.
+pub static GENERAL_ROWS: [Row<Actuator>; 4] = [
     row(
         "gaintype",
         Keyword {
@@ -263,12 +296,11 @@ pub static GENERAL_ROWS: [Row<Actuator>; 8] = [
         },
         "bias",
     ),
-    row("dynprm", Reals { min: 1, field: |a| &mut a.dynprm }, "parameters of the dynamics"),
     row("gainprm", Reals { min: 1, field: |a| &mut a.gainprm }, "parameters of the gain"),
     row("biasprm", Reals { min: 1, field: |a| &mut a.biasprm }, "parameters of the bias"),
-    row("actearly", Bool(|a| &mut a.actearly), "force uses the next activation"),
 ];
-static SETPOINT_RANGES: [Row<Actuator>; 2] = [
+/// Ranges of further set points.
+pub static SETPOINT_RANGES: [Row<Actuator>; 2] = [
     row("velrange", Reals { min: 2, field: |a| &mut a.velrange }, "limits of the velocity set point"),
     row("ffrange", Reals { min: 2, field: |a| &mut a.ffrange }, "limits of the feed-forward"),
 ];

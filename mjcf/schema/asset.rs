@@ -3,7 +3,8 @@
 use physics::model::{ColorSpace, TextureType};
 
 use super::Bind::*;
-use super::tree::{CLASS, PLUGIN};
+use super::plugin::PLUGIN;
+use super::tree::CLASS;
 use super::{ElementType, Kind, Row, Rule, Space, Words, any, leaf, local, required, row, section};
 use crate::image::{Builtin, Mark};
 use crate::mesh::{MeshInertia, Shape};

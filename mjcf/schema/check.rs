@@ -62,8 +62,8 @@ impl Check<'_> {
             let message = format!("<{}> is not supported: {feature} are not simulated", element.name);
             return self.error(element.loc, message, None);
         }
-        // Copies have names that only the reader makes up; the compiler resolves references then.
-        self.names.open |= matches!(kind.tag, "replicate" | "attach");
+        // These have names that only the reader makes up; the compiler resolves references then.
+        self.names.open |= matches!(kind.tag, "replicate" | "attach" | "composite");
         self.attributes(element, kind, defaults);
         for rule in kind.rules.iter().filter(|r| !defaults || matches!(r, Rule::Exclusive(_))) {
             self.rule(element, rule);

@@ -9,9 +9,11 @@
 pub mod actuator;
 pub mod asset;
 pub mod check;
+pub mod composite;
 pub mod constraint;
 pub mod legacy;
 pub mod option;
+pub mod plugin;
 pub mod print;
 pub mod root;
 pub mod sensor;
@@ -51,6 +53,7 @@ pub enum Space {
     Text,
     Tuple,
     Key,
+    Plugin,
 }
 
 impl Space {
@@ -79,6 +82,7 @@ impl Space {
             ObjType::Tuple => Space::Tuple,
             ObjType::Key => Space::Key,
             ObjType::Frame => Space::Frame,
+            ObjType::Plugin => Space::Plugin,
             _ => return None,
         })
     }
@@ -109,6 +113,7 @@ impl Space {
             Space::Text => "text",
             Space::Tuple => "tuple",
             Space::Key => "key",
+            Space::Plugin => "plugin instance",
         }
     }
 

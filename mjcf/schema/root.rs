@@ -4,9 +4,10 @@ use super::actuator::ACTUATOR;
 use super::asset::{ASSET, MATERIAL, MESH, SKIN};
 use super::constraint::{CONTACT, DEFAULT_EQUALITY, DEFAULT_TENDON, EQUALITY, PAIR, TENDON};
 use super::option::OPTION;
+use super::plugin::EXTENSION;
 use super::sensor::SENSOR;
 use super::settings::{COMPILER, CUSTOM, KEYFRAME, SIZE, STATISTIC};
-use super::tree::{CAMERA, GEOM, JOINT, LIGHT, PLUGIN, SITE, WORLDBODY};
+use super::tree::{CAMERA, GEOM, JOINT, LIGHT, SITE, WORLDBODY};
 use super::visual::VISUAL;
 use super::{
     Bind, Child, ElementType, Kind, Row, Space, actuator, any, class, leaf, required, row, section,
@@ -34,7 +35,6 @@ pub static MUJOCO: ElementType = leaf("mujoco", "A model", &[&MODEL_NAME]).child
     any(&KEYFRAME),
 ]);
 static MODEL_NAME: [Row<()>; 1] = [row("model", Bind::Own(Kind::Text), "name of the model")];
-static EXTENSION: ElementType = section("extension", "Plugins", &[any(&PLUGIN)]);
 static DEFORMABLE: ElementType = section("deformable", "Deformable bodies", &[any(&FLEX), any(&SKIN)]);
 static FLEX: ElementType = unsupported("flex", "deformable bodies");
 

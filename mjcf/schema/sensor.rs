@@ -3,7 +3,7 @@
 use physics::model::{DataType, ObjType, SensorType, Stage};
 
 use super::Bind::*;
-use super::tree::PLUGIN;
+use super::plugin::{CONFIG, USE_ROWS};
 use super::words::INTERPOLATIONS;
 use super::{
     Child, ElementType, Kind, Row, Rule, Space, Words, any, leaf, required, row, section, unsupported,
@@ -111,7 +111,20 @@ static USER: [Row<Sensor>; 8] = [
     row("cutoff", Real(|s| &mut s.cutoff), "readings are clamped to this size; 0 for none"),
     row("noise", Real(|s| &mut s.noise), "standard deviation that a user may add"),
 ];
-static USER_DATA: [Row<Sensor>; 1] = [row("user", RealList(|s| &mut s.userdata), "user data")];
+/// Attributes of `plugin` that every sensor has.
+pub static PLUGIN_ROWS: [Row<Sensor>; 2] = [
+    row("name", Name(Space::Sensor, |s| &mut s.name), "name"),
+    row("cutoff", Real(|s| &mut s.cutoff), "readings are clamped to this size; 0 for none"),
+];
+/// What a plugin may read.
+pub static PLUGIN_OBJECTS: [Row<Sensor>; 4] = [
+    row("objtype", Own(Kind::Text), "kind of the object measured"),
+    row("objname", ObjRef("objtype", |s| &mut s.objname), "object measured"),
+    row("reftype", Own(Kind::Text), "kind of the frame of reference"),
+    row("refname", ObjRef("reftype", |s| &mut s.refname), "frame of reference"),
+];
+/// User data.
+pub static USER_DATA: [Row<Sensor>; 1] = [row("user", RealList(|s| &mut s.userdata), "user data")];
 
 const FRAMED: Words = &[("body", 1), ("xbody", 2), ("geom", 5), ("site", 6), ("camera", 7)];
 /// Data of a rangefinder in the order that they must be listed in; the code is the bit.
@@ -211,6 +224,10 @@ static T_CONTACT: ElementType = leaf("contact", "Contacts between matching shape
 static T_E_POTENTIAL: ElementType = leaf("e_potential", "Potential energy, J", &[&BASE]);
 static T_E_KINETIC: ElementType = leaf("e_kinetic", "Kinetic energy, J", &[&BASE]);
 static T_CLOCK: ElementType = leaf("clock", "Simulated time, seconds", &[&BASE]);
+static T_PLUGIN: ElementType =
+    leaf("plugin", "What a plugin reads", &[&PLUGIN_ROWS, &PLUGIN_OBJECTS, &USE_ROWS, &USER_DATA])
+        .children(&[any(&CONFIG)])
+        .rules(&[Rule::Together(&["objtype", "objname"]), Rule::Together(&["reftype", "refname"])]);
 static T_TACTILE: ElementType = unsupported("tactile", "tactile sensors");
 static T_USER: ElementType = leaf("user", "Numbers that a user computes", &[&USER, &USER_DATA])
     .rules(&[Rule::Together(&["objtype", "objname"])]);
@@ -266,7 +283,7 @@ static SENSORS: [Child; 49] = [
     any(&T_CLOCK),
     any(&T_TACTILE),
     any(&T_USER),
-    any(&PLUGIN),
+    any(&T_PLUGIN),
 ];
 
 /// What each element measures; the target's kind is unknown here where attributes tell it.

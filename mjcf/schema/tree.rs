@@ -3,6 +3,8 @@
 use physics::model::{GeomType, JointType, LightType, Projection, SleepPolicy, TrackMode};
 
 use super::Bind::*;
+use super::composite::COMPOSITE;
+use super::plugin::PLUGIN;
 use super::words::{FALSE_TRUE_AUTO, GEOM_TYPES, TRACK_MODES, limited};
 use super::{
     Child, ElementType, Kind, Row, Rule, Space, Way, Words, any, leaf, local, once, required, row, section,
@@ -103,10 +105,7 @@ pub static CAMERA: ElementType = leaf("camera", "A camera", &[&CLASS, &CAMERA_RO
 /// `light`.
 pub static LIGHT: ElementType = leaf("light", "A light", &[&CLASS, &LIGHT_ROWS])
     .rules(&[Rule::Exclusive(&[&["directional"], &["type"]])]);
-/// `plugin` at any place.
-pub static PLUGIN: ElementType = unsupported("plugin", "engine plugins");
 static FLEXCOMP: ElementType = unsupported("flexcomp", "deformable bodies");
-static COMPOSITE: ElementType = unsupported("composite", "composite bodies");
 static ATTACH: ElementType = leaf("attach", "A copy of a part of this or another model", &[&ATTACH_ROWS])
     .rules(&[Rule::Exclusive(&[&["body"], &["frame"]])]);
 

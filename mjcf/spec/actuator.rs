@@ -2,6 +2,7 @@
 
 use super::custom::Keyed;
 use super::element::{Limited, elements};
+use super::plugin::PluginUse;
 use physics::model::{BiasType, DynType, GainType, TrnType, input};
 
 elements! {
@@ -69,6 +70,8 @@ elements! {
         interp: i32 = 0,
         /// Delay of the control, seconds.
         delay: f64 = 0.0,
+        /// Plugin that makes its force.
+        plugin: Option<PluginUse> = None,
         /// User data.
         userdata: Vec<f64> = Vec::new(),
         /// Its share in the keyframes of an attached model.

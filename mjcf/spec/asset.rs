@@ -1,6 +1,7 @@
 //! Assets (XML reference: `asset`).
 
 use super::element::elements;
+use super::plugin::PluginUse;
 use crate::files::base_name;
 use crate::image::{Builtin, Mark};
 pub use crate::mesh::Bone;
@@ -46,7 +47,9 @@ elements! {
         userfacetexcoord: Vec<i32> = Vec::new(),
         /// Material.
         material: String = String::new(),
-        /// Levels of an octree, which is not built.
+        /// Plugin whose surface it is.
+        plugin: Option<PluginUse> = None,
+        /// Most levels of the octree of a signed distance geom.
         octree_maxdepth: i32 = 6,
     }
     /// A height field.

@@ -365,7 +365,7 @@ macro_rules! held {
 }
 
 held! {
-    Option<usize> Option<super::Orientation> Option<super::Inertial>
+    Option<usize> Option<super::Orientation> Option<super::Inertial> Option<super::PluginUse> Vec<(String, String)>
     Vec<super::Keyed> Vec<super::Wrap> Vec<super::TupleEntry> Vec<super::Bone>
     Vec<super::Joint> Vec<super::Geom> Vec<super::Site> Vec<super::Camera> Vec<super::Light> Vec<super::Body>
     crate::diagnostic::Loc

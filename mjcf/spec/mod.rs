@@ -31,6 +31,7 @@ mod element;
 pub(crate) mod field;
 mod keys;
 mod orientation;
+mod plugin;
 mod sensor;
 mod settings;
 mod tree;
@@ -44,7 +45,8 @@ pub use custom::*;
 pub use element::{Limited, SOLIMP, SOLREF};
 pub use field::{Fields, Form, Value};
 pub use orientation::Orientation;
-pub(crate) use orientation::{UNIT, minimal_rotation, resolve};
+pub(crate) use orientation::{UNIT, from_axes, minimal_rotation, resolve};
+pub use plugin::*;
 pub use sensor::*;
 pub use settings::*;
 pub use tree::*;
@@ -72,6 +74,10 @@ pub struct Spec {
     pub classes: Classes,
     /// Frames, parents before children.
     pub frames: Vec<Frame>,
+    /// Plugins that the model may use.
+    pub extensions: Vec<Extension>,
+    /// Instances of plugins that elements refer to.
+    pub plugins: Vec<PluginInstance>,
     /// Meshes.
     pub meshes: Vec<Mesh>,
     /// Skins.

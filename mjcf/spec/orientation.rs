@@ -74,7 +74,7 @@ fn from_xy(mut x: Vec3, mut y: Vec3) -> Result<Quat, String> {
 }
 
 /// Quaternion of the rotation whose matrix has these columns (largest component first, Shepperd).
-fn from_axes(x: Vec3, y: Vec3, z: Vec3) -> Quat {
+pub(crate) fn from_axes(x: Vec3, y: Vec3, z: Vec3) -> Quat {
     let (xx, yy, zz) = (x[0], y[1], z[2]);
     let mut q = [0.0; 4];
     if xx + yy + zz > 0.0 {

@@ -1,6 +1,7 @@
 //! Sensors (XML reference: `sensor`).
 
 use super::element::elements;
+use super::plugin::PluginUse;
 use physics::model::{DataType, ObjType, SensorType, Stage};
 
 elements! {
@@ -36,6 +37,8 @@ elements! {
         delay: f64 = 0.0,
         /// Period and phase of measurement, seconds.
         interval: [f64; 2] = [0.0; 2],
+        /// Plugin that reads.
+        plugin: Option<PluginUse> = None,
         /// User data.
         userdata: Vec<f64> = Vec::new(),
     }

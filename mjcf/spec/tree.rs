@@ -3,6 +3,7 @@
 use super::custom::Keyed;
 use super::element::{Limited, SOLIMP, SOLREF, elements};
 use super::orientation::Orientation;
+use super::plugin::PluginUse;
 use physics::model::{GeomType, JointType, LightType, Projection, SleepPolicy, TrackMode};
 
 /// Whether a free joint is aligned with the inertial frame of its body.
@@ -73,6 +74,8 @@ elements! {
         simple: bool = true,
         /// User data.
         userdata: Vec<f64> = Vec::new(),
+        /// Plugin that makes passive forces.
+        plugin: Option<PluginUse> = None,
         /// Its share in the keyframes of an attached model.
         keyed: Vec<Keyed> = Vec::new(),
         /// Joints, in the order in which they move the body.
@@ -216,6 +219,8 @@ elements! {
         meshname: String = String::new(),
         /// Scale of a shape fitted to a mesh.
         fitscale: f64 = 1.0,
+        /// Plugin that is its signed distance field.
+        plugin: Option<PluginUse> = None,
         /// User data.
         userdata: Vec<f64> = Vec::new(),
     }

@@ -2,10 +2,13 @@
 
 use physics::model::{BiasType, DynType, GainType, TrnType, input};
 
+use super::plugin;
 use super::rows::put_rows;
 use super::text::{element, number};
 use crate::schema::Row;
-use crate::schema::actuator::{ALONE, BLOCKS, GENERAL_ROWS, POSITION_RANGE, TOGETHER};
+use crate::schema::actuator::{
+    ALONE, BLOCKS, DYNAMICS_ROWS, GENERAL_ROWS, POSITION_RANGE, SETPOINT_RANGES, TOGETHER,
+};
 use crate::spec::{Actuator, Spec};
 use crate::xml::Element;
 
@@ -26,20 +29,29 @@ pub(super) fn actuators(spec: &Spec) -> Result<Element, String> {
 /// # Errors
 /// It inherits a range and is no position servo.
 pub(crate) fn actuator(actuator: &Actuator) -> Result<Element, String> {
-    let inherits = actuator.inheritrange > 0.0;
+    let driven = actuator.plugin.is_some();
+    let inherits = actuator.inheritrange > 0.0 && !driven;
     let mut out = match inherits {
         true => servo(actuator)?,
+        false if actuator.plugin.is_some() => element("plugin"),
         false => element("general"),
     };
     let general = std::mem::take(&mut out.attributes);
     let base = Actuator::default();
-    let stated =
-        |block: &[Row<Actuator>]| same(block, &POSITION_RANGE) || inherits && same(block, &GENERAL_ROWS);
+    let stated = |block: &[Row<Actuator>]| match () {
+        _ if same(block, &POSITION_RANGE) => true,
+        _ if inherits => same(block, &GENERAL_ROWS) || same(block, &DYNAMICS_ROWS),
+        _ => driven && (same(block, &GENERAL_ROWS) || same(block, &SETPOINT_RANGES)),
+    };
     for block in BLOCKS.iter().filter(|block| !stated(block)) {
         put_rows(&mut out, block, actuator, &base);
     }
     out.attributes.extend(general);
     put_transmission(&mut out, actuator);
+    if let Some(used) = &actuator.plugin {
+        plugin::put_use(&mut out, used);
+        return Ok(out);
+    }
     if actuator.ctrlspec != 0 {
         out.put("input", input_words(actuator.ctrlspec));
     }

@@ -1,5 +1,6 @@
 //! Assets.
 
+use super::plugin;
 use super::rows::{put_rows, put_some};
 use super::text::{element, numbers};
 use crate::schema::asset::{
@@ -33,6 +34,7 @@ pub(super) fn mesh(mesh: &Mesh) -> Element {
     let mut out = element("mesh");
     put_rows(&mut out, &MESH_ROWS, mesh, &Mesh::default());
     put_file(&mut out, &mesh.path);
+    out.children.extend(plugin::child(mesh.plugin.as_ref()));
     out
 }
 

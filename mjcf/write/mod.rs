@@ -9,6 +9,7 @@ mod asset;
 mod constraint;
 mod files;
 mod keys;
+mod plugin;
 mod rows;
 mod sensor;
 mod settings;
@@ -52,6 +53,7 @@ impl Spec {
         root.add(settings::size(&spec.size));
         root.add(settings::visual(&spec.visual));
         root.add(settings::statistic(&spec.stat));
+        root.add(plugin::extension(&spec));
         root.add(constraint::tendon_classes(&spec));
         root.add(asset::assets(&spec));
         root.add(tree::world(&spec.world, &spec.frames));

@@ -2,12 +2,13 @@
 
 use physics::model::{ObjType, SensorType};
 
+use super::plugin;
 use super::rows::put_some;
 use super::settings::object_word;
 use super::text::element;
 use crate::schema::Words;
-use crate::schema::sensor::{CONTACT_DATA, MEASUREMENTS, RAY_DATA, blocks};
-use crate::spec::{Sensor, Spec};
+use crate::schema::sensor::{CONTACT_DATA, MEASUREMENTS, PLUGIN_ROWS, RAY_DATA, USER_DATA, blocks};
+use crate::spec::{PluginUse, Sensor, Spec};
 use crate::xml::Element;
 
 pub(super) fn sensors(spec: &Spec) -> Element {
@@ -17,6 +18,9 @@ pub(super) fn sensors(spec: &Spec) -> Element {
 }
 
 pub(super) fn sensor(sensor: &Sensor) -> Option<Element> {
+    if let Some(used) = &sensor.plugin {
+        return Some(of_plugin(sensor, used));
+    }
     let simple = MEASUREMENTS.iter().find(|m| m.kind == sensor.kind)?;
     let mut out = element(simple.element.tag);
     let mut base = Sensor { kind: sensor.kind, objtype: simple.target, ..Sensor::default() };
@@ -39,6 +43,24 @@ pub(super) fn sensor(sensor: &Sensor) -> Option<Element> {
         out.put("objtype", object_word(sensor.objtype));
     }
     Some(out)
+}
+
+fn of_plugin(sensor: &Sensor, used: &PluginUse) -> Element {
+    let mut out = element("plugin");
+    let base = Sensor::default();
+    put_some(&mut out, &PLUGIN_ROWS, sensor, &base, &|_| true);
+    for (kind, name, object) in [
+        ("objtype", "objname", (sensor.objtype, &sensor.objname)),
+        ("reftype", "refname", (sensor.reftype, &sensor.refname)),
+    ] {
+        if !object.1.is_empty() {
+            out.put(kind, object_word(object.0));
+            out.put(name, object.1);
+        }
+    }
+    put_some(&mut out, &USER_DATA, sensor, &base, &|_| true);
+    plugin::put_use(&mut out, used);
+    out
 }
 
 /// Whether an attribute names an object of the kind that the sensor measures.

@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 
 use physics::model::JointType;
 
+use super::plugin;
 use super::rows::{put_rows, put_some};
 use super::text::element;
 use crate::schema::tree::{
@@ -67,6 +68,7 @@ fn pending(body: &Body) -> Pending<'_> {
 
 impl Tree<'_> {
     fn contents(&mut self, body: &Body, out: &mut Element) {
+        out.children.extend(plugin::child(body.plugin.as_ref()));
         self.scope(&mut pending(body), None, out);
     }
 
@@ -155,7 +157,9 @@ pub(super) fn camera(camera: &Camera) -> Element {
 }
 
 pub(super) fn geom(geom: &Geom) -> Element {
-    of_rows("geom", &GEOM_ROWS, geom)
+    let mut out = of_rows("geom", &GEOM_ROWS, geom);
+    out.children.extend(plugin::child(geom.plugin.as_ref()));
+    out
 }
 
 pub(super) fn site(site: &Site) -> Element {

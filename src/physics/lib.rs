@@ -35,8 +35,10 @@ pub mod math;
 pub mod model;
 pub mod on_demand;
 pub mod pipeline;
+pub mod plugin;
 pub mod position;
 pub mod ray;
+mod sleep;
 pub mod table;
 
 // Stages of a step, one at a time: what validation and tests call, and programs do not need.

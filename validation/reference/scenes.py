@@ -18,7 +18,7 @@ from xml.etree import ElementTree
 
 import mujoco
 
-ELEMENTS = ["composite", "flexcomp", "flex", "plugin"]
+ELEMENTS = ["flexcomp", "flex"]
 LARGEST = 1000
 
 
@@ -49,11 +49,8 @@ def feature(path, model):
     present = elements(path, set())
     if found := [e for e in ELEMENTS if e in present]:
         return ", ".join(found)
-    for count, name in [(model.nflex, "flex"), (model.nplugin, "plugin")]:
-        if count:
-            return name
-    if (model.geom_type == mujoco.mjtGeom.mjGEOM_SDF).any():
-        return "sdf"
+    if model.nflex:
+        return "flex"
     if model.nv > LARGEST:
         return f"{model.nv} degrees of freedom: too long to record"
     return ""

@@ -74,7 +74,7 @@ impl Reference {
             }
         }
         m.allocate();
-        // Arrays of features that are not simulated (flex, skin, plugin) are recorded too; `Model` lacks them.
+        // Arrays of features that are not simulated (flex, skin) are recorded too; `Model` lacks them.
         let mut arrays = Vec::new();
         m.visit(&mut |name, _, _| arrays.push(name));
         for name in self.archive.names() {

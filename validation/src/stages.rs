@@ -322,11 +322,11 @@ fn sensors(m: &Model, d: &mut Data) {
     let Data { state, kin, com, ten, trn, inertia, con, efc, vel, actuation, sensor: out, .. } = d;
     let mut scratch = sensor::SensorScratch::default();
     let inputs = sensor::PositionInputs { state, kin, com, ten, trn, inertia, efc };
-    let past = sensor::Past { time: state.time, history: &state.history };
+    let past = sensor::Past { state };
     sensor::position_sensors(m, &inputs, past, &mut scratch, out);
     let inputs = sensor::VelocityInputs { state, kin, com, trn, vel, efc };
     sensor::velocity_sensors(m, &inputs, past, &mut scratch, out);
-    let inputs = sensor::AccelerationInputs { kin, com, con, efc, vel, actuation };
+    let inputs = sensor::AccelerationInputs { state, kin, com, con, efc, vel, actuation };
     sensor::acceleration_sensors(m, &inputs, past, &mut scratch, out);
     momentum::subtree_momentum(m, kin, com, vel, out);
     d.energy = [energy::potential(m, state, kin, ten), energy::kinetic(m, state, inertia, &mut Vec::new())];

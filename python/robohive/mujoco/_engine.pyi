@@ -155,6 +155,7 @@ class Model:
     body_gravcomp: _F64
     body_margin: _F64
     body_user: _F64
+    body_plugin: _I32
     body_contype: _I32
     body_conaffinity: _I32
     body_bvhadr: _I32
@@ -215,6 +216,7 @@ class Model:
     geom_matid: _I32
     geom_group: _I32
     geom_priority: _I32
+    geom_plugin: _I32
     geom_sameframe: _U8
     geom_solmix: _F64
     geom_solref: _F64
@@ -419,6 +421,7 @@ class Model:
     actuator_armature: _F64
     actuator_group: _I32
     actuator_user: _F64
+    actuator_plugin: _I32
     actuator_forcelimited: _Bool
     actuator_forcerange: _F64
     actuator_ctrllimited: _Bool
@@ -444,6 +447,12 @@ class Model:
     sensor_delay: _F64
     sensor_interval: _F64
     sensor_user: _F64
+    sensor_plugin: _I32
+    plugin: _I32
+    plugin_stateadr: _I32
+    plugin_statenum: _I32
+    plugin_attr: NDArray[np.int8]
+    plugin_attradr: _I32
     numeric_adr: _I32
     numeric_size: _I32
     numeric_data: _F64
@@ -482,6 +491,7 @@ class Model:
     name_textadr: _I32
     name_tupleadr: _I32
     name_keyadr: _I32
+    name_pluginadr: _I32
     names: bytes
     names_map: _I32
     paths: bytes
@@ -548,6 +558,8 @@ class Model:
     ntupledata: int
     nkey: int
     nmocap: int
+    nplugin: int
+    npluginattr: int
     nuser_body: int
     nuser_jnt: int
     nuser_geom: int
@@ -568,6 +580,7 @@ class Model:
     nmeshdegmax: int
     nuserdata: int
     nsensordata: int
+    npluginstate: int
     nhistory: int
     narena: int
     nbuffer: int
@@ -652,7 +665,6 @@ class Model:
     nJfe: int
     nJfv: int
     name_flexadr: _I32
-    name_pluginadr: _I32
     name_skinadr: _I32
     nefm0L: int
     nefm0dof: int
@@ -668,20 +680,12 @@ class Model:
     nflexstiffness: int
     nflextexcoord: int
     nflexvert: int
-    nplugin: int
-    npluginattr: int
-    npluginstate: int
     nskin: int
     nskinbone: int
     nskinbonevert: int
     nskinface: int
     nskintexvert: int
     nskinvert: int
-    plugin: _I32
-    plugin_attr: NDArray[np.int8]
-    plugin_attradr: _I32
-    plugin_stateadr: _I32
-    plugin_statenum: _I32
     skin_boneadr: _I32
     skin_bonebindpos: _F32
     skin_bonebindquat: _F32
@@ -730,6 +734,7 @@ class Data:
     mocap_pos: _F64
     mocap_quat: _F64
     userdata: _F64
+    plugin_state: _F64
     xpos: _F64
     xquat: _F64
     xmat: _F64

@@ -1,16 +1,15 @@
-"""Fields of features that are refused by name: flexes, plugins, sleep. Sizes are zero, arrays empty, and everything is
-awake, as in MuJoCo where a model has none of them. All are read-only."""
+"""Fields of features that are refused by name: flexes. Sizes are zero and arrays empty, as in MuJoCo where a model has none
+of them. All are read-only."""
 
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 #: Sizes that are always zero.
 SIZES = (
     "nflex nflexnode nflexvert nflexedge nflexelem nflexelemdata nflexelemedge nflexshelldata nflexevpair nflextexcoord "
-    "nJfe nJfv nflexstiffness nflexbending nplugin npluginattr npluginstate nefm0dof nefm0L"
+    "nJfe nJfv nflexstiffness nflexbending nefm0dof nefm0L"
 ).split()
 
 #: Arrays of a model without rows: by type, each with its columns.
@@ -26,45 +25,22 @@ _MODEL = {
     "flex_nodeadr flex_nodebodyid flex_nodenum flex_passive flex_priority flex_selfcollide flex_shell flex_shelldataadr "
     "flex_shellnum flex_stiffnessadr flex_texcoordadr flex_vertadr flex_vertbodyid flex_vertedge:2 flex_vertedgeadr "
     "flex_vertedgenum flex_vertnum flexedge_J_colind flexedge_J_rowadr flexedge_J_rownnz flexvert_J_colind:2 "
-    "flexvert_J_rowadr:2 flexvert_J_rownnz:2 name_flexadr name_pluginadr plugin plugin_attradr "
-    "plugin_stateadr plugin_statenum",
+    "flexvert_J_rowadr:2 flexvert_J_rownnz:2 name_flexadr",
     "bool": "flex_centered flex_flatskin flex_internal flex_rigid flexedge_rigid",
-    "int8": "plugin_attr",
 }
 
 #: Arrays of a simulation without rows.
 _DATA = {
     "float64": "bvh_aabb_dyn:6 flexedge_J flexedge_length flexedge_velocity flexelem_aabb:6 flexelem_krot flexvert_J:2 "
-    "flexvert_length:2 flexvert_xpos:3 plugin_state",
-    "int32": "plugin",
+    "flexvert_length:2 flexvert_xpos:3",
     "uint64": "plugin_data",
 }
 
-#: Plugins of elements: none.
-_PLUGINS = {"body_plugin": "nbody", "geom_plugin": "ngeom", "actuator_plugin": "nactuator", "sensor_plugin": "nsensor"}
+#: What depends on the model: no bounding volume is marked.
+_MARKS: dict[str, Callable[[Any], Any]] = {"bvh_active": lambda m: np.zeros(m.nbvh, bool)}
 
-#: What MuJoCo counts down to zero before a tree falls asleep, negative while it is awake.
-_AWAKE = -11
-
-
-def _parents(m: Any) -> NDArray[Any]:
-    return np.append(np.arange(1, m.nbody, dtype=np.int32), np.int32(0))
-
-
-#: Everything is awake, apart from what never moves.
-_SLEEP: dict[str, Callable[[Any], Any]] = {
-    "body_awake": lambda m: np.where(m.body_treeid < 0, -1, 1).astype(np.int32),
-    "body_awake_ind": lambda m: np.arange(m.nbody, dtype=np.int32),
-    "parent_awake_ind": _parents,
-    "dof_awake_ind": lambda m: np.arange(m.nv, dtype=np.int32),
-    "tree_awake": lambda m: np.ones(m.ntree, np.int32),
-    "tree_asleep": lambda m: np.full(m.ntree, _AWAKE, np.int32),
-    "bvh_active": lambda m: np.zeros(m.nbvh, bool),
-    "nbody_awake": lambda m: m.nbody,
-    "nparent_awake": lambda m: m.nbody - 1,
-    "ntree_awake": lambda m: m.ntree,
-    "nv_awake": lambda m: m.nv,
-}
+#: Copies of what the model has.
+_COPIES: dict[str, Callable[[Any], Any]] = {"plugin": lambda m: np.array(m.plugin)}
 
 
 def _parse(table: dict[str, str]) -> dict[str, tuple[str, tuple[int, ...]]]:
@@ -74,21 +50,21 @@ def _parse(table: dict[str, str]) -> dict[str, tuple[str, tuple[int, ...]]]:
 
 
 _MODEL_SHAPES, _DATA_SHAPES = _parse(_MODEL), _parse(_DATA)
-MODEL_NAMES = (*_MODEL_SHAPES, *_PLUGINS)
-DATA_NAMES = (*_DATA_SHAPES, *_SLEEP)
+MODEL_NAMES = tuple(_MODEL_SHAPES)
+DATA_NAMES = (*_DATA_SHAPES, *_MARKS, *_COPIES)
 
 
 def of_model(name: str, sizes: dict[str, int]) -> Any:
     """The array of a model called `name`, None when it is not among these."""
-    if name in _PLUGINS:
-        return _fixed(np.full(sizes[_PLUGINS[name]], -1, np.int32))
     return _without_rows(_MODEL_SHAPES, name)
 
 
 def of_data(name: str, model: Any) -> Any:
     """The array or count of a simulation called `name`, None when it is not among these."""
-    if name in _SLEEP:
-        return _fixed(_SLEEP[name](model))
+    if name in _MARKS:
+        return _fixed(_MARKS[name](model))
+    if name in _COPIES:
+        return _fixed(_COPIES[name](model))
     return _without_rows(_DATA_SHAPES, name)
 
 

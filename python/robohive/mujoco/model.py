@@ -16,8 +16,10 @@ from robohive.mujoco.fields import declare
 from robohive.mujoco.options import MjOption, MjStatistic, MjVisual
 
 #: Arrays that are handed out as read-only copies: the structure that a model was compiled into, which no edit can change.
-_STRUCTURE = ("mesh_", "bvh_", "oct_", "names_map", "B_", "D_", "M_", "mapM", "mapD")
+_STRUCTURE = ("mesh_", "bvh_", "oct_", "names_map", "B_", "D_", "M_", "mapM", "mapD", "plugin_attr")
 _BYTES = ("names", "paths", "text_data")
+#: Texts that MuJoCo shows as numbers.
+_LETTERS = ("plugin_attr",)
 _Part = TypeVar("_Part", MjOption, MjStatistic, MjVisual)
 
 
@@ -96,6 +98,8 @@ class MjModel(_core.Model, named.ModelElements):
             value = self._bytes(name)
         elif name in inner["_shapes"]:
             value = self._copied(name) if name.startswith(_STRUCTURE) else self._array(name)
+            if name in _LETTERS:
+                value = value.view(np.int8)
             if name.startswith(_STRUCTURE):
                 value.flags.writeable = False
         else:

@@ -192,6 +192,7 @@ impl Data {
                 result = all.set_item(name, count);
             }
         };
+        held.simulation.state.visit_counts(&mut put);
         held.simulation.efc.visit_counts(&mut put);
         held.simulation.island.visit_counts(&mut put);
         result.map(|()| all)
@@ -240,6 +241,7 @@ pub fn data_fields() -> (Vec<&'static str>, Vec<&'static str>) {
     let (mut fixed, mut changing) = (Vec::new(), Vec::new());
     let empty = Simulation::default();
     empty.visit_arrays(&Compiled::default(), &mut |_, name, _, _| fixed.push(name));
+    empty.state.visit_counts(&mut |name, _| changing.push(name));
     empty.efc.visit(&mut |name, _, _| changing.push(name));
     empty.efc.visit_counts(&mut |name, _| changing.push(name));
     empty.island.visit(&mut |name, _, _| changing.push(name));

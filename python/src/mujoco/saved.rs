@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 /// The bit of simulation time; that of array `k` of the state's table is `1 << (k + 1)`.
 const TIME: u32 = 1;
 
-/// Bits with a meaning: those of the table, and one for plugins, which hold nothing here.
+/// Bits with a meaning: time and those of the table.
 const BITS: u32 = 14;
 
 fn check(signature: i64) -> Result<u32, Fault> {
@@ -69,9 +69,7 @@ pub fn scatter(state: &mut State, signature: i64, values: &[f64]) -> Result<(), 
                 let from = take(to.len())?;
                 to.iter_mut().zip(from).for_each(|(to, &x)| *to = x != 0.0);
             }
-            Some(_) => unreachable!("states hold numbers and truth values"),
-            // Plugins.
-            None => {}
+            _ => unreachable!("bits name numbers and truth values"),
         }
     }
     if rest.is_empty() { Ok(()) } else { Err(misfit("longer")) }

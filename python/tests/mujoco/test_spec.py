@@ -246,10 +246,18 @@ def test_sizes_of_sensors_are_those_of_the_model():
     assert sizes == spec.compile().sensor_dim.tolist()
 
 
-def test_what_a_description_would_lose_is_refused():
-    text = """<mujoco><deformable><skin vertex='0 0 0 1 0 0 0 1 0' face='0 1 2'>
-      <bone body='world' bindpos='0 0 0' bindquat='1 0 0 0' vertid='0 1 2' vertweight='1 1 1'/>
-    </skin></deformable></mujoco>"""
-    assert mj.MjModel.from_xml_string(text).nskin == 1
-    with pytest.raises(NotImplementedError, match="does not hold skins"):
+@pytest.mark.parametrize(
+    ("what", "text"),
+    [
+        (
+            "skins",
+            "<mujoco><deformable><skin vertex='0 0 0 1 0 0 0 1 0' face='0 1 2'><bone body='world' bindpos='0 0 0' "
+            "bindquat='1 0 0 0' vertid='0 1 2' vertweight='1 1 1'/></skin></deformable></mujoco>",
+        ),
+        ("plugins", "<mujoco><extension><plugin plugin='mujoco.pid'/></extension></mujoco>"),
+    ],
+)
+def test_what_a_description_would_lose_is_refused(what, text):
+    mj.MjModel.from_xml_string(text)
+    with pytest.raises(NotImplementedError, match=f"does not hold {what}"):
         mj.MjSpec.from_string(text)

@@ -7,6 +7,7 @@ use crate::data::{State, Transmission, Velocity};
 use crate::math::{norm, ops};
 use crate::model::bounds::MINVAL;
 use crate::model::{BiasType, DynType, GainType, JointType, Model, TrnType};
+use crate::sleep::{Awake, object};
 use std::f64::consts::PI;
 
 /// Position in `act` of the activations of actuator `i`.
@@ -15,16 +16,17 @@ pub fn activations(m: &Model, i: usize) -> std::ops::Range<usize> {
     start..start + m.actuator_actnum[i] as usize
 }
 
-/// Time derivative of all activations under the clamped controls `ctrl(k)`.
+/// Time derivative of the activations of all actuators that do not sleep, under the clamped controls `ctrl(k)`.
 pub fn activation_rates(
     m: &Model,
-    act: &[f64],
+    state: &State,
     trn: &Transmission,
     vel: &Velocity,
     ctrl: impl Fn(usize) -> f64,
     act_dot: &mut [f64],
 ) {
-    for i in 0..m.nactuator {
+    let (act, awake) = (&state.act[..], Awake::of(m, state));
+    for i in (0..m.nactuator).filter(|&i| !awake.skips(|state| object::actuator(m, state, i))) {
         let at = activations(m, i);
         let Some(last) = at.clone().last() else { continue };
         let (first_input, prm) = (m.actuator_ctrladr[i] as usize, &m.actuator_dynprm[i]);

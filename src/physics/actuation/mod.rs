@@ -20,6 +20,8 @@ use crate::data::{Actuation, Passive, State, Transmission, Velocity};
 use crate::math::{IDENTITY, Quat, Vec3, norm, quat_difference, quat_from_axis_angle, quat_normalize, scale};
 use crate::model::bounds::{MAXVAL, MINVAL};
 use crate::model::{BiasType, Disable, DynType, GainType, JointType, Model, TrnType, input};
+use crate::plugin::{ActuatorInputs, Capability};
+use crate::sleep::{Awake, object};
 use crate::velocity::passive::has_gravity_compensation;
 
 /// Computes rates of activation, actuator forces, and their sum in joint space.
@@ -40,9 +42,22 @@ pub fn actuation(
     let is_bad = |u: f64| u.is_nan() || u.abs() > MAXVAL;
     let bad = (0..m.nu).any(|k| is_bad(clamped_control(m, state, k)));
     let ctrl = |k: usize| if bad { 0.0 } else { clamped_control(m, state, k) };
-    activation_rates(m, &state.act, trn, vel, ctrl, &mut out.act_dot);
+    activation_rates(m, state, trn, vel, ctrl, &mut out.act_dot);
+    if m.nplugin > 0 {
+        let inputs = ActuatorInputs { m, state, trn, vel };
+        for (_, running) in m.plugins().with(Capability::Actuator) {
+            running.instance.activation_rates(&inputs, &mut out.act_dot);
+        }
+    }
 
-    for i in (0..m.nactuator).filter(|&i| !is_disabled(m, i)) {
+    let awake = Awake::of(m, state);
+    let without_plugins = m.nplugin == 0;
+    let works = |i: usize| {
+        !is_disabled(m, i)
+            && (without_plugins || m.actuator_plugin[i] < 0)
+            && !awake.skips(|state| object::actuator(m, state, i))
+    };
+    for i in (0..m.nactuator).filter(|&i| works(i)) {
         let first = m.actuator_outadr[i] as usize;
         if m.actuator_gaintype[i] == GainType::So3.code() {
             let force = orientation_servo(m, state, trn, vel, i, ctrl, &out.act_dot);
@@ -64,11 +79,15 @@ pub fn actuation(
             };
         }
     }
+    if m.nplugin > 0 {
+        let inputs = ActuatorInputs { m, state, trn, vel };
+        for (_, running) in m.plugins().with(Capability::Actuator) {
+            running.instance.forces(&inputs, &out.act_dot, &mut out.actuator_force);
+        }
+    }
     limit_tendon_forces(m, &mut out.actuator_force);
     limit_forces(m, &mut out.actuator_force);
-    for i in
-        (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == BiasType::Dcmotor.code() && !is_disabled(m, i))
-    {
+    for i in (0..m.nactuator).filter(|&i| m.actuator_biastype[i] == BiasType::Dcmotor.code() && works(i)) {
         let first = m.actuator_outadr[i] as usize;
         let length = trn.actuator_length[first];
         let force = &mut out.actuator_force[first];

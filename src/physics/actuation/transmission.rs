@@ -13,6 +13,7 @@ use crate::math::{
 use crate::model::{Cone, Disable, JointType, Model, TrnType};
 use crate::position::chain::{MergedChain, chain, com_offset, point_column, site_point};
 use crate::position::tendon;
+use crate::sleep::{Awake, object};
 use std::ops::Range;
 
 /// Computes lengths and moments of all actuators.
@@ -23,10 +24,15 @@ pub fn transmission(
     efc: &Constraints,
     trn: &mut Transmission,
 ) {
+    let awake = Awake::of(m, at.state);
     let mut rows = Rows { trn, out: 0, next: 0 };
     for i in 0..m.nactuator {
         let (first, out) = (m.actuator_trnid[i][0] as usize, m.actuator_outadr[i] as usize);
         rows.begin(out);
+        if awake.skips(|state| object::actuator(m, state, i)) {
+            rows.skip(m.actuator_outnum[i] as usize);
+            continue;
+        }
         match TrnType::from_code(m.actuator_trntype[i]) {
             Some(TrnType::Joint) => joint(m, at.state, first, halves(m, out), false, &mut rows),
             Some(TrnType::Jointinparent) => joint(m, at.state, first, halves(m, out), true, &mut rows),
@@ -129,6 +135,14 @@ impl Rows<'_> {
     fn finish(&mut self, length: f64) {
         self.trn.actuator_length[self.out] = length;
         self.trn.moment_rownnz[self.out] = self.next as i32 - self.trn.moment_rowadr[self.out];
+    }
+
+    /// Leaves rows empty, and their lengths as they were.
+    fn skip(&mut self, count: usize) {
+        for out in self.out..self.out + count {
+            self.trn.moment_rowadr[out] = self.next as i32;
+            self.trn.moment_rownnz[out] = 0;
+        }
     }
 
     /// Zeroes the room that sparser rows left over.

@@ -8,6 +8,7 @@ use crate::math::{
 };
 use crate::math::{scale, sub};
 use crate::model::{Disable, GeomType, Model};
+use crate::sleep::Awake;
 
 /// Working memory and result of the broad phase.
 #[derive(Clone, Debug, Default)]
@@ -29,9 +30,9 @@ struct Bounds {
 
 impl BroadPhase {
     /// Finds the pairs of bodies whose geoms may be within their margins; gives up soon after `most` of them.
-    pub fn run(&mut self, m: &Model, kin: &Kinematics, most: usize) {
+    pub fn run(&mut self, m: &Model, awake: Awake, kin: &Kinematics, most: usize) {
         self.pairs.clear();
-        self.pair_static_bodies(m, most);
+        self.pair_static_bodies(m, awake, most);
         self.bodies.clear();
         self.bodies.extend((1..m.nbody).filter(|&b| can_collide(m, b)));
         if self.bodies.len() > 1 {
@@ -39,7 +40,7 @@ impl BroadPhase {
             self.boxes.clear();
             self.boxes.extend(self.bodies.iter().map(|&b| body_bounds(m, kin, b, &frame)));
             self.sort_ends();
-            self.sweep(m, most);
+            self.sweep(m, awake, most);
         }
         self.pairs.sort_unstable();
         self.pairs.dedup();
@@ -50,7 +51,7 @@ impl BroadPhase {
     }
 
     /// The world, and static bodies with a plane, meet every body they are not welded to.
-    fn pair_static_bodies(&mut self, m: &Model, most: usize) {
+    fn pair_static_bodies(&mut self, m: &Model, awake: Awake, most: usize) {
         for b1 in 0..m.nbody {
             if self.pairs.len() > most {
                 return;
@@ -60,7 +61,7 @@ impl BroadPhase {
                 continue;
             }
             for b2 in 0..m.nbody {
-                if can_collide(m, b2) && bodies_match(m, b1, b2) {
+                if can_collide(m, b2) && bodies_match(m, awake, b1, b2) {
                     self.push(b1, b2);
                 }
             }
@@ -79,7 +80,7 @@ impl BroadPhase {
         self.ends.sort_unstable();
     }
 
-    fn sweep(&mut self, m: &Model, most: usize) {
+    fn sweep(&mut self, m: &Model, awake: Awake, most: usize) {
         self.active.clear();
         for k in 0..self.ends.len() {
             if self.pairs.len() > most {
@@ -97,7 +98,7 @@ impl BroadPhase {
                     continue;
                 }
                 let (b1, b2) = (self.bodies[i as usize], self.bodies[j]);
-                if bodies_match(m, b1, b2) {
+                if bodies_match(m, awake, b1, b2) {
                     self.push(b1, b2);
                 }
             }
@@ -141,11 +142,16 @@ pub fn types_match(contype1: i32, conaffinity1: i32, contype2: i32, conaffinity2
     contype1 & conaffinity2 != 0 || contype2 & conaffinity1 != 0
 }
 
-/// Two bodies may touch: not welded together, not both immobile, not parent and child, of matching types.
-fn bodies_match(m: &Model, b1: usize, b2: usize) -> bool {
+/// Two bodies may touch: not welded together, not both immobile, not parent and child, of matching types; neither do both
+/// sleep, nor one where the other is fixed to the world.
+fn bodies_match(m: &Model, awake: Awake, b1: usize, b2: usize) -> bool {
     let weld = [m.body_weldid[b1], m.body_weldid[b2]];
     let [w1, w2] = weld.map(|w| w as usize);
     if w1 == w2 || (m.body_dofnum[w1] == 0 && m.body_dofnum[w2] == 0) {
+        return false;
+    }
+    let (asleep1, asleep2) = (awake.sleeps(b1), awake.sleeps(b2));
+    if (asleep1 && (asleep2 || w2 == 0)) || (asleep2 && w1 == 0) {
         return false;
     }
     let parent = |w: usize| m.body_weldid[m.body_parentid[w] as usize] as usize;

@@ -45,14 +45,16 @@ pub(crate) mod plane;
 pub(crate) mod polyhedron;
 pub(crate) mod polytope;
 pub(crate) mod round_normal;
+pub(crate) mod sdf;
 pub(crate) mod sphere;
 #[doc(hidden)]
 pub mod support;
 
-use crate::data::{Contact, Contacts, Demand, Kinematics, OverBudget, StepBudget};
+use crate::data::{Contact, Contacts, Demand, Kinematics, OverBudget, State, StepBudget};
 use crate::math::{Mat3, Vec3, column};
 use crate::model::{Disable, GeomType, Model, ObjType};
 use crate::pipeline::error::NotSimulated;
+use crate::sleep::{Awake, is_on};
 use broad_phase::{geoms, spheres_apart, types_match};
 
 /// What a narrow-phase function says about one point of contact.
@@ -141,17 +143,20 @@ pub fn pair_function(type1: i32, type2: i32) -> Option<PairFunction> {
     const BB: Option<PairFunction> = shapes!(box_box::box_box);
     const HF: Option<PairFunction> = Some(hfield::height_field);
     const CX: Option<PairFunction> = Some(convex::convex);
+    const DD: Option<PairFunction> = Some(sdf::two_fields);
+    const MD: Option<PairFunction> = Some(sdf::mesh_and_field);
     #[rustfmt::skip]
-    const TABLE: [[Option<PairFunction>; 8]; 8] = [
-        //               plane hfield sphere capsule ellipsoid cylinder box mesh
-        /* plane */     [N,    N,     PS,    PC,     PE,       PY,      PB, PM],
-        /* hfield */    [N,    N,     HF,    HF,     HF,       HF,      HF, HF],
-        /* sphere */    [N,    N,     SS,    SC,     CX,       SY,      SB, CX],
-        /* capsule */   [N,    N,     N,     CC,     CX,       CX,      CB, CX],
-        /* ellipsoid */ [N,    N,     N,     N,      CX,       CX,      CX, CX],
-        /* cylinder */  [N,    N,     N,     N,      N,        CX,      CX, CX],
-        /* box */       [N,    N,     N,     N,      N,        N,       BB, CX],
-        /* mesh */      [N,    N,     N,     N,      N,        N,       N,  CX],
+    const TABLE: [[Option<PairFunction>; 9]; 9] = [
+        //               plane hfield sphere capsule ellipsoid cylinder box mesh sdf
+        /* plane */     [N,    N,     PS,    PC,     PE,       PY,      PB, PM,  PM],
+        /* hfield */    [N,    N,     HF,    HF,     HF,       HF,      HF, HF,  N],
+        /* sphere */    [N,    N,     SS,    SC,     CX,       SY,      SB, CX,  DD],
+        /* capsule */   [N,    N,     N,     CC,     CX,       CX,      CB, CX,  DD],
+        /* ellipsoid */ [N,    N,     N,     N,      CX,       CX,      CX, CX,  DD],
+        /* cylinder */  [N,    N,     N,     N,      N,        CX,      CX, CX,  DD],
+        /* box */       [N,    N,     N,     N,      N,        N,       BB, CX,  DD],
+        /* mesh */      [N,    N,     N,     N,      N,        N,       N,  CX,  MD],
+        /* sdf */       [N,    N,     N,     N,      N,        N,       N,  N,   DD],
     ];
     *TABLE.get(type1 as usize)?.get(type2 as usize)?
 }
@@ -178,19 +183,26 @@ impl CollisionScratch {
     }
 }
 
-/// Checks once that `collide` knows every geom type of the model that may collide.
+/// Checks once that `collide` knows every geom of the model that may collide.
 ///
 /// # Errors
-/// The first geom whose type has no pair function.
+/// The first geom of unknown type, or without a signed distance.
 pub fn check(m: &Model) -> Result<(), NotSimulated> {
-    let listed = |g: usize| m.pair_geom1.iter().chain(&m.pair_geom2).any(|&k| k as usize == g);
-    let collides = |g: usize| m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0 || listed(g);
-    match (0..m.ngeom).find(|&g| m.geom_type[g] > GeomType::Mesh.code() && collides(g)) {
-        Some(g) => {
-            Err(NotSimulated::of(m.label_of(ObjType::Geom, g), "collisions of signed distance fields"))
+    let refuse = |g: usize, feature: &str| Err(NotSimulated::of(m.label_of(ObjType::Geom, g), feature));
+    for g in 0..m.ngeom {
+        match GeomType::from_code(m.geom_type[g]) {
+            Some(GeomType::None) | None => return refuse(g, "this type of geom"),
+            Some(GeomType::Sdf) if m.geom_plugin[g] < 0 && !has_octree(m, g) => {
+                return refuse(g, "a signed distance geom without a plugin, of a mesh without an octree,");
+            }
+            Some(_) => {}
         }
-        None => Ok(()),
     }
+    Ok(())
+}
+
+fn has_octree(m: &Model, g: usize) -> bool {
+    usize::try_from(m.geom_dataid[g]).is_ok_and(|mesh| m.mesh_octadr[mesh] >= 0)
 }
 
 /// Bytes of a contact while their list grows.
@@ -213,6 +225,54 @@ pub fn collide(
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
+    find(m, Filter { sleeps: false, awake: Awake::EVERYTHING }, kin, budget, scratch, con)
+}
+
+/// [`collide`] without what sleeps: of two that meet, one is awake, and not a fixed one where the other sleeps.
+pub(crate) fn collide_awake(
+    m: &Model,
+    state: &State,
+    kin: &Kinematics,
+    budget: StepBudget,
+    scratch: &mut CollisionScratch,
+    con: &mut Contacts,
+) -> Result<(), OverBudget> {
+    let filter = Filter { sleeps: is_on(m), awake: Awake::of(m, state) };
+    if !filter.awake.is_everything() && !state.body_awake.contains(&1) {
+        con.contact.clear();
+        return Ok(());
+    }
+    find(m, filter, kin, budget, scratch, con)
+}
+
+/// Which pairs sleep leaves out.
+#[derive(Clone, Copy)]
+struct Filter<'a> {
+    /// The model lets trees sleep: of a predefined pair, one body must be able to move.
+    sleeps: bool,
+    awake: Awake<'a>,
+}
+
+impl Filter<'_> {
+    fn drops(self, m: &Model, pair: usize) -> bool {
+        let body = |geom: i32| m.geom_bodyid[geom as usize] as usize;
+        let stands = |geom: i32| {
+            let b = body(geom);
+            let fixed = m.body_treeid[b] < 0 && m.body_mocapid[m.body_rootid[b] as usize] < 0;
+            fixed || self.awake.sleeps(b)
+        };
+        self.sleeps && stands(m.pair_geom1[pair]) && stands(m.pair_geom2[pair])
+    }
+}
+
+fn find(
+    m: &Model,
+    filter: Filter,
+    kin: &Kinematics,
+    budget: StepBudget,
+    scratch: &mut CollisionScratch,
+    con: &mut Contacts,
+) -> Result<(), OverBudget> {
     con.contact.clear();
     if m.opt.disableflags.intersects(Disable::CONSTRAINT | Disable::CONTACT) || m.nbody < 2 {
         return Ok(());
@@ -220,11 +280,11 @@ pub fn collide(
     scratch.budget = budget;
     let mut broad = std::mem::take(&mut scratch.broad);
     let most = budget.count(BODY_PAIR_BYTES);
-    broad.run(m, kin, most);
+    broad.run(m, filter.awake, kin, most);
     let result = if broad.pairs.len() > most {
         Err(budget.exceeded(Demand::BodyPairs, broad.pairs.len(), BODY_PAIR_BYTES))
     } else {
-        touch(m, kin, &broad.pairs, scratch, con)
+        touch(m, filter, kin, &broad.pairs, scratch, con)
     };
     scratch.broad = broad;
     result
@@ -233,6 +293,7 @@ pub fn collide(
 /// Contacts of the pairs of bodies and of all predefined pairs.
 fn touch(
     m: &Model,
+    filter: Filter,
     kin: &Kinematics,
     pairs: &[u32],
     scratch: &mut CollisionScratch,
@@ -245,7 +306,9 @@ fn touch(
         let mut merged = false;
         while next < m.npair && m.pair_signature[next] as u32 <= signature {
             merged = m.pair_signature[next] as u32 == signature;
-            predefined(m, kin, next, scratch, con);
+            if !filter.drops(m, next) {
+                predefined(m, kin, next, scratch, con);
+            }
             scratch.check(con)?;
             next += 1;
         }
@@ -256,7 +319,7 @@ fn touch(
         body_pair(m, kin, (signature >> 16) as usize, (signature & 0xffff) as usize, hidden, scratch, con)?;
         scratch.check(con)?;
     }
-    for pair in next..m.npair {
+    for pair in (next..m.npair).filter(|&pair| !filter.drops(m, pair)) {
         predefined(m, kin, pair, scratch, con);
         scratch.check(con)?;
     }

@@ -60,8 +60,8 @@ impl<'a> ConvexBody<'a> {
             GeomType::Ellipsoid => Solid::Ellipsoid(shape.size),
             GeomType::Cylinder => Solid::Cylinder(a, b),
             GeomType::Box => Solid::Box(shape.size),
-            GeomType::Mesh => Solid::Mesh(MeshHull::new(shape.m, shape.data()?)),
-            GeomType::Plane | GeomType::Hfield | GeomType::Sdf | GeomType::None => return None,
+            GeomType::Mesh | GeomType::Sdf => Solid::Mesh(MeshHull::new(shape.m, shape.data()?)),
+            GeomType::Plane | GeomType::Hfield | GeomType::None => return None,
         };
         Some(Self::placed(solid, shape.pos, shape.mat, margin))
     }

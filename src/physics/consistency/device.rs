@@ -115,6 +115,7 @@ fn block(m: &Arrays, i: usize) -> Result<(i32, i32, i32), Inconsistent> {
     require(inputs == expected, "actuator_ctrlnum", i, "what its inputs add up to")?;
     let (gainprm, dynprm) = (&m.actuator_gainprm[i], &m.actuator_dynprm[i]);
     let fits = match dynamics {
+        _ if m.actuator_plugin[i] >= 0 && !so3 => (0..=MAX_SAMPLES).contains(&states) && dynamics.is_some(),
         Some(DynType::Pid) => {
             let wanted = i32::from(dynprm[1] > 0.0) + i32::from(gainprm[0] > 0.0);
             gain == Some(GainType::Pid) && states == wanted && inputs > 0

@@ -78,7 +78,21 @@ fn check_mesh(m: &Arrays, mesh: usize) -> Result<(), Inconsistent> {
         require(nodes > 0, "mesh_bvhnum", mesh, "at least the root")?;
         nodes_of(m, first, nodes, m.mesh_facenum[mesh] as usize)?;
     }
+    octree(m, mesh)?;
     hull(m, mesh)
+}
+
+/// Cells of an octree come before their parts.
+fn octree(m: &Arrays, mesh: usize) -> Result<(), Inconsistent> {
+    let Ok(first) = usize::try_from(m.mesh_octadr[mesh]) else { return Ok(()) };
+    let cells = m.mesh_octnum[mesh];
+    let fits = cells > 0 && first.checked_add(cells as usize).is_some_and(|end| end <= m.noct);
+    require(fits, "mesh_octadr", mesh, "the address of an octree")?;
+    for (k, child) in m.oct_child[first..first + cells as usize].iter().enumerate() {
+        let known = child.iter().all(|&c| c == -1 || (c > k as i32 && c < cells));
+        require(known, "oct_child", 8 * (first + k), "parts behind their cell")?;
+    }
+    Ok(())
 }
 
 /// Graph of the hull: counts of vertices and faces, starts of the neighbour lists, vertices, lists that end in -1,

@@ -134,8 +134,13 @@ fn check_sizes(m: &Arrays) -> Result<(), Inconsistent> {
     for (name, size, expected) in lengths {
         require(i64::try_from(size) == Ok(expected), name, 0, "the sum of its parts")?;
     }
-    let unbacked =
-        [("nsensordata", m.nsensordata), ("nhistory", m.nhistory), ("na", m.na), ("nuserdata", m.nuserdata)];
+    let unbacked = [
+        ("nsensordata", m.nsensordata),
+        ("nhistory", m.nhistory),
+        ("na", m.na),
+        ("nuserdata", m.nuserdata),
+        ("npluginstate", m.npluginstate),
+    ];
     unbacked.into_iter().try_for_each(|(name, n)| require(n <= 1 << 24, name, 0, "at most 2^24"))
 }
 
@@ -164,6 +169,7 @@ fn count(m: &Arrays, kind: i32) -> usize {
         Some(ObjType::Text) => m.ntext,
         Some(ObjType::Tuple) => m.ntuple,
         Some(ObjType::Key) => m.nkey,
+        Some(ObjType::Plugin) => m.nplugin,
         _ => 0,
     }
 }
@@ -214,6 +220,12 @@ fn plain_references(m: &Arrays) -> Result<(), Inconsistent> {
         name_textadr 0 m.nnames;
         name_tupleadr 0 m.nnames;
         name_keyadr 0 m.nnames;
+        name_pluginadr 0 m.nnames;
+        body_plugin -1 m.nplugin;
+        geom_plugin -1 m.nplugin;
+        actuator_plugin -1 m.nplugin;
+        sensor_plugin -1 m.nplugin;
+        plugin_attradr 0 m.npluginattr;
     }
     ranges! { m:
         numeric_adr numeric_size m.nnumericdata;
@@ -221,6 +233,7 @@ fn plain_references(m: &Arrays) -> Result<(), Inconsistent> {
         tuple_adr tuple_size m.ntupledata;
         tendon_adr tendon_num m.nwrap;
         ten_J_rowadr ten_J_rownnz m.nJten;
+        plugin_stateadr plugin_statenum m.npluginstate;
     }
     dimensions(m)
 }

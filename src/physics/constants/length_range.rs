@@ -23,7 +23,7 @@ use crate::math::ops;
 use crate::model::bounds::MINVAL;
 use crate::model::{BiasType, Disable, Enable, GainType, LengthRangeMode, Model, ObjType, TrnType};
 use crate::pipeline::forward::{StepError, acceleration, position, velocity};
-use crate::pipeline::validity::{check_acceleration, check_options};
+use crate::pipeline::validity::check_acceleration;
 use std::fmt;
 
 /// How length ranges are computed (XML reference, `compiler/lengthrange`).
@@ -246,7 +246,6 @@ fn pull(
     i: usize,
     direction: f64,
 ) -> Result<[f64; 2], StepError> {
-    check_options(m)?;
     d.reset(m);
     let out = m.actuator_outadr[i] as usize;
     let decay = ops::exp(-m.opt.timestep / opt.timeconst.max(0.01));

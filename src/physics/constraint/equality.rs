@@ -8,6 +8,7 @@ use super::rows::{RowKind, is_empty, push};
 use crate::data::{Com, Constraints, Kinematics, State, Tendons, Velocity};
 use crate::math::{Quat, Vec3, add, mul_mat_vec, quat_conj, quat_mul, quat_mul_axis, scale, sub};
 use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
+use crate::sleep::{Awake, object};
 
 /// Appends the rows of every active equality constraint.
 pub(super) fn equality(
@@ -22,7 +23,9 @@ pub(super) fn equality(
     if m.neq == 0 || m.opt.disableflags.contains(Disable::EQUALITY) {
         return;
     }
-    for eq in (0..m.neq).filter(|&eq| state.eq_active[eq]) {
+    let awake = Awake::of(m, state);
+    let wanted = |eq: &usize| state.eq_active[*eq] && !awake.skips(|state| object::equality(m, state, *eq));
+    for eq in (0..m.neq).filter(wanted) {
         match EqType::from_code(m.eq_type[eq]) {
             Some(EqType::Connect) => connect(m, kin, com, eq, efc, scratch),
             Some(EqType::Weld) => weld(m, kin, com, eq, efc, scratch),

@@ -3,14 +3,15 @@
 use super::rows::{RowKind, is_empty, push};
 use crate::data::{Constraints, Tendons};
 use crate::model::{ConstraintType, Disable, Model};
+use crate::sleep::Awake;
 
 /// Appends one row for each degree of freedom and tendon with friction loss.
-pub(super) fn friction_loss(m: &Model, ten: &Tendons, efc: &mut Constraints) {
+pub(super) fn friction_loss(m: &Model, awake: Awake, ten: &Tendons, efc: &mut Constraints) {
     if m.opt.disableflags.contains(Disable::FRICTIONLOSS) {
         return;
     }
     for (dof, &frictionloss) in m.dof_frictionloss.iter().enumerate() {
-        if frictionloss != 0.0 {
+        if frictionloss != 0.0 && !awake.sleeps(m.dof_bodyid[dof] as usize) {
             let row = RowKind { kind: ConstraintType::FrictionDof, id: dof, margin: 0.0, frictionloss };
             push(efc, row, 0.0, &[dof as i32], &[1.0]);
         }

@@ -6,6 +6,7 @@ use super::rows::{RowKind, is_empty, push};
 use crate::data::{Constraints, State, Tendons};
 use crate::math::{normalize, quat_normalize, quat_to_velocity, scale};
 use crate::model::{ConstraintType, Disable, JointType, Model};
+use crate::sleep::Awake;
 
 /// Appends one row for each joint or tendon limit within its margin, lower limits before upper ones.
 pub(super) fn limits(
@@ -18,7 +19,9 @@ pub(super) fn limits(
     if m.opt.disableflags.contains(Disable::LIMIT) {
         return;
     }
-    for joint in (0..m.njnt).filter(|&j| m.jnt_limited[j]) {
+    let awake = Awake::of(m, state);
+    let sleeps = |joint: usize| awake.sleeps(m.jnt_bodyid[joint] as usize);
+    for joint in (0..m.njnt).filter(|&j| m.jnt_limited[j] && !sleeps(j)) {
         match JointType::from_code(m.jnt_type[joint]) {
             Some(JointType::Slide | JointType::Hinge) => scalar_limit(m, state, joint, efc),
             Some(JointType::Ball) => ball_limit(m, state, joint, efc),

@@ -24,6 +24,7 @@ pub use rows::{mul_jacobian, mul_jacobian_transposed};
 
 use crate::data::{Configuration, Constraints, Contacts, Inertia};
 use crate::model::{Disable, Enable, Model};
+use crate::sleep::Awake;
 use difference::Difference;
 
 /// Memory that constraint stages reuse from step to step.
@@ -50,7 +51,7 @@ pub fn make_constraint(
         return;
     }
     equality::equality(m, state, kin, com, ten, efc, scratch);
-    friction_loss::friction_loss(m, ten, efc);
+    friction_loss::friction_loss(m, Awake::of(m, state), ten, efc);
     limits::limits(m, state, ten, efc, scratch);
     contacts::contacts(m, com, con, efc, scratch);
     diagonal::approximate(m, con, efc);

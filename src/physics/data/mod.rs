@@ -35,6 +35,7 @@ pub use warnings::Warnings;
 
 use crate::actuation::history;
 use crate::model::{Arrays, Model};
+use crate::sleep;
 use crate::table::Slice;
 use std::fmt;
 
@@ -52,6 +53,32 @@ impl State {
                 self.mocap_quat[k] = m.body_quat[b];
             }
         }
+        for running in m.plugins().all() {
+            running.instance.reset(m, &mut self.plugin_state[running.state.clone()]);
+        }
+        self.tree_asleep.fill(sleep::MOVED);
+        sleep::update(m, self);
+    }
+}
+
+impl State {
+    /// Calls `f(name, count)` for how many elements are awake.
+    pub fn visit_counts(&self, f: &mut dyn FnMut(&'static str, usize)) {
+        f("ntree_awake", self.ntree_awake);
+        f("nbody_awake", self.nbody_awake);
+        f("nparent_awake", self.nparent_awake);
+        f("nv_awake", self.nv_awake);
+    }
+
+    /// The count that [`Self::visit_counts`] calls `name`.
+    fn count_mut(&mut self, name: &str) -> Option<&mut usize> {
+        Some(match name {
+            "ntree_awake" => &mut self.ntree_awake,
+            "nbody_awake" => &mut self.nbody_awake,
+            "nparent_awake" => &mut self.nparent_awake,
+            "nv_awake" => &mut self.nv_awake,
+            _ => return None,
+        })
     }
 }
 
@@ -62,6 +89,8 @@ pub struct Data {
     pub budget: StepBudget,
     /// A bad number in a step is reset as MuJoCo does, and counted in `warnings`, instead of an error.
     pub autoreset: bool,
+    /// The state has come from elsewhere, with trees that sleep: what stages keep of those is not known.
+    pub(crate) unsettled: bool,
     /// What `autoreset` has done.
     pub warnings: Warnings,
     /// Potential and kinetic energy [J].
@@ -148,7 +177,10 @@ impl Data {
     /// allocated.
     pub fn reset(&mut self, m: &Model) {
         self.energy = [0.0; 2];
+        self.unsettled = false;
         self.state.reset(m);
+        // A model whose trees cannot begin asleep is refused where it is compiled; there they are awake.
+        let _ = sleep::rest::begin(m, self);
     }
 
     /// Resets, then takes time, positions, velocities, activations, mocap poses and controls of keyframe `key`. Nothing
@@ -186,7 +218,9 @@ impl Data {
     pub fn visit(&self, m: &Model, f: &mut dyn FnMut(&'static str, Vec<usize>, Slice<'_>)) {
         f("time", vec![], Slice::F64(&[self.state.time]));
         f("energy", vec![2], Slice::F64(&self.energy));
+        self.state.visit_counts(&mut |name, n| f(name, vec![], Slice::I32(&[n as i32])));
         self.state.visit(m, f);
+        f("plugin", vec![m.nplugin], Slice::I32(&m.plugin));
         self.kin.visit(m, f);
         self.com.visit(m, f);
         self.ten.visit(m, f);
@@ -216,6 +250,12 @@ impl Data {
         }
         if let ([n], true) = (values, ["ne", "nf", "nl", "nefc"].contains(&name)) {
             return Some(self.efc.set_count(name, *n as usize));
+        }
+        if let [n] = values
+            && let Some(count) = self.state.count_mut(name)
+        {
+            *count = *n as usize;
+            return Some(true);
         }
         None.or_else(|| self.state.assign(name, values))
             .or_else(|| self.kin.assign(name, values))

@@ -62,6 +62,7 @@ impl Data {
             return Err(ForeignSnapshot);
         }
         self.state.clone_from(&snapshot.state);
+        self.unsettled = self.state.ntree_awake < self.state.tree_asleep.len();
         Ok(())
     }
 }

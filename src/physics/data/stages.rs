@@ -32,9 +32,31 @@ stage! {
         mocap_quat: f64 [nmocap; 4],
         /// User storage.
         userdata: f64 [nuserdata],
+        /// What plugins keep from step to step.
+        plugin_state: f64 [npluginstate],
+        /// Which trees sleep, and since when the others are slow (`sleep`).
+        tree_asleep: i32 [ntree],
+        /// 1 where a tree is awake, 0 where it sleeps. This and all below follows from `tree_asleep`.
+        tree_awake: i32 [ntree],
+        /// 1 where a body is awake, 0 where it sleeps, -1 where it cannot move.
+        body_awake: i32 [nbody],
+        /// Bodies that do not sleep; the first `nbody_awake` count.
+        body_awake_ind: i32 [nbody],
+        /// Bodies whose parent does not sleep; the first `nparent_awake` count.
+        parent_awake_ind: i32 [nbody],
+        /// Degrees of freedom that do not sleep; the first `nv_awake` count.
+        dof_awake_ind: i32 [nv],
     } scalars {
         /// Simulation time [s].
         time: f64,
+        /// Trees that are awake.
+        ntree_awake: usize,
+        /// Bodies that do not sleep.
+        nbody_awake: usize,
+        /// Bodies whose parent does not sleep.
+        nparent_awake: usize,
+        /// Degrees of freedom that do not sleep.
+        nv_awake: usize,
     }
 }
 

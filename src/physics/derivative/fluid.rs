@@ -9,6 +9,7 @@ use crate::model::bounds::MINVAL;
 use crate::model::{Integrator, Model};
 use crate::position::chain::{chain, com_offset, point_column};
 use crate::position::frame::Frame;
+use crate::sleep::Awake;
 use crate::velocity::fluid::{Ellipsoid, FluidShape, inertia_box, pow4, relative_velocity, shapes, square};
 use std::f64::consts::PI;
 
@@ -30,7 +31,7 @@ pub struct FluidScratch {
 /// Adds the slopes of the fluid forces of all bodies.
 pub(super) fn add_fluid(m: &Model, inputs: &DerivativeInputs, scratch: &mut FluidScratch, out: &mut [f64]) {
     let (com, vel) = (inputs.com, inputs.vel);
-    shapes(m, inputs.kin, |shape, at| {
+    shapes(m, Awake::EVERYTHING, inputs.kin, |shape, at| {
         let v = relative_velocity(m, com, vel, at);
         let slope = match shape {
             FluidShape::InertiaBox => box_slope(inertia_box(m, at.body), &v, m.opt.density, m.opt.viscosity),

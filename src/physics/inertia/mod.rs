@@ -28,12 +28,31 @@ use crate::data::{Com, Inertia, Tendons};
 use crate::math::{LowerRows, add_scaled_slice, mul_inertia, spatial_dot};
 use crate::model::Model;
 use crate::position::tendon;
+use crate::sleep::{Awake, Subset, object, over};
 use std::ops::Range;
 
 /// Computes `crb` and `M`: rigid bodies, armature of joints, tendons and actuators.
 pub fn make_inertia(m: &Model, com: &Com, ten: &Tendons, inertia: &mut Inertia) {
-    composite_bodies(m, com, inertia);
-    for dof in 0..m.nv {
+    make_inertia_of(m, Awake::EVERYTHING, com, ten, inertia);
+}
+
+/// [`make_inertia`] of what is awake.
+pub(crate) fn make_inertia_of(m: &Model, awake: Awake, com: &Com, ten: &Tendons, inertia: &mut Inertia) {
+    composite_bodies(m, awake, com, inertia);
+    over!(awake.dofs(m), |dofs| inertia_rows(m, com, inertia, dofs));
+    for t in 0..m.ntendon {
+        let armature = tendon_armature(m, t);
+        if armature != 0.0 && !awake.skips(|state| object::tendon(m, state, t)) {
+            let at = tendon::row(m, t);
+            add_outer_product(m, &m.ten_J_colind[at.clone()], &ten.ten_J[at], armature, &mut inertia.M);
+        }
+    }
+}
+
+/// Rows of `M` without tendons.
+#[inline]
+fn inertia_rows(m: &Model, com: &Com, inertia: &mut Inertia, dofs: impl Iterator<Item = usize>) {
+    for dof in dofs {
         let at = row(m, dof);
         if m.dof_simplenum[dof] != 0 {
             inertia.M[at.start] = m.dof_M0[dof];
@@ -45,19 +64,17 @@ pub fn make_inertia(m: &Model, com: &Com, ten: &Tendons, inertia: &mut Inertia) 
         }
         inertia.M[at.end - 1] += m.dof_armature[dof] + Driven::Joint(m.dof_jntid[dof] as usize).armature(m);
     }
-    for t in 0..m.ntendon {
-        let armature = tendon_armature(m, t);
-        if armature != 0.0 {
-            let at = tendon::row(m, t);
-            add_outer_product(m, &m.ten_J_colind[at.clone()], &ten.ten_J[at], armature, &mut inertia.M);
-        }
-    }
 }
 
 /// Composite inertia of each subtree below the world.
-fn composite_bodies(m: &Model, com: &Com, inertia: &mut Inertia) {
-    inertia.crb.copy_from_slice(&com.cinert);
-    for b in (1..m.nbody).rev() {
+fn composite_bodies(m: &Model, awake: Awake, com: &Com, inertia: &mut Inertia) {
+    match awake.bodies(m) {
+        Subset::All(_) => inertia.crb.copy_from_slice(&com.cinert),
+        Subset::Listed(bodies) => {
+            bodies.iter().for_each(|&b| inertia.crb[b as usize] = com.cinert[b as usize])
+        }
+    }
+    over!(awake.children(m), |bodies| for b in bodies.rev() {
         let parent = m.body_parentid[b] as usize;
         if parent > 0 {
             let child = inertia.crb[b];
@@ -65,7 +82,7 @@ fn composite_bodies(m: &Model, com: &Com, inertia: &mut Inertia) {
                 *sum += part;
             }
         }
-    }
+    });
 }
 
 /// Armature along tendon `t`, actuators included.
@@ -100,14 +117,38 @@ pub fn row(m: &Model, dof: usize) -> Range<usize> {
 
 /// Factors `M` into `qLD` and `qLDiagInv`.
 pub fn factor_inertia(m: &Model, inertia: &mut Inertia) {
-    inertia.qLD.copy_from_slice(&inertia.M);
-    factor(m, &mut inertia.qLD, &mut inertia.qLDiagInv);
+    factor_inertia_of(m, Awake::EVERYTHING, inertia);
+}
+
+/// [`factor_inertia`] of what is awake.
+pub(crate) fn factor_inertia_of(m: &Model, awake: Awake, inertia: &mut Inertia) {
+    let Inertia { M, qLD, qLDiagInv, .. } = inertia;
+    match awake.dofs(m) {
+        Subset::All(_) => qLD.copy_from_slice(M),
+        Subset::Listed(dofs) => {
+            for at in dofs.iter().map(|&dof| row(m, dof as usize)) {
+                qLD[at.clone()].copy_from_slice(&M[at]);
+            }
+        }
+    }
+    over!(awake.dofs(m), |dofs| factor_rows(m, qLD, qLDiagInv, dofs));
 }
 
 /// Replaces a positive definite matrix on the pattern of `M` by its factor `L'DL`: unit lower triangle `L`, with
 /// `D` on the diagonal; `diag_inv` takes the reciprocals of `D`. Rows are eliminated from the leaves to the root.
 pub fn factor(m: &Model, matrix: &mut [f64], diag_inv: &mut [f64]) {
-    for k in (0..m.nv).rev() {
+    factor_rows(m, matrix, diag_inv, 0..m.nv);
+}
+
+/// The same of the trees that have these degrees of freedom.
+#[inline]
+pub(crate) fn factor_rows(
+    m: &Model,
+    matrix: &mut [f64],
+    diag_inv: &mut [f64],
+    dofs: impl DoubleEndedIterator<Item = usize>,
+) {
+    for k in dofs.rev() {
         let at = row(m, k);
         let columns = &m.M_colind[at.clone()];
         let (above, from_k) = matrix.split_at_mut(at.start);
@@ -132,6 +173,14 @@ fn pattern(m: &Model) -> LowerRows<'_> {
 /// `x <- (L'DL)^-1 x`.
 pub fn solve_ld(m: &Model, ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
     pattern(m).solve_ldl(ld, diag_inv, x);
+}
+
+/// The same of the trees that have these degrees of freedom.
+pub(crate) fn solve_of(m: &Model, dofs: &[i32], ld: &[f64], diag_inv: &[f64], x: &mut [f64]) {
+    for run in dofs.chunk_by(|a, b| a + 1 == *b) {
+        let first = run[0] as usize;
+        pattern(m).solve_ldl_rows(ld, diag_inv, first..first + run.len(), x);
+    }
 }
 
 /// `x <- M^-1 x`.

@@ -22,12 +22,13 @@ use crate::actuation::history;
 use crate::actuation::reflected_load::dof_damping;
 use crate::data::{Acceleration, Data, Inertia, State, Transmission, Velocity};
 use crate::derivative::inputs_of;
-use crate::inertia::{factor, row, solve_ld};
+use crate::inertia::{factor, factor_rows, row, solve_ld, solve_of};
 use crate::integration::implicit;
 use crate::math::{add_scaled_slice, quat_conj, quat_integrate, quat_mul, quat_to_velocity};
 use crate::model::{Disable, Integrator, JointType, Model};
 use crate::pipeline::forward::{StepError, evaluate};
 use crate::pipeline::watch::{Stage, Watch};
+use crate::sleep::{self, Awake, Subset, over};
 
 /// Working memory of the integrators.
 #[derive(Clone, Debug, Default)]
@@ -93,94 +94,144 @@ pub fn implicit(m: &Model, d: &mut Data, factors: Factors) {
     force.extend(d.acc.qfrc_smooth.iter().zip(&d.acc.qfrc_constraint).map(|(s, c)| s + c));
     qacc.resize(m.nv, 0.0);
     implicit::solve(m, &inputs, &d.implicit, force, qacc);
-    let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot, fresh: &d.scratch.sensor.fresh };
-    advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state);
+    advance(m, d);
 }
 
 /// Advances the state by one step of semi-implicit Euler; joint damping is taken at the end of the step.
 pub fn euler(m: &Model, d: &mut Data, factors: Factors) {
-    let qacc = &mut d.scratch.integrate.qacc;
+    let (qacc, awake) = (&mut d.scratch.integrate.qacc, Awake::of(m, &d.state).dofs(m));
     qacc.clear();
-    if is_damped(m) {
-        if factors == Factors::Fresh {
-            let crate::data::Implicit { qH, qHDiagInv, .. } = &mut d.implicit;
-            damped_inertia(m, &d.state, &d.inertia, qH);
-            factor(m, qH, qHDiagInv);
-        }
+    if is_damped(m, awake) {
+        let crate::data::Implicit { qH, qHDiagInv, .. } = &mut d.implicit;
         qacc.extend(d.acc.qfrc_smooth.iter().zip(&d.acc.qfrc_constraint).map(|(s, c)| s + c));
-        solve_ld(m, &d.implicit.qH, &d.implicit.qHDiagInv, qacc);
+        match awake {
+            Subset::All(_) => {
+                if factors == Factors::Fresh {
+                    damped_inertia(m, &d.state, &d.inertia, qH);
+                    factor(m, qH, qHDiagInv);
+                }
+                solve_ld(m, qH, qHDiagInv, qacc);
+            }
+            Subset::Listed(dofs) => {
+                let rows = || dofs.iter().map(|&dof| dof as usize);
+                for dof in rows() {
+                    qH[row(m, dof)].copy_from_slice(&d.inertia.M[row(m, dof)]);
+                    damp(m, &d.state, dof, qH);
+                }
+                factor_rows(m, qH, qHDiagInv, rows());
+                solve_of(m, dofs, qH, qHDiagInv, qacc);
+            }
+        }
     } else {
         qacc.extend_from_slice(&d.acc.qacc);
     }
-    let rates = NewRates { qvel: None, qacc, act_dot: &d.actuation.act_dot, fresh: &d.scratch.sensor.fresh };
-    advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state);
+    advance(m, d);
 }
 
 /// True when some degree of freedom is damped and Euler treats that implicitly.
-fn is_damped(m: &Model) -> bool {
-    !m.opt.disableflags.intersects(Disable::EULERDAMP | Disable::DAMPER) && has_joint_damping(m)
+fn is_damped(m: &Model, dofs: Subset) -> bool {
+    !m.opt.disableflags.intersects(Disable::EULERDAMP | Disable::DAMPER)
+        && over!(dofs, |dofs| { dofs }.any(|dof| may_be_damped(m, dof)))
 }
 
 /// True when some degree of freedom may be damped, by itself or by an actuator.
 pub(crate) fn has_joint_damping(m: &Model) -> bool {
-    (0..m.nv).any(|dof| {
-        m.dof_damping[dof] > 0.0
-            || m.dof_dampingpoly[dof] != [0.0; 2]
-            || m.jnt_actuatorid[m.dof_jntid[dof] as usize] != -1
-    })
+    (0..m.nv).any(|dof| may_be_damped(m, dof))
+}
+
+#[inline]
+fn may_be_damped(m: &Model, dof: usize) -> bool {
+    m.dof_damping[dof] > 0.0
+        || m.dof_dampingpoly[dof] != [0.0; 2]
+        || m.jnt_actuatorid[m.dof_jntid[dof] as usize] != -1
 }
 
 /// `M + h B`, where `B` is the slope of joint damping at the present velocity.
 pub(crate) fn damped_inertia(m: &Model, state: &State, inertia: &Inertia, out: &mut [f64]) {
     out.copy_from_slice(&inertia.M);
-    for dof in 0..m.nv {
-        out[row(m, dof).end - 1] += m.opt.timestep * dof_damping(m, dof).slope(state.qvel[dof].abs());
+    (0..m.nv).for_each(|dof| damp(m, state, dof, out));
+}
+
+/// Adds the slope of the damping of a degree of freedom.
+#[inline]
+fn damp(m: &Model, state: &State, dof: usize, out: &mut [f64]) {
+    out[row(m, dof).end - 1] += m.opt.timestep * dof_damping(m, dof).slope(state.qvel[dof].abs());
+}
+
+/// Advances the state by the acceleration that the integrator found.
+fn advance(m: &Model, d: &mut Data) {
+    advance_memory(m, &d.trn, &d.vel, &d.actuation.act_dot, &d.scratch.sensor.fresh, &mut d.state);
+    if sleep::is_on(m) {
+        sleep::rest::end_step(m, d);
     }
+    advance_motion(m, &d.acc, None, &d.scratch.integrate.qacc, &mut d.state);
 }
 
-/// Rates that move the state over one step.
-struct NewRates<'a> {
-    /// Velocity that moves positions; `None` takes the new `qvel`.
-    qvel: Option<&'a [f64]>,
-    qacc: &'a [f64],
-    act_dot: &'a [f64],
-    /// Sensor readings of this step, for histories.
-    fresh: &'a [f64],
-}
-
-/// Advances histories, activations, velocities, positions and time by one step; keeps `qacc` to start the next solution.
-fn advance(
+/// Advances histories and activations by one step; `fresh` are the sensor readings of this step.
+fn advance_memory(
     m: &Model,
     trn: &Transmission,
     vel: &Velocity,
-    acc: &Acceleration,
-    rates: &NewRates,
+    act_dot: &[f64],
+    fresh: &[f64],
     state: &mut State,
 ) {
     if m.nhistory > 0 {
-        history::record(m, &state.ctrl, rates.fresh, state.time, &mut state.history);
+        history::record(m, &state.ctrl, fresh, state.time, &mut state.history);
     }
     if m.na > 0 && !m.opt.disableflags.contains(Disable::ACTUATION) {
-        advance_activations(m, trn, vel, rates.act_dot, state);
+        advance_activations(m, trn, vel, act_dot, state);
     }
-    add_scaled_slice(&mut state.qvel, rates.qacc, m.opt.timestep);
-    integrate_pos(m, &mut state.qpos, rates.qvel.unwrap_or(&state.qvel), m.opt.timestep);
-    state.time += m.opt.timestep;
+}
+
+/// Advances velocities, positions and time by one step, and states of plugins; keeps `qacc` to start the next solution.
+/// Positions move with the velocity `qvel`, or with the new one.
+fn advance_motion(m: &Model, acc: &Acceleration, qvel: Option<&[f64]>, qacc: &[f64], state: &mut State) {
+    let h = m.opt.timestep;
+    if Awake::of(m, state).is_everything() {
+        add_scaled_slice(&mut state.qvel, qacc, h);
+        integrate_pos(m, &mut state.qpos, qvel.unwrap_or(&state.qvel), h);
+    } else {
+        let State { qpos, qvel: own, body_awake, dof_awake_ind, nv_awake, .. } = state;
+        dof_awake_ind[..*nv_awake].iter().for_each(|&dof| own[dof as usize] += qacc[dof as usize] * h);
+        for j in (0..m.njnt).filter(|&j| body_awake[m.jnt_bodyid[j] as usize] != 0) {
+            integrate_joint(m, j, qpos, qvel.unwrap_or(own), h);
+        }
+    }
+    state.time += h;
+    if m.npluginstate > 0 {
+        advance_plugins(m, state);
+    }
     state.qacc_warmstart.copy_from_slice(&acc.qacc);
+}
+
+/// Advances the states of plugins.
+#[inline(never)]
+fn advance_plugins(m: &Model, state: &mut State) {
+    let mut own = std::mem::take(&mut state.plugin_state);
+    for running in m.plugins().all() {
+        running.instance.advance(m, state, &mut own[running.state.clone()]);
+    }
+    state.plugin_state = own;
 }
 
 /// Moves `qpos` with velocity `qvel` for `dt`: quaternions on the sphere, all else in a straight line.
 pub fn integrate_pos(m: &Model, qpos: &mut [f64], qvel: &[f64], dt: f64) {
     for j in 0..m.njnt {
-        let (q, v) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
-        match JointType::from_code(m.jnt_type[j]) {
-            Some(JointType::Free) => {
-                add_scaled_slice(&mut qpos[q..q + 3], &qvel[v..v + 3], dt);
-                turn(&mut qpos[q + 3..q + 7], &qvel[v + 3..v + 6], dt);
-            }
-            Some(JointType::Ball) => turn(&mut qpos[q..q + 4], &qvel[v..v + 3], dt),
-            Some(JointType::Slide | JointType::Hinge) | None => qpos[q] += dt * qvel[v],
+        integrate_joint(m, j, qpos, qvel, dt);
+    }
+}
+
+#[inline]
+fn integrate_joint(m: &Model, j: usize, qpos: &mut [f64], qvel: &[f64], dt: f64) {
+    let (q, v) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
+    match JointType::from_code(m.jnt_type[j]) {
+        Some(JointType::Free) => {
+            add_scaled_slice(&mut qpos[q..q + 3], &qvel[v..v + 3], dt);
+            turn(&mut qpos[q + 3..q + 7], &qvel[v + 3..v + 6], dt);
         }
+        Some(JointType::Ball) => turn(&mut qpos[q..q + 4], &qvel[v..v + 3], dt),
+        Some(JointType::Slide | JointType::Hinge) | None => qpos[q] += dt * qvel[v],
     }
 }
 
@@ -219,13 +270,11 @@ pub fn runge_kutta(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<()
     let result = stages(m, d, &mut scratch, watch);
     if result.is_ok() {
         combine(&mut scratch, m);
-        let rates = NewRates {
-            qvel: Some(&scratch.qvel),
-            qacc: &scratch.qacc,
-            act_dot: &scratch.act_dot,
-            fresh: &d.scratch.sensor.fresh,
-        };
-        advance(m, &d.trn, &d.vel, &d.acc, &rates, &mut d.state);
+        advance_memory(m, &d.trn, &d.vel, &scratch.act_dot, &d.scratch.sensor.fresh, &mut d.state);
+        if sleep::is_on(m) {
+            sleep::rest::end_step(m, d);
+        }
+        advance_motion(m, &d.acc, Some(&scratch.qvel), &scratch.qacc, &mut d.state);
     }
     d.scratch.integrate = scratch;
     result

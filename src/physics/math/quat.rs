@@ -77,6 +77,34 @@ pub fn quat_to_mat(q: Quat) -> Mat3 {
     ]
 }
 
+/// Unit quaternion of a rotation matrix, from its largest component (Shepperd 1978).
+pub fn mat_to_quat(m: &Mat3) -> Quat {
+    let trace = m[0] + m[4] + m[8];
+    let mut q = [0.0; 4];
+    if trace > 0.0 {
+        q[0] = 0.5 * (1.0 + m[0] + m[4] + m[8]).sqrt();
+        q[1] = 0.25 * (m[7] - m[5]) / q[0];
+        q[2] = 0.25 * (m[2] - m[6]) / q[0];
+        q[3] = 0.25 * (m[3] - m[1]) / q[0];
+    } else if m[0] > m[4] && m[0] > m[8] {
+        q[1] = 0.5 * (1.0 + m[0] - m[4] - m[8]).sqrt();
+        q[0] = 0.25 * (m[7] - m[5]) / q[1];
+        q[2] = 0.25 * (m[1] + m[3]) / q[1];
+        q[3] = 0.25 * (m[2] + m[6]) / q[1];
+    } else if m[4] > m[8] {
+        q[2] = 0.5 * (1.0 - m[0] + m[4] - m[8]).sqrt();
+        q[0] = 0.25 * (m[2] - m[6]) / q[2];
+        q[1] = 0.25 * (m[1] + m[3]) / q[2];
+        q[3] = 0.25 * (m[5] + m[7]) / q[2];
+    } else {
+        q[3] = 0.5 * (1.0 - m[0] - m[4] + m[8]).sqrt();
+        q[0] = 0.25 * (m[3] - m[1]) / q[3];
+        q[1] = 0.25 * (m[2] + m[6]) / q[3];
+        q[2] = 0.25 * (m[5] + m[7]) / q[3];
+    }
+    quat_normalize(q)
+}
+
 /// Rotation by `angle` about the unit vector `axis`.
 pub fn quat_from_axis_angle(axis: Vec3, angle: f64) -> Quat {
     if angle == 0.0 {

@@ -7,7 +7,7 @@
 //! | fingerprint | 8 | digest of the names, types and shapes of all fields |
 //! | length | 8 | bytes of the content |
 //! | checksum | 8 | [`checksum`] of the content |
-//! | content | | name, flags, sizes, settings, arrays: scalars in order of declaration, little-endian |
+//! | content | | name, plugins of instances by name, flags, sizes, settings, arrays: scalars in order of declaration, little-endian |
 //!
 //! Zeros fill up each array, and what stands before the first, to whole words of eight bytes.
 //!
@@ -33,13 +33,14 @@ use super::{
 use crate::consistency::{Inconsistent, check_consistency};
 use crate::pipeline::error::NotSimulated;
 use crate::pipeline::validity::check_model;
+use crate::plugin::{PluginError, Registry};
 use std::fmt;
 use std::io::{ErrorKind, Read, Write};
 
 /// The first bytes of a compiled model.
 pub const MARK: [u8; 8] = *b"\x89RHmdl\r\n";
 /// Version of the layout.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 /// Bytes before the content.
 pub(super) const HEADER: usize = 36;
 
@@ -65,6 +66,10 @@ pub enum BinaryError {
     Inconsistent(Inconsistent),
     /// The model uses a feature that is not simulated.
     NotSimulated(NotSimulated),
+    /// The model uses a plugin of this name, which is not registered.
+    UnknownPlugin(String),
+    /// A plugin refuses its instance.
+    Plugin(PluginError),
 }
 
 impl fmt::Display for BinaryError {
@@ -86,6 +91,13 @@ impl fmt::Display for BinaryError {
             }
             BinaryError::Inconsistent(what) => write!(f, "the compiled model contradicts itself: {what}"),
             BinaryError::NotSimulated(what) => write!(f, "{what}"),
+            BinaryError::UnknownPlugin(name) => {
+                write!(
+                    f,
+                    "the compiled model needs the plugin '{name}': register it before reading the model"
+                )
+            }
+            BinaryError::Plugin(what) => write!(f, "{what}"),
         }
     }
 }
@@ -160,6 +172,10 @@ impl Model {
         let mut head = Vec::new();
         head.extend((self.name.len() as u64).to_le_bytes());
         head.extend(self.name.as_bytes());
+        let plugins: Vec<&str> = self.plugins().names().collect();
+        let plugins = plugins.join("\0");
+        head.extend((plugins.len() as u64).to_le_bytes());
+        head.extend(plugins.as_bytes());
         self.visit_flags(&mut |_, flag| head.push(u8::from(flag)));
         self.visit_sizes(&mut |_, n| head.extend((n as isize as i64).to_le_bytes()));
         let mut setting = |_: &str, values: crate::table::Slice<'_>| {
@@ -192,7 +208,15 @@ impl Model {
     /// # Errors
     /// Those of `from_bytes`, and failures of the source.
     pub fn read(source: &mut dyn Read, length: u64) -> Result<Model, BinaryError> {
-        Model::read_parts(source, length, None)
+        Model::read_with(source, length, &Registry::default())
+    }
+
+    /// [`Model::read`] of a model whose plugins are in `registry`.
+    ///
+    /// # Errors
+    /// Those of `read`; a plugin that is not registered.
+    pub fn read_with(source: &mut dyn Read, length: u64, registry: &Registry) -> Result<Model, BinaryError> {
+        Model::read_parts(source, length, None, registry)
     }
 
     /// [`Model::read`] where `again` opens the source again at an offset in bytes from the start of the model: two
@@ -204,12 +228,16 @@ impl Model {
         source: &mut dyn Read,
         length: u64,
         again: Option<Again<'_>>,
+        registry: &Registry,
     ) -> Result<Model, BinaryError> {
         let mut from = Reader::new(source, length)?;
         let mut m = Arrays::default();
-        let read = read_head(&mut m, &mut from).and_then(|arrays| match again {
-            Some(again) if from.left() > LARGE => read_halves(&mut m, &mut from, again, &arrays),
-            _ => m.read_arrays(&mut from, 0..arrays.len()),
+        let read = read_head(&mut m, &mut from).and_then(|Head { arrays, plugins }| {
+            match again {
+                Some(again) if from.left() > LARGE => read_halves(&mut m, &mut from, again, &arrays)?,
+                _ => m.read_arrays(&mut from, 0..arrays.len())?,
+            }
+            Ok(plugins)
         });
         if let Err(BinaryError::Unreadable(kind)) = read {
             return Err(BinaryError::Unreadable(kind));
@@ -219,12 +247,27 @@ impl Model {
         if from.digest != from.expected {
             return Err(BinaryError::Checksum);
         }
-        read?;
+        let plugins = read?;
         check_consistency(&m).map_err(BinaryError::Inconsistent)?;
-        let m = Model::unchecked(m);
+        m.plugin = slots(&plugins, &m, registry)?.into();
+        let mut m = Model::unchecked(m);
         check_model(&m).map_err(BinaryError::NotSimulated)?;
+        m.start_plugins(registry).map_err(BinaryError::Plugin)?;
         Ok(m)
     }
+}
+
+/// Where the plugins of these names, one an instance, are in `registry`.
+fn slots(names: &str, m: &Arrays, registry: &Registry) -> Result<Vec<i32>, BinaryError> {
+    let names: Vec<&str> = names.split('\0').filter(|name| !name.is_empty()).collect();
+    if names.len() != m.nplugin {
+        return Err(BinaryError::Length);
+    }
+    let slot = |name: &&str| match registry.slot(name) {
+        Some(slot) => Ok(slot as i32),
+        None => Err(BinaryError::UnknownPlugin((*name).to_owned())),
+    };
+    names.iter().map(slot).collect()
 }
 
 /// Opens a source again, at an offset.
@@ -267,15 +310,29 @@ fn read_halves(
     head.and(read)
 }
 
-/// Reads all before the arrays; returns the bytes of each, which must add up to the rest.
-fn read_head(m: &mut Arrays, from: &mut Reader) -> Result<Vec<u64>, BinaryError> {
-    let mut name = Vec::new();
+/// What stands before the arrays, beside sizes and settings.
+struct Head {
+    /// Bytes of each array.
+    arrays: Vec<u64>,
+    /// Names of the plugins of all instances, with a zero byte between two.
+    plugins: String,
+}
+
+/// A text behind its length.
+fn read_text(from: &mut Reader) -> Result<String, BinaryError> {
+    let mut text = Vec::new();
     let length = usize::try_from(u64::from_le_bytes(from.fixed()?)).map_err(|_| BinaryError::Length)?;
     if length as u64 > from.left() {
         return Err(BinaryError::Length);
     }
-    from.rows(&mut name, length)?;
-    m.name = String::from_utf8(name).map_err(|_| BinaryError::Name)?;
+    from.rows(&mut text, length)?;
+    String::from_utf8(text).map_err(|_| BinaryError::Name)
+}
+
+/// Reads all before the arrays, whose bytes must add up to the rest.
+fn read_head(m: &mut Arrays, from: &mut Reader) -> Result<Head, BinaryError> {
+    m.name = read_text(from)?;
+    let plugins = read_text(from)?;
     for flag in [&mut m.flg_gravcomp, &mut m.flg_surfacevel, &mut m.flg_adhesion] {
         from.setting("flag", flag)?;
     }
@@ -291,7 +348,7 @@ fn read_head(m: &mut Arrays, from: &mut Reader) -> Result<Vec<u64>, BinaryError>
     from.align()?;
     let arrays = m.array_bytes().ok_or(BinaryError::Length)?;
     let total = arrays.iter().try_fold(0_u64, |total, &bytes| total.checked_add(bytes));
-    if total == Some(from.left()) { Ok(arrays) } else { Err(BinaryError::Length) }
+    if total == Some(from.left()) { Ok(Head { arrays, plugins }) } else { Err(BinaryError::Length) }
 }
 
 /// Writes the header that fits the content of `bytes`, which begin with room for one.

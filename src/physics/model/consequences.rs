@@ -99,7 +99,8 @@ impl Consequences {
     /// The same for an edit of the structure, by way of a copy, since it can fail halfway.
     fn derive_all(&self, m: &mut Model) -> Result<(), EditError> {
         let plain = computed_statistic(m)?;
-        let mut next = Model { arrays: m.arrays.clone(), caches: Caches::default() };
+        let mut next =
+            Model { arrays: m.arrays.clone(), caches: Caches::default(), plugins: m.plugins.clone() };
         let given = std::mem::replace(&mut next.arrays.stat, plain.clone());
         set_bounds(&mut next.arrays, &self.changed);
         set_const(&mut next).map_err(EditError::Structure)?;

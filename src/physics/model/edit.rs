@@ -6,6 +6,7 @@ use super::{Arrays, Draft, Model, Options, Statistic, Visual};
 use crate::consistency::Inconsistent;
 use crate::constants::set_const::SetConstError;
 use crate::pipeline::error::NotSimulated;
+use crate::plugin::{Instances, PluginError};
 use crate::table::Slice;
 use std::fmt;
 
@@ -35,6 +36,8 @@ pub enum EditError {
     Structure(SetConstError),
     /// The model now asks for a feature that is not simulated.
     NotSimulated(NotSimulated),
+    /// A plugin refuses the new numbers.
+    Plugin(PluginError),
 }
 
 impl fmt::Display for EditError {
@@ -49,6 +52,7 @@ impl fmt::Display for EditError {
             EditError::Inconsistent(what) => write!(f, "the edit contradicts the rest of the model: {what}"),
             EditError::Structure(what) => write!(f, "{what}; compile another model"),
             EditError::NotSimulated(what) => write!(f, "{what}"),
+            EditError::Plugin(what) => write!(f, "{what}"),
         }
     }
 }
@@ -78,7 +82,11 @@ impl Model {
         let mut session = Session::begin(self);
         let written = session.write(change)?;
         check(session.model, written)?;
+        let plugins = session.plugins()?;
         Consequences::of(&session.model.arrays, written).derive(session.model)?;
+        if let Some(plugins) = plugins {
+            session.model.plugins = plugins;
+        }
         session.accept();
         Ok(())
     }
@@ -142,6 +150,15 @@ impl<'m> Session<'m> {
         }
         check_numbers(arrays)?;
         Ok(arrays.written())
+    }
+
+    /// The instances of plugins that follow from what was written; `None` for a model without any.
+    fn plugins(&self) -> Result<Option<Instances>, EditError> {
+        if self.model.nplugin == 0 {
+            return Ok(None);
+        }
+        let registry = self.model.registry();
+        Instances::new(self.model, registry).map(Some).map_err(EditError::Plugin)
     }
 
     fn accept(mut self) {

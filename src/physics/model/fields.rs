@@ -1,11 +1,8 @@
 //! The table of the compiled model: sizes, then one line an array.
 
 use super::array::{Drafted, Finished, Form, Growing, Writer};
-use super::binary::BinaryError;
-use super::declare::model;
 use super::reader::{Reader, array_bytes};
-use super::skin_rows::model_with_skins;
-use super::written::Written;
+use super::{binary::BinaryError, declare::model, skin_rows::model_with_skins, written::Written};
 use crate::model::{Options, Statistic, Visual};
 use crate::table::{Field, Row, Slice, field_rows, field_shape, field_width, row_count, row_type};
 
@@ -21,7 +18,7 @@ model_with_skins! {
         nbvh            "Nodes of all bounding volume trees.",
         nbvhstatic      "Nodes whose boxes are constant: bodies and meshes.",
         nbvhdynamic     "Nodes whose boxes move: flexible bodies, always 0 here.",
-        noct            "Cells of mesh octrees (signed distance fields), always 0 here.",
+        noct            "Cells of mesh octrees (signed distance fields).",
         njnt            "Joints.",
         ntree           "Kinematic trees below the world.",
         nM              "Stored elements of the inertia matrix, by dof and its ancestors.",
@@ -61,6 +58,8 @@ model_with_skins! {
         ntupledata      "Objects of those tuples.",
         nkey            "Keyframes.",
         nmocap          "Mocap bodies.",
+        nplugin         "Instances of plugins.",
+        npluginattr     "Bytes of their attributes, terminators included.",
         nuser_body      "User numbers per body.",
         nuser_jnt       "User numbers per joint.",
         nuser_geom      "User numbers per geom.",
@@ -81,6 +80,7 @@ model_with_skins! {
         nmeshdegmax     "Edges at the busiest hull vertex.",
         nuserdata       "User numbers of the state.",
         nsensordata     "Numbers of all sensors.",
+        npluginstate    "Numbers that plugins keep.",
         nhistory        "Numbers of all delay buffers.",
         narena          "Bytes of MuJoCo's arena for this model; unused here.",
         nbuffer         "Bytes of MuJoCo's model buffer; unused here.",
@@ -114,6 +114,7 @@ model_with_skins! {
         body_gravcomp: f64 [nbody]                "Fraction of weight that is compensated.",
         body_margin: f64 [nbody]                  "Largest margin plus gap of its geoms [m].",
         body_user: f64 [nbody, nuser_body]        "User numbers.",
+        body_plugin: i32 [nbody]                  "Instance that makes passive forces on it, -1 for none.",
         body_contype: i32 [nbody]                 "Union of its geoms' contact types.",
         body_conaffinity: i32 [nbody]             "Union of its geoms' contact affinities.",
         body_bvhadr: i32 [nbody]                  "Root of its bounding volume tree, -1 for none.",
@@ -180,6 +181,7 @@ model_with_skins! {
         geom_matid: i32 [ngeom]                   "Material, -1 for none.",
         geom_group: i32 [ngeom]                   "Visibility group.",
         geom_priority: i32 [ngeom]                "Rank whose contact parameters win.",
+        geom_plugin: i32 [ngeom]                  "Instance that is its signed distance field, -1 for none.",
         geom_sameframe: u8 [ngeom]                "How the geom frame coincides with the body or inertial frame.",
         geom_solmix: f64 [ngeom]                  "Weight in the mixing of contact parameters.",
         geom_solref: f64 [ngeom; 2]               "Contact reference.",
@@ -400,6 +402,7 @@ model_with_skins! {
         actuator_armature: f64 [nactuator]        "Inertia that it adds to its joint or tendon.",
         actuator_group: i32 [nactuator]           "Group, by which actuators can be disabled.",
         actuator_user: f64 [nactuator, nuser_actuator] "User numbers.",
+        actuator_plugin: i32 [nactuator]          "Instance that makes its force, -1 for none.",
         actuator_forcelimited: bool [nactuator]   "The force is limited.",
         actuator_forcerange: f64 [nactuator; 2]   "Limits of the force [N, N m].",
         actuator_ctrllimited: bool [nu]           "The control is limited.",
@@ -426,7 +429,12 @@ model_with_skins! {
         sensor_delay: f64 [nsensor]               "Delay [s].",
         sensor_interval: f64 [nsensor; 2]         "Period and phase of measurement [s].",
         sensor_user: f64 [nsensor, nuser_sensor]  "User numbers.",
-
+        sensor_plugin: i32 [nsensor]              "Instance that it reads, -1 for none.",
+        plugin: i32 [nplugin]                     "Place of the plugin in the registry.",
+        plugin_stateadr: i32 [nplugin]            "First number of its state.",
+        plugin_statenum: i32 [nplugin]            "Numbers of its state.",
+        plugin_attr: u8 [npluginattr]             "Texts of attributes in order of declaration, each ended by a zero byte.",
+        plugin_attradr: i32 [nplugin]             "First byte of its attributes.",
         numeric_adr: i32 [nnumeric]               "First number.",
         numeric_size: i32 [nnumeric]              "Number of numbers.",
         numeric_data: f64 [nnumericdata]          "Numbers of all fields.",
@@ -470,29 +478,22 @@ model_with_skins! {
         name_textadr: i32 [ntext]                 "First byte of a text field's name.",
         name_tupleadr: i32 [ntuple]               "First byte of a tuple's name.",
         name_keyadr: i32 [nkey]                   "First byte of a keyframe's name.",
-
+        name_pluginadr: i32 [nplugin]             "First byte of the name of a plugin's instance.",
         names: u8 [nnames]                        "All names, each ended by a zero byte.",
         names_map: i32 [nnames_map]               "Hash tables from names to ids.",
-
         paths: u8 [npaths]                        "All file paths, each ended by a zero byte.",
-
         B_rownnz: i32 [nbody]                     "Dofs that move a body.",
         B_rowadr: i32 [nbody]                     "First of them in `B_colind`.",
         B_colind: i32 [nB]                        "Those dofs, in increasing order.",
-
         M_rownnz: i32 [nv]                        "Elements in a row of the inertia matrix's lower triangle.",
         M_rowadr: i32 [nv]                        "First element of a row.",
         M_colind: i32 [nC]                        "Column of an element.",
-
         mapM2M: i32 [nC]                          "Element of `qM` that an element of the triangle repeats.",
-
         D_rownnz: i32 [nv]                        "Elements in a row of the square pattern.",
         D_rowadr: i32 [nv]                        "First element of a row.",
         D_diag: i32 [nv]                          "Diagonal element, counted from the start of its row.",
         D_colind: i32 [nD]                        "Column of an element.",
-
         mapM2D: i32 [nD]                          "Element of the triangle that an element of the square pattern repeats.",
-
         mapD2M: i32 [nC]                          "Element of the square pattern that one of the triangle repeats.",
     }
 }

@@ -42,6 +42,7 @@ pub use suggestion::Suggestions;
 pub use types::*;
 
 use crate::collision::climb::Slopes;
+use crate::plugin::{Instances, PluginError, Registry};
 use names::NameIndex;
 use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
@@ -55,6 +56,7 @@ use std::sync::{Arc, OnceLock};
 pub struct Model {
     arrays: Arrays,
     caches: Caches,
+    plugins: Instances,
 }
 
 /// What is derived from the arrays when first needed. Clones share it; whoever writes what a cache depends on drops it.
@@ -81,7 +83,7 @@ impl Model {
     /// single stages. Functions of this crate panic where arrays contradict each other.
     #[doc(hidden)]
     pub fn unchecked(arrays: Arrays) -> Self {
-        Model { arrays, caches: Caches::default() }
+        Model { arrays, ..Model::default() }
     }
 
     /// The arrays to write, without the checks and the derived quantities of an edit, as for [`Model::unchecked`].
@@ -99,6 +101,26 @@ impl Model {
     /// The options, to change. Nothing in the model is derived from them.
     pub fn options_mut(&mut self) -> &mut Options {
         &mut self.arrays.opt
+    }
+
+    /// Makes the instances of the plugins in `registry` that the arrays name, in place of those before.
+    ///
+    /// # Errors
+    /// The first instance that cannot be made; those before stay.
+    #[doc(hidden)]
+    pub fn start_plugins(&mut self, registry: &Registry) -> Result<(), PluginError> {
+        self.plugins = Instances::new(self, registry)?;
+        Ok(())
+    }
+
+    /// The plugins that [`Arrays::plugin`] counts.
+    pub fn registry(&self) -> &Registry {
+        self.plugins.registry()
+    }
+
+    /// The plugins at work.
+    pub(crate) fn plugins(&self) -> &Instances {
+        &self.plugins
     }
 
     /// Hulls in the layout that collision climbs.

@@ -12,7 +12,7 @@ pub(super) struct NameIndex {
 }
 
 /// Codes of named kinds are below this.
-const KINDS: usize = ObjType::Key.code() as usize + 1;
+const KINDS: usize = ObjType::Plugin.code() as usize + 1;
 
 impl NameIndex {
     /// Id of the element called `name`; of several, the first.
@@ -63,6 +63,7 @@ impl Arrays {
             ObjType::Text => &self.name_textadr,
             ObjType::Tuple => &self.name_tupleadr,
             ObjType::Key => &self.name_keyadr,
+            ObjType::Plugin => &self.name_pluginadr,
             _ => &[],
         }
     }

@@ -5,6 +5,7 @@ use crate::inertia::mul_inertia_matrix;
 use crate::math::dense::dot_slice;
 use crate::math::{dot, norm};
 use crate::model::{Disable, JointType, Model};
+use crate::sleep::{Awake, object};
 use crate::velocity::passive::{shift, tendon_stretch, turn};
 use crate::velocity::polynomial::Polynomial;
 
@@ -16,8 +17,10 @@ pub fn potential(m: &Model, state: &State, kin: &Kinematics, ten: &Tendons) -> f
         (1..m.nbody).for_each(|b| energy -= m.body_mass[b] * dot(m.opt.gravity, kin.xipos[b]));
     }
     if enabled(Disable::SPRING) {
-        (0..m.njnt).for_each(|j| energy += joint_spring(m, state, j));
-        for t in 0..m.ntendon {
+        let awake = Awake::of(m, state);
+        let joints = (0..m.njnt).filter(|&j| awake.moves(m.jnt_bodyid[j] as usize));
+        joints.for_each(|j| energy += joint_spring(m, state, j));
+        for t in (0..m.ntendon).filter(|&t| awake.has_awake(|state| object::tendon(m, state, t))) {
             let law = Polynomial { linear: m.tendon_stiffness[t], poly: m.tendon_stiffnesspoly[t] };
             energy += law.potential(tendon_stretch(m, ten, t));
         }

@@ -82,6 +82,13 @@ pub enum StepError {
     BadAct(BadNumber),
     /// The time step is not positive and finite [s].
     BadTimestep(f64),
+    /// `tree_asleep` names a tree that there is not.
+    BadSleep {
+        /// The tree.
+        tree: usize,
+        /// What stands there instead of the next tree of its island.
+        next: i32,
+    },
     /// Contacts and constraint rows need more memory than `Data::budget`.
     OverBudget(OverBudget),
     /// The model or the call uses a feature that is not simulated.
@@ -102,6 +109,12 @@ impl fmt::Display for StepError {
             StepError::BadAct(bad) => ("act", bad, UNSTABLE),
             StepError::BadTimestep(timestep) => {
                 return write!(f, "the time step is {timestep} s; it must be positive and finite");
+            }
+            StepError::BadSleep { tree, next } => {
+                return write!(
+                    f,
+                    "tree_asleep[{tree}] is {next}; for a tree that sleeps it is the number of another tree of its island"
+                );
             }
             StepError::OverBudget(over) => return over.fmt(f),
             StepError::NotSimulated(what) => return what.fmt(f),

@@ -17,10 +17,10 @@
 use crate::acceleration::rne_post::rne_post_constraint;
 use crate::actuation::actuation;
 use crate::actuation::transmission::{actuator_velocity, transmission};
-use crate::collision::collide;
+use crate::collision::collide_awake;
 use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::{Data, configuration_of};
-use crate::inertia::{factor_inertia, make_inertia, solve};
+use crate::inertia::{factor_inertia_of, make_inertia_of, solve, solve_of};
 use crate::integration::integrate::{Factors, advance_once, integrate};
 use crate::model::{Enable, Integrator, Model};
 use crate::pipeline::autoreset::{admit_acceleration, admit_controls, admit_result, admit_state};
@@ -28,11 +28,13 @@ use crate::pipeline::inverse::compare_with_forward;
 use crate::pipeline::validity::{check_acceleration, check_result, check_state};
 use crate::pipeline::watch::{Stage, Watch};
 use crate::position::camera::cameras_and_lights;
-use crate::position::com::com_pos;
+use crate::position::com::com_pos_of;
 use crate::position::jacobian::apply_user_wrenches;
-use crate::position::kinematics::kinematics;
+use crate::position::kinematics::{kinematics, kinematics_of_awake};
 use crate::position::tendon::{tendon, tendon_velocity};
 use crate::sensor::{self, AccelerationInputs, Past, PositionInputs, VelocityInputs};
+use crate::sleep::rest::settle;
+use crate::sleep::{self, Awake, Subset, over, wake};
 use crate::velocity::bias::bias;
 use crate::velocity::com_vel::com_vel;
 use crate::velocity::passive::passive;
@@ -189,17 +191,35 @@ pub(crate) fn position_and_velocity(
 /// Contacts and constraint rows need more memory than the budget.
 #[doc(hidden)]
 pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
-    let s = &mut d.scratch;
-    kinematics(m, &d.state, &mut d.kin);
-    com_pos(m, &d.kin, &mut d.com);
+    if d.unsettled {
+        settle(m, d)?;
+    }
+    let (s, sleeps) = (&mut d.scratch, sleep::is_on(m));
+    if sleeps || d.state.ntree_awake < m.ntree {
+        kinematics_of_awake(m, &mut d.state, &mut d.kin);
+    } else {
+        kinematics(m, &d.state, &mut d.kin);
+    }
+    let awake = Awake::of(m, &d.state);
+    com_pos_of(m, awake, &d.kin, &mut d.com);
     cameras_and_lights(m, &d.com, &mut d.kin);
     watch.ended(Stage::Kinematics);
     tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
+    if sleeps {
+        wake::by_tendons(m, &d.ten, &mut d.state);
+    }
     watch.ended(Stage::Tendons);
-    make_inertia(m, &d.com, &d.ten, &mut d.inertia);
-    factor_inertia(m, &mut d.inertia);
+    let awake = Awake::of(m, &d.state);
+    make_inertia_of(m, awake, &d.com, &d.ten, &mut d.inertia);
+    factor_inertia_of(m, awake, &mut d.inertia);
     watch.ended(Stage::Inertia);
-    collide(m, &d.kin, d.budget, &mut s.collision, &mut d.con)?;
+    collide_awake(m, &d.state, &d.kin, d.budget, &mut s.collision, &mut d.con)?;
+    if sleeps {
+        if wake::by_contacts(m, &d.con, &mut d.state) {
+            collide_awake(m, &d.state, &d.kin, d.budget, &mut s.collision, &mut d.con)?;
+        }
+        wake::by_equalities(m, &mut d.state);
+    }
     d.budget.check_rows(m, &d.con)?;
     watch.ended(Stage::Collision);
     let at = configuration_of!(d);
@@ -239,14 +259,33 @@ pub(crate) fn acceleration(m: &Model, d: &mut Data, watch: &mut impl Watch) {
 #[doc(hidden)]
 #[inline]
 pub fn unconstrained_acceleration(m: &Model, d: &mut Data) {
-    for dof in 0..m.nv {
+    let awake = Awake::of(m, &d.state).dofs(m);
+    over!(awake, |dofs| for dof in dofs {
         d.acc.qfrc_smooth[dof] = d.passive.qfrc_passive[dof] - d.vel.qfrc_bias[dof]
             + d.state.qfrc_applied[dof]
             + d.actuation.qfrc_actuator[dof];
-    }
+    });
     apply_user_wrenches(m, &d.kin, &d.com, &d.state.xfrc_applied, &mut d.acc.qfrc_smooth);
-    d.acc.qacc_smooth.copy_from_slice(&d.acc.qfrc_smooth);
-    solve(m, &d.inertia, &mut d.acc.qacc_smooth);
+    match awake {
+        Subset::All(_) => {
+            d.acc.qacc_smooth.copy_from_slice(&d.acc.qfrc_smooth);
+            solve(m, &d.inertia, &mut d.acc.qacc_smooth);
+        }
+        Subset::Listed(dofs) => {
+            for dof in dofs.iter().map(|&dof| dof as usize) {
+                d.acc.qacc_smooth[dof] = d.acc.qfrc_smooth[dof];
+            }
+            solve_of(m, dofs, &d.inertia.qLD, &d.inertia.qLDiagInv, &mut d.acc.qacc_smooth);
+        }
+    }
+}
+
+/// What depends on velocities and inputs, with sensors, where positions have not changed.
+pub(crate) fn after_position(m: &Model, d: &mut Data) {
+    velocity(m, d, &mut ());
+    velocity_sensors(m, d);
+    acceleration(m, d, &mut ());
+    acceleration_sensors(m, d);
 }
 
 /// Forces of the constraints, and the acceleration with them.
@@ -269,7 +308,7 @@ pub fn position_sensors(m: &Model, d: &mut Data) {
         inertia: &d.inertia,
         efc: &d.efc,
     };
-    let past = Past { time: d.state.time, history: &d.state.history };
+    let past = Past { state: &d.state };
     sensor::position_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
     let on = m.opt.enableflags.contains(Enable::ENERGY);
     d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
@@ -279,7 +318,7 @@ pub fn position_sensors(m: &Model, d: &mut Data) {
 pub fn velocity_sensors(m: &Model, d: &mut Data) {
     let inputs =
         VelocityInputs { state: &d.state, kin: &d.kin, com: &d.com, trn: &d.trn, vel: &d.vel, efc: &d.efc };
-    let past = Past { time: d.state.time, history: &d.state.history };
+    let past = Past { state: &d.state };
     sensor::velocity_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
     if m.opt.enableflags.contains(Enable::ENERGY) {
         d.energy[1] = energy::kinetic(m, &d.state, &d.inertia, &mut d.scratch.sensor.momentum);
@@ -292,6 +331,7 @@ pub fn acceleration_sensors(m: &Model, d: &mut Data) {
         rne_post_constraint(m, &configuration_of!(d), &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
     }
     let inputs = AccelerationInputs {
+        state: &d.state,
         kin: &d.kin,
         com: &d.com,
         con: &d.con,
@@ -299,6 +339,6 @@ pub fn acceleration_sensors(m: &Model, d: &mut Data) {
         vel: &d.vel,
         actuation: &d.actuation,
     };
-    let past = Past { time: d.state.time, history: &d.state.history };
+    let past = Past { state: &d.state };
     sensor::acceleration_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
 }

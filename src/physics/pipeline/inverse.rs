@@ -25,7 +25,6 @@ use crate::math::dense::norm_slice;
 use crate::model::{Disable, Enable, Integrator, Model};
 use crate::pipeline::error::NotSimulated;
 use crate::pipeline::forward::{Known, StepError, acceleration_sensors, position_and_velocity};
-use crate::pipeline::validity::check_options;
 use crate::position::jacobian::apply_user_wrenches;
 use crate::solver;
 
@@ -50,7 +49,6 @@ pub fn inverse(m: &Model, d: &mut Data) -> Result<(), StepError> {
 
 /// `inverse` where part of the last evaluation still holds, with or without sensors.
 pub(crate) fn inverse_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Result<(), StepError> {
-    check_options(m)?;
     position_and_velocity(m, d, known, sensors, &mut ())?;
     let mut s = std::mem::take(&mut d.scratch.inverse);
     s.given.clone_from(&d.acc.qacc);

@@ -5,11 +5,9 @@ use crate::actuation::activation::{activations, clip};
 use crate::actuation::dc_motor;
 use crate::data::Data;
 use crate::model::bounds::MAXVAL;
-use crate::model::{
-    BiasType, Disable, DynType, Enable, EqType, GainType, JointType, Model, ObjType, TrnType,
-};
+use crate::model::{BiasType, Disable, DynType, EqType, GainType, JointType, Model, ObjType, TrnType};
 use crate::pipeline::error::{BadNumber, NotSimulated, StepError};
-use crate::{collision, sensor, velocity::bias};
+use crate::{collision, sensor, sleep, velocity::bias};
 
 /// Not a number, or beyond the bound.
 fn is_bad(x: f64) -> bool {
@@ -21,7 +19,6 @@ fn is_bad(x: f64) -> bool {
 /// # Errors
 /// The first that is bad.
 pub(crate) fn check_state(m: &Model, d: &Data) -> Result<(), StepError> {
-    check_options(m)?;
     if !(m.opt.timestep > 0.0 && m.opt.timestep.is_finite()) {
         return Err(StepError::BadTimestep(m.opt.timestep));
     }
@@ -42,7 +39,14 @@ pub(crate) fn check_state(m: &Model, d: &Data) -> Result<(), StepError> {
 
 fn check_motion(m: &Model, d: &Data) -> Result<(), StepError> {
     check_array(m, d, &d.state.qpos, joint_of_qpos).map_err(StepError::BadQpos)?;
-    check_array(m, d, &d.state.qvel, joint_of_dof).map_err(StepError::BadQvel)
+    check_array(m, d, &d.state.qvel, joint_of_dof).map_err(StepError::BadQvel)?;
+    if sleep::is_on(m) {
+        let beyond = |&next: &i32| usize::try_from(next).is_ok_and(|next| next >= m.ntree);
+        if let Some(tree) = d.state.tree_asleep.iter().position(beyond) {
+            return Err(StepError::BadSleep { tree, next: d.state.tree_asleep[tree] });
+        }
+    }
+    Ok(())
 }
 
 /// Checks the state that a step made: a simulation that diverges fails in the step that diverges.
@@ -97,15 +101,12 @@ fn joint_of_qpos(m: &Model, q: usize) -> usize {
     (0..m.njnt).rfind(|&j| m.jnt_qposadr[j] as usize <= q).unwrap_or(0)
 }
 
-/// Checks the options that decide how a step is made.
+/// Checks once that the trees which begin asleep can.
 ///
 /// # Errors
-/// The feature that is not simulated.
-pub fn check_options(m: &Model) -> Result<(), NotSimulated> {
-    if m.opt.enableflags.contains(Enable::SLEEP) {
-        return Err(NotSimulated::feature("sleeping of islands (flag `sleep`)"));
-    }
-    Ok(())
+/// The first body whose tree cannot, and why.
+pub fn check_start(m: &Model) -> Result<(), String> {
+    sleep::rest::check(m)
 }
 
 /// Pairs of bodies are kept as two numbers of 16 bits.
@@ -116,7 +117,6 @@ const MAX_BODIES: usize = 1 << 16;
 /// # Errors
 /// The first feature that is not, with the element that asks for it.
 pub fn check_model(m: &Model) -> Result<(), NotSimulated> {
-    check_options(m)?;
     if m.nbody > MAX_BODIES {
         return Err(NotSimulated::feature(&format!("models of more than {MAX_BODIES} bodies")));
     }

@@ -4,12 +4,28 @@
 use crate::data::{Com, Kinematics};
 use crate::math::{Vec3, add, column, cross, inertia_about, scale, spatial, sub};
 use crate::model::{JointType, Model, bounds::MINVAL};
+use crate::sleep::{Awake, over};
 
 /// Computes `subtree_com`, `cinert` and `cdof`.
 pub fn com_pos(m: &Model, kin: &Kinematics, com: &mut Com) {
-    subtree_com(m, kin, &mut com.subtree_com);
+    com_pos_of(m, Awake::EVERYTHING, kin, com);
+}
+
+/// [`com_pos`] of what is awake.
+pub(crate) fn com_pos_of(m: &Model, awake: Awake, kin: &Kinematics, com: &mut Com) {
+    if awake.is_everything() {
+        subtree_com(m, kin, &mut com.subtree_com);
+    } else {
+        subtree_com_of(m, awake, kin, &mut com.subtree_com);
+    }
     com.cinert[0] = [0.0; 10];
-    for b in 1..m.nbody {
+    over!(awake.bodies(m), |bodies| about_centres(m, kin, com, bodies.skip(1)));
+}
+
+/// Inertias and motion axes of bodies, about the centres of mass of their trees.
+#[inline]
+fn about_centres(m: &Model, kin: &Kinematics, com: &mut Com, bodies: impl Iterator<Item = usize>) {
+    for b in bodies {
         let reference = com.subtree_com[m.body_rootid[b] as usize];
         let offset = sub(kin.xipos[b], reference);
         com.cinert[b] = inertia_about(m.body_inertia[b], &kin.ximat[b], offset, m.body_mass[b]);
@@ -32,6 +48,20 @@ fn subtree_com(m: &Model, kin: &Kinematics, subtree: &mut [Vec3]) {
         let mass = m.body_subtreemass[b];
         subtree[b] = if mass < MINVAL { kin.xipos[b] } else { scale(subtree[b], 1.0 / mass) };
     }
+}
+
+/// The same where trees sleep, whose centres are known.
+fn subtree_com_of(m: &Model, awake: Awake, kin: &Kinematics, subtree: &mut [Vec3]) {
+    over!(awake.bodies(m), |bodies| bodies.for_each(|b| subtree[b] = scale(kin.xipos[b], m.body_mass[b])));
+    over!(awake.children(m), |bodies| for b in bodies.rev() {
+        let parent = m.body_parentid[b] as usize;
+        let moment = if awake.sleeps(b) { scale(subtree[b], m.body_subtreemass[b]) } else { subtree[b] };
+        subtree[parent] = add(subtree[parent], moment);
+    });
+    over!(awake.bodies(m), |bodies| for b in bodies {
+        let mass = m.body_subtreemass[b];
+        subtree[b] = if mass < MINVAL { kin.xipos[b] } else { scale(subtree[b], 1.0 / mass) };
+    });
 }
 
 /// Columns that joint `j` of body `b` contributes to `cdof`.

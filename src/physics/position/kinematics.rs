@@ -7,6 +7,7 @@ use crate::math::{
     quat_rotate, quat_to_mat, sub,
 };
 use crate::model::{JointType, Model, SameFrame};
+use crate::sleep::{self, Awake, over};
 
 const UPRIGHT: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -21,37 +22,92 @@ struct Pose {
 /// normalised: they are on use.
 pub fn kinematics(m: &Model, state: &State, kin: &mut Kinematics) {
     bodies(m, state, kin);
-    inertial_frames(m, kin);
+    attached(m, kin);
+}
+
+/// [`kinematics`] of what is awake: wakes the sleeping trees that the user has moved, or pushes.
+pub(crate) fn kinematics_of_awake(m: &Model, state: &mut State, kin: &mut Kinematics) {
+    if !sleep::is_on(m) {
+        sleep::wake::all(m, state);
+        return kinematics(m, state, kin);
+    }
+    world(kin);
+    for b in 1..m.nbody {
+        let mut pose = body(m, state, b, kin);
+        pose.quat = quat_normalize(pose.quat);
+        if state.body_awake[b] == 0 && m.body_jntnum[b] > 0 {
+            if pose.pos == kin.xpos[b] && pose.quat == kin.xquat[b] {
+                continue;
+            }
+            state.tree_awake[m.body_treeid[b] as usize] = 1;
+        }
+        put_body(b, pose, kin);
+    }
+    sleep::wake::by_user(m, state);
+    let awake = Awake::of(m, state);
+    if awake.is_everything() {
+        return attached(m, kin);
+    }
+    over!(awake.bodies(m), |bodies| bodies.skip(1).for_each(|b| inertial_frame(m, b, kin)));
     let Kinematics { xpos, xquat, xmat, xipos, ximat, geom_xpos, geom_xmat, site_xpos, site_xmat, .. } = kin;
     let frames = BodyFrames { xpos, xquat, xmat, xipos, ximat };
-    let geoms = Fixed { body: &m.geom_bodyid, same: &m.geom_sameframe, pos: &m.geom_pos, quat: &m.geom_quat };
-    let sites = Fixed { body: &m.site_bodyid, same: &m.site_sameframe, pos: &m.site_pos, quat: &m.site_quat };
-    geoms.place(&frames, geom_xpos, geom_xmat);
-    sites.place(&frames, site_xpos, site_xmat);
+    geoms(m).place_awake(awake, &frames, geom_xpos, geom_xmat);
+    sites(m).place_awake(awake, &frames, site_xpos, site_xmat);
+}
+
+/// Inertial frames, geoms and sites.
+fn attached(m: &Model, kin: &mut Kinematics) {
+    (1..m.nbody).for_each(|b| inertial_frame(m, b, kin));
+    let Kinematics { xpos, xquat, xmat, xipos, ximat, geom_xpos, geom_xmat, site_xpos, site_xmat, .. } = kin;
+    let frames = BodyFrames { xpos, xquat, xmat, xipos, ximat };
+    geoms(m).place(&frames, geom_xpos, geom_xmat);
+    sites(m).place(&frames, site_xpos, site_xmat);
+}
+
+fn geoms(m: &Model) -> Fixed<'_> {
+    Fixed { body: &m.geom_bodyid, same: &m.geom_sameframe, pos: &m.geom_pos, quat: &m.geom_quat }
+}
+
+fn sites(m: &Model) -> Fixed<'_> {
+    Fixed { body: &m.site_bodyid, same: &m.site_sameframe, pos: &m.site_pos, quat: &m.site_quat }
 }
 
 /// Poses of body frames, from the root outward.
 fn bodies(m: &Model, state: &State, kin: &mut Kinematics) {
+    world(kin);
+    for b in 1..m.nbody {
+        let pose = body(m, state, b, kin);
+        put_body(b, Pose { quat: quat_normalize(pose.quat), ..pose }, kin);
+    }
+}
+
+fn world(kin: &mut Kinematics) {
     kin.xpos[0] = [0.0; 3];
     kin.xquat[0] = IDENTITY;
     kin.xipos[0] = [0.0; 3];
     kin.xmat[0] = UPRIGHT;
     kin.ximat[0] = UPRIGHT;
-    for b in 1..m.nbody {
-        let first = m.body_jntadr[b];
-        let pose = if m.body_jntnum[b] == 1 && m.jnt_type[first as usize] == JointType::Free.code() {
-            free_body(m, state, first as usize, kin)
-        } else {
-            let mut pose = resting(m, state, b, kin);
-            for j in first..first + m.body_jntnum[b] {
-                move_by_joint(m, &state.qpos, j as usize, &mut pose, kin);
-            }
-            pose
-        };
-        kin.xpos[b] = pose.pos;
-        kin.xquat[b] = quat_normalize(pose.quat);
-        kin.xmat[b] = quat_to_mat(kin.xquat[b]);
+}
+
+/// Pose of body `b`, its quaternion not normalised, from that of its parent; records anchors and axes of its joints.
+#[inline(always)]
+fn body(m: &Model, state: &State, b: usize, kin: &mut Kinematics) -> Pose {
+    let first = m.body_jntadr[b];
+    if m.body_jntnum[b] == 1 && m.jnt_type[first as usize] == JointType::Free.code() {
+        return free_body(m, state, first as usize, kin);
     }
+    let mut pose = resting(m, state, b, kin);
+    for j in first..first + m.body_jntnum[b] {
+        move_by_joint(m, &state.qpos, j as usize, &mut pose, kin);
+    }
+    pose
+}
+
+#[inline(always)]
+fn put_body(b: usize, pose: Pose, kin: &mut Kinematics) {
+    kin.xpos[b] = pose.pos;
+    kin.xquat[b] = pose.quat;
+    kin.xmat[b] = quat_to_mat(pose.quat);
 }
 
 /// Pose of a body on free joint `j`, as `qpos` says.
@@ -103,19 +159,18 @@ fn joint_quat(qpos: &[f64], q: usize) -> Quat {
     quat_normalize([qpos[q], qpos[q + 1], qpos[q + 2], qpos[q + 3]])
 }
 
-/// Centres of mass and principal axes of inertia.
-fn inertial_frames(m: &Model, kin: &mut Kinematics) {
-    for b in 1..m.nbody {
-        let same = SameFrame::from_code(i32::from(m.body_sameframe[b]));
-        kin.xipos[b] = match same {
-            Some(SameFrame::Body) => kin.xpos[b],
-            _ => attached_pos(kin, b, m.body_ipos[b]),
-        };
-        kin.ximat[b] = match same {
-            Some(SameFrame::Body | SameFrame::Bodyrot) => kin.xmat[b],
-            _ => attached_mat(kin, b, m.body_iquat[b]),
-        };
-    }
+/// Centre of mass and principal axes of inertia of body `b`.
+#[inline(always)]
+fn inertial_frame(m: &Model, b: usize, kin: &mut Kinematics) {
+    let same = SameFrame::from_code(i32::from(m.body_sameframe[b]));
+    kin.xipos[b] = match same {
+        Some(SameFrame::Body) => kin.xpos[b],
+        _ => attached_pos(kin, b, m.body_ipos[b]),
+    };
+    kin.ximat[b] = match same {
+        Some(SameFrame::Body | SameFrame::Bodyrot) => kin.xmat[b],
+        _ => attached_mat(kin, b, m.body_iquat[b]),
+    };
 }
 
 /// Poses of all bodies and of their inertial frames.
@@ -144,18 +199,34 @@ impl Fixed<'_> {
         for (((&b, &same), (pos, quat)), (xpos, xmat)) in
             self.body.iter().zip(self.same).zip(local).zip(world)
         {
-            let b = b as usize;
-            let same = SameFrame::from_code(i32::from(same));
-            *xpos = match same {
-                Some(SameFrame::Body) => at.xpos[b],
-                Some(SameFrame::Inertia) => at.xipos[b],
-                _ => add(mul_mat_vec(&at.xmat[b], *pos), at.xpos[b]),
-            };
-            match same {
-                Some(SameFrame::Body | SameFrame::Bodyrot) => *xmat = at.xmat[b],
-                Some(SameFrame::Inertia | SameFrame::Inertiarot) => *xmat = at.ximat[b],
-                Some(SameFrame::None) | None => *xmat = quat_to_mat(quat_mul(at.xquat[b], *quat)),
-            }
+            at.place(b as usize, same, (pos, quat), (xpos, xmat));
+        }
+    }
+
+    /// Computes the poses of those on bodies that may have moved.
+    fn place_awake(&self, awake: Awake, at: &BodyFrames, xpos: &mut [Vec3], xmat: &mut [Mat3]) {
+        for (i, &b) in self.body.iter().enumerate().filter(|(_, b)| awake.moves(**b as usize)) {
+            let local = (&self.pos[i], &self.quat[i]);
+            at.place(b as usize, self.same[i], local, (&mut xpos[i], &mut xmat[i]));
+        }
+    }
+}
+
+impl BodyFrames<'_> {
+    /// World pose of a frame that is fixed in body `b`.
+    #[inline(always)]
+    fn place(&self, b: usize, same: u8, local: (&Vec3, &Quat), world: (&mut Vec3, &mut Mat3)) {
+        let ((pos, quat), (xpos, xmat)) = (local, world);
+        let same = SameFrame::from_code(i32::from(same));
+        *xpos = match same {
+            Some(SameFrame::Body) => self.xpos[b],
+            Some(SameFrame::Inertia) => self.xipos[b],
+            _ => add(mul_mat_vec(&self.xmat[b], *pos), self.xpos[b]),
+        };
+        match same {
+            Some(SameFrame::Body | SameFrame::Bodyrot) => *xmat = self.xmat[b],
+            Some(SameFrame::Inertia | SameFrame::Inertiarot) => *xmat = self.ximat[b],
+            Some(SameFrame::None) | None => *xmat = quat_to_mat(quat_mul(self.xquat[b], *quat)),
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::math::{Vec3, dot, dot_sparse, norm, rotational, sub, unit};
 use crate::model::{Model, WrapType};
 use crate::position::chain::{com_offset, last_dof, point_column, site_point};
 use crate::position::wrap::{Wrap, WrapShape, wrap};
+use crate::sleep::{Awake, object};
 
 /// Entry of `wrap_obj` for a point on a site.
 const ON_SITE: i32 = -1;
@@ -20,7 +21,12 @@ pub fn tendon(m: &Model, state: &State, kin: &Kinematics, com: &Com, ten: &mut T
     ten_J.fill(0.0);
     let (points, _) = wrap_xpos.as_flattened_mut().as_chunks_mut();
     let mut path = Path { points, objects: wrap_obj.as_flattened_mut(), count: 0 };
+    let awake = Awake::of(m, state);
     for i in 0..m.ntendon {
+        if awake.skips(|state| object::tendon(m, state, i)) {
+            ten_length[i] = 0.0;
+            continue;
+        }
         let begin = path.count;
         let at = row(m, i);
         let row = Row { columns: &m.ten_J_colind[at.clone()], values: &mut ten_J[at] };

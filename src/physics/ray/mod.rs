@@ -26,6 +26,7 @@
 mod hfield;
 mod mesh;
 mod primitive;
+mod sdf;
 
 pub(crate) use mesh::MAX_LEVELS;
 
@@ -142,6 +143,10 @@ pub fn ray_geom(m: &Model, kin: &Kinematics, geom: usize, ray: Ray) -> Option<Hi
         (GeomType::Mesh, Some(mesh)) => {
             let local = ray.local(pos, mat);
             primitive::cuboid(size, local).and_then(|_| mesh::mesh(m, mesh, local)).map(|hit| hit.global(mat))
+        }
+        (GeomType::Sdf, _) => {
+            let local = ray.local(pos, mat);
+            primitive::cuboid(size, local).and_then(|_| sdf::field(m, geom, local)).map(|hit| hit.global(mat))
         }
         (GeomType::Hfield, Some(field)) => hfield::hfield(m, field, ray, pos, mat).map(|hit| hit.global(mat)),
         (shape, _) => ray_shape(shape, size, pos, mat, ray),

@@ -2,7 +2,7 @@
 
 use super::position::object;
 use super::{SensorScratch, contact, limit_row};
-use crate::data::{Actuation, Com, Constraints, Contacts, Kinematics, Velocity};
+use crate::data::{Actuation, Com, Constraints, Contacts, Kinematics, State, Velocity};
 use crate::math::{Spatial, linear, move_force, rotational};
 use crate::model::{ConstraintType, Model, ObjType, SensorType, TrnType};
 use crate::position::frame::frame;
@@ -11,6 +11,7 @@ use crate::position::frame::frame;
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub struct AccelerationInputs<'a> {
+    pub state: &'a State,
     pub kin: &'a Kinematics,
     pub com: &'a Com,
     pub con: &'a Contacts,

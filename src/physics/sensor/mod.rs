@@ -17,10 +17,12 @@ pub use velocity::VelocityInputs;
 
 use crate::actuation::history;
 use crate::collision::distance::DistanceScratch;
-use crate::data::{Constraints, Sensors};
+use crate::data::{Constraints, Sensors, State};
 use crate::model::{ConstraintType, DataType, Disable, Model, ObjType, SensorType, Stage};
 use crate::on_demand::momentum::subtree_momentum;
 use crate::pipeline::error::NotSimulated;
+use crate::plugin::{Capability, SensorInputs};
+use crate::sleep::{Awake, object};
 
 /// Working memory of sensors, reused from step to step.
 #[derive(Clone, Debug, Default)]
@@ -32,13 +34,11 @@ pub struct SensorScratch {
     pub(crate) fresh: Vec<f64>,
 }
 
-/// What delayed sensors read from.
+/// What delayed sensors read from, and what tells which sensors sleep.
 #[derive(Clone, Copy, Debug)]
 pub struct Past<'a> {
-    /// Present time [s].
-    pub time: f64,
-    /// Buffers of `State::history`.
-    pub history: &'a [f64],
+    /// The present state, with its buffers, and with what sleeps.
+    pub state: &'a State,
 }
 
 /// Checks once that every sensor of the model can be read. A `user` sensor reads zero.
@@ -49,7 +49,6 @@ pub fn check(m: &Model) -> Result<(), NotSimulated> {
     for sensor in 0..m.nsensor {
         let feature = match SensorType::from_code(m.sensor_type[sensor]) {
             Some(SensorType::Tactile) => "tactile sensing",
-            Some(SensorType::Plugin) => "a plugin",
             None => "this type of sensor",
             Some(_) => continue,
         };
@@ -68,6 +67,21 @@ fn any_of(m: &Model, wanted: impl Fn(SensorType) -> bool) -> bool {
 pub fn needs_body_forces(m: &Model) -> bool {
     use SensorType::{Accelerometer, Force, Frameangacc, Framelinacc, Torque};
     any_of(m, |kind| matches!(kind, Accelerometer | Force | Torque | Framelinacc | Frameangacc))
+        || plugins_read(m, Stage::Acc)
+}
+
+/// True when some plugin reads sensors at `stage` and sensors are on.
+fn plugins_read(m: &Model, stage: Stage) -> bool {
+    m.nplugin > 0
+        && !m.opt.disableflags.contains(Disable::SENSOR)
+        && m.plugins().with(Capability::Sensor).any(|(_, running)| running.kind.stage() == stage)
+}
+
+/// Reads sensor `i` of a plugin.
+fn read_plugin(m: &Model, i: usize, inputs: &SensorInputs, out: &mut [f64]) {
+    if let Some(running) = m.plugins().get(m.sensor_plugin[i]) {
+        running.instance.read(m, inputs, i, out);
+    }
 }
 
 /// Reads the sensors of the position stage.
@@ -79,8 +93,9 @@ pub fn position_sensors(
     out: &mut Sensors,
 ) {
     let mut fresh = std::mem::take(&mut scratch.fresh);
-    each(m, Stage::Pos, past, &mut fresh, &mut out.sensordata, |i, kind, data| {
-        position::read(m, inputs, i, kind, scratch, data);
+    each(m, Stage::Pos, past, &mut fresh, &mut out.sensordata, |i, kind, data| match kind {
+        SensorType::Plugin => read_plugin(m, i, &SensorInputs::Position(inputs), data),
+        _ => position::read(m, inputs, i, kind, scratch, data),
     });
     scratch.fresh = fresh;
 }
@@ -93,12 +108,15 @@ pub fn velocity_sensors(
     scratch: &mut SensorScratch,
     out: &mut Sensors,
 ) {
-    if any_of(m, |kind| matches!(kind, SensorType::Subtreelinvel | SensorType::Subtreeangmom)) {
+    if any_of(m, |kind| matches!(kind, SensorType::Subtreelinvel | SensorType::Subtreeangmom))
+        || plugins_read(m, Stage::Vel)
+    {
         subtree_momentum(m, inputs.kin, inputs.com, inputs.vel, out);
     }
     let Sensors { sensordata, subtree_linvel, subtree_angmom, .. } = out;
-    each(m, Stage::Vel, past, &mut scratch.fresh, sensordata, |i, kind, data| {
-        velocity::read(m, inputs, [subtree_linvel, subtree_angmom], i, kind, data);
+    each(m, Stage::Vel, past, &mut scratch.fresh, sensordata, |i, kind, data| match kind {
+        SensorType::Plugin => read_plugin(m, i, &SensorInputs::Velocity(inputs), data),
+        _ => velocity::read(m, inputs, [subtree_linvel, subtree_angmom], i, kind, data),
     });
 }
 
@@ -114,8 +132,9 @@ pub fn acceleration_sensors(
     let Sensors { sensordata, cacc, cfrc_int, .. } = out;
     let bodies = BodyForces { cacc, cfrc_int };
     let mut fresh = std::mem::take(&mut scratch.fresh);
-    each(m, Stage::Acc, past, &mut fresh, sensordata, |i, kind, data| {
-        acceleration::read(m, inputs, &bodies, i, kind, scratch, data);
+    each(m, Stage::Acc, past, &mut fresh, sensordata, |i, kind, data| match kind {
+        SensorType::Plugin => read_plugin(m, i, &SensorInputs::Acceleration(inputs), data),
+        _ => acceleration::read(m, inputs, &bodies, i, kind, scratch, data),
     });
     scratch.fresh = fresh;
 }
@@ -136,7 +155,8 @@ fn each(
         fresh.resize(m.nsensordata, 0.0);
     }
     let wanted = m.sensor_needstage.iter().enumerate().filter(|&(_, &needed)| needed == stage.code());
-    for (i, _) in wanted {
+    let awake = Awake::of(m, past.state);
+    for (i, _) in wanted.filter(|(i, _)| !awake.skips(|state| object::sensor(m, state, *i))) {
         let Some(kind) = SensorType::from_code(m.sensor_type[i]) else { continue };
         let first = m.sensor_adr[i] as usize;
         let data = &mut sensordata[first..first + m.sensor_dim[i] as usize];
@@ -145,7 +165,7 @@ fn each(
         cut_off(m, i, kind, data);
         if m.nhistory > 0 {
             fresh[first..first + data.len()].copy_from_slice(data);
-            history::show(m, past.history, past.time, i, data);
+            history::show(m, &past.state.history, past.state.time, i, data);
         }
     }
 }

@@ -12,6 +12,7 @@ use crate::position::chain::{MergedChain, com_offset, point_column};
 use crate::position::frame::Frame;
 use crate::position::jacobian::point_column_rate;
 use crate::position::tendon;
+use crate::sleep::{Awake, object, over};
 use crate::velocity::com_vel::{add_motion, dofs};
 
 /// Working memory of recursive Newton-Euler: one entry a body.
@@ -71,7 +72,8 @@ pub fn rne(
     force.resize(m.nbody, [0.0; 6]);
     acceleration[0] = world_acceleration(m);
     force[0] = [0.0; 6];
-    for b in 1..m.nbody {
+    let awake = Awake::of(m, state);
+    over!(awake.bodies(m), |bodies| for b in bodies.skip(1) {
         let mut a = acceleration[m.body_parentid[b] as usize];
         add_motion(&vel.cdof_dot, &state.qvel, dofs(m, b), &mut a);
         if let Some(qacc) = qacc {
@@ -79,8 +81,9 @@ pub fn rne(
         }
         force[b] = body_force(com, vel, b, &a);
         acceleration[b] = a;
-    }
-    for b in (1..m.nbody).rev() {
+    });
+    // What fixed bodies carry moves nothing.
+    over!(awake.bodies(m), |bodies| for b in bodies.rev() {
         let parent = m.body_parentid[b] as usize;
         if parent > 0 {
             let child = force[b];
@@ -88,10 +91,10 @@ pub fn rne(
                 force[parent][i] += child[i];
             }
         }
-    }
-    for dof in 0..m.nv {
+    });
+    over!(awake.dofs(m), |dofs| for dof in dofs {
         out[dof] = spatial_dot(&com.cdof[dof], &force[m.dof_bodyid[dof] as usize]);
-    }
+    });
 }
 
 /// Adds the bias that armature along tendons causes: `armature J' (dJ/dt qvel)`.
@@ -104,9 +107,10 @@ fn tendon_bias(
     vel: &Velocity,
     out: &mut [f64],
 ) {
+    let awake = Awake::of(m, state);
     for t in 0..m.ntendon {
         let armature = tendon_armature(m, t);
-        if armature == 0.0 {
+        if armature == 0.0 || awake.skips(|state| object::tendon(m, state, t)) {
             continue;
         }
         let factor = armature * tendon_rate(m, state, kin, com, vel, t);

@@ -3,12 +3,19 @@
 use crate::data::{Com, State, Velocity};
 use crate::math::{Spatial, cross_motion, spatial_add_scaled};
 use crate::model::{JointType, Model};
+use crate::sleep::{Awake, over};
 use std::ops::Range;
 
 /// Computes `cvel` and `cdof_dot`.
 pub fn com_vel(m: &Model, state: &State, com: &Com, vel: &mut Velocity) {
     vel.cvel[0] = [0.0; 6];
-    for b in 1..m.nbody {
+    over!(Awake::of(m, state).bodies(m), |bodies| velocities(m, state, com, vel, bodies.skip(1)));
+}
+
+/// Velocities of bodies, parents before children.
+#[inline]
+fn velocities(m: &Model, state: &State, com: &Com, vel: &mut Velocity, bodies: impl Iterator<Item = usize>) {
+    for b in bodies {
         let mut v = vel.cvel[m.body_parentid[b] as usize];
         for j in m.body_jntadr[b]..m.body_jntadr[b] + m.body_jntnum[b] {
             let dof = m.jnt_dofadr[j as usize] as usize;

@@ -11,12 +11,13 @@ use crate::model::bounds::MINVAL;
 use crate::model::{GeomType, Model};
 use crate::position::chain::apply_wrench;
 use crate::position::frame::{Frame, geom_frame};
+use crate::sleep::Awake;
 use std::f64::consts::PI;
 
 /// Adds the fluid forces of all bodies to `qfrc`.
-pub fn fluid(m: &Model, kin: &Kinematics, com: &Com, vel: &Velocity, qfrc: &mut [f64]) {
+pub fn fluid(m: &Model, awake: Awake, kin: &Kinematics, com: &Com, vel: &Velocity, qfrc: &mut [f64]) {
     let (density, viscosity) = (m.opt.density, m.opt.viscosity);
-    shapes(m, kin, |shape, at| {
+    shapes(m, awake, kin, |shape, at| {
         let v = relative_velocity(m, com, vel, at);
         let wrench = match shape {
             FluidShape::InertiaBox => box_wrench(inertia_box(m, at.body), &v, density, viscosity),
@@ -36,8 +37,8 @@ pub(crate) enum FluidShape {
 }
 
 /// Calls `f` for every shape that the fluid acts on, with its frame.
-pub(crate) fn shapes(m: &Model, kin: &Kinematics, mut f: impl FnMut(FluidShape, &Frame)) {
-    for b in (0..m.nbody).filter(|&b| m.body_mass[b] >= MINVAL) {
+pub(crate) fn shapes(m: &Model, awake: Awake, kin: &Kinematics, mut f: impl FnMut(FluidShape, &Frame)) {
+    for b in (0..m.nbody).filter(|&b| m.body_mass[b] >= MINVAL && !awake.sleeps(b)) {
         let first = usize::try_from(m.body_geomadr[b]).unwrap_or(0);
         let geoms = first..first + m.body_geomnum[b] as usize;
         if geoms.clone().any(|g| m.geom_fluid[g][0] > 0.0) {

@@ -5,14 +5,64 @@ use crate::actuation::reflected_load::{dof_damping, tendon_damping};
 use crate::data::{Com, Configuration, Contacts, Kinematics, Passive, State, Tendons, Velocity};
 use crate::math::{Vec3, dot, norm, quat_difference, quat_normalize, row, scale, sub};
 use crate::model::{Disable, JointType, Model};
+use crate::plugin::{Capability, PassiveInputs};
 use crate::position::chain::{MergedChain, apply_wrench, com_offset, point_column};
 use crate::position::tendon;
+use crate::sleep::{Awake, Subset, object, over};
 use crate::velocity::fluid;
 use crate::velocity::polynomial::Polynomial;
 
 /// Computes all passive forces and their sum. Disabling both springs and dampers disables every passive force.
 pub fn passive(m: &Model, at: &Configuration, con: &Contacts, vel: &Velocity, out: &mut Passive) {
-    let Configuration { state, kin, com, ten } = *at;
+    let Configuration { state, kin, com, .. } = *at;
+    let awake = Awake::of(m, state);
+    clear(m, awake, out);
+    let disabled = |flag: Disable| m.opt.disableflags.contains(flag);
+    let (springs, dampers) = (!disabled(Disable::SPRING), !disabled(Disable::DAMPER));
+    if !springs && !dampers {
+        return;
+    }
+    if springs {
+        let springs = (0..m.njnt).filter(|&j| !awake.sleeps(m.jnt_bodyid[j] as usize));
+        springs.for_each(|j| joint_spring(m, state, j, &mut out.qfrc_spring));
+    }
+    if dampers {
+        over!(awake.dofs(m), |dofs| for dof in dofs {
+            let (law, v) = (dof_damping(m, dof), state.qvel[dof]);
+            out.qfrc_damper[dof] = if law.is_zero() { 0.0 } else { -v * law.at(v.abs()) };
+        });
+    }
+    tendons(m, at, vel, springs, dampers, out);
+    let compensates = has_gravity_compensation(m);
+    if compensates {
+        gravity_compensation(m, awake, kin, com, &mut out.qfrc_gravcomp);
+    }
+    let wet = m.opt.viscosity != 0.0 || m.opt.density != 0.0;
+    if wet {
+        fluid::fluid(m, awake, kin, com, vel, &mut out.qfrc_fluid);
+    }
+    if m.flg_adhesion && !disabled(Disable::CONTACT) {
+        adhesion(m, com, con, &mut out.qfrc_adhesion);
+    }
+    over!(awake.dofs(m), |dofs| for dof in dofs {
+        let by_actuator = m.jnt_actgravcomp[m.dof_jntid[dof] as usize];
+        let mut sum =
+            out.qfrc_spring[dof] + out.qfrc_damper[dof] + out.qfrc_fluid[dof] + out.qfrc_adhesion[dof];
+        if !by_actuator {
+            sum += out.qfrc_gravcomp[dof];
+        }
+        out.qfrc_passive[dof] = sum;
+    });
+    if m.nplugin > 0 {
+        let inputs = PassiveInputs { m, at: *at, con, vel };
+        for (_, running) in m.plugins().with(Capability::Passive) {
+            running.instance.passive(&inputs, &mut out.qfrc_passive);
+        }
+    }
+}
+
+/// Clears the forces on what is awake.
+fn clear(m: &Model, awake: Awake, out: &mut Passive) {
     let force = [
         &mut out.qfrc_spring,
         &mut out.qfrc_damper,
@@ -21,41 +71,11 @@ pub fn passive(m: &Model, at: &Configuration, con: &Contacts, vel: &Velocity, ou
         &mut out.qfrc_adhesion,
         &mut out.qfrc_passive,
     ];
-    force.into_iter().for_each(|f| f.fill(0.0));
-    let disabled = |flag: Disable| m.opt.disableflags.contains(flag);
-    let (springs, dampers) = (!disabled(Disable::SPRING), !disabled(Disable::DAMPER));
-    if !springs && !dampers {
-        return;
-    }
-    if springs {
-        (0..m.njnt).for_each(|j| joint_spring(m, state, j, &mut out.qfrc_spring));
-    }
-    if dampers {
-        for dof in 0..m.nv {
-            let (law, v) = (dof_damping(m, dof), state.qvel[dof]);
-            out.qfrc_damper[dof] = if law.is_zero() { 0.0 } else { -v * law.at(v.abs()) };
+    match awake.dofs(m) {
+        Subset::All(_) => force.into_iter().for_each(|f| f.fill(0.0)),
+        Subset::Listed(dofs) => {
+            force.into_iter().for_each(|f| dofs.iter().for_each(|&dof| f[dof as usize] = 0.0));
         }
-    }
-    tendons(m, ten, vel, springs, dampers, out);
-    let compensates = has_gravity_compensation(m);
-    if compensates {
-        gravity_compensation(m, kin, com, &mut out.qfrc_gravcomp);
-    }
-    let wet = m.opt.viscosity != 0.0 || m.opt.density != 0.0;
-    if wet {
-        fluid::fluid(m, kin, com, vel, &mut out.qfrc_fluid);
-    }
-    if m.flg_adhesion && !disabled(Disable::CONTACT) {
-        adhesion(m, com, con, &mut out.qfrc_adhesion);
-    }
-    for dof in 0..m.nv {
-        let by_actuator = m.jnt_actgravcomp[m.dof_jntid[dof] as usize];
-        let mut sum =
-            out.qfrc_spring[dof] + out.qfrc_damper[dof] + out.qfrc_fluid[dof] + out.qfrc_adhesion[dof];
-        if !by_actuator {
-            sum += out.qfrc_gravcomp[dof];
-        }
-        out.qfrc_passive[dof] = sum;
     }
 }
 
@@ -106,8 +126,9 @@ pub(crate) fn tendon_stretch(m: &Model, ten: &Tendons, t: usize) -> f64 {
     }
 }
 
-fn tendons(m: &Model, ten: &Tendons, vel: &Velocity, springs: bool, dampers: bool, out: &mut Passive) {
-    for t in 0..m.ntendon {
+fn tendons(m: &Model, at: &Configuration, vel: &Velocity, springs: bool, dampers: bool, out: &mut Passive) {
+    let (ten, awake) = (at.ten, Awake::of(m, at.state));
+    for t in (0..m.ntendon).filter(|&t| awake.has_awake(|state| object::tendon(m, state, t))) {
         let stiffness = Polynomial { linear: m.tendon_stiffness[t], poly: m.tendon_stiffnesspoly[t] };
         let (x, v) = (tendon_stretch(m, ten, t), vel.ten_velocity[t]);
         let spring = if springs { -x * stiffness.at(x) } else { 0.0 };
@@ -129,9 +150,9 @@ pub(crate) fn has_gravity_compensation(m: &Model) -> bool {
 }
 
 /// Force that carries the share `body_gravcomp` of each body's weight.
-fn gravity_compensation(m: &Model, kin: &Kinematics, com: &Com, qfrc: &mut [f64]) {
+fn gravity_compensation(m: &Model, awake: Awake, kin: &Kinematics, com: &Com, qfrc: &mut [f64]) {
     for b in 1..m.nbody {
-        if m.body_gravcomp[b] != 0.0 {
+        if m.body_gravcomp[b] != 0.0 && !awake.sleeps(b) {
             let force = scale(m.opt.gravity, -(m.body_mass[b] * m.body_gravcomp[b]));
             apply_wrench(m, com, b, kin.xipos[b], force, [0.0; 3], qfrc);
         }

@@ -1,16 +1,30 @@
 //! Colours of constraint islands.
 
 use super::sink::{Coat, Source};
+use physics::model::Enable;
 
 /// A colour that hardly any other island has: hue, saturation and value are Halton sequences, so that neighbouring
 /// numbers differ much. Grey without an island.
 pub(super) fn color(island_dof: Option<usize>) -> [f32; 4] {
     let Some(dof) = island_dof else { return [0.7, 0.7, 0.7, 1.0] };
+    let [hue, saturation, value] = shade(dof);
+    let [r, g, b] = rgb(hue, saturation, value);
+    [r, g, b, 1.0]
+}
+
+/// The same, paler and darker, of an island that sleeps.
+fn sleeping_color(dof: usize) -> [f32; 4] {
+    let [hue, saturation, value] = shade(dof);
+    let [r, g, b] = rgb(hue, (f64::from(saturation) * 0.7) as f32, (f64::from(value) * 0.6) as f32);
+    [r, g, b, 1.0]
+}
+
+/// Hue, saturation and value.
+fn shade(dof: usize) -> [f32; 3] {
     let hue = radical_inverse(dof + 1, 7) as f32;
     let saturation = (0.5 + 0.5 * radical_inverse(dof + 1, 3)) as f32;
     let value = (0.6 + 0.4 * radical_inverse(dof + 1, 5)) as f32;
-    let [r, g, b] = rgb(hue, saturation, value);
-    [r, g, b, 1.0]
+    [hue, saturation, value]
 }
 
 impl Source<'_> {
@@ -21,7 +35,26 @@ impl Source<'_> {
             return coat;
         }
         let dof = self.m.body_dofadr[weld] as usize;
-        Coat { rgba: color(self.first_dof(self.island_of_dof(dof))), material: None, ..coat }
+        let rgba = match self.first_dof(self.island_of_dof(dof)) {
+            None if self.m.opt.enableflags.contains(Enable::SLEEP) => self.tree_color(dof),
+            island => color(island),
+        };
+        Coat { rgba, material: None, ..coat }
+    }
+
+    /// Colour of the tree of a degree of freedom, or of the least tree of those that fell asleep with it.
+    fn tree_color(&self, dof: usize) -> [f32; 4] {
+        let (m, asleep) = (self.m, &self.d.state.tree_asleep);
+        let tree = m.dof_treeid[dof] as usize;
+        let first = |tree: usize| m.tree_dofadr[tree] as usize;
+        if asleep[tree] < 0 {
+            return color(Some(first(tree)));
+        }
+        let (mut least, mut next) = (tree, asleep[tree] as usize);
+        while next != tree {
+            (least, next) = (least.min(next), asleep[next] as usize);
+        }
+        sleeping_color(first(least))
     }
 
     /// Island of a degree of freedom.

@@ -14,6 +14,7 @@ use pictures::SHOTS;
 
 use fnv::Fnv;
 use physics::math::ops::sin;
+use physics::model::Enable;
 use physics::table::Slice;
 use physics::{Batch, Model};
 
@@ -79,8 +80,23 @@ fn digest(case: &Case, threads: usize) -> Result<u64, String> {
 }
 
 /// Beginnings of the names of arrays that came with a feature which the model does not use.
-fn unused(m: &Model) -> &'static [&'static str] {
-    if m.nskin > 0 { &[] } else { &["skin_", "name_skin"] }
+fn unused(m: &Model) -> Vec<&'static str> {
+    const SKINS: &[&str] = &["skin_", "name_skin"];
+    const PLUGINS: &[&str] =
+        &["plugin", "name_plugin", "body_plugin", "geom_plugin", "actuator_plugin", "sensor_plugin"];
+    const SLEEP: &[&str] = &[
+        "tree_a",
+        "ntree_awake",
+        "body_awake",
+        "nbody_awake",
+        "parent_awake",
+        "nparent_awake",
+        "dof_awake",
+        "nv_awake",
+    ];
+    let sleeps = m.opt.enableflags.contains(Enable::SLEEP);
+    let features = [(SKINS, m.nskin > 0), (PLUGINS, m.nplugin > 0), (SLEEP, sleeps)];
+    features.into_iter().filter(|(_, used)| !used).flat_map(|(names, _)| names).copied().collect()
 }
 
 /// Slow waves within the limits of each control, or within ±1 where it has none.

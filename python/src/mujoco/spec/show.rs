@@ -122,9 +122,10 @@ pub fn completed(pair: &Pair) -> Pair {
 /// The description has elements that Python cannot show yet: compiled again, they would be lost.
 pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict>> {
     if !spec.skins.is_empty() {
-        return Err(PyNotImplementedError::new_err(
-            "MjSpec does not hold skins: load this model with MjModel.from_xml_path or from_xml_string",
-        ));
+        return Err(missing("skins"));
+    }
+    if !spec.extensions.is_empty() {
+        return Err(missing("plugins"));
     }
     let mut rows =
         Rows { all: PyDict::new(py), holders: vec![-1; spec.frames.len()], places: BTreeMap::new() };
@@ -176,6 +177,12 @@ pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict
         rows.push("key", values, -1, None, *loc)?;
     }
     Ok(rows.all)
+}
+
+fn missing(what: &str) -> PyErr {
+    PyNotImplementedError::new_err(format!(
+        "MjSpec does not hold {what}: load this model with MjModel.from_xml_path or from_xml_string"
+    ))
 }
 
 /// The elements of a class by kind.

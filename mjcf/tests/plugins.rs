@@ -1,0 +1,294 @@
+//! Plugins and composites: numbers, attributes, errors, states, and the way back to text and to bytes.
+
+use physics::data::State;
+use physics::model::{ObjType, Stage};
+use physics::plugin::{ActuatorInputs, Capability, Config, Instance, Plugin, Registry, SensorInputs};
+use physics::{Data, Model, Snapshot, forward, step};
+use robohive_mjcf::{Loader, load_str, parse_str};
+
+fn refused(text: &str) -> String {
+    load_str(text).map(|_| ()).expect_err("the model must be refused").to_string()
+}
+
+/// A cable of `attributes` and `parts` in a model that knows the cable plugin.
+fn cable(attributes: &str, parts: &str) -> String {
+    format!(
+        "<mujoco><extension><plugin plugin=\"mujoco.elasticity.cable\"/></extension><worldbody>\
+         <composite type=\"cable\" {attributes}>{parts}</composite></worldbody></mujoco>"
+    )
+}
+
+const CAPSULES: &str = "<geom type=\"capsule\" size=\".01\"/>";
+const ELASTIC: &str = "<plugin plugin=\"mujoco.elasticity.cable\"><config key=\"twist\" value=\"1e6\"/>\
+                       <config key=\"bend\" value=\"1e6\"/></plugin>";
+
+fn assert_comes_back(text: &str) {
+    let parsed = parse_str(text).unwrap();
+    let written = parsed.spec.to_xml().unwrap();
+    let model = Loader::default().compile(parsed).unwrap().model;
+    let again = load_str(&written).unwrap_or_else(|e| panic!("{e}\n{written}")).model;
+    let mut arrays = Vec::new();
+    model.visit(&mut |name, _, values| arrays.push((name, values.to_f64())));
+    let mut at = arrays.iter();
+    again.visit(&mut |name, _, values| assert_eq!(at.next(), Some(&(name, values.to_f64())), "{name}"));
+    assert_eq!(parse_str(&written).unwrap().spec.to_xml().unwrap(), written);
+    let bytes = model.to_bytes();
+    assert_eq!(Model::from_bytes(&bytes).unwrap().to_bytes(), bytes);
+}
+
+#[test]
+fn a_cable_has_names_joints_sites_excludes_and_one_instance() {
+    let parts = format!("{CAPSULES}{ELASTIC}<joint kind=\"main\" damping=\".1\"/>");
+    let text = cable("prefix=\"c\" count=\"5 1 1\" curve=\"s\" size=\"1\" initial=\"free\"", &parts);
+    let m = load_str(&text).unwrap().model;
+    let names = |kind, n| (0..n).map(|i| m.name_of(kind, i)).collect::<Vec<_>>();
+    assert_eq!(names(ObjType::Body, m.nbody), ["world", "cB_first", "cB_1", "cB_2", "cB_last"]);
+    assert_eq!(names(ObjType::Joint, m.njnt), ["cJ_first", "cJ_1", "cJ_2", "cJ_last"]);
+    assert_eq!(names(ObjType::Geom, m.ngeom), ["cG0", "cG1", "cG2", "cG3"]);
+    assert_eq!(names(ObjType::Site, m.nsite), ["cS_first", "cS_last"]);
+    assert_eq!((m.nexclude, m.nplugin, m.ntext), (3, 1, 1));
+    assert_eq!(names(ObjType::Plugin, 1), ["compositec"]);
+    assert_eq!(m.body_plugin[..], [-1, 0, 0, 0, 0]);
+    // The free joint has no damping; the others have.
+    assert_eq!((m.dof_damping[0], m.dof_damping[6]), (0.0, 0.1));
+    assert_eq!(m.jnt_group[1], 3);
+    assert_comes_back(&text);
+}
+
+#[test]
+fn a_bent_cable_springs_back_and_keeps_its_curve() {
+    let parts = format!("{CAPSULES}{ELASTIC}");
+    let text = cable("count=\"12 1 1\" curve=\"cos(s) sin(s) 0\" size=\"1 .3 1\" initial=\"none\"", &parts);
+    let text = text.replace("<worldbody>", "<option gravity=\"0 0 0\"/><worldbody>");
+    let m = load_str(&text).unwrap().model;
+    let mut d = Data::new(&m);
+    forward(&m, &mut d).unwrap();
+    assert!(d.passive.qfrc_passive.iter().all(|f| f.abs() < 1e-9), "at rest in its own curve");
+    d.state.qpos[..4].copy_from_slice(&[0.05_f64.cos(), 0.0, 0.05_f64.sin(), 0.0]);
+    forward(&m, &mut d).unwrap();
+    assert!(d.passive.qfrc_passive[1] < -1e-3, "{:?}", &d.passive.qfrc_passive[..3]);
+    let flat =
+        text.replace("<config key=\"bend\"", "<config key=\"flat\" value=\"true\"/><config key=\"bend\"");
+    let m = load_str(&flat).unwrap().model;
+    let mut d = Data::new(&m);
+    forward(&m, &mut d).unwrap();
+    assert!(d.passive.qfrc_passive.iter().any(|f| f.abs() > 1e-3), "a flat cable is bent by its curve");
+}
+
+#[test]
+fn composites_that_cannot_be_made_are_refused_with_the_way_out() {
+    let plain = "count=\"5 1 1\" curve=\"s\"";
+    for (attributes, parts, expected) in [
+        (plain, "", "a cable is made of capsules, cylinders or boxes"),
+        (plain, "<geom type=\"box\" size=\".1 .1 .1\"/>", "skins"),
+        ("count=\"5 2 1\" curve=\"s\"", CAPSULES, "a cable has one dimension"),
+        ("count=\"0\" curve=\"s\"", CAPSULES, "set each number to 1 or more"),
+        ("count=\"5 1 1\" curve=\"s t\"", CAPSULES, "'t' is none of s, cos(s), sin(s) and 0"),
+        ("count=\"5 1 1\" curve=\"s s s s\"", CAPSULES, "more than three functions"),
+        ("count=\"5 1 1\" curve=\"s\" size=\"0\"", CAPSULES, "'size' of <composite> is zero"),
+        ("count=\"5 1 1\" vertex=\"0 0 0 1 0 0\"", CAPSULES, "either 'vertex' or 'count'"),
+        ("vertex=\"0 0 0 1 0\"", CAPSULES, "write three a vertex"),
+        ("count=\"2000000 1 1\" curve=\"s\"", CAPSULES, "makes more than 1000000 elements"),
+    ] {
+        let message = refused(&cable(attributes, parts));
+        assert!(message.contains(expected), "{attributes} {parts}: {message}");
+        assert!(message.starts_with("<text>:1:"), "{message}");
+    }
+    let rope = refused("<mujoco><worldbody>\n <composite type=\"rope\"/></worldbody></mujoco>");
+    assert!(rope.starts_with("<text>:2:2: error: composite type 'rope' has been dropped"), "{rope}");
+    assert!(rope.contains("use type=\"cable\""), "{rope}");
+    let foreign = cable(plain, &format!("{CAPSULES}<plugin plugin=\"mujoco.pid\"/>"));
+    assert!(refused(&foreign).contains("takes no plugin but mujoco.elasticity.cable"));
+}
+
+const ARM: &str = "<worldbody><body><joint name=\"j\"/><geom size=\".1\"/></body></worldbody>";
+
+#[test]
+fn instances_are_numbered_by_section_and_attributes_laid_out_in_order() {
+    let text = format!(
+        "<mujoco><extension><plugin plugin=\"mujoco.pid\"><instance name=\"b\"><config key=\"kd\" value=\"2\"/>\
+         <config key=\"kp\" value=\"1\"/></instance></plugin></extension>{ARM}<actuator>\
+         <plugin plugin=\"mujoco.pid\" joint=\"j\" actdim=\"1\"><config key=\"ki\" value=\"3\"/></plugin>\
+         <plugin instance=\"b\" joint=\"j\"/></actuator></mujoco>"
+    );
+    let m = load_str(&text).unwrap().model;
+    assert_eq!(m.actuator_plugin[..], [1, 0]);
+    assert_eq!((m.name_of(ObjType::Plugin, 0), m.name_of(ObjType::Plugin, 1)), ("b", ""));
+    assert_eq!(m.plugin_attr[..], *b"1\0\x002\0\0\0\x003\0\0\0\0");
+    assert_eq!(m.plugin_attradr[..], [0, 7]);
+    assert_comes_back(&text);
+}
+
+#[test]
+fn plugins_that_do_not_fit_are_refused_in_their_place() {
+    let model = |extension: &str, use_: &str| {
+        format!("<mujoco><extension>{extension}</extension>{ARM}<actuator>\n{use_}</actuator></mujoco>")
+    };
+    let pid = "<plugin plugin=\"mujoco.pid\"/>";
+    for (extension, used, expected) in [
+        (
+            "<plugin plugin=\"mujoco.pidd\"/>",
+            "",
+            "there is no plugin 'mujoco.pidd'; did you mean 'mujoco.pid'?",
+        ),
+        (
+            "",
+            "<plugin plugin=\"mujoco.pid\" joint=\"j\"/>",
+            "<text>:2:1: error: plugin 'mujoco.pid' is not declared",
+        ),
+        (
+            pid,
+            "<plugin joint=\"j\"/>",
+            "<text>:2:1: error: <plugin> needs the attribute 'plugin' or 'instance'",
+        ),
+        (
+            pid,
+            "<plugin plugin=\"mujoco.pid\" joint=\"j\"><config key=\"kpp\" value=\"1\"/></plugin>",
+            "has no attribute 'kpp'; did you mean 'kp'?",
+        ),
+        (
+            pid,
+            "<plugin plugin=\"mujoco.pid\" joint=\"j\"><config key=\"kp\" value=\"x\"/></plugin>",
+            "attribute 'kp' is 'x': write one number",
+        ),
+        (
+            pid,
+            "<plugin plugin=\"mujoco.pid\" joint=\"j\"><config key=\"kp\" value=\"1\"/><config key=\"kp\" value=\"2\"/></plugin>",
+            "<config> sets 'kp' twice",
+        ),
+        (
+            pid,
+            "<plugin plugin=\"mujoco.pid\" joint=\"j\"><config key=\"ki\" value=\"1\"/></plugin>",
+            "set actdim=\"1\"",
+        ),
+        (
+            "<plugin plugin=\"mujoco.sdf.torus\"><instance name=\"t\"/></plugin>",
+            "<plugin instance=\"t\" joint=\"j\"/>",
+            "plugin 'mujoco.sdf.torus' drives no actuators",
+        ),
+        (
+            "<plugin plugin=\"mujoco.pid\"><instance name=\"one\"/></plugin>",
+            "<plugin instance=\"onn\" joint=\"j\"/>",
+            "did you mean 'one'?",
+        ),
+    ] {
+        let message = refused(&model(extension, used));
+        assert!(message.contains(expected), "{used}: {message}");
+    }
+}
+
+/// Counts steps, drives by the count, and shows it.
+#[derive(Debug)]
+struct Counter;
+
+#[derive(Debug)]
+struct Counting {
+    from: f64,
+    actuators: Vec<usize>,
+    id: usize,
+}
+
+impl Plugin for Counter {
+    fn name(&self) -> &str {
+        "test.counter"
+    }
+    fn attributes(&self) -> &[&str] {
+        &["from"]
+    }
+    fn capabilities(&self) -> &[Capability] {
+        &[Capability::Actuator, Capability::Sensor]
+    }
+    fn stage(&self) -> Stage {
+        Stage::Pos
+    }
+    fn states(&self, _: &Config) -> Result<usize, String> {
+        Ok(1)
+    }
+    fn readings(&self, _: &Config) -> Result<usize, String> {
+        Ok(2)
+    }
+    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, String> {
+        let from = config.number("from")?.unwrap_or_default();
+        let actuators = (0..m.nactuator).filter(|&i| m.actuator_plugin[i] == id as i32).collect();
+        Ok(Box::new(Counting { from, actuators, id }))
+    }
+}
+
+impl Instance for Counting {
+    fn reset(&self, _: &Model, state: &mut [f64]) {
+        state[0] = self.from;
+    }
+    fn forces(&self, inputs: &ActuatorInputs, _: &[f64], force: &mut [f64]) {
+        let count = inputs.state.plugin_state[inputs.m.plugin_stateadr[self.id] as usize];
+        self.actuators.iter().for_each(|&i| force[i] = count);
+    }
+    fn read(&self, m: &Model, inputs: &SensorInputs, _: usize, out: &mut [f64]) {
+        if let SensorInputs::Position(inputs) = inputs {
+            out[0] = inputs.state.plugin_state[m.plugin_stateadr[self.id] as usize];
+        }
+        out[1] = -1.0;
+    }
+    fn advance(&self, _: &Model, _: &State, own: &mut [f64]) {
+        own[0] += 1.0;
+    }
+}
+
+#[test]
+fn a_plugin_of_the_user_has_state_that_copies_and_resets_carry() {
+    let mut registry = Registry::default();
+    registry.register(Counter).unwrap();
+    assert!(registry.register(Counter).is_err(), "the name is taken");
+    let text = format!(
+        "<mujoco><extension><plugin plugin=\"test.counter\"><instance name=\"c\"><config key=\"from\" value=\"5\"/>\
+         </instance></plugin></extension>{ARM}<actuator><plugin instance=\"c\" joint=\"j\"/></actuator>\
+         <sensor><plugin instance=\"c\" cutoff=\"7\"/></sensor></mujoco>"
+    );
+    assert!(refused(&text).contains("there is no plugin 'test.counter'"));
+    let m = Loader::default().plugins(registry.clone()).load_str(&text).unwrap().model;
+    assert_eq!((m.npluginstate, m.nsensordata), (1, 2));
+    let mut d = Data::new(&m);
+    assert_eq!(d.state.plugin_state, [5.0]);
+    for _ in 0..3 {
+        step(&m, &mut d).unwrap();
+    }
+    assert_eq!(d.state.plugin_state, [8.0]);
+    assert_eq!(d.actuation.actuator_force, [7.0]);
+    assert_eq!(d.sensor.sensordata, [7.0, -1.0]);
+    let (mut copy, mut taken) = (d.clone(), Snapshot::default());
+    d.save(&mut taken);
+    step(&m, &mut copy).unwrap();
+    step(&m, &mut d).unwrap();
+    assert_eq!((&copy.state.qpos, &copy.state.plugin_state), (&d.state.qpos, &d.state.plugin_state));
+    // The reading is cut off.
+    assert_eq!(copy.sensor.sensordata[0], 7.0);
+    d.restore(&taken).unwrap();
+    assert_eq!(d.state.plugin_state, [8.0]);
+    d.reset(&m);
+    assert_eq!(d.state.plugin_state, [5.0]);
+
+    let bytes = m.to_bytes();
+    let unknown = Model::from_bytes(&bytes).unwrap_err().to_string();
+    assert!(unknown.contains("'test.counter'") && unknown.contains("register it"), "{unknown}");
+    let again = Model::read_with(&mut &bytes[..], bytes.len() as u64, &registry).unwrap();
+    assert_eq!(again.to_bytes(), bytes);
+}
+
+#[test]
+fn programs_find_rename_and_remove_instances() {
+    let text = format!(
+        "<mujoco><extension><plugin plugin=\"mujoco.pid\"><instance name=\"a\"><config key=\"kp\" value=\"1\"/></instance>\
+         <instance name=\"b\"/></plugin></extension>{ARM}<actuator><plugin name=\"m\" instance=\"a\" joint=\"j\"/></actuator></mujoco>"
+    );
+    let mut spec = parse_str(text).unwrap().spec;
+    spec.rename(ObjType::Plugin, "a", "gains").unwrap();
+    assert_eq!(spec.actuators[0].plugin.as_ref().map(|p| &*p.instance), Some("gains"));
+    let in_use = spec.remove(ObjType::Plugin, "gains").unwrap_err().to_string();
+    assert!(in_use.contains("in use"), "{in_use}");
+    spec.remove(ObjType::Plugin, "b").unwrap();
+    let mut without = spec.clone();
+    without.remove(ObjType::Actuator, "m").unwrap();
+    assert!(without.plugins.is_empty(), "nothing uses the instance any more");
+    spec.plugin_mut("gains").unwrap().config[0].1 = "9".into();
+    let m = spec.compile(&robohive_mjcf::files::Memory::default(), &Default::default()).unwrap().model;
+    assert_eq!((m.nplugin, &m.plugin_attr[..2]), (1, &b"9\0"[..]));
+}

@@ -1,0 +1,161 @@
+//! A mesh and a field: triangles whose boxes come near the field, and the deepest point of each (Macklin et al. 2020,
+//! "Local optimization for robust signed distance field collision"; Frank and Wolfe 1956).
+
+use super::{Distance, Points, Transfer, halton, larger};
+use crate::collision::PreContact;
+use crate::collision::convex::ConvexScratch;
+use crate::data::Kinematics;
+use crate::math::{Vec3, add, add_scaled, cross, distance, dot, mat_to_quat, norm, normalize, scale, sub};
+use crate::model::Model;
+use crate::model::bounds::{MAXCONPAIR, MAXVAL, MINVAL};
+use crate::ray::MAX_LEVELS;
+
+/// How a field is searched.
+struct Search<'a> {
+    field: Distance<'a>,
+    starts: usize,
+    steps: i32,
+}
+
+/// A point of a triangle inside the field, in the frame of that.
+struct Candidate {
+    at: Vec3,
+    depth: f64,
+}
+
+/// Contacts of a mesh and a field, the second geom.
+pub(crate) fn mesh_and_field(
+    m: &Model,
+    kin: &Kinematics,
+    g1: usize,
+    g2: usize,
+    _margin: f64,
+    _scratch: &mut ConvexScratch,
+    out: &mut Vec<PreContact>,
+) {
+    let (Some(field), Ok(mesh)) = (Distance::of(m, g2), usize::try_from(m.geom_dataid[g1])) else { return };
+    let [pose1, pose2] = [g1, g2].map(|g| (kin.geom_xpos[g], mat_to_quat(&kin.geom_xmat[g])));
+    let across = Transfer::new(pose1, pose2);
+    let (starts, steps) = (m.opt.sdf_initpoints.max(1) as usize, m.opt.sdf_iterations);
+    let search = Search { field, starts, steps };
+    let mut candidates = Vec::new();
+    near_faces(
+        m,
+        mesh,
+        |aabb| search.near_box(aabb, &across),
+        |corners| {
+            search.triangle(corners.map(|p| across.point(p)), &mut candidates);
+        },
+    );
+    let mut points = Points::new(pose2, out);
+    for Candidate { at, depth } in candidates {
+        points.add(at, depth, || field.gradient(at));
+    }
+}
+
+/// Calls `visit` for the triangles of a mesh that `near` lets through, with the boxes around them.
+fn near_faces(m: &Model, mesh: usize, near: impl Fn(&[f64; 6]) -> bool, mut visit: impl FnMut([Vec3; 3])) {
+    let Ok(root) = usize::try_from(m.mesh_bvhadr[mesh]) else { return };
+    let (first_face, first_vertex) = (m.mesh_faceadr[mesh] as usize, m.mesh_vertadr[mesh] as usize);
+    let (mut stack, mut waiting) = ([0_usize; MAX_LEVELS + 1], 1);
+    while waiting > 0 {
+        waiting -= 1;
+        let node = root + stack[waiting];
+        if !near(&m.bvh_aabb[node]) {
+            continue;
+        }
+        if let Ok(face) = usize::try_from(m.bvh_nodeid[node]) {
+            let face = m.mesh_face[first_face + face];
+            visit(face.map(|v| m.mesh_vert[first_vertex + v as usize].map(f64::from)));
+            continue;
+        }
+        for child in m.bvh_child[node].iter().filter_map(|&c| usize::try_from(c).ok()) {
+            stack[waiting] = child;
+            waiting += 1;
+        }
+    }
+}
+
+impl Search<'_> {
+    /// The sphere around a box reaches the field.
+    fn near_box(&self, aabb: &[f64; 6], across: &Transfer) -> bool {
+        let centre = across.point([aabb[0], aabb[1], aabb[2]]);
+        self.field.at(centre) < norm([aabb[3], aabb[4], aabb[5]])
+    }
+
+    /// Adds the points of a triangle that lie inside, one for each start.
+    fn triangle(&self, corners: [Vec3; 3], out: &mut Vec<Candidate>) {
+        if !self.near_triangle(&corners) {
+            return;
+        }
+        for start in 1..=self.starts {
+            if out.len() >= MAXCONPAIR {
+                return;
+            }
+            let (mut u, mut v) = (halton(start, 2), halton(start, 3));
+            if u + v > 1.0 {
+                (u, v) = (1.0 - u, 1.0 - v);
+            }
+            let rest = 1.0 - u - v;
+            let [a, b, c] = corners;
+            let at = std::array::from_fn(|k| rest * a[k] + u * b[k] + v * c[k]);
+            let at = self.deepest(at, &corners);
+            let depth = self.field.at(at);
+            if depth < 0.0 {
+                out.push(Candidate { at, depth });
+            }
+        }
+    }
+
+    /// Goes towards the corner that lies farthest down the slope, by smaller and smaller shares.
+    fn deepest(&self, mut x: Vec3, corners: &[Vec3; 3]) -> Vec3 {
+        for step in 0..self.steps {
+            let gradient = self.field.gradient(x);
+            let (mut best, mut towards) = (MAXVAL, [0.0; 3]);
+            for corner in corners {
+                let height = dot(*corner, gradient);
+                if height < best {
+                    (best, towards) = (height, *corner);
+                }
+            }
+            x = add_scaled(x, sub(towards, x), 2.0 / (f64::from(step) + 2.0));
+        }
+        x
+    }
+
+    /// The sphere around a triangle and a point beside it, on the side of the field, reaches the field.
+    fn near_triangle(&self, corners: &[Vec3; 3]) -> bool {
+        const SHARE: f64 = 10.0;
+        const LEAST_HEIGHT: f64 = 0.1;
+        let [a, b, c] = *corners;
+        let edges = [sub(b, a), sub(c, a)];
+        let (normal, _) = normalize(cross(edges[0], edges[1]));
+        let third = 1.0 / 3.0;
+        let centroid = add_scaled(add_scaled(scale(a, third), b, third), c, third);
+        let depth = self.field.at(centroid);
+        let height = -depth / SHARE;
+        if height.abs() < LEAST_HEIGHT {
+            return depth < circumradius(corners);
+        }
+        let apex = add_scaled(centroid, normal, -height);
+        let v = corners.map(|p| sub(p, apex));
+        let crosses = [cross(v[1], v[2]), cross(v[2], v[0]), cross(v[0], v[1])];
+        let sum = scale(crosses[0], dot(v[0], v[0]));
+        let sum = add_scaled(sum, crosses[1], dot(v[1], v[1]));
+        let sum = add_scaled(sum, crosses[2], dot(v[2], v[2]));
+        let volume = 2.0 * dot(v[0], crosses[0]);
+        if volume.abs() < MINVAL {
+            return depth < norm(edges[0]);
+        }
+        let centre = scale(sum, 1.0 / volume);
+        self.field.at(add(centre, apex)) < dot(centre, centre).sqrt()
+    }
+}
+
+/// Radius of the circle through the corners (Heron).
+fn circumradius([p, q, r]: &[Vec3; 3]) -> f64 {
+    let (a, b, c) = (distance(*p, *q), distance(*q, *r), distance(*r, *p));
+    let s = (a + b + c) / 2.0;
+    let area = (s * (s - a) * (s - b) * (s - c)).sqrt();
+    a * b * c / (4.0 * larger(area, MINVAL))
+}

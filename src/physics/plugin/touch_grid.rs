@@ -1,0 +1,159 @@
+//! `mujoco.sensor.touch_grid`: contact forces on the body of a site as pictures, by azimuth and elevation seen from the
+//! site along its negative z axis. One picture a channel: normal, two tangential forces, then the torques.
+
+use super::{AccelerationInputs, Capability, Config, Instance, Plugin, SensorInputs};
+use crate::acceleration::contact_force::contact_force;
+use crate::math::{Vec3, mul_mat_t_vec, ops, sub};
+use crate::model::{Model, ObjType, SensorType};
+use std::f64::consts::PI;
+
+/// The plugin.
+#[derive(Debug)]
+pub(super) struct TouchGrid;
+
+impl Plugin for TouchGrid {
+    fn name(&self) -> &str {
+        "mujoco.sensor.touch_grid"
+    }
+
+    fn attributes(&self) -> &[&str] {
+        &["nchannel", "size", "fov", "gamma"]
+    }
+
+    fn capabilities(&self) -> &[Capability] {
+        &[Capability::Sensor]
+    }
+
+    fn readings(&self, config: &Config) -> Result<usize, String> {
+        let Format { channels, size } = format(config)?;
+        Ok(channels * size[0] * size[1])
+    }
+
+    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, String> {
+        let Format { channels, size } = format(config)?;
+        let fov = config.numbers("fov")?;
+        let fov = match fov[..] {
+            [x, y] if x > 0.0 && x <= 180.0 && y > 0.0 && y <= 90.0 => [x, y],
+            _ => return Err("attribute 'fov': write two angles in degrees, at most 180 and 90".into()),
+        };
+        let gamma = config.number("gamma")?.unwrap_or_default();
+        if !(0.0..=1.0).contains(&gamma) {
+            return Err("attribute 'gamma' must be between 0 and 1".into());
+        }
+        let mut sensors = (0..m.nsensor)
+            .filter(|&i| m.sensor_type[i] == SensorType::Plugin.code() && m.sensor_plugin[i] == id as i32);
+        let first = sensors.next();
+        if first.into_iter().chain(sensors).any(|i| m.sensor_objtype[i] != ObjType::Site.code()) {
+            return Err("its sensor must be at a site: set objtype=\"site\" and 'objname'".into());
+        }
+        let edges = [0, 1].map(|axis| edges(size[axis], fov[axis], gamma));
+        Ok(Box::new(Grid { channels, edges, sensor: first }))
+    }
+}
+
+/// Number and size of the pictures.
+struct Format {
+    channels: usize,
+    size: [usize; 2],
+}
+
+/// Most cells of a picture along one axis.
+const MOST: f64 = 4096.0;
+
+fn format(config: &Config) -> Result<Format, String> {
+    let channels = match config.number("nchannel")?.unwrap_or_default().trunc() {
+        0.0 => 1.0,
+        n if (1.0..=6.0).contains(&n) => n,
+        n => return Err(format!("attribute 'nchannel' is {n}: from 1 to 6 channels there are")),
+    };
+    match config.numbers("size")?[..] {
+        [x, y] if [x, y].iter().all(|n| (1.0..=MOST).contains(n)) => {
+            Ok(Format { channels: channels as usize, size: [x as usize, y as usize] })
+        }
+        _ => Err(format!("attribute 'size': write two whole numbers from 1 to {MOST}")),
+    }
+}
+
+/// Angles between the cells of one axis [rad]; finer in the middle with a positive `gamma`.
+fn edges(cells: usize, fov: f64, gamma: f64) -> Vec<f64> {
+    let step = 2.0 / cells as f64;
+    let scale = fov * PI / 180.0;
+    let mut next = -1.0;
+    (0..=cells)
+        .map(|_| {
+            let x = next;
+            next += step;
+            let deformed = if gamma == 0.0 { x } else { gamma * ops::pow(x, 5.0) + (1.0 - gamma) * x };
+            deformed * scale
+        })
+        .collect()
+}
+
+/// An instance.
+#[derive(Debug)]
+struct Grid {
+    channels: usize,
+    /// Edges of the cells, of azimuth and elevation.
+    edges: [Vec<f64>; 2],
+    /// The sensor that is read; further ones of the instance stay at zero, as MuJoCo leaves them.
+    sensor: Option<usize>,
+}
+
+/// The cell that holds `x`, which may lie on its upper edge.
+fn cell(edges: &[f64], x: f64) -> Option<usize> {
+    let above = edges.partition_point(|&edge| edge < x);
+    (above > 0 && above < edges.len()).then(|| above - 1)
+}
+
+/// Normal, then the two tangents.
+fn normal_first([x, y, z]: Vec3) -> Vec3 {
+    [z, x, y]
+}
+
+impl Grid {
+    fn fill(&self, m: &Model, inputs: &AccelerationInputs, site: usize, out: &mut [f64]) {
+        let body = m.body_weldid[m.site_bodyid[site] as usize];
+        let (pos, mat) = (inputs.kin.site_xpos[site], &inputs.kin.site_xmat[site]);
+        let [width, height] = [0, 1].map(|axis| self.edges[axis].len() - 1);
+        for contact in &inputs.con.contact {
+            let Some(bodies) = bodies(m, contact.geom) else { continue };
+            if bodies.iter().all(|&b| m.body_weldid[b as usize] != body) {
+                continue;
+            }
+            let Some(at) = self.cell_of(mul_mat_t_vec(mat, sub(contact.pos, pos))) else { continue };
+            let wrench = contact_force(m, inputs.efc, contact);
+            // From the smaller to the larger body.
+            let sign = if body < bodies[0].max(bodies[1]) { -1.0 } else { 1.0 };
+            let at_site = |part: Vec3| {
+                let local = mul_mat_t_vec(mat, mul_mat_t_vec(&contact.frame, part));
+                normal_first(local.map(|x| sign * x))
+            };
+            let force = at_site([wrench[0], wrench[1], wrench[2]]);
+            let torque = at_site([wrench[3], wrench[4], wrench[5]]);
+            for (channel, value) in force.into_iter().chain(torque).take(self.channels).enumerate() {
+                out[channel * width * height + at[1] * width + at[0]] += value;
+            }
+        }
+    }
+
+    /// The cell in whose direction `p` is seen.
+    fn cell_of(&self, [x, y, z]: Vec3) -> Option<[usize; 2]> {
+        let azimuth = ops::atan2(x, -z);
+        let elevation = ops::atan2(y, ops::sqrt(x * x + z * z));
+        Some([cell(&self.edges[0], azimuth)?, cell(&self.edges[1], elevation)?])
+    }
+}
+
+/// The bodies of two geoms; `None` where one is no geom.
+fn bodies(m: &Model, geoms: [i32; 2]) -> Option<[i32; 2]> {
+    let [a, b] = geoms.map(|g| usize::try_from(g).ok().map(|g| m.geom_bodyid[g]));
+    Some([a?, b?])
+}
+
+impl Instance for Grid {
+    fn read(&self, m: &Model, inputs: &SensorInputs, sensor: usize, out: &mut [f64]) {
+        if let (SensorInputs::Acceleration(inputs), true) = (inputs, self.sensor == Some(sensor)) {
+            self.fill(m, inputs, m.sensor_objid[sensor] as usize, out);
+        }
+    }
+}
