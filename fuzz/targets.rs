@@ -19,13 +19,14 @@ use physics::{Data, Model, forward, step};
 pub type Target = fn(&[u8]);
 
 /// Every target by name.
-pub const TARGETS: [(&str, Target); 13] = [
+pub const TARGETS: [(&str, Target); 14] = [
     ("mjcf", mjcf),
     ("urdf", urdf),
     ("stl", stl),
     ("obj", obj),
     ("msh", msh),
     ("skn", skn),
+    ("gmsh", gmsh),
     ("hull", hull),
     ("image", image),
     ("hfield", hfield),
@@ -76,6 +77,15 @@ fn come_back(files: Memory, path: &str) {
         (again.model.nq, again.model.nbody, again.model.ngeom),
         (loaded.model.nq, loaded.model.nbody, loaded.model.ngeom)
     );
+}
+
+/// A mesh of GMSH in either format, binary or text; elements that are read have the points they name.
+pub fn gmsh(data: &[u8]) {
+    if let Ok(cloud) = mjcf::flex::decode_gmsh(data, "f.msh") {
+        let points = cloud.point.len() / 3;
+        assert!(cloud.element.iter().all(|&p| p >= 0 && (p as usize) < points));
+        assert!(cloud.element.len().is_multiple_of(cloud.dim as usize + 1));
+    }
 }
 
 /// A mesh file in STL, binary or text.

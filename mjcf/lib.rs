@@ -29,6 +29,7 @@ pub mod edit;
 mod encoding;
 mod escape;
 pub mod files;
+pub mod flex;
 pub mod image;
 mod include;
 mod loaded;

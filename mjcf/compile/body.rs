@@ -1,7 +1,7 @@
 //! Bodies: pose, inertia, welds, simplicity and bounding volume hierarchy.
 
 use super::assets::Assets;
-use super::frame::{Pose, direction, same_frame, same_position};
+use super::frame::{Pose, add, direction, same_frame, same_position};
 use super::geom;
 use super::inertia::{MassPart, combine, principal};
 use super::joint;
@@ -10,7 +10,7 @@ use super::nodes::{BodyNode, Tree};
 use super::values::push_user;
 use super::viewpoint;
 use crate::spec::{AlignFree, Body, Compiler, Geom, InertiaFromGeom, Inertial, Spec, resolve};
-use crate::vector::{EPS, normalize};
+use crate::vector::{EPS, compose, normalize, rotate};
 use physics::model::bounds::MINVAL;
 use physics::model::{JointType, Rows, SameFrame};
 
@@ -44,6 +44,7 @@ pub(super) fn compile<'s>(
         spec,
         parent,
         pose: Pose::IDENTITY,
+        world: Pose::IDENTITY,
         inertial: Pose::IDENTITY,
         mass: 0.0,
         inertia: [0.0; 3],
@@ -77,6 +78,11 @@ pub(super) fn compile<'s>(
     viewpoint::compile(&mut node, model, frames, log);
     if aligns_free_joint(&node, model) {
         align_to_inertia(&mut node, model.compiler.fusestatic);
+    }
+    if id > 0 {
+        let parent = tree.bodies[parent].world;
+        let pos = add(rotate(node.pose.pos, parent.quat), parent.pos);
+        node.world = Pose { pos, quat: compose(parent.quat, node.pose.quat) };
     }
     node
 }

@@ -117,8 +117,9 @@ fn fill_equality(m: &mut Rows, equality: &Equality, lookup: &Lookup, log: &mut L
         }
         EqType::Joint => ObjType::Joint,
         EqType::Tendon => ObjType::Tendon,
-        EqType::Flex | EqType::Flexvert | EqType::Flexstrain | EqType::Distance => {
-            return log.error(loc, format!("{what}: flex and distance constraints are not supported"));
+        EqType::Flex | EqType::Flexvert | EqType::Flexstrain => ObjType::Flex,
+        EqType::Distance => {
+            return log.error(loc, format!("{what}: distance constraints are not supported"));
         }
     };
     let Some(first) = lookup.require(kind, &equality.name1, loc, &what, log) else { return };
@@ -128,6 +129,12 @@ fn fill_equality(m: &mut Rows, equality: &Equality, lookup: &Lookup, log: &mut L
     }
     if first as i32 == second {
         log.error(loc, format!("{what}: '{}' is constrained to itself", equality.name1));
+    }
+    if kind == ObjType::Flex && m.flex_rigid.get(first) == Some(&true) {
+        log.error(
+            loc,
+            format!("{what}: the flex '{}' is rigid, so that nothing is left to hold", equality.name1),
+        );
     }
     if kind == ObjType::Joint {
         let scalar = |id: i32| {

@@ -38,7 +38,7 @@ impl Lookup {
                 $(lookup.add(ObjType::$kind, spec.$field.iter().map(|e| (&*e.name, e.loc)), log);)*
             };
         }
-        list!(Pair pairs Exclude excludes Equality equalities Tendon tendons Actuator actuators Sensor sensors
+        list!(Flex flexes Pair pairs Exclude excludes Equality equalities Tendon tendons Actuator actuators Sensor sensors
               Numeric numerics Text texts Tuple tuples Frame frames);
         lookup.add(ObjType::Key, super::keyframe::names(spec), log);
         lookup

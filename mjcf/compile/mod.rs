@@ -13,6 +13,7 @@ mod custom;
 mod demand;
 mod discard;
 mod fixed;
+mod flex;
 mod fluid;
 mod frame;
 mod fuse;
@@ -44,6 +45,7 @@ use log::Log;
 use physics::Model;
 use physics::constants::length_range::set_length_ranges;
 use physics::constants::set_const::set_const;
+use physics::constants::{bending_factor, flex_pattern};
 use physics::inertia::sparsity;
 use physics::model::{Arrays, Rows};
 use physics::pipeline::validity::{check_model, check_start};
@@ -189,6 +191,8 @@ fn compile_static(spec: &Spec, resources: Resources<'_>, log: &mut Log) -> Optio
     plugins.fill(&mut m, log);
     tree::fill(&mut m, &tree, (spec, &plugins), &lookup, log);
     hierarchy::fill_meshes(&mut m, &assets);
+    let flexes = flex::compile(spec, &tree, &lookup, log);
+    flex::fill(&mut m, &flexes, &tree, spec, &lookup, log);
     constraint::fill(&mut m, spec, &lookup, log);
     tendon::fill(&mut m, spec, &lookup, log);
     actuator::fill(&mut m, (spec, &plugins), &lookup, log);
@@ -206,6 +210,8 @@ fn compile_static(spec: &Spec, resources: Resources<'_>, log: &mut Log) -> Optio
         return None;
     }
     sparsity::fill(&mut m);
+    flex_pattern::set_sizes(&mut m);
+    bending_factor::set_sizes(&mut m);
     sizes::allocate_derived(&mut m);
     sizes::check(&m, log);
     let springdampers = tree.joints().map(|j| j.spec.springdamper).collect();

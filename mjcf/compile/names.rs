@@ -33,6 +33,7 @@ pub(super) fn fill(
     list!(name_siteadr, tree.sites().map(|s| &*s.spec.name));
     list!(name_camadr, tree.cameras().map(|c| &*c.spec.name));
     list!(name_lightadr, tree.lights().map(|l| &*l.spec.name));
+    list!(name_flexadr, spec.flexes.iter().map(|f| &*f.name));
     list!(name_meshadr, assets.meshes.iter().map(|a| &*a.name));
     list!(name_skinadr, assets.skins.iter().map(|a| &*a.name));
     list!(name_hfieldadr, assets.hfields.iter().map(|a| &*a.name));

@@ -11,6 +11,15 @@ pub(super) struct Tree<'s> {
 }
 
 impl<'s> Tree<'s> {
+    /// The body that moves body `id`: itself, or the one that it is welded to.
+    pub(super) fn weld_root(&self, id: usize) -> usize {
+        let mut id = id;
+        while !self.bodies[id].is_weld_root() {
+            id = self.bodies[id].parent;
+        }
+        id
+    }
+
     pub(super) fn joints(&self) -> impl Iterator<Item = &JointNode<'s>> {
         self.bodies.iter().flat_map(|b| b.joints.iter())
     }
@@ -37,6 +46,8 @@ pub(super) struct BodyNode<'s> {
     pub spec: &'s Body,
     pub parent: usize,
     pub pose: Pose,
+    /// Pose in the world at `qpos0`.
+    pub world: Pose,
     pub inertial: Pose,
     pub mass: f64,
     pub inertia: Vec3,

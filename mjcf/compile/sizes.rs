@@ -1,5 +1,6 @@
 //! Sizes of the model, from the arrays that were filled row by row.
 
+use super::flex;
 use super::log::Log;
 use super::values::bounded;
 use crate::diagnostic::Loc;
@@ -53,7 +54,8 @@ pub(super) fn set(m: &mut Arrays, spec: &Spec) {
     m.na = m.actuator_actnum.iter().sum::<i32>() as usize;
     m.nbody = m.body_parentid.len();
     m.nbvh = m.bvh_depth.len();
-    m.nbvhstatic = m.nbvh;
+    m.nbvhstatic = m.bvh_aabb.len();
+    m.nbvhdynamic = m.nbvh - m.nbvhstatic;
     m.noct = m.oct_depth.len();
     m.njnt = m.jnt_type.len();
     m.ntree = m.dof_parentid.iter().filter(|&&p| p < 0).count();
@@ -76,6 +78,7 @@ pub(super) fn set(m: &mut Arrays, spec: &Spec) {
     m.nskinface = m.skin_face.len();
     m.nskinbone = m.skin_bonebodyid.len();
     m.nskinbonevert = m.skin_bonevertid.len();
+    flex::set_sizes(m);
     m.nhfield = m.hfield_size.len();
     m.nhfielddata = m.hfield_data.len();
     m.ntex = m.tex_type.len();
@@ -123,6 +126,7 @@ pub(super) fn allocate_derived(m: &mut Arrays) {
     m.tree_bodynum = vec![0; m.ntree].into();
     m.tree_dofadr = vec![0; m.ntree].into();
     m.tree_dofnum = vec![0; m.ntree].into();
+    flex::allocate_derived(m);
     m.jnt_actuatorid = vec![-1; m.njnt].into();
     m.tendon_actuatorid = vec![-1; m.ntendon].into();
     m.tendon_treenum = vec![0; m.ntendon].into();

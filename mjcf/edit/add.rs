@@ -85,7 +85,7 @@ impl Spec {
             let expansion = &mut reader.expansion;
             check_piece(&holder, kind, expansion.sources, expansion.diagnostics);
             if !expansion.diagnostics.has_errors() {
-                reader.inside(&holder, Place { frame: None, class: 0, world });
+                reader.inside(&holder, Place { frame: None, class: 0, body_class: 0, world });
             }
             reader.open.swap_remove(0)
         })?;
@@ -164,7 +164,7 @@ impl Spec {
         macro_rules! lists {
             ($($list:ident)*) => { $(self.$list.append(&mut added.$list);)* };
         }
-        lists!(meshes skins hfields textures materials pairs excludes equalities tendons actuators sensors numerics texts
+        lists!(meshes skins hfields textures materials pairs excludes flexes equalities tendons actuators sensors numerics texts
                tuples keys);
         Ok(())
     }

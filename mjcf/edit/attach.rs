@@ -57,7 +57,7 @@ impl Spec {
             let target = (!world).then(|| std::mem::take(at(&mut root, &path)));
             reader.open = vec![root];
             reader.open.extend(target);
-            let place = Place { frame: None, class: 0, world };
+            let place = Place { frame: None, class: 0, body_class: 0, world };
             let result = reader.attach_model(&Element::default(), &wanted, place, &model);
             reader.spec.world = reader.open.remove(0);
             result.map(|()| reader.open.pop())

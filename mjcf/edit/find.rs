@@ -134,6 +134,7 @@ in_lists! {
     Material material material_mut materials Material |x| x.name;
     Pair pair pair_mut pairs Pair |x| x.name;
     Exclude exclude exclude_mut excludes Exclude |x| x.name;
+    Flex flex flex_mut flexes Flex |x| x.name;
     Equality equality equality_mut equalities Equality |x| x.name;
     Tendon tendon tendon_mut tendons Tendon |x| x.name;
     Actuator actuator actuator_mut actuators Actuator |x| x.name;

@@ -28,7 +28,7 @@ impl Spec {
         macro_rules! lists {
             ($($list:ident)*) => { $(self.$list.iter_mut().for_each(|x| x.loc = place(x.loc));)* };
         }
-        lists!(extensions plugins frames meshes skins hfields textures materials pairs excludes equalities tendons actuators sensors numerics
+        lists!(extensions plugins frames meshes skins hfields textures materials pairs excludes flexes equalities tendons actuators sensors numerics
                texts tuples keys kept_keys);
     }
 }

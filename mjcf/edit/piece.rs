@@ -55,6 +55,7 @@ impl Spec {
             ObjType::Material => change.apply(self, |s| s.material_mut(name), Some("asset")),
             ObjType::Pair => change.apply(self, |s| s.pair_mut(name), Some("contact")),
             ObjType::Exclude => change.apply(self, |s| s.exclude_mut(name), Some("contact")),
+            ObjType::Flex => change.apply(self, |s| s.flex_mut(name), Some("deformable")),
             ObjType::Equality => change.apply(self, |s| s.equality_mut(name), Some("equality")),
             ObjType::Tendon => change.apply(self, |s| s.tendon_mut(name), Some("tendon")),
             ObjType::Actuator => change.apply(self, |s| s.actuator_mut(name), Some("actuator")),
@@ -165,7 +166,7 @@ fn read_in_body(reader: &mut Reader<'_>, holder: &Element) -> Option<Spec> {
         return None;
     }
     reader.open = vec![Body::default()];
-    reader.inside(holder, Place { frame: None, class: 0, world: false });
+    reader.inside(holder, Place { frame: None, class: 0, body_class: 0, world: false });
     let world = reader.open.pop()?;
     Some(Spec { world, ..Spec::default() })
 }
@@ -239,6 +240,9 @@ pieces! {
     Material write::material, |spec| spec.materials, |_n, _o, _a| ();
     Pair write::pair, |spec| spec.pairs, |_n, _o, _a| ();
     Exclude write::exclude, |spec| spec.excludes, |_n, _o, _a| ();
+    Flex write::flex, |spec| spec.flexes, |new, old, a| if a != "cellcount" {
+        new.empty_cells.clone_from(&old.empty_cells);
+    };
     Equality write::equality, |spec| spec.equalities, |_n, _o, _a| ();
     Tendon write::tendon, |spec| spec.tendons, |_n, _o, _a| ();
     Actuator write::actuator, |spec| spec.actuators, |new, old, _a| new.keyed.clone_from(&old.keyed);

@@ -36,6 +36,7 @@ impl Spec {
             material.textures.iter_mut().for_each(|name| visit(Space::Texture, name));
         }
         self.tendons.iter_mut().for_each(|x| visit(Space::Material, &mut x.material));
+        self.flexes.iter_mut().for_each(|x| visit(Space::Material, &mut x.material));
         macro_rules! lists {
             ($($list:ident)*) => {
                 $(for object in &mut self.$list {
@@ -45,7 +46,7 @@ impl Spec {
                 })*
             };
         }
-        lists!(skins pairs excludes tendons equalities actuators sensors tuples);
+        lists!(skins flexes pairs excludes tendons equalities actuators sensors tuples);
     }
 }
 

@@ -14,7 +14,7 @@ use crate::spec::{Body, Spec, asset_name};
 
 impl Spec {
     /// Removes the element called `name`; a body goes with all below it. What refers to a removed element goes too: pairs,
-    /// skins, constraints, tendons, actuators, sensors, entries of tuples. Cameras and lights that follow a removed body stay where
+    /// skins, flexes, constraints, tendons, actuators, sensors, entries of tuples. Cameras and lights that follow a removed body stay where
     /// they are; a removed material or texture leaves what it covered without one. Keyframes keep the numbers of what remains.
     ///
     /// # Errors
@@ -97,6 +97,7 @@ impl Spec {
             Space::Material => list!(materials),
             Space::Pair => list!(pairs),
             Space::Exclude => list!(excludes),
+            Space::Flex => list!(flexes),
             Space::Equality => list!(equalities),
             Space::Tendon => list!(tendons),
             Space::Actuator => list!(actuators),
@@ -157,6 +158,7 @@ impl Spec {
             tuple.entries.retain(|_| keep.next().unwrap_or(true));
         }
         drop_from(&mut self.skins, &mut gone, Space::Skin);
+        drop_from(&mut self.flexes, &mut gone, Space::Flex);
         drop_from(&mut self.pairs, &mut gone, Space::Pair);
         drop_from(&mut self.excludes, &mut gone, Space::Exclude);
         drop_from(&mut self.tendons, &mut gone, Space::Tendon);

@@ -87,6 +87,7 @@ impl Spec {
             Space::Frame => list!(frames),
             Space::Pair => list!(pairs),
             Space::Exclude => list!(excludes),
+            Space::Flex => list!(flexes),
             Space::Equality => list!(equalities),
             Space::Tendon => list!(tendons),
             Space::Actuator => list!(actuators),

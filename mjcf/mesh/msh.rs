@@ -35,5 +35,14 @@ pub(super) fn decode(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
     let texcoord = floats(2 * ntexcoord);
     let face: Vec<i32> = words.map(i32::from_le_bytes).collect();
     let facetexcoord = if texcoord.is_empty() { Vec::new() } else { face.clone() };
-    Ok(RawMesh { format: Format::Msh, vert, normal, texcoord, facenormal: face.clone(), face, facetexcoord })
+    Ok(RawMesh {
+        format: Format::Msh,
+        vert,
+        normal,
+        texcoord,
+        facenormal: face.clone(),
+        face,
+        facetexcoord,
+        line: Vec::new(),
+    })
 }

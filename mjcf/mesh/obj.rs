@@ -1,4 +1,4 @@
-//! Wavefront OBJ: all `v`, `vn` and `vt` of the file, and the faces of its first shape. Larger polygons
+//! Wavefront OBJ: all `v`, `vn` and `vt` of the file, and the faces and lines of its first shape. Larger polygons
 //! become triangles; groups, materials and smoothing are ignored.
 
 use super::ear_clipping;
@@ -33,12 +33,18 @@ pub(super) fn decode(bytes: &[u8], path: &str) -> Result<RawMesh, AssetError> {
                 let polygon = polygon.filter(|p| p.len() >= 3).ok_or_else(|| line.unreadable())?;
                 polygons.push(polygon);
             }
+            Some("l") if first_shape => {
+                let counts = [mesh.vert.len() / 3, mesh.texcoord.len() / 2, mesh.normal.len() / 3];
+                let path: Option<Vec<Corner>> = words.map(|w| corner(w, counts)).collect();
+                let path = path.ok_or_else(|| line.unreadable())?;
+                mesh.line.extend(path.windows(2).flat_map(|pair| [pair[0][0], pair[1][0]]));
+            }
             Some("o" | "g") if !polygons.is_empty() => first_shape = false,
             Some("curv" | "surf" | "cstype") => {
                 let why = "free-form geometry is not supported";
                 return Err(line.error(AssetErrorKind::Unsupported, why));
             }
-            // Comments, materials, groups, smoothing, lines and points do not change the surface.
+            // Comments, materials, groups, smoothing and points do not change the surface.
             _ => {}
         }
     }

@@ -93,6 +93,7 @@ fn merge(file: Option<RawMesh>, inline: RawMesh, mirrored: bool) -> Result<RawMe
         vert: either(raw.vert, inline.vert, "vertex")?,
         facenormal: either(raw.facenormal, inline.facenormal, "facenormal")?,
         facetexcoord: either(raw.facetexcoord, inline.facetexcoord, "facetexcoord")?,
+        line: raw.line,
     })
 }
 

@@ -33,6 +33,8 @@ pub struct RawMesh {
     pub facenormal: Vec<i32>,
     /// Texture coordinate indices, three per triangle.
     pub facetexcoord: Vec<i32>,
+    /// Vertex indices, two per line; only deformable bodies use them.
+    pub line: Vec<i32>,
 }
 
 /// Everything an `asset/mesh` element says, with its file already read.

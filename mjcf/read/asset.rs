@@ -30,10 +30,6 @@ impl Reader<'_> {
         }
     }
 
-    pub(super) fn deformable(&mut self, section: &Element) {
-        section.children_named("skin").for_each(|element| self.skin(element));
-    }
-
     /// What to open for an asset, and the path that the model records.
     ///
     /// A relative name is looked up from the main file through `dir`; when nothing is there, it is taken from the
@@ -104,7 +100,7 @@ impl Reader<'_> {
         self.spec.hfields.push(hfield);
     }
 
-    fn skin(&mut self, element: &Element) {
+    pub(super) fn skin(&mut self, element: &Element) {
         let mut skin = Skin { loc: element.loc, ..Skin::default() };
         self.rows(element, &SKIN_ROWS, &mut skin);
         if let Some(file) = element.attribute("file") {

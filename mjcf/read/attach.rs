@@ -7,6 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::attached_frames::{FrameCopies, find_frame, holder, missing, within};
 use super::copy::{Affix, Names, Referring, Renaming, append, collect, collect_objects, elements};
 use super::reader::ModelFile;
 use super::reader::Reader;
@@ -64,6 +65,7 @@ impl Reader<'_> {
         let affix = Affix { prefix: &wanted.prefix, suffix: "" };
         let names = self.graft(element, source, &frames, place, &affix, false)?;
         let objects = Spec {
+            flexes: self.spec.flexes.clone(),
             pairs: self.spec.pairs.clone(),
             excludes: self.spec.excludes.clone(),
             tendons: self.spec.tendons.clone(),
@@ -285,6 +287,11 @@ impl Reader<'_> {
         keys: Option<&[Option<usize>]>,
     ) -> Result<(), String> {
         let mut target = Target { reader: self, affix, inside, outside: None };
+        let mut flexes = target.copies(&from.flexes, Space::Flex);
+        if keys.is_some() {
+            // Assets of another model come under the prefix.
+            flexes.iter_mut().for_each(|flex| affix.apply(&mut flex.material));
+        }
         let pairs = target.copies(&from.pairs, Space::Pair);
         let excludes = target.copies(&from.excludes, Space::Exclude);
         let mut tendons = target.copies(&from.tendons, Space::Tendon);
@@ -309,6 +316,7 @@ impl Reader<'_> {
         }
         let tuples = target.copies(&from.tuples, Space::Tuple);
         let copied = [
+            flexes.iter().map(Referring::elements).sum(),
             pairs.len(),
             excludes.len(),
             tendons.len(),
@@ -318,6 +326,7 @@ impl Reader<'_> {
             tuples.len(),
         ];
         self.count(copied.iter().sum())?;
+        self.spec.flexes.extend(flexes);
         self.spec.pairs.extend(pairs);
         self.spec.excludes.extend(excludes);
         self.spec.tendons.extend(tendons);
@@ -366,43 +375,6 @@ fn renumber(keyed: &mut Vec<Keyed>, keys: &[Option<usize>]) {
         }
         None => false,
     });
-}
-
-/// Frames copied when something asks for them.
-struct FrameCopies<'a> {
-    from: &'a [Frame],
-    to: &'a mut Vec<Frame>,
-    copied: BTreeMap<usize, usize>,
-    affix: &'a Affix<'a>,
-}
-
-impl FrameCopies<'_> {
-    /// The copy of a frame; the outermost one stands in `base`.
-    fn of(&mut self, frame: Option<usize>, base: Option<usize>) -> Option<usize> {
-        let mut missing = Vec::new();
-        let mut next = frame;
-        let mut parent = base;
-        while let Some(old) = next {
-            if let Some(&new) = self.copied.get(&old) {
-                parent = Some(new);
-                break;
-            }
-            missing.push(old);
-            next = self.from[old].parent;
-        }
-        for old in missing.into_iter().rev() {
-            parent = Some(self.add(old, parent));
-        }
-        parent
-    }
-
-    fn add(&mut self, old: usize, parent: Option<usize>) -> usize {
-        let mut frame = Frame { parent, ..self.from[old].clone() };
-        self.affix.apply(&mut frame.name);
-        self.to.push(frame);
-        self.copied.insert(old, self.to.len() - 1);
-        self.to.len() - 1
-    }
 }
 
 /// The model that objects are copied to.
@@ -457,44 +429,6 @@ fn all_names(reader: &Reader<'_>) -> Names {
     names
 }
 
-fn missing(kind: &str, name: &str) -> String {
-    format!("no {kind} is named '{name}' in the model that parts are attached from")
-}
-
-fn find_frame(frames: &[Frame], name: &str) -> Result<usize, String> {
-    frames.iter().position(|f| f.name == name).ok_or_else(|| missing("frame", name))
-}
-
 fn find_body<'b>(body: &'b Body, name: &str) -> Option<&'b Body> {
     if body.name == name { Some(body) } else { body.bodies.iter().find_map(|b| find_body(b, name)) }
-}
-
-/// Whether `frame` is `top` or stands inside it.
-fn within(frame: Option<usize>, top: usize, frames: &[Frame]) -> bool {
-    let mut next = frame;
-    while let Some(frame) = next {
-        if frame == top {
-            return true;
-        }
-        next = frames[frame].parent;
-    }
-    false
-}
-
-/// The contents of the frame `top`, which stands in `body` or below.
-fn holder(body: &Body, top: usize, frames: &[Frame]) -> Option<Body> {
-    let inside = |frame| within(frame, top, frames);
-    let contents = Body {
-        joints: body.joints.iter().filter(|x| inside(x.frame)).cloned().collect(),
-        geoms: body.geoms.iter().filter(|x| inside(x.frame)).cloned().collect(),
-        sites: body.sites.iter().filter(|x| inside(x.frame)).cloned().collect(),
-        cameras: body.cameras.iter().filter(|x| inside(x.frame)).cloned().collect(),
-        lights: body.lights.iter().filter(|x| inside(x.frame)).cloned().collect(),
-        bodies: body.bodies.iter().filter(|x| inside(x.frame)).cloned().collect(),
-        ..Body::default()
-    };
-    if elements(&contents) > 1 {
-        return Some(contents);
-    }
-    body.bodies.iter().find_map(|b| holder(b, top, frames))
 }

@@ -76,6 +76,9 @@ impl Reader<'_> {
                     *field(target) = codes.iter().fold(0, |all, code| all | code);
                 }
             }
+            Bind::NameList(field) => {
+                *field(target) = words(&attribute.value).map(|(_, word)| word.to_owned()).collect();
+            }
             Bind::Text(field) | Bind::Name(_, field) | Bind::Ref(_, field) | Bind::ObjRef(_, field) => {
                 field(target).clone_from(&attribute.value);
             }

@@ -39,6 +39,7 @@ impl Reader<'_> {
             equality.objtype = match kind {
                 EqType::Joint => ObjType::Joint,
                 EqType::Tendon => ObjType::Tendon,
+                EqType::Flex | EqType::Flexvert | EqType::Flexstrain => ObjType::Flex,
                 _ if element.attribute("site1").is_some() => ObjType::Site,
                 _ => ObjType::Body,
             };

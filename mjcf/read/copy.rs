@@ -6,7 +6,8 @@ use physics::model::{ObjType, TrnType};
 
 use crate::schema::Space;
 use crate::spec::{
-    Actuator, Body, Equality, Exclude, Pair, PluginUse, Sensor, Skin, Spec, Tendon, Tuple, Wrap, WrapKind,
+    Actuator, Body, Equality, Exclude, Flex, Pair, PluginUse, Sensor, Skin, Spec, Tendon, Tuple, Wrap,
+    WrapKind,
 };
 
 /// Names with their spaces.
@@ -66,7 +67,7 @@ pub(crate) fn collect_objects(spec: &Spec, names: &mut Names) {
             })*
         };
     }
-    lists!(Mesh meshes Skin skins Hfield hfields Texture textures Material materials Pair pairs Exclude excludes
+    lists!(Mesh meshes Skin skins Hfield hfields Texture textures Material materials Pair pairs Exclude excludes Flex flexes
            Equality equalities Tendon tendons Actuator actuators Sensor sensors Numeric numerics Text texts
            Tuple tuples Key keys Plugin plugins);
 }
@@ -158,6 +159,11 @@ pub(crate) trait Referring: Clone {
     /// One reference into the piece is enough; the others may lead elsewhere.
     const MIXED: bool = false;
 
+    /// How many elements the object counts as.
+    fn elements(&self) -> usize {
+        1
+    }
+
     /// The object's own name and all its references.
     fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>);
 }
@@ -191,6 +197,19 @@ impl Referring for Exclude {
 impl Referring for Skin {
     fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
         (&mut self.name, self.bones.iter_mut().map(|bone| (Space::Body, &mut bone.body)).collect())
+    }
+}
+
+impl Referring for Flex {
+    fn elements(&self) -> usize {
+        1 + (self.vert.len() + self.elem.len() + self.texcoord.len()) / 16
+            + self.vertbody.len()
+            + self.nodebody.len()
+    }
+
+    fn names(&mut self) -> (&mut String, Vec<(Space, &mut String)>) {
+        let bodies = self.vertbody.iter_mut().chain(&mut self.nodebody);
+        (&mut self.name, bodies.map(|name| (Space::Body, name)).collect())
     }
 }
 

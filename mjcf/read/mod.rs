@@ -7,6 +7,7 @@
 mod actuator;
 mod asset;
 mod attach;
+mod attached_frames;
 mod attributes;
 mod authored;
 mod composite;
@@ -15,6 +16,8 @@ mod constraint;
 pub(crate) mod copy;
 mod dc_motor;
 mod defaults;
+mod deformable;
+mod flexcomp;
 mod kept;
 mod model_file;
 mod plugin;
@@ -70,8 +73,8 @@ impl Reader<'_> {
             ("extension", Self::extensions),
             ("custom", Self::custom),
             ("asset", Self::asset),
-            ("deformable", Self::deformable),
             ("contact", Self::contact),
+            ("deformable", Self::deformable),
             ("equality", Self::equality),
             ("tendon", Self::tendon),
             ("actuator", Self::actuator),

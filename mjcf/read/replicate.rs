@@ -31,7 +31,7 @@ impl Reader<'_> {
         let first = self.spec.frames.len();
         self.spec.frames.push(Frame { loc: element.loc, parent: place.frame, ..Frame::default() });
         self.open.push(Body::default());
-        self.inside(element, Place { frame: Some(first), class, world: place.world });
+        self.inside(element, Place { frame: Some(first), class, body_class: class, world: place.world });
         let mut piece = self.open.pop().unwrap_or_default();
         if let Some(inertial) = &piece.inertial {
             self.error(inertial.loc, "<replicate> cannot hold <inertial>");
@@ -136,12 +136,14 @@ fn copy_references(
     suffixes: &[String],
     budget: &mut Budget,
 ) -> Result<(), String> {
+    let flexes = copy_list(&mut spec.flexes, names, suffixes, budget)?;
     copy_list(&mut spec.pairs, names, suffixes, budget)?;
     copy_list(&mut spec.excludes, names, suffixes, budget)?;
     // Tendons come before what may refer to them, and pass on their own copies' names.
     let tendons = copy_list(&mut spec.tendons, names, suffixes, budget)?;
     let mut names = names.clone();
     names.extend(tendons.into_iter().map(|name| (Space::Tendon, name)));
+    names.extend(flexes.into_iter().map(|name| (Space::Flex, name)));
     copy_list(&mut spec.equalities, &names, suffixes, budget)?;
     let fixed = spec.actuators.len();
     let actuators = copy_list(&mut spec.actuators, &names, suffixes, budget)?;
@@ -173,8 +175,11 @@ fn copy_list<T: Referring>(
         std::mem::take(list).into_iter().partition(|o| inside(&mut o.clone()));
     *list = kept;
     let copies = originals.len().saturating_mul(suffixes.len());
-    budget
-        .take(&format!("{copies} copies of what refers into <replicate>"), copies.saturating_mul(ELEMENT))?;
+    let elements = originals.iter().map(T::elements).sum::<usize>().saturating_mul(suffixes.len());
+    budget.take(
+        &format!("{copies} copies of what refers into <replicate>"),
+        elements.saturating_mul(ELEMENT),
+    )?;
     for suffix in suffixes {
         list.extend(originals.iter().cloned().map(|mut object| {
             let (name, references) = object.names();

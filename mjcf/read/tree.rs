@@ -18,6 +18,8 @@ pub(crate) struct Place {
     pub frame: Option<usize>,
     /// The default class in force.
     pub class: ClassId,
+    /// That of the body, whatever frames inside it say.
+    pub body_class: ClassId,
     /// The body is the world.
     pub world: bool,
 }
@@ -28,7 +30,7 @@ impl Reader<'_> {
             self.error(attribute.loc, "<worldbody> takes no attributes");
         }
         self.open = vec![std::mem::take(&mut self.spec.world)];
-        self.inside(section, Place { frame: None, class: 0, world: true });
+        self.inside(section, Place { frame: None, class: 0, body_class: 0, world: true });
         self.spec.world = self.open.pop().unwrap_or_default();
     }
 
@@ -71,6 +73,7 @@ impl Reader<'_> {
                     self.rows(element, &FREEJOINT_ROWS, &mut joint);
                     self.body_here().joints.push(joint);
                 }
+                "flexcomp" => self.flexcomp(element, place),
                 "geom" => self.geom(element, place),
                 "site" => {
                     let class = self.class_of(element, "class", place.class);
@@ -107,7 +110,7 @@ impl Reader<'_> {
         self.rows(element, &BODY_ROWS, &mut body);
         self.rows(element, &BODY_POSE, &mut body);
         self.open.push(body);
-        self.inside(element, Place { frame: None, class, world: false });
+        self.inside(element, Place { frame: None, class, body_class: class, world: false });
         self.open.pop().unwrap_or_default()
     }
 

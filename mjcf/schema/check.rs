@@ -63,7 +63,7 @@ impl Check<'_> {
             return self.error(element.loc, message, None);
         }
         // These have names that only the reader makes up; the compiler resolves references then.
-        self.names.open |= matches!(kind.tag, "replicate" | "attach" | "composite");
+        self.names.open |= matches!(kind.tag, "replicate" | "attach" | "composite" | "flexcomp");
         self.attributes(element, kind, defaults);
         for rule in kind.rules.iter().filter(|r| !defaults || matches!(r, Rule::Exclusive(_))) {
             self.rule(element, rule);

@@ -5,7 +5,7 @@ use physics::model::EqType;
 use super::Bind::*;
 use super::tree::CLASS;
 use super::words::{FALSE_TRUE_AUTO, limited};
-use super::{ElementType, Kind, Row, Rule, Space, any, leaf, required, row, section, unsupported};
+use super::{ElementType, Kind, Row, Rule, Space, any, leaf, required, row, section};
 use crate::spec::{Equality, Exclude, Pair, SOLIMP, SOLREF, Tendon};
 
 /// `contact`.
@@ -87,19 +87,28 @@ static EQ_TENDON: ElementType = leaf(
     "One tendon follows another, or stands still",
     &[&CLASS, &EQUALITY_ROWS, &TENDONS, &POLYNOMIAL],
 );
-static EQ_FLEX: ElementType = unsupported("flex", "deformable bodies");
-static FLEXVERT: ElementType = unsupported("flexvert", "deformable bodies");
-static FLEXSTRAIN: ElementType = unsupported("flexstrain", "deformable bodies");
+static EQ_FLEX: ElementType =
+    leaf("flex", "The edges of a flex keep their lengths", &[&CLASS, &EQUALITY_ROWS, &FLEX]);
+static FLEXVERT: ElementType =
+    leaf("flexvert", "A flex keeps its shape around each vertex", &[&CLASS, &EQUALITY_ROWS, &FLEX]);
+static FLEXSTRAIN: ElementType = leaf(
+    "flexstrain",
+    "A cell of an interpolated flex keeps its shape",
+    &[&CLASS, &EQUALITY_ROWS, &FLEX, &CELL],
+);
 /// `equality` in a default class.
 pub static DEFAULT_EQUALITY: ElementType =
     leaf("equality", "Defaults of equality constraints", &[&EQUALITY_ROWS]);
 
 /// The equality constraints by tag.
-pub const EQUALITIES: [(&str, EqType); 4] = [
+pub const EQUALITIES: [(&str, EqType); 7] = [
     ("connect", EqType::Connect),
     ("weld", EqType::Weld),
     ("joint", EqType::Joint),
     ("tendon", EqType::Tendon),
+    ("flex", EqType::Flex),
+    ("flexvert", EqType::Flexvert),
+    ("flexstrain", EqType::Flexstrain),
 ];
 
 /// Attributes of every equality constraint.
@@ -134,6 +143,12 @@ static TENDONS: [Row<Equality>; 2] = [
     required("tendon1", Ref(Space::Tendon, |e| &mut e.name1), "tendon that follows"),
     row("tendon2", Ref(Space::Tendon, |e| &mut e.name2), "tendon that leads, if any"),
 ];
+static FLEX: [Row<Equality>; 1] = [required("flex", Ref(Space::Flex, |e| &mut e.name1), "flex")];
+static CELL: [Row<Equality>; 1] = [row(
+    "cell",
+    Reals { min: 3, field: |e| &mut e.data[..3] },
+    "cell by its place along each axis, or element of the surface and twice -1",
+)];
 static POLYNOMIAL: [Row<Equality>; 1] =
     [row("polycoef", Reals { min: 1, field: |e| &mut e.data[..5] }, "coefficients of a quartic")];
 
@@ -143,6 +158,8 @@ pub fn equality_blocks(kind: EqType) -> Vec<&'static [Row<Equality>]> {
         EqType::Connect => vec![&BODIES, &SITES, &ANCHOR],
         EqType::Weld => vec![&BODIES, &SITES, &ANCHOR, &POSE],
         EqType::Joint => vec![&JOINTS, &POLYNOMIAL],
+        EqType::Flex | EqType::Flexvert => vec![&FLEX],
+        EqType::Flexstrain => vec![&FLEX, &CELL],
         _ => vec![&TENDONS, &POLYNOMIAL],
     }
 }

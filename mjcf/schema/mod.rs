@@ -11,6 +11,7 @@ pub mod asset;
 pub mod check;
 pub mod composite;
 pub mod constraint;
+pub mod flex;
 pub mod legacy;
 pub mod option;
 pub mod plugin;
@@ -45,6 +46,7 @@ pub enum Space {
     Light,
     Pair,
     Exclude,
+    Flex,
     Equality,
     Tendon,
     Actuator,
@@ -73,6 +75,7 @@ impl Space {
             ObjType::Material => Space::Material,
             ObjType::Pair => Space::Pair,
             ObjType::Exclude => Space::Exclude,
+            ObjType::Flex => Space::Flex,
             ObjType::Equality => Space::Equality,
             ObjType::Tendon => Space::Tendon,
             ObjType::Actuator => Space::Actuator,
@@ -105,6 +108,7 @@ impl Space {
             Space::Light => "light",
             Space::Pair => "pair",
             Space::Exclude => "exclude",
+            Space::Flex => "flex",
             Space::Equality => "equality",
             Space::Tendon => "tendon",
             Space::Actuator => "actuator",
@@ -122,7 +126,7 @@ impl Space {
         use Space::*;
         let all = [
             Mesh, Skin, Hfield, Texture, Material, Body, Joint, Geom, Site, Camera, Light, Pair, Exclude,
-            Equality, Tendon, Actuator, Sensor, Numeric, Text, Tuple, Key,
+            Flex, Equality, Tendon, Actuator, Sensor, Numeric, Text, Tuple, Key,
         ];
         if word == "xbody" { Some(Body) } else { all.into_iter().find(|s| s.word() == word) }
     }
@@ -206,6 +210,8 @@ pub enum Bind<T: 'static> {
     Keyword { words: Words, assign: fn(&mut T, i32) },
     /// Several keywords, whose codes are combined bitwise.
     Flags { words: Words, field: fn(&mut T) -> &mut i32 },
+    /// Names separated by blanks.
+    NameList(fn(&mut T) -> &mut Vec<String>),
     /// Text as it stands.
     Text(fn(&mut T) -> &mut String),
     /// The name of the object itself.
@@ -276,7 +282,7 @@ impl<T> Bind<T> {
             Bind::Bool(_) => Kind::Keyword(BOOL),
             Bind::Keyword { words, .. } => Kind::Keyword(words),
             Bind::Flags { words, .. } => Kind::Flags(words),
-            Bind::Text(_) => Kind::Text,
+            Bind::Text(_) | Bind::NameList(_) => Kind::Text,
             Bind::Name(space, _) => Kind::Name(*space),
             Bind::Ref(space, _) => Kind::Ref(*space),
             Bind::ObjRef(by, _) => Kind::ObjRef(by),

@@ -3,16 +3,14 @@
 use super::actuator::ACTUATOR;
 use super::asset::{ASSET, MATERIAL, MESH, SKIN};
 use super::constraint::{CONTACT, DEFAULT_EQUALITY, DEFAULT_TENDON, EQUALITY, PAIR, TENDON};
+use super::flex::FLEX;
 use super::option::OPTION;
 use super::plugin::EXTENSION;
 use super::sensor::SENSOR;
 use super::settings::{COMPILER, CUSTOM, KEYFRAME, SIZE, STATISTIC};
 use super::tree::{CAMERA, GEOM, JOINT, LIGHT, SITE, WORLDBODY};
 use super::visual::VISUAL;
-use super::{
-    Bind, Child, ElementType, Kind, Row, Space, actuator, any, class, leaf, required, row, section,
-    unsupported,
-};
+use super::{Bind, Child, ElementType, Kind, Row, Space, actuator, any, class, leaf, required, row, section};
 
 /// The whole format.
 pub static MUJOCO: ElementType = leaf("mujoco", "A model", &[&MODEL_NAME]).children(&[
@@ -36,7 +34,6 @@ pub static MUJOCO: ElementType = leaf("mujoco", "A model", &[&MODEL_NAME]).child
 ]);
 static MODEL_NAME: [Row<()>; 1] = [row("model", Bind::Own(Kind::Text), "name of the model")];
 static DEFORMABLE: ElementType = section("deformable", "Deformable bodies", &[any(&FLEX), any(&SKIN)]);
-static FLEX: ElementType = unsupported("flex", "deformable bodies");
 
 static TOP_DEFAULT: ElementType =
     leaf("default", "Defaults of all elements", &[&TOP_CLASS]).children(&DEFAULT_CHILDREN);

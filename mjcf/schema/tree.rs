@@ -4,11 +4,11 @@ use physics::model::{GeomType, JointType, LightType, Projection, SleepPolicy, Tr
 
 use super::Bind::*;
 use super::composite::COMPOSITE;
+use super::flex::FLEXCOMP;
 use super::plugin::PLUGIN;
 use super::words::{FALSE_TRUE_AUTO, GEOM_TYPES, TRACK_MODES, limited};
 use super::{
     Child, ElementType, Kind, Row, Rule, Space, Way, Words, any, leaf, local, once, required, row, section,
-    unsupported,
 };
 use crate::spec::{AlignFree, Body, Camera, Frame, Geom, Inertial, Joint, Light, Site};
 
@@ -105,7 +105,6 @@ pub static CAMERA: ElementType = leaf("camera", "A camera", &[&CLASS, &CAMERA_RO
 /// `light`.
 pub static LIGHT: ElementType = leaf("light", "A light", &[&CLASS, &LIGHT_ROWS])
     .rules(&[Rule::Exclusive(&[&["directional"], &["type"]])]);
-static FLEXCOMP: ElementType = unsupported("flexcomp", "deformable bodies");
 static ATTACH: ElementType = leaf("attach", "A copy of a part of this or another model", &[&ATTACH_ROWS])
     .rules(&[Rule::Exclusive(&[&["body"], &["frame"]])]);
 

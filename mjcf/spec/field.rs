@@ -14,11 +14,12 @@
 //! ```
 
 use physics::model::{
-    BiasType, ColorSpace, DataType, DynType, EqType, GainType, GeomType, JointType, LengthRangeMode,
-    LightType, ObjType, Projection, SensorType, SleepPolicy, Stage, TextureType, TrackMode, TrnType,
+    BiasType, ColorSpace, DataType, DynType, EqType, FlexSelf, GainType, GeomType, JointType,
+    LengthRangeMode, LightType, ObjType, Projection, SensorType, SleepPolicy, Stage, TextureType, TrackMode,
+    TrnType,
 };
 
-use super::{AlignFree, Conflict, InertiaFromGeom, Limited};
+use super::{AlignFree, Conflict, Elastic2d, InertiaFromGeom, Limited};
 use crate::image::{Builtin, Mark};
 use crate::mesh::{MeshInertia, Shape};
 
@@ -295,6 +296,7 @@ codes! {
     DataType: "mjtDataType";
     Stage: "mjtStage";
     LengthRangeMode: "mjtLRMode";
+    FlexSelf: "mjtFlexSelf";
 }
 
 /// Enumerations of the description, whose codes count from 0.
@@ -326,6 +328,7 @@ counted! {
     MeshInertia: "mjtMeshInertia", Convex Exact Legacy Shell;
     Builtin: "mjtBuiltin", None Gradient Checker Flat;
     Mark: "mjtMark", None Edge Cross Random;
+    Elastic2d: "mjtElastic2d", None Bend Stretch Both;
 }
 
 /// The shape of a computed mesh; 0 is none.
@@ -365,7 +368,7 @@ macro_rules! held {
 }
 
 held! {
-    Option<usize> Option<super::Orientation> Option<super::Inertial> Option<super::PluginUse> Vec<(String, String)>
+    Option<usize> Option<super::Orientation> Option<super::Inertial> Option<super::PluginUse> Vec<(String, String)> Vec<String> Vec<bool>
     Vec<super::Keyed> Vec<super::Wrap> Vec<super::TupleEntry> Vec<super::Bone>
     Vec<super::Joint> Vec<super::Geom> Vec<super::Site> Vec<super::Camera> Vec<super::Light> Vec<super::Body>
     crate::diagnostic::Loc

@@ -29,6 +29,8 @@ mod constraint;
 mod custom;
 mod element;
 pub(crate) mod field;
+mod flex;
+mod flexcomp;
 mod keys;
 mod orientation;
 mod plugin;
@@ -44,6 +46,8 @@ pub use constraint::*;
 pub use custom::*;
 pub use element::{Limited, SOLIMP, SOLREF};
 pub use field::{Fields, Form, Value};
+pub use flex::*;
+pub(crate) use flexcomp::{Dof, EqualityOf, Flexcomp, Pin};
 pub use orientation::Orientation;
 pub(crate) use orientation::{UNIT, from_axes, minimal_rotation, resolve};
 pub use plugin::*;
@@ -92,6 +96,8 @@ pub struct Spec {
     pub pairs: Vec<Pair>,
     /// Pairs of bodies that do not collide.
     pub excludes: Vec<Exclude>,
+    /// Deformable bodies.
+    pub flexes: Vec<Flex>,
     /// Equality constraints.
     pub equalities: Vec<Equality>,
     /// Tendons.

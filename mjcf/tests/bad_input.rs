@@ -77,8 +77,8 @@ const IN_THE_WORLD: [(&str, &str); 21] = [
         "<text>:3:1: error: <geom> takes only one of 'quat' or 'axisangle' or 'xyaxes' or 'zaxis' or 'euler'",
     ),
     (
-        "<flexcomp name='f' type='grid'/>",
-        "<text>:3:1: error: <flexcomp> is not supported: deformable bodies are not simulated",
+        "<composite type='cable'/>",
+        "<text>:3:1: error: a cable is made of capsules, cylinders or boxes: set 'type' of its <geom>",
     ),
 ];
 

@@ -160,7 +160,7 @@ fn the_reference_lists_every_element_with_its_attributes() {
         "mujoco — A model",
         "          contype: int — contact bits",
         "          type: plane|hfield|sphere|capsule|ellipsoid|cylinder|box|mesh|sdf — shape",
-        "flexcomp — not supported",
+        "        composite — Bodies in a chain, as a cable has them",
     ] {
         assert!(text.contains(line), "no line '{line}' in\n{text}");
     }

@@ -18,12 +18,6 @@ pub(super) fn assets(spec: &Spec) -> Element {
     out
 }
 
-pub(super) fn deformable(spec: &Spec) -> Element {
-    let mut out = element("deformable");
-    out.children.extend(spec.skins.iter().map(skin));
-    out
-}
-
 fn put_file(out: &mut Element, path: &str) {
     if !path.is_empty() {
         out.put("file", path);

@@ -8,6 +8,7 @@ mod actuator;
 mod asset;
 mod constraint;
 mod files;
+mod flex;
 mod keys;
 mod plugin;
 mod rows;
@@ -57,7 +58,7 @@ impl Spec {
         root.add(constraint::tendon_classes(&spec));
         root.add(asset::assets(&spec));
         root.add(tree::world(&spec.world, &spec.frames));
-        root.add(asset::deformable(&spec));
+        root.add(flex::deformable(&spec)?);
         root.add(constraint::contact(&spec));
         root.add(constraint::equalities(&spec));
         root.add(constraint::tendons(&spec));
@@ -103,6 +104,7 @@ single! {
 }
 
 pub(crate) use actuator::actuator;
+pub(crate) use flex::flex;
 pub(crate) fn sensor(sensor: &crate::spec::Sensor) -> Result<Element, String> {
     sensor::sensor(sensor).ok_or_else(|| format!("sensor '{}' has no element in MJCF", sensor.name))
 }

@@ -79,6 +79,7 @@ impl<'a, T: Clone + PartialEq> Scratch<'a, T> {
                 let set = words.iter().filter(|(_, bit)| bits & bit != 0);
                 Some(set.map(|(word, _)| *word).collect::<Vec<_>>().join(" ")).filter(|text| !text.is_empty())
             }
+            Bind::NameList(field) => self.lend(|t| field(t).join(" ")).filter(|text| !text.is_empty()),
             Bind::Text(field) | Bind::Name(_, field) | Bind::Ref(_, field) | Bind::ObjRef(_, field) => {
                 self.lend(|t| field(t).clone())
             }

@@ -49,6 +49,8 @@ pub mod actuation;
 #[doc(hidden)]
 pub mod constraint;
 #[doc(hidden)]
+pub mod flex;
+#[doc(hidden)]
 pub mod sensor;
 #[doc(hidden)]
 pub mod solver;

@@ -39,6 +39,8 @@ INPUTS = ["qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat", "qfrc_applie
 
 FIXED = ["xpos", "xquat", "xmat", "xipos", "ximat", "xanchor", "xaxis", "geom_xpos", "geom_xmat", "site_xpos",
          "site_xmat", "cam_xpos", "cam_xmat", "light_xpos", "light_xdir", "subtree_com", "cdof", "cinert",
+         "flexvert_xpos", "flexelem_aabb", "bvh_aabb_dyn", "flexedge_J", "flexedge_length", "flexvert_J",
+         "flexvert_length", "flexedge_velocity",
          "ten_wrapadr", "ten_wrapnum", "ten_J", "ten_length", "wrap_obj", "wrap_xpos", "actuator_length",
          "moment_rownnz", "moment_rowadr", "moment_colind", "actuator_moment", "crb", "M", "qLD", "qLDiagInv",
          "ten_velocity", "actuator_velocity", "cvel", "cdof_dot", "qfrc_bias", "qfrc_spring", "qfrc_damper",
@@ -50,7 +52,7 @@ ROWS = ["efc_type", "efc_id", "efc_pos", "efc_margin", "efc_frictionloss", "efc_
         "efc_vel", "efc_aref", "efc_b", "efc_state", "efc_force"]
 
 CONTACT = ["dist", "pos", "frame", "includemargin", "friction", "solref", "solreffriction", "solimp", "adhesion",
-           "mu", "dim", "geom", "exclude", "efc_address"]
+           "mu", "dim", "geom", "flex", "elem", "vert", "exclude", "efc_address"]
 
 
 def compiled(model):

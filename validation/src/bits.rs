@@ -96,7 +96,7 @@ fn whole_pass(m: &Model, reference: &Reference) -> Result<Counts, ReferenceError
         reference.set_state(&mut d, m, row)?;
         let failed = physics::forward(m, &mut d).is_err();
         derive_on_demand(m, &mut d);
-        for field in written().chain(AFTER_STAGES.iter().copied()) {
+        for field in written(m).chain(AFTER_STAGES.iter().copied()) {
             let output = output(m, &d, reference, field, row)?;
             counts.add(field, row, if failed { &[] } else { &output.ours }, &output.theirs);
         }

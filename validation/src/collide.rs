@@ -259,7 +259,7 @@ impl Scene {
             let key = (variant, p.pair[group]);
             let mut tally = report.pairs.remove(&key).unwrap_or_default();
             self.place(p, group)?;
-            collide(&self.m, &self.d.kin, self.d.budget, &mut self.collision, &mut self.d.con)
+            collide(&self.m, &self.d.kin, &self.d.flex, self.d.budget, &mut self.collision, &mut self.d.con)
                 .map_err(|_| ReferenceError::Shape("contacts".into()))?;
             let first = self.m.ngeom - 2 * p.slots;
             for slot in 0..p.slots {

@@ -19,6 +19,7 @@ pub mod reference;
 pub mod round_trip;
 pub mod scenes;
 pub mod solver;
+pub mod stage_report;
 pub mod stages;
 pub mod status;
 pub mod tolerance;

@@ -1,11 +1,9 @@
 //! Every stage alone: MuJoCo's upstream arrays go in, our stage runs, its outputs are compared.
 
-use crate::compare::{Worst, compare, compare_scaled, exact, relative};
 use crate::reference::{Reference, ReferenceError};
-use crate::tolerance::STAGE_BAR;
 use physics::data::Configuration;
 use physics::{
-    Data, Model, actuation, actuation::transmission, collision, constraint, inertia, on_demand::energy,
+    Data, Model, actuation, actuation::transmission, collision, constraint, flex, inertia, on_demand::energy,
     on_demand::momentum, position::camera, position::com, position::kinematics, position::tendon, sensor,
     velocity::bias, velocity::com_vel, velocity::passive,
 };
@@ -25,7 +23,7 @@ macro_rules! contacts {
         &[
             "contact.dist", "contact.pos", "contact.frame", "contact.includemargin", "contact.friction",
             "contact.solref", "contact.solreffriction", "contact.solimp", "contact.adhesion", "contact.dim",
-            "contact.geom", $($more),*
+            "contact.geom", "contact.flex", "contact.elem", "contact.vert", $($more),*
         ]
     };
 }
@@ -62,6 +60,20 @@ const STAGES: &[Stage] = &[
         writes: &["cam_xpos", "cam_xmat", "light_xpos", "light_xdir"],
     },
     Stage {
+        name: "flex",
+        reads: &["xpos", "xmat", "subtree_com", "cdof"],
+        run: |m, d| flex::flexes(m, &d.kin, &d.com, &mut d.flex, &mut d.scratch.flex),
+        writes: &[
+            "flexvert_xpos",
+            "flexelem_aabb",
+            "bvh_aabb_dyn",
+            "flexedge_length",
+            "flexedge_J",
+            "flexvert_length",
+            "flexvert_J",
+        ],
+    },
+    Stage {
         name: "tendon",
         reads: &["xpos", "xmat", "geom_xpos", "geom_xmat", "site_xpos", "subtree_com", "cdof"],
         run: |m, d| tendon::tendon(m, &d.state, &d.kin, &d.com, &mut d.ten),
@@ -78,10 +90,22 @@ const STAGES: &[Stage] = &[
     },
     Stage {
         name: "collision",
-        reads: &["xpos", "xquat", "xmat", "xipos", "ximat", "geom_xpos", "geom_xmat"],
+        reads: &[
+            "xpos",
+            "xquat",
+            "xmat",
+            "xipos",
+            "ximat",
+            "geom_xpos",
+            "geom_xmat",
+            "flexvert_xpos",
+            "flexelem_aabb",
+            "bvh_aabb_dyn",
+        ],
         run: |m, d| {
             let scratch = &mut collision::CollisionScratch::default();
-            collision::collide(m, &d.kin, d.budget, scratch, &mut d.con).expect("contacts within the budget");
+            collision::collide(m, &d.kin, &d.flex, d.budget, scratch, &mut d.con)
+                .expect("contacts within the budget");
         },
         writes: contacts!(),
     },
@@ -98,6 +122,11 @@ const STAGES: &[Stage] = &[
             "site_xmat",
             "subtree_com",
             "cdof",
+            "flexvert_xpos",
+            "flexedge_length",
+            "flexedge_J",
+            "flexvert_length",
+            "flexvert_J",
             "ten_J",
             "ten_length",
             "M",
@@ -152,7 +181,7 @@ const STAGES: &[Stage] = &[
             constraint_rows(m, d);
             transmission::transmission(
                 m,
-                &Configuration { state: &d.state, kin: &d.kin, com: &d.com, ten: &d.ten },
+                &Configuration { state: &d.state, kin: &d.kin, com: &d.com, flex: &d.flex, ten: &d.ten },
                 &d.con,
                 &d.efc,
                 &mut d.trn,
@@ -165,6 +194,7 @@ const STAGES: &[Stage] = &[
         reads: &[
             "subtree_com",
             "cdof",
+            "flexedge_J",
             "ten_J",
             "moment_rownnz",
             "moment_rowadr",
@@ -172,11 +202,14 @@ const STAGES: &[Stage] = &[
             "actuator_moment",
         ],
         run: |m, d| {
+            if m.nflex > 0 {
+                flex::edge_velocities(m, &d.state, &d.flex, &mut d.vel.flexedge_velocity);
+            }
             tendon::tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
             transmission::actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
             com_vel::com_vel(m, &d.state, &d.com, &mut d.vel);
         },
-        writes: &["ten_velocity", "actuator_velocity", "cvel", "cdof_dot"],
+        writes: &["flexedge_velocity", "ten_velocity", "actuator_velocity", "cvel", "cdof_dot"],
     },
     Stage {
         name: "passive",
@@ -192,6 +225,10 @@ const STAGES: &[Stage] = &[
             "subtree_com",
             "cdof",
             "cinert",
+            "flexvert_xpos",
+            "flexedge_length",
+            "flexedge_J",
+            "flexedge_velocity",
             "ten_J",
             "ten_length",
             "ten_velocity",
@@ -200,9 +237,10 @@ const STAGES: &[Stage] = &[
         run: |m, d| {
             passive::passive(
                 m,
-                &Configuration { state: &d.state, kin: &d.kin, com: &d.com, ten: &d.ten },
+                &Configuration { state: &d.state, kin: &d.kin, com: &d.com, flex: &d.flex, ten: &d.ten },
                 &d.con,
                 &d.vel,
+                &mut d.scratch.flex,
                 &mut d.passive,
             )
         },
@@ -257,6 +295,7 @@ const STAGES: &[Stage] = &[
             "cam_xmat",
             "subtree_com",
             "cdof",
+            "flexedge_length",
             "M",
             "ten_length",
             "ten_velocity",
@@ -283,9 +322,9 @@ const STAGES: &[Stage] = &[
     },
 ];
 
-/// The fields that each stage writes, in the order of the stages.
-pub fn written() -> impl Iterator<Item = &'static str> {
-    STAGES.iter().flat_map(|stage| stage.writes.iter().copied())
+/// The fields of a model that each stage writes, in the order of the stages.
+pub fn written(m: &Model) -> impl Iterator<Item = &'static str> {
+    STAGES.iter().flat_map(|stage| present(m, stage.writes))
 }
 
 /// Rows and islands from contacts that have no row yet. Collision detection excludes those in the gap; the mark of those
@@ -296,8 +335,9 @@ fn constraint_rows(m: &Model, d: &mut Data) {
         c.efc_address = -1;
         c.exclude = if c.exclude == constraint::NO_DOF { 0 } else { c.exclude };
     }
-    let Data { state, kin, com, ten, inertia, con, efc, island, vel, .. } = d;
-    constraint::make_constraint(m, &Configuration { state, kin, com, ten }, inertia, con, efc, &mut scratch);
+    let Data { state, kin, com, flex, ten, inertia, con, efc, island, vel, .. } = d;
+    let at = Configuration { state, kin, com, flex, ten };
+    constraint::make_constraint(m, &at, inertia, con, efc, &mut scratch);
     constraint::find_islands(m, con, efc, island, &mut constraint::IslandScratch::default());
     constraint::reference(m, state, kin, com, vel, con, efc);
 }
@@ -311,7 +351,7 @@ pub fn before_solver(reference: &Reference, m: &Model, row: usize) -> Result<Dat
     let mut d = Data::new(m);
     reference.set_state(&mut d, m, row)?;
     for stage in STAGES.iter().filter(|stage| stage.name == "rows") {
-        reference.inject(&mut d, stage.reads, row)?;
+        reference.inject(&mut d, &present(m, stage.reads), row)?;
         (stage.run)(m, &mut d);
     }
     reference.inject(&mut d, &["qfrc_smooth", "qacc_smooth"], row)?;
@@ -319,9 +359,9 @@ pub fn before_solver(reference: &Reference, m: &Model, row: usize) -> Result<Dat
 }
 
 fn sensors(m: &Model, d: &mut Data) {
-    let Data { state, kin, com, ten, trn, inertia, con, efc, vel, actuation, sensor: out, .. } = d;
+    let Data { state, kin, com, flex, ten, trn, inertia, con, efc, vel, actuation, sensor: out, .. } = d;
     let mut scratch = sensor::SensorScratch::default();
-    let inputs = sensor::PositionInputs { state, kin, com, ten, trn, inertia, efc };
+    let inputs = sensor::PositionInputs { state, kin, com, flex, ten, trn, inertia, efc };
     let past = sensor::Past { state };
     sensor::position_sensors(m, &inputs, past, &mut scratch, out);
     let inputs = sensor::VelocityInputs { state, kin, com, trn, vel, efc };
@@ -329,40 +369,8 @@ fn sensors(m: &Model, d: &mut Data) {
     let inputs = sensor::AccelerationInputs { state, kin, com, con, efc, vel, actuation };
     sensor::acceleration_sensors(m, &inputs, past, &mut scratch, out);
     momentum::subtree_momentum(m, kin, com, vel, out);
-    d.energy = [energy::potential(m, state, kin, ten), energy::kinetic(m, state, inertia, &mut Vec::new())];
-}
-
-/// The worst component of each stage output over all recorded states.
-pub struct StageReport {
-    /// Stage, state and worst component of every output.
-    pub outputs: Vec<(&'static str, usize, Worst)>,
-}
-
-impl StageReport {
-    /// Outputs outside the tolerance, as state and component, worst first.
-    pub fn outside(&self) -> Vec<(usize, &Worst)> {
-        let mut list: Vec<_> = self
-            .outputs
-            .iter()
-            .filter(|(_, _, w)| w.error > STAGE_BAR)
-            .map(|(_, state, w)| (*state, w))
-            .collect();
-        list.sort_by(|a, b| b.1.error.total_cmp(&a.1.error));
-        list
-    }
-}
-
-/// Runs every stage on every recorded state, with the recorded model.
-///
-/// # Errors
-/// The reference lacks an array.
-pub fn compare_stages(reference: &Reference) -> Result<StageReport, ReferenceError> {
-    let mut report = StageReport { outputs: Vec::new() };
-    each_output(reference, |m, stage, row, output| {
-        keep_worst(&mut report, stage, row, judge(m, reference, row, &output)?);
-        Ok(())
-    })?;
-    Ok(report)
+    let at = Configuration { state, kin, com, flex, ten };
+    d.energy = [energy::potential(m, &at), energy::kinetic(m, state, inertia, &mut Vec::new())];
 }
 
 /// One field after our computation and after MuJoCo's.
@@ -389,16 +397,24 @@ pub fn each_output(
     let mut d = Data::new(&m);
     for row in 0..reference.states()? {
         for stage in STAGES {
+            let [reads, writes] = [stage.reads, stage.writes].map(|names| present(&m, names));
             reference.set_state(&mut d, &m, row)?;
-            poison(&m, &mut d, stage.writes);
-            reference.inject(&mut d, stage.reads, row)?;
+            poison(&m, &mut d, &writes);
+            reference.inject(&mut d, &reads, row)?;
             (stage.run)(&m, &mut d);
-            for &field in stage.writes {
+            for field in writes {
                 f(&m, stage.name, row, output(&m, &d, reference, field, row)?)?;
             }
         }
     }
     Ok(())
+}
+
+/// The fields that a model has: those of flexes only where it has flexes, which older recordings do not know.
+fn present(m: &Model, names: &'static [&'static str]) -> Vec<&'static str> {
+    const FLEXES: &[&str] = &["bvh_aabb_dyn", "contact.flex", "contact.elem", "contact.vert"];
+    let of_flexes = |name: &&str| name.starts_with("flex") || FLEXES.contains(name);
+    names.iter().copied().filter(|name| m.nflex > 0 || !of_flexes(name)).collect()
 }
 
 /// Fills the outputs of a stage, so that one which it leaves as it was is noticed: not a number, or -7 in integers.
@@ -437,42 +453,4 @@ pub fn output(
         }
     });
     Ok(output)
-}
-
-/// The worst component of a stage output.
-fn judge(m: &Model, reference: &Reference, row: usize, output: &Output) -> Result<Worst, ReferenceError> {
-    let Output { field, ours, theirs, .. } = output;
-    Ok(match (*field, output.float) {
-        ("qLD", _) => {
-            let scales = factor_scales(m, &reference.forward("M", row)?);
-            compare_scaled(field, ours, theirs, relative, |k| scales[k])
-        }
-        (_, true) => compare(field, ours, theirs, relative),
-        (_, false) => compare(field, ours, theirs, exact),
-    })
-}
-
-/// Scale of each entry of the inertia's factor. In `M = LᵀDL` with a unit diagonal of `L`, an entry `L[i, j]` is a sum of
-/// terms of size `√(M[i, i] M[j, j])` divided by a pivot of at most `M[i, i]`: what is far below `√(M[j, j] / M[i, i])` is
-/// what cancellation left of them. The field's largest entry, often a mass, says nothing about that.
-fn factor_scales(m: &Model, inertia: &[f64]) -> Vec<f64> {
-    let diagonal: Vec<f64> =
-        (0..m.nv).map(|i| inertia[(m.M_rowadr[i] + m.M_rownnz[i]) as usize - 1]).collect();
-    let entry = |i: usize, k: i32| {
-        let j = m.M_colind[k as usize] as usize;
-        if i == j { diagonal[i] } else { (diagonal[j] / diagonal[i]).sqrt() }
-    };
-    let mut scales = vec![0.0; m.nC];
-    for i in 0..m.nv {
-        (m.M_rowadr[i]..m.M_rowadr[i] + m.M_rownnz[i]).for_each(|k| scales[k as usize] = entry(i, k));
-    }
-    scales
-}
-
-fn keep_worst(report: &mut StageReport, stage: &'static str, row: usize, worst: Worst) {
-    match report.outputs.iter_mut().find(|(s, _, w)| *s == stage && w.field == worst.field) {
-        Some(entry) if worst.error > entry.2.error => *entry = (stage, row, worst),
-        Some(_) => {}
-        None => report.outputs.push((stage, row, worst)),
-    }
 }

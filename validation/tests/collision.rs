@@ -36,7 +36,7 @@ fn contacts_are_those_recorded() {
         let mut scratch = CollisionScratch::default();
         for row in 0..reference.states().unwrap() {
             reference.inject(&mut d, &POSES, row).unwrap();
-            collide(&m, &d.kin, d.budget, &mut scratch, &mut d.con).unwrap();
+            collide(&m, &d.kin, &d.flex, d.budget, &mut scratch, &mut d.con).unwrap();
             total += d.con.contact.len();
             for name in FIELDS {
                 let theirs = reference.forward(name, row).unwrap();

@@ -11,6 +11,7 @@ use physics::actuation::transmission::transmission;
 use physics::collision::collide;
 use physics::constraint::{find_islands, make_constraint, reference};
 use physics::data::Configuration;
+use physics::flex::flexes;
 use physics::inertia::{factor_inertia, make_inertia};
 use physics::integration::integrate::{Factors, euler, implicit, runge_kutta};
 use physics::model::Model as Compiled;
@@ -38,7 +39,7 @@ pub fn stage(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>, name: &s
 /// Configuration of `$d`, of which other parts may be borrowed.
 macro_rules! configuration {
     ($d:expr) => {
-        Configuration { state: &$d.state, kin: &$d.kin, com: &$d.com, ten: &$d.ten }
+        Configuration { state: &$d.state, kin: &$d.kin, com: &$d.com, flex: &$d.flex, ten: &$d.ten }
     };
 }
 
@@ -52,12 +53,14 @@ fn position_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<boo
             kinematics::kinematics(m, &d.state, &mut d.kin);
             com::com_pos(m, &d.kin, &mut d.com);
             camera::cameras_and_lights(m, &d.com, &mut d.kin);
+            flexes(m, &d.kin, &d.com, &mut d.flex, &mut d.scratch.flex);
             tendon::tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
         }
+        "flex" => flexes(m, &d.kin, &d.com, &mut d.flex, &mut d.scratch.flex),
         "tendon" => tendon::tendon(m, &d.state, &d.kin, &d.com, &mut d.ten),
         "makeM" => make_inertia(m, &d.com, &d.ten, &mut d.inertia),
         "factorM" => factor_inertia(m, &mut d.inertia),
-        "collision" => collide(m, &d.kin, d.budget, &mut d.scratch.collision, &mut d.con)
+        "collision" => collide(m, &d.kin, &d.flex, d.budget, &mut d.scratch.collision, &mut d.con)
             .map_err(physics::StepError::from)?,
         "makeConstraint" => {
             d.budget.check_rows(m, &d.con).map_err(physics::StepError::from)?;
@@ -68,7 +71,7 @@ fn position_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<boo
         "transmission" => transmission(m, &configuration!(d), &d.con, &d.efc, &mut d.trn),
         "fwdPosition" => position(m, d, &mut ())?,
         "sensorPos" => position_sensors(m, d),
-        "energyPos" => d.energy[0] = energy::potential(m, &d.state, &d.kin, &d.ten),
+        "energyPos" => d.energy[0] = energy::potential(m, &configuration!(d)),
         _ => return Ok(false),
     }
     Ok(true)
@@ -78,7 +81,10 @@ fn position_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<boo
 fn motion_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<bool, Fault> {
     match name {
         "comVel" => com_vel::com_vel(m, &d.state, &d.com, &mut d.vel),
-        "passive" => passive::passive(m, &configuration!(d), &d.con, &d.vel, &mut d.passive),
+        "passive" => {
+            let at = configuration!(d);
+            passive::passive(m, &at, &d.con, &d.vel, &mut d.scratch.flex, &mut d.passive);
+        }
         "referenceConstraint" => reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc),
         "fwdVelocity" => velocity(m, d, &mut ()),
         "sensorVel" => velocity_sensors(m, d),

@@ -3,7 +3,7 @@
 
 use crate::acceleration::contact_force::contact_force;
 use crate::data::{
-    Acceleration, Com, Configuration, Constraints, Contacts, Kinematics, Sensors, State, Velocity,
+    Acceleration, Com, Configuration, Constraints, Contact, Contacts, Kinematics, Sensors, State, Velocity,
 };
 use crate::math::{Spatial, Vec3, add, cross, mul_mat_t_vec};
 use crate::model::{EqType, Model, ObjType};
@@ -74,9 +74,10 @@ fn applied(m: &Model, state: &State, kin: &Kinematics, com: &Com, out: &mut [Spa
     }
 }
 
-/// Contact wrenches, opposite on the two bodies.
+/// Wrenches of contacts of geoms, opposite on the two bodies; flexes make none.
 fn contacts(m: &Model, com: &Com, con: &Contacts, efc: &Constraints, out: &mut [Spatial]) {
-    for contact in con.contact.iter().filter(|c| c.efc_address >= 0) {
+    let counts = |c: &&Contact| c.efc_address >= 0 && c.geom.iter().all(|&g| g >= 0);
+    for contact in con.contact.iter().filter(counts) {
         let [f0, f1, f2, t0, t1, t2] = contact_force(m, efc, contact);
         let wrench = Wrench {
             point: contact.pos,

@@ -58,6 +58,7 @@ pub fn activation_rates(
 }
 
 /// Activation `act[k]` of actuator `i`, which moves at `velocity`, after one time step, within its range.
+#[inline]
 pub fn next_activation(m: &Model, i: usize, k: usize, act: &[f64], act_dot: f64, velocity: f64) -> f64 {
     let act = act[k];
     if m.actuator_dyntype[i] == DynType::Dcmotor.code() {

@@ -103,6 +103,7 @@ pub fn actuation(
 }
 
 /// Control `k`, delayed if its actuator is, within its range.
+#[inline(always)]
 fn clamped_control(m: &Model, state: &State, k: usize) -> f64 {
     let u = match m.nhistory {
         0 => state.ctrl[k],
@@ -146,6 +147,7 @@ fn gain(m: &Model, i: usize, length: f64, velocity: f64) -> f64 {
     }
 }
 
+#[inline]
 fn bias(m: &Model, i: usize, length: f64, velocity: f64) -> f64 {
     let prm = &m.actuator_biasprm[i];
     match BiasType::from_code(m.actuator_biastype[i]) {

@@ -81,6 +81,7 @@ pub fn dof_damping(m: &Model, dof: usize) -> Polynomial {
 }
 
 /// Damping law of tendon `t`, actuators included.
+#[inline]
 pub fn tendon_damping(m: &Model, t: usize) -> Polynomial {
     let law = Polynomial { linear: m.tendon_damping[t], poly: m.tendon_dampingpoly[t] };
     Driven::Tendon(t).damping(m, law)

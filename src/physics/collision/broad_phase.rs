@@ -1,8 +1,9 @@
-//! Pairs of bodies that may touch: sweep and prune along the axis of largest spread of the geoms (Baraff 1992),
+//! Pairs of bodies and flexes that may touch: sweep and prune along the axis of largest spread of the geoms (Baraff 1992),
 //! after filters by contact type, weld group and parent (documentation: Computation, "Pair selection").
 
 use super::mixing::overridden;
-use crate::data::Kinematics;
+use crate::data::{Flexes, Kinematics};
+use crate::flex::Flex;
 use crate::math::{
     Mat3, Vec3, add, add_scaled, column, dot, mul_mat, mul_mat_vec, principal_axes, quat_to_mat,
 };
@@ -13,7 +14,7 @@ use crate::sleep::Awake;
 /// Working memory and result of the broad phase.
 #[derive(Clone, Debug, Default)]
 pub struct BroadPhase {
-    /// Body pairs as `body1 << 16 | body2` with `body1 < body2`, ascending, each once.
+    /// Body pairs as `body1 << 16 | body2` with `body1 < body2`, ascending, each once; flexes follow the bodies.
     pub pairs: Vec<u32>,
     bodies: Vec<usize>,
     boxes: Vec<Bounds>,
@@ -30,15 +31,19 @@ struct Bounds {
 
 impl BroadPhase {
     /// Finds the pairs of bodies whose geoms may be within their margins; gives up soon after `most` of them.
-    pub fn run(&mut self, m: &Model, awake: Awake, kin: &Kinematics, most: usize) {
+    pub fn run(&mut self, m: &Model, awake: Awake, kin: &Kinematics, flexes: &Flexes, most: usize) {
         self.pairs.clear();
         self.pair_static_bodies(m, awake, most);
         self.bodies.clear();
         self.bodies.extend((1..m.nbody).filter(|&b| can_collide(m, b)));
+        self.bodies.extend((0..m.nflex).filter(|&f| flex_collides(m, f)).map(|f| m.nbody + f));
         if self.bodies.len() > 1 {
-            let frame = spread_frame(m, kin);
+            let frame = spread_frame(m, kin, flexes);
             self.boxes.clear();
-            self.boxes.extend(self.bodies.iter().map(|&b| body_bounds(m, kin, b, &frame)));
+            self.boxes.extend(self.bodies.iter().map(|&b| match b.checked_sub(m.nbody) {
+                None => body_bounds(m, kin, b, &frame),
+                Some(f) => flex_bounds(m, flexes, f, &frame),
+            }));
             self.sort_ends();
             self.sweep(m, awake, most);
         }
@@ -64,6 +69,9 @@ impl BroadPhase {
                 if can_collide(m, b2) && bodies_match(m, awake, b1, b2) {
                     self.push(b1, b2);
                 }
+            }
+            for f in (0..m.nflex).filter(|&f| pair_matches(m, awake, b1, m.nbody + f)) {
+                self.push(b1, m.nbody + f);
             }
         }
     }
@@ -98,7 +106,7 @@ impl BroadPhase {
                     continue;
                 }
                 let (b1, b2) = (self.bodies[i as usize], self.bodies[j]);
-                if bodies_match(m, awake, b1, b2) {
+                if pair_matches(m, awake, b1, b2) {
                     self.push(b1, b2);
                 }
             }
@@ -113,7 +121,7 @@ pub fn signature(b1: usize, b2: usize) -> u32 {
 }
 
 /// Bits of `x` that order as unsigned integers; both zeros are equal.
-fn ordered_bits(x: f32) -> u32 {
+pub(super) fn ordered_bits(x: f32) -> u32 {
     let bits = (x + 0.0).to_bits();
     if bits >> 31 == 1 { !bits } else { bits | 1 << 31 }
 }
@@ -125,6 +133,10 @@ fn apart(a: &Bounds, b: &Bounds) -> bool {
 
 fn can_collide(m: &Model, b: usize) -> bool {
     m.body_contype[b] != 0 || m.body_conaffinity[b] != 0
+}
+
+fn flex_collides(m: &Model, f: usize) -> bool {
+    m.flex_contype[f] != 0 || m.flex_conaffinity[f] != 0
 }
 
 fn has_plane(m: &Model, b: usize) -> bool {
@@ -150,21 +162,40 @@ fn bodies_match(m: &Model, awake: Awake, b1: usize, b2: usize) -> bool {
     if w1 == w2 || (m.body_dofnum[w1] == 0 && m.body_dofnum[w2] == 0) {
         return false;
     }
-    let (asleep1, asleep2) = (awake.sleeps(b1), awake.sleeps(b2));
-    if (asleep1 && (asleep2 || w2 == 0)) || (asleep2 && w1 == 0) {
-        return false;
-    }
     let parent = |w: usize| m.body_weldid[m.body_parentid[w] as usize] as usize;
     let related = w1 != 0 && w2 != 0 && (w1 == parent(w2) || w2 == parent(w1));
     if related && !m.opt.disableflags.contains(Disable::FILTERPARENT) {
         return false;
     }
-    types_match(m.body_contype[b1], m.body_conaffinity[b1], m.body_contype[b2], m.body_conaffinity[b2])
+    let types =
+        types_match(m.body_contype[b1], m.body_conaffinity[b1], m.body_contype[b2], m.body_conaffinity[b2]);
+    types && (awake.is_everything() || are_awake(awake, [b1, b2], [w1, w2]))
 }
 
-/// Frame whose axes (rows) follow the covariance of the positions of geoms outside the world body.
-fn spread_frame(m: &Model, kin: &Kinematics) -> Mat3 {
-    let placed = || m.geom_bodyid.iter().zip(&kin.geom_xpos);
+/// Two bodies that do not both sleep, neither one where the other is fixed to the world.
+#[cold]
+fn are_awake(awake: Awake, bodies: [usize; 2], weld: [usize; 2]) -> bool {
+    let [first, second] = bodies.map(|b| awake.sleeps(b));
+    !(first && (second || weld[1] == 0)) && !(second && weld[0] == 0)
+}
+
+/// [`bodies_match`], where flexes follow the bodies; those touch whatever their contact types admit.
+fn pair_matches(m: &Model, awake: Awake, b1: usize, b2: usize) -> bool {
+    if b1 < m.nbody && b2 < m.nbody {
+        return bodies_match(m, awake, b1, b2);
+    }
+    let types = |b: usize| match b.checked_sub(m.nbody) {
+        None => (m.body_contype[b], m.body_conaffinity[b]),
+        Some(f) => (m.flex_contype[f], m.flex_conaffinity[f]),
+    };
+    let ((contype1, conaffinity1), (contype2, conaffinity2)) = (types(b1), types(b2));
+    types_match(contype1, conaffinity1, contype2, conaffinity2)
+}
+
+/// Frame whose axes (rows) follow the covariance of the positions of geoms and vertices outside the world body.
+fn spread_frame(m: &Model, kin: &Kinematics, flexes: &Flexes) -> Mat3 {
+    let geoms = || m.geom_bodyid.iter().zip(&kin.geom_xpos);
+    let placed = || geoms().chain(m.flex_vertbodyid.iter().zip(&flexes.flexvert_xpos));
     let moving = || placed().filter(|&(&body, _)| body != 0).map(|(_, &pos)| pos);
     let count = moving().count();
     let centre = scale(moving().fold([0.0; 3], add), 1.0 / count as f64);
@@ -202,6 +233,23 @@ fn body_bounds(m: &Model, kin: &Kinematics, b: usize, frame: &Mat3) -> Bounds {
         }
     }
     bounds
+}
+
+/// Extent of the vertices of flex `f` with its radius and margin along the rows of `frame`.
+fn flex_bounds(m: &Model, flexes: &Flexes, f: usize, frame: &Mat3) -> Bounds {
+    let flex = Flex { m, id: f };
+    let global = if overridden(m) { 0.5 * m.opt.o_margin } else { 0.0 };
+    let margin = if global != 0.0 { global } else { m.flex_margin[f] + m.flex_gap[f] };
+    let bound = flex.radius() + margin;
+    let mut bounds = Bounds { min: [f64::INFINITY; 3], max: [f64::NEG_INFINITY; 3] };
+    for &point in &flexes.flexvert_xpos[flex.vertices()] {
+        let along = mul_mat_vec(frame, point);
+        for j in 0..3 {
+            bounds.min[j] = min(bounds.min[j], along[j]);
+            bounds.max[j] = max(bounds.max[j], along[j]);
+        }
+    }
+    Bounds { min: bounds.min.map(|x| x - bound), max: bounds.max.map(|x| x + bound) }
 }
 
 /// The smaller of two numbers; unlike `f64::min` a single instruction.

@@ -2,12 +2,12 @@
 //! (documentation: Computation, "Height fields").
 
 use super::convex::{ConvexScratch, penetration};
-use super::support::ConvexBody;
+use super::support::{ConvexBody, Element};
 use super::{PreContact, Shape, round_normal};
 use crate::data::Kinematics;
 use crate::math::{Mat3, Vec3, add, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec, sub};
 use crate::model::bounds::MAXCONPAIR;
-use crate::model::{Disable, Model};
+use crate::model::{Disable, Model, Options};
 
 /// Share of the coordinates and the radius of a ball that no rounding reaches.
 const BALL_SLACK: f64 = 1e-9;
@@ -76,6 +76,42 @@ impl<'a> Grid<'a> {
         [dx * column as f64 - sx, dy * row as f64 - sy, height]
     }
 
+    /// Contacts of a body with this extent in the frame of the field: prisms row by row, each at most one contact. `settle`
+    /// is called with each.
+    fn prisms(
+        &self,
+        opt: &Options,
+        body: &mut ConvexBody,
+        [min, max]: [Vec3; 2],
+        scratch: &mut ConvexScratch,
+        out: &mut Vec<PreContact>,
+        settle: impl Fn(&mut PreContact),
+    ) {
+        let (first_column, last_column) = self.lines(0, min[0], max[0]);
+        let (first_row, last_row) = self.lines(1, min[1], max[1]);
+        let first = out.len();
+        for row in first_row..last_row {
+            // A strip of triangles: nodes alternate between the next row and this one.
+            let mut triangle = [[0.0; 3], self.node(row + 1, first_column), self.node(row, first_column)];
+            for column in first_column + 1..=last_column {
+                for node in [self.node(row + 1, column), self.node(row, column)] {
+                    triangle = [triangle[1], triangle[2], node];
+                    if triangle.iter().all(|p| p[2] < min[2]) {
+                        continue;
+                    }
+                    let corners = self.prism(triangle);
+                    let mut prism = ConvexBody::prism(&corners);
+                    let found = out.len();
+                    penetration(opt, &mut prism, body, 1, 0.0, scratch, out);
+                    out[found..].iter_mut().for_each(&settle);
+                    if out.len() - first >= MAXCONPAIR {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
     /// The prism under three surface points, base first.
     fn prism(&self, surface: [Vec3; 3]) -> [Vec3; 6] {
         let [a, b, c] = surface;
@@ -113,34 +149,42 @@ pub fn height_field(
     }
     body.margin = margin;
 
-    let (first_column, last_column) = grid.lines(0, min[0], max[0]);
-    let (first_row, last_row) = grid.lines(1, min[1], max[1]);
-    let first = out.len();
-    for row in first_row..last_row {
-        // A strip of triangles: nodes alternate between the next row and this one.
-        let mut triangle = [[0.0; 3], grid.node(row + 1, first_column), grid.node(row, first_column)];
-        for column in first_column + 1..=last_column {
-            for node in [grid.node(row + 1, column), grid.node(row, column)] {
-                triangle = [triangle[1], triangle[2], node];
-                if triangle.iter().all(|p| p[2] < min[2]) {
-                    continue;
-                }
-                let corners = grid.prism(triangle);
-                let mut prism = ConvexBody::prism(&corners);
-                let found = out.len();
-                penetration(&m.opt, &mut prism, &mut body, 1, 0.0, scratch, out);
-                for contact in &mut out[found..] {
-                    *contact = placed(contact, field.pos, &field.mat);
-                    if m.opt.disableflags.contains(Disable::NATIVECCD) {
-                        round_normal::correct(contact, &field, &shape);
-                    }
-                }
-                if out.len() - first >= MAXCONPAIR {
-                    return;
-                }
-            }
+    grid.prisms(&m.opt, &mut body, [min, max], scratch, out, |contact| {
+        *contact = placed(contact, field.pos, &field.mat);
+        if m.opt.disableflags.contains(Disable::NATIVECCD) {
+            round_normal::correct(contact, &field, &shape);
+        }
+    });
+}
+
+/// Height field and element of a flex; the margin raises the field and inflates the element.
+pub(super) fn element(
+    m: &Model,
+    field: &Shape,
+    element: &Element,
+    centre: Vec3,
+    margin: f64,
+    scratch: &mut ConvexScratch,
+    out: &mut Vec<PreContact>,
+) {
+    let Some(id) = field.data() else { return };
+    let grid = Grid::new(m, id, margin);
+    let local = |p: Vec3| mul_mat_t_vec(&field.mat, sub(p, field.pos));
+    let element = Element { corners: element.corners.map(local), ..*element };
+    let (mut min, mut max) = (element.corners[0], element.corners[0]);
+    for corner in &element.corners()[1..] {
+        for i in 0..3 {
+            min[i] = min[i].min(corner[i]);
+            max[i] = max[i].max(corner[i]);
         }
     }
+    if grid.misses(min.map(|x| x - margin), max.map(|x| x + margin)) {
+        return;
+    }
+    let mut body = ConvexBody::element(&element, local(centre));
+    grid.prisms(&m.opt, &mut body, [min, max], scratch, out, |contact| {
+        *contact = placed(contact, field.pos, &field.mat);
+    });
 }
 
 /// Smallest box around a body, from its support points.

@@ -8,32 +8,72 @@ use crate::math::{Mat3, Vec3, add, column, dot, mul_mat_t_mat, mul_mat_t_vec, mu
 use crate::model::Model;
 use crate::model::bounds::MAXVAL;
 
-/// A tree of boxes: nodes `start..`, children counted from `start`.
+/// A tree of boxes.
 #[derive(Clone, Copy)]
-struct Tree<'a> {
-    m: &'a Model,
-    start: usize,
+pub(super) struct Tree<'a> {
+    /// Children of each node, -1 for none.
+    pub children: &'a [[i32; 2]],
+    /// What a leaf stands for.
+    pub ids: &'a [i32],
+    /// Box of each node: centre, half sizes.
+    pub boxes: &'a [[f64; 6]],
 }
 
 impl<'a> Tree<'a> {
-    fn children(self, node: usize) -> [i32; 2] {
-        self.m.bvh_child[self.start + node]
+    /// The tree of the geoms of body `b`.
+    #[inline(always)]
+    pub fn of_body(m: &'a Model, b: usize) -> Self {
+        let start = m.body_bvhadr[b] as usize;
+        Tree { children: &m.bvh_child[start..], ids: &m.bvh_nodeid[start..], boxes: &m.bvh_aabb[start..] }
     }
 
-    fn aabb(self, node: usize) -> &'a [f64; 6] {
-        &self.m.bvh_aabb[self.start + node]
-    }
-
-    /// The geom of a leaf.
+    /// What a leaf stands for.
     fn leaf(self, node: usize) -> Option<usize> {
-        (self.children(node) == [-1, -1]).then(|| self.m.bvh_nodeid[self.start + node] as usize)
+        (self.children[node] == [-1, -1]).then(|| self.ids[node] as usize)
     }
 
     /// Half the surface of the box spanned by centre and half-size: decides which tree to descend.
     fn surface(self, node: usize) -> f64 {
-        let b = self.aabb(node);
+        let b = &self.boxes[node];
         let (x, y, z) = (b[3] - b[0], b[4] - b[1], b[5] - b[2]);
         x * y + y * z + z * x
+    }
+}
+
+/// Descends two trees: calls `found` for leaves of both below nodes whose boxes `overlap`, until it answers false. A
+/// tree against itself (`OWN`) gives each pair of leaves once, equal ones included. `stack` is working memory.
+pub(super) fn walk<const OWN: bool>(
+    [tree1, tree2]: [Tree; 2],
+    stack: &mut Vec<(usize, usize)>,
+    overlap: impl Fn(&[f64; 6], &[f64; 6]) -> bool,
+    mut found: impl FnMut(usize, usize) -> bool,
+) {
+    stack.clear();
+    stack.push((0, 0));
+    while let Some((n1, n2)) = stack.pop() {
+        if OWN && n1 > n2 {
+            continue;
+        }
+        let (leaf1, leaf2) = (tree1.leaf(n1), tree2.leaf(n2));
+        if let (Some(id1), Some(id2)) = (leaf1, leaf2) {
+            if !found(id1, id2) {
+                return;
+            }
+            continue;
+        }
+        if !overlap(&tree1.boxes[n1], &tree2.boxes[n2]) {
+            continue;
+        }
+        let first = match (leaf1, leaf2) {
+            (None, Some(_)) => true,
+            (Some(_), None) => false,
+            _ => tree1.surface(n1) > tree2.surface(n2),
+        };
+        if first {
+            stack.extend(tree1.children[n1].into_iter().filter(|&c| c >= 0).map(|c| (c as usize, n2)));
+        } else {
+            stack.extend(tree2.children[n2].into_iter().filter(|&c| c >= 0).map(|c| (n1, c as usize)));
+        }
     }
 }
 
@@ -47,39 +87,20 @@ pub fn descend(
     stack: &mut Vec<(usize, usize)>,
     mut found: impl FnMut(usize, usize) -> bool,
 ) {
-    let tree1 = Tree { m, start: m.body_bvhadr[b1] as usize };
-    let tree2 = Tree { m, start: m.body_bvhadr[b2] as usize };
     let body_margin =
         if mixing::overridden(m) { m.opt.o_margin } else { m.body_margin[b1] + m.body_margin[b2] };
     let relation =
         Relation::new([kin.xipos[b1], kin.xipos[b2]], [&kin.ximat[b1], &kin.ximat[b2]], Centres::InFrame);
-
-    stack.clear();
-    stack.push((0, 0));
-    while let Some((n1, n2)) = stack.pop() {
-        let (leaf1, leaf2) = (tree1.leaf(n1), tree2.leaf(n2));
-        if let (Some(g1), Some(g2)) = (leaf1, leaf2) {
+    walk::<false>(
+        [b1, b2].map(|b| Tree::of_body(m, b)),
+        stack,
+        |a, b| relation.overlap([a, b], body_margin),
+        |g1, g2| {
             let reach = mixing::margin(m, g1, g2, None) + mixing::gap(m, g1, g2, None);
             let near = !spheres_apart(m, kin, g1, g2, reach) && geom_boxes_overlap(m, kin, g1, g2, reach);
-            if near && !found(g1, g2) {
-                return;
-            }
-            continue;
-        }
-        if !relation.overlap([tree1.aabb(n1), tree2.aabb(n2)], body_margin) {
-            continue;
-        }
-        let first = match (leaf1, leaf2) {
-            (None, Some(_)) => true,
-            (Some(_), None) => false,
-            _ => tree1.surface(n1) > tree2.surface(n2),
-        };
-        if first {
-            stack.extend(tree1.children(n1).into_iter().filter(|&c| c >= 0).map(|c| (c as usize, n2)));
-        } else {
-            stack.extend(tree2.children(n2).into_iter().filter(|&c| c >= 0).map(|c| (n1, c as usize)));
-        }
-    }
+            !near || found(g1, g2)
+        },
+    );
 }
 
 fn geom_boxes_overlap(m: &Model, kin: &Kinematics, g1: usize, g2: usize, margin: f64) -> bool {
@@ -96,7 +117,7 @@ fn infinite(aabb: &[f64; 6]) -> (bool, bool) {
 
 /// How MuJoCo adds up where a box is along an axis, which decides boxes that meet exactly.
 #[derive(Clone, Copy)]
-enum Centres {
+pub(super) enum Centres {
     /// The origin of the frame and the centre in it are projected one by one, as for bodies.
     InFrame,
     /// The centre is projected as a point of the world, as for geoms.
@@ -104,7 +125,7 @@ enum Centres {
 }
 
 /// Two frames, and where one is seen from the other: shared by all box pairs of two trees.
-struct Relation<'a> {
+pub(super) struct Relation<'a> {
     pos: [Vec3; 2],
     mat: [&'a Mat3; 2],
     centres: Centres,
@@ -120,7 +141,7 @@ struct Relation<'a> {
 const UNDECIDED: f64 = 1e-12;
 
 impl<'a> Relation<'a> {
-    fn new(pos: [Vec3; 2], mat: [&'a Mat3; 2], centres: Centres) -> Self {
+    pub fn new(pos: [Vec3; 2], mat: [&'a Mat3; 2], centres: Centres) -> Self {
         let between = sub(pos[1], pos[0]);
         Relation {
             pos,
@@ -134,7 +155,7 @@ impl<'a> Relation<'a> {
 
     /// Separating axis test along the six face normals of two boxes; a box without end has no faces to test the
     /// other against. Where rounding decides an axis, the sums are MuJoCo's.
-    fn overlap(&self, [a, b]: [&[f64; 6]; 2], margin: f64) -> bool {
+    pub fn overlap(&self, [a, b]: [&[f64; 6]; 2], margin: f64) -> bool {
         let [(some_a, all_a), (some_b, all_b)] = [infinite(a), infinite(b)];
         if all_a || all_b {
             return true;

@@ -43,14 +43,18 @@ impl Mixture {
     pub fn new(m: &Model, g1: usize, g2: usize, pair: Option<usize>) -> Self {
         let mut mix = pair.map_or_else(|| Self::of_geoms(m, g1, g2), |p| Self::of_pair(m, p));
         mix.margin = margin(m, g1, g2, pair);
+        mix.overridden(m)
+    }
+
+    fn overridden(mut self, m: &Model) -> Self {
         if overridden(m) {
-            mix.friction = m.opt.o_friction;
-            mix.solref = m.opt.o_solref;
-            mix.solreffriction = m.opt.o_solref;
-            mix.solimp = m.opt.o_solimp;
+            self.friction = m.opt.o_friction;
+            self.solref = m.opt.o_solref;
+            self.solreffriction = m.opt.o_solref;
+            self.solimp = m.opt.o_solimp;
         }
-        mix.friction = mix.friction.map(|f| if f > MINMU { f } else { MINMU });
-        mix
+        self.friction = self.friction.map(|f| if f > MINMU { f } else { MINMU });
+        self
     }
 
     fn of_pair(m: &Model, p: usize) -> Self {
@@ -65,46 +69,65 @@ impl Mixture {
         }
     }
 
-    /// The geom of higher priority alone.
-    fn of_geom(m: &Model, g: usize) -> Self {
+    fn of_geoms(m: &Model, g1: usize, g2: usize) -> Self {
+        Self::of_surfaces([Surface::geom(m, g1), Surface::geom(m, g2)])
+    }
+
+    /// Parameters of two surfaces mixed, at least one of a flex, after global overrides. `margin` is theirs.
+    pub fn of_flex(m: &Model, surfaces: [Surface; 2], margin: f64) -> Self {
+        Mixture { margin, ..Self::of_surfaces(surfaces) }.overridden(m)
+    }
+
+    /// The surface of higher priority alone.
+    fn of_surface(s: &Surface) -> Self {
         Mixture {
-            dim: m.geom_condim[g],
+            dim: s.dim,
             margin: 0.0,
-            friction: unpack(m.geom_friction[g]),
-            solref: m.geom_solref[g],
+            friction: unpack(*s.friction),
+            solref: *s.solref,
             solreffriction: [0.0; 2],
-            solimp: m.geom_solimp[g],
-            adhesion: m.geom_adhesion[g],
+            solimp: *s.solimp,
+            adhesion: s.adhesion,
         }
     }
 
-    fn of_geoms(m: &Model, g1: usize, g2: usize) -> Self {
-        let (p1, p2) = (m.geom_priority[g1], m.geom_priority[g2]);
-        if p1 != p2 {
-            return Self::of_geom(m, if p1 > p2 { g1 } else { g2 });
+    #[inline(always)]
+    fn of_surfaces([a, b]: [Surface; 2]) -> Self {
+        if a.priority != b.priority {
+            return Self::of_surface(if a.priority > b.priority { &a } else { &b });
         }
-        let weight = solver_weight(m.geom_solmix[g1], m.geom_solmix[g2]);
+        let weight = solver_weight(a.solmix, b.solmix);
         let mixed = |a: f64, b: f64| weight * a + (1.0 - weight) * b;
-        let (ref1, ref2) = (m.geom_solref[g1], m.geom_solref[g2]);
         // Time constants are mixed; direct stiffness and damping, which are negative, take the stiffer.
-        let solref = if ref1[0] > 0.0 && ref2[0] > 0.0 {
-            std::array::from_fn(|i| mixed(ref1[i], ref2[i]))
+        let solref = if a.solref[0] > 0.0 && b.solref[0] > 0.0 {
+            std::array::from_fn(|i| mixed(a.solref[i], b.solref[i]))
         } else {
-            std::array::from_fn(|i| ref1[i].min(ref2[i]))
+            std::array::from_fn(|i| a.solref[i].min(b.solref[i]))
         };
         Mixture {
-            dim: m.geom_condim[g1].max(m.geom_condim[g2]),
+            dim: a.dim.max(b.dim),
             margin: 0.0,
-            friction: unpack(std::array::from_fn(|i| m.geom_friction[g1][i].max(m.geom_friction[g2][i]))),
+            friction: unpack(std::array::from_fn(|i| a.friction[i].max(b.friction[i]))),
             solref,
             solreffriction: [0.0; 2],
-            solimp: std::array::from_fn(|i| mixed(m.geom_solimp[g1][i], m.geom_solimp[g2][i])),
-            adhesion: m.geom_adhesion[g1] + m.geom_adhesion[g2],
+            solimp: std::array::from_fn(|i| mixed(a.solimp[i], b.solimp[i])),
+            adhesion: a.adhesion + b.adhesion,
         }
     }
 
-    /// The contact of geoms `geom` at a point the narrow phase found. Adhesion acts in the gap, without friction.
+    /// Without friction, in touch at distance zero.
+    pub fn frictionless(self) -> Self {
+        Mixture { dim: 1, margin: 0.0, ..self }
+    }
+
+    /// The contact of geoms `geom` at a point the narrow phase found.
     pub fn contact(&self, geom: [usize; 2], point: &PreContact) -> Contact {
+        self.of_parts(Parts { geom: geom.map(|g| g as i32), ..Parts::NONE }, point)
+    }
+
+    /// The contact of two parts of geoms or flexes at a point. Adhesion acts in the gap, without friction.
+    #[inline(always)]
+    pub fn of_parts(&self, parts: Parts, point: &PreContact) -> Contact {
         let in_gap = point.dist >= self.margin;
         let adhesive = self.adhesion != 0.0;
         Contact {
@@ -119,9 +142,71 @@ impl Mixture {
             adhesion: self.adhesion,
             mu: 0.0,
             dim: if adhesive && in_gap { 1 } else { self.dim },
-            geom: geom.map(|g| g as i32),
+            geom: parts.geom,
+            flex: parts.flex,
+            elem: parts.elem,
+            vert: parts.vert,
             exclude: i32::from(in_gap && !adhesive),
             efc_address: -1,
+        }
+    }
+}
+
+/// What touches: on each side a geom, or a flex with one of its elements or vertices; -1 for none.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts {
+    /// Geoms.
+    pub geom: [i32; 2],
+    /// Flexes.
+    pub flex: [i32; 2],
+    /// Elements, counted within the flex.
+    pub elem: [i32; 2],
+    /// Vertices, counted within the flex.
+    pub vert: [i32; 2],
+}
+
+impl Parts {
+    /// Nothing on either side.
+    pub const NONE: Parts = Parts { geom: [-1; 2], flex: [-1; 2], elem: [-1; 2], vert: [-1; 2] };
+}
+
+/// Contact parameters of a geom or flex.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface<'a> {
+    priority: i32,
+    dim: i32,
+    solmix: f64,
+    solref: &'a [f64; 2],
+    solimp: &'a [f64; 5],
+    friction: &'a [f64; 3],
+    adhesion: f64,
+}
+
+impl<'a> Surface<'a> {
+    /// Parameters of geom `g`.
+    #[inline(always)]
+    pub fn geom(m: &'a Model, g: usize) -> Self {
+        Surface {
+            priority: m.geom_priority[g],
+            dim: m.geom_condim[g],
+            solmix: m.geom_solmix[g],
+            solref: &m.geom_solref[g],
+            solimp: &m.geom_solimp[g],
+            friction: &m.geom_friction[g],
+            adhesion: m.geom_adhesion[g],
+        }
+    }
+
+    /// Parameters of flex `f`.
+    pub fn flex(m: &'a Model, f: usize) -> Self {
+        Surface {
+            priority: m.flex_priority[f],
+            dim: m.flex_condim[f],
+            solmix: m.flex_solmix[f],
+            solref: &m.flex_solref[f],
+            solimp: &m.flex_solimp[f],
+            friction: &m.flex_friction[f],
+            adhesion: 0.0,
         }
     }
 }

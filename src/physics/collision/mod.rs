@@ -15,7 +15,7 @@
 //! let mut data = Data::new(&model);
 //! forward(&model, &mut data)?;
 //! let contact = data.contacts().next().ok_or("no contact")?;
-//! assert_eq!(contact.geoms().map(|geom| model.geom(geom).name()), ["floor", "ball"]);
+//! assert_eq!(contact.geoms().map(|geom| geom.map(|g| model.geom(g).name())), [Some("floor"), Some("ball")]);
 //! assert!((contact.dist() + 0.01).abs() < 1e-12);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -31,6 +31,7 @@ pub(crate) mod climb;
 pub mod convex;
 pub mod distance;
 pub(crate) mod epa;
+mod flex;
 #[doc(hidden)]
 pub mod gjk;
 pub(crate) mod hfield;
@@ -50,12 +51,13 @@ pub(crate) mod sphere;
 #[doc(hidden)]
 pub mod support;
 
-use crate::data::{Contact, Contacts, Demand, Kinematics, OverBudget, State, StepBudget};
+use crate::data::{Contact, Contacts, Demand, Flexes, Kinematics, OverBudget, State, StepBudget};
 use crate::math::{Mat3, Vec3, column};
 use crate::model::{Disable, GeomType, Model, ObjType};
 use crate::pipeline::error::NotSimulated;
 use crate::sleep::{Awake, is_on};
 use broad_phase::{geoms, spheres_apart, types_match};
+pub(crate) use flex::World;
 
 /// What a narrow-phase function says about one point of contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -169,10 +171,17 @@ pub struct CollisionScratch {
     candidates: Vec<(usize, usize)>,
     convex: convex::ConvexScratch,
     points: Vec<PreContact>,
+    spread: flex::Spread,
+    sweep: flex::Sweep,
     budget: StepBudget,
 }
 
 impl CollisionScratch {
+    /// Whether the contacts found so far fit in the budget, in a loop that may find too many.
+    fn has_room(&self, con: &Contacts) -> bool {
+        con.contact.len() <= self.budget.count(CONTACT_BYTES)
+    }
+
     /// Whether the contacts found so far fit in the budget.
     fn check(&self, con: &Contacts) -> Result<(), OverBudget> {
         let found = con.contact.len();
@@ -214,35 +223,37 @@ const PAIR_BYTES: usize = 3 * size_of::<(usize, usize)>();
 /// Bytes of a pair of bodies while their list grows.
 const BODY_PAIR_BYTES: usize = 3 * size_of::<u32>();
 
-/// Finds all contacts: predefined pairs and geoms of bodies that may touch, ordered by body pair, then by geom pair.
+/// Finds all contacts: predefined pairs and geoms of bodies that may touch, ordered by body pair, then by geom pair; flexes
+/// follow the bodies, and their contacts with themselves come last.
 ///
 /// # Errors
 /// Contacts, or pairs that may touch, do not fit in `budget`.
 pub fn collide(
     m: &Model,
     kin: &Kinematics,
+    flexes: &Flexes,
     budget: StepBudget,
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
-    find(m, Filter { sleeps: false, awake: Awake::EVERYTHING }, kin, budget, scratch, con)
+    let filter = Filter { sleeps: false, awake: Awake::EVERYTHING };
+    find(World { m, kin, flexes }, filter, budget, scratch, con)
 }
 
 /// [`collide`] without what sleeps: of two that meet, one is awake, and not a fixed one where the other sleeps.
 pub(crate) fn collide_awake(
-    m: &Model,
+    at: World,
     state: &State,
-    kin: &Kinematics,
     budget: StepBudget,
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
-    let filter = Filter { sleeps: is_on(m), awake: Awake::of(m, state) };
+    let filter = Filter { sleeps: is_on(at.m), awake: Awake::of(at.m, state) };
     if !filter.awake.is_everything() && !state.body_awake.contains(&1) {
         con.contact.clear();
         return Ok(());
     }
-    find(m, filter, kin, budget, scratch, con)
+    find(at, filter, budget, scratch, con)
 }
 
 /// Which pairs sleep leaves out.
@@ -266,25 +277,25 @@ impl Filter<'_> {
 }
 
 fn find(
-    m: &Model,
+    at: World,
     filter: Filter,
-    kin: &Kinematics,
     budget: StepBudget,
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
+    let World { m, kin, flexes } = at;
     con.contact.clear();
-    if m.opt.disableflags.intersects(Disable::CONSTRAINT | Disable::CONTACT) || m.nbody < 2 {
+    if m.opt.disableflags.intersects(Disable::CONSTRAINT | Disable::CONTACT) || m.nbody + m.nflex < 2 {
         return Ok(());
     }
     scratch.budget = budget;
     let mut broad = std::mem::take(&mut scratch.broad);
     let most = budget.count(BODY_PAIR_BYTES);
-    broad.run(m, filter.awake, kin, most);
+    broad.run(m, filter.awake, kin, flexes, most);
     let result = if broad.pairs.len() > most {
         Err(budget.exceeded(Demand::BodyPairs, broad.pairs.len(), BODY_PAIR_BYTES))
     } else {
-        touch(m, filter, kin, &broad.pairs, scratch, con)
+        touch(at, filter, &broad.pairs, scratch, con)
     };
     scratch.broad = broad;
     result
@@ -292,13 +303,13 @@ fn find(
 
 /// Contacts of the pairs of bodies and of all predefined pairs.
 fn touch(
-    m: &Model,
+    at: World,
     filter: Filter,
-    kin: &Kinematics,
     pairs: &[u32],
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
+    let World { m, kin, .. } = at;
     let mut next = 0;
     for &signature in pairs {
         // Predefined pairs of this and earlier body pairs come first and hide the same geoms.
@@ -316,11 +327,20 @@ fn touch(
             continue;
         }
         let hidden = if merged { start..next } else { 0..0 };
-        body_pair(m, kin, (signature >> 16) as usize, (signature & 0xffff) as usize, hidden, scratch, con)?;
+        let (b1, b2) = ((signature >> 16) as usize, (signature & 0xffff) as usize);
+        match [b1, b2].map(|b| b.checked_sub(m.nbody)) {
+            [_, None] => body_pair(m, kin, b1, b2, hidden, scratch, con)?,
+            [None, Some(f)] => flex::body_flex(at, b1, f, scratch, con),
+            [Some(f1), Some(f2)] => flex::two_flexes(at, [f1, f2], scratch, con),
+        }
         scratch.check(con)?;
     }
     for pair in (next..m.npair).filter(|&pair| !filter.drops(m, pair)) {
         predefined(m, kin, pair, scratch, con);
+        scratch.check(con)?;
+    }
+    if m.nflex > 0 {
+        flex::self_contacts(at, scratch, con);
         scratch.check(con)?;
     }
     Ok(())

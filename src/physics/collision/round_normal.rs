@@ -22,6 +22,13 @@ pub fn correct(contact: &mut PreContact, first: &Shape, second: &Shape) {
     };
 }
 
+/// Corrects the normal of a contact between a geom and something flat.
+pub fn correct_first(contact: &mut PreContact, geom: &Shape) {
+    if let Some(normal) = surface_normal(geom, contact.pos, contact.normal) {
+        contact.normal = normal;
+    }
+}
+
 /// Outward normal of a geom near `point`, from the guess `normal`; `None` where the geom is flat.
 fn surface_normal(shape: &Shape, point: Vec3, normal: Vec3) -> Option<Vec3> {
     let p = mul_mat_t_vec(&shape.mat, sub(point, shape.pos));

@@ -4,7 +4,7 @@
 use super::Shape;
 use super::climb::Farthest;
 use super::hull::MeshHull;
-use crate::math::{Mat3, Vec3, add, mul_mat_t_vec, mul_mat_vec, normalize, scale};
+use crate::math::{Mat3, Vec3, add, add_scaled, dot, mul_mat_t_vec, mul_mat_vec, normalize, scale};
 use crate::model::GeomType;
 use crate::model::bounds::MINVAL;
 
@@ -31,6 +31,39 @@ pub enum Solid<'a> {
     Mesh(MeshHull<'a>),
     /// Column of a height field: three corners of the base, three of the surface, already placed.
     Prism(&'a [Vec3; 6]),
+    /// Element or vertex of a flex, already placed and inflated.
+    Element(&'a Element),
+}
+
+/// Corners of an element of a flex, one for a vertex alone.
+#[derive(Clone, Copy, Debug)]
+pub struct Element {
+    /// Corners, of which the first `count` are.
+    pub corners: [Vec3; 4],
+    /// Number of corners.
+    pub count: usize,
+    /// Radius with half of the margin [m].
+    pub inflation: f64,
+}
+
+impl Element {
+    /// Its corners.
+    pub fn corners(&self) -> &[Vec3] {
+        &self.corners[..self.count]
+    }
+
+    /// Farthest point in a direction.
+    fn support(&self, dir: Vec3) -> Vec3 {
+        let mut best = self.corners[0];
+        let mut height = dot(best, dir);
+        for &corner in &self.corners[1..self.count] {
+            let other = dot(corner, dir);
+            if other > height {
+                (best, height) = (corner, other);
+            }
+        }
+        add_scaled(best, dir, self.inflation)
+    }
 }
 
 /// A placed convex body and the memory of its last support point.
@@ -75,6 +108,12 @@ impl<'a> ConvexBody<'a> {
     pub fn prism(corners: &'a [Vec3; 6]) -> Self {
         let identity = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         Self::placed(Solid::Prism(corners), [0.0; 3], identity, 0.0)
+    }
+
+    /// An element of a flex around `center`; the margin is in its inflation.
+    pub fn element(element: &'a Element, center: Vec3) -> Self {
+        let identity = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+        Self::placed(Solid::Element(element), center, identity, 0.0)
     }
 
     /// An interior point.
@@ -140,6 +179,7 @@ impl<'a> ConvexBody<'a> {
             Solid::Segment(half) => segment(&self.mat, self.pos, half, dir),
             Solid::Sphere(radius) => add(scale(dir, radius), self.pos),
             Solid::Prism(corners) => prism(corners, dir),
+            Solid::Element(element) => element.support(dir),
             Solid::Capsule(radius, half) => self.to_world(capsule(radius, half, self.local(dir))),
             Solid::Ellipsoid(axes) => self.to_world(ellipsoid(axes, self.local(dir))),
             Solid::Cylinder(radius, half) => self.to_world(cylinder(radius, half, self.local(dir))),
@@ -164,6 +204,7 @@ impl<'a> ConvexBody<'a> {
         let local = self.local(dir);
         let mut point = match self.solid {
             Solid::Prism(corners) => return prism(corners, dir),
+            Solid::Element(element) => return element.support(dir),
             Solid::Point => [0.0; 3],
             Solid::Segment(half) => [0.0, 0.0, sign(local[2]) * half],
             Solid::Sphere(radius) => scale(local, radius),

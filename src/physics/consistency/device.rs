@@ -63,6 +63,7 @@ fn equality(m: &Arrays, eq: usize) -> Result<(), Inconsistent> {
         }
         (Some(EqType::Joint), _) => (m.njnt, -1),
         (Some(EqType::Tendon), _) => (m.ntendon, -1),
+        (Some(EqType::Flex | EqType::Flexvert | EqType::Flexstrain), _) => (m.nflex, -1),
         // Refused as not simulated.
         _ => return Ok(()),
     };

@@ -13,6 +13,7 @@
 //! ```
 
 mod device;
+mod flex;
 mod mesh;
 mod patterns;
 mod skin;
@@ -51,6 +52,7 @@ pub fn check_consistency(m: &Arrays) -> Result<(), Inconsistent> {
     plain_references(m)?;
     mesh::check(m)?;
     skin::check(m)?;
+    flex::check(m)?;
     device::check(m)?;
     patterns::check(m)
 }
@@ -125,7 +127,8 @@ use {ranges, references};
 /// Sizes that contradict the arrays.
 fn check_sizes(m: &Arrays) -> Result<(), Inconsistent> {
     require(m.nbody > 0, "nbody", 0, "at least the world")?;
-    require(m.nbvhstatic == m.nbvh, "nbvhstatic", 0, "the number of all nodes")?;
+    let nodes = m.nbvhstatic.checked_add(m.nbvhdynamic);
+    require(nodes == Some(m.nbvh), "nbvhstatic", 0, "the number of all nodes but those of flexes")?;
     let lengths = [
         ("nsensordata", m.nsensordata, m.sensor_dim.iter().map(|&dim| i64::from(dim)).sum::<i64>()),
         ("nhistory", m.nhistory, device::history_length(m)),
@@ -154,6 +157,7 @@ fn count(m: &Arrays, kind: i32) -> usize {
         Some(ObjType::Site) => m.nsite,
         Some(ObjType::Camera) => m.ncam,
         Some(ObjType::Light) => m.nlight,
+        Some(ObjType::Flex) => m.nflex,
         Some(ObjType::Mesh) => m.nmesh,
         Some(ObjType::Skin) => m.nskin,
         Some(ObjType::Hfield) => m.nhfield,
@@ -205,6 +209,7 @@ fn plain_references(m: &Arrays) -> Result<(), Inconsistent> {
         name_siteadr 0 m.nnames;
         name_camadr 0 m.nnames;
         name_lightadr 0 m.nnames;
+        name_flexadr 0 m.nnames;
         name_meshadr 0 m.nnames;
         name_skinadr 0 m.nnames;
         name_hfieldadr 0 m.nnames;
@@ -240,7 +245,8 @@ fn plain_references(m: &Arrays) -> Result<(), Inconsistent> {
 
 /// Contacts have one of four dimensions.
 fn dimensions(m: &Arrays) -> Result<(), Inconsistent> {
-    let dims = m.geom_condim.iter().map(|d| ("geom_condim", d));
+    let flexes = m.flex_condim.iter().map(|d| ("flex_condim", d));
+    let dims = m.geom_condim.iter().map(|d| ("geom_condim", d)).chain(flexes);
     for (i, (array, dim)) in dims.chain(m.pair_dim.iter().map(|d| ("pair_dim", d))).enumerate() {
         require([1, 3, 4, 6].contains(dim), array, i, "a contact dimension")?;
     }

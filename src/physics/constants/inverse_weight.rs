@@ -4,6 +4,7 @@
 //! A row `r` in joint space has the inverse weight `r · M⁻¹ · r`. `M` couples only what hangs in one tree, so each
 //! row is solved within the trees that it touches.
 
+use super::{flex_pattern, flex_reference};
 use crate::data::{Com, Data, Inertia, Kinematics};
 use crate::inertia;
 use crate::math::dense::{dot_slice, norm_slice};
@@ -14,16 +15,18 @@ use crate::position::chain::{chain, com_offset, point_column};
 use crate::{actuation::transmission, position::tendon};
 use std::ops::Range;
 
-/// Sets `body_invweight0`, `dof_invweight0`, `tendon_invweight0` and `actuator_acc0`.
+/// Sets `body_invweight0`, `dof_invweight0`, `flexedge_invweight0`, `tendon_invweight0` and `actuator_acc0`.
 pub(crate) fn set_inverse_weights(m: &mut Model, d: &Data) {
     let mut rows = Rows { row: vec![0.0; m.nv], solution: vec![0.0; m.nv] };
     let bodies = body_weights(m, &d.kin, &d.com, &d.inertia, &mut rows);
     let dofs = dof_weights(m, &d.inertia, &mut rows);
     let tendons = tendon_weights(m, d, &mut rows);
+    let edges = edge_weights(m, d, &mut rows);
     let actuators = actuator_accelerations(m, d, &mut rows);
     let arrays = m.derived_mut();
     arrays.body_invweight0.update(&bodies);
     arrays.dof_invweight0.update(&dofs);
+    arrays.flexedge_invweight0.update(&edges);
     arrays.tendon_invweight0.update(&tendons);
     arrays.actuator_acc0.update(&actuators);
 }
@@ -124,6 +127,21 @@ fn dof_weights(m: &Model, inertia: &Inertia, rows: &mut Rows) -> Vec<f64> {
             }
             _ => weights[first] = weight(first),
         }
+    }
+    weights
+}
+
+/// Inverse weights of edges of flexes; those within one body have none.
+fn edge_weights(m: &Model, d: &Data, rows: &mut Rows) -> Vec<f64> {
+    let mut weights = vec![0.0; m.nflexedge];
+    for (f, e) in flex_reference::measured(m).filter(|&(_, e)| !m.flexedge_rigid[e]) {
+        let bodies = flex_pattern::ends(m, f, e).map(|v| m.flex_vertbodyid[v] as usize);
+        weights[e] = if bodies.iter().all(|&b| m.body_simple[b] == 2) {
+            (1.0 / m.body_mass[bodies[0]] + 1.0 / m.body_mass[bodies[1]]) / 2.0
+        } else {
+            let row = flex_reference::length_row(m, &d.kin, &d.com, f, e);
+            rows.inverse_weight(m, &d.inertia, row.into_iter())
+        };
     }
     weights
 }

@@ -12,6 +12,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+#[doc(hidden)]
+pub mod bending_factor;
+#[doc(hidden)]
+pub mod flex_pattern;
+mod flex_reference;
 mod inverse_weight;
 pub mod length_range;
 pub(crate) mod reference;

@@ -1,6 +1,7 @@
 //! What follows from the reference configuration `qpos0`: lengths, inverse weights, statistics, offsets of cameras and
 //! lights, anchors of equality constraints.
 
+use super::flex_reference;
 use super::inverse_weight::set_inverse_weights;
 use super::statistic;
 use crate::actuation::reflected_load::Driven;
@@ -28,7 +29,9 @@ pub(crate) fn set_constants(m: &mut Model) {
     inertia::factor_inertia(m, &mut d.inertia);
     transmission::transmission(m, &configuration_of!(d), &d.con, &d.efc, &mut d.trn);
     set_inverse_weights(m, &d);
+    let edges = flex_reference::lengths(m, &d.kin);
     let arrays = m.derived_mut();
+    arrays.flexedge_length0.update(&edges);
     arrays.tendon_length0.update(&d.ten.ten_length);
     arrays.actuator_length0.update(&d.trn.actuator_length);
     offsets(arrays, &d);

@@ -12,7 +12,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::constants::reference;
+use crate::constants::{bending_factor, flex_pattern, flex_reference, reference};
 use crate::model::{Arrays, Model, ObjType, SameFrame, SleepPolicy, TrnType, WrapType};
 use crate::position::chain::last_dof;
 use std::fmt;
@@ -25,6 +25,10 @@ pub enum SetConstError {
     NotSimple(String),
     /// A tree that the user lets sleep hangs on a tendon that forbids it.
     Sleep(String),
+    /// A surface whose vertices are constrained is not in the plane of x and y at the start.
+    NotPlanar(String),
+    /// Inertia and bending stiffness together are not positive definite.
+    Bending,
 }
 
 impl fmt::Display for SetConstError {
@@ -37,6 +41,15 @@ impl fmt::Display for SetConstError {
             SetConstError::Sleep(tendon) => {
                 write!(f, "{tendon} couples trees, which therefore cannot be allowed to sleep")
             }
+            SetConstError::NotPlanar(flex) => {
+                write!(
+                    f,
+                    "{flex} does not lie in the plane of x and y, which constraints of its vertices need"
+                )
+            }
+            SetConstError::Bending => f.write_str(
+                "inertia and bending stiffness are not positive definite: a flex has no mass, or a bad shape",
+            ),
         }
     }
 }
@@ -61,8 +74,10 @@ pub fn set_const(m: &mut Model) -> Result<(), SetConstError> {
     tendon_trees(arrays);
     sleep_policies(arrays)?;
     tendon_sparsity(arrays);
+    flex_pattern::set(m);
+    flex_reference::set_metrics(m).map_err(SetConstError::NotPlanar)?;
     reference::set_constants(m);
-    Ok(())
+    if bending_factor::set(m) { Ok(()) } else { Err(SetConstError::Bending) }
 }
 
 /// Tolerance of frame comparison; the compiler uses the same.
@@ -228,7 +243,8 @@ fn tendon_trees(m: &mut Arrays) {
     }
 }
 
-/// Trees with actuators, or coupled by a tendon with stiffness or damping, are never put to sleep automatically.
+/// Trees with actuators, coupled by a tendon with stiffness or damping, or of a flex without constraints, are never put to
+/// sleep automatically.
 fn sleep_policies(m: &mut Arrays) -> Result<(), SetConstError> {
     let never = |m: &mut Arrays, tree: i32| {
         if let Ok(t) = usize::try_from(tree)
@@ -269,6 +285,15 @@ fn sleep_policies(m: &mut Arrays) -> Result<(), SetConstError> {
                 return Err(SetConstError::Sleep(m.label_of(ObjType::Tendon, i)));
             }
         }
+    }
+    let slack: Vec<usize> = (0..m.nflex).filter(|&f| m.flex_edgeequality[f] == 0).collect();
+    for f in slack {
+        let part = |first: i32, count: i32| first.max(0) as usize..(first.max(0) + count) as usize;
+        let bodies = match m.flex_interp[f] {
+            0 => m.flex_vertbodyid[part(m.flex_vertadr[f], m.flex_vertnum[f])].to_vec(),
+            _ => m.flex_nodebodyid[part(m.flex_nodeadr[f], m.flex_nodenum[f])].to_vec(),
+        };
+        bodies.into_iter().for_each(|body| never(m, m.body_treeid[body as usize]));
     }
     for tree in 0..m.ntree {
         if m.tree_sleep_policy[tree] == SleepPolicy::Auto.code() {

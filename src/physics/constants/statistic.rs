@@ -1,5 +1,6 @@
 //! Statistics of a model at `qpos0` (documentation: XML reference, `statistic`).
 
+use super::flex_pattern;
 use crate::data::{Inertia, Kinematics};
 use crate::math::{Vec3, add, distance, scale};
 use crate::model::{Arrays, GeomType, JointType};
@@ -87,6 +88,28 @@ fn geom_radius(m: &Arrays, g: usize) -> f64 {
     }
 }
 
+/// Bodies of a flex reach along its edges, those of a lattice to all its nodes.
+fn flex_reach(m: &Arrays, kin: &Kinematics, sizes: &mut [f64]) {
+    for f in 0..m.nflex {
+        if m.flex_interp[f] != 0 {
+            let first = m.flex_nodeadr[f] as usize;
+            let bodies = &m.flex_nodebodyid[first..first + m.flex_nodenum[f] as usize];
+            for a in bodies.iter().map(|&b| b as usize) {
+                for b in bodies.iter().map(|&b| b as usize) {
+                    sizes[a] = sizes[a].max(distance(kin.xpos[a], kin.xpos[b]));
+                }
+            }
+            continue;
+        }
+        for e in flex_pattern::edges(m, f) {
+            for v in flex_pattern::ends(m, f, e) {
+                let body = m.flex_vertbodyid[v] as usize;
+                sizes[body] = sizes[body].max(m.flexedge_length0[e]);
+            }
+        }
+    }
+}
+
 /// Size of each body: the farthest reach of its joints, its children's joints and its geoms from its centre of mass.
 fn body_sizes(m: &Arrays, kin: &Kinematics) -> Vec<f64> {
     let mut sizes = vec![0.0_f64; m.nbody];
@@ -103,6 +126,7 @@ fn body_sizes(m: &Arrays, kin: &Kinematics) -> Vec<f64> {
             sizes[b] = sizes[b].max(m.geom_rbound[g] + distance(kin.xipos[b], kin.geom_xpos[g]));
         }
     }
+    flex_reach(m, kin, &mut sizes);
     sizes[1..].iter_mut().for_each(|s| *s = s.max(MIN_SIZE));
     sizes
 }

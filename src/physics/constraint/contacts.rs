@@ -4,7 +4,8 @@
 use super::ConstraintScratch;
 use super::difference::BodyPoint;
 use super::rows::{RowKind, push};
-use crate::data::{Com, Constraints, Contact, Contacts};
+use crate::data::{Com, Constraints, Contact, Contacts, Flexes};
+use crate::flex::weights;
 use crate::math::{dot, row};
 use crate::model::{Cone, ConstraintType, Disable, Model};
 
@@ -15,6 +16,7 @@ pub const NO_DOF: i32 = 3;
 pub(super) fn contacts(
     m: &Model,
     com: &Com,
+    flexes: &Flexes,
     con: &mut Contacts,
     efc: &mut Constraints,
     scratch: &mut ConstraintScratch,
@@ -23,9 +25,15 @@ pub(super) fn contacts(
         return;
     }
     for (id, contact) in con.contact.iter_mut().enumerate().filter(|(_, c)| c.exclude == 0) {
-        let [a, b] = contact.geom.map(|g| m.geom_bodyid[g as usize] as usize);
-        let at = |body| BodyPoint { body, point: contact.pos };
-        scratch.chain.difference(m, com, at(a), at(b), true);
+        if let Some([a, b]) = weights::single_bodies(m, contact) {
+            let at = |body| BodyPoint { body, point: contact.pos };
+            scratch.chain.difference(m, com, at(a), at(b), true);
+        } else {
+            scratch.bodies.clear();
+            weights::bodies_of(m, flexes, contact, 0, -1.0, &mut scratch.bodies);
+            weights::bodies_of(m, flexes, contact, 1, 1.0, &mut scratch.bodies);
+            scratch.chain.weighted(m, com, &scratch.bodies, contact.pos);
+        }
         if scratch.chain.dof.is_empty() {
             contact.efc_address = -1;
             contact.exclude = NO_DOF;

@@ -2,17 +2,28 @@
 //! reference configuration, or exact (MuJoCo documentation, Computation, "Parameters").
 
 use super::half_jacobian::HalfJacobian;
-use crate::data::{Constraints, Contacts};
+use crate::data::{Constraints, Contact, Contacts, Flexes};
+use crate::flex::modes::StrainedCell;
+use crate::flex::{Flex, springs, weights};
 use crate::math::dense::dot_slice;
 use crate::model::{ConstraintType, EqType, Model, ObjType};
 
 /// Estimates `efc_diagA` of all rows.
-pub(super) fn approximate(m: &Model, con: &Contacts, efc: &mut Constraints) {
+pub(super) fn approximate(
+    m: &Model,
+    flexes: &Flexes,
+    con: &Contacts,
+    efc: &mut Constraints,
+    bodies: &mut Vec<(usize, f64)>,
+) {
     efc.efc_diagA.clear();
     efc.efc_diagA.resize(efc.nefc, 0.0);
     let mut i = 0;
     while i < efc.nefc {
-        let (id, length) = (efc.efc_id[i] as usize, block_length(m, con, efc, i));
+        let (id, mut length) = (efc.efc_id[i] as usize, block_length(m, con, efc, i));
+        if is_flex_equality(m, efc, i) {
+            length = (i..efc.ne).take_while(|&row| efc.efc_id[row] as usize == id).count();
+        }
         let out = &mut efc.efc_diagA[i..i + length];
         match ConstraintType::from_code(efc.efc_type[i]) {
             Some(ConstraintType::Equality) => equality(m, id, out),
@@ -21,14 +32,23 @@ pub(super) fn approximate(m: &Model, con: &Contacts, efc: &mut Constraints) {
             Some(ConstraintType::FrictionTendon | ConstraintType::LimitTendon) => {
                 out[0] = m.tendon_invweight0[id];
             }
-            Some(kind) => contact(m, con, id, kind, out),
+            Some(kind) => contact(m, flexes, &con.contact[id], kind, bodies, out),
             None => {}
         }
         i += length;
     }
 }
 
-/// Number of rows of the constraint whose first row is `i`.
+/// True for rows of edges and strains of flexes: a constraint makes any number, each of its own.
+pub(super) fn is_flex_equality(m: &Model, efc: &Constraints, i: usize) -> bool {
+    efc.efc_type[i] == ConstraintType::Equality.code()
+        && matches!(
+            EqType::from_code(m.eq_type[efc.efc_id[i] as usize]),
+            Some(EqType::Flex | EqType::Flexvert | EqType::Flexstrain)
+        )
+}
+
+/// Number of rows of the constraint whose first row is `i`; those of flexes count one by one.
 pub(super) fn block_length(m: &Model, con: &Contacts, efc: &Constraints, i: usize) -> usize {
     let id = efc.efc_id[i] as usize;
     match ConstraintType::from_code(efc.efc_type[i]) {
@@ -66,14 +86,45 @@ fn equality(m: &Model, eq: usize, out: &mut [f64]) {
             let weight = |t: i32| m.tendon_invweight0[t as usize];
             out[0] = ids.into_iter().filter(|&t| t >= 0).map(weight).sum();
         }
-        Some(EqType::Flex | EqType::Flexvert | EqType::Flexstrain | EqType::Distance) | None => {}
+        Some(EqType::Flex) => {
+            let flex = Flex { m, id: ids[0] as usize };
+            for (out, e) in out.iter_mut().zip(springs::moving_edges(flex)) {
+                *out = m.flexedge_invweight0[e];
+            }
+        }
+        Some(EqType::Flexvert) => {
+            let flex = Flex { m, id: ids[0] as usize };
+            for (out, &body) in out.chunks_mut(2).zip(flex.vertex_bodies()) {
+                out.fill(m.body_invweight0[body as usize][0]);
+            }
+        }
+        Some(EqType::Flexstrain) => {
+            out.fill(StrainedCell::new(m, eq).map_or(0.0, |cell| cell.inverse_weight()));
+        }
+        Some(EqType::Distance) | None => {}
     }
 }
 
-fn contact(m: &Model, con: &Contacts, id: usize, kind: ConstraintType, out: &mut [f64]) {
-    let contact = &con.contact[id];
-    let [a, b] = contact.geom.map(|g| m.body_invweight0[m.geom_bodyid[g as usize] as usize]);
-    let (translation, rotation) = (a[0] + b[0], a[1] + b[1]);
+fn contact(
+    m: &Model,
+    flexes: &Flexes,
+    contact: &Contact,
+    kind: ConstraintType,
+    bodies: &mut Vec<(usize, f64)>,
+    out: &mut [f64],
+) {
+    let [translation, rotation] = match weights::single_bodies(m, contact) {
+        Some(pair) => {
+            let [a, b] = pair.map(|body| m.body_invweight0[body]);
+            [a[0] + b[0], a[1] + b[1]]
+        }
+        None => {
+            bodies.clear();
+            (0..2).for_each(|side| weights::bodies_of(m, flexes, contact, side, 1.0, bodies));
+            let mean = |k: usize| bodies.iter().fold(0.0, |s, &(b, w)| s + m.body_invweight0[b][k] * w);
+            [mean(0), mean(1)]
+        }
+    };
     match kind {
         ConstraintType::ContactPyramidal => {
             for (k, out) in out.iter_mut().enumerate() {

@@ -9,7 +9,7 @@ use crate::position::jacobian::{axis_rate, point_column_rate};
 
 /// A sparse Jacobian difference: column `i` belongs to degree of freedom `dof[i]`, in increasing order.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Difference {
+pub(crate) struct Difference {
     /// Degrees of freedom.
     pub dof: Vec<i32>,
     /// Columns of the translational part.
@@ -28,7 +28,7 @@ pub(super) struct BodyPoint {
 impl Difference {
     /// Jacobian of point `b` minus that of point `a`. Degrees of freedom that move both bodies are left out when
     /// `skip_common`, as they cannot move one point of contact relative to itself.
-    pub fn difference(&mut self, m: &Model, com: &Com, a: BodyPoint, b: BodyPoint, skip_common: bool) {
+    pub(super) fn difference(&mut self, m: &Model, com: &Com, a: BodyPoint, b: BodyPoint, skip_common: bool) {
         self.dof.clear();
         self.translation.clear();
         self.rotation.clear();
@@ -50,6 +50,30 @@ impl Difference {
         self.dof.reverse();
         self.translation.reverse();
         self.rotation.reverse();
+    }
+
+    /// Sum of the Jacobians of `point` on several bodies, each times its weight.
+    pub fn weighted(&mut self, m: &Model, com: &Com, bodies: &[(usize, f64)], point: Vec3) {
+        self.dof.clear();
+        self.translation.clear();
+        self.rotation.clear();
+        for &(body, weight) in bodies {
+            let offset = com_offset(m, com, body, point);
+            for dof in chain(m, body) {
+                let (t, r) = (point_column(com, dof, offset), rotational(&com.cdof[dof]));
+                match self.dof.binary_search(&(dof as i32)) {
+                    Ok(k) => {
+                        self.translation[k] = add_scaled(self.translation[k], t, weight);
+                        self.rotation[k] = add_scaled(self.rotation[k], r, weight);
+                    }
+                    Err(k) => {
+                        self.dof.insert(k, dof as i32);
+                        self.translation.insert(k, scale(t, weight));
+                        self.rotation.insert(k, scale(r, weight));
+                    }
+                }
+            }
+        }
     }
 }
 

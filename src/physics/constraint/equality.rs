@@ -1,11 +1,13 @@
-//! Equality rows: connect, weld, coupled joints and coupled tendons (MuJoCo documentation, Computation,
+//! Equality rows: connect, weld, coupled joints and tendons, edges and strains of flexes (MuJoCo documentation, Computation,
 //! "Equality"; XML reference, `equality`).
 
 use super::ConstraintScratch;
 use super::difference::{BodyPoint, Difference, jacobian_dot_velocity};
 use super::friction_loss::tendon_row;
 use super::rows::{RowKind, is_empty, push};
-use crate::data::{Com, Constraints, Kinematics, State, Tendons, Velocity};
+use crate::data::{Com, Configuration, Constraints, Flexes, Kinematics, State, Velocity};
+use crate::flex::modes::StrainedCell;
+use crate::flex::{Flex, edges as flex_edges, springs};
 use crate::math::{Quat, Vec3, add, mul_mat_vec, quat_conj, quat_mul, quat_mul_axis, scale, sub};
 use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
 use crate::sleep::{Awake, object};
@@ -13,13 +15,11 @@ use crate::sleep::{Awake, object};
 /// Appends the rows of every active equality constraint.
 pub(super) fn equality(
     m: &Model,
-    state: &State,
-    kin: &Kinematics,
-    com: &Com,
-    ten: &Tendons,
+    at: &Configuration,
     efc: &mut Constraints,
     scratch: &mut ConstraintScratch,
 ) {
+    let Configuration { state, kin, com, flex, ten } = *at;
     if m.neq == 0 || m.opt.disableflags.contains(Disable::EQUALITY) {
         return;
     }
@@ -42,8 +42,11 @@ pub(super) fn equality(
                 let value = |tendon: usize| ten.ten_length[tendon] - m.tendon_length0[tendon];
                 coupling(m, eq, value, |tendon| tendon_row(m, ten, tendon), efc, scratch);
             }
-            // The compiler refuses these: flexes are not simulated.
-            Some(EqType::Flex | EqType::Flexvert | EqType::Flexstrain | EqType::Distance) | None => {}
+            Some(EqType::Flex) => edges(m, flex, eq, efc),
+            Some(EqType::Flexvert) => vertices(m, flex, eq, efc),
+            Some(EqType::Flexstrain) => strains(m, kin, com, eq, efc),
+            // The compiler refuses distances.
+            Some(EqType::Distance) | None => {}
         }
     }
 }
@@ -191,6 +194,40 @@ fn merge_rows(
             j += 1;
         }
         values.push(value);
+    }
+}
+
+/// Appends a row of a flex unless it acts on nothing.
+fn push_flex(m: &Model, eq: usize, pos: f64, columns: &[i32], values: &[f64], efc: &mut Constraints) {
+    if !is_empty(m, values) {
+        push(efc, row_kind(eq), pos, columns, values);
+    }
+}
+
+/// Edges of a flex keep their length: a row for each.
+fn edges(m: &Model, flexes: &Flexes, eq: usize, efc: &mut Constraints) {
+    for e in springs::moving_edges(Flex { m, id: m.eq_obj1id[eq] as usize }) {
+        let (at, pos) = (flex_edges::row(m, e), flexes.flexedge_length[e] - m.flexedge_length0[e]);
+        push_flex(m, eq, pos, &m.flexedge_J_colind[at.clone()], &flexes.flexedge_J[at], efc);
+    }
+}
+
+/// A sheet is not strained at its vertices: two rows for each.
+fn vertices(m: &Model, flexes: &Flexes, eq: usize, efc: &mut Constraints) {
+    let (columns, values) = (m.flexvert_J_colind.as_flattened(), flexes.flexvert_J.as_flattened());
+    for v in (Flex { m, id: m.eq_obj1id[eq] as usize }).vertices() {
+        for k in 0..2 {
+            let start = m.flexvert_J_rowadr[v][k] as usize;
+            let at = start..start + m.flexvert_J_rownnz[v][k] as usize;
+            push_flex(m, eq, flexes.flexvert_length[v][k], &columns[at.clone()], &values[at], efc);
+        }
+    }
+}
+
+/// A cell of an interpolated flex is not strained: a row for each mode of deformation.
+fn strains(m: &Model, kin: &Kinematics, com: &Com, eq: usize, efc: &mut Constraints) {
+    if let Some(cell) = StrainedCell::new(m, eq) {
+        cell.rows(kin, com, |pos, columns, values| push_flex(m, eq, pos, columns, values, efc));
     }
 }
 

@@ -1,7 +1,9 @@
 //! Constraint islands: trees that rows couple, found as the components of a graph whose vertices are kinematic
 //! trees and whose edges are constraints (MuJoCo documentation, Computation, "Constraint islands").
 
+use super::diagonal::is_flex_equality;
 use crate::data::{Constraints, Contacts, Islands};
+use crate::flex::Flex;
 use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
 
 /// Memory of island discovery.
@@ -34,11 +36,14 @@ pub fn find_islands(
     while i < efc.nefc {
         let tree = unite_row(m, con, efc, i, &mut scratch.parent);
         let constraint = (efc.efc_type[i], efc.efc_id[i]);
-        while i < efc.nefc && (efc.efc_type[i], efc.efc_id[i]) == constraint {
+        let alone = is_flex_equality(m, efc, i);
+        i += 1;
+        while !alone && i < efc.nefc && (efc.efc_type[i], efc.efc_id[i]) == constraint {
             i += 1;
         }
         scratch.blocks.push((i, tree));
     }
+    (0..m.nflex).for_each(|f| unite_flex(Flex { m, id: f }, &mut scratch.parent));
     number_islands(m, &mut scratch.parent, island);
     sort_trees(m, island, &mut scratch.filled);
     sort_dofs(m, island, &mut scratch.filled);
@@ -60,7 +65,11 @@ fn unite_row(m: &Model, con: &Contacts, efc: &Constraints, i: usize, parent: &mu
             | ConstraintType::ContactPyramidal
             | ConstraintType::ContactElliptic,
         ) => {
-            let [a, b] = con.contact[id].geom.map(|g| m.body_treeid[m.geom_bodyid[g as usize] as usize]);
+            let geoms = con.contact[id].geom;
+            if geoms.iter().any(|&g| g < 0) {
+                return unite_columns(m, efc, i, parent);
+            }
+            let [a, b] = geoms.map(|g| m.body_treeid[m.geom_bodyid[g as usize] as usize]);
             pair(a, b, parent)
         }
         Some(ConstraintType::Equality)
@@ -89,6 +98,18 @@ fn unite_columns(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> 
         first = if first < 0 { tree } else { first };
     }
     first
+}
+
+/// Unites the trees of a flex whose elasticity couples them.
+fn unite_flex(flex: Flex, parent: &mut [i32]) {
+    let m = flex.m;
+    if m.flex_rigid[flex.id] || flex.dim() < 2 || flex.bending().is_none() && flex.stiffness().is_none() {
+        return;
+    }
+    let bodies = if flex.is_interpolated() { flex.node_bodies() } else { flex.vertex_bodies() };
+    let mut trees = bodies.iter().map(|&b| m.body_treeid[b as usize]).filter(|&tree| tree >= 0);
+    let Some(first) = trees.next() else { return };
+    trees.filter(|&tree| tree != first).for_each(|tree| unite(parent, first, tree));
 }
 
 /// Puts two trees in one component, smaller root first; -1 stands for what does not move.

@@ -17,6 +17,7 @@ mod reference;
 mod rows;
 
 pub use contacts::NO_DOF;
+pub(crate) use difference::Difference;
 pub use half_jacobian::{BLOCK, HalfJacobian, TILE, half_jacobian};
 pub use islands::{IslandScratch, find_islands};
 pub use reference::reference;
@@ -25,12 +26,13 @@ pub use rows::{mul_jacobian, mul_jacobian_transposed};
 use crate::data::{Configuration, Constraints, Contacts, Inertia};
 use crate::model::{Disable, Enable, Model};
 use crate::sleep::Awake;
-use difference::Difference;
 
 /// Memory that constraint stages reuse from step to step.
 #[derive(Clone, Debug, Default)]
 pub struct ConstraintScratch {
     chain: Difference,
+    /// Bodies that share a contact, with weights.
+    bodies: Vec<(usize, f64)>,
     columns: Vec<i32>,
     values: Vec<f64>,
     half: HalfJacobian,
@@ -45,16 +47,16 @@ pub fn make_constraint(
     efc: &mut Constraints,
     scratch: &mut ConstraintScratch,
 ) {
-    let Configuration { state, kin, com, ten } = *at;
+    let Configuration { state, com, flex, ten, .. } = *at;
     rows::clear(m, efc);
     if m.opt.disableflags.contains(Disable::CONSTRAINT) {
         return;
     }
-    equality::equality(m, state, kin, com, ten, efc, scratch);
+    equality::equality(m, at, efc, scratch);
     friction_loss::friction_loss(m, Awake::of(m, state), ten, efc);
     limits::limits(m, state, ten, efc, scratch);
-    contacts::contacts(m, com, con, efc, scratch);
-    diagonal::approximate(m, con, efc);
+    contacts::contacts(m, com, flex, con, efc, scratch);
+    diagonal::approximate(m, flex, con, efc, &mut scratch.bodies);
     impedance::impedance(m, con, efc);
     if m.opt.enableflags.contains(Enable::DIAGEXACT) {
         half_jacobian(m, inertia, efc, &mut scratch.half);

@@ -80,4 +80,4 @@ macro_rules! stages {
     };
 }
 
-stages! { state kin com ten trn inertia vel passive actuation acc sensor implicit }
+stages! { state kin com flex ten trn inertia vel passive actuation acc sensor implicit }

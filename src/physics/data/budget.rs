@@ -1,6 +1,7 @@
 //! Memory that one step may take: what contacts and constraint rows ask for is counted before it is stored.
 
 use crate::data::{Constraints, Contact, Contacts, Islands};
+use crate::flex::weights::representative;
 use crate::model::{Cone, Enable, Model, Solver};
 use crate::position::chain::last_dof;
 use std::fmt;
@@ -103,8 +104,8 @@ impl StepBudget {
         for c in con.contact.iter().filter(|c| c.exclude == 0) {
             let own = contact_rows(m, c);
             rows += own;
-            entries = entries
-                .saturating_add(own * c.geom.iter().map(|&g| chain_length(m, g as usize)).sum::<usize>());
+            entries =
+                entries.saturating_add(own * (0..2).map(|side| chain_length(m, c, side)).sum::<usize>());
         }
         self.check(
             rows,
@@ -189,8 +190,13 @@ fn contact_rows(m: &Model, c: &Contact) -> usize {
     }
 }
 
-/// Degrees of freedom that move a geom.
-fn chain_length(m: &Model, geom: usize) -> usize {
-    let last = last_dof(m, m.geom_bodyid[geom] as usize);
-    usize::try_from(last).map_or(0, |dof| 1 + m.D_diag[dof] as usize)
+/// Degrees of freedom that move a geom, or at most those that move a point of a flex.
+fn chain_length(m: &Model, c: &Contact, side: usize) -> usize {
+    let body = representative(m, c, side);
+    let length = usize::try_from(last_dof(m, body)).map_or(0, |dof| 1 + m.D_diag[dof] as usize);
+    let longest = || m.D_diag.iter().max().map_or(0, |&above| 1 + above as usize);
+    if c.geom[side] >= 0 { length } else { longest().saturating_mul(MOST_SUPPORTS) }
 }
+
+/// Bodies that a point of a flex belongs to, at most: the nodes of a quadratic cell.
+const MOST_SUPPORTS: usize = 27;

@@ -1,8 +1,8 @@
 //! The state with what follows from positions, as most later stages read them.
 
-use super::{Com, Data, Kinematics, State, Tendons};
+use super::{Com, Data, Flexes, Kinematics, State, Tendons};
 
-/// State, poses, centres of mass and tendon paths of one configuration.
+/// State, poses, centres of mass, vertices of flexes and tendon paths of one configuration.
 #[derive(Clone, Copy, Debug)]
 pub struct Configuration<'a> {
     /// State and inputs.
@@ -11,6 +11,8 @@ pub struct Configuration<'a> {
     pub kin: &'a Kinematics,
     /// Centres of mass, motion axes, inertias about them.
     pub com: &'a Com,
+    /// Vertices, edges and boxes of flexes.
+    pub flex: &'a Flexes,
     /// Tendon paths.
     pub ten: &'a Tendons,
 }
@@ -18,7 +20,13 @@ pub struct Configuration<'a> {
 /// The configuration in `$d`, of which the caller may borrow other parts.
 macro_rules! configuration_of {
     ($d:expr) => {
-        $crate::data::Configuration { state: &$d.state, kin: &$d.kin, com: &$d.com, ten: &$d.ten }
+        $crate::data::Configuration {
+            state: &$d.state,
+            kin: &$d.kin,
+            com: &$d.com,
+            flex: &$d.flex,
+            ten: &$d.ten,
+        }
     };
 }
 pub(crate) use configuration_of;

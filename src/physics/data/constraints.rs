@@ -3,7 +3,7 @@
 use crate::math::{Mat3, Vec3};
 use crate::table::{Field, Slice};
 
-/// One point of contact between two geoms (documentation: `mjContact`).
+/// One point of contact between two geoms, a geom and a flex, or two flexes (documentation: `mjContact`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contact {
     /// Distance between the nearest points; negative in penetration [m].
@@ -28,8 +28,14 @@ pub struct Contact {
     pub mu: f64,
     /// Dimension of the contact space: 1, 3, 4 or 6.
     pub dim: i32,
-    /// The two geoms.
+    /// The two geoms; -1 for a flex.
     pub geom: [i32; 2],
+    /// The two flexes; -1 for a geom.
+    pub flex: [i32; 2],
+    /// Their elements, counted within the flex; -1 for a geom or a vertex.
+    pub elem: [i32; 2],
+    /// Their vertices, counted within the flex; -1 for a geom or an element.
+    pub vert: [i32; 2],
     /// 0 makes force; 1 in the gap; 2 fused; 3 no degrees of freedom; 4 passive.
     pub exclude: i32,
     /// First constraint row; -1 when there is none.
@@ -313,6 +319,9 @@ contact_fields! {
     "contact.mu" mu F64 1,
     "contact.dim" dim I32 1,
     "contact.geom" geom I32 2,
+    "contact.flex" flex I32 2,
+    "contact.elem" elem I32 2,
+    "contact.vert" vert I32 2,
     "contact.exclude" exclude I32 1,
     "contact.efc_address" efc_address I32 1,
 }

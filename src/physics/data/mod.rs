@@ -101,6 +101,8 @@ pub struct Data {
     pub kin: Kinematics,
     /// Centres of mass, motion axes, inertias about them.
     pub com: Com,
+    /// Vertices, edges and boxes of flexes.
+    pub flex: Flexes,
     /// Tendon paths.
     pub ten: Tendons,
     /// Actuator lengths and moments.
@@ -138,6 +140,7 @@ impl Data {
             state: State::new(m),
             kin: Kinematics::new(m),
             com: Com::new(m),
+            flex: Flexes::new(m),
             ten: Tendons::new(m),
             trn: Transmission::new(m),
             inertia: Inertia::new(m),
@@ -159,6 +162,7 @@ impl Data {
             State::bytes(m),
             Kinematics::bytes(m),
             Com::bytes(m),
+            Flexes::bytes(m),
             Tendons::bytes(m),
             Transmission::bytes(m),
             Inertia::bytes(m),
@@ -223,6 +227,7 @@ impl Data {
         f("plugin", vec![m.nplugin], Slice::I32(&m.plugin));
         self.kin.visit(m, f);
         self.com.visit(m, f);
+        self.flex.visit(m, f);
         self.ten.visit(m, f);
         self.trn.visit(m, f);
         self.inertia.visit(m, f);
@@ -260,6 +265,7 @@ impl Data {
         None.or_else(|| self.state.assign(name, values))
             .or_else(|| self.kin.assign(name, values))
             .or_else(|| self.com.assign(name, values))
+            .or_else(|| self.flex.assign(name, values))
             .or_else(|| self.ten.assign(name, values))
             .or_else(|| self.trn.assign(name, values))
             .or_else(|| self.inertia.assign(name, values))

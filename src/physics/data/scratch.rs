@@ -2,6 +2,7 @@
 
 use crate::collision::CollisionScratch;
 use crate::constraint::{ConstraintScratch, IslandScratch};
+use crate::flex::FlexScratch;
 use crate::integration::implicit::ImplicitScratch;
 use crate::integration::integrate::IntegrateScratch;
 use crate::pipeline::inverse::InverseScratch;
@@ -12,6 +13,8 @@ use crate::velocity::bias::RneScratch;
 /// Working memory of all stages.
 #[derive(Clone, Debug, Default)]
 pub struct Scratch {
+    /// Flexes.
+    pub flex: FlexScratch,
     /// Collision.
     pub collision: CollisionScratch,
     /// Constraint rows.

@@ -109,6 +109,28 @@ stage! {
 }
 
 stage! {
+    /// Vertices, edges and boxes of flexes (`flex`).
+    Flexes {
+        /// Vertex positions.
+        flexvert_xpos: f64 [nflexvert; 3],
+        /// Bounding boxes of elements: centre, half sizes [m].
+        flexelem_aabb: f64 [nflexelem; 6],
+        /// Stiffness of elements, turned with them; integrators that are implicit in velocity alone fill it.
+        flexelem_krot: f64 [nflexstiffness],
+        /// Jacobian of edge lengths; structure in the model.
+        flexedge_J: f64 [nJfe],
+        /// Lengths of edges [m].
+        flexedge_length: f64 [nflexedge],
+        /// Jacobian of vertex strains; structure in the model.
+        flexvert_J: f64 [nJfv; 2],
+        /// Strains at vertices.
+        flexvert_length: f64 [nflexvert; 2],
+        /// Boxes of the moving bounding volume trees: centre, half sizes [m].
+        bvh_aabb_dyn: f64 [nbvhdynamic; 6],
+    }
+}
+
+stage! {
     /// Tendon paths, lengths and sparse Jacobian (`tendon`).
     Tendons {
         /// First wrap point of each tendon.
@@ -159,6 +181,8 @@ stage! {
 stage! {
     /// Velocities derived from `qvel` (`com_vel` and the tendon and actuator products).
     Velocity {
+        /// Velocities of flex edges [m/s].
+        flexedge_velocity: f64 [nflexedge],
         /// Tendon velocities.
         ten_velocity: f64 [ntendon],
         /// Actuator velocities.

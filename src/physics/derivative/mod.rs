@@ -27,7 +27,9 @@ pub mod transition;
 pub use bias::{BiasScratch, free_body_bias_slope};
 pub use fluid::FluidScratch;
 
-use crate::data::{Actuation, Com, Data, Inertia, Kinematics, State, Tendons, Transmission, Velocity};
+use crate::data::{
+    Actuation, Com, Data, Flexes, Inertia, Kinematics, State, Tendons, Transmission, Velocity,
+};
 use crate::model::{JointType, Model};
 use std::ops::Range;
 
@@ -38,6 +40,7 @@ pub struct DerivativeInputs<'a> {
     pub state: &'a State,
     pub kin: &'a Kinematics,
     pub com: &'a Com,
+    pub flex: &'a Flexes,
     pub ten: &'a Tendons,
     pub trn: &'a Transmission,
     pub inertia: &'a Inertia,
@@ -52,6 +55,7 @@ macro_rules! inputs_of {
             state: &$d.state,
             kin: &$d.kin,
             com: &$d.com,
+            flex: &$d.flex,
             ten: &$d.ten,
             trn: &$d.trn,
             inertia: &$d.inertia,

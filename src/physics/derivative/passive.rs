@@ -1,7 +1,8 @@
-//! Slope of passive forces over velocity: dampers of joints and tendons, drag and lift of the fluid.
+//! Slope of passive forces over velocity: dampers of joints, edges of flexes and tendons, drag and lift of the fluid.
 
 use super::{DerivativeInputs, FluidScratch, add_square, fluid};
 use crate::actuation::reflected_load::{dof_damping, tendon_damping};
+use crate::flex::{Flex, edges, springs};
 use crate::model::{Disable, Model};
 use crate::position::tendon;
 
@@ -18,6 +19,15 @@ pub(super) fn add_passive(m: &Model, inputs: &DerivativeInputs, scratch: &mut Fl
     for dof in 0..m.nv {
         let diagonal = (m.D_rowadr[dof] + m.D_diag[dof]) as usize;
         out[diagonal] -= dof_damping(m, dof).slope(inputs.state.qvel[dof].abs());
+    }
+    for flex in Flex::all(m).filter(|flex| !m.flex_rigid[flex.id]) {
+        let slope = -m.flex_edgedamping[flex.id];
+        if slope != 0.0 {
+            for at in springs::moving_edges(flex).map(|e| edges::row(m, e)) {
+                let columns = &m.flexedge_J_colind[at.clone()];
+                add_square(m, columns, &inputs.flex.flexedge_J[at], slope, out);
+            }
+        }
     }
     for t in 0..m.ntendon {
         let slope = -tendon_damping(m, t).slope(inputs.vel.ten_velocity[t].abs());

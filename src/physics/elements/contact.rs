@@ -22,14 +22,14 @@ impl Data {
 }
 
 impl<'d> ContactView<'d> {
-    /// The two geoms.
-    pub fn geoms(self) -> [GeomId; 2] {
-        self.contact.geom.map(|geom| geom_at(geom as usize))
+    /// The two geoms; none on the side of a flex.
+    pub fn geoms(self) -> [Option<GeomId>; 2] {
+        self.contact.geom.map(|geom| usize::try_from(geom).ok().map(geom_at))
     }
 
     /// True when `geom` is one of the two.
     pub fn touches(self, geom: GeomId) -> bool {
-        self.geoms().contains(&geom)
+        self.geoms().contains(&Some(geom))
     }
 
     /// Midpoint between the surfaces, world frame [m].

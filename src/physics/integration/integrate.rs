@@ -153,7 +153,7 @@ pub(crate) fn damped_inertia(m: &Model, state: &State, inertia: &Inertia, out: &
 }
 
 /// Adds the slope of the damping of a degree of freedom.
-#[inline]
+#[inline(always)]
 fn damp(m: &Model, state: &State, dof: usize, out: &mut [f64]) {
     out[row(m, dof).end - 1] += m.opt.timestep * dof_damping(m, dof).slope(state.qvel[dof].abs());
 }
@@ -222,7 +222,7 @@ pub fn integrate_pos(m: &Model, qpos: &mut [f64], qvel: &[f64], dt: f64) {
     }
 }
 
-#[inline]
+#[inline(always)]
 fn integrate_joint(m: &Model, j: usize, qpos: &mut [f64], qvel: &[f64], dt: f64) {
     let (q, v) = (m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize);
     match JointType::from_code(m.jnt_type[j]) {

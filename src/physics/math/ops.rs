@@ -19,10 +19,16 @@ pub fn sqrt(x: f64) -> f64 {
     x.sqrt()
 }
 
+/// Third power of a number below 1e100, within a hair of correctly rounded.
+pub fn cube(x: f64) -> f64 {
+    let x = super::double_double::Double { head: x, tail: 0.0 };
+    x.times(x).times(x).round()
+}
+
 /// Sine and cosine are correctly rounded but for six calls in a million, the others within one unit of the last place.
 #[cfg(not(system_math))]
 mod portable {
-    pub use crate::math::sine::sincos;
+    pub use crate::math::sine::{angle, sincos};
     pub use libm::{acos, asin, atan, atan2, atan2f as atan2_single, exp, log, pow, tan, tanh};
 
     /// Sine.
@@ -46,6 +52,10 @@ mod system {
     }
     forward!(acos(x) = acos, asin(x) = asin, atan(x) = atan, atan2(y, x) = atan2, cos(x) = cos, exp(x) = exp);
     forward!(log(x) = ln, pow(x, y) = powf, sin(x) = sin, tan(x) = tan, tanh(x) = tanh);
+
+    pub fn angle(y: f64, x: f64) -> f64 {
+        y.atan2(x)
+    }
 
     pub fn atan2_single(y: f32, x: f32) -> f32 {
         y.atan2(x)

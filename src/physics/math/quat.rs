@@ -1,6 +1,6 @@
 //! Unit quaternions, w-x-y-z (Hamilton product, active rotations).
 
-use super::{Mat3, Quat, Vec3, add, cross, normalize, ops, scale};
+use super::{Mat3, Quat, Vec3, add, cross, dot, normalize, ops, scale};
 use crate::model::bounds::MINVAL;
 
 /// No rotation.
@@ -112,6 +112,24 @@ pub fn quat_from_axis_angle(axis: Vec3, angle: f64) -> Quat {
     }
     let (s, c) = ops::sincos(0.5 * angle);
     [c, axis[0] * s, axis[1] * s, axis[2] * s]
+}
+
+/// Shortest rotation that takes the z axis to `direction`.
+pub fn quat_from_z(direction: Vec3) -> Quat {
+    let (to, length) = normalize(direction);
+    if length < MINVAL {
+        return IDENTITY;
+    }
+    let z = [0.0, 0.0, 1.0];
+    let (axis, sine) = normalize(cross(z, to));
+    let cosine = dot(to, z);
+    if sine.abs() >= MINVAL {
+        quat_from_axis_angle(axis, ops::angle(sine, cosine))
+    } else if cosine < 0.0 {
+        [0.0, 1.0, 0.0, 0.0]
+    } else {
+        IDENTITY
+    }
 }
 
 /// Rotation vector `angle * axis`, divided by `dt`, with the angle in (-pi, pi].

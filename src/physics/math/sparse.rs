@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 /// Inner product of a sparse row (`values` at `columns`) with dense `x`, summed in four lanes.
+#[inline]
 pub fn dot_sparse(values: &[f64], columns: &[i32], x: &[f64]) -> f64 {
     let (v4, v_rest) = values.as_chunks::<4>();
     let (c4, c_rest) = columns.as_chunks::<4>();

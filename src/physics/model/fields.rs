@@ -2,8 +2,8 @@
 
 use super::array::{Drafted, Finished, Form, Growing, Writer};
 use super::reader::{Reader, array_bytes};
-use super::{binary::BinaryError, declare::model, skin_rows::model_with_skins, written::Written};
-use crate::model::{Options, Statistic, Visual};
+use super::{Options, Statistic, Visual, binary::BinaryError, declare::model, written::Written};
+use super::{flex_rows::model_with_flexes, skin_rows::model_with_skins};
 use crate::table::{Field, Row, Slice, field_rows, field_shape, field_width, row_count, row_type};
 
 model_with_skins! {
@@ -17,7 +17,7 @@ model_with_skins! {
         nbody           "Bodies, the world included.",
         nbvh            "Nodes of all bounding volume trees.",
         nbvhstatic      "Nodes whose boxes are constant: bodies and meshes.",
-        nbvhdynamic     "Nodes whose boxes move: flexible bodies, always 0 here.",
+        nbvhdynamic     "Nodes whose boxes move: flexes.",
         noct            "Cells of mesh octrees (signed distance fields).",
         njnt            "Joints.",
         ntree           "Kinematic trees below the world.",
@@ -122,7 +122,7 @@ model_with_skins! {
 
         bvh_depth: i32 [nbvh]                     "Depth of the node in its tree.",
         bvh_child: i32 [nbvh; 2]                  "Children, -1 for a leaf.",
-        bvh_nodeid: i32 [nbvh]                    "Geom or mesh face of a leaf, -1 for an inner node.",
+        bvh_nodeid: i32 [nbvh]                    "Geom, mesh face or flex element of a leaf, -1 for an inner node.",
         bvh_aabb: f64 [nbvhstatic; 6]             "Bounding box in the frame of its owner: centre, half sizes [m].",
 
         oct_depth: i32 [noct]                     "Depth of the cell.",
@@ -250,7 +250,8 @@ model_with_skins! {
         light_ambient: f32 [nlight; 3]            "Ambient colour.",
         light_diffuse: f32 [nlight; 3]            "Diffuse colour.",
         light_specular: f32 [nlight; 3]           "Specular colour.",
-
+    }
+    flexes arrays {
         mesh_vertadr: i32 [nmesh]                 "First vertex.",
         mesh_vertnum: i32 [nmesh]                 "Number of vertices.",
         mesh_faceadr: i32 [nmesh]                 "First triangle.",

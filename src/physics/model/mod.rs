@@ -25,6 +25,7 @@ mod declare;
 mod edit;
 mod fields;
 mod flags;
+mod flex_rows;
 mod follow;
 mod names;
 mod options;

@@ -1,10 +1,10 @@
 //! The table of skins: their sizes and arrays, put into the table of the model by a macro that `fields.rs` calls.
 
-/// Calls `model!` with the given rows and those of skins: sizes after the given ones, arrays between the given two lists, at
-/// the place that MuJoCo declares them.
+/// Calls `model_with_flexes!` with the given rows and those of skins: sizes after the given ones, arrays before the last list,
+/// at the place that MuJoCo declares them.
 macro_rules! model_with_skins {
-    (sizes { $($sizes:tt)* } arrays { $($before:tt)* } skins arrays { $($after:tt)* }) => {
-        model! {
+    (sizes { $($sizes:tt)* } arrays { $($first:tt)* } flexes arrays { $($before:tt)* } skins arrays { $($after:tt)* }) => {
+        model_with_flexes! {
             sizes {
                 $($sizes)*
                 nskin           "Skins.",
@@ -15,6 +15,9 @@ macro_rules! model_with_skins {
                 nskinbonevert   "Vertices of all bones, summed.",
             }
             arrays {
+                $($first)*
+            }
+            flexes arrays {
                 $($before)*
 
                 skin_matid: i32 [nskin]                   "Material, -1 for none.",

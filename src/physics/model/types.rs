@@ -298,6 +298,14 @@ codes! {
         Muscleuser = 2,
         All = 3,
     }
+    /// How the elements of a flex that share no vertex are tested against each other.
+    FlexSelf {
+        None = 0,
+        Narrow = 1,
+        Bvh = 2,
+        Sap = 3,
+        Auto = 4,
+    }
     /// Type of constraint row.
     ConstraintType {
         Equality = 0,

@@ -1,6 +1,7 @@
 //! Mechanical energy (documentation: Computation, "Energy").
 
-use crate::data::{Inertia, Kinematics, State, Tendons};
+use crate::data::{Configuration, Inertia, State};
+use crate::flex::springs;
 use crate::inertia::mul_inertia_matrix;
 use crate::math::dense::dot_slice;
 use crate::math::{dot, norm};
@@ -9,8 +10,9 @@ use crate::sleep::{Awake, object};
 use crate::velocity::passive::{shift, tendon_stretch, turn};
 use crate::velocity::polynomial::Polynomial;
 
-/// Potential energy: weight of all bodies, joint springs, tendon springs [J].
-pub fn potential(m: &Model, state: &State, kin: &Kinematics, ten: &Tendons) -> f64 {
+/// Potential energy: weight of all bodies, springs of joints, tendons and lines of flexes [J].
+pub fn potential(m: &Model, at: &Configuration) -> f64 {
+    let Configuration { state, kin, ten, .. } = *at;
     let enabled = |flag: Disable| !m.opt.disableflags.contains(flag);
     let mut energy = 0.0;
     if enabled(Disable::GRAVITY) {
@@ -24,6 +26,7 @@ pub fn potential(m: &Model, state: &State, kin: &Kinematics, ten: &Tendons) -> f
             let law = Polynomial { linear: m.tendon_stiffness[t], poly: m.tendon_stiffnesspoly[t] };
             energy += law.potential(tendon_stretch(m, ten, t));
         }
+        springs::add_energy(m, at.flex, &mut energy);
     }
     energy
 }

@@ -30,7 +30,7 @@ use crate::on_demand::momentum::subtree_momentum;
 /// Energies, momenta of subtrees, and accelerations and forces of bodies, from the last forward pass.
 pub fn derive_on_demand(m: &Model, d: &mut Data) {
     let momentum = &mut d.scratch.sensor.momentum;
-    d.energy = [potential(m, &d.state, &d.kin, &d.ten), kinetic(m, &d.state, &d.inertia, momentum)];
+    d.energy = [potential(m, &configuration_of!(d)), kinetic(m, &d.state, &d.inertia, momentum)];
     subtree_momentum(m, &d.kin, &d.com, &d.vel, &mut d.sensor);
     derive_body_forces(m, d);
 }

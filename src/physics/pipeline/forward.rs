@@ -17,9 +17,10 @@
 use crate::acceleration::rne_post::rne_post_constraint;
 use crate::actuation::actuation;
 use crate::actuation::transmission::{actuator_velocity, transmission};
-use crate::collision::collide_awake;
+use crate::collision::{World, collide_awake};
 use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::{Data, configuration_of};
+use crate::flex::{edge_velocities, flexes};
 use crate::inertia::{factor_inertia_of, make_inertia_of, solve, solve_of};
 use crate::integration::integrate::{Factors, advance_once, integrate};
 use crate::model::{Enable, Integrator, Model};
@@ -203,6 +204,7 @@ pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), S
     let awake = Awake::of(m, &d.state);
     com_pos_of(m, awake, &d.kin, &mut d.com);
     cameras_and_lights(m, &d.com, &mut d.kin);
+    flexes(m, &d.kin, &d.com, &mut d.flex, &mut s.flex);
     watch.ended(Stage::Kinematics);
     tendon(m, &d.state, &d.kin, &d.com, &mut d.ten);
     if sleeps {
@@ -213,10 +215,11 @@ pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), S
     make_inertia_of(m, awake, &d.com, &d.ten, &mut d.inertia);
     factor_inertia_of(m, awake, &mut d.inertia);
     watch.ended(Stage::Inertia);
-    collide_awake(m, &d.state, &d.kin, d.budget, &mut s.collision, &mut d.con)?;
+    let world = World { m, kin: &d.kin, flexes: &d.flex };
+    collide_awake(world, &d.state, d.budget, &mut s.collision, &mut d.con)?;
     if sleeps {
         if wake::by_contacts(m, &d.con, &mut d.state) {
-            collide_awake(m, &d.state, &d.kin, d.budget, &mut s.collision, &mut d.con)?;
+            collide_awake(world, &d.state, d.budget, &mut s.collision, &mut d.con)?;
         }
         wake::by_equalities(m, &mut d.state);
     }
@@ -236,10 +239,13 @@ pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), S
 /// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.
 #[doc(hidden)]
 pub fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
+    if m.nflex > 0 {
+        edge_velocities(m, &d.state, &d.flex, &mut d.vel.flexedge_velocity);
+    }
     tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
     actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
     com_vel(m, &d.state, &d.com, &mut d.vel);
-    passive(m, &configuration_of!(d), &d.con, &d.vel, &mut d.passive);
+    passive(m, &configuration_of!(d), &d.con, &d.vel, &mut d.scratch.flex, &mut d.passive);
     reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc);
     bias(m, &d.state, &d.kin, &d.com, &d.ten, &mut d.vel, &mut d.scratch.rne);
     watch.ended(Stage::Velocity);
@@ -303,6 +309,7 @@ pub fn position_sensors(m: &Model, d: &mut Data) {
         state: &d.state,
         kin: &d.kin,
         com: &d.com,
+        flex: &d.flex,
         ten: &d.ten,
         trn: &d.trn,
         inertia: &d.inertia,
@@ -311,7 +318,7 @@ pub fn position_sensors(m: &Model, d: &mut Data) {
     let past = Past { state: &d.state };
     sensor::position_sensors(m, &inputs, past, &mut d.scratch.sensor, &mut d.sensor);
     let on = m.opt.enableflags.contains(Enable::ENERGY);
-    d.energy = [if on { energy::potential(m, &d.state, &d.kin, &d.ten) } else { 0.0 }, 0.0];
+    d.energy = [if on { energy::potential(m, &configuration_of!(d)) } else { 0.0 }, 0.0];
 }
 
 #[doc(hidden)]

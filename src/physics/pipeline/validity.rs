@@ -7,7 +7,7 @@ use crate::data::Data;
 use crate::model::bounds::MAXVAL;
 use crate::model::{BiasType, Disable, DynType, EqType, GainType, JointType, Model, ObjType, TrnType};
 use crate::pipeline::error::{BadNumber, NotSimulated, StepError};
-use crate::{collision, sensor, sleep, velocity::bias};
+use crate::{collision, flex, sensor, sleep, velocity::bias};
 
 /// Not a number, or beyond the bound.
 fn is_bad(x: f64) -> bool {
@@ -19,6 +19,9 @@ fn is_bad(x: f64) -> bool {
 /// # Errors
 /// The first that is bad.
 pub(crate) fn check_state(m: &Model, d: &Data) -> Result<(), StepError> {
+    if m.nflex > 0 {
+        check_options(m)?;
+    }
     if !(m.opt.timestep > 0.0 && m.opt.timestep.is_finite()) {
         return Err(StepError::BadTimestep(m.opt.timestep));
     }
@@ -109,6 +112,17 @@ pub fn check_start(m: &Model) -> Result<(), String> {
     sleep::rest::check(m)
 }
 
+/// Checks that the options ask for what is simulated.
+///
+/// # Errors
+/// The feature that is not simulated.
+pub fn check_options(m: &Model) -> Result<(), NotSimulated> {
+    if m.nflex > 0 && sleep::is_on(m) {
+        return Err(NotSimulated::feature("sleep (flag `sleep`) in a model with flexes"));
+    }
+    flex::check_options(m)
+}
+
 /// Pairs of bodies are kept as two numbers of 16 bits.
 const MAX_BODIES: usize = 1 << 16;
 
@@ -117,13 +131,14 @@ const MAX_BODIES: usize = 1 << 16;
 /// # Errors
 /// The first feature that is not, with the element that asks for it.
 pub fn check_model(m: &Model) -> Result<(), NotSimulated> {
-    if m.nbody > MAX_BODIES {
-        return Err(NotSimulated::feature(&format!("models of more than {MAX_BODIES} bodies")));
+    check_options(m)?;
+    if m.nbody + m.nflex > MAX_BODIES {
+        let limit = format!("models of more than {MAX_BODIES} bodies and flexes");
+        return Err(NotSimulated::feature(&limit));
     }
     check_actuators(m)?;
     for (e, &kind) in m.eq_type.iter().enumerate() {
-        let known = [EqType::Connect, EqType::Weld, EqType::Joint, EqType::Tendon];
-        if !EqType::from_code(kind).is_some_and(|kind| known.contains(&kind)) {
+        if matches!(EqType::from_code(kind), Some(EqType::Distance) | None) {
             return Err(NotSimulated::of(
                 m.label_of(ObjType::Equality, e),
                 "this type of equality constraint",
@@ -133,6 +148,7 @@ pub fn check_model(m: &Model) -> Result<(), NotSimulated> {
     if let Some(j) = (0..m.njnt).find(|&j| JointType::from_code(m.jnt_type[j]).is_none()) {
         return Err(NotSimulated::of(m.label_of(ObjType::Joint, j), "this type of joint"));
     }
+    flex::check(m)?;
     collision::check(m)?;
     sensor::check(m)?;
     bias::check(m)

@@ -23,7 +23,7 @@ pub(crate) fn com_pos_of(m: &Model, awake: Awake, kin: &Kinematics, com: &mut Co
 }
 
 /// Inertias and motion axes of bodies, about the centres of mass of their trees.
-#[inline]
+#[inline(always)]
 fn about_centres(m: &Model, kin: &Kinematics, com: &mut Com, bodies: impl Iterator<Item = usize>) {
     for b in bodies {
         let reference = com.subtree_com[m.body_rootid[b] as usize];
@@ -65,6 +65,7 @@ fn subtree_com_of(m: &Model, awake: Awake, kin: &Kinematics, subtree: &mut [Vec3
 }
 
 /// Columns that joint `j` of body `b` contributes to `cdof`.
+#[inline(always)]
 fn motion_axes(m: &Model, kin: &Kinematics, b: usize, j: usize, reference: Vec3, com: &mut Com) {
     let dof = m.jnt_dofadr[j] as usize;
     let arm = sub(reference, kin.xanchor[j]);

@@ -56,8 +56,11 @@ pub(crate) fn kinematics_of_awake(m: &Model, state: &mut State, kin: &mut Kinema
 }
 
 /// Inertial frames, geoms and sites.
+#[inline(always)]
 fn attached(m: &Model, kin: &mut Kinematics) {
-    (1..m.nbody).for_each(|b| inertial_frame(m, b, kin));
+    for b in 1..m.nbody {
+        inertial_frame(m, b, kin);
+    }
     let Kinematics { xpos, xquat, xmat, xipos, ximat, geom_xpos, geom_xmat, site_xpos, site_xmat, .. } = kin;
     let frames = BodyFrames { xpos, xquat, xmat, xipos, ximat };
     geoms(m).place(&frames, geom_xpos, geom_xmat);
@@ -120,6 +123,7 @@ fn free_body(m: &Model, state: &State, j: usize, kin: &mut Kinematics) -> Pose {
 }
 
 /// Pose of body `b` before its joints move it: fixed in its parent, or given by mocap.
+#[inline(always)]
 fn resting(m: &Model, state: &State, b: usize, kin: &Kinematics) -> Pose {
     let local = match usize::try_from(m.body_mocapid[b]) {
         Ok(k) => Pose { pos: state.mocap_pos[k], quat: quat_normalize(state.mocap_quat[k]) },
@@ -135,6 +139,7 @@ fn resting(m: &Model, state: &State, b: usize, kin: &Kinematics) -> Pose {
 }
 
 /// Records anchor and axis of joint `j`, then moves the body by it.
+#[inline(always)]
 fn move_by_joint(m: &Model, qpos: &[f64], j: usize, pose: &mut Pose, kin: &mut Kinematics) {
     let q = m.jnt_qposadr[j] as usize;
     let axis = quat_rotate(pose.quat, m.jnt_axis[j]);

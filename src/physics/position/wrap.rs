@@ -166,6 +166,7 @@ fn arc_outside(ends: [Vec2; 2], toward: Option<Vec2>, radius: f64) -> Option<(f6
 impl Detour {
     /// Turning clockwise, the string leaves its first end by the tangent that has the circle on the right, and
     /// reaches the second by the mirror image of such a tangent.
+    #[inline(always)]
     fn new(ends: [Vec2; 2], radius: f64, turn: Turn) -> Self {
         let side = if turn == Turn::Clockwise { 1.0 } else { -1.0 };
         let touch = [point_of_tangency(ends[0], radius, side), point_of_tangency(ends[1], radius, -side)];

@@ -4,6 +4,7 @@ use super::acceleration::AccelerationInputs;
 use super::zone::inside_site;
 use crate::acceleration::contact_force::contact_force;
 use crate::data::Contact;
+use crate::flex::weights::representative;
 use crate::math::{Vec3, add, add_scaled, cross, dot, mul_mat_t_vec, norm, normalize, row, scale, sub};
 use crate::model::bounds::MINVAL;
 use crate::model::{ContactField, GeomType, Model, ObjType};
@@ -27,7 +28,7 @@ pub(super) struct Match {
 }
 
 fn bodies(m: &Model, c: &Contact) -> [i32; 2] {
-    c.geom.map(|g| usize::try_from(g).map_or(-1, |g| m.geom_bodyid[g]))
+    [0, 1].map(|side| representative(m, c, side) as i32)
 }
 
 /// Sum of the normal forces on the body of a site, of contacts in its volume or whose normal passes through it.

@@ -1,7 +1,9 @@
 //! Sensors that read positions.
 
 use super::{SensorScratch, distance, limit_row, pinhole, rangefinder, zone};
-use crate::data::{Com, Constraints, Inertia, Kinematics, State, Tendons, Transmission};
+use crate::data::{
+    Com, Configuration, Constraints, Flexes, Inertia, Kinematics, State, Tendons, Transmission,
+};
 use crate::math::{column, mul_mat_t_vec, quat_conj, quat_mul, quat_normalize, sub};
 use crate::model::bounds::MINVAL;
 use crate::model::{ConstraintType, Model, ObjType, SensorType};
@@ -15,10 +17,18 @@ pub struct PositionInputs<'a> {
     pub state: &'a State,
     pub kin: &'a Kinematics,
     pub com: &'a Com,
+    pub flex: &'a Flexes,
     pub ten: &'a Tendons,
     pub trn: &'a Transmission,
     pub inertia: &'a Inertia,
     pub efc: &'a Constraints,
+}
+
+impl<'a> PositionInputs<'a> {
+    fn configuration(&self) -> Configuration<'a> {
+        let PositionInputs { state, kin, com, flex, ten, .. } = *self;
+        Configuration { state, kin, com, flex, ten }
+    }
 }
 
 /// Reads sensor `i` into zeroed `out`.
@@ -67,7 +77,7 @@ pub(super) fn read(
             let (_, segment) = distance::nearest(m, d.kin, i, scratch);
             out.copy_from_slice(segment.as_flattened());
         }
-        SensorType::EPotential => out[0] = energy::potential(m, d.state, d.kin, d.ten),
+        SensorType::EPotential => out[0] = energy::potential(m, &d.configuration()),
         SensorType::EKinetic => out[0] = energy::kinetic(m, d.state, d.inertia, &mut scratch.momentum),
         SensorType::Clock => out[0] = d.state.time,
         // Users' sensors read zero; the others belong to later stages.

@@ -85,8 +85,8 @@ impl<'a> Awake<'a> {
     /// Everything.
     pub const EVERYTHING: Awake<'static> = Awake { lists: None };
 
-    /// What is awake in a state.
-    #[inline]
+    /// What is awake in a state. Not inlined: loops over elements would ask again for every element.
+    #[inline(never)]
     pub fn of(m: &Model, state: &'a State) -> Self {
         Awake { lists: (is_on(m) && state.ntree_awake < m.ntree).then_some(state) }
     }

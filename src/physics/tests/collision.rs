@@ -2,7 +2,7 @@
 
 use robohive_physics::collision::mixing::contact_frame;
 use robohive_physics::collision::{CollisionScratch, PreContact, Shape, box_box, capsule_box, collide};
-use robohive_physics::data::{Contact, Contacts, Kinematics, StepBudget};
+use robohive_physics::data::{Contact, Contacts, Flexes, Kinematics, StepBudget};
 use robohive_physics::math::{
     Mat3, Vec3, cross, distance, dot, norm, quat_from_axis_angle, quat_to_mat, row, sub,
 };
@@ -56,7 +56,8 @@ fn cloud(n: usize) -> Vec<Vec3> {
 
 fn contacts(m: &Model, kin: &Kinematics) -> Vec<Contact> {
     let mut con = Contacts::default();
-    collide(m, kin, StepBudget::default(), &mut CollisionScratch::default(), &mut con).unwrap();
+    let flexes = Flexes::new(m);
+    collide(m, kin, &flexes, StepBudget::default(), &mut CollisionScratch::default(), &mut con).unwrap();
     con.contact
 }
 

@@ -2,7 +2,11 @@
 //! "Passive forces").
 
 use crate::actuation::reflected_load::{dof_damping, tendon_damping};
-use crate::data::{Com, Configuration, Contacts, Kinematics, Passive, State, Tendons, Velocity};
+use crate::constraint::Difference;
+use crate::data::{
+    Com, Configuration, Contact, Contacts, Flexes, Kinematics, Passive, State, Tendons, Velocity,
+};
+use crate::flex::{Flex, FlexScratch, bending, cells, shell, springs, stretch, weights};
 use crate::math::{Vec3, dot, norm, quat_difference, quat_normalize, row, scale, sub};
 use crate::model::{Disable, JointType, Model};
 use crate::plugin::{Capability, PassiveInputs};
@@ -13,13 +17,25 @@ use crate::velocity::fluid;
 use crate::velocity::polynomial::Polynomial;
 
 /// Computes all passive forces and their sum. Disabling both springs and dampers disables every passive force.
-pub fn passive(m: &Model, at: &Configuration, con: &Contacts, vel: &Velocity, out: &mut Passive) {
+pub fn passive(
+    m: &Model,
+    at: &Configuration,
+    con: &Contacts,
+    vel: &Velocity,
+    scratch: &mut FlexScratch,
+    out: &mut Passive,
+) {
     let Configuration { state, kin, com, .. } = *at;
     let awake = Awake::of(m, state);
-    clear(m, awake, out);
     let disabled = |flag: Disable| m.opt.disableflags.contains(flag);
     let (springs, dampers) = (!disabled(Disable::SPRING), !disabled(Disable::DAMPER));
+    let added = [&mut out.qfrc_spring, &mut out.qfrc_gravcomp, &mut out.qfrc_fluid, &mut out.qfrc_adhesion];
+    clear(awake.dofs(m), added);
+    if !dampers {
+        clear(awake.dofs(m), [&mut out.qfrc_damper]);
+    }
     if !springs && !dampers {
+        clear(awake.dofs(m), [&mut out.qfrc_passive]);
         return;
     }
     if springs {
@@ -32,6 +48,9 @@ pub fn passive(m: &Model, at: &Configuration, con: &Contacts, vel: &Velocity, ou
             out.qfrc_damper[dof] = if law.is_zero() { 0.0 } else { -v * law.at(v.abs()) };
         });
     }
+    if m.nflex > 0 {
+        flexes(m, at, vel, [springs, dampers], scratch, out);
+    }
     tendons(m, at, vel, springs, dampers, out);
     let compensates = has_gravity_compensation(m);
     if compensates {
@@ -42,7 +61,7 @@ pub fn passive(m: &Model, at: &Configuration, con: &Contacts, vel: &Velocity, ou
         fluid::fluid(m, awake, kin, com, vel, &mut out.qfrc_fluid);
     }
     if m.flg_adhesion && !disabled(Disable::CONTACT) {
-        adhesion(m, com, con, &mut out.qfrc_adhesion);
+        adhesion(m, com, at.flex, con, &mut out.qfrc_adhesion);
     }
     over!(awake.dofs(m), |dofs| for dof in dofs {
         let by_actuator = m.jnt_actgravcomp[m.dof_jntid[dof] as usize];
@@ -61,22 +80,36 @@ pub fn passive(m: &Model, at: &Configuration, con: &Contacts, vel: &Velocity, ou
     }
 }
 
-/// Clears the forces on what is awake.
-fn clear(m: &Model, awake: Awake, out: &mut Passive) {
-    let force = [
-        &mut out.qfrc_spring,
-        &mut out.qfrc_damper,
-        &mut out.qfrc_gravcomp,
-        &mut out.qfrc_fluid,
-        &mut out.qfrc_adhesion,
-        &mut out.qfrc_passive,
-    ];
-    match awake.dofs(m) {
-        Subset::All(_) => force.into_iter().for_each(|f| f.fill(0.0)),
+/// Clears forces on degrees of freedom.
+fn clear<const N: usize>(dofs: Subset, forces: [&mut Vec<f64>; N]) {
+    match dofs {
+        Subset::All(_) => forces.into_iter().for_each(|f| f.fill(0.0)),
         Subset::Listed(dofs) => {
-            force.into_iter().for_each(|f| dofs.iter().for_each(|&dof| f[dof as usize] = 0.0));
+            forces.into_iter().for_each(|f| dofs.iter().for_each(|&dof| f[dof as usize] = 0.0));
         }
     }
+}
+
+/// Elasticity of flexes, then springs and dampers along their edges.
+fn flexes(
+    m: &Model,
+    at: &Configuration,
+    vel: &Velocity,
+    with: [bool; 2],
+    scratch: &mut FlexScratch,
+    out: &mut Passive,
+) {
+    let inputs = stretch::Inputs { kin: at.kin, com: at.com, flexes: at.flex, vel };
+    for flex in Flex::all(m).filter(|flex| flex.dim() > 1 && !m.flex_rigid[flex.id]) {
+        if flex.is_interpolated() {
+            cells::cells(flex, inputs, with, scratch, out);
+            shell::shell(flex, inputs, with[0], scratch, out);
+        } else {
+            bending::bending(flex, at.kin, at.flex, &at.state.qvel, with, out);
+            stretch::stretch(flex, inputs, scratch.forces(), &mut out.qfrc_spring);
+        }
+    }
+    springs::edge_springs(m, at.flex, vel, with, out);
 }
 
 /// Force of the spring of joint `j`: towards `qpos_spring`, along the shortest rotation for ball and free joints.
@@ -160,13 +193,27 @@ fn gravity_compensation(m: &Model, awake: Awake, kin: &Kinematics, com: &Com, qf
 }
 
 /// Constant attraction of adhesive contacts along their normals.
-fn adhesion(m: &Model, com: &Com, con: &Contacts, qfrc: &mut [f64]) {
+fn adhesion(m: &Model, com: &Com, flexes: &Flexes, con: &Contacts, qfrc: &mut [f64]) {
     for c in con.contact.iter().filter(|c| c.adhesion != 0.0 && c.exclude <= 1) {
-        let bodies = c.geom.map(|g| m.geom_bodyid[g as usize] as usize);
+        let Some(bodies) = weights::single_bodies(m, c) else {
+            weighted_adhesion(m, com, flexes, c, qfrc);
+            continue;
+        };
         let offsets = bodies.map(|b| com_offset(m, com, b, c.pos));
         for (dof, moves) in MergedChain::new(m, bodies[0], bodies[1]) {
             let at = |end: usize| if moves[end] { point_column(com, dof, offsets[end]) } else { [0.0; 3] };
             qfrc[dof] += dot(row(&c.frame, 0), sub(at(1), at(0))) * -c.adhesion;
         }
+    }
+}
+
+/// Attraction of a contact with an element of a flex, which several bodies share.
+fn weighted_adhesion(m: &Model, com: &Com, flexes: &Flexes, c: &Contact, qfrc: &mut [f64]) {
+    let (mut bodies, mut sum) = (Vec::new(), Difference::default());
+    weights::bodies_of(m, flexes, c, 0, -1.0, &mut bodies);
+    weights::bodies_of(m, flexes, c, 1, 1.0, &mut bodies);
+    sum.weighted(m, com, &bodies, c.pos);
+    for (&dof, &column) in sum.dof.iter().zip(&sum.translation) {
+        qfrc[dof as usize] += dot(row(&c.frame, 0), column) * -c.adhesion;
     }
 }

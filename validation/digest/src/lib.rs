@@ -81,6 +81,8 @@ fn digest(case: &Case, threads: usize) -> Result<u64, String> {
 
 /// Beginnings of the names of arrays that came with a feature which the model does not use.
 fn unused(m: &Model) -> Vec<&'static str> {
+    const FLEXES: &[&str] =
+        &["flex", "name_flex", "efm0", "bvh_aabb_dyn", "contact.flex", "contact.elem", "contact.vert"];
     const SKINS: &[&str] = &["skin_", "name_skin"];
     const PLUGINS: &[&str] =
         &["plugin", "name_plugin", "body_plugin", "geom_plugin", "actuator_plugin", "sensor_plugin"];
@@ -95,7 +97,7 @@ fn unused(m: &Model) -> Vec<&'static str> {
         "nv_awake",
     ];
     let sleeps = m.opt.enableflags.contains(Enable::SLEEP);
-    let features = [(SKINS, m.nskin > 0), (PLUGINS, m.nplugin > 0), (SLEEP, sleeps)];
+    let features = [(FLEXES, m.nflex > 0), (SKINS, m.nskin > 0), (PLUGINS, m.nplugin > 0), (SLEEP, sleeps)];
     features.into_iter().filter(|(_, used)| !used).flat_map(|(names, _)| names).copied().collect()
 }
 

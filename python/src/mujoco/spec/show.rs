@@ -121,6 +121,9 @@ pub fn completed(pair: &Pair) -> Pair {
 /// # Errors
 /// The description has elements that Python cannot show yet: compiled again, they would be lost.
 pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict>> {
+    if !spec.flexes.is_empty() {
+        return Err(missing("flexes"));
+    }
     if !spec.skins.is_empty() {
         return Err(missing("skins"));
     }

@@ -50,7 +50,10 @@ fn add_point(from: Source<'_>, i: usize, contact: &Contact, items: &mut Items<'_
     };
     let item = items.decor(&form, rgba, unnamed(i));
     if options.label == LabelChoice::ContactPoint {
-        let [a, b] = contact.geom.map(|geom| geom_label(from, geom));
+        let [a, b] = [0, 1].map(|side| match contact.geom[side] {
+            -1 => format!("f{}", contact.flex[side]),
+            geom => geom_label(from, geom),
+        });
         item.label = format!("{a} | {b}");
     }
     let width = from.size(m.vis.scale.forcewidth);

@@ -1,0 +1,68 @@
+//! Lengths of edges, their Jacobian and their velocities.
+
+use super::Flex;
+use crate::data::{Com, Flexes, State};
+use crate::math::{Vec3, dot, dot_sparse, normalize, scale, sub};
+use crate::model::Model;
+use crate::position::chain::{MergedChain, com_offset, point_column};
+use std::ops::Range;
+
+/// Entries of edge `e` in the Jacobian of edge lengths.
+pub(crate) fn row(m: &Model, e: usize) -> Range<usize> {
+    let start = m.flexedge_J_rowadr[e] as usize;
+    start..start + m.flexedge_J_rownnz[e] as usize
+}
+
+/// Computes `flexedge_length` and, where a force or constraint needs it, `flexedge_J`.
+pub(super) fn edges(m: &Model, com: &Com, out: &mut Flexes) {
+    out.flexedge_J.fill(0.0);
+    out.flexedge_length.fill(0.0);
+    Flex::all(m).filter(|flex| flex.has_edges()).for_each(|flex| measure(flex, com, out));
+}
+
+/// Lengths and, where they are needed, Jacobians of the edges of a flex.
+fn measure(flex: Flex, com: &Com, out: &mut Flexes) {
+    let m = flex.m;
+    let (first, needed) = (flex.vertices().start, flex.needs_edge_jacobian());
+    for e in flex.edges() {
+        let ends = m.flex_edge[e].map(|v| first + v as usize);
+        let points = ends.map(|v| out.flexvert_xpos[v]);
+        let (direction, length) = normalize(sub(points[1], points[0]));
+        out.flexedge_length[e] = length;
+        if needed {
+            let bodies = ends.map(|v| m.flex_vertbodyid[v] as usize);
+            length_jacobian(m, com, bodies, points, direction, &mut out.flexedge_J[row(m, e)]);
+        }
+    }
+}
+
+/// How the distance of two points of two bodies, the second in `direction` of the first, changes.
+fn length_jacobian(
+    m: &Model,
+    com: &Com,
+    [a, b]: [usize; 2],
+    points: [Vec3; 2],
+    direction: Vec3,
+    out: &mut [f64],
+) {
+    let (from_a, from_b) = (com_offset(m, com, a, points[0]), com_offset(m, com, b, points[1]));
+    for (entry, (dof, moves)) in out.iter_mut().rev().zip(MergedChain::new(m, a, b)) {
+        let column = match moves {
+            [true, true] => sub(point_column(com, dof, from_b), point_column(com, dof, from_a)),
+            [true, false] => scale(point_column(com, dof, from_a), -1.0),
+            [false, _] => point_column(com, dof, from_b),
+        };
+        *entry = dot(direction, column);
+    }
+}
+
+/// Computes `flexedge_velocity`.
+pub fn edge_velocities(m: &Model, state: &State, flex: &Flexes, out: &mut [f64]) {
+    out.fill(0.0);
+    for part in Flex::all(m).filter(|flex| flex.has_edges()) {
+        for e in part.edges() {
+            let at = row(m, e);
+            out[e] = dot_sparse(&flex.flexedge_J[at.clone()], &m.flexedge_J_colind[at], &state.qvel);
+        }
+    }
+}
