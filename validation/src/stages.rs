@@ -339,7 +339,7 @@ fn constraint_rows(m: &Model, d: &mut Data) {
     let at = Configuration { state, kin, com, flex, ten };
     constraint::make_constraint(m, &at, inertia, con, efc, &mut scratch);
     constraint::find_islands(m, con, efc, island, &mut constraint::IslandScratch::default());
-    constraint::reference(m, state, kin, com, vel, con, efc);
+    constraint::reference(m, &at, vel, con, efc, &mut scratch);
 }
 
 /// Data of recorded state `row` as the solver finds it: rows and islands made from recorded inputs, and the recorded

@@ -30,6 +30,14 @@ fn many_bodies_are_solved_with_the_sums_of_sparse_matrices() {
 }
 
 #[test]
+fn chains_close_with_the_same_sums() {
+    let (m, reference) = load("closed_sparse");
+    assert!(m.is_sparse() && reference.state_row("forward", "ne", 0).unwrap() == [15.0]);
+    is_equal("closed_sparse");
+    is_equal("closed");
+}
+
+#[test]
 fn fluids_push_and_cylinders_rest_with_the_same_sums() {
     let (_, reference) = load("drag");
     assert!(reference.state_row("forward", "ncon", 0).unwrap()[0] > 4.0);

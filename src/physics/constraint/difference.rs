@@ -1,11 +1,10 @@
 //! Jacobian of the motion of a point of one body relative to a point of another, over the degrees of freedom that
 //! move either body.
 
-use crate::data::{Com, Velocity};
+use crate::data::Com;
 use crate::math::{Vec3, add_scaled, rotational, scale, sub};
 use crate::model::Model;
 use crate::position::chain::{MergedChain, chain, com_offset, point_column};
-use crate::position::jacobian::{axis_rate, point_column_rate};
 
 /// A sparse Jacobian difference: column `i` belongs to degree of freedom `dof[i]`, in increasing order.
 #[derive(Clone, Debug, Default)]
@@ -75,23 +74,4 @@ impl Difference {
             }
         }
     }
-}
-
-/// Time derivative of the point's Jacobian times the velocity: acceleration of the point, and angular acceleration
-/// of the body, that would remain if `qacc` were zero.
-pub(super) fn jacobian_dot_velocity(
-    m: &Model,
-    qvel: &[f64],
-    com: &Com,
-    vel: &Velocity,
-    at: BodyPoint,
-) -> (Vec3, Vec3) {
-    let offset = com_offset(m, com, at.body, at.point);
-    let (mut translation, mut rotation) = ([0.0; 3], [0.0; 3]);
-    for dof in chain(m, at.body) {
-        let column = point_column_rate(m, com, vel, at.body, dof, offset);
-        translation = add_scaled(translation, column, qvel[dof]);
-        rotation = add_scaled(rotation, rotational(&axis_rate(m, com, vel, dof)), qvel[dof]);
-    }
-    (translation, rotation)
 }

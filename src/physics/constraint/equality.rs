@@ -2,10 +2,11 @@
 //! "Equality"; XML reference, `equality`).
 
 use super::ConstraintScratch;
-use super::difference::{BodyPoint, Difference, jacobian_dot_velocity};
+use super::difference::{BodyPoint, Difference};
 use super::friction_loss::tendon_row;
+use super::jacobian_rate::jacobian_rates;
 use super::rows::{RowKind, is_empty, push};
-use crate::data::{Com, Configuration, Constraints, Flexes, Kinematics, State, Velocity};
+use crate::data::{Com, Configuration, Constraints, Flexes, Kinematics, Velocity};
 use crate::flex::modes::StrainedCell;
 use crate::flex::{Flex, edges as flex_edges, springs};
 use crate::math::{Quat, Vec3, add, mul_mat_vec, quat_conj, quat_mul, quat_mul_axis, scale, sub};
@@ -124,9 +125,13 @@ fn weld_frames(m: &Model, kin: &Kinematics, eq: usize, bodies: [usize; 2]) -> [Q
         let sites = [m.eq_obj1id[eq] as usize, m.eq_obj2id[eq] as usize];
         [0, 1].map(|k| quat_mul(kin.xquat[bodies[k]], m.site_quat[sites[k]]))
     } else {
-        let relative = std::array::from_fn(|i| m.eq_data[eq][6 + i]);
-        [quat_mul(kin.xquat[bodies[0]], relative), kin.xquat[bodies[1]]]
+        [quat_mul(kin.xquat[bodies[0]], relative_orientation(m, eq)), kin.xquat[bodies[1]]]
     }
+}
+
+/// Orientation of the second body in the first that a weld of bodies holds.
+fn relative_orientation(m: &Model, eq: usize) -> Quat {
+    std::array::from_fn(|i| m.eq_data[eq][6 + i])
 }
 
 fn half_vector(q: Quat) -> Vec3 {
@@ -244,12 +249,12 @@ fn mark_tendons(m: &Model, eq: usize, efc: &mut Constraints) {
 /// points have by moving alone.
 pub(super) fn subtract_jacobian_rate(
     m: &Model,
-    state: &State,
-    kin: &Kinematics,
-    com: &Com,
+    at: &Configuration,
     vel: &Velocity,
     efc: &mut Constraints,
+    scratch: &mut ConstraintScratch,
 ) {
+    let kin = at.kin;
     let mut row = 0;
     while row < efc.ne {
         let eq = efc.efc_id[row] as usize;
@@ -261,13 +266,14 @@ pub(super) fn subtract_jacobian_rate(
             }
         }
         let points = anchors(m, kin, eq);
-        let [(t0, r0), (t1, r1)] = points.map(|p| jacobian_dot_velocity(m, &state.qvel, com, vel, p));
+        let [first, second] = jacobian_rates(m, at, vel, points, &mut scratch.movers);
         for k in 0..3 {
-            efc.efc_aref[row + k] -= t0[k] - t1[k];
+            efc.efc_aref[row + k] -= first.translation[k] - second.translation[k];
         }
         row += 3;
         if m.eq_type[eq] == EqType::Weld.code() {
-            let rate = weld_rate(m, kin, vel, eq, points.map(|p| p.body), sub(r0, r1));
+            let rate =
+                weld_rate(m, kin, vel, eq, points.map(|p| p.body), sub(first.rotation, second.rotation));
             for k in 0..3 {
                 efc.efc_aref[row + k] -= rate[k];
             }
@@ -284,11 +290,16 @@ fn weld_rate(m: &Model, kin: &Kinematics, vel: &Velocity, eq: usize, bodies: [us
     let relative = sub(omega[0], omega[1]);
     let rate = |q: Quat, w: Vec3| quat_mul([0.0, w[0], w[1], w[2]], q).map(|x| 0.5 * x);
     let (inverse, inverse_rate) = (quat_conj(actual), quat_conj(rate(actual, omega[1])));
+    let target_rate = if m.eq_objtype[eq] == ObjType::Site.code() {
+        rate(target, omega[0])
+    } else {
+        quat_mul(rate(kin.xquat[bodies[0]], omega[0]), relative_orientation(m, eq))
+    };
     let product = |q, v, p| quat_mul(quat_mul_axis(q, v), p);
     let terms = [
         product(inverse_rate, relative, target),
         product(inverse, turn, target),
-        product(inverse, relative, rate(target, omega[0])),
+        product(inverse, relative, target_rate),
     ];
     let sum = |k: usize| 0.5 * (terms[0][k] + terms[1][k] + terms[2][k]) * m.eq_data[eq][10];
     [sum(1), sum(2), sum(3)]

@@ -12,6 +12,7 @@ mod friction_loss;
 mod half_jacobian;
 mod impedance;
 mod islands;
+mod jacobian_rate;
 mod limits;
 mod reference;
 mod rows;
@@ -33,6 +34,8 @@ pub struct ConstraintScratch {
     chain: Difference,
     /// Bodies that share a contact, with weights.
     bodies: Vec<(usize, f64)>,
+    /// Degrees of freedom that move two points, and which of them.
+    movers: Vec<(usize, [bool; 2])>,
     columns: Vec<i32>,
     values: Vec<f64>,
     half: HalfJacobian,

@@ -1,22 +1,23 @@
 //! Velocity of rows and the acceleration they ask for: a spring-damper on the violation (MuJoCo documentation,
 //! Computation, "Constraint model": `a* = -b v - k r`).
 
+use super::ConstraintScratch;
 use super::equality::subtract_jacobian_rate;
 use super::rows::mul_jacobian;
-use crate::data::{Com, Constraints, Contact, Contacts, Kinematics, State, Velocity};
+use crate::data::{Configuration, Constraints, Contact, Contacts, Kinematics, Velocity};
 use crate::math::{add, add_scaled, cross, mul_mat_vec, sub};
 use crate::model::{Cone, Model};
 
 /// Computes `efc_vel` and `efc_aref`.
 pub fn reference(
     m: &Model,
-    state: &State,
-    kin: &Kinematics,
-    com: &Com,
+    at: &Configuration,
     vel: &Velocity,
     con: &Contacts,
     efc: &mut Constraints,
+    scratch: &mut ConstraintScratch,
 ) {
+    let Configuration { state, kin, .. } = *at;
     let mut velocity = std::mem::take(&mut efc.efc_vel);
     mul_jacobian(m, efc, &state.qvel, &mut velocity);
     efc.efc_vel = velocity;
@@ -31,7 +32,7 @@ pub fn reference(
     if m.flg_adhesion {
         add_adhesion(m, con, efc);
     }
-    subtract_jacobian_rate(m, state, kin, com, vel, efc);
+    subtract_jacobian_rate(m, at, vel, efc, scratch);
 }
 
 /// Moving surfaces (conveyors) add their relative velocity to contact rows: tangents and spin only.

@@ -246,7 +246,7 @@ pub fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
     com_vel(m, &d.state, &d.com, &mut d.vel);
     passive(m, &configuration_of!(d), &d.con, &d.vel, &mut d.scratch.flex, &mut d.passive);
-    reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc);
+    reference(m, &configuration_of!(d), &d.vel, &d.con, &mut d.efc, &mut d.scratch.constraint);
     bias(m, &d.state, &d.kin, &d.com, &d.ten, &mut d.vel, &mut d.scratch.rne);
     watch.ended(Stage::Velocity);
 }
