@@ -85,7 +85,10 @@ fn motion_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<bool,
             let at = configuration!(d);
             passive::passive(m, &at, &d.con, &d.vel, &mut d.scratch.flex, &mut d.passive);
         }
-        "referenceConstraint" => reference(m, &d.state, &d.kin, &d.com, &d.vel, &d.con, &mut d.efc),
+        "referenceConstraint" => {
+            let at = configuration!(d);
+            reference(m, &at, &d.vel, &d.con, &mut d.efc, &mut d.scratch.constraint);
+        }
         "fwdVelocity" => velocity(m, d, &mut ()),
         "sensorVel" => velocity_sensors(m, d),
         "energyVel" => {
