@@ -96,11 +96,11 @@ impl Mirror {
         for fragment in &self.seen.fragments {
             let draw = &stage.draws.list[self.seen.triangles[fragment.triangle as usize].draw as usize];
             let colour = brush.colour(&self.seen, &draw.paint, 1.0, fragment);
-            canvas.touch(fragment, |_| colour);
+            canvas.set(fragment, colour);
         }
         for known in &self.known {
             let colour = kept.mirror.colour(known);
-            canvas.touch(&known.fragment, |_| colour);
+            canvas.set(&known.fragment, colour);
         }
         self.transparency.draw(&stage, &self.visibility, &self.light, brush, canvas);
     }

@@ -79,13 +79,19 @@ impl Opaque {
         for fragment in &self.seen.fragments {
             let draw = &stage.draws.list[self.seen.triangles[fragment.triangle as usize].draw as usize];
             let colour = brush.colour(&self.seen, &draw.paint, 1.0, fragment);
-            let mirrors = reflective == Some(draw.item);
-            canvas.touch(fragment, |below| if mirrors { added(colour, below) } else { colour });
+            if reflective == Some(draw.item) {
+                canvas.touch(fragment, |below| added(colour, below));
+            } else {
+                canvas.set(fragment, colour);
+            }
         }
         for known in &self.known {
             let colour = kept.main.colour(known);
-            let mirrors = reflective == Some(kept.main.item(known));
-            canvas.touch(&known.fragment, |below| if mirrors { added(colour, below) } else { colour });
+            if reflective == Some(kept.main.item(known)) {
+                canvas.touch(&known.fragment, |below| added(colour, below));
+            } else {
+                canvas.set(&known.fragment, colour);
+            }
         }
     }
 

@@ -4,6 +4,7 @@ use super::seen::{Fragment, Seen, SeenTriangle};
 use super::window::Affine;
 use crate::geometry::{Assets, Paint};
 use crate::scene::Fog;
+use wide::f32x4;
 
 /// Opacity from which on a fragment takes the light of lamps that cast shadows; the others light it whatever it is. MuJoCo's
 /// 0.99, as Mesa compares it in eight bits.
@@ -60,7 +61,7 @@ impl Brush<'_> {
         paint: &Paint,
         fragment: &Fragment,
         weights: [f32; 3],
-    ) -> Option<[f32; 4]> {
+    ) -> Option<f32x4> {
         let (texture, cube) = match *paint {
             Paint::Plain => return None,
             Paint::Explicit { texture, .. } | Paint::Planar { texture, .. } => (texture, false),
@@ -74,15 +75,18 @@ impl Brush<'_> {
                     .weights(f32::from((fragment.x & !1) + x) + 0.5, f32::from((fragment.y & !1) + y) + 0.5),
             )
         };
-        let here = triangle.texture(weights);
         let (origin, right, above) = (corner(0, 0), corner(1, 0), corner(0, 1));
-        let across: [f32; 3] = std::array::from_fn(|k| right[k] - origin[k]);
-        let up: [f32; 3] = std::array::from_fn(|k| above[k] - origin[k]);
-        Some(if cube {
-            texture.sample_cube(here, texture.lod_cube(origin, across, up))
+        let three = |v: f32x4| {
+            let [x, y, z, _] = v.to_array();
+            [x, y, z]
+        };
+        let (here, across, up) =
+            (three(triangle.texture(weights)), three(right - origin), three(above - origin));
+        Some(f32x4::new(if cube {
+            texture.sample_cube(here, texture.lod_cube(three(origin), across, up))
         } else {
             texture.sample_2d(here[0], here[1], texture.lod_2d(across[0], across[1], up[0], up[1]))
-        })
+        }))
     }
 
     /// The colour of a fragment under the lamps without shadows and those with shadows that reach it.
@@ -129,7 +133,7 @@ struct Shade<'a> {
     seen: &'a Seen,
     triangle: &'a SeenTriangle,
     weights: [f32; 3],
-    texel: Option<[f32; 4]>,
+    texel: Option<f32x4>,
     /// Share of its own colour that fog leaves, and the fog's.
     fog: Option<(f32, [f32; 3])>,
 }
@@ -138,7 +142,7 @@ impl Shade<'_> {
     /// The texture's.
     #[inline]
     fn opacity(&self) -> f32 {
-        self.texel.map_or(1.0, |texel| texel[3])
+        self.texel.map_or(1.0, |texel| texel.to_array()[3])
     }
 
     /// The colour that a pass gives, opaque. Fog is black in all but the first, as these are added.
@@ -146,15 +150,26 @@ impl Shade<'_> {
     fn pass(&self, pass: usize) -> Rgba {
         let mut c = self.seen.colour(self.triangle, self.weights, pass);
         if let Some(texel) = self.texel {
-            c = std::array::from_fn(|k| c[k] * texel[k]);
+            c *= texel;
         }
-        if let Some((clear, fog)) = self.fog {
-            let fog = if pass == 0 { fog } else { [0.0; 3] };
-            c = std::array::from_fn(|k| clear * c[k] + (1.0 - clear) * fog[k]);
+        if let Some((clear, [r, g, b])) = self.fog {
+            let fog = if pass == 0 { f32x4::new([r, g, b, 0.0]) } else { f32x4::ZERO };
+            c = f32x4::splat(clear) * c + f32x4::splat(1.0 - clear) * fog;
         }
-        let [r, g, b] = c.map(eight_bits);
-        [r, g, b, 255]
+        opaque(c)
     }
+}
+
+/// A colour in the first lanes as bytes, each as [`eight_bits`] rounds it, opaque.
+#[inline]
+fn opaque(colour: f32x4) -> Rgba {
+    let (least, most) = (f32x4::ZERO, f32x4::splat(255.0));
+    let steps = most * colour + f32x4::splat(0.5);
+    // Selected, so that what is not a number becomes 0.
+    let steps = steps.simd_gt(least).select(steps, least);
+    let steps = steps.simd_lt(most).select(steps, most);
+    let [r, g, b, _] = steps.fast_trunc_int().to_array();
+    [r as u8, g as u8, b as u8, 255]
 }
 
 /// The sum of two colours, at most white.
@@ -181,6 +196,19 @@ impl Canvas {
     pub fn clear(&mut self, groups: usize) {
         self.groups.clear();
         self.groups.resize(groups, [[0; 4]; 4]);
+    }
+
+    /// Gives the samples of a fragment a colour.
+    #[inline]
+    pub fn set(&mut self, fragment: &Fragment, colour: Rgba) {
+        let samples = &mut self.groups[fragment.group as usize];
+        if fragment.lanes == 0b1111 {
+            *samples = [colour; 4];
+            return;
+        }
+        for (lane, sample) in samples.iter_mut().enumerate() {
+            *sample = if fragment.lanes >> lane & 1 != 0 { colour } else { *sample };
+        }
     }
 
     /// Changes the samples of a fragment.

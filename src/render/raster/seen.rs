@@ -11,7 +11,7 @@ use super::window::Columns;
 use crate::geometry::{Assets, Paint};
 use crate::scene::{Item, Scene};
 use wide::bytemuck::cast;
-use wide::{f32x8, i32x4};
+use wide::{f32x4, f32x8, i32x4};
 
 /// One triangle in one pixel.
 #[derive(Clone, Copy, Debug)]
@@ -37,48 +37,63 @@ pub struct SeenTriangle {
     pub draw: u32,
     /// First colours of its corners.
     rows: [u32; 3],
-    /// What multiplies column, row and 1 to give each corner's share before normalisation, counted from `anchor`.
-    shares: [[f32; 3]; 3],
     /// Point of the window from which columns and rows are counted, so that small numbers are multiplied [pixel].
     anchor: [f32; 2],
+    /// What multiplies column, row and 1 to give the corners' shares before normalisation, counted from `anchor`; a lane for
+    /// each corner.
+    shares: [f32x4; 3],
     /// Texture coordinates or directions of its corners.
-    texture: [[f32; 3]; 3],
+    texture: [f32x4; 3],
     /// Its corners, world frame [m].
-    corners: [[f32; 3]; 3],
+    corners: [f32x4; 3],
 }
 
 impl SeenTriangle {
     /// Shares of the corners in a point of the window [pixel]; they add up to 1.
     #[inline]
     pub fn weights(&self, x: f32, y: f32) -> [f32; 3] {
-        let (x, y) = (x - self.anchor[0], y - self.anchor[1]);
-        let e = self.shares.map(|[a, b, c]| a * x + b * y + c);
-        let scale = 1.0 / (e[0] + e[1] + e[2]);
-        e.map(|e| e * scale)
+        let (x, y) = (f32x4::splat(x - self.anchor[0]), f32x4::splat(y - self.anchor[1]));
+        let [a, b, c] = self.shares;
+        let shares = a * x + b * y + c;
+        let e = shares.to_array();
+        let [p, q, r, _] = (shares * f32x4::splat(1.0 / (e[0] + e[1] + e[2]))).to_array();
+        [p, q, r]
     }
 
     /// The point in the world.
     #[inline]
     pub fn position(&self, weights: [f32; 3]) -> [f32; 3] {
-        mix(weights, &self.corners)
+        let [x, y, z, _] = mix(weights, &self.corners).to_array();
+        [x, y, z]
     }
 
     /// What the corners have by their position, world frame, between them.
     #[inline]
     pub fn mean(&self, weights: [f32; 3], of: impl Fn([f32; 3]) -> f32) -> f32 {
-        (0..3).map(|k| weights[k] * of(self.corners[k])).sum()
+        let of_corner = |k: usize| {
+            let [x, y, z, _] = self.corners[k].to_array();
+            of([x, y, z])
+        };
+        (0..3).map(|k| weights[k] * of_corner(k)).sum()
     }
 
-    /// Texture coordinates or direction.
+    /// Texture coordinates or direction, in the first lanes.
     #[inline]
-    pub fn texture(&self, weights: [f32; 3]) -> [f32; 3] {
+    pub fn texture(&self, weights: [f32; 3]) -> f32x4 {
         mix(weights, &self.texture)
     }
 }
 
+/// Three coordinates or colours in the first lanes.
 #[inline]
-fn mix(w: [f32; 3], at: &[[f32; 3]; 3]) -> [f32; 3] {
-    std::array::from_fn(|k| w[0] * at[0][k] + w[1] * at[1][k] + w[2] * at[2][k])
+fn triple([x, y, z]: [f32; 3]) -> f32x4 {
+    f32x4::new([x, y, z, 0.0])
+}
+
+#[inline]
+fn mix(weights: [f32; 3], at: &[f32x4; 3]) -> f32x4 {
+    let [p, q, r] = weights.map(f32x4::splat);
+    p * at[0] + q * at[1] + r * at[2]
 }
 
 /// Most lamps whose shadows are drawn: a fragment has a bit for each.
@@ -124,8 +139,8 @@ pub struct Seen {
     pub positions: Vec<[f32; 3]>,
     /// Lamps kept apart, and one.
     passes: usize,
-    /// Colours of lit corners, one for each pass.
-    colours: Vec<[f32; 3]>,
+    /// Colours of lit corners in the first lanes, one for each pass.
+    colours: Vec<f32x4>,
     /// Number of each triangle seen.
     numbers: Vec<u32>,
     /// For each triangle of the scene its place among those seen, counted from 1; 0 for none.
@@ -180,7 +195,9 @@ impl Seen {
                         self.add(number, fragment);
                     }
                 };
-                if one_pixel {
+                if one_pixel && numbers == [numbers[0]; 4] {
+                    take(numbers[0], column, 0b1111);
+                } else if one_pixel {
                     same_numbers(numbers, |number, lanes| take(number, column, lanes));
                 } else {
                     let pixels = numbers.into_iter().enumerate().take(width.saturating_sub(4 * column));
@@ -237,10 +254,10 @@ impl Seen {
         let empty = SeenTriangle {
             draw: 0,
             rows: [0; 3],
-            shares: [[0.0; 3]; 3],
             anchor: [0.0; 2],
-            texture: [[0.0; 3]; 3],
-            corners: [[0.0; 3]; 3],
+            shares: [f32x4::ZERO; 3],
+            texture: [f32x4::ZERO; 3],
+            corners: [f32x4::ZERO; 3],
         };
         self.triangles.resize(self.numbers.len(), empty);
         let mut next = 0;
@@ -294,25 +311,27 @@ impl Seen {
             }
             stamp.row
         });
-        let texture = std::array::from_fn(|k| match draw.paint {
-            Paint::Plain => [0.0; 3],
-            Paint::Explicit { scale, offset, .. } => {
-                let [u, v] = surface.texcoords[corners.texcoord[k] as usize];
-                [scale[0] * u + offset[0], scale[1] * v + offset[1], 0.0]
-            }
-            Paint::Planar { scale, .. } => {
-                [scale[0] * points[k][0] - 0.5, scale[1] * points[k][1] - 0.5, 0.0]
-            }
-            Paint::Cube { scale, .. } => std::array::from_fn(|i| scale[i] * points[k][i]),
+        let texture = std::array::from_fn(|k| {
+            triple(match draw.paint {
+                Paint::Plain => [0.0; 3],
+                Paint::Explicit { scale, offset, .. } => {
+                    let [u, v] = surface.texcoords[corners.texcoord[k] as usize];
+                    [scale[0] * u + offset[0], scale[1] * v + offset[1], 0.0]
+                }
+                Paint::Planar { scale, .. } => {
+                    [scale[0] * points[k][0] - 0.5, scale[1] * points[k][1] - 0.5, 0.0]
+                }
+                Paint::Cube { scale, .. } => std::array::from_fn(|i| scale[i] * points[k][i]),
+            })
         });
         let shares = shares(window, anchor);
         SeenTriangle {
             draw: index as u32,
             rows,
-            shares,
             anchor,
+            shares: std::array::from_fn(|j| triple(shares.map(|row| row[j]))),
             texture,
-            corners: points.map(|p| draw.place(p)),
+            corners: points.map(|p| triple(draw.place(p))),
         }
     }
 
@@ -349,7 +368,7 @@ impl Seen {
             }
             let lanes = passes.map(|pass| pass.map(|c| c.to_array()));
             for i in 0..block.len() {
-                self.colours.extend(lanes[..self.passes].iter().map(|pass| pass.map(|c| c[i])));
+                self.colours.extend(lanes[..self.passes].iter().map(|pass| triple(pass.map(|c| c[i]))));
             }
         }
         self.waiting.clear();
@@ -365,9 +384,9 @@ impl Seen {
         self.numbers[fragment.triangle as usize]
     }
 
-    /// The colour of a triangle under one pass, before its texture.
+    /// The colour of a triangle under one pass, before its texture, in the first lanes.
     #[inline]
-    pub fn colour(&self, triangle: &SeenTriangle, weights: [f32; 3], pass: usize) -> [f32; 3] {
+    pub fn colour(&self, triangle: &SeenTriangle, weights: [f32; 3], pass: usize) -> f32x4 {
         let corners = triangle.rows.map(|row| self.colours[row as usize * self.passes + pass]);
         mix(weights, &corners)
     }
@@ -375,7 +394,8 @@ impl Seen {
     /// Whether a pass gives a triangle any light at all.
     #[inline]
     pub fn is_lit(&self, triangle: &SeenTriangle, pass: usize) -> bool {
-        triangle.rows.iter().any(|&row| self.colours[row as usize * self.passes + pass] != [0.0; 3])
+        let corners = triangle.rows.map(|row| self.colours[row as usize * self.passes + pass]);
+        corners.iter().any(|colour| colour.simd_ne(f32x4::ZERO).any())
     }
 }
 
@@ -425,10 +445,10 @@ mod tests {
         let triangle = SeenTriangle {
             draw: 0,
             rows: [0; 3],
-            shares: shares(corners, [15.5, 10.5]),
             anchor: [15.5, 10.5],
-            texture: [[0.0; 3]; 3],
-            corners: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+            shares: std::array::from_fn(|j| triple(shares(corners, [15.5, 10.5]).map(|row| row[j]))),
+            texture: [f32x4::ZERO; 3],
+            corners: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(triple),
         };
         let [near, far, other] = triangle.position(triangle.weights(20.0, 10.0));
         assert!((near - 2.0 / 3.0).abs() < 1e-6 && (far - 1.0 / 3.0).abs() < 1e-6 && other.abs() < 1e-6);
