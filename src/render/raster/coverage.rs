@@ -256,10 +256,13 @@ impl Triangle {
 
     #[inline]
     fn cover_tile(&self, pattern: &Pattern, span: Span, draw: &mut impl FnMut(usize, usize, i32x4, f32x4)) {
-        let mut steps = [Step::default(); 3];
+        let (mut steps, mut crossed) = ([Step::default(); 3], false);
         for (step, edge) in steps.iter_mut().zip(&self.edges.0) {
-            let Some(found) = edge.in_tile(pattern, &span) else { return };
-            *step = found;
+            match edge.in_tile(pattern, &span) {
+                Crossing::Outside => return,
+                Crossing::Inside => {}
+                Crossing::Here(found) => (*step, crossed) = (found, true),
+            }
         }
         let [s, t, u] = steps;
         let Plane { origin, z, slope } = self.plane;
@@ -272,6 +275,13 @@ impl Triangle {
             let line = span.bottom + row;
             let y = lane_y + f32x4::splat(line as f32 - origin[1]);
             let depth = f32x4::splat(z) + (f32x4::splat(slope[0]) * x + f32x4::splat(slope[1]) * y);
+            if !crossed {
+                for group in 0..span.groups {
+                    let depth = depth + across * f32x4::splat(group as f32);
+                    draw(line as usize, first_group + group as usize, i32x4::splat(-1), depth);
+                }
+                continue;
+            }
             let mut e = [s, t, u].map(|step| step.start + i32x4::splat(step.up * row));
             for group in 0..span.groups {
                 let outside = e[0] | e[1] | e[2];
@@ -303,6 +313,16 @@ struct Span {
     rows: i32,
 }
 
+/// How an edge lies to a tile.
+enum Crossing {
+    /// No sample is inside.
+    Outside,
+    /// All samples are.
+    Inside,
+    /// Some may be.
+    Here(Step),
+}
+
 /// An edge function over a tile, at the samples of its first group and its steps to the next group and row.
 #[derive(Clone, Copy, Default)]
 struct Step {
@@ -312,9 +332,9 @@ struct Step {
 }
 
 impl Edge {
-    /// The edge function within a tile, or none where no sample of it is inside.
+    /// The edge function within a tile.
     #[inline]
-    fn in_tile(&self, pattern: &Pattern, span: &Span) -> Option<Step> {
+    fn in_tile(&self, pattern: &Pattern, span: &Span) -> Crossing {
         let at = i64::from(self.a) * i64::from(span.left) * 256
             + i64::from(self.b) * i64::from(span.bottom) * 256
             + self.c;
@@ -325,14 +345,14 @@ impl Edge {
         let most = corner + reach_x.max(0) + reach_y.max(0);
         let least = corner + reach_x.min(0) + reach_y.min(0);
         if most < 0 {
-            return None;
+            return Crossing::Outside;
         }
         if least >= 0 {
-            return Some(Step::default());
+            return Crossing::Inside;
         }
         let (x, y) = (i32x4::new(pattern.x), i32x4::new(pattern.y));
         let start = i32x4::splat(corner as i32) + i32x4::splat(self.a) * x + i32x4::splat(self.b) * y;
-        Some(Step { start, across: 8 * pattern.columns * self.a, up: 8 * self.b })
+        Crossing::Here(Step { start, across: 8 * pattern.columns * self.a, up: 8 * self.b })
     }
 }
 

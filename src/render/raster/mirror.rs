@@ -66,7 +66,9 @@ impl Mirror {
         let still = |kept: &Kept, draw: &Draw| is_kept && kept.stills.has(draw) && !draw.transparent;
         let width = stage.lens.extent.width as usize;
         let lens = lens.lens;
-        self.visibility.copy_shape(shown);
+        if !is_kept || frame.plan == Plan::Make {
+            self.visibility.copy_shape(shown);
+        }
         if is_kept && frame.plan == Plan::Make {
             let wanted = |draw: &Draw| draw.item != item && still(kept, draw);
             self.layer.update(stage.assets, stage.draws, &lens, wanted);
@@ -76,7 +78,7 @@ impl Mirror {
             self.seen.light(&stage, &self.light);
             kept.mirror.keep(&self.visibility, &self.seen, stage.draws, brush);
         }
-        if is_kept {
+        if is_kept && frame.plan == Plan::Use {
             self.visibility.copy(&kept.mirror.visibility);
         }
         if !self.open(stage, item, shown) {

@@ -60,11 +60,15 @@ impl Opaque {
         let width = stage.lens.extent.width as usize;
         let Opaque { seen, known, .. } = self;
         known.clear();
-        seen.collect(visibility, width, stage.draws.triangles, |fragment, number| {
-            let found = if frame.plan == Plan::Without { None } else { kept.main.find(fragment, number) };
-            known.extend(found);
-            found.is_some()
-        });
+        if frame.plan == Plan::Without {
+            seen.collect(visibility, width, stage.draws.triangles, |_, _| false);
+        } else {
+            seen.collect(visibility, width, stage.draws.triangles, |fragment, number| {
+                let found = kept.main.find(fragment, number);
+                known.extend(found);
+                found.is_some()
+            });
+        }
         self.light(stage, frame);
     }
 

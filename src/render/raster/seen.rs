@@ -145,6 +145,8 @@ pub struct Seen {
     numbers: Vec<u32>,
     /// For each triangle of the scene its place among those seen, counted from 1; 0 for none.
     places: Vec<u32>,
+    /// Number of the last triangle added, 0 for none, and its index among those seen.
+    last: (u32, u32),
     /// Places sorted by number.
     order: Vec<u32>,
     /// Rows of the colours by position, where the position has been lit with one normal.
@@ -167,6 +169,7 @@ impl Seen {
         for &number in &self.numbers {
             self.places[number as usize] = 0;
         }
+        self.last = (0, 0);
         self.numbers.clear();
         self.fragments.clear();
         self.triangles.clear();
@@ -185,23 +188,30 @@ impl Seen {
         self.begin(triangles);
         let one_pixel = visibility.pattern == Pattern::FOUR;
         for (y, row) in visibility.groups.chunks_exact(visibility.per_row).enumerate() {
-            for (column, group) in row.iter().enumerate() {
+            let first = (y * visibility.per_row) as u32;
+            for (column, (group, index)) in row.iter().zip(first..).enumerate() {
                 let numbers = group.triangle.to_array();
-                let index = (y * visibility.per_row + column) as u32;
-                let mut take = |number: u32, x: usize, lanes: u8| {
+                let fragment = |x: usize, lanes: u8| {
                     let (x, y) = (x as u16, y as u16);
-                    let fragment = Fragment { x, y, group: index, triangle: 0, lanes, lit: 0 };
+                    Fragment { x, y, group: index, triangle: 0, lanes, lit: 0 }
+                };
+                if one_pixel && numbers == [numbers[0]; 4] {
+                    let whole = fragment(column, 0b1111);
+                    if numbers[0] != 0 && !keep(whole, numbers[0]) {
+                        self.add(numbers[0], whole);
+                    }
+                    continue;
+                }
+                let mut take = |number: u32, fragment: Fragment| {
                     if number != 0 && !keep(fragment, number) {
                         self.add(number, fragment);
                     }
                 };
-                if one_pixel && numbers == [numbers[0]; 4] {
-                    take(numbers[0], column, 0b1111);
-                } else if one_pixel {
-                    same_numbers(numbers, |number, lanes| take(number, column, lanes));
+                if one_pixel {
+                    same_numbers(numbers, |number, lanes| take(number, fragment(column, lanes)));
                 } else {
                     let pixels = numbers.into_iter().enumerate().take(width.saturating_sub(4 * column));
-                    pixels.for_each(|(lane, number)| take(number, 4 * column + lane, 1 << lane));
+                    pixels.for_each(|(lane, number)| take(number, fragment(4 * column + lane, 1 << lane)));
                 }
             }
         }
@@ -232,13 +242,17 @@ impl Seen {
     /// Adds a fragment of a triangle.
     #[inline]
     fn add(&mut self, number: u32, fragment: Fragment) {
-        // Lines are numbered beyond the triangles and need no light.
-        let Some(place) = self.places.get_mut(number as usize) else { return };
-        if *place == 0 {
-            self.numbers.push(number);
-            *place = self.numbers.len() as u32;
+        // Neighbours mostly show the same triangle.
+        if number != self.last.0 {
+            // Lines are numbered beyond the triangles and need no light.
+            let Some(place) = self.places.get_mut(number as usize) else { return };
+            if *place == 0 {
+                self.numbers.push(number);
+                *place = self.numbers.len() as u32;
+            }
+            self.last = (number, *place - 1);
         }
-        self.fragments.push(Fragment { triangle: *place - 1, ..fragment });
+        self.fragments.push(Fragment { triangle: self.last.1, ..fragment });
     }
 
     /// Prepares the triangles collected: shares of their corners in the window, texture coordinates, light.
