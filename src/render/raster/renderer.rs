@@ -202,14 +202,17 @@ impl Renderer {
             Samples::One => Pattern::CENTER,
             Samples::Four => Pattern::FOUR,
         };
-        visibility.clear(pattern, lens.extent.width as usize, lens.extent.height as usize);
+        if plan != Plan::Use {
+            visibility.clear(pattern, lens.extent.width as usize, lens.extent.height as usize);
+        }
         if plan == Plan::Make {
             layer.update(assets, draws, &lens, |draw| kept.stills.has(draw) && !draw.transparent);
             let stage = Stage { assets, scene, draws, layer, lens: &lens };
             look(&stage, visibility, |draw| kept.stills.has(draw) && !draw.transparent);
             opaque.keep(&stage, &frame, (visibility, umbra), kept);
         }
-        if plan != Plan::Without {
+        // What has been made of the backdrop shows it already.
+        if plan == Plan::Use {
             visibility.copy(&kept.main.visibility);
         }
         layer.update(assets, draws, &lens, |draw| draw.transparent || !kept.stills.has(draw));
@@ -248,15 +251,16 @@ impl Renderer {
     fn paint(&mut self, view: usize, shot: &mut Shot<'_>) {
         let Renderer { settings, draws, opaques, sheets, transparency, light, views, .. } = self;
         let Sheet { layer, visibility, canvas, colour } = &mut sheets[view];
-        let Some(Colour { lens, place, reflective, .. }) = colour else { return };
+        let Some(Colour { lens, place, plan, reflective }) = colour else { return };
         let Shot { assets, scene, ref mut picture, .. } = *shot;
         let (draws, brush) = (&draws[view], brush(assets, scene));
         let stage = Stage { assets, scene, draws, layer, lens };
-        opaques[view].paint(&stage, &brush, views.kept(*place), (*reflective, canvas));
+        let kept = views.kept_mut(*place);
+        opaques[view].paint(&stage, &brush, kept, (*reflective, canvas));
         if !draws.lines.is_empty() {
             paint_lines(scene, draws, visibility, canvas);
         }
-        if let Some(texture) = scene.sky.and_then(|sky| assets.textures.get(sky)) {
+        if let Some((sky, texture)) = scene.sky.and_then(|sky| Some((sky, assets.textures.get(sky)?))) {
             let around = Surroundings {
                 visibility,
                 projection: &lens.projection,
@@ -264,7 +268,8 @@ impl Renderer {
                 scene,
                 slices: settings.slices,
             };
-            around.sky(texture, canvas);
+            kept.sky.hold(sky, if *plan == Plan::Without { None } else { Some(lens.extent) });
+            around.sky(texture, &mut kept.sky, canvas);
             if let Some(haze) = &scene.haze {
                 around.haze(haze, canvas);
             }

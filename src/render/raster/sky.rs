@@ -1,7 +1,7 @@
 //! What surrounds the items: the sky, and haze over the horizon.
 
 use super::clip::clip;
-use super::coverage::{Extent, Facing, Target, Triangle};
+use super::coverage::{Extent, Facing, Pattern, Target, Triangle};
 use super::paint::{Canvas, Rgba, eight_bits, over};
 use super::seen::shares;
 use super::vertices::inside;
@@ -12,9 +12,49 @@ use crate::texture::Texture;
 use crate::view::View;
 use physics::math::ops::{atan, atan2, cos, sin, sqrt};
 use std::f64::consts::PI;
+use wide::f32x4;
 
 /// Radius and half height of the sky, in units of the far plane's distance.
 const DISTANCE: f64 = 0.7;
+
+/// What a view has shown of its sky.
+#[derive(Clone, Debug, Default)]
+pub struct Sky {
+    /// The texture, where anything is kept.
+    texture: Option<usize>,
+    /// Colours of the pixels, row by row from below; transparent where they are not known.
+    pixels: Vec<Rgba>,
+}
+
+impl Sky {
+    /// Makes room for the pixels of a window, whose sky has a texture; keeps nothing where there is no window.
+    pub fn hold(&mut self, texture: usize, window: Option<Extent>) {
+        let kept = window.map(|_| texture);
+        if kept.is_none() || self.texture != kept {
+            let pixels = window.map_or(0, |window| window.width as usize * window.height as usize);
+            self.pixels.clear();
+            self.pixels.resize(pixels, [0; 4]);
+        }
+        self.texture = kept;
+    }
+
+    /// Keeps nothing of what has been shown.
+    pub fn forget(&mut self) {
+        self.texture = None;
+    }
+
+    /// The colour of a pixel, which `find` finds where it is not known.
+    fn colour(&mut self, pixel: usize, find: impl FnOnce() -> Rgba) -> Rgba {
+        match self.pixels.get_mut(pixel) {
+            Some(known) if known[3] != 0 => *known,
+            Some(unknown) => {
+                *unknown = find();
+                *unknown
+            }
+            None => find(),
+        }
+    }
+}
 
 /// The window and the view that surroundings are drawn for.
 pub struct Surroundings<'a> {
@@ -32,7 +72,7 @@ pub struct Surroundings<'a> {
 
 impl Surroundings<'_> {
     /// Paints the sky where nothing is nearer.
-    pub fn sky(&self, texture: &Texture, canvas: &mut Canvas) {
+    pub fn sky(&self, texture: &Texture, known: &mut Sky, canvas: &mut Canvas) {
         let view = &self.scene.view;
         let rays = Rays::new(self.projection, view.forward);
         let radius = DISTANCE * view.frustum.far;
@@ -40,43 +80,46 @@ impl Surroundings<'_> {
         let (near, far) = (view.frustum.near, view.frustum.far);
         let reversed = |distance: f64| near * (far - distance) / (distance * (far - near));
         let hidden = reversed(0.5 * radius);
-        for (index, group) in groups.iter().enumerate() {
+        let nearer = f32x4::splat((hidden as f32).next_up());
+        let width = self.extent.width as usize;
+        let groups = groups.iter().zip(&mut canvas.groups);
+        for (index, (group, samples)) in
+            groups.enumerate().filter(|(_, (group, _))| !group.depth.simd_gt(nearer).all())
+        {
+            let (y, column) = (index / per_row, index % per_row);
+            let mut colour = |x: usize| {
+                known.colour(y * width + x, || self.sky_in(texture, &rays, [x as f64 + 0.5, y as f64 + 0.5]))
+            };
             let depths = group.depth.to_array();
-            let y = (index / per_row) as f64;
-            let mut last: Option<(i32, Rgba, Option<f32>)> = None;
-            for (lane, depth) in depths.into_iter().enumerate() {
-                let x = (index % per_row) as i32 * pattern.pixels_in_group() + pattern.pixel_of(lane);
-                if x >= self.extent.width {
-                    continue;
-                }
+            if *pattern == Pattern::FOUR && depths == [0.0; 4] {
+                *samples = [colour(column); 4];
+                continue;
+            }
+            for (lane, (depth, sample)) in depths.into_iter().zip(samples).enumerate() {
+                let x = column * pattern.pixels_in_group() as usize + pattern.pixel_of(lane) as usize;
                 // Up to half of the sky's least distance everything hides it.
-                if f64::from(depth) > hidden {
+                if x >= width || f64::from(depth) > hidden {
                     continue;
                 }
-                let at = [f64::from(x) + 0.5, y + 0.5];
-                let (colour, limit) = match last {
-                    Some((column, colour, limit)) if column == x => (colour, limit),
-                    _ => {
-                        let clear = self.scene.fog.map(|fog| {
-                            let away = wall(rays.direction(at[0], at[1]), radius, self.slices);
-                            (fog, fog.clearness(away as f32))
-                        });
-                        let own = sky_colour(texture, &rays, at);
-                        let [r, g, b] =
-                            clear.map_or(own, |(fog, clear)| fog.over(clear, own)).map(eight_bits);
-                        ([r, g, b, 255], None)
-                    }
-                };
-                let limit = limit.unwrap_or_else(|| match depth {
-                    0.0 => f32::MAX,
-                    _ => reversed(wall(rays.direction(at[0], at[1]), radius, self.slices)) as f32,
-                });
-                last = Some((x, colour, (limit < f32::MAX).then_some(limit)));
-                if depth < limit {
-                    canvas.groups[index][lane] = colour;
+                let direction = || rays.direction(x as f64 + 0.5, y as f64 + 0.5);
+                let open = depth == 0.0 || depth < reversed(wall(direction(), radius, self.slices)) as f32;
+                if open {
+                    *sample = colour(x);
                 }
             }
         }
+    }
+
+    /// The sky in a point of the window, behind fog.
+    fn sky_in(&self, texture: &Texture, rays: &Rays, at: [f64; 2]) -> Rgba {
+        let own = sky_colour(texture, rays, at);
+        let veiled = self.scene.fog.map_or(own, |fog| {
+            let radius = DISTANCE * self.scene.view.frustum.far;
+            let away = wall(rays.direction(at[0], at[1]), radius, self.slices);
+            fog.over(fog.clearness(away as f32), own)
+        });
+        let [r, g, b] = veiled.map(eight_bits);
+        [r, g, b, 255]
     }
 
     /// Lays haze over the horizon of an infinite plane.

@@ -7,6 +7,7 @@ use super::backdrop::{Backdrop, Stills};
 use super::coverage::Extent;
 use super::draws::Draws;
 use super::settings::Settings;
+use super::sky::Sky;
 use crate::geometry::{Assets, Paint, Surface};
 use crate::scene::{Category, Fog, Item, Light, Scene};
 use crate::texture::Texture;
@@ -83,6 +84,8 @@ pub struct Kept {
     pub main: Backdrop,
     /// Of what its mirror shows, and the item that mirrors.
     pub mirror: Backdrop,
+    /// Its sky.
+    pub sky: Sky,
 }
 
 /// Everything but items that decides on a picture.
@@ -155,6 +158,7 @@ impl Kept {
             stills: Stills::default(),
             main: Backdrop::default(),
             mirror: Backdrop::default(),
+            sky: Sky::default(),
         }
     }
 
@@ -207,6 +211,7 @@ impl Kept {
 
     fn remember(&mut self, now: &Present<'_>) {
         let Present { assets, scene, draws, extent, settings } = *now;
+        self.sky.forget();
         let a = &mut self.around;
         (a.view, a.extent, a.settings) = (scene.view, extent, settings);
         a.lights.clone_from(&scene.lights);
