@@ -32,6 +32,8 @@ struct Kept {
     lanes: u8,
     /// Bits of the lamps that reach it past what stands still.
     lit: u8,
+    /// Its colour under those.
+    colour: Rgba,
     /// Where it lies, world frame [m]; the origin where no lamp casts shadows, and nobody asks.
     position: [f32; 3],
 }
@@ -69,14 +71,16 @@ impl Backdrop {
         for (index, fragment) in seen.fragments.iter().enumerate() {
             let triangle = &seen.triangles[fragment.triangle as usize];
             let draw = &draws.list[triangle.draw as usize];
+            let first = self.colours.len();
+            brush.passes(seen, &draw.paint, fragment, self.passes, &mut self.colours);
             self.kept.push(Kept {
                 number: seen.number(fragment),
                 item: draw.item as u32,
                 lanes: fragment.lanes,
                 lit: fragment.lit,
+                colour: sum(&self.colours[first..], fragment.lit),
                 position: if self.passes > 1 { seen.positions[index] } else { [0.0; 3] },
             });
-            brush.passes(seen, &draw.paint, fragment, self.passes, &mut self.colours);
             self.starts[fragment.group as usize + 1] = self.kept.len() as u32;
         }
         // Groups without fragments begin where the one before ends.
@@ -110,15 +114,23 @@ impl Backdrop {
     /// The colour of a fragment under the lamps that reach it.
     #[inline]
     pub fn colour(&self, known: &Known) -> Rgba {
-        let colours = &self.colours[known.index as usize * self.passes..][..self.passes];
-        let mut sum = colours[0];
-        let mut lit = known.fragment.lit;
-        while lit != 0 {
-            sum = added(sum, colours[1 + lit.trailing_zeros() as usize]);
-            lit &= lit - 1;
+        let kept = &self.kept[known.index as usize];
+        if known.fragment.lit == kept.lit {
+            return kept.colour;
         }
-        sum
+        sum(&self.colours[known.index as usize * self.passes..], known.fragment.lit)
     }
+}
+
+/// The colours of a fragment under the lamps without shadows, and those of the others that reach it, added up.
+#[inline]
+fn sum(colours: &[Rgba], mut lit: u8) -> Rgba {
+    let mut sum = colours[0];
+    while lit != 0 {
+        sum = added(sum, colours[1 + lit.trailing_zeros() as usize]);
+        lit &= lit - 1;
+    }
+    sum
 }
 
 /// Which items stand still.
