@@ -32,6 +32,8 @@ struct Lookup {
     depth: f32,
     /// The point that asks.
     asked: u32,
+    /// Its cell of the grid.
+    cell: u32,
 }
 
 /// Lookups by column, followed by seven that ask for nothing, so that eight can be read from each.
@@ -62,6 +64,8 @@ pub struct Grid {
     /// Columns and rows of the grid by those of the map, from the first of the region.
     columns: Vec<u16>,
     rows: Vec<u16>,
+    /// How many ask for the texels of each column and row of the map.
+    counts: [Vec<u32>; 2],
     /// Row by row, and one more.
     cells: Vec<Cell>,
 }
@@ -83,7 +87,15 @@ const FEW: usize = 16;
 impl Default for Grid {
     fn default() -> Self {
         let region = Region { low: [0; 2], high: [0; 2] };
-        Grid { region, deepest: 0.0, across: 0, columns: Vec::new(), rows: Vec::new(), cells: Vec::new() }
+        Grid {
+            region,
+            deepest: 0.0,
+            across: 0,
+            columns: Vec::new(),
+            rows: Vec::new(),
+            counts: [Vec::new(), Vec::new()],
+            cells: Vec::new(),
+        }
     }
 }
 
@@ -93,6 +105,7 @@ impl Texels {
         let Texels { asked, reached, sorted, grid } = self;
         asked.clear();
         reached.clear();
+        grid.clear(size);
         let rows = map.0.map(|row| row.map(|x| x as f32));
         let last = size as f32 - 1.0;
         for (index, Question { position: p, .. }) in questions.iter().enumerate() {
@@ -104,12 +117,14 @@ impl Texels {
             reached.push(!inside);
             if inside {
                 let depth = (r * scale).clamp(0.0, 1.0);
-                asked.push(Lookup { x: x as u16, y: y as u16, depth, asked: index as u32 });
+                let (x, y) = (x as u16, y as u16);
+                grid.count(x, y, depth);
+                asked.push(Lookup { x, y, depth, asked: index as u32, cell: 0 });
             }
         }
         sorted.resize(asked.len());
         if !asked.is_empty() {
-            grid.divide(asked);
+            grid.divide(asked.len());
             grid.sort(asked, sorted);
         }
     }
@@ -175,45 +190,51 @@ impl Sorted {
 }
 
 impl Grid {
-    /// Lays the grid over what is asked for.
-    fn divide(&mut self, asked: &[Lookup]) {
-        let fold = |get: fn(&Lookup) -> u16, pick: fn(u16, u16) -> u16, from: u16| {
-            i32::from(asked.iter().map(get).fold(from, pick))
-        };
-        let low = [fold(|l| l.x, u16::min, u16::MAX), fold(|l| l.y, u16::min, u16::MAX)];
-        let high = [fold(|l| l.x, u16::max, 0), fold(|l| l.y, u16::max, 0)];
-        self.region = Region { low, high };
-        self.deepest = asked.iter().map(|lookup| lookup.depth).fold(0.0, f32::max);
-        self.across = asked.len().isqrt().next_power_of_two().clamp(CELLS[0], CELLS[1]);
-        // Counted in the cells, which are not needed yet.
-        let counts = &mut self.cells;
+    /// Forgets what was asked for of the last map; the next one has `size` texels a side.
+    fn clear(&mut self, size: usize) {
+        self.deepest = 0.0;
+        for counts in &mut self.counts {
+            counts.clear();
+            counts.resize(size, 0);
+        }
+    }
+
+    /// Counts a texel that is asked for.
+    #[inline]
+    fn count(&mut self, x: u16, y: u16, depth: f32) {
+        self.counts[0][usize::from(x)] += 1;
+        self.counts[1][usize::from(y)] += 1;
+        self.deepest = self.deepest.max(depth);
+    }
+
+    /// Lays the grid over the `asked` texels that have been counted.
+    fn divide(&mut self, asked: usize) {
+        self.across = asked.isqrt().clamp(CELLS[0], CELLS[1]);
         let sides = [(&mut self.columns, 0), (&mut self.rows, 1)];
         for (table, axis) in sides {
-            let length = (high[axis] - low[axis]) as usize + 1;
-            counts.clear();
-            counts.resize(length, Cell::default());
-            for lookup in asked {
-                let place = i32::from([lookup.x, lookup.y][axis]) - low[axis];
-                counts[place as usize].first += 1;
-            }
+            let counts = &self.counts[axis];
+            let low = counts.iter().position(|&count| count > 0).unwrap_or(0);
+            let high = counts.iter().rposition(|&count| count > 0).unwrap_or(0);
+            (self.region.low[axis], self.region.high[axis]) = (low as i32, high as i32);
             table.clear();
             let mut before = 0;
-            table.extend(counts.iter().map(|count| {
-                let cell = before * self.across / asked.len();
-                before += count.first as usize;
+            table.extend(counts[low..=high].iter().map(|&count| {
+                let cell = before * self.across / asked;
+                before += count as usize;
                 cell as u16
             }));
         }
     }
 
     /// Sorts what is asked for into the cells.
-    fn sort(&mut self, asked: &[Lookup], sorted: &mut Sorted) {
+    fn sort(&mut self, asked: &mut [Lookup], sorted: &mut Sorted) {
         let mut cells = std::mem::take(&mut self.cells);
         cells.clear();
         cells.resize(self.across * self.across + 1, Cell::default());
         let place = |lookup: &Lookup| self.row(lookup.y.into()) * self.across + self.column(lookup.x.into());
-        for lookup in asked {
+        for lookup in &mut *asked {
             let cell = place(lookup);
+            lookup.cell = cell as u32;
             cells[cell + 1].first += 1;
             cells[cell].deepest = cells[cell].deepest.max(lookup.depth);
         }
@@ -221,7 +242,7 @@ impl Grid {
             cells[i].first += cells[i - 1].first;
         }
         for lookup in asked {
-            let at = &mut cells[place(lookup)].first;
+            let at = &mut cells[lookup.cell as usize].first;
             sorted.set(*at as usize, lookup);
             *at += 1;
         }
