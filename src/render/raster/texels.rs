@@ -9,7 +9,7 @@ use super::shadow::{CasterRule, Question};
 use super::vertices::Vertex;
 use super::window::Projection;
 use std::ops::Range;
-use wide::f32x8;
+use wide::{f32x4, f32x8};
 
 /// The texels that points ask for.
 #[derive(Clone, Debug, Default)]
@@ -79,6 +79,8 @@ struct Cell {
     deepest: f32,
 }
 
+/// Lookups that a cell holds in the mean.
+const SHARE: usize = 2;
 /// Fewest and most cells along a side of the grid.
 const CELLS: [usize; 2] = [16, 512];
 /// Lookups that are compared without a look at the depth of their cells.
@@ -106,10 +108,11 @@ impl Texels {
         asked.clear();
         reached.clear();
         grid.clear(size);
-        let rows = map.0.map(|row| row.map(|x| x as f32));
+        let [a, b, c, d]: [f32x4; 4] = std::array::from_fn(|j| f32x4::new(map.0.map(|row| row[j] as f32)));
         let last = size as f32 - 1.0;
-        for (index, Question { position: p, .. }) in questions.iter().enumerate() {
-            let [s, t, r, q] = rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
+        for (index, Question { position, .. }) in questions.iter().enumerate() {
+            let [x, y, z] = position.map(f32x4::splat);
+            let [s, t, r, q] = (a * x + b * y + c * z + d).to_array();
             let scale = 1.0 / q;
             let (x, y) = ((s * scale).floor(), (t * scale).floor());
             // The outermost texels are never drawn: what falls on or beyond them is lit.
@@ -209,7 +212,7 @@ impl Grid {
 
     /// Lays the grid over the `asked` texels that have been counted.
     fn divide(&mut self, asked: usize) {
-        self.across = asked.isqrt().clamp(CELLS[0], CELLS[1]);
+        self.across = (asked / SHARE).isqrt().clamp(CELLS[0], CELLS[1]);
         let sides = [(&mut self.columns, 0), (&mut self.rows, 1)];
         for (table, axis) in sides {
             let counts = &self.counts[axis];
