@@ -57,7 +57,7 @@ pub fn run(a: &Trace) -> Result<(), Failure> {
     }
     recorder.finish()?;
     if d.warnings != Warnings::default() {
-        let (resets, controls) = (d.warnings.resets(), d.warnings.bad_ctrl);
+        let (resets, controls) = (d.warnings.resets(), d.warnings.bad_ctrl.count);
         note(&format!(
             "bad values: the state was reset {resets} times, controls were set to zero {controls} times"
         ));

@@ -59,7 +59,7 @@ fn runs_that_diverge_are_reset_at_the_same_steps() {
     let mut d = physics::Data::new(&m);
     d.autoreset = true;
     let end = (0..report.steps).map(|_| physics::step(&m, &mut d)).collect::<Result<Vec<()>, _>>();
-    assert_eq!((end.is_ok(), d.warnings.bad_qacc, d.warnings.resets()), (true, 6, 6));
+    assert_eq!((end.is_ok(), d.warnings.bad_qacc.count, d.warnings.resets()), (true, 6, 6));
     d.autoreset = false;
     let failed = (0..report.steps).find_map(|_| physics::step(&m, &mut d).err());
     assert!(matches!(failed, Some(physics::StepError::BadQacc(_))), "{failed:?}");

@@ -1,6 +1,6 @@
 //! A call into the engine: edits go in, the interpreter's lock is released, results come out.
 
-use super::data::{Data, Held};
+use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
 use physics::{Data as Simulation, Model as Compiled};
@@ -18,22 +18,12 @@ pub fn change<R: Send>(
     data: &Bound<'_, Data>,
     work: impl FnOnce(&Compiled, &mut Simulation) -> Result<R, Fault> + Send,
 ) -> PyResult<R> {
-    change_held(py, model, data, |compiled, held| work(compiled, &mut held.simulation))
-}
-
-/// The same with the counts of warnings.
-pub fn change_held<R: Send>(
-    py: Python<'_>,
-    model: &Bound<'_, Model>,
-    data: &Bound<'_, Data>,
-    work: impl FnOnce(&Compiled, &mut Held) -> Result<R, Fault> + Send,
-) -> PyResult<R> {
     let compiled = model.get().current(py)?;
     let mut held = data.get().lock()?;
     held.check_fits(model.get())?;
     held.pull(py)?;
-    let inside = &mut *held;
-    let result = py.detach(|| caught(|| work(&compiled, inside)));
+    let simulation = &mut held.simulation;
+    let result = py.detach(|| caught(|| work(&compiled, simulation)));
     held.push(py)?;
     Ok(result?)
 }

@@ -6,7 +6,7 @@ use super::mirror::{Layout, Mirror};
 use super::model::Model;
 use mjcf::edit::carry_state;
 use numpy::PyArray1;
-use physics::data::ArrayAddress;
+use physics::data::{ArrayAddress, Warning, Warnings};
 use physics::table::{Slice, SliceMut};
 use physics::{Data as Simulation, Model as Compiled};
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError};
@@ -15,16 +15,6 @@ use pyo3::sync::MutexExt;
 use pyo3::types::PyDict;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, TryLockError};
-
-/// Kinds of warnings, in MuJoCo's order.
-pub const WARNINGS: usize = 7;
-
-/// How often something was noticed, and at which place last.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Warning {
-    pub last: i32,
-    pub number: i32,
-}
 
 /// One simulation. `MjData` inherits from it.
 #[pyclass(subclass, frozen, module = "robohive._core.mujoco")]
@@ -36,7 +26,6 @@ pub struct Data {
 /// What a call works with.
 pub struct Held {
     pub simulation: Simulation,
-    pub warnings: [Warning; WARNINGS],
     addresses: Arc<[ArrayAddress]>,
     mirror: Mirror,
     sizes: Arc<[usize]>,
@@ -119,8 +108,7 @@ impl Data {
         let (layout, addresses) = lay_out(&compiled, &simulation);
         let sizes = Arc::clone(model.get().sizes());
         let mirror = Mirror::new(Arc::new(layout));
-        let warnings = Default::default();
-        let held = Held { simulation, warnings, addresses: addresses.into(), mirror, sizes };
+        let held = Held { simulation, addresses: addresses.into(), mirror, sizes };
         Ok(Data { model, held: Mutex::new(held) })
     }
 
@@ -153,7 +141,6 @@ impl Data {
         held.check_fits(other.get().model.get())?;
         from.pull(py)?;
         held.simulation.clone_from(&from.simulation);
-        held.warnings = from.warnings;
         held.push(py)
     }
 
@@ -229,9 +216,11 @@ impl Data {
         held.push(py)
     }
 
-    /// Last place and number of each kind of warning.
-    fn _warnings(&self, py: Python<'_>) -> Vec<(i32, i32)> {
-        self.wait(py).warnings.iter().map(|w| (w.last, w.number)).collect()
+    /// Last place and number of each kind of warning, in MuJoCo's order. What the first three would warn of is an error.
+    fn _warnings(&self, py: Python<'_>) -> [(usize, usize); 7] {
+        let Warnings { bad_qpos, bad_qvel, bad_qacc, bad_ctrl } = self.wait(py).simulation.warnings;
+        let none = Warning::default();
+        [none, none, none, bad_qpos, bad_qvel, bad_qacc, bad_ctrl].map(|kind| (kind.last, kind.count))
     }
 }
 

@@ -1,7 +1,7 @@
 //! Trajectories of many initial states on several threads, the interpreter's lock released.
 
 use super::call::caught;
-use super::data::{Data, Held};
+use super::data::Data;
 use super::dynamics::advance;
 use super::error::Fault;
 use super::model::Model;
@@ -70,16 +70,16 @@ type Vector<'py> = Bound<'py, PyArray1<f64>>;
 /// States and sensor readings of one trajectory.
 type Trace = (Vec<f64>, Vec<f64>);
 
-fn trajectory(inputs: &Inputs, k: usize, m: &Compiled, held: &mut Held) -> Result<Trace, Fault> {
-    inputs.start(k, m, &mut held.simulation)?;
+fn trajectory(inputs: &Inputs, k: usize, m: &Compiled, d: &mut Simulation) -> Result<Trace, Fault> {
+    inputs.start(k, m, d)?;
     let (mut states, mut sensors) = (Vec::new(), Vec::new());
     for t in 0..inputs.nstep {
         if let Some(controls) = &inputs.controls {
-            scatter(&mut held.simulation.state, inputs.specs[1], &controls[k][t])?;
+            scatter(&mut d.state, inputs.specs[1], &controls[k][t])?;
         }
-        advance(m, held, step)?;
-        states.extend(gather(&held.simulation.state, inputs.specs[0])?);
-        sensors.extend_from_slice(&held.simulation.sensor.sensordata);
+        advance(m, d, 1, step)?;
+        states.extend(gather(&d.state, inputs.specs[0])?);
+        sensors.extend_from_slice(&d.sensor.sensordata);
     }
     Ok((states, sensors))
 }
@@ -89,10 +89,10 @@ fn share(
     inputs: &Inputs,
     (first, stride): (usize, usize),
     models: &[Arc<Compiled>],
-    held: &mut Held,
+    simulation: &mut Simulation,
 ) -> Result<Vec<(usize, Trace)>, Fault> {
     let mine = (first..models.len()).step_by(stride);
-    mine.map(|k| caught(|| trajectory(inputs, k, &models[k], held)).map(|trace| (k, trace))).collect()
+    mine.map(|k| caught(|| trajectory(inputs, k, &models[k], simulation)).map(|trace| (k, trace))).collect()
 }
 
 /// Rolls out every trajectory of `plan`, one thread for each of `datas`; states and sensor readings, trajectory after
@@ -111,14 +111,14 @@ pub fn roll_out<'py>(
         models.iter().try_for_each(|m| one.check_fits(m.get()))?;
         one.pull(py)?;
     }
-    let mut inside: Vec<&mut Held> = held.iter_mut().map(|guard| &mut **guard).collect();
+    let mut inside: Vec<&mut Simulation> = held.iter_mut().map(|guard| &mut guard.simulation).collect();
     let results = py.detach(|| {
         let (inputs, models, stride) = (&inputs, &compiled[..], inside.len());
         std::thread::scope(|threads| {
             let started: Vec<_> = inside
                 .iter_mut()
                 .enumerate()
-                .map(|(first, held)| threads.spawn(move || share(inputs, (first, stride), models, held)))
+                .map(|(first, d)| threads.spawn(move || share(inputs, (first, stride), models, d)))
                 .collect();
             started
                 .into_iter()

@@ -1,6 +1,6 @@
 //! Options, statistics and visual settings of a model by group and name, as `model.opt.timestep` asks for them.
 
-use physics::model::{Arrays, Draft};
+use physics::model::{Arrays, Draft, Options, Visual};
 use physics::table::Slice;
 
 /// Names of the groups.
@@ -37,16 +37,28 @@ pub fn read(arrays: &Arrays, group: &str, name: &str, show: &mut dyn FnMut(Slice
 
 /// Overwrites a setting; `None` when there is none, `Some(false)` when the numbers do not fit it.
 pub fn assign(draft: &mut Draft<'_>, group: &str, name: &str, values: &[f64]) -> Option<bool> {
-    let vis = &mut *draft.vis;
     match group {
-        "opt" => draft.opt.assign(name, values),
         "stat" => draft.stat.assign(name, values),
-        "vis.global" => vis.global.assign(name, values),
-        "vis.quality" => vis.quality.assign(name, values),
-        "vis.headlight" => vis.headlight.assign(name, values),
-        "vis.map" => vis.map.assign(name, values),
-        "vis.scale" => vis.scale.assign(name, values),
-        "vis.rgba" => vis.rgba.assign(name, values),
-        _ => unreachable!("{group} is not one of GROUPS"),
+        _ => assign_choice(draft.opt, draft.vis, group, name, values),
+    }
+}
+
+/// The same for what a description states as a model has it: options and visual settings.
+pub fn assign_choice(
+    options: &mut Options,
+    visual: &mut Visual,
+    group: &str,
+    name: &str,
+    values: &[f64],
+) -> Option<bool> {
+    match group {
+        "opt" => options.assign(name, values),
+        "vis.global" => visual.global.assign(name, values),
+        "vis.quality" => visual.quality.assign(name, values),
+        "vis.headlight" => visual.headlight.assign(name, values),
+        "vis.map" => visual.map.assign(name, values),
+        "vis.scale" => visual.scale.assign(name, values),
+        "vis.rgba" => visual.rgba.assign(name, values),
+        _ => None,
     }
 }

@@ -45,6 +45,16 @@ def test_an_unstable_simulation_raises_or_resets(model, data):
         mj.mj_step(model, data)
         assert data.warning[mj.mjtWarning.mjWARN_BADQVEL].number == 1
         assert np.isfinite(data.qpos).all() and data.time == model.opt.timestep
+        data.ctrl[0] = np.nan
+        mj.mj_step(model, data, 3)
+        warning = data.warning[mj.mjtWarning.mjWARN_BADCTRL]
+        assert (warning.number, warning.lastinfo) == (3, 0) and np.isnan(data.ctrl[0])
+        assert np.isfinite(data.qpos).all() and data.time == pytest.approx(4 * model.opt.timestep)
+        mj.mj_step1(model, data)
+        mj.mj_step2(model, data)
+        assert data.warning[mj.mjtWarning.mjWARN_BADCTRL].number == 4
+        mj.mj_resetData(model, data)
+        assert data.warning[mj.mjtWarning.mjWARN_BADCTRL].number == 0
     finally:
         mj.set_instability("raise")
     with pytest.raises(ValueError, match="not 'ignore'"):

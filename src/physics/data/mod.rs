@@ -31,7 +31,7 @@ pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStat, Solve
 pub use scratch::Scratch;
 pub use snapshot::{ForeignSnapshot, Snapshot};
 pub use stages::*;
-pub use warnings::Warnings;
+pub use warnings::{Warning, Warnings};
 
 use crate::actuation::history;
 use crate::model::{Arrays, Model};

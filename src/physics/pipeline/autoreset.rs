@@ -1,7 +1,9 @@
 //! MuJoCo's way with bad values, where [`Data::autoreset`](crate::Data::autoreset) asks for it: a state or acceleration
-//! that is not finite or too large is reset and counted, and the step goes on from the reference configuration.
+//! that is not finite or too large is reset and counted, and the step goes on from the reference configuration. A control
+//! that is bad counts as all controls zero for that step; the model's flag `autoreset` is about states alone.
 //!
-//! Meant for comparison with recorded runs that contain such resets; by default a bad value is an error.
+//! Meant for programs written for MuJoCo, and for comparison with recorded runs that contain such resets; by default a
+//! bad value is an error.
 //!
 //! ```
 //! use robohive_physics::{Data, step};
@@ -14,7 +16,7 @@
 //! data.autoreset = true;
 //! data.state.qvel[0] = f64::NAN;
 //! step(&model, &mut data)?;
-//! assert_eq!((data.warnings.bad_qvel, data.time()), (1, model.opt.timestep));
+//! assert_eq!((data.warnings.bad_qvel.count, data.time()), (1, model.opt.timestep));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -29,40 +31,52 @@ fn resets(m: &Model, d: &Data) -> bool {
     d.autoreset && !m.opt.disableflags.contains(Disable::AUTORESET)
 }
 
-/// Checks the state and the controls; resets the former and zeroes the latter where that is asked for.
+/// Goes on after a check of state and controls has failed: `again` begins at the reference configuration, or has no
+/// controls.
 ///
 /// # Errors
-/// What cannot be reset.
-pub(crate) fn admit_state(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    let Err(error) = check_state(m, d) else { return Ok(()) };
-    if !resets(m, d) {
-        return Err(error);
-    }
-    match error {
-        StepError::BadQpos(_) => d.warnings.bad_qpos += 1,
-        StepError::BadQvel(_) => d.warnings.bad_qvel += 1,
-        error => return zero_controls(d, error),
+/// What cannot be reset, `error` where nothing is, or what `again` refuses.
+#[cold]
+pub(crate) fn recover(
+    m: &Model,
+    d: &mut Data,
+    error: StepError,
+    again: impl FnOnce(&Model, &mut Data) -> Result<(), StepError>,
+) -> Result<(), StepError> {
+    match &error {
+        StepError::BadQpos(bad) if resets(m, d) => d.warnings.bad_qpos.note(bad.index),
+        StepError::BadQvel(bad) if resets(m, d) => d.warnings.bad_qvel.note(bad.index),
+        _ => return without_controls(m, d, error, again),
     }
     d.reset(m);
-    check_state(m, d)
+    check_state(m, d)?;
+    again(m, d)
 }
 
-/// Checks state and controls in the middle of a step, where only controls can be given up.
+/// Goes on after a check has failed where only controls can be given up. They stay as they were given, unless a reset of
+/// the state clears them.
 ///
 /// # Errors
-/// The state is bad, or a control where nothing is reset.
-pub(crate) fn admit_controls(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    match check_state(m, d) {
-        Err(error) if resets(m, d) => zero_controls(d, error),
-        outcome => outcome,
+/// As [`recover`].
+#[cold]
+pub(crate) fn without_controls(
+    m: &Model,
+    d: &mut Data,
+    error: StepError,
+    again: impl FnOnce(&Model, &mut Data) -> Result<(), StepError>,
+) -> Result<(), StepError> {
+    match &error {
+        StepError::BadCtrl(bad) if d.autoreset => d.warnings.bad_ctrl.note(bad.index),
+        _ => return Err(error),
     }
-}
-
-fn zero_controls(d: &mut Data, error: StepError) -> Result<(), StepError> {
-    let StepError::BadCtrl(_) = error else { return Err(error) };
-    d.warnings.bad_ctrl += 1;
-    d.state.ctrl.fill(0.0);
-    Ok(())
+    let none = vec![0.0; d.state.ctrl.len()];
+    let given = std::mem::replace(&mut d.state.ctrl, none);
+    let resets = d.warnings.resets();
+    let outcome = check_state(m, d).and_then(|()| again(m, d));
+    if d.warnings.resets() == resets {
+        d.state.ctrl = given;
+    }
+    outcome
 }
 
 /// Checks accelerations; where a bad one is reset, evaluates everything at the reference configuration.
@@ -70,11 +84,10 @@ fn zero_controls(d: &mut Data, error: StepError) -> Result<(), StepError> {
 /// # Errors
 /// What cannot be reset.
 pub(crate) fn admit_acceleration(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    let Err(error) = check_acceleration(m, d) else { return Ok(()) };
-    if !resets(m, d) {
-        return Err(error);
+    match check_acceleration(m, d) {
+        Err(StepError::BadQacc(bad)) if resets(m, d) => d.warnings.bad_qacc.note(bad.index),
+        outcome => return outcome,
     }
-    d.warnings.bad_qacc += 1;
     d.reset(m);
     forward(m, d)?;
     check_acceleration(m, d)

@@ -24,7 +24,7 @@ use crate::flex::{edge_velocities, flexes};
 use crate::inertia::{factor_inertia_of, make_inertia_of, solve, solve_of};
 use crate::integration::integrate::{Factors, advance_once, integrate};
 use crate::model::{Enable, Integrator, Model};
-use crate::pipeline::autoreset::{admit_acceleration, admit_controls, admit_result, admit_state};
+use crate::pipeline::autoreset::{admit_acceleration, admit_result, recover, without_controls};
 use crate::pipeline::inverse::compare_with_forward;
 use crate::pipeline::validity::{check_acceleration, check_result, check_state};
 use crate::pipeline::watch::{Stage, Watch};
@@ -73,7 +73,9 @@ pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// # Errors
 /// As `step`.
 pub fn step_watched(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
-    admit_state(m, d)?;
+    if let Err(error) = check_state(m, d) {
+        return recover(m, d, error, |m, d| step_watched(m, d, watch));
+    }
     watch.ended(Stage::Checks);
     evaluate(m, d, true, watch)?;
     admit_acceleration(m, d)?;
@@ -118,7 +120,12 @@ fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// # Errors
 /// As `step`.
 pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    admit_state(m, d)?;
+    match check_state(m, d) {
+        // The second half looks at the controls then given.
+        Err(StepError::BadCtrl(_)) if d.autoreset => {}
+        Err(error) => return recover(m, d, error, step1),
+        Ok(()) => {}
+    }
     position_and_velocity(m, d, Known::Nothing, true, &mut ())
 }
 
@@ -127,7 +134,9 @@ pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// # Errors
 /// As `step`.
 pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    admit_controls(m, d)?;
+    if let Err(error) = check_state(m, d) {
+        return without_controls(m, d, error, step2);
+    }
     forward_after_step1(m, d);
     admit_acceleration(m, d)?;
     compare_if_asked(m, d)?;

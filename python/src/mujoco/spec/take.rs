@@ -3,6 +3,7 @@
 use super::description::Description;
 use super::parts;
 use super::value::take;
+use crate::mujoco::settings::assign_choice;
 use mjcf::diagnostic::Loc;
 use mjcf::spec::*;
 use pyo3::exceptions::PyValueError;
@@ -235,17 +236,7 @@ fn misplaced() -> PyErr {
 }
 
 fn assign(spec: &mut Spec, group: &str, name: &str, numbers: &[f64]) -> PyResult<()> {
-    let visual = &mut spec.visual;
-    let fits = match group {
-        "opt" => spec.option.assign(name, numbers),
-        "vis.global" => visual.global.assign(name, numbers),
-        "vis.quality" => visual.quality.assign(name, numbers),
-        "vis.headlight" => visual.headlight.assign(name, numbers),
-        "vis.map" => visual.map.assign(name, numbers),
-        "vis.scale" => visual.scale.assign(name, numbers),
-        "vis.rgba" => visual.rgba.assign(name, numbers),
-        _ => None,
-    };
+    let fits = assign_choice(&mut spec.option, &mut spec.visual, group, name, numbers);
     match fits {
         Some(true) => Ok(()),
         _ => Err(PyValueError::new_err(format!("{numbers:?} is no value of {group}.{name}"))),
