@@ -40,7 +40,7 @@ const ORDER: [(&str, &[&str]); 22] = [
         &["physics", "mjcf", "dataset", "random", "robot", "render", "render_gpu", "env", "agents"],
     ),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
-    ("robohive-library", &["mjcf", "store", "encoders", "env"]),
+    ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
     (
         "robohive-python",
         &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],

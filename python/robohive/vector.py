@@ -72,6 +72,8 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         camera_name: str | None = None,
         width: int | None = None,
         height: int | None = None,
+        renderer: str = "cpu",
+        instability: str = "truncate",
         time_limit: bool = True,
         override_keys: Iterable[str] = (),
         **settings: Any,
@@ -95,6 +97,10 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             camera_name: Camera of pictures, by its name in the model, or `free`.
             width: Columns of pictures.
             height: Rows of pictures.
+            renderer: `cpu`; or, in wheels built with the feature `gpu`, `gpu`, or `gpu:NAME` for the one whose name contains
+                NAME. Where there is no such GPU, the CPU draws, and a line on the standard error stream says so.
+            instability: What a state does that physics refuses: `truncate` ends the episode, with the reason in the infos as
+                `fault`; `reset` returns to the reference configuration in the middle of the episode, as MuJoCo does.
             time_limit: Whether episodes end at their length.
             override_keys: Settings of the id that `settings` replaces rather than merges.
             settings: Settings that differ from the id's, by RoboHive's names.
@@ -120,6 +126,8 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             "camera": camera_name,
             "width": width,
             "height": height,
+            "renderer": renderer,
+            "instability": instability,
             "time_limit": time_limit,
             "override_keys": list(override_keys),
         }

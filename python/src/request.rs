@@ -3,10 +3,11 @@
 use crate::exceptions::exception;
 use crate::settings::table;
 use env::{Env, EnvError, Options, Registry, RenderMode, Rendering, Spec};
-use library::{Library, Weights};
-use pyo3::exceptions::{PyOSError, PyValueError};
+use library::{Library, NoGpu, Renderer, Weights};
+use pyo3::exceptions::{PyNotImplementedError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use render::painter::Painters;
 use std::sync::Arc;
 use toml::Table;
 
@@ -31,6 +32,8 @@ pub struct Making {
     camera: Option<String>,
     width: Option<usize>,
     height: Option<usize>,
+    renderer: String,
+    instability: String,
     override_keys: Vec<String>,
     /// Whether the environment ends episodes at their length itself; otherwise a wrapper does.
     time_limit: bool,
@@ -58,13 +61,19 @@ impl Request {
             height: making.height.unwrap_or(default.height),
         };
         let compat = making.compat.parse().map_err(|error| wrong(format!("compat: {error}")))?;
+        let painters = painters(&making.renderer)?;
+        let autoreset = match making.instability.as_str() {
+            "truncate" => false,
+            "reset" => true,
+            other => return Err(wrong(format!("instability is truncate or reset, not {other}"))),
+        };
         let networks = Arc::new(Weights::from_environment());
         let seed = making.seed.unwrap_or(Options::default().seed);
         let horizon = spec.with(&changes).map_err(|error| exception(py, &error))?.max_episode_steps;
         if !making.time_limit {
             changes.insert("max_episode_steps".into(), i64::MAX.into());
         }
-        let options = Options { seed, compat, changes, rendering, networks, ..Options::default() };
+        let options = Options { seed, compat, changes, rendering, networks, painters, autoreset };
         Ok(Request { spec, horizon, options })
     }
 
@@ -79,6 +88,18 @@ impl Request {
         });
         made.map_err(PyOSError::new_err)?.map_err(|error| exception(py, &error))
     }
+}
+
+/// What draws pictures.
+fn painters(renderer: &str) -> PyResult<Arc<dyn Painters>> {
+    let renderer: Renderer = renderer
+        .parse()
+        .map_err(|valid| PyValueError::new_err(format!("renderer is {valid}, not {renderer:?}")))?;
+    renderer.painters().map_err(|NoGpu| {
+        PyNotImplementedError::new_err(
+            "this wheel draws on the CPU alone; `maturin build --release --features gpu` builds one that asks a GPU",
+        )
+    })
 }
 
 /// Takes settings away from a specification, so that the changes replace them rather than being merged into them.

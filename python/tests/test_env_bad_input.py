@@ -85,6 +85,8 @@ def test_unknown_ids_name_the_nearest():
         ({"reward_mode": "densest"}, ValueError, "dense"),
         ({"compat": "robohive-0.6"}, ValueError, "robohive-0.7"),
         ({"render_mode": "ansi"}, ValueError, "rgb_array"),
+        ({"renderer": "opengl"}, ValueError, "gpu:NAME .*, not 'opengl'|gpu:NAME .*, not \"opengl\""),
+        ({"instability": "ignore"}, ValueError, "truncate or reset, not ignore"),
         ({"seed": -1}, gymnasium.error.Error, "2\\*\\*64"),
         ({"max_episode_steps": 0}, ValueError, "1 or more"),
         ({"override_keys": ["nothing"]}, ValueError, "no setting nothing"),
@@ -161,3 +163,29 @@ def test_two_threads_are_refused_or_take_turns(env):
     [thread.join() for thread in threads]
     assert len(outcomes) == 400
     assert env.time == pytest.approx(outcomes.count("stepped") * env.dt)
+
+
+def test_a_state_that_physics_refuses_can_be_reset_as_mujoco_does():
+    env = robohive.make("hive/FrankaReach-v0", instability="reset")
+    env.reset(seed=0)
+    for _ in range(10):
+        env.step(np.zeros(8))
+    env.set_env_state({"qvel": np.full_like(env.get_env_state()["qvel"], 1e9)})
+    for step in range(11, env.horizon + 1):
+        observation, _, _, truncated, info = env.step(np.zeros(8))
+        assert "fault" not in info and truncated == (step == env.horizon)
+    assert np.isfinite(observation).all() and env.time < (env.horizon - 9) * env.dt
+
+
+def test_a_gpu_is_asked_for_by_its_name_or_not_there():
+    env_id, options = "hive/FrankaReach-v0", {"render_mode": "rgb_array", "width": 32, "height": 24}
+    try:
+        env = robohive.make(env_id, renderer="gpu:no such card", **options)
+    except NotImplementedError as error:
+        assert "--features gpu" in str(error)
+        return
+    # The CPU stands in.
+    expected = robohive.make(env_id, **options)
+    env.reset(seed=0)
+    expected.reset(seed=0)
+    assert np.array_equal(env.render(), expected.render())

@@ -40,6 +40,9 @@ pub struct Options {
     pub networks: Arc<dyn Networks>,
     /// What draws.
     pub painters: Arc<dyn Painters>,
+    /// A bad number in the physics resets it as MuJoCo does, in the middle of the episode, instead of ending that
+    /// (`Data::autoreset`).
+    pub autoreset: bool,
 }
 
 impl Default for Options {
@@ -51,6 +54,7 @@ impl Default for Options {
             rendering: Rendering::default(),
             networks: Arc::new(NoNetworks),
             painters: Arc::new(Cpu),
+            autoreset: false,
         }
     }
 }
@@ -138,6 +142,7 @@ impl Env {
         let (settings, own) = spec.settings()?;
         let loaded = load(&spec, &settings, assets)?;
         let mut scene = Scene::new(loaded.model)?;
+        scene.data.autoreset = options.autoreset;
         let mut rng = Rng::pcg64(options.seed);
         let config = read_config(&spec, &settings, assets)?;
         let mut setup =

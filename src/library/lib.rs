@@ -1,4 +1,5 @@
-//! What a machine has for environments: imported models, a cache of compiled ones, weights of networks.
+//! What a machine has for environments: imported models, a cache of compiled ones, weights of networks, and
+//! what draws pictures.
 //!
 //! ```no_run
 //! use env::{Env, Options};
@@ -13,8 +14,10 @@
 //! ```
 
 mod cache;
+mod renderer;
 mod weights;
 
+pub use renderer::{NoGpu, Renderer};
 pub use weights::Weights;
 
 use env::Assets;
