@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,8 @@ _Floats = NDArray[np.float64]
 _Step = tuple[_Floats, float, bool, bool, dict[str, Any]]
 
 VERSION: str
+
+mujoco: ModuleType
 
 def ids() -> list[tuple[str, str, int]]: ...
 def horizon(id: str) -> int: ...

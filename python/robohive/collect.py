@@ -32,6 +32,7 @@ class Policy(Protocol):
 
     def act(self, observations: Array) -> Array:
         """Actions (environments x action length) for observations (environments x observation length)."""
+        ...
 
     def load(self, state: Any) -> None:
         """Takes parameters that a learner sent."""

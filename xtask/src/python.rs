@@ -15,6 +15,9 @@ const MINOR_VERSIONS: std::ops::RangeInclusive<u32> = 10..=14;
 /// Largest wheel [bytes].
 const LARGEST_WHEEL: u64 = 20_000_000;
 
+/// Texts that the metadata of a wheel carry.
+const LICENCES: [&str; 2] = ["licenses/LICENSE", "licenses/THIRD_PARTY.md"];
+
 /// What a fresh environment does first with an installed wheel; prints how long the imports took [ms].
 const FIRST_STEP: &str = "
 import time
@@ -37,9 +40,12 @@ pub fn run() -> Outcome {
         return Ok(vec![no_python("the Python package")]);
     };
     let wheel = build(&python, &["--profile", "ci"])?;
+    carries_licences(&python, &wheel)?;
     install(&python, &["--no-deps", "--force-reinstall"], &wheel)?;
     let types = ["-m", "mypy", "--config-file", "python/pyproject.toml", "python/robohive"];
     succeed(Command::new(&python).args(types))?;
+    let types = ["-m", "basedpyright", "--project", "python/pyproject.toml", "--pythonpath"];
+    succeed(Command::new(&python).args(types).arg(&python))?;
     succeed(Command::new(&python).args(["-m", "pytest", "-q", "python/tests"]))?;
     Ok(Vec::new())
 }
@@ -106,6 +112,7 @@ pub fn wheel() -> Outcome {
     if size > LARGEST_WHEEL {
         return Err(format!("the wheel has more than {} MB", LARGEST_WHEEL / 1_000_000));
     }
+    carries_licences(&builder, &wheel)?;
     let mut missing = Vec::new();
     for minor in MINOR_VERSIONS {
         let Some(interpreter) = interpreter(minor) else {
@@ -118,6 +125,16 @@ pub fn wheel() -> Outcome {
         first_step(&interpreter, &wheel, &format!("python3.{minor}"))?;
     }
     Ok(missing)
+}
+
+/// Refuses a wheel without its own licence and those of others.
+fn carries_licences(python: &Path, wheel: &Path) -> Result<(), String> {
+    let (listed, _) = output(Command::new(python).args(["-m", "zipfile", "-l"]).arg(wheel))?;
+    let lacks = |name: &&&str| !listed.contains(**name);
+    match LICENCES.iter().find(lacks) {
+        None => Ok(()),
+        Some(name) => Err(format!("{} has no {name}", wheel.display())),
+    }
 }
 
 /// Makes a fresh environment, installs the wheel with Gymnasium, and takes a step.

@@ -24,7 +24,8 @@ def _view(owner: Any, model: Any, element: Any) -> Any:
     stamp = model.__dict__.get("_stamp")
     if stamp is None or element._stamp is not stamp:
         raise ValueError(_MISMATCH)
-    return getattr(owner, _ACCESSORS.get(element._kind, element._kind))(element._id)
+    kind: str = element._kind
+    return getattr(owner, _ACCESSORS.get(kind, kind))(element._id)
 
 
 class _Several:

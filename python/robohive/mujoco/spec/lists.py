@@ -47,16 +47,13 @@ def _stem(path: str) -> str:
 
 
 def _adder(kind: type[Any]) -> Callable[..., Any]:
-    if kind._kind in DEFAULTS:
+    def add_by_default(self: Any, default: Any = None, **attributes: Any) -> Any:
+        return self._append(kind, default, attributes)
 
-        def add(self: Any, default: Any = None, **attributes: Any) -> Any:
-            return self._append(kind, default, attributes)
+    def add_plain(self: Any, **attributes: Any) -> Any:
+        return self._append(kind, None, attributes)
 
-    else:
-
-        def add(self: Any, **attributes: Any) -> Any:  # type: ignore[misc]
-            return self._append(kind, None, attributes)
-
+    add: Callable[..., Any] = add_by_default if kind._kind in DEFAULTS else add_plain
     add.__name__ = f"add_{kind._kind}"
     add.__doc__ = f"Adds a {kind._kind}; attributes can be given by name."
     return add
