@@ -2,12 +2,26 @@
 
 from robohive.mujoco import _engine as _core
 from robohive.mujoco.algebra import *  # noqa: F403
+from robohive.mujoco.context import (
+    mjr_finish,
+    mjr_getError,
+    mjr_maxViewport,
+    mjr_readPixels,
+    mjr_render,
+    mjr_resizeOffscreen,
+    mjr_setBuffer,
+    mjr_uploadHField,
+    mjr_uploadMesh,
+    mjr_uploadTexture,
+)
+from robohive.mujoco.moving import mjv_moveCamera, mjv_select
 from robohive.mujoco.naming import *  # noqa: F403
 from robohive.mujoco.query import *  # noqa: F403
 from robohive.mujoco.rotation import *  # noqa: F403
+from robohive.mujoco.scene import mjv_defaultPerturb, mjv_initGeom, mjv_updateScene
 from robohive.mujoco.stages import *  # noqa: F403
 from robohive.mujoco.vectors import *  # noqa: F403
-from robohive.mujoco.view import mjv_defaultCamera, mjv_defaultFreeCamera, mjv_defaultOption, mjv_defaultPerturb
+from robohive.mujoco.view import mjv_defaultCamera, mjv_defaultFreeCamera, mjv_defaultOption
 
 mj_step = _core.mj_step
 mj_step1 = _core.mj_step1

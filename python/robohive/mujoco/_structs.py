@@ -1,5 +1,6 @@
 """All structs, where programs look for them that know MuJoCo's own module."""
 
+from robohive.mujoco.context import GLContext, MjrContext, MjrRect
 from robohive.mujoco.data import MjData
 from robohive.mujoco.lists import (
     MjContact,
@@ -13,9 +14,11 @@ from robohive.mujoco.lists import (
 )
 from robohive.mujoco.model import MjModel
 from robohive.mujoco.options import MjOption, MjStatistic, MjVisual, MjVisualHeadlight, MjVisualRgba
+from robohive.mujoco.scene import MjvGeom, MjvGLCamera, MjvPerturb, MjvScene
 from robohive.mujoco.view import MjvCamera, MjvOption
 
 __all__ = [
+    "GLContext",
     "MjContact",
     "MjContactList",
     "MjData",
@@ -31,6 +34,12 @@ __all__ = [
     "MjVisualRgba",
     "MjWarningStat",
     "MjWarningStatList",
+    "MjrContext",
+    "MjrRect",
     "MjvCamera",
+    "MjvGLCamera",
+    "MjvGeom",
     "MjvOption",
+    "MjvPerturb",
+    "MjvScene",
 ]

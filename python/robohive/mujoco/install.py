@@ -5,6 +5,8 @@ import sys
 
 #: Modules that programs import by their full names.
 _MODULES = ("_constants", "_enums", "_errors", "_functions", "_specs", "_structs", "rollout")
+#: Those that bring an OpenGL context, of which nothing is needed here.
+_CONTEXTS = ("_render", "egl", "gl_context", "glfw", "osmesa")
 
 
 def install() -> None:
@@ -23,6 +25,8 @@ def install() -> None:
     sys.modules["mujoco"] = own
     for name in _MODULES:
         sys.modules[f"mujoco.{name}"] = importlib.import_module(f"{here}.{name}")
+    for name in _CONTEXTS:
+        sys.modules[f"mujoco.{name}"] = importlib.import_module(f"{here}.context")
 
 
 def set_instability(what: str) -> str:

@@ -8,11 +8,10 @@ from numpy.typing import NDArray
 from robohive.mujoco import _engine as _core
 from robohive.mujoco.data import MjData
 from robohive.mujoco.enums_elements import mjtObj
-from robohive.mujoco.enums_view import mjtCamera, mjtVisFlag
+from robohive.mujoco.enums_view import mjtCamera
+from robohive.mujoco.looking import checked, look_of
 from robohive.mujoco.model import MjModel
 from robohive.mujoco.view import MjvCamera, MjvOption, mjv_defaultFreeCamera
-
-_GROUPS = ("geom", "site", "joint", "tendon", "actuator", "skin")
 
 
 class Renderer:
@@ -84,40 +83,22 @@ class Renderer:
         Raises:
             ValueError: there is no such camera.
         """
-        option = scene_option or self._scene_option
-        groups = [[bool(x) for x in getattr(option, f"{kind}group")] for kind in _GROUPS]
-        shown = [flag.name.removeprefix("mjVIS_") for flag in mjtVisFlag if flag < len(option.flags) and option.flags[flag]]
-        fixed, free = self._camera(camera)
-        look = {"camera": fixed, "free": free, "groups": groups, "shown": shown}
+        look = look_of(self._model, self._camera(camera), scene_option or self._scene_option)
         self._painting().look(self._model, data, look)
 
-    def _camera(self, camera: int | str | MjvCamera) -> tuple[int | None, dict[str, Any] | None]:
+    def _camera(self, camera: int | str | MjvCamera) -> MjvCamera:
+        if isinstance(camera, MjvCamera):
+            return camera
+        chosen, number = MjvCamera(), camera
         if isinstance(camera, str):
             number = self._model._id(mjtObj.mjOBJ_CAMERA, camera)
             if number < 0:
                 raise ValueError(f'The camera "{camera}" does not exist.')
-            return number, None
-        if isinstance(camera, MjvCamera):
-            if camera.type == mjtCamera.mjCAMERA_FIXED:
-                return self._checked(camera.fixedcamid), None
-        else:
-            if camera != -1:
-                return self._checked(camera), None
-            camera = MjvCamera()
-            mjv_defaultFreeCamera(self._model, camera)
-        tracked = camera.trackbodyid if camera.type == mjtCamera.mjCAMERA_TRACKING else None
-        names = ("distance", "azimuth", "elevation")
-        return None, {
-            "lookat": camera.lookat,
-            "track": tracked,
-            **{name: float(getattr(camera, name)) for name in names},
-            "orthographic": bool(camera.orthographic),
-        }
-
-    def _checked(self, number: int) -> int:
-        if not 0 <= number < self._model.ncam:
-            raise ValueError(f"The camera id {number} is out of range [-1, {self._model.ncam}).")
-        return int(number)
+        elif camera == -1:
+            mjv_defaultFreeCamera(self._model, chosen)
+            return chosen
+        chosen.type, chosen.fixedcamid = mjtCamera.mjCAMERA_FIXED, checked(self._model, int(number))
+        return chosen
 
     def _painting(self) -> _core.Painter:
         if self._painter is None:

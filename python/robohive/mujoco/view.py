@@ -48,8 +48,9 @@ class MjvOption(_Struct):
         shown = np.array([1, 1, 1, 0, 0, 0], np.uint8)
         self.label: int = mjtLabel.mjLABEL_NONE
         self.frame: int = mjtFrame.mjFRAME_NONE
-        for kind in ("geom", "site", "joint", "tendon", "actuator", "flex", "skin"):
-            setattr(self, f"{kind}group", shown.copy())
+        self.geomgroup, self.sitegroup, self.jointgroup = (shown.copy() for _ in range(3))
+        self.tendongroup, self.actuatorgroup = shown.copy(), shown.copy()
+        self.flexgroup, self.skingroup = shown.copy(), shown.copy()
         self.flags: NDArray[np.uint8] = np.zeros(mjtVisFlag.mjNVISFLAG, np.uint8)
         for name in _SHOWN:
             flag: Any = mjtVisFlag.__members__.get(f"mjVIS_{name}")
@@ -78,8 +79,3 @@ def mjv_defaultFreeCamera(m: Any, cam: MjvCamera) -> None:
     cam.azimuth = m.vis.global_.azimuth
     cam.elevation = m.vis.global_.elevation
     cam.orthographic = m.vis.global_.orthographic
-
-
-def mjv_defaultPerturb(pert: Any) -> None:
-    """There is no perturbation by mouse."""
-    raise NotImplementedError("robohive.mujoco has no perturbation by mouse")

@@ -8,7 +8,7 @@
 //! | `call.rs`, `error.rs` | what every call does, and how it fails |
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
 //! | `query.rs`, `algebra.rs`, `quaternion.rs` | questions about poses, matrices, rotations |
-//! | `picture.rs` | pictures |
+//! | `picture.rs`, `items.rs` | pictures, and the items of a scene |
 //! | `spec/` | descriptions of models: read, compiled, written |
 //!
 //! Functions with MuJoCo's signatures that write into arrays of the caller are Python (`robohive/mujoco`); here is what
@@ -20,6 +20,7 @@ mod call;
 mod data;
 mod dynamics;
 mod error;
+mod items;
 mod lists;
 mod load;
 mod mirror;

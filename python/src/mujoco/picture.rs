@@ -3,13 +3,15 @@
 use super::call::caught;
 use super::data::Data;
 use super::error::Fault;
+use super::items::{Guest, describe, describe_view};
 use super::lists::array;
 use super::model::Model;
 use physics::table::Slice;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 use render::picture::{Channels, Picture};
-use render::scene::{Camera, FreeCamera, Groups, Scene, SceneOptions};
+use render::scene::{Camera, Categories, Effects, FreeCamera, Groups, Scene, SceneOptions};
 use render::{Assets, Profile, Renderer, Settings};
 use std::sync::Mutex;
 
@@ -24,6 +26,8 @@ struct Held {
     scene: Scene,
     renderer: Option<Renderer>,
     picture: Picture,
+    /// Meshes of the model.
+    meshes: usize,
 }
 
 /// A free camera: what it looks at, distance, azimuth and elevation [deg], parallel rays.
@@ -49,6 +53,10 @@ pub struct Look {
     groups: [[bool; 6]; 6],
     /// Flags by the names of the fields of `render::scene::Show` that the renderer takes.
     shown: Vec<String>,
+    /// Items of bodies that are fixed, of those that move, decorations.
+    categories: [bool; 3],
+    /// Shadows, reflections, sky, haze, fog.
+    effects: [bool; 5],
 }
 
 impl Look {
@@ -72,6 +80,10 @@ impl Look {
         let mut options = SceneOptions::default();
         let [geoms, sites, joints, tendons, actuators, skins] = self.groups;
         options.groups = Groups { geoms, sites, joints, tendons, actuators, skins };
+        let [fixed, dynamic, decorations] = self.categories;
+        options.categories = Categories { fixed, dynamic, decor: decorations };
+        let [shadows, reflections, sky, haze, fog] = self.effects;
+        options.effects = Effects { shadows, reflections, sky, haze, fog };
         let has = |name: &str| self.shown.iter().any(|shown| shown == name);
         let show = &mut options.show;
         show.textures = has("TEXTURE");
@@ -99,7 +111,8 @@ impl Painter {
     #[new]
     fn new(width: usize, height: usize) -> Self {
         let picture = Picture::new(width, height);
-        Painter { held: Mutex::new(Held { assets: None, scene: Scene::new(), renderer: None, picture }) }
+        let held = Held { assets: None, scene: Scene::new(), renderer: None, picture, meshes: 0 };
+        Painter { held: Mutex::new(held) }
     }
 
     /// Takes in what is seen of the present state, whose poses must have been computed.
@@ -124,6 +137,7 @@ impl Painter {
                 if let Some(assets) = &mut inside.assets {
                     assets.pose(&compiled, simulation).map_err(refused)?;
                 }
+                inside.meshes = compiled.nmesh;
                 let settings = Settings::of(&compiled);
                 match &mut inside.renderer {
                     Some(renderer) => *renderer.settings_mut() = settings,
@@ -142,28 +156,73 @@ impl Painter {
             "depth" => Channels::DEPTH,
             _ => Channels::SEGMENTATION,
         };
-        let mut held = self.lock()?;
-        let Held { assets, scene, renderer, picture } = &mut *held;
-        let (Some(assets), Some(renderer)) = (assets.as_ref(), renderer.as_mut()) else {
-            return Err(PyRuntimeError::new_err("there is no scene yet: call update_scene before render"));
-        };
+        let mut held = self.ready()?;
+        let inside = &mut *held;
+        py.detach(|| caught(|| inside.draw(channels)))?;
+        shown(py, &held.picture, channel)
+    }
+
+    /// Draws what was last looked at, and `guests`, in pictures of this size: colours, distances, objects.
+    fn draw_all<'py>(
+        &self,
+        py: Python<'py>,
+        size: (usize, usize),
+        guests: Vec<Guest>,
+    ) -> PyResult<[Bound<'py, PyAny>; 3]> {
+        let mut held = self.ready()?;
+        let inside = &mut *held;
         py.detach(|| {
             caught(|| {
-                renderer
-                    .draw(assets, scene, channels, picture)
-                    .map_err(|error| Fault::Value(error.to_string()))
+                (inside.picture.width, inside.picture.height) = size;
+                let (own, meshes) = (inside.scene.items.len(), inside.meshes);
+                let items = guests.iter().map(|guest| guest.item(meshes)).collect::<Result<Vec<_>, _>>()?;
+                inside.scene.items.extend(items);
+                let outcome = inside.draw(Channels::ALL);
+                inside.scene.items.truncate(own);
+                outcome
             })
         })?;
-        let (rows, columns) = (picture.height, picture.width);
-        match channel {
-            "rgb" => array(py, Slice::U8(&picture.rgb), vec![rows, columns, 3]),
-            "depth" => array(py, Slice::F32(&picture.depth), vec![rows, columns]),
-            _ => array(py, Slice::I32(picture.segmentation.as_flattened()), vec![rows, columns, 2]),
-        }
+        let of = |channel| shown(py, &held.picture, channel);
+        Ok([of("rgb")?, of("depth")?, of("segmentation")?])
+    }
+
+    /// The items last looked at, by the fields of `MjvGeom`, and the camera, by those of `MjvGLCamera`.
+    fn items<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
+        let held = self.ready()?;
+        Ok((describe(py, &held.scene.items)?, describe_view(py, &held.scene.view)?))
+    }
+}
+
+impl Held {
+    fn draw(&mut self, channels: Channels) -> Result<(), Fault> {
+        let Held { assets, scene, renderer, picture, .. } = self;
+        let (Some(assets), Some(renderer)) = (assets.as_ref(), renderer.as_mut()) else {
+            return Ok(());
+        };
+        renderer.draw(assets, scene, channels, picture).map_err(|error| Fault::Value(error.to_string()))
+    }
+}
+
+/// One channel of a picture as an array.
+fn shown<'py>(py: Python<'py>, picture: &Picture, channel: &str) -> PyResult<Bound<'py, PyAny>> {
+    let (rows, columns) = (picture.height, picture.width);
+    match channel {
+        "rgb" => array(py, Slice::U8(&picture.rgb), vec![rows, columns, 3]),
+        "depth" => array(py, Slice::F32(&picture.depth), vec![rows, columns]),
+        _ => array(py, Slice::I32(picture.segmentation.as_flattened()), vec![rows, columns, 2]),
     }
 }
 
 impl Painter {
+    /// What it holds, once there is a scene.
+    fn ready(&self) -> PyResult<std::sync::MutexGuard<'_, Held>> {
+        let held = self.lock()?;
+        if held.renderer.is_none() {
+            return Err(PyRuntimeError::new_err("there is no scene yet: call update_scene before render"));
+        }
+        Ok(held)
+    }
+
     fn lock(&self) -> PyResult<std::sync::MutexGuard<'_, Held>> {
         self.held.try_lock().map_err(|_| {
             PyRuntimeError::new_err("this Renderer is in use by another thread; give each its own")

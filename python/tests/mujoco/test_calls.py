@@ -196,10 +196,10 @@ def test_quaternions(model):
 
 
 def test_names_without_anything_behind_them_say_so(model):
-    with pytest.raises(NotImplementedError, match="has no mjr_render"):
-        mj.mjr_render(None, None, None)
-    with pytest.raises(NotImplementedError, match="has no MjvScene"):
-        mj.MjvScene(model, 100)
+    with pytest.raises(NotImplementedError, match="has no mjr_overlay"):
+        mj.mjr_overlay(None, None, None)
+    with pytest.raises(NotImplementedError, match="has no MjvFigure"):
+        mj.MjvFigure()
     with pytest.raises(NotImplementedError, match="add_flex"):
         mj.MjSpec.from_string(ARM).add_flex(name="cloth")
     with pytest.raises(NotImplementedError, match="calls nothing back"):

@@ -1,0 +1,51 @@
+"""What a picture shows, as the engine takes it."""
+
+from typing import Any
+
+from robohive.mujoco.enums_view import mjtCamera, mjtRndFlag, mjtVisFlag
+from robohive.mujoco.model import MjModel
+from robohive.mujoco.view import MjvCamera, MjvOption
+
+_GROUPS = ("geom", "site", "joint", "tendon", "actuator", "skin")
+#: Effects, in the engine's order.
+FLAGS = tuple(mjtRndFlag[f"mjRND_{name}"] for name in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE", "FOG"))
+
+
+def checked(model: MjModel, number: int) -> int:
+    """The number of a camera.
+
+    Raises:
+        ValueError: the model has no such camera.
+    """
+    if not 0 <= number < model.ncam:
+        raise ValueError(f"The camera id {number} is out of range [-1, {model.ncam}).")
+    return int(number)
+
+
+def look_of(model: MjModel, camera: MjvCamera, option: MjvOption) -> dict[str, Any]:
+    """Camera and visible elements; everything else as a new scene has it.
+
+    Raises:
+        ValueError: the model has no such camera.
+    """
+    fixed = camera.type == mjtCamera.mjCAMERA_FIXED
+    shown = [flag.name.removeprefix("mjVIS_") for flag in mjtVisFlag if flag < len(option.flags) and option.flags[flag]]
+    return {
+        "camera": checked(model, camera.fixedcamid) if fixed else None,
+        "free": None if fixed else _free(camera),
+        "groups": [[bool(x) for x in getattr(option, f"{kind}group")] for kind in _GROUPS],
+        "shown": shown,
+        "categories": [True, True, True],
+        "effects": [True, True, True, True, False],
+    }
+
+
+def _free(camera: MjvCamera) -> dict[str, Any]:
+    tracked = camera.trackbodyid if camera.type == mjtCamera.mjCAMERA_TRACKING else None
+    names = ("distance", "azimuth", "elevation")
+    return {
+        "lookat": camera.lookat,
+        "track": tracked,
+        **{name: float(getattr(camera, name)) for name in names},
+        "orthographic": bool(camera.orthographic),
+    }

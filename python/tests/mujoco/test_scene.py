@@ -1,0 +1,145 @@
+"""MuJoCo's classic way of drawing: scenes, contexts, cameras that move."""
+
+import numpy as np
+import pytest
+import robohive.mujoco as mj
+from scenes import ARM
+
+
+def scene_of(module, model, data, camera=None, options=None):
+    """A scene of a free camera. The second update centres planes below the eye of the first, in MuJoCo."""
+    scene = module.MjvScene(model, 100)
+    if camera is None:
+        camera = module.MjvCamera()
+        module.mjv_defaultFreeCamera(model, camera)
+    for _ in range(2):
+        all = int(module.mjtCatBit.mjCAT_ALL)
+        module.mjv_updateScene(model, data, options or module.MjvOption(), module.MjvPerturb(), camera, all, scene)
+    return scene
+
+
+def drawn(scene, context, width=64, height=48):
+    """Colours and depths of a scene, row 0 at the top."""
+    viewport = mj.MjrRect(0, 0, width, height)
+    mj.mjr_render(viewport, scene, context)
+    rgb, depth = np.zeros((height, width, 3), np.uint8), np.zeros((height, width), np.float32)
+    mj.mjr_readPixels(rgb, depth, viewport, context)
+    return rgb[::-1], depth[::-1]
+
+
+@pytest.fixture
+def context(model):
+    return mj.MjrContext(model, mj.mjtFontScale.mjFONTSCALE_150)
+
+
+def test_a_scene_is_drawn_as_the_renderer_draws_it(model, data, context):
+    mj.mj_forward(model, data)
+    scene = scene_of(mj, model, data)
+    rgb, depth = drawn(scene, context)
+    renderer = mj.Renderer(model, 48, 64)
+    renderer.update_scene(data)
+    assert np.array_equal(rgb, renderer.render()) and rgb.std() > 1
+    renderer.enable_depth_rendering()
+    near, far = scene.camera[0].frustum_near, scene.camera[0].frustum_far
+    distance = 1 / (1 / near - depth.astype(float) * (1 / near - 1 / far))
+    assert np.allclose(distance, renderer.render(), rtol=1e-3)
+    context.readDepthMap = mj.mjtDepthMap.mjDEPTH_ZEROFAR
+    assert np.allclose(drawn(scene, context)[1], 1 - depth)
+
+
+def test_segmentation_numbers_the_geoms_of_the_scene(model, data, context):
+    mj.mj_forward(model, data)
+    scene = scene_of(mj, model, data)
+    scene.flags[[mj.mjtRndFlag.mjRND_SEGMENT, mj.mjtRndFlag.mjRND_IDCOLOR]] = 1
+    rgb = drawn(scene, context)[0].astype(int)
+    numbers = np.unique(rgb[..., 0] + 256 * rgb[..., 1] + 65536 * rgb[..., 2])
+    seen = {scene.geoms[number - 1].objid for number in numbers if number}
+    assert {model.geom(name).id for name in ("floor", "shell", "rod")} <= seen
+    scene.flags[mj.mjtRndFlag.mjRND_IDCOLOR] = 0
+    assert len(np.unique(drawn(scene, context)[0].reshape(-1, 3), axis=0)) == len(numbers)
+
+
+def test_geoms_of_a_program_are_drawn_behind_those_of_the_model(model, data, context):
+    mj.mj_forward(model, data)
+    scene = scene_of(mj, model, data)
+    before = drawn(scene, context)[0]
+    marker = scene.geoms[scene.ngeom]
+    mj.mjv_initGeom(marker, mj.mjtGeom.mjGEOM_SPHERE, np.full(3, 0.2), data.geom("rod").xpos, np.eye(3).ravel(), [1, 0, 0, 1])
+    assert np.array_equal(drawn(scene, context)[0], before)
+    scene.ngeom += 1
+    red = drawn(scene, context)[0].astype(int)
+    assert ((red[..., 0] > 80) & (red[..., 1] < 40)).sum() > 20
+    with pytest.raises(AttributeError, match="read-only"):
+        scene.geoms[0].type = mj.mjtGeom.mjGEOM_BOX
+    with pytest.raises(ValueError, match="read-only"):
+        scene.geoms[0].rgba[:] = 1
+    marker.type = mj.mjtGeom.mjGEOM_HFIELD
+    with pytest.raises(ValueError, match="type 1 cannot be added"):
+        drawn(scene, context)
+
+
+def test_what_cannot_be_drawn_says_so(model, data, context):
+    mj.mj_forward(model, data)
+    with pytest.raises(RuntimeError, match="no scene yet"):
+        drawn(mj.MjvScene(model, 10), context)
+    scene = scene_of(mj, model, data)
+    with pytest.raises(TypeError, match="rgb should have"):
+        mj.mjr_readPixels(np.zeros((4, 4, 3), np.uint8), None, mj.MjrRect(0, 0, 8, 8), context)
+    scene.flags[mj.mjtRndFlag.mjRND_WIREFRAME] = 1
+    with pytest.raises(NotImplementedError, match="WIREFRAME"):
+        drawn(scene, context)
+    held = mj.MjvPerturb()
+    held.select = 1
+    with pytest.raises(NotImplementedError, match="perturbation"):
+        mj.mjv_updateScene(model, data, mj.MjvOption(), held, mj.MjvCamera(), 7, scene)
+    with pytest.raises(mj.FatalError, match="unexpected action 0"):
+        mj.mjv_moveCamera(model, mj.mjtMouse.mjMOUSE_NONE, 0.1, 0.1, mj.MjvCamera())
+
+
+def moves(module, model):
+    """Where every kind of drag takes a camera."""
+    for action in range(1, 10):
+        for x, y in ((0.1, 0.2), (2.5, -3.0), (0.0, -0.01)):
+            camera = module.MjvCamera()
+            module.mjv_defaultFreeCamera(model, camera)
+            camera.azimuth, camera.elevation = 30, -20
+            module.mjv_moveCamera(model, action, x, y, camera)
+            yield from (*camera.lookat, camera.distance, camera.azimuth, camera.elevation)
+
+
+def clicks(module, model, data):
+    """What is hit at places of a picture."""
+    scene, option = scene_of(module, model, data), module.MjvOption()
+    for place in ((0.5, 0.5), (0.5, 0.6), (0.1, 0.1), (0.9, 0.95), (0.55, 0.5)):
+        point, ids = np.zeros(3), [np.zeros(1, np.int32) for _ in range(3)]
+        yield module.mjv_select(model, data, option, 1.3, *place, scene, point, *ids)
+        yield from (*point, *(int(id[0]) for id in ids))
+
+
+def geoms(module, model, data):
+    """Fields of all geoms of a scene, and of its camera."""
+    scene = scene_of(module, model, data)
+    for geom in scene.geoms[: scene.ngeom]:
+        for name in ("type", "dataid", "objtype", "objid", "category", "segid", "matid", "modelrbound"):
+            yield getattr(geom, name)
+        for name in ("pos", "mat", "size", "rgba"):
+            yield from np.ravel(getattr(geom, name))
+    # MuJoCo's are those of two eyes.
+    yield from np.mean([eye.pos for eye in scene.camera], axis=0)
+    eye = scene.camera[0]
+    yield from (*eye.forward, *eye.up, eye.frustum_bottom, eye.frustum_top, eye.frustum_near, eye.frustum_far)
+
+
+@pytest.mark.parametrize("orthographic", ["false", "true"])
+def test_cameras_geoms_and_clicks_are_mujocos(orthographic):
+    truth = pytest.importorskip("mujoco")
+    if truth is mj or getattr(truth, "__version__", None) != "3.12.0":
+        pytest.skip("compares with mujoco 3.12.0")
+    text = ARM.replace("<worldbody>", f"<visual><global orthographic='{orthographic}'/></visual><worldbody>", 1)
+    found = []
+    for module in (truth, mj):
+        model = module.MjModel.from_xml_string(text)
+        data = module.MjData(model)
+        module.mj_forward(model, data)
+        found.append([*moves(module, model), *clicks(module, model, data), *geoms(module, model, data)])
+    assert np.allclose(*found, rtol=0, atol=2e-6)
