@@ -261,3 +261,22 @@ def test_what_a_description_would_lose_is_refused(what, text):
     mj.MjModel.from_xml_string(text)
     with pytest.raises(NotImplementedError, match=f"does not hold {what}"):
         mj.MjSpec.from_string(text)
+
+
+@pytest.mark.parametrize(("kind", "size", "channels"), [("2D", (3, 2), 1), ("2D", (3, 2), 4), ("CUBE", (2, 2), 3), ("SKYBOX", (2, 12), 3)])
+def test_pixels_of_a_texture_are_those_of_the_model(kind, size, channels):
+    width, height = size
+    spec = mj.MjSpec()
+    spec.compiler.texturedir = "pictures/"
+    pixels = bytes(7 * k % 256 for k in range(width * height * channels))
+    texture = spec.add_texture(name="a/b", type=mj.mjtTexture[f"mjTEXTURE_{kind}"], width=width, height=height, nchannel=channels)
+    assert texture.data == b""
+    texture.data = pixels
+    model = spec.copy().compile()
+    assert model.tex_data.tobytes() == texture.data == pixels
+    assert (model.tex_width[0], model.tex_height[0], model.tex_nchannel[0]) == (width, height, channels)
+    with pytest.raises(ValueError, match="no text can hold"):
+        spec.to_xml()
+    texture.data = pixels[:-1]
+    with pytest.raises(ValueError, match="bytes of data for"):
+        spec.compile()

@@ -3,6 +3,7 @@
 from typing import Any
 
 from robohive.mujoco import _engine as _core
+from robohive.mujoco.spec import pixels
 from robohive.mujoco.spec.bodies import MjsBody, MjsCamera, MjsFrame, MjsGeom, MjsJoint, MjsLight, MjsSite
 from robohive.mujoco.spec.objects import (
     MjsActuator,
@@ -88,6 +89,8 @@ class Tree:
         self._kept = {id(key): i for i, key in enumerate(key for key in spec._lists["key"] if key._kept)}
         self.bodies = list(spec._world._below())
         self.rows: dict[str, list[Any]] = {}
+        #: Files of textures whose pixels the program gave, by their names.
+        self.pictures: dict[str, bytes] = {}
         if elements:
             self._gather(spec)
 
@@ -134,6 +137,9 @@ class Tree:
         shares = values["_shares"]
         if element._kind == "texture":
             values = {**values, "gridlayout": "".join(values["gridlayout"])}
+            if element.data:
+                values.update(pixels.settings(element))
+                self.pictures[values["file"]] = pixels.file_of(element)
         elif element._kind == "tendon":
             steps = [(step._code, step._name, step._side, step._number) for step in values["_steps"]]
             values = {**values, "_steps": steps}

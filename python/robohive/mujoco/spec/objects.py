@@ -83,15 +83,16 @@ class MjsTexture(_Listed):
     """A texture."""
 
     _kind = "texture"
+    _pixels = b""
 
     @property
     def data(self) -> bytes:
-        """Pixels cannot be given to a description: give a file, or write `tex_data` of the compiled model."""
-        raise NotImplementedError("texture.data: give a file, or write tex_data of the compiled model")
+        """Pixels given by the program, row after row, `height * width * nchannel` bytes; empty where there are none."""
+        return self._pixels
 
     @data.setter
     def data(self, pixels: bytes) -> None:
-        raise NotImplementedError("texture.data: give a file, or write tex_data of the compiled model")
+        self.__dict__["_pixels"] = bytes(pixels)
 
 
 class MjsMaterial(_Listed):

@@ -343,7 +343,7 @@ class MjSpec(Lists):
     def _run(self, tree: exchange.Tree) -> tuple[_core.CompiledModel, list[str]]:
         try:
             found: tuple[_core.CompiledModel, list[str]]
-            found = self._description.compile(tree.parts(), _content(self.assets))
+            found = self._description.compile(tree.parts(), {**_content(self.assets), **tree.pictures})
             return found
         except ValueError as error:
             # What programs note of an element goes with what is wrong with it.
@@ -384,9 +384,11 @@ class MjSpec(Lists):
         """The description as MJCF, with classes resolved and angles in radians.
 
         Raises:
-            ValueError: what is wrong with the description.
+            ValueError: what is wrong with the description, or a texture has pixels that the program gave, which no text holds.
         """
         tree = exchange.Tree(self)
+        if tree.pictures:
+            raise ValueError("Error: no text can hold texture.data; write a picture, and give its name as texture.file")
         compiled, _ = self._run(tree)
         text: str = self._description.write(tree.parts(), compiled)
         return text
