@@ -74,7 +74,7 @@ def _window_depth(distance: NDArray[np.float32], scn: MjvScene) -> NDArray[np.fl
 
 def _objects(segmentation: NDArray[np.int32], scn: MjvScene) -> NDArray[np.uint8]:
     """What `mjRND_SEGMENT` shows: the number of each geom in the scene, and one, in three bytes; or colours that differ."""
-    shown = [geom for geom in scn.geoms[: scn.ngeom] if geom.segid >= 0]
+    shown = [geom for geom in scn._geoms[: scn.ngeom] if geom.segid >= 0]
     numbers = {(geom.objid, geom.objtype): geom.segid + 1 for geom in reversed(shown)}
     seen, places = np.unique(segmentation.reshape(-1, 2), axis=0, return_inverse=True)
     found = np.array([numbers.get((int(id), int(kind)), 0) for id, kind in seen], np.uint32)

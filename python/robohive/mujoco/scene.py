@@ -138,8 +138,8 @@ class MjvScene:
         self._model, self._painter = model, _core.Painter(1, 1)
         self._own = 0
         self.maxgeom = int(maxgeom)
-        self.geoms = _Geoms(self.maxgeom)
-        self.ngeom = self.nlight = self.nflex = self.nskin = 0
+        self._geoms = _Geoms(self.maxgeom)
+        self._count = self.nlight = self.nflex = self.nskin = 0
         self.flags: NDArray[np.uint8] = np.zeros(mjtRndFlag.mjNRNDFLAG, np.uint8)
         for name in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE", "CULL_FACE"):
             self.flags[mjtRndFlag[f"mjRND_{name}"]] = 1
@@ -150,9 +150,23 @@ class MjvScene:
         self.rotate: NDArray[np.float32] = np.array([1, 0, 0, 0], np.float32)
         self.scale = 1.0
 
+    @property
+    def geoms(self) -> Sequence[MjvGeom]:
+        """All `maxgeom` geoms; those of the model come first."""
+        return self._geoms
+
+    @property
+    def ngeom(self) -> int:
+        """How many of them are drawn."""
+        return self._count
+
+    @ngeom.setter
+    def ngeom(self, count: int) -> None:
+        self._count = int(count)
+
     def _guests(self) -> list[dict[str, Any]]:
         """What the program added."""
-        return [self.geoms[index]._guest() for index in range(self._own, self.ngeom)]
+        return [self._geoms[index]._guest() for index in range(self._own, self.ngeom)]
 
 
 def mjv_updateScene(
@@ -176,7 +190,7 @@ def mjv_updateScene(
     planes = np.cumsum(m.geom_type == mjtGeom.mjGEOM_PLANE) - 1
     flat = rows["type"] == mjtGeom.mjGEOM_PLANE
     rows["dataid"][flat] = planes[rows["objid"][flat]]
-    scn.geoms._start(rows)
+    scn._geoms._start(rows)
     scn.ngeom = scn._own = min(len(rows["type"]), scn.maxgeom)
     for camera in scn.camera:
         vars(camera).update(
