@@ -286,7 +286,7 @@ fn made_up_model(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
         draft.stat.extent = wide[5];
     });
     let profile = if bytes.next() & 1 == 0 { Profile::Mujoco312 } else { Profile::Mujoco313 };
-    let assets = Assets::new(&model, profile).ok()?;
+    let mut assets = Assets::new(&model, profile).ok()?;
     let mut data = Data::new(&model);
     forward(&model, &mut data).ok()?;
     let flags = bytes.next();
@@ -314,6 +314,7 @@ fn made_up_model(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
     };
     let mut scene = Scene::new();
     scene.update(&model, &data, camera.view(&model, &data).ok()?, &options).ok()?;
+    assets.pose(&model, &data, &options).ok()?;
     Some((assets, scene, Settings { shadow: settings(bytes).shadow, ..Settings::of(&model) }))
 }
 

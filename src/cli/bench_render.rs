@@ -91,7 +91,7 @@ pub struct Studio<'a> {
     /// The model.
     pub model: &'a Model,
     /// Its triangles and textures.
-    pub assets: &'a Assets,
+    pub assets: Assets,
     painter: Box<dyn Painter>,
     settings: Settings,
     scenes: Vec<Scene>,
@@ -103,7 +103,7 @@ impl<'a> Studio<'a> {
     pub fn new(model: &'a Model, assets: &'a Assets, painters: &dyn Painters) -> Self {
         let settings = Settings::of(model);
         let painter = painters.painter(&settings);
-        Studio { model, assets, painter, settings, scenes: Vec::new(), pictures: Vec::new() }
+        Studio { model, assets: assets.clone(), painter, settings, scenes: Vec::new(), pictures: Vec::new() }
     }
 
     /// Lists what is to be drawn of a state and draws it, from all cameras together.
@@ -122,7 +122,8 @@ impl<'a> Studio<'a> {
             let view = camera.view(self.model, data).map_err(Failure::new)?;
             scene.update(self.model, data, view, &options).map_err(Failure::new)?;
         }
-        let (assets, channels) = (self.assets, kind.channels());
+        self.assets.pose(self.model, data, &options).map_err(Failure::new)?;
+        let (assets, channels) = (&self.assets, kind.channels());
         let shot = |(scene, picture)| {
             let picture: &mut Picture = picture;
             (picture.width, picture.height) = (side, side);
@@ -136,14 +137,18 @@ impl<'a> Studio<'a> {
     /// Draws all states in colours at once.
     fn take_batch(&mut self, states: &[Data], camera: &Camera, side: usize) -> Result<(), Failure> {
         let mut scenes = vec![Scene::new(); states.len()];
-        for (scene, data) in scenes.iter_mut().zip(states) {
+        let mut posed = vec![self.assets.clone(); states.len()];
+        let options = SceneOptions::default();
+        for ((scene, assets), data) in scenes.iter_mut().zip(&mut posed).zip(states) {
             let view = camera.view(self.model, data).map_err(Failure::new)?;
-            scene.update(self.model, data, view, &SceneOptions::default()).map_err(Failure::new)?;
+            scene.update(self.model, data, view, &options).map_err(Failure::new)?;
+            assets.pose(self.model, data, &options).map_err(Failure::new)?;
         }
         let mut pictures = vec![Picture::new(side, side); states.len()];
-        let Studio { assets, painter, settings, .. } = self;
-        let shots = scenes.iter().zip(&mut pictures);
-        let shots = shots.map(|(scene, picture)| Shot { assets, scene, channels: Channels::RGB, picture });
+        let Studio { painter, settings, .. } = self;
+        let shots = scenes.iter().zip(&posed).zip(&mut pictures);
+        let shots =
+            shots.map(|((scene, assets), picture)| Shot { assets, scene, channels: Channels::RGB, picture });
         painter.paint(settings, &mut shots.collect::<Vec<_>>()).map_err(Failure::new)
     }
 

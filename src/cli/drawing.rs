@@ -49,7 +49,7 @@ impl Drawing {
     /// The camera sees nothing, or something in the scene is not finite.
     pub fn take(&mut self, model: &Model, data: &Data, channels: Channels) -> Result<&Picture, Failure> {
         self.assets.refresh(model).map_err(Failure::new)?;
-        self.assets.pose(model, data).map_err(Failure::new)?;
+        self.assets.pose(model, data, &self.plan.options).map_err(Failure::new)?;
         let view = self.plan.camera.view(model, data).map_err(Failure::new)?;
         self.scene.update(model, data, view, &self.plan.options).map_err(Failure::new)?;
         let Drawing { plan, assets, painter, scene, picture } = self;

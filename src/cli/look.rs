@@ -354,6 +354,7 @@ impl Look {
                 &mut groups.tendons,
                 &mut groups.actuators,
                 &mut groups.skins,
+                &mut groups.flexes,
             ];
             kinds.into_iter().for_each(|kind| *kind = visible);
         }

@@ -61,7 +61,7 @@ impl Sight {
         data: &Data,
         shots: impl IntoIterator<Item = Shot<'a>>,
     ) -> Result<(), EnvError> {
-        let assets = current(&mut self.assets, &self.prepared, (model, data), self.profile)?;
+        let assets = current(&mut self.assets, &self.prepared, (model, data), (self.profile, &self.options))?;
         let settings = Settings::of(model);
         let mut studio = idle(&self.studios, &*self.painters, &settings);
         let outcome = studio.draw((model, data), (assets, &self.options), &settings, shots);
@@ -88,7 +88,7 @@ impl Sight {
         cameras: impl ExactSizeIterator<Item = Camera>,
         scenes: &mut Vec<Scene>,
     ) -> Result<(), EnvError> {
-        current(&mut self.assets, &self.prepared, (model, data), self.profile)?;
+        current(&mut self.assets, &self.prepared, (model, data), (self.profile, &self.options))?;
         scenes.resize_with(cameras.len(), Scene::new);
         for (scene, camera) in scenes.iter_mut().zip(cameras) {
             scene.update(model, data, camera.view(model, data)?, &self.options)?;
@@ -169,12 +169,12 @@ impl Studio {
     }
 }
 
-/// What was prepared, with the edits of `model`, its skins on the bodies.
+/// What was prepared, with the edits of `model`, its skins and flexes where those of the state are.
 fn current<'a>(
     own: &'a mut Option<Assets>,
     prepared: &Mutex<Option<Assets>>,
     (model, data): (&Model, &Data),
-    profile: Profile,
+    (profile, options): (Profile, &SceneOptions),
 ) -> Result<&'a Assets, RenderError> {
     let mut assets = match own.take() {
         Some(assets) => assets,
@@ -187,7 +187,7 @@ fn current<'a>(
         }
     };
     assets.refresh(model)?;
-    assets.pose(model, data)?;
+    assets.pose(model, data, options)?;
     Ok(own.insert(assets))
 }
 

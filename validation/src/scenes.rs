@@ -274,6 +274,7 @@ fn codes(m: &Model, item: &Item, place: usize) -> [i32; CODES] {
     let (code, data) = match item.shape {
         Shape::Plane { geom } => (0, plane(geom) as i32),
         Shape::Skin { .. } => (106, -1),
+        Shape::Flex { .. } => (105, -1),
         Shape::Hfield { hfield } => (1, hfield as i32),
         Shape::Sphere => (2, -1),
         Shape::Capsule => (3, -1),
@@ -430,6 +431,7 @@ fn groups(k: usize) -> Groups {
         tendons: visible,
         actuators: visible,
         skins: visible,
+        flexes: Groups::default().flexes,
     }
 }
 

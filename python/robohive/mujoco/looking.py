@@ -6,7 +6,7 @@ from robohive.mujoco.enums_view import mjtCamera, mjtRndFlag, mjtVisFlag
 from robohive.mujoco.model import MjModel
 from robohive.mujoco.view import MjvCamera, MjvOption
 
-_GROUPS = ("geom", "site", "joint", "tendon", "actuator", "skin")
+_GROUPS = ("geom", "site", "joint", "tendon", "actuator", "skin", "flex")
 #: Effects, in the engine's order.
 FLAGS = tuple(mjtRndFlag[f"mjRND_{name}"] for name in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE", "FOG"))
 

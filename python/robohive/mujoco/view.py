@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from robohive.mujoco.enums_view import mjtCamera, mjtFrame, mjtLabel, mjtVisFlag
 
 #: Flags that are set to begin with.
-_SHOWN = ("TEXTURE", "STATIC", "TENDON", "RANGEFINDER", "SKIN", "FLEXFACE", "FLEXSKIN", "PERTOBJ", "ISLAND")
+_SHOWN = ("TEXTURE", "STATIC", "TENDON", "RANGEFINDER", "SKIN", "FLEXEDGE", "FLEXSKIN", "PERTOBJ")
 
 
 class _Struct:

@@ -49,8 +49,8 @@ pub struct Look {
     /// A camera of the model, or the free one.
     camera: Option<usize>,
     free: Option<Free>,
-    /// Visible groups of geoms, sites, joints, tendons, actuators, skins.
-    groups: [[bool; 6]; 6],
+    /// Visible groups of geoms, sites, joints, tendons, actuators, skins, flexes.
+    groups: [[bool; 6]; 7],
     /// Flags by the names of the fields of `render::scene::Show` that the renderer takes.
     shown: Vec<String>,
     /// Items of bodies that are fixed, of those that move, decorations.
@@ -78,8 +78,8 @@ impl Look {
 
     fn options(&self) -> SceneOptions {
         let mut options = SceneOptions::default();
-        let [geoms, sites, joints, tendons, actuators, skins] = self.groups;
-        options.groups = Groups { geoms, sites, joints, tendons, actuators, skins };
+        let [geoms, sites, joints, tendons, actuators, skins, flexes] = self.groups;
+        options.groups = Groups { geoms, sites, joints, tendons, actuators, skins, flexes };
         let [fixed, dynamic, decorations] = self.categories;
         options.categories = Categories { fixed, dynamic, decor: decorations };
         let [shadows, reflections, sky, haze, fog] = self.effects;
@@ -90,6 +90,10 @@ impl Look {
         show.static_bodies = has("STATIC");
         show.tendons = has("TENDON");
         show.skins = has("SKIN");
+        show.flex_vertices = has("FLEXVERT");
+        show.flex_edges = has("FLEXEDGE");
+        show.flex_faces = has("FLEXFACE");
+        show.flex_skins = has("FLEXSKIN");
         show.rangefinders = has("RANGEFINDER");
         show.convex_hulls = has("CONVEXHULL");
         show.transparent = has("TRANSPARENT");
@@ -135,7 +139,7 @@ impl Painter {
                     }
                 }
                 if let Some(assets) = &mut inside.assets {
-                    assets.pose(&compiled, simulation).map_err(refused)?;
+                    assets.pose(&compiled, simulation, &look.options()).map_err(refused)?;
                 }
                 inside.meshes = compiled.nmesh;
                 let settings = Settings::of(&compiled);

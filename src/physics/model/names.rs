@@ -49,6 +49,7 @@ impl Arrays {
             ObjType::Camera => &self.name_camadr,
             ObjType::Light => &self.name_lightadr,
             ObjType::Mesh => &self.name_meshadr,
+            ObjType::Flex => &self.name_flexadr,
             ObjType::Skin => &self.name_skinadr,
             ObjType::Hfield => &self.name_hfieldadr,
             ObjType::Texture => &self.name_texadr,

@@ -1,14 +1,17 @@
 //! Surfaces and textures of a model.
 
 use super::flat::{self, PlaneShape};
+use super::flex::{self, Wires};
 use super::hfield::{self, Relief};
 use super::mesh::{self, MeshRows};
+use super::parts::Part;
 use super::round::{self, Side};
 use super::skin;
 use super::source::Source;
 use super::surface::Surface;
 use crate::error::RenderError;
 use crate::profile::Profile;
+use crate::scene::SceneOptions;
 use crate::texture::Texture;
 use physics::model::{GeomType, ObjType, TextureRole, VisualQuality};
 use physics::{Data, Model};
@@ -49,6 +52,9 @@ pub struct Assets {
     first_mesh: usize,
     first_hull: usize,
     first_skin: usize,
+    first_flex: usize,
+    /// Vertices and edges that are drawn of each flex.
+    wires: Vec<Wires>,
     quality: [usize; 3],
     profile: Profile,
     source: Source,
@@ -94,6 +100,9 @@ impl Assets {
         }
         let first_skin = surfaces.len();
         surfaces.extend((0..model.skin_vertadr.len()).map(|id| skin::unposed(model, id)));
+        let first_flex = surfaces.len();
+        let flexes = model.flex_vertadr.len();
+        surfaces.resize_with(first_flex + flexes, Surface::default);
         let textures = (0..model.tex_type.len()).map(|id| Ok(Arc::new(Texture::new(model, id, profile)?)));
         Ok(Assets {
             surfaces: surfaces.into_iter().map(Arc::new).collect(),
@@ -105,6 +114,8 @@ impl Assets {
             first_mesh,
             first_hull,
             first_skin,
+            first_flex,
+            wires: vec![Wires::default(); flexes],
             quality,
             profile,
             source: Source::of(model),
@@ -144,13 +155,23 @@ impl Assets {
         Ok(())
     }
 
-    /// Moves the skins to where the bodies of a state are, whose poses must have been computed. Costs nothing without skins.
+    /// Moves skins and flexes to where those of a state are, which must have been computed; `options` say what is drawn of
+    /// flexes, as in the scene. Costs nothing without skins and flexes.
     ///
     /// # Errors
-    /// [`RenderError::NotFinite`] names a skin that is nowhere.
-    pub fn pose(&mut self, model: &Model, data: &Data) -> Result<(), RenderError> {
-        for (skin, surface) in self.surfaces[self.first_skin..].iter_mut().enumerate() {
+    /// [`RenderError::NotFinite`] names a skin or flex that is nowhere.
+    pub fn pose(&mut self, model: &Model, data: &Data, options: &SceneOptions) -> Result<(), RenderError> {
+        let (skins, flexes) =
+            self.surfaces[self.first_skin..].split_at_mut(self.first_flex - self.first_skin);
+        for (skin, surface) in skins.iter_mut().enumerate() {
             if let Some(posed) = skin::posed(model, data, skin, surface)? {
+                *surface = Arc::new(posed);
+            }
+        }
+        for (flex, (surface, wires)) in flexes.iter_mut().zip(&mut self.wires).enumerate() {
+            let (posed, drawn) = flex::posed(model, data, (flex, options), surface)?;
+            *wires = drawn;
+            if let Some(posed) = posed {
                 *surface = Arc::new(posed);
             }
         }
@@ -190,7 +211,17 @@ impl Assets {
     }
 
     pub(super) fn skin_surface(&self, skin: usize) -> Option<usize> {
-        self.first_skin.checked_add(skin).filter(|&surface| surface < self.surfaces.len())
+        self.first_skin.checked_add(skin).filter(|&surface| surface < self.first_flex)
+    }
+
+    pub(super) fn flex_surface(&self, flex: usize) -> Option<usize> {
+        self.first_flex.checked_add(flex).filter(|&surface| surface < self.surfaces.len())
+    }
+
+    /// Appends the balls and tubes of a flex, for an item at `origin`.
+    pub(super) fn wire_parts(&self, flex: usize, origin: [f32; 3], out: &mut Vec<Part>) {
+        let surfaces = [Builtin::Sphere as usize, Builtin::Tube as usize];
+        self.wires.get(flex).into_iter().for_each(|wires| wires.parts(surfaces, origin, out));
     }
 
     /// Whether the geoms that are planes are still those of the model.

@@ -3,6 +3,7 @@
 mod assets;
 mod builder;
 mod flat;
+mod flex;
 mod hfield;
 mod mesh;
 mod parts;

@@ -4,7 +4,8 @@ use super::assets::{Assets, Builtin};
 use crate::profile::Profile;
 use crate::scene::{Item, Shape};
 
-/// One surface of an item, where it lies in the item's frame and how it is textured. An item has one to three.
+/// One surface of an item, where it lies in the item's frame and how it is textured. An item has one to three; a flex has
+/// one for each vertex and edge that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Part {
     /// Index into [`Assets::surfaces`].
@@ -58,9 +59,12 @@ impl Assets {
     pub fn parts(&self, item: &Item, out: &mut Vec<Part>) {
         let [x, y, z] = item.size;
         let origin = match item.shape {
-            Shape::Skin { .. } => item.pos.map(|x| -x),
+            Shape::Skin { .. } | Shape::Flex { .. } => item.pos.map(|x| -x),
             _ => [0.0; 3],
         };
+        if let Shape::Flex { flex } = item.shape {
+            self.wire_parts(flex, item.pos, out);
+        }
         let mut put = |surface: usize, diagonal: [f32; 3], height: f32| {
             out.push(Part {
                 surface,
@@ -103,6 +107,7 @@ impl Assets {
             Shape::Mesh { mesh } => self.mesh_surface(mesh).into_iter().for_each(|s| put(s, [1.0; 3], 0.0)),
             Shape::Hull { mesh } => self.hull_surface(mesh).into_iter().for_each(|s| put(s, [1.0; 3], 0.0)),
             Shape::Skin { skin } => self.skin_surface(skin).into_iter().for_each(|s| put(s, [1.0; 3], 0.0)),
+            Shape::Flex { flex } => self.flex_surface(flex).into_iter().for_each(|s| put(s, [1.0; 3], 0.0)),
             Shape::Line | Shape::LineBox | Shape::Label => {}
         }
     }
@@ -115,7 +120,11 @@ impl Assets {
         let is_cube = self.textures[texture].is_cube();
         let from_file = matches!(
             item.shape,
-            Shape::Mesh { .. } | Shape::Hull { .. } | Shape::Hfield { .. } | Shape::Skin { .. }
+            Shape::Mesh { .. }
+                | Shape::Hull { .. }
+                | Shape::Hfield { .. }
+                | Shape::Skin { .. }
+                | Shape::Flex { .. }
         );
         let mapped_by_file = from_file && !self.surfaces[surface].texcoords.is_empty();
         let uniform = |axis: usize| match material.uniform && item.size[axis] > 0.0 {

@@ -58,6 +58,7 @@ source! {
         skin_facenum: i32 [nskin],
         skin_texcoord: [f32; 2] [nskintexvert],
         skin_face: [i32; 3] [nskinface],
+        flex_vertadr: i32 [nflex],
         hfield_nrow: i32 [nhfield],
         hfield_ncol: i32 [nhfield],
         hfield_adr: i32 [nhfield],

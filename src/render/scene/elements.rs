@@ -1,11 +1,53 @@
-//! Skins, geoms and sites.
+//! Flexes, skins, geoms and sites.
 
 use super::item::{Category, Shape};
 use super::options::{LabelChoice, is_visible};
 use super::sink::{Form, Items, Source, UPRIGHT, element};
 use crate::RenderError;
+use physics::Model;
 use physics::math::{Vec3, add_scaled, column, dot, sub};
 use physics::model::{GeomType, ObjType};
+
+/// Adds the visible flexes, at their first vertices.
+pub(super) fn flexes(from: Source<'_>, items: &mut Items<'_>) {
+    let Source { m, d, options } = from;
+    let show = &options.show;
+    let draws = show.flex_vertices || show.flex_edges || show.flex_faces || show.flex_skins;
+    if !from.shows(Category::Dynamic) || !draws {
+        return;
+    }
+    for i in 0..m.nflex {
+        if !is_visible(&options.groups.flexes, m.flex_group[i]) {
+            continue;
+        }
+        let coat = from.coat(m.flex_matid[i], m.flex_rgba[i], Category::Dynamic);
+        let mut coat = from.island_coat(first_moving_body(m, i), coat);
+        if m.flex_texcoordadr[i] < 0 {
+            coat.material = None;
+        }
+        if coat.rgba[3] == 0.0 {
+            continue;
+        }
+        let pos = d.flex.flexvert_xpos[m.flex_vertadr[i] as usize];
+        let size = [m.flex_radius[i], 0.1, 0.1];
+        let form = Form { shape: Shape::Flex { flex: i }, size, pos, mat: UPRIGHT };
+        let item = items.add(&form, coat, element(ObjType::Flex, i), Category::Dynamic);
+        item.rbound = 0.0;
+        if options.label == LabelChoice::Flex {
+            item.label = from.label(ObjType::Flex, i);
+        }
+    }
+}
+
+/// The first body of a flex that moves; the world where none does.
+fn first_moving_body(m: &Model, flex: usize) -> i32 {
+    let (all, first, count) = match m.flex_interp[flex] {
+        0 => (&m.flex_vertbodyid[..], m.flex_vertadr[flex], m.flex_vertnum[flex]),
+        _ => (&m.flex_nodebodyid[..], m.flex_nodeadr[flex], m.flex_nodenum[flex]),
+    };
+    let bodies = &all[first as usize..(first + count) as usize];
+    bodies.iter().copied().find(|&body| body >= 0 && m.body_treeid[body as usize] >= 0).unwrap_or(0)
+}
 
 /// Adds the visible skins, at their first bones.
 pub(super) fn skins(from: Source<'_>, items: &mut Items<'_>) {

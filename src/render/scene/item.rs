@@ -36,6 +36,11 @@ pub enum Shape {
         /// Skin of the model.
         skin: usize,
     },
+    /// Flex of the model, whose vertices are in the world: the position only sorts it.
+    Flex {
+        /// Flex of the model.
+        flex: usize,
+    },
     /// Arrow along +z from the origin: width `size[0]`, `size[1]`, length `size[2]`.
     Arrow,
     /// Arrow without a wider head.

@@ -107,6 +107,7 @@ impl Scene {
     ) -> Result<(), RenderError> {
         let from = Source { m: model, d: data, options };
         let mut items = Items::within(&mut self.items);
+        elements::flexes(from, &mut items);
         elements::skins(from, &mut items);
         elements::geoms(from, view.eye, &mut items)?;
         elements::sites(from, &mut items)?;

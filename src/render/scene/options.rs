@@ -23,6 +23,8 @@ pub struct Groups {
     pub actuators: [bool; GROUPS],
     /// Of skins.
     pub skins: [bool; GROUPS],
+    /// Of flexes.
+    pub flexes: [bool; GROUPS],
 }
 
 impl Default for Groups {
@@ -35,6 +37,7 @@ impl Default for Groups {
             tendons: VISIBLE,
             actuators: VISIBLE,
             skins: VISIBLE,
+            flexes: VISIBLE,
         }
     }
 }
@@ -44,7 +47,8 @@ pub(super) fn is_visible(visible: &[bool; GROUPS], group: i32) -> bool {
     visible[group.clamp(0, GROUPS as i32 - 1) as usize]
 }
 
-/// Kinds of elements and decorations. All off but textures, tendons, rangefinders, static bodies, skins and the perturbation.
+/// Kinds of elements and decorations. All off but textures, tendons, rangefinders, static bodies, skins, edges and
+/// skins of flexes, and the perturbation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Show {
     /// Textures of materials.
@@ -55,6 +59,14 @@ pub struct Show {
     pub tendons: bool,
     /// Skins.
     pub skins: bool,
+    /// Vertices of flexes that show no skin.
+    pub flex_vertices: bool,
+    /// Edges of flexes that show no skin.
+    pub flex_edges: bool,
+    /// Faces of flexes of triangles, and of the tetrahedra at [`SceneOptions::flex_layer`], where skins of flexes are off.
+    pub flex_faces: bool,
+    /// Smooth surfaces of flexes of triangles and tetrahedra.
+    pub flex_skins: bool,
     /// Rays of rangefinders and nearest points of `fromto` sensors.
     pub rangefinders: bool,
     /// Convex hulls instead of the meshes that collide.
@@ -97,7 +109,7 @@ pub struct Show {
     pub selected_point: bool,
     /// Bounding volumes of bodies, at [`SceneOptions::tree_depth`].
     pub body_trees: bool,
-    /// Bounding volumes of meshes, at [`SceneOptions::tree_depth`].
+    /// Bounding volumes of meshes and flexes, at [`SceneOptions::tree_depth`], and lattices of flexes.
     pub mesh_trees: bool,
 }
 
@@ -108,6 +120,10 @@ impl Show {
         static_bodies: false,
         tendons: false,
         skins: false,
+        flex_vertices: false,
+        flex_edges: false,
+        flex_faces: false,
+        flex_skins: false,
         rangefinders: false,
         convex_hulls: false,
         transparent: false,
@@ -140,6 +156,8 @@ impl Default for Show {
             static_bodies: true,
             tendons: true,
             skins: true,
+            flex_edges: true,
+            flex_skins: true,
             rangefinders: true,
             perturbation: true,
             ..Show::NOTHING
@@ -162,6 +180,7 @@ pub enum LabelChoice {
     Tendon,
     Actuator,
     Skin,
+    Flex,
     Constraint,
     /// The selected body.
     Selection,
@@ -274,6 +293,8 @@ pub struct SceneOptions {
     pub selection: Option<Selection>,
     /// Depth at which bounding volume trees are shown.
     pub tree_depth: i32,
+    /// Layer of the tetrahedra of flexes whose faces are shown, 0 at the surface.
+    pub flex_layer: i32,
     /// Effects of the picture.
     pub effects: Effects,
 }
@@ -288,6 +309,7 @@ impl Default for SceneOptions {
             categories: Categories::default(),
             selection: None,
             tree_depth: 1,
+            flex_layer: 0,
             effects: Effects::default(),
         }
     }

@@ -228,6 +228,7 @@ impl<'a> Items<'a> {
     pub fn finish(self, m: &Model) -> Result<(), RenderError> {
         self.broken.map_or(Ok(()), |object| {
             let kind = [
+                ObjType::Flex,
                 ObjType::Skin,
                 ObjType::Geom,
                 ObjType::Site,

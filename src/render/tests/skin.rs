@@ -26,7 +26,7 @@ fn world(text: &str, angle: f64) -> (Model, Data, Assets) {
     data.state.qpos[0] = angle;
     forward(&model, &mut data).unwrap();
     let mut assets = Assets::new(&model, Profile::Mujoco312).unwrap();
-    assets.pose(&model, &data).unwrap();
+    assets.pose(&model, &data, &SceneOptions::default()).unwrap();
     (model, data, assets)
 }
 
@@ -78,16 +78,16 @@ fn a_bent_and_swollen_skin_is_mujocos() {
 fn a_surface_changes_only_when_the_skin_moves() {
     let (model, mut data, mut assets) = world(MODEL, 0.3);
     let before = assets.clone();
-    assets.pose(&model, &data).unwrap();
+    assets.pose(&model, &data, &SceneOptions::default()).unwrap();
     let last = assets.surfaces.len() - 1;
     assert!(std::sync::Arc::ptr_eq(&before.surfaces[last], &assets.surfaces[last]));
     data.state.qpos[0] = 0.4;
     forward(&model, &mut data).unwrap();
-    assets.pose(&model, &data).unwrap();
+    assets.pose(&model, &data, &SceneOptions::default()).unwrap();
     assert!(!std::sync::Arc::ptr_eq(&before.surfaces[last], &assets.surfaces[last]));
     data.kin.xpos[1][0] = f64::NAN;
     assert!(
-        matches!(assets.pose(&model, &data), Err(RenderError::NotFinite { what }) if what.contains("cloth"))
+        matches!(assets.pose(&model, &data, &SceneOptions::default()), Err(RenderError::NotFinite { what }) if what.contains("cloth"))
     );
 }
 

@@ -48,7 +48,8 @@ impl Drawn {
         forward(&model, &mut data).map_err(|error| error.to_string())?;
         let camera =
             Camera::named(&model, scene.camera.as_deref().unwrap_or("free")).map_err(|e| e.to_string())?;
-        let assets = Assets::new(&model, recorded.profile()?).map_err(|error| error.to_string())?;
+        let mut assets = Assets::new(&model, recorded.profile()?).map_err(|error| error.to_string())?;
+        assets.pose(&model, &data, &SceneOptions::default()).map_err(|error| error.to_string())?;
         let renderer = Renderer::new(Settings { samples: Samples::Four, ..Settings::of(&model) });
         Ok(Drawn { model, data, camera, assets, renderer })
     }

@@ -13,6 +13,7 @@ pub const TOLERANCE: f64 = 2e-6;
 mod code {
     pub const PLANE: i32 = 0;
     pub const HFIELD: i32 = 1;
+    pub const FLEX: i32 = 105;
     pub const SKIN: i32 = 106;
     pub const SPHERE: i32 = 2;
     pub const CAPSULE: i32 = 3;
@@ -164,6 +165,7 @@ fn same_shape(shape: Shape, recorded: i32, data: i32) -> bool {
     match shape {
         Shape::Plane { .. } => recorded == code::PLANE,
         Shape::Skin { .. } => recorded == code::SKIN,
+        Shape::Flex { .. } => recorded == code::FLEX,
         Shape::Hfield { hfield } => recorded == code::HFIELD && data == hfield as i32,
         Shape::Sphere => matches!(recorded, code::SPHERE | code::ELLIPSOID),
         Shape::Capsule => recorded == code::CAPSULE,

@@ -51,7 +51,7 @@ fn add_point(from: Source<'_>, i: usize, contact: &Contact, items: &mut Items<'_
     let item = items.decor(&form, rgba, unnamed(i));
     if options.label == LabelChoice::ContactPoint {
         let [a, b] = [0, 1].map(|side| match contact.geom[side] {
-            -1 => format!("f{}", contact.flex[side]),
+            -1 => flex_label(from, contact, side),
             geom => geom_label(from, geom),
         });
         item.label = format!("{a} | {b}");
@@ -62,6 +62,19 @@ fn add_point(from: Source<'_>, i: usize, contact: &Contact, items: &mut Items<'_
         let start = add_scaled(contact.pos, normal, side * width);
         let arrow = Form::connector(Shape::Arrow, width, start, add_scaled(start, speed, SPEED));
         items.decor(&arrow, rgba, unnamed(i));
+    }
+}
+
+/// Name of the flex on one side of a contact, with the element or vertex that touches.
+fn flex_label(from: Source<'_>, contact: &Contact, side: usize) -> String {
+    let flex = contact.flex[side];
+    let name = match from.m.name_of(ObjType::Flex, flex.max(0) as usize) {
+        "" => format!("f{flex}"),
+        name => name[..name.floor_char_boundary(MAX_NAME)].to_owned(),
+    };
+    match contact.elem[side] {
+        -1 => format!("{name}.v{}", contact.vert[side]),
+        element => format!("{name}.e{element}"),
     }
 }
 

@@ -21,6 +21,7 @@ pub(super) fn decorations(from: Source<'_>, items: &mut Items<'_>) {
     }
     frame::of_geoms_and_sites(from, items);
     tree::of_bodies(from, items);
+    tree::of_flexes(from, items);
     tree::of_meshes(from, items);
     body::inertias(from, items);
     body::pull(from, items);
