@@ -19,7 +19,7 @@ pub mod reference;
 pub mod round_trip;
 pub mod scenes;
 pub mod solver;
-pub mod stage_report;
+mod stage_list;
 pub mod stages;
 pub mod status;
 pub mod tolerance;

@@ -2,6 +2,7 @@
 
 use dataset::{Array, NpzError, NpzReader};
 use physics::model::Arrays;
+use physics::plugin::Registry;
 use physics::{Data, Model};
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -18,6 +19,8 @@ pub enum ReferenceError {
     Archive(NpzError),
     /// An array does not fit the model.
     Shape(String),
+    /// A plugin of the model cannot be started.
+    Plugin(String),
 }
 
 impl fmt::Display for ReferenceError {
@@ -25,6 +28,7 @@ impl fmt::Display for ReferenceError {
         match self {
             ReferenceError::Archive(error) => error.fmt(f),
             ReferenceError::Shape(name) => write!(f, "array {name:?} does not fit the model"),
+            ReferenceError::Plugin(message) => f.write_str(message),
         }
     }
 }
@@ -92,7 +96,9 @@ impl Reference {
                 return Err(ReferenceError::Shape(name.to_owned()));
             }
         }
-        Ok(Model::unchecked(m))
+        let mut m = Model::unchecked(m);
+        m.start_plugins(&Registry::default()).map_err(|e| ReferenceError::Plugin(e.to_string()))?;
+        Ok(m)
     }
 
     /// A size of the recorded model.
@@ -140,6 +146,14 @@ impl Reference {
             }
         }
         Ok(())
+    }
+
+    /// Number of rows of an array.
+    ///
+    /// # Errors
+    /// The array is missing.
+    pub fn row_count(&self, name: &str) -> Result<usize, ReferenceError> {
+        Ok(self.archive.require(name)?.rows())
     }
 
     /// Row `row` of a stacked array `group.name`.

@@ -3,7 +3,7 @@
 use crate::compile::{CompileReport, compare_compiled};
 use crate::motion::{EARLY, ForwardReport, RolloutReport, compare_forward, compare_rollout};
 use crate::reference::Reference;
-use crate::stage_report::{StageReport, compare_stages};
+use crate::stages::{StageReport, compare_stages};
 use std::fmt::Write;
 use std::path::Path;
 

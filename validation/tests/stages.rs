@@ -1,7 +1,7 @@
 //! Every stage agrees with MuJoCo on the own models, upstream injected.
 
 use robohive_validation::reference::{is_own, recorded};
-use robohive_validation::stage_report::compare_stages;
+use robohive_validation::stages::compare_stages;
 use robohive_validation::tolerance::{STAGE, STAGE_ELSEWHERE};
 
 #[test]

@@ -57,7 +57,8 @@ use crate::model::{Disable, GeomType, Model, ObjType};
 use crate::pipeline::error::NotSimulated;
 use crate::sleep::{Awake, is_on};
 use broad_phase::{geoms, spheres_apart, types_match};
-pub(crate) use flex::World;
+#[doc(hidden)]
+pub use flex::World;
 
 /// What a narrow-phase function says about one point of contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -241,7 +242,11 @@ pub fn collide(
 }
 
 /// [`collide`] without what sleeps: of two that meet, one is awake, and not a fixed one where the other sleeps.
-pub(crate) fn collide_awake(
+///
+/// # Errors
+/// As [`collide`].
+#[doc(hidden)]
+pub fn collide_awake(
     at: World,
     state: &State,
     budget: StepBudget,

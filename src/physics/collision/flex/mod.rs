@@ -25,9 +25,12 @@ use crate::model::{Disable, FlexSelf, GeomType, Model};
 
 /// What contacts are found in.
 #[derive(Clone, Copy)]
-pub(crate) struct World<'a> {
+pub struct World<'a> {
+    /// The model.
     pub m: &'a Model,
+    /// Where bodies and geoms are.
     pub kin: &'a Kinematics,
+    /// Where vertices, elements and their boxes are.
     pub flexes: &'a Flexes,
 }
 
