@@ -1,6 +1,7 @@
 //! Comparison with a stream of random placements and rays (`reference/collide.py`): contacts and distances of pairs of
-//! geoms, geom poses injected.
+//! geoms, geom poses injected. Elements of flexes (`reference/flex_pairs.py`) come in the same stream.
 
+use crate::flex_pairs;
 use crate::rays::{self, RayTally};
 use crate::reference::{Reference, ReferenceError};
 use crate::tolerance::{CONTACT_BAR, CONTACT_PARAMETER};
@@ -52,6 +53,8 @@ pub struct Report {
     pub variants: Vec<String>,
     /// By variant and pair of types.
     pub pairs: BTreeMap<(usize, [usize; 2]), Tally>,
+    /// Elements of flexes, by name of variant and pair.
+    pub flexes: BTreeMap<(String, String), Tally>,
     /// By name of what the rays met.
     pub rays: BTreeMap<usize, RayTally>,
     /// A sentence for each difference that no nudge explains, the first ones.
@@ -62,7 +65,8 @@ impl Report {
     /// Comparisons that differ and are not excepted.
     pub fn different(&self) -> usize {
         let pairs: usize = self.pairs.values().map(|t| t.different + t.distance_different).sum();
-        pairs + self.rays.values().map(|t| t.different).sum::<usize>()
+        let flexes: usize = self.flexes.values().map(|t| t.different).sum();
+        pairs + flexes + self.rays.values().map(|t| t.different).sum::<usize>()
     }
 
     fn variant(&mut self, name: String) -> usize {
@@ -93,7 +97,9 @@ pub fn compare_stream(source: &mut impl Read) -> Result<Report, ReferenceError> 
             continue;
         }
         let scene = scene.as_mut().ok_or_else(|| ReferenceError::Shape("model".into()))?;
-        if archive.contains("ray") {
+        if archive.contains("flexes") {
+            flex_pairs::compare(&mut scene.m, &mut scene.d, &archive, &mut report)?;
+        } else if archive.contains("ray") {
             rays::compare_geom(&mut scene.m, &mut scene.d, &archive, &mut report)?;
         } else if archive.contains("scene") {
             rays::compare_scene(&mut scene.m, &mut scene.d, &archive, &mut report)?;

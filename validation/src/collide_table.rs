@@ -2,6 +2,7 @@
 
 use crate::collide::{Report, Tally, compare_stream};
 use crate::rays::{RayTally, SCENE, TOGETHER};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io::BufReader;
 use std::path::Path;
@@ -34,25 +35,11 @@ pub fn measure(from: Option<&Path>) -> Result<(String, Result<(), String>), Stri
 /// All tables, as Markdown.
 fn render(report: &Report) -> String {
     let mut text = String::new();
-    head(&mut text, "pair", HEAD);
-    let mut total = Tally::default();
-    for ((_, [a, b]), tally) in report.pairs.iter().filter(|((variant, _), _)| *variant == 0) {
-        line(&mut text, &format!("{}–{}", TYPES[*a], TYPES[*b]), tally);
-        add(&mut total, tally);
+    if !report.pairs.is_empty() {
+        pairs(&mut text, report);
     }
-    line(&mut text, "all", &total);
-    if report.variants.len() > 1 {
-        text.push('\n');
-        head(&mut text, "variant, all pairs", HEAD);
-    }
-    for (number, name) in report.variants.iter().enumerate().skip(1) {
-        let mut sum = Tally::default();
-        report
-            .pairs
-            .iter()
-            .filter(|((variant, _), _)| *variant == number)
-            .for_each(|(_, t)| add(&mut sum, t));
-        line(&mut text, name, &sum);
+    if !report.flexes.is_empty() {
+        flexes(&mut text, report);
     }
     if !report.rays.is_empty() {
         text.push('\n');
@@ -66,6 +53,63 @@ fn render(report: &Report) -> String {
         ray_line(&mut text, target, tally);
     }
     text
+}
+
+/// Pairs of geoms, and the sum of each other variant.
+fn pairs(text: &mut String, report: &Report) {
+    head(text, "pair", HEAD);
+    let mut total = Tally::default();
+    for ((_, [a, b]), tally) in report.pairs.iter().filter(|((variant, _), _)| *variant == 0) {
+        line(text, &format!("{}–{}", TYPES[*a], TYPES[*b]), tally);
+        add(&mut total, tally);
+    }
+    line(text, "all", &total);
+    if report.variants.len() > 1 {
+        text.push('\n');
+        head(text, "variant, all pairs", HEAD);
+    }
+    for (number, name) in report.variants.iter().enumerate().skip(1) {
+        let mut sum = Tally::default();
+        report
+            .pairs
+            .iter()
+            .filter(|((variant, _), _)| *variant == number)
+            .for_each(|(_, t)| add(&mut sum, t));
+        line(text, name, &sum);
+    }
+}
+
+/// Pairs in the order of their names, and the sum of each other variant.
+fn flexes(text: &mut String, report: &Report) {
+    const HEAD: &str =
+        "placements | touching | deep | unstable | excepted | different | worst dist | pos | frame |";
+    const DEFAULT: &str = "default";
+    head(text, "elements of flexes", HEAD);
+    let mut sums = BTreeMap::<&str, Tally>::new();
+    for ((variant, pair), tally) in &report.flexes {
+        add(sums.entry(variant).or_default(), tally);
+        if variant == DEFAULT {
+            flex_line(text, pair, tally);
+        }
+    }
+    for (variant, sum) in sums {
+        flex_line(text, if variant == DEFAULT { "all" } else { variant }, &sum);
+    }
+}
+
+fn flex_line(text: &mut String, name: &str, t: &Tally) {
+    let share = |n: usize| 100.0 * n as f64 / t.placements.max(1) as f64;
+    let [dist, pos, frame] = t.worst;
+    let _ = writeln!(
+        text,
+        "| {name} | {} | {:.0} % | {:.0} % | {} | {} | {} | {dist:.0e} | {pos:.0e} | {frame:.0e} |",
+        t.placements,
+        share(t.touching),
+        share(t.deep),
+        t.unstable,
+        t.excepted,
+        t.different
+    );
 }
 
 fn head(text: &mut String, first: &str, columns: &str) {

@@ -9,6 +9,7 @@ pub mod compile;
 pub mod demonstrations;
 pub mod draws;
 pub mod environments;
+pub mod flex_pairs;
 pub mod hulls;
 pub mod laws;
 pub mod motion;

@@ -12,7 +12,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        [--write README.md] [--section NAME] [--brief]
        robohive-validation bits [--models FOLDER --list FILE --references FOLDER] [--only TEXT] [--write README.md]
        robohive-validation solver --problems FOLDER [--references FOLDER] [--only TEXT] [--write README.md]
-       robohive-validation collide [--from FILE] [--write README.md]
+       robohive-validation collide [--from FILE] [--write README.md] [--section NAME]
        robohive-validation laws [--write README.md]
        robohive-validation draws [--write README.md]
        robohive-validation environments --models FOLDER --references FOLDER [--only TEXT] [--write README.md]
@@ -56,7 +56,7 @@ round-trip: writes every model below the folders as MJCF and reads it again; fai
 text of a second round.
 solver: solves the constraint problems that solver.py recorded; the models are those that record.py recorded.
 
-collide: compares contacts, distances and rays with the stream of collide.py, from standard input or a file; fails when any
+collide: compares contacts, distances and rays with the stream of collide.py or flex_pairs.py, from standard input or a file; fails when any
 differ on which MuJoCo's own answer is stable.";
 
 /// What stands before and after the generated table of a section.
@@ -136,7 +136,7 @@ fn run() -> Result<(), String> {
         }
         Some("collide") => {
             let (table, verdict) = collide_table::measure(a.from.as_deref())?;
-            ("collide", table, verdict)
+            (if a.section.is_empty() { "collide" } else { &a.section }, table, verdict)
         }
         Some("draws") => {
             let (table, verdict) = draws::render(&draws::compare(Path::new(draws::RECORDED), usize::MAX)?);

@@ -9,6 +9,7 @@ use robohive_validation::tolerance::{CONTACT, CONTACT_BAR};
 use std::io::Cursor;
 
 const POSES: [&str; 4] = ["geom_xpos", "geom_xmat", "xipos", "ximat"];
+const FLEX_POSES: [&str; 3] = ["flexvert_xpos", "flexelem_aabb", "bvh_aabb_dyn"];
 
 /// Contact fields, all equal to the recording: the poses are injected.
 const FIELDS: [&str; 12] = [
@@ -36,6 +37,9 @@ fn contacts_are_those_recorded() {
         let mut scratch = CollisionScratch::default();
         for row in 0..reference.states().unwrap() {
             reference.inject(&mut d, &POSES, row).unwrap();
+            if m.nflex > 0 {
+                reference.inject(&mut d, &FLEX_POSES, row).unwrap();
+            }
             collide(&m, &d.kin, &d.flex, d.budget, &mut scratch, &mut d.con).unwrap();
             total += d.con.contact.len();
             for name in FIELDS {
@@ -104,4 +108,19 @@ fn shifted(archive: &NpzReader, name: &str, offset: f64) -> Vec<u8> {
     }
     writer.finish().unwrap();
     bytes
+}
+
+/// Random placements of elements of flexes with every type of geom, with each other and with those of their own flex.
+const FLEXES: &[u8] = include_bytes!("../reference/collide/flexes.bin");
+
+#[test]
+fn random_elements_of_flexes_are_those_recorded() {
+    let report = compare_stream(&mut &*FLEXES).unwrap();
+    assert!(report.differences.is_empty(), "{}", report.differences.join("\n"));
+    assert_eq!(report.flexes.len(), 2 * (3 * 8 + 6 + 3));
+    let mut contact = CONTACT.gauge();
+    report.flexes.values().flat_map(|t| t.worst).for_each(|worst| contact.take(worst, "elements of flexes"));
+    let sum = |count: fn(&Tally) -> usize| report.flexes.values().map(count).sum::<usize>();
+    assert!(2 * sum(|t| t.touching) > sum(|t| t.placements), "{} touch", sum(|t| t.touching));
+    assert!(20 * sum(|t| t.unstable) < sum(|t| t.placements));
 }
