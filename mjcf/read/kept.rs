@@ -24,7 +24,19 @@ pub(crate) fn rename_files(
             "asset" | "deformable" => {
                 section.children.iter_mut().for_each(|asset| rename(asset, &reader, name))
             }
+            "worldbody" => rename_below(section, &reader, name),
             _ => {}
+        }
+    }
+}
+
+/// Names the files of the flexcomps in a body.
+fn rename_below(body: &mut Element, reader: &Reader<'_>, name: &mut dyn FnMut(&str) -> String) {
+    for child in &mut body.children {
+        if child.name == "flexcomp" {
+            rename(child, reader, name);
+        } else {
+            rename_below(child, reader, name);
         }
     }
 }
@@ -33,7 +45,7 @@ fn rename(asset: &mut Element, reader: &Reader<'_>, name: &mut dyn FnMut(&str) -
     let compiler = &reader.spec.compiler;
     let dir = match asset.name.as_str() {
         "texture" => &compiler.texturedir,
-        "mesh" | "hfield" | "skin" => &compiler.meshdir,
+        "mesh" | "hfield" | "skin" | "flexcomp" => &compiler.meshdir,
         _ => "",
     };
     let called = stem(asset.value("file").unwrap_or_default());
@@ -46,7 +58,8 @@ fn rename(asset: &mut Element, reader: &Reader<'_>, name: &mut dyn FnMut(&str) -
         }
     }
     // What is called by its file keeps what it is called.
-    let unnamed = asset.name != "model" && asset.value("name").unwrap_or_default().is_empty();
+    let is_called = !matches!(asset.name.as_str(), "model" | "flexcomp");
+    let unnamed = is_called && asset.value("name").unwrap_or_default().is_empty();
     if unnamed && !called.is_empty() && stem(asset.value("file").unwrap_or_default()) != called {
         asset.attributes.retain(|a| a.name != "name");
         asset.attributes.insert(0, Attribute { name: "name".into(), value: called, ..Attribute::default() });

@@ -309,3 +309,19 @@ fn files_become_flexes() {
         assert_eq!((m.nflexvert, m.nflexelem), (vertices, elements), "{flexcomp}");
     }
 }
+
+#[test]
+fn the_text_of_the_author_names_the_files_of_flexcomps_from_elsewhere() {
+    let mut files = Memory::default();
+    files.insert("a/meshes/t.msh", TEXT_22.as_bytes());
+    let flexcomp = "<frame><flexcomp name='f' type='gmsh' file='t.msh' radius='.01'/></frame>";
+    let text = scene(flexcomp).replace("<mujoco>", "<mujoco><compiler meshdir='meshes'/>");
+    files.insert("a/m.xml", text.as_bytes());
+    let loader = Loader::default().files(files.clone());
+    let kept = loader.flatten("a/m.xml", |path| format!("elsewhere/{path}")).unwrap();
+    assert!(kept.contains("file=\"elsewhere/a/meshes/t.msh\"") && kept.contains("name=\"f\""), "{kept}");
+    let again = loader.flatten("a/m.xml", str::to_owned).unwrap();
+    files.insert("kept.xml", again.as_bytes());
+    let (first, second) = (loader.load("a/m.xml"), Loader::default().files(files).load("kept.xml"));
+    assert_eq!(first.unwrap().model.to_bytes(), second.unwrap().model.to_bytes());
+}
