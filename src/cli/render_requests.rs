@@ -126,7 +126,7 @@ impl<'a> Requests<'a> {
 
     /// Wall time [s] of one picture of every environment, the threads' memory being there.
     fn batch(&self, side: usize, threads: usize) -> Result<f64, Failure> {
-        let (model, assets, camera) = (self.studio.model, self.studio.assets, self.camera);
+        let (model, assets, camera) = (self.studio.model, &self.studio.assets, self.camera);
         let environments: Vec<&Data> = self.states.iter().cycle().take(ENVIRONMENTS).collect();
         let mut studios: Vec<Studio<'_>> = (0..threads).map(|_| Studio::new(model, assets, &Cpu)).collect();
         let mut began = Instant::now();
