@@ -1,13 +1,11 @@
 //! What follows from flexes at `qpos0`: metrics of vertices, lengths and inverse weights of edges.
 
-use super::flex_pattern::{edges, ends, has_springs, holds_vertices};
+use super::flex_pattern::{self, ends, has_springs, holds_vertices};
 use crate::data::{Com, Kinematics};
-use crate::math::{
-    Vec3, add, cross, dot, mul_mat_t_vec, mul_mat_vec, normalize, quat_from_z, quat_to_mat, scale, sub,
-};
+use crate::flex::{edges, vertices::placed};
+use crate::math::{Vec3, cross, mul_mat_t_vec, normalize, quat_from_z, quat_to_mat, sub};
 use crate::model::bounds::MINVAL;
 use crate::model::{Arrays, Model, ObjType};
-use crate::position::chain::{MergedChain, com_offset, point_column};
 
 /// Sets the metrics of the vertices that constraints hold, and turns the reference vertices of such flexes so that they lie
 /// in the plane of x and y.
@@ -21,7 +19,7 @@ pub(super) fn set_metrics(m: &mut Model) -> Result<(), String> {
     let mut metric = vec![[0.0; 4]; m.nflexvert];
     for f in (0..m.nflex).filter(|&f| holds_vertices(m, f)) {
         let mut shape = vec![[0.0; 4]; m.nflexvert];
-        for e in edges(m, f) {
+        for e in flex_pattern::edges(m, f) {
             let ends = ends(m, f, e);
             let rest = rest(m, f, ends);
             if rest[2].abs() > MINVAL {
@@ -85,16 +83,12 @@ fn aligned(m: &Arrays) -> Vec<Vec3> {
 
 /// Where a vertex that is fixed to a body is.
 fn position(m: &Arrays, kin: &Kinematics, v: usize) -> Vec3 {
-    let body = m.flex_vertbodyid[v] as usize;
-    match m.flex_vert[v] {
-        [0.0, 0.0, 0.0] => kin.xpos[body],
-        local => add(mul_mat_vec(&kin.xmat[body], local), kin.xpos[body]),
-    }
+    placed(kin, m.flex_vertbodyid[v] as usize, m.flex_vert[v], false)
 }
 
 /// Edges of flexes whose vertices are fixed to bodies, with their flex; those of rigid ones too.
 pub(super) fn measured(m: &Arrays) -> impl Iterator<Item = (usize, usize)> {
-    (0..m.nflex).filter(|&f| m.flex_interp[f] == 0).flat_map(|f| edges(m, f).map(move |e| (f, e)))
+    (0..m.nflex).filter(|&f| m.flex_interp[f] == 0).flat_map(|f| flex_pattern::edges(m, f).map(move |e| (f, e)))
 }
 
 /// Lengths of all edges; 0 for those of interpolated flexes.
@@ -115,17 +109,7 @@ pub(super) fn length_row(m: &Model, kin: &Kinematics, com: &Com, f: usize, e: us
     }
     let ends = ends(m, f, e);
     let points = ends.map(|v| position(m, kin, v));
-    let [a, b] = ends.map(|v| m.flex_vertbodyid[v] as usize);
+    let bodies = ends.map(|v| m.flex_vertbodyid[v] as usize);
     let (direction, _) = normalize(sub(points[1], points[0]));
-    let offsets = [com_offset(m, com, a, points[0]), com_offset(m, com, b, points[1])];
-    let entry = |(dof, moves): (usize, [bool; 2])| {
-        let [first, second] = offsets.map(|offset| point_column(com, dof, offset));
-        let column = match moves {
-            [true, true] => sub(second, first),
-            [true, false] => scale(first, -1.0),
-            [false, _] => second,
-        };
-        (dof, dot(direction, column))
-    };
-    MergedChain::new(m, a, b).map(entry).collect()
+    edges::length_row(m, com, bodies, points, direction).collect()
 }

@@ -31,29 +31,33 @@ fn measure(flex: Flex, com: &Com, out: &mut Flexes) {
         out.flexedge_length[e] = length;
         if needed {
             let bodies = ends.map(|v| m.flex_vertbodyid[v] as usize);
-            length_jacobian(m, com, bodies, points, direction, &mut out.flexedge_J[row(m, e)]);
+            let entries = length_row(m, com, bodies, points, direction);
+            for (entry, (_, change)) in out.flexedge_J[row(m, e)].iter_mut().rev().zip(entries) {
+                *entry = change;
+            }
         }
     }
 }
 
-/// How the distance of two points of two bodies, the second in `direction` of the first, changes.
-fn length_jacobian(
-    m: &Model,
-    com: &Com,
+/// How the distance of two points of two bodies, the second in `direction` of the first, changes with each degree of
+/// freedom that moves either, from the last one on.
+#[inline]
+pub(crate) fn length_row<'a>(
+    m: &'a Model,
+    com: &'a Com,
     [a, b]: [usize; 2],
     points: [Vec3; 2],
     direction: Vec3,
-    out: &mut [f64],
-) {
+) -> impl Iterator<Item = (usize, f64)> + use<'a> {
     let (from_a, from_b) = (com_offset(m, com, a, points[0]), com_offset(m, com, b, points[1]));
-    for (entry, (dof, moves)) in out.iter_mut().rev().zip(MergedChain::new(m, a, b)) {
+    MergedChain::new(m, a, b).map(move |(dof, moves)| {
         let column = match moves {
             [true, true] => sub(point_column(com, dof, from_b), point_column(com, dof, from_a)),
             [true, false] => scale(point_column(com, dof, from_a), -1.0),
             [false, _] => point_column(com, dof, from_b),
         };
-        *entry = dot(direction, column);
-    }
+        (dof, dot(direction, column))
+    })
 }
 
 /// Computes `flexedge_velocity`.

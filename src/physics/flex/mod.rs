@@ -18,7 +18,7 @@ pub(crate) mod shell;
 pub(crate) mod springs;
 pub(crate) mod stretch;
 mod support;
-mod vertices;
+pub(crate) mod vertices;
 pub(crate) mod weights;
 
 use crate::data::{Com, Flexes, Kinematics};

@@ -7,7 +7,7 @@ use crate::math::{Vec3, add, add_scaled, mul_mat_vec};
 use crate::model::Model;
 
 /// World position of a point fixed to a body.
-pub(super) fn placed(kin: &Kinematics, body: usize, local: Vec3, centred: bool) -> Vec3 {
+pub(crate) fn placed(kin: &Kinematics, body: usize, local: Vec3, centred: bool) -> Vec3 {
     if centred || local == [0.0; 3] {
         kin.xpos[body]
     } else {
