@@ -14,10 +14,12 @@ macro_rules! files {
 /// Every file by its path in this folder. Models include others by relative paths.
 pub const FILES: &[(&str, &str)] = files![
     "delays/delays.xml",
+    "drape/drape.xml",
     "elbow/elbow.xml",
     "franka/franka_table.xml",
     "franka/tasks/arm.toml",
     "franka/tasks/reach.xml",
+    "grasp/grasp.xml",
     "humanoid/humanoid.xml",
     "pile/pile.xml",
     "quadruped/quadruped.xml",

@@ -17,7 +17,7 @@ const fn case(name: &'static str, file: &'static str, options: &'static str) -> 
 }
 
 /// All models of the table, in its order.
-pub const MODELS: [Case; 12] = [
+pub const MODELS: [Case; 14] = [
     case("franka_table", "franka/franka_table.xml", ""),
     case("elbow", "elbow/elbow.xml", ""),
     case("quadruped", "quadruped/quadruped.xml", ""),
@@ -25,6 +25,8 @@ pub const MODELS: [Case; 12] = [
     case("pile", "pile/pile.xml", ""),
     case("workbench", "workbench/workbench.xml", ""),
     case("yard", "yard/yard.xml", ""),
+    case("drape", "drape/drape.xml", ""),
+    case("grasp", "grasp/grasp.xml", ""),
     case("franka_table_implicit", "franka/franka_table.xml", r#"integrator="implicit""#),
     case("elbow_rk4", "elbow/elbow.xml", r#"integrator="RK4""#),
     case("quadruped_cg_elliptic", "quadruped/quadruped.xml", r#"solver="CG" cone="elliptic""#),

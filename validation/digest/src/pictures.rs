@@ -55,7 +55,7 @@ macro_rules! shots {
 }
 
 /// All pictures of the table, in its order.
-pub const SHOTS: [Shot; 50] = shots![
+pub const SHOTS: [Shot; 60] = shots![
     "gallery": "gallery.xml",
     "franka_table": "franka/franka_table.xml",
     "elbow": "elbow/elbow.xml",
@@ -66,6 +66,8 @@ pub const SHOTS: [Shot; 50] = shots![
     "yard": "yard/yard.xml",
     "servos": "servos/servos.xml",
     "delays": "delays/delays.xml",
+    "drape": "drape/drape.xml",
+    "grasp": "grasp/grasp.xml",
 ];
 
 /// Hash of the pictures of `shot`: of every simulation from its four cameras, drawn on `threads` threads.
@@ -79,9 +81,11 @@ pub fn hash_of(shot: &Shot, threads: usize) -> Result<u64, String> {
     let states: Result<Vec<Data>, String> = (0..ENVIRONMENTS).map(|index| state(&model, index)).collect();
     let mut scenes = Vec::new();
     for data in states? {
+        let mut posed = assets.clone();
+        posed.pose(&model, &data, &SceneOptions::default()).map_err(|error| error.to_string())?;
         for (index, camera) in cameras(&model).into_iter().enumerate() {
             let size = [(96, 64), (61, 47)][index % 2];
-            scenes.push((scene(&model, &data, camera, shot.kind, index)?, size));
+            scenes.push((scene(&model, &data, camera, shot.kind, index)?, posed.clone(), size));
         }
     }
     let channels = match shot.kind {
@@ -89,11 +93,11 @@ pub fn hash_of(shot: &Shot, threads: usize) -> Result<u64, String> {
         Kind::Depth => Channels::DEPTH,
         Kind::Ids => Channels::SEGMENTATION,
     };
-    let mut pictures: Vec<Picture> = scenes.iter().map(|(_, (w, h))| Picture::new(*w, *h)).collect();
+    let mut pictures: Vec<Picture> = scenes.iter().map(|(_, _, (w, h))| Picture::new(*w, *h)).collect();
     let mut shots: Vec<_> = scenes
         .iter()
         .zip(&mut pictures)
-        .map(|((scene, _), picture)| render::raster::Shot { assets: &assets, scene, channels, picture })
+        .map(|((scene, assets, _), picture)| render::raster::Shot { assets, scene, channels, picture })
         .collect();
     Batch::new(settings(&model, shot.kind), threads).draw(&mut shots).map_err(|error| error.to_string())?;
     let mut hash = Fnv::default();
