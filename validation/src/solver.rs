@@ -141,7 +141,13 @@ pub fn solve_archive(m: &mut Model, path: &Path) -> Result<Outcome, ReferenceErr
             m.options_mut().solver = solver;
             let mut d = start.clone();
             let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
-            solve(SolverInputs { m, state, inertia, con, island }, efc, acc, solver, &mut scratch);
+            solve(
+                SolverInputs { m, state, inertia, effective: None, con, island },
+                efc,
+                acc,
+                solver,
+                &mut scratch,
+            );
             let counts = niter.len() / SOLVERS.len();
             let theirs = &qacc[s * m.nv..(s + 1) * m.nv];
             let first = place.statistics;

@@ -226,6 +226,7 @@ pub(crate) const STAGES: &[Stage] = &[
             "subtree_com",
             "cdof",
             "cinert",
+            "M",
             "flexvert_xpos",
             "flexedge_length",
             "flexedge_J",
@@ -236,12 +237,14 @@ pub(crate) const STAGES: &[Stage] = &[
             "cvel"
         ),
         run: |m, d| {
+            let poses = flex::Poses { kin: &d.kin, com: &d.com };
+            d.metric.build(m, poses, &d.inertia, &mut d.con, &mut d.flex, &mut d.scratch.flex);
             passive::passive(
                 m,
                 &Configuration { state: &d.state, kin: &d.kin, com: &d.com, flex: &d.flex, ten: &d.ten },
                 &d.con,
                 &d.vel,
-                &mut d.scratch.flex,
+                (&d.metric, &mut d.scratch.flex),
                 &mut d.passive,
             )
         },

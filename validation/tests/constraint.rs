@@ -40,8 +40,14 @@ fn solver_agrees() {
         let states = r.states().unwrap();
         for row in 0..states {
             let mut d = before_solver(&r, &m, row).unwrap();
-            let inputs =
-                SolverInputs { m: &m, state: &d.state, inertia: &d.inertia, con: &d.con, island: &d.island };
+            let inputs = SolverInputs {
+                m: &m,
+                state: &d.state,
+                inertia: &d.inertia,
+                effective: None,
+                con: &d.con,
+                island: &d.island,
+            };
             solve(inputs, &mut d.efc, &mut d.acc, &mut d.solver, &mut scratch);
             let theirs = r.forward("solver_niter", row).unwrap();
             for (k, &n) in d.solver.solver_niter.iter().enumerate().take(theirs.len()) {
@@ -91,7 +97,7 @@ fn storage_does_not_matter() {
                 let mut d = before_solver(&r, &m, row).unwrap();
                 let mut scratch = SolverScratch::default();
                 let Data { state, inertia, con, efc, island, acc, solver, .. } = &mut d;
-                let inputs = SolverInputs { m: &m, state, inertia, con, island };
+                let inputs = SolverInputs { m: &m, state, inertia, effective: None, con, island };
                 solve(inputs, efc, acc, solver, &mut scratch);
                 d.acc
             });

@@ -83,7 +83,7 @@ fn motion_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<bool,
         "comVel" => com_vel::com_vel(m, &d.state, &d.com, &mut d.vel),
         "passive" => {
             let at = configuration!(d);
-            passive::passive(m, &at, &d.con, &d.vel, &mut d.scratch.flex, &mut d.passive);
+            passive::passive(m, &at, &d.con, &d.vel, (&d.metric, &mut d.scratch.flex), &mut d.passive);
         }
         "referenceConstraint" => {
             let at = configuration!(d);

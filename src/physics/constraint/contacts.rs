@@ -2,10 +2,9 @@
 //! (MuJoCo documentation, Computation, "Contact").
 
 use super::ConstraintScratch;
-use super::difference::BodyPoint;
 use super::rows::{RowKind, push};
 use crate::data::{Com, Constraints, Contact, Contacts, Flexes};
-use crate::flex::weights;
+use crate::flex::metric;
 use crate::math::{dot, row};
 use crate::model::{Cone, ConstraintType, Disable, Model};
 
@@ -24,16 +23,11 @@ pub(super) fn contacts(
     if m.opt.disableflags.contains(Disable::CONTACT) || m.nv == 0 {
         return;
     }
+    if m.nflex > 0 && metric::is_asked_for(m) {
+        metric::mark(m, con);
+    }
     for (id, contact) in con.contact.iter_mut().enumerate().filter(|(_, c)| c.exclude == 0) {
-        if let Some([a, b]) = weights::single_bodies(m, contact) {
-            let at = |body| BodyPoint { body, point: contact.pos };
-            scratch.chain.difference(m, com, at(a), at(b), true);
-        } else {
-            scratch.bodies.clear();
-            weights::bodies_of(m, flexes, contact, 0, -1.0, &mut scratch.bodies);
-            weights::bodies_of(m, flexes, contact, 1, 1.0, &mut scratch.bodies);
-            scratch.chain.weighted(m, com, &scratch.bodies, contact.pos);
-        }
+        scratch.chain.of_contact(m, com, flexes, contact, &mut scratch.bodies);
         if scratch.chain.dof.is_empty() {
             contact.efc_address = -1;
             contact.exclude = NO_DOF;

@@ -1,7 +1,8 @@
 //! Jacobian of the motion of a point of one body relative to a point of another, over the degrees of freedom that
 //! move either body.
 
-use crate::data::Com;
+use crate::data::{Com, Contact, Flexes};
+use crate::flex::weights;
 use crate::math::{Vec3, add_scaled, rotational, scale, sub};
 use crate::model::Model;
 use crate::position::chain::{MergedChain, chain, com_offset, point_column};
@@ -49,6 +50,26 @@ impl Difference {
         self.dof.reverse();
         self.translation.reverse();
         self.rotation.reverse();
+    }
+
+    /// How the second side of a contact moves relative to the first; `bodies` is working memory.
+    pub fn of_contact(
+        &mut self,
+        m: &Model,
+        com: &Com,
+        flexes: &Flexes,
+        contact: &Contact,
+        bodies: &mut Vec<(usize, f64)>,
+    ) {
+        if let Some([a, b]) = weights::single_bodies(m, contact) {
+            let at = |body| BodyPoint { body, point: contact.pos };
+            self.difference(m, com, at(a), at(b), true);
+        } else {
+            bodies.clear();
+            weights::bodies_of(m, flexes, contact, 0, -1.0, bodies);
+            weights::bodies_of(m, flexes, contact, 1, 1.0, bodies);
+            self.weighted(m, com, bodies, contact.pos);
+        }
     }
 
     /// Sum of the Jacobians of `point` on several bodies, each times its weight.

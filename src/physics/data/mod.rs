@@ -34,6 +34,7 @@ pub use stages::*;
 pub use warnings::{Warning, Warnings};
 
 use crate::actuation::history;
+use crate::flex::Metric;
 use crate::model::{Arrays, Model};
 use crate::sleep;
 use crate::table::Slice;
@@ -103,6 +104,8 @@ pub struct Data {
     pub com: Com,
     /// Vertices, edges and boxes of flexes.
     pub flex: Flexes,
+    /// Stiffness of flexes in the inertia.
+    pub metric: Metric,
     /// Tendon paths.
     pub ten: Tendons,
     /// Actuator lengths and moments.

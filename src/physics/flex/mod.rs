@@ -4,7 +4,7 @@
 //! `vertices.rs` places vertices and `boxes.rs` encloses elements; `edges.rs` and `isometry.rs` measure what equality
 //! constraints hold; `stretch.rs`, `bending.rs` and `springs.rs` make passive forces. A lattice of nodes
 //! (`lattice.rs`) has `cells.rs`, `shell.rs` and `modes.rs` in place of those. `weights.rs` says which bodies a point of a
-//! flex belongs to. What collides with flexes is in `collision/flex/`.
+//! flex belongs to; `metric/` puts stiffness in the inertia. What collides with flexes is in `collision/flex/`.
 
 pub(crate) mod bending;
 mod boxes;
@@ -12,6 +12,7 @@ pub(crate) mod cells;
 pub(crate) mod edges;
 mod isometry;
 pub(crate) mod lattice;
+pub(crate) mod metric;
 pub(crate) mod modes;
 mod rotation;
 pub(crate) mod shell;
@@ -27,6 +28,7 @@ use crate::model::Model;
 use std::ops::Range;
 
 pub use edges::edge_velocities;
+pub use metric::{Effective, Metric, Poses};
 pub(crate) use support::{check, check_options};
 
 /// Working memory of flexes, reused from step to step.

@@ -20,7 +20,7 @@ use crate::actuation::transmission::{actuator_velocity, transmission};
 use crate::collision::{World, collide_awake};
 use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::{Data, configuration_of};
-use crate::flex::{edge_velocities, flexes};
+use crate::flex::{Poses, edge_velocities, flexes};
 use crate::inertia::{factor_inertia_of, make_inertia_of, solve, solve_of};
 use crate::integration::integrate::{Factors, advance_once, integrate};
 use crate::model::{Enable, Integrator, Model};
@@ -242,6 +242,16 @@ pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), S
     watch.ended(Stage::Islands);
     transmission(m, &at, &d.con, &d.efc, &mut d.trn);
     watch.ended(Stage::Transmission);
+    if m.nflex > 0 {
+        d.metric.build(
+            m,
+            Poses { kin: &d.kin, com: &d.com },
+            &d.inertia,
+            &mut d.con,
+            &mut d.flex,
+            &mut d.scratch.flex,
+        );
+    }
     Ok(())
 }
 
@@ -254,7 +264,11 @@ pub fn velocity(m: &Model, d: &mut Data, watch: &mut impl Watch) {
     tendon_velocity(m, &d.state, &d.ten, &mut d.vel.ten_velocity);
     actuator_velocity(m, &d.state, &d.trn, &mut d.vel);
     com_vel(m, &d.state, &d.com, &mut d.vel);
-    passive(m, &configuration_of!(d), &d.con, &d.vel, &mut d.scratch.flex, &mut d.passive);
+    let flexes = (&d.metric, &mut d.scratch.flex);
+    passive(m, &configuration_of!(d), &d.con, &d.vel, flexes, &mut d.passive);
+    if d.metric.is_on() {
+        d.metric.set_shift(m, Poses { kin: &d.kin, com: &d.com }, &d.flex, &d.state.qvel);
+    }
     reference(m, &configuration_of!(d), &d.vel, &d.con, &mut d.efc, &mut d.scratch.constraint);
     bias(m, &d.state, &d.kin, &d.com, &d.ten, &mut d.vel, &mut d.scratch.rne);
     watch.ended(Stage::Velocity);
@@ -284,7 +298,12 @@ pub fn unconstrained_acceleration(m: &Model, d: &mut Data) {
     match awake {
         Subset::All(_) => {
             d.acc.qacc_smooth.copy_from_slice(&d.acc.qfrc_smooth);
-            solve(m, &d.inertia, &mut d.acc.qacc_smooth);
+            if d.metric.is_on() {
+                let poses = Poses { kin: &d.kin, com: &d.com };
+                d.metric.accelerate(m, poses, &d.flex, &d.inertia, &mut d.acc.qacc_smooth);
+            } else {
+                solve(m, &d.inertia, &mut d.acc.qacc_smooth);
+            }
         }
         Subset::Listed(dofs) => {
             for dof in dofs.iter().map(|&dof| dof as usize) {
@@ -307,8 +326,15 @@ pub(crate) fn after_position(m: &Model, d: &mut Data) {
 #[doc(hidden)]
 #[inline]
 pub fn constrained_acceleration(m: &Model, d: &mut Data) {
-    let inputs =
-        solver::SolverInputs { m, state: &d.state, inertia: &d.inertia, con: &d.con, island: &d.island };
+    let poses = Poses { kin: &d.kin, com: &d.com };
+    let inputs = solver::SolverInputs {
+        m,
+        state: &d.state,
+        inertia: &d.inertia,
+        effective: d.metric.is_on().then(|| d.metric.effective(m, poses, &d.flex, &d.inertia)),
+        con: &d.con,
+        island: &d.island,
+    };
     solver::solve(inputs, &mut d.efc, &mut d.acc, &mut d.solver, &mut d.scratch.solver);
 }
 

@@ -18,6 +18,7 @@
 
 use crate::data::Data;
 use crate::derivative::inputs_of;
+use crate::flex::Poses;
 use crate::inertia::{mul_inertia_matrix, solve};
 use crate::integration::implicit;
 use crate::integration::integrate::{damped_inertia, has_joint_damping};
@@ -64,6 +65,11 @@ pub(crate) fn inverse_after(m: &Model, d: &mut Data, known: Known, sensors: bool
         s.force.clear();
         s.force.resize(m.nv, 0.0);
         mul_inertia_matrix(m, &d.inertia.M, &d.acc.qacc, &mut s.force);
+        if d.metric.is_on() {
+            let effective = d.metric.effective(m, Poses { kin: &d.kin, com: &d.com }, &d.flex, &d.inertia);
+            effective.add_product(&d.acc.qacc, &mut s.force);
+            s.force.iter_mut().zip(effective.shift()).for_each(|(f, shift)| *f -= shift);
+        }
         for (dof, inertial) in s.force.iter().enumerate() {
             d.implicit.qfrc_inverse[dof] =
                 d.vel.qfrc_bias[dof] + (inertial - d.passive.qfrc_passive[dof] - d.acc.qfrc_constraint[dof]);

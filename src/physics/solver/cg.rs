@@ -2,6 +2,7 @@
 
 use super::primal::Primal;
 use crate::data::SolverStat;
+use crate::flex::Effective;
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
@@ -10,9 +11,18 @@ use crate::model::bounds::MINVAL;
 const ETA: f64 = 0.01;
 
 /// Minimises the cost; returns the number of iterations and the Jacobian's entries.
-pub(super) fn conjugate_gradient(m: &Model, p: &mut Primal, stats: &mut Vec<SolverStat>) -> (i32, usize) {
+pub(super) fn conjugate_gradient(
+    m: &Model,
+    effective: Option<Effective>,
+    p: &mut Primal,
+    stats: &mut Vec<SolverStat>,
+) -> (i32, usize) {
     let (tolerance, nonzeros) = (m.opt.tolerance, p.problem.jacobian.len());
-    p.precondition_inertia();
+    let precondition = |p: &mut Primal| match effective {
+        Some(effective) => effective.precondition(&p.grad, &mut p.mgrad),
+        None => p.precondition_inertia(),
+    };
+    precondition(p);
     if p.decrement() < tolerance {
         return (0, nonzeros);
     }
@@ -21,8 +31,8 @@ pub(super) fn conjugate_gradient(m: &Model, p: &mut Primal, stats: &mut Vec<Solv
     while iterations < m.opt.iterations {
         p.grad_old.clone_from(&p.grad);
         p.mgrad_old.clone_from(&p.mgrad);
-        let Some(improvement) = p.step(m) else { break };
-        p.precondition_inertia();
+        let Some(improvement) = p.step(m, effective) else { break };
+        precondition(p);
         iterations += 1;
         let gradient = p.gradient();
         stats.push(p.statistics(improvement, gradient, 0));

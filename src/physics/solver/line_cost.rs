@@ -4,6 +4,7 @@
 
 use super::problem::Problem;
 use super::rows::Cone;
+use crate::flex::Effective;
 use crate::math::dense::dot_slice;
 use crate::model::bounds::MINVAL;
 
@@ -11,6 +12,8 @@ use crate::model::bounds::MINVAL;
 #[derive(Clone, Copy)]
 pub(super) struct Line<'a> {
     pub problem: &'a Problem,
+    /// The inertia with the stiffness of flexes, where that is part of it.
+    pub effective: Option<Effective<'a>>,
     pub search: &'a [f64],
     /// `J qacc - aref` at the start.
     pub jar: &'a [f64],
@@ -75,6 +78,9 @@ impl LineCost {
         self.mv.resize(problem.nv, 0.0);
         self.jv.resize(rows.len(), 0.0);
         problem.mul_inertia(search, &mut self.mv);
+        if let Some(effective) = line.effective {
+            effective.add_product(search, &mut self.mv);
+        }
         problem.mul_jacobian(search, &mut self.jv);
         self.smooth = [
             dot_slice(search, line.ma) - dot_slice(line.qfrc_smooth, search),

@@ -19,6 +19,7 @@ mod sparse_cholesky;
 
 use crate::constraint::{mul_jacobian, mul_jacobian_transposed};
 use crate::data::{Acceleration, Constraints, Contacts, Inertia, Islands, SolverStatistics, State};
+use crate::flex::Effective;
 use crate::inertia::mul_inertia_matrix;
 use crate::model::{ConstraintState, Disable, Model, Solver};
 use dual::Dual;
@@ -50,6 +51,8 @@ pub struct SolverInputs<'a> {
     pub state: &'a State,
     /// Inertia and its factor.
     pub inertia: &'a Inertia,
+    /// The inertia with the stiffness of flexes, where that is part of it.
+    pub effective: Option<Effective<'a>>,
     /// Contacts of the rows.
     pub con: &'a Contacts,
     /// Islands of the rows.
@@ -88,7 +91,7 @@ pub fn solve(
     start(inputs, efc, acc, scratch);
     let SolverScratch { all, primal, dual: forces, jar, .. } = scratch;
     let mut solvers = Solvers { primal, dual: forces, jar };
-    if island.nisland > 0 {
+    if island.nisland > 0 && inputs.effective.is_none() {
         for k in 0..island.nisland {
             solvers.solve(inputs, Part::island(island, k), efc, acc, stats);
         }
@@ -145,7 +148,7 @@ fn write_states(state: &[ConstraintState], efc: &mut Constraints) {
 /// Chooses the start: the warm-start acceleration or the unconstrained one, whichever costs less, and for PGS the
 /// forces of the former or none. Leaves the residual of all rows there in `jar`.
 fn start(inputs: SolverInputs, efc: &mut Constraints, acc: &mut Acceleration, scratch: &mut SolverScratch) {
-    let SolverInputs { m, state, inertia, con, island } = inputs;
+    let SolverInputs { m, state, inertia, con, island, .. } = inputs;
     efc.efc_force.resize(efc.nefc, 0.0);
     efc.efc_state.resize(efc.nefc, ConstraintState::Satisfied.code());
     if m.opt.disableflags.contains(Disable::WARMSTART) {
@@ -226,7 +229,7 @@ impl Solvers<'_> {
         acc: &mut Acceleration,
         stats: &mut SolverStatistics,
     ) {
-        let SolverInputs { m, inertia, con, .. } = inputs;
+        let SolverInputs { m, inertia, effective, con, .. } = inputs;
         let (s, contacts) = (part.selection, &con.contact[..]);
         let (mut iterations, nonzeros) = if m.opt.solver == Solver::Pgs {
             (pgs::pgs(m, self.dual, efc, contacts, s.rows, &mut stats.solver), s.rows.len() * s.rows.len())
@@ -238,8 +241,11 @@ impl Solvers<'_> {
             primal.problem.gather(m, inertia, efc, con, s);
             let scale = part.scale.unwrap_or_else(|| 1.0 / primal.problem.inertia_trace());
             primal.begin(acc, efc, s, scale, self.jar);
+            if let Some(effective) = effective {
+                primal.stiffen(effective);
+            }
             let result = if m.opt.solver == Solver::Cg {
-                cg::conjugate_gradient(m, primal, &mut stats.solver)
+                cg::conjugate_gradient(m, effective, primal, &mut stats.solver)
             } else {
                 newton::newton(m, primal, &mut stats.solver)
             };

@@ -27,7 +27,7 @@ pub(super) fn newton(m: &Model, p: &mut Primal, stats: &mut Vec<SolverStat>) -> 
     let mut iterations = 0;
     while iterations < m.opt.iterations {
         p.descend();
-        let Some(improvement) = p.step(m) else { break };
+        let Some(improvement) = p.step(m, None) else { break };
         p.hessian.follow(&p.problem, &p.old_state, &p.state, &p.jar);
         iterations += 1;
         let gradient = p.gradient();

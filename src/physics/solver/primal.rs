@@ -8,6 +8,7 @@ use super::line_cost::{Line, LineCost};
 use super::line_search::{Stop, line_search};
 use super::problem::{Problem, Selection};
 use crate::data::{Acceleration, Constraints, SolverStat};
+use crate::flex::Effective;
 use crate::math::add_scaled_slice;
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::{ConstraintState, Model};
@@ -80,6 +81,13 @@ impl Primal {
         self.evaluate();
     }
 
+    /// Takes the stiffness of flexes into the inertia, after `begin`.
+    pub fn stiffen(&mut self, effective: Effective) {
+        self.qfrc_smooth.iter_mut().zip(effective.shift()).for_each(|(f, shift)| *f += shift);
+        effective.add_product(&self.qacc, &mut self.ma);
+        self.evaluate();
+    }
+
     /// Updates states, forces and gradient.
     fn evaluate(&mut self) {
         let p = &mut self.problem;
@@ -120,9 +128,10 @@ impl Primal {
 
     /// Minimises along the search direction and moves there, keeping the old states; returns the scaled
     /// improvement, or `None` when there is no step to take.
-    pub fn step(&mut self, m: &Model) -> Option<f64> {
+    pub fn step(&mut self, m: &Model, effective: Option<Effective>) -> Option<f64> {
         let line = Line {
             problem: &self.problem,
+            effective,
             search: &self.search,
             jar: &self.jar,
             ma: &self.ma,

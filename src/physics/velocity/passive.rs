@@ -6,7 +6,7 @@ use crate::constraint::Difference;
 use crate::data::{
     Com, Configuration, Contact, Contacts, Flexes, Kinematics, Passive, State, Tendons, Velocity,
 };
-use crate::flex::{Flex, FlexScratch, bending, cells, shell, springs, stretch, weights};
+use crate::flex::{Flex, FlexScratch, Metric, bending, cells, shell, springs, stretch, weights};
 use crate::math::{Vec3, dot, norm, quat_difference, quat_normalize, row, scale, sub};
 use crate::model::{Disable, JointType, Model};
 use crate::plugin::{Capability, PassiveInputs};
@@ -22,7 +22,7 @@ pub fn passive(
     at: &Configuration,
     con: &Contacts,
     vel: &Velocity,
-    scratch: &mut FlexScratch,
+    (metric, scratch): (&Metric, &mut FlexScratch),
     out: &mut Passive,
 ) {
     let Configuration { state, kin, com, .. } = *at;
@@ -52,6 +52,7 @@ pub fn passive(
         flexes(m, at, vel, [springs, dampers], scratch, out);
     }
     tendons(m, at, vel, springs, dampers, out);
+    metric.touches.add_forces(con, &mut out.qfrc_spring);
     let compensates = has_gravity_compensation(m);
     if compensates {
         gravity_compensation(m, awake, kin, com, &mut out.qfrc_gravcomp);

@@ -1,0 +1,286 @@
+//! The effective inertia `M + K` of flexes that are implicit in positions: `K = (dt² + dt d) S` with `S` the stiffness of
+//! elasticity and of soft contacts at the present positions, and `d` the damping of a flex.
+//!
+//! With it, the step solves `(M + K) a = f - dt S v` instead of `M a = f`, so that stiff cloth is stable at the time
+//! steps of everything else. The solver `CG` and the integrators that are implicit in velocity ask for it
+//! (MuJoCo documentation, Computation, "Deformable objects").
+//!
+//! `matrix.rs` keeps `K` in rows that `pattern.rs` lays out, `terms.rs` applies what has none, `touch.rs` makes springs of contacts.
+
+mod matrix;
+mod pattern;
+mod terms;
+mod touch;
+
+use super::{Flex, FlexScratch, held, vertices};
+use crate::data::{Com, Contacts, Flexes, Inertia, Kinematics};
+use crate::inertia::{mul_inertia_matrix, solve_ld};
+use crate::math::dense::dot_slice;
+use crate::math::{add_scaled_slice, dot_sparse};
+use crate::model::bounds::MINVAL;
+use crate::model::{Cone, Enable, Integrator, Model, Solver};
+use matrix::Matrix;
+use std::ops::Range;
+use terms::Rates;
+pub(crate) use touch::{Touches, mark};
+
+/// The stiffness in the inertia of one configuration. Empty while nothing asks for it.
+#[derive(Clone, Debug, Default)]
+pub struct Metric {
+    is_on: bool,
+    /// Soft contacts.
+    pub(crate) touches: Touches,
+    matrix: Matrix,
+    /// `- dt S v`, the change of the force over a step at the present velocity.
+    pub(crate) shift: Vec<f64>,
+    /// Columns of the constant factor of bending, as degrees of freedom.
+    bending_columns: Vec<i32>,
+    solution: Solution,
+}
+
+/// Working memory of conjugate gradients.
+#[derive(Clone, Debug, Default)]
+struct Solution {
+    force: Vec<f64>,
+    residual: Vec<f64>,
+    preconditioned: Vec<f64>,
+    direction: Vec<f64>,
+    product: Vec<f64>,
+}
+
+/// Where bodies are.
+#[derive(Clone, Copy, Debug)]
+pub struct Poses<'a> {
+    /// Global poses.
+    pub kin: &'a Kinematics,
+    /// Centres of mass and motion axes.
+    pub com: &'a Com,
+}
+
+/// What makes up the effective inertia.
+#[derive(Clone, Copy, Debug)]
+pub struct Effective<'a> {
+    m: &'a Model,
+    poses: Poses<'a>,
+    flexes: &'a Flexes,
+    inertia: &'a Inertia,
+    metric: &'a Metric,
+}
+
+/// Stiffness of flexes is added to the inertia in a model with these options.
+pub(super) fn allowed(m: &Model) -> bool {
+    m.opt.solver == Solver::Cg
+        && matches!(m.opt.integrator, Integrator::Implicit | Integrator::Implicitfast)
+        && m.opt.cone != Cone::Elliptic
+        && !m.opt.enableflags.contains(Enable::SLEEP)
+}
+
+/// Some flex has stiffness that the model's options put in the inertia.
+pub(crate) fn is_asked_for(m: &Model) -> bool {
+    allowed(m) && Flex::all(m).any(|flex| is_elastic(flex) || has_soft_contacts(flex))
+}
+
+/// Contacts of the flex are springs.
+pub(super) fn has_soft_contacts(flex: Flex) -> bool {
+    !flex.m.flex_rigid[flex.id] && flex.m.flex_passive[flex.id] != 0
+}
+
+/// Elements of the flex resist being stretched or bent.
+fn is_elastic(flex: Flex) -> bool {
+    if flex.m.flex_rigid[flex.id] || flex.is_interpolated() {
+        return is_elastic_lattice(flex);
+    }
+    flex.dim() == 2 && flex.bending().is_some() || flex.dim() >= 2 && flex.stiffness().is_some()
+}
+
+/// Cells of a lattice that forces, not constraints, keep in shape.
+fn is_elastic_lattice(flex: Flex) -> bool {
+    !flex.m.flex_rigid[flex.id]
+        && flex.is_interpolated()
+        && flex.stiffness().is_some()
+        && flex.m.flex_edgeequality[flex.id] != held::STRAINS
+}
+
+/// Where the stiffness of cell `cell` is, whose nodes have `size` coordinates.
+fn cell_stiffness(first: usize, cell: usize, size: usize) -> Range<usize> {
+    first + cell * size * size..first + (cell + 1) * size * size
+}
+
+impl Metric {
+    /// True when the inertia of this model has stiffness in it.
+    pub(crate) fn is_on(&self) -> bool {
+        self.is_on
+    }
+
+    /// Computes the stiffness at the present positions, and `flexelem_krot`, if the model's options ask for it.
+    pub fn build(
+        &mut self,
+        m: &Model,
+        Poses { kin, com }: Poses,
+        inertia: &Inertia,
+        con: &mut Contacts,
+        flexes: &mut Flexes,
+        scratch: &mut FlexScratch,
+    ) {
+        self.is_on = is_asked_for(m);
+        self.touches.clear();
+        if !self.is_on {
+            return;
+        }
+        self.touches.find(m, com, flexes, inertia, con);
+        flexes.flexelem_krot.fill(0.0);
+        for flex in Flex::all(m).filter(|flex| is_elastic_lattice(*flex)) {
+            vertices::nodes(flex, kin, &mut scratch.nodes);
+            terms::turn_cells(flex, &scratch.nodes, &mut flexes.flexelem_krot);
+        }
+        self.matrix.assemble(m, kin, flexes, &self.touches, con);
+        self.matrix.factor_blocks(m, inertia);
+        self.bending_columns.clear();
+        if self.matrix.is_empty() {
+            let dofs = m.efm0_L_colind.iter().map(|&column| m.efm0_dofid[column as usize]);
+            self.bending_columns.extend(dofs);
+        }
+    }
+
+    /// Computes `- dt S v` at the present velocity.
+    pub(crate) fn set_shift(&mut self, m: &Model, poses: Poses, flexes: &Flexes, qvel: &[f64]) {
+        self.shift.clear();
+        self.shift.resize(m.nv, 0.0);
+        let rates = Rates { constant: -m.opt.timestep, damping: 0.0 };
+        terms::add_cells(m, poses, flexes, rates, qvel, &mut self.shift);
+        terms::add_bending(m, poses.kin, rates, qvel, &mut self.shift);
+        terms::add_stretch(m, poses.kin, flexes, rates, qvel, &mut self.shift);
+        self.touches.add_product(rates.constant, qvel, &mut self.shift);
+    }
+
+    /// Replaces force `x` by the acceleration that it makes without constraints.
+    pub(crate) fn accelerate(
+        &mut self,
+        m: &Model,
+        poses: Poses,
+        flexes: &Flexes,
+        inertia: &Inertia,
+        x: &mut [f64],
+    ) {
+        let mut memory = std::mem::take(&mut self.solution);
+        memory.force.clear();
+        memory.force.extend(x.iter().zip(&self.shift).map(|(f, c)| f + c));
+        self.effective(m, poses, flexes, inertia).solve(&mut memory, x);
+        self.solution = memory;
+    }
+
+    /// The effective inertia.
+    pub(crate) fn effective<'a>(
+        &'a self,
+        m: &'a Model,
+        poses: Poses<'a>,
+        flexes: &'a Flexes,
+        inertia: &'a Inertia,
+    ) -> Effective<'a> {
+        Effective { m, poses, flexes, inertia, metric: self }
+    }
+}
+
+impl Effective<'_> {
+    /// `- dt S v`, which comes on top of the forces.
+    pub(crate) fn shift(&self) -> &[f64] {
+        &self.metric.shift
+    }
+
+    /// Adds `K v` to `out`.
+    pub(crate) fn add_product(self, v: &[f64], out: &mut [f64]) {
+        let Effective { m, poses, flexes, metric, .. } = self;
+        let h = m.opt.timestep;
+        let rates = Rates { constant: h * h, damping: h };
+        metric.matrix.add_product(v, out);
+        if metric.matrix.is_empty() {
+            terms::add_bending(m, poses.kin, rates, v, out);
+        }
+        if metric.matrix.is_empty() || !metric.matrix.has_cells() {
+            terms::add_cells(m, poses, flexes, rates, v, out);
+        }
+    }
+
+    /// Sets `x` to an approximation of the acceleration that force `b` makes.
+    ///
+    /// Points with stiffness have a block of their own each, or all together the constant factor of bending; all other
+    /// degrees of freedom have their inertia.
+    pub(crate) fn precondition(self, b: &[f64], x: &mut [f64]) {
+        let Effective { m, inertia, metric, .. } = self;
+        x.copy_from_slice(b);
+        let bends = metric.matrix.is_empty() && m.nefm0dof > 0;
+        if bends {
+            m.efm0_dofid.iter().for_each(|&dof| x[dof as usize] = 0.0);
+        } else {
+            metric.matrix.clear_points(x);
+        }
+        solve_ld(m, &inertia.qLD, &inertia.qLDiagInv, x);
+        if bends {
+            m.efm0_dofid.iter().for_each(|&dof| x[dof as usize] = b[dof as usize]);
+            self.solve_bending(x);
+        } else {
+            metric.matrix.solve_blocks(b, x);
+        }
+    }
+
+    /// Solves with the constant factor of inertia and bending, in place.
+    fn solve_bending(self, x: &mut [f64]) {
+        let (m, columns) = (self.m, &self.metric.bending_columns[..]);
+        let row = |r: usize| {
+            let start = m.efm0_L_rowadr[r] as usize;
+            start..start + m.efm0_L_rownnz[r] as usize - 1
+        };
+        for r in (0..m.nefm0dof).rev() {
+            let (own, before) = (m.efm0_dofid[r] as usize, row(r));
+            if x[own] == 0.0 {
+                continue;
+            }
+            x[own] /= m.efm0_L[before.end];
+            let value = x[own];
+            for k in before {
+                x[columns[k] as usize] -= m.efm0_L[k] * value;
+            }
+        }
+        for r in 0..m.nefm0dof {
+            let (own, before) = (m.efm0_dofid[r] as usize, row(r));
+            x[own] -= dot_sparse(&m.efm0_L[before.clone()], &columns[before.clone()], x);
+            x[own] /= m.efm0_L[before.end];
+        }
+    }
+
+    /// Solves `(M + K) x = force` by conjugate gradients, to the solver's tolerance relative to the force.
+    fn solve(self, memory: &mut Solution, x: &mut [f64]) {
+        let (m, options) = (self.m, &self.m.opt);
+        let Solution { force, residual, preconditioned, direction, product } = memory;
+        x.fill(0.0);
+        let square = dot_slice(force, force);
+        if square <= MINVAL {
+            return;
+        }
+        let enough = options.tolerance * options.tolerance * square;
+        residual.clone_from(force);
+        [&mut *preconditioned, product].into_iter().for_each(|v| v.resize(m.nv, 0.0));
+        self.precondition(residual, preconditioned);
+        direction.clone_from(preconditioned);
+        let mut slope = dot_slice(residual, preconditioned);
+        for _ in 0..options.iterations {
+            mul_inertia_matrix(m, &self.inertia.M, direction, product);
+            self.add_product(direction, product);
+            let curvature = dot_slice(direction, product);
+            if curvature <= 0.0 {
+                return;
+            }
+            let length = slope / curvature;
+            add_scaled_slice(x, direction, length);
+            add_scaled_slice(residual, product, -length);
+            if dot_slice(residual, residual) < enough {
+                return;
+            }
+            self.precondition(residual, preconditioned);
+            let next = dot_slice(residual, preconditioned);
+            let weight = next / slope;
+            direction.iter_mut().zip(preconditioned.iter()).for_each(|(d, z)| *d = z + *d * weight);
+            slope = next;
+        }
+    }
+}
