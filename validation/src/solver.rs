@@ -197,7 +197,7 @@ fn inject(m: &mut Model, p: &Problems, k: usize, place: &mut Place) -> Result<Da
         d.efc.efc_J_rownnz.iter().scan(0, |sum, n| Some(std::mem::replace(sum, *sum + n))).collect();
     (d.efc.ne, d.efc.nf, d.efc.nl, d.efc.nefc) =
         (p.count("ne", k)?, p.count("nf", k)?, p.count("nl", k)?, rows);
-    find_islands(m, &d.con, &d.efc, &mut d.island, &mut IslandScratch::default());
+    find_islands(m, &d.state, &d.con, &d.efc, &mut d.island, &mut IslandScratch::default());
     if d.island.nisland != p.count("nisland", k)? {
         return Err(ReferenceError::Shape("nisland".into()));
     }

@@ -337,7 +337,7 @@ fn constraint_rows(m: &Model, d: &mut Data) {
     let Data { state, kin, com, flex, ten, inertia, con, efc, island, vel, .. } = d;
     let at = Configuration { state, kin, com, flex, ten };
     constraint::make_constraint(m, &at, inertia, con, efc, &mut scratch);
-    constraint::find_islands(m, con, efc, island, &mut constraint::IslandScratch::default());
+    constraint::find_islands(m, state, con, efc, island, &mut constraint::IslandScratch::default());
     constraint::reference(m, &at, vel, con, efc, &mut scratch);
 }
 

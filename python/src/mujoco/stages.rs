@@ -67,7 +67,7 @@ fn position_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<boo
             let at = configuration!(d);
             make_constraint(m, &at, &d.inertia, &mut d.con, &mut d.efc, &mut d.scratch.constraint);
         }
-        "island" => find_islands(m, &d.con, &d.efc, &mut d.island, &mut d.scratch.island),
+        "island" => find_islands(m, &d.state, &d.con, &d.efc, &mut d.island, &mut d.scratch.island),
         "transmission" => transmission(m, &configuration!(d), &d.con, &d.efc, &mut d.trn),
         "fwdPosition" => position(m, d, &mut ())?,
         "sensorPos" => position_sensors(m, d),

@@ -9,7 +9,7 @@ use crate::math::{
 };
 use crate::math::{scale, sub};
 use crate::model::{Disable, GeomType, Model};
-use crate::sleep::Awake;
+use crate::sleep::{Awake, object};
 
 /// Working memory and result of the broad phase.
 #[derive(Clone, Debug, Default)]
@@ -70,7 +70,8 @@ impl BroadPhase {
                     self.push(b1, b2);
                 }
             }
-            for f in (0..m.nflex).filter(|&f| pair_matches(m, awake, b1, m.nbody + f)) {
+            let awakes = |f: &usize| !awake.skips(|state| object::flex(m, state, *f));
+            for f in (0..m.nflex).filter(awakes).filter(|&f| types_admit(m, b1, m.nbody + f)) {
                 self.push(b1, m.nbody + f);
             }
         }
@@ -179,11 +180,20 @@ fn are_awake(awake: Awake, bodies: [usize; 2], weld: [usize; 2]) -> bool {
     !(first && (second || weld[1] == 0)) && !(second && weld[0] == 0)
 }
 
-/// [`bodies_match`], where flexes follow the bodies; those touch whatever their contact types admit.
+/// [`bodies_match`], where flexes follow the bodies; those touch whatever their contact types admit, while one moves.
 fn pair_matches(m: &Model, awake: Awake, b1: usize, b2: usize) -> bool {
     if b1 < m.nbody && b2 < m.nbody {
         return bodies_match(m, awake, b1, b2);
     }
+    let moves = |b: usize| match b.checked_sub(m.nbody) {
+        None => m.body_treeid[b] >= 0 && awake.moves(b),
+        Some(f) => awake.has_awake(|state| object::flex(m, state, f)),
+    };
+    (awake.is_everything() || moves(b1) || moves(b2)) && types_admit(m, b1, b2)
+}
+
+/// The contact types of two bodies or flexes admit each other.
+fn types_admit(m: &Model, b1: usize, b2: usize) -> bool {
     let types = |b: usize| match b.checked_sub(m.nbody) {
         None => (m.body_contype[b], m.body_conaffinity[b]),
         Some(f) => (m.flex_contype[f], m.flex_conaffinity[f]),

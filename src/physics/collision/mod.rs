@@ -345,7 +345,7 @@ fn touch(
         scratch.check(con)?;
     }
     if m.nflex > 0 {
-        flex::self_contacts(at, scratch, con);
+        flex::self_contacts(at, filter.awake, scratch, con);
         scratch.check(con)?;
     }
     Ok(())

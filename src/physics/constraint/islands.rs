@@ -2,7 +2,7 @@
 //! trees and whose edges are constraints (MuJoCo documentation, Computation, "Constraint islands").
 
 use super::diagonal::is_flex_equality;
-use crate::data::{Constraints, Contacts, Islands};
+use crate::data::{Constraints, Contacts, Islands, State};
 use crate::flex::Flex;
 use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
 
@@ -20,6 +20,7 @@ pub struct IslandScratch {
 /// Finds the islands of all rows and the orders of trees, degrees of freedom and rows sorted by island.
 pub fn find_islands(
     m: &Model,
+    state: &State,
     con: &Contacts,
     efc: &Constraints,
     island: &mut Islands,
@@ -43,7 +44,7 @@ pub fn find_islands(
         }
         scratch.blocks.push((i, tree));
     }
-    (0..m.nflex).for_each(|f| unite_flex(Flex { m, id: f }, &mut scratch.parent));
+    (0..m.nflex).for_each(|f| unite_flex(Flex { m, id: f }, state, &mut scratch.parent));
     number_islands(m, &mut scratch.parent, island);
     sort_trees(m, island, &mut scratch.filled);
     sort_dofs(m, island, &mut scratch.filled);
@@ -100,14 +101,14 @@ fn unite_columns(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> 
     first
 }
 
-/// Unites the trees of a flex whose elasticity couples them.
-fn unite_flex(flex: Flex, parent: &mut [i32]) {
+/// Unites the trees of a flex whose elasticity couples them, as far as they are awake.
+fn unite_flex(flex: Flex, state: &State, parent: &mut [i32]) {
     let m = flex.m;
     if m.flex_rigid[flex.id] || flex.dim() < 2 || flex.bending().is_none() && flex.stiffness().is_none() {
         return;
     }
-    let bodies = if flex.is_interpolated() { flex.node_bodies() } else { flex.vertex_bodies() };
-    let mut trees = bodies.iter().map(|&b| m.body_treeid[b as usize]).filter(|&tree| tree >= 0);
+    let awake = |tree: &i32| *tree >= 0 && state.tree_awake[*tree as usize] != 0;
+    let mut trees = flex.bodies().iter().map(|&b| m.body_treeid[b as usize]).filter(awake);
     let Some(first) = trees.next() else { return };
     trees.filter(|&tree| tree != first).for_each(|tree| unite(parent, first, tree));
 }
@@ -280,7 +281,8 @@ mod tests {
         push(&mut efc, row(ConstraintType::Equality), 0.0, &[1, 3], &[-0.5, 1.0]);
         push(&mut efc, row(ConstraintType::FrictionDof), 0.0, &[0], &[1.0]);
         let mut island = Islands::default();
-        find_islands(&m, &Contacts::default(), &efc, &mut island, &mut IslandScratch::default());
+        let state = State::new(&m);
+        find_islands(&m, &state, &Contacts::default(), &efc, &mut island, &mut IslandScratch::default());
         assert_eq!((island.nisland, island.nidof), (2, 3));
         assert_eq!(island.tree_island, [0, 1, -1, 1]);
         assert_eq!(island.map_idof2dof, [0, 1, 3, 2]);

@@ -132,6 +132,11 @@ impl<'a> Flex<'a> {
         &self.m.flex_nodebodyid[self.nodes()]
     }
 
+    /// Bodies that its shape depends on.
+    pub fn bodies(self) -> &'a [i32] {
+        if self.is_interpolated() { self.node_bodies() } else { self.vertex_bodies() }
+    }
+
     /// The vertices are interpolated between nodes.
     pub fn is_interpolated(self) -> bool {
         self.m.flex_interp[self.id] != 0

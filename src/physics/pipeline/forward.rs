@@ -237,7 +237,7 @@ pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), S
     let at = configuration_of!(d);
     make_constraint(m, &at, &d.inertia, &mut d.con, &mut d.efc, &mut s.constraint);
     watch.ended(Stage::Constraint);
-    find_islands(m, &d.con, &d.efc, &mut d.island, &mut s.island);
+    find_islands(m, &d.state, &d.con, &d.efc, &mut d.island, &mut s.island);
     d.budget.check_solver(m, &d.con, &d.efc, &d.island)?;
     watch.ended(Stage::Islands);
     transmission(m, &at, &d.con, &d.efc, &mut d.trn);

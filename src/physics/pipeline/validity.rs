@@ -117,9 +117,6 @@ pub fn check_start(m: &Model) -> Result<(), String> {
 /// # Errors
 /// The feature that is not simulated.
 pub fn check_options(m: &Model) -> Result<(), NotSimulated> {
-    if m.nflex > 0 && sleep::is_on(m) {
-        return Err(NotSimulated::feature("sleep (flag `sleep`) in a model with flexes"));
-    }
     flex::check_options(m)
 }
 

@@ -2,6 +2,7 @@
 
 use super::Activity;
 use crate::data::State;
+use crate::flex::Flex;
 use crate::model::{EqType, Model, ObjType, SensorType, TrnType};
 
 /// Activity of a body.
@@ -38,6 +39,12 @@ pub(crate) fn tendon(m: &Model, state: &State, t: usize) -> Activity {
     if awake { Activity::Awake } else { Activity::Asleep }
 }
 
+/// Activity of a flex, that of the first of its bodies that can move.
+pub(crate) fn flex(m: &Model, state: &State, f: usize) -> Activity {
+    let mut bodies = Flex { m, id: f }.bodies().iter().filter(|&&b| m.body_treeid[b as usize] >= 0);
+    bodies.next().map_or(Activity::Static, |&b| body(state, b))
+}
+
 /// Activity of an actuator, that of what it acts on.
 pub(crate) fn actuator(m: &Model, state: &State, i: usize) -> Activity {
     let [first, second] = m.actuator_trnid[i];
@@ -59,6 +66,7 @@ pub(crate) fn equality(m: &Model, state: &State, eq: usize) -> Activity {
         Some(EqType::Connect | EqType::Weld) => m.eq_objtype[eq],
         Some(EqType::Joint) => ObjType::Joint.code(),
         Some(EqType::Tendon) => ObjType::Tendon.code(),
+        Some(EqType::Flex | EqType::Flexvert | EqType::Flexstrain) => ObjType::Flex.code(),
         _ => return Activity::Awake,
     };
     let of = |id: i32| if id >= 0 { element(m, state, kind, id) } else { Activity::Static };
@@ -97,6 +105,7 @@ fn element(m: &Model, state: &State, kind: i32, id: i32) -> Activity {
         Some(ObjType::Site) => at(&m.site_bodyid),
         Some(ObjType::Camera) => at(&m.cam_bodyid),
         Some(ObjType::Light) => at(&m.light_bodyid),
+        Some(ObjType::Flex) => flex(m, state, id as usize),
         Some(ObjType::Tendon) => tendon(m, state, id as usize),
         Some(ObjType::Actuator) => actuator(m, state, id as usize),
         Some(ObjType::Equality) => equality(m, state, id as usize),

@@ -2,6 +2,7 @@
 
 use super::{MOVED, update};
 use crate::data::{Contacts, State, Tendons};
+use crate::flex::{Flex, weights};
 use crate::model::{EqType, Model, ObjType};
 
 /// Wakes a sleeping tree and those that fell asleep with it; one that is awake gets the count `wakened`, if that is lower.
@@ -62,7 +63,7 @@ pub(crate) fn by_user(m: &Model, state: &mut State) {
 pub(crate) fn by_contacts(m: &Model, con: &Contacts, state: &mut State) -> bool {
     let mut woken = false;
     for contact in &con.contact {
-        let bodies = contact.geom.map(|g| m.geom_bodyid[g as usize] as usize);
+        let bodies = [0, 1].map(|side| weights::representative(m, contact, side));
         woken |= match bodies.map(|b| usize::try_from(m.body_treeid[b]).ok()) {
             [Some(a), Some(b)] => couple(state, a, b),
             [Some(tree), None] => by_mocap(state, tree, bodies[1]),
@@ -119,15 +120,37 @@ pub(crate) fn by_tendons(m: &Model, ten: &Tendons, state: &mut State) -> bool {
 pub(crate) fn by_equalities(m: &Model, state: &mut State) {
     let mut woken = false;
     for eq in 0..m.neq {
-        if state.eq_active[eq]
-            && let Some(bodies) = coupled_bodies(m, eq)
-        {
+        if !state.eq_active[eq] {
+            continue;
+        }
+        if let Some(f) = held_flex(m, eq) {
+            woken |= by_flex(Flex { m, id: f }, state);
+        } else if let Some(bodies) = coupled_bodies(m, eq) {
             woken |= by_equality(m, state, bodies);
         }
     }
     if woken {
         update(m, state);
     }
+}
+
+/// The flex that an equality constraint keeps in shape.
+fn held_flex(m: &Model, eq: usize) -> Option<usize> {
+    let holds = matches!(
+        EqType::from_code(m.eq_type[eq]),
+        Some(EqType::Flex | EqType::Flexvert | EqType::Flexstrain)
+    );
+    usize::try_from(m.eq_obj1id[eq]).ok().filter(|_| holds)
+}
+
+/// Wakes the sleeping island of a flex of which a part is awake.
+fn by_flex(flex: Flex, state: &mut State) -> bool {
+    let trees = || flex.bodies().iter().filter_map(|&b| usize::try_from(flex.m.body_treeid[b as usize]).ok());
+    let awake = trees().find(|&tree| state.tree_awake[tree] != 0);
+    let sleeping = trees().find(|&tree| state.tree_awake[tree] == 0);
+    let (Some(awake), Some(sleeping)) = (awake, sleeping) else { return false };
+    wake(state, sleeping, state.tree_asleep[awake]);
+    true
 }
 
 /// The bodies that an equality constraint couples; none where it has one.

@@ -206,3 +206,21 @@ fn islands_that_the_user_garbles_neither_panic_nor_hang() {
         assert!(d.state.qpos.iter().all(|x| x.is_finite()));
     }
 }
+
+#[test]
+fn a_flex_sleeps_and_wakes_as_a_whole() {
+    let m = robohive_mjcf::load_str(
+        "<mujoco><option><flag sleep='enable' gravity='disable'/></option><worldbody><body name='holder'>
+         <flexcomp name='sheet' type='grid' dim='2' count='3 3 1' spacing='.1 .1 .1' radius='.01' mass='.1'>
+         <edge equality='true'/><contact selfcollide='none' internal='false'/></flexcomp></body></worldbody></mujoco>",
+    )
+    .unwrap_or_else(|e| panic!("{e}"))
+    .model;
+    let mut d = Data::new(&m);
+    run(&m, &mut d, 20);
+    assert_eq!((asleep(&d), d.efc.nefc), (vec![true; 9], 0));
+    d.state.qfrc_applied[0] = 0.01;
+    run(&m, &mut d, 1);
+    assert_eq!(asleep(&d), vec![false; 9]);
+    assert!(d.efc.nefc > 0);
+}

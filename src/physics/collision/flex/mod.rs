@@ -22,6 +22,7 @@ use crate::data::{Contacts, Flexes, Kinematics};
 use crate::flex::Flex;
 use crate::math::{Vec3, add_scaled, column, dot, sub};
 use crate::model::{Disable, FlexSelf, GeomType, Model};
+use crate::sleep::{Awake, object};
 
 /// What contacts are found in.
 #[derive(Clone, Copy)]
@@ -139,10 +140,11 @@ pub(super) fn two_flexes(at: World, pair: [usize; 2], scratch: &mut CollisionScr
 }
 
 /// Contacts of each flex with itself.
-pub(super) fn self_contacts(at: World, scratch: &mut CollisionScratch, con: &mut Contacts) {
+pub(super) fn self_contacts(at: World, awake: Awake, scratch: &mut CollisionScratch, con: &mut Contacts) {
     let m = at.m;
     let collides = |f: &usize| !m.flex_rigid[*f] && m.flex_contype[*f] & m.flex_conaffinity[*f] != 0;
-    for f in (0..m.nflex).filter(collides) {
+    let sleeps = |f: usize| awake.skips(|state| object::flex(m, state, f));
+    for f in (0..m.nflex).filter(collides).filter(|&f| !sleeps(f)) {
         if m.flex_internal[f] {
             let before = con.contact.len();
             internal::neighbours(at, f, scratch, con);
