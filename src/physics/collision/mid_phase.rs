@@ -10,7 +10,7 @@ use crate::model::bounds::MAXVAL;
 
 /// A tree of boxes.
 #[derive(Clone, Copy)]
-pub(super) struct Tree<'a> {
+pub(crate) struct Tree<'a> {
     /// Children of each node, -1 for none.
     pub children: &'a [[i32; 2]],
     /// What a leaf stands for.

@@ -16,7 +16,7 @@ pub(super) use sweep::Sweep;
 pub(super) use thin::Spread;
 
 use super::mixing::{self, Mixture, Parts, Surface};
-use super::{CollisionScratch, PreContact};
+use super::{CollisionScratch, PreContact, sdf};
 use crate::collision::broad_phase::{geoms, types_match};
 use crate::data::{Contacts, Flexes, Kinematics};
 use crate::flex::Flex;
@@ -99,6 +99,9 @@ pub(super) fn body_flex(
                 plane(at, g, f, con);
             }
         }
+        for g in geoms(m, body).filter(|&g| is_of_type(m, g, GeomType::Sdf)) {
+            field(at, g, f, scratch, con);
+        }
         tree::body_flex(at, body, f, scratch, con);
         thin::keep_spread(&mut con.contact, before, &mut scratch.spread);
         thin::sort(&mut con.contact[before..]);
@@ -108,6 +111,8 @@ pub(super) fn body_flex(
         let before = con.contact.len();
         if is_of_type(m, g, GeomType::Plane) {
             plane(at, g, f, con);
+        } else if is_of_type(m, g, GeomType::Sdf) {
+            field(at, g, f, scratch, con);
         } else {
             for e in 0..at.flex(f).elements().len() {
                 if !scratch.has_room(con) {
@@ -118,6 +123,25 @@ pub(super) fn body_flex(
         }
         thin::keep_spread(&mut con.contact, before, &mut scratch.spread);
     }
+}
+
+/// Contacts of a signed distance geom with a sheet; lines and solids pass through it.
+fn field(at: World, g: usize, f: usize, scratch: &mut CollisionScratch, con: &mut Contacts) {
+    let (m, flex) = (at.m, at.flex(f));
+    if flex.dim() != 2 {
+        return;
+    }
+    let tree = (m.flex_bvhadr[f] >= 0).then(|| tree::tree_of(at, f));
+    let sheet = sdf::Sheet { elements: flex.corners(), points: at.points(f), tree };
+    let (mut points, mut elements) = (std::mem::take(&mut scratch.points), Vec::new());
+    points.clear();
+    sdf::sheet_and_field(m, at.kin, g, sheet, &mut elements, &mut points);
+    let mixture = Mixture::of_flex(m, [Surface::geom(m, g), Surface::flex(m, f)], geom_reach(m, g, f)[0]);
+    for (e, point) in elements.into_iter().zip(&points) {
+        let parts = Parts { geom: [g as i32, -1], flex: [-1, f as i32], elem: [-1, e as i32], ..Parts::NONE };
+        con.contact.push(mixture.of_parts(parts, point));
+    }
+    scratch.points = points;
 }
 
 /// Contacts of the elements of two flexes.

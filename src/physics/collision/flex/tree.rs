@@ -9,7 +9,7 @@ use crate::model::GeomType;
 const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
 /// The tree of a flex, whose boxes lie along the world's axes.
-fn tree_of(at: World<'_>, f: usize) -> Tree<'_> {
+pub(super) fn tree_of(at: World<'_>, f: usize) -> Tree<'_> {
     let start = at.m.flex_bvhadr[f] as usize;
     Tree {
         children: &at.m.bvh_child[start..],
@@ -18,7 +18,7 @@ fn tree_of(at: World<'_>, f: usize) -> Tree<'_> {
     }
 }
 
-/// Contacts of the geoms of a body, planes aside, with the elements of a flex.
+/// Contacts of the geoms of a body, planes and fields aside, with the elements of a flex.
 pub(super) fn body_flex(
     at: World,
     body: usize,
@@ -47,7 +47,8 @@ pub(super) fn body_flex(
         &mut stack,
         |a, b| relation.overlap([a, b], body_margin),
         |g, e| {
-            if !is_of_type(m, g, GeomType::Plane) && touches(g, e) {
+            let as_a_whole = is_of_type(m, g, GeomType::Plane) || is_of_type(m, g, GeomType::Sdf);
+            if !as_a_whole && touches(g, e) {
                 element::with_geom(at, g, f, e, scratch, con);
             }
             scratch.has_room(con)

@@ -11,7 +11,7 @@ mod solid;
 mod triangles;
 
 pub(crate) use pair::two_fields;
-pub(crate) use triangles::mesh_and_field;
+pub(crate) use triangles::{Sheet, mesh_and_field, sheet_and_field};
 
 use super::PreContact;
 use crate::math::{
@@ -116,31 +116,35 @@ impl Transfer {
 struct Points<'o> {
     pos: Vec3,
     quat: Quat,
+    /// Normals point out of the field.
+    outward: bool,
     known: Vec<Vec3>,
     out: &'o mut Vec<PreContact>,
 }
 
 impl<'o> Points<'o> {
     fn new((pos, quat): (Vec3, Quat), out: &'o mut Vec<PreContact>) -> Self {
-        Points { pos, quat, known: Vec::new(), out }
+        Points { pos, quat, outward: false, known: Vec::new(), out }
     }
 
-    /// Adds a contact at `p`, in the frame of the field, if it lies inside; `outward` is the slope there.
-    fn add(&mut self, p: Vec3, depth: f64, outward: impl FnOnce() -> Vec3) {
+    /// Adds a contact at `p`, in the frame of the field, if it lies inside; `slope` is that of
+    /// the distance there. True when it was added.
+    fn add(&mut self, p: Vec3, depth: f64, slope: impl FnOnce() -> Vec3) -> bool {
         if depth > 0.0
             || self.known.len() >= MAXCONPAIR
             || self.known.iter().any(|q| distance(p, *q) < MINVAL)
         {
-            return;
+            return false;
         }
-        let (normal, length) = normalize(outward());
+        let (normal, length) = normalize(slope());
         if length < MINVAL {
-            return;
+            return false;
         }
         self.known.push(p);
-        let normal = quat_rotate(self.quat, scale(normal, -1.0));
+        let normal = quat_rotate(self.quat, if self.outward { normal } else { scale(normal, -1.0) });
         let pos = add(quat_rotate(self.quat, p), self.pos);
         let pos = add(pos, scale(normal, -0.5 * depth));
         self.out.push(PreContact { dist: depth, pos, normal, tangent: [0.0; 3] });
+        true
     }
 }

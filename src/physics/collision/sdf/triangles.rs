@@ -4,8 +4,11 @@
 use super::{Distance, Points, Transfer, halton, larger};
 use crate::collision::PreContact;
 use crate::collision::convex::ConvexScratch;
+use crate::collision::mid_phase::Tree;
 use crate::data::Kinematics;
-use crate::math::{Vec3, add, add_scaled, cross, distance, dot, mat_to_quat, norm, normalize, scale, sub};
+use crate::math::{
+    IDENTITY, Quat, Vec3, add, add_scaled, cross, distance, dot, mat_to_quat, norm, normalize, scale, sub,
+};
 use crate::model::Model;
 use crate::model::bounds::{MAXCONPAIR, MAXVAL, MINVAL};
 use crate::ray::MAX_LEVELS;
@@ -39,44 +42,106 @@ pub(crate) fn mesh_and_field(
     let (starts, steps) = (m.opt.sdf_initpoints.max(1) as usize, m.opt.sdf_iterations);
     let search = Search { field, starts, steps };
     let mut candidates = Vec::new();
-    near_faces(
-        m,
-        mesh,
-        |aabb| search.near_box(aabb, &across),
-        |corners| {
-            search.triangle(corners.map(|p| across.point(p)), &mut candidates);
-        },
-    );
+    let Ok(root) = usize::try_from(m.mesh_bvhadr[mesh]) else { return };
+    let tree =
+        Tree { children: &m.bvh_child[root..], ids: &m.bvh_nodeid[root..], boxes: &m.bvh_aabb[root..] };
+    let (first_face, first_vertex) = (m.mesh_faceadr[mesh] as usize, m.mesh_vertadr[mesh] as usize);
+    search.near_leaves(tree, &across, |face| {
+        let face = m.mesh_face[first_face + face];
+        let corners = face.map(|v| m.mesh_vert[first_vertex + v as usize].map(f64::from));
+        search.triangle(corners.map(|p| across.point(p)), &mut candidates);
+    });
     let mut points = Points::new(pose2, out);
     for Candidate { at, depth } in candidates {
         points.add(at, depth, || field.gradient(at));
     }
 }
 
-/// Calls `visit` for the triangles of a mesh that `near` lets through, with the boxes around them.
-fn near_faces(m: &Model, mesh: usize, near: impl Fn(&[f64; 6]) -> bool, mut visit: impl FnMut([Vec3; 3])) {
-    let Ok(root) = usize::try_from(m.mesh_bvhadr[mesh]) else { return };
-    let (first_face, first_vertex) = (m.mesh_faceadr[mesh] as usize, m.mesh_vertadr[mesh] as usize);
-    let (mut stack, mut waiting) = ([0_usize; MAX_LEVELS + 1], 1);
-    while waiting > 0 {
-        waiting -= 1;
-        let node = root + stack[waiting];
-        if !near(&m.bvh_aabb[node]) {
-            continue;
+/// Triangles that move on their own, in the world.
+#[derive(Clone, Copy)]
+pub(crate) struct Sheet<'a> {
+    /// Corners of all triangles.
+    pub elements: &'a [i32],
+    pub points: &'a [Vec3],
+    /// Boxes around the triangles.
+    pub tree: Option<Tree<'a>>,
+}
+
+impl Sheet<'_> {
+    fn corners(&self, e: usize, across: &Transfer) -> [Vec3; 3] {
+        [0, 1, 2].map(|k| across.point(self.points[self.elements[3 * e + k] as usize]))
+    }
+}
+
+/// Contacts of the field of a geom, the first, with a sheet; `elements` says of each which triangle touches.
+///
+/// With a tree of boxes, each triangle touches at its deepest point alone.
+pub(crate) fn sheet_and_field(
+    m: &Model,
+    kin: &Kinematics,
+    g: usize,
+    sheet: Sheet,
+    elements: &mut Vec<usize>,
+    out: &mut Vec<PreContact>,
+) {
+    const WORLD: (Vec3, Quat) = ([0.0; 3], IDENTITY);
+    let Some(field) = Distance::of(m, g) else { return };
+    let pose = (kin.geom_xpos[g], mat_to_quat(&kin.geom_xmat[g]));
+    let across = Transfer::new(WORLD, pose);
+    let (starts, steps) = (m.opt.sdf_initpoints.max(1) as usize, m.opt.sdf_iterations);
+    let search = Search { field, starts, steps };
+    let mut own = Vec::new();
+    if let Some(tree) = sheet.tree {
+        let mut deepest: Vec<(usize, Candidate)> = Vec::new();
+        search.near_leaves(tree, &across, |e| {
+            own.clear();
+            search.triangle(sheet.corners(e, &across), &mut own);
+            let best = own.drain(..).reduce(|best, next| if next.depth < best.depth { next } else { best });
+            if let Some(best) = best.filter(|_| deepest.len() < MAXCONPAIR) {
+                deepest.push((e, best));
+            }
+        });
+        let mut points = Points { outward: true, ..Points::new(pose, out) };
+        for (e, Candidate { at, depth }) in deepest {
+            if points.add(at, depth, || field.gradient(at)) {
+                elements.push(e);
+            }
         }
-        if let Ok(face) = usize::try_from(m.bvh_nodeid[node]) {
-            let face = m.mesh_face[first_face + face];
-            visit(face.map(|v| m.mesh_vert[first_vertex + v as usize].map(f64::from)));
-            continue;
-        }
-        for child in m.bvh_child[node].iter().filter_map(|&c| usize::try_from(c).ok()) {
-            stack[waiting] = child;
-            waiting += 1;
+        return;
+    }
+    for e in 0..sheet.elements.len() / 3 {
+        own.clear();
+        search.triangle(sheet.corners(e, &across), &mut own);
+        let mut points = Points { outward: true, ..Points::new(pose, out) };
+        for Candidate { at, depth } in own.drain(..) {
+            if elements.len() < MAXCONPAIR && points.add(at, depth, || field.gradient(at)) {
+                elements.push(e);
+            }
         }
     }
 }
 
 impl Search<'_> {
+    /// Calls `visit` for the leaves whose boxes come near the field.
+    fn near_leaves(&self, tree: Tree, across: &Transfer, mut visit: impl FnMut(usize)) {
+        let (mut stack, mut waiting) = ([0_usize; MAX_LEVELS + 1], 1);
+        while waiting > 0 {
+            waiting -= 1;
+            let node = stack[waiting];
+            if !self.near_box(&tree.boxes[node], across) {
+                continue;
+            }
+            if let Ok(leaf) = usize::try_from(tree.ids[node]) {
+                visit(leaf);
+                continue;
+            }
+            for child in tree.children[node].iter().filter_map(|&c| usize::try_from(c).ok()) {
+                stack[waiting] = child;
+                waiting += 1;
+            }
+        }
+    }
+
     /// The sphere around a box reaches the field.
     fn near_box(&self, aabb: &[f64; 6], across: &Transfer) -> bool {
         let centre = across.point([aabb[0], aabb[1], aabb[2]]);
