@@ -88,7 +88,9 @@ fn position(m: &Arrays, kin: &Kinematics, v: usize) -> Vec3 {
 
 /// Edges of flexes whose vertices are fixed to bodies, with their flex; those of rigid ones too.
 pub(super) fn measured(m: &Arrays) -> impl Iterator<Item = (usize, usize)> {
-    (0..m.nflex).filter(|&f| m.flex_interp[f] == 0).flat_map(|f| flex_pattern::edges(m, f).map(move |e| (f, e)))
+    (0..m.nflex)
+        .filter(|&f| m.flex_interp[f] == 0)
+        .flat_map(|f| flex_pattern::edges(m, f).map(move |e| (f, e)))
 }
 
 /// Lengths of all edges; 0 for those of interpolated flexes.

@@ -7,7 +7,7 @@ use super::friction_loss::tendon_row;
 use super::jacobian_rate::jacobian_rates;
 use super::rows::{RowKind, is_empty, push};
 use crate::data::{Com, Configuration, Constraints, Flexes, Kinematics, Velocity};
-use crate::flex::modes::StrainedCell;
+use crate::flex::modes::{StrainScratch, StrainedCell};
 use crate::flex::{Flex, edges as flex_edges, springs};
 use crate::math::{Quat, Vec3, add, mul_mat_vec, quat_conj, quat_mul, quat_mul_axis, scale, sub};
 use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
@@ -45,7 +45,7 @@ pub(super) fn equality(
             }
             Some(EqType::Flex) => edges(m, flex, eq, efc),
             Some(EqType::Flexvert) => vertices(m, flex, eq, efc),
-            Some(EqType::Flexstrain) => strains(m, kin, com, eq, efc),
+            Some(EqType::Flexstrain) => strains(m, kin, com, eq, efc, &mut scratch.strain),
             // The compiler refuses distances.
             Some(EqType::Distance) | None => {}
         }
@@ -230,9 +230,16 @@ fn vertices(m: &Model, flexes: &Flexes, eq: usize, efc: &mut Constraints) {
 }
 
 /// A cell of an interpolated flex is not strained: a row for each mode of deformation.
-fn strains(m: &Model, kin: &Kinematics, com: &Com, eq: usize, efc: &mut Constraints) {
+fn strains(
+    m: &Model,
+    kin: &Kinematics,
+    com: &Com,
+    eq: usize,
+    efc: &mut Constraints,
+    memory: &mut StrainScratch,
+) {
     if let Some(cell) = StrainedCell::new(m, eq) {
-        cell.rows(kin, com, |pos, columns, values| push_flex(m, eq, pos, columns, values, efc));
+        cell.rows(kin, com, memory, |pos, columns, values| push_flex(m, eq, pos, columns, values, efc));
     }
 }
 

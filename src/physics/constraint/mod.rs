@@ -25,6 +25,7 @@ pub use reference::reference;
 pub use rows::{mul_jacobian, mul_jacobian_transposed};
 
 use crate::data::{Configuration, Constraints, Contacts, Inertia};
+use crate::flex::modes::StrainScratch;
 use crate::model::{Disable, Enable, Model};
 use crate::sleep::Awake;
 
@@ -39,6 +40,8 @@ pub struct ConstraintScratch {
     columns: Vec<i32>,
     values: Vec<f64>,
     half: HalfJacobian,
+    /// Strains of flexes.
+    strain: StrainScratch,
 }
 
 /// Builds all rows of this configuration with their impedance; sets `efc_address`, `mu` and `exclude` of contacts.

@@ -22,6 +22,7 @@ mod support;
 pub(crate) mod vertices;
 pub(crate) mod weights;
 
+use crate::constraint::Difference;
 use crate::data::{Com, Flexes, Kinematics};
 use crate::math::Vec3;
 use crate::model::Model;
@@ -46,12 +47,20 @@ pub struct FlexScratch {
     faces: Vec<lattice::Patch>,
     /// Two full rows of a Jacobian.
     rows: [Vec<f64>; 2],
+    /// Bodies of a contact with their weights, and how they move it.
+    bodies: Vec<(usize, f64)>,
+    sum: Difference,
 }
 
 impl FlexScratch {
     /// Memory for forces on the vertices of one flex.
     pub(crate) fn forces(&mut self) -> &mut Vec<Vec3> {
         &mut self.force
+    }
+
+    /// Memory for the motion of a contact.
+    pub(crate) fn of_contact(&mut self) -> (&mut Vec<(usize, f64)>, &mut Difference) {
+        (&mut self.bodies, &mut self.sum)
     }
 }
 

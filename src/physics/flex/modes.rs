@@ -8,6 +8,21 @@ use crate::math::{Quat, Vec3, quat_conj, quat_rotate, sub};
 use crate::model::Model;
 use crate::position::chain::{chain, com_offset, point_column};
 
+/// Working memory, reused from cell to cell.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct StrainScratch {
+    /// Displacements of the nodes.
+    shift: Vec<f64>,
+    /// Degrees of freedom that move the cell.
+    dofs: Vec<i32>,
+    /// Place in `dofs`, and velocity, of what moves each node, one node after the other.
+    columns: Vec<(usize, Vec3)>,
+    /// One past the last column of each node.
+    ends: Vec<usize>,
+    /// A row.
+    values: Vec<f64>,
+}
+
 /// One constrained cell, or face of a shell.
 pub(crate) struct StrainedCell<'a> {
     flex: Flex<'a>,
@@ -43,7 +58,13 @@ impl<'a> StrainedCell<'a> {
     }
 
     /// Calls `row(violation, dofs, jacobian)` for each mode.
-    pub fn rows(&self, kin: &Kinematics, com: &Com, mut row: impl FnMut(f64, &[i32], &[f64])) {
+    pub fn rows(
+        &self,
+        kin: &Kinematics,
+        com: &Com,
+        memory: &mut StrainScratch,
+        mut row: impl FnMut(f64, &[i32], &[f64]),
+    ) {
         let m = self.flex.m;
         let centred = m.flex_centered[self.flex.id];
         let nodes = self.flex.nodes();
@@ -54,48 +75,52 @@ impl<'a> StrainedCell<'a> {
         }
         let points = &points[..self.patch.nodes().len()];
         let back = self.patch.inverse_rotation(points);
-        let shift: Vec<f64> = (self.patch.nodes().iter().zip(points))
-            .flat_map(|(&n, &point)| sub(quat_rotate(back, point), m.flex_node0[nodes.start + n]))
-            .collect();
-        let (dofs, columns) = self.columns(com, points);
-        let mut values = vec![0.0; dofs.len()];
-        for vector in self.vectors.chunks_exact(shift.len()) {
+        memory.shift.clear();
+        for (&n, &point) in self.patch.nodes().iter().zip(points) {
+            memory.shift.extend(sub(quat_rotate(back, point), m.flex_node0[nodes.start + n]));
+        }
+        self.find_columns(com, points, memory);
+        memory.values.resize(memory.dofs.len(), 0.0);
+        for vector in self.vectors.chunks_exact(memory.shift.len()) {
             let mut violation = 0.0;
-            vector.iter().zip(&shift).for_each(|(v, s)| violation += v * s);
-            project(vector, quat_conj(back), &columns, &mut values);
-            row(violation, &dofs, &values);
+            vector.iter().zip(&memory.shift).for_each(|(v, s)| violation += v * s);
+            project(vector, quat_conj(back), memory);
+            row(violation, &memory.dofs, &memory.values);
         }
     }
 
-    /// Degrees of freedom that move the cell, and for each node those that move it: their place and velocity.
-    fn columns(&self, com: &Com, points: &[Vec3]) -> (Vec<i32>, Vec<Vec<(usize, Vec3)>>) {
+    /// Finds the degrees of freedom that move the cell, and for each node those that move it.
+    fn find_columns(&self, com: &Com, points: &[Vec3], memory: &mut StrainScratch) {
         let m = self.flex.m;
-        let bodies: Vec<usize> =
-            self.patch.nodes().iter().map(|&n| self.flex.node_bodies()[n] as usize).collect();
-        let mut dofs: Vec<i32> = bodies.iter().flat_map(|&b| chain(m, b)).map(|dof| dof as i32).collect();
+        let StrainScratch { dofs, columns, ends, .. } = memory;
+        let body = |n: usize| self.flex.node_bodies()[n] as usize;
+        dofs.clear();
+        self.patch.nodes().iter().for_each(|&n| dofs.extend(chain(m, body(n)).map(|dof| dof as i32)));
         dofs.sort_unstable();
         dofs.dedup();
-        let columns = (bodies.iter().zip(points))
-            .map(|(&b, &point)| {
-                let offset = com_offset(m, com, b, point);
-                let column = |dof: usize| {
-                    let at = dofs.binary_search(&(dof as i32)).unwrap_or(0);
-                    (at, point_column(com, dof, offset))
-                };
-                chain(m, b).map(column).collect()
-            })
-            .collect();
-        (dofs, columns)
+        columns.clear();
+        ends.clear();
+        for (&n, &point) in self.patch.nodes().iter().zip(points) {
+            let offset = com_offset(m, com, body(n), point);
+            columns.extend(chain(m, body(n)).map(|dof| {
+                let at = dofs.binary_search(&(dof as i32)).unwrap_or(0);
+                (at, point_column(com, dof, offset))
+            }));
+            ends.push(columns.len());
+        }
     }
 }
 
 /// Jacobian of the deformation along a mode, whose vector is turned into the world.
-fn project(vector: &[f64], forth: Quat, columns: &[Vec<(usize, Vec3)>], values: &mut [f64]) {
+fn project(vector: &[f64], forth: Quat, memory: &mut StrainScratch) {
+    let StrainScratch { columns, ends, values, .. } = memory;
     values.fill(0.0);
-    for (part, columns) in vector.as_chunks::<3>().0.iter().zip(columns) {
+    let mut first = 0;
+    for (part, &end) in vector.as_chunks::<3>().0.iter().zip(ends.iter()) {
         let direction = quat_rotate(forth, *part);
         for (x, &share) in direction.iter().enumerate().filter(|(_, share)| **share != 0.0) {
-            columns.iter().for_each(|&(at, column)| values[at] += share * column[x]);
+            columns[first..end].iter().for_each(|&(at, column)| values[at] += share * column[x]);
         }
+        first = end;
     }
 }

@@ -5,7 +5,7 @@ use robohive_physics::{Data, forward};
 #[test]
 fn a_sheet_touches_a_field_from_outside() {
     for option in ["", "<flag midphase='disable'/>"] {
-        let m = robohive_mjcf::load_str(&format!(
+        let m = robohive_mjcf::load_str(format!(
             "<mujoco><option>{option}</option><asset><mesh name='ball' builtin='sphere' params='3'/></asset><worldbody>
              <geom name='ball' type='sdf' mesh='ball'/><body name='holder' pos='0 0 .98'>
              <flexcomp name='sheet' type='grid' dim='2' count='7 7 1' spacing='.1 .1 .1' radius='.01' mass='.1'>

@@ -2,7 +2,6 @@
 //! "Passive forces").
 
 use crate::actuation::reflected_load::{dof_damping, tendon_damping};
-use crate::constraint::Difference;
 use crate::data::{
     Com, Configuration, Contact, Contacts, Flexes, Kinematics, Passive, State, Tendons, Velocity,
 };
@@ -62,7 +61,7 @@ pub fn passive(
         fluid::fluid(m, awake, kin, com, vel, &mut out.qfrc_fluid);
     }
     if m.flg_adhesion && !disabled(Disable::CONTACT) {
-        adhesion(m, com, at.flex, con, &mut out.qfrc_adhesion);
+        adhesion(m, com, at.flex, con, scratch, &mut out.qfrc_adhesion);
     }
     over!(awake.dofs(m), |dofs| for dof in dofs {
         let by_actuator = m.jnt_actgravcomp[m.dof_jntid[dof] as usize];
@@ -194,10 +193,17 @@ fn gravity_compensation(m: &Model, awake: Awake, kin: &Kinematics, com: &Com, qf
 }
 
 /// Constant attraction of adhesive contacts along their normals.
-fn adhesion(m: &Model, com: &Com, flexes: &Flexes, con: &Contacts, qfrc: &mut [f64]) {
+fn adhesion(
+    m: &Model,
+    com: &Com,
+    flexes: &Flexes,
+    con: &Contacts,
+    scratch: &mut FlexScratch,
+    qfrc: &mut [f64],
+) {
     for c in con.contact.iter().filter(|c| c.adhesion != 0.0 && c.exclude <= 1) {
         let Some(bodies) = weights::single_bodies(m, c) else {
-            weighted_adhesion(m, com, flexes, c, qfrc);
+            weighted_adhesion(m, com, flexes, c, scratch, qfrc);
             continue;
         };
         let offsets = bodies.map(|b| com_offset(m, com, b, c.pos));
@@ -209,11 +215,16 @@ fn adhesion(m: &Model, com: &Com, flexes: &Flexes, con: &Contacts, qfrc: &mut [f
 }
 
 /// Attraction of a contact with an element of a flex, which several bodies share.
-fn weighted_adhesion(m: &Model, com: &Com, flexes: &Flexes, c: &Contact, qfrc: &mut [f64]) {
-    let (mut bodies, mut sum) = (Vec::new(), Difference::default());
-    weights::bodies_of(m, flexes, c, 0, -1.0, &mut bodies);
-    weights::bodies_of(m, flexes, c, 1, 1.0, &mut bodies);
-    sum.weighted(m, com, &bodies, c.pos);
+fn weighted_adhesion(
+    m: &Model,
+    com: &Com,
+    flexes: &Flexes,
+    c: &Contact,
+    scratch: &mut FlexScratch,
+    qfrc: &mut [f64],
+) {
+    let (bodies, sum) = scratch.of_contact();
+    sum.of_contact(m, com, flexes, c, bodies);
     for (&dof, &column) in sum.dof.iter().zip(&sum.translation) {
         qfrc[dof as usize] += dot(row(&c.frame, 0), column) * -c.adhesion;
     }
