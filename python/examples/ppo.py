@@ -1,13 +1,15 @@
 """Proximal policy optimisation in one file (Schulman et al. 2017), torch on a vector that steps in Rust.
 
-python examples/ppo.py [--id ID] [--updates N]
+python examples/ppo.py [--id ID] [--updates N] [--table FILE]
 
-Prints the mean return and success of finished episodes after every tenth update.
+Prints the mean return of the episodes that finished since the last report, and how many of them ended solved, after every
+tenth update.
 """
 
 import argparse
 import time
 from dataclasses import dataclass
+from pathlib import Path
 
 import gymnasium as gym
 import numpy as np
@@ -82,6 +84,20 @@ class Batch:
     returns: Tensor
 
 
+@dataclass
+class Report:
+    """What the episodes were like that finished since the report before."""
+
+    update: int
+    steps: int
+    seconds: float
+    mean_return: float
+    solved: float
+
+    def __str__(self) -> str:
+        return f"update {self.update}: {self.steps} steps, mean return {self.mean_return:.2f}, solved {self.solved:.0%}"
+
+
 class Learner:
     """Collects with the present policy, then improves it."""
 
@@ -97,6 +113,7 @@ class Learner:
         self.ended = np.zeros(settings.envs, bool)
         self.totals = np.zeros(settings.envs)
         self.finished: list[float] = []
+        self.solved: list[bool] = []
 
     @torch.no_grad()
     def collect(self) -> Batch:
@@ -112,11 +129,12 @@ class Learner:
             action = policy.sample()
             rows.append((seen, action, policy.log_prob(action), agent.value(seen).squeeze(-1)))
             resets[t] = self.ended
-            self.observation, rewards[t], terminated, truncated, _ = self.envs.step(action.clamp(-1, 1).numpy())
+            self.observation, rewards[t], terminated, truncated, infos = self.envs.step(action.clamp(-1, 1).numpy())
             self.ended = terminated | truncated
             ends[t], over[t] = terminated, self.ended
             self.totals += rewards[t]
             self.finished += self.totals[self.ended].tolist()
+            self.solved += infos["solved"][self.ended].tolist()
             self.totals[self.ended] = 0.0
         last = agent.value(self.normalise(self.observation)).squeeze(-1)
         seen, actions, log_probabilities, values = (torch.stack(parts) for parts in zip(*rows, strict=True))
@@ -159,19 +177,36 @@ class Learner:
                 nn.utils.clip_grad_norm_(self.agent.parameters(), 0.5)
                 self.optimiser.step()
 
-    def learn(self) -> list[float]:
-        """All updates; the mean return of the episodes that finished between reports."""
-        began, means = time.perf_counter(), []
+    def learn(self) -> list[Report]:
+        """All updates; what is known of the episodes that finished between reports."""
+        began, reports = time.process_time(), []
         for update in range(1, self.settings.updates + 1):
             self.improve(self.collect())
             if (update % 10 == 0 or update == self.settings.updates) and self.finished:
-                means.append(float(np.mean(self.finished)))
                 steps = update * self.settings.envs * self.settings.steps
-                rate = steps / (time.perf_counter() - began)
-                print(f"update {update}: {steps} steps, {rate:.0f} steps/s, mean return {means[-1]:.2f}", flush=True)
-                self.finished = []
+                seconds, share = time.process_time() - began, float(np.mean(self.solved))
+                reports.append(Report(update, steps, seconds, float(np.mean(self.finished)), share))
+                print(f"{reports[-1]}, {steps / seconds:.0f} steps/s", flush=True)
+                self.finished, self.solved = [], []
         self.envs.close()
-        return means
+        return reports
+
+
+def table(settings: Settings, reports: list[Report]) -> str:
+    """The learning curve as a page."""
+    lines = [
+        "# A policy learned with PPO",
+        "",
+        f"`python python/examples/ppo.py --id {settings.id} --updates {settings.updates} --envs {settings.envs} "
+        f"--seed {settings.seed} --table FILE`, torch {torch.__version__} with {torch.get_num_threads()} thread(s). Episodes "
+        "that finished since the row before: their mean return, and the share of them whose last step was solved.",
+        "",
+        "| update | steps | processor time [s] | mean return | solved |",
+        "|---|---|---|---|---|",
+        *(f"| {r.update} | {r.steps} | {r.seconds:.0f} | {r.mean_return:.2f} | {r.solved:.1%} |" for r in reports),
+        "",
+    ]
+    return "\n".join(lines)
 
 
 def main() -> None:
@@ -180,7 +215,13 @@ def main() -> None:
     arguments.add_argument("--updates", type=int, default=Settings.updates)
     arguments.add_argument("--envs", type=int, default=Settings.envs)
     arguments.add_argument("--seed", type=int, default=Settings.seed)
-    Learner(Settings(**vars(arguments.parse_args()))).learn()
+    arguments.add_argument("--table", type=Path, help="where to write the learning curve")
+    given = vars(arguments.parse_args())
+    path = given.pop("table")
+    settings = Settings(**given)
+    reports = Learner(settings).learn()
+    if path:
+        path.write_text(table(settings, reports))
 
 
 if __name__ == "__main__":
