@@ -117,7 +117,10 @@ impl Problem {
         self.nv = s.dofs.len();
         self.dense = !m.is_sparse();
         self.rows.gather(efc, &con.contact, s.rows);
-        std::mem::swap(&mut self.pattern, &mut self.before);
+        // The one before is compared with sparse rows alone; dense ones need one buffer, which grows once.
+        if !self.dense {
+            std::mem::swap(&mut self.pattern, &mut self.before);
+        }
         self.pattern.clear();
         self.gather_inertia(m, inertia, s);
         if self.dense {
