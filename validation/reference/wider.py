@@ -12,9 +12,9 @@ Takes the sources listed below: wheels from PyPI, and repositories at a commit, 
     left_out.tsv          source, path and reason of every other XML file
     references/*.npz      archives as of record.py, with 5 states and 200 steps, and a second twin, twin.below
 
-Of each source --most models are taken, chosen by a hash of their path. An XML file is left out when MuJoCo refuses it
-(most are parts of other files), when one before it compiles to the same bytes, or when a feature of it is not
-simulated. What is already there is kept, so an interrupted run goes on.
+Of each source --most models are taken, chosen by a hash of their path, and those named in ALWAYS. An XML file is left
+out when MuJoCo refuses it (most are parts of other files), when one before it compiles to the same bytes, or when it is
+too large. What is already there is kept, so an interrupted run goes on.
 """
 
 import argparse
@@ -67,6 +67,14 @@ REPOSITORIES = {
     "Lifelong-Robot-Learning/LIBERO": "8f1084e3132a39270c3a13ebe37270a43ece2a01",
     "TheRobotStudio/SO-ARM100": "fda892cba81032c46c40976a48c9ceadbf40a9ca",
 }
+
+
+ALWAYS = {
+    "dm_control": ["dm_control/suite/dog.xml", "dm_control/locomotion/walkers/assets/dog_v2/dog.xml",
+                   "dm_control/locomotion/walkers/assets/rodent.xml",
+                   "dm_control/locomotion/walkers/assets/fruitfly_v2/fruitfly.xml"],
+}
+"""Models that are taken whatever their hash."""
 
 
 def wheel(name, version, folder):
@@ -140,7 +148,7 @@ def examine(path, archive, digests):
     digest = hashlib.sha256(compiled).hexdigest()
     if (first := digests.setdefault(digest, str(path))) != str(path):
         return f"same as {first}"
-    if why := scenes.feature(path, model):
+    if why := scenes.size(model):
         return why
     if not model.nq:
         return "nothing moves"
@@ -164,10 +172,15 @@ def outcome(path, job):
 
 def choose(folder, args, pool, digests):
     """Yields path and reason of files of a source, until enough are recorded."""
-    recorded = 0
-    paths = sorted(folder.rglob("*.xml"), key=lambda p: hashlib.sha256(str(p.relative_to(folder)).encode()).digest())
+    recorded, always = 0, ALWAYS.get(folder.name, [])
+
+    def rank(path):
+        name = str(path.relative_to(folder))
+        return (name not in always, hashlib.sha256(name.encode()).digest())
+
+    paths = sorted(folder.rglob("*.xml"), key=rank)
     for first in range(0, len(paths), args.jobs):
-        if recorded >= args.most:
+        if recorded >= args.most + len(always):
             return
         started = []
         for path in paths[first:first + args.jobs]:
