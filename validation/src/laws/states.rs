@@ -43,7 +43,7 @@ pub(super) fn recorded(on: &str, references: &[Reference]) -> Result<Vec<Law>, L
             reference.set_state(&mut d, &m, k * rows / STATES.min(rows))?;
             worst.take(&mut m, &d)?;
             m.options_mut().clone_from(&own);
-            if k < SLOPE_STATES && !has_motors(&m) {
+            if k < SLOPE_STATES && !has_gaps(&m) {
                 worst.slope = worst.slope.max(slope(&m, &mut d)?);
             }
         }
@@ -70,9 +70,10 @@ pub(super) fn recorded(on: &str, references: &[Reference]) -> Result<Vec<Law>, L
     ])
 }
 
-/// True with a DC motor: its slope leaves out supply limit, heating and bristles, as upstream.
-fn has_motors(m: &Model) -> bool {
-    m.actuator_biastype.contains(&BiasType::Dcmotor.code())
+/// True where the slope leaves something out, as upstream: supply limit, heating and bristles of DC motors, and elasticity of
+/// flexes.
+fn has_gaps(m: &Model) -> bool {
+    m.nflex > 0 || m.actuator_biastype.contains(&BiasType::Dcmotor.code())
 }
 
 impl Worst {
