@@ -36,7 +36,9 @@ impl BroadPhase {
         self.pair_static_bodies(m, awake, most);
         self.bodies.clear();
         self.bodies.extend((1..m.nbody).filter(|&b| can_collide(m, b)));
-        self.bodies.extend((0..m.nflex).filter(|&f| flex_collides(m, f)).map(|f| m.nbody + f));
+        if m.nflex > 0 {
+            self.bodies.extend((0..m.nflex).filter(|&f| flex_collides(m, f)).map(|f| m.nbody + f));
+        }
         if self.bodies.len() > 1 {
             let frame = spread_frame(m, kin, flexes);
             self.boxes.clear();
@@ -70,10 +72,18 @@ impl BroadPhase {
                     self.push(b1, b2);
                 }
             }
-            let awakes = |f: &usize| !awake.skips(|state| object::flex(m, state, *f));
-            for f in (0..m.nflex).filter(awakes).filter(|&f| types_admit(m, b1, m.nbody + f)) {
-                self.push(b1, m.nbody + f);
+            if m.nflex > 0 {
+                self.pair_with_flexes(m, awake, b1);
             }
+        }
+    }
+
+    /// A static body meets every flex that does not sleep.
+    #[cold]
+    fn pair_with_flexes(&mut self, m: &Model, awake: Awake, b: usize) {
+        let awakes = |f: &usize| !awake.skips(|state| object::flex(m, state, *f));
+        for f in (0..m.nflex).filter(awakes).filter(|&f| types_admit(m, b, m.nbody + f)) {
+            self.push(b, m.nbody + f);
         }
     }
 

@@ -104,7 +104,7 @@ pub fn set_sizes(m: &mut Arrays) {
 }
 
 /// Computes the factor; false when the matrix has none, as with negative stiffness.
-pub(super) fn set(m: &mut Model) -> bool {
+pub(crate) fn set(m: &mut Model) -> bool {
     if m.nefm0dof == 0 {
         return true;
     }

@@ -85,7 +85,8 @@ fn unite_row(m: &Model, con: &Contacts, efc: &Constraints, i: usize, parent: &mu
     }
 }
 
-/// Unites the trees of the non-zero columns of row `i`; returns the first.
+/// Unites the trees of the non-zero columns of row `i`; returns the first, that of the first column where all are zero, as in
+/// contacts of a body with itself.
 fn unite_columns(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> i32 {
     let start = efc.efc_J_rowadr[i] as usize;
     let (mut first, mut previous) = (-1, -1);
@@ -97,6 +98,10 @@ fn unite_columns(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> 
         unite(parent, tree, previous);
         previous = tree;
         first = if first < 0 { tree } else { first };
+    }
+    if first < 0 && efc.efc_J_rownnz[i] > 0 {
+        first = m.dof_treeid[efc.efc_J_colind[start] as usize];
+        unite(parent, first, first);
     }
     first
 }

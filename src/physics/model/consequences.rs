@@ -6,8 +6,11 @@ use super::follow::{Check, Follow};
 use super::written::Written;
 use super::{Arrays, Caches, GeomType, Model, Statistic, TrnType, WrapType};
 use crate::consistency::{check_actuators, check_consistency, check_geoms};
+use crate::constants::bending_factor;
 use crate::constants::reference::{has_damping_ratio, set_constants, set_pose_constants};
-use crate::constants::set_const::{attached_frames, feature_flags, set_const, subtree_mass, wrap_body};
+use crate::constants::set_const::{
+    SetConstError, attached_frames, feature_flags, set_const, subtree_mass, wrap_body,
+};
 use crate::geometry::bounds::{ChangedGeoms, set_bounds};
 use crate::pipeline::validity::check_model;
 use crate::table::Row;
@@ -89,7 +92,12 @@ impl Consequences {
         let Some(plain) = statistic else { return Ok(()) };
         let given = std::mem::replace(&mut m.arrays.stat, plain.clone());
         match self.reference {
-            Reference::All => set_constants(m),
+            Reference::All => {
+                set_constants(m);
+                if !bending_factor::set(m) {
+                    return Err(EditError::Structure(SetConstError::Bending));
+                }
+            }
             _ => set_pose_constants(m),
         }
         settle_statistic(m, &given, &plain);

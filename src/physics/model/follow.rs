@@ -67,6 +67,7 @@ impl Follow {
             A::actuator_gainprm | A::actuator_biasprm | A::actuator_dynprm => Follow::Servos,
             A::body_mass | A::body_inertia | A::dof_armature | A::jnt_pos => Follow::Inertia,
             A::qpos0 | A::qpos_spring | A::actuator_gear | A::actuator_cranklength => Follow::Inertia,
+            A::flex_damping => Follow::Inertia,
             _ => Follow::Structure,
         }
     }
@@ -141,7 +142,6 @@ const INDEPENDENT: &[A] = &[
     A::flex_gap,
     A::flex_group,
     A::flex_flatskin,
-    A::flex_damping,
     A::flex_edgestiffness,
     A::flex_edgedamping,
     A::flex_rgba,

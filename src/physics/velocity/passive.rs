@@ -51,7 +51,9 @@ pub fn passive(
         flexes(m, at, vel, [springs, dampers], scratch, out);
     }
     tendons(m, at, vel, springs, dampers, out);
-    metric.touches.add_forces(con, &mut out.qfrc_spring);
+    if metric.is_on() {
+        metric.touches.add_forces(con, &mut out.qfrc_spring);
+    }
     let compensates = has_gravity_compensation(m);
     if compensates {
         gravity_compensation(m, awake, kin, com, &mut out.qfrc_gravcomp);
