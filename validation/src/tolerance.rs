@@ -102,7 +102,7 @@ pub static STAGE: Tolerance = Tolerance::new("STAGE", 2e-13);
 /// The same on models of other repositories, whose chains are longer.
 pub static STAGE_ELSEWHERE: Tolerance = Tolerance::new("STAGE_ELSEWHERE", 1e-11);
 /// Contacts, distances and rays of random placements: one rounding of a coordinate of order one.
-pub static CONTACT: Tolerance = Tolerance::new("CONTACT", 1e-14);
+pub static CONTACT: Tolerance = Tolerance::new("CONTACT", 2e-14);
 /// Acceleration of a whole pass: rounding of the stages, through the Hessian.
 pub static OWN_QACC: Tolerance = Tolerance::new("OWN_QACC", 5e-14);
 /// Positions after one step from a recorded state: last bits of positions of order one.
