@@ -68,6 +68,22 @@ impl LowerRows<'_> {
         }
     }
 
+    /// The same where `coupled` lists the rows that have more than the diagonal, which is also given by itself.
+    pub fn mul_coupled(&self, a: &[f64], diagonal: &[f64], coupled: &[u32], v: &[f64], out: &mut [f64]) {
+        out.iter_mut().zip(diagonal).zip(v).for_each(|((out, d), v)| *out = d * v);
+        for &i in coupled {
+            let i = i as usize;
+            let ((start, end), vi) = (self.span(i), v[i]);
+            let mut sum = out[i];
+            for (&j, a) in self.colind[start..end].iter().zip(&a[start..end]).rev() {
+                let j = j as usize;
+                sum += a * v[j];
+                out[j] += a * vi;
+            }
+            out[i] = sum;
+        }
+    }
+
     /// Solves `Lᵀ D L x = x` in place with unit `L` and the reciprocal diagonal of `D`
     /// (Featherstone 2008, section 6.5).
     pub fn solve_ldl(&self, ld: &[f64], inverse_diagonal: &[f64], x: &mut [f64]) {
@@ -80,6 +96,20 @@ impl LowerRows<'_> {
         for (x, d) in x[rows.clone()].iter_mut().zip(&inverse_diagonal[rows.clone()]) {
             *x *= d;
         }
+        self.solve_unit_rows(ld, rows, x);
+    }
+
+    /// The same for all rows, where `coupled` lists those that have more than the diagonal.
+    pub fn solve_ldl_coupled(&self, ld: &[f64], inverse_diagonal: &[f64], coupled: &[u32], x: &mut [f64]) {
+        let coupled = coupled.iter().map(|&i| i as usize);
+        self.solve_transposed_rows(ld, coupled.clone(), x);
+        x.iter_mut().zip(inverse_diagonal).for_each(|(x, d)| *x *= d);
+        self.solve_unit_rows(ld, coupled, x);
+    }
+
+    /// Solves `L x = x` in place with unit `L`.
+    #[inline]
+    fn solve_unit_rows(&self, ld: &[f64], rows: impl Iterator<Item = usize>, x: &mut [f64]) {
         for i in rows {
             let (start, diagonal) = self.span(i);
             x[i] -= dot_sparse(&ld[start..diagonal], &self.colind[start..diagonal], x);
@@ -91,7 +121,8 @@ impl LowerRows<'_> {
         self.solve_transposed_rows(ld, 0..x.len(), x);
     }
 
-    fn solve_transposed_rows(&self, ld: &[f64], rows: Range<usize>, x: &mut [f64]) {
+    #[inline]
+    fn solve_transposed_rows(&self, ld: &[f64], rows: impl DoubleEndedIterator<Item = usize>, x: &mut [f64]) {
         for i in rows.rev() {
             let (start, diagonal) = self.span(i);
             if x[i] != 0.0 {

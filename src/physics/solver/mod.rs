@@ -14,6 +14,7 @@ mod noslip;
 mod pgs;
 mod primal;
 mod problem;
+mod products;
 mod rows;
 mod sparse_cholesky;
 

@@ -91,7 +91,7 @@ impl Primal {
     /// Updates states, forces and gradient.
     fn evaluate(&mut self) {
         let p = &mut self.problem;
-        p.rows.update(&self.jar, &mut self.state, &mut self.force);
+        p.rows.update_forces(&self.jar, &mut self.state, &mut self.force);
         p.mul_jacobian_transposed(&self.force, &mut self.qfrc_constraint);
         for i in 0..p.nv {
             self.grad[i] = self.ma[i] - self.qfrc_smooth[i] - self.qfrc_constraint[i];

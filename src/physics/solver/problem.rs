@@ -1,11 +1,12 @@
 //! The part of a constraint problem that one island holds: its degrees of freedom, its rows, and the blocks of the
 //! inertia and the Jacobian that belong to them, renumbered from zero.
 
+use super::products::{Columns, Lanes};
 use super::rows::Rows;
 use crate::data::{Constraints, Contacts, Inertia};
 use crate::math::dense::dot_slice;
 use crate::math::{LowerRows, add_scaled_slice, dot_sparse};
-use crate::model::Model;
+use crate::model::{Model, Solver};
 use std::ops::Range;
 
 /// Inertia, Jacobian and row parameters of an island, or of the whole model.
@@ -27,8 +28,15 @@ pub(super) struct Problem {
     before: Pattern,
     /// How often the pattern has changed; what follows from a pattern is kept while this stays.
     pub changes: u64,
-    /// How products with the transposed compressed rows are added up.
-    lanes: Lanes,
+    /// The solver multiplies often, so that columns are put together.
+    by_columns: bool,
+    /// How products with the transposed compressed rows are added up, for the pattern of so many changes.
+    lanes: (u64, Lanes),
+    columns: (u64, Columns),
+    /// Rows of the inertia that have more than the diagonal.
+    coupled: Vec<u32>,
+    /// Diagonal of the inertia.
+    diagonal: Vec<f64>,
     /// Inertia, lower triangle.
     pub inertia: Vec<f64>,
     /// Its L'DL factor.
@@ -72,34 +80,6 @@ impl Pattern {
     }
 }
 
-/// Sums of a product with the transpose of compressed rows, in MuJoCo's order: the entries of a column in four lanes, and
-/// one by one those that remain.
-#[derive(Clone, Debug, Default)]
-struct Lanes {
-    /// Place of each entry among the sums.
-    places: Vec<u32>,
-    /// Entries of each column, all and those placed so far.
-    counts: Vec<[u32; 2]>,
-    /// Eight for each column: the lanes, and up to three entries that remain.
-    sums: Vec<f64>,
-}
-
-impl Lanes {
-    /// Places the entries of rows with these columns, one row after the other.
-    fn place(&mut self, nv: usize, columns: &[i32]) {
-        self.counts.clear();
-        self.counts.resize(nv, [0; 2]);
-        columns.iter().for_each(|&c| self.counts[c as usize][0] += 1);
-        self.places.clear();
-        self.places.extend(columns.iter().map(|&c| {
-            let [all, placed] = &mut self.counts[c as usize];
-            let (n, whole) = (*placed, *all & !3);
-            *placed += 1;
-            8 * c as u32 + if n < whole { n & 3 } else { 4 + n - whole }
-        }));
-    }
-}
-
 /// Selection of an island: its degrees of freedom and rows, and the sorted index of every degree of freedom.
 #[derive(Clone, Copy)]
 pub(super) struct Selection<'a> {
@@ -116,6 +96,7 @@ impl Problem {
     pub fn gather(&mut self, m: &Model, inertia: &Inertia, efc: &Constraints, con: &Contacts, s: Selection) {
         self.nv = s.dofs.len();
         self.dense = !m.is_sparse();
+        self.by_columns = m.opt.solver == Solver::Cg;
         self.rows.gather(efc, &con.contact, s.rows);
         // The one before is compared with sparse rows alone; dense ones need one buffer, which grows once.
         if !self.dense {
@@ -178,7 +159,21 @@ impl Problem {
         }
     }
 
+    /// Lists the rows of the inertia with more than the diagonal.
+    fn find_coupled(&mut self) {
+        let Problem { pattern, inertia, coupled, diagonal, .. } = self;
+        coupled.clear();
+        diagonal.clear();
+        for (i, (&adr, &count)) in pattern.inertia_rowadr.iter().zip(&pattern.inertia_rownnz).enumerate() {
+            diagonal.push(inertia[(adr + count - 1) as usize]);
+            if count > 1 {
+                coupled.push(i as u32);
+            }
+        }
+    }
+
     fn gather_sparse(&mut self, efc: &Constraints, s: Selection) {
+        self.find_coupled();
         let pattern = &mut self.pattern;
         self.jacobian.clear();
         pattern.row_start.push(0);
@@ -193,8 +188,18 @@ impl Problem {
         }
         if self.pattern != self.before {
             self.changes += 1;
-            self.lanes.place(self.nv, &self.pattern.columns);
             self.before.make_room(&self.pattern);
+        }
+        if self.by_columns {
+            let (of, columns) = &mut self.columns;
+            if *of != self.changes {
+                *of = self.changes;
+                columns.place(self.nv, &self.pattern);
+            }
+            columns.fill(&self.jacobian);
+        } else if self.lanes.0 != self.changes {
+            self.lanes.0 = self.changes;
+            self.lanes.1.place(self.nv, &self.pattern.columns);
         }
     }
 
@@ -236,6 +241,8 @@ impl Problem {
                 let lanes = (span.start / 4 * 4).min(whole)..span.end.next_multiple_of(4).min(whole);
                 *out = dot_slice(&row[lanes.clone()], &v[lanes]) + dot_slice(&row[whole..], &v[whole..]);
             }
+        } else if self.by_columns {
+            self.columns.1.mul(&self.pattern, &self.jacobian, v, out);
         } else {
             for (i, out) in out.iter_mut().enumerate() {
                 let (columns, values) = self.sparse_row(i);
@@ -246,37 +253,37 @@ impl Problem {
 
     /// `out = Jᵀ f`: full rows are added one after the other, compressed ones column by column in lanes.
     pub fn mul_jacobian_transposed(&mut self, f: &[f64], out: &mut [f64]) {
-        let active = f.iter().enumerate().filter(|(_, f)| **f != 0.0);
-        if self.dense {
+        if self.by_columns && !self.dense {
+            self.columns.1.mul_transposed(f, out);
+        } else if !self.dense {
+            self.lanes.1.mul_transposed(&self.pattern.row_start, &self.jacobian, f, out);
+        } else {
             out.fill(0.0);
-            for (i, &f) in active {
+            for (i, &f) in f.iter().enumerate().filter(|(_, f)| **f != 0.0) {
                 let span = self.spans[i].clone();
                 add_scaled_slice(&mut out[span.clone()], &self.dense_row(i)[span], f);
             }
-            return;
-        }
-        let Lanes { places, sums, .. } = &mut self.lanes;
-        sums.clear();
-        sums.resize(8 * self.nv, 0.0);
-        for (i, &f) in active {
-            let row = self.pattern.row_start[i]..self.pattern.row_start[i + 1];
-            for (&place, x) in places[row.clone()].iter().zip(&self.jacobian[row]) {
-                sums[place as usize] += x * f;
-            }
-        }
-        for (out, s) in out.iter_mut().zip(sums.as_chunks::<8>().0) {
-            *out = (s[0] + s[2]) + (s[1] + s[3]) + s[4] + s[5] + s[6];
         }
     }
 
     /// `out = M v`.
     pub fn mul_inertia(&self, v: &[f64], out: &mut [f64]) {
-        self.inertia_rows().mul_symmetric(&self.inertia, v, out);
+        let rows = self.inertia_rows();
+        if self.dense {
+            rows.mul_symmetric(&self.inertia, v, out);
+        } else {
+            rows.mul_coupled(&self.inertia, &self.diagonal, &self.coupled, v, out);
+        }
     }
 
     /// Solves `M x = x` in place.
     pub fn solve_inertia(&self, x: &mut [f64]) {
-        self.inertia_rows().solve_ldl(&self.factor, &self.inverse_diagonal, x);
+        let (rows, inverse) = (self.inertia_rows(), &self.inverse_diagonal);
+        if self.dense {
+            rows.solve_ldl(&self.factor, inverse, x);
+        } else {
+            rows.solve_ldl_coupled(&self.factor, inverse, &self.coupled, x);
+        }
     }
 
     /// Sum of the diagonal of `M`.

@@ -7,6 +7,9 @@ use std::ops::Range;
 
 const NONE: usize = usize::MAX;
 
+/// Mean length of runs from which on they are followed.
+const LONG_RUN: usize = 4;
+
 /// Structure of the factor of `M + Jᵀ D J`, and memory of its computation. Values are kept by the caller.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SparseCholesky {
@@ -17,6 +20,11 @@ pub(super) struct SparseCholesky {
     start: Vec<usize>,
     /// Columns, increasing within a row, the diagonal last.
     columns: Vec<i32>,
+    /// Stretches of successive columns within the rows: the first column, and how many; and where those of each row begin.
+    runs: Vec<(u32, u32)>,
+    run_start: Vec<usize>,
+    /// Runs are long enough to be worth following.
+    by_runs: bool,
     /// Lists of the later rows with an entry in each column, those of the last column first: the list of column `c`
     /// begins at `later_start[c + 1]` and ends at `later_start[c]`.
     later_start: Vec<usize>,
@@ -62,6 +70,7 @@ impl SparseCholesky {
         self.n = p.nv;
         self.follow_elimination();
         self.place_entries();
+        self.find_runs();
         self.dense.clear();
         self.dense.resize(p.nv, 0.0);
     }
@@ -115,6 +124,34 @@ impl SparseCholesky {
                 self.at[*row] += 1;
             }
             self.columns[self.at[r]] = r as i32;
+        }
+    }
+
+    fn find_runs(&mut self) {
+        self.runs.clear();
+        self.run_start.clear();
+        self.run_start.push(0);
+        for r in 0..self.n {
+            let first = self.runs.len();
+            for &c in &self.columns[self.start[r]..self.start[r + 1]] {
+                match self.runs[first..].last_mut() {
+                    Some((start, count)) if *start + *count == c as u32 => *count += 1,
+                    _ => self.runs.push((c as u32, 1)),
+                }
+            }
+            self.run_start.push(self.runs.len());
+        }
+        self.by_runs = self.columns.len() >= LONG_RUN * self.runs.len();
+    }
+
+    /// Calls `f` with the columns of each run of row `r`, and where their entries are.
+    #[inline]
+    fn for_runs(&self, r: usize, mut f: impl FnMut(Range<usize>, Range<usize>)) {
+        let mut place = self.start[r];
+        for &(first, count) in &self.runs[self.run_start[r]..self.run_start[r + 1]] {
+            let (first, count) = (first as usize, count as usize);
+            f(first..first + count, place..place + count);
+            place += count;
         }
     }
 
@@ -229,6 +266,21 @@ impl SparseCholesky {
 
     /// Subtracts the contributions of all later rows with an entry in column `r`.
     fn eliminate_into(&mut self, r: usize, values: &[f64]) {
+        if self.by_runs {
+            let mut dense = std::mem::take(&mut self.dense);
+            for &(row, at) in &self.later[self.later_start[r + 1]..self.later_start[r]] {
+                let (scale, end) = (values[at], at + 1);
+                self.for_runs(row, |columns, places| {
+                    let places = places.start..places.end.min(end);
+                    if !places.is_empty() {
+                        let dense = dense[columns.start..columns.start + places.len()].iter_mut();
+                        dense.zip(&values[places]).for_each(|(sum, value)| *sum -= scale * value);
+                    }
+                });
+            }
+            self.dense = dense;
+            return;
+        }
         for &(row, at) in &self.later[self.later_start[r + 1]..self.later_start[r]] {
             let (span, scale) = (self.start[row]..at + 1, values[at]);
             for (&c, value) in self.columns[span.clone()].iter().zip(&values[span]) {
@@ -267,13 +319,13 @@ impl SparseCholesky {
         for (&c, &x) in columns.iter().zip(v) {
             self.dense[c as usize] = x;
         }
-        let mut fallen = 0;
+        let (mut fallen, mut dense) = (0, std::mem::take(&mut self.dense));
         for row in (0..=last as usize).rev() {
-            let x = self.dense[row];
+            let x = dense[row];
             if x == 0.0 {
                 continue;
             }
-            self.dense[row] = 0.0;
+            dense[row] = 0.0;
             let (left, at) = self.row(row);
             let diagonal = values[at];
             let mut square = if plus { diagonal * diagonal + x * x } else { diagonal * diagonal - x * x };
@@ -285,13 +337,24 @@ impl SparseCholesky {
             values[at] = root;
             let (c, s) = (diagonal / root, -x / root);
             let signed = if plus { -s } else { s };
-            for (&column, value) in self.columns[left.clone()].iter().zip(&mut values[left]) {
-                let other = &mut self.dense[column as usize];
+            let rotate = |value: &mut f64, other: &mut f64| {
                 let rotated = c * *value + signed * *other;
                 *other = s * *value + c * *other;
                 *value = rotated;
+            };
+            if self.by_runs {
+                self.for_runs(row, |columns, places| {
+                    let places = places.start..places.end.min(left.end);
+                    let others = dense[columns.start..columns.start + places.len()].iter_mut();
+                    values[places].iter_mut().zip(others).for_each(|(value, other)| rotate(value, other));
+                });
+            } else {
+                for (&column, value) in self.columns[left.clone()].iter().zip(&mut values[left]) {
+                    rotate(value, &mut dense[column as usize]);
+                }
             }
         }
+        self.dense = dense;
         fallen
     }
 }
