@@ -11,7 +11,7 @@ use crate::collision::support::{ConvexBody, Element};
 use crate::collision::{CollisionScratch, Shape, hfield, round_normal};
 use crate::data::Contacts;
 use crate::math::{Vec3, add, normalize, quat_from_z, quat_to_mat, scale, sub};
-use crate::model::{Disable, GeomType};
+use crate::model::{Disable, GeomType, Model};
 
 const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 
@@ -107,8 +107,34 @@ pub(super) fn with_geom(
     append(at, surfaces, margin, parts, scratch, con);
 }
 
-/// Contacts of two elements, of two flexes or of the same, whose margin then does not count.
+/// Margin of two flexes, and the gap beyond it; none within one flex.
+fn flex_reach(m: &Model, [f1, f2]: [usize; 2]) -> [f64; 2] {
+    if f1 == f2 {
+        return [0.0; 2];
+    }
+    [margin(m, m.flex_margin[f1] + m.flex_margin[f2]), m.flex_gap[f1] + m.flex_gap[f2]]
+}
+
+/// Contacts of two elements, of two flexes or of the same; none where they have a body in common.
 pub(super) fn with_element(
+    at: World,
+    pair: [usize; 2],
+    [e1, e2]: [usize; 2],
+    scratch: &mut CollisionScratch,
+    con: &mut Contacts,
+) {
+    let [f1, f2] = pair;
+    let [margin, gap] = flex_reach(at.m, pair);
+    let first = at.flex(f1);
+    let shares_body =
+        || first.element(e1).iter().any(|&v| is_on_body(at, f2, e2, first.vertex_bodies()[v as usize]));
+    if !boxes_apart(&at.boxes(f1)[e1], &at.boxes(f2)[e2], margin + gap) && !shares_body() {
+        with_other_element(at, pair, [e1, e2], scratch, con);
+    }
+}
+
+/// The same where they have no body in common.
+pub(super) fn with_other_element(
     at: World,
     [f1, f2]: [usize; 2],
     [e1, e2]: [usize; 2],
@@ -116,15 +142,9 @@ pub(super) fn with_element(
     con: &mut Contacts,
 ) {
     let m = at.m;
-    let [margin, gap] = if f1 == f2 {
-        [0.0; 2]
-    } else {
-        [margin(m, m.flex_margin[f1] + m.flex_margin[f2]), m.flex_gap[f1] + m.flex_gap[f2]]
-    };
+    let [margin, gap] = flex_reach(m, [f1, f2]);
     let (first, reach) = (at.flex(f1), margin + gap);
-    let shares_body =
-        || first.element(e1).iter().any(|&v| is_on_body(at, f2, e2, first.vertex_bodies()[v as usize]));
-    if boxes_apart(&at.boxes(f1)[e1], &at.boxes(f2)[e2], reach) || shares_body() {
+    if boxes_apart(&at.boxes(f1)[e1], &at.boxes(f2)[e2], reach) {
         return;
     }
     scratch.points.clear();
