@@ -125,5 +125,6 @@ fn derived(m: &Arrays) -> Result<(), Inconsistent> {
     if m.nflex == 0 {
         return Ok(());
     }
+    require(bending_factor::is_laid_out(m), "efm0_L_colind", 0, "what follows from the bending stiffness")?;
     require(Patterns::of(m).is_in(m), "flexedge_J_rowadr", 0, "what follows from the edges")
 }

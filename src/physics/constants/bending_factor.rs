@@ -95,6 +95,40 @@ impl Pattern {
     }
 }
 
+/// Rows of the factor as the model keeps them: three for each slot, one for each axis.
+struct Layout {
+    dofs: Vec<i32>,
+    counts: Vec<i32>,
+    starts: Vec<i32>,
+    columns: Vec<i32>,
+}
+
+impl Layout {
+    fn new(pattern: &Pattern, slots: &Slots) -> Self {
+        let mut layout =
+            Layout { dofs: Vec::new(), counts: Vec::new(), starts: Vec::new(), columns: Vec::new() };
+        for (&dof, row) in slots.dof.iter().zip(&pattern.columns) {
+            for axis in 0..3 {
+                layout.dofs.push((dof + axis) as i32);
+                layout.starts.push(layout.columns.len() as i32);
+                layout.counts.push(row.len() as i32);
+                layout.columns.extend(row.iter().map(|&c| (3 * c + axis) as i32));
+            }
+        }
+        layout
+    }
+}
+
+/// True when the rows of the factor in `m`, whose sizes are right, are those that follow from its sheets.
+pub(crate) fn is_laid_out(m: &Arrays) -> bool {
+    let slots = Slots::of(m);
+    let Layout { dofs, counts, starts, columns } = Layout::new(&Pattern::of(m, &slots), &slots);
+    *m.efm0_dofid == dofs
+        && *m.efm0_L_rownnz == counts
+        && *m.efm0_L_rowadr == starts
+        && *m.efm0_L_colind == columns
+}
+
 /// Sets `nefm0dof` and `nefm0L`.
 pub fn set_sizes(m: &mut Arrays) {
     let slots = Slots::of(m);
@@ -110,24 +144,13 @@ pub(crate) fn set(m: &mut Model) -> bool {
     }
     let slots = Slots::of(m);
     let pattern = Pattern::of(m, &slots);
-    let lower = stiffness(m, &slots);
-    let (mut dofs, mut counts, mut starts) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut columns, mut places) = (Vec::new(), Vec::new());
-    for (slot, row) in pattern.columns.iter().enumerate() {
-        for axis in 0..3 {
-            dofs.push((slots.dof[slot] + axis) as i32);
-            starts.push(columns.len() as i32);
-            counts.push(row.len() as i32);
-            places.push(columns.len());
-            columns.extend(row.iter().map(|&c| (3 * c + axis) as i32));
-        }
-    }
-    let mut values = vec![0.0; columns.len()];
+    let (lower, layout) = (stiffness(m, &slots), Layout::new(&pattern, &slots));
+    let mut values = vec![0.0; layout.columns.len()];
     let mut complete = true;
     let mut dense = vec![0.0; slots.dof.len()];
     for axis in 0..3 {
         for r in (0..slots.dof.len()).rev() {
-            let own = |row: usize| places[3 * row + axis];
+            let own = |row: usize| layout.starts[3 * row + axis] as usize;
             lower[r].iter().for_each(|(&c, &x)| dense[c] = x);
             let dof = slots.dof[r] + axis;
             let inertia = m.body_mass[m.dof_bodyid[dof] as usize] + m.dof_armature[dof];
@@ -151,11 +174,12 @@ pub(crate) fn set(m: &mut Model) -> bool {
         }
     }
     let arrays = m.derived_mut();
-    arrays.efm0_dofid.update(&dofs);
-    arrays.efm0_L_rownnz.update(&counts);
-    arrays.efm0_L_rowadr.update(&starts);
-    arrays.efm0_L_colind.update(&columns);
+    arrays.efm0_dofid.update(&layout.dofs);
+    arrays.efm0_L_rownnz.update(&layout.counts);
+    arrays.efm0_L_rowadr.update(&layout.starts);
+    arrays.efm0_L_colind.update(&layout.columns);
     arrays.efm0_L.update(&values);
+    m.forget_bending_factor();
     complete
 }
 

@@ -2,7 +2,7 @@
 
 use super::Flex;
 use crate::data::{Com, Flexes, State};
-use crate::math::{Vec3, dot, dot_sparse, normalize, scale, sub};
+use crate::math::{Vec3, dot, dot_sparse, linear, normalize, scale, sub};
 use crate::model::Model;
 use crate::position::chain::{MergedChain, com_offset, point_column};
 use std::ops::Range;
@@ -31,12 +31,32 @@ fn measure(flex: Flex, com: &Com, out: &mut Flexes) {
         out.flexedge_length[e] = length;
         if needed {
             let bodies = ends.map(|v| m.flex_vertbodyid[v] as usize);
-            let entries = length_row(m, com, bodies, points, direction);
-            for (entry, (_, change)) in out.flexedge_J[row(m, e)].iter_mut().rev().zip(entries) {
+            let entries = &mut out.flexedge_J[row(m, e)];
+            if let (Some(dofs), Some(entries)) = (sliding_dofs(m, bodies), entries.as_mut_array::<6>()) {
+                *entries = sliding_row(com, dofs, direction);
+                continue;
+            }
+            let changes = length_row(m, com, bodies, points, direction);
+            for (entry, (_, change)) in entries.iter_mut().rev().zip(changes) {
                 *entry = change;
             }
         }
     }
+}
+
+/// First degrees of freedom of two bodies that do nothing but slide along three axes each.
+fn sliding_dofs(m: &Model, bodies: [usize; 2]) -> Option<[usize; 2]> {
+    let slide = bodies.iter().all(|&body| m.body_simple[body] == 2 && m.body_dofnum[body] == 3);
+    (slide && bodies[0] != bodies[1]).then(|| bodies.map(|body| m.body_dofadr[body] as usize))
+}
+
+/// [`length_row`] of such bodies, from the first degree of freedom on.
+fn sliding_row(com: &Com, [a, b]: [usize; 2], direction: Vec3) -> [f64; 6] {
+    let along = |first: usize, sign: f64| {
+        [0, 1, 2].map(|k| dot(direction, scale(linear(&com.cdof[first + k]), sign)))
+    };
+    let ([x, y, z], [u, v, w]) = (along(a, -1.0), along(b, 1.0));
+    if a < b { [x, y, z, u, v, w] } else { [u, v, w, x, y, z] }
 }
 
 /// How the distance of two points of two bodies, the second in `direction` of the first, changes with each degree of

@@ -41,6 +41,8 @@ pub struct FlexScratch {
     speeds: Vec<Vec3>,
     /// Forces on the vertices or nodes of one flex.
     force: Vec<Vec3>,
+    /// How much each edge of one flex is stretched.
+    elongation: Vec<f64>,
     /// Damping forces on the nodes of one flex.
     drag: Vec<Vec3>,
     /// Faces of one shell.
@@ -53,11 +55,6 @@ pub struct FlexScratch {
 }
 
 impl FlexScratch {
-    /// Memory for forces on the vertices of one flex.
-    pub(crate) fn forces(&mut self) -> &mut Vec<Vec3> {
-        &mut self.force
-    }
-
     /// Memory for the motion of a contact.
     pub(crate) fn of_contact(&mut self) -> (&mut Vec<(usize, f64)>, &mut Difference) {
         (&mut self.bodies, &mut self.sum)

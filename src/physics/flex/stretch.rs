@@ -2,9 +2,9 @@
 //! element's edges (Weischedel, A discrete geometric view on shear-deformable shell models, 2012), with damping
 //! proportional to stiffness (Kharevych et al., Geometric, Variational Integrators for Computer Animation, section 5.2).
 
-use super::Flex;
+use super::{Flex, FlexScratch};
 use crate::data::{Com, Flexes, Kinematics, Velocity};
-use crate::math::{Vec3, mul_mat_t_vec, sub};
+use crate::math::{Vec3, mul_mat_t_vec};
 use crate::position::chain::apply_wrench;
 
 /// Numbers of an element in `flex_stiffness`: the upper triangle of a 6x6 matrix.
@@ -23,14 +23,16 @@ pub(crate) struct Inputs<'a> {
     pub vel: &'a Velocity,
 }
 
-/// Adds the force of the stretched elements of a flex to `qfrc`; `force` is working memory.
-pub(crate) fn stretch(flex: Flex, at: Inputs, force: &mut Vec<Vec3>, qfrc: &mut [f64]) {
+/// Adds the force of the stretched elements of a flex to `qfrc`.
+pub(crate) fn stretch(flex: Flex, at: Inputs, scratch: &mut FlexScratch, qfrc: &mut [f64]) {
     let Some(first) = flex.stiffness() else { return };
+    let FlexScratch { force, elongation, .. } = scratch;
     force.clear();
     force.resize(flex.vertices().len(), [0.0; 3]);
+    elongations(flex, at, elongation);
     match flex.dim() {
-        2 => elements(flex, first, &TRIANGLE, at, force),
-        3 => elements(flex, first, &TETRAHEDRON, at, force),
+        2 => elements(flex, first, &TRIANGLE, at.flexes, elongation, force),
+        3 => elements(flex, first, &TETRAHEDRON, at.flexes, elongation, force),
         _ => return,
     }
     for ((&force, v), &body) in force.iter().zip(flex.vertices()).zip(flex.vertex_bodies()) {
@@ -53,59 +55,71 @@ fn push(flex: Flex, at: Inputs, body: usize, point: Vec3, force: Vec3, qfrc: &mu
 }
 
 /// The symmetric matrix whose upper triangle is stored row by row.
+#[inline]
 pub(crate) fn unpack<const E: usize>(packed: &[f64]) -> [[f64; E]; E] {
-    let mut metric = [[0.0; E]; E];
-    let mut next = packed.iter();
+    let (mut metric, mut next) = ([[0.0; E]; E], 0);
     for a in 0..E {
         for b in a..E {
-            let value = next.next().copied().unwrap_or(0.0);
-            metric[a][b] = value;
-            metric[b][a] = value;
+            let value = packed[next];
+            (metric[a][b], metric[b][a]) = (value, value);
+            next += 1;
         }
     }
     metric
 }
 
+/// How much longer the square of each edge is than at rest, ahead of time by the damping.
+fn elongations(flex: Flex, at: Inputs, out: &mut Vec<f64>) {
+    let (m, own) = (flex.m, flex.edges());
+    let dt = m.opt.timestep;
+    let damping = if dt > 0.0 { m.flex_damping[flex.id] / dt } else { 0.0 };
+    let (length, speed) = (&at.flexes.flexedge_length[own.clone()], &at.vel.flexedge_velocity[own.clone()]);
+    out.clear();
+    out.extend(length.iter().zip(speed).zip(&m.flexedge_length0[own]).map(|((&now, speed), rest)| {
+        let before = now - speed * dt;
+        now * now - rest * rest + (now * now - before * before) * damping
+    }));
+}
+
 /// Adds the forces of all elements, whose edges have the given ends, to their vertices.
+#[inline(always)]
 fn elements<const E: usize>(
     flex: Flex,
     first: usize,
     ends: &[[usize; 2]; E],
-    at: Inputs,
+    flexes: &Flexes,
+    elongation: &[f64],
     force: &mut [Vec3],
 ) {
-    let (m, own) = (flex.m, flex.edges());
-    let points = &at.flexes.flexvert_xpos[flex.vertices()];
-    let (length, speed) = (&at.flexes.flexedge_length[own.clone()], &at.vel.flexedge_velocity[own.clone()]);
-    let rest = &m.flexedge_length0[own];
-    let dt = m.opt.timestep;
-    let damping = if dt > 0.0 { m.flex_damping[flex.id] / dt } else { 0.0 };
-    // How much longer the square of an edge is than at rest, ahead of time by the damping.
-    let elongation = |e: usize| {
-        let (now, before) = (length[e], length[e] - speed[e] * dt);
-        now * now - rest[e] * rest[e] + (now * now - before * before) * damping
-    };
+    let m = flex.m;
+    let points = &flexes.flexvert_xpos[flex.vertices()];
     let edges = &m.flex_elemedge[m.flex_elemedgeadr[flex.id].max(0) as usize..];
     let metrics = m.flex_stiffness[first..].chunks_exact(METRIC);
     let corners = flex.corners().chunks_exact(flex.dim() + 1);
     for ((corners, edges), packed) in corners.zip(edges.chunks_exact(E)).zip(metrics) {
         let metric: [[f64; E]; E] = unpack(packed);
-        let span = ends.map(|end| {
-            let [a, b] = end.map(|k| points[corners[k] as usize]);
-            sub(a, b)
-        });
-        let mut local = [[0.0; 3]; 4];
+        let mut placed = [[0.0; 4]; 4];
+        for (placed, &corner) in placed.iter_mut().zip(corners) {
+            placed[..3].copy_from_slice(&points[corner as usize]);
+        }
+        let mut span = [[0.0; 4]; E];
+        for (span, &[a, b]) in span.iter_mut().zip(ends) {
+            (0..4).for_each(|x| span[x] = placed[a][x] - placed[b][x]);
+        }
+        // Four numbers a vector, the last of them zero: they share a register.
+        let mut local = [[0.0; 4]; 4];
         for a in 0..E {
-            let stretched = elongation(edges[a] as usize);
+            let stretched = elongation[edges[a] as usize];
             for b in 0..E {
-                for x in 0..3 {
+                let [begin, end] = ends[b];
+                for x in 0..4 {
                     let pull = stretched * span[b][x] * metric[a][b];
-                    local[ends[b][0]][x] -= pull;
-                    local[ends[b][1]][x] += pull;
+                    local[begin][x] -= pull;
+                    local[end][x] += pull;
                 }
             }
         }
-        for (&corner, local) in corners.iter().zip(local) {
+        for (&corner, local) in corners.iter().zip(&local) {
             let sum = &mut force[corner as usize];
             (0..3).for_each(|x| sum[x] += local[x]);
         }
@@ -115,7 +129,7 @@ fn elements<const E: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::{Mat3, dot, mul_mat, mul_mat_t_mat, mul_mat_vec};
+    use crate::math::{Mat3, dot, mul_mat, mul_mat_t_mat, mul_mat_vec, sub};
     use crate::model::{Arrays, Model};
 
     const LAME: [f64; 2] = [3.0, 2.0];
@@ -155,7 +169,7 @@ mod tests {
         }
         let at = Inputs { kin: &kin, com: &com, flexes: &flexes, vel: &vel };
         let mut qfrc = vec![0.0; m.nv];
-        stretch(Flex { m, id: 0 }, at, &mut Vec::new(), &mut qfrc);
+        stretch(Flex { m, id: 0 }, at, &mut FlexScratch::default(), &mut qfrc);
         qfrc
     }
 

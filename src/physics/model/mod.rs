@@ -43,6 +43,7 @@ pub use suggestion::Suggestions;
 pub use types::*;
 
 use crate::collision::climb::Slopes;
+use crate::flex::metric::bending_factor::BendingFactor;
 use crate::plugin::{Instances, PluginError, Registry};
 use names::NameIndex;
 use std::ops::Deref;
@@ -65,6 +66,8 @@ pub struct Model {
 struct Caches {
     /// Hulls in the layout that collision climbs.
     slopes: Arc<OnceLock<Slopes>>,
+    /// The constant factor of inertia and bending, by vertices.
+    bending: Arc<OnceLock<BendingFactor>>,
     /// Ids by name.
     names: Arc<NameIndex>,
     /// Statistics that follow from the arrays, where those of the model may be given.
@@ -127,5 +130,15 @@ impl Model {
     /// Hulls in the layout that collision climbs.
     pub(crate) fn slopes(&self) -> &Slopes {
         self.caches.slopes.get_or_init(|| Slopes::new(&self.arrays))
+    }
+
+    /// The constant factor of inertia and bending, by vertices.
+    pub(crate) fn bending_factor(&self) -> &BendingFactor {
+        self.caches.bending.get_or_init(|| BendingFactor::new(&self.arrays))
+    }
+
+    /// Drops what was made of the factor before it changed.
+    pub(crate) fn forget_bending_factor(&mut self) {
+        self.caches.bending = Arc::default();
     }
 }

@@ -108,7 +108,7 @@ fn flexes(
             shell::shell(flex, inputs, with[0], scratch, out);
         } else {
             bending::bending(flex, at.kin, at.flex, &at.state.qvel, with, out);
-            stretch::stretch(flex, inputs, scratch.forces(), &mut out.qfrc_spring);
+            stretch::stretch(flex, inputs, scratch, &mut out.qfrc_spring);
         }
     }
     springs::edge_springs(m, at.flex, vel, with, out);

@@ -5,8 +5,11 @@
 //! steps of everything else. The solver `CG` and the integrators that are implicit in velocity ask for it
 //! (MuJoCo documentation, Computation, "Deformable objects").
 //!
-//! `matrix.rs` keeps `K` in rows that `pattern.rs` lays out, `terms.rs` applies what has none, `touch.rs` makes springs of contacts.
+//! `matrix.rs` keeps `K` in rows that `pattern.rs` lays out, `bends.rs` and `terms.rs` apply what has none, `touch.rs` makes
+//! springs of contacts, and `bending_factor.rs` solves where bending is all there is.
 
+pub(crate) mod bending_factor;
+mod bends;
 mod matrix;
 mod pattern;
 mod terms;
@@ -15,13 +18,13 @@ mod touch;
 use super::{Flex, FlexScratch, held, vertices};
 use crate::data::{Com, Contacts, Flexes, Inertia, Kinematics};
 use crate::inertia::{mul_inertia_matrix, solve_ld};
+use crate::math::add_scaled_slice;
 use crate::math::dense::dot_slice;
-use crate::math::{add_scaled_slice, dot_sparse};
 use crate::model::bounds::MINVAL;
 use crate::model::{Cone, Enable, Integrator, Model, Solver};
+use bends::Bends;
 use matrix::Matrix;
 use std::ops::Range;
-use terms::Rates;
 pub(crate) use touch::{Touches, mark};
 
 /// The stiffness in the inertia of one configuration. Empty while nothing asks for it.
@@ -33,8 +36,7 @@ pub struct Metric {
     matrix: Matrix,
     /// `- dt S v`, the change of the force over a step at the present velocity.
     pub(crate) shift: Vec<f64>,
-    /// Columns of the constant factor of bending, as degrees of freedom.
-    bending_columns: Vec<i32>,
+    bends: Bends,
     solution: Solution,
 }
 
@@ -55,6 +57,19 @@ pub struct Poses<'a> {
     pub kin: &'a Kinematics,
     /// Centres of mass and motion axes.
     pub com: &'a Com,
+}
+
+/// What stiffness is multiplied by: a constant, and a multiple of a flex's damping.
+#[derive(Clone, Copy)]
+struct Rates {
+    constant: f64,
+    damping: f64,
+}
+
+impl Rates {
+    fn of(self, flex: Flex) -> f64 {
+        self.constant + self.damping * flex.m.flex_damping[flex.id]
+    }
 }
 
 /// What makes up the effective inertia.
@@ -135,11 +150,7 @@ impl Metric {
         }
         self.matrix.assemble(m, kin, flexes, &self.touches, con);
         self.matrix.factor_blocks(m, inertia);
-        self.bending_columns.clear();
-        if self.matrix.is_empty() {
-            let dofs = m.efm0_L_colind.iter().map(|&column| m.efm0_dofid[column as usize]);
-            self.bending_columns.extend(dofs);
-        }
+        self.bends.find(m, kin);
     }
 
     /// Computes `- dt S v` at the present velocity.
@@ -148,7 +159,7 @@ impl Metric {
         self.shift.resize(m.nv, 0.0);
         let rates = Rates { constant: -m.opt.timestep, damping: 0.0 };
         terms::add_cells(m, poses, flexes, rates, qvel, &mut self.shift);
-        terms::add_bending(m, poses.kin, rates, qvel, &mut self.shift);
+        self.bends.add_product(poses.kin, rates, qvel, &mut self.shift);
         terms::add_stretch(m, poses.kin, flexes, rates, qvel, &mut self.shift);
         self.touches.add_product(rates.constant, qvel, &mut self.shift);
     }
@@ -194,7 +205,7 @@ impl Effective<'_> {
         let rates = Rates { constant: h * h, damping: h };
         metric.matrix.add_product(v, out);
         if metric.matrix.is_empty() {
-            terms::add_bending(m, poses.kin, rates, v, out);
+            metric.bends.add_product(poses.kin, rates, v, out);
         }
         if metric.matrix.is_empty() || !metric.matrix.has_cells() {
             terms::add_cells(m, poses, flexes, rates, v, out);
@@ -208,43 +219,18 @@ impl Effective<'_> {
     pub(crate) fn precondition(self, b: &[f64], x: &mut [f64]) {
         let Effective { m, inertia, metric, .. } = self;
         x.copy_from_slice(b);
-        let bends = metric.matrix.is_empty() && m.nefm0dof > 0;
-        if bends {
-            m.efm0_dofid.iter().for_each(|&dof| x[dof as usize] = 0.0);
-        } else {
-            metric.matrix.clear_points(x);
+        let bending = (metric.matrix.is_empty() && m.nefm0dof > 0).then(|| m.bending_factor());
+        match bending {
+            Some(factor) => factor.dofs().for_each(|dof| x[dof..dof + 3].fill(0.0)),
+            None => metric.matrix.clear_points(x),
         }
         solve_ld(m, &inertia.qLD, &inertia.qLDiagInv, x);
-        if bends {
-            m.efm0_dofid.iter().for_each(|&dof| x[dof as usize] = b[dof as usize]);
-            self.solve_bending(x);
-        } else {
-            metric.matrix.solve_blocks(b, x);
-        }
-    }
-
-    /// Solves with the constant factor of inertia and bending, in place.
-    fn solve_bending(self, x: &mut [f64]) {
-        let (m, columns) = (self.m, &self.metric.bending_columns[..]);
-        let row = |r: usize| {
-            let start = m.efm0_L_rowadr[r] as usize;
-            start..start + m.efm0_L_rownnz[r] as usize - 1
-        };
-        for r in (0..m.nefm0dof).rev() {
-            let (own, before) = (m.efm0_dofid[r] as usize, row(r));
-            if x[own] == 0.0 {
-                continue;
+        match bending {
+            Some(factor) => {
+                factor.dofs().for_each(|dof| x[dof..dof + 3].copy_from_slice(&b[dof..dof + 3]));
+                factor.solve(x);
             }
-            x[own] /= m.efm0_L[before.end];
-            let value = x[own];
-            for k in before {
-                x[columns[k] as usize] -= m.efm0_L[k] * value;
-            }
-        }
-        for r in 0..m.nefm0dof {
-            let (own, before) = (m.efm0_dofid[r] as usize, row(r));
-            x[own] -= dot_sparse(&m.efm0_L[before.clone()], &columns[before.clone()], x);
-            x[own] /= m.efm0_L[before.end];
+            None => metric.matrix.solve_blocks(b, x),
         }
     }
 

@@ -1,30 +1,15 @@
-//! Stiffness that is applied term by term: of bent edges, stretched elements, and cells that turn with their lattice.
+//! Stiffness that is applied term by term: of stretched elements, and of cells that turn with their lattice.
 
-use super::Poses;
 use super::matrix::tension;
-use super::{cell_stiffness, is_elastic_lattice};
+use super::{Poses, Rates, cell_stiffness, is_elastic_lattice};
 use crate::data::{Flexes, Kinematics};
 use crate::flex::Flex;
-use crate::flex::bending::STENCIL;
 use crate::flex::lattice::{Lattice, MAX_NODES, Patch};
 use crate::flex::stretch::{METRIC, TETRAHEDRON, TRIANGLE, unpack};
 use crate::flex::vertices::placed;
 use crate::math::{Mat3, Vec3, add_scaled, mul_mat, mul_mat_t_vec, mul_mat_vec, quat_to_mat, sub, transpose};
 use crate::model::Model;
 use crate::position::chain::{apply_wrench, chain, com_offset, point_column};
-
-/// What stiffness is multiplied by: a constant, and a multiple of a flex's damping.
-#[derive(Clone, Copy)]
-pub(super) struct Rates {
-    pub constant: f64,
-    pub damping: f64,
-}
-
-impl Rates {
-    fn of(self, flex: Flex) -> f64 {
-        self.constant + self.damping * flex.m.flex_damping[flex.id]
-    }
-}
 
 /// First degree of freedom of a body with three.
 fn free_dof(m: &Model, body: usize) -> Option<usize> {
@@ -41,31 +26,6 @@ fn add_to_body(m: &Model, kin: &Kinematics, body: usize, force: Vec3, scale: f64
     if let Some(dof) = free_dof(m, body) {
         let local = mul_mat_t_vec(&kin.xmat[body], force);
         (0..3).for_each(|x| out[dof + x] += scale * local[x]);
-    }
-}
-
-/// Adds the stiffness of bent edges times `v`.
-pub(super) fn add_bending(m: &Model, kin: &Kinematics, rates: Rates, v: &[f64], out: &mut [f64]) {
-    for flex in Flex::all(m).filter(|flex| flex.has_edges() && flex.dim() == 2) {
-        let (scale, bodies) = (rates.of(flex), flex.vertex_bodies());
-        let Some(first) = flex.bending().filter(|_| scale != 0.0) else { continue };
-        for (e, stencil) in flex.edges().zip(m.flex_bending[first..].chunks_exact(STENCIL)) {
-            let ([a, b], [c, d]) = (m.flex_edge[e], m.flex_edgeflap[e]);
-            if d == -1 {
-                continue;
-            }
-            let bodies = [a, b, c, d].map(|v| bodies[v as usize] as usize);
-            let moved = bodies.map(|body| of_body(m, kin, body, v));
-            for (i, &body) in bodies.iter().enumerate() {
-                let mut force = [0.0; 3];
-                for (j, moved) in moved.iter().enumerate() {
-                    if let Some(moved) = moved {
-                        force = add_scaled(force, *moved, stencil[4 * i + j]);
-                    }
-                }
-                add_to_body(m, kin, body, force, scale, out);
-            }
-        }
     }
 }
 
