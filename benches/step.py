@@ -1,6 +1,6 @@
 """Steps per second beside MuJoCo 3.12.0's C `mj_step` on one thread, and where the time goes on both sides.
 
-    python benches/step.py [--corpus FOLDER] [--only TEXT] [--stages] [--jitter] [--write FILE]
+    python benches/step.py [--corpus FOLDER | --deformables MUJOCO] [--only TEXT] [--stages] [--jitter] [--write FILE]
 
 Both sides run the same trajectory: keyframe 0 or `qpos0`, 500 steps under the smooth seeded controls of
 `validation/reference/record.py`, a new row of them every HOLD steps (MuJoCo gets them as `nstep`), then all over
@@ -9,8 +9,9 @@ Loading is not counted. Stages are wall time, the least of single passes, clocks
 Jitter takes a longer sequence, so that p99.9 leaves out more than the first step and the hardest.
 `motion` is the largest difference of `qpos` after one pass: the proof of equal work.
 
-Own models always; RoboHive's with `--corpus`, the folder that holds its `envs` and `simhive` (a copy is made). Needs
-`mujoco` and `numpy`, Linux, and a release build of this repository.
+Own models always; RoboHive's with `--corpus`, the folder that holds its `envs` and `simhive` (a copy is made). With
+`--deformables` instead the scenes with flexes of a checkout of MuJoCo's repository. Needs `mujoco` and `numpy`, Linux,
+and a release build of this repository.
 """
 
 import argparse
@@ -44,6 +45,7 @@ ROBOHIVE = [
     "simhive/myo_sim/arm/myoarm.xml",
     "simhive/myo_sim/leg/myolegs.xml",
 ]
+DEFORMABLES = ["trampoline", "flag", "plate", "basket", "floppy", "poncho", "drape", "softbox", "jelly", "pinch", "gripper"]
 PASS, HOLD = 500, 100
 ROUNDS = 7
 STAGE_ROUNDS = 15
@@ -228,7 +230,10 @@ def write(path, table):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--corpus", type=pathlib.Path, help="folder with RoboHive's envs and simhive")
+    models = parser.add_mutually_exclusive_group()
+    models.add_argument("--corpus", type=pathlib.Path, help="folder with RoboHive's envs and simhive")
+    models.add_argument("--deformables", metavar="MUJOCO", type=pathlib.Path,
+                        help="checkout of MuJoCo's repository, whose scenes with flexes are measured instead")
     parser.add_argument("--only", default="", help="models whose path contains this")
     parser.add_argument("--stages", action="store_true", help="time of each stage on both sides")
     parser.add_argument("--jitter", action="store_true", help="p99.9 of step time over the median on both sides; wants an idle core")
@@ -243,6 +248,8 @@ def main():
                 shutil.copytree(args.corpus / folder, pathlib.Path(copy) / folder)
             record.repair(copy)
             paths += [pathlib.Path(copy) / name for name in ROBOHIVE]
+        if args.deformables:
+            paths = [args.deformables / "model" / "flex" / f"{name}.xml" for name in DEFORMABLES]
         rows = {}
         for path in (path for path in paths if args.only in str(path)):
             row = rows[path.stem] = compare(path, record.load(path), args)
