@@ -351,7 +351,7 @@ fn sensors(m: &Model, d: &mut Data) {
     sensor::velocity_sensors(m, &inputs, past, &mut scratch, out);
     let inputs = sensor::AccelerationInputs { state, kin, com, con, efc, vel, actuation };
     sensor::acceleration_sensors(m, &inputs, past, &mut scratch, out);
-    momentum::subtree_momentum(m, kin, com, vel, out);
+    momentum::subtree_momentum(m, state, kin, com, vel, out);
     let at = Configuration { state, kin, com, flex, ten };
     d.energy = [energy::potential(m, &at), energy::kinetic(m, state, inertia, &mut Vec::new())];
 }

@@ -94,7 +94,7 @@ fn motion_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<bool,
         "energyVel" => {
             d.energy[1] = energy::kinetic(m, &d.state, &d.inertia, &mut Vec::new());
         }
-        "subtreeVel" => momentum::subtree_momentum(m, &d.kin, &d.com, &d.vel, &mut d.sensor),
+        "subtreeVel" => momentum::subtree_momentum(m, &d.state, &d.kin, &d.com, &d.vel, &mut d.sensor),
         "fwdActuation" => actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation),
         "fwdAcceleration" => unconstrained_acceleration(m, d),
         "fwdConstraint" => constrained_acceleration(m, d),

@@ -31,7 +31,7 @@ use crate::on_demand::momentum::subtree_momentum;
 pub fn derive_on_demand(m: &Model, d: &mut Data) {
     let momentum = &mut d.scratch.sensor.momentum;
     d.energy = [potential(m, &configuration_of!(d)), kinetic(m, &d.state, &d.inertia, momentum)];
-    subtree_momentum(m, &d.kin, &d.com, &d.vel, &mut d.sensor);
+    subtree_momentum(m, &d.state, &d.kin, &d.com, &d.vel, &mut d.sensor);
     derive_body_forces(m, d);
 }
 

@@ -111,7 +111,7 @@ pub fn velocity_sensors(
     if any_of(m, |kind| matches!(kind, SensorType::Subtreelinvel | SensorType::Subtreeangmom))
         || plugins_read(m, Stage::Vel)
     {
-        subtree_momentum(m, inputs.kin, inputs.com, inputs.vel, out);
+        subtree_momentum(m, inputs.state, inputs.kin, inputs.com, inputs.vel, out);
     }
     let Sensors { sensordata, subtree_linvel, subtree_angmom, .. } = out;
     each(m, Stage::Vel, past, &mut scratch.fresh, sensordata, |i, kind, data| match kind {

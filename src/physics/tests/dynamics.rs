@@ -109,7 +109,7 @@ fn momentum_matrices_give_the_momentum_of_every_subtree() {
     let mut d = moving(&m);
     forward(&m, &mut d).unwrap();
     let mut sensors = d.sensor.clone();
-    subtree_momentum(&m, &d.kin, &d.com, &d.vel, &mut sensors);
+    subtree_momentum(&m, &d.state, &d.kin, &d.com, &d.vel, &mut sensors);
     let (mut linear, mut angular) = (Vec::new(), Vec::new());
     for b in 1..m.nbody {
         subtree_com_jacobian(&m, &d.kin, &d.com, b, &mut linear);

@@ -22,7 +22,7 @@ const BODY: &str = r#"<mujoco><worldbody><body><freejoint/>
 fn momentum_of(m: &Model, d: &mut Data) -> Result<[Vec3; 2], LawError> {
     physics::forward(m, d)?;
     let mut sensors = d.sensor.clone();
-    subtree_momentum(m, &d.kin, &d.com, &d.vel, &mut sensors);
+    subtree_momentum(m, &d.state, &d.kin, &d.com, &d.vel, &mut sensors);
     Ok([sensors.subtree_linvel[1].map(|v| v * m.body_subtreemass[1]), sensors.subtree_angmom[1]])
 }
 
