@@ -98,26 +98,6 @@ pub(super) fn subtract_bias(
     }
 }
 
-/// `d qfrc_bias / d qvel` of the free joint of body `b`, which carries no other mass.
-pub fn free_body_bias_slope(m: &Model, inputs: &DerivativeInputs, b: usize) -> [[f64; 6]; 6] {
-    let DerivativeInputs { state, com, vel, .. } = *inputs;
-    let first = m.body_dofadr[b] as usize;
-    let coriolis = Coriolis::of_body(&com.cinert[b], &vel.cvel[b]);
-    let mut v = vel.cvel[m.body_parentid[b] as usize];
-    let mut slope = [[0.0; 6]; 6];
-    for group in groups(m, m.body_jntadr[b] as usize) {
-        add_motion(&com.cdof, &state.qvel, group.clone(), &mut v);
-        for j in group {
-            let drift = drift_of(com, vel, &v, j);
-            let force = force_slope(&com.cinert[b], &coriolis, &com.cdof[j], &drift);
-            for (i, row) in slope.iter_mut().enumerate() {
-                row[j - first] = spatial_dot(&com.cdof[first + i], &force);
-            }
-        }
-    }
-    slope
-}
-
 /// `I y + C s`.
 fn force_slope(inertia: &[f64; 10], coriolis: &Coriolis, s: &Spatial, drift: &Spatial) -> Spatial {
     let (from_drift, from_motion) = (mul_inertia(inertia, drift), coriolis.mul(s));

@@ -21,11 +21,13 @@
 mod actuation;
 mod bias;
 mod fluid;
+mod free_body;
 mod passive;
 pub mod transition;
 
-pub use bias::{BiasScratch, free_body_bias_slope};
+pub use bias::BiasScratch;
 pub use fluid::FluidScratch;
+pub use free_body::FreeBodySlope;
 
 use crate::data::{
     Actuation, Com, Data, Flexes, Inertia, Kinematics, State, Tendons, Transmission, Velocity,

@@ -6,11 +6,10 @@
 
 use crate::data::{Implicit, Inertia};
 use crate::derivative::{
-    BiasSlope, DerivativeInputs, DerivativeScratch, free_body_bias_slope, is_free_body, row,
-    smooth_force_slope,
+    BiasSlope, DerivativeInputs, DerivativeScratch, FreeBodySlope, is_free_body, row, smooth_force_slope,
 };
 use crate::inertia;
-use crate::math::dense::solve_lu;
+use crate::math::dense::{dot_slice, solve_lu};
 use crate::math::{FullRows, add_scaled_slice, dot_sparse};
 use crate::model::{Integrator, JointType, Model};
 
@@ -84,7 +83,7 @@ pub fn mul(
         let first = m.jnt_dofadr[j] as usize;
         let system = free_body_system(m, inputs, &factors.qDeriv, body, first);
         for (i, row) in system.iter().enumerate() {
-            out[first + i] = row.iter().zip(&a[first..]).fold(0.0, |sum, (s, x)| sum + s * x);
+            out[first + i] = dot_slice(row, &a[first..]);
         }
     }
 }
@@ -130,7 +129,6 @@ fn free_body_system(
     first: usize,
 ) -> [[f64; 6]; 6] {
     let mass = &inputs.inertia.M;
-    let bias = free_body_bias_slope(m, inputs, body);
     let h = m.opt.timestep;
     let mut system = [[0.0; 6]; 6];
     for r in 0..6 {
@@ -144,9 +142,7 @@ fn free_body_system(
         for k in row(m, first + r) {
             system[r][m.D_colind[k] as usize - first] -= h * slope[k];
         }
-        for c in 0..6 {
-            system[r][c] += h * bias[r][c];
-        }
     }
+    FreeBodySlope::of(m, inputs, body).add_to(&mut system, h, m.body_mass[body]);
     system
 }
