@@ -100,6 +100,16 @@ impl HalfJacobian {
         }
     }
 
+    /// Words of a set of columns.
+    pub fn words(&self) -> usize {
+        self.words
+    }
+
+    /// Adds the columns of row `i`, those of ancestors included, to a set.
+    pub fn add_columns_of(&self, efc: &Constraints, i: usize, set: &mut [u64]) {
+        add_columns(jacobian_row(efc, i).0, &self.ancestors, set);
+    }
+
     /// Entries of row `i`, those of ancestors included.
     pub fn row(&mut self, efc: &Constraints, i: usize) -> &[f64] {
         let Self { entries, words, ancestors, root, set, values, .. } = self;

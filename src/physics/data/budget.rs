@@ -151,7 +151,9 @@ impl StepBudget {
     fn bytes_of_solver(self, m: &Model, nefc: usize, rows: usize, dofs: usize) -> usize {
         let square = |n: usize| n.saturating_mul(n);
         let dual = if m.opt.solver == Solver::Pgs || m.opt.noslip_iterations > 0 {
-            square(nefc + 8).saturating_mul(8).saturating_add(half_bytes(m, nefc))
+            // With the columns of compressed rows, and the sets that they follow from.
+            let [entry, sets] = if m.is_sparse() { [12, nefc.saturating_mul(m.nv / 8 + 8)] } else { [8, 0] };
+            square(nefc + 8).saturating_mul(entry).saturating_add(half_bytes(m, nefc)).saturating_add(sets)
         } else {
             0
         };

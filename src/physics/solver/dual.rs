@@ -1,14 +1,18 @@
 //! The dual problem: forces that minimise `½ fᵀ (A + R) f + fᵀ b` within their cones, with `A = J M⁻¹ Jᵀ`
 //! (MuJoCo documentation, Computation, "Dual problem").
 
+use super::dual_pattern::Pattern;
 use crate::constraint::{BLOCK, HalfJacobian, TILE, half_jacobian};
 use crate::data::{Constraints, Contact, Inertia, SolverStat};
 use crate::math::dense::{dot_slice, norm_slice};
+use crate::math::dot_sparse;
 use crate::model::bounds::MINVAL;
 use crate::model::{ConstraintState, ConstraintType, Model};
 
 /// Changes of cost above this undo the step that made them.
 const RISE: f64 = 1e-10;
+/// Least diagonal entry without regularisation.
+const LEAST_DIAGONAL: f64 = 1e-10;
 
 /// Memory of the dual solvers.
 #[derive(Clone, Debug, Default)]
@@ -16,9 +20,12 @@ pub(super) struct Dual {
     half: HalfJacobian,
     /// `(A + R) f`.
     product: Vec<f64>,
-    /// `A + R`, full, and the distance of its rows.
+    /// `A + R`, and the distance of its rows. Full, or where the model is sparse its entries that are not zero by structure,
+    /// moved to the beginning of each row.
     ar: Vec<f64>,
     stride: usize,
+    /// What stands in the rows where they are compressed.
+    pattern: Option<Pattern>,
     /// Starts of row blocks in the order they are visited.
     pub blocks: Vec<usize>,
     /// Forces before the last extrapolation, and after it.
@@ -48,18 +55,44 @@ impl Dual {
         for i in 0..efc.nefc {
             self.ar[i * (stride + 1)] += efc.efc_R[i];
         }
+        if m.is_sparse() {
+            let pattern = self.pattern.get_or_insert_default();
+            pattern.find(&self.half, efc);
+            for i in 0..efc.nefc {
+                let (row, columns) = (&mut self.ar[i * stride..][..stride], pattern.columns(i));
+                // Those up to the first gap are where they belong.
+                let placed = columns.partition_point(|&j| columns.get(j as usize) == Some(&j));
+                (placed..columns.len()).for_each(|k| row[k] = row[columns[k] as usize]);
+            }
+        } else {
+            self.pattern = None;
+        }
     }
 
-    /// Row `i` of `A + R`.
+    /// The entries of row `i` of `A + R` from its diagonal block on, which is full.
     #[inline]
-    pub fn row(&self, efc: &Constraints, i: usize) -> &[f64] {
-        &self.ar[i * self.stride..][..efc.nefc]
+    fn block_row(&self, i: usize, first: usize) -> &[f64] {
+        let place = self.pattern.as_ref().map_or(first, |pattern| pattern.place(i, first));
+        &self.ar[i * self.stride + place..]
+    }
+
+    /// Row `i` of `(A + R) f`.
+    #[inline]
+    fn row_product(&self, efc: &Constraints, i: usize) -> f64 {
+        let row = &self.ar[i * self.stride..];
+        match &self.pattern {
+            None => dot_slice(&row[..efc.nefc], &efc.efc_force),
+            Some(pattern) => {
+                let columns = pattern.columns(i);
+                dot_sparse(&row[..columns.len()], columns, &efc.efc_force)
+            }
+        }
     }
 
     /// Gradient of the cost by the force of row `i`, without regularisation if `bare`.
     #[inline]
     pub fn slope(&self, efc: &Constraints, i: usize, bare: bool) -> f64 {
-        let slope = efc.efc_b[i] + dot_slice(self.row(efc, i), &efc.efc_force);
+        let slope = efc.efc_b[i] + self.row_product(efc, i);
         if bare { slope - efc.efc_R[i] * efc.efc_force[i] } else { slope }
     }
 
@@ -74,17 +107,25 @@ impl Dual {
     pub fn block(&self, efc: &Constraints, i: usize, dim: usize, bare: bool) -> [f64; 36] {
         let mut out = [0.0; 36];
         for j in 0..dim {
-            out[j * dim..(j + 1) * dim].copy_from_slice(&self.row(efc, i + j)[i..i + dim]);
+            out[j * dim..(j + 1) * dim].copy_from_slice(&self.block_row(i + j, i)[..dim]);
             if bare {
-                out[j * (dim + 1)] = (out[j * (dim + 1)] - efc.efc_R[i + j]).max(1e-10);
+                out[j * (dim + 1)] = (out[j * (dim + 1)] - efc.efc_R[i + j]).max(LEAST_DIAGONAL);
             }
         }
         out
     }
 
+    /// Diagonal block of rows `j` and `j + 1`, without regularisation.
+    #[inline]
+    pub fn pair(&self, efc: &Constraints, j: usize) -> [f64; 4] {
+        let (upper, lower) = (self.block_row(j, j), self.block_row(j + 1, j));
+        let bare = |x: f64, i: usize| (x - efc.efc_R[i]).max(LEAST_DIAGONAL);
+        [bare(upper[0], j), upper[1], lower[0], bare(lower[1], j + 1)]
+    }
+
     /// Reciprocal of a diagonal entry, without regularisation if `bare`.
     pub fn inverse_diagonal(&self, efc: &Constraints, i: usize, bare: bool) -> f64 {
-        let diagonal = self.row(efc, i)[i];
+        let diagonal = self.block_row(i, i)[0];
         1.0 / if bare { (diagonal - efc.efc_R[i]).max(MINVAL) } else { diagonal }
     }
 
@@ -93,7 +134,7 @@ impl Dual {
         let force = &efc.efc_force;
         let mut product = std::mem::take(&mut self.product);
         product.clear();
-        product.extend((0..efc.nefc).map(|i| dot_slice(self.row(efc, i), force)));
+        product.extend((0..efc.nefc).map(|i| self.row_product(efc, i)));
         self.product = product;
         dot_slice(force, &efc.efc_b) + 0.5 * dot_slice(force, &self.product)
     }

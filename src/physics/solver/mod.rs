@@ -5,6 +5,7 @@
 
 mod cg;
 mod dual;
+mod dual_pattern;
 mod friction_force;
 mod hessian;
 mod line_cost;

@@ -84,9 +84,7 @@ fn opposite_edges(dual: &Dual, efc: &mut Constraints, j: usize) -> f64 {
         return 0.0;
     }
     let residual = [dual.slope(efc, j, true), dual.slope(efc, j + 1, true)];
-    let (upper, lower) = (dual.row(efc, j), dual.row(efc, j + 1));
-    let bare = |x: f64, i: usize| (x - efc.efc_R[i]).max(1e-10);
-    let a = [bare(upper[j], j), upper[j + 1], lower[j], bare(lower[j + 1], j + 1)];
+    let a = dual.pair(efc, j);
     let b = [residual[0] - dot_slice(&a[..2], &old), residual[1] - dot_slice(&a[2..4], &old)];
     let middle = 0.5 * (old[0] + old[1]);
     let (curvature, slope) = (a[0] + a[3] - a[1] - a[2], middle * (a[0] - a[3]) + b[0] - b[1]);
