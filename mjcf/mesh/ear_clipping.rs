@@ -43,7 +43,9 @@ impl Ring {
 }
 
 /// Cuts the polygon of `points`, at least three, into triangles of its corners. What is left when no ear is
-/// found, in a polygon that crosses itself, is dropped.
+/// found, in a polygon that crosses itself, is dropped. So is what the first ear leaves of five corners and more when
+/// its search was over with that ear, which begins at the last corner: the reference counts the tries before it looks
+/// at their outcome.
 pub(super) fn triangulate(points: &[Point], mut emit: impl FnMut([usize; 3])) {
     let mut ring = Ring::new(points.len());
     if ring.len > 3 {
@@ -76,10 +78,14 @@ fn clip_ears(points: &[Point], area: f32, ring: &mut Ring, emit: &mut impl FnMut
         }
         emit(ear);
         let [_, cut, after] = ear;
+        let found_by_the_last_try = ring.len == points.len() && start + 1 == points.len();
         // The search goes on at the same place in the list of corners, which is the next corner where the list
         // lost its first.
         from = if ring.head == cut { after } else { start };
         ring.remove(cut);
+        if found_by_the_last_try {
+            break;
+        }
         standing.remove(cut);
         untried.remove(&cut);
         untried.extend([start, ring.previous[start]]);
@@ -284,7 +290,7 @@ mod tests {
         found
     }
 
-    /// The definition: every start in turn, every other corner tested.
+    /// The definition: every start in turn, every other corner tested; the end after an ear at the last of all.
     fn by_definition(points: &[Point]) -> Vec<[usize; 3]> {
         let mut rest: Vec<usize> = (0..points.len()).collect();
         let ends = rest.iter().map(|&k| [points[k], points[(k + 1) % points.len()]]);
@@ -301,6 +307,9 @@ mod tests {
             }
             found.push(ear);
             rest.remove((start + 1) % n);
+            if failed + 1 == points.len() {
+                break;
+            }
             failed = 0;
         }
         if let [a, b, c] = rest[..] {

@@ -278,6 +278,35 @@ fn obj_polygons_become_triangles() {
     assert_eq!(raw.facetexcoord, [0; 12]);
 }
 
+/// Triangles recorded from MuJoCo 3.12.
+#[test]
+fn obj_polygons_are_cut_as_in_the_reference() {
+    let cases: [(&str, &[[i32; 3]]); 6] = [
+        // A simple polygon, reflex at most corners.
+        (
+            "15 -12, 3 -15, -14 -24, -15 -5, -12 4, -15 26, 1 8, 23 20, 18 0",
+            &[[1, 2, 3], [1, 3, 4], [1, 4, 5], [1, 5, 6], [1, 6, 7], [1, 7, 8], [0, 1, 8]],
+        ),
+        // Polygons that cross themselves: the first ear begins at the last corner, no ear is left after a few.
+        ("6 5, 4 6, 4 2, 1 0, 3 2, 6 2, 5 5", &[[6, 0, 1]]),
+        ("4 6, 0 1, 0 7, 4 4, 4 7, 0 0, 0 5", &[[6, 0, 1]]),
+        ("6 1, 2 6, 5 0, 2 7, 6 2, 0 0, 1 4", &[[2, 3, 4], [4, 5, 6]]),
+        // Tiny convex polygons whose area in single precision has the wrong sign.
+        (
+            "1.639386 1.188743, 1.639583 1.188396, 1.639596 1.188403, 1.639602 1.188406, 1.63969 1.188521",
+            &[[1, 2, 3]],
+        ),
+        ("1.374491 1.752589, 1.374378 1.752581, 1.374341 1.752508, 1.374456 1.752404", &[]),
+    ];
+    for (polygon, triangles) in cases {
+        let vertices: Vec<String> = polygon.split(", ").map(|point| format!("v 0 {point}\n")).collect();
+        let corners: Vec<String> = (1..=vertices.len()).map(|corner| corner.to_string()).collect();
+        let text = format!("{}f {}\n", vertices.concat(), corners.join(" "));
+        let raw = decode(text.as_bytes(), "x.obj", "").unwrap();
+        assert_eq!(raw.face, triangles.concat(), "{polygon}");
+    }
+}
+
 #[test]
 fn computed_shapes_have_the_volume_of_their_solid() {
     let volume = |shape: Shape, params: &[f64]| {

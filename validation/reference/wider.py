@@ -198,7 +198,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", required=True, type=Path)
     parser.add_argument("--snapshots", type=Path, help="folder of git repositories, OWNER+NAME/repo")
-    parser.add_argument("--most", type=int, default=12, help="models of each source")
+    parser.add_argument("--most", type=int, default=14, help="models of each source")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="", help="only sources whose name contains this")
     args = parser.parse_args()
