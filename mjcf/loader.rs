@@ -16,7 +16,7 @@ use crate::files::{Disk, FileProvider};
 use crate::include::{Expansion, Substitution, report_unmatched};
 use crate::loaded::Loaded;
 use crate::mesh::stored::MeshStore;
-use crate::read;
+use crate::read::{self, Authored};
 use crate::spec::Spec;
 use crate::write::text;
 use crate::xml::{Element, Limits};
@@ -50,6 +50,8 @@ impl Default for Loader {
 pub struct Parsed {
     /// The elements.
     pub spec: Spec,
+    /// Settings that the text gives, as opposed to those left at their defaults.
+    pub authored: Authored,
     /// The texts that they came from.
     pub sources: Sources,
     /// What was ignored or assumed; no errors.
@@ -295,11 +297,11 @@ impl Loader {
         let mut expansion = gathered.expansion(self, files);
         let Some(mut root) = read(&mut expansion) else { return Err(gathered.diagnostics) };
         self.edit(&mut root, expansion.sources, expansion.diagnostics);
-        let spec = read::read(&root, expansion);
+        let read = read::read(&root, expansion);
         let Gathered { matched, budget, sources, mut diagnostics } = gathered;
         report_unmatched(&self.substitutions, &matched, &sources, &mut diagnostics);
-        match spec.filter(|_| !diagnostics.has_errors()) {
-            Some(spec) => Ok(Parsed { spec, sources, warnings: diagnostics, budget }),
+        match read.filter(|_| !diagnostics.has_errors()) {
+            Some((spec, authored)) => Ok(Parsed { spec, authored, sources, warnings: diagnostics, budget }),
             None => Err(diagnostics),
         }
     }
@@ -318,7 +320,7 @@ impl Loader {
 }
 
 fn compile_from(resources: Resources<'_>, parsed: Parsed) -> Result<Loaded, Diagnostics> {
-    let Parsed { spec, sources, warnings: mut diagnostics, budget } = parsed;
+    let Parsed { spec, sources, warnings: mut diagnostics, budget, .. } = parsed;
     match compile(&spec, resources, &sources, &mut diagnostics, budget) {
         Some(model) => Ok(Loaded { model, warnings: diagnostics }),
         None => Err(diagnostics),

@@ -43,6 +43,7 @@ mod rename;
 mod scale;
 mod shortcut;
 
+pub use crate::read::Authored;
 pub use carry::carry_state;
 pub use conflict::settle;
 pub use shortcut::set_shortcut;

@@ -9,21 +9,31 @@ use crate::schema::option::FLAGS;
 use crate::xml::Element;
 
 /// Settings that the text of a model gives.
-#[derive(Debug, Default)]
-pub(crate) struct Authored {
-    /// Attributes of `option` and of the parts of `visual`.
-    pub values: BTreeSet<String>,
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Authored {
+    /// Attributes of `compiler`, `option` and the parts of `visual`: name of the element, name of the attribute.
+    pub values: BTreeSet<(String, String)>,
     /// Flags of `option/flag` that disable something.
     pub disableflags: Disable,
     /// Flags of `option/flag` that enable something.
     pub enableflags: Enable,
-    /// Actuator groups.
+    /// Actuator groups, one bit each.
     pub disableactuator: i32,
 }
 
 impl Authored {
+    /// The text gives this attribute of `option` or of a part of `visual`.
+    pub(crate) fn gives(&self, name: &str) -> bool {
+        self.values.iter().any(|(element, attribute)| attribute == name && element != "compiler")
+    }
+
+    /// Notes the attributes of an element.
+    pub(crate) fn attributes(&mut self, element: &Element) {
+        self.values.extend(element.attributes.iter().map(|a| (element.name.clone(), a.name.clone())));
+    }
+
     /// Notes the attributes of `option/flag`.
-    pub fn flags(&mut self, flag: &Element) {
+    pub(crate) fn flags(&mut self, flag: &Element) {
         for row in FLAGS.iter().filter(|row| flag.attribute(row.name).is_some()) {
             if let Bind::Keyword { assign, .. } = row.bind {
                 let (mut off, mut on) = (Options::default(), Options::default());

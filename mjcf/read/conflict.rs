@@ -135,8 +135,7 @@ impl Reader<'_> {
         if mine == theirs {
             return None;
         }
-        let (mut own, mut other) =
-            (self.authored.values.contains(name), child_authored.values.contains(name));
+        let (mut own, mut other) = (self.authored.gives(name), child_authored.gives(name));
         if !own && !other {
             (own, other) = (mine != default, theirs != default);
         }

@@ -31,7 +31,7 @@ mod urdf;
 use crate::include::Expansion;
 use crate::spec::Spec;
 use crate::xml::Element;
-pub(crate) use authored::Authored;
+pub use authored::Authored;
 pub(crate) use kept::rename_files;
 use reader::check_root;
 pub(crate) use reader::{ModelFile, Reader};
@@ -40,17 +40,17 @@ pub(crate) use tree::Place;
 /// Reads one section of the model.
 type Section<R> = fn(&mut R, &Element);
 
-/// Checks and reads a tree; faulty values leave defaults behind and errors in the diagnostics. `None` when the
+/// Checks and reads a tree, and notes which settings it gives; faulty values leave defaults behind and errors in the diagnostics. `None` when the
 /// root is no model.
-pub fn read(root: &Element, mut expansion: Expansion<'_>) -> Option<Spec> {
+pub fn read(root: &Element, mut expansion: Expansion<'_>) -> Option<(Spec, Authored)> {
     if root.name.eq_ignore_ascii_case("robot") {
-        return Some(urdf::read(root, expansion));
+        return Some((urdf::read(root, expansion), Authored::default()));
     }
     check_root(root, &mut expansion)?;
     let path = expansion.sources.get(root.loc.file).map_or(String::new(), |s| s.path.clone());
     let mut reader = Reader::new(root, expansion, vec![path]);
     reader.model(root);
-    Some(reader.spec)
+    Some((reader.spec, reader.authored))
 }
 
 impl Reader<'_> {

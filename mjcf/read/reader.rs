@@ -19,7 +19,7 @@ pub(crate) struct Reader<'a> {
     /// Elements made by `replicate` and `attach` so far.
     pub(super) copied: usize,
     /// Settings that the text gives, for conflicts with those of attached models.
-    pub(super) authored: Authored,
+    pub(crate) authored: Authored,
     /// Warnings about conflicts given already.
     pub(super) warned: BTreeSet<String>,
     /// Models that `attach` takes parts of, in the order of the file.

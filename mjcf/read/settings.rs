@@ -27,6 +27,7 @@ impl Reader<'_> {
             compiler.texturedir = dir.to_string();
         }
         self.rows(section, &COMPILER_ROWS, &mut compiler);
+        self.authored.attributes(section);
         if let Some(attribute) = section.attribute("eulerseq") {
             match <[u8; 3]>::try_from(attribute.value.as_bytes()) {
                 Ok(sequence) if sequence.iter().all(|c| b"xyzXYZ".contains(c)) => {
@@ -54,7 +55,7 @@ impl Reader<'_> {
                 format!("attribute 'timestep' of <option> must be positive, is {}", option.timestep);
             self.error(attribute.value_loc, message);
         }
-        self.authored.values.extend(section.attributes.iter().map(|a| a.name.clone()));
+        self.authored.attributes(section);
         if let Some(attribute) = section.attribute("actuatorgroupdisable") {
             for group in self.numbers::<i32>(section, attribute).unwrap_or_default() {
                 match group {
@@ -106,7 +107,7 @@ impl Reader<'_> {
     pub(super) fn visual(&mut self, section: &Element) {
         let mut visual = std::mem::take(&mut self.spec.visual);
         for element in &section.children {
-            self.authored.values.extend(element.attributes.iter().map(|a| a.name.clone()));
+            self.authored.attributes(element);
             match element.name.as_str() {
                 "global" => self.rows(element, &VISUAL_GLOBAL, &mut visual.global),
                 "quality" => self.rows(element, &VISUAL_QUALITY, &mut visual.quality),

@@ -67,8 +67,8 @@ pub enum Form {
     Letters(Option<usize>),
     /// [`Value::Text`].
     Text,
-    /// [`Value::Texts`] of this number.
-    Texts(usize),
+    /// [`Value::Texts`], of a fixed number unless it is `None`.
+    Texts(Option<usize>),
 }
 
 /// An element or a group of settings whose attributes are found by name.
@@ -183,6 +183,7 @@ plain! {
     Vec<i32>: Form::Integers(None), |own| Value::Integers(own.clone()), |slot| Value::Integers(x) => put(slot, x);
     Vec<f32>: Form::Singles(None), |own| Value::Singles(own.clone()), |slot| Value::Singles(x) => put(slot, x);
     Vec<f64>: Form::Reals(None), |own| Value::Reals(own.clone()), |slot| Value::Reals(x) => put(slot, x);
+    Vec<String>: Form::Texts(None), |own| Value::Texts(own.clone()), |slot| Value::Texts(x) => put(slot, x);
     Vec<u8>: Form::Letters(None), |own| Value::Letters(own.clone()), |slot| Value::Letters(x) => put(slot, x);
     Option<f64>: Form::Real, |own| Value::Real(own.unwrap_or(f64::NAN)),
         |slot| Value::Real(x) => put(slot, (!x.is_nan()).then_some(x)),
@@ -222,7 +223,7 @@ arrays! {
 }
 
 impl<const N: usize> Field for [String; N] {
-    const FORM: Option<Form> = Some(Form::Texts(N));
+    const FORM: Option<Form> = Some(Form::Texts(Some(N)));
 
     fn value(&self) -> Value {
         Value::Texts(self.to_vec())
@@ -368,7 +369,7 @@ macro_rules! held {
 }
 
 held! {
-    Option<usize> Option<super::Orientation> Option<super::Inertial> Option<super::PluginUse> Vec<(String, String)> Vec<String> Vec<bool>
+    Option<usize> Option<super::Orientation> Option<super::Inertial> Option<super::PluginUse> Vec<(String, String)> Vec<bool>
     Vec<super::Keyed> Vec<super::Wrap> Vec<super::TupleEntry> Vec<super::Bone>
     Vec<super::Joint> Vec<super::Geom> Vec<super::Site> Vec<super::Camera> Vec<super::Light> Vec<super::Body>
     crate::diagnostic::Loc

@@ -16,6 +16,7 @@ from robohive.mujoco.context import (
 )
 from robohive.mujoco.moving import mjv_moveCamera, mjv_select
 from robohive.mujoco.naming import *  # noqa: F403
+from robohive.mujoco.overlay import mjr_label, mjr_overlay
 from robohive.mujoco.query import *  # noqa: F403
 from robohive.mujoco.rotation import *  # noqa: F403
 from robohive.mujoco.scene import mjv_defaultPerturb, mjv_initGeom, mjv_updateScene

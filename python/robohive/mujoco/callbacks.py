@@ -1,5 +1,9 @@
-"""Callbacks: there are none. The engine calls no Python while it steps; setting one to None does nothing."""
+"""Callbacks. The engine calls no Python while it steps: there is only the handler of warnings, called after a step.
 
+Setting another to None does nothing.
+"""
+
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -46,9 +50,37 @@ get_mju_user_malloc = _getter("mju_user_malloc")
 
 _warning: Any = None
 
+#: What is wrong, by `mjtWarning`.
+_TEXTS = (
+    "the inertia matrix is nearly singular at degree of freedom {}; check masses and armatures",
+    "there are more contacts than memory allows: {}",
+    "there are more constraint rows than memory allows: {} bytes",
+    "qpos is not finite or too large at degree of freedom {}; the simulation is unstable",
+    "qvel is not finite or too large at degree of freedom {}; the simulation is unstable",
+    "qacc is not finite or too large at degree of freedom {}; the simulation is unstable",
+    "ctrl is not finite or too large at actuator {}; all controls count as zero",
+)
+
+
+def mju_warningText(warning: int, info: int) -> str:
+    """What a warning (`mjtWarning`) says of a place."""
+    return _TEXTS[int(warning)].format(int(info))
+
+
+def _tell(kind: int, place: int, time: float) -> None:
+    """Tells of the first warning of a kind since a reset, in the step that began at `time` [s]."""
+    text = f"{mju_warningText(kind, place)}, at time {time:.4f} s"
+    if _warning is not None:
+        _warning(text)
+    else:
+        warnings.warn(text, RuntimeWarning, stacklevel=2)
+
 
 def set_mju_user_warning(callback: Any) -> None:
-    """Keeps a handler of warnings. What MuJoCo warns of is an exception or a Python warning here."""
+    """Sets what is called with the text of a warning, the first of its kind since a reset; None for Python's warnings.
+
+    The engine warns where `set_instability("reset")` makes it go on; otherwise what MuJoCo warns of is an exception.
+    """
     global _warning
     _warning = callback
 

@@ -104,8 +104,12 @@ class MjData(_core.Data, named.DataElements):
 
     @property
     def warning(self) -> MjWarningStatList:
-        """Counts of warnings, by `mjtWarning`."""
-        return MjWarningStatList(self._warnings())
+        """Counts of warnings since the last reset, by `mjtWarning`; they stay up to date and may be written."""
+        inner = self.__dict__
+        if "_warning" not in inner:
+            inner["_warning"] = MjWarningStatList(self._array("warning.lastinfo"), self._array("warning.number"))
+        warning: MjWarningStatList = inner["_warning"]
+        return warning
 
     @property
     def timer(self) -> MjTimerStatList:

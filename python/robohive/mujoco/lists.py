@@ -86,7 +86,10 @@ def _scalar(value: Any) -> Any:
 
 
 class MjContact(_Record):
-    """A contact: `dist` [m], `pos` and `frame` (normal, two tangents) in the world, `geom1`, `geom2`, and parameters."""
+    """A contact: `dist` [m], `pos` and `frame` (normal, two tangents) in the world, the two partners, and parameters.
+
+    A partner is a `geom`, or an element (`elem`) or a vertex (`vert`) of a `flex`; what it is not is -1.
+    """
 
     _empty = {
         **dict.fromkeys(("dist", "includemargin", "adhesion", "mu"), 0.0),
@@ -105,32 +108,43 @@ class MjContactList(_List):
 
     def __init__(self, fields: dict[str, Any]) -> None:
         count = fields.pop("ncon").item()
-        none = np.full((count, 2), -1, np.int32)
         geom = fields["geom"].reshape(count, 2)
-        super().__init__({
-            **fields,
-            "geom1": geom[:, 0].copy(),
-            "geom2": geom[:, 1].copy(),
-            "flex": none,
-            "elem": none.copy(),
-            "vert": none.copy(),
-        })
+        super().__init__({**fields, "geom1": geom[:, 0].copy(), "geom2": geom[:, 1].copy()})
 
 
 class MjWarningStat(_Record):
-    """How often a warning was given, and at which place last."""
+    """How often a warning was given, and at which place last. What is written into one of a simulation changes the simulation."""
 
+    _arrays: Mapping[str, NDArray[np.int32]]
+    __slots__ = ("_arrays",)
     _empty = {"lastinfo": 0, "number": 0}
+
+    def __init__(self, arrays: Mapping[str, NDArray[np.int32]] | None = None, kind: int = 0) -> None:
+        super().__init__(None if arrays is None else {name: values[kind].item() for name, values in arrays.items()})
+        own = {name: values[kind : kind + 1] for name, values in (arrays or {}).items()}
+        object.__setattr__(self, "_arrays", own)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in self._empty:
+            raise AttributeError(f"'mujoco.MjWarningStat' object has no attribute '{name}'")
+        self.__dict__[name] = int(value)
+        if name in self._arrays:
+            self._arrays[name][0] = value
 
 
 class MjWarningStatList(_List):
-    """Warnings by `mjtWarning`."""
+    """Warnings by `mjtWarning`: the arrays of a simulation, which later calls keep up to date."""
 
     _record = MjWarningStat
 
-    def __init__(self, pairs: list[tuple[int, int]]) -> None:
-        both = np.array(pairs, np.int32)
-        super().__init__({"lastinfo": both[:, 0].copy(), "number": both[:, 1].copy()})
+    def __init__(self, lastinfo: NDArray[np.int32], number: NDArray[np.int32]) -> None:
+        self._fields = {"lastinfo": lastinfo, "number": number}
+        self._length = len(number)
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return MjWarningStatList(self.lastinfo[index], self.number[index])
+        return MjWarningStat(self._fields, range(self._length)[int(index)])
 
 
 class MjTimerStat(_Record):

@@ -4,9 +4,10 @@ use super::arena::{Engine, EngineMut};
 use super::error::FatalError;
 use super::mirror::{Layout, Mirror};
 use super::model::Model;
+use super::warned::Warned;
 use mjcf::edit::carry_state;
 use numpy::PyArray1;
-use physics::data::{ArrayAddress, Warning, Warnings};
+use physics::data::ArrayAddress;
 use physics::table::{Slice, SliceMut};
 use physics::{Data as Simulation, Model as Compiled};
 use pyo3::exceptions::{PyAttributeError, PyRuntimeError};
@@ -27,6 +28,8 @@ pub struct Data {
 pub struct Held {
     pub simulation: Simulation,
     addresses: Arc<[ArrayAddress]>,
+    /// Warnings as Python sees them.
+    warned: Warned,
     mirror: Mirror,
     sizes: Arc<[usize]>,
 }
@@ -34,19 +37,24 @@ pub struct Held {
 struct View<'a> {
     simulation: &'a mut Simulation,
     addresses: &'a [ArrayAddress],
+    warned: &'a mut Warned,
 }
 
 impl Engine for View<'_> {
     fn read(&self, place: usize, show: &mut dyn FnMut(Slice<'_>)) {
-        if let Some(slice) = self.addresses.get(place).and_then(|&at| self.simulation.array(at)) {
-            show(slice);
+        match self.addresses.get(place) {
+            Some(&at) => _ = self.simulation.array(at).map(show),
+            None => show(Slice::I32(self.warned.array(place - self.addresses.len()))),
         }
     }
 }
 
 impl EngineMut for View<'_> {
     fn write(&mut self, place: usize) -> Option<SliceMut<'_>> {
-        self.addresses.get(place).and_then(|&at| self.simulation.array_mut(at))
+        match self.addresses.get(place) {
+            Some(&at) => self.simulation.array_mut(at),
+            None => Some(SliceMut::I32(self.warned.array_mut(place - self.addresses.len()))),
+        }
     }
 }
 
@@ -56,20 +64,28 @@ fn lay_out(model: &Compiled, simulation: &Simulation) -> (Layout, Vec<ArrayAddre
         addresses.push(at);
         layout.add(name, shape, &slice);
     });
+    // After all that the engine has an address for.
+    for name in Warned::NAMES {
+        layout.add(name, vec![Warned::KINDS], &Slice::I32(&[0; Warned::KINDS]));
+    }
     (layout, addresses)
 }
 
 impl Held {
     /// Takes over what Python wrote into its arrays.
     pub fn pull(&mut self, py: Python<'_>) -> PyResult<()> {
-        let Held { simulation, addresses, mirror, .. } = self;
-        mirror.pull(py, &mut View { simulation, addresses })
+        let Held { simulation, addresses, warned, mirror, .. } = self;
+        warned.show(&simulation.warnings);
+        mirror.pull(py, &mut View { simulation, addresses, warned })?;
+        simulation.warnings = warned.counts();
+        Ok(())
     }
 
     /// Shows what the engine computed in the arrays of Python.
     pub fn push(&mut self, py: Python<'_>) -> PyResult<()> {
-        let Held { simulation, addresses, mirror, .. } = self;
-        mirror.push(py, &View { simulation, addresses })
+        let Held { simulation, addresses, warned, mirror, .. } = self;
+        warned.show(&simulation.warnings);
+        mirror.push(py, &View { simulation, addresses, warned })
     }
 
     /// Refuses a model of other sizes.
@@ -108,7 +124,8 @@ impl Data {
         let (layout, addresses) = lay_out(&compiled, &simulation);
         let sizes = Arc::clone(model.get().sizes());
         let mirror = Mirror::new(Arc::new(layout));
-        let held = Held { simulation, addresses: addresses.into(), mirror, sizes };
+        let warned = Warned::default();
+        let held = Held { simulation, addresses: addresses.into(), warned, mirror, sizes };
         Ok(Data { model, held: Mutex::new(held) })
     }
 
@@ -121,8 +138,9 @@ impl Data {
     /// The array called `name`, a view that later calls keep up to date.
     fn _array<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let mut held = self.wait(py);
-        let Held { simulation, addresses, mirror, .. } = &mut *held;
-        let found = mirror.hand(py, name, &View { simulation, addresses })?;
+        let Held { simulation, addresses, warned, mirror, .. } = &mut *held;
+        warned.show(&simulation.warnings);
+        let found = mirror.hand(py, name, &View { simulation, addresses, warned })?;
         found.ok_or_else(|| PyAttributeError::new_err(format!("the data have no array {name:?}")))
     }
 
@@ -214,13 +232,6 @@ impl Data {
             }
         }
         held.push(py)
-    }
-
-    /// Last place and number of each kind of warning, in MuJoCo's order. What the first three would warn of is an error.
-    fn _warnings(&self, py: Python<'_>) -> [(usize, usize); 7] {
-        let Warnings { bad_qpos, bad_qvel, bad_qacc, bad_ctrl } = self.wait(py).simulation.warnings;
-        let none = Warning::default();
-        [none, none, none, bad_qpos, bad_qvel, bad_qacc, bad_ctrl].map(|kind| (kind.last, kind.count))
     }
 }
 

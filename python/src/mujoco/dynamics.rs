@@ -4,6 +4,7 @@ use super::call::change;
 use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
+use super::warned::{Notice, settle, tell};
 use physics::{
     Data as Simulation, Model as Compiled, StepError, forward, forward_after_step1, inverse, step, step1,
     step2,
@@ -23,15 +24,37 @@ pub fn set_resets(resets: bool) -> bool {
     RESETS.swap(resets, Ordering::Relaxed)
 }
 
-/// Advances the simulation `steps` times by `way`, which meets bad values as chosen.
+/// Advances the simulation `steps` times by `way`, which meets bad values as chosen; adds what is to be told to `notices`.
 pub fn advance(
     model: &Compiled,
     simulation: &mut Simulation,
     steps: usize,
     way: fn(&Compiled, &mut Simulation) -> Result<(), StepError>,
+    notices: &mut Vec<Notice>,
 ) -> Result<(), Fault> {
     simulation.autoreset = RESETS.load(Ordering::Relaxed);
-    (0..steps).try_for_each(|_| Ok(way(model, simulation)?))
+    for _ in 0..steps {
+        let (warnings, time) = (simulation.warnings, simulation.state.time);
+        way(model, simulation)?;
+        if simulation.warnings != warnings {
+            settle(simulation, &warnings, time, notices);
+        }
+    }
+    Ok(())
+}
+
+/// Advances a simulation of Python's, and tells of what it warned.
+fn go(
+    py: Python<'_>,
+    m: &Bound<'_, Model>,
+    d: &Bound<'_, Data>,
+    steps: usize,
+    way: fn(&Compiled, &mut Simulation) -> Result<(), StepError>,
+) -> PyResult<()> {
+    let mut notices = Vec::new();
+    let outcome = change(py, m, d, |model, data| advance(model, data, steps, way, &mut notices));
+    tell(py, &notices)?;
+    outcome
 }
 
 /// Advances the simulation by `nstep` time steps.
@@ -45,7 +68,7 @@ pub fn mj_step(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>, nstep:
     let mut left = usize::try_from(nstep).unwrap_or(0);
     loop {
         let now = left.min(STEPS_AT_ONCE);
-        change(py, m, d, |model, data| advance(model, data, now, step))?;
+        go(py, m, d, now, step)?;
         left -= now;
         if left == 0 {
             return Ok(());
@@ -57,13 +80,13 @@ pub fn mj_step(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>, nstep:
 /// First half of a step: all that does not depend on controls and applied forces.
 #[pyfunction]
 pub fn mj_step1(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> PyResult<()> {
-    change(py, m, d, |model, data| advance(model, data, 1, step1))
+    go(py, m, d, 1, step1)
 }
 
 /// Second half of a step, after controls and forces have been set.
 #[pyfunction]
 pub fn mj_step2(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> PyResult<()> {
-    change(py, m, d, |model, data| advance(model, data, 1, step2))
+    go(py, m, d, 1, step2)
 }
 
 /// Computes everything that follows from the state and the inputs, up to accelerations and sensors.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `arena.rs`, `mirror.rs` | numpy arrays beside the engine's, copied around every call |
 //! | `model.rs`, `settings.rs`, `load.rs` | models, their options, where they come from |
-//! | `data.rs`, `lists.rs`, `saved.rs` | simulations, arrays that change length, states as vectors |
+//! | `data.rs`, `lists.rs`, `warned.rs`, `saved.rs` | simulations, arrays that change length, warnings, states as vectors |
 //! | `call.rs`, `error.rs` | what every call does, and how it fails |
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
 //! | `query.rs`, `algebra.rs`, `quaternion.rs` | questions about poses, matrices, rotations |
@@ -33,6 +33,7 @@ mod saved;
 mod settings;
 mod spec;
 mod stages;
+mod warned;
 
 use pyo3::pymodule;
 
@@ -59,7 +60,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::model::{CompiledModel, Model, default_settings, model_fields};
     #[pymodule_export]
-    use super::picture::Painter;
+    use super::picture::{Painter, letter_rows};
     #[pymodule_export]
     use super::quaternion::{
         conjugate, eigen, integrate, matrix, multiply, multiply_axis, normalise, of_axis_angle, rotate,

@@ -197,6 +197,12 @@ impl Painter {
     }
 }
 
+/// The letters of a text as pictures draw them: eight rows each from the top, of eight pixels, the lowest bit first.
+#[pyfunction]
+pub fn letter_rows(text: &str) -> Vec<[u8; 8]> {
+    text.chars().map(render::raster::letter_rows).collect()
+}
+
 impl Held {
     fn draw(&mut self, channels: Channels) -> Result<(), Fault> {
         let Held { assets, scene, renderer, picture, .. } = self;

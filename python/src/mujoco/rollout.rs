@@ -77,7 +77,7 @@ fn trajectory(inputs: &Inputs, k: usize, m: &Compiled, d: &mut Simulation) -> Re
         if let Some(controls) = &inputs.controls {
             scatter(&mut d.state, inputs.specs[1], &controls[k][t])?;
         }
-        advance(m, d, 1, step)?;
+        advance(m, d, 1, step, &mut Vec::new())?;
         states.extend(gather(&d.state, inputs.specs[0])?);
         sensors.extend_from_slice(&d.sensor.sensordata);
     }

@@ -132,3 +132,36 @@ def test_contacts_show_the_last_collisions(model, data):
     assert force[0] > 0
     with pytest.raises(ValueError, match="no contact 5"):
         mj.mj_contactForce(model, data, 5, force)
+
+
+CUSHION = """
+<mujoco>
+  <worldbody>
+    <geom name="floor" type="plane" size="1 1 .1"/>
+    <body name="cushion" pos="0 0 .045">
+      <flexcomp name="cushion" type="grid" count="3 3 3" spacing=".05 .05 .05" radius=".01" dim="3" mass=".2">
+        <contact selfcollide="none" internal="false"/><edge equality="true"/>
+      </flexcomp>
+    </body>
+    <body pos="0 0 .5"><freejoint/><geom size=".02"/></body>
+  </worldbody>
+</mujoco>
+"""
+
+
+def test_contacts_of_flexes_name_flex_element_and_vertex():
+    model = mj.MjModel.from_xml_string(CUSHION)
+    data = mj.MjData(model)
+    data.qpos[-5] = 0.112
+    mj.mj_forward(model, data)
+    contact = data.contact
+    ball, floor = 1, 0
+    assert set(contact.geom[:, 0].tolist()) <= {floor, ball} and (contact.geom[:, 1] == -1).all()
+    assert (contact.flex == [-1, 0]).all() and len(contact) > 9
+    vertices, elements = contact.vert[:, 1], contact.elem[:, 1]
+    # A partner of a geom is a vertex or an element of the flex.
+    assert ((vertices >= 0) != (elements >= 0)).all()
+    assert vertices[contact.geom[:, 0] == floor].tolist() == list(range(0, 27, 3))
+    assert elements[contact.geom[:, 0] == ball].tolist() == [11, 22, 23, 31, 33, 34, 35, 46]
+    one = contact[0]
+    assert one.flex.tolist() == [-1, 0] and one.geom2 == -1 and one.vert[0] == -1

@@ -78,6 +78,70 @@ def test_geoms_of_a_program_are_drawn_behind_those_of_the_model(model, data, con
         drawn(scene, context)
 
 
+#: Sides that a text stands at.
+GRID = {
+    "TOPLEFT": (-1, -1),
+    "TOPRIGHT": (1, -1),
+    "BOTTOMLEFT": (-1, 1),
+    "BOTTOMRIGHT": (1, 1),
+    "TOP": (0, -1),
+    "BOTTOM": (0, 1),
+    "LEFT": (-1, 0),
+    "RIGHT": (1, 0),
+}
+
+
+def blank(context):
+    context._rgb[:] = 200
+    return mj.MjrRect(0, 0, context.offWidth, context.offHeight)
+
+
+@pytest.mark.parametrize("word", GRID)
+def test_overlays_stand_at_their_places(context, word):
+    viewport = blank(context)
+    gridpos = mj.mjtGridPos[f"mjGRID_{word}"]
+    mj.mjr_overlay(mj.mjtFont.mjFONT_NORMAL, gridpos, viewport, "one\nthree", "", context)
+    picture = context._rgb[::-1].astype(int)
+    rows, columns = np.nonzero((picture != 200).any(-1))
+    # Five letters of 16 pixels, two lines.
+    assert (np.ptp(rows) + 1, np.ptp(columns) + 1) == (5 + 2 * 16 + 5, 13 + 5 * 16)
+    height, width = picture.shape[:2]
+    sides = np.sign((columns.mean() - width / 2) // 8), np.sign((rows.mean() - height / 2) // 8)
+    expected = GRID[word]
+    assert all(want in (0, side) for want, side in zip(expected, sides, strict=True))
+    gaps = {-1: (columns.min(), rows.min()), 1: (width - 1 - columns.max(), height - 1 - rows.max())}
+    assert all(gaps[side][axis] in (5, 6) for axis, side in enumerate(expected) if side)
+    assert set(np.unique(picture)) == {100, 200, 255}
+
+
+def test_overlays_have_two_columns_with_grey_titles(context):
+    viewport = blank(context)
+    pixels = {}
+    for word in ("TOPLEFT", "TOPRIGHT"):
+        blank(context)
+        mj.mjr_overlay(mj.mjtFont.mjFONT_NORMAL, mj.mjtGridPos[f"mjGRID_{word}"], viewport, "I", "I", context)
+        row = context._rgb[..., 0].astype(int)
+        pixels[word] = [np.nonzero(row == value)[1].mean() for value in (178, 255)]
+        # Where the boxes overlap, they are darkened twice.
+        assert (row == 50).sum() == 2 * (5 + 16)
+    assert all(title < content for title, content in pixels.values())
+    before = context._rgb.copy()
+    mj.mjr_overlay(mj.mjtFont.mjFONT_BIG, mj.mjtGridPos.mjGRID_TOP, mj.MjrRect(0, 0, 0, 0), "none", None, context)
+    assert np.array_equal(context._rgb, before)
+    mj.mjr_overlay(mj.mjtFont.mjFONT_SHADOW, mj.mjtGridPos.mjGRID_TOP, mj.MjrRect(0, 0, 40, 20), "longer than the picture", None, context)
+    assert not np.array_equal(context._rgb, before)
+    with pytest.raises(ValueError, match="9"):
+        mj.mjr_overlay(0, 9, viewport, "nowhere", "", context)
+
+
+def test_labels_fill_their_rectangle(context):
+    blank(context)
+    mj.mjr_label(mj.MjrRect(10, 20, 60, 30), mj.mjtFont.mjFONT_NORMAL, "ab", 0, 0, 1, 1, 1, 1, 0, context)
+    box = context._rgb[20:50, 10:70].astype(int)
+    blue, yellow = (box == [0, 0, 255]).all(-1), (box == [255, 255, 0]).all(-1)
+    assert (blue | yellow).all() and 60 < yellow.sum() < 512 and yellow.any(0).nonzero()[0].mean() == pytest.approx(30, abs=3)
+
+
 def test_what_cannot_be_drawn_says_so(model, data, context):
     mj.mj_forward(model, data)
     with pytest.raises(RuntimeError, match="no scene yet"):

@@ -66,7 +66,7 @@ impl Page<'_> {
 
     /// Fills the pixels of a letter and those within `reach` of them.
     fn letter(&mut self, letter: char, [left, top]: [i32; 2], scale: i32, (reach, colour): (i32, [u8; 3])) {
-        for (bits, row) in bitmap(letter).into_iter().zip(0..) {
+        for (bits, row) in letter_rows(letter).into_iter().zip(0..) {
             for column in (0..LETTER).filter(|column| bits >> column & 1 == 1) {
                 let (x, y) = (left + scale * column, top + scale * row);
                 for y in (y - reach..y + scale + reach).filter(|y| (0..self.height).contains(y)) {
@@ -80,8 +80,8 @@ impl Page<'_> {
     }
 }
 
-/// The rows of a letter from the top; the lowest bit is the leftmost pixel.
-fn bitmap(letter: char) -> [u8; 8] {
+/// The eight rows of a letter from the top; the lowest bit is the leftmost of eight pixels.
+pub fn letter_rows(letter: char) -> [u8; 8] {
     let known = |letter| BASIC_FONTS.get(letter).or_else(|| LATIN_FONTS.get(letter));
     known(letter).or_else(|| known(UNKNOWN)).unwrap_or_default()
 }

@@ -34,7 +34,7 @@ mod window;
 pub use batch::Batch;
 pub use coverage::Facing;
 pub use draws::{Draw, Draws};
-pub use labels::draw as draw_labels;
+pub use labels::{draw as draw_labels, letter_rows};
 pub use lines::Line;
 pub use mirror::plane_of as mirror_plane;
 pub use renderer::{Renderer, Shot};

@@ -4,13 +4,15 @@
 |---|---|
 | `tree`, `lists` | `MjSpec`: elements by kind, compiled, written, copied |
 | `element`, `bodies`, `objects` | elements: in the tree of bodies, and in lists |
-| `forms`, `orientation`, `settings`, `defaults` | values of attributes, settings, default classes |
+| `plugins` | instances of plugins, and elements that use one |
+| `forms`, `orientation`, `settings`, `authored`, `defaults` | values of attributes, settings and which of them a text gives, default classes |
 | `attach`, `references` | elements that come from other descriptions or leave; which names follow |
 | `exchange`, `bind`, `archive` | to the engine and back; elements in compiled models; texts with their files |
 
 Python holds the tree; the engine reads, compiles and writes it.
 """
 
+from robohive.mujoco.spec.authored import MjsAuthored
 from robohive.mujoco.spec.bodies import MjsBody, MjsCamera, MjsFrame, MjsGeom, MjsJoint, MjsLight, MjsSite
 from robohive.mujoco.spec.defaults import MjsDefault
 from robohive.mujoco.spec.element import MjsElement
@@ -19,6 +21,7 @@ from robohive.mujoco.spec.objects import (
     MjsActuator,
     MjsEquality,
     MjsExclude,
+    MjsFlex,
     MjsHField,
     MjsKey,
     MjsMaterial,
@@ -26,6 +29,7 @@ from robohive.mujoco.spec.objects import (
     MjsNumeric,
     MjsPair,
     MjsSensor,
+    MjsSkin,
     MjsTendon,
     MjsTendonPath,
     MjsText,
@@ -34,18 +38,21 @@ from robohive.mujoco.spec.objects import (
     MjsWrap,
 )
 from robohive.mujoco.spec.orientation import MjsOrientation
+from robohive.mujoco.spec.plugins import MjsPlugin
 from robohive.mujoco.spec.settings import MjLROpt, MjsCompiler
 from robohive.mujoco.spec.tree import MjSpec
 
 #: Everything that a description consists of.
 MjStruct = (
     MjsActuator
+    | MjsAuthored
     | MjsBody
     | MjsCamera
     | MjsCompiler
     | MjsDefault
     | MjsEquality
     | MjsExclude
+    | MjsFlex
     | MjsFrame
     | MjsGeom
     | MjsHField
@@ -57,8 +64,10 @@ MjStruct = (
     | MjsNumeric
     | MjsOrientation
     | MjsPair
+    | MjsPlugin
     | MjsSensor
     | MjsSite
+    | MjsSkin
     | MjsTendon
     | MjsText
     | MjsTexture
@@ -73,6 +82,7 @@ __all__ = [
     "MjStringVec",
     "MjStruct",
     "MjsActuator",
+    "MjsAuthored",
     "MjsBody",
     "MjsCamera",
     "MjsCompiler",
@@ -80,6 +90,7 @@ __all__ = [
     "MjsElement",
     "MjsEquality",
     "MjsExclude",
+    "MjsFlex",
     "MjsFrame",
     "MjsGeom",
     "MjsHField",
@@ -91,8 +102,10 @@ __all__ = [
     "MjsNumeric",
     "MjsOrientation",
     "MjsPair",
+    "MjsPlugin",
     "MjsSensor",
     "MjsSite",
+    "MjsSkin",
     "MjsTendon",
     "MjsTendonPath",
     "MjsText",

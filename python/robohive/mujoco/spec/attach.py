@@ -5,11 +5,12 @@ from typing import Any
 
 from robohive.mujoco.spec import exchange
 from robohive.mujoco.spec.bodies import MjsBody, MjsFrame, MjsSite
+from robohive.mujoco.spec.plugins import used_instances
 from robohive.mujoco.spec.references import references, rewrite
 
 #: Lists that come with everything attached, and those whose elements come when they refer to it.
 _ASSETS = ("mesh", "hfield", "texture", "material", "numeric", "text")
-_OBJECTS = ("pair", "exclude", "tendon", "equality", "actuator", "sensor", "tuple")
+_OBJECTS = ("skin", "flex", "pair", "exclude", "tendon", "equality", "actuator", "sensor", "tuple")
 #: Objects of which one reference has to lead to what is attached.
 _MIXED = ("pair", "exclude", "tendon", "sensor")
 
@@ -92,15 +93,18 @@ def _moved(to: Any, source: Any, bodies: list[MjsBody], loose: list[Any], affixe
     assets = [e for kind in (*_ASSETS, "key") for e in source._lists[kind] if e._owner is source]
     arrival.announce(inside + assets)
     objects = arrival.objects()
-    arrival.announce(objects)
+    plugins = used_instances(source, inside + assets + objects)
+    arrival.announce(objects + plugins)
     _settle(to, source)
     _spread(to)
     _spread(source)
-    for elements in (inside, assets, objects):
+    for elements in (inside, assets + plugins, objects):
         arrival.take(elements)
         arrival.redirect(elements)
-    for element in assets + objects:
+    for element in assets + plugins + objects:
         to._lists[element._kind].append(element)
+    for name, origin in source._extensions.items():
+        to._extensions.setdefault(name, origin)
     for name, default in source._classes.items():
         to._classes.setdefault(arrival.renamed(name), default)
 
@@ -204,7 +208,7 @@ def attach_frame(onto: MjsBody, frame: MjsFrame, prefix: str, suffix: str) -> Mj
 
 def _without_assets(source: Any) -> None:
     """A copy of a part of its own description shows the same assets."""
-    for kind in (*_ASSETS, "key"):
+    for kind in (*_ASSETS, "plugin", "key"):
         source._lists[kind].clear()
         source._names[kind].clear()
 

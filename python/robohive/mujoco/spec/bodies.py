@@ -1,15 +1,17 @@
 """Bodies, frames, and what stands in them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from robohive.mujoco.enums_elements import mjtJoint, mjtObj
 from robohive.mujoco.spec.element import MjsElement
+from robohive.mujoco.spec.plugins import Plugged
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
     from robohive.mujoco.spec.defaults import MjsDefault
+    from robohive.mujoco.spec.objects import MjsFlex
 
 _FOUND = "body.find_all supports the types: body, frame, geom, site, joint, light, camera."
 
@@ -51,7 +53,7 @@ class MjsJoint(_InBody):
     _kind = "joint"
 
 
-class MjsGeom(_InBody):
+class MjsGeom(Plugged, _InBody):
     """A shape fixed to a body."""
 
     _kind = "geom"
@@ -167,7 +169,7 @@ class MjsFrame(_Holding, _Attaching):
         return self._parent, self
 
 
-class MjsBody(_Holding, _InBody):
+class MjsBody(Plugged, _Holding, _InBody):
     """A body with what is fixed to it."""
 
     _kind = "body"
@@ -228,9 +230,47 @@ class MjsBody(_Holding, _InBody):
 
         return to_frame(self)
 
-    def make_flex(self, *args: Any, **kwargs: Any) -> Any:
-        """Deformable objects cannot be made here."""
-        raise NotImplementedError("flexes cannot be made here")
+    def make_flex(
+        self,
+        name: str,
+        type: str | None = None,
+        dim: int = 3,
+        dof: str | None = None,
+        count: "Sequence[int] | None" = None,
+        cellcount: "Sequence[int] | None" = None,
+        spacing: "Sequence[float] | None" = None,
+        scale: "Sequence[float] | None" = None,
+        radius: float = 0.0,
+        mass: float = 1.0,
+        inertiabox: float = 0.005,
+        equality: int = 0,
+        rigid: int = 0,
+        flatskin: int = 0,
+        elastic2d: int = 0,
+        pos: "Sequence[float] | None" = None,
+        quat: "Sequence[float] | None" = None,
+        origin: "Sequence[float] | None" = None,
+        file: str | None = None,
+        vfs: None = None,
+    ) -> "MjsFlex":
+        """Adds a flex of a shape, and to this body the bodies, joints and constraints that it needs, as `flexcomp` does in a text.
+
+        Lengths are metres, `mass` is that of all bodies made [kg]. `equality` is 0, or 1 for edges, 2 for vertices, 3 for
+        strains; `elastic2d` is 0, or 1 for bending, 2 for stretching, 3 for both.
+
+        Raises:
+            ValueError: what is wrong with the arguments; a name is taken, or this body has none.
+        """
+        from robohive.mujoco.spec.deform import make_flex
+
+        if vfs is not None:
+            raise NotImplementedError("files in memory are given as spec.assets")
+        grid = {"count": count, "cellcount": cellcount, "spacing": spacing, "scale": scale}
+        grid |= {"pos": pos, "quat": quat, "origin": origin}
+        positive = {key: number for key, number in (("mass", mass), ("inertiabox", inertiabox)) if number > 0}
+        numbers: dict[str, Any] = {"radius": float(radius), **{key: float(number) for key, number in positive.items()}}
+        numbers |= {"rigid": "true" if rigid else "false", "flatskin": "true" if flatskin else "false"}
+        return make_flex(self, name, type, dim, dof, grid, numbers, (equality, elastic2d), file)
 
 
 def _listing(kind: str, plural: str) -> None:

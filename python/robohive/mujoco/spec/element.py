@@ -83,8 +83,9 @@ class MjsElement:
         for name, value in arguments.items():
             if value is None or name in turns or name == "name":
                 continue
-            if name == "plugin":
-                raise NotImplementedError("plugins are not simulated here")
+            if name == "plugin" and hasattr(type(self), "plugin"):
+                self.plugin = value
+                continue
             if name not in known:
                 raise TypeError(f"{type(self).__name__} has no attribute '{name}'; it has {', '.join(known)}")
             self.__dict__[name] = known[name].accept(value)
@@ -121,15 +122,6 @@ class MjsElement:
         """Settings that the element is compiled with: those of the description that it was made in."""
         settings: MjsCompiler = self._origin.compiler
         return settings
-
-    @property
-    def plugin(self) -> Any:
-        """Plugins are not simulated here."""
-        raise NotImplementedError("plugins are not simulated here")
-
-    @plugin.setter
-    def plugin(self, plugin: Any) -> None:
-        raise NotImplementedError("plugins are not simulated here")
 
     def _values(self) -> dict[str, Any]:
         """Copies of all values that are the element's own."""

@@ -3,12 +3,13 @@
 from typing import Any
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.spec import pixels
+from robohive.mujoco.spec import authored, pixels
 from robohive.mujoco.spec.bodies import MjsBody, MjsCamera, MjsFrame, MjsGeom, MjsJoint, MjsLight, MjsSite
 from robohive.mujoco.spec.objects import (
     MjsActuator,
     MjsEquality,
     MjsExclude,
+    MjsFlex,
     MjsHField,
     MjsKey,
     MjsMaterial,
@@ -16,23 +17,28 @@ from robohive.mujoco.spec.objects import (
     MjsNumeric,
     MjsPair,
     MjsSensor,
+    MjsSkin,
     MjsTendon,
     MjsText,
     MjsTexture,
     MjsTuple,
 )
+from robohive.mujoco.spec.plugins import MjsPlugin, own_instances
 
 #: Elements of the tree, and those of lists, by kind.
 POSED: dict[str, type[Any]] = {k._kind: k for k in (MjsJoint, MjsGeom, MjsSite, MjsCamera, MjsLight)}
 LISTED: dict[str, type[Any]] = {
     k._kind: k
     for k in (
+        MjsPlugin,
         MjsMesh,
+        MjsSkin,
         MjsHField,
         MjsTexture,
         MjsMaterial,
         MjsPair,
         MjsExclude,
+        MjsFlex,
         MjsEquality,
         MjsTendon,
         MjsActuator,
@@ -46,12 +52,27 @@ LISTED: dict[str, type[Any]] = {
 _NOWHERE = 2**32 - 1
 
 
+def _place_of(row: Any) -> tuple[int, int] | None:
+    return None if row[3] == _NOWHERE else (row[3], row[4])
+
+
+def _connect(spec: Any) -> None:
+    """Elements that use plugins share the attributes of their instances."""
+    holders = [*spec._lists["mesh"], *spec._lists["actuator"], *spec._lists["sensor"]]
+    holders += [*spec._world._below(), *spec._world._all("geom")]
+    for element in holders:
+        used = element.__dict__["_plugin"]
+        if used is not None and used.name:
+            used.__dict__["_instance"] = spec._names["plugin"].get(used.name)
+    spec._lists["plugin"] += own_instances(holders)
+
+
 def fill(spec: Any, rows: dict[str, list[Any]]) -> None:
     """Makes elements of what the engine read."""
 
     def made(kind: type[Any], row: Any) -> Any:
         element = kind(spec, row[0])
-        element.__dict__["_loc"] = None if row[3] == _NOWHERE else (row[3], row[4])
+        element.__dict__["_loc"] = _place_of(row)
         spec._register(element)
         return element
 
@@ -75,6 +96,8 @@ def fill(spec: Any, rows: dict[str, list[Any]]) -> None:
             place(made(element, row), row)
     for kind, element in LISTED.items():
         spec._lists[kind].extend(made(element, row) for row in rows.get(kind, ()))
+    spec._extensions.update((row[0]["name"], (spec, _place_of(row))) for row in rows.get("extension", ()))
+    _connect(spec)
     kept = [key for key in spec._lists["key"] if key._kept]
     for kind, elements in (("body", bodies), ("actuator", spec._lists["actuator"]), ("joint", spec._world._all("joint"))):
         for element, row in zip(elements, rows.get(kind, ()), strict=True):
@@ -91,6 +114,8 @@ class Tree:
         self.rows: dict[str, list[Any]] = {}
         #: Files of textures whose pixels the program gave, by their names.
         self.pictures: dict[str, bytes] = {}
+        #: The numbers of these textures.
+        self.drawn: list[int] = []
         if elements:
             self._gather(spec)
 
@@ -109,6 +134,12 @@ class Tree:
             self.rows[kind] = [row(e) for body in self.bodies for e in body._contents[kind]]
         for kind in LISTED:
             self.rows[kind] = [row(element) for element in spec._lists[kind]]
+        self.drawn = [number for number, texture in enumerate(spec._lists["texture"]) if texture.data]
+        # One without a name is declared where it is used.
+        self.rows["plugin"] = [row(plugin) for plugin in spec._lists["plugin"] if plugin.name]
+        self.rows["extension"] = [
+            ({"name": name}, -1, -1, self._origin(origin), place) for name, (origin, place) in spec._extensions.items()
+        ]
 
     def _frames(self) -> list[Any]:
         """All frames, those around others first."""
@@ -135,6 +166,10 @@ class Tree:
     def _values(self, element: Any) -> dict[str, Any]:
         values: dict[str, Any] = element.__dict__
         shares = values["_shares"]
+        if values.get("_plugin") is not None:
+            values = {**values, "_plugin": element.plugin.row(element)}
+        elif element._kind == "plugin":
+            values = {**values, "_config": list(values["_config"].items())}
         if element._kind == "texture":
             values = {**values, "gridlayout": "".join(values["gridlayout"])}
             if element.data:
@@ -183,7 +218,8 @@ def take_options(spec: Any, options: dict[str, dict[str, list[float]]]) -> None:
 
 def settled(to: Any, source: Any) -> list[str]:
     """Settles the settings in which a description differs from one that takes it; returns the differences."""
-    options, sizes, differences = _core.Description.settle(Tree(to, False).parts(), Tree(source, False).parts())
+    given = [authored.shown(to.authored), authored.shown(source.authored)]
+    options, sizes, differences = _core.Description.settle(Tree(to, False).parts(), Tree(source, False).parts(), given)
     take_options(to, options)
     to._sizes.update(sizes)
     return differences
@@ -241,6 +277,9 @@ def duplicate(spec: Any) -> tuple[Any, dict[int, Any]]:
     for kind, elements in spec._lists.items():
         other._lists[kind] = [copied(element) for element in elements]
     for twin in known.values():
+        used = twin.__dict__.get("_plugin")
+        if used is not None:
+            used.__dict__["_instance"] = known.get(id(used._instance))
         shares = [(known[id(key)], part, list(values)) for key, part, values in twin._shares if id(key) in known]
         twin.__dict__["_shares"] = shares
     return other, known

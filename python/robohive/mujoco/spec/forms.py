@@ -18,6 +18,8 @@ _INNER = {
     "mesh": ("builtin", "params", "path"),
     "hfield": ("path",),
     "texture": ("path", "cubepaths"),
+    "skin": ("path",),
+    "plugin": ("plugin", "expanded"),
 }
 _CODES = {("geom", "typeinertia"): "mjtGeomInertia"}
 #: What bodies and tuples have beside the engine's plain values: form, length, default.
@@ -33,6 +35,19 @@ _MORE: dict[str, dict[str, tuple[str, int | None, Any]]] = {
     },
     "frame": {"childclass": ("text", None, "")},
     "mesh": {"needsdf": ("flag", None, False)},
+    "flex": {
+        "size": ("reals", 3, [0, 0, 0]),
+        "passive": ("integer", None, 0),
+        "elastic2d": ("integer", None, 0),
+    },
+    "skin": {
+        "bodyname": ("texts", None, []),
+        "bindpos": ("singles", None, []),
+        "bindquat": ("singles", None, []),
+        "vertid": ("lists of integers", None, []),
+        "vertweight": ("lists of singles", None, []),
+    },
+    "plugin": {"plugin_name": ("text", None, ""), "active": ("flag", None, False)},
     "tuple": {
         "objtype": ("integers", None, []),
         "objname": ("texts", None, []),
@@ -82,6 +97,8 @@ class Form(NamedTuple):
                 return np.array(value, _DTYPES[self.word]).ravel()
             case "texts":
                 return MjStringVec(value)
+            case "lists of integers" | "lists of singles":
+                return self._rows(value)
             case "letters" if isinstance(value, bytes):
                 return value if self.length is None else MjCharVec(value.decode())
             case "letters":
@@ -110,6 +127,8 @@ class Form(NamedTuple):
                 return value if isinstance(value, str) else _refuse(self.name, value)
             case "texts":
                 return MjStringVec(self._texts(value))
+            case "lists of integers" | "lists of singles":
+                return self._rows(value)
         return self._letters(value)
 
     def _numbers(self, value: Any) -> Any:
@@ -127,6 +146,12 @@ class Form(NamedTuple):
             sizes = f"1 to {self.length}" if self.name in _SHORT else self.length
             raise ValueError(f"{self.name} should be a list/array of size {sizes}.")
         return numbers.ravel()
+
+    def _rows(self, value: Any) -> list[Any]:
+        dtype = np.int32 if self.word.endswith("integers") else np.float32
+        if isinstance(value, (str, bytes)) or any(isinstance(row, (str, bytes)) for row in value):
+            _refuse(self.name, value)
+        return [np.array(row, dtype).ravel() for row in value]
 
     def _texts(self, value: Iterable[Any]) -> list[str]:
         texts = list(value)
@@ -170,7 +195,7 @@ def all_forms(kind: str) -> dict[str, Form]:
         code = _CODES.get((kind, name), code)
         if name == "gridlayout":
             word, length = "letters", len(default)
-        found[name] = Form(name, word, getattr(_enums, code) if code else None, length, default)
+        found[name] = Form(name, word, getattr(_enums, code, None) if code else None, length, default)
     for name, (word, length, default) in _MORE.get(kind, {}).items():
         found[name] = Form(name, word, None, length, default)
     if "name" in found:

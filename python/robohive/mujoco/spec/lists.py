@@ -7,11 +7,9 @@ from robohive.mujoco.spec.bodies import MjsBody
 from robohive.mujoco.spec.defaults import KINDS as DEFAULTS
 from robohive.mujoco.spec.exchange import LISTED
 
-_PLURALS = {"body": "bodies", "mesh": "meshes", "equality": "equalities"}
-#: Kinds that descriptions here do not hold: asked for, there are none.
-_NONE = {"flex": "flexes", "skin": "skins", "plugin": "plugins"}
+_PLURALS = {"body": "bodies", "mesh": "meshes", "equality": "equalities", "flex": "flexes"}
 #: Elements that go by the name of their file when they have none.
-_FILES = ("mesh", "hfield", "texture")
+_FILES = ("mesh", "skin", "hfield", "texture")
 
 
 class Lists:
@@ -66,15 +64,8 @@ def _listing(kind: str) -> property:
     return property(listed, doc=f"All elements of the kind {kind}, in the order of their ids.")
 
 
-def _none(self: Lists, name: str) -> None:
-    """None: descriptions here hold no such element."""
-
-
 for _kind in (*MjsBody.HELD, *LISTED):
     setattr(Lists, _kind, _finder(_kind))
     setattr(Lists, _PLURALS.get(_kind, f"{_kind}s"), _listing(_kind))
 for _type in LISTED.values():
     setattr(Lists, f"add_{_type._kind}", _adder(_type))
-for _kind, _plural in _NONE.items():
-    setattr(Lists, _kind, _none)
-    setattr(Lists, _plural, property(lambda self: [], doc="Always empty: descriptions here hold none."))

@@ -8,6 +8,7 @@ from robohive.mujoco.enums_elements import mjtGeom, mjtWrap
 from robohive.mujoco.enums_view import mjtMeshBuiltin
 from robohive.mujoco.spec.element import MjsElement
 from robohive.mujoco.spec.forms import all_forms
+from robohive.mujoco.spec.plugins import Plugged
 
 
 #: Sensors of more than one number.
@@ -34,7 +35,7 @@ class _Listed(MjsElement):
         return next((i for i, other in enumerate(self._owner._lists[self._kind]) if other is self), -1)
 
 
-class MjsMesh(_Listed):
+class MjsMesh(Plugged, _Listed):
     """A triangle mesh, of a file, of arrays or computed."""
 
     _kind = "mesh"
@@ -71,6 +72,23 @@ class MjsMesh(_Listed):
     def make_plate(self, resolution: Sequence[int] = (0, 0)) -> None:
         """Makes it a flat grid of points."""
         self._make("PLATE", *resolution)
+
+
+class MjsFlex(_Listed):
+    """A deformable body: lines, triangles or tetrahedra between vertices that are fixed to bodies."""
+
+    _kind = "flex"
+
+    def __init__(self, owner: Any, values: dict[str, Any] | None = None) -> None:
+        super().__init__(owner, values)
+        # Cells of the lattice of a flexcomp that hold no element.
+        self.__dict__["_empty_cells"] = list((values or {}).get("_empty_cells", ()))
+
+
+class MjsSkin(_Listed):
+    """A surface whose vertices follow bodies, of a file or of arrays."""
+
+    _kind = "skin"
 
 
 class MjsHField(_Listed):
@@ -223,7 +241,7 @@ class MjsTendon(_Listed):
         return self.classname
 
 
-class MjsActuator(_Listed):
+class MjsActuator(Plugged, _Listed):
     """An actuator, in general form."""
 
     _kind = "actuator"
@@ -345,7 +363,7 @@ class MjsActuator(_Listed):
         self.ctrlspec = ctrlspec
 
 
-class MjsSensor(_Listed):
+class MjsSensor(Plugged, _Listed):
     """A sensor."""
 
     _kind = "sensor"

@@ -15,6 +15,8 @@ _FIXED = {
     "light": {"targetbody": "body", "texture": "texture"},
     "mesh": {"material": "material"},
     "tendon": {"material": "material"},
+    "flex": {"material": "material"},
+    "skin": {"material": "material"},
     "pair": {"geomname1": "geom", "geomname2": "geom"},
     "exclude": {"bodyname1": "body", "bodyname2": "body"},
     "actuator": {"refsite": "site", "slidersite": "site"},
@@ -33,8 +35,10 @@ _DRIVEN = {
     mjtTrn.mjTRN_TENDON: "tendon",
     mjtTrn.mjTRN_BODY: "body",
 }
-#: Looks, without which an element is what it was.
-LOOKS = ("material", "texture")
+#: Looks and plugins, without which an element is what it was.
+LOOKS = ("material", "texture", "plugin")
+#: Lists of names of bodies.
+_BODIES = {"flex": ("vertbody", "nodebody"), "skin": ("bodyname",)}
 
 
 def _kind_of(objtype: int) -> str:
@@ -54,6 +58,12 @@ def rewrite(element: Any, change: Rewrite) -> None:
     for name, of in named.items():
         if inner[name]:
             inner[name] = change(of, inner[name])
+    for name in _BODIES.get(kind, ()):
+        names = inner[name]
+        names[:] = [change("body", body) for body in names]
+    used = inner.get("_plugin")
+    if used is not None and used.name:
+        used.name = change("plugin", used.name)
     if kind == "material":
         textures = inner["textures"]
         textures[:] = [text and change("texture", text) for text in textures]
@@ -67,7 +77,7 @@ def rewrite(element: Any, change: Rewrite) -> None:
 
 
 def references(element: Any) -> list[tuple[str, str]]:
-    """Kind and name of everything that an element refers to, looks of constraints left out."""
+    """Kind and name of everything that an element refers to, looks and plugins left out."""
     found: list[tuple[str, str]] = []
 
     def note(kind: str, name: str) -> str:

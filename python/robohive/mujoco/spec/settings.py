@@ -33,18 +33,25 @@ class MjLROpt(_Settings):
 
 
 class MjsCompiler(_Settings):
-    """Settings of the compiler; `LRopt` says how ranges of lengths are computed."""
+    """Settings of the compiler; `LRopt` says how ranges of lengths are computed, `authored` which settings the text gives."""
 
     _kind = "compiler"
 
-    def __init__(self, values: dict[str, Any] | None = None, lengths: dict[str, Any] | None = None) -> None:
+    def __init__(
+        self, values: dict[str, Any] | None = None, lengths: dict[str, Any] | None = None, authored: int = 0
+    ) -> None:
         super().__init__(values)
         self.__dict__["LRopt"] = MjLROpt(lengths)
-        # Settings count as given when they differ from the default.
-        self.__dict__["authored"] = 0
+        self.__dict__["authored"] = authored
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name == "authored":
+            self.__dict__[name] = int(value)
+        else:
+            super().__setattr__(name, value)
 
     def _copied(self) -> "MjsCompiler":
-        return MjsCompiler(self.__dict__, self.LRopt.__dict__)
+        return MjsCompiler(self.__dict__, self.LRopt.__dict__, self.authored)
 
 
 class MjStatistic(_Settings):

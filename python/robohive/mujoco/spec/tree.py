@@ -16,7 +16,7 @@ from robohive.mujoco.data import MjData
 from robohive.mujoco.enums_physics import mjtCTimer
 from robohive.mujoco.model import MjModel
 from robohive.mujoco.options import MjOption, MjVisual
-from robohive.mujoco.spec import archive, attach, exchange
+from robohive.mujoco.spec import archive, attach, authored, exchange
 from robohive.mujoco.spec.attach import affixed
 from robohive.mujoco.spec.bodies import MjsBody, MjsFrame
 from robohive.mujoco.spec.defaults import KINDS as DEFAULTS
@@ -25,11 +25,10 @@ from robohive.mujoco.spec.element import MjsElement
 from robohive.mujoco.spec.forms import forms
 from robohive.mujoco.spec.lists import Lists
 from robohive.mujoco.spec.orientation import MjsOrientation
+from robohive.mujoco.spec.plugins import numbered
 from robohive.mujoco.spec.settings import MjsCompiler, MjStatistic
 
 _MAIN = "main"
-#: What compiled models have and descriptions here cannot hold.
-_REFUSED = ("activate_plugin", "add_flex", "add_plugin", "add_skin", "authored")
 _PARTS = ("qpos", "qvel", "act", "mpos", "mquat", "ctrl")
 
 
@@ -46,11 +45,14 @@ class MjSpec(Lists):
     def _begin(self, description: _core.Description) -> None:
         groups = description.settings()
         general = groups["general"]
+        given, compiler = authored.read(description.given())
         inner = self.__dict__
         inner.update(
             _description=description,
             _lists={kind: [] for kind in exchange.LISTED},
             _names={kind: {} for kind in (*MjsBody.HELD, *exchange.LISTED)},
+            _extensions={},
+            authored=given,
             _sizes={name: general[name] for name in forms("size")},
             _parent=None,
             _copies=False,
@@ -61,7 +63,7 @@ class MjSpec(Lists):
             modelfiledir=description.folder,
             assets={},
             override_assets=True,
-            compiler=MjsCompiler(groups["compiler"], groups["lengthrange"]),
+            compiler=MjsCompiler(groups["compiler"], groups["lengthrange"], compiler),
             stat=MjStatistic(groups["stat"]),
             option=MjOption(),
             visual=MjVisual(),
@@ -112,8 +114,6 @@ class MjSpec(Lists):
             sizes = self.__dict__.get("_sizes", {})
             if name in sizes:
                 return sizes[name]
-            if name in _REFUSED:
-                raise NotImplementedError(f"MjSpec.{name}: not there")
             raise AttributeError(f"'mujoco.MjSpec' object has no attribute '{name}'")
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -132,7 +132,7 @@ class MjSpec(Lists):
             inner[name] = value
         elif name == "override_assets":
             inner[name] = bool(value)
-        elif name in ("option", "visual", "stat", "compiler"):
+        elif name in ("option", "visual", "stat", "compiler", "authored"):
             inner[name] = value
         else:
             raise AttributeError(f"'mujoco.MjSpec' attribute '{name}' cannot be set")
@@ -223,6 +223,10 @@ class MjSpec(Lists):
         self._lists[kind._kind].append(made)
         return made
 
+    def activate_plugin(self, name: str) -> None:
+        """Lets elements use a plugin; unknown ones are reported by `compile`."""
+        self._extensions.setdefault(str(name), (self, None))
+
     def _register(self, element: MjsElement) -> None:
         if element.name:
             self._names[element._kind][element.name] = element
@@ -307,10 +311,14 @@ class MjSpec(Lists):
         inner["_description"] = other._description
         inner["_names"] = {kind: {} for kind in other._names}
         inner["_sizes"] = dict(other._sizes)
+        inner["_extensions"] = {
+            name: (self if origin is other else origin, place) for name, (origin, place) in other._extensions.items()
+        }
         inner["assets"] = dict(other.assets)
         for name in ("modelname", "comment", "modelfiledir", "override_assets", "_copies"):
             inner[name] = getattr(other, name)
         inner["compiler"] = other.compiler._copied()
+        self.authored._take(other.authored)
         inner["stat"] = MjStatistic(other.stat.__dict__)
         exchange.take_options(self, exchange._options(other))
         inner["_classes"] = {}
@@ -343,7 +351,7 @@ class MjSpec(Lists):
     def _run(self, tree: exchange.Tree) -> tuple[_core.CompiledModel, list[str]]:
         try:
             found: tuple[_core.CompiledModel, list[str]]
-            found = self._description.compile(tree.parts(), {**_content(self.assets), **tree.pictures})
+            found = self._description.compile(tree.parts(), {**_content(self.assets), **tree.pictures}, tree.drawn)
             return found
         except ValueError as error:
             # What programs note of an element goes with what is wrong with it.
@@ -359,7 +367,8 @@ class MjSpec(Lists):
         kept = [key for key in self._lists["key"] if key._kept]
         self._lists["key"].sort(key=lambda key: key._kept)
         for kind in (*MjsBody.HELD, *exchange.LISTED):
-            for number, element in enumerate(self._all(kind)):
+            elements = self._all(kind) if kind != "plugin" else numbered(self)
+            for number, element in enumerate(elements):
                 element.__dict__.update(_id=number, _stamp=stamp)
         for key in kept:
             place = key._id + max(0, self._sizes["nkey"] - len(self._lists["key"]) + len(kept))

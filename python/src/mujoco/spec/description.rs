@@ -6,18 +6,20 @@ use super::show;
 use super::take::Tree;
 use super::value::{Outline, outline, shown, take};
 use mjcf::Loader;
+use mjcf::Parsed;
 use mjcf::diagnostic::{Diagnostics, Sources};
+use mjcf::edit::{self, Authored};
 use mjcf::spec::{
-    Actuator, Body, Camera, Compiler, Equality, Exclude, Frame, Geom, Hfield, Joint, Key, LengthRangeOptions,
-    Light, Material, Mesh, Numeric, Pair, Sensor, Site, Size, Spec, StatisticOverride, Tendon, Text, Texture,
-    Tuple,
+    Actuator, Body, Camera, Compiler, Equality, Exclude, Flex, Frame, Geom, Hfield, Joint, Key,
+    LengthRangeOptions, Light, Material, Mesh, Numeric, Pair, PluginInstance, Sensor, Site, Size, Skin, Spec,
+    StatisticOverride, Tendon, Text, Texture, Tuple,
 };
-use mjcf::{Parsed, edit};
+use physics::model::{Disable, Enable};
 use physics::table::Slice;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 
 /// A tree of Python: elements by kind, the descriptions they were made in with their settings, sizes and statistics, options.
@@ -27,6 +29,9 @@ type Parts<'py> = (
     Bound<'py, PyDict>,
     HashMap<String, HashMap<String, Vec<f64>>>,
 );
+
+/// Settings that a text gives.
+type Given = (BTreeSet<(String, String)>, i32, i32, i32);
 
 /// A default class: its name, and elements by kind.
 type Class<'py> = (String, HashMap<&'static str, Bound<'py, PyDict>>);
@@ -42,6 +47,8 @@ pub struct Description {
     /// Folder of the text, with its closing slash.
     #[pyo3(get)]
     pub folder: String,
+    /// Settings that the text gives.
+    authored: Authored,
     /// What is opened for the file of an asset: by directory, whether paths are stripped, and name.
     pub opened: HashMap<(String, bool, String), String>,
     sources: Sources,
@@ -56,6 +63,7 @@ impl Description {
     fn new() -> Self {
         Description {
             attached: BTreeMap::new(),
+            authored: Authored::default(),
             folder: String::new(),
             opened: HashMap::new(),
             sources: Sources::default(),
@@ -119,16 +127,34 @@ impl Description {
         groups(self.spec.as_ref().unwrap_or(&Spec::default()))
     }
 
-    /// The model of a tree that began as this description, and what was ignored or assumed.
+    /// Settings that the text gives: elements with attributes, disable flags, enable flags, actuator groups.
+    fn given(&self) -> Given {
+        let Authored { values, disableflags, enableflags, disableactuator } = self.authored.clone();
+        (values, disableflags.bits(), enableflags.bits(), disableactuator)
+    }
+
+    /// The model of a tree that began as this description, and what was ignored or assumed. `pixels` are the textures whose
+    /// files in `assets` hold pixels that the program gave.
     fn compile(
         &self,
         py: Python<'_>,
         tree: Parts<'_>,
         assets: HashMap<String, Vec<u8>>,
+        pixels: Vec<usize>,
     ) -> PyResult<(CompiledModel, Vec<String>)> {
         let spec = spec_of(tree)?;
         let found = py.detach(|| spec.compile(&Layered::new(assets), &self.sources));
-        let loaded = found.map_err(|found| refused(&found))?;
+        let mut loaded = found.map_err(|found| refused(&found))?;
+        // Pixels that a program gives have the colour space that it says, where the header of a file would say it.
+        for texture in pixels {
+            let Some(said) = spec.textures.get(texture).map(|texture| texture.colorspace.code()) else {
+                continue;
+            };
+            let written = loaded.model.overwrite(|draft| {
+                draft.tex_colorspace.iter_mut().skip(texture).take(1).for_each(|space| *space = said);
+            });
+            written.map_err(|error| PyValueError::new_err(error.to_string()))?;
+        }
         let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
         Ok((CompiledModel { model: Arc::new(loaded.model) }, warnings))
     }
@@ -143,15 +169,24 @@ impl Description {
         written.map_err(|found| refused(&found))
     }
 
-    /// The tree's options and sizes after one of another tree is attached to it, and the differences that were settled.
+    /// The tree's options and sizes after one of another tree is attached to it, and the differences that were settled;
+    /// `given` is what `given` shows of both.
     #[staticmethod]
     fn settle<'py>(
         py: Python<'py>,
         tree: Parts<'_>,
         child: Parts<'_>,
+        given: [Given; 2],
     ) -> PyResult<(Groups, Bound<'py, PyDict>, Vec<String>)> {
         let (mut parent, child) = (spec_of(tree)?, spec_of(child)?);
-        let differences = edit::settle(&mut parent, &child).map_err(|found| refused(&found))?;
+        let authored = given.map(|(values, off, on, disableactuator)| Authored {
+            values,
+            disableflags: Disable::from_bits(off),
+            enableflags: Enable::from_bits(on),
+            disableactuator,
+        });
+        let settled = edit::settle(&mut parent, &child, authored.each_ref());
+        let differences = settled.map_err(|found| refused(&found))?;
         Ok((groups(&parent), shown(py, &parent.size)?, differences))
     }
 
@@ -172,13 +207,14 @@ impl Description {
 
 impl Description {
     fn read(parsed: Result<Parsed, Diagnostics>) -> PyResult<(Self, Vec<String>)> {
-        let Parsed { spec, sources, warnings, .. } = parsed.map_err(|found| refused(&found))?;
+        let Parsed { spec, authored, sources, warnings, .. } = parsed.map_err(|found| refused(&found))?;
         let mut opened = HashMap::new();
         let compiler = &spec.compiler;
         let mut see = |dir: &str, path: &str, file: &str| {
             opened.insert((dir.to_owned(), compiler.strippath, path.to_owned()), file.to_owned());
         };
         spec.meshes.iter().for_each(|x| see(&compiler.meshdir, &x.path, &x.file));
+        spec.skins.iter().for_each(|x| see(&compiler.meshdir, &x.path, &x.file));
         spec.hfields.iter().for_each(|x| see(&compiler.meshdir, &x.path, &x.file));
         for texture in &spec.textures {
             see(&compiler.texturedir, &texture.path, &texture.file);
@@ -189,7 +225,7 @@ impl Description {
         let folder = sources.folder().to_owned();
         let attached = spec.attached.clone();
         let warnings = warnings.iter().map(ToString::to_string).collect();
-        Ok((Description { attached, folder, opened, sources, spec: Some(spec) }, warnings))
+        Ok((Description { attached, authored, folder, opened, sources, spec: Some(spec) }, warnings))
     }
 }
 
@@ -232,6 +268,9 @@ pub fn spec_forms(py: Python<'_>) -> PyResult<HashMap<&'static str, Vec<Outline<
         "material" Material::default();
         "pair" show::completed(&Pair::default());
         "exclude" Exclude::default();
+        "flex" Flex::default();
+        "skin" Skin::default();
+        "plugin" PluginInstance::default();
         "equality" Equality::default();
         "tendon" Tendon::default();
         "actuator" Actuator::default();

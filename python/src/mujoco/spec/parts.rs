@@ -20,7 +20,8 @@ type Step = (u8, String, String, f64);
 /// Numbers of an element in a keyframe: which keyframe, which part, the numbers.
 pub type Share = (usize, usize, Vec<f64>);
 
-fn required<'py>(values: &Bound<'py, PyDict>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+/// The value of an attribute that every element of the kind has.
+pub fn required<'py>(values: &Bound<'py, PyDict>, name: &str) -> PyResult<Bound<'py, PyAny>> {
     values.get_item(name)?.ok_or_else(|| PyValueError::new_err(format!("an element lacks '{name}'")))
 }
 

@@ -1,10 +1,9 @@
 //! The elements of a `Spec` for Python, kind by kind in the order of their ids.
 
-use super::parts;
 use super::value::shown;
+use super::{deformable, parts};
 use mjcf::diagnostic::Loc;
 use mjcf::spec::{Body, Class, Fields, Frame, KeptKey, Key, Pair, SOLIMP, SOLREF, Spec};
-use pyo3::exceptions::PyNotImplementedError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::collections::{BTreeMap, HashMap};
@@ -61,14 +60,16 @@ impl<'py> Rows<'py> {
         values.set_item("alt", parts::orientation(body.alt))?;
         parts::show_inertial(py, body, &values)?;
         values.set_item("_shares", parts::shares(&body.keyed))?;
+        deformable::show_use(body.plugin.as_ref(), &values)?;
         self.push("body", values, parent, body.frame, body.loc)?;
         self.places.entry(body.loc).or_insert(own);
         self.hold(body.frame, parent, frames);
         macro_rules! posed {
-            ($($kind:literal $list:ident $($alt:ident)?;)*) => {
+            ($($kind:literal $list:ident $($alt:ident)? $(| $plugin:ident)?;)*) => {
                 $(for element in &body.$list {
                     let values = shown(py, element)?;
                     $(values.set_item("alt", parts::orientation(element.$alt))?;)?
+                    $(deformable::show_use(element.$plugin.as_ref(), &values)?;)?
                     self.push($kind, values, own, element.frame, element.loc)?;
                     self.hold(element.frame, own, frames);
                 })*
@@ -80,7 +81,7 @@ impl<'py> Rows<'py> {
             self.push("joint", values, own, joint.frame, joint.loc)?;
             self.hold(joint.frame, own, frames);
         }
-        posed!("geom" geoms alt; "site" sites alt; "camera" cameras alt; "light" lights;);
+        posed!("geom" geoms alt | plugin; "site" sites alt; "camera" cameras alt; "light" lights;);
         body.bodies.iter().try_for_each(|child| self.body(child, own, frames, count))
     }
 
@@ -117,19 +118,7 @@ pub fn completed(pair: &Pair) -> Pair {
 }
 
 /// All elements by kind.
-///
-/// # Errors
-/// The description has elements that Python cannot show yet: compiled again, they would be lost.
 pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict>> {
-    if !spec.flexes.is_empty() {
-        return Err(missing("flexes"));
-    }
-    if !spec.skins.is_empty() {
-        return Err(missing("skins"));
-    }
-    if !spec.extensions.is_empty() {
-        return Err(missing("plugins"));
-    }
     let mut rows =
         Rows { all: PyDict::new(py), holders: vec![-1; spec.frames.len()], places: BTreeMap::new() };
     rows.body(&spec.world, -1, &spec.frames, &mut 0)?;
@@ -142,6 +131,7 @@ pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict
     for mesh in &spec.meshes {
         let values = shown(py, mesh)?;
         values.set_item("file", &mesh.path)?;
+        deformable::show_use(mesh.plugin.as_ref(), &values)?;
         rows.push("mesh", values, -1, None, mesh.loc)?;
     }
     for hfield in &spec.hfields {
@@ -155,8 +145,13 @@ pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict
         values.set_item("cubefiles", &texture.cubepaths)?;
         rows.push("texture", values, -1, None, texture.loc)?;
     }
-    lists!("material" materials "exclude" excludes
-           "equality" equalities "sensor" sensors "numeric" numerics "text" texts);
+    lists!("material" materials "exclude" excludes "equality" equalities "numeric" numerics "text" texts);
+    extended(py, spec, &rows)?;
+    for sensor in &spec.sensors {
+        let values = shown(py, sensor)?;
+        deformable::show_use(sensor.plugin.as_ref(), &values)?;
+        rows.push("sensor", values, -1, None, sensor.loc)?;
+    }
     spec.pairs.iter().try_for_each(|pair| rows.plain("pair", &completed(pair), pair.loc))?;
     for tendon in &spec.tendons {
         let values = shown(py, tendon)?;
@@ -166,6 +161,7 @@ pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict
     for actuator in &spec.actuators {
         let values = shown(py, actuator)?;
         values.set_item("_shares", parts::shares(&actuator.keyed))?;
+        deformable::show_use(actuator.plugin.as_ref(), &values)?;
         rows.push("actuator", values, -1, None, actuator.loc)?;
     }
     for tuple in &spec.tuples {
@@ -182,10 +178,25 @@ pub fn elements<'py>(py: Python<'py>, spec: &Spec) -> PyResult<Bound<'py, PyDict
     Ok(rows.all)
 }
 
-fn missing(what: &str) -> PyErr {
-    PyNotImplementedError::new_err(format!(
-        "MjSpec does not hold {what}: load this model with MjModel.from_xml_path or from_xml_string"
-    ))
+/// Flexes, skins, and plugins with their instances.
+fn extended<'py>(py: Python<'py>, spec: &Spec, rows: &Rows<'py>) -> PyResult<()> {
+    for flex in &spec.flexes {
+        let values = shown(py, flex)?;
+        values.set_item("_empty_cells", &flex.empty_cells)?;
+        rows.push("flex", values, -1, None, flex.loc)?;
+    }
+    for skin in &spec.skins {
+        let values = shown(py, skin)?;
+        deformable::show_bones(py, skin, &values)?;
+        rows.push("skin", values, -1, None, skin.loc)?;
+    }
+    for instance in &spec.plugins {
+        let values = shown(py, instance)?;
+        values.set_item("plugin_name", &instance.plugin)?;
+        values.set_item("_config", instance.config.clone())?;
+        rows.push("plugin", values, -1, None, instance.loc)?;
+    }
+    spec.extensions.iter().try_for_each(|extension| rows.plain("extension", extension, extension.loc))
 }
 
 /// The elements of a class by kind.

@@ -1,8 +1,8 @@
 //! A `Spec` of the elements that Python holds.
 
 use super::description::Description;
-use super::parts;
 use super::value::take;
+use super::{deformable, parts};
 use crate::mujoco::settings::assign_choice;
 use mjcf::diagnostic::Loc;
 use mjcf::spec::*;
@@ -109,6 +109,7 @@ impl<'py> Tree<'_, 'py> {
             take(&row.0, &mut body)?;
             body.alt = parts::take_orientation(&row.0, "alt")?;
             body.keyed = parts::take_shares(&row.0)?;
+            body.plugin = deformable::take_use(&row.0, body.loc)?;
             bodies.push(body);
         }
         macro_rules! hold {
@@ -125,7 +126,10 @@ impl<'py> Tree<'_, 'py> {
         }
         hold! {
             "joint" Joint joints |joint, row| joint.keyed = parts::take_shares(&row.0)?;
-            "geom" Geom geoms |geom, row| geom.alt = parts::take_orientation(&row.0, "alt")?;
+            "geom" Geom geoms |geom, row| {
+                geom.alt = parts::take_orientation(&row.0, "alt")?;
+                geom.plugin = deformable::take_use(&row.0, geom.loc)?;
+            };
             "site" Site sites |site, row| site.alt = parts::take_orientation(&row.0, "alt")?;
             "camera" Camera cameras |camera, row| camera.alt = parts::take_orientation(&row.0, "alt")?;
             "light" Light lights |_light, _row|;
@@ -159,7 +163,15 @@ impl<'py> Tree<'_, 'py> {
             };
         }
         lists! {
-            "mesh" Mesh meshes |x, row| (x.file, x.path) = self.place(&row, "file", |c| &c.meshdir)?;
+            "mesh" Mesh meshes |x, row| {
+                (x.file, x.path) = self.place(&row, "file", |c| &c.meshdir)?;
+                x.plugin = deformable::take_use(&row.0, x.loc)?;
+            };
+            "flex" Flex flexes |x, row| x.empty_cells = parts::required(&row.0, "_empty_cells")?.extract()?;
+            "skin" Skin skins |x, row| {
+                (x.file, x.path) = self.place(&row, "file", |c| &c.meshdir)?;
+                x.bones = deformable::take_bones(&row.0, x.loc)?;
+            };
             "hfield" Hfield hfields |x, row| (x.file, x.path) = self.place(&row, "file", |c| &c.meshdir)?;
             "texture" Texture textures |x, row| self.place_texture(&mut x, &row)?;
             "material" Material materials |_x, _row|;
@@ -167,11 +179,20 @@ impl<'py> Tree<'_, 'py> {
             "exclude" Exclude excludes |_x, _row|;
             "equality" Equality equalities |_x, _row|;
             "tendon" Tendon tendons |x, row| x.path = parts::take_path(&row.0, x.loc)?;
-            "actuator" Actuator actuators |x, row| x.keyed = parts::take_shares(&row.0)?;
-            "sensor" Sensor sensors |_x, _row|;
+            "actuator" Actuator actuators |x, row| {
+                x.keyed = parts::take_shares(&row.0)?;
+                x.plugin = deformable::take_use(&row.0, x.loc)?;
+            };
+            "sensor" Sensor sensors |x, row| x.plugin = deformable::take_use(&row.0, x.loc)?;
             "numeric" Numeric numerics |_x, _row|;
             "text" Text texts |_x, _row|;
             "tuple" Tuple tuples |x, row| x.entries = parts::take_entries(&row.0)?;
+        }
+        for row in self.rows("extension")? {
+            spec.extensions.push(deformable::take_extension(&row.0, self.loc(&row))?);
+        }
+        for row in self.rows("plugin")? {
+            spec.plugins.push(deformable::take_instance(&row.0, self.loc(&row))?);
         }
         for row in self.rows("key")? {
             let mut key = Key { loc: self.loc(&row), ..Key::default() };

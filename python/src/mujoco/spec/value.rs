@@ -88,7 +88,7 @@ pub fn outline<'py>(py: Python<'py>, element: &dyn Fields) -> PyResult<Vec<Outli
             Form::Reals(length) => ("reals", "", length),
             Form::Letters(length) => ("letters", "", length),
             Form::Text => ("text", "", None),
-            Form::Texts(length) => ("texts", "", Some(length)),
+            Form::Texts(length) => ("texts", "", length),
         };
         if let Ok(rows) = &mut all {
             match to_python(py, value) {
