@@ -244,6 +244,60 @@ def settings(mj):
     return spec
 
 
+def cloth_and_cushion(mj):
+    spec = mj.MjSpec()
+    frame = spec.worldbody.add_body(name="frame", pos=[0, 0, 1])
+    cloth = frame.make_flex("cloth", dim=2, count=[4, 3, 1], spacing=[0.1] * 3, radius=0.01, mass=0.3, equality=1)
+    cloth.rgba = [0.8, 0.2, 0.1, 1]
+    cloth.friction[0] = 0.4
+    block = spec.worldbody.add_body(name="block", pos=[1, 0, 1])
+    cushion = block.make_flex("cushion", count=[3, 3, 4], spacing=[0.1] * 3, radius=0.01, dof="trilinear", mass=2)
+    cushion.young, cushion.poisson, cushion.damping = 5e4, 0.2, 0.1
+    cushion.selfcollide = mj.mjtFlexSelf.mjFLEXSELF_NONE
+    line = spec.worldbody.add_body(name="line", pos=[2, 0, 1])
+    line.make_flex("line", dim=1, count=[5, 1, 1], spacing=[0.1] * 3, radius=0.01, equality=1, pos=[0, 0, 0.5])
+    return spec
+
+
+def sheet_by_hand(mj):
+    spec = mj.MjSpec()
+    for k, pos in enumerate(([0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.1])):
+        body = spec.worldbody.add_body(name=f"corner{k}", pos=pos, mass=1, inertia=[0.1, 0.1, 0.1], ipos=[0, 0, 0])
+        body.explicitinertial = True
+        body.add_joint(type=mj.mjtJoint.mjJNT_SLIDE, axis=[0, 0, 1])
+    sheet = spec.add_flex(name="sheet", dim=2, elem=[0, 1, 2, 1, 3, 2], young=10, thickness=0.01, elastic2d=2)
+    sheet.vertbody = [f"corner{k}" for k in range(4)]
+    sheet.contype = 3
+    sheet.internal = False
+    skin = spec.add_skin(name="hide", vert=[0, 0, 0, 1, 0, 0, 0, 1, 0], face=[0, 1, 2], inflate=0.1, group=2)
+    skin.bodyname = ["corner0", "corner1"]
+    skin.bindpos, skin.bindquat = [0] * 6, [1, 0, 0, 0] * 2
+    skin.vertid, skin.vertweight = [[0, 1], [1, 2]], [[1, 0.5], [0.5, 2]]
+    return spec
+
+
+def cloth_attached(mj):
+    spec, other = mj.MjSpec(), sheet_by_hand(mj)
+    spec.attach(cloth_and_cushion(mj), frame=spec.worldbody.add_frame(pos=[0, 0, 2], euler=[0, 0, 30]), prefix="a-")
+    spec.attach(other, frame=spec.worldbody.add_frame(pos=[0, 3, 0]), prefix="b-", suffix="-s")
+    return spec
+
+
+def cables(mj):
+    spec = mj.MjSpec()
+    spec.activate_plugin("mujoco.elasticity.cable")
+    plugin = spec.add_plugin(name="cable", plugin_name="mujoco.elasticity.cable", active=True)
+    plugin.config = {"twist": "1e4", "bend": "2e3"}
+    body = spec.worldbody
+    for k in range(3):
+        body = body.add_body(name=f"link{k}", pos=[0.1, 0, 0])
+        body.plugin = plugin
+        body.plugin.name, body.plugin.active = "cable", True
+        body.add_joint(type=mj.mjtJoint.mjJNT_BALL, damping=[0.1, 0, 0])
+        body.add_geom(type=mj.mjtGeom.mjGEOM_CAPSULE, fromto=[0, 0, 0, 0.1, 0, 0], size=[0.01, 0, 0])
+    return spec
+
+
 SCRIPTS = (
     robot_of_nothing,
     everything_in_lists,
@@ -258,4 +312,8 @@ SCRIPTS = (
     copied,
     copied_while_attaching,
     settings,
+    cloth_and_cushion,
+    sheet_by_hand,
+    cloth_attached,
+    cables,
 )

@@ -26,6 +26,11 @@ class _Arrival:
     def renamed(self, name: str) -> str:
         return f"{self.prefix}{name}{self.suffix}" if name else name
 
+    def called(self, element: Any) -> str:
+        """The new name of an element. Skins keep theirs, as in MuJoCo: nothing refers to them."""
+        name = _called(element)
+        return name if element._kind == "skin" else self.renamed(name)
+
     def announce(self, elements: list[Any]) -> None:
         """Notes elements that come.
 
@@ -34,8 +39,8 @@ class _Arrival:
         """
         for element in elements:
             name = _called(element)
-            if name and self.renamed(name) in self.to._names[element._kind]:
-                taken = self.renamed(name)
+            taken = self.called(element)
+            if taken and taken in self.to._names[element._kind]:
                 raise ValueError(f"Error: repeated name '{taken}' in {element._kind}; attach with another prefix")
             self.names.add((element._kind, name))
 
@@ -60,7 +65,7 @@ class _Arrival:
         for element in elements:
             old = _called(element)
             self.source._names[element._kind].pop(old, None)
-            name = element.__dict__["name"] = self.renamed(old)
+            name = element.__dict__["name"] = self.called(element)
             element.__dict__["_owner"] = self.to
             if name:
                 self.to._names[element._kind][name] = element
