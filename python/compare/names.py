@@ -68,7 +68,7 @@ def rows_of(folders: list[Path]) -> list[str]:
     return [
         f"{len(verdicts[True]) + len(verdicts[False])} names are used, {len(verdicts[True])} are there.",
         "",
-        "Not there: " + ", ".join(verdicts[False]) + ".",
+        "Not there: " + (", ".join(verdicts[False]) or "none") + ".",
         "",
         "There: " + ", ".join(verdicts[True]) + ".",
     ]
