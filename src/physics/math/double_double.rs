@@ -56,6 +56,16 @@ impl Double {
         two_sum(quotient, (((self.head - product.head) - product.tail) + self.tail) / divisor)
     }
 
+    /// Square root; zero for zero.
+    pub fn sqrt(self) -> Double {
+        let root = self.head.sqrt();
+        if root == 0.0 {
+            return Double { head: 0.0, tail: 0.0 };
+        }
+        let rest = self.plus(two_product(root, root).negated());
+        two_sum(root, rest.round() / (2.0 * root))
+    }
+
     /// The sum with a number that is small beside the head, kept in the tail.
     pub const fn extended(self, small: f64) -> Double {
         Double { head: self.head, tail: self.tail + small }

@@ -8,6 +8,8 @@
 //! assert!(distance(turned, [0.0, 1.0, 0.0]) < 1e-15);
 //! ```
 
+#[cfg_attr(system_math, allow(dead_code))]
+mod arc;
 pub(crate) mod bit_set;
 pub(crate) mod cholesky;
 #[doc(hidden)]

@@ -15,7 +15,7 @@ const STEP: [f64; 3] = [0.012271846302610356, 4.747734770549973e-13, 1.579895506
 /// 256/π.
 const STEPS_PER_RADIAN: f64 = 81.48733086305042;
 /// Angles beyond it are reduced by `libm`, whose results are within one unit of the last place.
-const LARGEST: f64 = 2.0e4;
+pub(super) const LARGEST: f64 = 2.0e4;
 
 /// Sines of the multiples of π/256 in a quarter turn, the head with at most 26 bits.
 static SINES: [Double; QUARTER + 1] = sines();
@@ -55,19 +55,9 @@ pub fn sincos(x: f64) -> (f64, f64) {
     }
 }
 
-/// Angle of the direction `(x, y)`, of lengths not far from one, like `atan2`: where that is off by its last bit, the sine and
-/// cosine of the angle tell.
-pub fn angle(y: f64, x: f64) -> f64 {
-    let near = libm::atan2(y, x);
-    let exact = |value: f64| Double { head: value, tail: 0.0 };
-    let [sine, cosine] = precise_sincos(near).map(|value| exact(0.0).plus(value));
-    let across = exact(y).times(cosine).plus(exact(x).times(sine).negated());
-    near + across.round() / (x * cosine.head + y * sine.head)
-}
-
 /// Sine and cosine with errors below 2^-67, for angles up to [`LARGEST`].
 #[inline]
-fn precise_sincos(x: f64) -> [Double; 2] {
+pub(super) fn precise_sincos(x: f64) -> [Double; 2] {
     let (multiple, r) = reduce(x.abs());
     let k = multiple % QUARTER;
     let (s, c) = (SINES[k], SINES[QUARTER - k]);
@@ -135,23 +125,6 @@ mod tests {
             let [s, c] = precise_sincos(x).map(|value| zero.plus(value));
             let one = s.times(s).plus(c.times(c));
             assert!(((one.head - 1.0) + one.tail).abs() < 2.0_f64.powi(-65), "{x}");
-        }
-    }
-
-    const ANGLES: [(f64, f64, f64); 6] = [
-        (0.926382097656547, -0.3765849295198305, 1.9569033885741183),
-        (0.7251141180144316, -0.6886287213412994, 2.3303925559899983),
-        (0.5999338227741013, -0.8000496286429069, 2.498174263763066),
-        (0.17981439312709627, -0.9837005560760521, 2.960794887887597),
-        (0.729186712346657, -0.6843147949131845, 2.3244599268045247),
-        (0.24160859833971193, -0.9703737863361312, 2.8975694337463045),
-    ];
-
-    /// Values computed with 300 bits and rounded.
-    #[test]
-    fn angles_are_correctly_rounded() {
-        for (y, x, expected) in ANGLES {
-            assert_eq!(angle(y, x), expected, "{y} {x}");
         }
     }
 

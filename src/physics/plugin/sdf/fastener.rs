@@ -30,7 +30,7 @@ impl Shape {
     fn at([x, y, z]: Vec3, radius: f64) -> Self {
         let from_cylinder = length(x, y) - radius;
         let diagonal = 2.0_f64.sqrt() / 2.0;
-        let turn = z * TURNS - ops::atan2(y, x) / PI / 2.0;
+        let turn = z * TURNS - ops::angle(y, x) / PI / 2.0;
         let wave = (turn - turn.floor() - 0.5).abs();
         Shape {
             from_cylinder,
@@ -43,7 +43,7 @@ impl Shape {
     /// Distance from the head: a hexagon with a rounded top.
     fn head(&self, [x, y, z]: Vec3) -> f64 {
         let sides = 6.0 / PI / 2.0;
-        let angle = -(ops::atan2(y, x) * sides + 0.5).floor() / sides;
+        let angle = -(ops::angle(y, x) * sides + 0.5).floor() / sides;
         let (sin, cos) = (ops::sin(angle), ops::sin(angle + PI * 0.5));
         let across = cos * x + -sin * y;
         let flats = intersection(across - 0.5, (z + 0.25).abs() - 0.25);

@@ -58,14 +58,14 @@ impl Wheel {
             return rho - outer;
         }
         let base = pitch * ops::cos(pressure) / 2.0;
-        let angle = ops::atan2(y, x) + self.alpha;
+        let angle = ops::angle(y, x) + self.alpha;
         let stride = PI / density / pitch_radius;
-        let involute = ops::acos(base / pitch_radius);
-        let shift = stride / 2.0 - 2.0 * (ops::tan(involute) - involute);
+        let involute = ops::arc_cosine(base / pitch_radius);
+        let shift = stride / 2.0 - 2.0 * (ops::tangent(involute) - involute);
         let ahead = remainder(angle + shift / 2.0, stride) - shift / 2.0;
         let behind = remainder(-angle - shift + shift / 2.0, stride) - shift / 2.0;
         let flanks = if base < rho {
-            let unwound = ops::acos(base / rho);
+            let unwound = ops::arc_cosine(base / rho);
             let tangent = (rho * rho - base * base).sqrt();
             intersection(tangent - base * (ahead + unwound), tangent - base * (behind + unwound))
         } else {
