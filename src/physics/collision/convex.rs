@@ -9,6 +9,7 @@ use super::gjk::{BEYOND, Limits, Vertex, gjk};
 use super::mpr::overlap;
 use super::multicontact::{Clipper, Witness};
 use super::polytope::Polytope;
+use super::sdf::FieldScratch;
 use super::support::{ConvexBody, Solid};
 use super::{PreContact, Shape, round_normal};
 use crate::data::Kinematics;
@@ -30,6 +31,8 @@ pub struct ConvexScratch {
     polytope: Polytope,
     clipper: Clipper,
     witness: Vec<Witness>,
+    /// Of the functions for signed distances.
+    pub(super) field: FieldScratch,
 }
 
 impl Limits {

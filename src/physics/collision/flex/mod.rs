@@ -133,15 +133,14 @@ fn field(at: World, g: usize, f: usize, scratch: &mut CollisionScratch, con: &mu
     }
     let tree = (m.flex_bvhadr[f] >= 0).then(|| tree::tree_of(at, f));
     let sheet = sdf::Sheet { elements: flex.corners(), points: at.points(f), tree };
-    let (mut points, mut elements) = (std::mem::take(&mut scratch.points), Vec::new());
+    let CollisionScratch { points, convex, .. } = scratch;
     points.clear();
-    sdf::sheet_and_field(m, at.kin, g, sheet, &mut elements, &mut points);
+    sdf::sheet_and_field(m, at.kin, g, sheet, &mut convex.field, points);
     let mixture = Mixture::of_flex(m, [Surface::geom(m, g), Surface::flex(m, f)], geom_reach(m, g, f)[0]);
-    for (e, point) in elements.into_iter().zip(&points) {
+    for (&e, point) in convex.field.elements.iter().zip(&*points) {
         let parts = Parts { geom: [g as i32, -1], flex: [-1, f as i32], elem: [-1, e as i32], ..Parts::NONE };
         con.contact.push(mixture.of_parts(parts, point));
     }
-    scratch.points = points;
 }
 
 /// Contacts of the elements of two flexes.

@@ -66,14 +66,28 @@ fn farthest(found: &[Contact], newest: usize, spread: &mut Spread) -> Option<usi
     best
 }
 
-/// Sorts the contacts of two bodies or flexes by what touches; those of the same parts keep their order.
+/// Sorts the contacts of two bodies or flexes, at most `MAXCONPAIR`, by what touches; those of the same parts keep their
+/// order.
 pub(super) fn sort(contacts: &mut [Contact]) {
     let part = |c: &Contact, side: usize| match (c.geom[side], c.elem[side]) {
         (geom, _) if geom >= 0 => geom,
         (_, element) if element >= 0 => element,
         _ => c.vert[side],
     };
-    contacts.sort_by_key(|c| (part(c, 0), part(c, 1)));
+    let mut places = [(0, 0, 0); MAXCONPAIR];
+    let places = &mut places[..contacts.len()];
+    for (i, (place, c)) in places.iter_mut().zip(&*contacts).enumerate() {
+        *place = (part(c, 0), part(c, 1), i);
+    }
+    places.sort_unstable();
+    for to in 0..contacts.len() {
+        // What stood there has gone where the one that took its place was.
+        let mut from = places[to].2;
+        while from < to {
+            from = places[from].2;
+        }
+        contacts.swap(to, from);
+    }
 }
 
 #[cfg(test)]

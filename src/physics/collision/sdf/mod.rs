@@ -11,6 +11,7 @@ mod solid;
 mod triangles;
 
 pub(crate) use pair::two_fields;
+use triangles::Candidate;
 pub(crate) use triangles::{Sheet, mesh_and_field, sheet_and_field};
 
 use super::PreContact;
@@ -112,19 +113,33 @@ impl Transfer {
     }
 }
 
+/// Working memory of contacts with fields, reused from step to step.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FieldScratch {
+    /// Points that are contacts already.
+    known: Vec<Vec3>,
+    /// Points of a triangle, or of all of a mesh, that lie inside.
+    candidates: Vec<Candidate>,
+    /// Triangles of a sheet with their deepest points.
+    deepest: Vec<(usize, Candidate)>,
+    /// Which triangle of the sheet each contact belongs to.
+    pub elements: Vec<usize>,
+}
+
 /// Contacts in the frame of a field, each point once.
 struct Points<'o> {
     pos: Vec3,
     quat: Quat,
     /// Normals point out of the field.
     outward: bool,
-    known: Vec<Vec3>,
+    known: &'o mut Vec<Vec3>,
     out: &'o mut Vec<PreContact>,
 }
 
 impl<'o> Points<'o> {
-    fn new((pos, quat): (Vec3, Quat), out: &'o mut Vec<PreContact>) -> Self {
-        Points { pos, quat, outward: false, known: Vec::new(), out }
+    fn new((pos, quat): (Vec3, Quat), known: &'o mut Vec<Vec3>, out: &'o mut Vec<PreContact>) -> Self {
+        known.clear();
+        Points { pos, quat, outward: false, known, out }
     }
 
     /// Adds a contact at `p`, in the frame of the field, if it lies inside; `slope` is that of

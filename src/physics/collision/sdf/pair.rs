@@ -104,7 +104,7 @@ pub(crate) fn two_fields(
     g1: usize,
     g2: usize,
     _margin: f64,
-    _scratch: &mut ConvexScratch,
+    scratch: &mut ConvexScratch,
     out: &mut Vec<PreContact>,
 ) {
     let (Some(first), Some(second)) = (Distance::of(m, g2), Distance::of(m, g1)) else { return };
@@ -113,7 +113,7 @@ pub(crate) fn two_fields(
     let Some((low, high)) = common_box(&m.geom_aabb[g1], &m.geom_aabb[g2], &across) else { return };
     let (own, back) = (Transfer::new(pose1, pose1), Transfer::new(pose1, pose2));
     let both = Both { first, second, across };
-    let mut points = Points::new(pose2, out);
+    let mut points = Points::new(pose2, &mut scratch.field.known, out);
     for i in 0..m.opt.sdf_initpoints.max(0) as usize {
         let spread = [halton(i, 2), halton(i, 3), halton(i, 5)];
         let start: Vec3 = std::array::from_fn(|k| low[k] + (high[k] - low[k]) * spread[k]);

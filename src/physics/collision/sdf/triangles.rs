@@ -1,7 +1,7 @@
 //! A mesh and a field: triangles whose boxes come near the field, and the deepest point of each (Macklin et al. 2020,
 //! "Local optimization for robust signed distance field collision"; Frank and Wolfe 1956).
 
-use super::{Distance, Points, Transfer, halton, larger};
+use super::{Distance, FieldScratch, Points, Transfer, halton, larger};
 use crate::collision::PreContact;
 use crate::collision::convex::ConvexScratch;
 use crate::collision::mid_phase::Tree;
@@ -21,7 +21,8 @@ struct Search<'a> {
 }
 
 /// A point of a triangle inside the field, in the frame of that.
-struct Candidate {
+#[derive(Clone, Debug)]
+pub(super) struct Candidate {
     at: Vec3,
     depth: f64,
 }
@@ -33,7 +34,7 @@ pub(crate) fn mesh_and_field(
     g1: usize,
     g2: usize,
     _margin: f64,
-    _scratch: &mut ConvexScratch,
+    scratch: &mut ConvexScratch,
     out: &mut Vec<PreContact>,
 ) {
     let (Some(field), Ok(mesh)) = (Distance::of(m, g2), usize::try_from(m.geom_dataid[g1])) else { return };
@@ -41,7 +42,8 @@ pub(crate) fn mesh_and_field(
     let across = Transfer::new(pose1, pose2);
     let (starts, steps) = (m.opt.sdf_initpoints.max(1) as usize, m.opt.sdf_iterations);
     let search = Search { field, starts, steps };
-    let mut candidates = Vec::new();
+    let FieldScratch { known, candidates, .. } = &mut scratch.field;
+    candidates.clear();
     let Ok(root) = usize::try_from(m.mesh_bvhadr[mesh]) else { return };
     let tree =
         Tree { children: &m.bvh_child[root..], ids: &m.bvh_nodeid[root..], boxes: &m.bvh_aabb[root..] };
@@ -49,10 +51,10 @@ pub(crate) fn mesh_and_field(
     search.near_leaves(tree, &across, |face| {
         let face = m.mesh_face[first_face + face];
         let corners = face.map(|v| m.mesh_vert[first_vertex + v as usize].map(f64::from));
-        search.triangle(corners.map(|p| across.point(p)), &mut candidates);
+        search.triangle(corners.map(|p| across.point(p)), candidates);
     });
-    let mut points = Points::new(pose2, out);
-    for Candidate { at, depth } in candidates {
+    let mut points = Points::new(pose2, known, out);
+    for Candidate { at, depth } in candidates.drain(..) {
         points.add(at, depth, || field.gradient(at));
     }
 }
@@ -73,7 +75,7 @@ impl Sheet<'_> {
     }
 }
 
-/// Contacts of the field of a geom, the first, with a sheet; `elements` says of each which triangle touches.
+/// Contacts of the field of a geom, the first, with a sheet; `scratch.elements` says of each which triangle touches.
 ///
 /// With a tree of boxes, each triangle touches at its deepest point alone.
 pub(crate) fn sheet_and_field(
@@ -81,28 +83,29 @@ pub(crate) fn sheet_and_field(
     kin: &Kinematics,
     g: usize,
     sheet: Sheet,
-    elements: &mut Vec<usize>,
+    scratch: &mut FieldScratch,
     out: &mut Vec<PreContact>,
 ) {
     const WORLD: (Vec3, Quat) = ([0.0; 3], IDENTITY);
+    let FieldScratch { known, candidates: own, deepest, elements } = scratch;
+    elements.clear();
     let Some(field) = Distance::of(m, g) else { return };
     let pose = (kin.geom_xpos[g], mat_to_quat(&kin.geom_xmat[g]));
     let across = Transfer::new(WORLD, pose);
     let (starts, steps) = (m.opt.sdf_initpoints.max(1) as usize, m.opt.sdf_iterations);
     let search = Search { field, starts, steps };
-    let mut own = Vec::new();
     if let Some(tree) = sheet.tree {
-        let mut deepest: Vec<(usize, Candidate)> = Vec::new();
+        deepest.clear();
         search.near_leaves(tree, &across, |e| {
             own.clear();
-            search.triangle(sheet.corners(e, &across), &mut own);
+            search.triangle(sheet.corners(e, &across), own);
             let best = own.drain(..).reduce(|best, next| if next.depth < best.depth { next } else { best });
             if let Some(best) = best.filter(|_| deepest.len() < MAXCONPAIR) {
                 deepest.push((e, best));
             }
         });
-        let mut points = Points { outward: true, ..Points::new(pose, out) };
-        for (e, Candidate { at, depth }) in deepest {
+        let mut points = Points { outward: true, ..Points::new(pose, known, out) };
+        for (e, Candidate { at, depth }) in deepest.drain(..) {
             if points.add(at, depth, || field.gradient(at)) {
                 elements.push(e);
             }
@@ -111,8 +114,8 @@ pub(crate) fn sheet_and_field(
     }
     for e in 0..sheet.elements.len() / 3 {
         own.clear();
-        search.triangle(sheet.corners(e, &across), &mut own);
-        let mut points = Points { outward: true, ..Points::new(pose, out) };
+        search.triangle(sheet.corners(e, &across), own);
+        let mut points = Points { outward: true, ..Points::new(pose, known, out) };
         for Candidate { at, depth } in own.drain(..) {
             if elements.len() < MAXCONPAIR && points.add(at, depth, || field.gradient(at)) {
                 elements.push(e);
