@@ -30,6 +30,37 @@ fn many_bodies_are_solved_with_the_sums_of_sparse_matrices() {
 }
 
 #[test]
+fn dual_problems_are_solved_with_the_sums_of_compressed_rows() {
+    let (m, reference) = load("heap_dual");
+    assert!(m.is_sparse() && reference.state_row("forward", "nefc", 0).unwrap()[0] > 30.0);
+    is_equal("heap_dual");
+}
+
+#[test]
+fn trees_that_sleep_add_nothing_to_the_momentum_of_the_world() {
+    let (m, _) = load("asleep");
+    let mut d = physics::Data::new(&m);
+    assert_eq!(d.state.tree_asleep.iter().map(|&tree| tree >= 0).collect::<Vec<bool>>(), [true, false]);
+    d.reset_to_key(&m, 0).unwrap();
+    physics::forward(&m, &mut d).unwrap();
+    physics::derive_on_demand(&m, &mut d);
+    // The momentum of both about their common centre, which the sleeper is a part of though it is still.
+    let apart = physics::math::sub(d.com.subtree_com[2], d.com.subtree_com[0]);
+    let own = d.sensor.subtree_linvel[2].map(|v| v * m.body_mass[2]);
+    let whole = physics::math::add(d.sensor.subtree_angmom[2], physics::math::cross(apart, own));
+    assert!(physics::math::distance(whole, d.sensor.subtree_angmom[0]) > 0.1, "{whole:?}");
+    is_equal("asleep");
+}
+
+#[test]
+fn free_bodies_turn_as_mujoco_turns_them() {
+    let (m, reference) = load("spinning");
+    is_equal("spinning");
+    let report = compare_rollout(&m, &reference).unwrap();
+    assert_eq!((report.failure.as_ref(), report.divergence), (None, 0.0));
+}
+
+#[test]
 fn chains_close_with_the_same_sums() {
     let (m, reference) = load("closed_sparse");
     assert!(m.is_sparse() && reference.state_row("forward", "ne", 0).unwrap() == [15.0]);
