@@ -8,8 +8,6 @@ use crate::spec::{Sensor, Spec};
 use physics::model::{DataType, GeomType, JointType, ObjType, Rows, SensorType, Stage};
 use physics::plugin::{Capability, Config, Plugin};
 
-const TACTILE: &str = "tactile sensors are not supported";
-
 /// Appends all sensors; history buffers follow those of the actuators.
 pub(super) fn fill(m: &mut Rows, (spec, plugins): (&Spec, &Plugins), lookup: &Lookup, log: &mut Log) {
     for sensor in &spec.sensors {
@@ -180,8 +178,24 @@ fn check(m: &Rows, sensor: &Sensor, object: i32, base: i32) -> Result<(), String
             _ => Ok(()),
         },
         Plugin => ensure(sensor.plugin.is_some(), "needs a plugin"),
-        Tactile => Err(TACTILE.into()),
+        Tactile => {
+            on(&[ObjType::Mesh])?;
+            ensure(sensor.reftype == ObjType::Geom, "needs a geom: set attribute 'geom'")?;
+            check_carrier(m, base as usize)
+        }
     }
+}
+
+/// The body of a tactile sensor's geom must be able to touch something.
+fn check_carrier(m: &Rows, geom: usize) -> Result<(), String> {
+    let body = m.geom_bodyid[geom];
+    let touches =
+        |g: usize| m.geom_bodyid[g] == body && (m.geom_contype[g] != 0 || m.geom_conaffinity[g] != 0);
+    ensure(
+        (0..m.geom_bodyid.len()).any(touches),
+        "no geom of the body that attribute 'geom' leads to can collide: give the body a geom whose 'contype' or \
+         'conaffinity' is not 0",
+    )
 }
 
 fn check_fields(fields: i32, count: u32) -> Result<(), String> {
@@ -253,7 +267,7 @@ fn dimension(m: &Rows, sensor: &Sensor, object: i32) -> Result<i64, String> {
         User => sensor.dim.into(),
         // Its plugin was not found, which has been reported.
         Plugin => 0,
-        Tactile => return Err(TACTILE.into()),
+        Tactile => 3 * m.mesh_vertnum.get(id).copied().map_or(0, i64::from),
     })
 }
 

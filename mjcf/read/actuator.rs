@@ -67,7 +67,7 @@ impl Reader<'_> {
         if let Some(input) = element.attribute("input") {
             actuator.ctrlspec = self.input_signature(element, input).unwrap_or(actuator.ctrlspec);
         }
-        self.supported(element.loc, actuator);
+        self.warn_of_callbacks(element.loc, actuator);
     }
 
     /// The code of an `input` attribute: a chart of orientations, nothing, or bits of inputs in their order.
@@ -85,13 +85,20 @@ impl Reader<'_> {
         Some(codes.iter().fold(0, |all, code| all | code))
     }
 
-    fn supported(&mut self, loc: Loc, actuator: &Actuator) {
-        let feature = match (actuator.dyntype, actuator.gaintype, actuator.biastype) {
-            (DynType::User, ..) if actuator.plugin.is_some() => return,
-            (DynType::User, ..) | (_, GainType::User, _) | (.., BiasType::User) => "user actuators",
-            _ => return,
-        };
-        self.unsupported(loc, feature);
+    /// Warns of what a program's callbacks compute in MuJoCo.
+    fn warn_of_callbacks(&mut self, loc: Loc, actuator: &Actuator) {
+        let dynamics = actuator.dyntype == DynType::User && actuator.plugin.is_none();
+        let parts = [
+            (dynamics, "dyntype", "activations keep their values"),
+            (actuator.gaintype == GainType::User, "gaintype", "the gain is 1"),
+            (actuator.biastype == BiasType::User, "biastype", "the bias is 0"),
+        ];
+        for (_, attribute, effect) in parts.into_iter().filter(|(is_user, ..)| *is_user) {
+            self.warning(
+                loc,
+                format!("{attribute}=\"user\" is for callbacks, of which there are none: {effect}, as in MuJoCo without one"),
+            );
+        }
     }
 
     fn transmission(&mut self, element: &Element, actuator: &mut Actuator) {

@@ -7,6 +7,7 @@ use physics::math::{cross, dot, ops, quat_conj, quat_from_axis_angle, quat_rotat
 use physics::model::{GeomType, JointType};
 use std::f64::consts::PI;
 
+use super::cable_skin::{cable_skin, vertex_count};
 use super::reader::Reader;
 use super::tree::Place;
 use crate::schema::composite::{
@@ -19,6 +20,9 @@ use crate::xml::Element;
 
 /// The only plugin that composites know.
 const PLUGIN: &str = "mujoco.elasticity.cable";
+
+/// Bytes of a vertex of a skin: its place, texture coordinates, two triangles, and sixteen weights.
+const VERTEX: usize = 12 + 8 + 24 + 16 * 8;
 
 /// What to take instead of a type that MuJoCo has dropped.
 const INSTEAD: [(&str, &str); 5] = [
@@ -34,6 +38,7 @@ struct Parts {
     joint: Joint,
     geom: Geom,
     site: Site,
+    skin: CompositeSkin,
     plugin: Option<PluginUse>,
 }
 
@@ -63,6 +68,9 @@ impl Reader<'_> {
         let parts = self.composite_parts(element, &wanted);
         let made = vertices(&mut wanted).and_then(|vertices| {
             self.count_copies(4 * vertices.len())?;
+            if parts.geom.kind == GeomType::Box {
+                self.count_skin(&parts.skin, vertices.len())?;
+            }
             Ok(vertices)
         });
         match made {
@@ -83,6 +91,18 @@ impl Reader<'_> {
         }
         let bytes = elements.saturating_mul(crate::budget::ELEMENT);
         let taken = self.expansion.budget.take("parts of <composite>", bytes);
+        taken.map_err(|e| format!("{e}; {}", crate::budget::ADVICE))
+    }
+
+    /// Adds what the skin of a cable takes, and refuses cables too short for one.
+    fn count_skin(&mut self, skin: &CompositeSkin, vertices: usize) -> Result<(), String> {
+        if vertices < 4 {
+            return Err(
+                "a cable of boxes has four vertices or more, for its skin: add some, or take capsules".into(),
+            );
+        }
+        let bytes = vertex_count(skin, vertices - 1).and_then(|n| n.checked_mul(VERTEX));
+        let taken = self.expansion.budget.take("the skin of <composite>", bytes.unwrap_or(usize::MAX));
         taken.map_err(|e| format!("{e}; {}", crate::budget::ADVICE))
     }
 
@@ -116,15 +136,14 @@ impl Reader<'_> {
             }
         }
         match geom.kind {
-            GeomType::Capsule | GeomType::Cylinder => {}
-            GeomType::Box => self.unsupported(loc, "skins, which boxes of a cable are covered with,"),
+            GeomType::Capsule | GeomType::Cylinder | GeomType::Box => {}
             _ => self.error(loc, "a cable is made of capsules, cylinders or boxes: set 'type' of its <geom>"),
         }
         if !(0..6).contains(&skin.group) {
             self.error(loc, "attribute 'group' of <skin> must be between 0 and 5");
         }
         let plugin = self.child_plugin(element).map(|used| self.composite_plugin(used, &wanted.prefix));
-        Parts { joint, geom, site, plugin }
+        Parts { joint, geom, site, skin, plugin }
     }
 
     /// Gives a plugin without an instance one of its own, which all bodies share.
@@ -183,6 +202,13 @@ impl Reader<'_> {
             chain = Some(body);
         }
         self.body_here().bodies.extend(chain);
+        if parts.geom.kind == GeomType::Box {
+            let bodies: Vec<String> = (0..=last).map(|ix| label(prefix, 'B', ix, last)).collect();
+            let mut skin = cable_skin(&parts.skin, format!("{prefix}Skin"), parts.geom.size, &bodies);
+            skin.loc = loc;
+            skin.bones.iter_mut().for_each(|bone| bone.loc = loc);
+            self.spec.skins.push(skin);
+        }
     }
 }
 

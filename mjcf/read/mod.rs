@@ -10,6 +10,7 @@ mod attach;
 mod attached_frames;
 mod attributes;
 mod authored;
+mod cable_skin;
 mod composite;
 mod conflict;
 mod constraint;

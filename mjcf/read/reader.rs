@@ -102,8 +102,4 @@ impl<'a> Reader<'a> {
     pub(super) fn error_with(&mut self, loc: Loc, message: impl Into<String>, advice: Option<String>) {
         self.expansion.diagnostics.error_with(self.expansion.sources, loc, message, advice);
     }
-
-    pub(super) fn unsupported(&mut self, loc: Loc, feature: &str) {
-        self.error(loc, format!("{feature} are not supported: they are not simulated"));
-    }
 }

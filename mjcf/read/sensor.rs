@@ -54,6 +54,7 @@ impl Reader<'_> {
         match sensor.kind {
             SensorType::Camprojection => sensor.reftype = ObjType::Camera,
             SensorType::Insidesite => sensor.reftype = ObjType::Site,
+            SensorType::Tactile => sensor.reftype = ObjType::Geom,
             SensorType::Rangefinder => {
                 sensor.objtype = first(&[("site", ObjType::Site), ("camera", ObjType::Camera)]);
                 sensor.intprm[0] = self.data_bits(element, RAY_DATA);

@@ -57,11 +57,6 @@ impl Check<'_> {
     }
 
     fn element(&mut self, element: &Element, kind: &'static ElementType, defaults: bool) {
-        if let Some(feature) = kind.unsupported {
-            self.names.open = true;
-            let message = format!("<{}> is not supported: {feature} are not simulated", element.name);
-            return self.error(element.loc, message, None);
-        }
         // These have names that only the reader makes up; the compiler resolves references then.
         self.names.open |= matches!(kind.tag, "replicate" | "attach" | "composite" | "flexcomp");
         self.attributes(element, kind, defaults);

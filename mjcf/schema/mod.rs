@@ -443,23 +443,16 @@ pub struct ElementType {
     pub children: &'static [Child],
     /// Rules between attributes.
     pub rules: &'static [Rule],
-    /// For elements that are known and not simulated: the name of the feature.
-    pub unsupported: Option<&'static str>,
 }
 
 /// A type with attributes only.
 pub const fn leaf(tag: &'static str, doc: &'static str, rows: &'static [&'static dyn Rows]) -> ElementType {
-    ElementType { tag, doc, rows, children: &[], rules: &[], unsupported: None }
+    ElementType { tag, doc, rows, children: &[], rules: &[] }
 }
 
 /// A type that groups children.
 pub const fn section(tag: &'static str, doc: &'static str, children: &'static [Child]) -> ElementType {
-    ElementType { tag, doc, rows: &[], children, rules: &[], unsupported: None }
-}
-
-/// A known element whose feature is not simulated.
-pub const fn unsupported(tag: &'static str, feature: &'static str) -> ElementType {
-    ElementType { tag, doc: feature, rows: &[], children: &[], rules: &[], unsupported: Some(feature) }
+    ElementType { tag, doc, rows: &[], children, rules: &[] }
 }
 
 impl ElementType {

@@ -26,9 +26,6 @@ fn write_element(
     path: &mut Vec<&'static str>,
 ) -> fmt::Result {
     let indent = "  ".repeat(level);
-    if element.unsupported.is_some() {
-        return writeln!(out, "{indent}{} — not supported", element.tag);
-    }
     writeln!(out, "{indent}{} — {}", element.tag, element.doc)?;
     for rows in element.rows {
         rows.describe(&mut |facts, kind, doc| {

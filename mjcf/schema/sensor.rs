@@ -5,9 +5,7 @@ use physics::model::{DataType, ObjType, SensorType, Stage};
 use super::Bind::*;
 use super::plugin::{CONFIG, USE_ROWS};
 use super::words::INTERPOLATIONS;
-use super::{
-    Child, ElementType, Kind, Row, Rule, Space, Words, any, leaf, required, row, section, unsupported,
-};
+use super::{Child, ElementType, Kind, Row, Rule, Space, Words, any, leaf, required, row, section};
 use crate::spec::Sensor;
 
 /// Attributes that every sensor has.
@@ -89,6 +87,19 @@ static CONTACTS: [Row<Sensor>; 10] = [
         Keyword { words: REDUCTIONS, assign: |s, c| s.intprm[1] = c },
         "which contacts are reported",
     ),
+];
+static TACTILE: [Row<Sensor>; 7] = [
+    row("name", Name(Space::Sensor, |s| &mut s.name), "name"),
+    required("geom", Ref(Space::Geom, |s| &mut s.refname), "geom that carries the points; its body feels"),
+    required("mesh", Ref(Space::Mesh, |s| &mut s.objname), "mesh whose vertices are the points"),
+    row("nsample", Int(|s| &mut s.nsample), "samples of history kept"),
+    row(
+        "interp",
+        Keyword { words: INTERPOLATIONS, assign: |s, c| s.interp = c },
+        "interpolation of the history",
+    ),
+    row("delay", Real(|s| &mut s.delay), "delay of the reading, seconds"),
+    row("interval", Reals { min: 1, field: |s| &mut s.interval }, "period and phase of measurement, seconds"),
 ];
 static USER: [Row<Sensor>; 8] = [
     row("name", Name(Space::Sensor, |s| &mut s.name), "name"),
@@ -228,7 +239,11 @@ static T_PLUGIN: ElementType =
     leaf("plugin", "What a plugin reads", &[&PLUGIN_ROWS, &PLUGIN_OBJECTS, &USE_ROWS, &USER_DATA])
         .children(&[any(&CONFIG)])
         .rules(&[Rule::Together(&["objtype", "objname"]), Rule::Together(&["reftype", "refname"])]);
-static T_TACTILE: ElementType = unsupported("tactile", "tactile sensors");
+static T_TACTILE: ElementType = leaf(
+    "tactile",
+    "Depth, m, and speeds of sliding, m/s, at the vertices of a mesh",
+    &[&TACTILE, &USER_DATA],
+);
 static T_USER: ElementType = leaf("user", "Numbers that a user computes", &[&USER, &USER_DATA])
     .rules(&[Rule::Together(&["objtype", "objname"])]);
 
@@ -287,7 +302,7 @@ static SENSORS: [Child; 49] = [
 ];
 
 /// What each element measures; the target's kind is unknown here where attributes tell it.
-pub static MEASUREMENTS: [Simple; 47] = [
+pub static MEASUREMENTS: [Simple; 48] = [
     Simple { element: &T_TOUCH, kind: SensorType::Touch, target: ObjType::Site },
     Simple { element: &T_ACCELEROMETER, kind: SensorType::Accelerometer, target: ObjType::Site },
     Simple { element: &T_VELOCIMETER, kind: SensorType::Velocimeter, target: ObjType::Site },
@@ -334,6 +349,7 @@ pub static MEASUREMENTS: [Simple; 47] = [
     Simple { element: &T_E_POTENTIAL, kind: SensorType::EPotential, target: ObjType::Unknown },
     Simple { element: &T_E_KINETIC, kind: SensorType::EKinetic, target: ObjType::Unknown },
     Simple { element: &T_CLOCK, kind: SensorType::Clock, target: ObjType::Unknown },
+    Simple { element: &T_TACTILE, kind: SensorType::Tactile, target: ObjType::Mesh },
     Simple { element: &T_USER, kind: SensorType::User, target: ObjType::Unknown },
 ];
 
@@ -346,6 +362,7 @@ pub fn blocks(kind: SensorType, target: ObjType) -> Vec<&'static [Row<Sensor>]> 
         (SensorType::Geomdist | SensorType::Geomnormal | SensorType::Geomfromto, _) => vec![&TWO_SHAPES],
         (SensorType::Contact, _) => vec![&CONTACTS],
         (SensorType::User, _) => return vec![&USER, &USER_DATA],
+        (SensorType::Tactile, _) => return vec![&TACTILE, &USER_DATA],
         (_, ObjType::Site) => vec![&SITE],
         (_, ObjType::Joint) => vec![&JOINT],
         (_, ObjType::Tendon) => vec![&TENDON],

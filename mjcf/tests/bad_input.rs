@@ -83,7 +83,7 @@ const IN_THE_WORLD: [(&str, &str); 21] = [
 ];
 
 /// Whole texts, and what is said of them.
-const WHOLE_TEXTS: [(&str, &str); 15] = [
+const WHOLE_TEXTS: [(&str, &str); 16] = [
     (
         "<mujoco><keyframe><key qpos='0 inf'/></keyframe></mujoco>",
         "<text>:1:32: error: attribute 'qpos' of <key>: number 'inf' is too large: at most 1e100 in magnitude",
@@ -134,8 +134,12 @@ const WHOLE_TEXTS: [(&str, &str); 15] = [
     ),
     ("<model/>", "<text>:1:1: error: root element <model> is not <mujoco>"),
     (
-        "<mujoco><actuator><general joint='j' dyntype='user'/></actuator><worldbody><body><joint name='j'/></body></worldbody></mujoco>",
-        "<text>:1:19: error: user actuators are not supported: they are not simulated",
+        "<mujoco><sensor><tactile geom='g'/></sensor></mujoco>",
+        "<text>:1:17: error: <tactile> needs the attribute 'mesh'",
+    ),
+    (
+        "<mujoco><sensor><tactile geom='g' mesh='m' cutoff='1'/></sensor></mujoco>",
+        "<text>:1:44: error: <tactile> has no attribute 'cutoff'",
     ),
     (
         "<mujoco><option collision='predefined'/></mujoco>",

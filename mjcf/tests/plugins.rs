@@ -19,6 +19,7 @@ fn cable(attributes: &str, parts: &str) -> String {
 }
 
 const CAPSULES: &str = "<geom type=\"capsule\" size=\".01\"/>";
+const BOXES: &str = "<geom type=\"box\" size=\".03 .02 .001\"/>";
 const ELASTIC: &str = "<plugin plugin=\"mujoco.elasticity.cable\"><config key=\"twist\" value=\"1e6\"/>\
                        <config key=\"bend\" value=\"1e6\"/></plugin>";
 
@@ -55,6 +56,53 @@ fn a_cable_has_names_joints_sites_excludes_and_one_instance() {
     assert_comes_back(&text);
 }
 
+/// Numbers recorded from MuJoCo 3.12.0.
+#[test]
+fn boxes_of_a_cable_are_covered_with_a_skin() {
+    let text =
+        cable("prefix=\"c\" count=\"4 1 1\" curve=\"s 0 sin(s)\" size=\"1 .1 1\" initial=\"none\"", BOXES);
+    let m = load_str(&text).unwrap().model;
+    assert_eq!((m.nskinvert, m.nskinface, m.nskinbone, m.nskinbonevert, m.nskintexvert), (16, 28, 8, 16, 0));
+    assert_eq!((m.name_of(ObjType::Skin, 0), m.skin_inflate[0], m.skin_rgba[0]), ("cSkin", 0.002, [1.0; 4]));
+    #[rustfmt::skip]
+    assert_eq!(m.skin_face[..], [
+        [0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3], [4, 6, 7], [4, 7, 5],
+        [8, 11, 10], [8, 9, 11], [10, 13, 12], [10, 11, 13], [12, 15, 14], [12, 13, 15],
+        [0, 10, 2], [0, 8, 10], [2, 12, 4], [2, 10, 12], [4, 14, 6], [4, 12, 14],
+        [1, 3, 11], [1, 11, 9], [3, 5, 13], [3, 13, 11], [5, 7, 15], [5, 15, 13],
+        [0, 1, 9], [0, 9, 8], [6, 15, 7], [6, 14, 15],
+    ]);
+    assert_eq!(m.skin_bonebodyid[..], [1, 1, 2, 2, 3, 3, 3, 3]);
+    assert_eq!(m.skin_bonebindpos[1], [0.0, 0.02, 0.0]);
+    assert_eq!(m.skin_bonebindpos[6], [-0.06, -0.02, 0.0]);
+    assert_eq!(m.skin_bonevertid[4..8], [2, 10, 3, 11]);
+    assert_comes_back(&text);
+}
+
+/// Numbers recorded from MuJoCo 3.12.0. Its rounding leaves a weight of 3e-17 at some vertices, which counts.
+#[test]
+fn points_between_bones_follow_sixteen_of_them() {
+    let parts = format!("{BOXES}<skin subgrid=\"2\" texcoord=\"true\" group=\"2\"/>");
+    let text =
+        cable("prefix=\"c\" count=\"4 1 1\" curve=\"s 0 sin(s)\" size=\"1 .1 1\" initial=\"none\"", &parts);
+    let m = load_str(&text).unwrap().model;
+    assert_eq!((m.nskinvert, m.nskinface, m.nskinbone, m.nskinbonevert), (140, 276, 12, 784));
+    assert_eq!(m.skin_bonevertnum[..], [50, 58, 50, 76, 86, 72, 78, 86, 74, 50, 54, 50]);
+    let first = m.skin_bonevertadr[4] as usize;
+    assert_eq!(m.skin_bonevertid[first..first + 12], [8, 78, 9, 79, 15, 85, 16, 86, 10, 80, 11, 81]);
+    let weights = [0.165_980_8_f32, 0.331_961_57, 0.331_961_57, 0.663_923_14, 0.407_407_4, 0.331_961_57];
+    for (pair, expected) in m.skin_bonevertweight[first..first + 12].as_chunks::<2>().0.iter().zip(weights) {
+        assert_eq!(*pair, [expected; 2]);
+    }
+    let size = |w: &f32| f64::from(w.abs());
+    let least = m.skin_bonevertweight.iter().map(size).fold(f64::MAX, f64::min);
+    assert_eq!(least, 2.775_557_561_562_891_4e-17);
+    let sum: f64 = m.skin_bonevertweight.iter().map(size).sum();
+    assert!((sum - 162.123_443_6).abs() < 1e-5, "{sum}");
+    assert_eq!((m.skin_texcoord[8], m.skin_group[0]), ([1.0 / 9.0, 1.0 / 6.0], 2));
+    assert_comes_back(&text);
+}
+
 #[test]
 fn a_bent_cable_springs_back_and_keeps_its_curve() {
     let parts = format!("{CAPSULES}{ELASTIC}");
@@ -80,7 +128,17 @@ fn composites_that_cannot_be_made_are_refused_with_the_way_out() {
     let plain = "count=\"5 1 1\" curve=\"s\"";
     for (attributes, parts, expected) in [
         (plain, "", "a cable is made of capsules, cylinders or boxes"),
-        (plain, "<geom type=\"box\" size=\".1 .1 .1\"/>", "skins"),
+        ("count=\"2 1 1\" curve=\"s\"", BOXES, "a cable of boxes has four vertices or more"),
+        (
+            plain,
+            "<geom type=\"box\" size=\".1 .1 .1\"/><skin subgrid=\"100000\"/>",
+            "the skin of <composite>",
+        ),
+        (
+            plain,
+            "<geom type=\"box\" size=\".1 .1 .1\"/><skin group=\"6\"/>",
+            "'group' of <skin> must be between 0 and 5",
+        ),
         ("count=\"5 2 1\" curve=\"s\"", CAPSULES, "a cable has one dimension"),
         ("count=\"0\" curve=\"s\"", CAPSULES, "set each number to 1 or more"),
         ("count=\"5 1 1\" curve=\"s t\"", CAPSULES, "'t' is none of s, cos(s), sin(s) and 0"),

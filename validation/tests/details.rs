@@ -83,6 +83,15 @@ fn boxes_that_meet_exactly_touch_where_they_do_in_mujoco() {
 }
 
 #[test]
+fn tactile_sensors_read_the_same_depths_and_speeds() {
+    let (m, reference) = load("tactile");
+    let readings = reference.state_row("forward", "sensordata", 0).unwrap();
+    let felt = |row: usize| readings[54 * row..54 * (row + 1)].iter().filter(|x| **x > 0.0).count();
+    assert_eq!((m.nsensordata, [felt(0), felt(1), felt(2)]), (450, [16, 16, 16]));
+    is_equal("tactile");
+}
+
+#[test]
 fn runs_that_diverge_are_reset_at_the_same_steps() {
     let (m, reference) = load("diverging");
     let report = compare_rollout(&m, &reference).unwrap();

@@ -42,7 +42,7 @@ pub fn activation_rates(
             Some(DynType::Muscle) => {
                 act_dot[last] = muscle::activation_rate(ctrl(first_input), act[last], prm)
             }
-            // The others are refused by `validity::check_model`.
+            // Those of users rest; the others are refused by `validity::check_model`.
             Some(DynType::None | DynType::User) | None => {}
             Some(DynType::Pid) => {
                 let length = trn.actuator_length[m.actuator_outadr[i] as usize];

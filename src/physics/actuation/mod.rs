@@ -142,8 +142,10 @@ fn gain(m: &Model, i: usize, length: f64, velocity: f64) -> f64 {
         Some(GainType::Fixed) => prm[0],
         Some(GainType::Affine) => prm[0] + prm[1] * length + prm[2] * velocity,
         Some(GainType::Muscle) => muscle(m, i, prm).gain(length, velocity),
+        // What MuJoCo takes where no callback is set.
+        Some(GainType::User) => 1.0,
         // These have forces of their own or are refused by `validity::check_model`.
-        Some(GainType::Dcmotor | GainType::So3 | GainType::Pid | GainType::User) | None => 0.0,
+        Some(GainType::Dcmotor | GainType::So3 | GainType::Pid) | None => 0.0,
     }
 }
 

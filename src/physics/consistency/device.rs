@@ -223,8 +223,12 @@ fn reading(m: &Arrays, i: usize) -> (bool, Option<i64>) {
             (known(object) && known(reference), Some(size))
         }
         EPotential | EKinetic | Clock => (true, Some(1)),
-        // Refused as not simulated, or read as zero.
-        Tactile | Plugin | User => (true, None),
+        Tactile => {
+            let known = of(ObjType::Mesh) && one_of(reference, &[ObjType::Geom]);
+            (known, known.then(|| 3 * i64::from(m.mesh_vertnum[object.1 as usize])))
+        }
+        // Lengths are the plugin's, or the user's.
+        Plugin | User => (true, None),
     }
 }
 

@@ -153,13 +153,11 @@ pub fn check_model(m: &Model) -> Result<(), NotSimulated> {
 
 fn check_actuators(m: &Model) -> Result<(), NotSimulated> {
     for i in 0..m.nactuator {
-        let part = if matches!(DynType::from_code(m.actuator_dyntype[i]), Some(DynType::User) | None)
-            || !dc_motor::fits(m, i)
-        {
+        let part = if DynType::from_code(m.actuator_dyntype[i]).is_none() || !dc_motor::fits(m, i) {
             "dynamics"
-        } else if matches!(GainType::from_code(m.actuator_gaintype[i]), Some(GainType::User) | None) {
+        } else if GainType::from_code(m.actuator_gaintype[i]).is_none() {
             "gain"
-        } else if matches!(BiasType::from_code(m.actuator_biastype[i]), Some(BiasType::User) | None) {
+        } else if BiasType::from_code(m.actuator_biastype[i]).is_none() {
             "bias"
         } else if matches!(TrnType::from_code(m.actuator_trntype[i]), Some(TrnType::Undefined) | None) {
             "transmission"

@@ -1,7 +1,7 @@
 //! Sensors that read accelerations and forces.
 
 use super::position::object;
-use super::{SensorScratch, contact, limit_row};
+use super::{SensorScratch, contact, limit_row, tactile};
 use crate::data::{Actuation, Com, Constraints, Contacts, Kinematics, State, Velocity};
 use crate::math::{Spatial, linear, move_force, rotational};
 use crate::model::{ConstraintType, Model, ObjType, SensorType, TrnType};
@@ -45,6 +45,7 @@ pub(super) fn read(
     match kind {
         SensorType::Touch => out[0] = contact::touch(m, d, id),
         SensorType::Contact => contact::contact(m, d, i, &mut scratch.matches, out),
+        SensorType::Tactile => tactile::tactile(m, d, i, &mut scratch.touched, out),
         SensorType::Accelerometer => {
             if let Some(at) = frame(m, d.kin, ObjType::Site, id) {
                 out.copy_from_slice(&linear(&at.local_acceleration(m, d.com, &d.vel.cvel, cacc)));

@@ -7,6 +7,7 @@ mod distance;
 pub mod pinhole;
 mod position;
 mod rangefinder;
+mod tactile;
 mod velocity;
 mod zone;
 
@@ -29,6 +30,8 @@ use crate::sleep::{Awake, object};
 pub struct SensorScratch {
     distance: DistanceScratch,
     matches: Vec<contact::Match>,
+    /// Geoms that a tactile sensor feels.
+    touched: Vec<usize>,
     pub(crate) momentum: Vec<f64>,
     /// Readings before any delay, where some sensor has a history.
     pub(crate) fresh: Vec<f64>,
@@ -47,12 +50,9 @@ pub struct Past<'a> {
 /// The first sensor that cannot.
 pub fn check(m: &Model) -> Result<(), NotSimulated> {
     for sensor in 0..m.nsensor {
-        let feature = match SensorType::from_code(m.sensor_type[sensor]) {
-            Some(SensorType::Tactile) => "tactile sensing",
-            None => "this type of sensor",
-            Some(_) => continue,
-        };
-        return Err(NotSimulated::of(m.label_of(ObjType::Sensor, sensor), feature));
+        if SensorType::from_code(m.sensor_type[sensor]).is_none() {
+            return Err(NotSimulated::of(m.label_of(ObjType::Sensor, sensor), "this type of sensor"));
+        }
     }
     Ok(())
 }
