@@ -139,7 +139,7 @@ const WHOLE_TEXTS: [(&str, &str); 16] = [
     ),
     (
         "<mujoco><sensor><tactile geom='g' mesh='m' cutoff='1'/></sensor></mujoco>",
-        "<text>:1:44: error: <tactile> has no attribute 'cutoff'",
+        "<text>:1:44: error: unknown attribute 'cutoff' of <tactile>",
     ),
     (
         "<mujoco><option collision='predefined'/></mujoco>",
