@@ -120,11 +120,9 @@ pub static STORAGE_ELSEWHERE: Tolerance = Tolerance::new("STORAGE_ELSEWHERE", 5e
 pub static STATIONARY: Tolerance = Tolerance::new("STATIONARY", 5e-12);
 /// The same where a solver stops at its tolerance of 1e-8 in cost, or after its last iteration.
 pub static STATIONARY_ELSEWHERE: Tolerance = Tolerance::new("STATIONARY_ELSEWHERE", 1e-5);
-/// Excess of our cost over MuJoCo's: rounding of the sum.
-pub static COST: Tolerance = Tolerance::new("COST", 2e-14);
 /// Solutions of recorded problems with every solver: sums in MuJoCo's order make the same iterates, which stop in the same
-/// iteration, so that only rounding goes through the Hessian.
-pub static PROBLEM: Tolerance = Tolerance::new("PROBLEM", 2e-13);
+/// iteration, so that last bits alone differ.
+pub static PROBLEM: Tolerance = Tolerance::new("PROBLEM", 1e-14);
 /// Derivatives of smooth forces, relative to the largest entry: products along the chain of bodies.
 pub static DERIVATIVE: Tolerance = Tolerance::new("DERIVATIVE", 1e-12);
 /// Forces of inverse dynamics, relative to the largest: one rounding.
