@@ -30,7 +30,8 @@ pub(super) struct Problem {
     pub changes: u64,
     /// The solver multiplies often, so that columns are put together.
     by_columns: bool,
-    /// How products with the transposed compressed rows are added up, for the pattern of so many changes.
+    /// How products with the transposed compressed rows are added up, by rows or by columns, each with the value that
+    /// `changes` had when it was laid out.
     lanes: (u64, Lanes),
     columns: (u64, Columns),
     /// Rows of the inertia that have more than the diagonal.
