@@ -121,7 +121,8 @@ pub static STATIONARY: Tolerance = Tolerance::new("STATIONARY", 5e-12);
 /// The same where a solver stops at its tolerance of 1e-8 in cost, or after its last iteration.
 pub static STATIONARY_ELSEWHERE: Tolerance = Tolerance::new("STATIONARY_ELSEWHERE", 1e-5);
 /// Solutions of recorded problems with every solver: sums in MuJoCo's order make the same iterates, which stop in the same
-/// iteration, so that last bits alone differ.
+/// iteration. What may differ is a few roundings of the largest acceleration, 1e-16 each; the cost of the solution is not
+/// above MuJoCo's at all.
 pub static PROBLEM: Tolerance = Tolerance::new("PROBLEM", 1e-14);
 /// Derivatives of smooth forces, relative to the largest entry: products along the chain of bodies.
 pub static DERIVATIVE: Tolerance = Tolerance::new("DERIVATIVE", 1e-12);
