@@ -54,7 +54,7 @@ pub struct Brush<'a> {
 
 impl Brush<'_> {
     /// The texture's colour at the middle of a fragment's pixel, where the surface has a texture.
-    #[inline]
+    #[inline(never)]
     fn texel(
         &self,
         triangle: &SeenTriangle,
@@ -93,14 +93,13 @@ impl Brush<'_> {
     #[inline]
     pub fn colour(&self, seen: &Seen, paint: &Paint, alpha: f32, fragment: &Fragment) -> Rgba {
         let shade = self.shade(seen, paint, fragment);
-        let opacity = alpha * shade.opacity();
-        let mut sum = shade.pass(0);
-        let mut lit = if eight_bits(opacity) < SOLID { 0 } else { fragment.lit };
+        let mut sum = shade.pass(0, alpha * shade.opacity());
+        let mut lit = if sum[3] < SOLID { 0 } else { fragment.lit };
         while lit != 0 {
-            sum = added(sum, shade.pass(1 + lit.trailing_zeros() as usize));
+            sum = added(sum, shade.pass(1 + lit.trailing_zeros() as usize, 0.0));
             lit &= lit - 1;
         }
-        [sum[0], sum[1], sum[2], eight_bits(opacity.clamp(0.0, 1.0))]
+        sum
     }
 
     /// The colours of an opaque fragment under the lamps without shadows and under each of the others, `passes` in all.
@@ -114,15 +113,19 @@ impl Brush<'_> {
     ) {
         let shade = self.shade(seen, paint, fragment);
         let lit = if eight_bits(shade.opacity()) < SOLID { 1 } else { passes };
-        out.extend((0..lit).map(|pass| shade.pass(pass)));
+        out.extend((0..lit).map(|pass| shade.pass(pass, 1.0)));
         out.extend((lit..passes).map(|_| [0, 0, 0, 255]));
     }
 
-    #[inline]
+    // Most surfaces have no texture: their shade stays in registers.
+    #[inline(always)]
     fn shade<'a>(&self, seen: &'a Seen, paint: &Paint, fragment: &Fragment) -> Shade<'a> {
         let triangle = &seen.triangles[fragment.triangle as usize];
         let weights = triangle.weights(f32::from(fragment.x) + 0.5, f32::from(fragment.y) + 0.5);
-        let texel = self.texel(triangle, paint, fragment, weights);
+        let texel = match paint {
+            Paint::Plain => None,
+            paint => self.texel(triangle, paint, fragment, weights),
+        };
         let fog = self.veil.map(|veil| (veil.clear(triangle, weights), veil.fog.rgb));
         Shade { seen, triangle, weights, texel, fog }
     }
@@ -145,9 +148,9 @@ impl Shade<'_> {
         self.texel.map_or(1.0, |texel| texel.to_array()[3])
     }
 
-    /// The colour that a pass gives, opaque. Fog is black in all but the first, as these are added.
+    /// The colour that a pass gives, with an opacity. Fog is black in all but the first, as these are added.
     #[inline]
-    fn pass(&self, pass: usize) -> Rgba {
+    fn pass(&self, pass: usize, opacity: f32) -> Rgba {
         let mut c = self.seen.colour(self.triangle, self.weights, pass);
         if let Some(texel) = self.texel {
             c *= texel;
@@ -156,20 +159,20 @@ impl Shade<'_> {
             let fog = if pass == 0 { f32x4::new([r, g, b, 0.0]) } else { f32x4::ZERO };
             c = f32x4::splat(clear) * c + f32x4::splat(1.0 - clear) * fog;
         }
-        opaque(c)
+        // The last lane is 0 up to here.
+        bytes(c + f32x4::new([0.0, 0.0, 0.0, opacity]))
     }
 }
 
-/// A colour in the first lanes as bytes, each as [`eight_bits`] rounds it, opaque.
+/// Four numbers as bytes, each as [`eight_bits`] rounds it.
 #[inline]
-fn opaque(colour: f32x4) -> Rgba {
+fn bytes(colour: f32x4) -> Rgba {
     let (least, most) = (f32x4::ZERO, f32x4::splat(255.0));
     let steps = most * colour + f32x4::splat(0.5);
     // Selected, so that what is not a number becomes 0.
     let steps = steps.simd_gt(least).select(steps, least);
     let steps = steps.simd_lt(most).select(steps, most);
-    let [r, g, b, _] = steps.fast_trunc_int().to_array();
-    [r as u8, g as u8, b as u8, 255]
+    steps.fast_trunc_int().to_array().map(|step| step as u8)
 }
 
 /// The sum of two colours, at most white.

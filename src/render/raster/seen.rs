@@ -4,14 +4,15 @@
 
 use super::coverage::{Extent, Pattern, Triangle};
 use super::draws::Draw;
-use super::lighting::{Corners, Lamp, Material, add_lamp, clamped, own_light, unit};
+use super::lighting::{Corners, Lamp, Material, Triple, add_lamp, clamped, own_light, unit};
 use super::stage::Stage;
 use super::visibility::Visibility;
 use super::window::Columns;
 use crate::geometry::{Assets, Paint};
 use crate::scene::{Item, Scene};
+use std::ops::Range;
 use wide::bytemuck::cast;
-use wide::{f32x4, f32x8, i32x4};
+use wide::{f32x4, f32x8, i32x4, u32x4};
 
 /// One triangle in one pixel.
 #[derive(Clone, Copy, Debug)]
@@ -96,6 +97,8 @@ fn mix(weights: [f32; 3], at: &[f32x4; 3]) -> f32x4 {
     p * at[0] + q * at[1] + r * at[2]
 }
 
+/// Triangles that are passed over together where none is seen.
+const CHUNK: usize = 16;
 /// Most lamps whose shadows are drawn: a fragment has a bit for each.
 const MAX_SHADOWED: usize = 8;
 
@@ -147,8 +150,6 @@ pub struct Seen {
     places: Vec<u32>,
     /// Number of the last triangle added, 0 for none, and its index among those seen.
     last: (u32, u32),
-    /// Places sorted by number.
-    order: Vec<u32>,
     /// Rows of the colours by position, where the position has been lit with one normal.
     stamps: Vec<Stamp>,
     frame: u32,
@@ -172,7 +173,6 @@ impl Seen {
         self.last = (0, 0);
         self.numbers.clear();
         self.fragments.clear();
-        self.triangles.clear();
         self.colours.clear();
         self.places.resize(triangles as usize, 0);
     }
@@ -195,7 +195,7 @@ impl Seen {
                     let (x, y) = (x as u16, y as u16);
                     Fragment { x, y, group: index, triangle: 0, lanes, lit: 0 }
                 };
-                if one_pixel && numbers == [numbers[0]; 4] {
+                if one_pixel && group.triangle.simd_eq(u32x4::splat(numbers[0])).all() {
                     let whole = fragment(column, 0b1111);
                     if numbers[0] != 0 && !keep(whole, numbers[0]) {
                         self.add(numbers[0], whole);
@@ -261,10 +261,6 @@ impl Seen {
         self.passes = 1 + light.shadowed.len();
         self.frame = self.frame.wrapping_add(1);
         self.stamps.resize(draws.vertices, Stamp::default());
-        self.order.clear();
-        self.order.extend(0..self.numbers.len() as u32);
-        let numbers = &self.numbers;
-        self.order.sort_unstable_by_key(|&place| numbers[place as usize]);
         let empty = SeenTriangle {
             draw: 0,
             rows: [0; 3],
@@ -274,22 +270,20 @@ impl Seen {
             corners: [f32x4::ZERO; 3],
         };
         self.triangles.resize(self.numbers.len(), empty);
-        let mut next = 0;
-        while let Some(&place) = self.order.get(next) {
-            let index = draws.of_triangle(self.numbers[place as usize]);
-            let end = draws.list.get(index + 1).map_or(u32::MAX, |draw| draw.first_triangle);
-            let draw = &draws.list[index];
-            let numbers = &self.numbers;
-            let count = self.order[next..].partition_point(|&place| numbers[place as usize] < end);
-            if let Some(columns) = layer.columns(index) {
-                for k in next..next + count {
-                    let place = self.order[k] as usize;
-                    self.triangles[place] =
-                        self.prepare((assets, lens.extent), (index, draw), columns, place);
-                }
+        let (first, last) = self
+            .numbers
+            .iter()
+            .fold((u32::MAX, 0), |(low, high), &number| (low.min(number), high.max(number)));
+        for (index, draw) in draws.list.iter().enumerate() {
+            let Some(columns) = layer.columns(index) else { continue };
+            let end = draws.list.get(index + 1).map_or(draws.triangles, |next| next.first_triangle);
+            let mut from = draw.first_triangle.max(first);
+            while let Some(number) = self.next_seen(from..end.min(last.saturating_add(1))) {
+                let place = self.places[number as usize] as usize - 1;
+                self.triangles[place] = self.prepare((assets, lens.extent), (index, draw), columns, number);
+                from = number + 1;
             }
             self.light_waiting(assets, draw, &scene.items[draw.item], light);
-            next += count;
         }
         self.positions.clear();
         if self.passes > 1 {
@@ -301,15 +295,24 @@ impl Seen {
         }
     }
 
+    /// The first of some triangles that is seen.
+    #[inline]
+    fn next_seen(&self, numbers: Range<u32>) -> Option<u32> {
+        let places = self.places.get(numbers.start as usize..numbers.end as usize)?;
+        let unseen = |chunk: &&[u32; CHUNK]| chunk.iter().fold(0, |any, place| any | place) == 0;
+        let passed = CHUNK * places.as_chunks().0.iter().take_while(unseen).count();
+        let seen = places[passed..].iter().position(|&place| place != 0)?;
+        Some(numbers.start + (passed + seen) as u32)
+    }
+
     /// A triangle without its colours, whose corners wait to be lit.
     fn prepare(
         &mut self,
         (assets, extent): (&Assets, Extent),
         (index, draw): (usize, &Draw),
         columns: &Columns,
-        place: usize,
+        number: u32,
     ) -> SeenTriangle {
-        let number = self.numbers[place];
         let surface = draw.surface(assets);
         let index_in_surface = (number - draw.first_triangle) as usize;
         let (face, corners) = (surface.faces[index_in_surface], &surface.corners[index_in_surface]);
@@ -372,17 +375,20 @@ impl Seen {
             };
             let corners =
                 Corners { position: draw.world.map(world), normal: unit(draw.normals.map(turned)).0 };
+            let first = self.colours.len();
+            self.colours.resize(first + block.len() * self.passes, f32x4::ZERO);
+            let mut keep = |pass: usize, colour: Triple| {
+                let lanes = clamped(colour).map(|c| c.to_array());
+                let of_pass = self.colours[first + pass..].iter_mut().step_by(self.passes);
+                of_pass.enumerate().for_each(|(i, colour)| *colour = triple(lanes.map(|c| c[i])));
+            };
             let mut base = own_light(&material, light.ambient);
             light.base.iter().for_each(|lamp| add_lamp(&mut base, &corners, &material, lamp, light.eye));
-            let mut passes = [[f32x8::ZERO; 3]; 1 + MAX_SHADOWED];
-            passes[0] = clamped(base);
-            for (pass, lamp) in passes[1..].iter_mut().zip(&light.shadowed) {
-                add_lamp(pass, &corners, &material, lamp, light.eye);
-                *pass = clamped(*pass);
-            }
-            let lanes = passes.map(|pass| pass.map(|c| c.to_array()));
-            for i in 0..block.len() {
-                self.colours.extend(lanes[..self.passes].iter().map(|pass| triple(pass.map(|c| c[i]))));
+            keep(0, base);
+            for (pass, lamp) in (1..).zip(&light.shadowed) {
+                let mut apart = [f32x8::ZERO; 3];
+                add_lamp(&mut apart, &corners, &material, lamp, light.eye);
+                keep(pass, apart);
             }
         }
         self.waiting.clear();

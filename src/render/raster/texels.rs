@@ -9,7 +9,7 @@ use super::shadow::{CasterRule, Question};
 use super::vertices::Vertex;
 use super::window::Projection;
 use std::ops::Range;
-use wide::{f32x4, f32x8};
+use wide::f32x8;
 
 /// The texels that points ask for.
 #[derive(Clone, Debug, Default)]
@@ -51,6 +51,14 @@ pub struct Sorted {
 const LANES: usize = 8;
 /// Depth of what lies in shadow: nothing is nearer.
 const SHADED: f32 = -1.0;
+
+/// Where the points of at most eight questions are; lanes without one say nothing.
+#[inline]
+fn positions(questions: &[Question]) -> [f32x8; 3] {
+    let at = |k: usize| questions.get(k).map_or([0.0; 3], |question| question.position);
+    let points: [[f32; 3]; LANES] = std::array::from_fn(at);
+    std::array::from_fn(|axis| f32x8::new(points.map(|point| point[axis])))
+}
 
 /// A grid over the box of the texels that are asked for.
 #[derive(Clone, Debug)]
@@ -108,23 +116,37 @@ impl Texels {
         asked.clear();
         reached.clear();
         grid.clear(size);
-        let [a, b, c, d]: [f32x4; 4] = std::array::from_fn(|j| f32x4::new(map.0.map(|row| row[j] as f32)));
-        let last = size as f32 - 1.0;
-        for (index, Question { position, .. }) in questions.iter().enumerate() {
-            let [x, y, z] = position.map(f32x4::splat);
-            let [s, t, r, q] = (a * x + b * y + c * z + d).to_array();
-            let scale = 1.0 / q;
+        let rows = map.0.map(|row| row.map(|x| f32x8::splat(x as f32)));
+        let last = f32x8::splat(size as f32 - 1.0);
+        let mut deepest = 0.0;
+        for (chunk, first) in questions.chunks(LANES).zip((0..).step_by(LANES)) {
+            let [x, y, z] = positions(chunk);
+            let [s, t, r, q] = rows.map(|[a, b, c, d]| a * x + b * y + c * z + d);
+            let scale = f32x8::ONE / q;
             let (x, y) = ((s * scale).floor(), (t * scale).floor());
             // The outermost texels are never drawn: what falls on or beyond them is lit.
-            let inside = q > 0.0 && x >= 1.0 && y >= 1.0 && x < last && y < last;
-            reached.push(!inside);
-            if inside {
-                let depth = (r * scale).clamp(0.0, 1.0);
-                let (x, y) = (x as u16, y as u16);
-                grid.count(x, y, depth);
-                asked.push(Lookup { x, y, depth, asked: index as u32, cell: 0 });
+            let inside = q.simd_gt(f32x8::ZERO)
+                & x.simd_ge(f32x8::ONE)
+                & y.simd_ge(f32x8::ONE)
+                & x.simd_lt(last)
+                & y.simd_lt(last);
+            let inside = inside.to_bitmask();
+            let depth = r * scale;
+            let depth = depth.simd_lt(f32x8::ZERO).select(f32x8::ZERO, depth);
+            let depth = depth.simd_gt(f32x8::ONE).select(f32x8::ONE, depth).to_array();
+            let [x, y] = [x, y].map(|texel| texel.fast_trunc_int().to_array());
+            for lane in 0..chunk.len() {
+                let inside = inside >> lane & 1 != 0;
+                reached.push(!inside);
+                if inside {
+                    let (x, y, depth) = (x[lane] as u16, y[lane] as u16, depth[lane]);
+                    grid.count(x, y);
+                    deepest = if depth > deepest { depth } else { deepest };
+                    asked.push(Lookup { x, y, depth, asked: first + lane as u32, cell: 0 });
+                }
             }
         }
+        grid.deepest = deepest;
         sorted.resize(asked.len());
         if !asked.is_empty() {
             grid.divide(asked.len());
@@ -195,7 +217,6 @@ impl Sorted {
 impl Grid {
     /// Forgets what was asked for of the last map; the next one has `size` texels a side.
     fn clear(&mut self, size: usize) {
-        self.deepest = 0.0;
         for counts in &mut self.counts {
             counts.clear();
             counts.resize(size, 0);
@@ -204,10 +225,9 @@ impl Grid {
 
     /// Counts a texel that is asked for.
     #[inline]
-    fn count(&mut self, x: u16, y: u16, depth: f32) {
+    fn count(&mut self, x: u16, y: u16) {
         self.counts[0][usize::from(x)] += 1;
         self.counts[1][usize::from(y)] += 1;
-        self.deepest = self.deepest.max(depth);
     }
 
     /// Lays the grid over the `asked` texels that have been counted.
@@ -239,7 +259,8 @@ impl Grid {
             let cell = place(lookup);
             lookup.cell = cell as u32;
             cells[cell + 1].first += 1;
-            cells[cell].deepest = cells[cell].deepest.max(lookup.depth);
+            let deepest = &mut cells[cell].deepest;
+            *deepest = if lookup.depth > *deepest { lookup.depth } else { *deepest };
         }
         for i in 1..cells.len() {
             cells[i].first += cells[i - 1].first;

@@ -5,7 +5,7 @@
 
 use super::coverage::{Pattern, Triangle};
 use wide::bytemuck::cast;
-use wide::{f32x4, u32x4};
+use wide::{f32x4, i32x4, u32x4};
 
 /// Four samples.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,13 +56,15 @@ impl Visibility {
     /// Draws a triangle.
     #[inline]
     pub fn draw(&mut self, number: u32, triangle: &Triangle) {
-        let Visibility { pattern, per_row, groups } = self;
-        let number = u32x4::splat(number);
-        triangle.cover(pattern, |row, group, mask, depth| {
-            let at = &mut groups[row * *per_row + group];
-            let nearer: u32x4 = cast(depth.simd_gt(at.depth));
-            let as_near: u32x4 = cast(depth.simd_eq(at.depth));
-            let mask: u32x4 = cast::<_, u32x4>(mask) & (nearer | (as_near & number.simd_gt(at.triangle)));
+        let (pattern, per_row, groups) = (self.pattern, self.per_row, &mut self.groups[..]);
+        let (number, rank) = (u32x4::splat(number), i32x4::splat(number as i32));
+        triangle.cover(&pattern, |row, group, mask, depth| {
+            let at = &mut groups[row * per_row + group];
+            let nearer: i32x4 = cast(depth.simd_gt(at.depth));
+            let as_near: i32x4 = cast(depth.simd_eq(at.depth));
+            // Numbers are less than 2^31.
+            let later = rank.simd_gt(cast::<_, i32x4>(at.triangle));
+            let mask: u32x4 = cast(mask & (nearer | (as_near & later)));
             at.triangle = mask.select(number, at.triangle);
             at.depth = cast::<_, f32x4>(mask).select(depth, at.depth);
         });
