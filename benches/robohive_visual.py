@@ -27,7 +27,7 @@ IDS = [
     ("FK1_LightOnRandom_v2d-v4", 11),
 ]
 STEPS = 8  # Of RoboHive's, which take a second or so each.
-OUR_STEPS = 48  # A hundred or more ticks of the clock that counts processor time.
+OUR_STEPS = 48  # Two thirds of a second or more, since the clock that counts processor time ticks every 10 ms.
 ROUNDS = 2
 
 PEER = """

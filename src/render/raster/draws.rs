@@ -162,7 +162,7 @@ impl Draws {
     }
 
     /// The surface that a triangle belongs to.
-    pub fn of_triangle(&self, triangle: u32) -> usize {
+    fn of_triangle(&self, triangle: u32) -> usize {
         self.list.partition_point(|draw| draw.first_triangle <= triangle) - 1
     }
 }

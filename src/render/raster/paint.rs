@@ -54,7 +54,7 @@ pub struct Brush<'a> {
 
 impl Brush<'_> {
     /// The texture's colour at the middle of a fragment's pixel, where the surface has a texture.
-    #[inline(never)]
+    #[inline]
     fn texel(
         &self,
         triangle: &SeenTriangle,
@@ -117,15 +117,11 @@ impl Brush<'_> {
         out.extend((lit..passes).map(|_| [0, 0, 0, 255]));
     }
 
-    // Most surfaces have no texture: their shade stays in registers.
-    #[inline(always)]
+    #[inline]
     fn shade<'a>(&self, seen: &'a Seen, paint: &Paint, fragment: &Fragment) -> Shade<'a> {
         let triangle = &seen.triangles[fragment.triangle as usize];
         let weights = triangle.weights(f32::from(fragment.x) + 0.5, f32::from(fragment.y) + 0.5);
-        let texel = match paint {
-            Paint::Plain => None,
-            paint => self.texel(triangle, paint, fragment, weights),
-        };
+        let texel = self.texel(triangle, paint, fragment, weights);
         let fog = self.veil.map(|veil| (veil.clear(triangle, weights), veil.fog.rgb));
         Shade { seen, triangle, weights, texel, fog }
     }

@@ -97,7 +97,7 @@ fn mix(weights: [f32; 3], at: &[f32x4; 3]) -> f32x4 {
     p * at[0] + q * at[1] + r * at[2]
 }
 
-/// Triangles that are passed over together where none is seen.
+/// Triangles that are skipped together where none is seen.
 const CHUNK: usize = 16;
 /// Most lamps whose shadows are drawn: a fragment has a bit for each.
 const MAX_SHADOWED: usize = 8;
@@ -134,7 +134,7 @@ impl Illumination {
 /// The triangles and fragments that are seen in a window.
 #[derive(Clone, Debug, Default)]
 pub struct Seen {
-    /// The triangles.
+    /// The triangles, once they are lit.
     pub triangles: Vec<SeenTriangle>,
     /// The fragments, row by row from below.
     pub fragments: Vec<Fragment>,
@@ -300,9 +300,9 @@ impl Seen {
     fn next_seen(&self, numbers: Range<u32>) -> Option<u32> {
         let places = self.places.get(numbers.start as usize..numbers.end as usize)?;
         let unseen = |chunk: &&[u32; CHUNK]| chunk.iter().fold(0, |any, place| any | place) == 0;
-        let passed = CHUNK * places.as_chunks().0.iter().take_while(unseen).count();
-        let seen = places[passed..].iter().position(|&place| place != 0)?;
-        Some(numbers.start + (passed + seen) as u32)
+        let skipped = CHUNK * places.as_chunks().0.iter().take_while(unseen).count();
+        let seen = places[skipped..].iter().position(|&place| place != 0)?;
+        Some(numbers.start + (skipped + seen) as u32)
     }
 
     /// A triangle without its colours, whose corners wait to be lit.

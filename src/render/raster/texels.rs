@@ -118,7 +118,6 @@ impl Texels {
         grid.clear(size);
         let rows = map.0.map(|row| row.map(|x| f32x8::splat(x as f32)));
         let last = f32x8::splat(size as f32 - 1.0);
-        let mut deepest = 0.0;
         for (chunk, first) in questions.chunks(LANES).zip((0..).step_by(LANES)) {
             let [x, y, z] = positions(chunk);
             let [s, t, r, q] = rows.map(|[a, b, c, d]| a * x + b * y + c * z + d);
@@ -140,13 +139,11 @@ impl Texels {
                 reached.push(!inside);
                 if inside {
                     let (x, y, depth) = (x[lane] as u16, y[lane] as u16, depth[lane]);
-                    grid.count(x, y);
-                    deepest = if depth > deepest { depth } else { deepest };
+                    grid.count(x, y, depth);
                     asked.push(Lookup { x, y, depth, asked: first + lane as u32, cell: 0 });
                 }
             }
         }
-        grid.deepest = deepest;
         sorted.resize(asked.len());
         if !asked.is_empty() {
             grid.divide(asked.len());
@@ -217,6 +214,7 @@ impl Sorted {
 impl Grid {
     /// Forgets what was asked for of the last map; the next one has `size` texels a side.
     fn clear(&mut self, size: usize) {
+        self.deepest = 0.0;
         for counts in &mut self.counts {
             counts.clear();
             counts.resize(size, 0);
@@ -225,9 +223,10 @@ impl Grid {
 
     /// Counts a texel that is asked for.
     #[inline]
-    fn count(&mut self, x: u16, y: u16) {
+    fn count(&mut self, x: u16, y: u16, depth: f32) {
         self.counts[0][usize::from(x)] += 1;
         self.counts[1][usize::from(y)] += 1;
+        self.deepest = self.deepest.max(depth);
     }
 
     /// Lays the grid over the `asked` texels that have been counted.
@@ -259,8 +258,7 @@ impl Grid {
             let cell = place(lookup);
             lookup.cell = cell as u32;
             cells[cell + 1].first += 1;
-            let deepest = &mut cells[cell].deepest;
-            *deepest = if lookup.depth > *deepest { lookup.depth } else { *deepest };
+            cells[cell].deepest = cells[cell].deepest.max(lookup.depth);
         }
         for i in 1..cells.len() {
             cells[i].first += cells[i - 1].first;
