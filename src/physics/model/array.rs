@@ -160,6 +160,12 @@ impl<R: Row, N> Array<R, N> {
 }
 
 impl<R, N> Array<R, N> {
+    /// Takes over rows. Not inlined, since a model fills hundreds of arrays in one function.
+    #[inline(never)]
+    pub(super) fn fill(&mut self, rows: Vec<R>) {
+        *self = Self::from(rows);
+    }
+
     fn of(rows: Arc<[R]>) -> Self {
         Array { rows, undo: None, numbered: PhantomData }
     }

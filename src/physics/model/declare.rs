@@ -62,7 +62,17 @@ macro_rules! model {
 
         impl Default for Arrays {
             fn default() -> Self {
-                Rows::default().finish()
+                Columns {
+                    name: String::new(),
+                    opt: Options::default(),
+                    vis: Visual::default(),
+                    stat: Statistic::default(),
+                    flg_gravcomp: false,
+                    flg_surfacevel: false,
+                    flg_adhesion: false,
+                    $($size: 0,)*
+                    $($field: Array::default(),)*
+                }
             }
         }
 
@@ -108,18 +118,20 @@ macro_rules! model {
 
         impl Rows {
             /// The arrays, as long as they are now.
-            pub fn finish(self) -> Arrays {
-                Columns {
-                    name: self.name,
-                    opt: self.opt,
-                    vis: self.vis,
-                    stat: self.stat,
-                    flg_gravcomp: self.flg_gravcomp,
-                    flg_surfacevel: self.flg_surfacevel,
-                    flg_adhesion: self.flg_adhesion,
-                    $($size: self.$size,)*
-                    $($field: self.$field.into(),)*
-                }
+            pub fn finish(mut self) -> Arrays {
+                // Field by field into whole values: one expression that moves all fields must be able to drop every part
+                // of itself at each of them, which takes a megabyte of code.
+                let mut arrays = Arrays::default();
+                arrays.name = std::mem::take(&mut self.name);
+                arrays.opt = std::mem::take(&mut self.opt);
+                arrays.vis = std::mem::take(&mut self.vis);
+                arrays.stat = std::mem::take(&mut self.stat);
+                arrays.flg_gravcomp = self.flg_gravcomp;
+                arrays.flg_surfacevel = self.flg_surfacevel;
+                arrays.flg_adhesion = self.flg_adhesion;
+                $(arrays.$size = self.$size;)*
+                $(arrays.$field.fill(std::mem::take(&mut self.$field));)*
+                arrays
             }
         }
 

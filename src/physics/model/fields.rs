@@ -1,6 +1,6 @@
 //! The table of the compiled model: sizes, then one line an array.
 
-use super::array::{Drafted, Finished, Form, Growing, Writer};
+use super::array::{Array, Drafted, Finished, Form, Growing, Writer};
 use super::reader::{Reader, array_bytes};
 use super::{Options, Statistic, Visual, binary::BinaryError, declare::model, written::Written};
 use super::{flex_rows::model_with_flexes, skin_rows::model_with_skins};
