@@ -174,7 +174,7 @@ pub struct Compile {
 #[derive(Args)]
 #[command(
     after_help = "A row of the trajectory holds a state, the controls in force from then on, and the sensor \
-readings and energy of that state; the first is the initial state. It is written while the model moves, in bounded \
+readings and energy; the first is the initial state. It is written while the model moves, in bounded \
 memory, to FILE.part/NAME.npy, of which FILE is made at the end. Ctrl-C and instability end a run early: FILE then holds \
 all rows so far, the last one, if its step failed, with sensor readings and energy NaN. Of a process that is killed \
 remains FILE.part, whose arrays numpy can load.

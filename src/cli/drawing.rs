@@ -42,7 +42,7 @@ impl Drawing {
         Ok(Drawing { plan, assets, painter, scene: Scene::new(), picture })
     }
 
-    /// Draws a state of which a forward pass has computed all that is shown. The model is the one that the drawing was
+    /// Draws a state that a forward pass has evaluated. The model is the one that the drawing was
     /// made for, but may have been edited.
     ///
     /// # Errors

@@ -41,7 +41,7 @@ pub struct Recorded {
     /// Seed of its reset.
     pub seed: Option<u64>,
     roboset: bool,
-    /// Actions, of which that of the last row may be NaN.
+    /// Actions; the last row may be NaN.
     pub actions: Column,
     /// Parts of the states by name; RoboSet's qpos and qvel are the first values of the environment's.
     state: Vec<(&'static str, Column)>,

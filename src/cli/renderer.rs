@@ -15,7 +15,7 @@ pub struct RendererArguments {
 }
 
 impl RendererArguments {
-    /// What draws. A GPU is opened when it draws first; where there is none, the CPU draws, and a line says so.
+    /// What draws. A GPU is opened when it draws first; on a machine without a GPU the CPU draws, and a line says so.
     ///
     /// # Errors
     /// A GPU is asked for, and this build knows none.

@@ -149,7 +149,7 @@ fn make(a: &Replay, trace: &TraceReader) -> Result<(String, Env), Failure> {
 struct Outcome {
     trial: String,
     steps: usize,
-    /// Whether the first state is that of a seeded reset, with nothing set.
+    /// Whether the first state comes from a seeded reset, with nothing set.
     from_seed: bool,
     /// Distance between the last states, where there are two.
     qpos: Option<f64>,

@@ -152,7 +152,7 @@ fn progress(steps: u64) -> ProgressBar {
 /// A video of the motion.
 struct Pictures {
     film: Film,
-    /// The state that is drawn, forwarded here so that the motion is that of a run without a video.
+    /// The state that is drawn. It is evaluated apart from the simulation, so that a video does not change the motion.
     posed: Data,
     began: f64,
 }

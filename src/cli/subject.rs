@@ -95,8 +95,8 @@ pub fn are_related(a: &Spec, b: &Spec) -> bool {
     a.suite == b.suite && a.task == b.task && model(a) == model(b)
 }
 
-/// The camera that an environment observes first; where it observes none, that of an id that runs the same task on the same
-/// model, or the free one.
+/// The camera that an environment observes first. An environment that observes none takes the camera of an id that runs
+/// the same task on the same model, or the free camera.
 pub fn camera_of(env: &Env) -> String {
     if let Some(key) = env.visual_keys().first() {
         return key.camera.clone();

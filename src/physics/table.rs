@@ -366,7 +366,7 @@ macro_rules! stage {
                     crate::table::field_width!(m, $shape));)*
             }
 
-            /// True when every array is as long as that of `other`.
+            /// True when every array is as long as the same array of `other`.
             pub fn same_lengths(&self, other: &Self) -> bool {
                 $(self.$field.len() == other.$field.len())&&*
             }

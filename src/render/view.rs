@@ -13,15 +13,15 @@ pub struct View {
     pub frustum: Frustum,
 }
 
-/// Window and depth range of a camera (documentation: programming guide, abstract camera). Lengths in metres, those of the
-/// window at the near plane.
+/// Window and depth range of a camera (documentation: programming guide, abstract camera). Lengths in metres; the window is
+/// measured at the near plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frustum {
     /// Parallel rays instead of rays from the eye.
     pub orthographic: bool,
     /// Horizontal middle of the window.
     pub center: f64,
-    /// Half the window's width; where there is none, the picture's shape decides.
+    /// Half the window's width; without it the picture's shape decides.
     pub half_width: Option<f64>,
     /// Lower edge of the window.
     pub bottom: f64,

@@ -10,7 +10,7 @@
 //! - On the GPU the world is relative to the eye of each picture, so that single precision suffices.
 //! - Row 0 of a target is the lowest of a picture: the patterns of samples of Vulkan, Metal and Direct3D, upside down, are
 //!   OpenGL's. Rows are exchanged when they are read back.
-//! - Depth of pictures is reversed, 1 at the near plane; that of shadow maps is 0 there.
+//! - Depth of pictures is reversed: 1 at the near plane. Depth in shadow maps is not: 0 at the near plane.
 
 mod adapter;
 mod atlas;

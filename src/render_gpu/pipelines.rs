@@ -86,7 +86,7 @@ impl Key {
         Key { kind, paint: Paint::Plain, cull: None }
     }
 
-    /// A pipeline for a surface of which `facing` is seen; a mirror exchanges the sides.
+    /// A pipeline for a surface whose side `facing` is seen; a mirror exchanges the sides.
     pub fn surface(kind: Kind, paint: Paint, facing: Facing) -> Self {
         let mirrored = matches!(kind, Kind::Mirrored | Kind::MirroredBlend);
         let cull = match (facing, mirrored) {
@@ -105,7 +105,7 @@ impl Key {
     }
 }
 
-/// What the slope of casters counts, of which these sides are not drawn.
+/// The factor of the slope for casters whose sides `cull` are not drawn.
 fn slopes(cull: Option<Face>) -> f32 {
     let profile = if cull.is_some() { Profile::Mujoco313 } else { Profile::Mujoco312 };
     CasterRule::of(profile).slopes
@@ -248,7 +248,7 @@ fn create(
     let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     let write_mask = if writes_colour { ColorWrites::ALL } else { ColorWrites::empty() };
     let targets = [Some(ColorTargetState { format, blend, write_mask })];
-    // The slope is that of `glPolygonOffset`; its units are added where the map is read.
+    // The slope is the factor of `glPolygonOffset`; its units are added where the map is read.
     let slope_scale = match key.kind {
         Kind::Caster => slopes(key.cull),
         Kind::SpotCaster => -slopes(key.cull),

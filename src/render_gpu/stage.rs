@@ -197,7 +197,7 @@ impl Stage {
         }))
     }
 
-    /// Adds the passes of a light with shadows; its map is that of the picture's twin, where that has the same.
+    /// Adds the passes of a light with shadows. It shares the map of the picture's twin where both have the same.
     fn lamp(
         &mut self,
         rule: CasterRule,

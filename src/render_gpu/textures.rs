@@ -145,7 +145,7 @@ fn group(
     })
 }
 
-/// A texture with these images, the first of which is of its finest level.
+/// A texture with these images, the finest level first.
 fn upload(gpu: &Gpu, images: &[LevelImage<'_>], format: TextureFormat, cube: bool) -> TextureView {
     let size = |image: &LevelImage<'_>, depth_or_array_layers: u32| Extent3d {
         width: image.width as u32,

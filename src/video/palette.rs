@@ -80,7 +80,7 @@ fn key(pixel: [u8; 3]) -> usize {
     pixel.iter().fold(0, |key, &channel| key << BITS | usize::from(channel >> (8 - BITS)))
 }
 
-/// A palette of means, and for each pixel that of its part.
+/// A palette of means, and for each pixel the mean of its part.
 fn divided(pixels: &[[u8; 3]]) -> Indexed {
     let mut cells = count(pixels);
     let mut parts = vec![Part::of(&cells, 0..cells.len())];

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 const KEYS: &str = "visual_keys = ['rgb:front:64x64:2d', 'd:front:64x64:2d']";
 
-/// The name of a GPU. `cargo xtask gpu` looks for what is printed where there is none.
+/// The name of a GPU. Without a GPU a line is printed, which `cargo xtask gpu` looks for.
 fn name() -> Option<String> {
     let found = adapters().into_iter().next();
     if found.is_none() {

@@ -17,7 +17,7 @@ fn subcommands() -> Vec<String> {
     names.into_iter().filter(|name| name != "help").collect()
 }
 
-/// The words of all commands, those of subcommands included.
+/// The words of all commands and subcommands.
 fn commands() -> Vec<Vec<String>> {
     let nested = |name: String| {
         let help = text(&robohive(&[&name, "--help"]).stdout);

@@ -203,7 +203,7 @@ fn frames(path: &str) -> usize {
     u32::from_be_bytes(count) as usize
 }
 
-/// An episode of five steps of 0.04 s shows six states, those of a second episode besides.
+/// An episode of five steps of 0.04 s shows six states; a second episode adds its own.
 #[test]
 fn a_video_has_the_frames_of_its_episodes() {
     let steps = ["--set", "max_episode_steps=5", "--size", "64x48", "-q"];

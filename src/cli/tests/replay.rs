@@ -78,7 +78,7 @@ fn a_recording_holds_the_schema_of_robohives_logger() {
         assert_eq!(values(&trace, trial, "seed"), [300.0 + number as f64]);
         let time = values(&trace, trial, "env_infos/state/time");
         assert!(time[0] == 0.0 && time.windows(2).all(|pair| pair[0] < pair[1]));
-        // The reward of a row is that of its state: the sum of its weighted terms.
+        // The reward of a row belongs to the state of the same row: it is the sum of its weighted terms.
         let reach = values(&trace, trial, "env_infos/rwd_dict/reach");
         assert_eq!(
             values(&trace, trial, "env_infos/rwd_sparse"),

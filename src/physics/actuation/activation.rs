@@ -73,7 +73,7 @@ pub fn next_activation(m: &Model, i: usize, k: usize, act: &[f64], act_dot: f64,
     if m.actuator_actlimited[i] { clip(next, m.actuator_actrange[i]) } else { next }
 }
 
-/// Advances all activations by one time step; those of disabled actuators keep their values.
+/// Advances all activations by one time step, except of disabled actuators.
 pub fn advance_activations(
     m: &Model,
     trn: &Transmission,

@@ -72,7 +72,7 @@ fn resistance(m: &Model, act: &[f64], i: usize) -> f64 {
     }
 }
 
-/// Voltage at the terminals, that of the controller plus the one commanded.
+/// Voltage at the terminals: the controller's voltage plus the commanded one.
 fn voltage(m: &Model, act: &[f64], i: usize, length: f64, velocity: f64, ctrl: impl Fn(usize) -> f64) -> f64 {
     let [position, speed, feed_forward, raw] = servo::inputs(m, act, i, ctrl);
     if !has_controller(m, i) {

@@ -65,14 +65,14 @@ fn other_kind(m: &Model, at: &Configuration, con: &Contacts, efc: &Constraints, 
     }
 }
 
-/// Gear of output `out`: that of forces, that of torques.
+/// Gear of output `out`: the part for forces, the part for torques.
 fn halves(m: &Model, out: usize) -> [Vec3; 2] {
     let [x, y, z, a, b, c] = m.actuator_gear[out];
     [[x, y, z], [a, b, c]]
 }
 
-/// Velocities of all actuators, after those of tendons: moments times joint velocities; zero when actuation is
-/// disabled.
+/// Velocities of all actuators: moments times joint velocities; zero when actuation is disabled. Tendon velocities come
+/// first.
 pub fn actuator_velocity(m: &Model, state: &State, trn: &Transmission, vel: &mut Velocity) {
     if m.opt.disableflags.contains(Disable::ACTUATION) {
         vel.actuator_velocity.fill(0.0);

@@ -43,7 +43,7 @@ struct Segments {
 }
 
 impl Segments {
-    /// Segments of these half-axes; `between` leads from the centre of the second to that of the first.
+    /// Segments of these half-axes; `between` leads from the second centre to the first.
     fn new([first, second]: [Vec3; 2], between: Vec3) -> Self {
         Segments {
             square: [dot(first, first), dot(second, second)],

@@ -44,7 +44,7 @@ struct Neighbours {
 pub struct Farthest {
     /// Index among the vertices of the mesh.
     pub vertex: usize,
-    /// Index among the vertices of the hull; that of the mesh when it was searched in full.
+    /// Index among the vertices of the hull, or of the mesh when it was searched in full.
     pub start: usize,
 }
 

@@ -31,8 +31,8 @@ pub struct DistanceScratch {
     points: Vec<PreContact>,
 }
 
-/// Signed distance between geoms `g1` and `g2` [m], at most `limit`, and the nearest points in the world, that of `g1`
-/// first. Overlapping geoms have a negative distance, and points that moving one geom by the depth would join.
+/// Signed distance between geoms `g1` and `g2` [m], at most `limit`, and the nearest points in the world: on `g1`, on `g2`.
+/// Overlapping geoms have a negative distance; their points would meet if one geom moved by that depth.
 ///
 /// Filters do not matter: any two geoms can be measured. Points are zeros where the geoms are farther apart than `limit`,
 /// and where the pair has no distance (two planes or height fields), which is then `limit`. With native convex collision
@@ -40,7 +40,7 @@ pub struct DistanceScratch {
 /// the nearest prism that the limit reaches, so that a large limit is slow.
 ///
 /// # Panics
-/// An index is not that of a geom.
+/// An index is out of range.
 pub fn geom_distance(
     m: &Model,
     kin: &Kinematics,

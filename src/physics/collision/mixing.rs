@@ -19,13 +19,13 @@ pub struct Mixture {
     adhesion: f64,
 }
 
-/// True when global contact parameters override those of the geoms.
+/// True when global contact parameters override the geoms' parameters.
 pub(super) fn overridden(m: &Model) -> bool {
     m.opt.enableflags.contains(Enable::OVERRIDE)
 }
 
-/// Distance below which a contact makes force: the sum of the geoms' margins, that of the predefined pair, or the
-/// global one.
+/// Distance below which a contact makes force: the sum of the geoms' margins, the margin of the predefined pair, or the
+/// global margin.
 pub fn margin(m: &Model, g1: usize, g2: usize, pair: Option<usize>) -> f64 {
     if overridden(m) {
         return m.opt.o_margin;

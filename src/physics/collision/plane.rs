@@ -1,6 +1,6 @@
 //! Contacts of an infinite plane: with spheres, capsules, cylinders, boxes and convex bodies.
 //!
-//! The normal is the plane's z axis; the distance is that of surface points from the plane.
+//! The normal is the plane's z axis; distances are measured from the plane to points of the surface.
 
 use super::hull::MeshHull;
 use super::{PreContact, Shape};

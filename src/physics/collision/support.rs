@@ -38,7 +38,7 @@ pub enum Solid<'a> {
 /// Corners of an element of a flex, one for a vertex alone.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
-    /// Corners, of which the first `count` are.
+    /// Corners; the first `count` are in use.
     pub corners: [Vec3; 4],
     /// Number of corners.
     pub count: usize,

@@ -2,8 +2,8 @@
 //! move freely, where `K` is the bending stiffness of sheets and `d` their damping. Implicit integration of flexes
 //! preconditions with it.
 //!
-//! Bending couples the same coordinate of different vertices alone, so the pattern is that of the vertices, three times
-//! interleaved; rows are found from the last to the first.
+//! Bending couples only the same coordinate of different vertices. So the pattern is the vertices' pattern, three times
+//! interleaved. Rows are found from the last to the first.
 
 use super::flex_pattern::{bending_vertices, edges};
 use crate::model::bounds::MINVAL;

@@ -65,7 +65,7 @@ fn inverse([a, b, c, d]: [f64; 4]) -> [f64; 4] {
     [d * inverse, -b * inverse, -c * inverse, a * inverse]
 }
 
-/// Reference vertices, those of constrained surfaces turned by what takes the normal of the first element to z.
+/// Reference vertices. Constrained surfaces are turned by the rotation that takes the normal of their first element to z.
 fn aligned(m: &Arrays) -> Vec<Vec3> {
     let mut vert0 = m.flex_vert0.to_vec();
     for f in (0..m.nflex).filter(|&f| m.flex_dim[f] == 2 && m.flex_edgeequality[f] == 2) {
@@ -86,14 +86,14 @@ fn position(m: &Arrays, kin: &Kinematics, v: usize) -> Vec3 {
     placed(kin, m.flex_vertbodyid[v] as usize, m.flex_vert[v], false)
 }
 
-/// Edges of flexes whose vertices are fixed to bodies, with their flex; those of rigid ones too.
+/// Edges of flexes whose vertices are fixed to bodies, with their flex; rigid flexes included.
 pub(super) fn measured(m: &Arrays) -> impl Iterator<Item = (usize, usize)> {
     (0..m.nflex)
         .filter(|&f| m.flex_interp[f] == 0)
         .flat_map(|f| flex_pattern::edges(m, f).map(move |e| (f, e)))
 }
 
-/// Lengths of all edges; 0 for those of interpolated flexes.
+/// Lengths of all edges; 0 for edges of interpolated flexes.
 pub(super) fn lengths(m: &Arrays, kin: &Kinematics) -> Vec<f64> {
     let mut lengths = vec![0.0; m.nflexedge];
     for (f, e) in measured(m) {

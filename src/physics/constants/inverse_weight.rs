@@ -75,7 +75,7 @@ impl Rows {
     }
 }
 
-/// The degrees of freedom of all trees from that of `first` to that of `last`.
+/// The degrees of freedom of all trees from the tree of `first` to the tree of `last`.
 fn whole_trees(m: &Model, first: usize, last: usize) -> Range<usize> {
     let [first, last] = [first, last].map(|dof| m.dof_treeid[dof] as usize);
     m.tree_dofadr[first] as usize..(m.tree_dofadr[last] + m.tree_dofnum[last]) as usize

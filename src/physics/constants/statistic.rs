@@ -88,7 +88,7 @@ fn geom_radius(m: &Arrays, g: usize) -> f64 {
     }
 }
 
-/// Bodies of a flex reach along its edges, those of a lattice to all its nodes.
+/// Bodies of a flex reach along its edges; bodies of a lattice reach all its nodes.
 fn flex_reach(m: &Arrays, kin: &Kinematics, sizes: &mut [f64]) {
     for f in 0..m.nflex {
         if m.flex_interp[f] != 0 {

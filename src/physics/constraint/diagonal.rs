@@ -48,7 +48,7 @@ pub(super) fn is_flex_equality(m: &Model, efc: &Constraints, i: usize) -> bool {
         )
 }
 
-/// Number of rows of the constraint whose first row is `i`; those of flexes count one by one.
+/// Number of rows of the constraint whose first row is `i`; rows of flexes count one by one.
 pub(super) fn block_length(m: &Model, con: &Contacts, efc: &Constraints, i: usize) -> usize {
     let id = efc.efc_id[i] as usize;
     match ConstraintType::from_code(efc.efc_type[i]) {

@@ -21,7 +21,7 @@ pub struct HalfJacobian {
     entries: Vec<[f64; BLOCK]>,
     /// Words of a set of columns.
     words: usize,
-    /// Columns of each block: those of `J` and their ancestors.
+    /// Columns of each block: the columns of `J` and their ancestors.
     blocks: Vec<u64>,
     /// Ancestors of each degree of freedom, and itself.
     ancestors: Vec<u64>,
@@ -105,12 +105,12 @@ impl HalfJacobian {
         self.words
     }
 
-    /// Adds the columns of row `i`, those of ancestors included, to a set.
+    /// Adds the columns of row `i` and of their ancestors to a set.
     pub fn add_columns_of(&self, efc: &Constraints, i: usize, set: &mut [u64]) {
         add_columns(jacobian_row(efc, i).0, &self.ancestors, set);
     }
 
-    /// Entries of row `i`, those of ancestors included.
+    /// Entries of row `i`, columns of ancestors included.
     pub fn row(&mut self, efc: &Constraints, i: usize) -> &[f64] {
         let Self { entries, words, ancestors, root, set, values, .. } = self;
         set.clear();

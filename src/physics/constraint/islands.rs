@@ -85,8 +85,8 @@ fn unite_row(m: &Model, con: &Contacts, efc: &Constraints, i: usize, parent: &mu
     }
 }
 
-/// Unites the trees of the non-zero columns of row `i`; returns the first, that of the first column where all are zero, as in
-/// contacts of a body with itself.
+/// Unites the trees of the non-zero columns of row `i` and returns the first. If all columns are zero, as in contacts of a
+/// body with itself, it returns the tree of the first column.
 fn unite_columns(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> i32 {
     let start = efc.efc_J_rowadr[i] as usize;
     let (mut first, mut previous) = (-1, -1);
@@ -181,7 +181,7 @@ fn starts(counts: &[i32], out: &mut Vec<i32>) {
     }
 }
 
-/// Members sorted by island, those of none last; `place` is called with (member, sorted index).
+/// Members sorted by island, members of no island last; `place` is called with (member, sorted index).
 fn sort_members(
     members: &[i32],
     starts: &[i32],

@@ -61,7 +61,7 @@ impl Sum {
         *slot = add(*slot, term);
     }
 
-    /// What fills no lanes is added one by one in sums of compressed rows, and together in those of full rows.
+    /// The remainder that fills no lanes is added one by one for compressed rows, and in one sum for full rows.
     fn total(&self, sparse: bool) -> Vec3 {
         let [a, b, c, d] = self.lanes;
         let lanes = add(add(a, c), add(b, d));

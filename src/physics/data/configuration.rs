@@ -17,7 +17,7 @@ pub struct Configuration<'a> {
     pub ten: &'a Tendons,
 }
 
-/// The configuration in `$d`, of which the caller may borrow other parts.
+/// The configuration in `$d`. The caller may borrow other parts of `$d` at the same time.
 macro_rules! configuration_of {
     ($d:expr) => {
         $crate::data::Configuration {

@@ -50,7 +50,7 @@ pub struct DerivativeInputs<'a> {
     pub actuation: &'a Actuation,
 }
 
-/// The inputs in `d`, of which the caller may borrow other parts.
+/// The inputs in `d`. The caller may borrow other parts of `d` at the same time.
 macro_rules! inputs_of {
     ($d:expr) => {
         $crate::derivative::DerivativeInputs {

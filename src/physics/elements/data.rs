@@ -6,8 +6,8 @@ use super::{
 use crate::data::Data;
 use crate::math::{Mat3, Quat, Vec3};
 
-/// What a simulation says of one element, see [`crate::elements`]. Derived quantities are those of the last
-/// [`forward`](crate::forward), or of the beginning of the last [`step`](crate::step).
+/// What a simulation says of one element, see [`crate::elements`]. Derived quantities were computed by the last
+/// [`forward`](crate::forward), or at the beginning of the last [`step`](crate::step).
 #[derive(Clone, Copy, Debug)]
 pub struct DataView<'d, I> {
     d: &'d Data,
@@ -193,7 +193,7 @@ impl DataViewMut<'_, JointId> {
     /// Sets the positions.
     ///
     /// # Panics
-    /// The number of values is not that of [`DataView::qpos`].
+    /// The number of values differs from [`DataView::qpos`].
     pub fn set_qpos(&mut self, values: impl AsRef<[f64]>) {
         self.qpos_mut().copy_from_slice(values.as_ref());
     }

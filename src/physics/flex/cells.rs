@@ -9,7 +9,7 @@ use crate::math::dense::dot_slice;
 use crate::math::{Vec3, add, cross, linear, mul_mat_t_vec, quat_conj, quat_rotate, rotational, scale, sub};
 use crate::position::chain::{apply_wrench, com_offset};
 
-/// Adds the forces of the deformed cells of an interpolated flex, and those of damping proportional to stiffness.
+/// Adds the elastic forces of the cells of an interpolated flex, and the forces of damping proportional to stiffness.
 pub(crate) fn cells(
     flex: Flex,
     at: Inputs,

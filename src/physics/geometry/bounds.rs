@@ -93,7 +93,7 @@ fn body_tree(m: &Arrays, body: usize) -> Bvh {
     hierarchy::build(&leaves, m.body_ipos[body], m.body_iquat[body])
 }
 
-/// Writes a tree over that of the body, which has as many nodes.
+/// Replaces the body's tree by another with the same number of nodes.
 fn replace_tree(m: &mut Arrays, body: usize, tree: &Bvh) {
     for node in 0..tree.depth.len() {
         let at = m.body_bvhadr[body] as usize + node;
@@ -104,7 +104,7 @@ fn replace_tree(m: &mut Arrays, body: usize, tree: &Bvh) {
     }
 }
 
-/// Builds the trees of all bodies and puts those of meshes behind them.
+/// Builds the trees of all bodies and puts the trees of meshes behind them.
 fn rebuild_trees(m: &mut Arrays) {
     let mut all = Bvh::default();
     let (mut address, mut number) = (Vec::new(), Vec::new());

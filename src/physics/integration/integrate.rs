@@ -86,7 +86,7 @@ pub(crate) fn advance_once(m: &Model, d: &mut Data, factors: Factors) {
 /// Advances the state by one step of Euler's method with forces taken at the new velocity, to first order.
 pub fn implicit(m: &Model, d: &mut Data, factors: Factors) {
     if d.metric.is_on() {
-        // The acceleration is that of the end of the step already, as far as flexes go.
+        // The stiffness of flexes at the end of the step is in the acceleration already.
         d.scratch.integrate.qacc.clone_from(&d.acc.qacc);
         advance(m, d);
         return;

@@ -2,7 +2,7 @@
 //! column `k` of `L`. What lies before the diagonal is working memory.
 //!
 //! Rows of the array are `stride(n)` long, zeros behind the `n`-th entry. Inner products keep four running sums over
-//! columns, as those of `dense`; vector registers run along the rows of `L`, which are independent.
+//! columns, as in `dense`; vector registers run along the rows of `L`, which are independent.
 
 use std::array::from_fn;
 

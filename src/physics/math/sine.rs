@@ -10,7 +10,7 @@ use super::double_double::{Double, ordered_sum, split};
 const QUARTER: usize = 128;
 /// π/2.
 const HALF_PI: Double = Double { head: std::f64::consts::FRAC_PI_2, tail: 6.123233995736766e-17 };
-/// π/256 in three parts, of which two have 32 bits: their products with the number of a multiple are exact.
+/// π/256 in three parts. The first two have 32 bits each, so that their products with the number of a multiple are exact.
 const STEP: [f64; 3] = [0.012271846302610356, 4.747734770549973e-13, 1.5798955068718364e-23];
 /// 256/π.
 const STEPS_PER_RADIAN: f64 = 81.48733086305042;

@@ -35,7 +35,7 @@ pub fn add_scaled_slice(y: &mut [f64], x: &[f64], s: f64) {
     }
 }
 
-/// Structure of a symmetric matrix of which the lower triangle is stored in compressed rows, diagonal last.
+/// Structure of a symmetric matrix. Its lower triangle is stored in compressed rows, diagonal last.
 #[derive(Clone, Copy, Debug)]
 pub struct LowerRows<'a> {
     /// Non-zeros of each row.

@@ -1,7 +1,7 @@
 //! The table of flexes: their sizes and arrays, put into the table of the model by a macro that `fields.rs` calls.
 
-/// Calls `model!` with the given rows and those of flexes: sizes after the given ones, arrays between the given two
-/// lists, at the place that MuJoCo declares them.
+/// Calls `model!` with the given rows and the rows of flexes: sizes after the given ones, arrays between the given two
+/// lists, where MuJoCo declares them.
 macro_rules! model_with_flexes {
     (sizes { $($sizes:tt)* } arrays { $($before:tt)* } flexes arrays { $($after:tt)* }) => {
         model! {

@@ -1,7 +1,7 @@
 //! The table of skins: their sizes and arrays, put into the table of the model by a macro that `fields.rs` calls.
 
-/// Calls `model_with_flexes!` with the given rows and those of skins: sizes after the given ones, arrays before the last list,
-/// at the place that MuJoCo declares them.
+/// Calls `model_with_flexes!` with the given rows and the rows of skins: sizes after the given ones, arrays before the last
+/// list, where MuJoCo declares them.
 macro_rules! model_with_skins {
     (sizes { $($sizes:tt)* } arrays { $($first:tt)* } flexes arrays { $($before:tt)* } skins arrays { $($after:tt)* }) => {
         model_with_flexes! {

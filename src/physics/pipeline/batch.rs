@@ -42,7 +42,7 @@ pub struct Batch<P = ()> {
     payloads: Vec<P>,
     /// Which environments the next run visits.
     selected: Vec<bool>,
-    /// Working memory, one a thread; that of the environments stays empty.
+    /// Working memory, one for each thread; the environments' own stays empty.
     workers: Vec<Scratch>,
     #[cfg(feature = "threads")]
     pool: Option<rayon::ThreadPool>,

@@ -1,8 +1,8 @@
 //! `mujoco.elasticity.cable`: bending and twisting of a chain of bodies, each of which turns by a ball or free joint
 //! against the one before it.
 //!
-//! Stress between two neighbours is stiffness times the difference of their curvature from that at rest, per unit of
-//! length; half-way frames of the discrete elastic rods of Bergou et al. 2008 are those of the bodies here.
+//! Stress between two neighbours is stiffness times the difference between their curvature and the curvature at rest, per
+//! unit of length. The half-way frames of the discrete elastic rods of Bergou et al. 2008 are the frames of the bodies here.
 
 use super::{Capability, Config, Instance, PassiveInputs, Plugin};
 use crate::data::{Kinematics, State};

@@ -178,7 +178,7 @@ pub trait Instance: Debug + Send + Sync {
     /// Adds its forces to `qfrc`, one number a degree of freedom [N, N m].
     fn passive(&self, _inputs: &PassiveInputs, _qfrc: &mut [f64]) {}
 
-    /// Sets the rates of the activations of its actuators in `act_dot`; those of built-in dynamics are there.
+    /// Sets the rates of the activations of its actuators in `act_dot`, which already holds the rates of built-in dynamics.
     fn activation_rates(&self, _inputs: &ActuatorInputs, _act_dot: &mut [f64]) {}
 
     /// Sets the forces of its actuators in `force`, one number an output, before ranges limit them [N, N m].

@@ -6,7 +6,7 @@ use crate::math::{Mat3, Vec3, add, cross, normalize, quat_rotate, sub};
 use crate::model::{Model, TrackMode};
 use crate::position::kinematics::{attached_mat, attached_pos};
 
-/// Computes poses of cameras and lights from those of bodies.
+/// Computes poses of cameras and lights from poses of bodies.
 pub fn cameras_and_lights(m: &Model, com: &Com, kin: &mut Kinematics) {
     for c in 0..m.ncam {
         camera(m, com, c, kin);

@@ -18,8 +18,8 @@ struct Pose {
     quat: Quat,
 }
 
-/// Computes all poses but those of cameras and lights. Quaternions of joints and mocap bodies need not be
-/// normalised: they are on use.
+/// Computes all poses except of cameras and lights. Quaternions of joints and mocap bodies need not be normalised: this
+/// does it.
 pub fn kinematics(m: &Model, state: &State, kin: &mut Kinematics) {
     bodies(m, state, kin);
     attached(m, kin);
@@ -92,7 +92,7 @@ fn world(kin: &mut Kinematics) {
     kin.ximat[0] = UPRIGHT;
 }
 
-/// Pose of body `b`, its quaternion not normalised, from that of its parent; records anchors and axes of its joints.
+/// Pose of body `b` from the pose of its parent, the quaternion not normalised; records anchors and axes of its joints.
 #[inline(always)]
 fn body(m: &Model, state: &State, b: usize, kin: &mut Kinematics) -> Pose {
     let first = m.body_jntadr[b];

@@ -97,8 +97,8 @@ pub fn ray(m: &Model, kin: &Kinematics, ray: Ray, filter: RayFilter) -> Option<(
     nearest(m, kin, (0..m.ngeom).filter(|&g| passes(m, g, filter)), ray)
 }
 
-/// Nearest visible geom that each ray from `origin` hits, and where. Geoms of which no point is nearer than `cutoff`
-/// are passed through, as far as their bounding spheres tell; `f64::INFINITY` passes through none.
+/// Nearest visible geom that each ray from `origin` hits, and where. Rays pass through geoms whose bounding spheres are
+/// farther away than `cutoff`; with `f64::INFINITY` through none.
 pub fn multi_ray(
     m: &Model,
     kin: &Kinematics,
@@ -135,7 +135,7 @@ fn nearest(
 /// Where `ray` hits geom `geom`, visible or not.
 ///
 /// # Panics
-/// The index is not that of a geom.
+/// The index is out of range.
 pub fn ray_geom(m: &Model, kin: &Kinematics, geom: usize, ray: Ray) -> Option<Hit> {
     let (pos, mat, size) = (kin.geom_xpos[geom], &kin.geom_xmat[geom], m.geom_size[geom]);
     let data = usize::try_from(m.geom_dataid[geom]).ok();

@@ -24,7 +24,7 @@ struct Skin<'a> {
 ///
 /// Felt are geoms that the body is in contact with and that have signed distances: primitives, plugins, and meshes that
 /// some geom of type `sdf` uses. As in MuJoCo, tangents are turned by the mesh's pose in its file only, not by the geom's
-/// pose, and the other geom's velocity is that of its centre.
+/// pose, and the other geom's velocity is taken at its centre.
 ///
 /// Not inlined, so that models without such sensors do not pay for it.
 #[inline(never)]

@@ -2,8 +2,8 @@
 //! "Sleeping islands").
 //!
 //! `State::tree_asleep` says which trees sleep: below -1 a tree is awake, and counts up with every step in which it is slow
-//! enough; at -1 it is ready; from 0 on it sleeps, and the number is that of another tree of the same island, so that the
-//! trees which fell asleep together form a cycle. What else there is in `State` about sleep follows from that, by [`update`].
+//! enough; at -1 it is ready; from 0 on it sleeps, and the number names another tree of the same island, so that the trees
+//! that fell asleep together form a cycle. [`update`] derives everything else in `State` about sleep from these numbers.
 //!
 //! Stages leave what they computed of a sleeping tree as it was. Without the flag `sleep`, and while nothing sleeps, they
 //! work on everything.

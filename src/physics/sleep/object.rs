@@ -39,13 +39,13 @@ pub(crate) fn tendon(m: &Model, state: &State, t: usize) -> Activity {
     if awake { Activity::Awake } else { Activity::Asleep }
 }
 
-/// Activity of a flex, that of the first of its bodies that can move.
+/// Activity of a flex: the activity of its first body that can move.
 pub(crate) fn flex(m: &Model, state: &State, f: usize) -> Activity {
     let mut bodies = Flex { m, id: f }.bodies().iter().filter(|&&b| m.body_treeid[b as usize] >= 0);
     bodies.next().map_or(Activity::Static, |&b| body(state, b))
 }
 
-/// Activity of an actuator, that of what it acts on.
+/// Activity of an actuator: the activity of what it acts on.
 pub(crate) fn actuator(m: &Model, state: &State, i: usize) -> Activity {
     let [first, second] = m.actuator_trnid[i];
     match TrnType::from_code(m.actuator_trntype[i]) {

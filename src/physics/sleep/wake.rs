@@ -143,7 +143,7 @@ fn held_flex(m: &Model, eq: usize) -> Option<usize> {
     usize::try_from(m.eq_obj1id[eq]).ok().filter(|_| holds)
 }
 
-/// Wakes the sleeping island of a flex of which a part is awake.
+/// Wakes the sleeping part of a flex that is partly awake.
 fn by_flex(flex: Flex, state: &mut State) -> bool {
     let trees = || flex.bodies().iter().filter_map(|&b| usize::try_from(flex.m.body_treeid[b as usize]).ok());
     let awake = trees().find(|&tree| state.tree_awake[tree] != 0);

@@ -1,4 +1,4 @@
-//! Which entries of `A = Y Yᵀ` can differ from zero: those of rows that share a column of `Y`.
+//! Which entries of `A = Y Yᵀ` can differ from zero: entries of two rows that share a column of `Y`.
 
 use crate::constraint::HalfJacobian;
 use crate::data::Constraints;
@@ -8,7 +8,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pattern {
     columns: Vec<i32>,
-    /// Where those of each row are; the same for rows of one contact.
+    /// Where the columns of each row are; the same for rows of one contact.
     spans: Vec<Range<usize>>,
     /// Columns of `Y` of each row.
     sets: Vec<u64>,
@@ -54,7 +54,7 @@ impl Pattern {
         &self.columns[self.spans[i].clone()]
     }
 
-    /// Where column `j` stands among those of row `i`.
+    /// Where column `j` stands among the columns of row `i`.
     #[inline]
     pub fn place(&self, i: usize, j: usize) -> usize {
         self.columns(i).partition_point(|&column| (column as usize) < j)

@@ -29,7 +29,7 @@ pub(super) struct LineCost {
     pub jv: Vec<f64>,
     /// `M search`.
     pub mv: Vec<f64>,
-    /// Coefficients of the quadratic of each row, by power; that of a cone stands at its first row.
+    /// Coefficients of the quadratic of each row, by power; a cone's quadratic stands at its first row.
     quad: [Vec<f64>; 3],
     /// Cost, slope and curvature of rows with friction loss.
     friction: [Vec<f64>; 3],
@@ -167,7 +167,7 @@ struct Sums {
     quad: [f64; 3],
 }
 
-/// Products of which the coefficients of `½ Σ d (jar + alpha jv)²` are sums.
+/// The products whose sums are the coefficients of `½ Σ d (jar + alpha jv)²`.
 #[inline]
 fn products(d: f64, jar: f64, jv: f64) -> [f64; 3] {
     let force = d * jar;

@@ -64,7 +64,7 @@ pub struct SolverInputs<'a> {
 /// Computes `qacc`, `qfrc_constraint`, `efc_b`, `efc_force` and `efc_state`. `qacc_smooth` and `qfrc_smooth` are
 /// inputs.
 ///
-/// As in MuJoCo, when islands are solved by a primal method `efc_state` is that of the start, not of the solution.
+/// As in MuJoCo, when islands are solved by a primal method `efc_state` describes the start, not the solution.
 pub fn solve(
     inputs: SolverInputs,
     efc: &mut Constraints,

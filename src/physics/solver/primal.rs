@@ -68,7 +68,7 @@ impl Primal {
         self.scale = scale;
         p.mul_inertia(&self.qacc, &mut self.ma);
         if p.dense && p.nv == acc.qacc.len() {
-            // The products of full rows are those of the whole model.
+            // All rows and columns of the model are here, so its products can be copied.
             self.jar.clear();
             self.jar.extend_from_slice(jar);
         } else {

@@ -24,7 +24,7 @@ pub(super) struct Problem {
     pub spans: Vec<Range<usize>>,
     /// Where the entries are.
     pub pattern: Pattern,
-    /// Where those of the problem before were.
+    /// Where the entries of the previous problem were.
     before: Pattern,
     /// How often the pattern has changed; what follows from a pattern is kept while this stays.
     pub changes: u64,

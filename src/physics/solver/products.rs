@@ -52,8 +52,8 @@ impl Lanes {
     }
 }
 
-/// Entries of the transpose: those of one column, or of three that no row has without the others, as the columns of a
-/// vertex that slides along three axes.
+/// Entries of the transpose: one column, or three columns that occur in rows only together, such as the columns of a vertex
+/// that slides along three axes.
 #[derive(Clone, Copy, Debug)]
 struct Group {
     /// First column.
@@ -88,7 +88,7 @@ pub(super) struct Columns {
     places: Vec<u32>,
     /// First columns of rows that are two triples.
     pairs: Vec<[u32; 2]>,
-    /// Working memory: rows of each column, and those of them that have the next column too.
+    /// Working memory: how many rows each column has, and how many of them have the next column too.
     counts: Vec<[u32; 2]>,
     /// Working memory: group of each column, and its place therein.
     group_of: Vec<[u32; 2]>,

@@ -20,7 +20,7 @@ pub(super) struct SparseCholesky {
     start: Vec<usize>,
     /// Columns, increasing within a row, the diagonal last.
     columns: Vec<i32>,
-    /// Stretches of successive columns within the rows: the first column, and how many; and where those of each row begin.
+    /// Stretches of successive columns within the rows: the first column, and how many; and where each row's stretches begin.
     runs: Vec<(u32, u32)>,
     run_start: Vec<usize>,
     /// Runs are long enough to be worth following.
@@ -30,7 +30,7 @@ pub(super) struct SparseCholesky {
     later_start: Vec<usize>,
     /// Row of each and the place of its entry, in the order in which they are subtracted.
     later: Vec<(usize, usize)>,
-    /// Successive rows of the Jacobian with the same columns, as those of one contact: the first, and how many.
+    /// Successive rows of the Jacobian with the same columns, such as the rows of one contact: the first, and how many.
     groups: Vec<(usize, usize)>,
     /// Entries of groups by column: start of each column.
     entry_start: Vec<usize>,

@@ -155,8 +155,8 @@ impl Assets {
         Ok(())
     }
 
-    /// Moves skins and flexes to where those of a state are, which must have been computed; `options` say what is drawn of
-    /// flexes, as in the scene. Costs nothing without skins and flexes.
+    /// Poses skins and flexes as in a state that has been evaluated; `options` say what is drawn of flexes, as in the scene.
+    /// Costs nothing without skins and flexes.
     ///
     /// # Errors
     /// [`RenderError::NotFinite`] names a skin or flex that is nowhere.
@@ -224,7 +224,7 @@ impl Assets {
         self.wires.get(flex).into_iter().for_each(|wires| wires.parts(surfaces, origin, out));
     }
 
-    /// Whether the geoms that are planes are still those of the model.
+    /// Whether the model has the same planes as when it was prepared.
     fn has_planes_of(&self, model: &Model) -> bool {
         let known = (0..self.planes.len()).filter(|&geom| self.planes[geom].is_some());
         self.planes.len() == model.geom_type.len() && plane_geoms(model).eq(known)

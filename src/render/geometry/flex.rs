@@ -52,8 +52,8 @@ struct Sight<'a> {
     surface: Surface,
 }
 
-/// The triangles and wires of a flex in a state, whose vertices must have been computed; no triangles where they are
-/// those of `last`.
+/// The triangles and wires of a flex in a state whose vertices have been computed. There are no triangles when they equal
+/// `last`.
 ///
 /// # Errors
 /// [`RenderError::NotFinite`] where a vertex is nowhere.
@@ -211,7 +211,7 @@ impl Sight<'_> {
         }
     }
 
-    /// Unit normals of the vertices: sums of those of the triangles, whatever their size.
+    /// Unit normals of the vertices: normalised sums of the unit normals of the triangles, not weighted by area.
     fn smooth(&self, triangles: impl Iterator<Item = [i32; 3]>) -> Vec<Vec3> {
         let mut normals = vec![[0.0; 3]; self.points.len()];
         for corners in triangles {

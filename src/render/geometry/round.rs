@@ -67,7 +67,7 @@ impl Lathe {
         }
     }
 
-    /// The apex of a fan over one slice: its normal and u lie between those of the slice's edges.
+    /// The apex of a fan over one slice: its normal and u lie halfway between the slice's edges.
     fn apex(&self, apex: Ring, edge: usize) -> Corner {
         let (a, b) = (self.corner(apex, edge), self.corner(apex, edge + 1));
         let normal = match apex.normal[0] == 0.0 {

@@ -122,7 +122,7 @@ impl Backdrop {
     }
 }
 
-/// The colours of a fragment under the lamps without shadows, and those of the others that reach it, added up.
+/// The colour of a fragment: the lamps without shadows, plus the lamps with shadows that reach it.
 #[inline]
 fn sum(colours: &[Rgba], mut lit: u8) -> Rgba {
     let mut sum = colours[0];
@@ -140,7 +140,7 @@ pub struct Stills {
 }
 
 impl Stills {
-    /// Lets those of `items` stand still that `rests` picks.
+    /// Marks the items that `rests` picks as standing still.
     pub fn set(&mut self, items: usize, rests: impl Fn(usize) -> bool) {
         self.still.clear();
         self.still.extend((0..items).map(rests));

@@ -19,7 +19,7 @@ impl Batch {
     /// Draws all shots.
     ///
     /// # Errors
-    /// As [`Renderer::draw`], that of the first shot that fails; the others are drawn.
+    /// The error of [`Renderer::draw`] for the first shot that fails; all other shots are drawn.
     pub fn draw(&mut self, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
         let mut results = vec![Ok(()); self.renderers.len()];
         let share = shots.len().div_ceil(self.renderers.len()).max(1);

@@ -11,7 +11,7 @@ use wide::{f32x4, f32x8, i32x4};
 /// Columns and rows of a tile [pixel].
 const TILE: i32 = 16;
 
-/// Where the samples lie. Four of them make a group: those of one pixel, or four pixels of a row with one each.
+/// Where the samples lie. Four samples make a group: the four of one pixel, or one sample each of four pixels in a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pattern {
     /// Pixels of a group.
@@ -195,7 +195,7 @@ impl Edges {
 }
 
 impl Plane {
-    /// The plane through the corners themselves, where coverage is that of the grid.
+    /// The plane through the corners themselves, not rounded to the grid that decides coverage.
     #[inline]
     pub fn of(v: &[Vertex; 3]) -> Self {
         let (origin, second, third) = (v[0].at(), v[1].at(), v[2].at());

@@ -167,7 +167,7 @@ impl Draws {
     }
 }
 
-/// Marks the surfaces that the pictures have in common: those of one item, of one shape and in one place.
+/// Marks the surfaces that the pictures have in common: the same item, with the same shape, in the same place.
 pub fn mark_shared(all: &mut [Draws]) {
     let Some((first, others)) = all.split_first_mut() else { return };
     for draws in &*others {

@@ -1,6 +1,6 @@
 //! Labels: text over a finished picture, in front of everything.
 //!
-//! A label begins where its item is, as MuJoCo's does. The letters are those of the public font8x8, not MuJoCo's.
+//! A label begins where its item is, as MuJoCo's does. The letters come from the public-domain font8x8, not from MuJoCo.
 
 use super::paint::eight_bits;
 use super::window::Projection;

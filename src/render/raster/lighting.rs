@@ -121,7 +121,7 @@ fn share(x: f32x8) -> f32x8 {
     positive.simd_lt(f32x8::ONE).select(positive, f32x8::ONE)
 }
 
-/// Vectors of length 1, and their lengths before; those of length 0 stay.
+/// Vectors scaled to length 1, and their lengths before; zero vectors stay zero.
 pub fn unit(v: Triple) -> (Triple, f32x8) {
     let length = dot(v, v).sqrt();
     let safe = length.simd_gt(f32x8::ZERO).select(length, f32x8::ONE);

@@ -1,7 +1,7 @@
 //! The CPU renderer: from a scene to a picture.
 //!
 //! What is seen is decided first, sample by sample (`visibility`), then each visible triangle's corners are lit, and each
-//! fragment is shaded once. The result is that of MuJoCo's many passes over all triangles.
+//! fragment is shaded once. The result equals what MuJoCo's many passes over all triangles add up to.
 
 mod backdrop;
 mod batch;

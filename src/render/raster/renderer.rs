@@ -117,7 +117,7 @@ impl Renderer {
     /// each other share the work on shadows.
     ///
     /// # Errors
-    /// As [`Renderer::draw`], that of the first shot that fails; the others are drawn.
+    /// The error of [`Renderer::draw`] for the first shot that fails; all other shots are drawn.
     pub fn draw_all(&mut self, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
         self.settings = self.settings.within_limits();
         let mut outcome = Ok(());
@@ -292,8 +292,8 @@ impl Sheet {
     }
 }
 
-/// How many shots from the first on are drawn together: the same lamps shine on them, in maps of the same depths, and no two
-/// are of one view, of which one thing at a time is kept.
+/// How many shots from the first on are drawn together. They have the same lamps, with maps of the same depths, and different
+/// views, since what is kept of a view is kept once.
 fn together(shots: &[Shot<'_>]) -> usize {
     let depths = |shot: &Shot<'_>| (shot.scene.view.frustum.near, shot.scene.view.frustum.far);
     let fits = |shot: &Shot<'_>, before: &[Shot<'_>]| {

@@ -1,7 +1,7 @@
 //! Shadows: which fragments a lamp reaches.
 //!
 //! MuJoCo draws a depth map of `shadowsize` texels a side from every lamp and looks each fragment up in its nearest texel. Here
-//! only the texels that fragments ask for exist (`texels`), and casters are compared with those. The answers are those of the
+//! only the texels that fragments ask for exist (`texels`), and casters are compared with them. The answers equal those of a
 //! whole map. Pictures of one state ask together, so that every caster is projected once for all of them.
 //!
 //! Depth here is u = 0 at the near plane and 1 at the far one, so that what is near keeps its bits.
@@ -89,7 +89,7 @@ pub struct Shadows {
 pub struct Casting<'a> {
     /// Triangles.
     pub assets: &'a Assets,
-    /// The surfaces of each picture; those that they share are those of the first.
+    /// The surfaces of each picture. Shared surfaces stand in the first picture alone.
     pub draws: &'a [Draws],
     /// The lamp's maps.
     pub maps: Maps,
@@ -98,7 +98,7 @@ pub struct Casting<'a> {
 }
 
 impl Shadows {
-    /// Keeps those of `questions` that the lamp reaches past the draws that `casters` picks.
+    /// Keeps the questions whose points the lamp reaches past the draws that `casters` picks.
     pub fn cast(
         &mut self,
         casting: &Casting<'_>,

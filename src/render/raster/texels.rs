@@ -69,7 +69,7 @@ pub struct Grid {
     pub deepest: f32,
     /// Cells of every row.
     across: usize,
-    /// Columns and rows of the grid by those of the map, from the first of the region.
+    /// The grid's columns and rows, indexed by the map's columns and rows from the first of the region on.
     columns: Vec<u16>,
     rows: Vec<u16>,
     /// How many ask for the texels of each column and row of the map.
@@ -286,7 +286,7 @@ impl Grid {
         self.rows[(y - self.region.low[1]) as usize].into()
     }
 
-    /// First cells of the grid's rows between two, and the number of cells after them.
+    /// The first cell of each grid row between `rows`, and how many cells of it lie between `columns`.
     #[inline]
     fn lines(&self, columns: (i32, i32), rows: (i32, i32)) -> (impl Iterator<Item = usize> + use<>, usize) {
         let (first, last) = (self.column(columns.0), self.column(columns.1));

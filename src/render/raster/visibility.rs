@@ -10,7 +10,7 @@ use wide::{f32x4, i32x4, u32x4};
 /// Four samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Group {
-    /// Reversed depth of the nearest triangle; 0 where there is none.
+    /// Reversed depth of the nearest triangle; 0 without a triangle.
     pub depth: f32x4,
     /// Its number; 0 for none.
     pub triangle: u32x4,

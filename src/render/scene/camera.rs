@@ -104,7 +104,7 @@ impl Camera {
         }
     }
 
-    /// What this camera sees in the present state, of which the poses must have been computed.
+    /// What this camera sees in the present state, whose poses must have been computed.
     ///
     /// # Errors
     /// The model has no such camera, its pose is not finite, or its frustum is empty.
@@ -136,7 +136,7 @@ fn unknown(model: &Model, name: &str) -> RenderError {
     RenderError::UnknownCamera { name: name.to_owned(), cameras, nearest }
 }
 
-/// The pose of a pair of eyes, of which the picture is taken from the middle.
+/// The pose of a pair of eyes; the picture is taken from the middle between them.
 struct Pose {
     eye: Vec3,
     forward: Vec3,

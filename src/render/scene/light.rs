@@ -1,4 +1,4 @@
-//! Lights: the headlight, and those of the model.
+//! Lights: the headlight, and the model's.
 
 use crate::RenderError;
 use crate::view::View;
@@ -42,7 +42,7 @@ pub struct Light {
     pub headlight: bool,
 }
 
-/// Lights that can light at once, and places in the list of lights, of which those that do not light take one too.
+/// Places in the list of lights. Lights that are switched off take a place too.
 const PLACES: usize = 8;
 
 /// Ambient light where no light of the scene is of a kind that lights.

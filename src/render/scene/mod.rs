@@ -89,7 +89,7 @@ impl Scene {
         Scene::default()
     }
 
-    /// Replaces the scene by that of a state, of which all that is shown must have been computed (by a forward pass),
+    /// Replaces the scene by that of another state, which a forward pass must have evaluated,
     /// seen from `view`. From the second call on, nothing is allocated where no more items are shown than before, and no
     /// labels.
     ///

@@ -194,7 +194,7 @@ pub enum LabelChoice {
     Island,
 }
 
-/// Elements whose frames are shown; those of cameras and lights only together with the elements.
+/// Elements whose frames are shown. Frames of cameras and lights are shown only together with the elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)]
 pub enum FrameChoice {
@@ -276,7 +276,7 @@ impl Default for Effects {
     }
 }
 
-/// What a scene shows. The default is that of MuJoCo's renderer.
+/// What a scene shows. The defaults are those of MuJoCo's renderer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneOptions {
     /// Visible groups.

@@ -49,7 +49,7 @@ impl Source<'_> {
         self.shows(self.category(body as usize))
     }
 
-    /// Coat of an element of one material and colour. A colour other than the default replaces that of the material.
+    /// Coat of an element of one material and colour. A colour other than the default replaces the material's colour.
     pub fn coat(&self, material: i32, rgba: [f32; 4], category: Category) -> Coat {
         let (m, show) = (self.m, &self.options.show);
         let mut coat = Coat { rgba, look: Look::default(), material: None };
@@ -144,7 +144,7 @@ impl Form {
     }
 }
 
-/// Radius about its position within which an item lies, as MuJoCo reckons that of items that are no geoms.
+/// Radius about its position within which an item lies, by MuJoCo's formula for items that are not geoms.
 fn reach(form: &Form) -> f64 {
     let [x, y, z] = form.size;
     match form.shape {

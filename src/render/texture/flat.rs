@@ -31,7 +31,7 @@ impl Level {
         (self.width as usize + 1) * (self.height as usize + 1)
     }
 
-    /// Computes its texels from those of the next finer level.
+    /// Computes its texels from the next finer level.
     fn fill(&self, texels: &mut [u32], finer: Level, source: &[u32], srgb: bool) {
         let [width, height] = [self.width as usize, self.height as usize];
         let from = [finer.width as usize, finer.height as usize];

@@ -24,7 +24,7 @@ impl Halving {
         }
     }
 
-    /// Computes one row from those of the level above.
+    /// Computes one row from the rows of the level above.
     pub fn row<'a>(&self, y: usize, source: impl Fn(usize) -> &'a [u32], out: &mut [u32]) {
         let (upper, lower, weight_y) = self.rows[y];
         let (upper, lower) = (source(upper), source(lower));

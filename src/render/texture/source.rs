@@ -12,7 +12,7 @@ pub(super) const MAX_SIDE: usize = 1 << 14;
 pub(super) struct Image<'a> {
     /// Columns.
     pub width: usize,
-    /// Rows; of a cube, those of all faces it stores.
+    /// Rows; for a cube, the rows of all faces that it stores.
     pub height: usize,
     /// Bytes a pixel, 3 or 4.
     channels: usize,

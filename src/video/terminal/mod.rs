@@ -45,7 +45,7 @@ pub struct TerminalSize {
 }
 
 impl TerminalSize {
-    /// A terminal of which only the size in cells is known: a cell is taken to have 8 x 16 pixels.
+    /// A terminal whose size is known only in cells: a cell is taken to have 8 x 16 pixels.
     pub fn of(columns: u16, rows: u16) -> Self {
         TerminalSize { columns, rows, cell: (8, 16) }
     }

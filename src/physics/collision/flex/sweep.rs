@@ -120,7 +120,7 @@ struct OpenElements {
     groups: Vec<Group>,
     /// Place of each element among the groups.
     place: Vec<u32>,
-    /// Elements in the groups, and those of them that have ended.
+    /// Elements in the groups, and how many of them have ended.
     count: usize,
     ended: usize,
 }

@@ -66,8 +66,8 @@ fn farthest(found: &[Contact], newest: usize, spread: &mut Spread) -> Option<usi
     best
 }
 
-/// Sorts the contacts of two bodies or flexes, at most `MAXCONPAIR`, by what touches; those of the same parts keep their
-/// order.
+/// Sorts the contacts of two bodies or flexes, at most `MAXCONPAIR`, by what touches. Contacts of the same parts keep
+/// their order.
 pub(super) fn sort(contacts: &mut [Contact]) {
     let part = |c: &Contact, side: usize| match (c.geom[side], c.elem[side]) {
         (geom, _) if geom >= 0 => geom,

@@ -100,7 +100,7 @@ struct Transfer {
 }
 
 impl Transfer {
-    /// From the frame of the first pose to that of the second.
+    /// From the frame of the first pose to the frame of the second.
     fn new((pos, quat): (Vec3, Quat), (base, orientation): (Vec3, Quat)) -> Self {
         let back = quat_conj(orientation);
         let origin = scale(quat_rotate(back, base), -1.0);

@@ -322,7 +322,7 @@ fn element_block<const E: usize>(
     block
 }
 
-/// Cholesky factor of a symmetric matrix of which the lower triangle counts.
+/// Cholesky factor of a symmetric matrix; only its lower triangle is read.
 fn factor(a: &Mat3) -> Mat3 {
     let mut l = [0.0; 9];
     for j in 0..3 {

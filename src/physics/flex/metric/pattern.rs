@@ -24,7 +24,7 @@ pub(super) struct Pattern {
     pub has_cells: bool,
     /// Coupled points: point, and first degree of freedom of its neighbour; in any order, and more than once.
     pairs: Vec<[u32; 2]>,
-    /// The neighbours in `pairs`, by point, and where those of each point begin.
+    /// The neighbours in `pairs`, by point, and where the neighbours of each point begin.
     neighbours: Vec<u32>,
     first_neighbour: Vec<usize>,
     /// The last point that each degree of freedom was found to be a neighbour of.

@@ -1,5 +1,5 @@
-//! Contacts of flexes that ask for it are springs instead of constraints: between flexes, within one, and with what does
-//! not move. Their stiffness is that of an oscillator of one frequency with the lightest vertex that touches.
+//! Contacts of flexes that ask for it are springs instead of constraints: between flexes, within a flex, and with static
+//! geoms. The stiffness is chosen so that the lightest vertex in contact oscillates with a given frequency.
 
 use super::has_soft_contacts;
 use crate::constraint::Difference;

@@ -86,7 +86,7 @@ fn label(from: Source<'_>, i: usize, text: &mut String) {
     }
 }
 
-/// Colour by control, or by activation: between that of no force and those of the ends of the range.
+/// Colour by control, or by activation: from one colour at zero to another at either end of the range.
 fn color(from: Source<'_>, i: usize) -> [f32; 4] {
     let Source { m, d, options } = from;
     let ctrl = usize::try_from(m.actuator_ctrladr[i]).ok();

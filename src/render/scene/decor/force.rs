@@ -55,7 +55,7 @@ fn anchors<'a>(from: Source<'a>, i: usize) -> Option<[(Vec3, &'a Mat3); 2]> {
     let [a, b, c, x, y, z, ..] = m.eq_data[i];
     let ([front, back], object) =
         ([[a, b, c], [x, y, z]], [m.eq_obj1id[i], m.eq_obj2id[i]].map(|id| id.max(0) as usize));
-    // A connect constraint has the anchor of its first body in front, a weld that of its second.
+    // The first three numbers are the anchor on the first body of a connect constraint, on the second body of a weld.
     let local = match EqType::from_code(m.eq_type[i]) {
         Some(EqType::Connect) => [front, back],
         Some(EqType::Weld) => [back, front],

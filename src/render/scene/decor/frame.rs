@@ -57,7 +57,7 @@ pub(super) fn of_geoms_and_sites(from: Source<'_>, items: &mut Items<'_>) {
     }
 }
 
-/// Adds the frames of bodies, or that of the world, which is twice as large.
+/// Adds the frames of bodies, or the world's frame, which is twice as large.
 pub(super) fn of_bodies(from: Source<'_>, items: &mut Items<'_>) {
     let (m, kin) = (from.m, &from.d.kin);
     let (bodies, times) = match from.options.frame {

@@ -56,7 +56,7 @@ fn field(fields: i32, reading: &[f64], wanted: RayField) -> Option<&[f64]> {
     None
 }
 
-/// Radius of the balls at the ends of rays, in widths of frame axes: of a single ray, and of those of a camera.
+/// Radius of the balls at the ends of rays, in widths of frame axes: for a single ray, and for the rays of a camera.
 const DOTS: [f64; 2] = [1.5, 1.3];
 
 fn rangefinder(from: Source<'_>, i: usize, reading: &[f64], items: &mut Items<'_>) {

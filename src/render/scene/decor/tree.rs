@@ -25,7 +25,7 @@ fn add_box(from: Source<'_>, node: usize, aabb: &[f64; 6], frame: (Vec3, &Mat3),
     items.decor(&form, from.m.vis.rgba.bv, unnamed(node));
 }
 
-/// Adds the boxes of bodies: those of geoms at the leaves, else in the inertial frame.
+/// Adds the boxes of each body's hierarchy: a leaf in the frame of its geom, an inner node in the body's inertial frame.
 pub(super) fn of_bodies(from: Source<'_>, items: &mut Items<'_>) {
     let Source { m, d, options } = from;
     if !options.show.body_trees {

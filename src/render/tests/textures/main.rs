@@ -128,7 +128,7 @@ fn levels_mix_between_the_two_nearest() {
     assert!((red(9.0) - 25.0).abs() < 0.01);
 }
 
-/// A cube of which every face has its own red, and green and blue grow along the columns and rows of its image.
+/// A cube: each face has its own red; green and blue grow along the columns and rows of its image.
 fn oriented_cube() -> Texture {
     let pixel = |i: usize| [(40 * (i / 64)) as u8, (30 * (i % 8)) as u8, (30 * (i / 8 % 8)) as u8];
     let data: Vec<u8> = (0..6 * 64).flat_map(pixel).collect();

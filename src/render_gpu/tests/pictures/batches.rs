@@ -89,7 +89,7 @@ fn another_model_takes_the_place_of_the_last_one() {
     assert!(first == shots[0].on_gpu(&mut gpu, [40, 40]));
 }
 
-/// Pictures of one state share shadow maps, those of another one do not.
+/// Pictures of one state share shadow maps; pictures of different states do not.
 #[test]
 fn cameras_of_two_states_keep_their_own_shadows() {
     let model = mjcf::load_str(WORLD).expect("a model").model;

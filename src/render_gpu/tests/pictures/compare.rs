@@ -49,7 +49,7 @@ impl Measures {
         assert!(holds, "{what}: {self:?}");
     }
 
-    /// The same for small pictures, of which one pixel at the edge of a shadow is many decibels: one in 500 may differ.
+    /// The same for small pictures, where one pixel at the edge of a shadow costs many decibels: one pixel in 500 may differ.
     pub fn check_small(&self, what: &str) {
         let holds = self.visible <= 0.002 && self.other_inside == 0 && self.depth <= 1e-4;
         assert!(holds, "{what}: {self:?}");

@@ -15,7 +15,7 @@ use render::scene::{Camera, Scene, SceneOptions};
 use render::{Assets, Picture, Profile};
 use robohive_render_gpu::{Choice, GpuError, GpuRenderer};
 
-/// A renderer on any GPU. `cargo xtask gpu` looks for what is printed where there is none.
+/// A renderer on any GPU. Without a GPU a line is printed, which `cargo xtask gpu` looks for.
 fn renderer(settings: Settings) -> Option<GpuRenderer> {
     match GpuRenderer::new(settings, &Choice::Any) {
         Ok(renderer) => Some(renderer),
