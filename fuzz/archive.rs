@@ -64,7 +64,7 @@ pub fn pack(inputs: &Inputs) -> Vec<u8> {
     bytes
 }
 
-/// The sum of a header's bytes, those of the sum itself counted as spaces.
+/// The sum of a header's bytes; the bytes of the sum itself count as spaces.
 fn sum(header: &[u8]) -> usize {
     let counted = header.iter().enumerate().map(|(i, &byte)| if SUM.contains(&i) { b' ' } else { byte });
     counted.map(usize::from).sum()

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 fn main() -> std::io::Result<()> {
     let mut files = Vec::new();
-    // A package without its neighbours has those of its own version.
+    // A package built alone takes its neighbours' published versions.
     for folder in [".", "../src/physics"].map(Path::new).into_iter().filter(|folder| folder.exists()) {
         println!("cargo::rerun-if-changed={}", folder.display());
         collect(folder, &mut files)?;

@@ -120,7 +120,7 @@ impl Sources {
     pub fn element(&self, loc: Loc) -> Option<&str> {
         let text = self.get(loc.file)?.text();
         let after = text.get(loc.offset as usize..)?;
-        // A location is that of the element's '<', or of something inside its opening tag.
+        // A location points to the element's '<', or to something inside its opening tag.
         let tag = match after.strip_prefix('<') {
             Some(tag) => tag,
             None => &text[text[..loc.offset as usize].rfind('<')? + 1..],

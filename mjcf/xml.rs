@@ -3,7 +3,7 @@
 //! A linear scan runs before the parser proper (roxmltree) and bounds what hostile text can cost: nesting,
 //! size, attributes per element, document type declarations. It also blanks comments and processing
 //! instructions in place, so their bytes need be neither well-formed nor UTF-8, as MuJoCo's parser allows,
-//! and offsets stay those of the file.
+//! and offsets stay as in the file.
 
 use std::sync::Arc;
 

@@ -18,7 +18,7 @@ const FUNCTION: usize = 80;
 /// Arguments of a function, `self` among them.
 const ARGUMENTS: usize = 7;
 
-/// Every crate with those of this repository that it may depend on. What stands in no row does not exist.
+/// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
 const ORDER: [(&str, &[&str]); 22] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),

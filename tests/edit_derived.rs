@@ -31,7 +31,7 @@ impl Sequence {
 
 const SHAPES: [&str; 5] = ["sphere", "capsule", "ellipsoid", "cylinder", "box"];
 
-/// Geoms of one body, of any primitive type, some of which cannot collide.
+/// Geoms of one body, of any primitive type; some cannot collide.
 fn geoms(count: usize, random: &mut Sequence) -> String {
     let geom = |random: &mut Sequence| {
         format!(

@@ -43,7 +43,7 @@ pub(super) fn write(file: &mut File, reads: &Reads, loaded: &Loaded) -> std::io:
     out.flush()
 }
 
-/// The list at the start of an entry of `left` bytes, which become those of the model.
+/// Reads the list at the start of an entry of `left` bytes; afterwards `left` counts the bytes of the model.
 pub(super) fn read_list(source: &mut impl Read, left: &mut u64) -> Option<(Reads, Vec<Diagnostic>)> {
     let mut head = [0; 16];
     source.read_exact(&mut head).ok()?;

@@ -8,7 +8,7 @@ use crate::mesh::{CompiledMesh, CompiledSkin};
 use crate::spec::{Skin, Spec};
 use physics::model::{ObjType, Rows};
 
-/// Appends all assets except the hierarchies, which follow those of the bodies.
+/// Appends all assets except their hierarchies, which stand behind the hierarchies of bodies.
 pub(super) fn fill(m: &mut Rows, assets: &Assets, spec: &Spec, lookup: &Lookup, log: &mut Log) {
     m.tex_data.reserve_exact(assets.textures.iter().map(|asset| asset.compiled.data.len()).sum());
     let total =

@@ -22,7 +22,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// One asset: its name (that of its file when the element has none) and what it compiled to.
+/// One asset: its name (the file's name when the element has none) and what it compiled to.
 pub(super) struct Asset<T> {
     pub name: String,
     pub loc: Loc,

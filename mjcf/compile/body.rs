@@ -245,7 +245,7 @@ fn align_to_inertia(node: &mut BodyNode, recompiled: bool) {
     }
 }
 
-/// A moving body needs mass and inertia, its own or that of a body welded to it.
+/// A moving body needs mass and inertia, its own or from a body welded to it.
 pub(super) fn check_moving_mass(tree: &Tree, log: &mut Log) {
     let children: Vec<Vec<usize>> = {
         let mut lists = vec![Vec::new(); tree.bodies.len()];

@@ -140,7 +140,7 @@ fn families(tree: Tree, spec: &Spec) -> Vec<Family> {
     ]
 }
 
-/// Sizes of which only the widths of user data are set.
+/// Sizes with only the widths of user data set.
 fn widths(m: &Rows) -> Arrays {
     Arrays {
         nuser_body: m.nuser_body,

@@ -84,7 +84,7 @@ pub(super) fn same_orientation(a: Quat, b: Quat) -> bool {
     (0..4).all(|k| (a[k] - b[k]).abs() < SAME) || (0..4).all(|k| (a[k] + b[k]).abs() < SAME)
 }
 
-/// How a pose coincides with that of its parent.
+/// How a pose coincides with its parent's pose.
 pub(super) fn same_frame(pose: Pose) -> SameFrame {
     match (same_position(pose.pos, [0.0; 3]), same_orientation(pose.quat, UNIT)) {
         (true, true) => SameFrame::Body,

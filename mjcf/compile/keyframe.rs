@@ -6,7 +6,7 @@ use crate::diagnostic::Loc;
 use crate::spec::{Key, KeyPart, Keyed, Spec};
 use physics::model::{JointType, Rows};
 
-/// Name and place of every keyframe: those of the file, empty ones up to `size/nkey`, those of attached models.
+/// Name and place of every keyframe: from the file, empty ones up to `size/nkey`, then from attached models.
 pub(super) fn names(spec: &Spec) -> impl Iterator<Item = (&str, Loc)> {
     let empty = (spec.size.nkey.max(0) as usize).saturating_sub(spec.keys.len());
     let own = spec.keys.iter().map(|k| (&*k.name, k.loc));
@@ -14,7 +14,7 @@ pub(super) fn names(spec: &Spec) -> impl Iterator<Item = (&str, Loc)> {
     own.chain(std::iter::repeat_n(("", Loc::NONE), empty)).chain(kept)
 }
 
-/// Appends the keyframes of the file, empty ones up to `size/nkey`, and those of attached models.
+/// Appends the keyframes of the file, empty ones up to `size/nkey`, then the keyframes of attached models.
 pub(super) fn fill(m: &mut Rows, tree: &Tree, spec: &Spec, log: &mut Log) {
     let (nq, nv, nu) = (m.qpos0.len(), m.dof_bodyid.len(), m.actuator_ctrllimited.len());
     let na: i32 = m.actuator_actnum.iter().sum();

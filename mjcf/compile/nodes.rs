@@ -104,7 +104,7 @@ pub(super) struct GeomNode<'s> {
     pub inertia: Vec3,
     /// Id of the mesh or height field the geom consists of or was fitted to, -1 for none.
     pub dataid: i32,
-    /// Material: the geom's own, else that of its mesh.
+    /// Material: the geom's own, else its mesh's.
     pub material: String,
     pub surfacevel: [f64; 6],
     pub fluid: [f64; 12],

@@ -1,8 +1,8 @@
 //! Plugins: the instances that elements declare in place get numbers, attributes become bytes, and what a plugin must tell
 //! before the model exists is asked for.
 //!
-//! Numbers run through the instances with names, then those of meshes, actuators, sensors and the tree of bodies, then those
-//! that composites made.
+//! Instances are numbered in this order: those with names, of meshes, of actuators, of sensors, of the tree of bodies, made by
+//! composites.
 
 use super::log::{Log, title};
 use super::values::bounded;
@@ -133,7 +133,7 @@ impl Plugins {
         }
     }
 
-    /// Id of the instance that an element uses, which must have a capability; -1, with an error, where there is none.
+    /// Id of the instance that an element uses, which must have a capability; -1, with an error, when it is missing.
     pub(super) fn id(
         &self,
         used: Option<&PluginUse>,

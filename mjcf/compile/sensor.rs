@@ -8,7 +8,7 @@ use crate::spec::{Sensor, Spec};
 use physics::model::{DataType, GeomType, JointType, ObjType, Rows, SensorType, Stage};
 use physics::plugin::{Capability, Config, Plugin};
 
-/// Appends all sensors; history buffers follow those of the actuators.
+/// Appends all sensors; their history buffers stand behind the actuators' buffers.
 pub(super) fn fill(m: &mut Rows, (spec, plugins): (&Spec, &Plugins), lookup: &Lookup, log: &mut Log) {
     for sensor in &spec.sensors {
         let what = title("sensor", &sensor.name);

@@ -141,7 +141,7 @@ impl Spec {
         }
     }
 
-    /// Adds the elements of `added`, those of its world to the body called `onto`.
+    /// Adds the elements of `added`; what its world holds goes to the body called `onto`.
     fn merge(&mut self, onto: &str, mut added: Spec) -> Result<(), Diagnostics> {
         let names = self.all_names();
         if let Some((space, name)) = added.all_names().intersection(&names).next() {

@@ -14,7 +14,7 @@ use crate::schema::tree::Attach;
 use crate::spec::{Body, Spec, asset_name};
 use crate::xml::Element;
 
-/// Texts of attached models are numbered from here, beyond those of any file.
+/// Texts of attached models are numbered from here, beyond the numbers of files.
 const FIRST: u32 = 1 << 24;
 
 impl Spec {
@@ -70,7 +70,7 @@ impl Spec {
         Ok(())
     }
 
-    /// Gives the elements of `child` places in texts beyond those of this model; returns the first.
+    /// Gives the elements of `child` places in texts numbered beyond this model's; returns the first number.
     fn renumber_places(&mut self, child: &mut Spec) -> u32 {
         let mut first = FIRST;
         let mut see = |file: u32| {

@@ -1,4 +1,4 @@
-//! Settings of a model that is attached against those of the model that takes it.
+//! Conflicts between the settings of an attached model and the settings of the model that takes it.
 
 use super::reading;
 use crate::diagnostic::{Diagnostics, Loc, Sources};

@@ -13,7 +13,7 @@ use crate::spec::*;
 use crate::write;
 use crate::xml::Element;
 
-/// Attributes of which an element has one at most.
+/// Attributes that exclude each other.
 const ORIENTATIONS: [&str; 5] = ["quat", "axisangle", "xyaxes", "zaxis", "euler"];
 
 /// The section that an element of a list stands in; none for elements of bodies.

@@ -18,7 +18,7 @@ pub enum Primitive {
 }
 
 /// `geom_size` of `shape` fitted to `mesh`, and the shape's centre in the mesh's inertial frame.
-/// With `fitaabb` the shape's bounding box contains that of the mesh, else its inertia is close.
+/// With `fitaabb` the shape's bounding box contains the mesh's, else its inertia is close.
 /// Entries a shape does not use keep the value in `size`, multiplied by `fitscale` like the others.
 pub fn fit_primitive(
     mesh: &CompiledMesh,

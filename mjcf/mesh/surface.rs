@@ -1,6 +1,6 @@
 //! The surface of a signed distance field as a mesh, by marching cubes.
 //!
-//! Samples, places on edges and normals are in single precision, as those of MuJoCo are.
+//! Samples, places on edges and normals are in single precision, as in MuJoCo.
 
 use super::cube_triangles::TRIANGLES;
 use super::source::RawMesh;

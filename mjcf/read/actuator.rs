@@ -263,7 +263,7 @@ fn cylinder(s: &Shortcut, a: &mut Actuator) {
     kinds(a, DynType::Filter, GainType::Fixed, BiasType::Affine);
 }
 
-/// Values equal to those of a plain actuator count as unset; negative ones leave what the class has.
+/// Values equal to a plain actuator's count as unset; negative ones leave what the class has.
 fn muscle(s: &Shortcut, a: &mut Actuator) -> Result<(), String> {
     let plain = |i: usize| if i == 0 { 1.0 } else { 0.0 };
     for (i, default) in [0.01, 0.04].into_iter().enumerate() {

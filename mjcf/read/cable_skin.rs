@@ -134,7 +134,7 @@ fn bone_frames(grid: Grid, half: [f64; 3], bodies: &[String]) -> Vec<Bone> {
     (0..grid.along * grid.across).map(bone).collect()
 }
 
-/// Gives bones their vertices: cell by cell, each point of a cell to those of its sixteen bones that move it.
+/// Gives bones their vertices: cell by cell, each point to the bones that move it, at most sixteen.
 fn interpolate(bones: &mut [Bone], grid: Grid, between: usize) {
     let across = grid.across + (grid.across - 1) * between;
     let layer = (grid.along + (grid.along - 1) * between) * across;

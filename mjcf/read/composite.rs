@@ -212,7 +212,7 @@ impl Reader<'_> {
     }
 }
 
-/// The name of part `ix` of a kind, of which the last has number `last`.
+/// The name of part `ix` of a kind; parts are numbered up to `last`.
 fn label(prefix: &str, kind: char, ix: usize, last: usize) -> String {
     match ix {
         0 => format!("{prefix}{kind}_first"),

@@ -1,4 +1,4 @@
-//! Settings of an attached model against those of the model that attaches it (`compiler/conflict`).
+//! Conflicts between the settings of an attached model and of the model that attaches it (`compiler/conflict`).
 //!
 //! A setting counts as given when the text has the attribute, or, for sizes, when it is not the default. The
 //! attaching model's value stands, is combined with the other, or the difference is an error.

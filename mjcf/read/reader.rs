@@ -18,7 +18,7 @@ pub(crate) struct Reader<'a> {
     pub(super) model_dir: String,
     /// Elements made by `replicate` and `attach` so far.
     pub(super) copied: usize,
-    /// Settings that the text gives, for conflicts with those of attached models.
+    /// Settings that the text gives, for conflicts with attached models.
     pub(crate) authored: Authored,
     /// Warnings about conflicts given already.
     pub(super) warned: BTreeSet<String>,
@@ -35,7 +35,7 @@ pub(crate) struct Reader<'a> {
 pub(crate) struct ModelFile {
     /// What `attach` calls it.
     pub name: String,
-    /// Index of its first text; those of the models inside it follow.
+    /// Index of its first text; texts of models inside it follow.
     pub first_file: u32,
     /// Its elements.
     pub spec: Spec,

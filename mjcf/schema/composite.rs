@@ -167,7 +167,7 @@ pub struct CompositeSkin {
     pub rgba: [f32; 4],
     /// Not used: the thickness of the boxes is taken.
     pub inflate: f64,
-    /// Vertices between those of the bodies.
+    /// Additional vertices between the vertices of neighbouring bodies.
     pub subgrid: i32,
 }
 

@@ -22,7 +22,7 @@ elements! {
         dynprm: [f64; 10] = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
         /// Activation variables, -1 for as many as the dynamics need.
         actdim: i32 = -1,
-        /// Which inputs the actuator takes, as bits (MuJoCo's `ctrlspec`); 0 for those of its type.
+        /// Which inputs the actuator takes, as bits (MuJoCo's `ctrlspec`); 0 for the default of its type.
         ctrlspec: i32 = 0,
         /// Limits of the velocity set point.
         velrange: [f64; 2] = [0.0; 2],
@@ -44,7 +44,7 @@ elements! {
         cranklength: f64 = 0.0,
         /// Range of the length.
         lengthrange: [f64; 2] = [0.0; 2],
-        /// Range of the target times this becomes that of control or activation; 0 for none.
+        /// The range of control or activation is the target's range times this; 0 for no range.
         inheritrange: f64 = 0.0,
         /// Damper polynomial.
         damping: [f64; 3] = [0.0; 3],

@@ -160,7 +160,7 @@ elements! {
     }
 }
 
-/// Name of an asset: its own, or that of its file.
+/// Name of an asset: its own, or its file's.
 pub(crate) fn asset_name(name: &str, path: &str) -> String {
     if !name.is_empty() {
         return name.to_owned();

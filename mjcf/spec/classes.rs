@@ -39,8 +39,8 @@ pub struct Class {
     pub actuator: Actuator,
 }
 
-/// All classes of a model. Elements took their class's values when they were read; what is added later takes those of the
-/// class it names.
+/// All classes of a model. Elements took their class's values when they were read; an element that is added later takes the
+/// values of the class that it names.
 #[derive(Debug, Clone)]
 pub struct Classes {
     pub(crate) list: Vec<Class>,

@@ -119,7 +119,7 @@ pub struct Spec {
 }
 
 impl Spec {
-    /// The settings that an element at `loc` is compiled with: those of the text it stands in.
+    /// The settings that an element at `loc` is compiled with: the settings of the text that it stands in.
     pub fn compiler_at(&self, loc: Loc) -> &Compiler {
         let model = if loc == Loc::NONE { None } else { self.attached.range(..=loc.file).next_back() };
         model.map_or(&self.compiler, |(_, compiler)| compiler)

@@ -15,7 +15,7 @@ pub enum InertiaFromGeom {
     Auto,
 }
 
-/// What becomes of settings of an attached model that differ from those of the model that attaches it.
+/// What happens when settings of an attached model differ from the settings of the model that attaches it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Conflict {
     /// The attaching model's stand, with a warning.

@@ -10,7 +10,7 @@ fn refusal(text: &str) -> String {
     load_str(text).map(|_| ()).expect_err("the model must be refused").to_string()
 }
 
-/// A trunk with two arms, one of which ends in two fingers; a rail apart from it.
+/// A trunk with two arms, the second with two fingers; a rail apart from it.
 const TREE: &str = r#"
 <mujoco>
   <worldbody>
@@ -170,7 +170,7 @@ fn a_tendon_that_misses_its_geom_leaves_the_geoms_island_alone() {
     assert_eq!(d.state.qpos[0], 0.0);
 }
 
-/// Inverse weights are those of dense rows and the whole inertia, to the last bit, though found within trees.
+/// Inverse weights, which are computed tree by tree, equal those of dense rows and the whole inertia to the last bit.
 #[test]
 fn inverse_weights_within_trees_are_those_of_the_whole_inertia() {
     use physics::math::dense::dot_slice;

@@ -40,7 +40,7 @@ fn links_become_bodies_with_joints_shapes_and_masses() {
     // A second geom of one name has none.
     assert_eq!((0..m.ngeom).filter(|&g| m.name_of(ObjType::Geom, g) == "foot").count(), 1);
     assert_eq!([0, 1].map(|mesh| m.name_of(ObjType::Mesh, mesh)), ["wedge", "wedge1"]);
-    // The colour of a visual is that of the collisions after it.
+    // The colour of a visual holds for the collisions after it.
     assert_eq!((m.geom_rgba[0], m.geom_rgba[1]), ([0.6, 0.6, 0.65, 1.0], [0.6, 0.6, 0.65, 1.0]));
     // Impossible moments of inertia are balanced.
     assert!(m.body_inertia[3].iter().all(|x| (x - 0.4).abs() < 1e-15));

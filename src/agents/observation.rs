@@ -29,7 +29,7 @@ pub(crate) enum Shown {
 }
 
 impl Shown {
-    /// Finds `len` values to show: the observation vector, or that of an earlier version of the task.
+    /// Finds `len` values to show: the observation vector, or the vector of an earlier version of the task.
     ///
     /// # Errors
     /// Neither has this length.

@@ -40,7 +40,7 @@ impl Encoder {
     /// The network of `encoding` with the weights of a file: safetensors, or what `torch.save` wrote.
     ///
     /// # Errors
-    /// The encoder is no network, the file cannot be read, or its tensors are not those of the network.
+    /// The encoder is no network, the file cannot be read, or its tensors do not fit the network.
     #[cfg(feature = "networks")]
     pub fn load(encoding: Encoding, weights: &Path, profile: Profile) -> Result<Self, EncoderError> {
         Ok(Self::with_network(encoding, Network::load(encoding, weights)?, profile))

@@ -56,7 +56,7 @@ impl Image {
         &self.name
     }
 
-    /// Its shape, that of [`VisualKey::shape`].
+    /// Its shape, as [`VisualKey::shape`].
     pub fn shape(&self) -> &[usize] {
         &self.shape
     }
@@ -94,7 +94,7 @@ impl Exteroception {
 /// The visual keys of an environment, and what draws them.
 pub(crate) struct Eyes {
     takes: Vec<Take>,
-    /// What the takes show, where they are drawn together with those of other environments.
+    /// What the takes show, when they are drawn together with takes of other environments.
     scenes: Vec<Scene>,
     seen: Exteroception,
     current: bool,
@@ -162,7 +162,7 @@ impl Eyes {
         }
     }
 
-    /// Forgets that the images are those of the present state.
+    /// Marks the images as out of date.
     pub(crate) fn close(&mut self) {
         self.current = false;
     }
@@ -211,7 +211,7 @@ impl Env {
         encoded.map(|key| self.eyes.network.get(key, self.compat)).transpose()
     }
 
-    /// Lists what the images show, where they are not those of the present state: [`Env::shots`] draw them.
+    /// Lists what the images show, if they are out of date: [`Env::shots`] draw them.
     pub(crate) fn list_images(&mut self) -> Result<(), EnvError> {
         if self.eyes.current {
             return Ok(());
@@ -237,7 +237,7 @@ impl Env {
         })
     }
 
-    /// Makes images of the drawings, where they are not those of the present state.
+    /// Makes images of the drawings, if they are out of date.
     pub(crate) fn finish_images(&mut self) -> Result<(), EnvError> {
         if !self.eyes.current {
             let network = self.network()?;
@@ -272,8 +272,8 @@ impl Env {
     }
 }
 
-/// Turns the colours of a drawing into the values of an image. Bytes change places with those of the image before, whose
-/// memory the next drawing fills.
+/// Turns the colours of a drawing into the values of an image. An image of bytes is swapped with the drawing instead of
+/// copied, so the next drawing fills the previous image's memory.
 fn encode(take: &mut Take, network: Option<&dyn Network>, pixels: &mut Pixels) -> Result<(), String> {
     let Picture { width, height, rgb, .. } = &mut take.picture;
     match (pixels, network) {

@@ -17,7 +17,7 @@ type Edits = Vec<(String, Vec<f64>)>;
 /// [`EnvState`](crate::EnvState) is the same within a process, cheaper.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EnvMemory {
-    /// Arrays of the model that differ from those of an environment made in the same way.
+    /// Arrays of the model that differ from a newly made environment's.
     pub edits: Edits,
     /// State of physics, robot, task and draws, and the last observation.
     pub words: Vec<u64>,

@@ -3,7 +3,7 @@
 use physics::math::{Mat3, Quat, Vec3, ops};
 use physics::math::{quat_conj, quat_from_axis_angle, quat_mul};
 
-/// Cosines of the middle angle below this are those of gimbal lock.
+/// The cosine of the middle angle is below this in gimbal lock.
 const GIMBAL_LOCK: f64 = 4.0 * f64::EPSILON;
 
 /// The quaternion of a rotation about x, then about the new y, then about the new z [rad].

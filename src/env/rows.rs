@@ -17,7 +17,7 @@ impl Row {
         &self.name
     }
 
-    /// What its values are measured in; several units are those of its parts.
+    /// What its values are measured in; several units belong to its parts in order.
     pub fn unit(&self) -> &'static str {
         self.unit
     }

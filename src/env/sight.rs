@@ -77,7 +77,7 @@ impl Sight {
         draws_batches
     }
 
-    /// Lists what cameras see of a state, for pictures that are drawn together with those of others.
+    /// Lists what cameras see of a state, for pictures that are drawn together with pictures of other environments.
     ///
     /// # Errors
     /// As [`Sight::draw`].
@@ -169,7 +169,7 @@ impl Studio {
     }
 }
 
-/// What was prepared, with the edits of `model`, its skins and flexes where those of the state are.
+/// What was prepared, with the edits of `model`, its skins and flexes posed as in the state.
 fn current<'a>(
     own: &'a mut Option<Assets>,
     prepared: &Mutex<Option<Assets>>,

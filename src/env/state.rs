@@ -92,7 +92,7 @@ impl WorldState {
         Self::NAMES.into_iter().zip(parts).filter_map(|(name, values)| Some((name, values?)))
     }
 
-    /// Sets a part by name; `false` where there is none of that name.
+    /// Sets a part by name; `false` if no part has that name.
     pub fn set(&mut self, name: &str, values: &[f64]) -> bool {
         let part = match name {
             "time" => {

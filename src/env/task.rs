@@ -32,7 +32,7 @@ pub struct Pose {
 
 /// The beginning of an episode, to be decided by the task.
 pub struct Episode<'a> {
-    /// The world. Its state is still that of the last episode when [`Task::reset`] is called.
+    /// The world. When [`Task::reset`] is called it is still in the state in which the last episode ended.
     pub scene: &'a mut Scene,
     /// Draws of this environment.
     pub rng: &'a mut Rng,

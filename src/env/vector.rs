@@ -88,7 +88,7 @@ impl VecEnv {
         })
     }
 
-    /// Resets every environment; that of index k is seeded with `seed + k`.
+    /// Resets every environment; environment k is seeded with `seed + k`.
     ///
     /// # Errors
     /// The first environment that cannot be reset.

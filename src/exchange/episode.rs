@@ -9,7 +9,7 @@ const INFOS: &str = "env_infos/";
 /// An episode of `n` steps.
 ///
 /// RoboHive's row `t` holds the state at `t`, the reward for being in it and the action that is taken in it. The reward of
-/// step `t` is therefore that of row `t + 1`.
+/// step `t` therefore stands in row `t + 1`.
 #[derive(Clone, Debug)]
 pub struct Episode {
     /// Name of the trial.

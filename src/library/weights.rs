@@ -10,7 +10,8 @@ use std::sync::Arc;
 pub struct Weights(Search);
 
 impl Weights {
-    /// Those that the environment names, that of this project's data, and those of the networks' own programs.
+    /// The folders that environment variables name, then this project's data folder, then the folders in which the networks'
+/// own programs keep their weights.
     pub fn from_environment() -> Self {
         // A machine without a data folder has the other places; what is not found is an error that lists them.
         let data = store::default_folder().ok();

@@ -3,7 +3,7 @@
 //!
 //! A normal draw of the legacy generator is a logarithm, so its last bit is the logarithm's. The crate `libm`
 //! gives another last bit for 7 % of arguments in [0, 1) (`log`) and 0.08 % (`log1p`); these functions gave
-//! none in 60 million. The methods are those of Arm's optimized routines (`log`, MIT) and of Sun's fdlibm
+//! none in 60 million. The methods come from Arm's optimized routines (`log`, MIT) and Sun's fdlibm
 //! (`log1p`), the coefficients theirs; the order of operations, and where products are fused with sums,
 //! decides the last bit.
 

@@ -39,7 +39,7 @@ impl Robot {
         self.delay.clone_from(&memory.delay);
     }
 
-    /// Takes controls in the units of the actuators, without limits, as those of the last step.
+    /// Records controls, in the units of the actuators and without limits, as the last step's.
     ///
     /// # Errors
     /// Not one number for each control.

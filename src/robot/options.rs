@@ -78,7 +78,7 @@ pub struct Options {
     /// Controls are rounded to single precision, as those of RoboHive are when actions are `float32` and there is a
     /// config.
     pub single_precision: bool,
-    /// Devices are those of the registry that the config's interfaces name, instead of simulated ones.
+    /// Devices come from the registry, by the interfaces that the config names, instead of being simulated.
     pub hardware: bool,
     /// Whether peculiarities of the original are kept.
     pub compat: Compat,

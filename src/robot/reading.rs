@@ -45,7 +45,7 @@ impl History {
         History { ring: vec![Readings::new(values, devices); length.max(1)], newest: 0 }
     }
 
-    /// Writes it, or reads that of the same robot.
+    /// Writes it, or reads one that the same robot wrote.
     pub(crate) fn keep(&mut self, keeper: &mut Keeper) {
         self.ring.iter_mut().for_each(|readings| readings.keep(keeper));
         let mut newest = self.newest;

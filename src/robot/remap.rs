@@ -59,7 +59,7 @@ impl Robot {
                 Space::Simulation => (entry.simulation, hardware),
                 Space::Hardware => (hardware, entry.simulation),
             };
-            // The factors of sensors lead from hardware to model, those of actuators from model to hardware.
+            // Factors of sensors convert from hardware to model, factors of actuators from model to hardware.
             let forward = (part == Part::Sensor) == (from == Space::Hardware);
             out[written] = if forward {
                 vector[read] * entry.scale + entry.offset

@@ -210,7 +210,7 @@ impl Robot {
         self.history.past(age)
     }
 
-    /// Values of one device among those of `readings`.
+    /// Values of one device in `readings`.
     pub fn values_of<'r>(&self, device: &str, readings: &'r Readings) -> Option<&'r [f64]> {
         let group = self.binding.devices.iter().find(|group| group.name == device)?;
         readings.values.get(group.sensors.clone())

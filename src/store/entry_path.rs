@@ -1,4 +1,4 @@
-//! Paths that others chose: those of archive entries and of the registry.
+//! Paths that others chose: in archives and in the registry.
 
 use crate::limits::{Exceeded, Limits};
 

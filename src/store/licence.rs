@@ -95,7 +95,7 @@ impl Stated {
         self.whole = self.whole.filter(|known| *known != Licence::Unknown).or(Some(licence));
     }
 
-    /// The licence of the file at `path`: that of the nearest folder upwards which states one.
+    /// The licence of the file at `path`: stated by the nearest folder above it that states one.
     pub(crate) fn of(&self, path: &str) -> Licence {
         let mut folder = path;
         while !folder.is_empty() {

@@ -39,7 +39,7 @@ pub(crate) struct Manifest {
 }
 
 impl Manifest {
-    /// Reads a manifest; that of a store without one is empty.
+    /// Reads a manifest; a store without a manifest has an empty one.
     ///
     /// # Errors
     /// The file cannot be read, or is not one that [`Self::text`] wrote.

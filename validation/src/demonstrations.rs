@@ -1,6 +1,6 @@
 //! Recorded demonstrations, replayed: how far the last state is from the recorded one.
 //!
-//! The demonstrations are those of Rajeswaran et al. (2018), which their repository `hand_dapg` keeps as pickles in
+//! The demonstrations belong to Rajeswaran et al. (2018), whose repository `hand_dapg` keeps them as pickles in
 //! `dapg/demonstrations`: trajectories of human hands in virtual reality, made with MuJoCo 1.5. Each gives its first state,
 //! its actions, and what was observed before every action.
 

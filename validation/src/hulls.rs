@@ -18,7 +18,7 @@ pub enum Purpose<'a> {
     Print,
     /// Print them and write them to a file.
     Record(&'a Path),
-    /// Compare them with those of a file that was recorded before.
+    /// Compare them with a file that was recorded before.
     Compare(&'a Path),
 }
 

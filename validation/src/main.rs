@@ -96,7 +96,7 @@ impl Arguments {
     }
 }
 
-/// Exit code where the C library's functions are not those of the recorded MuJoCo.
+/// Exit code when the C library is not the one that the recorded MuJoCo called.
 const OTHER_LIBRARY: u8 = 3;
 
 fn main() -> ExitCode {

@@ -200,7 +200,7 @@ pub fn compare_rollout(m: &Model, reference: &Reference) -> Result<RolloutReport
     Ok(report)
 }
 
-/// An array with one row a step of a rollout, of which there is at least one.
+/// An array with one row for each step of a rollout, at least one.
 fn rows_along(
     reference: &Reference,
     name: &str,

@@ -1,6 +1,6 @@
 //! Policies that were trained for the original, in our environments: how many episodes they solve.
 //!
-//! The policies are those of Rajeswaran et al. (2018), which their repository `hand_dapg` keeps as pickles in
+//! The policies belong to Rajeswaran et al. (2018), whose repository `hand_dapg` keeps them as pickles in
 //! `dapg/policies`. RoboHive's counts were measured with its own Python and MuJoCo 3.1.3 on the same seeds.
 
 use agents::Policy;

@@ -201,7 +201,7 @@ impl Reference {
     }
 }
 
-/// Recorded models: those of this repository, and those in the folder that `ROBOHIVE_REFERENCES` names.
+/// Recorded models: this repository's, and those in the folder that `ROBOHIVE_REFERENCES` names.
 ///
 /// # Errors
 /// A folder cannot be read, or holds what is no archive.

@@ -20,7 +20,7 @@ pub struct Outcome {
     pub skipped: usize,
     /// Models whose arrays come back to the last bit, paths of assets included.
     pub equal: usize,
-    /// Models of which only the recorded paths of assets differ: files that an attached model names from elsewhere.
+    /// Models in which only the recorded paths of assets differ: files that an attached model names from elsewhere.
     pub paths: usize,
     /// Models whose text stays in the second round.
     pub stable: usize,

@@ -180,7 +180,7 @@ impl Recorded {
         })
     }
 
-    /// What differs in scene `k`, of which the items and lights have these rows.
+    /// What differs in scene `k`, whose items and lights have these rows.
     fn compare(
         &self,
         m: &Model,

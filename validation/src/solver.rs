@@ -286,7 +286,7 @@ pub fn cost(m: &Model, d: &Data, qacc: &[f64]) -> f64 {
     gauss + (0..efc.nefc).map(|i| row_cost(d, &residual, i)).sum::<f64>()
 }
 
-/// Cost of row `i`; that of an elliptic cone stands at its first row.
+/// Cost of row `i`; an elliptic cone's cost stands at its first row.
 fn row_cost(d: &Data, residual: &[f64], i: usize) -> f64 {
     let (efc, x) = (&d.efc, residual[i]);
     let square = 0.5 * efc.efc_D[i] * x * x;

@@ -103,7 +103,7 @@ pub fn each_output(
     Ok(())
 }
 
-/// The fields that a model has: those of flexes only where it has flexes, which older recordings do not know.
+/// The fields that a model has. Fields of flexes count only if it has flexes; older recordings do not know them.
 fn present(m: &Model, names: &'static [&'static str]) -> Vec<&'static str> {
     const FLEXES: &[&str] = &["bvh_aabb_dyn", "contact.flex", "contact.elem", "contact.vert"];
     let of_flexes = |name: &&str| name.starts_with("flex") || FLEXES.contains(name);
@@ -111,7 +111,7 @@ fn present(m: &Model, names: &'static [&'static str]) -> Vec<&'static str> {
 }
 
 /// Fills the outputs of a stage, so that one which it leaves as it was is noticed: not a number, or -7 in integers.
-/// Contacts and rows are lists that the stage makes; those of `d` are empty.
+/// Contacts and rows are lists that the stage makes; in `d` they are empty.
 fn poison(m: &Model, d: &mut Data, fields: &[&'static str]) {
     let mut arrays = Vec::new();
     d.visit(m, &mut |name, _, values| {

@@ -110,7 +110,7 @@ fn shifted(archive: &NpzReader, name: &str, offset: f64) -> Vec<u8> {
     bytes
 }
 
-/// Random placements of elements of flexes with every type of geom, with each other and with those of their own flex.
+/// Random placements of elements of flexes with every type of geom, with other flexes and with their own.
 const FLEXES: &[u8] = include_bytes!("../reference/collide/flexes.bin");
 
 #[test]

@@ -1,4 +1,4 @@
-//! Observations and rewards beside those of RoboHive's own Python, without its models: a stand-in has the names and counts
+//! Observations and rewards beside RoboHive's own Python, without its models: a stand-in has the names and counts
 //! that a task asks for, and the recorded arrays are put where physics would have computed them.
 
 mod stand_in;

@@ -99,7 +99,7 @@ impl Lattice {
         (0..cx).flat_map(move |i| (0..cy).flat_map(move |j| (0..cz).map(move |k| [i, j, k])))
     }
 
-    /// The finite elements of the volume, `None` where a cell is empty, or those of the surface.
+    /// The finite elements of the volume (`None` where a cell is empty) or of the surface.
     pub fn elements(&self, surface: bool, empty: &[bool]) -> Vec<Option<FiniteElement>> {
         if !surface {
             let of = |(number, cell)| match empty.get(number) {

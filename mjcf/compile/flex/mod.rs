@@ -269,7 +269,7 @@ fn interpolate(node: &mut FlexNode<'_>, vertex: &[Vec3], strained: bool) -> Resu
     let flex = node.spec;
     let lattice = Lattice { order: flex.order as usize, cells: flex.cellcount.map(|c| c as usize) };
     let surface = flex.elastic2d != Elastic2d::None;
-    // The axes are those of the first cell that a flexcomp found full, or of the first of all.
+    // The axes belong to the first cell that a flexcomp found full, or to the first cell.
     let rotation = lattice.rotation(&flex.empty_cells, &node.node0)?;
     let mut empty = flex.empty_cells.clone();
     if !surface && empty.is_empty() && lattice.cells != [1; 3] {

@@ -119,7 +119,7 @@ fn dimension(kind: i64, section: &Section<'_>) -> Result<i32, AssetError> {
     }
 }
 
-/// A count of nodes or elements, each of which takes at least `bytes` bytes of those left.
+/// A count of nodes or elements. Each takes at least `bytes` bytes, so `left` bytes bound the count.
 fn count(number: u64, bytes: usize, left: usize, section: &Section<'_>) -> Result<usize, AssetError> {
     let n = usize::try_from(number).ok().filter(|&n| n < MOST);
     let n = n.ok_or_else(|| section.malformed(format!("cannot hold {number} entries")))?;
@@ -152,7 +152,7 @@ fn head(numbers: [u64; 8], bytes: usize, left: usize, section: &Section<'_>) -> 
     Ok(Head { count, first, dimension: dimension as i64, kind: kind as i64 })
 }
 
-/// The nodes' dimension is that of the elements.
+/// The dimension of nodes and elements, which must be equal.
 fn matching(nodes: &Head, elements: &Head, section: &Section<'_>) -> Result<i32, AssetError> {
     let dim = dimension(elements.kind, section)?;
     if nodes.dimension != elements.dimension || elements.dimension != i64::from(dim) {

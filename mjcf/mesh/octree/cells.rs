@@ -133,7 +133,7 @@ impl Cells {
         }
     }
 
-    /// For each corner, those of a larger neighbour's edge or face in whose middle it lies.
+    /// For each corner that lies in the middle of a larger neighbour's edge or face: the corners of that edge or face.
     pub fn hanging(&self) -> Vec<Vec<usize>> {
         let mut out = vec![Vec::new(); self.corners.len()];
         for leaf in self.leaves() {

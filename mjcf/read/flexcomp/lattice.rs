@@ -46,7 +46,7 @@ impl Lattice {
         (0..3).any(|k| node[k] == 0 || node[k] + 1 == size[k])
     }
 
-    /// Mass of a node before all are scaled to that of the flexcomp.
+    /// Mass of a node before all masses are scaled so that they add up to the flexcomp's mass.
     fn weight(&self, node: [usize; 3]) -> f64 {
         if self.order == 1 {
             return 1.0;

@@ -30,7 +30,7 @@ impl Reader<'_> {
             self.dynamics(element, first);
             self.limit(element, first);
         }
-        // Friction is that of each part, limits are those of the first.
+        // Every part has friction of its own; limits stand at the first part.
         if let [first, others @ ..] = &mut joints[..] {
             for other in others {
                 other.damping = first.damping;

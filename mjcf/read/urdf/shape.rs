@@ -12,7 +12,7 @@ use crate::xml::{Attribute, Element};
 const SCHEMES: [&str; 3] = ["package://", "model://", "file://"];
 
 impl Reader<'_> {
-    /// Adds the geoms of a link in the order of the text. The colour of a visual is that of what follows, too.
+    /// Adds the geoms of a link in the order of the text. The colour of a visual holds for the geoms after it, too.
     pub(super) fn shapes(&mut self, link: &Element, body: &mut Body, robot: &mut Robot) {
         let mut rgba: Option<[f32; 4]> = None;
         for element in &link.children {

@@ -48,7 +48,7 @@ impl Watcher {
         Watcher { callback, raised: None }
     }
 
-    /// Says how far work is; false after an exception, also that of Ctrl-C.
+    /// Says how far work is; false after an exception, `KeyboardInterrupt` included.
     pub fn report(&mut self, done: usize, total: usize) -> bool {
         let told = Python::attach(|py| {
             py.check_signals()?;

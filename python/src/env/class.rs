@@ -90,7 +90,7 @@ impl PyEnv {
         Ok((observation, step.reward, step.terminated, step.truncated, infos))
     }
 
-    /// The same action for many steps, of which nothing is returned: what steps cost without crossing into Python.
+    /// Takes many steps with the same action and returns nothing: what steps cost without crossing into Python.
     fn repeat(&self, py: Python<'_>, action: &Bound<'_, PyAny>, steps: usize) -> PyResult<()> {
         let mut taken = self.live.take(py, "repeat")?;
         let Live { env, action: values } = &mut *taken;

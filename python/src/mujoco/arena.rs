@@ -64,7 +64,7 @@ macro_rules! scalar {
     )*};
 }
 scalar! {
-    // Numpy's truth values are bytes, of which a program may set others than 0 and 1.
+    // Numpy's truth values are bytes, and a program may set them to others than 0 and 1.
     bool, u8, Bool, |x| u8::from(x), |s| s != 0, |a, b| a == (b != 0), |s| f64::from(u8::from(s != 0));
     u8, u8, U8, |x| x, |s| s, |a, b| a == b, f64::from;
     i32, i32, I32, |x| x, |s| s, |a, b| a == b, f64::from;

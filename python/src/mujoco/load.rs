@@ -9,14 +9,14 @@ use pyo3::prelude::*;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// Files in memory before those of the disk.
+/// Files in memory, then files on the disk.
 pub struct Layered {
     memory: Memory,
     disk: Disk,
 }
 
 impl Layered {
-    /// These files, and those of the disk.
+    /// These files, then the disk's.
     pub fn new(assets: HashMap<String, Vec<u8>>) -> Self {
         let mut memory = Memory::default();
         assets.into_iter().for_each(|(path, content)| memory.insert(path, content));

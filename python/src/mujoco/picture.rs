@@ -190,7 +190,7 @@ impl Painter {
         Ok([of("rgb")?, of("depth")?, of("segmentation")?])
     }
 
-    /// The items last looked at, by the fields of `MjvGeom`, and the camera, by those of `MjvGLCamera`.
+    /// The items last looked at, by the fields of `MjvGeom`, and the camera, by the fields of `MjvGLCamera`.
     fn items<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
         let held = self.ready()?;
         Ok((describe(py, &held.scene.items)?, describe_view(py, &held.scene.view)?))

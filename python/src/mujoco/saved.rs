@@ -9,10 +9,10 @@ use physics::data::State;
 use physics::table::{Slice, SliceMut};
 use pyo3::prelude::*;
 
-/// The bit of simulation time; that of array `k` of the state's table is `1 << (k + 1)`.
+/// The bit of simulation time; array `k` of the state's table has the bit `1 << (k + 1)`.
 const TIME: u32 = 1;
 
-/// Bits with a meaning: time and those of the table.
+/// Bits with a meaning: time, then the arrays of the table.
 const BITS: u32 = 14;
 
 fn check(signature: i64) -> Result<u32, Fault> {

@@ -36,7 +36,7 @@ pub fn stage(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>, name: &s
     })
 }
 
-/// Configuration of `$d`, of which other parts may be borrowed.
+/// Configuration of `$d`; other parts of `$d` may be borrowed at the same time.
 macro_rules! configuration {
     ($d:expr) => {
         Configuration { state: &$d.state, kin: &$d.kin, com: &$d.com, flex: &$d.flex, ten: &$d.ten }

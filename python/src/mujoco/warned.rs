@@ -51,8 +51,8 @@ fn kinds(counts: &Warnings) -> [Warning; 4] {
 /// The first warning of a kind: the kind, the place in the array, the time at which the step began [s].
 pub type Notice = (usize, usize, f64);
 
-/// Makes the counts those since the last reset, of which a step with a reset is the first; notes which kinds are new since
-/// `before`, at `time`.
+/// Counts warnings since the last reset; a step that resets is the first that counts. Notes, with the time, which kinds are
+/// new since `before`.
 pub fn settle(simulation: &mut Simulation, before: &Warnings, time: f64, notices: &mut Vec<Notice>) {
     let (old, new) = (kinds(before), kinds(&simulation.warnings));
     for (kind, (old, new)) in old.into_iter().zip(new).enumerate() {

@@ -13,7 +13,7 @@ use pyo3::types::{PyDict, PyString};
 pub enum Level {
     /// What ends episodes: `final_obs` and `fault`.
     None,
-    /// With `time`, `rwd_dense`, `rwd_sparse`, `solved` and `done`, and those of ended episodes in `final_info`.
+    /// With `time`, `rwd_dense`, `rwd_sparse`, `solved` and `done`; infos of ended episodes in `final_info`.
     Sparse,
     /// With `obs_dict`, `rwd_dict`, `proprio_dict`, `visual_dict` and `state`.
     Full,
@@ -203,7 +203,7 @@ impl<'a, 'py> Batch<'a, 'py> {
     }
 }
 
-/// Infos of the environments `ids`, of which those without a flag in `told` have none of their own.
+/// Infos of the environments `ids`; an environment whose flag in `told` is not set has no infos.
 pub fn infos<'py>(
     py: Python<'py>,
     envs: &VecEnv,

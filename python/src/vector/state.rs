@@ -46,7 +46,7 @@ pub fn visual_dict<'py>(
     Ok(dict)
 }
 
-/// The states of the environments `ids`, with their masks: keys as those of one environment.
+/// The states of the environments `ids`, with their masks, under the keys of a single environment.
 pub fn states<'py>(
     py: Python<'py>,
     envs: &VecEnv,

@@ -18,7 +18,7 @@ const MAX_RANK: u8 = 32;
 /// Texts of a dataset at most.
 const MAX_TEXTS: usize = 1 << 16;
 
-/// A dataset, of which nothing but the header and the index of chunks is in memory.
+/// A dataset. Only the header and the index of chunks are in memory.
 #[derive(Clone, Debug)]
 pub struct Dataset {
     /// Lengths of the axes; empty for a scalar.
@@ -116,7 +116,7 @@ impl Dataset {
         }
     }
 
-    /// Copies what a chunk holds of the rows that `out` is for, the first of which is `first`.
+    /// Copies what a chunk holds of the rows from `first` on, which `out` is for.
     fn place(&self, chunk: &Chunk, lengths: &[u64], bytes: &[u8], first: usize, out: &mut [u8]) {
         let rows = out.len() / self.row_bytes();
         let mut axes = Vec::with_capacity(lengths.len());
@@ -278,7 +278,7 @@ impl Decoder<'_> {
     }
 
     fn chunked(self, mut lengths: Vec<u64>, index: Index) -> Decoded<Layout> {
-        // The last length is that of an element.
+        // The last length is the size of an element.
         let element = lengths.pop();
         let product = lengths.iter().try_fold(self.element as u64, |n, &length| n.checked_mul(length));
         let most = self.source.length().saturating_mul(EXPANSION);

@@ -26,7 +26,7 @@ const MAX_OBJECTS: usize = 1 << 20;
 /// Bytes that are searched at once.
 const WINDOW: u64 = 1 << 20;
 
-/// A file, of which nothing but what is asked for is read.
+/// A file; only what is asked for is read.
 pub struct Hdf5Reader {
     path: PathBuf,
     source: Source,
@@ -47,7 +47,7 @@ impl Hdf5Reader {
         Ok(reader)
     }
 
-    /// Opens a file on the disk of which a part may be missing.
+    /// Opens a file on the disk whose end may be missing.
     ///
     /// # Errors
     /// It cannot be read or is no HDF5 file.

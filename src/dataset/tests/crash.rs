@@ -102,11 +102,11 @@ fn kill(kills: usize, keep: Option<PathBuf>) -> Result<(), Box<dyn Error>> {
     if finished == 0 { Err("no trial was finished before its process was killed".into()) } else { Ok(()) }
 }
 
-/// Reads a recording of which `finished` trials were finished, and returns how many it has.
+/// Reads a recording with `finished` finished trials, and returns how many it has.
 fn check(path: &Path, finished: usize) -> Result<usize, Box<dyn Error>> {
     let trace = TraceReader::open(path)?;
     let trials = trace.trials().len();
-    // One more may be in the file, of which the process could not say so any more.
+    // One more may be in the file: the process was killed before it could report it.
     if !(finished..=finished + 1).contains(&trials) {
         return Err(format!("{}: {finished} trials were finished, {trials} are there", path.display()).into());
     }

@@ -64,7 +64,7 @@ fn every_type_comes_back_as_it_was() {
     }
 }
 
-/// Rows of which one fills several chunks, of which many fill one, and of which none has a byte.
+/// Rows larger than a chunk, rows smaller than a chunk, and rows without a byte.
 #[test]
 fn rows_of_all_sizes_come_back() {
     let path = scratch("sizes.h5");

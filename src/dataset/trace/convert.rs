@@ -12,7 +12,7 @@ use std::path::Path;
 /// What a recording is made into; the ending of its path says whether it is HDF5 or a numpy archive.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Target {
-    /// Layout; that of the input, if nothing is said.
+    /// Layout; by default the input's.
     pub layout: Option<Layout>,
     /// Precision.
     pub precision: Precision,

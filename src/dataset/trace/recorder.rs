@@ -49,7 +49,7 @@ pub struct Trial<'a> {
 
 enum Value {
     Array(Array),
-    /// Rows, whose number is not that of the trial.
+    /// Rows, not one for each step of the trial.
     Series(Array),
     Text {
         shape: Vec<usize>,
@@ -183,7 +183,7 @@ impl Trial<'_> {
     /// All rows of a name have the same shape and type; at the end all names must have equally many rows.
     ///
     /// # Errors
-    /// Shape or type differ from those of the rows before, a number does not fit the precision, or writing fails.
+    /// Shape or type differ from earlier rows, a number does not fit the precision, or writing fails.
     pub fn push<T: Scalar>(&mut self, key: &str, shape: &[usize], row: &[T]) -> Result<(), TraceError> {
         if shape.iter().product::<usize>() != row.len() {
             return Err(self.fail(key, format!("{} scalars do not fill a row of shape {shape:?}", row.len())));
@@ -234,7 +234,7 @@ impl Trial<'_> {
         self.keep(key, Value::Array(Array { shape: array.shape.clone(), values }))
     }
 
-    /// Sets a dataset of rows, whose number may differ from that of the other names; all its bits are kept.
+    /// Sets a dataset of rows. It may have more or fewer rows than the other names; all its bits are kept.
     ///
     /// # Errors
     /// The name is taken, or the array is a scalar.

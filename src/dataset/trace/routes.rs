@@ -27,7 +27,7 @@ impl Translation {
     }
 }
 
-/// Rows of one kind: those of a name, all of the same type and shape.
+/// The rows of one name, all of the same type and shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a> {
     /// Type in which scalars are kept.
@@ -57,7 +57,7 @@ enum Way {
     Join(usize, usize),
 }
 
-/// A column made of the rows of two names, of which one may be ahead.
+/// A column made of the rows of two names; one may be ahead of the other.
 struct Join {
     to: String,
     /// Type and numbers of each part.
@@ -100,7 +100,7 @@ impl Router {
     /// Adds rows that are given under a name.
     ///
     /// # Errors
-    /// Their type or shape is not that of the rows before, or the name cannot be kept.
+    /// Their type or shape differs from earlier rows, or the name cannot be kept.
     pub fn push(&mut self, key: &str, rows: Rows) -> Result<(), String> {
         let at = self.find(key, rows)?;
         self.next = at + 1;
@@ -183,7 +183,7 @@ impl Router {
         Ok(self.columns.len() - 1)
     }
 
-    /// Puts together the rows of which both parts are there.
+    /// Puts together the rows that have both parts.
     fn join(&mut self, number: usize) -> Result<(), String> {
         let join = &self.joins[number];
         let [Some((first, low)), Some((second, high))] = join.parts else { return Ok(()) };

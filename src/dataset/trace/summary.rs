@@ -37,7 +37,7 @@ pub struct ColumnSummary {
     pub shape: Vec<usize>,
     /// Type of the elements.
     pub kind: EntryType,
-    /// Least and largest number that is not NaN; nothing where there is none.
+    /// Least and largest number that is not NaN; `None` without such a number.
     pub range: Option<(f64, f64)>,
     /// How many are NaN.
     pub nans: usize,

@@ -94,7 +94,7 @@ impl Network {
     /// The network of an encoding, with the weights of a file.
     ///
     /// # Errors
-    /// The encoding is no network, the file cannot be read, or its tensors are not those of the network.
+    /// The encoding is no network, the file cannot be read, or its tensors do not fit the network.
     pub fn load(encoding: Encoding, path: &Path) -> Result<Self, EncoderError> {
         let shape = Shape::of(encoding)?;
         let mut file = WeightFile::open(path)?;

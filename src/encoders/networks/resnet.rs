@@ -14,7 +14,7 @@ pub const NAMING: Naming = Naming {
     },
 };
 
-/// Stages, each of which halves the side, the first aside.
+/// Stages. Each but the first halves the side.
 const STAGES: usize = 4;
 
 /// Sizes of a residual network.
@@ -24,7 +24,7 @@ pub struct ResnetShape {
     pub blocks: [usize; STAGES],
     /// Channels of the first stage; each further one has twice as many.
     pub width: usize,
-    /// Whether blocks have three convolutions, the last of which has four times the channels, or two.
+    /// Whether blocks have three convolutions, the last one with four times the channels, or two.
     pub bottleneck: bool,
 }
 

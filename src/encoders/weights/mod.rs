@@ -198,7 +198,7 @@ fn index(mut file: Box<dyn Stream>) -> Result<(BTreeMap<String, Entry>, Source),
         let entries = torch::index_archive(&mut archive)?;
         return Ok((entries, Source::Archive(Box::new(archive), length)));
     }
-    // The first byte of a safetensors file is part of a length, and may be that of a pickle too.
+    // The first byte of a safetensors file is part of a length, so it may look like the first byte of a pickle.
     let entries = if start.len() == 9 && start[8] == b'{' {
         safetensors::index(&mut *file, length)?
     } else if start.starts_with(&[0x80]) {

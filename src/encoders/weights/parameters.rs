@@ -1,4 +1,4 @@
-//! The tensors that a network needs, checked against those of a file.
+//! The tensors that a network needs, checked against the tensors of a file.
 
 use super::WeightFile;
 use crate::error::EncoderError;

@@ -58,7 +58,7 @@ pub struct TextureRange {
     /// Names of textures.
     #[serde(default)]
     pub names: Option<Vec<String>>,
-    /// Patterns, one of which is drawn.
+    /// Patterns to draw one from.
     #[serde(default = "all_patterns")]
     pub patterns: Vec<Pattern>,
     /// Red, green and blue of both colours, 0 to 1.

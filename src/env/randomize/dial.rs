@@ -82,7 +82,7 @@ impl Dial {
         Ok(())
     }
 
-    /// Writes values into a model, whose look without them is that of `base`.
+    /// Writes values into a model; what they do not change looks as in `base`.
     pub fn write(&self, values: &[f64], base: &Model, m: &mut Draft<'_>) {
         let three = || [values[0], values[1], values[2]];
         let color = || std::array::from_fn(|k| values[k] as f32);

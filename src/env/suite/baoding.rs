@@ -11,7 +11,7 @@ use physics::elements::SiteId;
 use physics::math::{Vec3, ops, sub};
 use std::f64::consts::TAU;
 
-/// Positions and degrees of freedom of the two balls, which follow those of the hand.
+/// Positions and degrees of freedom of the two balls. They stand behind the hand's.
 pub const BALLS: [usize; 2] = [14, 12];
 
 /// Rows that are observed of hand, balls and targets.
@@ -105,7 +105,7 @@ impl Pairs {
     pub fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         let state = &view.data.state;
         let place = |site: SiteId| *view.data.site(site).xpos();
-        // Of the six velocities of a ball the first three are those of its centre.
+        // The first three of a ball's six velocities are the velocity of its centre.
         let first = view.model.nv - BALLS[1];
         let moved = |ball: usize| state.qvel[first + 6 * ball..][..3].iter().map(|v| v * view.dt);
         rows.set("hand_pos", "rad", &state.qpos[..view.model.nq - BALLS[0]]);

@@ -46,7 +46,7 @@ pub enum Condition {
 #[derive(Clone)]
 pub struct Muscles {
     compat: Compat,
-    /// Whether actions need a map of their own: those of models with activations, where actions are normalised.
+    /// Whether actions need a map of their own, as normalised actions of models with activations do.
     mapped: bool,
     /// Whether each actuator is a muscle.
     is_muscle: Vec<bool>,

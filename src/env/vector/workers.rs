@@ -76,7 +76,7 @@ impl Workers {
         Ok(workers)
     }
 
-    /// Whether these threads are those of another process, from which this one was forked.
+    /// Whether these threads belong to another process, from which this one was forked.
     pub fn are_foreign(&self) -> bool {
         self.process != std::process::id()
     }

@@ -158,7 +158,7 @@ impl Parquet {
         TraceError::new(&self.path, column, message.to_string())
     }
 
-    /// The number of the leaf of a column; of pictures that of their files.
+    /// The number of the leaf of a column; for pictures the leaf with their files.
     fn leaf(&self, name: &str) -> Option<usize> {
         let schema = self.reader.metadata().file_metadata().schema_descr();
         schema.columns().iter().position(|column| column.path().parts()[0] == name)

@@ -1,4 +1,4 @@
-//! Tables in Parquet files: columns of numbers, texts, pictures, and arrays of these whose shape is that of every row.
+//! Tables in Parquet files: columns of numbers, texts, pictures, and arrays of these with one shape in all rows.
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, FloatType, Int64Type};
@@ -197,7 +197,7 @@ impl Table {
     }
 }
 
-/// Writes the scalars of a column, none of which is missing.
+/// Writes the scalars of a column without missing values.
 fn put<T: DataType>(
     rows: &mut SerializedRowGroupWriter<'_, BufWriter<File>>,
     values: &[T::T],

@@ -90,7 +90,7 @@ impl LeRobotWriter {
     /// Adds an episode.
     ///
     /// # Errors
-    /// It has no frames, its features are not those of the first episode, or writing fails.
+    /// It has no frames, its features differ from the first episode's, or writing fails.
     pub fn add(&mut self, frames: &Frames) -> Result<(), TraceError> {
         let count = frames.count().map_err(|(feature, message)| self.fail(&feature, message))?;
         let forms = frames.forms(self.settings.pictures);

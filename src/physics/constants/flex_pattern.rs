@@ -94,8 +94,8 @@ pub(crate) struct Patterns {
 }
 
 impl Patterns {
-    /// What follows from trees, edges and what is held. Rows of a flex follow those of the flex before it; where that has
-    /// none, they begin at zero, as in MuJoCo.
+    /// What follows from trees, edges and what is held. Rows of a flex follow the rows of the flex before it; if that flex
+    /// has no rows, they begin at zero, as in MuJoCo.
     pub fn of(m: &Arrays) -> Self {
         let mut p = Patterns {
             edge_count: vec![0; m.nflexedge],

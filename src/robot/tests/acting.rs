@@ -109,7 +109,7 @@ fn torques_are_what_the_joints_get() {
     let config = Config::from_toml(&text, "arm.toml").unwrap();
     let options = Options { mode: ActionMode::Torque, ..Options::default() };
     let mut robot = Robot::new(&model, Some(&config), options).unwrap();
-    // Half above the middle of -6 to 10 of the servo; the motor's range is that of its control times its gear.
+    // Half above the middle of the servo's range of -6 to 10; the motor's range is its control range times its gear.
     let controls = robot.control(&model, &data, &[0.5, -0.25, 0.0, -1.0], 0.1).unwrap();
     data.state.ctrl.copy_from_slice(controls);
     forward(&model, &mut data).unwrap();

@@ -142,7 +142,7 @@ fn delayed_readings_have_the_age_that_was_asked_for() {
         let expected: Vec<_> = (1..=20).map(|period| (4 * period).min(delay)).collect();
         assert_eq!(ages, expected, "delay {delay}");
     }
-    // Untracked, readings are those of control periods, at least as old as asked for.
+    // Untracked readings are taken at control periods, at least as old as asked for.
     let ages: Vec<_> = times(delayed(3), 4, false).into_iter().map(whole).collect();
     assert_eq!(ages, [4; 20]);
     assert!(!robot(&model(), Options::default()).tracks_steps());

@@ -160,7 +160,7 @@ fn inverse(m: &Model, start: &Data) -> Result<f64, LawError> {
     Ok(found.fold(0.0, |e: f64, (a, b)| e.max((a - b).abs())) / scale)
 }
 
-/// True where the sum of actuator forces on a joint is clamped: the analytic slope is that of the sum, as upstream.
+/// True where the sum of actuator forces on a joint is clamped: the analytic slope ignores the clamp, as upstream.
 fn clamped(m: &Model, d: &Data, dof: usize) -> bool {
     let joint = m.dof_jntid[dof] as usize;
     m.jnt_actfrclimited[joint] && m.jnt_actfrcrange[joint].contains(&d.actuation.qfrc_actuator[dof])

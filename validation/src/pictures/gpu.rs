@@ -1,4 +1,4 @@
-//! Pictures of a GPU beside those of the CPU renderer, which are the reference, and beside MuJoCo's.
+//! Pictures of a GPU beside the CPU renderer's, which are the reference, and beside MuJoCo's.
 
 use super::drawn::Drawn;
 use super::measures::{Colours, Geometry, Shapes, compare_colours, compare_shapes, interior};

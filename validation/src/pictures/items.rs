@@ -142,7 +142,7 @@ fn compare_items(recording: &Recording, ours: &[Item], out: &mut Differences) ->
         out.see("emission", &place, &emission[k..=k], &[item.look.emission]);
         out.see("specular", &place, &specular[k..=k], &[item.look.specular]);
         out.see("shininess", &place, &shininess[k..=k], &[item.look.shininess]);
-        // MuJoCo computes that of other items when it draws them.
+        // For other items MuJoCo computes it when it draws them.
         if kinds[k] == ObjType::Geom.code() {
             out.see("rbound", &place, &rbound[k..=k], &[item.rbound]);
         }

@@ -72,7 +72,7 @@ pub enum Held {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneRow {
-    /// Its name, and that of its recording.
+    /// Its name, and its recording's.
     pub name: String,
     /// The model file.
     pub file: String,

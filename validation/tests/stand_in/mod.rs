@@ -23,7 +23,7 @@ pub fn text(meta: &Value) -> String {
             format!("<key qpos='{}'/>\n", numbers(if key["qpos"].is_array() { &key["qpos"] } else { key }))
         })
         .collect();
-    // Starts of episodes, of which nothing is compared.
+    // Starts of episodes; nothing of them is compared.
     keys += "<key/><key/>";
     format!(
         "<mujoco><compiler angle='radian' autolimits='true' boundmass='1e-9' boundinertia='1e-9'/>\

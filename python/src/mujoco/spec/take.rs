@@ -22,7 +22,7 @@ const TEXTS: u32 = 1 << 20;
 /// What a tree of Python consists of.
 pub struct Tree<'a, 'py> {
     pub elements: &'a Bound<'py, PyDict>,
-    /// The tree's own description, then those of what is attached, each with the dictionary of its settings.
+    /// The tree's own description, then the descriptions of attached models, each with the dictionary of its settings.
     pub origins: Vec<(PyRef<'py, Description>, Bound<'py, PyDict>)>,
     /// Sizes and statistics.
     pub general: &'a Bound<'py, PyDict>,

@@ -54,7 +54,7 @@ impl Fingers {
 /// Draws a pose into `pose`, joint by joint.
 ///
 /// # Errors
-/// None with these ranges; those of the generator.
+/// The generator's; none with these ranges.
 pub fn draw_pose(rng: &mut Rng, pose: &mut [f64]) -> Result<(), EnvError> {
     for (angle, [low, high]) in pose.iter_mut().zip(POSES.into_iter().cycle()) {
         *angle = rng.uniform(low, high)?;

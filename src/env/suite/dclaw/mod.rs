@@ -1,7 +1,7 @@
 //! ROBEL's D'Claw: three fingers of three joints that take a pose, turn a valve, or keep it turning.
 //!
 //! RoboHive's paper lists these tasks and its models contain the robot, but the original registers none of them. Rewards,
-//! scores, distributions of what is drawn and lengths of episodes are those of ROBEL (`robel/dclaw/`: `base_env.py`,
+//! scores, distributions of what is drawn and lengths of episodes come from ROBEL (`robel/dclaw/`: `base_env.py`,
 //! `pose.py`, `turn.py`, `screw.py`, `__init__.py` of <https://github.com/google-research/robel>, Apache-2.0; Ahn et al.,
 //! "ROBEL: Robotics Benchmarks for Learning with Low-Cost Robots", CoRL 2019). A task is `solved` where ROBEL's score
 //! `success` is true, the sparse reward is its score `points`, and no task ends an episode before its length.

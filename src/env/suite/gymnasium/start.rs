@@ -19,7 +19,7 @@ pub enum VelocityNoise {
 pub fn start(episode: &mut Episode<'_>, scale: f64, velocity: VelocityNoise) -> Result<(), EnvError> {
     let Episode { scene, rng, initial, .. } = episode;
     scene.data.reset(&scene.model);
-    // A forward pass computes no forces on bodies; those of the last episode are not of this one.
+    // A forward pass computes no forces on bodies, so the last episode's would stay.
     scene.data.sensor.cfrc_ext.fill([0.0; 6]);
     let state = &mut scene.data.state;
     for (place, reference) in state.qpos.iter_mut().zip(&initial.qpos) {

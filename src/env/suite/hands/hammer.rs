@@ -21,7 +21,7 @@ const LIFTED: f64 = 0.04;
 const DRIVEN: f64 = 0.01;
 /// A hand farther than this from the hammer [m] has given up.
 const FAR: f64 = 1.0;
-/// Positions of the hammer, after those of the hand.
+/// Positions of the hammer, behind the hand's.
 const HAMMER: usize = 6;
 
 #[derive(Deserialize)]

@@ -21,7 +21,7 @@ const FALLEN: f64 = 0.075;
 const HELD: f64 = 0.075;
 /// The pen points as the target does when the cosine of the angle between them is above this.
 const ALIGNED: f64 = 0.95;
-/// Positions of the pen, after those of the hand.
+/// Positions of the pen, behind the hand's.
 const PEN: usize = 6;
 
 #[derive(Deserialize)]

@@ -24,7 +24,7 @@ const LIFTED: f64 = 0.04;
 const ARRIVED: f64 = 0.1;
 /// A hand farther than this from the ball [m] has given up.
 const FAR: f64 = 0.7;
-/// Positions of the ball, after those of the hand.
+/// Positions of the ball, behind the hand's.
 const BALL: usize = 6;
 
 #[derive(Deserialize)]

@@ -41,7 +41,7 @@ pub struct Args {
     /// Goals of joints; of others, their reference positions.
     #[serde(default)]
     pub obj_goal: Table,
-    /// First positions of joints; of others, those of the first keyframe.
+    /// Initial positions of joints; other joints start as in the first keyframe.
     #[serde(default)]
     pub obj_init: Table,
     /// The site that the hand approaches.

@@ -26,7 +26,7 @@ const PALM_UP: f64 = -1.5;
 const OFFSET: [f64; 3] = [0.03; 3];
 /// Half axes [m] of the object, lowest and highest.
 const SIZES: [[f64; 3]; 2] = [[0.02; 3], [0.03; 3]];
-/// Positions and degrees of freedom of the object, after those of the hand.
+/// Positions and degrees of freedom of the object, behind the hand's.
 const OBJECT: [usize; 2] = [7, 6];
 
 #[derive(Deserialize)]

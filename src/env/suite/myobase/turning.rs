@@ -12,7 +12,7 @@ const DROPPED: f64 = 0.075;
 const ALIGNED: [f64; 2] = [0.9, 0.95];
 /// Angle [rad] of the forearm that turns the palm up.
 const PALM_UP: f64 = -1.5;
-/// Joints of the object, after those of the hand.
+/// Joints of the object, behind the hand's.
 pub const OBJECT_JOINTS: usize = 6;
 
 /// Terms of the reward with their weights.

@@ -124,7 +124,7 @@ pub fn build(
     }))
 }
 
-/// Angles of two balls [rad], of which the first is at this one.
+/// Angles of two balls [rad] opposite each other; the first is at `angle`.
 fn opposite(angle: f64) -> [f64; 2] {
     [angle, angle - PI]
 }

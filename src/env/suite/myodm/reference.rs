@@ -294,7 +294,7 @@ impl Reference {
     }
 }
 
-/// Rows of a frame and the next one; a single row is that of all frames.
+/// Rows of a frame and the next one; a single row holds for all frames.
 fn blend(rows: &[Vec<f64>], frame: usize, how: How) -> Blend<'_> {
     match rows {
         [only] => Blend { before: only, after: only, how: How::First },

@@ -13,7 +13,7 @@ use physics::math::ops;
 use serde::Deserialize;
 use toml::Table;
 
-/// Positions and degrees of freedom of the torso, which those of the legs follow.
+/// Positions and degrees of freedom of the torso; the legs' stand behind them.
 const TORSO: [usize; 2] = [7, 6];
 /// Height of the torso's vertical axis below which the robot has fallen.
 const UPRIGHT: f64 = 0.9;

@@ -102,7 +102,7 @@ pub struct Kitty {
 }
 
 impl Kitty {
-    /// Finds the robot in the model; `distance` is that of the target [m].
+    /// Finds the robot in the model; `distance` is the target's distance [m].
     ///
     /// # Errors
     /// Elements are missing; the id has no robot configuration.
@@ -176,7 +176,7 @@ impl Kitty {
             [there[0] - here[0], there[1] - here[1]]
         };
         let target = offset(self.target);
-        // A reset clears the controls; the original keeps showing those of the episode before.
+        // A reset clears the controls; the original keeps showing the previous episode's.
         let control = match self.compat {
             Compat::RoboHive07 => view.control,
             Compat::Fixed => &state.ctrl,

@@ -24,7 +24,7 @@ static ROOTS: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
     (0..LENGTH).map(|k| [ops::cos(angle(k)), ops::sin(angle(k))]).collect()
 });
 
-/// Amplitude of each frequency, the lowest one also that of the constant part.
+/// Amplitude of each frequency; the lowest one's is also the constant part's.
 static AMPLITUDES: LazyLock<Vec<f64>> = LazyLock::new(|| {
     let step = 1.0 / LENGTH as f64;
     (0..=HALF).map(|k| 1.0 / (k.max(1) as f64 * step)).collect()
@@ -160,7 +160,7 @@ mod tests {
         let noise = Noise::new(&mut Rng::pcg64(3_u64)).unwrap();
         let norm = LENGTH as f64 * deviation();
         for t in [0, 1, 49, 50, 777, 1999] {
-            // The spectrum left is that of the last series.
+            // What is left is the spectrum of the last series.
             let term = |k: usize| {
                 let [re, im] = noise.spectrum[k];
                 let angle = TAU * (k * t % LENGTH) as f64 / LENGTH as f64;
