@@ -19,9 +19,9 @@ use std::time::Instant;
 /// Measure how long pictures of a model take
 #[derive(Args)]
 #[command(
-    after_help = "Each picture is of another state of a short motion from keyframe 0, or qpos0, and its time is that of \
-listing what is to be drawn and drawing it; neither physics nor loading are in it. One thread draws. For a renderer \
-that draws many pictures at once, such as a GPU, the time of a picture in batches of 24 follows.
+    after_help = "Each picture shows another state of a short motion from keyframe 0, or qpos0. Its time includes listing \
+what is to be drawn and drawing it, but neither physics nor loading. One thread draws. For a renderer that draws many \
+pictures at once, such as a GPU, the time of a picture in batches of 24 follows.
 
 Examples:
   robohive bench-render assets/franka/franka_table.xml --camera front
@@ -49,7 +49,7 @@ pub struct BenchRender {
     /// Print one JSON object instead
     #[arg(long)]
     json: bool,
-    /// Draw what standard input asks for and answer each line by one of JSON, for a program that measures processor time
+    /// Draw what each line of standard input asks for and answer with a line of JSON, for a program that measures processor time
     #[arg(long, hide = true, conflicts_with = "json")]
     requests: bool,
 }

@@ -68,8 +68,8 @@ pub struct Step {
     pub terminated: bool,
     /// The episode is over for another reason: its length, or a fault.
     pub truncated: bool,
-    /// Why physics refused the step. The observation is then that of the step before, the reward zero, and the next call
-    /// must be a reset.
+    /// Why physics refused the step. The observation then repeats the step before, the reward is zero, and the next call must
+    /// be a reset.
     pub fault: Option<StepError>,
 }
 

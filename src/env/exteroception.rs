@@ -181,7 +181,7 @@ impl Loaded {
 }
 
 impl Env {
-    /// The images of the visual keys, drawn of the state that the last observation shows: that of the robot's sensors. No
+    /// The images of the visual keys, drawn of the state that the last observation shows, as the robot's sensors see it. No
     /// other method draws them, so that an environment with visual keys costs nothing more until they are asked for. Asked
     /// again in the same state they are not drawn again.
     ///

@@ -36,8 +36,8 @@ impl Scene {
     }
 
     /// Advances by `count` time steps in the order of RoboHive's simulation: the second half of the current step, whole
-    /// steps, the first half of the next one. Positions and velocities are then those of the new state, forces those
-    /// of the one before. `each` sees the state after every time step.
+    /// steps, the first half of the next one. Positions and velocities then belong to the new state, forces to the state
+    /// before it. `each` sees the state after every time step.
     ///
     /// # Errors
     /// Physics refuses a step; the state is the one that it refused.

@@ -41,8 +41,8 @@ impl FromStr for Renderer {
 pub struct NoGpu;
 
 impl Renderer {
-    /// What draws. A GPU is opened when it draws first; where there is none, the CPU draws, and a line on the standard error
-    /// stream says so.
+    /// What draws. A GPU is opened when it draws first; on a machine without a GPU the CPU draws, and a line on the standard
+    /// error stream says so.
     ///
     /// # Errors
     /// A GPU is asked for, and this build knows none.

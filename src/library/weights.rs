@@ -11,7 +11,7 @@ pub struct Weights(Search);
 
 impl Weights {
     /// The folders that environment variables name, then this project's data folder, then the folders in which the networks'
-/// own programs keep their weights.
+    /// own programs keep their weights.
     pub fn from_environment() -> Self {
         // A machine without a data folder has the other places; what is not found is an error that lists them.
         let data = store::default_folder().ok();

@@ -33,12 +33,11 @@
 //! - Depth inside is reversed: 1 at the near plane, 0 at the far one. Depth of a [`Picture`] is in metres.
 //! - Arithmetic has a fixed order, `f32` for triangles and colours, `f64` for projections and the sky; transcendental functions come from `physics::math::ops` or from
 //!   polynomials of this crate.
-//! - Vectors of numbers are only added, subtracted, multiplied, divided, compared, selected and rooted, where IEEE 754 leaves no
-//!   choice. Their conversions to integers and fused products differ between processors and are not used, minima and maxima only
-//!   where neither NaN nor the sign of zero matters, nor
-//!   does the sign or payload of a NaN reach a picture. Other processors of 64 bits, such as aarch64, whose vectors keep
-//!   denormal numbers and round to nearest, hence draw the same bits; the table of builds compares x86-64 with and without
-//!   AVX2 and WebAssembly with and without vectors.
+//! - Vectors of numbers are only added, subtracted, multiplied, divided, compared, selected and rooted: IEEE 754 defines each
+//!   of these results. Fused products and conversions of vectors to integers differ between processors and are not used.
+//!   Minima and maxima are used only where neither NaN nor the sign of zero matters. No sign or payload of a NaN reaches a
+//!   picture. So every 64-bit processor whose vectors keep denormal numbers and round to nearest, such as aarch64, draws the
+//!   same bits. The checks of builds compare x86-64 with and without AVX2, and WebAssembly with and without vectors.
 
 pub mod error;
 pub mod geometry;

@@ -75,8 +75,7 @@ pub struct Options {
     /// Largest further age, drawn for each reading, in time steps of the model. A reading is never older than the one
     /// before.
     pub jitter_steps: usize,
-    /// Controls are rounded to single precision, as those of RoboHive are when actions are `float32` and there is a
-    /// config.
+    /// Controls are rounded to single precision, as RoboHive's are when actions are `float32` and there is a config.
     pub single_precision: bool,
     /// Devices come from the registry, by the interfaces that the config names, instead of being simulated.
     pub hardware: bool,

@@ -242,8 +242,8 @@ impl Robot {
         changed
     }
 
-    /// Clips a wanted pose to what the devices can have: positions to those of a device's actuators, and what a device
-    /// without actuators senses to its sensors' ranges.
+    /// Clips a wanted pose to what the devices can have: to the ranges of a device's actuators, or of its sensors if it has no
+    /// actuators.
     pub fn clip_reset(&self, qpos: &mut [f64], qvel: &mut [f64]) {
         for Group { sensors, actuators, .. } in &self.binding.devices {
             for actuator in &self.binding.actuators[actuators.clone()] {

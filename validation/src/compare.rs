@@ -44,7 +44,7 @@ pub fn absolute(ours: f64, theirs: f64, _scale: f64) -> f64 {
     (ours - theirs).abs()
 }
 
-/// Error in units of the bar of compiled arrays: above one is a difference.
+/// Error of a compiled number as a multiple of what is allowed: above one it counts as a difference.
 pub fn compiled(ours: f64, theirs: f64, _scale: f64) -> f64 {
     (ours - theirs).abs() / COMPILE_ABSOLUTE.max(COMPILE_RELATIVE * theirs.abs())
 }
@@ -54,7 +54,7 @@ pub fn exact(ours: f64, theirs: f64, _scale: f64) -> f64 {
     if ours == theirs { 0.0 } else { f64::INFINITY }
 }
 
-/// Compares two fields component by component, measured against the field's largest.
+/// Compares two fields number by number; `measure` is given the field's largest magnitude as scale.
 pub fn compare(field: &str, ours: &[f64], theirs: &[f64], measure: Measure) -> Worst {
     let scale = theirs.iter().fold(0.0, |s: f64, x| s.max(x.abs()));
     compare_scaled(field, ours, theirs, measure, |_| scale)

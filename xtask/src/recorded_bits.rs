@@ -1,6 +1,6 @@
-//! Equality with the recorded MuJoCo to the last bit: the engine calls the C library's transcendental functions, as
-//! MuJoCo did, so every value of the own models must be the recorded one. Possible where those functions are the ones that
-//! the recorded MuJoCo called.
+//! Equality with the recorded MuJoCo to the last bit: the engine is built to call the C library's transcendental functions,
+//! as MuJoCo does, and must then compute every recorded value of the own models. This needs the same C library as the
+//! recording's.
 
 use crate::check::{Missing, Outcome};
 use crate::command::target_folder;

@@ -39,8 +39,8 @@ impl Reader<'_> {
         (pos, resolve(UNIT, Some(Orientation::Euler(rpy)), &settings).unwrap_or(UNIT))
     }
 
-    /// Mass and inertia. As in MuJoCo, the orientation is that of the principal axes of the six moments, and `rpy` counts
-    /// only where all of these are zero.
+    /// Mass and inertia. As in MuJoCo, the principal axes of the six moments give the orientation, and `rpy` counts only when
+    /// all six are zero.
     fn inertia(&mut self, element: &Element) -> Option<Inertial> {
         let (pos, quat) = self.origin(element);
         let turned = quat != UNIT;

@@ -207,8 +207,8 @@ impl PyEnv {
         Ok(())
     }
 
-    /// `dense` and `sparse` rewards and `done` of a path's observations (T x length), of which the reward of a step
-    /// belongs to the observation after it.
+    /// `dense` and `sparse` rewards and `done` of a path's observations (T x length). The reward of a step belongs to the
+    /// observation after it.
     fn path_rewards<'py>(
         &self,
         py: Python<'py>,

@@ -157,19 +157,20 @@ impl TreeNode {
     }
 }
 
-/// How many nodes and members a file can have: none takes less than eight bytes, and each is read once.
+/// How many more nodes and members can be read from a file: each takes at least eight bytes and is read once, so that
+/// trees that lead in circles end.
 pub struct Room(u64);
 
 impl Room {
-    /// All that the file can have.
+    /// Room for as many as the file has bytes for.
     pub fn of(source: &Source) -> Self {
         Room(source.length() / 8)
     }
 
-    /// Some are read.
+    /// Takes room for nodes and members that are read.
     ///
     /// # Errors
-    /// There were more than the file can have.
+    /// The file cannot have so many.
     pub fn spend(&mut self, count: u64) -> Decoded<()> {
         self.0 = self.0.checked_sub(count).ok_or("a tree leads in circles: the file is damaged")?;
         Ok(())

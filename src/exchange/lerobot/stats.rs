@@ -82,8 +82,7 @@ impl Stats {
         }
     }
 
-    /// Takes in the statistics of further frames. As LeRobot does it, the quantiles become the average of those of the
-    /// episodes.
+    /// Takes in the statistics of further frames. As in LeRobot, quantiles are averaged over episodes.
     pub fn merge(&mut self, other: &Stats) {
         let (own, new) = (self.count as f64, other.count as f64);
         let total = (own + new).max(1.0);

@@ -35,14 +35,14 @@ pub enum Solid<'a> {
     Element(&'a Element),
 }
 
-/// Corners of an element of a flex, one for a vertex alone.
+/// Corners of an element of a flex. A single vertex counts as an element with one corner.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
     /// Corners; the first `count` are in use.
     pub corners: [Vec3; 4],
     /// Number of corners.
     pub count: usize,
-    /// Radius with half of the margin [m].
+    /// Radius plus half of the margin [m].
     pub inflation: f64,
 }
 

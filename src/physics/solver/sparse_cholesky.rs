@@ -25,8 +25,8 @@ pub(super) struct SparseCholesky {
     run_start: Vec<usize>,
     /// Runs are long enough to be worth following.
     by_runs: bool,
-    /// Lists of the later rows with an entry in each column, those of the last column first: the list of column `c`
-    /// begins at `later_start[c + 1]` and ends at `later_start[c]`.
+    /// Lists of the later rows with an entry in each column, the last column's list first: the list of column `c` begins at
+    /// `later_start[c + 1]` and ends at `later_start[c]`.
     later_start: Vec<usize>,
     /// Row of each and the place of its entry, in the order in which they are subtracted.
     later: Vec<(usize, usize)>,

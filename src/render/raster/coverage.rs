@@ -90,8 +90,8 @@ pub enum Facing {
 pub struct Target {
     /// Which side is seen.
     facing: Facing,
-    /// Columns and rows in the first two lanes: what is added to a box before its pixels are those of its samples
-    /// [1/256 pixel], and the pixels that there are.
+    /// Columns and rows in the first two lanes: the offsets that make the pixels of a box cover its samples [1/256 pixel], and
+    /// the number of pixels.
     before: i32x4,
     after: i32x4,
     first: i32x4,

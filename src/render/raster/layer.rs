@@ -103,8 +103,8 @@ impl Layer {
         );
     }
 
-    /// Calls `see(number, corners)` for every triangle of a surface that can be drawn, in pieces where it is cut, without
-    /// those in boxes that do not matter.
+    /// Calls `see(number, corners)` for every triangle of a surface that can be drawn; a triangle that is clipped comes in
+    /// pieces. Triangles in boxes that do not matter are skipped.
     #[inline]
     pub fn corners(
         &self,

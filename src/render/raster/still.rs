@@ -14,9 +14,9 @@ use crate::texture::Texture;
 use crate::view::View;
 use std::sync::Arc;
 
-/// Pictures after which an item of a body that can move stands still.
+/// An item of a body that can move counts as standing still after this many unchanged pictures.
 const QUIET: u16 = 8;
-/// The same for items that are fixed to the world.
+/// The same number for items that are fixed to the world.
 const QUIET_STATIC: u16 = 1;
 /// Share of the triangles at rest that may be missing from a backdrop before it is made again.
 const MISSING: f64 = 0.2;

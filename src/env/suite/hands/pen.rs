@@ -49,7 +49,7 @@ struct Pen {
 /// Builds the task.
 ///
 /// # Errors
-/// There is a setting, and the task has none; the model lacks the hand or the pens.
+/// A setting is given, but the task has none; or the model lacks the hand or the pens.
 pub fn build(
     spec: &Spec,
     own: Table,

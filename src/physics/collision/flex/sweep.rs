@@ -218,8 +218,8 @@ impl OpenElements {
 mod tests {
     use super::*;
 
-    /// Boxes whose centres and sizes look random, each an element with a body of its own but for every fifth, which shares
-    /// that of the one before.
+    /// Boxes whose centres and sizes look random. Each is an element with its own body, except that every fifth shares the body
+    /// of the element before it.
     fn sweep(count: usize) -> (Sweep, Vec<[f64; 6]>) {
         let number = |k: usize| ((k * 2_654_435_761) % 1009) as f64 / 1009.0;
         let boxes = (0..count)

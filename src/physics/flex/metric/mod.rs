@@ -1,12 +1,12 @@
 //! The effective inertia `M + K` of flexes that are implicit in positions: `K = (dt² + dt d) S` with `S` the stiffness of
 //! elasticity and of soft contacts at the present positions, and `d` the damping of a flex.
 //!
-//! With it, the step solves `(M + K) a = f - dt S v` instead of `M a = f`, so that stiff cloth is stable at the time
-//! steps of everything else. The solver `CG` and the integrators that are implicit in velocity ask for it
-//! (MuJoCo documentation, Computation, "Deformable objects").
+//! The step solves `(M + K) a = f - dt S v` instead of `M a = f`, so that stiff cloth is stable at time steps that are usual
+//! for rigid bodies. It is in use with the solver `CG` and an integrator that is implicit in velocity (MuJoCo documentation,
+//! Computation, "Deformable objects").
 //!
-//! `matrix.rs` keeps `K` in rows that `pattern.rs` lays out, `bends.rs` and `terms.rs` apply what has none, `touch.rs` makes
-//! springs of contacts, and `bending_factor.rs` solves where bending is all there is.
+//! `matrix.rs` assembles `K` in rows that `pattern.rs` lays out. `bends.rs` and `terms.rs` multiply by the parts of `K` that
+//! are not assembled. `touch.rs` turns contacts into springs. `bending_factor.rs` preconditions flexes with bending alone.
 
 pub(crate) mod bending_factor;
 mod bends;
