@@ -34,13 +34,13 @@ impl CollisionScratch {
 
     /// Whether the contacts found so far fit in the budget, in a loop that may find too many.
     pub(super) fn has_room(&self, con: &Contacts) -> bool {
-        con.contact.len() <= self.budget.count(CONTACT_BYTES)
+        con.contact.len() <= self.most_contacts()
     }
 
     /// Whether the contacts found so far fit in the budget.
     pub(super) fn check(&self, con: &Contacts) -> Result<(), OverBudget> {
         let found = con.contact.len();
-        if found <= self.budget.count(CONTACT_BYTES) {
+        if found <= self.most_contacts() {
             return Ok(());
         }
         Err(self.budget.exceeded(Demand::Contacts, found, CONTACT_BYTES))

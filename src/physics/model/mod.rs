@@ -35,8 +35,6 @@ pub use crate::arrays::{
     VisualGlobal, VisualHeadlight, VisualMap, VisualQuality, VisualRgba, VisualScale, WrapType, array,
     bounds, counts, input,
 };
-pub use crate::binary;
-pub use crate::edit::EditError;
 pub use distance_field::Field;
 pub use not_simulated::NotSimulated;
 pub use plugin_config::Config;
@@ -46,3 +44,7 @@ pub use with_plugins::{
     ActuatorInputs, Capability, Instance, Model, PassiveInputs, Plugin, Registry, SensorInputs,
 };
 pub(crate) use with_plugins::{Instances, Running};
+
+// Public names of what stands above the model: its file, and why an edit of it is refused.
+pub use crate::binary;
+pub use crate::edit::EditError;
