@@ -34,7 +34,7 @@ pub(super) struct Compiled {
 impl Compiled {
     /// The plugin and the attributes of the instance.
     pub(super) fn config(&self) -> (&dyn Plugin, Config<'_>) {
-        (&*self.kind, Config::new(&*self.kind, &self.bytes))
+        (&*self.kind, Config::new(self.kind.attributes(), &self.bytes))
     }
 }
 

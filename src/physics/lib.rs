@@ -22,23 +22,28 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arrays;
+pub mod batch;
+pub mod binary;
+mod caches;
 pub mod collision;
 pub mod consistency;
 pub mod constants;
 pub mod data;
 pub mod derivative;
+mod edit;
 pub mod elements;
 pub mod geometry;
 pub mod inertia;
 pub mod integration;
 pub mod math;
 pub mod model;
-pub mod on_demand;
 pub mod pipeline;
 pub mod plugin;
 pub mod position;
 pub mod ray;
 mod sleep;
+mod stages;
 pub mod table;
 
 // Stages of a step, one at a time: what validation and tests call, and programs do not need.
@@ -51,17 +56,21 @@ pub mod constraint;
 #[doc(hidden)]
 pub mod flex;
 #[doc(hidden)]
+pub mod on_demand;
+#[doc(hidden)]
 pub mod sensor;
 #[doc(hidden)]
 pub mod solver;
 #[doc(hidden)]
 pub mod velocity;
 
+pub use batch::{Batch, BatchError, Environment};
 pub use constants::length_range::set_length_ranges;
 pub use constants::set_const::set_const;
 pub use data::{Data, Snapshot};
 pub use model::Model;
-pub use on_demand::{derive_body_forces, derive_on_demand};
-pub use pipeline::batch::{Batch, BatchError, Environment};
-pub use pipeline::forward::{StepError, forward, forward_after_step1, step, step_watched, step1, step2};
+pub use pipeline::error::StepError;
+pub use pipeline::forward::{forward, forward_after_step1};
 pub use pipeline::inverse::inverse;
+pub use pipeline::on_demand::{derive_body_forces, derive_on_demand};
+pub use pipeline::step::{step, step_watched, step1, step2};

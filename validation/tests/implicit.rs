@@ -152,7 +152,7 @@ fn transition_matrices_agree() {
             let mut d = Data::new(&m);
             own.set_state(&mut d, &m, STATES[0]).unwrap();
             let before = d.state.clone();
-            let ours = physics::derivative::transition::transition(&m, &mut d, 1e-6, true).unwrap();
+            let ours = physics::pipeline::transition::transition(&m, &mut d, 1e-6, true).unwrap();
             assert_eq!(before.qpos, d.state.qpos);
             for (field, ours) in [("A", ours.a), ("B", ours.b), ("C", ours.c), ("D", ours.d)] {
                 let mut theirs = values(&recorded, &format!("{label}.{field}"));
@@ -181,7 +181,7 @@ fn slopes_of_inverse_dynamics_agree() {
         let mut d = Data::new(&m);
         own.set_state(&mut d, &m, STATES[0]).unwrap();
         d.acc.qacc.copy_from_slice(&values(&recorded, "inverse.qacc")[..m.nv]);
-        let ours = physics::derivative::transition::inverse_slope(&m, &mut d, 1e-6).unwrap();
+        let ours = physics::pipeline::transition::inverse_slope(&m, &mut d, 1e-6).unwrap();
         for (field, ours) in
             [("position", ours.position), ("velocity", ours.velocity), ("acceleration", ours.acceleration)]
         {

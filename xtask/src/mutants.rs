@@ -62,7 +62,7 @@ fn table(all: usize, count: usize) -> Result<String, String> {
     let mut text = format!(
         "# Mutants\n\nFaults put into `src/physics` one at a time, and whether the tests notice them: {} of {all} possible ones, \
          spread\nevenly. Of those that compile {share:.0} % are noticed by the tests of `robohive-physics`, `robohive-validation`\n\
-         and `robohive-mjcf`; `elements/`, `data/snapshot.rs` and `pipeline/batch.rs` are tested in the root package, which does not\n\
+         and `robohive-mjcf`; `elements/`, `data/snapshot.rs` and `batch.rs` are tested in the root package, which does not\n\
          take part.\n\n```sh\ncargo install cargo-mutants\n\
          cargo xtask mutants {count}\n```\n\n| outcome | mutants |\n|---|---|\n",
         numbers.iter().sum::<usize>()

@@ -6,9 +6,9 @@ use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
 use numpy::{PyArray1, PyReadonlyArray1};
-use physics::derivative::transition::{inverse_slope, transition};
 use physics::inertia::{full_inertia, mul_inertia_matrix, solve};
 use physics::integration::integrate::{differentiate_pos, integrate_pos};
+use physics::pipeline::transition::{inverse_slope, transition};
 use pyo3::prelude::*;
 
 type Vector<'py> = Bound<'py, PyArray1<f64>>;

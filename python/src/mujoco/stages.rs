@@ -13,13 +13,13 @@ use physics::constraint::{find_islands, make_constraint, reference};
 use physics::data::Configuration;
 use physics::flex::flexes;
 use physics::inertia::{factor_inertia, make_inertia};
-use physics::integration::integrate::{Factors, euler, implicit, runge_kutta};
 use physics::model::Model as Compiled;
 use physics::on_demand::{energy, momentum};
 use physics::pipeline::forward::{
     acceleration_sensors, constrained_acceleration, position, position_sensors, unconstrained_acceleration,
     velocity, velocity_sensors,
 };
+use physics::pipeline::integrate::{Factors, euler, implicit, runge_kutta};
 use physics::pipeline::inverse::compare_with_forward;
 use physics::position::{camera, com, kinematics, tendon};
 use physics::velocity::{bias, com_vel, passive};

@@ -1,7 +1,7 @@
 //! Forces of contacts, assembled from their constraint rows.
 
-use crate::data::{Constraints, Contact};
 use crate::model::{Cone, Model};
+use crate::stages::{Constraints, Contact};
 
 /// Force and torque of a contact in its own frame, from the first geom on the second, less the adhesive pull; zero
 /// for a contact without rows. A pyramid's normal force is the sum of its edges, friction their differences.

@@ -2,13 +2,13 @@
 //! sensors read (MuJoCo documentation, API reference, `mj_rnePostConstraint`).
 
 use crate::acceleration::contact_force::contact_force;
-use crate::data::{
-    Acceleration, Com, Configuration, Constraints, Contact, Contacts, Kinematics, Sensors, State, Velocity,
-};
 use crate::math::{Spatial, Vec3, add, cross, mul_mat_t_vec};
 use crate::model::{EqType, Model, ObjType};
 use crate::position::chain::com_offset;
 use crate::position::kinematics::attached_pos;
+use crate::stages::{
+    Acceleration, Com, Configuration, Constraints, Contact, Contacts, Kinematics, Sensors, State, Velocity,
+};
 use crate::velocity::bias::{body_force, world_acceleration};
 use crate::velocity::com_vel::{add_motion, dofs};
 

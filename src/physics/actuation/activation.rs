@@ -3,18 +3,13 @@
 use crate::actuation::dc_motor;
 use crate::actuation::muscle;
 use crate::actuation::servo;
-use crate::data::{State, Transmission, Velocity};
-use crate::math::{norm, ops};
+use crate::actuation::setpoint::{activations, is_disabled, nearest_setpoint, next_plain, setpoint_period};
+use crate::math::norm;
 use crate::model::bounds::MINVAL;
-use crate::model::{BiasType, DynType, GainType, JointType, Model, TrnType};
+use crate::model::{DynType, GainType, Model};
 use crate::sleep::{Awake, object};
+use crate::stages::{State, Transmission, Velocity};
 use std::f64::consts::PI;
-
-/// Position in `act` of the activations of actuator `i`.
-pub fn activations(m: &Model, i: usize) -> std::ops::Range<usize> {
-    let start = usize::try_from(m.actuator_actadr[i]).unwrap_or(0);
-    start..start + m.actuator_actnum[i] as usize
-}
 
 /// Time derivative of the activations of all actuators that do not sleep, under the clamped controls `ctrl(k)`.
 pub fn activation_rates(
@@ -60,17 +55,10 @@ pub fn activation_rates(
 /// Activation `act[k]` of actuator `i`, which moves at `velocity`, after one time step, within its range.
 #[inline]
 pub fn next_activation(m: &Model, i: usize, k: usize, act: &[f64], act_dot: f64, velocity: f64) -> f64 {
-    let act = act[k];
     if m.actuator_dyntype[i] == DynType::Dcmotor.code() {
-        return dc_motor::next_state(m, i, k, act, act_dot, velocity);
+        return dc_motor::next_state(m, i, k, act[k], act_dot, velocity);
     }
-    let next = if m.actuator_dyntype[i] == DynType::Filterexact.code() {
-        let tau = m.actuator_dynprm[i][0].max(MINVAL);
-        act + act_dot * tau * (1.0 - ops::exp(-m.opt.timestep / tau))
-    } else {
-        act + act_dot * m.opt.timestep
-    };
-    if m.actuator_actlimited[i] { clip(next, m.actuator_actrange[i]) } else { next }
+    next_plain(m, i, k, act, act_dot)
 }
 
 /// Advances all activations by one time step, except of disabled actuators.
@@ -106,49 +94,5 @@ fn rewind_setpoint(m: &Model, trn: &Transmission, i: usize, act: &mut [f64]) {
             let factor = (angle - 2.0 * PI * (angle / (2.0 * PI)).round()) / angle;
             vector.iter_mut().for_each(|x| *x *= factor);
         }
-    }
-}
-
-/// Period of the setpoint of a servo that turns a ball joint or a site about one axis; `None` for all others.
-pub fn setpoint_period(m: &Model, i: usize) -> Option<f64> {
-    let servo = m.actuator_gaintype[i] == GainType::Fixed.code()
-        && m.actuator_biastype[i] == BiasType::Affine.code()
-        && m.actuator_gainprm[i][0] == -m.actuator_biasprm[i][1]
-        && matches!(DynType::from_code(m.actuator_dyntype[i]), Some(DynType::None | DynType::Integrator));
-    if !servo && m.actuator_gaintype[i] != GainType::Pid.code() {
-        return None;
-    }
-    let [x, y, z, rx, ry, rz] = m.actuator_gear[m.actuator_outadr[i] as usize];
-    let axis = match TrnType::from_code(m.actuator_trntype[i])? {
-        TrnType::Site if m.actuator_trnid[i][1] >= 0 && [x, y, z] == [0.0; 3] => [rx, ry, rz],
-        TrnType::Joint | TrnType::Jointinparent
-            if m.jnt_type[m.actuator_trnid[i][0] as usize] == JointType::Ball.code() =>
-        {
-            [x, y, z]
-        }
-        _ => return None,
-    };
-    Some(2.0 * PI * norm(axis)).filter(|&period| period > 0.0)
-}
-
-/// The equal of setpoint `u` nearest to `length`.
-pub fn nearest_setpoint(u: f64, length: f64, period: f64) -> f64 {
-    u - period * ((u - length) / period).round()
-}
-
-/// True when the group of actuator `i` is switched off.
-pub fn is_disabled(m: &Model, i: usize) -> bool {
-    let group = m.actuator_group[i];
-    (0..=30).contains(&group) && m.opt.disableactuator & (1 << group) != 0
-}
-
-/// `x` limited to a range; keeps a NaN.
-pub fn clip(x: f64, [low, high]: [f64; 2]) -> f64 {
-    if x < low {
-        low
-    } else if x > high {
-        high
-    } else {
-        x
     }
 }

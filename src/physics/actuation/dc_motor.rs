@@ -7,9 +7,9 @@
 //! rate, bound of the integral; in `actuator_biasprm`: amplitude, periods and phase of cogging, Coulomb friction,
 //! static friction, Stribeck velocity.
 
-use crate::actuation::activation::{activations, clip, next_activation};
 use crate::actuation::servo;
-use crate::math::ops;
+use crate::actuation::setpoint::activations;
+use crate::math::{clip, ops};
 use crate::model::bounds::MINVAL;
 use crate::model::input::{FEED_FORWARD, POSITION, VELOCITY, VOLTAGE};
 use crate::model::{BiasType, DynType, GainType, Model};
@@ -165,7 +165,7 @@ pub fn electrical_force(
     if let Some(slot) = slots_of(m, i).current {
         let k = activations(m, i).start + slot;
         let early = m.actuator_actearly[i];
-        return constant * if early { next_activation(m, i, k, act, act_dot[k], velocity) } else { act[k] };
+        return constant * if early { next_state(m, i, k, act[k], act_dot[k], velocity) } else { act[k] };
     }
     let gain = constant / resistance(m, act, i).max(MINVAL);
     let volts = match m.actuator_ctrlspec[i] {

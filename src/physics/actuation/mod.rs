@@ -5,23 +5,25 @@ pub(crate) mod activation;
 pub(crate) mod dc_motor;
 pub(crate) mod history;
 pub(crate) mod muscle;
-pub(crate) mod reflected_load;
 pub(crate) mod servo;
+pub(crate) mod setpoint;
 pub mod transmission;
 
-pub use activation::is_disabled;
+pub use setpoint::is_disabled;
 
-use crate::actuation::activation::{
-    activation_rates, activations, clip, nearest_setpoint, next_activation, setpoint_period,
-};
+use crate::actuation::activation::{activation_rates, next_activation};
 use crate::actuation::muscle::Muscle;
+use crate::actuation::setpoint::{activations, nearest_setpoint, setpoint_period};
 use crate::actuation::transmission::moment;
-use crate::data::{Actuation, Passive, State, Transmission, Velocity};
-use crate::math::{IDENTITY, Quat, Vec3, norm, quat_difference, quat_from_axis_angle, quat_normalize, scale};
+use crate::math::{
+    IDENTITY, Quat, Vec3, clip, norm, quat_difference, quat_from_axis_angle, quat_normalize, scale,
+};
 use crate::model::bounds::{MAXVAL, MINVAL};
-use crate::model::{BiasType, Disable, DynType, GainType, JointType, Model, TrnType, input};
-use crate::plugin::{ActuatorInputs, Capability};
+use crate::model::{
+    ActuatorInputs, BiasType, Capability, Disable, DynType, GainType, JointType, Model, TrnType, input,
+};
 use crate::sleep::{Awake, object};
+use crate::stages::{Actuation, Passive, State, Transmission, Velocity};
 use crate::velocity::passive::has_gravity_compensation;
 
 /// Computes rates of activation, actuator forces, and their sum in joint space.

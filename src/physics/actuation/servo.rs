@@ -1,7 +1,8 @@
 //! Controllers inside actuators: their inputs, slew limits, and the servo with integral of `pid`
 //! (XML reference: `actuator/pid`).
 
-use crate::actuation::activation::{activations, clip, nearest_setpoint, next_activation, setpoint_period};
+use crate::actuation::setpoint::{activations, nearest_setpoint, next_plain, setpoint_period};
+use crate::math::clip;
 use crate::model::input::{FEED_FORWARD, POSITION, VELOCITY, VOLTAGE};
 use crate::model::{DynType, GainType, Model};
 
@@ -103,7 +104,7 @@ pub fn pid_force(
     let ki = m.actuator_gainprm[i][0];
     if let Some(k) = activations(m, i).last().filter(|_| ki > 0.0) {
         let early = m.actuator_actearly[i];
-        force += ki * if early { next_activation(m, i, k, act, act_dot[k], 0.0) } else { act[k] };
+        force += ki * if early { next_plain(m, i, k, act, act_dot[k]) } else { act[k] };
     }
     force
 }

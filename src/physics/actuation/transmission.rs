@@ -3,9 +3,6 @@
 //! The moment of an actuator is the gradient of its length; it maps scalar force to joint space. Rows are
 //! compressed in place, one after the other; entries that are exactly zero are left out where MuJoCo does so.
 
-use crate::data::{
-    Com, Configuration, Constraints, Contact, Contacts, Kinematics, State, Tendons, Transmission, Velocity,
-};
 use crate::math::{
     Mat3, Quat, Vec3, add, column, cross, dot, dot_sparse, mul_mat_t_vec, mul_mat_vec, ops, quat_conj,
     quat_difference, quat_mul, quat_normalize, quat_rotate, quat_to_velocity, rotational, row, scale, sub,
@@ -14,6 +11,9 @@ use crate::model::{Cone, Disable, JointType, Model, TrnType};
 use crate::position::chain::{MergedChain, chain, com_offset, point_column, site_point};
 use crate::position::tendon;
 use crate::sleep::{Awake, object};
+use crate::stages::{
+    Com, Configuration, Constraints, Contact, Contacts, Kinematics, State, Tendons, Transmission, Velocity,
+};
 use std::ops::Range;
 
 /// Computes lengths and moments of all actuators.

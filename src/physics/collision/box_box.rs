@@ -4,8 +4,8 @@
 //!
 //! Everything is computed in the frame of the first box, or of the box that owns the reference face.
 
+use super::shape::{PreContact, Shape};
 use super::sphere::clip;
-use super::{PreContact, Shape};
 use crate::math::{Mat3, Vec3, add, add_scaled, column, dot, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec};
 use crate::math::{row, scale, sub, transpose};
 use crate::model::bounds::{MAXVAL, MINVAL};

@@ -2,14 +2,14 @@
 //! after filters by contact type, weld group and parent (documentation: Computation, "Pair selection").
 
 use super::mixing::overridden;
-use crate::data::{Flexes, Kinematics};
-use crate::flex::Flex;
 use crate::math::{
     Mat3, Vec3, add, add_scaled, column, dot, mul_mat, mul_mat_vec, principal_axes, quat_to_mat,
 };
 use crate::math::{scale, sub};
+use crate::model::flex::Flex;
 use crate::model::{Disable, GeomType, Model};
 use crate::sleep::{Awake, object};
+use crate::stages::{Flexes, Kinematics};
 
 /// Working memory and result of the broad phase.
 #[derive(Clone, Debug, Default)]

@@ -1,8 +1,8 @@
 //! Contacts between two capsules: of the nearest points of their segments (Ericson, "Real-Time Collision
 //! Detection", 5.1.9).
 
+use super::shape::{PreContact, Shape};
 use super::sphere::{Ball, balls, clip};
-use super::{PreContact, Shape};
 use crate::math::{Vec3, add_scaled, dot, scale, sub};
 use crate::model::bounds::MINVAL;
 

@@ -1,8 +1,8 @@
 //! Contacts of a capsule and a box: the ball at the capsule's point nearest to the box and, when the capsule lies
 //! along a face or an edge, a second ball where it leaves the box.
 
+use super::shape::{PreContact, Shape};
 use super::sphere::ball_box;
-use super::{PreContact, Shape};
 use crate::math::{Vec3, add, add_scaled, dot, mul_mat_t_vec, mul_mat_vec, scale, sub};
 use crate::model::bounds::MINVAL;
 

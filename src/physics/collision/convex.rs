@@ -5,35 +5,24 @@
 //! exact penetration. With the native algorithms disabled, portal refinement finds one contact of overlapping bodies.
 
 use super::epa::{self, Failure};
-use super::gjk::{BEYOND, Limits, Vertex, gjk};
+use super::gjk::{BEYOND, Limits, gjk};
 use super::mpr::overlap;
-use super::multicontact::{Clipper, Witness};
-use super::polytope::Polytope;
-use super::sdf::FieldScratch;
+use super::multicontact::Witness;
+use super::round_normal;
+pub use super::scratch::ConvexScratch;
+use super::shape::{PreContact, Shape};
 use super::support::{ConvexBody, Solid};
-use super::{PreContact, Shape, round_normal};
-use crate::data::Kinematics;
 use crate::math::{
     Mat3, Vec3, add, add_scaled, cross, distance, dot, mul_mat, mul_mat_vec, normalize, quat_from_axis_angle,
     quat_to_mat, scale, sub, transpose,
 };
 use crate::model::{Disable, Model, Options};
+use crate::stages::Kinematics;
 
 /// Angle by which geoms are rocked to find more contacts [rad].
 const ROCKING_ANGLE: f64 = 1e-3;
 /// Contacts nearer than this fraction of the smaller bounding radius are one contact.
 const SAME_CONTACT: f64 = 1e-3;
-
-/// Working memory of the convex algorithms, reused from call to call.
-#[derive(Clone, Debug, Default)]
-pub struct ConvexScratch {
-    simplex: [Vertex; 4],
-    polytope: Polytope,
-    clipper: Clipper,
-    witness: Vec<Witness>,
-    /// Of the functions for signed distances.
-    pub(super) field: FieldScratch,
-}
 
 impl Limits {
     /// Limits of a model's options.

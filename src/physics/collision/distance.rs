@@ -18,11 +18,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::convex::{ConvexScratch, convex_distance};
-use super::{PreContact, pair_function};
-use crate::data::Kinematics;
+use super::convex::convex_distance;
+use super::pair_function;
+use super::scratch::ConvexScratch;
+use super::shape::PreContact;
 use crate::math::{Vec3, add_scaled};
 use crate::model::{Disable, GeomType, Model};
+use crate::stages::Kinematics;
 
 /// Reused memory of distance queries.
 #[derive(Clone, Debug, Default)]

@@ -1,13 +1,15 @@
 //! Contacts of a height field: each triangle of the grid, extended down to the base, is a convex prism
 //! (documentation: Computation, "Height fields").
 
-use super::convex::{ConvexScratch, penetration};
+use super::convex::penetration;
+use super::round_normal;
+use super::scratch::ConvexScratch;
+use super::shape::{PreContact, Shape};
 use super::support::{ConvexBody, Element};
-use super::{PreContact, Shape, round_normal};
-use crate::data::Kinematics;
 use crate::math::{Mat3, Vec3, add, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec, sub};
 use crate::model::bounds::MAXCONPAIR;
 use crate::model::{Disable, Model, Options};
+use crate::stages::Kinematics;
 
 /// Share of the coordinates and the radius of a ball that no rounding reaches.
 const BALL_SLACK: f64 = 1e-9;

@@ -1,7 +1,7 @@
 //! Convex hulls of meshes: vertices, the graph of hull edges, and polygons. The vertex farthest in a direction is
 //! found in small meshes by search, in larger ones by hill climbing on the graph.
 
-use super::climb::{Farthest, Slope};
+use crate::caches::climb::{Farthest, Slope};
 use crate::math::{Vec3, dot};
 use crate::model::Model;
 
@@ -20,7 +20,7 @@ impl<'a> MeshHull<'a> {
     /// Mesh `mesh` of a model.
     pub fn new(m: &'a Model, mesh: usize) -> Self {
         let (start, count) = (m.mesh_vertadr[mesh] as usize, m.mesh_vertnum[mesh] as usize);
-        MeshHull { vert: &m.mesh_vert[start..start + count], slope: Slope::new(m, mesh), mesh, m }
+        MeshHull { vert: &m.mesh_vert[start..start + count], slope: Slope::new(m, m.slopes(), mesh), mesh, m }
     }
 
     /// Number of vertices.

@@ -3,10 +3,10 @@
 
 use super::broad_phase::spheres_apart;
 use super::mixing;
-use crate::data::Kinematics;
 use crate::math::{Mat3, Vec3, add, column, dot, mul_mat_t_mat, mul_mat_t_vec, mul_mat_vec, sub};
 use crate::model::Model;
 use crate::model::bounds::MAXVAL;
+use crate::stages::Kinematics;
 
 /// A tree of boxes.
 #[derive(Clone, Copy)]

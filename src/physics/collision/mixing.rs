@@ -1,11 +1,11 @@
 //! Contact parameters: how two geoms, or a predefined pair, decide margin, friction and softness of their contacts
 //! (documentation: Modeling, "Contact parameters"), and the contact frame.
 
-use super::PreContact;
-use crate::data::Contact;
+use super::shape::PreContact;
 use crate::math::{Mat3, Vec3, add_scaled, cross, dot, normalize};
 use crate::model::bounds::{MINMU, MINVAL};
 use crate::model::{Enable, Model};
+use crate::stages::Contact;
 
 /// What all contacts of one geom pair share.
 #[derive(Clone, Copy, Debug)]

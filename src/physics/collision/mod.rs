@@ -26,10 +26,10 @@ pub(crate) mod broad_phase;
 pub(crate) mod capsule;
 #[doc(hidden)]
 pub mod capsule_box;
-pub(crate) mod climb;
 #[doc(hidden)]
 pub mod convex;
 pub mod distance;
+pub(crate) mod element_sweep;
 pub(crate) mod epa;
 mod flex;
 #[doc(hidden)]
@@ -46,73 +46,23 @@ pub(crate) mod plane;
 pub(crate) mod polyhedron;
 pub(crate) mod polytope;
 pub(crate) mod round_normal;
+pub(crate) mod scratch;
 pub(crate) mod sdf;
+mod shape;
 pub(crate) mod sphere;
 #[doc(hidden)]
 pub mod support;
+pub(crate) mod thin;
 
-use crate::data::{Contact, Contacts, Demand, Flexes, Kinematics, OverBudget, State, StepBudget};
-use crate::math::{Mat3, Vec3, column};
+use crate::model::NotSimulated;
 use crate::model::{Disable, GeomType, Model, ObjType};
-use crate::pipeline::error::NotSimulated;
 use crate::sleep::{Awake, is_on};
+use crate::stages::{Contacts, Demand, Flexes, Kinematics, OverBudget, State, StepBudget};
 use broad_phase::{geoms, spheres_apart, types_match};
 #[doc(hidden)]
 pub use flex::World;
-
-/// What a narrow-phase function says about one point of contact.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PreContact {
-    /// Distance between the surfaces; negative in penetration [m].
-    pub dist: f64,
-    /// Midpoint between the surfaces, in the world.
-    pub pos: Vec3,
-    /// Unit normal, from the first geom to the second.
-    pub normal: Vec3,
-    /// Wanted direction of the first tangent; zero lets the frame choose.
-    pub tangent: Vec3,
-}
-
-/// A geom placed in the world.
-#[derive(Clone, Copy, Debug)]
-pub struct Shape<'a> {
-    /// Kind of shape.
-    pub kind: GeomType,
-    /// Centre, in the world [m].
-    pub pos: Vec3,
-    /// Orientation.
-    pub mat: Mat3,
-    /// Sizes as the geom type defines them [m].
-    pub size: Vec3,
-    /// Index of the geom.
-    pub geom: usize,
-    /// Where meshes and height fields live.
-    pub m: &'a Model,
-}
-
-impl<'a> Shape<'a> {
-    /// Geom `g` at its current pose.
-    pub fn new(m: &'a Model, kin: &Kinematics, g: usize) -> Self {
-        Shape {
-            kind: GeomType::from_code(m.geom_type[g]).unwrap_or(GeomType::None),
-            pos: kin.geom_xpos[g],
-            mat: kin.geom_xmat[g],
-            size: m.geom_size[g],
-            geom: g,
-            m,
-        }
-    }
-
-    /// Mesh or height field of the geom, if it has one.
-    pub fn data(&self) -> Option<usize> {
-        usize::try_from(self.m.geom_dataid[self.geom]).ok()
-    }
-
-    /// The z axis: normal of a plane, axis of a capsule or cylinder.
-    pub fn axis(&self) -> Vec3 {
-        column(&self.mat, 2)
-    }
-}
+pub use scratch::CollisionScratch;
+pub use shape::{PreContact, Shape};
 
 /// Appends the contacts of two geoms (the first of the lower type) that are nearer than the margin, at most
 /// `bounds::MAXCONPAIR` of them. Arguments: model, poses, geoms, margin, working memory, result.
@@ -164,35 +114,6 @@ pub fn pair_function(type1: i32, type2: i32) -> Option<PairFunction> {
     *TABLE.get(type1 as usize)?.get(type2 as usize)?
 }
 
-/// Working memory of collision detection, reused from step to step.
-#[derive(Clone, Debug, Default)]
-pub struct CollisionScratch {
-    broad: broad_phase::BroadPhase,
-    stack: Vec<(usize, usize)>,
-    candidates: Vec<(usize, usize)>,
-    convex: convex::ConvexScratch,
-    points: Vec<PreContact>,
-    spread: flex::Spread,
-    sweep: flex::Sweep,
-    budget: StepBudget,
-}
-
-impl CollisionScratch {
-    /// Whether the contacts found so far fit in the budget, in a loop that may find too many.
-    fn has_room(&self, con: &Contacts) -> bool {
-        con.contact.len() <= self.budget.count(CONTACT_BYTES)
-    }
-
-    /// Whether the contacts found so far fit in the budget.
-    fn check(&self, con: &Contacts) -> Result<(), OverBudget> {
-        let found = con.contact.len();
-        if found <= self.budget.count(CONTACT_BYTES) {
-            return Ok(());
-        }
-        Err(self.budget.exceeded(Demand::Contacts, found, CONTACT_BYTES))
-    }
-}
-
 /// Checks once that `collide` knows every geom of the model that may collide.
 ///
 /// # Errors
@@ -214,9 +135,6 @@ pub fn check(m: &Model) -> Result<(), NotSimulated> {
 fn has_octree(m: &Model, g: usize) -> bool {
     usize::try_from(m.geom_dataid[g]).is_ok_and(|mesh| m.mesh_octadr[mesh] >= 0)
 }
-
-/// Bytes of a contact while their list grows.
-const CONTACT_BYTES: usize = 3 * size_of::<Contact>();
 
 /// Bytes of a pair of geoms while their list grows.
 const PAIR_BYTES: usize = 3 * size_of::<(usize, usize)>();
@@ -370,7 +288,7 @@ fn body_pair(
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
-    let (most, most_contacts) = (scratch.budget.count(PAIR_BYTES), scratch.budget.count(CONTACT_BYTES));
+    let (most, most_contacts) = (scratch.budget.count(PAIR_BYTES), scratch.most_contacts());
     let mut candidates = std::mem::take(&mut scratch.candidates);
     candidates.clear();
     let single = m.body_geomnum[b1] == 1 && m.body_geomnum[b2] == 1;

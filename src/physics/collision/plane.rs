@@ -3,7 +3,7 @@
 //! The normal is the plane's z axis; distances are measured from the plane to points of the surface.
 
 use super::hull::MeshHull;
-use super::{PreContact, Shape};
+use super::shape::{PreContact, Shape};
 use crate::math::{
     Vec3, add, add_scaled, column, cross, distance, dot, mul_mat_t_vec, mul_mat_vec, normalize,
 };

@@ -1,8 +1,8 @@
 //! Contact normals of round geoms, recomputed from the point of contact: portal refinement returns normals of a
 //! polyhedral approximation.
 
-use super::{PreContact, Shape};
-use crate::actuation::activation::clip;
+use super::shape::{PreContact, Shape};
+use crate::math::clip;
 use crate::math::{Vec3, add_scaled, distance, mul_mat_t_vec, mul_mat_vec, normalize, scale, sub};
 use crate::model::GeomType;
 use crate::model::bounds::MINVAL;

@@ -1,7 +1,7 @@
 //! Contacts of a sphere: with a sphere, a capsule, a cylinder, a box.
 
 use super::plane::sphere_on_plane;
-use super::{PreContact, Shape};
+use super::shape::{PreContact, Shape};
 use crate::math::{Mat3, Vec3, add, add_scaled, column, cross, dot, mul_mat_t_vec, mul_mat_vec};
 use crate::math::{normalize, scale, sub};
 use crate::model::bounds::MINVAL;

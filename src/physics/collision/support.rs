@@ -1,9 +1,9 @@
 //! Support mappings of convex shapes: the farthest point of a shape in a direction
 //! (van den Bergen, Collision Detection in Interactive 3D Environments, section 4.3).
 
-use super::Shape;
-use super::climb::Farthest;
 use super::hull::MeshHull;
+use super::shape::Shape;
+use crate::caches::climb::Farthest;
 use crate::math::{Mat3, Vec3, add, add_scaled, dot, mul_mat_t_vec, mul_mat_vec, normalize, scale};
 use crate::model::GeomType;
 use crate::model::bounds::MINVAL;

@@ -1,8 +1,8 @@
 //! Tendon paths, equality constraints, actuators and sensors: references whose kind another array tells.
 
-use super::{Inconsistent, count, require};
-use crate::model::input;
-use crate::model::{Arrays, DynType, EqType, GainType, JointType, ObjType, SensorType, TrnType, WrapType};
+use super::requirement::{Inconsistent, require};
+use crate::arrays::input;
+use crate::arrays::{Arrays, DynType, EqType, GainType, JointType, ObjType, SensorType, TrnType, WrapType};
 
 /// Samples a history buffer may hold.
 const MAX_SAMPLES: i32 = 1 << 24;
@@ -246,4 +246,35 @@ fn rays(m: &Arrays, (kind, id): (i32, i32)) -> Option<i64> {
 /// Numbers in the data fields selected by the bits of `fields`.
 fn fields_size(fields: i32, sizes: &[i64]) -> i64 {
     sizes.iter().enumerate().filter(|(bit, _)| fields >> bit & 1 == 1).map(|(_, size)| size).sum()
+}
+
+/// How many elements of a kind there are.
+fn count(m: &Arrays, kind: i32) -> usize {
+    match ObjType::from_code(kind) {
+        Some(ObjType::Body | ObjType::Xbody) => m.nbody,
+        Some(ObjType::Joint) => m.njnt,
+        Some(ObjType::Dof) => m.nv,
+        Some(ObjType::Geom) => m.ngeom,
+        Some(ObjType::Site) => m.nsite,
+        Some(ObjType::Camera) => m.ncam,
+        Some(ObjType::Light) => m.nlight,
+        Some(ObjType::Flex) => m.nflex,
+        Some(ObjType::Mesh) => m.nmesh,
+        Some(ObjType::Skin) => m.nskin,
+        Some(ObjType::Hfield) => m.nhfield,
+        Some(ObjType::Texture) => m.ntex,
+        Some(ObjType::Material) => m.nmat,
+        Some(ObjType::Pair) => m.npair,
+        Some(ObjType::Exclude) => m.nexclude,
+        Some(ObjType::Equality) => m.neq,
+        Some(ObjType::Tendon) => m.ntendon,
+        Some(ObjType::Actuator) => m.nactuator,
+        Some(ObjType::Sensor) => m.nsensor,
+        Some(ObjType::Numeric) => m.nnumeric,
+        Some(ObjType::Text) => m.ntext,
+        Some(ObjType::Tuple) => m.ntuple,
+        Some(ObjType::Key) => m.nkey,
+        Some(ObjType::Plugin) => m.nplugin,
+        _ => 0,
+    }
 }

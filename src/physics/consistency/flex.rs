@@ -1,10 +1,10 @@
 //! Flexes: their parts lie in the arrays, and refer to each other.
 
+use super::requirement::{Inconsistent, ranges, references, require, spans, within};
 use super::tree::nodes_of;
-use super::{Inconsistent, ranges, references, require, spans, within};
+use crate::arrays::{Arrays, FlexSelf};
 use crate::constants::flex_pattern::Patterns;
 use crate::constants::{bending_factor, flex_pattern};
-use crate::model::{Arrays, FlexSelf};
 
 pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     ranges! { m:

@@ -1,8 +1,8 @@
 //! Meshes, height fields, textures, and the geoms that use them.
 
+use super::requirement::{Inconsistent, ranges, require, spans};
 use super::tree::nodes_of;
-use super::{Inconsistent, ranges, require, spans};
-use crate::model::{Arrays, GeomType};
+use crate::arrays::{Arrays, GeomType};
 
 pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     ranges! { m:

@@ -16,31 +16,14 @@ mod device;
 mod flex;
 mod mesh;
 mod patterns;
+mod requirement;
 mod skin;
 mod tree;
 
-use crate::model::{Arrays, ObjType};
-use crate::table::{Field, Slice};
-use std::fmt;
+pub use requirement::Inconsistent;
 
-/// An array that contradicts another.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Inconsistent {
-    /// Name of the array.
-    pub array: &'static str,
-    /// Place in it, rows flattened.
-    pub index: usize,
-    /// What it should be.
-    pub expected: &'static str,
-}
-
-impl fmt::Display for Inconsistent {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}[{}] is not {}", self.array, self.index, self.expected)
-    }
-}
-
-impl std::error::Error for Inconsistent {}
+use crate::arrays::Arrays;
+use requirement::{ranges, references, require, spans, within};
 
 /// Checks all references and addresses, once every array has the size that the table of fields says.
 ///
@@ -74,56 +57,6 @@ pub(crate) fn check_actuators(m: &Arrays) -> Result<(), Inconsistent> {
     device::actuators(m)
 }
 
-/// Refuses unless `holds`.
-fn require(
-    holds: bool,
-    array: &'static str,
-    index: usize,
-    expected: &'static str,
-) -> Result<(), Inconsistent> {
-    if holds { Ok(()) } else { Err(Inconsistent { array, index, expected }) }
-}
-
-/// Every value is at least `least` and below `end`.
-fn within(array: &'static str, field: &impl Field, least: i32, end: usize) -> Result<(), Inconsistent> {
-    let Slice::I32(values) = field.scalars() else { return Ok(()) };
-    match values.iter().position(|&x| x < least || (x >= 0 && x as usize >= end)) {
-        Some(index) => Err(Inconsistent { array, index, expected: "a reference to an element" }),
-        None => Ok(()),
-    }
-}
-
-/// Every range of `count` items from `first` lies in an array of `total`. An empty range may begin at -1.
-fn spans(
-    array: &'static str,
-    first: &[i32],
-    count: impl Fn(usize) -> i64,
-    total: usize,
-) -> Result<(), Inconsistent> {
-    for (index, &first) in first.iter().enumerate() {
-        let count = count(index);
-        let fits = first >= 0 && count >= 0 && count <= total as i64 - i64::from(first);
-        require(fits || (first == -1 && count == 0), array, index, "the address of a range in its array")?;
-    }
-    Ok(())
-}
-
-/// [`within`] for fields by name.
-macro_rules! references {
-    ($m:ident: $($field:ident $least:literal $end:expr;)*) => {
-        $(within(stringify!($field), &$m.$field, $least, $end)?;)*
-    };
-}
-
-/// [`spans`] for fields by name.
-macro_rules! ranges {
-    ($m:ident: $($first:ident $count:ident $total:expr;)*) => {
-        $(spans(stringify!($first), &$m.$first, |i| i64::from($m.$count[i]), $total)?;)*
-    };
-}
-
-use {ranges, references};
-
 /// Sizes that contradict the arrays.
 fn check_sizes(m: &Arrays) -> Result<(), Inconsistent> {
     require(m.nbody > 0, "nbody", 0, "at least the world")?;
@@ -145,37 +78,6 @@ fn check_sizes(m: &Arrays) -> Result<(), Inconsistent> {
         ("npluginstate", m.npluginstate),
     ];
     unbacked.into_iter().try_for_each(|(name, n)| require(n <= 1 << 24, name, 0, "at most 2^24"))
-}
-
-/// How many elements of a kind there are.
-fn count(m: &Arrays, kind: i32) -> usize {
-    match ObjType::from_code(kind) {
-        Some(ObjType::Body | ObjType::Xbody) => m.nbody,
-        Some(ObjType::Joint) => m.njnt,
-        Some(ObjType::Dof) => m.nv,
-        Some(ObjType::Geom) => m.ngeom,
-        Some(ObjType::Site) => m.nsite,
-        Some(ObjType::Camera) => m.ncam,
-        Some(ObjType::Light) => m.nlight,
-        Some(ObjType::Flex) => m.nflex,
-        Some(ObjType::Mesh) => m.nmesh,
-        Some(ObjType::Skin) => m.nskin,
-        Some(ObjType::Hfield) => m.nhfield,
-        Some(ObjType::Texture) => m.ntex,
-        Some(ObjType::Material) => m.nmat,
-        Some(ObjType::Pair) => m.npair,
-        Some(ObjType::Exclude) => m.nexclude,
-        Some(ObjType::Equality) => m.neq,
-        Some(ObjType::Tendon) => m.ntendon,
-        Some(ObjType::Actuator) => m.nactuator,
-        Some(ObjType::Sensor) => m.nsensor,
-        Some(ObjType::Numeric) => m.nnumeric,
-        Some(ObjType::Text) => m.ntext,
-        Some(ObjType::Tuple) => m.ntuple,
-        Some(ObjType::Key) => m.nkey,
-        Some(ObjType::Plugin) => m.nplugin,
-        _ => 0,
-    }
 }
 
 /// References that need no more than the size of what they point into.

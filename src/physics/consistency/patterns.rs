@@ -1,9 +1,9 @@
 //! Sparsity: what a file says of it must be what follows from its trees, paths and actuators.
 
-use super::{Inconsistent, require};
+use super::requirement::{Inconsistent, require};
+use crate::arrays::Arrays;
 use crate::constants::set_const::tendon_columns;
-use crate::inertia::sparsity::{Patterns, moment_size};
-use crate::model::Arrays;
+use crate::constants::sparsity::{Patterns, moment_size};
 
 pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     sizes(m)?;

@@ -1,7 +1,7 @@
 //! Skins.
 
-use super::{Inconsistent, ranges, require, spans};
-use crate::model::Arrays;
+use super::requirement::{Inconsistent, ranges, require, spans};
+use crate::arrays::Arrays;
 
 pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     ranges! { m:

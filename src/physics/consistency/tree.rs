@@ -1,10 +1,10 @@
 //! Bodies, joints, degrees of freedom and trees.
 
-use super::{Inconsistent, ranges, references, require, spans, within};
+use super::requirement::{Inconsistent, ranges, references, require, spans, within};
+use crate::arrays::{Arrays, JointType};
 use crate::constants::set_const::Trees;
-use crate::model::{Arrays, JointType};
+use crate::geometry::hierarchy::MAX_LEVELS;
 use crate::position::chain::last_dof;
-use crate::ray::MAX_LEVELS;
 
 pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
     references! { m:

@@ -17,12 +17,13 @@
 use crate::actuation::transmission::moment;
 use crate::data::Data;
 use crate::inertia::solve;
-use crate::integration::integrate::{Factors, advance_once};
 use crate::math::dense::norm_slice;
 use crate::math::ops;
 use crate::model::bounds::MINVAL;
 use crate::model::{BiasType, Disable, Enable, GainType, LengthRangeMode, Model, ObjType, TrnType};
-use crate::pipeline::forward::{StepError, acceleration, position, velocity};
+use crate::pipeline::error::StepError;
+use crate::pipeline::forward::{acceleration, position, velocity};
+use crate::pipeline::integrate::{Factors, advance_once};
 use crate::pipeline::validity::check_acceleration;
 use std::fmt;
 

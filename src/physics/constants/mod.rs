@@ -21,4 +21,6 @@ mod inverse_weight;
 pub mod length_range;
 pub(crate) mod reference;
 pub mod set_const;
+#[doc(hidden)]
+pub mod sparsity;
 pub(crate) mod statistic;

@@ -4,7 +4,6 @@
 use super::flex_reference;
 use super::inverse_weight::set_inverse_weights;
 use super::statistic;
-use crate::actuation::reflected_load::Driven;
 use crate::actuation::transmission;
 use crate::data::{Com, Data, Inertia, Kinematics, State, Tendons, Transmission, configuration_of};
 use crate::inertia;
@@ -12,6 +11,7 @@ use crate::math::{
     add, mul_inertia, mul_mat_t_vec, mul_mat_vec, quat_conj, quat_mul, quat_normalize, spatial_dot, sub,
 };
 use crate::model::bounds::MINVAL;
+use crate::model::reflected_load::Driven;
 use crate::model::{Arrays, EqType, GainType, Model, ObjType};
 use crate::position::{camera, com, kinematics, tendon};
 

@@ -1,12 +1,12 @@
 //! Contact rows: one for the normal without friction, pairs of pyramid edges, or the axes of an elliptic cone
 //! (MuJoCo documentation, Computation, "Contact").
 
-use super::ConstraintScratch;
 use super::rows::{RowKind, push};
-use crate::data::{Com, Constraints, Contact, Contacts, Flexes};
+use super::scratch::ConstraintScratch;
 use crate::flex::metric;
 use crate::math::{dot, row};
 use crate::model::{Cone, ConstraintType, Disable, Model};
+use crate::stages::{Com, Constraints, Contact, Contacts, Flexes};
 
 /// `exclude` of a contact that moves nothing.
 pub const NO_DOF: i32 = 3;

@@ -2,11 +2,12 @@
 //! reference configuration, or exact (MuJoCo documentation, Computation, "Parameters").
 
 use super::half_jacobian::HalfJacobian;
-use crate::data::{Constraints, Contact, Contacts, Flexes};
 use crate::flex::modes::StrainedCell;
-use crate::flex::{Flex, springs, weights};
+use crate::flex::{springs, weights};
 use crate::math::dense::dot_slice;
+use crate::model::flex::Flex;
 use crate::model::{ConstraintType, EqType, Model, ObjType};
+use crate::stages::{Constraints, Contact, Contacts, Flexes};
 
 /// Estimates `efc_diagA` of all rows.
 pub(super) fn approximate(

@@ -1,17 +1,18 @@
 //! Equality rows: connect, weld, coupled joints and tendons, edges and strains of flexes (MuJoCo documentation, Computation,
 //! "Equality"; XML reference, `equality`).
 
-use super::ConstraintScratch;
-use super::difference::{BodyPoint, Difference};
 use super::friction_loss::tendon_row;
 use super::jacobian_rate::jacobian_rates;
 use super::rows::{RowKind, is_empty, push};
-use crate::data::{Com, Configuration, Constraints, Flexes, Kinematics, Velocity};
+use super::scratch::ConstraintScratch;
+use crate::flex::difference::{BodyPoint, Difference};
 use crate::flex::modes::{StrainScratch, StrainedCell};
-use crate::flex::{Flex, edges as flex_edges, springs};
+use crate::flex::{edges as flex_edges, springs};
 use crate::math::{Quat, Vec3, add, mul_mat_vec, quat_conj, quat_mul, quat_mul_axis, scale, sub};
+use crate::model::flex::Flex;
 use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
 use crate::sleep::{Awake, object};
+use crate::stages::{Com, Configuration, Constraints, Flexes, Kinematics, Velocity};
 
 /// Appends the rows of every active equality constraint.
 pub(super) fn equality(

@@ -1,9 +1,9 @@
 //! Friction-loss rows of degrees of freedom and tendons: a bounded force that opposes motion.
 
 use super::rows::{RowKind, is_empty, push};
-use crate::data::{Constraints, Tendons};
 use crate::model::{ConstraintType, Disable, Model};
 use crate::sleep::Awake;
+use crate::stages::{Constraints, Tendons};
 
 /// Appends one row for each degree of freedom and tendon with friction loss.
 pub(super) fn friction_loss(m: &Model, awake: Awake, ten: &Tendons, efc: &mut Constraints) {

@@ -3,10 +3,10 @@
 //! Rows are kept in blocks, so that one pass through the factor serves a whole block; each row keeps its own order
 //! of operations.
 
-use crate::data::{Constraints, Inertia};
 use crate::inertia::row;
 use crate::math::bit_set;
 use crate::model::Model;
+use crate::stages::{Constraints, Inertia};
 
 /// Rows of a block.
 pub const BLOCK: usize = 8;

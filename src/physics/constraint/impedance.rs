@@ -2,11 +2,11 @@
 //! (MuJoCo documentation, Modeling, "Solver parameters").
 
 use super::diagonal::block_length;
-use crate::data::{Constraints, Contact, Contacts};
 use crate::math::dense::norm_slice;
 use crate::math::ops;
 use crate::model::bounds::{MAXIMP, MINIMP, MINVAL};
 use crate::model::{ConstraintType, Disable, EqType, Model};
+use crate::stages::{Constraints, Contact, Contacts};
 
 /// `solref` in place of one whose entries have mixed signs.
 const DEFAULT_SOLREF: [f64; 2] = [0.02, 1.0];

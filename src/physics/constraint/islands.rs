@@ -2,9 +2,9 @@
 //! trees and whose edges are constraints (MuJoCo documentation, Computation, "Constraint islands").
 
 use super::diagonal::is_flex_equality;
-use crate::data::{Constraints, Contacts, Islands, State};
-use crate::flex::Flex;
+use crate::model::flex::Flex;
 use crate::model::{ConstraintType, Disable, EqType, Model, ObjType};
+use crate::stages::{Constraints, Contacts, Islands, State};
 
 /// Memory of island discovery.
 #[derive(Clone, Debug, Default)]

@@ -1,11 +1,11 @@
 //! Time derivative of the Jacobians of two points times the velocity: the accelerations that points have by moving alone.
 
-use super::difference::BodyPoint;
-use crate::data::{Configuration, Velocity};
+use crate::flex::difference::BodyPoint;
 use crate::math::{Vec3, add, rotational, scale};
 use crate::model::Model;
 use crate::position::chain::{MergedChain, com_offset};
 use crate::position::jacobian::{axis_rate, point_column_rate};
+use crate::stages::{Configuration, Velocity};
 
 /// Acceleration of a point and angular acceleration of its body.
 pub(super) struct PointRate {

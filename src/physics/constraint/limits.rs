@@ -1,12 +1,12 @@
 //! Limit rows of joints and tendons: active when the distance to the limit is below the margin.
 
-use super::ConstraintScratch;
 use super::friction_loss::tendon_row;
 use super::rows::{RowKind, is_empty, push};
-use crate::data::{Constraints, State, Tendons};
+use super::scratch::ConstraintScratch;
 use crate::math::{normalize, quat_normalize, quat_to_velocity, scale};
 use crate::model::{ConstraintType, Disable, JointType, Model};
 use crate::sleep::Awake;
+use crate::stages::{Constraints, State, Tendons};
 
 /// Appends one row for each joint or tendon limit within its margin, lower limits before upper ones.
 pub(super) fn limits(

@@ -6,7 +6,6 @@
 
 mod contacts;
 mod diagonal;
-mod difference;
 mod equality;
 mod friction_loss;
 mod half_jacobian;
@@ -16,33 +15,18 @@ mod jacobian_rate;
 mod limits;
 mod reference;
 mod rows;
+mod scratch;
 
 pub use contacts::NO_DOF;
-pub(crate) use difference::Difference;
 pub use half_jacobian::{BLOCK, HalfJacobian, TILE, half_jacobian};
 pub use islands::{IslandScratch, find_islands};
 pub use reference::reference;
 pub use rows::{mul_jacobian, mul_jacobian_transposed};
+pub use scratch::ConstraintScratch;
 
-use crate::data::{Configuration, Constraints, Contacts, Inertia};
-use crate::flex::modes::StrainScratch;
 use crate::model::{Disable, Enable, Model};
 use crate::sleep::Awake;
-
-/// Memory that constraint stages reuse from step to step.
-#[derive(Clone, Debug, Default)]
-pub struct ConstraintScratch {
-    chain: Difference,
-    /// Bodies that share a contact, with weights.
-    bodies: Vec<(usize, f64)>,
-    /// Degrees of freedom that move two points, and which of them.
-    movers: Vec<(usize, [bool; 2])>,
-    columns: Vec<i32>,
-    values: Vec<f64>,
-    half: HalfJacobian,
-    /// Strains of flexes.
-    strain: StrainScratch,
-}
+use crate::stages::{Configuration, Constraints, Contacts, Inertia};
 
 /// Builds all rows of this configuration with their impedance; sets `efc_address`, `mu` and `exclude` of contacts.
 pub fn make_constraint(

@@ -1,12 +1,12 @@
 //! Velocity of rows and the acceleration they ask for: a spring-damper on the violation (MuJoCo documentation,
 //! Computation, "Constraint model": `a* = -b v - k r`).
 
-use super::ConstraintScratch;
 use super::equality::subtract_jacobian_rate;
 use super::rows::mul_jacobian;
-use crate::data::{Configuration, Constraints, Contact, Contacts, Kinematics, Velocity};
+use super::scratch::ConstraintScratch;
 use crate::math::{add, add_scaled, cross, mul_mat_vec, sub};
 use crate::model::{Cone, Model};
+use crate::stages::{Configuration, Constraints, Contact, Contacts, Kinematics, Velocity};
 
 /// Computes `efc_vel` and `efc_aref`.
 pub fn reference(

@@ -1,8 +1,8 @@
 //! Appending rows, and products of the row Jacobian with vectors.
 
-use crate::data::Constraints;
 use crate::math::dot_sparse;
 use crate::model::{ConstraintType, Jacobian, Model};
+use crate::stages::Constraints;
 
 impl Model {
     /// True when MuJoCo would store the constraint Jacobian and the Hessian in sparse form.

@@ -15,52 +15,28 @@
 //! ```
 
 mod address;
-mod budget;
-mod configuration;
-mod constraints;
+mod no_keyframe;
 mod scratch;
 mod snapshot;
-mod stages;
 mod warnings;
 
+pub(crate) use crate::stages::configuration_of;
+pub use crate::stages::{
+    Acceleration, Actuation, Com, Configuration, Constraints, Contact, Contacts, Demand, Flexes, Implicit,
+    Inertia, Islands, Kinematics, OverBudget, Passive, Sensors, SolverStat, SolverStatistics, State,
+    StepBudget, Tendons, Transmission, Velocity,
+};
 pub use address::ArrayAddress;
-pub use budget::{Demand, OverBudget, StepBudget};
-pub use configuration::Configuration;
-pub(crate) use configuration::configuration_of;
-pub use constraints::{Constraints, Contact, Contacts, Islands, SolverStat, SolverStatistics};
+pub use no_keyframe::NoKeyframe;
 pub use scratch::Scratch;
+pub(crate) use scratch::{IntegrateScratch, Rates};
 pub use snapshot::{ForeignSnapshot, Snapshot};
-pub use stages::*;
 pub use warnings::{Warning, Warnings};
 
-use crate::actuation::history;
+use crate::derivative::{DerivativeInputs, inputs_of};
 use crate::flex::Metric;
 use crate::model::{Arrays, Model};
-use crate::sleep;
 use crate::table::Slice;
-use std::fmt;
-
-impl State {
-    /// The reference configuration at time zero: zero velocities, activations and inputs, mocap bodies at their model
-    /// poses, equality constraints as the model says.
-    pub(crate) fn reset(&mut self, m: &Model) {
-        self.clear(m);
-        self.qpos.copy_from_slice(&m.qpos0);
-        history::reset(m, &mut self.history);
-        self.eq_active.copy_from_slice(&m.eq_active0);
-        for b in 0..m.nbody {
-            if let Ok(k) = usize::try_from(m.body_mocapid[b]) {
-                self.mocap_pos[k] = m.body_pos[b];
-                self.mocap_quat[k] = m.body_quat[b];
-            }
-        }
-        for running in m.plugins().all() {
-            running.instance.reset(m, &mut self.plugin_state[running.state.clone()]);
-        }
-        self.tree_asleep.fill(sleep::MOVED);
-        sleep::update(m, self);
-    }
-}
 
 impl State {
     /// Calls `f(name, count)` for how many elements are awake.
@@ -137,28 +113,6 @@ pub struct Data {
 }
 
 impl Data {
-    /// Data of `m` at its reference configuration, derived quantities zero.
-    pub fn new(m: &Model) -> Self {
-        let mut d = Data {
-            state: State::new(m),
-            kin: Kinematics::new(m),
-            com: Com::new(m),
-            flex: Flexes::new(m),
-            ten: Tendons::new(m),
-            trn: Transmission::new(m),
-            inertia: Inertia::new(m),
-            vel: Velocity::new(m),
-            passive: Passive::new(m),
-            actuation: Actuation::new(m),
-            acc: Acceleration::new(m),
-            sensor: Sensors::new(m),
-            implicit: Implicit::new(m),
-            ..Data::default()
-        };
-        d.reset(m);
-        d
-    }
-
     /// Bytes of the arrays of all stages for a model of these sizes, contacts and constraint rows aside.
     pub fn bytes(m: &Arrays) -> usize {
         let stages = [
@@ -177,43 +131,6 @@ impl Data {
             Implicit::bytes(m),
         ];
         stages.into_iter().fold(0, usize::saturating_add)
-    }
-
-    /// Returns to the reference configuration at time zero: zero velocities, activations and inputs, mocap bodies
-    /// at their model poses, equality constraints as the model says. Stage outputs keep their last values. Nothing is
-    /// allocated.
-    pub fn reset(&mut self, m: &Model) {
-        self.energy = [0.0; 2];
-        self.unsettled = false;
-        self.state.reset(m);
-        // A model whose trees cannot begin asleep is refused where it is compiled; there they are awake.
-        let _ = sleep::rest::begin(m, self);
-    }
-
-    /// Resets, then takes time, positions, velocities, activations, mocap poses and controls of keyframe `key`. Nothing
-    /// is allocated.
-    ///
-    /// # Errors
-    /// The model has no such keyframe; the data stay as they were.
-    pub fn reset_to_key(&mut self, m: &Model, key: usize) -> Result<(), NoKeyframe> {
-        if key >= m.nkey {
-            return Err(NoKeyframe { key, keyframes: m.nkey });
-        }
-        self.reset(m);
-        let state = &mut self.state;
-        state.time = m.key_time[key];
-        for (values, keys) in [
-            (&mut state.qpos[..], &m.key_qpos[..]),
-            (&mut state.qvel, &m.key_qvel),
-            (&mut state.act, &m.key_act),
-            (&mut state.ctrl, &m.key_ctrl),
-            (state.mocap_pos.as_flattened_mut(), &m.key_mpos),
-            (state.mocap_quat.as_flattened_mut(), &m.key_mquat),
-        ] {
-            let n = values.len();
-            values.copy_from_slice(&keys[key * n..(key + 1) * n]);
-        }
-        Ok(())
     }
 
     /// Simulation time [s].
@@ -284,22 +201,14 @@ impl Data {
     }
 }
 
-/// A keyframe that a model does not have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct NoKeyframe {
-    /// Keyframe asked for.
-    pub key: usize,
-    /// Keyframes of the model.
-    pub keyframes: usize,
-}
-
-impl fmt::Display for NoKeyframe {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.keyframes {
-            0 => write!(f, "keyframe {} does not exist: the model has none", self.key),
-            n => write!(f, "keyframe {} does not exist: the model has {n}, numbered from 0", self.key),
-        }
+impl<'a> From<&'a Data> for Configuration<'a> {
+    fn from(d: &'a Data) -> Self {
+        configuration_of!(d)
     }
 }
 
-impl std::error::Error for NoKeyframe {}
+impl<'a> From<&'a Data> for DerivativeInputs<'a> {
+    fn from(d: &'a Data) -> Self {
+        inputs_of!(d)
+    }
+}

@@ -1,10 +1,11 @@
 //! Slope of actuator forces over velocity. Forces at their limit do not move and have none; the limits of tendons and
 //! joints are not seen (MuJoCo documentation, Computation, "Numerical integration").
 
-use super::{DerivativeInputs, add_square};
-use crate::actuation::activation::{activations, is_disabled, next_activation};
+use super::inputs::{DerivativeInputs, add_square};
+use crate::actuation::activation::next_activation;
 use crate::actuation::dc_motor;
 use crate::actuation::muscle;
+use crate::actuation::setpoint::{activations, is_disabled};
 use crate::math::norm;
 use crate::model::{BiasType, Disable, DynType, GainType, Model};
 

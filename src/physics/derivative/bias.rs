@@ -6,13 +6,13 @@
 //! drift of the axis: `ṡⱼ` plus the velocity just after the joint `× sⱼ`. So `f` changes by `I yⱼ + C sⱼ` with
 //! `C s = v ×* I s - I (v × s) + s ×* I v`. Both `I` and `C` add up over bodies.
 
-use super::{DerivativeInputs, row};
-use crate::data::{Com, State, Velocity};
+use super::inputs::{DerivativeInputs, row};
 use crate::math::{
     Mat3, Spatial, Vec3, add, cross, cross_matrix, cross_motion, dot, linear, mul_inertia, mul_mat,
     mul_mat_t_vec, mul_mat_vec, rotational, scale, spatial, spatial_dot,
 };
 use crate::model::{JointType, Model};
+use crate::stages::{Com, State, Velocity};
 use crate::velocity::com_vel::add_motion;
 use std::ops::Range;
 

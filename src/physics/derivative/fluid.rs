@@ -1,7 +1,7 @@
 //! Slope of fluid forces over velocity. In the local frame of `fluid` a wrench has a 6x6 Jacobian `B` with respect to
 //! the velocity, so that joint space sees `J'BJ`.
 
-use super::{DerivativeInputs, add_to_row, is_free_body};
+use super::inputs::{DerivativeInputs, add_to_row, is_free_body};
 use crate::math::{
     Mat3, Spatial, Vec3, cross_matrix, dot, linear, norm, ops, rotational, scale, spatial, spatial_dot,
 };

@@ -6,7 +6,7 @@
 //! of `w` changes `w × (w × s)` by `-P δ` with `P = s wᵀ - (w·s) 1 + [w × s]×`, and `w × I w` by `([w]× I - [I w]×) δ`.
 //! `w = R ω` with the orientation `R` and the angular velocity `ω` of the joint, in the body.
 
-use super::DerivativeInputs;
+use super::inputs::DerivativeInputs;
 use crate::math::{
     Mat3, Vec3, column, cross, cross_matrix, dot, mul_mat, mul_mat_t_mat, mul_mat_vec, row, sub,
 };

@@ -1,8 +1,10 @@
 //! Slope of passive forces over velocity: dampers of joints, edges of flexes and tendons, drag and lift of the fluid.
 
-use super::{DerivativeInputs, FluidScratch, add_square, fluid};
-use crate::actuation::reflected_load::{dof_damping, tendon_damping};
-use crate::flex::{Flex, edges, springs};
+use super::fluid::{self, FluidScratch};
+use super::inputs::{DerivativeInputs, add_square};
+use crate::flex::{edges, springs};
+use crate::model::flex::Flex;
+use crate::model::reflected_load::{dof_damping, tendon_damping};
 use crate::model::{Disable, Model};
 use crate::position::tendon;
 

@@ -1,7 +1,6 @@
 //! Contacts of the last evaluation, with ids.
 
-use super::GeomId;
-use super::ids::geom_at;
+use super::ids::{GeomId, geom_at};
 use crate::acceleration::contact_force::contact_force;
 use crate::data::{Contact, Data};
 use crate::math::{Mat3, Vec3, row};

@@ -1,7 +1,8 @@
 //! What a simulation says of one element, and what may be written.
 
-use super::{
-    ActuatorId, BodyId, CameraId, Element, EqualityId, GeomId, JointId, LightId, SensorId, SiteId, TendonId,
+use super::element::Element;
+use super::ids::{
+    ActuatorId, BodyId, CameraId, EqualityId, GeomId, JointId, LightId, SensorId, SiteId, TendonId,
 };
 use crate::data::Data;
 use crate::math::{Mat3, Quat, Vec3};

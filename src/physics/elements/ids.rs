@@ -1,11 +1,11 @@
 //! The table of ids: one row for each kind of named element.
 
-use super::{Element, Key, Span};
+use super::element::{Element, Span};
 use crate::model::array::Place;
-use crate::model::{Arrays, JointType, Model, ObjType, counts};
+use crate::model::{Arrays, JointType, ObjType, counts};
 
 macro_rules! ids {
-    ($($(#[$doc:meta])* $id:ident $kind:ident $count:ident $one:ident $many:ident $names:ident
+    ($($(#[$doc:meta])* $id:ident $kind:ident $count:ident
         { $($field:ident : $t:ty = |$m:ident, $i:ident| $value:expr,)* })*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -52,80 +52,63 @@ macro_rules! ids {
                 &mut rows[self.index()]
             }
         }
-
-        impl Model {
-            #[doc = concat!("By name an `Option<", stringify!($id), ">`, by id a [`ModelView`](crate::elements::ModelView).")]
-            pub fn $one<'m, K: Key<'m, $id>>(&'m self, key: K) -> K::Found {
-                key.find_in(self)
-            }
-
-            #[doc = concat!("Every [`", stringify!($id), "`], in the order of the arrays.")]
-            pub fn $many(&self) -> impl ExactSizeIterator<Item = $id> + Clone + '_ {
-                all(self)
-            }
-
-            #[doc = concat!("Every [`", stringify!($id), "`] that has a name, with the name.")]
-            pub fn $names(&self) -> impl Iterator<Item = ($id, &str)> + '_ {
-                named(self)
-            }
-        }
     )*};
 }
 
 ids! {
     /// A body; the world is the first.
-    BodyId Body nbody body bodies body_names {
+    BodyId Body nbody {
         mocap: Option<u32> = |m, i| u32::try_from(m.body_mocapid[i]).ok(),
     }
     /// A joint.
-    JointId Joint njnt joint joints joint_names {
+    JointId Joint njnt {
         qpos: Span = |m, i| Span::new(m.jnt_qposadr[i], width(m, i)[0]),
         dof: Span = |m, i| Span::new(m.jnt_dofadr[i], width(m, i)[1]),
     }
     /// A geom.
-    GeomId Geom ngeom geom geoms geom_names {}
+    GeomId Geom ngeom {}
     /// A site.
-    SiteId Site nsite site sites site_names {}
+    SiteId Site nsite {}
     /// A camera.
-    CameraId Camera ncam camera cameras camera_names {}
+    CameraId Camera ncam {}
     /// A light.
-    LightId Light nlight light lights light_names {}
+    LightId Light nlight {}
     /// A mesh.
-    MeshId Mesh nmesh mesh meshes mesh_names {}
+    MeshId Mesh nmesh {}
     /// A skin.
-    SkinId Skin nskin skin skins skin_names {}
+    SkinId Skin nskin {}
     /// A height field.
-    HfieldId Hfield nhfield hfield hfields hfield_names {}
+    HfieldId Hfield nhfield {}
     /// A texture.
-    TextureId Texture ntex texture textures texture_names {}
+    TextureId Texture ntex {}
     /// A material.
-    MaterialId Material nmat material materials material_names {}
+    MaterialId Material nmat {}
     /// A pair of geoms with contact parameters of its own.
-    PairId Pair npair pair pairs pair_names {}
+    PairId Pair npair {}
     /// A pair of bodies that never collide.
-    ExcludeId Exclude nexclude exclude excludes exclude_names {}
+    ExcludeId Exclude nexclude {}
     /// An equality constraint.
-    EqualityId Equality neq equality equalities equality_names {}
+    EqualityId Equality neq {}
     /// A tendon.
-    TendonId Tendon ntendon tendon tendons tendon_names {}
+    TendonId Tendon ntendon {}
     /// An actuator.
-    ActuatorId Actuator nactuator actuator actuators actuator_names {
+    ActuatorId Actuator nactuator {
         ctrl: Span = |m, i| Span::new(m.actuator_ctrladr[i], m.actuator_ctrlnum[i]),
         act: Span = |m, i| Span::new(m.actuator_actadr[i], m.actuator_actnum[i]),
         out: Span = |m, i| Span::new(m.actuator_outadr[i], m.actuator_outnum[i]),
     }
     /// A sensor.
-    SensorId Sensor nsensor sensor sensors sensor_names {
+    SensorId Sensor nsensor {
         data: Span = |m, i| Span::new(m.sensor_adr[i], m.sensor_dim[i]),
     }
     /// A custom field of numbers.
-    NumericId Numeric nnumeric numeric numerics numeric_names {}
+    NumericId Numeric nnumeric {}
     /// A custom field of text.
-    TextId Text ntext text texts text_names {}
+    TextId Text ntext {}
     /// A custom tuple of elements.
-    TupleId Tuple ntuple tuple tuples tuple_names {}
+    TupleId Tuple ntuple {}
     /// A keyframe.
-    KeyId Key nkey key keys key_names {}
+    KeyId Key nkey {}
 }
 
 /// Positions and degrees of freedom of joint `i`.
@@ -137,11 +120,6 @@ fn width(m: &Arrays, i: usize) -> [i32; 2] {
     }
 }
 
-/// Every element of one kind.
-pub(super) fn all<I: Element>(m: &Arrays) -> impl ExactSizeIterator<Item = I> + Clone + '_ {
-    within(m, 0, I::count(m))
-}
-
 /// `count` elements of one kind from `first` on.
 pub(super) fn within<I: Element>(
     m: &Arrays,
@@ -149,11 +127,6 @@ pub(super) fn within<I: Element>(
     count: usize,
 ) -> impl ExactSizeIterator<Item = I> + Clone + '_ {
     (first..first + count).map(|index| I::of(m, index))
-}
-
-fn named<I: Element>(m: &Arrays) -> impl Iterator<Item = (I, &str)> + '_ {
-    let all = all::<I>(m).map(|id| (id, m.name_of(I::KIND, id.index())));
-    all.filter(|(_, name)| !name.is_empty())
 }
 
 /// A geom of a model that has more than `index`.

@@ -40,80 +40,18 @@
 
 mod contact;
 mod data;
+mod element;
+mod find;
 mod ids;
 mod model;
 mod query;
 
 pub use contact::ContactView;
 pub use data::{DataView, DataViewMut, MocapPose};
-pub use ids::*;
+pub use element::Element;
+pub use find::Key;
+pub use ids::{
+    ActuatorId, BodyId, CameraId, EqualityId, ExcludeId, GeomId, HfieldId, JointId, KeyId, LightId,
+    MaterialId, MeshId, NumericId, PairId, SensorId, SiteId, SkinId, TendonId, TextId, TextureId, TupleId,
+};
 pub use model::ModelView;
-
-use crate::model::{Arrays, Model, ObjType};
-use std::ops::Range;
-
-/// An id of one kind of element.
-pub trait Element: Copy {
-    /// The kind.
-    const KIND: ObjType;
-    /// Number of such elements in a model.
-    fn count(m: &Arrays) -> usize;
-    /// The element at `index` in the arrays of its kind, which must exist.
-    fn of(m: &Arrays, index: usize) -> Self;
-    /// Place in the arrays of its kind.
-    fn index(self) -> usize;
-    /// The element at `index` in the arrays of its kind; `None` beyond the last.
-    fn at(m: &Arrays, index: usize) -> Option<Self> {
-        (index < Self::count(m)).then(|| Self::of(m, index))
-    }
-}
-
-/// What finds elements of one kind in a model: a name an id, an id a view.
-pub trait Key<'m, I> {
-    /// What is found.
-    type Found;
-    /// Finds it.
-    fn find_in(self, m: &'m Model) -> Self::Found;
-}
-
-impl<'m, I: Element> Key<'m, I> for &str {
-    type Found = Option<I>;
-
-    fn find_in(self, m: &'m Model) -> Option<I> {
-        Some(I::of(m, m.id_of(I::KIND, self)?))
-    }
-}
-
-impl<'m, I: Element> Key<'m, I> for &String {
-    type Found = Option<I>;
-
-    fn find_in(self, m: &'m Model) -> Option<I> {
-        self.as_str().find_in(m)
-    }
-}
-
-impl<'m, I: Element> Key<'m, I> for I {
-    type Found = ModelView<'m, I>;
-
-    fn find_in(self, m: &'m Model) -> ModelView<'m, I> {
-        ModelView::new(m, self)
-    }
-}
-
-/// Where the numbers of an element stand in an array.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
-struct Span {
-    start: u32,
-    len: u32,
-}
-
-impl Span {
-    /// `len` numbers from an address, -1 for none.
-    fn new(start: i32, len: i32) -> Self {
-        Span { start: start.max(0) as u32, len: len.max(0) as u32 }
-    }
-
-    fn range(self) -> Range<usize> {
-        self.start as usize..(self.start + self.len) as usize
-    }
-}

@@ -1,9 +1,9 @@
 //! What a model says of one element.
 
-use super::ids::within;
-use super::{
-    ActuatorId, BodyId, CameraId, Element, EqualityId, GeomId, JointId, KeyId, LightId, MaterialId,
-    NumericId, SensorId, SiteId, TendonId, TextId,
+use super::element::Element;
+use super::ids::{
+    ActuatorId, BodyId, CameraId, EqualityId, GeomId, JointId, KeyId, LightId, MaterialId, NumericId,
+    SensorId, SiteId, TendonId, TextId, within,
 };
 use crate::math::{Quat, Vec3};
 use crate::model::{EqType, GeomType, JointType, Model, ObjType, SensorType};
@@ -48,7 +48,8 @@ impl<'m> ModelView<'m, BodyId> {
 
     /// Bodies that hang on it.
     pub fn children(self) -> impl Iterator<Item = BodyId> + 'm {
-        self.m.bodies().filter(move |&body| self.m.body(body).parent() == Some(self.id))
+        let all = within::<BodyId>(self.m, 0, self.m.nbody);
+        all.filter(move |&body| ModelView::new(self.m, body).parent() == Some(self.id))
     }
 
     /// Mass [kg].

@@ -1,7 +1,6 @@
 //! Jacobians and rays by id.
 
-use super::ids::geom_at;
-use super::{BodyId, GeomId, SiteId};
+use super::ids::{BodyId, GeomId, SiteId, geom_at};
 use crate::data::Data;
 use crate::math::Vec3;
 use crate::model::Model;

@@ -1,9 +1,9 @@
 //! Bending of sheets: a quadratic energy of the two triangles at each edge (Wardetzky et al., Discrete quadratic
 //! curvature energies, 2007), with a cubic term where the sheet is curved at rest (Garg et al., Cubic shells, 2007).
 
-use super::Flex;
-use crate::data::{Flexes, Kinematics, Passive};
 use crate::math::{Vec3, cross, mul_mat_t_vec, sub};
+use crate::model::flex::Flex;
+use crate::stages::{Flexes, Kinematics, Passive};
 
 /// Numbers of an edge in `flex_bending`: a 4x4 matrix, and the weight of the rest curvature.
 pub(crate) const STENCIL: usize = 17;

@@ -1,8 +1,8 @@
 //! Bounding boxes of elements, and the trees of boxes above them.
 
-use super::{Flex, range};
-use crate::data::Flexes;
+use crate::model::flex::{Flex, range};
 use crate::model::{Disable, Model};
+use crate::stages::Flexes;
 
 /// The smaller of two numbers; unlike `f64::min` a single instruction.
 fn min(a: f64, b: f64) -> f64 {

@@ -2,12 +2,14 @@
 //! with the cell (corotational finite elements; Müller and Gross, Interactive Virtual Materials, 2004).
 
 use super::lattice::{Lattice, MAX_NODES, track_interior};
+use super::scratch::FlexScratch;
 use super::stretch::Inputs;
-use super::{Flex, FlexScratch, held, vertices};
-use crate::data::Passive;
+use super::vertices;
 use crate::math::dense::dot_slice;
 use crate::math::{Vec3, add, cross, linear, mul_mat_t_vec, quat_conj, quat_rotate, rotational, scale, sub};
+use crate::model::flex::{Flex, held};
 use crate::position::chain::{apply_wrench, com_offset};
+use crate::stages::Passive;
 
 /// Adds the elastic forces of the cells of an interpolated flex, and the forces of damping proportional to stiffness.
 pub(crate) fn cells(

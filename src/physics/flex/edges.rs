@@ -1,10 +1,10 @@
 //! Lengths of edges, their Jacobian and their velocities.
 
-use super::Flex;
-use crate::data::{Com, Flexes, State};
 use crate::math::{Vec3, dot, dot_sparse, linear, normalize, scale, sub};
 use crate::model::Model;
+use crate::model::flex::Flex;
 use crate::position::chain::{MergedChain, com_offset, point_column};
+use crate::stages::{Com, Flexes, State};
 use std::ops::Range;
 
 /// Entries of edge `e` in the Jacobian of edge lengths.

@@ -2,12 +2,12 @@
 //! Locking-free Simulation of Isometric Thin Plates, 2019): the first two invariants of the Cauchy–Green tensor, fitted
 //! to the edges around a vertex.
 
-use super::{Flex, held, range};
-use crate::data::{Com, Flexes};
 use crate::math::{Vec3, dot, scale, sub};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
+use crate::model::flex::{Flex, held, range};
 use crate::position::chain::{chain, com_offset, point_column};
+use crate::stages::{Com, Flexes};
 
 /// A matrix of three rows and two columns.
 type Tall = [f64; 6];

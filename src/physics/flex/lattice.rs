@@ -1,9 +1,9 @@
 //! Lattices of nodes: the nodes of an interpolated flex fill a box of cells, on whose edges they lie (order 1) or also in
 //! the middle between (order 2). Of a shell only the faces of the box count; nodes inside follow from them.
 
-use super::Flex;
 use super::rotation::rotation_of;
 use crate::math::{Mat3, Quat, Vec3, add_scaled, cross, quat_conj};
+use crate::model::flex::Flex;
 
 /// Nodes of a cell, at most.
 pub(crate) const MAX_NODES: usize = 27;

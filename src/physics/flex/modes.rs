@@ -2,11 +2,12 @@
 //! constraint holds, seen in a frame that turns with the cell.
 
 use super::lattice::{Lattice, MAX_NODES, Patch};
-use super::{Flex, vertices};
-use crate::data::{Com, Kinematics};
+use super::vertices;
 use crate::math::{Quat, Vec3, quat_conj, quat_rotate, sub};
 use crate::model::Model;
+use crate::model::flex::Flex;
 use crate::position::chain::{chain, com_offset, point_column};
+use crate::stages::{Com, Kinematics};
 
 /// Working memory, reused from cell to cell.
 #[derive(Clone, Debug, Default)]

@@ -2,12 +2,14 @@
 //! a frame that turns with both.
 
 use super::lattice::{Lattice, MAX_NODES, Patch};
+use super::scratch::FlexScratch;
 use super::stretch::Inputs;
-use super::{Flex, FlexScratch, cells, vertices};
-use crate::data::Passive;
+use super::{cells, vertices};
 use crate::math::dense::dot_slice;
 use crate::math::{Quat, Vec3, cross, dot, norm, quat_conj, quat_rotate, scale, sub};
 use crate::model::bounds::MINVAL;
+use crate::model::flex::Flex;
+use crate::stages::Passive;
 
 /// Numbers of an edge in `flex_bending` of a shell, after the number of edges: two faces, a point of each, stiffness, and
 /// the difference of the normals at rest.

@@ -1,8 +1,9 @@
 //! Springs and dampers along edges, and the energy of those springs.
 
-use super::{Flex, edges};
-use crate::data::{Flexes, Passive, Velocity};
+use super::edges;
 use crate::model::Model;
+use crate::model::flex::Flex;
+use crate::stages::{Flexes, Passive, Velocity};
 
 /// Edges of a flex whose length can change.
 pub(crate) fn moving_edges<'a>(flex: Flex<'a>) -> impl Iterator<Item = usize> + use<'a> {

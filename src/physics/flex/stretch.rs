@@ -2,10 +2,11 @@
 //! element's edges (Weischedel, A discrete geometric view on shear-deformable shell models, 2012), with damping
 //! proportional to stiffness (Kharevych et al., Geometric, Variational Integrators for Computer Animation, section 5.2).
 
-use super::{Flex, FlexScratch};
-use crate::data::{Com, Flexes, Kinematics, Velocity};
+use super::scratch::FlexScratch;
 use crate::math::{Vec3, mul_mat_t_vec};
+use crate::model::flex::Flex;
 use crate::position::chain::apply_wrench;
+use crate::stages::{Com, Flexes, Kinematics, Velocity};
 
 /// Numbers of an element in `flex_stiffness`: the upper triangle of a 6x6 matrix.
 pub(crate) const METRIC: usize = 21;

@@ -1,8 +1,9 @@
 //! Which flexes are simulated, and how: explicitly, or with their stiffness in the inertia.
 
-use super::{Flex, metric};
+use super::metric;
+use crate::model::NotSimulated;
+use crate::model::flex::Flex;
 use crate::model::{Model, ObjType};
-use crate::pipeline::error::NotSimulated;
 
 /// Largest order of interpolation.
 const MAX_ORDER: u32 = 2;

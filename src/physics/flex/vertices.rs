@@ -1,10 +1,11 @@
 //! Positions of vertices: fixed to bodies, or interpolated between nodes.
 
 use super::lattice::{Lattice, track_interior};
-use super::{Flex, FlexScratch};
-use crate::data::{Flexes, Kinematics};
+use super::scratch::FlexScratch;
 use crate::math::{Vec3, add, add_scaled, mul_mat_vec};
 use crate::model::Model;
+use crate::model::flex::Flex;
+use crate::stages::{Flexes, Kinematics};
 
 /// World position of a point fixed to a body.
 pub(crate) fn placed(kin: &Kinematics, body: usize, local: Vec3, centred: bool) -> Vec3 {

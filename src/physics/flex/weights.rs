@@ -1,11 +1,11 @@
 //! Which bodies a point of contact on a flex belongs to, and with what weight.
 
-use super::Flex;
 use super::lattice::{Lattice, share_interior};
-use crate::data::{Contact, Flexes};
 use crate::math::{Vec3, add_scaled, distance};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
+use crate::model::flex::Flex;
+use crate::stages::{Contact, Flexes};
 
 /// Weights of nodes below this are left out.
 const LEAST_SHARE: f64 = 1e-5;
@@ -62,26 +62,6 @@ fn single_bodies_with_flex(m: &Model, contact: &Contact) -> Option<[usize; 2]> {
         Some(flex.vertex_bodies()[vertex] as usize)
     };
     Some([body(0)?, body(1)?])
-}
-
-/// One body that stands for a side of a contact: of an element its first vertex, of an interpolated flex its first node.
-#[inline]
-pub(crate) fn representative(m: &Model, contact: &Contact, side: usize) -> usize {
-    usize::try_from(contact.geom[side])
-        .map_or_else(|_| representative_of_flex(m, contact, side), |geom| m.geom_bodyid[geom] as usize)
-}
-
-#[cold]
-fn representative_of_flex(m: &Model, contact: &Contact, side: usize) -> usize {
-    let flex = Flex { m, id: contact.flex[side] as usize };
-    let body = if flex.is_interpolated() {
-        flex.node_bodies()[0]
-    } else if let Ok(vertex) = usize::try_from(contact.vert[side]) {
-        flex.vertex_bodies()[vertex]
-    } else {
-        flex.vertex_bodies()[flex.element(contact.elem[side] as usize)[0] as usize]
-    };
-    body as usize
 }
 
 /// Vertices with weights.

@@ -2,7 +2,7 @@
 
 use super::hierarchy::{self, Bvh, Leaf};
 use super::shape;
-use crate::model::{Arrays, GeomType};
+use crate::arrays::{Arrays, GeomType};
 
 /// What an edit changed of the geoms.
 #[derive(Clone, Debug, Default)]

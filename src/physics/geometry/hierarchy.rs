@@ -9,6 +9,9 @@ use crate::math::{quat_rotate, sub};
 /// Boxes thinner than this are inflated, and coordinates closer than this tie.
 const EPS: f64 = 1e-14;
 
+/// Levels of a hierarchy; the compiler makes fewer, compiled files are refused that have more.
+pub(crate) const MAX_LEVELS: usize = 64;
+
 /// One element of a hierarchy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leaf {

@@ -15,10 +15,10 @@
 //! assert!((bounding_radius(GeomType::Box, size) - 0.14_f64.sqrt()).abs() < 1e-15);
 //! ```
 
+use crate::arrays::GeomType;
+use crate::arrays::bounds::MAXVAL;
 use crate::math::Vec3;
 use crate::math::ops;
-use crate::model::GeomType;
-use crate::model::bounds::MAXVAL;
 use std::f64::consts::PI;
 
 /// Number of size parameters a shape needs.

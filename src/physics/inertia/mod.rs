@@ -20,15 +20,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-#[doc(hidden)]
-pub mod sparsity;
-
-use crate::actuation::reflected_load::Driven;
-use crate::data::{Com, Inertia, Tendons};
 use crate::math::{LowerRows, add_scaled_slice, mul_inertia, spatial_dot};
 use crate::model::Model;
+use crate::model::reflected_load::Driven;
 use crate::position::tendon;
 use crate::sleep::{Awake, Subset, object, over};
+use crate::stages::{Com, Inertia, Tendons};
 use std::ops::Range;
 
 /// Computes `crb` and `M`: rigid bodies, armature of joints, tendons and actuators.

@@ -4,7 +4,6 @@
 //! `implicit` keeps `D` whole and factors an unsymmetric matrix. `implicitfast` leaves Coriolis forces out, keeps the
 //! lower triangle and factors it like `M`; free bodies, whose gyroscopic force matters most, get a 6x6 system each.
 
-use crate::data::{Implicit, Inertia};
 use crate::derivative::{
     BiasSlope, DerivativeInputs, DerivativeScratch, FreeBodySlope, is_free_body, row, smooth_force_slope,
 };
@@ -12,6 +11,7 @@ use crate::inertia;
 use crate::math::dense::{dot_slice, solve_lu};
 use crate::math::{FullRows, add_scaled_slice, dot_sparse};
 use crate::model::{Integrator, JointType, Model};
+use crate::stages::{Implicit, Inertia};
 
 /// Computes `qDeriv` and the factor that the model's integrator needs: `qLU`, or `qH` with `qHDiagInv`.
 pub fn factor(m: &Model, inputs: &DerivativeInputs, out: &mut Implicit, scratch: &mut ImplicitScratch) {

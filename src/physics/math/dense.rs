@@ -3,7 +3,7 @@
 //! Inner products keep four running sums, so that the compiler can use vector registers and the order of
 //! additions is the same on every target: lanes 0..3 by index modulo 4, then the remainder.
 
-use crate::model::bounds::MINVAL;
+use crate::math::MINVAL;
 
 /// Inner product.
 #[inline]

@@ -18,6 +18,7 @@ pub mod dense;
 mod double_double;
 mod eigen;
 pub mod ops;
+mod polynomial;
 mod quat;
 #[cfg_attr(system_math, allow(dead_code))]
 mod sine;
@@ -26,10 +27,14 @@ mod spatial;
 mod vector;
 
 pub use eigen::{principal_axes, principal_axes_by};
+pub use polynomial::Polynomial;
 pub use quat::*;
 pub use sparse::*;
 pub use spatial::*;
 pub use vector::*;
+
+/// Smallest value a denominator may take (documentation: `mjMINVAL`).
+pub const MINVAL: f64 = 1e-15;
 
 /// A vector in space.
 pub type Vec3 = [f64; 3];

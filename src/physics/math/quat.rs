@@ -1,7 +1,7 @@
 //! Unit quaternions, w-x-y-z (Hamilton product, active rotations).
 
 use super::{Mat3, Quat, Vec3, add, cross, dot, normalize, ops, scale};
-use crate::model::bounds::MINVAL;
+use crate::math::MINVAL;
 
 /// No rotation.
 pub const IDENTITY: Quat = [1.0, 0.0, 0.0, 0.0];

@@ -1,7 +1,7 @@
 //! Three-vectors and 3x3 matrices.
 
 use super::{Mat3, Vec3};
-use crate::model::bounds::MINVAL;
+use crate::math::MINVAL;
 
 /// Sum.
 pub fn add(a: Vec3, b: Vec3) -> Vec3 {
@@ -103,4 +103,15 @@ pub fn row(m: &Mat3, i: usize) -> Vec3 {
 /// Column `i`.
 pub fn column(m: &Mat3, i: usize) -> Vec3 {
     [m[i], m[i + 3], m[i + 6]]
+}
+
+/// `x` limited to a range; keeps a NaN.
+pub fn clip(x: f64, [low, high]: [f64; 2]) -> f64 {
+    if x < low {
+        low
+    } else if x > high {
+        high
+    } else {
+        x
+    }
 }

@@ -18,127 +18,33 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod array;
-pub mod binary;
-mod consequences;
-mod declare;
-mod edit;
-mod fields;
-mod flags;
-mod flex_rows;
-mod follow;
-mod names;
-mod options;
-mod reader;
-mod skin_rows;
+mod distance_field;
+pub(crate) mod flex;
+mod not_simulated;
+mod plugin_config;
+mod plugin_error;
+pub(crate) mod reflected_load;
 mod suggestion;
-mod types;
-mod written;
+mod with_plugins;
 
-pub use edit::EditError;
-pub use fields::{Arrays, Columns, Draft, Rows, counts};
-pub use flags::{Disable, Enable};
-pub use options::*;
+pub use crate::arrays::{
+    Arrays, BiasType, ColorSpace, Columns, Cone, ConstraintState, ConstraintType, ContactField, DataType,
+    Disable, Draft, DynType, Enable, EqType, FlexSelf, GainType, GeomType, Integrator, Jacobian, JointType,
+    LengthRangeMode, LightType, ObjType, Options, Projection, RayField, Rows, SameFrame, SensorType,
+    SleepPolicy, Solver, Stage, Statistic, TextureRole, TextureType, TrackMode, TrnType, Visual,
+    VisualGlobal, VisualHeadlight, VisualMap, VisualQuality, VisualRgba, VisualScale, WrapType, array,
+    bounds, counts, input,
+};
+pub use distance_field::Field;
+pub use not_simulated::NotSimulated;
+pub use plugin_config::Config;
+pub use plugin_error::{PluginError, RegistryError};
 pub use suggestion::Suggestions;
-pub use types::*;
+pub use with_plugins::{
+    ActuatorInputs, Capability, Instance, Model, PassiveInputs, Plugin, Registry, SensorInputs,
+};
+pub(crate) use with_plugins::{Instances, Running};
 
-use crate::collision::climb::Slopes;
-use crate::flex::metric::bending_factor::BendingFactor;
-use crate::plugin::{Instances, PluginError, Registry};
-use names::NameIndex;
-use std::ops::Deref;
-use std::sync::{Arc, OnceLock};
-
-/// A compiled model: constant while a simulation runs, shared by any number of [`Data`](crate::Data).
-///
-/// All its numbers are read through [`Arrays`], to which a model dereferences: `m.nq`, `m.body_mass`. They are changed
-/// with [`Model::edit`] and [`Model::overwrite`], options also with [`Model::options_mut`]. Clones share every array and
-/// cache; an array becomes a model's own when it is first written.
-#[derive(Clone, Debug, Default)]
-pub struct Model {
-    arrays: Arrays,
-    caches: Caches,
-    plugins: Instances,
-}
-
-/// What is derived from the arrays when first needed. Clones share it; whoever writes what a cache depends on drops it.
-#[derive(Clone, Debug, Default)]
-struct Caches {
-    /// Hulls in the layout that collision climbs.
-    slopes: Arc<OnceLock<Slopes>>,
-    /// The constant factor of inertia and bending, by vertices.
-    bending: Arc<OnceLock<BendingFactor>>,
-    /// Ids by name.
-    names: Arc<NameIndex>,
-    /// Statistics that follow from the arrays, where those of the model may be given.
-    statistic: Arc<OnceLock<Statistic>>,
-}
-
-impl Deref for Model {
-    type Target = Arrays;
-
-    fn deref(&self) -> &Arrays {
-        &self.arrays
-    }
-}
-
-impl Model {
-    /// A model of arrays that nobody has checked: for the compiler, which makes consistent ones, and for tests of
-    /// single stages. Functions of this crate panic where arrays contradict each other.
-    #[doc(hidden)]
-    pub fn unchecked(arrays: Arrays) -> Self {
-        Model { arrays, ..Model::default() }
-    }
-
-    /// The arrays to write, without the checks and the derived quantities of an edit, as for [`Model::unchecked`].
-    #[doc(hidden)]
-    pub fn unchecked_mut(&mut self) -> &mut Arrays {
-        self.caches = Caches::default();
-        &mut self.arrays
-    }
-
-    /// The arrays to write what is derived from others; caches stay.
-    pub(crate) fn derived_mut(&mut self) -> &mut Arrays {
-        &mut self.arrays
-    }
-
-    /// The options, to change. Nothing in the model is derived from them.
-    pub fn options_mut(&mut self) -> &mut Options {
-        &mut self.arrays.opt
-    }
-
-    /// Makes the instances of the plugins in `registry` that the arrays name, in place of those before.
-    ///
-    /// # Errors
-    /// The first instance that cannot be made; those before stay.
-    #[doc(hidden)]
-    pub fn start_plugins(&mut self, registry: &Registry) -> Result<(), PluginError> {
-        self.plugins = Instances::new(self, registry)?;
-        Ok(())
-    }
-
-    /// The plugins that [`Arrays::plugin`] counts.
-    pub fn registry(&self) -> &Registry {
-        self.plugins.registry()
-    }
-
-    /// The plugins at work.
-    pub(crate) fn plugins(&self) -> &Instances {
-        &self.plugins
-    }
-
-    /// Hulls in the layout that collision climbs.
-    pub(crate) fn slopes(&self) -> &Slopes {
-        self.caches.slopes.get_or_init(|| Slopes::new(&self.arrays))
-    }
-
-    /// The constant factor of inertia and bending, by vertices.
-    pub(crate) fn bending_factor(&self) -> &BendingFactor {
-        self.caches.bending.get_or_init(|| BendingFactor::new(&self.arrays))
-    }
-
-    /// Drops what was made of the factor before it changed.
-    pub(crate) fn forget_bending_factor(&mut self) {
-        self.caches.bending = Arc::default();
-    }
-}
+// Public names of what stands above the model: its file, and why an edit of it is refused.
+pub use crate::binary;
+pub use crate::edit::EditError;

@@ -1,14 +1,14 @@
 //! Mechanical energy (documentation: Computation, "Energy").
 
-use crate::data::{Configuration, Inertia, State};
 use crate::flex::springs;
 use crate::inertia::mul_inertia_matrix;
+use crate::math::Polynomial;
 use crate::math::dense::dot_slice;
 use crate::math::{dot, norm};
 use crate::model::{Disable, JointType, Model};
 use crate::sleep::{Awake, object};
+use crate::stages::{Configuration, Inertia, State};
 use crate::velocity::passive::{shift, tendon_stretch, turn};
-use crate::velocity::polynomial::Polynomial;
 
 /// Potential energy: weight of all bodies, springs of joints, tendons and lines of flexes [J].
 pub fn potential(m: &Model, at: &Configuration) -> f64 {

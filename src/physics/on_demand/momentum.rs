@@ -1,12 +1,12 @@
 //! Velocity and angular momentum of subtrees about their centres of mass, which sensors `subtreelinvel` and
 //! `subtreeangmom` read.
 
-use crate::data::{Com, Kinematics, Sensors, State, Velocity};
 use crate::math::{Vec3, add, cross, linear, mul_mat_t_vec, mul_mat_vec, rotational, scale, sub};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
 use crate::position::frame::Frame;
 use crate::sleep::{Awake, over};
+use crate::stages::{Com, Kinematics, Sensors, State, Velocity};
 
 /// Computes the velocity of the centre of mass and the angular momentum about it, of every subtree. Trees that sleep
 /// keep their values, and add nothing to what they hang on.

@@ -16,7 +16,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::data::OverBudget;
+pub use crate::model::NotSimulated;
+
+use crate::stages::OverBudget;
 use std::fmt;
 
 /// Where a bad number was found.
@@ -31,40 +33,6 @@ pub struct BadNumber {
     /// Simulation time [s].
     pub time: f64,
 }
-
-/// A feature that the engine does not simulate.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct NotSimulated {
-    /// The feature, as a noun phrase.
-    pub feature: String,
-    /// The element that asks for it; `None` for an option or a call.
-    pub element: Option<String>,
-}
-
-impl NotSimulated {
-    /// A feature that an option or a call asks for.
-    pub(crate) fn feature(feature: &str) -> Self {
-        NotSimulated { feature: feature.into(), element: None }
-    }
-
-    /// A feature that an element asks for; `label` names the element with its kind.
-    pub(crate) fn of(label: String, feature: &str) -> Self {
-        NotSimulated { feature: feature.into(), element: Some(label) }
-    }
-}
-
-impl fmt::Display for NotSimulated {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.element {
-            Some(element) => {
-                write!(f, "{element} asks for {}, which this version does not simulate", self.feature)
-            }
-            None => write!(f, "this version does not simulate {}", self.feature),
-        }
-    }
-}
-
-impl std::error::Error for NotSimulated {}
 
 /// Why a step was not made. The `Data` keeps the state for inspection.
 #[derive(Clone, Debug, PartialEq)]

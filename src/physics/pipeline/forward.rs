@@ -1,4 +1,4 @@
-//! Forward dynamics and the time step: the order of all stages (MuJoCo documentation, Computation, "Forward
+//! Forward dynamics: the order of all stages (MuJoCo documentation, Computation, "Forward
 //! dynamics" and "Simulation pipeline").
 //!
 //! ```
@@ -22,11 +22,8 @@ use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::{Data, configuration_of};
 use crate::flex::{Poses, edge_velocities, flexes};
 use crate::inertia::{factor_inertia_of, make_inertia_of, solve, solve_of};
-use crate::integration::integrate::{Factors, advance_once, integrate};
-use crate::model::{Enable, Integrator, Model};
-use crate::pipeline::autoreset::{admit_acceleration, admit_result, recover, without_controls};
-use crate::pipeline::inverse::compare_with_forward;
-use crate::pipeline::validity::{check_acceleration, check_result, check_state};
+use crate::model::{Enable, Model};
+use crate::pipeline::error::StepError;
 use crate::pipeline::watch::{Stage, Watch};
 use crate::position::camera::cameras_and_lights;
 use crate::position::com::com_pos_of;
@@ -34,14 +31,11 @@ use crate::position::jacobian::apply_user_wrenches;
 use crate::position::kinematics::{kinematics, kinematics_of_awake};
 use crate::position::tendon::{tendon, tendon_velocity};
 use crate::sensor::{self, AccelerationInputs, Past, PositionInputs, VelocityInputs};
-use crate::sleep::rest::settle;
-use crate::sleep::{self, Awake, Subset, over, wake};
+use crate::sleep::{self, Awake, MOVED, Subset, over, update, wake};
 use crate::velocity::bias::bias;
 use crate::velocity::com_vel::com_vel;
 use crate::velocity::passive::passive;
 use crate::{on_demand::energy, solver};
-
-pub use crate::pipeline::error::StepError;
 
 /// Computes everything that follows from the state and the inputs, up to accelerations and sensors.
 ///
@@ -58,34 +52,6 @@ pub fn forward_after_step1(m: &Model, d: &mut Data) {
     acceleration_sensors(m, d);
 }
 
-/// Advances the simulation by one time step.
-///
-/// # Errors
-/// A state or input is not finite or too large, or the state after the step is, or contacts and
-/// constraint rows need more memory than `Data::budget`; `d` keeps the state for inspection. With `Data::autoreset`
-/// bad numbers are no errors.
-pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    step_watched(m, d, &mut ())
-}
-
-/// `step`, with an observer told of each stage as it ends.
-///
-/// # Errors
-/// As `step`.
-pub fn step_watched(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
-    if let Err(error) = check_state(m, d) {
-        return recover(m, d, error, |m, d| step_watched(m, d, watch));
-    }
-    watch.ended(Stage::Checks);
-    evaluate(m, d, true, watch)?;
-    admit_acceleration(m, d)?;
-    compare_if_asked(m, d)?;
-    watch.ended(Stage::Checks);
-    integrate(m, d, Factors::Fresh, watch)?;
-    watch.ended(Stage::Integration);
-    admit_result(m, d)
-}
-
 /// What of the last evaluation still holds.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(crate) enum Known {
@@ -95,53 +61,6 @@ pub(crate) enum Known {
     Position,
     /// All that does not depend on inputs.
     Velocity,
-}
-
-/// `step` where part of the last evaluation still holds; the integrator keeps the matrix factors that depend on it.
-pub(crate) fn step_after(m: &Model, d: &mut Data, known: Known) -> Result<(), StepError> {
-    check_state(m, d)?;
-    evaluate_after(m, d, known, true, &mut ())?;
-    check_acceleration(m, d)?;
-    compare_if_asked(m, d)?;
-    let holds = if m.opt.integrator == Integrator::Euler { Known::Position } else { Known::Velocity };
-    integrate(m, d, if known >= holds { Factors::Kept } else { Factors::Fresh }, &mut ())?;
-    check_result(m, d)
-}
-
-fn compare_if_asked(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    if m.opt.enableflags.contains(Enable::FWDINV) {
-        compare_with_forward(m, d)?;
-    }
-    Ok(())
-}
-
-/// First half of a step: all that does not depend on controls and applied forces.
-///
-/// # Errors
-/// As `step`.
-pub fn step1(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    match check_state(m, d) {
-        // The second half looks at the controls then given.
-        Err(StepError::BadCtrl(_)) if d.autoreset => {}
-        Err(error) => return recover(m, d, error, step1),
-        Ok(()) => {}
-    }
-    position_and_velocity(m, d, Known::Nothing, true, &mut ())
-}
-
-/// Second half of a step, after inputs have been set; where Euler's method stands in for Runge-Kutta.
-///
-/// # Errors
-/// As `step`.
-pub fn step2(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    if let Err(error) = check_state(m, d) {
-        return without_controls(m, d, error, step2);
-    }
-    forward_after_step1(m, d);
-    admit_acceleration(m, d)?;
-    compare_if_asked(m, d)?;
-    advance_once(m, d, Factors::Fresh);
-    admit_result(m, d)
 }
 
 /// `forward`, with or without sensors.
@@ -154,7 +73,7 @@ pub(crate) fn evaluate(
     evaluate_after(m, d, Known::Nothing, sensors, watch)
 }
 
-fn evaluate_after(
+pub(crate) fn evaluate_after(
     m: &Model,
     d: &mut Data,
     known: Known,
@@ -253,6 +172,21 @@ pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), S
         );
     }
     Ok(())
+}
+
+/// Computes what stages keep of sleeping trees, where a state has come from elsewhere.
+///
+/// # Errors
+/// As [`forward`].
+fn settle(m: &Model, d: &mut Data) -> Result<(), StepError> {
+    d.unsettled = false;
+    let asleep = d.state.tree_asleep.clone();
+    d.state.tree_asleep.fill(MOVED);
+    update(m, &mut d.state);
+    let result = forward(m, d);
+    d.state.tree_asleep = asleep;
+    update(m, &mut d.state);
+    result
 }
 
 /// What depends on velocities too: passive and bias forces, and the acceleration that constraints ask for.

@@ -23,20 +23,12 @@ use crate::inertia::{mul_inertia_matrix, solve};
 use crate::integration::implicit;
 use crate::integration::integrate::{damped_inertia, has_joint_damping};
 use crate::math::dense::norm_slice;
+use crate::model::NotSimulated;
 use crate::model::{Disable, Enable, Integrator, Model};
-use crate::pipeline::error::NotSimulated;
-use crate::pipeline::forward::{Known, StepError, acceleration_sensors, position_and_velocity};
+use crate::pipeline::error::StepError;
+use crate::pipeline::forward::{Known, acceleration_sensors, position_and_velocity};
 use crate::position::jacobian::apply_user_wrenches;
 use crate::solver;
-
-/// Working memory of inverse dynamics.
-#[derive(Clone, Debug, Default)]
-pub struct InverseScratch {
-    given: Vec<f64>,
-    force: Vec<f64>,
-    forward_constraint: Vec<f64>,
-    forward_rows: Vec<f64>,
-}
 
 /// Computes `qfrc_inverse`, the sum of applied and actuator forces that makes `qacc` at the present state, with the
 /// constraint forces that go with it. With the flag `invdiscrete`, `qacc` is the change of velocity over one step of

@@ -18,10 +18,17 @@
 //! ```
 
 pub mod autoreset;
-pub mod batch;
+mod demand;
 pub mod error;
 pub mod forward;
+#[doc(hidden)]
+pub mod integrate;
 pub mod inverse;
+pub mod on_demand;
+mod reset;
+mod rest;
+pub mod step;
+pub mod transition;
 #[doc(hidden)]
 pub mod validity;
 pub mod watch;

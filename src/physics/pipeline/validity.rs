@@ -1,12 +1,15 @@
 //! What a step refuses: numbers that are not finite or too large, and models with features that are not simulated.
 //! A bad state is an error, never a silent reset.
 
-use crate::actuation::activation::{activations, clip};
 use crate::actuation::dc_motor;
+use crate::actuation::setpoint::activations;
 use crate::data::Data;
+use crate::math::clip;
+use crate::model::NotSimulated;
 use crate::model::bounds::MAXVAL;
 use crate::model::{BiasType, Disable, DynType, EqType, GainType, JointType, Model, ObjType, TrnType};
-use crate::pipeline::error::{BadNumber, NotSimulated, StepError};
+use crate::pipeline::error::{BadNumber, StepError};
+use crate::pipeline::reset;
 use crate::{collision, flex, sensor, sleep, velocity::bias};
 
 /// Not a number, or beyond the bound.
@@ -109,7 +112,7 @@ fn joint_of_qpos(m: &Model, q: usize) -> usize {
 /// # Errors
 /// The first body whose tree cannot, and why.
 pub fn check_start(m: &Model) -> Result<(), String> {
-    sleep::rest::check(m)
+    reset::check(m)
 }
 
 /// Checks that the options ask for what is simulated.

@@ -1,10 +1,10 @@
 //! Cameras and lights: poses in the world, fixed to a body, tracking it, or looking at a target (MuJoCo
 //! documentation, XML reference, `camera/mode`).
 
-use crate::data::{Com, Kinematics};
 use crate::math::{Mat3, Vec3, add, cross, normalize, quat_rotate, sub};
 use crate::model::{Model, TrackMode};
 use crate::position::kinematics::{attached_mat, attached_pos};
+use crate::stages::{Com, Kinematics};
 
 /// Computes poses of cameras and lights from poses of bodies.
 pub fn cameras_and_lights(m: &Model, com: &Com, kin: &mut Kinematics) {

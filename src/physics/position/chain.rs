@@ -1,9 +1,9 @@
 //! Chains of degrees of freedom from a body up to the root of its tree, and the columns of point Jacobians along
 //! them. A chain is walked from the last degree of freedom to the first, so indices decrease.
 
-use crate::data::{Com, Kinematics};
 use crate::math::{Vec3, add, cross, dot, linear, rotational, sub};
 use crate::model::{Arrays, Model};
+use crate::stages::{Com, Kinematics};
 
 /// Last degree of freedom that moves body `b`; -1 for a static body.
 pub fn last_dof(m: &Arrays, b: usize) -> i32 {

@@ -1,10 +1,10 @@
 //! Centres of mass, and inertias and motion axes about them: the frame of all com-based quantities
 //! (Featherstone 2008, section 2; MuJoCo documentation, Computation, "Forward dynamics").
 
-use crate::data::{Com, Kinematics};
 use crate::math::{Vec3, add, column, cross, inertia_about, scale, spatial, sub};
 use crate::model::{JointType, Model, bounds::MINVAL};
 use crate::sleep::{Awake, over};
+use crate::stages::{Com, Kinematics};
 
 /// Computes `subtree_com`, `cinert` and `cdof`.
 pub fn com_pos(m: &Model, kin: &Kinematics, com: &mut Com) {

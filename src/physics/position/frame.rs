@@ -1,11 +1,11 @@
 //! Frames attached to bodies: position, orientation, velocity and acceleration of bodies, geoms, sites and cameras.
 
-use crate::data::{Com, Kinematics};
 use crate::math::{
     Mat3, Quat, Spatial, Vec3, add, cross, linear, mul_mat_t_vec, quat_mul, rotational, spatial, sub,
 };
 use crate::model::{Model, ObjType};
 use crate::position::chain::com_offset;
+use crate::stages::{Com, Kinematics};
 
 /// A frame that moves with a body.
 #[derive(Clone, Copy, Debug)]

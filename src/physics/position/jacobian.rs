@@ -19,10 +19,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::data::{Com, Kinematics, Velocity};
 use crate::math::{Vec3, add, cross, cross_motion, linear, mul_mat_t_vec, mul_mat_vec, rotational, sub};
 use crate::model::{JointType, Model};
 use crate::position::chain::{apply_wrench, chain, com_offset, point_column};
+use crate::stages::{Com, Kinematics, Velocity};
 
 /// Jacobian of a point moving with a body, and of the body's orientation.
 #[derive(Clone, Debug, Default)]

@@ -1,13 +1,13 @@
 //! Forward kinematics: generalised positions to poses of bodies, joints, geoms and sites in the world
 //! (MuJoCo documentation, Computation, "Forward dynamics", position stage).
 
-use crate::data::{Kinematics, State};
 use crate::math::{
     IDENTITY, Mat3, Quat, Vec3, add, add_scaled, mul_mat_vec, quat_from_axis_angle, quat_mul, quat_normalize,
     quat_rotate, quat_to_mat, sub,
 };
 use crate::model::{JointType, Model, SameFrame};
 use crate::sleep::{self, Awake, over};
+use crate::stages::{Kinematics, State};
 
 const UPRIGHT: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 

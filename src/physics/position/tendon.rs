@@ -3,12 +3,12 @@
 //! A fixed tendon is a linear combination of joint positions. A spatial tendon is the shortest path through its
 //! sites, around its wrapping geoms; a pulley divides the path into branches whose length counts `1/divisor`.
 
-use crate::data::{Com, Kinematics, State, Tendons};
 use crate::math::{Vec3, dot, dot_sparse, norm, rotational, sub, unit};
 use crate::model::{Model, WrapType};
 use crate::position::chain::{com_offset, last_dof, point_column, site_point};
 use crate::position::wrap::{Wrap, WrapShape, wrap};
 use crate::sleep::{Awake, object};
+use crate::stages::{Com, Kinematics, State, Tendons};
 
 /// Entry of `wrap_obj` for a point on a site.
 const ON_SITE: i32 = -1;

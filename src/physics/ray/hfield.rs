@@ -1,8 +1,8 @@
 //! Rays against height fields: a base box, a grid of triangles above it, and the walls around the grid.
 
+use super::hit::{LocalHit, Ray, keep_nearer};
 use super::mesh::{across, triangle};
 use super::primitive::cuboid_faces;
-use super::{LocalHit, Ray, keep_nearer};
 use crate::math::{Mat3, Vec3};
 use crate::model::Model;
 

@@ -1,12 +1,10 @@
 //! Rays against triangles, and against meshes through their bounding volume hierarchy.
 
-use super::{LocalHit, Ray, keep_nearer};
+use super::hit::{LocalHit, Ray, keep_nearer};
+use crate::geometry::hierarchy::MAX_LEVELS;
 use crate::math::{Vec3, add_scaled, cross, dot, normalize, sub};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
-
-/// Levels of a hierarchy; the compiler makes fewer, compiled files are refused that have more.
-pub(crate) const MAX_LEVELS: usize = 64;
 
 /// Two axes across a ray, on which triangles are projected.
 pub(super) fn across(direction: Vec3) -> [Vec3; 2] {

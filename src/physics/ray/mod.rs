@@ -24,33 +24,16 @@
 //! ```
 
 mod hfield;
+mod hit;
 mod mesh;
 mod primitive;
 mod sdf;
 
-pub(crate) use mesh::MAX_LEVELS;
+pub use hit::{Hit, Ray};
 
-use crate::data::Kinematics;
-use crate::math::{Mat3, Vec3, distance, mul_mat_t_vec, mul_mat_vec, normalize, sub};
+use crate::math::{Mat3, Vec3, distance, normalize, sub};
 use crate::model::{GeomType, Model};
-
-/// A half line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Ray {
-    /// Where it starts.
-    pub origin: Vec3,
-    /// Where it goes; its length is the unit of distance.
-    pub direction: Vec3,
-}
-
-/// Intersection of a ray with a surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Distance along the ray, in lengths of its direction.
-    pub distance: f64,
-    /// Outward unit normal of the surface, world frame.
-    pub normal: Vec3,
-}
+use crate::stages::Kinematics;
 
 /// Which geoms a ray can hit. Invisible geoms (alpha zero) are never hit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -61,35 +44,6 @@ pub struct RayFilter {
     pub skip_static: bool,
     /// Body whose geoms are passed through.
     pub exclude_body: Option<usize>,
-}
-
-impl Ray {
-    /// Point at distance `x`.
-    fn at(&self, x: f64) -> Vec3 {
-        std::array::from_fn(|k| self.origin[k] + x * self.direction[k])
-    }
-
-    /// The ray in the frame at `pos` with orientation `mat`.
-    fn local(&self, pos: Vec3, mat: &Mat3) -> Ray {
-        Ray {
-            origin: mul_mat_t_vec(mat, sub(self.origin, pos)),
-            direction: mul_mat_t_vec(mat, self.direction),
-        }
-    }
-}
-
-/// Intersection in the frame of a shape; the normal has any length.
-#[derive(Clone, Copy, Debug)]
-struct LocalHit {
-    distance: f64,
-    normal: Vec3,
-}
-
-/// Keeps the nearer of two intersections, the first one when they are equally far.
-fn keep_nearer(best: &mut Option<LocalHit>, candidate: LocalHit) {
-    if best.is_none_or(|b| candidate.distance < b.distance) {
-        *best = Some(candidate);
-    }
 }
 
 /// Nearest visible geom that `ray` hits, and where.
@@ -171,12 +125,6 @@ pub fn ray_shape(shape: GeomType, size: Vec3, pos: Vec3, mat: &Mat3, ray: Ray) -
         _ => None,
     };
     hit.map(|hit| hit.global(mat))
-}
-
-impl LocalHit {
-    fn global(self, mat: &Mat3) -> Hit {
-        Hit { distance: self.distance, normal: mul_mat_vec(mat, normalize(self.normal).0) }
-    }
 }
 
 fn passes(m: &Model, geom: usize, filter: RayFilter) -> bool {

@@ -1,6 +1,6 @@
 //! Rays against shapes with closed-form intersections, in the frame of the shape.
 
-use super::{LocalHit, Ray, keep_nearer};
+use super::hit::{LocalHit, Ray, keep_nearer};
 use crate::math::{Vec3, dot, ops};
 use crate::model::bounds::MINVAL;
 

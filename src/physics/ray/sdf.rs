@@ -1,6 +1,6 @@
 //! A ray that meets a signed distance field, by steps as long as the distance (Hart 1996, "Sphere tracing").
 
-use super::{LocalHit, Ray};
+use super::hit::{LocalHit, Ray};
 use crate::collision::sdf::Distance;
 use crate::math::{add_scaled, normalize};
 use crate::model::Model;

@@ -1,24 +1,12 @@
 //! Sensors that read accelerations and forces.
 
-use super::position::object;
-use super::{SensorScratch, contact, limit_row, tactile};
-use crate::data::{Actuation, Com, Constraints, Contacts, Kinematics, State, Velocity};
+use super::objects::{limit_row, object};
+use super::scratch::SensorScratch;
+use super::{contact, tactile};
 use crate::math::{Spatial, linear, move_force, rotational};
 use crate::model::{ConstraintType, Model, ObjType, SensorType, TrnType};
 use crate::position::frame::frame;
-
-/// What acceleration sensors read.
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)]
-pub struct AccelerationInputs<'a> {
-    pub state: &'a State,
-    pub kin: &'a Kinematics,
-    pub com: &'a Com,
-    pub con: &'a Contacts,
-    pub efc: &'a Constraints,
-    pub vel: &'a Velocity,
-    pub actuation: &'a Actuation,
-}
+use crate::stages::AccelerationInputs;
 
 /// What the pass after the solver found for every body.
 pub(super) struct BodyForces<'a> {

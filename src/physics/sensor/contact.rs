@@ -1,14 +1,13 @@
 //! Sensors that read contacts: `touch` and `contact`.
 
-use super::acceleration::AccelerationInputs;
 use super::zone::inside_site;
 use crate::acceleration::contact_force::contact_force;
-use crate::data::Contact;
-use crate::flex::weights::representative;
 use crate::math::{Vec3, add, add_scaled, cross, dot, mul_mat_t_vec, norm, normalize, row, scale, sub};
 use crate::model::bounds::MINVAL;
+use crate::model::flex::representative;
 use crate::model::{ContactField, GeomType, Model, ObjType};
 use crate::ray::{Ray, ray_shape};
+use crate::stages::{AccelerationInputs, Contact};
 
 /// Ways in which a `contact` sensor chooses among its contacts.
 mod reduce {

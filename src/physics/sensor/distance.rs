@@ -1,10 +1,10 @@
 //! Sensors of the distance between geoms or bodies.
 
-use super::SensorScratch;
+use super::scratch::SensorScratch;
 use crate::collision::distance::geom_distance;
-use crate::data::Kinematics;
 use crate::math::{Vec3, normalize, sub};
 use crate::model::{Model, ObjType};
+use crate::stages::Kinematics;
 
 /// Distance of the nearest pair of geoms of sensor `i`, at most its cut-off, and the segment between the surfaces
 /// (zero when nothing is near enough).

@@ -4,38 +4,27 @@
 mod acceleration;
 mod contact;
 mod distance;
+mod objects;
 pub mod pinhole;
 mod position;
 mod rangefinder;
+mod scratch;
 mod tactile;
 mod velocity;
 mod zone;
 
-pub use acceleration::AccelerationInputs;
+pub use crate::stages::{AccelerationInputs, PositionInputs, VelocityInputs};
+pub use scratch::SensorScratch;
+
 use acceleration::BodyForces;
-pub use position::PositionInputs;
-pub use velocity::VelocityInputs;
 
 use crate::actuation::history;
-use crate::collision::distance::DistanceScratch;
-use crate::data::{Constraints, Sensors, State};
-use crate::model::{ConstraintType, DataType, Disable, Model, ObjType, SensorType, Stage};
+use crate::model::{
+    Capability, DataType, Disable, Model, NotSimulated, ObjType, SensorInputs, SensorType, Stage,
+};
 use crate::on_demand::momentum::subtree_momentum;
-use crate::pipeline::error::NotSimulated;
-use crate::plugin::{Capability, SensorInputs};
 use crate::sleep::{Awake, object};
-
-/// Working memory of sensors, reused from step to step.
-#[derive(Clone, Debug, Default)]
-pub struct SensorScratch {
-    distance: DistanceScratch,
-    matches: Vec<contact::Match>,
-    /// Geoms that a tactile sensor feels.
-    touched: Vec<usize>,
-    pub(crate) momentum: Vec<f64>,
-    /// Readings before any delay, where some sensor has a history.
-    pub(crate) fresh: Vec<f64>,
-}
+use crate::stages::{Sensors, State};
 
 /// What delayed sensors read from, and what tells which sensors sleep.
 #[derive(Clone, Copy, Debug)]
@@ -181,9 +170,4 @@ fn cut_off(m: &Model, i: usize, kind: SensorType, data: &mut [f64]) {
         Some(DataType::Positive) => data.iter_mut().for_each(|x| *x = x.min(cutoff)),
         Some(DataType::Axis | DataType::Quaternion) | None => {}
     }
-}
-
-/// First limit row of element `id`.
-fn limit_row(efc: &Constraints, kind: ConstraintType, id: usize) -> Option<usize> {
-    (efc.ne + efc.nf..efc.nefc).find(|&r| efc.efc_type[r] == kind.code() && efc.efc_id[r] as usize == id)
 }

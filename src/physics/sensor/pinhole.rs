@@ -1,10 +1,10 @@
 //! Camera geometry: intrinsic parameters in pixels, projection of points, rays of pixels.
 
-use crate::data::Kinematics;
 use crate::math::{Vec3, add, column, mul_mat_t_vec, mul_mat_vec, normalize, ops, scale, sub};
 use crate::model::bounds::MINVAL;
 use crate::model::{Model, Projection};
 use crate::ray::Ray;
+use crate::stages::Kinematics;
 use std::f64::consts::PI;
 
 /// Focal lengths of a perspective camera, from its sensor if it has one, else from its field of view [pixel].

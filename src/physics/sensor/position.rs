@@ -1,35 +1,14 @@
 //! Sensors that read positions.
 
-use super::{SensorScratch, distance, limit_row, pinhole, rangefinder, zone};
-use crate::data::{
-    Com, Configuration, Constraints, Flexes, Inertia, Kinematics, State, Tendons, Transmission,
-};
+use super::objects::{limit_row, object, reference};
+use super::scratch::SensorScratch;
+use super::{distance, pinhole, rangefinder, zone};
 use crate::math::{column, mul_mat_t_vec, quat_conj, quat_mul, quat_normalize, sub};
 use crate::model::bounds::MINVAL;
 use crate::model::{ConstraintType, Model, ObjType, SensorType};
 use crate::on_demand::energy;
 use crate::position::frame::{self, frame};
-
-/// What position sensors read.
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)]
-pub struct PositionInputs<'a> {
-    pub state: &'a State,
-    pub kin: &'a Kinematics,
-    pub com: &'a Com,
-    pub flex: &'a Flexes,
-    pub ten: &'a Tendons,
-    pub trn: &'a Transmission,
-    pub inertia: &'a Inertia,
-    pub efc: &'a Constraints,
-}
-
-impl<'a> PositionInputs<'a> {
-    fn configuration(&self) -> Configuration<'a> {
-        let PositionInputs { state, kin, com, flex, ten, .. } = *self;
-        Configuration { state, kin, com, flex, ten }
-    }
-}
+use crate::stages::{Constraints, PositionInputs};
 
 /// Reads sensor `i` into zeroed `out`.
 pub(super) fn read(
@@ -88,18 +67,6 @@ pub(super) fn read(
 /// Distance to the limit less the margin; zero when the limit is not active.
 fn limit_distance(efc: &Constraints, kind: ConstraintType, id: usize) -> f64 {
     limit_row(efc, kind, id).map_or(0.0, |row| efc.efc_pos[row] - efc.efc_margin[row])
-}
-
-/// Element of kind `kind` and index `id` of sensor `i`: the object, or the reference if there is one.
-pub(super) fn object(m: &Model, i: usize) -> (ObjType, usize) {
-    let kind = ObjType::from_code(m.sensor_objtype[i]).unwrap_or(ObjType::Unknown);
-    (kind, usize::try_from(m.sensor_objid[i]).unwrap_or(0))
-}
-
-/// Reference element of sensor `i`; `None` when it refers to the world.
-pub(super) fn reference(m: &Model, i: usize) -> Option<(ObjType, usize)> {
-    let id = usize::try_from(m.sensor_refid[i]).ok()?;
-    Some((ObjType::from_code(m.sensor_reftype[i])?, id))
 }
 
 fn read_frame(m: &Model, d: &PositionInputs, i: usize, kind: SensorType, out: &mut [f64]) {

@@ -4,10 +4,10 @@
 //! that it misses a few surfaces; here every ray ends on the nearest one.
 
 use super::pinhole::Pinhole;
-use crate::data::Kinematics;
 use crate::math::{Vec3, add_scaled, column, dot, sub};
 use crate::model::{Model, ObjType, RayField};
 use crate::ray::{Hit, Ray, RayFilter, ray};
+use crate::stages::Kinematics;
 
 /// Fills `out` with the chosen fields of every ray, row by row.
 pub(super) fn rangefinder(m: &Model, kin: &Kinematics, i: usize, out: &mut [f64]) {

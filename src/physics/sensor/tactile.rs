@@ -1,12 +1,12 @@
 //! Touch over the points of a mesh (documentation: XML reference, `sensor/tactile`): how deep each lies inside what touches
 //! the body, and how fast that slides past along the two tangents of the point.
 
-use super::acceleration::AccelerationInputs;
 use crate::collision::sdf::Distance;
-use crate::flex::weights::representative;
 use crate::math::{Vec3, add, dot, linear, mul_mat_t_vec, mul_mat_vec, quat_rotate, quat_to_mat, sub};
+use crate::model::flex::representative;
 use crate::model::{GeomType, Model};
 use crate::position::frame::{Frame, geom_frame};
+use crate::stages::AccelerationInputs;
 
 /// The points of a sensor, fixed to its geom.
 struct Skin<'a> {

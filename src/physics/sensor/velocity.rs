@@ -1,23 +1,10 @@
 //! Sensors that read velocities.
 
-use super::limit_row;
-use super::position::{object, reference};
-use crate::data::{Com, Constraints, Kinematics, State, Transmission, Velocity};
+use super::objects::{limit_row, object, reference};
 use crate::math::{Spatial, Vec3, add, cross, linear, rotational, spatial, sub};
 use crate::model::{ConstraintType, Model, ObjType, SensorType};
 use crate::position::frame::frame;
-
-/// What velocity sensors read.
-#[derive(Clone, Copy, Debug)]
-#[allow(missing_docs)]
-pub struct VelocityInputs<'a> {
-    pub state: &'a State,
-    pub kin: &'a Kinematics,
-    pub com: &'a Com,
-    pub trn: &'a Transmission,
-    pub vel: &'a Velocity,
-    pub efc: &'a Constraints,
-}
+use crate::stages::VelocityInputs;
 
 /// Reads sensor `i` into zeroed `out`. `subtree` holds the linear velocity and angular momentum of all subtrees.
 pub(super) fn read(

@@ -1,9 +1,8 @@
 //! Volumes of sites that act as sensor zones.
 
-use crate::actuation::activation::clip;
-use crate::data::Kinematics;
-use crate::math::{Vec3, dot, mul_mat_t_vec, sub};
+use crate::math::{Vec3, clip, dot, mul_mat_t_vec, sub};
 use crate::model::{GeomType, Model};
+use crate::stages::Kinematics;
 
 /// True when `point` lies inside the volume of `site`.
 pub(super) fn inside_site(m: &Model, kin: &Kinematics, site: usize, point: Vec3) -> bool {

@@ -12,8 +12,8 @@ pub(crate) mod object;
 pub(crate) mod rest;
 pub(crate) mod wake;
 
-use crate::data::State;
 use crate::model::{Enable, Model};
+use crate::stages::State;
 
 /// What `body_awake` says of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

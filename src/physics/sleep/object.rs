@@ -1,9 +1,9 @@
 //! Whether elements sleep that are made of several bodies.
 
 use super::Activity;
-use crate::data::State;
-use crate::flex::Flex;
+use crate::model::flex::Flex;
 use crate::model::{EqType, Model, ObjType, SensorType, TrnType};
+use crate::stages::State;
 
 /// Activity of a body.
 fn body(state: &State, b: i32) -> Activity {

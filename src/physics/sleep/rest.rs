@@ -1,10 +1,8 @@
-//! How trees fall asleep, and how simulations begin with trees that sleep.
+//! How trees fall asleep.
 
-use super::{MOVED, READY, is_on, update};
-use crate::data::{Data, Islands, State};
-use crate::model::{Model, ObjType, SleepPolicy};
-use crate::pipeline::error::StepError;
-use crate::pipeline::forward::{after_position, forward};
+use super::{MOVED, READY, is_on};
+use crate::model::{Model, SleepPolicy};
+use crate::stages::{Islands, State};
 use std::ops::Range;
 
 /// Degrees of freedom of a tree.
@@ -82,70 +80,5 @@ fn stop(m: &Model, state: &mut State, qacc: &mut [f64], trees: &[i32]) {
         state.tree_asleep[tree] = trees[(k + 1) % trees.len()];
         state.qvel[dofs(m, tree)].fill(0.0);
         qacc[dofs(m, tree)].fill(0.0);
-    }
-}
-
-/// At the end of a step: puts trees to sleep, and computes what depends on their velocities, which are zero now.
-pub(crate) fn end_step(m: &Model, d: &mut Data) {
-    if fall_asleep(m, &d.island, d.efc.nefc, &mut d.state, &mut d.acc.qacc) > 0 {
-        after_position(m, d);
-        update(m, &mut d.state);
-    }
-}
-
-/// Computes what stages keep of sleeping trees, where a state has come from elsewhere.
-///
-/// # Errors
-/// As [`forward`].
-pub(crate) fn settle(m: &Model, d: &mut Data) -> Result<(), StepError> {
-    d.unsettled = false;
-    let asleep = d.state.tree_asleep.clone();
-    d.state.tree_asleep.fill(MOVED);
-    update(m, &mut d.state);
-    let result = forward(m, d);
-    d.state.tree_asleep = asleep;
-    update(m, &mut d.state);
-    result
-}
-
-/// Puts the trees to sleep that begin so; the first of them that cannot.
-///
-/// # Errors
-/// As [`forward`].
-pub(crate) fn begin(m: &Model, d: &mut Data) -> Result<Option<usize>, StepError> {
-    let begins = |tree: &usize| m.tree_sleep_policy[*tree] == SleepPolicy::Init.code();
-    if !is_on(m) || !(0..m.ntree).any(|tree| begins(&tree)) {
-        return Ok(None);
-    }
-    forward(m, d)?;
-    for tree in 0..m.ntree {
-        d.state.tree_asleep[tree] = if begins(&tree) { READY } else { MOVED };
-    }
-    fall_asleep(m, &d.island, d.efc.nefc, &mut d.state, &mut d.acc.qacc);
-    update(m, &mut d.state);
-    // As in MuJoCo, a tree that has never been awake starts from no acceleration when it wakes.
-    d.acc.qacc_smooth.fill(0.0);
-    d.acc.qfrc_smooth.fill(0.0);
-    Ok((0..m.ntree).filter(begins).find(|&tree| d.state.tree_asleep[tree] < 0))
-}
-
-/// Checks once that the trees which begin asleep can: their islands begin asleep as a whole.
-///
-/// # Errors
-/// The root body of the first that cannot.
-pub(crate) fn check(m: &Model) -> Result<(), String> {
-    let begins = |policy: &i32| *policy == SleepPolicy::Init.code();
-    if !is_on(m) || !m.tree_sleep_policy.iter().any(begins) {
-        return Ok(());
-    }
-    match begin(m, &mut Data::new(m)) {
-        Ok(None) => Ok(()),
-        Ok(Some(tree)) => {
-            let body = m.label_of(ObjType::Body, m.tree_bodyadr[tree] as usize);
-            Err(format!(
-                "{body} cannot begin asleep: all that touches it or is coupled to it must have sleep=\"init\""
-            ))
-        }
-        Err(error) => Err(error.to_string()),
     }
 }

@@ -1,9 +1,9 @@
 //! What wakes trees: the user, contacts, tendons at their limits, equality constraints.
 
 use super::{MOVED, update};
-use crate::data::{Contacts, State, Tendons};
-use crate::flex::{Flex, weights};
+use crate::model::flex::{Flex, representative};
 use crate::model::{EqType, Model, ObjType};
+use crate::stages::{Contacts, State, Tendons};
 
 /// Wakes a sleeping tree and those that fell asleep with it; one that is awake gets the count `wakened`, if that is lower.
 fn wake(state: &mut State, tree: usize, wakened: i32) {
@@ -63,7 +63,7 @@ pub(crate) fn by_user(m: &Model, state: &mut State) {
 pub(crate) fn by_contacts(m: &Model, con: &Contacts, state: &mut State) -> bool {
     let mut woken = false;
     for contact in &con.contact {
-        let bodies = [0, 1].map(|side| weights::representative(m, contact, side));
+        let bodies = [0, 1].map(|side| representative(m, contact, side));
         woken |= match bodies.map(|b| usize::try_from(m.body_treeid[b]).ok()) {
             [Some(a), Some(b)] => couple(state, a, b),
             [Some(tree), None] => by_mocap(state, tree, bodies[1]),

@@ -1,11 +1,11 @@
 //! Nonlinear conjugate gradients on the primal cost, preconditioned with the inertia (Hager and Zhang 2005).
 
 use super::primal::Primal;
-use crate::data::SolverStat;
 use crate::flex::Effective;
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
+use crate::stages::SolverStat;
 
 /// Hager and Zhang's bound on how far a direction may turn back.
 const ETA: f64 = 0.01;

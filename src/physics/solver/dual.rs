@@ -3,11 +3,11 @@
 
 use super::dual_pattern::Pattern;
 use crate::constraint::{BLOCK, HalfJacobian, TILE, half_jacobian};
-use crate::data::{Constraints, Contact, Inertia, SolverStat};
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::math::dot_sparse;
 use crate::model::bounds::MINVAL;
 use crate::model::{ConstraintState, ConstraintType, Model};
+use crate::stages::{Constraints, Contact, Inertia, SolverStat};
 
 /// Changes of cost above this undo the step that made them.
 const RISE: f64 = 1e-10;

@@ -1,7 +1,7 @@
 //! Which entries of `A = Y Yᵀ` can differ from zero: entries of two rows that share a column of `Y`.
 
 use crate::constraint::HalfJacobian;
-use crate::data::Constraints;
+use crate::stages::Constraints;
 use std::ops::Range;
 
 /// Columns of each row, increasing, as compressed rows have them.

@@ -2,8 +2,8 @@
 //! (MuJoCo documentation, Computation, "Algorithms", "Newton").
 
 use super::primal::Primal;
-use crate::data::SolverStat;
 use crate::model::Model;
+use crate::stages::SolverStat;
 
 /// Minimises the cost; returns the number of iterations and the entries of the factors used.
 ///

@@ -3,10 +3,10 @@
 
 use super::dual::{Dual, cost_change, elliptic, update_states};
 use super::friction_force::friction_force;
-use crate::data::{Constraints, Contact, SolverStat};
 use crate::math::dense::dot_slice;
 use crate::model::bounds::MINVAL;
 use crate::model::{ConstraintType, Model};
+use crate::stages::{Constraints, Contact, SolverStat};
 
 /// Improves the friction forces of the listed rows; returns the number of sweeps.
 pub(super) fn noslip(

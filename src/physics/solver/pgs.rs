@@ -3,10 +3,10 @@
 
 use super::dual::{Dual, cost_change, elliptic, project_ellipsoid, update_states};
 use super::friction_force::friction_force;
-use crate::data::{Constraints, Contact, SolverStat};
 use crate::math::dense::dot_slice;
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
+use crate::stages::{Constraints, Contact, SolverStat};
 
 /// Minimises the dual cost over the listed rows; returns the number of sweeps.
 pub(super) fn pgs(

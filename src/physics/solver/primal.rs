@@ -7,11 +7,11 @@ use super::hessian::Hessian;
 use super::line_cost::{Line, LineCost};
 use super::line_search::{Stop, line_search};
 use super::problem::{Problem, Selection};
-use crate::data::{Acceleration, Constraints, SolverStat};
 use crate::flex::Effective;
 use crate::math::add_scaled_slice;
 use crate::math::dense::{dot_slice, norm_slice};
 use crate::model::{ConstraintState, Model};
+use crate::stages::{Acceleration, Constraints, SolverStat};
 
 /// Iterate of a primal solver and its memory.
 #[derive(Clone, Debug, Default)]

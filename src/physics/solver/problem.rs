@@ -1,12 +1,13 @@
 //! The part of a constraint problem that one island holds: its degrees of freedom, its rows, and the blocks of the
 //! inertia and the Jacobian that belong to them, renumbered from zero.
 
+use super::pattern::Pattern;
 use super::products::{Columns, Lanes};
 use super::rows::Rows;
-use crate::data::{Constraints, Contacts, Inertia};
 use crate::math::dense::dot_slice;
 use crate::math::{LowerRows, add_scaled_slice, dot_sparse};
 use crate::model::{Model, Solver};
+use crate::stages::{Constraints, Contacts, Inertia};
 use std::ops::Range;
 
 /// Inertia, Jacobian and row parameters of an island, or of the whole model.
@@ -44,41 +45,6 @@ pub(super) struct Problem {
     factor: Vec<f64>,
     /// Reciprocal of D.
     inverse_diagonal: Vec<f64>,
-}
-
-/// Which entries compressed rows and the inertia have.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Pattern {
-    /// Start of each compressed row, and the end of the last.
-    pub row_start: Vec<usize>,
-    /// Columns of compressed rows.
-    pub columns: Vec<i32>,
-    /// Non-zeros of each inertia row.
-    inertia_rownnz: Vec<i32>,
-    /// Start of each inertia row.
-    inertia_rowadr: Vec<i32>,
-    /// Columns of the inertia.
-    inertia_colind: Vec<i32>,
-}
-
-impl Pattern {
-    fn clear(&mut self) {
-        self.row_start.clear();
-        self.columns.clear();
-        self.inertia_rownnz.clear();
-        self.inertia_rowadr.clear();
-        self.inertia_colind.clear();
-    }
-
-    /// Makes room for as much as `other` has, so that exchanging the two needs no more memory.
-    fn make_room(&mut self, other: &Pattern) {
-        let room = |own: usize, other: usize| other.saturating_sub(own);
-        self.row_start.reserve(room(self.row_start.len(), other.row_start.len()));
-        self.columns.reserve(room(self.columns.len(), other.columns.len()));
-        self.inertia_rownnz.reserve(room(self.inertia_rownnz.len(), other.inertia_rownnz.len()));
-        self.inertia_rowadr.reserve(room(self.inertia_rowadr.len(), other.inertia_rowadr.len()));
-        self.inertia_colind.reserve(room(self.inertia_colind.len(), other.inertia_colind.len()));
-    }
 }
 
 /// Selection of an island: its degrees of freedom and rows, and the sorted index of every degree of freedom.

@@ -3,7 +3,7 @@
 //!
 //! Solvers that multiply often put columns together ([`Columns`]); others add up row by row ([`Lanes`]).
 
-use super::problem::Pattern;
+use super::pattern::Pattern;
 use crate::math::dot_sparse;
 
 /// Columns of a row that is not two triples.

@@ -1,9 +1,9 @@
 //! Rows as the solver sees them: parameters, friction cones, and the convex cost of `J qacc - aref`
 //! (MuJoCo documentation, Computation, "Primal problem").
 
-use crate::data::{Constraints, Contact};
 use crate::math::cholesky::stride;
 use crate::model::{ConstraintState, ConstraintType};
+use crate::stages::{Constraints, Contact};
 use std::ops::Range;
 
 /// The elliptic friction cone of one contact.

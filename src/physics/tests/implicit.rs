@@ -3,9 +3,9 @@
 mod machine;
 
 use machine::{ANCHORED, FLYING, chain, moving};
-use robohive_physics::derivative::transition::transition;
 use robohive_physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
 use robohive_physics::model::{Enable, Integrator, JointType};
+use robohive_physics::pipeline::transition::transition;
 use robohive_physics::{Data, Model, forward, integration::integrate, inverse, step};
 
 /// The chain with polynomial dampers on all but its root, in a thick fluid with wind when `wet`.

@@ -1,18 +1,18 @@
 //! Inverse dynamics by recursive Newton-Euler: the force that makes given accelerations, and without them the bias
 //! force of gravity, Coriolis and centrifugal effects (Featherstone 2008, section 5.3; Computation, "bias forces").
 
-use crate::data::{Com, Kinematics, State, Tendons, Velocity};
 use crate::inertia::tendon_armature;
 use crate::math::{
     Spatial, add_scaled, cross_force, dot, linear, mul_inertia, norm, scale, spatial, spatial_dot, sub,
 };
+use crate::model::NotSimulated;
 use crate::model::{Disable, Model, ObjType, WrapType, bounds::MINVAL};
-use crate::pipeline::error::NotSimulated;
 use crate::position::chain::{MergedChain, com_offset, point_column};
 use crate::position::frame::Frame;
 use crate::position::jacobian::point_column_rate;
 use crate::position::tendon;
 use crate::sleep::{Awake, object, over};
+use crate::stages::{Com, Kinematics, State, Tendons, Velocity};
 use crate::velocity::com_vel::{add_motion, dofs};
 
 /// Working memory of recursive Newton-Euler: one entry a body.

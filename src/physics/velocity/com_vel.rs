@@ -1,9 +1,9 @@
 //! Velocities of bodies and of motion axes (Featherstone 2008, section 5.3, first pass).
 
-use crate::data::{Com, State, Velocity};
 use crate::math::{Spatial, cross_motion, spatial_add_scaled};
 use crate::model::{JointType, Model};
 use crate::sleep::{Awake, over};
+use crate::stages::{Com, State, Velocity};
 use std::ops::Range;
 
 /// Computes `cvel` and `cdof_dot`.

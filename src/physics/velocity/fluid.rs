@@ -3,7 +3,6 @@
 //! A body is either a box with the body's inertia, or, when one of its geoms says so, the ellipsoids of its geoms.
 //! Every model works in a local frame, on the velocity relative to the fluid, and applies its wrench at the origin.
 
-use crate::data::{Com, Kinematics, Velocity};
 use crate::math::{
     Spatial, Vec3, add, cross, linear, mul_mat_t_vec, mul_mat_vec, norm, ops, rotational, scale, spatial, sub,
 };
@@ -12,6 +11,7 @@ use crate::model::{GeomType, Model};
 use crate::position::chain::apply_wrench;
 use crate::position::frame::{Frame, geom_frame};
 use crate::sleep::Awake;
+use crate::stages::{Com, Kinematics, Velocity};
 use std::f64::consts::PI;
 
 /// Adds the fluid forces of all bodies to `qfrc`.

@@ -4,4 +4,3 @@ pub mod bias;
 pub mod com_vel;
 pub(crate) mod fluid;
 pub mod passive;
-pub(crate) mod polynomial;

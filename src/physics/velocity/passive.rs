@@ -1,19 +1,20 @@
 //! Passive forces: springs, dampers, gravity compensation, fluid, adhesion (documentation: Computation,
 //! "Passive forces").
 
-use crate::actuation::reflected_load::{dof_damping, tendon_damping};
-use crate::data::{
-    Com, Configuration, Contact, Contacts, Flexes, Kinematics, Passive, State, Tendons, Velocity,
-};
-use crate::flex::{Flex, FlexScratch, Metric, bending, cells, shell, springs, stretch, weights};
+use crate::flex::{FlexScratch, Metric, bending, cells, shell, springs, stretch, weights};
+use crate::math::Polynomial;
 use crate::math::{Vec3, dot, norm, quat_difference, quat_normalize, row, scale, sub};
+use crate::model::flex::Flex;
+use crate::model::reflected_load::{dof_damping, tendon_damping};
+use crate::model::{Capability, PassiveInputs};
 use crate::model::{Disable, JointType, Model};
-use crate::plugin::{Capability, PassiveInputs};
 use crate::position::chain::{MergedChain, apply_wrench, com_offset, point_column};
 use crate::position::tendon;
 use crate::sleep::{Awake, Subset, object, over};
+use crate::stages::{
+    Com, Configuration, Contact, Contacts, Flexes, Kinematics, Passive, State, Tendons, Velocity,
+};
 use crate::velocity::fluid;
-use crate::velocity::polynomial::Polynomial;
 
 /// Computes all passive forces and their sum. Disabling both springs and dampers disables every passive force.
 pub fn passive(

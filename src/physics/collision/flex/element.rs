@@ -1,17 +1,19 @@
 //! Contacts of one element of a flex: with a geom, with another element, with a vertex of its own flex.
 
 use super::triangle::Triangle;
-use super::{World, ball_apart, boxes_apart, geom_reach, margin};
+use super::world::{World, ball_apart, boxes_apart, geom_reach, margin};
 use crate::collision::capsule::capsule_capsule;
 use crate::collision::capsule_box::capsule_box;
 use crate::collision::convex::penetration;
 use crate::collision::mixing::{Mixture, Parts, Surface};
+use crate::collision::scratch::CollisionScratch;
+use crate::collision::shape::Shape;
 use crate::collision::sphere::sphere_capsule;
 use crate::collision::support::{ConvexBody, Element};
-use crate::collision::{CollisionScratch, Shape, hfield, round_normal};
-use crate::data::Contacts;
+use crate::collision::{hfield, round_normal};
 use crate::math::{Vec3, add, normalize, quat_from_z, quat_to_mat, scale, sub};
 use crate::model::{Disable, GeomType, Model};
+use crate::stages::Contacts;
 
 const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 

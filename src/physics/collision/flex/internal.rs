@@ -1,11 +1,13 @@
 //! Contacts within a flex between neighbours: elements with the vertices that the compiler paired them with, and
 //! tetrahedra whose corners come near the opposite face, so that they do not turn inside out.
 
-use super::{World, element};
+use super::element;
+use super::world::World;
 use crate::collision::mixing::{Mixture, Parts, Surface};
-use crate::collision::{CollisionScratch, PreContact};
-use crate::data::Contacts;
+use crate::collision::scratch::CollisionScratch;
+use crate::collision::shape::PreContact;
 use crate::math::{Vec3, add_scaled, cross, dot, normalize, scale, sub};
+use crate::stages::Contacts;
 
 /// Faces of a tetrahedron, each followed by the opposite corner.
 const FACES: [[usize; 4]; 4] = [[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [1, 3, 2, 0]];

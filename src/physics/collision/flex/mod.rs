@@ -7,81 +7,23 @@
 
 mod element;
 mod internal;
-mod sweep;
-mod thin;
 mod tree;
 mod triangle;
+mod world;
 
-pub(super) use sweep::Sweep;
-pub(super) use thin::Spread;
+pub use world::World;
 
-use super::mixing::{self, Mixture, Parts, Surface};
-use super::{CollisionScratch, PreContact, sdf};
-use crate::collision::broad_phase::{geoms, types_match};
-use crate::data::{Contacts, Flexes, Kinematics};
-use crate::flex::Flex;
-use crate::math::{Vec3, add_scaled, column, dot, sub};
-use crate::model::{Disable, FlexSelf, GeomType, Model};
+use super::mixing::{Mixture, Parts, Surface};
+use super::scratch::CollisionScratch;
+use super::shape::PreContact;
+use super::{sdf, thin};
+use crate::collision::broad_phase::geoms;
+use crate::math::{add_scaled, column, dot, sub};
+use crate::model::flex::Flex;
+use crate::model::{FlexSelf, GeomType};
 use crate::sleep::{Awake, object};
-
-/// What contacts are found in.
-#[derive(Clone, Copy)]
-pub struct World<'a> {
-    /// The model.
-    pub m: &'a Model,
-    /// Where bodies and geoms are.
-    pub kin: &'a Kinematics,
-    /// Where vertices, elements and their boxes are.
-    pub flexes: &'a Flexes,
-}
-
-impl<'a> World<'a> {
-    fn flex(self, f: usize) -> Flex<'a> {
-        Flex { m: self.m, id: f }
-    }
-
-    fn middle_phase(self) -> bool {
-        !self.m.opt.disableflags.contains(Disable::MIDPHASE)
-    }
-
-    /// Positions of the vertices of a flex.
-    fn points(self, f: usize) -> &'a [Vec3] {
-        &self.flexes.flexvert_xpos[self.flex(f).vertices()]
-    }
-
-    /// Boxes of the elements of a flex.
-    fn boxes(self, f: usize) -> &'a [[f64; 6]] {
-        &self.flexes.flexelem_aabb[self.flex(f).elements()]
-    }
-}
-
-/// Distance below which two surfaces make force, given the sum of their margins.
-fn margin(m: &Model, sum: f64) -> f64 {
-    if mixing::overridden(m) { m.opt.o_margin } else { sum }
-}
-
-/// Margin of a geom and a flex, and the gap beyond it.
-fn geom_reach(m: &Model, g: usize, f: usize) -> [f64; 2] {
-    [margin(m, m.geom_margin[g] + m.flex_margin[f]), m.geom_gap[g] + m.flex_gap[f]]
-}
-
-/// Boxes (centre, half sizes) along the same axes that are farther apart than `margin`.
-fn boxes_apart(a: &[f64; 6], b: &[f64; 6], margin: f64) -> bool {
-    (0..3).any(|k| a[k] + a[k + 3] + margin < b[k] - b[k + 3] || b[k] + b[k + 3] + margin < a[k] - a[k + 3])
-}
-
-/// A box around a ball and another box are apart.
-fn ball_apart(centre: Vec3, bound: f64, aabb: &[f64; 6]) -> bool {
-    (0..3).any(|k| centre[k] + bound < aabb[k] - aabb[k + 3] || centre[k] - bound > aabb[k] + aabb[k + 3])
-}
-
-fn geom_matches(m: &Model, g: usize, f: usize) -> bool {
-    types_match(m.geom_contype[g], m.geom_conaffinity[g], m.flex_contype[f], m.flex_conaffinity[f])
-}
-
-fn is_of_type(m: &Model, g: usize, kind: GeomType) -> bool {
-    m.geom_type[g] == kind.code()
-}
+use crate::stages::Contacts;
+use world::{geom_matches, geom_reach, is_of_type};
 
 /// Contacts of the geoms of a body with a flex.
 pub(super) fn body_flex(
@@ -188,7 +130,7 @@ fn own_elements(at: World, f: usize, mode: FlexSelf, scratch: &mut CollisionScra
         if mode == FlexSelf::Bvh || mode == FlexSelf::Auto && flex.dim() == 3 {
             tree::two_flexes(at, [f, f], scratch, con);
         } else {
-            sweep::own_elements(at, f, scratch, con);
+            sweep_elements(at, f, scratch, con);
         }
         return;
     }
@@ -200,6 +142,39 @@ fn own_elements(at: World, f: usize, mode: FlexSelf, scratch: &mut CollisionScra
         for e2 in (e1 + 1..count).filter(|&e| is_active(flex, e)) {
             element::with_element(at, [f, f], [e1, e2], scratch, con);
         }
+    }
+}
+
+/// Contacts between elements of a flex that a sweep finds.
+fn sweep_elements(at: World, f: usize, scratch: &mut CollisionScratch, con: &mut Contacts) {
+    let flex = at.flex(f);
+    let mut sweep = std::mem::take(&mut scratch.sweep);
+    sweep.elements.clear();
+    sweep.elements.extend((0..flex.elements().len()).filter(|&e| is_active(flex, e)).map(|e| e as u32));
+    let (corners, bodies) = (flex.corners(), flex.vertex_bodies());
+    sweep.bodies.clear();
+    sweep.bodies.extend(corners.chunks_exact(flex.dim() + 1).map(|corners| {
+        let body = |k: usize| bodies[corners[k % corners.len()] as usize];
+        [body(0), body(1), body(2), body(3)]
+    }));
+    let root = &at.flexes.bvh_aabb_dyn[at.m.flex_bvhadr[f] as usize - at.m.nbvhstatic];
+    sweep.find_pairs(at.boxes(f), longest_axis(root));
+    for pair in &sweep.pairs {
+        if !scratch.has_room(con) {
+            break;
+        }
+        element::with_other_element(at, [f, f], pair.map(|e| e as usize), scratch, con);
+    }
+    scratch.sweep = sweep;
+}
+
+/// Longest axis of a box (centre, half sizes); of equal ones the last.
+fn longest_axis(aabb: &[f64; 6]) -> usize {
+    let [_, _, _, x, y, z] = *aabb;
+    match () {
+        () if x > y && x > z => 0,
+        () if y > z => 1,
+        () => 2,
     }
 }
 

@@ -1,10 +1,11 @@
 //! Pairs of elements of flexes, and of geoms, that may touch: descent of trees of boxes.
 
-use super::{World, ball_apart, boxes_apart, element, geom_matches, geom_reach, is_of_type, margin};
-use crate::collision::CollisionScratch;
+use super::element;
+use super::world::{World, ball_apart, boxes_apart, geom_matches, geom_reach, is_of_type, margin};
 use crate::collision::mid_phase::{Centres, Relation, Tree, walk};
-use crate::data::Contacts;
+use crate::collision::scratch::CollisionScratch;
 use crate::model::GeomType;
+use crate::stages::Contacts;
 
 const IDENTITY: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 

@@ -5,80 +5,23 @@
 //! the deepest points of its triangles lie inside it ([`triangles`]). MuJoCo's documentation calls these collisions with
 //! signed distance fields; `sdf_initpoints` and `sdf_iterations` say how long is sought.
 
+mod distance;
 mod octree;
+mod order;
 mod pair;
 mod solid;
 mod triangles;
 
+pub(crate) use distance::Distance;
 pub(crate) use pair::two_fields;
-use triangles::Candidate;
 pub(crate) use triangles::{Sheet, mesh_and_field, sheet_and_field};
 
-use super::PreContact;
+use super::shape::PreContact;
 use crate::math::{
     Mat3, Quat, Vec3, add, distance, normalize, quat_conj, quat_mul, quat_normalize, quat_rotate,
     quat_to_mat, scale,
 };
 use crate::model::bounds::{MAXCONPAIR, MINVAL};
-use crate::model::{GeomType, Model};
-use crate::plugin::Field;
-use octree::Octree;
-
-/// The signed distance of one geom, in its frame.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Distance<'a> {
-    /// A plugin's field.
-    Field(&'a dyn Field),
-    /// Interpolated in a mesh's octree.
-    Octree(Octree<'a>),
-    /// A primitive shape of these sizes.
-    Solid(GeomType, Vec3),
-}
-
-impl<'a> Distance<'a> {
-    /// That of geom `g`; `None` where the model has none.
-    pub fn of(m: &'a Model, g: usize) -> Option<Self> {
-        let kind = GeomType::from_code(m.geom_type[g])?;
-        match kind {
-            GeomType::Sdf if m.geom_plugin[g] >= 0 => {
-                m.plugins().get(m.geom_plugin[g])?.instance.field().map(Distance::Field)
-            }
-            GeomType::Sdf | GeomType::Mesh => {
-                Octree::of(m, usize::try_from(m.geom_dataid[g]).ok()?).map(Distance::Octree)
-            }
-            GeomType::Hfield | GeomType::None => None,
-            _ => Some(Distance::Solid(kind, m.geom_size[g])),
-        }
-    }
-
-    /// The distance at `p`.
-    pub fn at(&self, p: Vec3) -> f64 {
-        match self {
-            Distance::Field(field) => field.distance(p),
-            Distance::Octree(octree) => octree.distance(p),
-            Distance::Solid(kind, size) => solid::distance(*kind, *size, p),
-        }
-    }
-
-    /// The slope of the distance at `p`.
-    pub fn gradient(&self, p: Vec3) -> Vec3 {
-        match self {
-            Distance::Field(field) => field.gradient(p),
-            Distance::Octree(octree) => octree.gradient(p),
-            Distance::Solid(kind, size) => solid::gradient(*kind, *size, p),
-        }
-    }
-}
-
-/// The larger number; the first of equal ones.
-fn larger(a: f64, b: f64) -> f64 {
-    if a >= b { a } else { b }
-}
-
-/// The smaller number; the first of equal ones.
-fn smaller(a: f64, b: f64) -> f64 {
-    if a <= b { a } else { b }
-}
 
 /// Number `index` of the sequence of Halton that spreads over (0, 1) in a base.
 fn halton(index: usize, base: usize) -> f64 {
@@ -111,19 +54,6 @@ impl Transfer {
     fn point(&self, p: Vec3) -> Vec3 {
         add(crate::math::mul_mat_vec(&self.turn, p), self.offset)
     }
-}
-
-/// Working memory of contacts with fields, reused from step to step.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct FieldScratch {
-    /// Points that are contacts already.
-    known: Vec<Vec3>,
-    /// Points of a triangle, or of all of a mesh, that lie inside.
-    candidates: Vec<Candidate>,
-    /// Triangles of a sheet with their deepest points.
-    deepest: Vec<(usize, Candidate)>,
-    /// Which triangle of the sheet each contact belongs to.
-    pub elements: Vec<usize>,
 }
 
 /// Contacts in the frame of a field, each point once.

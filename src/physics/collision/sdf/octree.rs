@@ -1,5 +1,6 @@
 //! Distances interpolated between the corners of the cells of an octree; outside, from the nearest point of its box.
 
+use super::order::larger;
 use crate::math::Vec3;
 use crate::model::Model;
 
@@ -65,7 +66,7 @@ impl<'a> Octree<'a> {
         let from: Vec3 = std::array::from_fn(|k| p[k] - whole[k]);
         let beyond: Vec3 = std::array::from_fn(|k| from[k].abs() - whole[k + 3]);
         if beyond.iter().all(|&q| q <= 0.0) {
-            return (p, super::larger(beyond[0], super::larger(beyond[1], beyond[2])));
+            return (p, larger(beyond[0], larger(beyond[1], beyond[2])));
         }
         let mut squared = 0.0;
         for k in (0..3).filter(|&k| beyond[k] >= 0.0) {

@@ -1,12 +1,14 @@
 //! A field and another shape: descent from points spread over the common part of their boxes.
 
-use super::{Distance, Points, Transfer, halton, larger, smaller};
-use crate::collision::PreContact;
-use crate::collision::convex::ConvexScratch;
-use crate::data::Kinematics;
+use super::distance::Distance;
+use super::order::{larger, smaller};
+use super::{Points, Transfer, halton};
+use crate::collision::scratch::ConvexScratch;
+use crate::collision::shape::PreContact;
 use crate::math::{Vec3, add_scaled, dot, mat_to_quat, mul_mat_t_vec, normalize, sub};
 use crate::model::Model;
 use crate::model::bounds::MAXVAL;
+use crate::stages::Kinematics;
 
 /// Two distances seen from the frame of the first.
 struct Both<'a> {

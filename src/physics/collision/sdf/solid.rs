@@ -1,7 +1,7 @@
 //! Distances of primitive shapes (Quilez, "3D distance functions"); inside a box the field turns from radial in the
 //! middle to the normals of the faces.
 
-use super::{larger, smaller};
+use super::order::{larger, smaller};
 use crate::math::{Vec3, norm, normalize};
 use crate::model::GeomType;
 use crate::model::bounds::MAXVAL;

@@ -1,30 +1,25 @@
 //! A mesh and a field: triangles whose boxes come near the field, and the deepest point of each (Macklin et al. 2020,
 //! "Local optimization for robust signed distance field collision"; Frank and Wolfe 1956).
 
-use super::{Distance, FieldScratch, Points, Transfer, halton, larger};
-use crate::collision::PreContact;
-use crate::collision::convex::ConvexScratch;
+use super::distance::Distance;
+use super::order::larger;
+use super::{Points, Transfer, halton};
 use crate::collision::mid_phase::Tree;
-use crate::data::Kinematics;
+use crate::collision::scratch::{Candidate, ConvexScratch, FieldScratch};
+use crate::collision::shape::PreContact;
+use crate::geometry::hierarchy::MAX_LEVELS;
 use crate::math::{
     IDENTITY, Quat, Vec3, add, add_scaled, cross, distance, dot, mat_to_quat, norm, normalize, scale, sub,
 };
 use crate::model::Model;
 use crate::model::bounds::{MAXCONPAIR, MAXVAL, MINVAL};
-use crate::ray::MAX_LEVELS;
+use crate::stages::Kinematics;
 
 /// How a field is searched.
 struct Search<'a> {
     field: Distance<'a>,
     starts: usize,
     steps: i32,
-}
-
-/// A point of a triangle inside the field, in the frame of that.
-#[derive(Clone, Debug)]
-pub(super) struct Candidate {
-    at: Vec3,
-    depth: f64,
 }
 
 /// Contacts of a mesh and a field, the second geom.

@@ -1,11 +1,11 @@
 //! The stiffness of bent edges, applied edge by edge.
 
-use super::Rates;
 use super::pattern::bent_edges;
-use crate::data::Kinematics;
-use crate::flex::Flex;
+use super::stiffened::Rates;
 use crate::math::{Mat3, Vec3, mul_mat_t_vec, mul_mat_vec};
 use crate::model::Model;
+use crate::model::flex::Flex;
+use crate::stages::Kinematics;
 
 const UPRIGHT: Mat3 = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 

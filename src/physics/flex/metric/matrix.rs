@@ -2,16 +2,16 @@
 //! edge, a cell or a soft contact couples.
 
 use super::pattern::{NONE, Pattern, bent_edges, sheets_and_solids};
+use super::stiffened::{cell_stiffness, is_elastic_lattice};
 use super::touch::{Touch, Touches};
-use super::{cell_stiffness, is_elastic_lattice};
-use crate::data::{Contacts, Flexes, Inertia, Kinematics};
-use crate::flex::Flex;
 use crate::flex::lattice::Lattice;
 use crate::flex::stretch::{METRIC, TETRAHEDRON, TRIANGLE, unpack};
 use crate::inertia;
 use crate::math::{Mat3, Vec3, dot_sparse, mul_mat, mul_mat_t_mat, sub};
 use crate::model::Model;
 use crate::model::bounds::MINVAL;
+use crate::model::flex::Flex;
+use crate::stages::{Contacts, Flexes, Inertia, Kinematics};
 
 /// The matrix; rows of a point share their columns.
 #[derive(Clone, Debug, Default)]

@@ -5,26 +5,30 @@
 //! for rigid bodies. It is in use with the solver `CG` and an integrator that is implicit in velocity (MuJoCo documentation,
 //! Computation, "Deformable objects").
 //!
-//! `matrix.rs` assembles `K` in rows that `pattern.rs` lays out. `bends.rs` and `terms.rs` multiply by the parts of `K` that
-//! are not assembled. `touch.rs` turns contacts into springs. `bending_factor.rs` preconditions flexes with bending alone.
+//! `matrix.rs` keeps `K` in rows that `pattern.rs` lays out, `bends.rs` and `terms.rs` apply what has none, `touch.rs` makes
+//! springs of contacts. Where bending is all there is, a factor that the model keeps preconditions.
 
-pub(crate) mod bending_factor;
 mod bends;
 mod matrix;
 mod pattern;
+mod stiffened;
 mod terms;
 mod touch;
 
-use super::{Flex, FlexScratch, held, vertices};
-use crate::data::{Com, Contacts, Flexes, Inertia, Kinematics};
+use super::scratch::FlexScratch;
+use super::vertices;
 use crate::inertia::{mul_inertia_matrix, solve_ld};
 use crate::math::add_scaled_slice;
 use crate::math::dense::dot_slice;
+use crate::model::Model;
 use crate::model::bounds::MINVAL;
-use crate::model::{Cone, Enable, Integrator, Model, Solver};
+use crate::model::flex::Flex;
+use crate::stages::{Contacts, Flexes, Inertia, Poses};
 use bends::Bends;
 use matrix::Matrix;
-use std::ops::Range;
+pub(crate) use stiffened::is_asked_for;
+use stiffened::{Rates, is_elastic_lattice};
+pub(super) use stiffened::{allowed, has_soft_contacts};
 pub(crate) use touch::{Touches, mark};
 
 /// The stiffness in the inertia of one configuration. Empty while nothing asks for it.
@@ -50,28 +54,6 @@ struct Solution {
     product: Vec<f64>,
 }
 
-/// Where bodies are.
-#[derive(Clone, Copy, Debug)]
-pub struct Poses<'a> {
-    /// Global poses.
-    pub kin: &'a Kinematics,
-    /// Centres of mass and motion axes.
-    pub com: &'a Com,
-}
-
-/// What stiffness is multiplied by: a constant, and a multiple of a flex's damping.
-#[derive(Clone, Copy)]
-struct Rates {
-    constant: f64,
-    damping: f64,
-}
-
-impl Rates {
-    fn of(self, flex: Flex) -> f64 {
-        self.constant + self.damping * flex.m.flex_damping[flex.id]
-    }
-}
-
 /// What makes up the effective inertia.
 #[derive(Clone, Copy, Debug)]
 pub struct Effective<'a> {
@@ -80,45 +62,6 @@ pub struct Effective<'a> {
     flexes: &'a Flexes,
     inertia: &'a Inertia,
     metric: &'a Metric,
-}
-
-/// Stiffness of flexes is added to the inertia in a model with these options.
-pub(super) fn allowed(m: &Model) -> bool {
-    m.opt.solver == Solver::Cg
-        && matches!(m.opt.integrator, Integrator::Implicit | Integrator::Implicitfast)
-        && m.opt.cone != Cone::Elliptic
-        && !m.opt.enableflags.contains(Enable::SLEEP)
-}
-
-/// Some flex has stiffness that the model's options put in the inertia.
-pub(crate) fn is_asked_for(m: &Model) -> bool {
-    allowed(m) && Flex::all(m).any(|flex| is_elastic(flex) || has_soft_contacts(flex))
-}
-
-/// Contacts of the flex are springs.
-pub(super) fn has_soft_contacts(flex: Flex) -> bool {
-    !flex.m.flex_rigid[flex.id] && flex.m.flex_passive[flex.id] != 0
-}
-
-/// Elements of the flex resist being stretched or bent.
-fn is_elastic(flex: Flex) -> bool {
-    if flex.m.flex_rigid[flex.id] || flex.is_interpolated() {
-        return is_elastic_lattice(flex);
-    }
-    flex.dim() == 2 && flex.bending().is_some() || flex.dim() >= 2 && flex.stiffness().is_some()
-}
-
-/// Cells of a lattice that forces, not constraints, keep in shape.
-fn is_elastic_lattice(flex: Flex) -> bool {
-    !flex.m.flex_rigid[flex.id]
-        && flex.is_interpolated()
-        && flex.stiffness().is_some()
-        && flex.m.flex_edgeequality[flex.id] != held::STRAINS
-}
-
-/// Where the stiffness of cell `cell` is, whose nodes have `size` coordinates.
-fn cell_stiffness(first: usize, cell: usize, size: usize) -> Range<usize> {
-    first + cell * size * size..first + (cell + 1) * size * size
 }
 
 impl Metric {

@@ -1,12 +1,12 @@
 //! Which points of flexes have stiffness, and which of them are coupled. A point is a vertex or node that moves freely.
 
+use super::stiffened::{has_soft_contacts, is_elastic, is_elastic_lattice};
 use super::touch::{Touch, Touches};
-use super::{has_soft_contacts, is_elastic, is_elastic_lattice};
-use crate::data::Contacts;
-use crate::flex::Flex;
 use crate::flex::bending::STENCIL;
 use crate::flex::lattice::Lattice;
 use crate::model::Model;
+use crate::model::flex::Flex;
+use crate::stages::Contacts;
 
 /// The point of what is held or has no stiffness.
 pub(super) const NONE: u32 = u32::MAX;

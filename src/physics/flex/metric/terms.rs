@@ -1,15 +1,15 @@
 //! Stiffness that is applied term by term: of stretched elements, and of cells that turn with their lattice.
 
 use super::matrix::tension;
-use super::{Poses, Rates, cell_stiffness, is_elastic_lattice};
-use crate::data::{Flexes, Kinematics};
-use crate::flex::Flex;
+use super::stiffened::{Rates, cell_stiffness, is_elastic_lattice};
 use crate::flex::lattice::{Lattice, MAX_NODES, Patch};
 use crate::flex::stretch::{METRIC, TETRAHEDRON, TRIANGLE, unpack};
 use crate::flex::vertices::placed;
 use crate::math::{Mat3, Vec3, add_scaled, mul_mat, mul_mat_t_vec, mul_mat_vec, quat_to_mat, sub, transpose};
 use crate::model::Model;
+use crate::model::flex::Flex;
 use crate::position::chain::{apply_wrench, chain, com_offset, point_column};
+use crate::stages::{Flexes, Kinematics, Poses};
 
 /// First degree of freedom of a body with three.
 fn free_dof(m: &Model, body: usize) -> Option<usize> {

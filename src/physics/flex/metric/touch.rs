@@ -1,13 +1,13 @@
 //! Contacts of flexes that ask for it are springs instead of constraints: between flexes, within a flex, and with static
 //! geoms. The stiffness is chosen so that the lightest vertex in contact oscillates with a given frequency.
 
-use super::has_soft_contacts;
-use crate::constraint::Difference;
-use crate::data::{Com, Contact, Contacts, Flexes, Inertia};
-use crate::flex::Flex;
+use super::stiffened::has_soft_contacts;
+use crate::flex::difference::Difference;
 use crate::inertia;
 use crate::math::{Vec3, dot, row};
 use crate::model::Model;
+use crate::model::flex::Flex;
+use crate::stages::{Com, Contact, Contacts, Flexes, Inertia};
 use std::ops::Range;
 
 /// Square of the frequency [1/s²].

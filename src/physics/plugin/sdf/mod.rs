@@ -11,29 +11,7 @@ pub(super) use fastener::{Bolt, Nut};
 pub(super) use gear::Gear;
 pub(super) use revolved::{Bowl, Torus};
 
-use super::Instance;
-use crate::math::Vec3;
-use std::fmt::Debug;
-
-/// A signed distance field in its own frame [m].
-pub trait Field: Debug + Send + Sync {
-    /// Distance of `point` from the surface, negative inside.
-    fn distance(&self, point: Vec3) -> f64;
-
-    /// Slope of the distance at `point`; forward differences where a field knows no better.
-    fn gradient(&self, point: Vec3) -> Vec3 {
-        const STEP: f64 = 1e-8;
-        let here = self.distance(point);
-        std::array::from_fn(|k| {
-            let mut moved = point;
-            moved[k] += STEP;
-            (self.distance(moved) - here) / STEP
-        })
-    }
-
-    /// A box around the surface: centre, half sizes.
-    fn bounds(&self) -> [f64; 6];
-}
+use crate::model::{Field, Instance};
 
 /// Declares plugins that are a field and nothing else.
 macro_rules! fields {
@@ -43,14 +21,14 @@ macro_rules! fields {
         pub struct $kind;
 
         impl $kind {
-            fn read(config: &crate::plugin::Config) -> Result<$field, String> {
+            fn read(config: &crate::model::Config) -> Result<$field, String> {
                 Ok($field {
                     $($attribute: config.number(stringify!($attribute))?.unwrap_or($default),)*
                 })
             }
         }
 
-        impl crate::plugin::Plugin for $kind {
+        impl crate::model::Plugin for $kind {
             fn name(&self) -> &str {
                 $name
             }
@@ -59,23 +37,23 @@ macro_rules! fields {
                 &[$(stringify!($attribute),)*]
             }
 
-            fn capabilities(&self) -> &[crate::plugin::Capability] {
-                &[crate::plugin::Capability::Sdf]
+            fn capabilities(&self) -> &[crate::model::Capability] {
+                &[crate::model::Capability::Sdf]
             }
 
             fn field(
                 &self,
-                config: &crate::plugin::Config,
-            ) -> Result<Option<Box<dyn crate::plugin::Field>>, String> {
+                config: &crate::model::Config,
+            ) -> Result<Option<Box<dyn crate::model::Field>>, String> {
                 Ok(Some(Box::new($kind::read(config)?)))
             }
 
             fn instance(
                 &self,
-                config: &crate::plugin::Config,
-                _: &crate::Model,
+                config: &crate::model::Config,
+                _: &crate::model::Model,
                 _: usize,
-            ) -> Result<Box<dyn crate::plugin::Instance>, String> {
+            ) -> Result<Box<dyn crate::model::Instance>, String> {
                 Ok(Box::new(crate::plugin::sdf::Solid($kind::read(config)?)))
             }
         }
