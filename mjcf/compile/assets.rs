@@ -1,9 +1,9 @@
 //! Meshes, skins, height fields, textures and materials: files are read here, compiled on all cores, and laid out in
 //! the order of the file.
 
-use super::Resources;
 use super::log::{Log, title};
 use super::plugins::Plugins;
+use super::resources::Resources;
 use crate::asset::AssetError;
 use crate::budget::{Content, decoded};
 use crate::diagnostic::Loc;

@@ -4,41 +4,34 @@
 //! asked; the arrays, with references between elements resolved by name; sparsity patterns. Arrays are filled row
 //! by row in the order of ids; sizes follow from them. Errors are collected, not thrown at the first.
 
-mod actuator;
 mod asset_rows;
 mod assets;
-mod body;
-mod constraint;
-mod custom;
+mod bodies;
 mod demand;
 mod discard;
+mod elements;
 mod fixed;
 mod flex;
-mod fluid;
 mod frame;
 mod fuse;
-mod geom;
 mod hierarchy;
 mod inertia;
-mod joint;
 mod keyframe;
 mod log;
 mod lookup;
 mod names;
 mod nodes;
 mod plugins;
-mod sensor;
+mod resources;
 mod sizes;
-mod tendon;
-mod tree;
 mod values;
-mod viewpoint;
+
+pub(crate) use resources::Resources;
 
 use crate::budget::Budget;
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::FileProvider;
 use crate::loaded::Loaded;
-use crate::mesh::stored::MeshStore;
 use crate::spec::{Spec, StatisticOverride};
 use crate::xml::Limits;
 use log::Log;
@@ -73,7 +66,7 @@ pub(crate) fn compile(
         log.error(Loc::NONE, error.to_string());
         return None;
     }
-    joint::set_springdampers(m.unchecked_mut(), &springdampers);
+    bodies::set_springdampers(m.unchecked_mut(), &springdampers);
     if let Err(error) = set_length_ranges(&mut m, &spec.compiler.lengthrange) {
         log.error(Loc::NONE, error.to_string());
         return None;
@@ -89,17 +82,6 @@ pub(crate) fn compile(
         return None;
     }
     Some(m)
-}
-
-/// What a compile reads beside the elements.
-#[derive(Clone, Copy)]
-pub(crate) struct Resources<'a> {
-    /// Files of assets.
-    pub files: &'a dyn FileProvider,
-    /// Processed meshes.
-    pub meshes: Option<&'a dyn MeshStore>,
-    /// Plugins by name.
-    pub registry: &'a Registry,
 }
 
 /// What needs no simulation.
@@ -170,7 +152,7 @@ fn compile_static(spec: &Spec, resources: Resources<'_>, log: &mut Log) -> Optio
     }
     let plugins = plugins::compile(spec, resources.registry, log);
     let mut assets = assets::compile(spec, resources, &plugins, log);
-    let mut tree = tree::compile(spec, &assets, log);
+    let mut tree = bodies::compile(spec, &assets, log);
     if log.diagnostics.has_errors() {
         return None;
     }
@@ -189,15 +171,11 @@ fn compile_static(spec: &Spec, resources: Resources<'_>, log: &mut Log) -> Optio
     }
     asset_rows::fill(&mut m, &assets, spec, &lookup, log);
     plugins.fill(&mut m, log);
-    tree::fill(&mut m, &tree, (spec, &plugins), &lookup, log);
+    bodies::fill(&mut m, &tree, (spec, &plugins), &lookup, log);
     hierarchy::fill_meshes(&mut m, &assets);
     let flexes = flex::compile(spec, &tree, &lookup, log);
     flex::fill(&mut m, &flexes, &tree, spec, &lookup, log);
-    constraint::fill(&mut m, spec, &lookup, log);
-    tendon::fill(&mut m, spec, &lookup, log);
-    actuator::fill(&mut m, (spec, &plugins), &lookup, log);
-    sensor::fill(&mut m, (spec, &plugins), &lookup, log);
-    custom::fill(&mut m, spec, &lookup, log);
+    elements::fill(&mut m, (spec, &plugins), &lookup, log);
     keyframe::fill(&mut m, &tree, spec, log);
     if log.diagnostics.has_errors() {
         return None;

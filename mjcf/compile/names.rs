@@ -1,7 +1,7 @@
 //! The name buffer, its hash table, and the paths of asset files.
 
 use super::assets::{Asset, Assets};
-use super::constraint::sorted_names;
+use super::elements::sorted_names;
 use super::lookup::Lookup;
 use super::nodes::Tree;
 use super::plugins::Plugins;

@@ -1,6 +1,7 @@
 //! Regular grids of lines, triangles and tetrahedra, and what is bent from them: circles and discs.
 
-use super::{Cloud, Regular, Shape};
+use super::cloud::Cloud;
+use super::regular::{Regular, Shape};
 use crate::vector::{EPS, normalize};
 use physics::math::ops;
 use std::f64::consts::PI;

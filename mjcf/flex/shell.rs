@@ -1,7 +1,8 @@
 //! Boxes, cylinders and ellipsoids: the surface of a grid of points, as triangles or as tetrahedra that meet in the
 //! middle.
 
-use super::{Cloud, Regular, Shape};
+use super::cloud::Cloud;
+use super::regular::{Regular, Shape};
 use crate::vector::normalize;
 
 /// The two sides of the box across one axis.

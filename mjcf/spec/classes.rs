@@ -3,7 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{Actuator, Camera, Equality, Geom, Joint, Light, Material, Mesh, Pair, Site, Tendon};
+use super::actuator::Actuator;
+use super::asset::{Material, Mesh};
+use super::constraint::{Equality, Pair, Tendon};
+use super::tree::{Camera, Geom, Joint, Light, Site};
 
 /// Index of a class in [`Classes`]; the top-level class is 0.
 pub(crate) type ClassId = usize;

@@ -1,7 +1,8 @@
 //! What a `flexcomp` says, before it becomes a flex with bodies (XML reference: `body/flexcomp`).
 
 use super::element::{SOLIMP, SOLREF};
-use super::{Flex, Orientation};
+use super::flex::Flex;
+use super::orientation::Orientation;
 use crate::diagnostic::Loc;
 use crate::flex::Shape;
 

@@ -24,6 +24,7 @@ use crate::diagnostic::Loc;
 
 mod actuator;
 mod asset;
+mod attribute_types;
 mod classes;
 mod constraint;
 mod custom;

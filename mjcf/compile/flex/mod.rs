@@ -6,13 +6,14 @@
 //! | elasticity of triangles, tetrahedra and edges | `elasticity.rs` |
 //! | finite elements of interpolated flexes | `lattice.rs`, `linear.rs`, `modes.rs`, `shell_bending.rs` |
 //! | what is asked of a flex | `check.rs` |
-//! | arrays of the model | `rows.rs` |
+//! | what is settled of a flex; arrays of the model | `node.rs`; `rows.rs` |
 
 mod check;
 mod elasticity;
 mod lattice;
 mod linear;
 mod modes;
+mod node;
 mod rows;
 mod shell_bending;
 mod topology;
@@ -28,6 +29,7 @@ use crate::spec::{Elastic2d, Flex, Spec};
 use crate::vector::{cross, dot, rotate, sub};
 use elasticity::{BENDING, METRIC, Material};
 use lattice::Lattice;
+use node::FlexNode;
 use physics::geometry::hierarchy::{self as bvh, Bvh, Leaf};
 use physics::math::{Mat3, Vec3};
 use physics::model::bounds::MINVAL;
@@ -36,34 +38,6 @@ use topology::{Edges, Shell};
 
 /// Young's modulus and Poisson's ratio of strain constraints, of whose modes only the shapes count.
 const STRAIN: Material = Material { young: 10.0, poisson: 0.3 };
-
-/// A compiled flex.
-pub(super) struct FlexNode<'s> {
-    spec: &'s Flex,
-    /// All vertices are fixed to one body.
-    rigid: bool,
-    /// All vertices, or nodes, are at the origins of their bodies.
-    centered: bool,
-    /// Body of each vertex, or one for all; -1 where nodes move it.
-    vertbody: Vec<i32>,
-    nodebody: Vec<i32>,
-    vertices: usize,
-    /// Vertices of the elements, tetrahedra turned alike.
-    elem: Vec<i32>,
-    edges: Edges,
-    /// Corners around each edge, triangles only.
-    flaps: Vec<[i32; 4]>,
-    shell: Shell,
-    stiffness: Vec<f64>,
-    bending: Vec<f64>,
-    bvh: Bvh,
-    /// Half sizes of the box around the vertices, or the nodes.
-    size: Vec3,
-    /// Vertices in that box, from 0 to 1.
-    vert0: Vec<Vec3>,
-    /// Nodes along the axes of the lattice.
-    node0: Vec<Vec3>,
-}
 
 /// Where vertices and nodes are in the world.
 struct Placed {

@@ -3,12 +3,12 @@
 use super::super::log::{Log, title};
 use super::super::lookup::Lookup;
 use super::super::nodes::Tree;
-use super::FlexNode;
+use super::node::FlexNode;
 use crate::spec::{Elastic2d, Spec};
 use physics::model::{Arrays, EqType, ObjType, Rows};
 
-/// Appends the rows of all flexes; their hierarchies stand behind those of bodies and meshes.
-pub(in super::super) fn fill(
+/// Appends the rows of all flexes; hierarchies after those of bodies and meshes.
+pub(crate) fn fill(
     m: &mut Rows,
     flexes: &[FlexNode<'_>],
     tree: &Tree,
@@ -182,7 +182,7 @@ fn hierarchy(m: &mut Rows, node: &FlexNode<'_>) {
 }
 
 /// Sets the sizes that the arrays of flexes determine.
-pub(in super::super) fn set_sizes(m: &mut Arrays) {
+pub(crate) fn set_sizes(m: &mut Arrays) {
     m.nflex = m.flex_dim.len();
     m.nflexnode = m.flex_nodebodyid.len();
     m.nflexvert = m.flex_vertbodyid.len();
@@ -198,7 +198,7 @@ pub(in super::super) fn set_sizes(m: &mut Arrays) {
 }
 
 /// Room for what `set_const` computes.
-pub(in super::super) fn allocate_derived(m: &mut Arrays) {
+pub(crate) fn allocate_derived(m: &mut Arrays) {
     m.flex_vertedgeadr = vec![0; m.nflexvert].into();
     m.flex_vertedgenum = vec![0; m.nflexvert].into();
     m.flex_vertedge = vec![[0; 2]; m.nflexedge].into();

@@ -1,7 +1,7 @@
 //! Sections whose numbers are binary, little-endian.
 
 use super::cursor::Bytes;
-use super::{Section, count, dimension, head, matching, node};
+use super::section::{Section, count, dimension, head, matching, node};
 use crate::asset::AssetError;
 use crate::flex::Cloud;
 

@@ -1,6 +1,6 @@
 //! Numbers of a section one after the other.
 
-use super::Section;
+use super::section::Section;
 use crate::asset::AssetError;
 
 /// Words of a section of text.

@@ -4,45 +4,21 @@
 
 mod binary;
 mod cursor;
+mod section;
 mod text;
 
-use super::Cloud;
+use super::cloud::Cloud;
 use crate::asset::AssetError;
+use section::Section;
 
 /// What every file begins with.
 const MARK: &[u8] = b"$MeshFormat";
-
-/// Most nodes or elements of a file.
-const MOST: usize = i32::MAX as usize / 4;
 
 /// Layout of the sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
     V22,
     V41,
-}
-
-/// One part of a file, and where it begins.
-#[derive(Clone, Copy)]
-struct Section<'a> {
-    bytes: &'a [u8],
-    /// Line of the file that it begins on, from one.
-    line: usize,
-    path: &'a str,
-    /// What messages call it.
-    name: &'static str,
-}
-
-impl Section<'_> {
-    fn malformed(&self, why: impl std::fmt::Display) -> AssetError {
-        AssetError::malformed(format!("GMSH file '{}', section ${}: {why}", self.path, self.name))
-            .on_line(self.line)
-    }
-
-    fn truncated(&self) -> AssetError {
-        AssetError::truncated(format!("GMSH file '{}' ends inside of section ${}", self.path, self.name))
-            .on_line(self.line)
-    }
 }
 
 /// Reads a file. `path` appears in messages.
@@ -105,69 +81,4 @@ fn section<'a>(bytes: &'a [u8], path: &'a str, name: &'static str) -> Result<Sec
 
 fn find(bytes: &[u8], what: &[u8]) -> Option<usize> {
     bytes.windows(what.len()).position(|window| window == what)
-}
-
-/// Vertices of an element less one, by GMSH's number of its type.
-fn dimension(kind: i64, section: &Section<'_>) -> Result<i32, AssetError> {
-    match kind {
-        1 => Ok(1),
-        2 => Ok(2),
-        4 => Ok(3),
-        _ => Err(section.malformed(format!(
-            "elements of type {kind} are not read: save lines (1), triangles (2) or tetrahedra (4) of first order"
-        ))),
-    }
-}
-
-/// A count of nodes or elements. Each takes at least `bytes` bytes, so `left` bytes bound the count.
-fn count(number: u64, bytes: usize, left: usize, section: &Section<'_>) -> Result<usize, AssetError> {
-    let n = usize::try_from(number).ok().filter(|&n| n < MOST);
-    let n = n.ok_or_else(|| section.malformed(format!("cannot hold {number} entries")))?;
-    if n.checked_mul(bytes).is_some_and(|needed| needed <= left) {
-        return Ok(n);
-    }
-    Err(section.truncated())
-}
-
-/// The head of a section in format 4.1, which has one block.
-struct Head {
-    count: usize,
-    /// Number of the first entry.
-    first: u64,
-    dimension: i64,
-    /// Type of the elements; means nothing for nodes.
-    kind: i64,
-}
-
-/// Checks the eight numbers before the entries of a section: blocks, entries, first and last number, dimension, entity,
-/// type, entries of the block.
-fn head(numbers: [u64; 8], bytes: usize, left: usize, section: &Section<'_>) -> Result<Head, AssetError> {
-    let [blocks, entries, first, _, dimension, _, kind, in_block] = numbers;
-    if blocks != 1 || entries != in_block {
-        return Err(section.malformed(
-            "all entries must be in one block: keep one volume, surface or curve, and save its elements alone",
-        ));
-    }
-    let count = count(entries, bytes, left, section)?;
-    Ok(Head { count, first, dimension: dimension as i64, kind: kind as i64 })
-}
-
-/// The dimension of nodes and elements, which must be equal.
-fn matching(nodes: &Head, elements: &Head, section: &Section<'_>) -> Result<i32, AssetError> {
-    let dim = dimension(elements.kind, section)?;
-    if nodes.dimension != elements.dimension || elements.dimension != i64::from(dim) {
-        return Err(section.malformed(format!(
-            "dimension {} of the nodes, {} of the elements and type {} do not fit each other",
-            nodes.dimension, elements.dimension, elements.kind
-        )));
-    }
-    Ok(dim)
-}
-
-/// Index of the node called `tag`.
-fn node(tag: u64, first: u64, nodes: usize, section: &Section<'_>) -> Result<i32, AssetError> {
-    match tag.checked_sub(first) {
-        Some(index) if index < nodes as u64 => Ok(index as i32),
-        _ => Err(section.malformed(format!("there is no node {tag}"))),
-    }
 }

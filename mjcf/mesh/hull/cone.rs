@@ -1,9 +1,10 @@
 //! A new point: the facets below it, the horizon around them, and the cone of triangles from the point to
 //! the horizon.
 
+use super::builder::Builder;
+use super::failure::Failure;
 use super::id::{FacetId, Marks, RidgeId, VertexId};
 use super::surface::{Phase, Shape, Side, Surface, replace, take_out};
-use super::{Builder, Failure};
 
 /// A part of the border between the hidden facets and the rest of the hull.
 struct Edge {

@@ -1,6 +1,6 @@
 //! Whether neighbouring facets are clearly convex to each other.
 
-use super::Builder;
+use super::builder::Builder;
 use super::id::{FacetId, Marks, VertexId};
 use super::surface::Convexity;
 

@@ -1,8 +1,19 @@
 //! The finished hull: polygons cut into triangles, in the order of the compiled arrays.
 
+use super::failure::Failure;
 use super::id::{FacetId, Id, VertexId};
 use super::surface::{Side, Surface};
-use super::{Failure, Hull};
+
+/// A triangulated convex hull; all indices are input points.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Hull {
+    /// Points on the hull.
+    pub vert: Vec<i32>,
+    /// Hull neighbours of each entry of `vert`, as points.
+    pub neighbours: Vec<Vec<i32>>,
+    /// Triangles, counter-clockwise seen from outside.
+    pub face: Vec<[i32; 3]>,
+}
 
 /// A triangle of the result.
 #[derive(Clone, Copy)]

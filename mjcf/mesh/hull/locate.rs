@@ -5,7 +5,7 @@
 //! blunt a walk works for points below all facets too; where fresh facets meet at sharp angles, or unions
 //! have bent the hull, it may end at a local maximum, and all fresh facets are compared instead.
 
-use super::Builder;
+use super::builder::{Builder, Search};
 use super::id::{FacetId, Marks};
 use super::surface::{Facet, Phase};
 
@@ -23,16 +23,6 @@ pub(super) enum Goal {
 pub(super) struct Found {
     pub facet: FacetId,
     pub height: f64,
-}
-
-/// How the current step searches.
-#[derive(Debug, Default)]
-pub(super) struct Search {
-    /// Compare all fresh facets instead of walking.
-    pub sweep: bool,
-    /// The fresh facets have been found to face one octant.
-    pub blunt: bool,
-    pending: Vec<FacetId>,
 }
 
 impl Builder<'_> {

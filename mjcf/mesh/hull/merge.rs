@@ -3,13 +3,13 @@
 //! A union replaces two planes by one of them, so a facet goes to the neighbour whose plane fits its corners
 //! best, and the unions that bend the hull least come first: they often settle the others.
 
-use std::collections::VecDeque;
-
+use super::builder::Builder;
 use super::cone::Level;
 use super::convexity::{Bend, BendKind};
+use super::failure::Failure;
 use super::id::{FacetId, Marks};
+use super::slivers::Sliver;
 use super::surface::{Convexity, Phase};
-use super::{Builder, Failure};
 
 /// Facets with more corners than this are measured at their centre.
 const MANY_CORNERS: usize = 2 * 3 + 20;
@@ -46,56 +46,6 @@ struct Host {
     distance: f64,
     range: Range,
     inverted: bool,
-}
-
-/// Facets that unions have left without a proper boundary: covered ones, all of whose corners a neighbour
-/// has, are dealt with before thin ones, which have fewer than three neighbours.
-#[derive(Debug, Default)]
-pub(super) struct Slivers {
-    /// Each with the facet that has its corners; the latest first.
-    covered: Vec<(FacetId, FacetId)>,
-    /// The back first.
-    thin: VecDeque<FacetId>,
-    is_covered: Marks<FacetId>,
-    is_thin: Marks<FacetId>,
-}
-
-enum Sliver {
-    Covered { facet: FacetId, by: FacetId },
-    Thin(FacetId),
-}
-
-impl Slivers {
-    fn add_covered(&mut self, facet: FacetId, by: FacetId) {
-        if !self.is_covered.has(by) && self.is_covered.add(facet) {
-            self.covered.push((facet, by));
-        }
-    }
-
-    fn add_thin(&mut self, facet: FacetId) {
-        if self.is_covered.has(facet) || !self.is_thin.add(facet) {
-            return;
-        }
-        // While covered facets wait, a thin one goes behind those found before.
-        if self.covered.is_empty() {
-            self.thin.push_back(facet);
-        } else {
-            self.thin.push_front(facet);
-        }
-    }
-
-    fn has(&self, facet: FacetId) -> bool {
-        self.is_covered.has(facet) || self.is_thin.has(facet)
-    }
-
-    fn next(&mut self) -> Option<Sliver> {
-        let covered = self.covered.pop().map(|(facet, by)| (facet, Sliver::Covered { facet, by }));
-        let next = covered.or_else(|| self.thin.pop_back().map(|facet| (facet, Sliver::Thin(facet))));
-        let (facet, sliver) = next?;
-        self.is_covered.remove(facet);
-        self.is_thin.remove(facet);
-        Some(sliver)
-    }
 }
 
 impl Builder<'_> {

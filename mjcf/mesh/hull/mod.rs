@@ -12,9 +12,9 @@
 //! | first tetrahedron | `seed` |
 //! | points above facets, and which facet a point belongs to | `waiting`, `locate` |
 //! | facets below a point, horizon, cone | `cone` |
-//! | facets that are not clearly convex, their union | `convexity`, `merge`, `unite`, `dissolve` |
+//! | facets that are not clearly convex, their union | `convexity`, `merge`, `slivers`, `unite`, `dissolve` |
 //! | triangles | `fan` |
-//! | facets, ridges, vertices and their orders | `surface`, `sequence`, `id` |
+//! | the hull while it grows: facets, ridges, vertices and their orders | `builder`, `surface`, `sequence`, `id` |
 //! | planes and error bounds | `plane`, `tolerance` |
 //!
 //! Contacts depend on which of several nearly coplanar points are vertices, and the compiled arrays on the
@@ -22,9 +22,11 @@
 //! and neighbours are listed; comments say where an order or a tie matters to the result. The error bounds
 //! and these orders agree with the hulls that MuJoCo compiles.
 
+mod builder;
 mod cone;
 mod convexity;
 mod dissolve;
+mod failure;
 mod fan;
 mod id;
 mod locate;
@@ -32,32 +34,18 @@ mod merge;
 mod plane;
 mod seed;
 mod sequence;
+mod slivers;
 mod surface;
 mod tolerance;
 mod unite;
 mod waiting;
 
+pub use fan::Hull;
+
 use crate::vector::{cross, dot, sub};
-use id::{FacetId, Marks};
-use locate::Search;
-use merge::Slivers;
-use surface::Surface;
-use tolerance::{Slack, Tolerances};
-
-/// A triangulated convex hull; all indices are input points.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Hull {
-    /// Points on the hull.
-    pub vert: Vec<i32>,
-    /// Hull neighbours of each entry of `vert`, as points.
-    pub neighbours: Vec<Vec<i32>>,
-    /// Triangles, counter-clockwise seen from outside.
-    pub face: Vec<[i32; 3]>,
-}
-
-/// A numerical accident the construction cannot continue from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Failure(&'static str);
+use builder::Builder;
+use failure::Failure;
+use id::FacetId;
 
 /// Lengths and relative distances below this count as zero.
 const MINVAL: f64 = 1e-15;
@@ -74,22 +62,6 @@ pub fn convex_hull(points: &[[f64; 3]], max_vert: i32) -> Result<Hull, String> {
             build(&moved, limit).map_err(|Failure(why)| format!("no convex hull: {why}"))
         }
     }
-}
-
-/// The hull while it grows: the surface, and what decides where it lies.
-struct Builder<'a> {
-    points: &'a [[f64; 3]],
-    tol: Tolerances,
-    slack: Slack,
-    /// A point inside the first tetrahedron, and so inside every later hull.
-    interior: [f64; 3],
-    /// The first tetrahedron is so flat that points near a facet count as above it.
-    narrow: bool,
-    surface: Surface,
-    search: Search,
-    slivers: Slivers,
-    /// Facets united with others since their corners were last examined.
-    grown: Marks<FacetId>,
 }
 
 fn build(points: &[[f64; 3]], limit: Option<usize>) -> Result<Hull, Failure> {
@@ -117,11 +89,6 @@ impl Builder<'_> {
         self.reassign();
         self.surface.finish_step();
         Ok(())
-    }
-
-    /// Height of a point above the plane of a facet.
-    fn height(&self, point: [f64; 3], facet: FacetId) -> f64 {
-        self.surface.facets[facet].plane.height(point)
     }
 }
 

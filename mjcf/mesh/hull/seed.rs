@@ -3,13 +3,13 @@
 //! Four points far from each other keep the first planes accurate. The extreme points along the axes are
 //! tried first; all points are measured only where those span little.
 
+use super::builder::{Builder, Search};
+use super::failure::Failure;
 use super::id::{FacetId, Marks, VertexId};
-use super::locate::Search;
-use super::merge::Slivers;
 use super::plane::{Plane, Singular};
+use super::slivers::Slivers;
 use super::surface::{Side, Surface};
 use super::tolerance::{Slack, Tolerances};
-use super::{Builder, Failure};
 
 /// A tetrahedron with a dihedral angle of a cosine below this is narrow.
 const NARROW_COSINE: f64 = -0.99999999;

@@ -3,7 +3,7 @@
 //! Most facets are triangles that touch triangles, and for those the list of neighbours says everything. A
 //! ridge is kept only where one side is a polygon.
 
-use super::Failure;
+use super::failure::Failure;
 use super::id::{FacetId, Marks, RidgeId, Table, VertexId};
 use super::plane::Plane;
 use super::sequence::{Agenda, Sequence};

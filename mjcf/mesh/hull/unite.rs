@@ -3,7 +3,7 @@
 //! Which facet a search or the next horizon meets first depends on the order of these lists. A triangle is
 //! taken ridge by ridge; a polygon's neighbours are taken first, then its ridges.
 
-use super::Failure;
+use super::failure::Failure;
 use super::id::{FacetId, RidgeId, VertexId};
 use super::surface::{Convexity, Phase, Ridge, Surface, replace, take_out};
 

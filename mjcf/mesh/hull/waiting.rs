@@ -4,7 +4,7 @@
 //! A point waits at one facet only, so a step looks again at the points of the facets it removes and at no
 //! others.
 
-use super::Builder;
+use super::builder::Builder;
 use super::id::FacetId;
 use super::locate::{Found, Goal};
 use super::surface::{Phase, Surface};

@@ -2,8 +2,9 @@
 
 use super::super::reader::Reader;
 use super::super::tree::Place;
+use super::lattice;
 use super::masses::{AXES, Maker};
-use super::{Points, lattice};
+use super::points::Points;
 use crate::flex::Shape;
 use crate::spec::{Body, Dof, Equality, EqualityOf, Flex, Flexcomp, Joint};
 use crate::vector::normalize;

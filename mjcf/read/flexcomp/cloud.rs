@@ -3,7 +3,8 @@
 use std::collections::HashMap;
 
 use super::super::reader::Reader;
-use super::{Points, pins};
+use super::pins;
+use super::points::Points;
 use crate::asset::AssetError;
 use crate::budget::{Content, ELEMENT, decoded};
 use crate::diagnostic::Loc;

@@ -1,7 +1,8 @@
 //! The lattice of an interpolated flexcomp: a body a node, and which cells are worth one.
 
 use super::masses::{AXES, Maker};
-use super::{Points, pins};
+use super::pins;
+use super::points::Points;
 use crate::flex::cells::{self, Cells};
 use crate::spec::{Body, Elastic2d, Flex, Flexcomp};
 

@@ -12,6 +12,7 @@ mod cloud;
 mod lattice;
 mod masses;
 mod pins;
+mod points;
 
 use super::reader::Reader;
 use super::tree::Place;
@@ -24,19 +25,7 @@ use crate::spec::{Dof, Elastic2d, EqualityOf, Flexcomp, Pin, resolve};
 use crate::vector::rotate;
 use crate::xml::Element;
 use physics::model::bounds::MINVAL;
-
-/// Points of a flexcomp in the parent body, and which of them are fixed to it.
-struct Points {
-    cloud: Cloud,
-    /// Least and greatest coordinates.
-    bounds: [[f64; 3]; 2],
-    /// By point, and by node of the lattice where there is one.
-    pinned: Vec<bool>,
-    /// All points are fixed.
-    rigid: bool,
-    /// No point is fixed.
-    free: bool,
-}
+use points::Points;
 
 impl Reader<'_> {
     /// Adds the flex to the model, and what moves it to the open body.

@@ -1,6 +1,6 @@
 //! Points of a flexcomp that are fixed to the parent body.
 
-use super::Points;
+use super::points::Points;
 use crate::diagnostic::Loc;
 use crate::flex::Shape;
 use crate::spec::{Dof, Flexcomp, Pin};

@@ -1,6 +1,7 @@
 //! Numpy arrays and scalars in pickles.
 
-use super::{PickleError, Value};
+use super::error::PickleError;
+use super::value::Value;
 use crate::npy::{Array, Dtype, MAX_SCALARS, Values};
 
 /// Modules that numpy has kept its array type in.

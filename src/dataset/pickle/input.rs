@@ -1,6 +1,6 @@
 //! The bytes of a pickle, read from front to back.
 
-use super::PickleError;
+use super::error::PickleError;
 use std::ops::Range;
 
 /// Bytes and how many of them are read.

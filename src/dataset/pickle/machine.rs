@@ -1,14 +1,41 @@
 //! The stack machine that a pickle is a program for.
 
+use super::error::PickleError;
+use super::graph::{Id, Node, Object, Pickle};
 use super::input::Input;
-use super::{Id, MAX_VALUES, Node, Object, Pickle, PickleError};
 use std::collections::HashMap;
+
+/// Most values that a pickle may build.
+pub const MAX_VALUES: usize = 1 << 24;
 
 /// The opcode that names the protocol.
 const PROTOCOL: u8 = 0x80;
 
+impl<'a> Pickle<'a> {
+    /// Reads a pickle that fills all of `bytes`.
+    ///
+    /// # Errors
+    /// The pickle is malformed, truncated or too large, or uses a protocol or opcode that is not supported.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, PickleError> {
+        let (pickle, rest) = Self::parse_prefix(bytes)?;
+        if rest.is_empty() {
+            return Ok(pickle);
+        }
+        let end = bytes.len() - rest.len();
+        Err(PickleError::at(end, format!("the pickle ends here, and {} more bytes follow", rest.len())))
+    }
+
+    /// Reads the pickle at the beginning of `bytes`, and returns what follows it.
+    ///
+    /// # Errors
+    /// As [`Pickle::parse`], more bytes aside.
+    pub fn parse_prefix(bytes: &'a [u8]) -> Result<(Self, &'a [u8]), PickleError> {
+        run(bytes)
+    }
+}
+
 /// Builds the values of the pickle at the beginning of `bytes`, and returns what follows it.
-pub(super) fn run(bytes: &[u8]) -> Result<(Pickle<'_>, &[u8]), PickleError> {
+fn run(bytes: &[u8]) -> Result<(Pickle<'_>, &[u8]), PickleError> {
     let mut machine = Machine {
         input: Input::new(bytes),
         nodes: Vec::new(),

@@ -1,7 +1,9 @@
 //! PyTorch tensors in pickles, with the storages in their legacy form: the bytes that `torch.save` wrote before 1.6.
 
 use super::array::scalars;
-use super::{Pickle, PickleError, Value};
+use super::error::PickleError;
+use super::graph::Pickle;
+use super::value::Value;
 use crate::npy::Array;
 
 /// The integer that legacy streams begin with, in little-endian bytes.

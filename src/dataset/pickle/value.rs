@@ -1,12 +1,30 @@
 //! A value of a pickle, and what it holds.
 
-use super::{Id, Node, Pickle};
+use super::graph::{Id, Node, Pickle};
 
 /// A value of a pickle. Questions that do not fit its kind answer `None`.
 #[derive(Clone, Copy)]
 pub struct Value<'p> {
-    pub(super) pickle: &'p Pickle<'p>,
-    pub(super) id: Id,
+    pickle: &'p Pickle<'p>,
+    id: Id,
+}
+
+impl Pickle<'_> {
+    /// The value that the pickle stands for.
+    pub fn root(&self) -> Value<'_> {
+        self.value(self.root)
+    }
+
+    /// Everything that refers to a value outside the pickle.
+    pub fn persistent(&self) -> impl Iterator<Item = Value<'_>> {
+        let references =
+            self.nodes.iter().enumerate().filter(|(_, node)| matches!(node, Node::Persistent(_)));
+        references.map(|(id, _)| self.value(id as Id))
+    }
+
+    fn value(&self, id: Id) -> Value<'_> {
+        Value { pickle: self, id }
+    }
 }
 
 impl<'p> Value<'p> {

@@ -1,6 +1,6 @@
 //! The tensors that a network needs, checked against the tensors of a file.
 
-use super::WeightFile;
+use super::file::WeightFile;
 use crate::error::EncoderError;
 use std::collections::{BTreeSet, HashMap};
 

@@ -2,9 +2,12 @@
 //!
 //! Source: the format's description, <https://github.com/huggingface/safetensors>.
 
-use super::{Entry, Kind, MAX_HEADER, Storage, Stream, numbers, row_major};
+use super::tensor::{Entry, Kind, Storage, Stream, numbers, row_major};
 use serde::Deserialize;
 use std::collections::BTreeMap;
+
+/// Most bytes of the header of a safetensors file.
+pub const MAX_HEADER: u64 = 4 << 20;
 
 /// What is no tensor in the header: remarks on the file.
 const REMARKS: &str = "__metadata__";

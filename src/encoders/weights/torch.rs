@@ -4,11 +4,14 @@
 //! A state dictionary is found at the root or under one of a few keys. Of the names in the pickle only those by which PyTorch
 //! rebuilds tensors mean anything; no other is looked up, let alone called.
 
-use super::{Entry, Kind, MAX_PICKLE, Storage, Stream, numbers};
+use super::tensor::{Entry, Kind, Storage, Stream, numbers};
 use dataset::pickle::{LegacyStream, Pickle, Value};
 use std::collections::{BTreeMap, HashMap};
 use std::io::{Read, SeekFrom};
 use zip::ZipArchive;
+
+/// Most bytes of a pickle, or of what precedes the storages.
+pub const MAX_PICKLE: u64 = 4 << 20;
 
 /// Keys under which checkpoints keep the state dictionary: R3M's, VC-1's and the usual one.
 const HOLDERS: [&str; 3] = ["r3m", "model", "state_dict"];

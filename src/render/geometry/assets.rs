@@ -4,7 +4,7 @@ use super::flat::{self, PlaneShape};
 use super::flex::{self, Wires};
 use super::hfield::{self, Relief};
 use super::mesh::{self, MeshRows};
-use super::parts::Part;
+use super::part::Part;
 use super::round::{self, Side};
 use super::skin;
 use super::source::Source;

@@ -1,7 +1,7 @@
 //! Flexes: skins or faces of deformable bodies, and balls and tubes at their vertices and edges (MuJoCo documentation, XML
 //! reference, "deformable/flex").
 
-use super::parts::{Paint, Part};
+use super::part::{Paint, Part};
 use super::surface::Surface;
 use crate::error::RenderError;
 use crate::scene::SceneOptions;

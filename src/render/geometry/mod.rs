@@ -5,13 +5,14 @@ mod builder;
 mod flat;
 mod flex;
 mod hfield;
+mod item_parts;
 mod mesh;
-mod parts;
+mod part;
 mod round;
 mod skin;
 mod source;
 mod surface;
 
 pub use assets::Assets;
-pub use parts::{Paint, Part};
+pub use part::{Paint, Part};
 pub use surface::{Bounds, CLUSTER, Cluster, Corners, Surface};

@@ -3,9 +3,9 @@
 //! Nearness decides what is seen, and colours under different lamps are added in eight bits: neither depends on whether a part
 //! comes from here or is drawn, so pictures have the same bits with a backdrop as without.
 
+use super::colour::paint::{Brush, Rgba, added};
+use super::colour::seen::{Fragment, Seen};
 use super::draws::{Draw, Draws};
-use super::paint::{Brush, Rgba, added};
-use super::seen::{Fragment, Seen};
 use super::visibility::Visibility;
 
 /// A window in which only what stands still is seen.
@@ -50,7 +50,7 @@ pub struct Known {
 impl Default for Backdrop {
     fn default() -> Self {
         Backdrop {
-            visibility: Visibility::new(super::coverage::Pattern::CENTER),
+            visibility: Visibility::new(super::window::coverage::Pattern::CENTER),
             starts: Vec::new(),
             kept: Vec::new(),
             colours: Vec::new(),

@@ -1,8 +1,8 @@
 //! The surfaces of a scene, each with its place in the world.
 
-use super::coverage::Facing;
 use super::lines::{Line, list};
-use super::window::Affine;
+use super::window::coverage::Facing;
+use super::window::projection::Affine;
 use crate::error::RenderError;
 use crate::geometry::{Assets, Paint, Part, Surface};
 use crate::scene::{Category, Item, Scene, Shape};

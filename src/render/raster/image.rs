@@ -1,9 +1,9 @@
 //! From samples to the arrays of a picture: rows from the top, colours averaged, depth in metres, objects by number.
 
-use super::coverage::{Extent, Pattern};
+use super::colour::paint::{Canvas, Rgba};
 use super::draws::Draws;
-use super::paint::{Canvas, Rgba};
 use super::visibility::Visibility;
+use super::window::coverage::{Extent, Pattern};
 use crate::scene::Item;
 use crate::view::Frustum;
 

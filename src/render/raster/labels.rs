@@ -2,8 +2,8 @@
 //!
 //! A label begins where its item is, as MuJoCo's does. The letters come from the public-domain font8x8, not from MuJoCo.
 
-use super::paint::eight_bits;
-use super::window::Projection;
+use super::colour::paint::eight_bits;
+use super::window::projection::Projection;
 use crate::picture::Picture;
 use crate::scene::Scene;
 use crate::view::View;

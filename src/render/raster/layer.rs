@@ -1,39 +1,12 @@
 //! The surfaces of a scene under one projection: which can be seen, and their triangles in the window.
 
-use super::clip::{GUARD, clip};
-use super::coverage::{Extent, Facing, Pattern, Region, Target, Triangle};
 use super::draws::{Draw, Draws};
-use super::vertices::{HalfSpace, Vertex, distance, inside, project, project_whole};
-use super::window::{Columns, Projection};
+use super::window::clip::{GUARD, clip};
+use super::window::coverage::{Facing, Pattern, Region, Target, Triangle};
+use super::window::lens::{Lens, Sides};
+use super::window::projection::Columns;
+use super::window::vertices::{HalfSpace, Vertex, distance, inside, project, project_whole};
 use crate::geometry::{Assets, Bounds, CLUSTER, Surface};
-
-/// What a layer shows.
-#[derive(Clone, Copy, Debug)]
-pub struct Lens {
-    /// From the world to the window.
-    pub projection: Projection,
-    /// Size of the window [pixel].
-    pub extent: Extent,
-    /// The part of it that is looked at.
-    pub region: Region,
-    /// What lies wholly beyond this depth is left out.
-    pub deepest: f32,
-    /// Only points with `normal . p + shift >= 0` in the world are drawn, and the sides of all triangles are exchanged.
-    pub mirror: Option<[f64; 4]>,
-    /// Which sides of triangles are drawn.
-    pub sides: Sides,
-}
-
-/// Which sides of triangles a layer shows.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sides {
-    /// Those that are seen.
-    Seen,
-    /// Both.
-    Both,
-    /// Those turned away.
-    Averted,
-}
 
 /// Where all surfaces lie.
 #[derive(Clone, Debug, Default)]

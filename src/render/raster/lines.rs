@@ -3,10 +3,10 @@
 //! With four samples a line is a rectangle about its middle; with one, a parallelogram with two sides along the columns or the
 //! rows, whichever it is farther from (OpenGL 2.1 specification, section 3.4.2).
 
-use super::clip::{Corner, clip_line};
-use super::coverage::{Facing, Pattern, Target, Triangle};
-use super::layer::Lens;
-use super::vertices::{Vertex, inside};
+use super::window::clip::{Corner, clip_line};
+use super::window::coverage::{Facing, Pattern, Target, Triangle};
+use super::window::lens::Lens;
+use super::window::vertices::{Vertex, inside};
 use crate::scene::{Item, Scene, Shape};
 
 /// Width of the edges of boxes, in units of the line width.

@@ -1,17 +1,17 @@
 //! The mirror image in the one item that may reflect.
 
 use super::backdrop::Known;
+use super::colour::paint::{Brush, Canvas, Veil};
+use super::colour::seen::{Illumination, Seen};
+use super::colour::transparency::Transparency;
 use super::draws::Draw;
-use super::layer::{Layer, Lens};
+use super::layer::Layer;
 use super::opaque::Frame;
-use super::paint::{Brush, Canvas, Veil};
-use super::renderer::look;
-use super::seen::{Illumination, Seen};
 use super::stage::Stage;
 use super::still::{Kept, Plan};
-use super::transparency::Transparency;
 use super::visibility::Visibility;
-use super::window::mirror;
+use super::window::lens::Lens;
+use super::window::projection::mirror;
 use crate::scene::{Item, Scene, Shape};
 use wide::{f32x4, u32x4};
 
@@ -30,7 +30,7 @@ impl Default for Mirror {
     fn default() -> Self {
         Mirror {
             layer: Layer::default(),
-            visibility: Visibility::new(super::coverage::Pattern::CENTER),
+            visibility: Visibility::new(super::window::coverage::Pattern::CENTER),
             seen: Seen::default(),
             known: Vec::new(),
             light: Illumination::default(),
@@ -73,7 +73,7 @@ impl Mirror {
             let wanted = |draw: &Draw| draw.item != item && still(kept, draw);
             self.layer.update(stage.assets, stage.draws, &lens, wanted);
             let stage = Stage { layer: &self.layer, lens: &lens, ..*stage };
-            look(&stage, &mut self.visibility, wanted);
+            stage.look(&mut self.visibility, wanted);
             self.seen.collect(&self.visibility, width, stage.draws.triangles, |_, _| false);
             self.seen.light(&stage, &self.light);
             kept.mirror.keep(&self.visibility, &self.seen, stage.draws, brush);
@@ -87,7 +87,7 @@ impl Mirror {
         let wanted = |draw: &Draw| draw.item != item && !still(kept, draw);
         self.layer.update(stage.assets, stage.draws, &lens, wanted);
         let stage = Stage { layer: &self.layer, lens: &lens, ..*stage };
-        look(&stage, &mut self.visibility, |draw| !draw.transparent && wanted(draw));
+        stage.look(&mut self.visibility, |draw| !draw.transparent && wanted(draw));
         self.known.clear();
         self.seen.collect(&self.visibility, width, stage.draws.triangles, |fragment, number| {
             let found = if is_kept { kept.mirror.find(fragment, number) } else { None };

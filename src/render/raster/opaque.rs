@@ -1,13 +1,12 @@
 //! The opaque part of a picture: what is seen, lit, in shadow or not, painted.
 
 use super::backdrop::Known;
-use super::paint::{Brush, Canvas, added};
-use super::seen::{Illumination, Seen};
+use super::colour::paint::{Brush, Canvas, added};
+use super::colour::seen::{Illumination, Seen};
 use super::settings::Settings;
 use super::shadow::Question;
 use super::stage::Stage;
 use super::still::{Kept, Plan};
-use super::umbra::{Cast, Umbra};
 use super::visibility::Visibility;
 
 /// What holds for all passes of a picture.
@@ -39,19 +38,15 @@ impl Opaque {
         self.seen.begin(0);
     }
 
-    /// Makes the backdrop of a view from what stands still in it, which `visibility` shows.
-    pub fn keep(
-        &mut self,
-        stage: &Stage<'_>,
-        frame: &Frame<'_>,
-        (visibility, umbra): (&Visibility, &mut Umbra),
-        kept: &mut Kept,
-    ) {
+    /// Collects and lights what stands still in a view, which `visibility` shows.
+    pub fn collect_still(&mut self, stage: &Stage<'_>, frame: &Frame<'_>, visibility: &Visibility) {
         self.known.clear();
         self.seen.collect(visibility, stage.lens.extent.width as usize, stage.draws.triangles, |_, _| false);
         self.light(stage, frame);
-        let cast = Cast { stage, settings: &frame.settings.shadow, draws: std::slice::from_ref(stage.draws) };
-        umbra.fall_from(&cast, |draw| kept.stills.has(draw), self);
+    }
+
+    /// Makes the backdrop of a view from what stands still in it, collected and with its shadows.
+    pub fn keep(&self, stage: &Stage<'_>, frame: &Frame<'_>, visibility: &Visibility, kept: &mut Kept) {
         kept.main.keep(visibility, &self.seen, stage.draws, frame.brush);
     }
 

@@ -1,22 +1,23 @@
 //! From a scene to a picture.
 
-use super::coverage::{Extent, Pattern};
-use super::draws::{Draw, Draws, mark_shared};
+use super::colour::paint::{Brush, Canvas, Veil, eight_bits};
+use super::colour::seen::Illumination;
+use super::colour::sky::Surroundings;
+use super::colour::transparency::Transparency;
+use super::draws::{Draws, mark_shared};
 use super::image::{Image, write_depth, write_rgb, write_segmentation};
 use super::labels;
-use super::layer::{Layer, Lens, Sides};
+use super::layer::Layer;
 use super::mirror::Mirror;
 use super::opaque::{Frame, Opaque};
-use super::paint::{Brush, Canvas, Veil, eight_bits};
-use super::seen::Illumination;
 use super::settings::{Samples, Settings};
-use super::sky::Surroundings;
 use super::stage::Stage;
 use super::still::{Place, Plan, Present, Views};
-use super::transparency::Transparency;
 use super::umbra::{Cast, Umbra};
 use super::visibility::Visibility;
-use super::window::Projection;
+use super::window::coverage::{Extent, Pattern};
+use super::window::lens::{Lens, Sides};
+use super::window::projection::Projection;
 use crate::error::{MAX_SIDE, RenderError};
 use crate::geometry::Assets;
 use crate::picture::{Channels, Picture};
@@ -169,7 +170,7 @@ impl Renderer {
             layer.update(assets, draws, &lens, |draw| !scene.items[draw.item].unlisted);
             let stage = Stage { assets, scene, draws, layer, lens: &lens };
             visibility.clear(Pattern::CENTER, picture.width, picture.height);
-            look(&stage, visibility, |draw| !scene.items[draw.item].unlisted);
+            stage.look(visibility, |draw| !scene.items[draw.item].unlisted);
             look_at_lines(&stage, &self.settings, visibility);
             let image = Image { visibility, extent: lens.extent };
             if channels.depth {
@@ -208,8 +209,11 @@ impl Renderer {
         if plan == Plan::Make {
             layer.update(assets, draws, &lens, |draw| kept.stills.has(draw) && !draw.transparent);
             let stage = Stage { assets, scene, draws, layer, lens: &lens };
-            look(&stage, visibility, |draw| kept.stills.has(draw) && !draw.transparent);
-            opaque.keep(&stage, &frame, (visibility, umbra), kept);
+            stage.look(visibility, |draw| kept.stills.has(draw) && !draw.transparent);
+            opaque.collect_still(&stage, &frame, visibility);
+            let cast = Cast { stage: &stage, settings: &settings.shadow, draws: std::slice::from_ref(draws) };
+            umbra.fall_from(&cast, |draw| kept.stills.has(draw), opaque);
+            opaque.keep(&stage, &frame, visibility, kept);
         }
         // What has been made of the backdrop shows it already.
         if plan == Plan::Use {
@@ -217,7 +221,7 @@ impl Renderer {
         }
         layer.update(assets, draws, &lens, |draw| draw.transparent || !kept.stills.has(draw));
         let stage = Stage { assets, scene, draws, layer, lens: &lens };
-        look(&stage, visibility, |draw| !draw.transparent && !kept.stills.has(draw));
+        stage.look(visibility, |draw| !draw.transparent && !kept.stills.has(draw));
         look_at_lines(&stage, settings, visibility);
         canvas.clear(visibility.groups.len());
         let reflective = draws.reflective(scene);
@@ -332,16 +336,6 @@ fn lens(scene: &Scene, picture: &Picture) -> Result<Lens, RenderError> {
 
 fn brush<'a>(assets: &'a Assets, scene: &Scene) -> Brush<'a> {
     Brush { assets, veil: scene.fog.map(|fog| Veil::new(fog, scene.view.eye, scene.view.forward)) }
-}
-
-/// Finds what is seen at the samples of a window, among the draws that `wanted` picks.
-pub fn look(stage: &Stage<'_>, visibility: &mut Visibility, wanted: impl Fn(&Draw) -> bool) {
-    let pattern = visibility.pattern;
-    for (index, draw) in stage.draws.list.iter().enumerate().filter(|(_, draw)| wanted(draw)) {
-        stage.layer.triangles(stage.assets, (index, draw), stage.lens, &pattern, |number, triangle| {
-            visibility.draw(number, triangle);
-        });
-    }
 }
 
 /// Adds the lines.

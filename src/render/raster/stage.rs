@@ -1,7 +1,9 @@
 //! What the passes of one picture read.
 
-use super::draws::Draws;
-use super::layer::{Layer, Lens};
+use super::draws::{Draw, Draws};
+use super::layer::Layer;
+use super::visibility::Visibility;
+use super::window::lens::Lens;
 use crate::geometry::Assets;
 use crate::scene::Scene;
 
@@ -18,4 +20,16 @@ pub struct Stage<'a> {
     pub layer: &'a Layer,
     /// The projection.
     pub lens: &'a Lens,
+}
+
+impl Stage<'_> {
+    /// Finds what is seen at the samples of a window, among the draws that `wanted` picks.
+    pub fn look(&self, visibility: &mut Visibility, wanted: impl Fn(&Draw) -> bool) {
+        let pattern = visibility.pattern;
+        for (index, draw) in self.draws.list.iter().enumerate().filter(|(_, draw)| wanted(draw)) {
+            self.layer.triangles(self.assets, (index, draw), self.lens, &pattern, |number, triangle| {
+                visibility.draw(number, triangle);
+            });
+        }
+    }
 }

@@ -4,10 +4,10 @@
 //! backdrop is made again without it.
 
 use super::backdrop::{Backdrop, Stills};
-use super::coverage::Extent;
+use super::colour::sky::Sky;
 use super::draws::Draws;
 use super::settings::Settings;
-use super::sky::Sky;
+use super::window::coverage::Extent;
 use crate::geometry::{Assets, Paint, Surface};
 use crate::scene::{Category, Fog, Item, Light, Scene};
 use crate::texture::Texture;

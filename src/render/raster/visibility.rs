@@ -3,7 +3,7 @@
 //! The nearest wins, and of equally near ones that with the larger number, which is drawn later: the result does not depend on
 //! the order in which triangles come.
 
-use super::coverage::{Pattern, Triangle};
+use super::window::coverage::{Pattern, Triangle};
 use wide::bytemuck::cast;
 use wide::{f32x4, i32x4, u32x4};
 

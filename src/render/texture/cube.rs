@@ -1,8 +1,8 @@
 //! Cube textures, looked up by direction.
 
-use super::LevelImage;
 use super::halving::Halving;
 use super::lerp::{lerp_f32, unpack};
+use super::level_image::LevelImage;
 use super::lod;
 use super::source::Image;
 

@@ -1,8 +1,8 @@
 //! Two-dimensional textures, repeated in both directions.
 
-use super::LevelImage;
 use super::halving::Halving;
 use super::lerp::{lerp, lerp_f32, unpack};
+use super::level_image::LevelImage;
 use super::lod;
 use super::source::Image;
 use super::srgb::linear;

@@ -7,9 +7,12 @@ mod cube;
 mod flat;
 mod halving;
 mod lerp;
+mod level_image;
 mod lod;
 mod source;
 mod srgb;
+
+pub use level_image::LevelImage;
 
 use cube::CubeMap;
 use flat::FlatMap;
@@ -19,23 +22,6 @@ use crate::error::RenderError;
 use crate::profile::Profile;
 use physics::Model;
 use std::ops::Range;
-
-/// The image of one mip level, or of one face of it.
-#[derive(Clone, Copy, Debug)]
-pub struct LevelImage<'a> {
-    /// Mip level, 0 for the finest.
-    pub level: usize,
-    /// Face of a cube, 0 otherwise.
-    pub face: usize,
-    /// Columns.
-    pub width: usize,
-    /// Rows.
-    pub height: usize,
-    /// Pixels from one row to the next.
-    pub stride: usize,
-    /// Pixels from the first on, packed as red, green, blue, alpha from the lowest byte on.
-    pub pixels: &'a [u32],
-}
 
 /// One texture of a model.
 #[derive(Clone, Debug, Default)]

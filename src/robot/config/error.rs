@@ -1,7 +1,9 @@
 //! Where a config is wrong.
 
-use super::MAX_TEXT;
 use std::fmt;
+
+/// Longest text of a config, in bytes.
+pub(super) const MAX_TEXT: usize = 1 << 20;
 
 /// Why a config cannot be read.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! A value of a config with its place in the text: what both parsers make and the schema reads.
 
-use super::Value;
+use super::value::Value;
 use std::collections::BTreeMap;
 
 /// A value at a byte of the text.

@@ -1,8 +1,10 @@
 //! Nodes as a config: which keys there are, which must be, and what their values may be.
 
+use super::devices::{
+    ActuatorConfig, CameraConfig, Config, DeviceConfig, HardwareId, Interface, SensorConfig,
+};
 use super::error::{ConfigError, Source};
 use super::node::{Content, Key, Node};
-use super::{ActuatorConfig, CameraConfig, Config, DeviceConfig, HardwareId, Interface, SensorConfig};
 use physics::model::Suggestions;
 use std::collections::HashSet;
 

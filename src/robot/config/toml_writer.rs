@@ -1,6 +1,7 @@
 //! A config as TOML text.
 
-use super::{ActuatorConfig, CameraConfig, Config, DeviceConfig, HardwareId, SensorConfig, Value};
+use super::devices::{ActuatorConfig, CameraConfig, Config, DeviceConfig, HardwareId, SensorConfig};
+use super::value::Value;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

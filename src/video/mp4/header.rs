@@ -1,7 +1,7 @@
 //! The description of a video: what plays, how large, when, and where each sample lies.
 
+use super::samples::{GROUP, Samples, Shape};
 use super::tree::{Contents, parent};
-use super::{GROUP, Samples, Shape};
 use crate::h264::ParameterSets;
 
 /// One in 16.16 fixed point.

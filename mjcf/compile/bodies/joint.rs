@@ -1,9 +1,9 @@
 //! Joints and their degrees of freedom.
 
-use super::frame::{Pose, direction};
-use super::log::{Log, title};
-use super::nodes::{BodyNode, JointNode};
-use super::values::{push_user, resolve_limited, rising};
+use crate::compile::frame::{Pose, direction};
+use crate::compile::log::{Log, title};
+use crate::compile::nodes::{BodyNode, JointNode};
+use crate::compile::values::{push_user, resolve_limited, rising};
 use crate::spec::{Compiler, Joint, joint_dimensions};
 use crate::vector::{EPS, normalize};
 use physics::model::bounds::MINVAL;
@@ -112,7 +112,7 @@ pub(super) fn fill(m: &mut Rows, body: &BodyNode, id: usize, log: &mut Log) {
 
 /// Stiffness and damping of joints that give a time constant and damping ratio instead, from their mean inertia at
 /// `qpos0` (XML reference, `joint/springdamper`).
-pub(super) fn set_springdampers(m: &mut Arrays, springdampers: &[[f64; 2]]) {
+pub(crate) fn set_springdampers(m: &mut Arrays, springdampers: &[[f64; 2]]) {
     for (joint, &[timeconst, dampratio]) in springdampers.iter().enumerate() {
         if timeconst <= 0.0 || dampratio <= 0.0 {
             continue;

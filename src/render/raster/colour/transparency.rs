@@ -3,8 +3,8 @@
 
 use super::paint::{Brush, Canvas, over};
 use super::seen::{Illumination, Seen};
-use super::stage::Stage;
-use super::visibility::Visibility;
+use crate::raster::stage::Stage;
+use crate::raster::visibility::Visibility;
 use crate::scene::{Item, Shape};
 use std::ops::Range;
 

@@ -1,14 +1,14 @@
 //! Bodies: pose, inertia, welds, simplicity and bounding volume hierarchy.
 
-use super::assets::Assets;
-use super::frame::{Pose, add, direction, same_frame, same_position};
 use super::geom;
-use super::inertia::{MassPart, combine, principal};
 use super::joint;
-use super::log::{Log, title};
-use super::nodes::{BodyNode, Tree};
-use super::values::push_user;
 use super::viewpoint;
+use crate::compile::assets::Assets;
+use crate::compile::frame::{Pose, add, direction, same_frame, same_position};
+use crate::compile::inertia::{MassPart, combine, principal};
+use crate::compile::log::{Log, title};
+use crate::compile::nodes::{BodyNode, Tree};
+use crate::compile::values::push_user;
 use crate::spec::{AlignFree, Body, Compiler, Geom, InertiaFromGeom, Inertial, Spec, resolve};
 use crate::vector::{EPS, compose, normalize, rotate};
 use physics::model::bounds::MINVAL;

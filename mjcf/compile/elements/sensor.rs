@@ -1,9 +1,9 @@
 //! Sensors: references, dimension, stage and kind of data (XML reference, `sensor`).
 
-use super::log::{Log, title};
-use super::lookup::Lookup;
-use super::plugins::Plugins;
-use super::values::{bounded, push_user};
+use crate::compile::log::{Log, title};
+use crate::compile::lookup::Lookup;
+use crate::compile::plugins::Plugins;
+use crate::compile::values::{bounded, push_user};
 use crate::spec::{Sensor, Spec};
 use physics::model::{DataType, GeomType, JointType, ObjType, Rows, SensorType, Stage};
 use physics::plugin::{Capability, Config, Plugin};

@@ -1,8 +1,8 @@
 //! Tendons and their paths.
 
-use super::log::{Log, title};
-use super::lookup::Lookup;
-use super::values::{push_user, resolve_limited, rising};
+use crate::compile::log::{Log, title};
+use crate::compile::lookup::Lookup;
+use crate::compile::values::{push_user, resolve_limited, rising};
 use crate::spec::{Spec, Tendon, Wrap, WrapKind};
 use physics::model::{GeomType, ObjType, Rows, WrapType};
 

@@ -1,8 +1,8 @@
 //! Custom numbers, texts and tuples.
 
-use super::log::{Log, title};
-use super::lookup::Lookup;
-use super::values::bounded;
+use crate::compile::log::{Log, title};
+use crate::compile::lookup::Lookup;
+use crate::compile::values::bounded;
 use crate::spec::Spec;
 use physics::model::Rows;
 

@@ -1,11 +1,11 @@
 //! Sites, cameras and lights: things with a place in a body and no mass.
 
-use super::frame::{Pose, direction, same_frame_in_body};
 use super::geom;
-use super::log::{Log, title};
-use super::lookup::Lookup;
-use super::nodes::{BodyNode, CameraNode, LightNode, SiteNode};
-use super::values::push_user;
+use crate::compile::frame::{Pose, direction, same_frame_in_body};
+use crate::compile::log::{Log, title};
+use crate::compile::lookup::Lookup;
+use crate::compile::nodes::{BodyNode, CameraNode, LightNode, SiteNode};
+use crate::compile::values::push_user;
 use crate::spec::{Camera, Compiler, Light, Site, Spec, resolve};
 use crate::vector::{EPS, normalize};
 use physics::geometry::shape;

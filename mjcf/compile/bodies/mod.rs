@@ -1,16 +1,20 @@
 //! The tree of bodies: compiled nodes in depth-first order, and the arrays they fill.
 
+mod body;
+mod fluid;
+mod geom;
+mod joint;
+mod viewpoint;
+
+pub(super) use joint::set_springdampers;
+
 use super::assets::Assets;
-use super::body;
 use super::frame::{Pose, frame_poses};
-use super::geom;
 use super::hierarchy;
-use super::joint;
 use super::log::{Log, title};
 use super::lookup::Lookup;
 use super::nodes::Tree;
 use super::plugins::Plugins;
-use super::viewpoint;
 use crate::spec::{Body, Spec};
 use physics::model::Rows;
 use physics::plugin::Capability;

@@ -1,12 +1,12 @@
 //! What surrounds the items: the sky, and haze over the horizon.
 
-use super::clip::clip;
-use super::coverage::{Extent, Facing, Pattern, Target, Triangle};
 use super::paint::{Canvas, Rgba, eight_bits, over};
 use super::seen::shares;
-use super::vertices::inside;
-use super::visibility::Visibility;
-use super::window::Projection;
+use crate::raster::visibility::Visibility;
+use crate::raster::window::clip::clip;
+use crate::raster::window::coverage::{Extent, Facing, Pattern, Target, Triangle};
+use crate::raster::window::projection::Projection;
+use crate::raster::window::vertices::inside;
 use crate::scene::{Haze, Scene};
 use crate::texture::Texture;
 use crate::view::View;

@@ -1,13 +1,13 @@
 //! Geoms: type, size, pose, mass.
 
-use super::assets::Assets;
 use super::fluid;
-use super::frame::{Pose, add, direction, same_frame_in_body, segment};
-use super::log::{Log, title};
-use super::lookup::Lookup;
-use super::nodes::{BodyNode, GeomNode};
-use super::plugins::Plugins;
-use super::values::push_user;
+use crate::compile::assets::Assets;
+use crate::compile::frame::{Pose, add, direction, same_frame_in_body, segment};
+use crate::compile::log::{Log, title};
+use crate::compile::lookup::Lookup;
+use crate::compile::nodes::{BodyNode, GeomNode};
+use crate::compile::plugins::Plugins;
+use crate::compile::values::push_user;
 use crate::image::CompiledHfield;
 use crate::mesh::{CompiledMesh, Primitive, fit_primitive};
 use crate::spec::{Compiler, Geom, resolve};

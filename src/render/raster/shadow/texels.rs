@@ -3,13 +3,24 @@
 //! They are sorted into the cells of a grid whose columns hold as many as each other, and so its rows, since pictures ask for
 //! many texels near what they show and for few elsewhere. A triangle is compared with those in the cells that it touches.
 
-use super::coverage::{Boxed, Edges, Plane, Region, Target};
-use super::layer::Reached;
-use super::shadow::{CasterRule, Question};
-use super::vertices::Vertex;
-use super::window::Projection;
+use super::rule::CasterRule;
+use crate::raster::layer::Reached;
+use crate::raster::window::coverage::{Boxed, Edges, Plane, Region, Target};
+use crate::raster::window::projection::Projection;
+use crate::raster::window::vertices::Vertex;
 use std::ops::Range;
 use wide::f32x8;
+
+/// A point that a lamp may reach.
+#[derive(Clone, Copy, Debug)]
+pub struct Question {
+    /// Which picture asks. Questions of one picture follow each other.
+    pub view: u32,
+    /// What the picture calls it.
+    pub name: u32,
+    /// Where it is, world frame [m].
+    pub position: [f32; 3],
+}
 
 /// The texels that points ask for.
 #[derive(Clone, Debug, Default)]

@@ -2,13 +2,13 @@
 //!
 //! A fragment is one triangle in one pixel. It is shaded once, at the middle of the pixel, for all of the triangle's samples there.
 
-use super::coverage::{Extent, Pattern, Triangle};
-use super::draws::Draw;
 use super::lighting::{Corners, Lamp, Material, Triple, add_lamp, clamped, own_light, unit};
-use super::stage::Stage;
-use super::visibility::Visibility;
-use super::window::Columns;
 use crate::geometry::{Assets, Paint};
+use crate::raster::draws::Draw;
+use crate::raster::stage::Stage;
+use crate::raster::visibility::Visibility;
+use crate::raster::window::coverage::{Extent, Pattern, Triangle};
+use crate::raster::window::projection::Columns;
 use crate::scene::{Item, Scene};
 use std::ops::Range;
 use wide::bytemuck::cast;

@@ -1,9 +1,9 @@
 //! Actuators: transmission, input and output blocks, ranges (XML reference, `actuator`).
 
-use super::log::{Log, title};
-use super::lookup::Lookup;
-use super::plugins::Plugins;
-use super::values::{bounded, push_user, resolve_limited, rising};
+use crate::compile::log::{Log, title};
+use crate::compile::lookup::Lookup;
+use crate::compile::plugins::Plugins;
+use crate::compile::values::{bounded, push_user, resolve_limited, rising};
 use crate::spec::{Actuator, Spec};
 use physics::model::input::{self, EXPONENTIAL_MAP, FEED_FORWARD, POSITION, QUATERNION, VELOCITY, VOLTAGE};
 use physics::model::{BiasType, DynType, GainType, JointType, ObjType, Rows, TrnType};

@@ -1,7 +1,7 @@
 //! Positions of a surface in the window.
 
 use super::clip::{Corner, GUARD};
-use super::window::Columns;
+use super::projection::Columns;
 use wide::bytemuck::cast;
 use wide::{f32x4, i32x4};
 

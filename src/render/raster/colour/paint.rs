@@ -1,8 +1,8 @@
 //! The colour of a fragment: light times texture, in eight bits.
 
 use super::seen::{Fragment, Seen, SeenTriangle};
-use super::window::Affine;
 use crate::geometry::{Assets, Paint};
+use crate::raster::window::projection::Affine;
 use crate::scene::Fog;
 use wide::f32x4;
 

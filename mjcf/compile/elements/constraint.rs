@@ -1,7 +1,7 @@
 //! Contact pairs, excluded pairs and equality constraints.
 
-use super::log::{Log, title};
-use super::lookup::Lookup;
+use crate::compile::log::{Log, title};
+use crate::compile::lookup::Lookup;
 use crate::spec::{Equality, Pair, SOLIMP, SOLREF, Spec};
 use physics::model::{EqType, JointType, ObjType, Rows};
 
@@ -29,7 +29,7 @@ fn signature(body1: usize, body2: usize) -> i32 {
 }
 
 /// Order in which pairs and excludes are numbered: stable by signature.
-pub(super) fn sorted_names(spec: &Spec, m: &Rows, kind: ObjType, lookup: &Lookup) -> Vec<String> {
+pub(crate) fn sorted_names(spec: &Spec, m: &Rows, kind: ObjType, lookup: &Lookup) -> Vec<String> {
     let body_of = |name: &str| lookup.find(ObjType::Geom, name).map_or(0, |g| m.geom_bodyid[g] as usize);
     let body = |name: &str| lookup.find(ObjType::Body, name).unwrap_or(0);
     let mut keyed: Vec<(i32, &str)> = if kind == ObjType::Pair {
