@@ -1,129 +1,93 @@
 //! Enumeration order of LLVM's `std::unordered_map` for keys that are pairs of doubles.
 //!
-//! The order of a mesh's polygons is that of such a map, so it is computed here: separate chaining
-//! where all nodes form one list, a chain's new node goes to its front, and a new chain to the front
-//! of the list.
+//! The order of a mesh's polygons is that of such a map, so it is computed here. The map hashes with separate chaining (Knuth, The
+//! Art of Computer Programming 3, section 6.4), and lists its keys chain by chain. Which chain comes first and which key in it
+//! depends on when they were added:
+//!
+//! - A new key comes first in its chain, and a new chain first of all.
+//! - When the number of chains grows, the keys are spread again in the order that they had. Then a new chain comes last. A key
+//!   comes last in the chain that was begun last, but first in any other one.
 
-const NONE: usize = usize::MAX;
+use std::collections::VecDeque;
 
 /// Set of keys that remembers the map's order; entries are numbered by insertion.
 #[derive(Default)]
 pub(super) struct HashOrder {
-    keys: Vec<(f64, f64)>,
-    hash: Vec<u64>,
-    /// Successor of each entry in the list.
-    next: Vec<usize>,
-    head: usize,
-    /// Predecessor of each chain's first entry: `None` for an empty chain, `Some(NONE)` for the head.
-    before: Vec<Option<usize>>,
+    entries: Vec<Entry>,
+    /// Numbers of the entries of each chain, in order.
+    chains: Vec<VecDeque<usize>>,
+    /// Numbers of the chains that have entries, in order.
+    begun: VecDeque<usize>,
+}
+
+struct Entry {
+    key: (f64, f64),
+    hash: u64,
 }
 
 impl HashOrder {
     /// Number of the entry with `key`.
     pub(super) fn find(&self, key: (f64, f64)) -> Option<usize> {
-        if self.before.is_empty() {
-            return None;
-        }
-        let hash = pair_hash(key);
-        let chain = self.chain(hash);
-        let mut at = self.successor(self.before[chain]?);
-        while at != NONE && self.chain(self.hash[at]) == chain {
-            if self.keys[at] == key {
-                return Some(at);
-            }
-            at = self.next[at];
-        }
-        None
+        let chain = self.chains.get(self.chain_of(pair_hash(key))?)?;
+        chain.iter().copied().find(|&entry| self.entries[entry].key == key)
     }
 
     /// Adds a key that is not present.
     pub(super) fn insert(&mut self, key: (f64, f64)) {
-        let chains = self.before.len();
-        let size = self.keys.len();
-        if size == 0 {
-            self.head = NONE;
+        let number = self.entries.len();
+        if number == self.chains.len() {
+            self.spread(larger_table(number));
         }
-        if size + 1 > chains {
-            let power_of_two = chains > 2 && chains.is_power_of_two();
-            self.rehash((2 * chains + usize::from(!power_of_two)).max(size + 1));
-        }
-        let entry = size;
-        self.keys.push(key);
-        self.hash.push(pair_hash(key));
-        self.next.push(NONE);
-        let chain = self.chain(self.hash[entry]);
-        match self.before[chain] {
-            Some(previous) => self.link_after(previous, entry),
-            None => {
-                self.link_after(NONE, entry);
-                self.before[chain] = Some(NONE);
-                if self.next[entry] != NONE {
-                    let displaced = self.chain(self.hash[self.next[entry]]);
-                    self.before[displaced] = Some(entry);
-                }
+        let hash = pair_hash(key);
+        self.entries.push(Entry { key, hash });
+        if let Some(chain) = self.chain_of(hash) {
+            if self.chains[chain].is_empty() {
+                self.begun.push_front(chain);
             }
+            self.chains[chain].push_front(number);
         }
     }
 
     /// Entries in the map's order.
     pub(super) fn order(&self) -> impl Iterator<Item = usize> + '_ {
-        let first = if self.keys.is_empty() { NONE } else { self.head };
-        std::iter::successors((first != NONE).then_some(first), |&at| {
-            (self.next[at] != NONE).then_some(self.next[at])
-        })
+        self.begun.iter().flat_map(|&chain| self.chains[chain].iter().copied())
     }
 
-    fn chain(&self, hash: u64) -> usize {
-        let chains = self.before.len() as u64;
-        (if chains.is_power_of_two() { hash & (chains - 1) } else { hash % chains }) as usize
-    }
-
-    fn successor(&self, at: usize) -> usize {
-        if at == NONE { self.head } else { self.next[at] }
-    }
-
-    fn set_successor(&mut self, at: usize, to: usize) {
-        if at == NONE {
-            self.head = to;
-        } else {
-            self.next[at] = to;
+    /// The chain of keys with this hash; `None` before there are chains.
+    fn chain_of(&self, hash: u64) -> Option<usize> {
+        match self.chains.len() as u64 {
+            0 => None,
+            count if count.is_power_of_two() => Some((hash & (count - 1)) as usize),
+            count => Some((hash % count) as usize),
         }
     }
 
-    fn link_after(&mut self, previous: usize, entry: usize) {
-        self.next[entry] = self.successor(previous);
-        self.set_successor(previous, entry);
-    }
-
-    /// Redistributes the list over at least `wanted` chains, moving scattered entries behind the first
-    /// of their chain.
-    fn rehash(&mut self, wanted: usize) {
-        let chains = match wanted {
-            0 | 1 => 2,
-            n if n.is_power_of_two() => n,
-            n => next_prime(n),
-        };
-        self.before = vec![None; chains];
-        if self.keys.is_empty() {
-            return;
-        }
-        let mut previous = self.head;
-        let mut current_chain = self.chain(self.hash[previous]);
-        self.before[current_chain] = Some(NONE);
-        while self.next[previous] != NONE {
-            let at = self.next[previous];
-            let chain = self.chain(self.hash[at]);
-            if chain == current_chain {
-                previous = at;
-            } else if let Some(front) = self.before[chain] {
-                self.next[previous] = self.next[at];
-                self.link_after(front, at);
+    /// Spreads the entries over this many chains.
+    fn spread(&mut self, count: usize) {
+        let listed: Vec<usize> = self.order().collect();
+        self.chains = vec![VecDeque::new(); count];
+        self.begun.clear();
+        for entry in listed {
+            let Some(chain) = self.chain_of(self.entries[entry].hash) else { continue };
+            if self.chains[chain].is_empty() {
+                self.begun.push_back(chain);
+            }
+            if self.begun.back() == Some(&chain) {
+                self.chains[chain].push_back(entry);
             } else {
-                self.before[chain] = Some(previous);
-                previous = at;
-                current_chain = chain;
+                self.chains[chain].push_front(entry);
             }
         }
+    }
+}
+
+/// Number of chains that follows on `full` ones, each with one entry on average: a power of two or a prime.
+fn larger_table(full: usize) -> usize {
+    let keeps_powers = full > 2 && full.is_power_of_two();
+    match 2 * full + usize::from(!keeps_powers) {
+        0 | 1 => 2,
+        wanted if wanted.is_power_of_two() => wanted,
+        wanted => next_prime(wanted),
     }
 }
 

@@ -1,5 +1,13 @@
 //! Contacts of a capsule and a box: the ball at the capsule's point nearest to the box and, when the capsule lies
 //! along a face or an edge, a second ball where it leaves the box.
+//!
+//! The capsule's segment is seen from the frame of the box. If the nearest point of the box is inside a face, the nearest
+//! point of the segment is one of its ends, unless the segment is parallel to the face, where an end is as near. Otherwise
+//! the nearest point is on one of the twelve edges, and the distance of two segments has a closed form (Ericson, Real-Time
+//! Collision Detection, 2005, section 5.1.9).
+//!
+//! From that first ball the second one slides along the segment, in the direction in which the segment stays over the box,
+//! until the segment ends or leaves the box (`Slide`).
 
 use super::shape::{PreContact, Shape};
 use super::sphere::ball_box;
@@ -15,13 +23,46 @@ struct Segment {
 }
 
 /// The part of the box nearest to the segment.
+#[derive(Clone, Copy)]
 enum Feature {
-    /// An end of the segment above a face (the axis of its normal), or inside the box.
-    Face { end: f64, face: Option<usize> },
-    /// A corner: one bit an axis, set on the positive side.
-    Corner { corner: usize },
-    /// The inside of an edge along `edge`, at `along` in [-1, 1], with the bits of its lower corner.
-    Edge { corner: usize, edge: usize, along: f64 },
+    /// The face with its normal along this axis.
+    Face(usize),
+    /// The inside of the box.
+    Inside,
+    /// A corner, by its side of the box along each axis.
+    Corner(Vec3),
+    /// The inside of an edge, at `along` in [-1, 1].
+    Edge { edge: Edge, along: f64 },
+}
+
+/// A point of the segment and the part of the box it is nearest to.
+#[derive(Clone, Copy)]
+struct Nearest {
+    distance2: f64,
+    /// Place of the point on the segment.
+    at: f64,
+    feature: Feature,
+}
+
+/// An edge along an axis of the box. Of the two other axes, `side` says on which side of the box it is, 1 or -1.
+#[derive(Clone, Copy)]
+struct Edge {
+    axis: usize,
+    side: Vec3,
+}
+
+/// Sides of four parallel edges. Of equally near edges the first counts.
+const SIDES: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
+
+/// The twelve edges of a box.
+fn edges() -> impl Iterator<Item = Edge> {
+    [[0, 1, 2], [1, 0, 2], [2, 0, 1]].into_iter().flat_map(|[axis, low, high]| {
+        SIDES.into_iter().map(move |[first, second]| {
+            let mut side = [0.0; 3];
+            (side[low], side[high]) = (first, second);
+            Edge { axis, side }
+        })
+    })
 }
 
 /// Capsule and box.
@@ -36,175 +77,198 @@ pub fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<P
     };
     let size = cuboid.size;
     let limit = margin + 2.0 * (radius + half_length + size[0] + size[1] + size[2]);
-    let Some((at, feature)) = nearest_feature(&segment, size, limit) else { return };
+    let Some(nearest) = segment.nearest(size, limit) else { return };
     let ball = |x: f64| {
-        let local = add_scaled(segment.centre, segment.half, x);
+        let local = segment.point(x);
         ball_box(add(mul_mat_vec(&cuboid.mat, local), cuboid.pos), radius, cuboid, margin)
     };
-    out.extend(ball(at));
-    let second = match feature {
-        Feature::Face { end, face } => face.map(|face| beyond_face(&segment, size, end, face)),
-        Feature::Corner { corner } => beyond_corner(&segment, size, at, corner),
-        Feature::Edge { corner, edge, along } => beyond_edge(&segment, size, at, corner, edge, along),
+    out.extend(ball(nearest.at));
+    let slide = match nearest.feature {
+        Feature::Inside => None,
+        Feature::Face(normal) => Some(segment.slide_over_face(size, nearest.at, normal)),
+        Feature::Corner(corner) => segment.slide_from_corner(size, nearest.at, corner),
+        Feature::Edge { edge, along } => segment.slide_from_edge(size, nearest.at, edge, along),
     };
-    out.extend(second.and_then(|step| ball(step + at)));
+    out.extend(slide.and_then(|slide| ball(slide.step() + nearest.at)));
 }
 
-/// Position on the segment nearest to the box and the feature it is nearest to; squared distances below `limit`.
-fn nearest_feature(s: &Segment, size: Vec3, limit: f64) -> Option<(f64, Feature)> {
-    let mut best = limit;
-    let mut found = None;
-    for end in [-1.0, 1.0] {
-        let point = add_scaled(s.centre, s.half, end);
-        let mut nearest = point;
-        let mut outside = 0;
-        let mut face = None;
-        for j in 0..3 {
-            if point[j].abs() > size[j] {
-                outside += 1;
-                face = Some(j);
-                nearest[j] = size[j].copysign(point[j]);
-            }
+impl Segment {
+    fn point(&self, x: f64) -> Vec3 {
+        add_scaled(self.centre, self.half, x)
+    }
+
+    /// The nearest point of the segment; `None` for squared distances above `limit`.
+    fn nearest(&self, size: Vec3, limit: f64) -> Option<Nearest> {
+        let nearer = |best: &Option<Nearest>, other: &Nearest, by: f64| {
+            other.distance2 < best.map_or(limit, |best| best.distance2) - by
+        };
+        let mut best = None;
+        for end in [-1.0, 1.0].into_iter().filter_map(|end| self.end_over_face(size, end)) {
+            best = if nearer(&best, &end, 0.0) { Some(end) } else { best };
         }
+        // Nearer by more than rounding, so that a segment parallel to a face does not flip between equal edges.
+        for near in edges().filter_map(|edge| self.near_edge(size, edge)) {
+            best = if nearer(&best, &near, MINVAL) { Some(near) } else { best };
+        }
+        best
+    }
+
+    /// An end of the segment inside the box, or outside of one pair of faces only.
+    fn end_over_face(&self, size: Vec3, end: f64) -> Option<Nearest> {
+        let point = self.point(end);
+        let beyond = |k: usize| point[k].abs() > size[k];
+        let nearest: Vec3 =
+            std::array::from_fn(|k| if beyond(k) { size[k].copysign(point[k]) } else { point[k] });
+        let mut outside = (0..3).filter(|&k| beyond(k));
+        let feature = match (outside.next(), outside.next()) {
+            (None, _) => Feature::Inside,
+            (Some(axis), None) => Feature::Face(axis),
+            _ => return None,
+        };
         let gap = sub(nearest, point);
-        let distance2 = dot(gap, gap);
-        if outside <= 1 && distance2 < best {
-            best = distance2;
-            found = Some((end, Feature::Face { end, face }));
-        }
+        Some(Nearest { distance2: dot(gap, gap), at: end, feature })
     }
-    for edge in 0..3 {
-        for corner in (0..8).filter(|c| c & (1 << edge) == 0) {
-            let Some(near) = segment_edge(s, size, corner, edge) else { continue };
-            // Nearer by more than rounding, so that a segment parallel to a face does not flip between equal edges.
-            if near.distance2 < best - MINVAL {
-                best = near.distance2;
-                let feature = match near.end {
-                    0 => Feature::Edge { corner, edge, along: near.along_edge },
-                    side => Feature::Corner { corner: if side > 0 { corner | 1 << edge } else { corner } },
-                };
-                found = Some((near.along_segment, feature));
+
+    /// The points of the segment and an edge that are nearest to each other; `None` for parallel lines.
+    ///
+    /// With the edge at `middle + x e` and the segment at `centre + y h`, both x and y in [-1, 1], the square of the gap is
+    /// least where its derivatives vanish: `e·e x - e·h y = -e·d` and `h·h y - e·h x = h·d`, with `d = middle - centre`. Where x
+    /// or y then leaves its range it is put on the limit, and the other one follows from its own equation alone.
+    fn near_edge(&self, size: Vec3, edge: Edge) -> Option<Nearest> {
+        let Edge { axis, side } = edge;
+        let middle: Vec3 = std::array::from_fn(|k| if k == axis { 0.0 } else { side[k] * size[k] });
+        let span = sub(middle, self.centre);
+        let reach = size[axis];
+        // The products with one factor `e` carry the minus signs of the equations.
+        let (ee, eh, hh) = (reach * reach, -reach * self.half[axis], self.half_length * self.half_length);
+        let (ed, hd) = (-reach * span[axis], dot(self.half, span));
+        let determinant = ee * hh - eh * eh;
+        if determinant.abs() < MINVAL {
+            return None;
+        }
+        let inverse = 1.0 / determinant;
+        let mut x = Limited::new((hh * ed - eh * hd) * inverse);
+        let y = match x.beyond {
+            None => (ee * hd - eh * ed) * inverse,
+            Some(_) => (hd - x.value * eh) * (1.0 / hh),
+        };
+        let y = Limited::new(y);
+        if y.beyond.is_some() {
+            let again = Limited::new((ed - y.value * eh) * (1.0 / ee));
+            // Once the edge has been left its end stays the nearest feature.
+            x = Limited { beyond: again.beyond.or(x.beyond), ..again };
+        }
+        let mut gap = add_scaled(span, self.half, -y.value);
+        gap[axis] += reach * x.value;
+        let feature = match x.beyond {
+            None => Feature::Edge { edge, along: x.value },
+            Some(end) => {
+                let mut corner = side;
+                corner[axis] = end;
+                Feature::Corner(corner)
             }
+        };
+        Some(Nearest { distance2: dot(gap, gap), at: y.value, feature })
+    }
+
+    /// True when the segment, followed forward, ascends along an axis.
+    fn ascends(&self, axis: usize) -> bool {
+        self.half[axis] > 0.0
+    }
+
+    /// Which axes lead from a corner into the box when the segment is followed forward.
+    fn leads_inward(&self, corner: Vec3) -> [bool; 3] {
+        std::array::from_fn(|k| self.ascends(k) != (corner[k] > 0.0))
+    }
+
+    /// How far the segment is followed while it crosses the whole box along an axis.
+    fn crossing(&self, size: Vec3, axis: usize) -> f64 {
+        2.0 * size[axis] / self.half[axis].abs()
+    }
+
+    /// From a corner: along an edge of the box or across a face. A segment that leads inward along all three axes or none has
+    /// no second point near the box.
+    fn slide_from_corner(&self, size: Vec3, at: f64, corner: Vec3) -> Option<Slide> {
+        let inward = self.leads_inward(corner);
+        let only = |wanted: bool| (0..3).find(|&k| inward[k] == wanted);
+        // The direction in which one axis alone leads inward, and that axis.
+        let (forward, axis) = match inward.iter().filter(|&&leads| leads).count() {
+            1 => (1.0, only(true)?),
+            2 => (-1.0, only(false)?),
+            _ => return None,
+        };
+        if self.axis[axis] * self.axis[axis] > 0.5 {
+            return Some(Slide::new(forward, at).until(self.crossing(size, axis)));
+        }
+        let [first, second] = [1, 2].map(|k| self.crossing(size, (axis + k) % 3));
+        Some(Slide::new(-forward, at).until(first).until(second))
+    }
+
+    /// From a point of an edge: over the face that the segment is more aligned with, of the two that meet there. One of both
+    /// directions must lead over that face and away from the other one.
+    fn slide_from_edge(&self, size: Vec3, at: f64, edge: Edge, along: f64) -> Option<Slide> {
+        let inward = self.leads_inward(edge.side);
+        let [first, second] = [1, 2].map(|k| (edge.axis + k) % 3);
+        if inward[first] == inward[second] {
+            return None;
+        }
+        let across = if self.axis[first].abs() > self.axis[second].abs() { first } else { second };
+        let slide = Slide::new(if inward[across] { 1.0 } else { -1.0 }, at);
+        let to_upper_end = self.ascends(edge.axis) == inward[across];
+        let room = if to_upper_end { 1.0 - along } else { 1.0 + along };
+        let to_end = size[edge.axis] * room / self.half[edge.axis].abs();
+        Some(slide.until(self.crossing(size, across)).until(to_end))
+    }
+
+    /// From an end above a face: to where the segment leaves the face.
+    fn slide_over_face(&self, size: Vec3, end: f64, normal: usize) -> Slide {
+        let point = self.point(end);
+        let slide = Slide::new(-end, end);
+        let sides = (0..3).filter(|&k| k != normal).flat_map(|k| [(k, size[k]), (k, -size[k])]);
+        let crossings = sides.map(|(k, side)| (side - point[k]) / self.half[k] * slide.direction);
+        crossings.filter(|&crossing| crossing > 0.0).fold(slide, Slide::until)
+    }
+}
+
+/// The way of the second ball along the segment.
+#[derive(Clone, Copy)]
+struct Slide {
+    /// 1 forward, -1 backward.
+    direction: f64,
+    length: f64,
+}
+
+impl Slide {
+    /// From a place on the segment to its end.
+    fn new(direction: f64, at: f64) -> Self {
+        Slide { direction, length: 1.0 - direction * at }
+    }
+
+    /// Ends the way at a limit; one that is not a number is none.
+    fn until(self, limit: f64) -> Self {
+        Slide { length: if limit < self.length { limit } else { self.length }, ..self }
+    }
+
+    fn step(self) -> f64 {
+        self.direction * self.length
+    }
+}
+
+/// A coordinate limited to [-1, 1].
+#[derive(Clone, Copy)]
+struct Limited {
+    value: f64,
+    /// The limit that it was beyond, 1 or -1.
+    beyond: Option<f64>,
+}
+
+impl Limited {
+    fn new(x: f64) -> Self {
+        if x.abs() > 1.0 {
+            let limit = 1.0_f64.copysign(x);
+            Limited { value: limit, beyond: Some(limit) }
+        } else {
+            Limited { value: x, beyond: None }
         }
     }
-    found
-}
-
-/// Nearest points of the segment and an edge.
-struct EdgeDistance {
-    distance2: f64,
-    along_segment: f64,
-    along_edge: f64,
-    /// -1 and 1 at the ends of the edge, 0 between.
-    end: i32,
-}
-
-/// `x` limited to [-1, 1], and the side on which it was beyond.
-fn on_span(x: f64) -> (f64, i32) {
-    if x > 1.0 {
-        (1.0, 1)
-    } else if x < -1.0 {
-        (-1.0, -1)
-    } else {
-        (x, 0)
-    }
-}
-
-/// Minimises the squared span between `middle + x half_edge` and `centre + y half`, with x and y in [-1, 1]; `None`
-/// for parallel lines. The free minimum solves the normal equations; where one coordinate leaves its range it is put
-/// on the limit and the other solved for alone, first with the edge at fault and then with the segment.
-fn segment_edge(s: &Segment, size: Vec3, corner: usize, edge: usize) -> Option<EdgeDistance> {
-    let mut middle: Vec3 = std::array::from_fn(|k| if corner & (1 << k) != 0 { size[k] } else { -size[k] });
-    middle[edge] = 0.0;
-    let span = sub(middle, s.centre);
-    let half_edge = size[edge];
-
-    let edge_edge = half_edge * half_edge;
-    let edge_segment = -half_edge * s.half[edge];
-    let segment_segment = s.half_length * s.half_length;
-    let edge_span = -half_edge * span[edge];
-    let segment_span = dot(s.half, span);
-    let determinant = edge_edge * segment_segment - edge_segment * edge_segment;
-    if determinant.abs() < MINVAL {
-        return None;
-    }
-    let inverse = 1.0 / determinant;
-    let (mut x, mut end) = on_span((segment_segment * edge_span - edge_segment * segment_span) * inverse);
-    let mut y = if end == 0 {
-        (edge_edge * segment_span - edge_segment * edge_span) * inverse
-    } else {
-        (segment_span - x * edge_segment) * (1.0 / segment_segment)
-    };
-    if y.abs() > 1.0 {
-        y = 1.0f64.copysign(y);
-        let (best, side) = on_span((edge_span - y * edge_segment) * (1.0 / edge_edge));
-        // The side of an earlier limit stays when this one is within.
-        (x, end) = (best, if side != 0 { side } else { end });
-    }
-    let mut gap = add_scaled(span, s.half, -y);
-    gap[edge] += half_edge * x;
-    Some(EdgeDistance { distance2: dot(gap, gap), along_segment: y, along_edge: x, end })
-}
-
-/// Bits of the axes along which the segment ascends.
-fn ascent(s: &Segment) -> usize {
-    (0..3).filter(|&k| s.half[k] > 0.0).map(|k| 1 << k).sum()
-}
-
-/// Step from a corner along the segment, when it runs along an edge or across a face.
-fn beyond_corner(s: &Segment, size: Vec3, at: f64, corner: usize) -> Option<f64> {
-    let (relation, sign) = match ascent(s) ^ corner {
-        0 | 7 => return None,
-        r @ (1 | 2 | 4) => (r, 1.0),
-        r => (7 - r, -1.0),
-    };
-    let axis = relation.trailing_zeros() as usize;
-    let extent = |k: usize| 2.0 * size[k] / s.half[k].abs();
-    if s.axis[axis] * s.axis[axis] > 0.5 {
-        let step = 1.0 - sign * at;
-        Some(sign * at_most(step, extent(axis)))
-    } else {
-        let step = 1.0 + sign * at;
-        let (k1, k2) = ((axis + 1) % 3, (axis + 2) % 3);
-        Some(-sign * at_most(at_most(step, extent(k1)), extent(k2)))
-    }
-}
-
-/// Step from a point of an edge to where the segment leaves the face it is more aligned with.
-fn beyond_edge(s: &Segment, size: Vec3, at: f64, corner: usize, edge: usize, along: f64) -> Option<f64> {
-    let ascent = ascent(s);
-    let relation = (ascent ^ corner) & (7 - (1 << edge));
-    if !matches!(relation, 1 | 2 | 4) {
-        return None;
-    }
-    let (k1, k2) = ((edge + 1) % 3, (edge + 2) % 3);
-    let across = if s.axis[k1].abs() > s.axis[k2].abs() { k1 } else { k2 };
-    let forward = relation & (1 << across) != 0;
-    let sign = if forward { 1.0 } else { -1.0 };
-
-    let step = at_most(1.0 - sign * at, 2.0 * size[across] / s.half[across].abs());
-    let upward = (ascent & (1 << edge) != 0) == forward;
-    let room = if upward { 1.0 - along } else { 1.0 + along };
-    Some(sign * at_most(step, size[edge] * room / s.half[edge].abs()))
-}
-
-/// Step from the end above a face to where the segment leaves it.
-fn beyond_face(s: &Segment, size: Vec3, end: f64, face: usize) -> f64 {
-    let sign = -end;
-    let point = add_scaled(s.centre, s.half, end);
-    let mut step = 2.0;
-    for k in (0..3).filter(|&k| k != face) {
-        for side in [size[k], -size[k]] {
-            let crossing = (side - point[k]) / s.half[k] * sign;
-            if crossing > 0.0 {
-                step = at_most(step, crossing);
-            }
-        }
-    }
-    step * sign
-}
-
-/// The smaller; `x` when the limit is not a number.
-fn at_most(x: f64, limit: f64) -> f64 {
-    if limit < x { limit } else { x }
 }

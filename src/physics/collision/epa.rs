@@ -1,9 +1,15 @@
 //! Penetration depth of convex bodies: the expanding polytope algorithm
 //! (van den Bergen, Proximity Queries and Penetration Depth Computation on 3D Game Objects, 2001).
 //!
-//! A polytope inside the Minkowski difference grows from the simplex in which GJK ended. Its face nearest to the
-//! origin bounds the depth from below, the support point beyond that face bounds it from above; the polytope takes
-//! in that point, until the bounds meet.
+//! The depth is the distance of the origin from the boundary of the Minkowski difference. A polytope inside the
+//! difference grows from the simplex in which GJK ended. It bounds the depth from both sides:
+//!
+//! - The boundary is no nearer than the polytope's nearest face, whose foot of the perpendicular is `f`: the depth is at
+//!   least `|f|`.
+//! - No point of the difference is higher along `f` than the support point `w`: the boundary is reached at height
+//!   `w·f / |f|` at the latest, which the depth does not exceed.
+//!
+//! The polytope takes in `w` and has another nearest face, until the bounds meet.
 
 use super::gjk::{BEYOND, Limits, Vertex, combine3, projected_areas, support};
 use super::polytope::{Absorption, OnFace, Pattern, Polytope};
@@ -161,7 +167,7 @@ impl Hull<'_, '_, '_> {
         if let Err(face) = self.polytope.close(&TETRAHEDRON, &vertices) {
             return self.enclose_face(face);
         }
-        if !holds_origin(p1, p2, p3, p4) {
+        if !holds_origin([p1, p2, p3, p4]) {
             return Err(Failure::OriginOutside);
         }
         self.polytope.offer_all();
@@ -169,13 +175,56 @@ impl Hull<'_, '_, '_> {
     }
 }
 
-/// What a round of the expansion came to.
-enum Round {
-    /// The polytope grew.
-    Grown,
-    /// The nearest face is on the boundary of the difference, or as near to it as can be told.
-    Settled,
-    Broken,
+/// Bounds on the depth: each face has its own lower bound, its distance; the upper one holds for all.
+struct Bounds {
+    /// How near the bounds must come.
+    tolerance: f64,
+    /// Least height of a support point over the plane through the origin along which it was looked for.
+    upper: f64,
+    upper2: f64,
+}
+
+/// How a lower bound compares with the upper one.
+enum Comparison {
+    /// The depth may be anywhere between.
+    Open,
+    /// They agree up to the tolerance.
+    Met,
+    /// The lower one is greater, by more than rounding.
+    Crossed,
+}
+
+impl Bounds {
+    fn learn(&mut self, height: f64) {
+        if height < self.upper {
+            (self.upper, self.upper2) = (height, height * height);
+        }
+    }
+
+    fn compare(&self, lower: f64) -> Comparison {
+        if self.upper - lower < self.tolerance {
+            if self.upper < lower - BOUND_SLACK { Comparison::Crossed } else { Comparison::Met }
+        } else {
+            Comparison::Open
+        }
+    }
+}
+
+/// The face nearest to the origin.
+struct Target {
+    face: usize,
+    /// Squared distance of its plane from the origin.
+    lower2: f64,
+}
+
+/// What the bodies show beyond a target.
+enum Beyond {
+    /// The target is on the boundary of the difference, or as near to it as can be told.
+    Nothing,
+    /// The difference ends before the target.
+    Short,
+    /// A vertex of the difference.
+    Tip(usize),
 }
 
 /// The growth of a polytope toward the boundary of the difference.
@@ -183,66 +232,68 @@ struct Expansion<'s, 'a, 'b> {
     hull: Hull<'s, 'a, 'b>,
     /// Both bodies have finitely many support points.
     discrete: bool,
-    /// How near the bounds must come.
-    tolerance: f64,
     iterations: usize,
-    /// Least height of a support point over the plane through the origin along which it was looked for: an upper bound
-    /// on the depth.
-    upper: f64,
-    upper2: f64,
+    bounds: Bounds,
 }
 
 impl<'s, 'a, 'b> Expansion<'s, 'a, 'b> {
     fn new(hull: Hull<'s, 'a, 'b>, limits: &Limits) -> Self {
         let discrete = hull.a.is_discrete() && hull.b.is_discrete();
         let tolerance = if discrete { MINVAL } else { limits.tolerance };
-        Expansion { hull, discrete, tolerance, iterations: limits.iterations, upper: BEYOND, upper2: BEYOND }
+        let bounds = Bounds { tolerance, upper: BEYOND, upper2: BEYOND };
+        Expansion { hull, discrete, iterations: limits.iterations, bounds }
     }
 
-    /// Grows the polytope until its nearest face is on the boundary of the difference; returns that face.
+    /// Grows the polytope until its nearest face is on the boundary of the difference; returns that face. `None` when the
+    /// polytope is no longer sound.
     fn run(mut self) -> Option<usize> {
         let mut answer = None;
         for round in 0..self.iterations.min(MAX_ROUNDS) {
-            let Some((face, lower2)) = self.hull.polytope.nearest_candidate() else { break };
-            if lower2 > self.upper2 {
-                break;
-            }
-            answer = Some(face);
-            match self.push_out(face, lower2, round == 0) {
-                Round::Grown => {}
-                Round::Settled => break,
-                Round::Broken => return None,
+            let Some(target) = self.target() else { break };
+            answer = Some(target.face);
+            let tip = match self.look_beyond(&target) {
+                Beyond::Tip(tip) => tip,
+                // Later the bounds cross by errors that have gathered, but at first only if the bodies do not overlap.
+                Beyond::Short if round == 0 => return None,
+                Beyond::Short | Beyond::Nothing => break,
+            };
+            match self.take_in(tip, &target) {
+                Absorption::Done => {}
+                Absorption::Full => break,
+                Absorption::Torn => return None,
             }
         }
         answer
     }
 
-    /// Pushes the nearest face out to the support point beyond it. `lower2` is its squared distance.
-    fn push_out(&mut self, face: usize, lower2: f64, first: bool) -> Round {
-        if lower2 <= 0.0 {
-            return Round::Settled;
+    /// The next face to look beyond; `None` when no face is below the upper bound, so that the one before is the answer.
+    fn target(&self) -> Option<Target> {
+        let (face, lower2) = self.hull.polytope.nearest_candidate()?;
+        if lower2 > self.bounds.upper2 { None } else { Some(Target { face, lower2 }) }
+    }
+
+    /// Looks for the support point beyond a face, and learns from its height.
+    fn look_beyond(&mut self, target: &Target) -> Beyond {
+        if target.lower2 <= 0.0 {
+            return Beyond::Nothing;
         }
-        let (foot, lower) = (self.hull.polytope.foot(face), lower2.sqrt());
+        // The foot has the length of the distance: over it, an inner product is a height.
+        let (foot, lower) = (self.hull.polytope.foot(target.face), target.lower2.sqrt());
         let tip = self.hull.add_support(foot, lower);
-        let height = dot(foot, self.hull.diff(tip)) / lower;
-        if height < self.upper {
-            (self.upper, self.upper2) = (height, height * height);
+        self.bounds.learn(dot(foot, self.hull.diff(tip)) / lower);
+        match self.bounds.compare(lower) {
+            Comparison::Crossed => Beyond::Short,
+            Comparison::Met => Beyond::Nothing,
+            Comparison::Open if self.discrete && self.hull.polytope.repeats(tip) => Beyond::Nothing,
+            Comparison::Open => Beyond::Tip(tip),
         }
-        if self.upper - lower < self.tolerance {
-            // At first the bounds may be the wrong way round: then the bodies do not overlap.
-            let crossed = first && self.upper < lower - BOUND_SLACK;
-            return if crossed { Round::Broken } else { Round::Settled };
-        }
-        if self.discrete && self.hull.polytope.repeats(tip) {
-            return Round::Settled;
-        }
-        // A new face below the lower bound is an artefact of rounding, one above the upper bound never the answer.
-        let max_faces = FACES_PER_ITERATION * self.iterations;
-        match self.hull.polytope.absorb(tip, face, lower2..=self.upper2, max_faces) {
-            Absorption::Done => Round::Grown,
-            Absorption::Full => Round::Settled,
-            Absorption::Torn => Round::Broken,
-        }
+    }
+
+    /// Lets the polytope grow by a vertex. A new face below the lower bound is an artefact of rounding, one above the upper
+    /// bound never the answer.
+    fn take_in(&mut self, tip: usize, target: &Target) -> Absorption {
+        let candidates = target.lower2..=self.bounds.upper2;
+        self.hull.polytope.absorb(tip, target.face, candidates, FACES_PER_ITERATION * self.iterations)
     }
 }
 
@@ -259,23 +310,22 @@ fn witness(polytope: &Polytope, face: usize) -> Penetration {
     }
 }
 
-/// Rotation by 120 degrees about `axis`; the sine has the digits MuJoCo gives it.
+/// Rotation by 120 degrees about `axis`: `cos I + (1 - cos) u uᵀ + sin [u]×` for the unit vector `u` (Rodrigues). The sine has
+/// the digits MuJoCo gives it.
 fn third_of_a_turn(axis: Vec3) -> Mat3 {
+    const SIN: f64 = 0.86602540378;
+    const COS: f64 = -0.5;
     let length = norm(axis);
-    let [x, y, z] = axis.map(|u| u / length);
-    let (sin, cos) = (0.86602540378, -0.5);
-    let versine = 1.0 - cos;
-    [
-        cos + x * x * versine,
-        x * y * versine - z * sin,
-        x * z * versine + y * sin,
-        y * x * versine + z * sin,
-        cos + y * y * versine,
-        y * z * versine - x * sin,
-        x * z * versine - y * sin,
-        y * z * versine + x * sin,
-        cos + z * z * versine,
-    ]
+    let u = axis.map(|x| x / length);
+    let mut turn = [0.0; 9];
+    for i in 0..3 {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        let (symmetric, skew) = (u[i] * u[j] * (1.0 - COS), u[k] * SIN);
+        turn[3 * i + i] = COS + u[i] * u[i] * (1.0 - COS);
+        turn[3 * i + j] = symmetric - skew;
+        turn[3 * j + i] = symmetric + skew;
+    }
+    turn
 }
 
 /// True when the line through `p` and `q` meets a triangle.
@@ -297,15 +347,12 @@ fn in_triangle(v1: Vec3, v2: Vec3, v3: Vec3, p: Vec3) -> bool {
     norm(sub(combine3(&weight, v1, v2, v3), p)) < MINVAL
 }
 
-/// True when the origin lies strictly within a tetrahedron.
-fn holds_origin(p1: Vec3, p2: Vec3, p3: Vec3, p4: Vec3) -> bool {
-    let same_side = |a: Vec3, b: Vec3, c: Vec3, d: Vec3| {
+/// True when the origin lies strictly within a tetrahedron: on the same side of each face as the corner opposite.
+fn holds_origin(corners: [Vec3; 4]) -> bool {
+    (0..4).all(|first| {
+        let [a, b, c, opposite] = std::array::from_fn(|k| corners[(first + k) % 4]);
         let normal = cross(sub(b, a), sub(c, a));
-        let (s, t) = (dot(normal, sub(d, a)), dot(normal, scale(a, -1.0)));
-        (s > 0.0 && t > 0.0) || (s < 0.0 && t < 0.0)
-    };
-    same_side(p1, p2, p3, p4)
-        && same_side(p2, p3, p4, p1)
-        && same_side(p3, p4, p1, p2)
-        && same_side(p4, p1, p2, p3)
+        let (corner, origin) = (dot(normal, sub(opposite, a)), dot(normal, scale(a, -1.0)));
+        (corner > 0.0 && origin > 0.0) || (corner < 0.0 && origin < 0.0)
+    })
 }

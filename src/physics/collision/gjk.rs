@@ -1,12 +1,22 @@
-//! Distance between convex bodies: the Gilbert–Johnson–Keerthi algorithm with signed volumes
-//! (Montanari, Petrinic and Barbieri, Improving the GJK Algorithm, ACM TOG 36, 2017).
+//! Distance between convex bodies: the algorithm of Gilbert, Johnson and Keerthi (A Fast Procedure for Computing the Distance
+//! Between Complex Objects in Three-Dimensional Space, 1988), with signed volumes (Montanari, Petrinic and Barbieri, Improving
+//! the GJK Algorithm, ACM TOG 36, 2017).
 //!
-//! GJK walks simplices of the Minkowski difference `A - B` toward the origin. Where only contact matters, a
-//! tetrahedron is turned toward the origin face by face, until it holds the origin or a face shows it outside.
+//! The distance of two bodies is that of the origin from their Minkowski difference `A - B`. Let `x` be a point of the
+//! difference and `s` its support point in direction `-x`. Every point `y` of the difference has `x·y ≥ x·s`, which bounds the
+//! distance from both sides (van den Bergen, Collision Detection in Interactive 3D Environments, 2003, section 4.3):
+//!
+//! - The difference lies beyond the plane `x·y = x·s`: the distance is at least `x·s / |x|`, and at most `|x|`.
+//! - For the nearest point `y`, `|y|² ≤ x·y` because `x` is in the difference too. So `|x - y|² = |x|² - 2 x·y + |y|²` is at most
+//!   `|x|² - x·y`, and this at most `x·(x - s)`.
+//!
+//! Each round adds `s` to a simplex of support points and moves `x` to the point of the simplex nearest to the origin. Where only
+//! contact matters, the first tetrahedron is turned toward the origin face by face instead, see `Tetrahedron`.
 
 use super::support::ConvexBody;
 use crate::math::{Vec3, add_scaled, cross, dot, norm, scale, sub};
 use crate::model::bounds::{MAXVAL, MINVAL};
+use std::ops::ControlFlow;
 
 /// Value of a distance that is not known, only greater than the cut-off.
 pub const BEYOND: f64 = f64::MAX;
@@ -66,8 +76,11 @@ fn toward_origin(x: Vec3, length: f64) -> Vec3 {
 pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mut [Vertex; 4]) -> Proximity {
     let mut nearest = [a.center(), b.center()];
     let x = sub(nearest[0], nearest[1]);
-    let mut walk = Walk { a, b, simplex, weights: [0.0; 4], n: 0, x, length: norm(x) };
-    let farthest = match walk.approach(limits) {
+    let accuracy = Accuracy::new(a.is_discrete() && b.is_discrete(), limits.tolerance);
+    let turns = limits.cutoff <= 0.0;
+    let rounds = limits.iterations;
+    let mut walk = Walk { a, b, simplex, weights: [0.0; 4], n: 0, x, length: norm(x), turns, rounds };
+    let farthest = match walk.approach(&accuracy, limits.cutoff) {
         Arrival::Apart => return APART,
         Arrival::Inside => return Proximity { dist: 0.0, separated: false, n: 4, nearest: None },
         Arrival::Nearest(farthest) => farthest.unwrap_or_else(|| walk.farthest()),
@@ -81,13 +94,33 @@ pub fn gjk(a: &mut ConvexBody, b: &mut ConvexBody, limits: &Limits, simplex: &mu
     Proximity { dist, separated, n, nearest: Some(nearest) }
 }
 
+/// How near to the truth the walk must come.
+struct Accuracy {
+    /// Bound on `|x - y|²` below which `x` counts as the nearest point.
+    gap: f64,
+    /// Length of `x` below which the bodies count as touching.
+    touching: f64,
+}
+
+impl Accuracy {
+    /// Polytopes have finitely many simplices, so nothing but rounding needs a tolerance; smooth bodies are approached
+    /// forever.
+    fn new(finite: bool, tolerance: f64) -> Self {
+        if finite {
+            Accuracy { gap: 0.0, touching: MINVAL }
+        } else {
+            Accuracy { gap: 0.5 * (tolerance * tolerance), touching: tolerance }
+        }
+    }
+}
+
 /// Where the walk ended.
 enum Arrival {
     /// Past the cut-off.
     Apart,
     /// In a tetrahedron that holds the origin.
     Inside,
-    /// At the point of the simplex nearest to the origin; with the last support point if it was of no use.
+    /// At the point of the simplex nearest to the origin; with the last support point if that led no nearer.
     Nearest(Option<Vec3>),
 }
 
@@ -104,49 +137,52 @@ struct Walk<'s, 'a, 'b> {
     x: Vec3,
     /// Length of `x`.
     length: f64,
+    /// The next tetrahedron is turned toward the origin.
+    turns: bool,
+    /// Rounds left, of the walk and of turning together.
+    rounds: usize,
 }
 
 impl Walk<'_, '_, '_> {
     #[inline(always)]
-    fn approach(&mut self, limits: &Limits) -> Arrival {
-        let discrete = self.a.is_discrete() && self.b.is_discrete();
-        // Polytopes end after finitely many steps, so nothing but rounding needs a tolerance.
-        let gap_tolerance = if discrete { 0.0 } else { 0.5 * (limits.tolerance * limits.tolerance) };
-        let touching = if discrete { MINVAL } else { limits.tolerance };
-        let mut try_enclosing = limits.cutoff <= 0.0;
-        let mut length_before = 0.0_f64;
-        let mut rounds = 0;
-        while rounds < limits.iterations {
-            let stalled = (length_before - self.length).abs() < MINVAL;
-            if self.length < touching || stalled {
-                break;
+    fn approach(&mut self, accuracy: &Accuracy, cutoff: f64) -> Arrival {
+        if self.length < accuracy.touching || self.length < MINVAL {
+            return Arrival::Nearest(None);
+        }
+        while self.rounds > 0 {
+            if let ControlFlow::Break(arrival) = self.round(accuracy, cutoff) {
+                return arrival;
             }
-            support(self.a, self.b, toward_origin(self.x, self.length), &mut self.simplex[self.n]);
-            let (x, s) = (self.x, self.simplex[self.n].diff);
-            // Frank–Wolfe duality gap: an upper bound on |x - x_min|².
-            if dot(x, sub(x, s)) < gap_tolerance {
-                return Arrival::Nearest(Some(s));
-            }
-            // A support plane at this distance times |x| has the origin in front of it.
-            let lower = dot(x, s);
-            if lower > 0.0 && is_beyond(lower, self.length, limits.cutoff) {
-                return Arrival::Apart;
-            }
-            if self.n == 3 && try_enclosing {
-                match enclose_origin(self.a, self.b, self.simplex, &mut rounds, limits.iterations) {
-                    Enclosure::Inside => return Arrival::Inside,
-                    Enclosure::Outside => return Arrival::Apart,
-                    Enclosure::Unknown => try_enclosing = false,
-                }
-            }
-            length_before = self.length;
-            match self.reduce() {
-                0 => return Arrival::Apart,
-                4 => break,
-                _ => rounds += 1,
-            }
+            self.rounds = self.rounds.saturating_sub(1);
         }
         Arrival::Nearest(None)
+    }
+
+    /// One round: a support point joins the simplex, unless its plane says that the walk is over.
+    #[inline(always)]
+    fn round(&mut self, accuracy: &Accuracy, cutoff: f64) -> ControlFlow<Arrival> {
+        support(self.a, self.b, toward_origin(self.x, self.length), &mut self.simplex[self.n]);
+        let s = self.simplex[self.n].diff;
+        if dot(self.x, sub(self.x, s)) < accuracy.gap {
+            return ControlFlow::Break(Arrival::Nearest(Some(s)));
+        }
+        if plane_is_beyond(dot(self.x, s), self.length, cutoff) {
+            return ControlFlow::Break(Arrival::Apart);
+        }
+        if self.turns && self.n == 3 {
+            self.turns = false;
+            let tetrahedron = Tetrahedron { a: self.a, b: self.b, corners: self.simplex };
+            if let Some(arrival) = tetrahedron.turn(&mut self.rounds) {
+                return ControlFlow::Break(arrival);
+            }
+        }
+        let before = self.length;
+        let stays = match self.reduce() {
+            0 => return ControlFlow::Break(Arrival::Apart),
+            4 => true,
+            _ => self.length < accuracy.touching || (before - self.length).abs() < MINVAL,
+        };
+        if stays { ControlFlow::Break(Arrival::Nearest(None)) } else { ControlFlow::Continue(()) }
     }
 
     /// Moves to the nearest point of the simplex with the vertex that was added, and drops the vertices that are not
@@ -176,9 +212,11 @@ impl Walk<'_, '_, '_> {
     }
 }
 
-/// Compares `lower / length` with the cut-off, in squares: exact ties decide as in MuJoCo's release.
-fn is_beyond(lower: f64, length: f64, cutoff: f64) -> bool {
-    cutoff <= 0.0 || (cutoff < BEYOND && lower * lower >= length * length * (cutoff * cutoff))
+/// The plane `x·y = height`, `x` of this length, shows that the distance is beyond the cut-off; without a cut-off, that it
+/// is not 0. Compared in squares: exact ties decide as in MuJoCo's release.
+fn plane_is_beyond(height: f64, length: f64, cutoff: f64) -> bool {
+    height > 0.0
+        && (cutoff <= 0.0 || (cutoff < BEYOND && height * height >= length * length * (cutoff * cutoff)))
 }
 
 const APART: Proximity = Proximity { dist: BEYOND, separated: true, n: 0, nearest: None };
@@ -202,63 +240,77 @@ fn drop_unused(simplex: &mut [Vertex; 4], lambda: &mut [f64; 4]) -> usize {
     n
 }
 
-enum Enclosure {
+/// Corners of the face opposite each corner of a tetrahedron, in the order in which its normal looks outward.
+const OPPOSITE: [[usize; 3]; 4] = [[2, 1, 3], [0, 2, 3], [1, 0, 3], [0, 1, 2]];
+
+/// A tetrahedron of support points that is turned until it holds the origin.
+///
+/// Let `n` be the outward unit normal of a face, `v` a point of the face and `h = n·v` its height over the origin. The origin is
+/// inside the tetrahedron where all four heights are positive. If one is not, let `w` be the support point along its normal:
+/// no point of the difference is higher than `n·w`, so for `n·w < 0` the origin is outside of the difference. Otherwise `w`
+/// becomes the new apex over that face, on the side where the origin is, in place of the corner opposite the face.
+struct Tetrahedron<'s, 'a, 'b> {
+    a: &'s mut ConvexBody<'a>,
+    b: &'s mut ConvexBody<'b>,
+    corners: &'s mut [Vertex; 4],
+}
+
+/// Where the origin is relative to a tetrahedron.
+enum Origin {
     Inside,
-    Outside,
-    Unknown,
+    /// In the plane of a face: the signs of the heights do not decide.
+    InPlane,
+    /// Outside of the face opposite this corner, the lowest of the four; with the normal of that face.
+    Outside(usize, Vec3),
 }
 
-/// Turns a tetrahedron until it holds the origin: the vertex opposite the face nearest to the origin, or most
-/// beyond it, gives way to a support point of that face. `rounds` counts iterations. A simplex of which nothing is
-/// known stays.
-fn enclose_origin(
-    a: &mut ConvexBody,
-    b: &mut ConvexBody,
-    simplex: &mut [Vertex; 4],
-    rounds: &mut usize,
-    iterations: usize,
-) -> Enclosure {
-    let mut before = None;
-    while *rounds < iterations {
-        let [v1, v2, v3, v4] = diffs(simplex);
-        // Face `k` is opposite vertex `k`; normals look outward.
-        let faces = [
-            oriented_distance(v3, v2, v4),
-            oriented_distance(v1, v3, v4),
-            oriented_distance(v2, v1, v4),
-            oriented_distance(v1, v2, v3),
-        ];
-        let dist = faces.map(|face| face.1);
-        if dist.contains(&0.0) {
-            break;
+impl Tetrahedron<'_, '_, '_> {
+    /// Turns until it is known whether the origin is in the difference. `None` where that stays open: the corners are then
+    /// what they were. Uses up `rounds`.
+    fn turn(self, rounds: &mut usize) -> Option<Arrival> {
+        let mut unturned = None;
+        while *rounds > 0 {
+            let (apex, normal) = match self.locate_origin() {
+                Origin::Inside => return Some(Arrival::Inside),
+                Origin::InPlane => break,
+                Origin::Outside(apex, normal) => (apex, normal),
+            };
+            unturned.get_or_insert(*self.corners);
+            support(self.a, self.b, normal, &mut self.corners[apex]);
+            if dot(normal, self.corners[apex].diff) < 0.0 {
+                return Some(Arrival::Apart);
+            }
+            // The tetrahedron has turned inside out: exchanging two corners turns its normals outward.
+            self.corners.swap((apex + 1) % 4, (apex + 2) % 4);
+            *rounds -= 1;
         }
-        let lower = |k: usize, than: usize| if dist[k] < dist[than] { k } else { than };
-        let opposite = lower(lower(0, 1), lower(2, 3));
-        let (normal, depth) = faces[opposite];
-        if depth > 0.0 {
-            return Enclosure::Inside;
+        if let Some(corners) = unturned {
+            *self.corners = corners;
         }
-        before = before.or(Some(*simplex));
-        support(a, b, normal, &mut simplex[opposite]);
-        if dot(normal, simplex[opposite].diff) < 0.0 {
-            return Enclosure::Outside;
-        }
-        // The new vertex is on the other side of the face: exchanging two others turns the normals outward again.
-        simplex.swap((opposite + 1) % 4, (opposite + 2) % 4);
-        *rounds += 1;
+        None
     }
-    *simplex = before.unwrap_or(*simplex);
-    Enclosure::Unknown
+
+    fn locate_origin(&self) -> Origin {
+        let corners = diffs(self.corners);
+        let faces = OPPOSITE.map(|[i, j, k]| plane_of_face(corners[i], corners[j], corners[k]));
+        if faces.iter().any(|&(_, height)| height == 0.0) {
+            return Origin::InPlane;
+        }
+        // The last of equally low faces.
+        let lowest = (1..4).fold(0, |low, k| if faces[low].1 < faces[k].1 { low } else { k });
+        let (normal, height) = faces[lowest];
+        if height > 0.0 { Origin::Inside } else { Origin::Outside(lowest, normal) }
+    }
 }
 
-/// Normal of a face and its distance from the origin; [`BEYOND`] for a face without area.
+/// Unit normal of a face and its height over the origin; [`BEYOND`] for a face without area.
 // Inlined to keep vectors in registers, see `Polytope::add_face`.
 #[inline(always)]
-fn oriented_distance(v1: Vec3, v2: Vec3, v3: Vec3) -> (Vec3, f64) {
+fn plane_of_face(v1: Vec3, v2: Vec3, v3: Vec3) -> (Vec3, f64) {
     let normal = cross(sub(v3, v1), sub(v2, v1));
-    let norm2 = dot(normal, normal);
-    if norm2 > MINVAL * MINVAL && norm2 < MAXVAL * MAXVAL {
-        let unit = scale(normal, 1.0 / norm2.sqrt());
+    let area2 = dot(normal, normal);
+    if area2 > MINVAL * MINVAL && area2 < MAXVAL * MAXVAL {
+        let unit = scale(normal, 1.0 / area2.sqrt());
         (unit, dot(unit, v1))
     } else {
         (normal, BEYOND)

@@ -1,6 +1,10 @@
 //! Several contacts from one penetration of boxes and meshes: where a face of one body lies against a face or an
-//! edge of the other, the overlap of the two is clipped out (Sutherland and Hodgman, Reentrant Polygon Clipping,
-//! 1974) and its corners are the contacts.
+//! edge of the other, the corners of what they share are the contacts.
+//!
+//! 1. `Clipper::find_overlap` decides which face the contacts lie on and what of the other body is over it.
+//! 2. A `Prism` over that face clips what is over it, plane by plane (Sutherland and Hodgman, Reentrant Polygon Clipping,
+//!    1974).
+//! 3. `Selection` decides which of the corners become contacts.
 
 use super::epa::Penetration;
 use super::polyhedron::{Edge, FACE_ALIGNMENT, FaceNormal, Feature, Polyhedron};
@@ -20,31 +24,29 @@ pub struct Witness {
     pub points: [Vec3; 2],
 }
 
-/// Reused memory: features and polygons of the two bodies.
+/// Reused memory: features of the two bodies, and the polygons to be clipped.
 #[derive(Clone, Debug, Default)]
 pub struct Clipper {
     faces: [Vec<FaceNormal>; 2],
     edges: Vec<Edge>,
-    polygons: [Vec<Vec3>; 2],
-    clip: Clip,
+    /// The face that the contacts lie on.
+    base: Vec<Vec3>,
+    prism: Prism,
 }
 
-/// Reused memory of one clipping.
-#[derive(Clone, Debug, Default)]
-struct Clip {
-    /// Inward normal and offset of the plane through each edge of the clipping face.
-    sides: Vec<(Vec3, f64)>,
-    polygon: Vec<Vec3>,
-    clipped: Vec<Vec3>,
+/// How two polyhedra lie against each other.
+struct Overlap {
+    /// The body, 0 or 1, that has the base.
+    body: usize,
+    /// The face that the contacts lie on.
+    base: FaceNormal,
+    over: Over,
 }
 
-/// How two polyhedra lie against each other: indices into the lists of faces and edges.
-enum Match {
-    FaceFace(usize, usize),
-    /// Edge of the first body, face of the second.
-    EdgeFace(usize, usize),
-    /// Face of the first body, edge of the second.
-    FaceEdge(usize, usize),
+/// What of the other body lies over the face.
+enum Over {
+    Face(FaceNormal),
+    Edge([Vec3; 2]),
 }
 
 impl Clipper {
@@ -58,201 +60,236 @@ impl Clipper {
         limit: usize,
         out: &mut Vec<Witness>,
     ) {
-        let (Some(pa), Some(pb)) = (Polyhedron::new(a), Polyhedron::new(b)) else { return };
-        let features = [Feature::new(&penetration.face, 0), Feature::new(&penetration.face, 1)];
-        let [x1, x2] = penetration.nearest;
-        pa.faces_at(&features[0], sub(x1, x2), &mut self.faces[0]);
-        pb.faces_at(&features[1], sub(x2, x1), &mut self.faces[1]);
-        let Some(matched) = self.find_match(&pa, &pb, &features) else { return };
-
-        let [first, second] = &mut self.polygons;
-        match matched {
-            Match::FaceFace(i, j) => {
-                let ((normal, f1), (opposite, f2)) = (self.faces[0][i], self.faces[1][j]);
-                pa.polygon(f1, first);
-                pb.polygon(f2, second);
-                self.clip.run(first, second, normal, opposite, limit, out);
+        let (Some(a), Some(b)) = (Polyhedron::new(a), Polyhedron::new(b)) else { return };
+        let bodies = [a, b];
+        let Some(overlap) = self.find_overlap(&bodies, penetration) else { return };
+        let (normal, face) = overlap.base;
+        bodies[overlap.body].polygon(face, &mut self.base);
+        let polygon = &mut self.prism.polygon;
+        let against = match overlap.over {
+            Over::Face((opposite, face)) => {
+                bodies[1 - overlap.body].polygon(face, polygon);
+                opposite
             }
-            Match::FaceEdge(i, j) => {
-                let (normal, face) = self.faces[0][i];
-                pa.polygon(face, first);
-                second.clear();
-                second.extend([features[1].corner(), self.edges[j].1]);
-                self.clip.run(first, second, normal, scale(normal, -1.0), limit, out);
+            Over::Edge(ends) => {
+                polygon.clear();
+                polygon.extend(ends);
+                scale(normal, -1.0)
             }
-            Match::EdgeFace(i, j) => {
-                let (normal, face) = self.faces[1][j];
-                pb.polygon(face, second);
-                first.clear();
-                first.extend([features[0].corner(), self.edges[i].1]);
-                self.clip.run(second, first, normal, scale(normal, -1.0), limit, out);
-                // The clipping face was the second body's. MuJoCo exchanges the points even if nothing was left
-                // and the single witness stands.
-                out.iter_mut().for_each(|w| w.points.swap(0, 1));
+        };
+        let is_edge = matches!(overlap.over, Over::Edge(_));
+        if let &[origin, _, _, ..] = self.base.as_slice() {
+            let ground = Plane { normal, point: origin };
+            let corners = self.prism.clip(&self.base, &ground);
+            if !corners.is_empty() {
+                out.clear();
+                let witness = |&p: &Vec3| ground.witness(p, against);
+                match Selection::of(corners, limit, is_edge) {
+                    Selection::All => out.extend(corners.iter().take(MAXCONPAIR).map(witness)),
+                    Selection::Quadrilateral(four) => out.extend(four.map(|i| witness(&corners[i]))),
+                    Selection::Ends(two) => out.extend(two.map(|i| witness(&corners[i]))),
+                }
             }
+        }
+        if overlap.body == 1 {
+            // The first point lies on the face, so here on the second body. MuJoCo exchanges the points even if nothing was
+            // left and the single witness stands.
+            out.iter_mut().for_each(|w| w.points.swap(0, 1));
         }
     }
 
-    fn find_match(&mut self, pa: &Polyhedron, pb: &Polyhedron, features: &[Feature; 2]) -> Option<Match> {
-        if let Some((i, j)) = opposed_faces(&self.faces[0], &self.faces[1]) {
-            return Some(Match::FaceFace(i, j));
+    /// Two faces that look at each other or, where there are none, an edge along a face. The body whose feature has fewer
+    /// vertices gives the edge, the first of equal ones.
+    fn find_overlap(&mut self, bodies: &[Polyhedron; 2], penetration: &Penetration) -> Option<Overlap> {
+        let features = [0, 1].map(|body| Feature::new(&penetration.face, body));
+        let [x1, x2] = penetration.nearest;
+        for (body, outward) in [sub(x1, x2), sub(x2, x1)].into_iter().enumerate() {
+            bodies[body].faces_at(&features[body], outward, &mut self.faces[body]);
         }
-        let [d1, d2] = [features[0].dim, features[1].dim];
-        if d1 < 3 && d1 <= d2 {
-            pa.edges_at(&features[0], &mut self.edges);
-            return parallel_edge(&self.edges, &self.faces[1]).map(|(e, f)| Match::EdgeFace(e, f));
+        if let Some((base, opposite)) = opposed_faces(&self.faces[0], &self.faces[1]) {
+            return Some(Overlap { body: 0, base, over: Over::Face(opposite) });
         }
-        if d2 < 3 {
-            pb.edges_at(&features[1], &mut self.edges);
-            return parallel_edge(&self.edges, &self.faces[0]).map(|(e, f)| Match::FaceEdge(f, e));
+        let edged = usize::from(features[1].dim < features[0].dim);
+        if features[edged].dim == 3 {
+            return None;
         }
-        None
+        bodies[edged].edges_at(&features[edged], &mut self.edges);
+        let ((_, end), base) = parallel_edge(&self.edges, &self.faces[1 - edged])?;
+        Some(Overlap { body: 1 - edged, base, over: Over::Edge([features[edged].corner(), end]) })
     }
 }
 
 /// First pair of faces that look at each other.
-fn opposed_faces(first: &[FaceNormal], second: &[FaceNormal]) -> Option<(usize, usize)> {
-    for (i, &(n, _)) in first.iter().enumerate() {
-        if let Some(j) = second.iter().position(|&(o, _)| dot(n, o) < -FACE_ALIGNMENT) {
-            return Some((i, j));
-        }
-    }
-    None
+fn opposed_faces(first: &[FaceNormal], second: &[FaceNormal]) -> Option<(FaceNormal, FaceNormal)> {
+    let mut pairs = first.iter().flat_map(|one| second.iter().map(move |other| (*one, *other)));
+    pairs.find(|(one, other)| dot(one.0, other.0) < -FACE_ALIGNMENT)
 }
 
-/// First edge along a face: index of the edge, index of the face.
-fn parallel_edge(edges: &[Edge], faces: &[FaceNormal]) -> Option<(usize, usize)> {
-    for (f, &(n, _)) in faces.iter().enumerate() {
-        if let Some(e) = edges.iter().position(|&(d, _)| dot(d, n).abs() < EDGE_ALIGNMENT) {
-            return Some((e, f));
-        }
-    }
-    None
+/// First edge along a face, of the first face that has one.
+fn parallel_edge(edges: &[Edge], faces: &[FaceNormal]) -> Option<(Edge, FaceNormal)> {
+    let mut pairs = faces.iter().flat_map(|face| edges.iter().map(move |edge| (*edge, *face)));
+    pairs.find(|(edge, face)| dot(edge.0, face.0).abs() < EDGE_ALIGNMENT)
 }
 
-impl Clip {
-    /// Clips `subject` (a polygon or an edge) by the prism over `face`, drops what is above the face, and writes
-    /// a witness for each corner that remains: on `subject`, and moved against `dir` onto the face.
-    /// Leaves `out` alone when nothing remains.
-    fn run(
-        &mut self,
-        face: &[Vec3],
-        subject: &[Vec3],
-        normal: Vec3,
-        dir: Vec3,
-        limit: usize,
-        out: &mut Vec<Witness>,
-    ) {
-        if face.len() < 3 {
-            return;
-        }
-        self.set_sides(face, normal);
-        self.polygon.clear();
-        self.polygon.extend_from_slice(subject);
-        for (&corner, &side) in face.iter().zip(&self.sides) {
-            cut(&self.polygon, corner, side, &mut self.clipped);
-            std::mem::swap(&mut self.polygon, &mut self.clipped);
-        }
-        self.polygon.retain(|&p| dot(sub(p, face[0]), normal) <= 0.0);
-        if self.polygon.is_empty() {
-            return;
-        }
-        let witness = |p: Vec3| {
-            let dist = dot(sub(p, face[0]), normal);
-            Witness { dist, points: [add_scaled(p, dir, -dist.abs()), p] }
-        };
-        let polygon = &self.polygon;
-        out.clear();
-        if limit < 5 && polygon.len() > 4 {
-            out.extend(largest_quadrilateral(polygon).map(|i| witness(polygon[i])));
-        } else if subject.len() == 2 && polygon.len() > 2 {
-            out.extend(most_distant(polygon).map(|i| witness(polygon[i])));
-        } else {
-            out.extend(polygon.iter().take(MAXCONPAIR).map(|&p| witness(p)));
-        }
+/// A plane through a point.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    normal: Vec3,
+    point: Vec3,
+}
+
+impl Plane {
+    fn height(&self, p: Vec3) -> f64 {
+        dot(sub(p, self.point), self.normal)
     }
 
-    fn set_sides(&mut self, face: &[Vec3], normal: Vec3) {
-        self.sides.clear();
-        for (i, &v) in face.iter().enumerate() {
+    /// The corner `p` and the point of the plane, the face of the other body, that it is moved to against `direction`.
+    fn witness(&self, p: Vec3, direction: Vec3) -> Witness {
+        let dist = self.height(p);
+        Witness { dist, points: [add_scaled(p, direction, -dist.abs()), p] }
+    }
+
+    /// Where the plane cuts the segment from `p` to `q`.
+    fn cut(&self, p: Vec3, q: Vec3) -> Option<Vec3> {
+        let along = sub(q, p);
+        let slope = dot(self.normal, along);
+        let t = (dot(self.normal, self.point) - dot(self.normal, p)) / slope;
+        (slope != 0.0 && (0.0..=1.0).contains(&t)).then(|| add_scaled(p, along, t))
+    }
+}
+
+/// The space under a face, bounded by its plane and by the planes through its edges; clips polygons in reused memory.
+#[derive(Clone, Debug, Default)]
+struct Prism {
+    polygon: Vec<Vec3>,
+    clipped: Vec<Vec3>,
+}
+
+impl Prism {
+    /// Leaves of the polygon what is in the prism under `face`.
+    fn clip(&mut self, face: &[Vec3], ground: &Plane) -> &[Vec3] {
+        for (i, &corner) in face.iter().enumerate() {
             let next = face[(i + 1) % face.len()];
-            let up = sub(add(v, normal), v);
-            let (side, _) = normalize(cross(sub(next, v), up));
-            self.sides.push((side, dot(side, v)));
+            // The normal with the rounding that it gets at the corner, as in MuJoCo.
+            let up = sub(add(corner, ground.normal), corner);
+            let (inward, _) = normalize(cross(sub(next, corner), up));
+            self.keep_inside(&Plane { normal: inward, point: corner });
         }
+        self.polygon.retain(|&p| ground.height(p) <= 0.0);
+        &self.polygon
     }
-}
 
-/// Keeps the part of a polygon on the inner side of a plane through `corner`.
-fn cut(polygon: &[Vec3], corner: Vec3, (side, offset): (Vec3, f64), out: &mut Vec<Vec3>) {
-    out.clear();
-    let inside = |p: Vec3| dot(sub(p, corner), side) > -MINVAL;
-    for (i, &p) in polygon.iter().enumerate() {
-        let q = polygon[(i + 1) % polygon.len()];
-        let (p_in, q_in) = (inside(p), inside(q));
-        if p_in != q_in {
-            let along = sub(q, p);
-            let slope = dot(side, along);
-            let t = (offset - dot(side, p)) / slope;
-            if slope != 0.0 && (0.0..=1.0).contains(&t) {
-                out.push(add_scaled(p, along, t));
+    /// Walks around the polygon and keeps what is on the inner side of a plane: corners there, and the points where the walk
+    /// passes the plane.
+    fn keep_inside(&mut self, plane: &Plane) {
+        let inside = |p: Vec3| plane.height(p) > -MINVAL;
+        self.clipped.clear();
+        let Some(&first) = self.polygon.first() else { return };
+        let (mut here, mut here_inside) = (first, inside(first));
+        for &next in self.polygon[1..].iter().chain([&first]) {
+            let next_inside = inside(next);
+            if here_inside != next_inside {
+                self.clipped.extend(plane.cut(here, next));
             }
+            if next_inside {
+                self.clipped.push(next);
+            }
+            (here, here_inside) = (next, next_inside);
         }
-        if q_in {
-            out.push(q);
+        std::mem::swap(&mut self.polygon, &mut self.clipped);
+    }
+}
+
+/// Which corners of an overlap become contacts.
+enum Selection {
+    All,
+    /// Those of the largest quadrilateral.
+    Quadrilateral([usize; 4]),
+    /// The two that are farthest apart: an edge has no more, the rest are repetitions.
+    Ends([usize; 2]),
+}
+
+impl Selection {
+    fn of(corners: &[Vec3], limit: usize, is_edge: bool) -> Self {
+        if limit < 5 && corners.len() > 4 {
+            Selection::Quadrilateral(largest_quadrilateral(corners))
+        } else if is_edge && corners.len() > 2 {
+            Selection::Ends(most_distant(corners))
+        } else {
+            Selection::All
         }
     }
 }
 
-/// Corners of the quadrilateral of largest area, found by rotating calipers.
+/// Corners of a large quadrilateral: as its first corner goes around a convex polygon, the other corners of the largest
+/// quadrilateral with that corner go around in the same sense (Dobkin and Snyder, On a General Method for Maximizing and
+/// Minimizing among Certain Geometric Problems, 1979). A corner advances only to more area than any quadrilateral had before.
 fn largest_quadrilateral(polygon: &[Vec3]) -> [usize; 4] {
-    let n = polygon.len();
-    let next = |i: usize| (i + 1) % n;
-    let area = |q: [usize; 4]| area(q.map(|i| polygon[i]));
-    let mut q = [0, 1, 2, 3];
-    let (mut best, mut largest) = (q, area(q));
-    for a in 0..n {
-        q[0] = a;
-        // The last corner advances while the area grows; after each advance the third and the second follow.
-        let mut advance = |q: &mut [usize; 4], corner: usize| {
-            let mut moved = *q;
-            moved[corner] = next(q[corner]);
-            let larger = area(moved);
-            let grows = larger > largest;
-            if grows {
-                (*q, best, largest) = (moved, moved, larger);
-            }
-            grows
-        };
-        while advance(&mut q, 3) {
-            while advance(&mut q, 2) {}
-            while advance(&mut q, 1) {}
+    let mut calipers = Calipers::new(polygon);
+    for first in 0..polygon.len() {
+        calipers.corners[0] = first;
+        while calipers.advance(3) {
+            while calipers.advance(2) {}
+            while calipers.advance(1) {}
         }
+        calipers.push_ahead();
+    }
+    calipers.best
+}
+
+/// A quadrilateral on the corners of a polygon, and the largest one so far.
+struct Calipers<'p> {
+    polygon: &'p [Vec3],
+    corners: [usize; 4],
+    best: [usize; 4],
+    area: f64,
+}
+
+impl<'p> Calipers<'p> {
+    fn new(polygon: &'p [Vec3]) -> Self {
+        let corners = [0, 1, 2, 3];
+        Calipers { polygon, corners, best: corners, area: area(corners.map(|i| polygon[i])) }
+    }
+
+    fn after(&self, corner: usize) -> usize {
+        (self.corners[corner] + 1) % self.polygon.len()
+    }
+
+    /// Moves a corner on if that gives the largest area so far.
+    fn advance(&mut self, corner: usize) -> bool {
+        let mut moved = self.corners;
+        moved[corner] = self.after(corner);
+        let area = area(moved.map(|i| self.polygon[i]));
+        let grows = area > self.area;
+        if grows {
+            (self.corners, self.best, self.area) = (moved, moved, area);
+        }
+        grows
+    }
+
+    /// Moves on the corners that the ones before them have reached.
+    fn push_ahead(&mut self) {
         for corner in 1..4 {
-            if q[corner] != q[corner - 1] {
+            if self.corners[corner] != self.corners[corner - 1] {
                 break;
             }
-            q[corner] = next(q[corner]);
+            self.corners[corner] = self.after(corner);
         }
     }
-    best
 }
 
+/// Area of a quadrilateral, half the length of the sum of the normals of two triangles.
 fn area([a, b, c, d]: [Vec3; 4]) -> f64 {
     0.5 * norm(add(cross(sub(d, a), sub(b, d)), cross(sub(c, b), sub(a, c))))
 }
 
-/// The two corners farthest from each other.
+/// The two corners farthest from each other, the first two of equally far ones.
 fn most_distant(polygon: &[Vec3]) -> [usize; 2] {
-    let (mut best, mut farthest) = ([0, 1], 0.0);
-    for i in 0..polygon.len() {
-        for j in i + 1..polygon.len() {
-            let d = sub(polygon[j], polygon[i]);
-            if dot(d, d) > farthest {
-                farthest = dot(d, d);
-                best = [i, j];
-            }
-        }
-    }
-    best
+    let pairs = (0..polygon.len()).flat_map(|i| (i + 1..polygon.len()).map(move |j| [i, j]));
+    let farther = |best: ([usize; 2], f64), pair: [usize; 2]| {
+        let gap = sub(polygon[pair[1]], polygon[pair[0]]);
+        let distance2 = dot(gap, gap);
+        if distance2 > best.1 { (pair, distance2) } else { best }
+    };
+    pairs.fold(([0, 1], 0.0), farther).0
 }

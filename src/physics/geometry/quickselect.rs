@@ -13,133 +13,139 @@ const SHORT: usize = 7;
 
 /// Moves the `nth` item into place and all that come before it in front of it.
 pub(crate) fn select<T>(items: &mut [T], nth: usize, before: &impl Fn(&T, &T) -> bool) {
-    let mut run = 0..items.len();
-    while run.len() > SHORT {
-        let start = run.start;
-        match narrowed(&mut items[run], nth - start, before) {
-            Some(part) => run = start + part.start..start + part.end,
-            None => return,
-        }
-    }
-    let run = &mut items[run];
-    if run.len() == 3 {
-        order_three(run, [0, 1, 2], before);
-    } else {
-        sort_by_selection(run, before);
+    let mut from = 0;
+    let mut run = Run { items, before, moved: false };
+    while let Some(part) = run.settle(nth - from) {
+        from += part.start;
+        run = Run { items: &mut run.items[part], before, moved: false };
     }
 }
 
-/// Splits a run at a pivot; the part that still holds the `nth` item, `None` once that is in place.
-fn narrowed<T>(run: &mut [T], nth: usize, before: &impl Fn(&T, &T) -> bool) -> Option<Range<usize>> {
-    let (middle, last) = (run.len() / 2, run.len() - 1);
-    let mut moved = order_three(run, [0, middle, last], before);
-    let mut right = last;
-    if !before(&run[0], &run[middle]) {
-        // The first item ties with the pivot: a smaller one takes its place.
-        match (1..last).rev().find(|&k| before(&run[k], &run[middle])) {
-            Some(smaller) => {
-                run.swap(0, smaller);
-                (moved, right) = (true, smaller);
-            }
-            None => return end_of_ties(run, before).filter(|&end| nth >= end).map(|end| end..run.len()),
-        }
-    }
-    let split = partition(run, [1, right], middle, before);
-    moved |= split.moved;
-    let (at, pivot) = (split.at, split.pivot);
-    if at != pivot && before(&run[pivot], &run[at]) {
-        run.swap(at, pivot);
-        moved = true;
-    }
-    let (part, checked) = match nth.cmp(&at) {
-        Ordering::Equal => return None,
-        Ordering::Less => (0..at, 0..at),
-        Ordering::Greater => (at + 1..run.len(), at..run.len()),
-    };
-    // Nothing moved: the run was probably in order.
-    let ordered = |part: &[T]| part.windows(2).all(|pair| !before(&pair[1], &pair[0]));
-    if !moved && ordered(&run[checked]) { None } else { Some(part) }
-}
-
-/// Where a run was split: items before `at` are low.
-struct Split {
-    at: usize,
-    /// Where the pivot is now.
-    pivot: usize,
+/// A run of items that is put in order.
+struct Run<'i, T, B> {
+    items: &'i mut [T],
+    before: &'i B,
+    /// Items have changed places.
     moved: bool,
 }
 
-/// Hoare's partition: two scans from `left` up and from `right` down exchange what stands on the wrong side.
-/// `is_low(item, pivot)` tells the sides apart; items at `right` and after are high already.
-fn partition<T>(
-    run: &mut [T],
-    [mut left, mut right]: [usize; 2],
-    mut pivot: usize,
-    is_low: impl Fn(&T, &T) -> bool,
-) -> Split {
-    let last = run.len() - 1;
-    let mut moved = false;
-    while left < right {
-        while left < last && is_low(&run[left], &run[pivot]) {
-            left += 1;
-        }
-        right -= 1;
-        while right > 0 && !is_low(&run[right], &run[pivot]) {
-            right -= 1;
-        }
-        if left >= right {
-            break;
-        }
-        run.swap(left, right);
-        moved = true;
-        if pivot == left {
-            pivot = right;
-        }
-        left += 1;
+impl<T, B: Fn(&T, &T) -> bool> Run<'_, T, B> {
+    fn comes_before(&self, i: usize, j: usize) -> bool {
+        (self.before)(&self.items[i], &self.items[j])
     }
-    Split { at: left, pivot, moved }
-}
 
-/// Gathers the items that tie with the first, to which none is smaller, and returns where they end; `None` when all do.
-fn end_of_ties<T>(run: &mut [T], before: &impl Fn(&T, &T) -> bool) -> Option<usize> {
-    let last = run.len() - 1;
-    let mut left = 1;
-    if !before(&run[0], &run[last]) {
-        let greater = (1..last).find(|&k| before(&run[0], &run[k]))?;
-        run.swap(greater, last);
-        left = greater + 1;
+    fn exchange(&mut self, i: usize, j: usize) {
+        self.items.swap(i, j);
+        self.moved = true;
     }
-    let ties = |item: &T, first: &T| !before(first, item);
-    if left == last { None } else { Some(partition(run, [left, last], 0, ties).at) }
-}
 
-/// Orders the items at three places; true when one moved.
-fn order_three<T>(run: &mut [T], [x, y, z]: [usize; 3], before: &impl Fn(&T, &T) -> bool) -> bool {
-    match [before(&run[y], &run[x]), before(&run[z], &run[y])] {
-        [false, false] => return false,
-        [true, true] => run.swap(x, z),
-        [true, false] => {
-            run.swap(x, y);
-            if before(&run[z], &run[y]) {
-                run.swap(y, z);
+    /// Exchanges two items if the one that should come second comes before the other.
+    fn put_in_order(&mut self, first: usize, second: usize) {
+        if self.comes_before(second, first) {
+            self.exchange(first, second);
+        }
+    }
+
+    /// Puts the `nth` item into place, or splits the run and returns the part in which that item is.
+    fn settle(&mut self, nth: usize) -> Option<Range<usize>> {
+        match self.items.len() {
+            len if len > SHORT => return self.split(nth),
+            3 => self.order_three([0, 1, 2]),
+            _ => self.order_all(),
+        }
+        None
+    }
+
+    /// Splits the run at the median of its first, middle and last item. Both scans of the partition then end within the run:
+    /// the last item is not before the pivot, and the first one is, or gives way to one that is.
+    fn split(&mut self, nth: usize) -> Option<Range<usize>> {
+        let len = self.items.len();
+        let (middle, last) = (len / 2, len - 1);
+        self.order_three([0, middle, last]);
+        let mut open = 1..last;
+        if !self.comes_before(0, middle) {
+            let Some(low) = open.clone().rev().find(|&k| self.comes_before(k, middle)) else {
+                // All tie with the first item or come after it.
+                return self.gather_ties().filter(|&end| nth >= end).map(|end| end..len);
+            };
+            self.exchange(0, low);
+            open.end = low;
+        }
+        let (at, pivot) = self.partition(open, middle, |run, k, pivot| run.comes_before(k, pivot));
+        if at != pivot {
+            self.put_in_order(at, pivot);
+        }
+        let (part, beside) = match nth.cmp(&at) {
+            Ordering::Equal => return None,
+            Ordering::Less => (0..at, 0..at),
+            Ordering::Greater => (at + 1..len, at..len),
+        };
+        // A run in which nothing had to move was probably in order.
+        if !self.moved && self.is_in_order(beside) { None } else { Some(part) }
+    }
+
+    /// Hoare's partition of the `open` places: what stands there on the wrong side is exchanged in pairs, the outermost first.
+    /// Places before it are low and places after it high. Returns where the high items begin, and where the pivot is then.
+    fn partition(
+        &mut self,
+        open: Range<usize>,
+        mut pivot: usize,
+        is_low: impl Fn(&Self, usize, usize) -> bool,
+    ) -> (usize, usize) {
+        let last = self.items.len() - 1;
+        let Range { start: mut left, end: mut right } = open;
+        while left < right {
+            left = (left..last).find(|&k| !is_low(self, k, pivot)).unwrap_or(last);
+            right = (1..right).rev().find(|&k| is_low(self, k, pivot)).unwrap_or(0);
+            if left < right {
+                self.exchange(left, right);
+                pivot = if pivot == left { right } else { pivot };
+                left += 1;
             }
         }
-        [false, true] => {
-            run.swap(y, z);
-            if before(&run[y], &run[x]) {
-                run.swap(x, y);
+        (left, pivot)
+    }
+
+    /// Gathers the items that tie with the first one, which none comes before, and returns where they end; `None` when all do.
+    fn gather_ties(&mut self) -> Option<usize> {
+        let last = self.items.len() - 1;
+        let mut from = 1;
+        if !self.comes_before(0, last) {
+            let greater = (1..last).find(|&k| self.comes_before(0, k))?;
+            self.exchange(greater, last);
+            from = greater + 1;
+        }
+        (from < last).then(|| self.partition(from..last, 0, |run, k, first| !run.comes_before(first, k)).0)
+    }
+
+    fn is_in_order(&self, part: Range<usize>) -> bool {
+        part.clone().skip(1).all(|k| !self.comes_before(k, k - 1))
+    }
+
+    /// Orders the items at three places. The two neighbouring pairs are compared first; where one of them is exchanged, the
+    /// other one is compared again.
+    fn order_three(&mut self, [x, y, z]: [usize; 3]) {
+        match (self.comes_before(y, x), self.comes_before(z, y)) {
+            (false, false) => {}
+            (true, true) => self.exchange(x, z),
+            (true, false) => {
+                self.exchange(x, y);
+                self.put_in_order(y, z);
+            }
+            (false, true) => {
+                self.exchange(y, z);
+                self.put_in_order(x, y);
             }
         }
     }
-    true
-}
 
-/// Sorts a short run: the least of the rest comes next.
-fn sort_by_selection<T>(run: &mut [T], before: &impl Fn(&T, &T) -> bool) {
-    for next in 0..run.len().saturating_sub(1) {
-        let least =
-            (next + 1..run.len()).fold(next, |least, k| if before(&run[k], &run[least]) { k } else { least });
-        run.swap(next, least);
+    /// Orders all items: the least of the rest comes next, the first of equal ones.
+    fn order_all(&mut self) {
+        for next in 0..self.items.len().saturating_sub(1) {
+            let rest = next + 1..self.items.len();
+            let least = rest.fold(next, |least, k| if self.comes_before(k, least) { k } else { least });
+            self.items.swap(next, least);
+        }
     }
 }
 

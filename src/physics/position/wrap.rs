@@ -293,32 +293,57 @@ impl Reflection {
         a / cosine(z * z * a * a) + b / cosine(z * z * b * b) - 2.0 / cosine(z * z)
     }
 
-    /// Root of the misfit, by Newton's method from just below grazing incidence. The misfit is concave and falls there,
-    /// so that the iteration descends to the root from the right. `None` when it does not: there is no root below the
-    /// start, or rounding spoils the iteration.
+    /// A trial of the sine of the angle of incidence.
+    fn trial(&self, sine: f64) -> Trial {
+        Trial { sine, misfit: self.misfit(sine) }
+    }
+
+    /// Root of the misfit, by Newton's method from just below grazing incidence.
+    ///
+    /// At 0 the misfit is the gap, which is positive. On (0, 1) it falls and is concave: its second derivative is the sum over
+    /// both ratios `r` of `r³z / (1 - r²z²)^(3/2) - z / (1 - z²)^(3/2)`, which is negative for `r < 1`. A tangent of a concave
+    /// function lies above it. So where the misfit is negative at the start, each step leads left and ends right of the root.
+    /// `None` where it is not negative there, where rounding spoils this order, or where the steps do not suffice.
     fn sine_of_incidence(&self) -> Option<f64> {
         const START: f64 = 1.0 - 1e-7;
-        const TOLERANCE: f64 = 1e-6;
         const STEPS: usize = 20;
-        let (mut z, mut misfit) = (START, self.misfit(START));
-        if misfit > 0.0 {
+        let mut trial = self.trial(START);
+        if trial.misfit > 0.0 {
             return None;
         }
         for _ in 0..STEPS {
-            if misfit.abs() <= TOLERANCE {
-                return Some(z);
+            if trial.is_root() {
+                return Some(trial.sine);
             }
-            let slope = self.slope(z);
-            let next = z - misfit / slope;
-            if slope > -MINVAL || next > z {
-                return None;
-            }
-            (z, misfit) = (next, self.misfit(next));
-            if misfit > TOLERANCE {
-                return None;
-            }
+            trial = self.newton(&trial)?;
         }
         None
+    }
+
+    /// The trial to the left that Newton's step leads to; `None` where it does not lead left, or beyond the root.
+    fn newton(&self, trial: &Trial) -> Option<Trial> {
+        let slope = self.slope(trial.sine);
+        let sine = trial.sine - trial.misfit / slope;
+        if slope > -MINVAL || sine > trial.sine {
+            return None;
+        }
+        let next = self.trial(sine);
+        (next.misfit <= Trial::TOLERANCE).then_some(next)
+    }
+}
+
+/// A sine of the angle of incidence, and by how much it misses the law of reflection.
+struct Trial {
+    sine: f64,
+    misfit: f64,
+}
+
+impl Trial {
+    /// Angle at the centre up to which the law holds [rad].
+    const TOLERANCE: f64 = 1e-6;
+
+    fn is_root(&self) -> bool {
+        self.misfit.abs() <= Self::TOLERANCE
     }
 }
 

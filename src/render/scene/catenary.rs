@@ -1,13 +1,19 @@
-//! The curve of a rope that hangs between two points: `y = a cosh(x / a)`.
+//! The curve of a rope that hangs between two points: the catenary `y = a cosh(x / a)`.
+//!
+//! Let the ends be `w` apart in width and `v` in height, at `m - w/2` and `m + w/2` from the lowest point of the curve. By the
+//! addition theorems of the hyperbolic functions, the difference of the heights and the length of the arc are
+//!
+//! - `v = a cosh((m + w/2)/a) - a cosh((m - w/2)/a) = 2 a sinh(w/2a) sinh(m/a)`,
+//! - `L = a sinh((m + w/2)/a) - a sinh((m - w/2)/a) = 2 a sinh(w/2a) cosh(m/a)`.
+//!
+//! The difference of their squares, `L² - v² = (2 a sinh(w/2a))²`, is one equation for `a` (`FlatnessEquation`). Their quotient
+//! `v / L = tanh(m/a)` then gives `m = a/2 ln((L + v) / (L - v))` (Irvine, Cable Structures, 1981, chapter 1).
 
 use physics::math::{Vec3, add_scaled, distance, dot, norm, ops, scale, sub};
 use physics::model::bounds::MINVAL;
 
 /// Points along a curve at most.
 pub(super) const MAX_POINTS: usize = 100;
-
-/// How much longer than wide a curve must be to be drawn as a bead on a string.
-const STEEP: f64 = 100.0;
 
 /// A rope between two points.
 #[derive(Clone, Copy, Debug)]
@@ -25,41 +31,111 @@ impl Rope {
     /// it is taut or nearly vertical; returns how many. `count` is 2 to [`MAX_POINTS`].
     pub fn points(&self, count: usize, points: &mut [Vec3; MAX_POINTS]) -> usize {
         let [start, end] = self.ends;
+        let plane = Plane::new(start, end, self.gravity);
+        let inner = match Shape::of(self, &plane) {
+            Shape::Straight => 0,
+            Shape::Kinked { x, y } => {
+                points[1] = plane.point(x, y);
+                1
+            }
+            Shape::Curved(curve) => {
+                // MuJoCo's points are a little closer together than the width would allow: the last stretch is longer.
+                for (i, point) in points.iter_mut().enumerate().take(count - 1).skip(1) {
+                    let x = i as f64 * plane.width / count as f64;
+                    *point = plane.point(x, curve.height(x));
+                }
+                count - 2
+            }
+        };
         points[0] = start;
-        let inner = if distance(start, end) < self.length { self.hang(count, points) } else { 0 };
         points[inner + 1] = end;
         inner + 2
     }
+}
 
-    /// Fills the points between the ends; returns how many.
-    fn hang(&self, count: usize, points: &mut [Vec3; MAX_POINTS]) -> usize {
-        let [start, end] = self.ends;
-        let up = scale(self.gravity, -1.0 / norm(self.gravity));
+/// The vertical plane through both ends.
+struct Plane {
+    start: Vec3,
+    across: Vec3,
+    up: Vec3,
+    /// From the first end to the second [m].
+    width: f64,
+    rise: f64,
+}
+
+impl Plane {
+    fn new(start: Vec3, end: Vec3, gravity: Vec3) -> Self {
+        let up = scale(gravity, -1.0 / norm(gravity));
         let span = sub(end, start);
         let rise = dot(span, up);
         let level = add_scaled(span, up, -rise);
-        let level_length = norm(level);
-        let across = if level_length < MINVAL { [0.0; 3] } else { scale(level, 1.0 / level_length) };
-        let width = dot(span, across);
-        let at = |x: f64, y: f64| add_scaled(add_scaled(start, across, x), up, y);
-        if self.length > STEEP * width {
-            let drop = -0.5 * (ops::sqrt(self.length * self.length - width * width) - rise);
-            points[1] = at(width * drop / (2.0 * drop - rise), drop);
-            return 1;
+        let length = norm(level);
+        let across = if length < MINVAL { [0.0; 3] } else { scale(level, 1.0 / length) };
+        Plane { start, across, up, width: dot(span, across), rise }
+    }
+
+    /// The point so far across and above the first end, world frame.
+    fn point(&self, x: f64, y: f64) -> Vec3 {
+        add_scaled(add_scaled(self.start, self.across, x), self.up, y)
+    }
+}
+
+/// How a rope hangs.
+enum Shape {
+    /// Taut, or too little longer than its span for a curve.
+    Straight,
+    /// Down to a point and up again: far longer than wide.
+    Kinked {
+        x: f64,
+        y: f64,
+    },
+    Curved(Curve),
+}
+
+impl Shape {
+    fn of(rope: &Rope, plane: &Plane) -> Self {
+        /// How much longer than wide a rope is drawn as two straight lines.
+        const STEEP: f64 = 100.0;
+        let Rope { ends: [start, end], length, .. } = *rope;
+        let Plane { width, rise, .. } = *plane;
+        if distance(start, end) < length {
+            if length > STEEP * width {
+                // Both lines are equally steep, as on a string with a bead: together they go down and up by sqrt(L² - w²).
+                let y = -0.5 * (ops::sqrt(length * length - width * width) - rise);
+                return Shape::Kinked { x: width * y / (2.0 * y - rise), y };
+            }
+            if let Some(curve) = Curve::new(width, rise, length) {
+                return Shape::Curved(curve);
+            }
         }
-        let stretch = ops::sqrt(self.length * self.length - rise * rise) / width;
+        Shape::Straight
+    }
+}
+
+/// A catenary from the first end on.
+struct Curve {
+    /// Its scale `a` [m].
+    a: f64,
+    /// How far from the first end it is lowest [m].
+    lowest: f64,
+    /// How far the first end is above the curve's axis y = 0 [m].
+    start: f64,
+}
+
+impl Curve {
+    fn new(width: f64, rise: f64, length: f64) -> Option<Self> {
+        let stretch = ops::sqrt(length * length - rise * rise) / width;
         if stretch <= 1.0 {
-            return 0;
+            return None;
         }
-        let a = width * relative_scale(stretch);
-        let lowest = 0.5 * (width - a * ops::log((self.length + rise) / (self.length - rise)));
-        let floor = a * cosh(lowest / a);
-        // MuJoCo's points are a little closer together than the width would allow: the last stretch is longer.
-        for i in 1..count - 1 {
-            let x = i as f64 * width / count as f64;
-            points[i] = at(x, a * cosh((x - lowest) / a) - floor);
-        }
-        count - 2
+        let a = width * FlatnessEquation::new(stretch).solve();
+        let lowest = 0.5 * (width - a * ops::log((length + rise) / (length - rise)));
+        Some(Curve { a, lowest, start: a * cosh(lowest / a) })
+    }
+
+    /// Height above the first end at a distance from it.
+    fn height(&self, x: f64) -> f64 {
+        self.a * cosh((x - self.lowest) / self.a) - self.start
     }
 }
 
@@ -92,31 +168,56 @@ fn excess_slope(x: f64) -> f64 {
     }
 }
 
-/// `b = a / width` of a curve of which `stretch` is `sqrt(length² - rise²) / width`, more than 1: the two are equal to
-/// `2 b sinh(1 / 2b)`. Newton's method finds the root in `1 / sqrt(2 b sinh(1 / 2b) - 1)`, which is nearly linear in b.
-fn relative_scale(stretch: f64) -> f64 {
-    const TOLERANCE: f64 = 1e-9;
-    let wanted = 1.0 / ops::sqrt(stretch - 1.0);
-    let excess = |b: f64| excess(0.5 / b);
-    let residual = |b: f64| 1.0 / ops::sqrt(excess(b)) - wanted;
-    let mut b = wanted / ops::sqrt(24.0);
-    for _ in 0..50 {
-        let here = residual(b);
-        if here.abs() < TOLERANCE {
-            break;
-        }
-        let half = 0.5 / b;
-        let slope = excess_slope(half) * ops::pow(excess(b), -1.5);
-        let mut step = -here / slope;
-        for _ in 0..10 {
-            if residual(b + step).abs() < here.abs() {
+/// The equation for the flatness `b = a / w`: `2 b sinh(1/2b) = s`, where the stretch `s = sqrt(L² - v²) / w` is more than 1.
+///
+/// For flat curves `2 b sinh(1/2b) - 1` is nearly `1 / 24b²`. So `1 / sqrt(2 b sinh(1/2b) - 1)` is nearly `sqrt(24) b`. In this
+/// form the equation is nearly linear, which gives the first trial, and Newton's method takes a few steps.
+struct FlatnessEquation {
+    /// `1 / sqrt(s - 1)`.
+    wanted: f64,
+}
+
+/// A flatness, and by how much it misses the equation.
+#[derive(Clone, Copy)]
+struct Trial {
+    b: f64,
+    misfit: f64,
+}
+
+impl FlatnessEquation {
+    fn new(stretch: f64) -> Self {
+        FlatnessEquation { wanted: 1.0 / ops::sqrt(stretch - 1.0) }
+    }
+
+    fn trial(&self, b: f64) -> Trial {
+        Trial { b, misfit: 1.0 / ops::sqrt(excess(0.5 / b)) - self.wanted }
+    }
+
+    /// The root, up to a misfit of 1e-9.
+    fn solve(&self) -> f64 {
+        const TOLERANCE: f64 = 1e-9;
+        const STEPS: usize = 50;
+        let mut trial = self.trial(self.wanted / ops::sqrt(24.0));
+        for _ in 0..STEPS {
+            if trial.misfit.abs() < TOLERANCE {
                 break;
             }
-            step *= 0.5;
+            trial = self.newton(trial);
         }
-        b += step;
+        trial.b
     }
-    b
+
+    /// Newton's step, halved until it leads to a smaller misfit, at most ten times.
+    fn newton(&self, from: Trial) -> Trial {
+        let half = 0.5 / from.b;
+        let slope = excess_slope(half) * ops::pow(excess(half), -1.5);
+        let step = -from.misfit / slope;
+        (0..10)
+            .scan(step, |step, _| Some(std::mem::replace(step, 0.5 * *step)))
+            .map(|step| self.trial(from.b + step))
+            .find(|trial| trial.misfit.abs() < from.misfit.abs())
+            .unwrap_or_else(|| self.trial(from.b + step / 1024.0))
+    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,13 @@
 //! A field and another shape: descent from points spread over the common part of their boxes.
+//!
+//! Let `a` and `b` be the distances of the two shapes. The shapes meet where `max(a, b) ≤ 0`, so a point of contact is found by
+//! making that small. Its slope belongs to one of the shapes alone, and steps along it jump between the two surfaces. Therefore
+//! the walk first descends on `a + b + |max(a, b)|`, whose slope has a part of both shapes: outside of one of them this is
+//! `a + b + max(a, b)`, inside both it is `min(a, b)`. One step on `max(a, b)` follows.
+//!
+//! A step goes along the steepest descent `-g`. The first of the lengths 1, 1/2, 1/4 … is taken at which the height `f` has
+//! fallen by a fixed part of what its slope promises, `f(x - t g) ≤ f(x) - c t g·g` (Armijo, Minimization of Functions Having
+//! Lipschitz Continuous First Partial Derivatives, 1966; Nocedal and Wright, Numerical Optimization, algorithm 3.1).
 
 use super::distance::Distance;
 use super::order::{larger, smaller};
@@ -18,84 +27,104 @@ struct Both<'a> {
     across: Transfer,
 }
 
-/// What descent makes small.
+/// A point and its distances from both shapes.
+#[derive(Clone, Copy)]
+struct Place {
+    /// The point in the frame of each shape.
+    point: [Vec3; 2],
+    distance: [f64; 2],
+}
+
+/// What a walk makes small.
 #[derive(Clone, Copy)]
 enum Goal {
-    /// Sum of the distances and of the larger one's size: least where both shapes are deep.
+    /// `a + b + |max(a, b)|`: least where both shapes are deep.
     Collision,
-    /// The larger distance.
+    /// `max(a, b)`: negative where the shapes overlap.
     Intersection,
 }
 
+impl Goal {
+    fn height(self, place: &Place) -> f64 {
+        let [a, b] = place.distance;
+        let outer = larger(a, b);
+        match self {
+            Goal::Collision => a + b + outer.abs(),
+            Goal::Intersection => outer,
+        }
+    }
+}
+
 impl Both<'_> {
-    fn distances(&self, x: Vec3) -> [f64; 2] {
-        [self.first.at(x), self.second.at(self.across.point(x))]
+    fn place(&self, x: Vec3) -> Place {
+        let y = self.across.point(x);
+        Place { point: [x, y], distance: [self.first.at(x), self.second.at(y)] }
     }
 
-    fn second_gradient(&self, x: Vec3) -> Vec3 {
-        mul_mat_t_vec(&self.across.turn, self.second.gradient(self.across.point(x)))
-    }
-
-    fn value(&self, goal: Goal, x: Vec3) -> f64 {
-        let [a, b] = self.distances(x);
-        match goal {
-            Goal::Collision => a + b + larger(a, b).abs(),
-            Goal::Intersection => larger(a, b),
+    /// The gradient of one shape's distance, in the frame of the first.
+    fn gradient_of(&self, shape: usize, place: &Place) -> Vec3 {
+        match shape {
+            0 => self.first.gradient(place.point[0]),
+            _ => mul_mat_t_vec(&self.across.turn, self.second.gradient(place.point[1])),
         }
     }
 
-    fn gradient(&self, goal: Goal, x: Vec3) -> Vec3 {
-        let [a, b] = self.distances(x);
+    fn gradient(&self, goal: Goal, place: &Place) -> Vec3 {
+        let [a, b] = place.distance;
+        let outer = if a > b { 0 } else { 1 };
         match goal {
+            Goal::Intersection => self.gradient_of(outer, place),
             Goal::Collision => {
-                let slopes = [self.first.gradient(x), self.second_gradient(x)];
-                let sum: Vec3 = std::array::from_fn(|k| slopes[0][k] + slopes[1][k]);
-                let sign = if larger(a, b) > 0.0 { 1.0 } else { -1.0 };
-                add_scaled(sum, slopes[if a > b { 0 } else { 1 }], sign)
+                let each = [0, 1].map(|shape| self.gradient_of(shape, place));
+                let both: Vec3 = std::array::from_fn(|k| each[0][k] + each[1][k]);
+                add_scaled(both, each[outer], if larger(a, b) > 0.0 { 1.0 } else { -1.0 })
             }
-            Goal::Intersection if a > b => self.first.gradient(x),
-            Goal::Intersection => self.second_gradient(x),
         }
     }
 
     /// Normal of the surface of equal distances.
-    fn midsurface_normal(&self, x: Vec3) -> Vec3 {
-        let (first, second) = (normalize(self.first.gradient(x)).0, normalize(self.second_gradient(x)).0);
+    fn midsurface_normal(&self, place: &Place) -> Vec3 {
+        let [first, second] = [0, 1].map(|shape| normalize(self.gradient_of(shape, place)).0);
         normalize(sub(first, second)).0
     }
 
-    /// Goes downhill from `x` for a number of steps, and returns the value where it ends (Nocedal and Wright, algorithm
-    /// 3.1).
-    fn descend(&self, goal: Goal, x: &mut Vec3, steps: i32) -> f64 {
-        const DECREASE: f64 = 0.1;
-        const SHORTER: f64 = 0.5;
-        const SHORTEST: f64 = 1e-4;
-        let mut value = MAXVAL;
+    /// Goes downhill, in `steps` steps at most. One that leads up is the last: no length of it led down far enough.
+    fn descend(&self, goal: Goal, start: Place, steps: i32) -> Place {
+        let mut here = start;
         for _ in 0..steps {
-            let gradient = self.gradient(goal, *x);
-            if gradient.iter().any(|g| g.is_nan() || g.abs() > MAXVAL) {
-                return MAXVAL;
-            }
-            let start = *x;
-            let before = self.value(goal, start);
-            let mut length = 2.0;
-            let mut wanted = -DECREASE * length * dot(gradient, gradient);
-            loop {
-                length *= SHORTER;
-                wanted *= SHORTER;
-                *x = add_scaled(start, gradient, -length);
-                value = self.value(goal, *x);
-                // Comparisons with what is not a number end the search.
-                let goes_on = length > SHORTEST && value - before > wanted;
-                if !goes_on {
-                    break;
-                }
-            }
-            if before < value {
-                return value;
+            let Some(next) = self.step(goal, &here) else { break };
+            let rises = goal.height(&here) < goal.height(&next);
+            here = next;
+            if rises {
+                break;
             }
         }
-        value
+        here
+    }
+
+    /// One step of the walk; `None` where the gradient is no number or beyond bounds.
+    fn step(&self, goal: Goal, here: &Place) -> Option<Place> {
+        /// The part `c` of the promised fall that is enough.
+        const SHARE: f64 = 0.1;
+        /// A length below this is taken whatever it leads to.
+        const SHORTEST: f64 = 1e-4;
+        let gradient = self.gradient(goal, here);
+        if !gradient.iter().all(|g| g.abs() <= MAXVAL) {
+            return None;
+        }
+        let (height, steepness) = (goal.height(here), dot(gradient, gradient));
+        let lengths = std::iter::successors(Some(1.0), |t| (*t > SHORTEST).then_some(0.5 * t));
+        let mut end = None;
+        for t in lengths {
+            let there = self.place(add_scaled(here.point[0], gradient, -t));
+            // A height that is not a number is not too high: the search ends there.
+            let too_high = goal.height(&there) - height > -SHARE * t * steepness;
+            end = Some(there);
+            if !too_high {
+                break;
+            }
+        }
+        end
     }
 }
 
@@ -119,11 +148,11 @@ pub(crate) fn two_fields(
     for i in 0..m.opt.sdf_initpoints.max(0) as usize {
         let spread = [halton(i, 2), halton(i, 3), halton(i, 5)];
         let start: Vec3 = std::array::from_fn(|k| low[k] + (high[k] - low[k]) * spread[k]);
-        let mut x = back.point(own.point(start));
-        both.descend(Goal::Collision, &mut x, m.opt.sdf_iterations);
-        // Fields that are no true distances can end outside of both.
-        let depth = both.descend(Goal::Intersection, &mut x, 1);
-        points.add(x, depth, || both.midsurface_normal(x));
+        let start = both.place(back.point(own.point(start)));
+        let deep = both.descend(Goal::Collision, start, m.opt.sdf_iterations);
+        let Some(end) = both.step(Goal::Intersection, &deep) else { continue };
+        // Fields that are no true distances can lead outside of both: then the depth is positive, and nothing is added.
+        points.add(end.point[0], Goal::Intersection.height(&end), || both.midsurface_normal(&end));
     }
 }
 
