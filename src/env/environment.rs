@@ -1,5 +1,6 @@
 //! An environment: a robot in a world, with a task.
 
+use crate::arguments::Arguments;
 use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::exteroception::Eyes;
@@ -23,7 +24,6 @@ use render::{Picture, Profile};
 use robot::{Compat, Robot};
 use std::ops::Range;
 use std::sync::Arc;
-use toml::Table;
 
 /// How an environment is made.
 #[derive(Clone)]
@@ -33,7 +33,7 @@ pub struct Options {
     /// Whether quirks of the original are reproduced.
     pub compat: Compat,
     /// Settings that differ from the id's, by their names.
-    pub changes: Table,
+    pub changes: Arguments,
     /// What [`Env::render`] returns.
     pub rendering: Rendering,
     /// Networks for visual keys.
@@ -50,7 +50,7 @@ impl Default for Options {
         Options {
             seed: 0,
             compat: Compat::Fixed,
-            changes: Table::new(),
+            changes: Arguments::default(),
             rendering: Rendering::default(),
             networks: Arc::new(NoNetworks),
             painters: Arc::new(Cpu),
@@ -158,7 +158,7 @@ impl Env {
         let weights = settings.weights().map_err(|message| spec.wrong(message))?;
         let cameras = scene.model.camera_names().map(|(_, name)| name);
         let visual_keys =
-            parse_keys(&settings.visual_keys, cameras).map_err(|message| spec.wrong(message))?;
+            parse_keys(&settings.visual_keys, cameras).map_err(|error| spec.wrong(error.to_string()))?;
         let look = settings.visual_randomization.as_ref();
         let look = look
             .map(|config| Look::new(config, &scene.model, options.seed))

@@ -1,5 +1,6 @@
 //! Every id, from the tables in `registry/`.
 
+use crate::arguments::Arguments;
 use crate::error::EnvError;
 use crate::spec::Spec;
 use physics::model::Suggestions;
@@ -96,7 +97,7 @@ impl Registry {
     pub fn register_variant(
         &mut self,
         base: &str,
-        changes: &Table,
+        changes: &Arguments,
         id: Option<&str>,
     ) -> Result<String, EnvError> {
         let mut spec = self.spec(base)?.with(changes)?;
@@ -110,7 +111,11 @@ impl Registry {
     ///
     /// # Errors
     /// The table is malformed; a row lacks its task or varies an id that is unknown.
-    pub fn add_table(&mut self, text: &str) -> Result<(), String> {
+    pub fn add_table(&mut self, text: &str) -> Result<(), EnvError> {
+        self.read_table(text).map_err(|message| EnvError::Table { message })
+    }
+
+    fn read_table(&mut self, text: &str) -> Result<(), String> {
         let mut table: Table = text.parse().map_err(|error| format!("{error}"))?;
         let suite =
             table.remove("suite").and_then(|suite| suite.as_str().map(String::from)).ok_or("no suite")?;
@@ -141,12 +146,18 @@ impl Registry {
             None => {
                 let task =
                     row.remove("task").and_then(|task| task.as_str().map(String::from)).ok_or("no task")?;
-                Spec { id: id.into(), suite: suite.into(), task, max_episode_steps: 0, args: Table::new() }
+                Spec {
+                    id: id.into(),
+                    suite: suite.into(),
+                    task,
+                    max_episode_steps: 0,
+                    args: Arguments::default(),
+                }
             }
         };
         spec.id = id.into();
         spec.suite = suite.into();
-        spec = spec.with(&row).map_err(|error| error.to_string())?;
+        spec = spec.with(&Arguments(row)).map_err(|error| error.to_string())?;
         if spec.max_episode_steps == 0 { Err("no max_episode_steps".into()) } else { Ok(spec) }
     }
 }
@@ -157,7 +168,7 @@ struct Rule {
     from: String,
     /// How ids of the variants begin instead.
     to: String,
-    changes: Table,
+    changes: Arguments,
 }
 
 impl Rule {
@@ -177,7 +188,7 @@ impl Rule {
                 .ok_or_else(|| format!("`{key}` of a variant is the beginning of an id and a `*`"))
         };
         let (from, to) = (beginning("from")?, beginning("to")?);
-        Ok(Rule { from, to, changes })
+        Ok(Rule { from, to, changes: Arguments(changes) })
     }
 
     /// The id of the variant of `id`; `None` where the rule is for others.
@@ -187,9 +198,9 @@ impl Rule {
 }
 
 /// The id of a variant: `base-key_value`, one pair for each setting that differs.
-fn variant_id(base: &str, changes: &Table) -> String {
+fn variant_id(base: &str, changes: &Arguments) -> String {
     let text = |value: &toml::Value| value.as_str().map_or_else(|| value.to_string(), String::from);
-    changes.iter().fold(base.to_string(), |id, (key, value)| format!("{id}-{key}_{}", text(value)))
+    changes.0.iter().fold(base.to_string(), |id, (key, value)| format!("{id}-{key}_{}", text(value)))
 }
 
 #[cfg(test)]
@@ -216,8 +227,11 @@ mod tests {
         let ids: Vec<_> = registry.specs().iter().map(|spec| spec.id.as_str()).collect();
         assert_eq!(ids, ["ab-v0", "b-v0", "aWeakb-v0"]);
         let weak = registry.spec("aWeakb-v0").unwrap();
-        assert_eq!((weak.max_episode_steps, weak.args["gain"].as_float()), (5, Some(0.5)));
-        let error = registry.add_table("suite = 's'\nvariants = [{ from = 'a', to = 'b*' }]").unwrap_err();
+        assert_eq!((weak.max_episode_steps, weak.args.0["gain"].as_float()), (5, Some(0.5)));
+        let error = registry
+            .add_table("suite = 's'\nvariants = [{ from = 'a', to = 'b*' }]")
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("`from`") && error.contains("`*`"), "{error}");
     }
 
@@ -234,6 +248,6 @@ mod tests {
             .register_variant("FrankaReachFixed-v0", &"frame_skip = 20".parse().unwrap(), None)
             .unwrap();
         assert_eq!(id, "FrankaReachFixed-v0-frame_skip_20");
-        assert_eq!(registry.spec(&id).unwrap().args["frame_skip"].as_integer(), Some(20));
+        assert_eq!(registry.spec(&id).unwrap().args.0["frame_skip"].as_integer(), Some(20));
     }
 }
