@@ -11,7 +11,7 @@
 //! takes.
 //!
 //! ```
-//! use robohive_physics::plugin::{Capability, Config, Instance, PassiveInputs, Plugin, Registry};
+//! use robohive_physics::plugin::{AttributeError, Capability, Config, Instance, PassiveInputs, Plugin, Registry};
 //! use robohive_physics::{Data, Model, step};
 //!
 //! /// Pushes every degree of freedom of the model with one force.
@@ -31,7 +31,7 @@
 //!     fn capabilities(&self) -> &[Capability] {
 //!         &[Capability::Passive]
 //!     }
-//!     fn instance(&self, config: &Config, _: &Model, _: usize) -> Result<Box<dyn Instance>, String> {
+//!     fn instance(&self, config: &Config, _: &Model, _: usize) -> Result<Box<dyn Instance>, AttributeError> {
 //!         Ok(Box::new(Push(config.number("force")?.unwrap_or(1.0))))
 //!     }
 //! }
@@ -60,7 +60,7 @@ mod registry;
 mod sdf;
 mod touch_grid;
 
-pub use config::Config;
+pub use config::{AttributeError, Config};
 pub(crate) use instances::Instances;
 pub use instances::PluginError;
 pub use registry::{Registry, RegistryError};
@@ -106,7 +106,7 @@ pub trait Plugin: Debug + Send + Sync {
     ///
     /// # Errors
     /// What is wrong with the attributes.
-    fn states(&self, _config: &Config) -> Result<usize, String> {
+    fn states(&self, _config: &Config) -> Result<usize, AttributeError> {
         Ok(0)
     }
 
@@ -114,7 +114,7 @@ pub trait Plugin: Debug + Send + Sync {
     ///
     /// # Errors
     /// What is wrong with the attributes.
-    fn readings(&self, _config: &Config) -> Result<usize, String> {
+    fn readings(&self, _config: &Config) -> Result<usize, AttributeError> {
         Ok(0)
     }
 
@@ -122,7 +122,7 @@ pub trait Plugin: Debug + Send + Sync {
     ///
     /// # Errors
     /// What is wrong with the attributes.
-    fn field(&self, _config: &Config) -> Result<Option<Box<dyn Field>>, String> {
+    fn field(&self, _config: &Config) -> Result<Option<Box<dyn Field>>, AttributeError> {
         Ok(None)
     }
 
@@ -130,7 +130,7 @@ pub trait Plugin: Debug + Send + Sync {
     ///
     /// # Errors
     /// What is wrong with the attributes, or with the elements that use the instance.
-    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, String>;
+    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, AttributeError>;
 }
 
 /// What a passive force may depend on.

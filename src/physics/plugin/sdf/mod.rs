@@ -43,7 +43,7 @@ macro_rules! fields {
         pub struct $kind;
 
         impl $kind {
-            fn read(config: &crate::plugin::Config) -> Result<$field, String> {
+            fn read(config: &crate::plugin::Config) -> Result<$field, crate::plugin::AttributeError> {
                 Ok($field {
                     $($attribute: config.number(stringify!($attribute))?.unwrap_or($default),)*
                 })
@@ -66,7 +66,7 @@ macro_rules! fields {
             fn field(
                 &self,
                 config: &crate::plugin::Config,
-            ) -> Result<Option<Box<dyn crate::plugin::Field>>, String> {
+            ) -> Result<Option<Box<dyn crate::plugin::Field>>, crate::plugin::AttributeError> {
                 Ok(Some(Box::new($kind::read(config)?)))
             }
 
@@ -75,7 +75,7 @@ macro_rules! fields {
                 config: &crate::plugin::Config,
                 _: &crate::Model,
                 _: usize,
-            ) -> Result<Box<dyn crate::plugin::Instance>, String> {
+            ) -> Result<Box<dyn crate::plugin::Instance>, crate::plugin::AttributeError> {
                 Ok(Box::new(crate::plugin::sdf::Solid($kind::read(config)?)))
             }
         }
