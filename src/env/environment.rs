@@ -5,6 +5,7 @@ use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::exteroception::Eyes;
 use crate::network::{Networks, NoNetworks};
+use crate::own_task::OwnTask;
 use crate::parts::{build_robot, initial_pose, load, read_config};
 use crate::randomize::Look;
 use crate::registry::Registry;
@@ -124,13 +125,24 @@ pub struct Env {
     pub(crate) faults: usize,
 }
 
+impl Registry {
+    /// Makes an environment of this registry, ready for [`Env::reset`].
+    ///
+    /// # Errors
+    /// The id is unknown; files are missing or wrong; settings do not fit.
+    pub fn make(&self, id: &str, assets: &dyn Assets, options: &Options) -> Result<Env, EnvError> {
+        let spec = self.spec(id)?;
+        Env::build_with(self.own_task(&spec.task), spec, assets, options)
+    }
+}
+
 impl Env {
     /// Makes the environment of an id from the built-in registry, ready for [`Env::reset`].
     ///
     /// # Errors
     /// The id is unknown; files are missing or wrong; settings do not fit.
     pub fn make(id: &str, assets: &dyn Assets, options: &Options) -> Result<Self, EnvError> {
-        Self::build(Registry::builtin().spec(id)?, assets, options)
+        Registry::builtin().make(id, assets, options)
     }
 
     /// Makes the environment that a specification describes.
@@ -138,6 +150,16 @@ impl Env {
     /// # Errors
     /// Files are missing or wrong; settings do not fit.
     pub fn build(spec: &Spec, assets: &dyn Assets, options: &Options) -> Result<Self, EnvError> {
+        Self::build_with(None, spec, assets, options)
+    }
+
+    /// [`Env::build`] with a task that need not be one of this crate.
+    fn build_with(
+        task: Option<&OwnTask>,
+        spec: &Spec,
+        assets: &dyn Assets,
+        options: &Options,
+    ) -> Result<Self, EnvError> {
         let spec = spec.with(&options.changes)?;
         let (settings, own) = spec.settings()?;
         let loaded = load(&spec, &settings, assets)?;
@@ -147,7 +169,10 @@ impl Env {
         let config = read_config(&spec, &settings, assets)?;
         let mut setup =
             Setup { scene: &mut scene, compat: options.compat, rng: &mut rng, config: config.as_ref() };
-        let task = suite::build(&spec, own, assets, &mut setup)?;
+        let task = match task {
+            Some(task) => task.build(&Arguments(own), &mut setup)?,
+            None => suite::build(&spec, own, assets, &mut setup)?,
+        };
         let defaults = task.defaults();
         let robot = build_robot(&spec, &settings, config.as_ref(), &scene.model, options.compat)?;
         let mut initial = initial_pose(&scene, settings.normalize_act);

@@ -16,6 +16,7 @@ mod exteroception;
 mod memory;
 mod message;
 mod network;
+mod own_task;
 mod parts;
 mod paths;
 pub mod randomize;

@@ -2,9 +2,11 @@
 
 use crate::arguments::Arguments;
 use crate::error::EnvError;
+use crate::own_task::OwnTask;
 use crate::spec::Spec;
+use crate::task::{Setup, Task};
 use physics::model::Suggestions;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::LazyLock;
 use toml::Table;
 
@@ -43,6 +45,7 @@ pub struct Registry {
     specs: Vec<Spec>,
     by_id: HashMap<String, usize>,
     guests: Vec<Spec>,
+    tasks: BTreeMap<String, OwnTask>,
 }
 
 impl Registry {
@@ -105,6 +108,21 @@ impl Registry {
         let id = spec.id.clone();
         self.register(spec);
         Ok(id)
+    }
+
+    /// Adds a task under a name that specifications may use, or replaces the one of that name. `build` gets those settings
+    /// of an id that not every environment understands, and the world; [`Registry::make`] calls it.
+    pub fn add_task(
+        &mut self,
+        name: &str,
+        build: impl Fn(&Arguments, &mut Setup<'_>) -> Result<Box<dyn Task>, EnvError> + Send + Sync + 'static,
+    ) {
+        self.tasks.insert(name.to_owned(), OwnTask::new(build));
+    }
+
+    /// The task of a program's own that has this name.
+    pub(crate) fn own_task(&self, name: &str) -> Option<&OwnTask> {
+        self.tasks.get(name)
     }
 
     /// Adds every row of a table.
