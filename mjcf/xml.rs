@@ -77,7 +77,7 @@ impl Element {
     /// Moves the body named `body` under the body named `parent`, as its last child.
     ///
     /// The tree is unchanged, and the reason returned, when either is absent or `parent` is inside `body`.
-    pub fn reparent_body(&mut self, body: &str, parent: &str) -> Result<(), String> {
+    pub(crate) fn reparent_body(&mut self, body: &str, parent: &str) -> Result<(), String> {
         let is = |name: &str, e: &Element| e.name == "body" && e.value("name") == Some(name);
         let moved =
             self.find_mut(&|e| is(body, e)).ok_or_else(|| format!("no body named '{body}' to move"))?;

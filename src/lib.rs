@@ -14,13 +14,47 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! What most programs need stands here; all else is in [`physics`], whose [`elements`](physics::elements) explain names
-//! and views, in [`mjcf`] and, with the feature of that name, in `dataset`.
+//! What most programs need stands here; all else is in a module for each part:
+//!
+//! | module | feature | what it has |
+//! |---|---|---|
+//! | [`physics`] | | models, states and steps; its [`elements`](physics::elements) explain names and views |
+//! | [`mjcf`] | | MJCF and URDF to models; models edited and written |
+//! | `env` | `env` | environments with tasks, one by one and many at once |
+//! | `robot` | `robot` | robots over simulated and real devices |
+//! | `render` | `render` | pictures, depth and segmentation |
+//! | `video` | `video` | pictures and videos as files |
+//! | `dataset` | `dataset` | numpy archives, recordings in HDF5 |
+//! | `random` | `random` | numpy's random draws |
+//!
+//! A module is a crate of its own: `robohive::physics` is the crate `robohive-physics`, whose examples name it
+//! `robohive_physics`. The programs in `examples/` name this crate alone.
 
 #[cfg(feature = "dataset")]
 pub use dataset;
+#[cfg(feature = "env")]
+pub use env;
 pub use mjcf;
 pub use physics;
+#[cfg(feature = "random")]
+pub use random;
+#[cfg(feature = "render")]
+pub use render;
+#[cfg(feature = "robot")]
+pub use robot;
+#[cfg(feature = "video")]
+pub use video;
+
+#[cfg(feature = "env")]
+pub use env::{Env, EnvError, OwnModels, VecEnv};
+#[cfg(feature = "random")]
+pub use random::Generator;
+#[cfg(feature = "render")]
+pub use render::{Picture, Renderer};
+#[cfg(feature = "robot")]
+pub use robot::Robot;
+#[cfg(feature = "video")]
+pub use video::VideoWriter;
 
 pub use mjcf::{Loaded, Loader, load, load_str};
 pub use physics::ray::{Ray, RayFilter};

@@ -34,7 +34,7 @@ const ORDER: [(&str, &[&str]); 22] = [
     ("robohive-render-gpu", &["physics", "render"]),
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
     ("robohive-agents", &["dataset", "env"]),
-    ("robohive", &["physics", "mjcf", "dataset", "random"]),
+    ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",
         &["physics", "mjcf", "dataset", "random", "robot", "render", "render_gpu", "env", "agents"],

@@ -282,7 +282,7 @@ fn surface_field(mesh: &Mesh, name: &str, plugins: &Plugins, log: &mut Log) -> O
         return None;
     }
     let (kind, config) = plugins.list[id].config();
-    let field = log.check(used.loc, &what, kind.field(&config))?;
+    let field = log.check(used.loc, &what, kind.field(&config).map_err(|error| error.to_string()))?;
     if field.is_none() {
         log.error(used.loc, format!("{what}: plugin '{}' has no field", kind.name()));
     }

@@ -77,8 +77,8 @@ pub(crate) fn compile(
         log.error(loc, error.to_string());
         return None;
     }
-    if let Err(message) = check_start(&m) {
-        log.error(Loc::NONE, message);
+    if let Err(error) = check_start(&m) {
+        log.error(Loc::NONE, error.to_string());
         return None;
     }
     Some(m)

@@ -194,6 +194,7 @@ impl Plugins {
             let what = title("plugin instance", &one.name);
             let states = kind
                 .states(&config)
+                .map_err(|error| error.to_string())
                 .and_then(|n| bounded((m.npluginstate + n) as i64, "its state").map(|_| n));
             let states = log.check(one.loc, &what, states).unwrap_or_default();
             m.plugin.push(one.slot as i32);

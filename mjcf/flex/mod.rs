@@ -27,7 +27,7 @@ impl Regular {
     ///
     /// # Errors
     /// There are too few points along an axis.
-    pub fn build(&self) -> Result<Cloud, String> {
+    pub(crate) fn build(&self) -> Result<Cloud, String> {
         match self.shape {
             Shape::Box | Shape::Cylinder | Shape::Ellipsoid => shell::build(self),
             Shape::Square | Shape::Disc => grid::projected(self),

@@ -39,7 +39,7 @@ mod surface;
 pub use compiled::CompiledMesh;
 pub use decode::decode;
 pub use fit::{Primitive, fit_primitive};
-pub use hull::{Hull, convex_hull};
+pub use hull::{Hull, HullError, convex_hull};
 pub use mass::MeshInertia;
 pub use octree::Octree;
 pub use physics::geometry::hierarchy::Bvh;

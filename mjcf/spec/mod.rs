@@ -49,7 +49,7 @@ pub use element::{Limited, SOLIMP, SOLREF};
 pub use field::{Fields, Form, Value};
 pub use flex::*;
 pub(crate) use flexcomp::{Dof, EqualityOf, Flexcomp, Pin};
-pub use orientation::Orientation;
+pub use orientation::{Orientation, OrientationError};
 pub(crate) use orientation::{UNIT, from_axes, minimal_rotation, resolve};
 pub use plugin::*;
 pub use sensor::*;

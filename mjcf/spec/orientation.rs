@@ -5,6 +5,7 @@ use crate::vector::{EPS, compose, cross, dot, normalize};
 use physics::math::ops;
 use physics::math::{Quat, Vec3};
 use std::f64::consts::PI;
+use std::fmt;
 
 /// No rotation.
 pub(crate) const UNIT: Quat = [1.0, 0.0, 0.0, 0.0];
@@ -22,13 +23,25 @@ pub enum Orientation {
     Euler([f64; 3]),
 }
 
+/// An orientation without a direction: why it has none.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OrientationError(String);
+
+impl fmt::Display for OrientationError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for OrientationError {}
+
 impl Compiler {
     /// The quaternion that `quat`, or an orientation given in another way, means under these settings.
     ///
     /// # Errors
     /// The orientation has no direction.
-    pub fn quaternion(&self, quat: [f64; 4], alt: Option<Orientation>) -> Result<[f64; 4], String> {
-        resolve(quat, alt, self)
+    pub fn quaternion(&self, quat: [f64; 4], alt: Option<Orientation>) -> Result<[f64; 4], OrientationError> {
+        resolve(quat, alt, self).map_err(OrientationError)
     }
 }
 

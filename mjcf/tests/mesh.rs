@@ -240,7 +240,7 @@ fn hull_vertices_can_be_limited() {
 #[test]
 fn flat_and_inconsistent_meshes_are_refused() {
     let flat: Vec<[f64; 3]> = (0..9).map(|k| [(k % 3) as f64, (k / 3) as f64, 1.0]).collect();
-    assert!(convex_hull(&flat, -1).unwrap_err().contains("plane"));
+    assert!(convex_hull(&flat, -1).unwrap_err().to_string().contains("plane"));
     let mut file = decode(&box_stl(), "box.stl", "").unwrap();
     file.face.swap(0, 1);
     let source = MeshSource { file: Some(file), inertia: MeshInertia::Exact, ..MeshSource::default() };

@@ -2,7 +2,9 @@
 
 use physics::data::State;
 use physics::model::{ObjType, Stage};
-use physics::plugin::{ActuatorInputs, Capability, Config, Instance, Plugin, Registry, SensorInputs};
+use physics::plugin::{
+    ActuatorInputs, AttributeError, Capability, Config, Instance, Plugin, Registry, SensorInputs,
+};
 use physics::{Data, Model, Snapshot, forward, step};
 use robohive_mjcf::{Loader, load_str, parse_str};
 
@@ -259,13 +261,13 @@ impl Plugin for Counter {
     fn stage(&self) -> Stage {
         Stage::Pos
     }
-    fn states(&self, _: &Config) -> Result<usize, String> {
+    fn states(&self, _: &Config) -> Result<usize, AttributeError> {
         Ok(1)
     }
-    fn readings(&self, _: &Config) -> Result<usize, String> {
+    fn readings(&self, _: &Config) -> Result<usize, AttributeError> {
         Ok(2)
     }
-    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, String> {
+    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, AttributeError> {
         let from = config.number("from")?.unwrap_or_default();
         let actuators = (0..m.nactuator).filter(|&i| m.actuator_plugin[i] == id as i32).collect();
         Ok(Box::new(Counting { from, actuators, id }))

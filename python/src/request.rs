@@ -1,15 +1,14 @@
 //! Which environment is asked for: an id, settings that differ from its own, and how it is made.
 
 use crate::exceptions::exception;
-use crate::settings::table;
-use env::{Env, EnvError, Options, Registry, RenderMode, Rendering, Spec};
+use crate::settings::arguments;
+use env::{Arguments, Env, EnvError, Options, Registry, RenderMode, Rendering, Spec};
 use library::{Library, NoGpu, Renderer, Weights};
 use pyo3::exceptions::{PyNotImplementedError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use render::painter::Painters;
 use std::sync::Arc;
-use toml::Table;
 
 /// A specification, with what making an environment of it takes beside.
 #[derive(Clone)]
@@ -48,12 +47,16 @@ impl Request {
     pub fn read(id: &str, settings: &Bound<'_, PyDict>, making: &Bound<'_, PyDict>) -> PyResult<Self> {
         let py = settings.py();
         let mut spec = Registry::builtin().spec(id).map_err(|error| exception(py, &error))?.clone();
-        let mut changes = table(settings)?;
+        let mut changes = arguments(settings)?;
         let making: Making = making.extract()?;
         forget(&mut spec, &making.override_keys, &changes)?;
         let wrong = |message: String| PyValueError::new_err(message);
         let default = Rendering::default();
-        let mode = making.render_mode.map(|mode| mode.parse::<RenderMode>()).transpose().map_err(wrong)?;
+        let mode = making
+            .render_mode
+            .map(|mode| mode.parse::<RenderMode>())
+            .transpose()
+            .map_err(|error| wrong(error.to_string()))?;
         let rendering = Rendering {
             mode,
             camera: making.camera.unwrap_or(default.camera),
@@ -71,7 +74,8 @@ impl Request {
         let seed = making.seed.unwrap_or(Options::default().seed);
         let horizon = spec.with(&changes).map_err(|error| exception(py, &error))?.max_episode_steps;
         if !making.time_limit {
-            changes.insert("max_episode_steps".into(), i64::MAX.into());
+            changes =
+                changes.with("max_episode_steps", i64::MAX).map_err(|error| wrong(error.to_string()))?;
         }
         let options = Options { seed, compat, changes, rendering, networks, painters, autoreset };
         Ok(Request { spec, horizon, options })
@@ -103,9 +107,9 @@ fn painters(renderer: &str) -> PyResult<Arc<dyn Painters>> {
 }
 
 /// Takes settings away from a specification, so that the changes replace them rather than being merged into them.
-fn forget(spec: &mut Spec, keys: &[String], changes: &Table) -> PyResult<()> {
+fn forget(spec: &mut Spec, keys: &[String], changes: &Arguments) -> PyResult<()> {
     for key in keys {
-        if spec.args.remove(key).is_none() && !changes.contains_key(key) {
+        if !spec.args.remove(key) && !changes.contains(key) {
             let id = &spec.id;
             return Err(PyValueError::new_err(format!(
                 "override_keys: {id} has no setting {key} to override"

@@ -1,5 +1,6 @@
 //! Keyword arguments and dictionaries of Python to the settings of an environment, which are TOML.
 
+use env::Arguments;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
@@ -10,8 +11,9 @@ use toml::{Table, Value};
 ///
 /// # Errors
 /// A key that is no string, or a value that is no setting: `TypeError`, with the place (`visual_randomization.lights[0]`).
-pub fn table(settings: &Bound<'_, PyDict>) -> PyResult<Table> {
-    below("", settings)
+pub fn arguments(settings: &Bound<'_, PyDict>) -> PyResult<Arguments> {
+    let table = below("", settings)?;
+    table.try_into().map_err(|error: toml::de::Error| PyValueError::new_err(error.to_string()))
 }
 
 fn below(place: &str, dict: &Bound<'_, PyDict>) -> PyResult<Table> {

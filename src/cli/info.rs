@@ -42,7 +42,7 @@ pub fn run(a: &Info) -> Result<(), Failure> {
     show!("id           {}", spec.id);
     show!("suite        {}, task {}", spec.suite, spec.task);
     show!("episode      {} steps", spec.max_episode_steps);
-    for (name, value) in &spec.args {
+    for (name, value) in spec.args.iter() {
         show!("setting      {name} = {value}");
     }
     describe(&made?);

@@ -4,12 +4,11 @@ use crate::Failure;
 use crate::terminal::note;
 use ::library::{Library, Weights};
 use clap::{Args, ValueHint};
-use env::{Compat, Env, Options};
+use env::{Arguments, Compat, Env, Options};
 use render::Painters;
 use render::painter::Cpu;
 use std::path::PathBuf;
 use std::sync::Arc;
-use toml::Table;
 
 /// An environment and how it is made.
 #[derive(Args)]
@@ -72,19 +71,19 @@ impl Making {
     }
 
     /// The settings that differ.
-    pub fn changes(&self) -> Result<Table, Failure> {
-        let mut changes = Table::new();
+    pub fn changes(&self) -> Result<Arguments, Failure> {
+        let mut changes = Arguments::default();
         for setting in &self.settings {
             let (name, value) = setting
                 .split_once('=')
                 .filter(|(name, _)| !name.is_empty())
                 .ok_or_else(|| Failure::usage(format!("--set {setting:?} is not SETTING=VALUE")))?;
             // What is no TOML value is text, so that names need no quotes.
-            let parsed = format!("{name} = {value}").parse::<Table>();
-            let quoted = || format!("{name} = {}", toml::Value::String(value.into())).parse::<Table>();
+            let parsed = format!("{name} = {value}").parse::<Arguments>();
+            let quoted = || Arguments::default().with(name, value);
             let table = parsed
                 .or_else(|_| quoted())
-                .map_err(|error| Failure::usage(format!("--set {setting:?}: {}", error.message())))?;
+                .map_err(|error| Failure::usage(format!("--set {setting:?}: {error}")))?;
             changes.extend(table);
         }
         Ok(changes)

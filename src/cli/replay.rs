@@ -8,10 +8,9 @@ use crate::recording;
 use crate::terminal::{note, show, show_json};
 use clap::{Args, ValueHint};
 use dataset::trace::TraceReader;
-use env::{Compat, Env, Options};
+use env::{Arguments, Compat, Env, Options};
 use serde_json::{Value, json};
 use std::path::PathBuf;
-use toml::Table;
 
 /// Replay the actions of a recording and say how far it ends from what was recorded
 #[derive(Args)]
@@ -133,10 +132,8 @@ fn make(a: &Replay, trace: &TraceReader) -> Result<(String, Env), Failure> {
         (None, None) => Compat::RoboHive07,
     };
     let mut changes = match attribute(recording::SETTINGS).filter(|_| named == Some(id)) {
-        Some(text) => {
-            text.parse::<Table>().map_err(|e| wrong(recording::SETTINGS, e.message().to_owned()))?
-        }
-        None => Table::new(),
+        Some(text) => text.parse::<Arguments>().map_err(|e| wrong(recording::SETTINGS, e.to_string()))?,
+        None => Arguments::default(),
     };
     let making = Making { settings: a.settings.clone(), compat, assets: a.assets.clone(), cache: None };
     changes.extend(making.changes()?);

@@ -91,7 +91,7 @@ pub const FREE: &str = "free";
 
 /// Whether two environments run one task on one model.
 pub fn are_related(a: &Spec, b: &Spec) -> bool {
-    let model = |spec: &Spec| spec.args.get("model_path").cloned();
+    let model = |spec: &Spec| spec.args.get::<String>("model_path");
     a.suite == b.suite && a.task == b.task && model(a) == model(b)
 }
 
@@ -108,7 +108,7 @@ pub fn camera_of(env: &Env) -> String {
 
 /// The camera that environments of this specification observe first.
 fn first_camera(spec: &Spec) -> Option<String> {
-    let key: VisualKey = spec.args.get("visual_keys")?.get(0)?.as_str()?.parse().ok()?;
+    let key: VisualKey = spec.args.get::<Vec<String>>("visual_keys")?.first()?.parse().ok()?;
     Some(key.camera)
 }
 

@@ -5,7 +5,7 @@
 pub mod growing;
 pub mod half;
 #[cfg(feature = "hdf5")]
-pub mod hdf5;
+mod hdf5;
 pub mod npy;
 pub mod npz;
 pub mod pickle;
@@ -14,5 +14,5 @@ pub mod trace;
 
 pub use growing::GrowingNpz;
 pub use half::F16;
-pub use npy::{Array, Dtype, Scalar, Values};
+pub use npy::{Array, Dtype, NpyError, Scalar, Values};
 pub use npz::{NpzError, NpzReader, NpzWriter};

@@ -1,6 +1,7 @@
 //! The numpy array format, versions 1.0 to 3.0 (numpy documentation: `numpy.lib.format`).
 
 use crate::half::F16;
+use std::fmt;
 
 /// Largest number of scalars an array may hold: 1 GiB of f64.
 pub const MAX_SCALARS: usize = 1 << 27;
@@ -151,6 +152,18 @@ pub struct Array {
     pub values: Values,
 }
 
+/// Why bytes are no array file that can be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NpyError(String);
+
+impl fmt::Display for NpyError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for NpyError {}
+
 impl Array {
     /// An f64 array.
     pub fn f64(shape: Vec<usize>, values: Vec<f64>) -> Self {
@@ -178,7 +191,11 @@ impl Array {
     ///
     /// # Errors
     /// A sentence saying what is wrong with the bytes or unsupported in them.
-    pub fn decode(bytes: &[u8]) -> Result<Self, String> {
+    pub fn decode(bytes: &[u8]) -> Result<Self, NpyError> {
+        Self::read(bytes).map_err(NpyError)
+    }
+
+    fn read(bytes: &[u8]) -> Result<Self, String> {
         if bytes.len() < 10 || &bytes[..6] != b"\x93NUMPY" {
             return Err("not a numpy array: the magic bytes are missing".into());
         }

@@ -1,9 +1,15 @@
 //! Where the files of a registry come from.
 
+use crate::message::message;
 use mjcf::Loader;
 use mjcf::files::Memory;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+message! {
+    /// A file that is not there or cannot be read: why, and how to get it.
+    AssetError
+}
 
 /// Files by the paths that the registry uses, such as `envs/arms/franka/assets/franka_reach_v0.xml`.
 pub trait Assets: Send + Sync {
@@ -11,13 +17,13 @@ pub trait Assets: Send + Sync {
     ///
     /// # Errors
     /// The file is not there: how to get it.
-    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String>;
+    fn model(&self, path: &str) -> Result<(Loader, PathBuf), AssetError>;
 
     /// The content of a file.
     ///
     /// # Errors
     /// The file is not there, or cannot be read: why, and how to get it.
-    fn read(&self, path: &str) -> Result<Arc<[u8]>, String>;
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, AssetError>;
 }
 
 /// Files in a folder.
@@ -46,15 +52,15 @@ impl Folder {
 }
 
 impl Assets for Folder {
-    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String> {
+    fn model(&self, path: &str) -> Result<(Loader, PathBuf), AssetError> {
         let file = self.find(path)?;
         let loader = Loader::default();
         Ok((if let Some(cache) = &self.cache { loader.cache(cache.clone()) } else { loader }, file))
     }
 
-    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
         let file = self.find(path)?;
-        std::fs::read(&file).map(Into::into).map_err(|error| format!("{}: {error}", file.display()))
+        std::fs::read(&file).map(Into::into).map_err(|error| format!("{}: {error}", file.display()).into())
     }
 }
 
@@ -65,11 +71,11 @@ const OWN: &str = "hive/";
 ///
 /// # Errors
 /// We have no such model.
-pub(crate) fn own_model(path: &str) -> Option<Result<(Loader, PathBuf), String>> {
+pub(crate) fn own_model(path: &str) -> Option<Result<(Loader, PathBuf), AssetError>> {
     let path = path.strip_prefix(OWN)?;
     if !assets::FILES.iter().any(|(name, _)| *name == path) {
         let names: Vec<_> = assets::FILES.iter().map(|(name, _)| *name).collect();
-        return Some(Err(format!("our own models are {}", names.join(", "))));
+        return Some(Err(format!("our own models are {}", names.join(", ")).into()));
     }
     let mut files = Memory::default();
     assets::FILES.iter().for_each(|(name, text)| files.insert(name, text.as_bytes()));
@@ -83,18 +89,19 @@ const GYMNASIUM: &str = "gymnasium:";
 ///
 /// # Errors
 /// The file does not exist; the path names a model of a package that the user is to bring.
-pub(crate) fn foreign_model(path: &str) -> Option<Result<(Loader, PathBuf), String>> {
+pub(crate) fn foreign_model(path: &str) -> Option<Result<(Loader, PathBuf), AssetError>> {
     if let Some(name) = path.strip_prefix(GYMNASIUM) {
         return Some(Err(format!(
             "it is a file of the Python package gymnasium; set model_path to the absolute path of an MJCF file such as \
              gymnasium/envs/mujoco/assets/{name} there"
-        )));
+        )
+        .into()));
     }
     let file = Path::new(path);
     if !file.is_absolute() {
         return None;
     }
-    let missing = || format!("{path} does not exist");
+    let missing = || format!("{path} does not exist").into();
     Some(if file.is_file() { Ok((Loader::default(), file.into())) } else { Err(missing()) })
 }
 
@@ -109,11 +116,11 @@ pub(crate) fn own_file(path: &str) -> Option<Arc<[u8]>> {
 pub struct OwnModels;
 
 impl Assets for OwnModels {
-    fn model(&self, _: &str) -> Result<(Loader, PathBuf), String> {
+    fn model(&self, _: &str) -> Result<(Loader, PathBuf), AssetError> {
         Err("only models of our own (hive/...) are here".into())
     }
 
-    fn read(&self, _: &str) -> Result<Arc<[u8]>, String> {
+    fn read(&self, _: &str) -> Result<Arc<[u8]>, AssetError> {
         Err("only models of our own (hive/...) are here".into())
     }
 }

@@ -1,9 +1,11 @@
 //! An environment: a robot in a world, with a task.
 
+use crate::arguments::Arguments;
 use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::exteroception::Eyes;
 use crate::network::{Networks, NoNetworks};
+use crate::own_task::OwnTask;
 use crate::parts::{build_robot, initial_pose, load, read_config};
 use crate::randomize::Look;
 use crate::registry::Registry;
@@ -23,7 +25,6 @@ use render::{Picture, Profile};
 use robot::{Compat, Robot};
 use std::ops::Range;
 use std::sync::Arc;
-use toml::Table;
 
 /// How an environment is made.
 #[derive(Clone)]
@@ -33,7 +34,7 @@ pub struct Options {
     /// Whether quirks of the original are reproduced.
     pub compat: Compat,
     /// Settings that differ from the id's, by their names.
-    pub changes: Table,
+    pub changes: Arguments,
     /// What [`Env::render`] returns.
     pub rendering: Rendering,
     /// Networks for visual keys.
@@ -50,7 +51,7 @@ impl Default for Options {
         Options {
             seed: 0,
             compat: Compat::Fixed,
-            changes: Table::new(),
+            changes: Arguments::default(),
             rendering: Rendering::default(),
             networks: Arc::new(NoNetworks),
             painters: Arc::new(Cpu),
@@ -124,13 +125,24 @@ pub struct Env {
     pub(crate) faults: usize,
 }
 
+impl Registry {
+    /// Makes an environment of this registry, ready for [`Env::reset`].
+    ///
+    /// # Errors
+    /// The id is unknown; files are missing or wrong; settings do not fit.
+    pub fn make(&self, id: &str, assets: &dyn Assets, options: &Options) -> Result<Env, EnvError> {
+        let spec = self.spec(id)?;
+        Env::build_with(self.own_task(&spec.task), spec, assets, options)
+    }
+}
+
 impl Env {
     /// Makes the environment of an id from the built-in registry, ready for [`Env::reset`].
     ///
     /// # Errors
     /// The id is unknown; files are missing or wrong; settings do not fit.
     pub fn make(id: &str, assets: &dyn Assets, options: &Options) -> Result<Self, EnvError> {
-        Self::build(Registry::builtin().spec(id)?, assets, options)
+        Registry::builtin().make(id, assets, options)
     }
 
     /// Makes the environment that a specification describes.
@@ -138,6 +150,16 @@ impl Env {
     /// # Errors
     /// Files are missing or wrong; settings do not fit.
     pub fn build(spec: &Spec, assets: &dyn Assets, options: &Options) -> Result<Self, EnvError> {
+        Self::build_with(None, spec, assets, options)
+    }
+
+    /// [`Env::build`] with a task that need not be one of this crate.
+    fn build_with(
+        task: Option<&OwnTask>,
+        spec: &Spec,
+        assets: &dyn Assets,
+        options: &Options,
+    ) -> Result<Self, EnvError> {
         let spec = spec.with(&options.changes)?;
         let (settings, own) = spec.settings()?;
         let loaded = load(&spec, &settings, assets)?;
@@ -147,7 +169,10 @@ impl Env {
         let config = read_config(&spec, &settings, assets)?;
         let mut setup =
             Setup { scene: &mut scene, compat: options.compat, rng: &mut rng, config: config.as_ref() };
-        let task = suite::build(&spec, own, assets, &mut setup)?;
+        let task = match task {
+            Some(task) => task.build(&Arguments(own), &mut setup)?,
+            None => suite::build(&spec, own, assets, &mut setup)?,
+        };
         let defaults = task.defaults();
         let robot = build_robot(&spec, &settings, config.as_ref(), &scene.model, options.compat)?;
         let mut initial = initial_pose(&scene, settings.normalize_act);
@@ -158,7 +183,7 @@ impl Env {
         let weights = settings.weights().map_err(|message| spec.wrong(message))?;
         let cameras = scene.model.camera_names().map(|(_, name)| name);
         let visual_keys =
-            parse_keys(&settings.visual_keys, cameras).map_err(|message| spec.wrong(message))?;
+            parse_keys(&settings.visual_keys, cameras).map_err(|error| spec.wrong(error.to_string()))?;
         let look = settings.visual_randomization.as_ref();
         let look = look
             .map(|config| Look::new(config, &scene.model, options.seed))

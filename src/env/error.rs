@@ -41,6 +41,11 @@ pub enum EnvError {
         /// What is wrong, and where.
         message: String,
     },
+    /// A table of environments is malformed.
+    Table {
+        /// What is wrong, and in which row.
+        message: String,
+    },
     /// The model lacks an element that the task names.
     Element {
         /// Kind of element.
@@ -139,6 +144,7 @@ impl fmt::Display for EnvError {
                 write!(f, "the model {path} does not load:\n{diagnostics}")
             }
             EnvError::Setting { id, message } => write!(f, "a setting of {id} is wrong: {message}"),
+            EnvError::Table { message } => f.write_str(message),
             EnvError::Element { kind, name, nearest } => {
                 write!(f, "the model has no {kind} named {name}{}", suggestion(nearest.as_deref()))
             }

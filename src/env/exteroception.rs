@@ -2,7 +2,7 @@
 
 use crate::environment::Env;
 use crate::error::EnvError;
-use crate::network::{Network, Networks};
+use crate::network::{Network, NetworkError, Networks};
 use crate::sight::Shot;
 use crate::visual::{Channel, Encoder, VisualKey};
 use physics::Model;
@@ -174,7 +174,7 @@ impl Loaded {
         if let Some(network) = &*network {
             return Ok(network.clone());
         }
-        let wrong = |message| EnvError::Network { key: key.to_string(), message };
+        let wrong = |error: NetworkError| EnvError::Network { key: key.to_string(), message: error.into() };
         let loaded = self.networks.load(key.encoder, compat).map_err(wrong)?;
         Ok(network.insert(loaded).clone())
     }
@@ -254,7 +254,7 @@ impl Env {
             if let Some(index) = take.rgb {
                 let Image { name, pixels, .. } = &mut seen.images[index];
                 encode(take, network, pixels)
-                    .map_err(|message| EnvError::Network { key: name.clone(), message })?;
+                    .map_err(|error| EnvError::Network { key: name.clone(), message: error.into() })?;
             }
             if let Some(index) = take.depth
                 && let Pixels::Numbers(depth) = &mut seen.images[index].pixels
@@ -272,9 +272,9 @@ impl Env {
     }
 }
 
-/// Turns the colours of a drawing into the values of an image. An image of bytes is swapped with the drawing instead of
-/// copied, so the next drawing fills the previous image's memory.
-fn encode(take: &mut Take, network: Option<&dyn Network>, pixels: &mut Pixels) -> Result<(), String> {
+/// Turns the colours of a drawing into the values of an image. Bytes change places with those of the image before, whose
+/// memory the next drawing fills.
+fn encode(take: &mut Take, network: Option<&dyn Network>, pixels: &mut Pixels) -> Result<(), NetworkError> {
     let Picture { width, height, rgb, .. } = &mut take.picture;
     match (pixels, network) {
         (Pixels::Bytes(bytes), _) => std::mem::swap(bytes, rgb),

@@ -5,6 +5,7 @@
 //! physics ends is truncated. A task ([`Task`]) is a file in [`suite`]: what is observed, what is rewarded, where episodes
 //! start.
 
+mod arguments;
 mod assets;
 pub mod check;
 mod description;
@@ -13,7 +14,9 @@ pub mod episode;
 mod error;
 mod exteroception;
 mod memory;
+mod message;
 mod network;
+mod own_task;
 mod parts;
 mod paths;
 pub mod randomize;
@@ -30,15 +33,16 @@ mod task;
 mod vector;
 pub mod visual;
 
-pub use crate::assets::{Assets, Folder, OwnModels};
+pub use crate::arguments::{Arguments, ArgumentsError};
+pub use crate::assets::{AssetError, Assets, Folder, OwnModels};
 pub use environment::{Env, Options, Step};
 pub use error::{EnvError, panic_text};
 pub use exteroception::{Exteroception, Image, Pixels};
 pub use memory::EnvMemory;
-pub use network::{Network, Networks, NoNetworks};
+pub use network::{Network, NetworkError, Networks, NoNetworks};
 pub use paths::PathReward;
 pub use registry::Registry;
-pub use rendering::{RenderMode, Rendering};
+pub use rendering::{RenderMode, RenderModeError, Rendering};
 pub use robot::Compat;
 pub use rows::{Name, Row, Rows};
 pub use scene::Scene;

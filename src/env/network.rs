@@ -1,8 +1,14 @@
 //! Networks that turn pictures into features, for visual keys such as `rgb:CAMERA:224x224:r3m18`.
 
+use crate::message::message;
 use crate::visual::Encoder;
 use robot::Compat;
 use std::sync::Arc;
+
+message! {
+    /// A network that is not there, with the file to bring and where to put it, or one that cannot take a picture.
+    NetworkError
+}
 
 /// A network with its weights.
 pub trait Network: Send + Sync {
@@ -10,7 +16,7 @@ pub trait Network: Send + Sync {
     ///
     /// # Errors
     /// The network cannot take such a picture.
-    fn encode(&self, size: [usize; 2], rgb: &[u8], features: &mut Vec<f32>) -> Result<(), String>;
+    fn encode(&self, size: [usize; 2], rgb: &[u8], features: &mut Vec<f32>) -> Result<(), NetworkError>;
 }
 
 /// Where networks come from.
@@ -19,7 +25,7 @@ pub trait Networks: Send + Sync {
     ///
     /// # Errors
     /// There is none: which file to bring, and where to put it.
-    fn load(&self, encoder: Encoder, compat: Compat) -> Result<Arc<dyn Network>, String>;
+    fn load(&self, encoder: Encoder, compat: Compat) -> Result<Arc<dyn Network>, NetworkError>;
 }
 
 /// No networks at all: enough for the encoders `1d` and `2d`.
@@ -27,7 +33,8 @@ pub trait Networks: Send + Sync {
 pub struct NoNetworks;
 
 impl Networks for NoNetworks {
-    fn load(&self, encoder: Encoder, _: Compat) -> Result<Arc<dyn Network>, String> {
-        Err(format!("this program has no network {encoder}; 1d and 2d pass the pictures on as they are"))
+    fn load(&self, encoder: Encoder, _: Compat) -> Result<Arc<dyn Network>, NetworkError> {
+        Err(format!("this program has no network {encoder}; 1d and 2d pass the pictures on as they are")
+            .into())
     }
 }

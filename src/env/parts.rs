@@ -1,6 +1,6 @@
 //! The parts that an environment is made of: model, robot, initial pose.
 
-use crate::assets::{Assets, foreign_model, own_file, own_model};
+use crate::assets::{AssetError, Assets, foreign_model, own_file, own_model};
 use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::spec::{Settings, Spec};
@@ -13,7 +13,11 @@ use robot::{Compat, Config, ConfigError, Robot};
 /// Loads the model with the replacements and moves that the settings ask for.
 pub(crate) fn load(spec: &Spec, settings: &Settings, assets: &dyn Assets) -> Result<Loaded, EnvError> {
     let path = &settings.model_path;
-    let missing = |hint| EnvError::MissingFile { id: spec.id.clone(), path: path.clone(), hint };
+    let missing = |hint: AssetError| EnvError::MissingFile {
+        id: spec.id.clone(),
+        path: path.clone(),
+        hint: hint.to_string(),
+    };
     let (mut loader, file) = own_model(path)
         .or_else(|| foreign_model(path))
         .unwrap_or_else(|| assets.model(path))
@@ -38,7 +42,11 @@ pub(crate) fn read_config(
     assets: &dyn Assets,
 ) -> Result<Option<Config>, EnvError> {
     let Some(path) = &settings.config_path else { return Ok(None) };
-    let missing = |hint| EnvError::MissingFile { id: spec.id.clone(), path: path.clone(), hint };
+    let missing = |hint: AssetError| EnvError::MissingFile {
+        id: spec.id.clone(),
+        path: path.clone(),
+        hint: hint.to_string(),
+    };
     let bytes = own_file(path).map_or_else(|| assets.read(path), Ok).map_err(missing)?;
     Ok(Some(parse_config(&String::from_utf8_lossy(&bytes), path)?))
 }

@@ -1,9 +1,12 @@
 //! Every id, from the tables in `registry/`.
 
+use crate::arguments::Arguments;
 use crate::error::EnvError;
+use crate::own_task::OwnTask;
 use crate::spec::Spec;
+use crate::task::{Setup, Task};
 use physics::model::Suggestions;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::sync::LazyLock;
 use toml::Table;
 
@@ -42,6 +45,7 @@ pub struct Registry {
     specs: Vec<Spec>,
     by_id: HashMap<String, usize>,
     guests: Vec<Spec>,
+    tasks: BTreeMap<String, OwnTask>,
 }
 
 impl Registry {
@@ -96,7 +100,7 @@ impl Registry {
     pub fn register_variant(
         &mut self,
         base: &str,
-        changes: &Table,
+        changes: &Arguments,
         id: Option<&str>,
     ) -> Result<String, EnvError> {
         let mut spec = self.spec(base)?.with(changes)?;
@@ -106,11 +110,30 @@ impl Registry {
         Ok(id)
     }
 
+    /// Adds a task under a name that specifications may use, or replaces the one of that name. `build` gets those settings
+    /// of an id that not every environment understands, and the world; [`Registry::make`] calls it.
+    pub fn add_task(
+        &mut self,
+        name: &str,
+        build: impl Fn(&Arguments, &mut Setup<'_>) -> Result<Box<dyn Task>, EnvError> + Send + Sync + 'static,
+    ) {
+        self.tasks.insert(name.to_owned(), OwnTask::new(build));
+    }
+
+    /// The task of a program's own that has this name.
+    pub(crate) fn own_task(&self, name: &str) -> Option<&OwnTask> {
+        self.tasks.get(name)
+    }
+
     /// Adds every row of a table.
     ///
     /// # Errors
     /// The table is malformed; a row lacks its task or varies an id that is unknown.
-    pub fn add_table(&mut self, text: &str) -> Result<(), String> {
+    pub fn add_table(&mut self, text: &str) -> Result<(), EnvError> {
+        self.read_table(text).map_err(|message| EnvError::Table { message })
+    }
+
+    fn read_table(&mut self, text: &str) -> Result<(), String> {
         let mut table: Table = text.parse().map_err(|error| format!("{error}"))?;
         let suite =
             table.remove("suite").and_then(|suite| suite.as_str().map(String::from)).ok_or("no suite")?;
@@ -141,12 +164,18 @@ impl Registry {
             None => {
                 let task =
                     row.remove("task").and_then(|task| task.as_str().map(String::from)).ok_or("no task")?;
-                Spec { id: id.into(), suite: suite.into(), task, max_episode_steps: 0, args: Table::new() }
+                Spec {
+                    id: id.into(),
+                    suite: suite.into(),
+                    task,
+                    max_episode_steps: 0,
+                    args: Arguments::default(),
+                }
             }
         };
         spec.id = id.into();
         spec.suite = suite.into();
-        spec = spec.with(&row).map_err(|error| error.to_string())?;
+        spec = spec.with(&Arguments(row)).map_err(|error| error.to_string())?;
         if spec.max_episode_steps == 0 { Err("no max_episode_steps".into()) } else { Ok(spec) }
     }
 }
@@ -157,7 +186,7 @@ struct Rule {
     from: String,
     /// How ids of the variants begin instead.
     to: String,
-    changes: Table,
+    changes: Arguments,
 }
 
 impl Rule {
@@ -177,7 +206,7 @@ impl Rule {
                 .ok_or_else(|| format!("`{key}` of a variant is the beginning of an id and a `*`"))
         };
         let (from, to) = (beginning("from")?, beginning("to")?);
-        Ok(Rule { from, to, changes })
+        Ok(Rule { from, to, changes: Arguments(changes) })
     }
 
     /// The id of the variant of `id`; `None` where the rule is for others.
@@ -187,9 +216,9 @@ impl Rule {
 }
 
 /// The id of a variant: `base-key_value`, one pair for each setting that differs.
-fn variant_id(base: &str, changes: &Table) -> String {
+fn variant_id(base: &str, changes: &Arguments) -> String {
     let text = |value: &toml::Value| value.as_str().map_or_else(|| value.to_string(), String::from);
-    changes.iter().fold(base.to_string(), |id, (key, value)| format!("{id}-{key}_{}", text(value)))
+    changes.0.iter().fold(base.to_string(), |id, (key, value)| format!("{id}-{key}_{}", text(value)))
 }
 
 #[cfg(test)]
@@ -216,8 +245,11 @@ mod tests {
         let ids: Vec<_> = registry.specs().iter().map(|spec| spec.id.as_str()).collect();
         assert_eq!(ids, ["ab-v0", "b-v0", "aWeakb-v0"]);
         let weak = registry.spec("aWeakb-v0").unwrap();
-        assert_eq!((weak.max_episode_steps, weak.args["gain"].as_float()), (5, Some(0.5)));
-        let error = registry.add_table("suite = 's'\nvariants = [{ from = 'a', to = 'b*' }]").unwrap_err();
+        assert_eq!((weak.max_episode_steps, weak.args.0["gain"].as_float()), (5, Some(0.5)));
+        let error = registry
+            .add_table("suite = 's'\nvariants = [{ from = 'a', to = 'b*' }]")
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("`from`") && error.contains("`*`"), "{error}");
     }
 
@@ -234,6 +266,6 @@ mod tests {
             .register_variant("FrankaReachFixed-v0", &"frame_skip = 20".parse().unwrap(), None)
             .unwrap();
         assert_eq!(id, "FrankaReachFixed-v0-frame_skip_20");
-        assert_eq!(registry.spec(&id).unwrap().args["frame_skip"].as_integer(), Some(20));
+        assert_eq!(registry.spec(&id).unwrap().args.0["frame_skip"].as_integer(), Some(20));
     }
 }

@@ -2,12 +2,18 @@
 
 use crate::environment::Env;
 use crate::error::EnvError;
+use crate::message::message;
 use crate::sight::Shot;
 use render::Picture;
 use render::picture::Channels;
 use render::scene::Camera;
 use std::fmt;
 use std::str::FromStr;
+
+message! {
+    /// A render mode that does not exist, with those that do.
+    RenderModeError
+}
 
 /// What [`Env::render`] returns (Gymnasium's `render_mode`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,9 +25,9 @@ pub enum RenderMode {
 }
 
 impl FromStr for RenderMode {
-    type Err = String;
+    type Err = RenderModeError;
 
-    fn from_str(name: &str) -> Result<Self, String> {
+    fn from_str(name: &str) -> Result<Self, RenderModeError> {
         match name {
             "rgb_array" => Ok(RenderMode::RgbArray),
             "depth_array" => Ok(RenderMode::DepthArray),
@@ -30,7 +36,7 @@ impl FromStr for RenderMode {
                             return pictures to show or to save"
                     .into())
             }
-            _ => Err(format!("render_mode is rgb_array or depth_array, not {name}")),
+            _ => Err(format!("render_mode is rgb_array or depth_array, not {name}").into()),
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What an id stands for: a task, its settings, and how long an episode lasts.
 
+use crate::arguments::Arguments;
 use crate::error::EnvError;
 use crate::randomize::VisualRandomization;
 use robot::ActionMode;
@@ -18,7 +19,7 @@ pub struct Spec {
     /// Steps after which an episode is truncated.
     pub max_episode_steps: usize,
     /// Settings of the environment and of the task, by RoboHive's names.
-    pub args: Table,
+    pub args: Arguments,
 }
 
 /// The settings that every environment understands.
@@ -40,7 +41,7 @@ pub struct Settings {
     pub obs_keys: Option<Vec<String>>,
     /// Terms of the dense reward with their weights.
     #[serde(default)]
-    pub weighted_reward_keys: Option<Table>,
+    pub weighted_reward_keys: Option<Arguments>,
     /// Rows of the proprioception.
     #[serde(default, alias = "proprio_keys_wt")]
     pub proprio_keys: Option<Vec<String>>,
@@ -124,9 +125,9 @@ impl Spec {
     ///
     /// # Errors
     /// A setting has a wrong type, or the model is missing.
-    pub fn settings(&self) -> Result<(Settings, Table), EnvError> {
+    pub(crate) fn settings(&self) -> Result<(Settings, Table), EnvError> {
         let (common, own): (Table, Table) =
-            self.args.clone().into_iter().partition(|(key, _)| SETTINGS.contains(&key.as_str()));
+            self.args.0.clone().into_iter().partition(|(key, _)| SETTINGS.contains(&key.as_str()));
         let settings = common.try_into().map_err(|error: toml::de::Error| self.wrong(one_line(&error)))?;
         Ok((settings, own))
     }
@@ -135,7 +136,7 @@ impl Spec {
     ///
     /// # Errors
     /// A setting is unknown to the task, missing, or of a wrong type.
-    pub fn task_args<T: for<'de> Deserialize<'de>>(&self, own: Table) -> Result<T, EnvError> {
+    pub(crate) fn task_args<T: for<'de> Deserialize<'de>>(&self, own: Table) -> Result<T, EnvError> {
         own.try_into().map_err(|error: toml::de::Error| self.wrong(one_line(&error)))
     }
 
@@ -149,10 +150,10 @@ impl Spec {
     ///
     /// # Errors
     /// An episode length that is no positive integer.
-    pub fn with(&self, changes: &Table) -> Result<Spec, EnvError> {
+    pub fn with(&self, changes: &Arguments) -> Result<Spec, EnvError> {
         let mut spec = self.clone();
-        merge(&mut spec.args, changes);
-        if let Some(steps) = spec.args.remove("max_episode_steps") {
+        merge(&mut spec.args.0, &changes.0);
+        if let Some(steps) = spec.args.0.remove("max_episode_steps") {
             let steps =
                 steps.as_integer().and_then(|steps| usize::try_from(steps).ok()).filter(|&steps| steps > 0);
             spec.max_episode_steps = steps.ok_or_else(|| {
@@ -168,20 +169,20 @@ impl Settings {
     ///
     /// # Errors
     /// A weight that is no number: its name.
-    pub fn weights(&self) -> Result<Option<Vec<(String, f64)>>, String> {
+    pub(crate) fn weights(&self) -> Result<Option<Vec<(String, f64)>>, String> {
         let number = |(key, value): (&String, &Value)| match value {
             Value::Float(weight) => Ok((key.clone(), *weight)),
             Value::Integer(weight) => Ok((key.clone(), *weight as f64)),
             _ => Err(format!("the weight of {key} is no number")),
         };
-        self.weighted_reward_keys.as_ref().map(|table| table.iter().map(number).collect()).transpose()
+        self.weighted_reward_keys.as_ref().map(|given| given.0.iter().map(number).collect()).transpose()
     }
 
     /// How the robot reads actions.
     ///
     /// # Errors
     /// A mode that does not exist, with those that do.
-    pub fn action_mode(&self) -> Result<ActionMode, String> {
+    pub(crate) fn action_mode(&self) -> Result<ActionMode, String> {
         self.act_mode.parse().map_err(|_| format!("act_mode is pos, vel or torque, not {}", self.act_mode))
     }
 }
@@ -224,8 +225,8 @@ mod tests {
     fn variants_merge_tables() {
         let changes = "range = { high = 3 }\nmax_episode_steps = 7".parse().unwrap();
         let variant = spec().with(&changes).unwrap();
-        assert_eq!(variant.args["range"]["low"].as_integer(), Some(1));
-        assert_eq!(variant.args["range"]["high"].as_integer(), Some(3));
+        assert_eq!(variant.args.0["range"]["low"].as_integer(), Some(1));
+        assert_eq!(variant.args.0["range"]["high"].as_integer(), Some(3));
         assert_eq!(variant.max_episode_steps, 7);
         let error = spec().with(&"max_episode_steps = 0".parse().unwrap()).unwrap_err().to_string();
         assert!(error.contains("a-v0") && error.contains("1 or more"), "{error}");

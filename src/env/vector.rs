@@ -45,11 +45,8 @@ impl VecEnv {
     ///
     /// # Errors
     /// The robot is hardware.
-    pub fn new(env: &Env, count: usize, autoreset: Autoreset, threads: usize) -> Result<Self, String> {
-        let slot = |_| {
-            let env = env.fork().map_err(|error| error.to_string())?;
-            Ok::<_, String>(Some(Box::new(Slot::new(env, autoreset))))
-        };
+    pub fn new(env: &Env, count: usize, autoreset: Autoreset, threads: usize) -> Result<Self, EnvError> {
+        let slot = |_| Ok::<_, EnvError>(Some(Box::new(Slot::new(env.fork()?, autoreset))));
         Ok(VecEnv {
             slots: (0..count).map(slot).collect::<Result<_, _>>()?,
             records: vec![StepRecord::default(); count],
@@ -273,7 +270,7 @@ impl VecEnv {
             slot.write(row);
             *record = slot.record();
         };
-        self.pool.each(work, each).map_err(|message| EnvError::Threads { message })?;
+        self.pool.each(work, each)?;
         let failed: Vec<_> = (0..count).filter(|&index| self.records[index].failed).collect();
         let mut outcomes = failed.into_iter().map(|index| {
             let outcome = self.slots[index].as_mut().map_or(Ok(()), |slot| slot.take_error());

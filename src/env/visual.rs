@@ -1,7 +1,13 @@
 //! Visual keys: which camera is seen, how large, and through which encoder.
 
+use crate::message::message;
 use std::fmt;
 use std::str::FromStr;
+
+message! {
+    /// A visual key that is malformed or does not fit the others or the model.
+    VisualKeyError
+}
 
 /// What a pixel holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,11 +84,14 @@ impl fmt::Display for Encoder {
 }
 
 impl FromStr for VisualKey {
-    type Err = String;
+    type Err = VisualKeyError;
 
-    fn from_str(key: &str) -> Result<Self, String> {
-        let wrong =
-            |what: &str| format!("the visual key {key} {what}; keys read rgb:CAMERA:HEIGHTxWIDTH:ENCODER");
+    fn from_str(key: &str) -> Result<Self, VisualKeyError> {
+        let wrong = |what: &str| {
+            VisualKeyError::new(format!(
+                "the visual key {key} {what}; keys read rgb:CAMERA:HEIGHTxWIDTH:ENCODER"
+            ))
+        };
         let (channel, rest) = key.split_once(':').ok_or_else(|| wrong("has no colon"))?;
         let channel = match channel {
             "rgb" => Channel::Rgb,
@@ -122,11 +131,11 @@ impl fmt::Display for VisualKey {
 pub fn parse_keys<'a>(
     keys: &[String],
     cameras: impl Iterator<Item = &'a str>,
-) -> Result<Vec<VisualKey>, String> {
+) -> Result<Vec<VisualKey>, VisualKeyError> {
     let keys: Vec<VisualKey> = keys.iter().map(|key| key.parse()).collect::<Result<_, _>>()?;
     let cameras: Vec<_> = cameras.collect();
     if let Some(key) = keys.iter().find(|key| !cameras.contains(&key.camera.as_str())) {
-        return Err(format!("{key} names no camera of the model; there are {}", cameras.join(", ")));
+        return Err(format!("{key} names no camera of the model; there are {}", cameras.join(", ")).into());
     }
     let mut colours = keys.iter().filter(|key| key.channel == Channel::Rgb);
     if let Some(first) = colours.next() {
@@ -136,7 +145,8 @@ pub fn parse_keys<'a>(
         if let Some(other) = colours.find(|key| !same(key)) {
             return Err(format!(
                 "{first} and {other} differ in size or encoder, and an environment has one of each"
-            ));
+            )
+            .into());
         }
     }
     Ok(keys)
@@ -156,7 +166,7 @@ mod tests {
             ("d:cam:0x2:2d", "1 to"),
             ("d:cam:2:2d", "size 2"),
         ] {
-            let error = key.parse::<VisualKey>().unwrap_err();
+            let error = key.parse::<VisualKey>().unwrap_err().to_string();
             assert!(error.contains(text) && error.contains(key), "{error}");
         }
     }
@@ -168,8 +178,8 @@ mod tests {
         let good = keys(&["rgb:left:8x9:2d", "d:left:8x9:2d", "rgb:right:8x9:2d"]);
         assert_eq!(parse_keys(&good, cameras.into_iter()).unwrap().len(), 3);
         let sizes = keys(&["rgb:left:8x9:2d", "rgb:right:9x9:2d"]);
-        assert!(parse_keys(&sizes, cameras.into_iter()).unwrap_err().contains("differ"));
+        assert!(parse_keys(&sizes, cameras.into_iter()).unwrap_err().to_string().contains("differ"));
         let unknown = keys(&["rgb:top:8x9:2d"]);
-        assert!(parse_keys(&unknown, cameras.into_iter()).unwrap_err().contains("left, right"));
+        assert!(parse_keys(&unknown, cameras.into_iter()).unwrap_err().to_string().contains("left, right"));
     }
 }

@@ -17,10 +17,10 @@ mod cache;
 mod renderer;
 mod weights;
 
-pub use renderer::{NoGpu, Renderer};
+pub use renderer::{NoGpu, Renderer, RendererError};
 pub use weights::Weights;
 
-use env::Assets;
+use env::{AssetError, Assets};
 use mjcf::Loader;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -50,14 +50,14 @@ impl Library {
 }
 
 impl Assets for Library {
-    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String> {
+    fn model(&self, path: &str) -> Result<(Loader, PathBuf), AssetError> {
         let file = self.search.resolve(path).map_err(|error| error.to_string())?;
         let loader = Loader::default();
         Ok((if let Some(cache) = &self.cache { loader.cache(cache.clone()) } else { loader }, file))
     }
 
-    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
         let file = self.search.resolve(path).map_err(|error| error.to_string())?;
-        std::fs::read(&file).map(Into::into).map_err(|error| format!("{}: {error}", file.display()))
+        std::fs::read(&file).map(Into::into).map_err(|error| format!("{}: {error}", file.display()).into())
     }
 }

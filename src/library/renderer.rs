@@ -6,10 +6,11 @@
 //! let renderer: Renderer = "cpu".parse()?;
 //! assert_eq!(renderer, Renderer::Cpu);
 //! assert!(renderer.painters().is_ok());
-//! # Ok::<(), String>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 use render::painter::{Cpu, Painters};
+use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
 
@@ -24,17 +25,29 @@ pub enum Renderer {
 }
 
 impl FromStr for Renderer {
-    type Err = String;
+    type Err = RendererError;
 
-    fn from_str(text: &str) -> Result<Self, String> {
+    fn from_str(text: &str) -> Result<Self, RendererError> {
         match text.split_once(':') {
             None if text == "cpu" => Ok(Renderer::Cpu),
             None if text == "gpu" => Ok(Renderer::Gpu(None)),
             Some(("gpu", name)) if !name.is_empty() => Ok(Renderer::Gpu(Some(name.to_owned()))),
-            _ => Err("cpu, gpu, or gpu:NAME with a part of the GPU's name".into()),
+            _ => Err(RendererError),
         }
     }
 }
+
+/// A text that names no renderer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RendererError;
+
+impl fmt::Display for RendererError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("cpu, gpu, or gpu:NAME with a part of the GPU's name")
+    }
+}
+
+impl std::error::Error for RendererError {}
 
 /// This build has no feature `gpu`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +89,10 @@ mod tests {
         assert_eq!("gpu".parse(), Ok(Renderer::Gpu(None)));
         assert_eq!("gpu:RTX".parse(), Ok(Renderer::Gpu(Some("RTX".into()))));
         for wrong in ["", "GPU", "gpu:", "cpu:x", "cuda"] {
-            assert!(wrong.parse::<Renderer>().is_err_and(|error| error.contains("gpu:NAME")), "{wrong}");
+            assert!(
+                wrong.parse::<Renderer>().is_err_and(|error| error.to_string().contains("gpu:NAME")),
+                "{wrong}"
+            );
         }
     }
 

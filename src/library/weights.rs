@@ -3,7 +3,7 @@
 use encoders::locate::Search;
 use encoders::{Encoding, Picture, Profile};
 use env::visual::Encoder;
-use env::{Compat, Network, Networks};
+use env::{Compat, Network, NetworkError, Networks};
 use std::sync::Arc;
 
 /// The folders in which weights are searched for.
@@ -20,7 +20,7 @@ impl Weights {
 }
 
 impl Networks for Weights {
-    fn load(&self, encoder: Encoder, compat: Compat) -> Result<Arc<dyn Network>, String> {
+    fn load(&self, encoder: Encoder, compat: Compat) -> Result<Arc<dyn Network>, NetworkError> {
         let profile = match compat {
             Compat::RoboHive07 => Profile::RoboHive07,
             Compat::Fixed => Profile::Fixed,
@@ -29,7 +29,9 @@ impl Networks for Weights {
             let path = self.0.find(encoding)?;
             encoders::Encoder::load(encoding, &path, profile)
         });
-        loaded.map(|loaded| Arc::new(Loaded(loaded)) as Arc<dyn Network>).map_err(|error| error.to_string())
+        loaded
+            .map(|loaded| Arc::new(Loaded(loaded)) as Arc<dyn Network>)
+            .map_err(|error| error.to_string().into())
     }
 }
 
@@ -37,7 +39,12 @@ impl Networks for Weights {
 struct Loaded(encoders::Encoder);
 
 impl Network for Loaded {
-    fn encode(&self, [height, width]: [usize; 2], rgb: &[u8], features: &mut Vec<f32>) -> Result<(), String> {
+    fn encode(
+        &self,
+        [height, width]: [usize; 2],
+        rgb: &[u8],
+        features: &mut Vec<f32>,
+    ) -> Result<(), NetworkError> {
         let picture = Picture::new(height, width, rgb).map_err(|error| error.to_string())?;
         features.extend(self.0.encode(&[picture]));
         Ok(())

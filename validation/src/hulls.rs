@@ -114,8 +114,8 @@ fn describe(bytes: &[u8], name: &str, time: &mut Duration) -> Result<String, Str
     let file = decode(bytes, name, "").map_err(|e| e.message)?;
     let points: Vec<[f64; 3]> = file.vert.as_chunks().0.iter().map(|p: &[f32; 3]| p.map(f64::from)).collect();
     let start = Instant::now();
-    let hull = convex_hull(&points, -1)?;
-    let limited = convex_hull(&points, LIMIT)?;
+    let hull = convex_hull(&points, -1).map_err(|error| error.to_string())?;
+    let limited = convex_hull(&points, LIMIT).map_err(|error| error.to_string())?;
     *time += start.elapsed();
     Ok(format!(
         "{} vertices, {} triangles, {:016x}, limited {:016x}, {}",

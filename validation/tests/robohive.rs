@@ -4,7 +4,7 @@
 mod stand_in;
 
 use dataset::npz::NpzReader;
-use env::{Assets, Compat, Env, Options};
+use env::{AssetError, Assets, Compat, Env, Options};
 use mjcf::Loader;
 use mjcf::files::Memory;
 use serde_json::Value;
@@ -19,14 +19,18 @@ const TOLERANCE: f64 = 1e-6;
 struct StandIn(String);
 
 impl Assets for StandIn {
-    fn model(&self, _: &str) -> Result<(Loader, PathBuf), String> {
+    fn model(&self, _: &str) -> Result<(Loader, PathBuf), AssetError> {
         let mut files = Memory::default();
         files.insert("stand_in.xml", self.0.as_bytes());
         Ok((Loader::default().files(files), "stand_in.xml".into()))
     }
 
-    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
-        if path.ends_with(".config") { Ok(Arc::from(&b"{}"[..])) } else { Err(format!("no {path} here")) }
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
+        if path.ends_with(".config") {
+            Ok(Arc::from(&b"{}"[..]))
+        } else {
+            Err(format!("no {path} here").into())
+        }
     }
 }
 
@@ -39,8 +43,7 @@ fn differences(path: &Path) -> Vec<String> {
     let meta: Value =
         serde_json::from_str(&meta.replace("-Infinity", "null").replace("Infinity", "null")).unwrap();
     let id = meta["id"].as_str().unwrap();
-    let mut changes: toml::Table = "define = []\nreparent = []\nvisual_keys = []".parse().unwrap();
-    changes.insert("act_mode".into(), "pos".into());
+    let changes = "define = []\nreparent = []\nvisual_keys = []\nact_mode = 'pos'".parse().unwrap();
     let options = Options { compat: Compat::RoboHive07, changes, ..Options::default() };
     let mut env = match Env::make(id, &StandIn(text(&meta)), &options) {
         Ok(env) => env,

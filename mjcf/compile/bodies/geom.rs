@@ -61,7 +61,7 @@ pub(super) fn compile<'s>(spec: &'s Geom, context: &Context) -> Result<GeomNode<
         pose = pose.then(&offset);
         surfacevel = in_mesh_frame(surfacevel, &offset);
     }
-    shape::check_size(kind, size)?;
+    shape::check_size(kind, size).map_err(|error| error.to_string())?;
     let solid = mesh.filter(|_| matches!(kind, GeomType::Mesh | GeomType::Sdf));
     let (aabb, rbound) = match (solid, hfield) {
         (Some((_, mesh)), _) => {

@@ -49,7 +49,7 @@ fn compile_site<'s>(
         pose = frame.then(&pose);
     }
     normalize(&mut pose.quat);
-    shape::check_size(spec.kind, size)?;
+    shape::check_size(spec.kind, size).map_err(|error| error.to_string())?;
     Ok(SiteNode { spec, pose, size })
 }
 

@@ -52,7 +52,7 @@ fn fill_sensor(
         None => needstage(sensor.kind),
     };
     let dim = match &plugin {
-        Some((kind, config)) => kind.readings(config)? as i64,
+        Some((kind, config)) => kind.readings(config).map_err(|error| error.to_string())? as i64,
         None => dimension(m, sensor, object)?,
     };
     let dim = bounded(dim, "dim")?;

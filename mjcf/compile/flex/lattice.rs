@@ -122,7 +122,7 @@ impl Lattice {
     ///
     /// # Errors
     /// The cells are not boxes.
-    pub fn rotation(&self, empty: &[bool], node: &[Vec3]) -> Result<Mat3, String> {
+    pub(super) fn rotation(&self, empty: &[bool], node: &[Vec3]) -> Result<Mat3, String> {
         let full = self.each_cell().enumerate().find(|(number, _)| empty.get(*number) != Some(&true));
         let corner = full.map_or([0; 3], |(_, cell)| cell.map(|c| c * self.order));
         let mut rotation = [0.0; 9];

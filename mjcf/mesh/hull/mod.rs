@@ -43,15 +43,57 @@ mod waiting;
 pub use fan::Hull;
 
 use crate::vector::{cross, dot, sub};
-use builder::Builder;
-use failure::Failure;
-use id::FacetId;
+use id::{FacetId, Marks};
+use locate::Search;
+use merge::Slivers;
+use std::fmt;
+use surface::Surface;
+use tolerance::{Slack, Tolerances};
+
+/// A triangulated convex hull; all indices are input points.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Hull {
+    /// Points on the hull.
+    pub vert: Vec<i32>,
+    /// Hull neighbours of each entry of `vert`, as points.
+    pub neighbours: Vec<Vec<i32>>,
+    /// Triangles, counter-clockwise seen from outside.
+    pub face: Vec<[i32; 3]>,
+}
+
+/// A numerical accident the construction cannot continue from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Failure(&'static str);
 
 /// Lengths and relative distances below this count as zero.
 const MINVAL: f64 = 1e-15;
 
-/// Hull of `points`; at most `max_vert` vertices unless that is -1. The error says why there is none.
-pub fn convex_hull(points: &[[f64; 3]], max_vert: i32) -> Result<Hull, String> {
+/// Why points have no convex hull.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum HullError {
+    /// The points span no volume; what they are instead.
+    Flat(&'static str),
+    /// A numerical accident that the construction cannot continue from.
+    Accident(&'static str),
+}
+
+impl fmt::Display for HullError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            HullError::Flat(what) => write!(f, "vertices are {what}, there is no convex hull"),
+            HullError::Accident(why) => write!(f, "no convex hull: {why}"),
+        }
+    }
+}
+
+impl std::error::Error for HullError {}
+
+/// Hull of `points` [m]; at most `max_vert` vertices unless that is -1.
+///
+/// # Errors
+/// The points span no volume, or the construction meets a numerical accident.
+pub fn convex_hull(points: &[[f64; 3]], max_vert: i32) -> Result<Hull, HullError> {
     check_spread(points)?;
     let limit = usize::try_from(max_vert).ok();
     match build(points, limit) {
@@ -59,7 +101,7 @@ pub fn convex_hull(points: &[[f64; 3]], max_vert: i32) -> Result<Hull, String> {
         Err(_) => {
             // Moving the points by far less than they are apart avoids the coincidence.
             let moved = joggle(points);
-            build(&moved, limit).map_err(|Failure(why)| format!("no convex hull: {why}"))
+            build(&moved, limit).map_err(|Failure(why)| HullError::Accident(why))
         }
     }
 }
@@ -93,8 +135,8 @@ impl Builder<'_> {
 }
 
 /// Points that are not within `MINVAL` of a plane, as MuJoCo tests it.
-fn check_spread(points: &[[f64; 3]]) -> Result<(), String> {
-    let fail = |what: &str| Err(format!("vertices are {what}, there is no convex hull"));
+fn check_spread(points: &[[f64; 3]]) -> Result<(), HullError> {
+    let fail = |what| Err(HullError::Flat(what));
     let length = |v: [f64; 3]| dot(v, v).sqrt();
     let Some(&origin) = points.first() else { return fail("missing") };
     let Some(second) = points.iter().position(|&p| length(sub(p, origin)) > MINVAL) else {

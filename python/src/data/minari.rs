@@ -20,7 +20,7 @@ pub struct MinariWriter {
 }
 
 fn id_of(id: &str) -> PyResult<DatasetId> {
-    DatasetId::new(id).map_err(PyValueError::new_err)
+    DatasetId::new(id).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
 fn entries(json: &str) -> PyResult<Map<String, Value>> {

@@ -75,7 +75,7 @@ impl PyVecEnv {
         }
         let (keys, names) = (Keys::of(py, &env), Names::of(py, &env));
         let made = py.detach(move || VecEnv::new(&env, count, autoreset, threads));
-        let mut envs = made.map_err(PyRuntimeError::new_err)?;
+        let mut envs = made.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;
         for index in 0..count {
             envs.env_mut(index).into_iter().for_each(|env| env.seed(seed.wrapping_add(index as u64)));
         }

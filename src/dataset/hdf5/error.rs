@@ -27,4 +27,4 @@ impl fmt::Display for Hdf5Error {
 impl std::error::Error for Hdf5Error {}
 
 /// What a decoder returns: a value, or a sentence about the bytes.
-pub type Decoded<T> = Result<T, String>;
+pub(crate) type Decoded<T> = Result<T, String>;

@@ -28,7 +28,7 @@ impl Precision {
     ///
     /// # Errors
     /// A number is out of range; the message names it.
-    pub fn put<T: Scalar>(self, scalars: &[T], out: &mut Vec<u8>) -> Result<(), String> {
+    pub(crate) fn put<T: Scalar>(self, scalars: &[T], out: &mut Vec<u8>) -> Result<(), String> {
         let kept = self.kept(T::DTYPE);
         if kept == T::DTYPE {
             scalars.iter().for_each(|&x| x.put(out));
@@ -44,7 +44,7 @@ impl Precision {
     ///
     /// # Errors
     /// A number is out of range; the message names it.
-    pub fn put_values(self, values: &Values, out: &mut Vec<u8>) -> Result<(), String> {
+    pub(crate) fn put_values(self, values: &Values, out: &mut Vec<u8>) -> Result<(), String> {
         match values {
             Values::Bool(v) => self.put(v, out),
             Values::U8(v) => self.put(v, out),

@@ -100,8 +100,8 @@ impl Router {
     /// Adds rows that are given under a name.
     ///
     /// # Errors
-    /// Their type or shape differs from earlier rows, or the name cannot be kept.
-    pub fn push(&mut self, key: &str, rows: Rows) -> Result<(), String> {
+    /// Their type or shape is not that of the rows before, or the name cannot be kept.
+    pub(crate) fn push(&mut self, key: &str, rows: Rows) -> Result<(), String> {
         let at = self.find(key, rows)?;
         self.next = at + 1;
         let Given { dtype, row, ways, .. } = &self.given[at];
@@ -229,7 +229,7 @@ impl Router {
 }
 
 /// Refuses keys that no file can hold beside `others`.
-pub fn check_key<'a>(key: &str, others: impl Iterator<Item = &'a str>) -> Result<(), String> {
+pub(crate) fn check_key<'a>(key: &str, others: impl Iterator<Item = &'a str>) -> Result<(), String> {
     if key.split('/').any(|name| name.is_empty() || name == "." || name.len() > crate::hdf5::encode::MAX_NAME)
     {
         return Err("a key is names with / between them; a name is not empty and not a single point".into());

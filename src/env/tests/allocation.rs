@@ -10,7 +10,7 @@
 //! ```
 
 use mjcf::Loader;
-use robohive_env::{Assets, Env, Options, Registry, Rng};
+use robohive_env::{AssetError, Assets, Env, Options, Registry, Rng};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use std::path::PathBuf;
@@ -30,14 +30,14 @@ const DRAWN: usize = 4;
 struct Imported(Search);
 
 impl Assets for Imported {
-    fn model(&self, path: &str) -> Result<(Loader, PathBuf), String> {
+    fn model(&self, path: &str) -> Result<(Loader, PathBuf), AssetError> {
         let file = self.0.resolve(path).map_err(|error| error.to_string())?;
         Ok((Loader::default(), file))
     }
 
-    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
         let file = self.0.resolve(path).map_err(|error| error.to_string())?;
-        std::fs::read(file).map(Into::into).map_err(|error| error.to_string())
+        std::fs::read(file).map(Into::into).map_err(|error| error.to_string().into())
     }
 }
 

@@ -3,7 +3,7 @@
 use mjcf::Loader;
 use mjcf::files::Memory;
 use robohive_env::check::check;
-use robohive_env::{Assets, Env, EnvError, Options, Registry};
+use robohive_env::{Arguments, AssetError, Assets, Env, EnvError, Options, Registry};
 use std::f64::consts::{FRAC_PI_3, FRAC_PI_6, PI, TAU};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -45,22 +45,22 @@ const VALVE: usize = 6;
 struct OneFinger;
 
 impl Assets for OneFinger {
-    fn model(&self, _: &str) -> Result<(Loader, PathBuf), String> {
+    fn model(&self, _: &str) -> Result<(Loader, PathBuf), AssetError> {
         let mut files = Memory::default();
         files.insert("claw.xml", CLAW.as_bytes());
         Ok((Loader::default().files(files), "claw.xml".into()))
     }
 
-    fn read(&self, path: &str) -> Result<Arc<[u8]>, String> {
-        Err(format!("{path} is not here"))
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
+        Err(format!("{path} is not here").into())
     }
 }
 
 fn make_with(id: &str, changes: &str) -> Result<Env, EnvError> {
     let fingers = if POSE.contains(&id) { "overlay_range_names = ['_FFJ10', '_FFJ12']" } else { "" };
     let text = format!("dof_range_names = ['FFJ10', 'FFJ12']\n{fingers}\n");
-    let mut all: toml::Table = text.parse().unwrap();
-    all.extend(changes.parse::<toml::Table>().unwrap());
+    let mut all: Arguments = text.parse().unwrap();
+    all.extend(changes.parse::<Arguments>().unwrap());
     Env::make(id, &OneFinger, &Options { changes: all, ..Options::default() })
 }
 

@@ -4,7 +4,7 @@ use mjcf::Loader;
 use mjcf::files::Memory;
 use render::Picture;
 use render::picture::Channels;
-use robohive_env::{Assets, Env, EnvError, Options, OwnModels};
+use robohive_env::{AssetError, Assets, Env, EnvError, Options, OwnModels};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -116,13 +116,13 @@ const TEXTURED: &str = "<mujoco>
 struct Textured;
 
 impl Assets for Textured {
-    fn model(&self, _: &str) -> Result<(Loader, PathBuf), String> {
+    fn model(&self, _: &str) -> Result<(Loader, PathBuf), AssetError> {
         let mut files = Memory::default();
         files.insert("scene.xml", TEXTURED.as_bytes());
         Ok((Loader::default().files(files), "scene.xml".into()))
     }
 
-    fn read(&self, _: &str) -> Result<Arc<[u8]>, String> {
+    fn read(&self, _: &str) -> Result<Arc<[u8]>, AssetError> {
         Err("there is none".into())
     }
 }

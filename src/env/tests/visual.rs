@@ -5,8 +5,8 @@ use render::raster::Shot;
 use render::{Painter, Painters, Profile, RenderError, Settings};
 use robohive_env::visual::Encoder;
 use robohive_env::{
-    Autoreset, Compat, Env, EnvError, Exteroception, Network, Networks, Options, OwnModels, Pixels,
-    RenderMode, Rendering, VecEnv,
+    Autoreset, Compat, Env, EnvError, Exteroception, Network, NetworkError, Networks, Options, OwnModels,
+    Pixels, RenderMode, Rendering, VecEnv,
 };
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
@@ -186,7 +186,12 @@ fn painters_of_batches_draw_all_images_of_all_environments_at_once() {
 struct Brightness;
 
 impl Network for Brightness {
-    fn encode(&self, [height, width]: [usize; 2], rgb: &[u8], features: &mut Vec<f32>) -> Result<(), String> {
+    fn encode(
+        &self,
+        [height, width]: [usize; 2],
+        rgb: &[u8],
+        features: &mut Vec<f32>,
+    ) -> Result<(), NetworkError> {
         let sum: u64 = rgb.iter().map(|&byte| u64::from(byte)).sum();
         features.extend([sum as f32 / (height * width) as f32; 512]);
         Ok(())
@@ -197,7 +202,7 @@ impl Network for Brightness {
 struct Counted(AtomicUsize);
 
 impl Networks for Counted {
-    fn load(&self, encoder: Encoder, compat: Compat) -> Result<Arc<dyn Network>, String> {
+    fn load(&self, encoder: Encoder, compat: Compat) -> Result<Arc<dyn Network>, NetworkError> {
         assert_eq!((encoder, compat), (Encoder::R3m(18), Compat::Fixed));
         self.0.fetch_add(1, Ordering::Relaxed);
         Ok(Arc::new(Brightness))
@@ -251,7 +256,7 @@ fn render_returns_what_its_mode_says() {
     assert_eq!(env.render().unwrap().unwrap().depth.len(), 24 * 16);
     let error = make(Some(RenderMode::RgbArray), "fornt").render().unwrap_err().to_string();
     assert!(error.contains("fornt") && error.contains("front"), "{error}");
-    let human = "human".parse::<RenderMode>().unwrap_err();
+    let human = "human".parse::<RenderMode>().unwrap_err().to_string();
     assert!(human.contains("window") && human.contains("rgb_array"), "{human}");
     assert_eq!("depth_array".parse(), Ok(RenderMode::DepthArray));
 }

@@ -45,9 +45,7 @@ impl VecEnv {
     fn try_each(&mut self, each: impl Fn(&mut Env) -> Result<(), EnvError> + Sync) -> Result<(), EnvError> {
         let mut outcomes: Vec<_> = self.slots.iter().map(|_| Ok(())).collect();
         let work: Vec<_> = self.slots.iter_mut().flatten().zip(&mut outcomes).collect();
-        self.pool
-            .each(work, |(slot, outcome)| *outcome = each(&mut slot.env))
-            .map_err(|message| EnvError::Threads { message })?;
+        self.pool.each(work, |(slot, outcome)| *outcome = each(&mut slot.env))?;
         outcomes.into_iter().collect()
     }
 }

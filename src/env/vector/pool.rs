@@ -1,5 +1,7 @@
 //! Threads that carry out one piece of work for each environment of a batch.
 
+use crate::error::EnvError;
+
 /// A number of threads. They start with the first batch that needs them; one thread is the caller's.
 pub struct Pool {
     #[cfg(feature = "threads")]
@@ -34,7 +36,7 @@ impl Pool {
     /// # Errors
     /// The threads cannot be started.
     #[cfg(feature = "threads")]
-    pub fn each<W: Send>(&mut self, work: Vec<W>, each: impl Fn(W) + Sync) -> Result<(), String> {
+    pub fn each<W: Send>(&mut self, work: Vec<W>, each: impl Fn(W) + Sync) -> Result<(), EnvError> {
         use rayon::prelude::*;
         if self.threads == 1 || work.len() < 2 {
             work.into_iter().for_each(each);
@@ -49,13 +51,13 @@ impl Pool {
     /// # Errors
     /// None.
     #[cfg(not(feature = "threads"))]
-    pub fn each<W: Send>(&mut self, work: Vec<W>, each: impl Fn(W) + Sync) -> Result<(), String> {
+    pub fn each<W: Send>(&mut self, work: Vec<W>, each: impl Fn(W) + Sync) -> Result<(), EnvError> {
         work.into_iter().for_each(each);
         Ok(())
     }
 
     #[cfg(feature = "threads")]
-    fn pool(&mut self) -> Result<&rayon::ThreadPool, String> {
+    fn pool(&mut self) -> Result<&rayon::ThreadPool, EnvError> {
         let process = std::process::id();
         if let Some((owner, pool)) = self.started.take() {
             if owner == process {
@@ -65,8 +67,8 @@ impl Pool {
             std::mem::forget(pool);
         }
         let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads);
-        let pool =
-            builder.thread_name(|k| format!("robohive-{k}")).build().map_err(|error| error.to_string())?;
+        let refused = |error: rayon::ThreadPoolBuildError| EnvError::Threads { message: error.to_string() };
+        let pool = builder.thread_name(|k| format!("robohive-{k}")).build().map_err(refused)?;
         Ok(&self.started.insert((process, pool)).1)
     }
 }

@@ -6,13 +6,28 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DatasetId(String);
 
+/// A name that Minari would not load.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DatasetIdError {
+    id: String,
+    why: &'static str,
+}
+
+impl fmt::Display for DatasetIdError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no dataset id: {:?}: {}, as in robohive/door/random-v0", self.id, self.why)
+    }
+}
+
+impl std::error::Error for DatasetIdError {}
+
 impl DatasetId {
     /// Checks a name.
     ///
     /// # Errors
     /// Minari would not load it; the message says which part is wrong.
-    pub fn new(id: &str) -> Result<Self, String> {
-        let fail = |why: &str| Err(format!("no dataset id: {id:?}: {why}, as in robohive/door/random-v0"));
+    pub fn new(id: &str) -> Result<Self, DatasetIdError> {
+        let fail = |why| Err(DatasetIdError { id: id.to_owned(), why });
         let Some((name, version)) = id.rsplit_once("-v") else { return fail("it ends in -v and a number") };
         if version.is_empty() || !version.bytes().all(|b| b.is_ascii_digit()) {
             return fail("it ends in -v and a number");

@@ -9,6 +9,6 @@ mod metadata;
 mod writer;
 
 pub use export::{Target, export};
-pub use id::DatasetId;
+pub use id::{DatasetId, DatasetIdError};
 pub use metadata::{About, box_space, env_spec};
 pub use writer::{Columns, MinariWriter};

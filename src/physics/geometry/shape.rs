@@ -20,6 +20,7 @@ use crate::arrays::bounds::MAXVAL;
 use crate::math::Vec3;
 use crate::math::ops;
 use std::f64::consts::PI;
+use std::fmt;
 
 /// Number of size parameters a shape needs.
 pub fn size_count(kind: GeomType) -> usize {
@@ -31,15 +32,46 @@ pub fn size_count(kind: GeomType) -> usize {
     }
 }
 
-/// Checks the sizes a shape needs; a plane needs only its grid spacing.
-pub fn check_size(kind: GeomType, size: Vec3) -> Result<(), String> {
+/// A size that no shape has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum SizeError {
+    /// A size that the shape needs is zero, negative or not a number.
+    NotPositive {
+        /// Which of the sizes, counted from 0.
+        index: usize,
+        /// The size [m].
+        value: f64,
+    },
+    /// A size that the shape does not need is not a number.
+    NotANumber,
+}
+
+impl fmt::Display for SizeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            SizeError::NotPositive { index, value } => {
+                write!(f, "size {} must be positive, is {value}", index + 1)
+            }
+            SizeError::NotANumber => f.write_str("size is not a number"),
+        }
+    }
+}
+
+impl std::error::Error for SizeError {}
+
+/// Checks the sizes [m] that a shape needs; a plane needs only its grid spacing.
+///
+/// # Errors
+/// The first size that is not positive.
+pub fn check_size(kind: GeomType, size: Vec3) -> Result<(), SizeError> {
     let needed = if kind == GeomType::Plane { 2..3 } else { 0..size_count(kind) };
     for k in needed {
         if size[k] <= 0.0 || size[k].is_nan() {
-            return Err(format!("size {} must be positive, is {}", k + 1, size[k]));
+            return Err(SizeError::NotPositive { index: k, value: size[k] });
         }
     }
-    if size.iter().any(|s| s.is_nan()) { Err("size is not a number".into()) } else { Ok(()) }
+    if size.iter().any(|s| s.is_nan()) { Err(SizeError::NotANumber) } else { Ok(()) }
 }
 
 /// Volume in m³, or area in m² of a shell.

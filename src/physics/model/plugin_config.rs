@@ -1,5 +1,32 @@
 //! The attributes of one instance, as a model declares them.
 
+use super::Plugin;
+use std::fmt;
+
+/// What is wrong with the attributes of an instance, or with the elements that use it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct AttributeError(String);
+
+impl fmt::Display for AttributeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for AttributeError {}
+
+impl From<String> for AttributeError {
+    fn from(message: String) -> Self {
+        AttributeError(message)
+    }
+}
+
+impl From<&str> for AttributeError {
+    fn from(message: &str) -> Self {
+        AttributeError(message.to_owned())
+    }
+}
+
 /// Texts of the attributes of an instance, by name; empty where the model says nothing.
 #[derive(Clone, Debug)]
 pub struct Config<'a> {
@@ -24,21 +51,24 @@ impl<'a> Config<'a> {
     ///
     /// # Errors
     /// Its text is no finite number.
-    pub fn number(&self, name: &str) -> Result<Option<f64>, String> {
+    pub fn number(&self, name: &str) -> Result<Option<f64>, AttributeError> {
         let text = self.text(name).trim();
         if text.is_empty() {
             return Ok(None);
         }
-        number(text).map(Some).ok_or_else(|| format!("attribute '{name}' is '{text}': write one number"))
+        number(text)
+            .map(Some)
+            .ok_or_else(|| format!("attribute '{name}' is '{text}': write one number").into())
     }
 
     /// The numbers that an attribute lists.
     ///
     /// # Errors
     /// One of its words is no finite number.
-    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, String> {
+    pub fn numbers(&self, name: &str) -> Result<Vec<f64>, AttributeError> {
         let text = self.text(name);
-        let read = |word| number(word).ok_or_else(|| format!("attribute '{name}': '{word}' is no number"));
+        let read =
+            |word| number(word).ok_or_else(|| format!("attribute '{name}': '{word}' is no number").into());
         text.split_ascii_whitespace().map(read).collect()
     }
 }

@@ -11,6 +11,7 @@ use crate::model::{BiasType, Disable, DynType, EqType, GainType, JointType, Mode
 use crate::pipeline::error::{BadNumber, StepError};
 use crate::pipeline::reset;
 use crate::{collision, flex, sensor, sleep, velocity::bias};
+use std::fmt;
 
 /// Not a number, or beyond the bound.
 fn is_bad(x: f64) -> bool {
@@ -107,12 +108,24 @@ fn joint_of_qpos(m: &Model, q: usize) -> usize {
     (0..m.njnt).rfind(|&j| m.jnt_qposadr[j] as usize <= q).unwrap_or(0)
 }
 
+/// A tree that is to begin asleep and cannot: its first body, and why.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StartError(String);
+
+impl fmt::Display for StartError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for StartError {}
+
 /// Checks once that the trees which begin asleep can.
 ///
 /// # Errors
 /// The first body whose tree cannot, and why.
-pub fn check_start(m: &Model) -> Result<(), String> {
-    reset::check(m)
+pub fn check_start(m: &Model) -> Result<(), StartError> {
+    sleep::rest::check(m).map_err(StartError)
 }
 
 /// Checks that the options ask for what is simulated.

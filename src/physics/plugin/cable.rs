@@ -4,6 +4,8 @@
 //! Stress between two neighbours is stiffness times the difference between their curvature and the curvature at rest, per
 //! unit of length. The half-way frames of the discrete elastic rods of Bergou et al. 2008 are the frames of the bodies here.
 
+use super::{AttributeError, Capability, Config, Instance, PassiveInputs, Plugin};
+use crate::data::{Kinematics, State};
 use crate::math::{
     IDENTITY, Quat, Vec3, add, dot, norm, ops, quat_conj, quat_difference, quat_mul, quat_rotate,
     quat_to_velocity, rotational, sub,
@@ -31,7 +33,7 @@ impl Plugin for Cable {
         &[Capability::Passive]
     }
 
-    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, String> {
+    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, AttributeError> {
         let modulus = |name| config.number(name).map(Option::unwrap_or_default);
         let material = Material { shear: modulus("twist")?, young: modulus("bend")? };
         modulus("vmax")?;
@@ -46,7 +48,8 @@ impl Plugin for Cable {
         if let Some(b) = bodies[1..].iter().find(|&&b| quaternion(m, b).is_none()) {
             return Err(format!(
                 "body {b} must turn against the one before it: give it a ball joint, its last"
-            ));
+            )
+            .into());
         }
         let kin = at_reference(m);
         let parts =
@@ -95,7 +98,7 @@ fn part(
     follows: bool,
     flat: bool,
     material: &Material,
-) -> Result<Part, String> {
+) -> Result<Part, AttributeError> {
     let geom = usize::try_from(m.body_geomadr[body]).map_err(|_| format!("body {body} has no geom"))?;
     let [twist, about_y, about_z] = section(m, geom);
     let rest = match follows && !flat {

@@ -1,10 +1,9 @@
 //! `mujoco.pid`: a PID controller of the length of its actuator. The integral and the set point before, which bounds the
 //! rate of the next, are activations.
 
-use crate::actuation::activation::next_activation;
-use crate::actuation::setpoint::activations;
-use crate::math::clip;
-use crate::model::{ActuatorInputs, Capability, Config, DynType, Instance, Model, Plugin};
+use super::{ActuatorInputs, AttributeError, Capability, Config, Instance, Plugin};
+use crate::actuation::activation::{activations, clip, next_activation};
+use crate::model::{DynType, Model};
 
 /// The plugin.
 #[derive(Debug)]
@@ -23,7 +22,7 @@ impl Plugin for Pid {
         &[Capability::Actuator]
     }
 
-    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, String> {
+    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, AttributeError> {
         let gain = |name| config.number(name).map(Option::unwrap_or_default);
         let integral = gain("ki")?;
         let controller = Controller {
@@ -60,7 +59,7 @@ struct Memory {
 }
 
 impl Controller {
-    fn check(&self, m: &Model) -> Result<(), String> {
+    fn check(&self, m: &Model) -> Result<(), AttributeError> {
         if self.bound.is_some_and(|bound| bound < 0.0) {
             return Err("attribute 'imax' has the sign of a negative bound: set it to 0 or more".into());
         }
@@ -80,7 +79,8 @@ impl Controller {
             if found != wanted {
                 return Err(format!(
                     "actuator {i} has {found} activations where {wanted} are needed: set actdim=\"{wanted}\""
-                ));
+                )
+                .into());
             }
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! `mujoco.sensor.touch_grid`: contact forces on the body of a site as pictures, by azimuth and elevation seen from the
 //! site along its negative z axis. One picture a channel: normal, two tangential forces, then the torques.
 
+use super::{AccelerationInputs, AttributeError, Capability, Config, Instance, Plugin, SensorInputs};
 use crate::acceleration::contact_force::contact_force;
 use crate::math::{Vec3, mul_mat_t_vec, ops, sub};
 use crate::model::{Capability, Config, Instance, Model, ObjType, Plugin, SensorInputs, SensorType};
@@ -24,12 +25,12 @@ impl Plugin for TouchGrid {
         &[Capability::Sensor]
     }
 
-    fn readings(&self, config: &Config) -> Result<usize, String> {
+    fn readings(&self, config: &Config) -> Result<usize, AttributeError> {
         let Format { channels, size } = format(config)?;
         Ok(channels * size[0] * size[1])
     }
 
-    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, String> {
+    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, AttributeError> {
         let Format { channels, size } = format(config)?;
         let fov = config.numbers("fov")?;
         let fov = match fov[..] {
@@ -60,17 +61,17 @@ struct Format {
 /// Most cells of a picture along one axis.
 const MOST: f64 = 4096.0;
 
-fn format(config: &Config) -> Result<Format, String> {
+fn format(config: &Config) -> Result<Format, AttributeError> {
     let channels = match config.number("nchannel")?.unwrap_or_default().trunc() {
         0.0 => 1.0,
         n if (1.0..=6.0).contains(&n) => n,
-        n => return Err(format!("attribute 'nchannel' is {n}: from 1 to 6 channels there are")),
+        n => return Err(format!("attribute 'nchannel' is {n}: from 1 to 6 channels there are").into()),
     };
     match config.numbers("size")?[..] {
         [x, y] if [x, y].iter().all(|n| (1.0..=MOST).contains(n)) => {
             Ok(Format { channels: channels as usize, size: [x as usize, y as usize] })
         }
-        _ => Err(format!("attribute 'size': write two whole numbers from 1 to {MOST}")),
+        _ => Err(format!("attribute 'size': write two whole numbers from 1 to {MOST}").into()),
     }
 }
 

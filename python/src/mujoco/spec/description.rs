@@ -307,5 +307,5 @@ pub fn actuator_shortcut<'py>(
 pub fn orientation(degree: bool, sequence: [u8; 3], alt: &Bound<'_, PyDict>) -> PyResult<[f64; 4]> {
     let settings = Compiler { degree, eulerseq: sequence, ..Compiler::default() };
     let alt = super::parts::take_orientation(alt, "alt")?;
-    settings.quaternion([1.0, 0.0, 0.0, 0.0], alt).map_err(PyValueError::new_err)
+    settings.quaternion([1.0, 0.0, 0.0, 0.0], alt).map_err(|error| PyValueError::new_err(error.to_string()))
 }

@@ -99,7 +99,12 @@ impl Source {
     ///
     /// # Errors
     /// The file cannot be read, or arrays are missing or of wrong shapes.
-    pub fn load(&self, joints: usize, assets: &dyn Assets, compat: Compat) -> Result<Reference, String> {
+    pub(super) fn load(
+        &self,
+        joints: usize,
+        assets: &dyn Assets,
+        compat: Compat,
+    ) -> Result<Reference, String> {
         let mut frames = match self {
             Source::Frames(frames) => frames.clone(),
             Source::File(path) => {

@@ -21,7 +21,7 @@ macro_rules! fields {
         pub struct $kind;
 
         impl $kind {
-            fn read(config: &crate::model::Config) -> Result<$field, String> {
+            fn read(config: &crate::plugin::Config) -> Result<$field, crate::plugin::AttributeError> {
                 Ok($field {
                     $($attribute: config.number(stringify!($attribute))?.unwrap_or($default),)*
                 })
@@ -43,8 +43,8 @@ macro_rules! fields {
 
             fn field(
                 &self,
-                config: &crate::model::Config,
-            ) -> Result<Option<Box<dyn crate::model::Field>>, String> {
+                config: &crate::plugin::Config,
+            ) -> Result<Option<Box<dyn crate::plugin::Field>>, crate::plugin::AttributeError> {
                 Ok(Some(Box::new($kind::read(config)?)))
             }
 
@@ -53,7 +53,7 @@ macro_rules! fields {
                 config: &crate::model::Config,
                 _: &crate::model::Model,
                 _: usize,
-            ) -> Result<Box<dyn crate::model::Instance>, String> {
+            ) -> Result<Box<dyn crate::plugin::Instance>, crate::plugin::AttributeError> {
                 Ok(Box::new(crate::plugin::sdf::Solid($kind::read(config)?)))
             }
         }

@@ -94,7 +94,7 @@ impl Args {
     ///
     /// # Errors
     /// Which setting is wrong, and what it should be.
-    pub fn opponent(&self) -> Result<OpponentArgs, String> {
+    pub(super) fn opponent(&self) -> Result<OpponentArgs, String> {
         let count = if self.repeller_opponent { 4 } else { 3 };
         let probabilities = &self.opponent_probabilities;
         let proper = probabilities.iter().all(|p| (0.0..=1.0).contains(p));

@@ -66,7 +66,7 @@ impl Terrain {
     ///
     /// # Errors
     /// The image has another size.
-    pub fn new(heights: Heights, image: &[f64], placing: Option<RandomState>) -> Result<Self, String> {
+    pub(super) fn new(heights: Heights, image: &[f64], placing: Option<RandomState>) -> Result<Self, String> {
         if image.len() != PATCH * PATCH {
             return Err(format!(
                 "the relief has {} samples, and {PATCH} times {PATCH} are needed",
