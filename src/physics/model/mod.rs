@@ -37,7 +37,7 @@ pub use crate::arrays::{
 };
 pub use distance_field::Field;
 pub use not_simulated::NotSimulated;
-pub use plugin_config::Config;
+pub use plugin_config::{AttributeError, Config};
 pub use plugin_error::{PluginError, RegistryError};
 pub use suggestion::Suggestions;
 pub use with_plugins::{

@@ -1,6 +1,5 @@
 //! The attributes of one instance, as a model declares them.
 
-use super::Plugin;
 use std::fmt;
 
 /// What is wrong with the attributes of an instance, or with the elements that use it.

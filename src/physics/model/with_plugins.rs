@@ -2,7 +2,7 @@
 //! instances of plugins, and an instance computes from the model.
 
 use super::distance_field::Field;
-use super::plugin_config::Config;
+use super::plugin_config::{AttributeError, Config};
 use super::plugin_error::RegistryError;
 use crate::arrays::{Arrays, ObjType, Options, Stage};
 use crate::caches::Caches;
@@ -126,7 +126,7 @@ pub trait Plugin: Debug + Send + Sync {
     ///
     /// # Errors
     /// What is wrong with the attributes.
-    fn states(&self, _config: &Config) -> Result<usize, String> {
+    fn states(&self, _config: &Config) -> Result<usize, AttributeError> {
         Ok(0)
     }
 
@@ -134,7 +134,7 @@ pub trait Plugin: Debug + Send + Sync {
     ///
     /// # Errors
     /// What is wrong with the attributes.
-    fn readings(&self, _config: &Config) -> Result<usize, String> {
+    fn readings(&self, _config: &Config) -> Result<usize, AttributeError> {
         Ok(0)
     }
 
@@ -142,7 +142,7 @@ pub trait Plugin: Debug + Send + Sync {
     ///
     /// # Errors
     /// What is wrong with the attributes.
-    fn field(&self, _config: &Config) -> Result<Option<Box<dyn Field>>, String> {
+    fn field(&self, _config: &Config) -> Result<Option<Box<dyn Field>>, AttributeError> {
         Ok(None)
     }
 
@@ -150,7 +150,7 @@ pub trait Plugin: Debug + Send + Sync {
     ///
     /// # Errors
     /// What is wrong with the attributes, or with the elements that use the instance.
-    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, String>;
+    fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, AttributeError>;
 }
 
 /// What a passive force may depend on.

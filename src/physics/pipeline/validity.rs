@@ -125,7 +125,7 @@ impl std::error::Error for StartError {}
 /// # Errors
 /// The first body whose tree cannot, and why.
 pub fn check_start(m: &Model) -> Result<(), StartError> {
-    sleep::rest::check(m).map_err(StartError)
+    reset::check(m).map_err(StartError)
 }
 
 /// Checks that the options ask for what is simulated.

@@ -4,13 +4,13 @@
 //! Stress between two neighbours is stiffness times the difference between their curvature and the curvature at rest, per
 //! unit of length. The half-way frames of the discrete elastic rods of Bergou et al. 2008 are the frames of the bodies here.
 
-use super::{AttributeError, Capability, Config, Instance, PassiveInputs, Plugin};
-use crate::data::{Kinematics, State};
 use crate::math::{
     IDENTITY, Quat, Vec3, add, dot, norm, ops, quat_conj, quat_difference, quat_mul, quat_rotate,
     quat_to_velocity, rotational, sub,
 };
-use crate::model::{Capability, Config, GeomType, Instance, JointType, Model, PassiveInputs, Plugin};
+use crate::model::{
+    AttributeError, Capability, Config, GeomType, Instance, JointType, Model, PassiveInputs, Plugin,
+};
 use crate::position::chain::chain;
 use crate::position::kinematics::kinematics;
 use crate::stages::{Kinematics, State};

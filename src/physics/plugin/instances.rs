@@ -32,7 +32,7 @@ fn make(m: &Model, registry: &Registry, id: usize) -> Result<Running, String> {
     let slot = m.plugin[id];
     let kind = usize::try_from(slot).ok().and_then(|slot| registry.get(slot));
     let kind = kind.ok_or_else(|| format!("no plugin is registered at place {slot}"))?;
-    let config = Config::new(&**kind, attributes(m, id));
+    let config = Config::new(kind.attributes(), attributes(m, id));
     let states = kind.states(&config).map_err(|error| error.to_string())?;
     if i32::try_from(states) != Ok(m.plugin_statenum[id]) {
         return Err(format!("'{}' keeps {states} numbers, not {}", kind.name(), m.plugin_statenum[id]));

@@ -1,9 +1,10 @@
 //! `mujoco.pid`: a PID controller of the length of its actuator. The integral and the set point before, which bounds the
 //! rate of the next, are activations.
 
-use super::{ActuatorInputs, AttributeError, Capability, Config, Instance, Plugin};
-use crate::actuation::activation::{activations, clip, next_activation};
-use crate::model::{DynType, Model};
+use crate::actuation::activation::next_activation;
+use crate::actuation::setpoint::activations;
+use crate::math::clip;
+use crate::model::{ActuatorInputs, AttributeError, Capability, Config, DynType, Instance, Model, Plugin};
 
 /// The plugin.
 #[derive(Debug)]

@@ -1,10 +1,11 @@
 //! `mujoco.sensor.touch_grid`: contact forces on the body of a site as pictures, by azimuth and elevation seen from the
 //! site along its negative z axis. One picture a channel: normal, two tangential forces, then the torques.
 
-use super::{AccelerationInputs, AttributeError, Capability, Config, Instance, Plugin, SensorInputs};
 use crate::acceleration::contact_force::contact_force;
 use crate::math::{Vec3, mul_mat_t_vec, ops, sub};
-use crate::model::{Capability, Config, Instance, Model, ObjType, Plugin, SensorInputs, SensorType};
+use crate::model::{
+    AttributeError, Capability, Config, Instance, Model, ObjType, Plugin, SensorInputs, SensorType,
+};
 use crate::stages::AccelerationInputs;
 use std::f64::consts::PI;
 

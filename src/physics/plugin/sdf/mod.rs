@@ -21,7 +21,7 @@ macro_rules! fields {
         pub struct $kind;
 
         impl $kind {
-            fn read(config: &crate::plugin::Config) -> Result<$field, crate::plugin::AttributeError> {
+            fn read(config: &crate::model::Config) -> Result<$field, crate::model::AttributeError> {
                 Ok($field {
                     $($attribute: config.number(stringify!($attribute))?.unwrap_or($default),)*
                 })
@@ -43,8 +43,8 @@ macro_rules! fields {
 
             fn field(
                 &self,
-                config: &crate::plugin::Config,
-            ) -> Result<Option<Box<dyn crate::plugin::Field>>, crate::plugin::AttributeError> {
+                config: &crate::model::Config,
+            ) -> Result<Option<Box<dyn crate::model::Field>>, crate::model::AttributeError> {
                 Ok(Some(Box::new($kind::read(config)?)))
             }
 
@@ -53,7 +53,7 @@ macro_rules! fields {
                 config: &crate::model::Config,
                 _: &crate::model::Model,
                 _: usize,
-            ) -> Result<Box<dyn crate::plugin::Instance>, crate::plugin::AttributeError> {
+            ) -> Result<Box<dyn crate::model::Instance>, crate::model::AttributeError> {
                 Ok(Box::new(crate::plugin::sdf::Solid($kind::read(config)?)))
             }
         }
