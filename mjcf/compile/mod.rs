@@ -39,7 +39,6 @@ use physics::Model;
 use physics::constants::length_range::set_length_ranges;
 use physics::constants::set_const::set_const;
 use physics::constants::{bending_factor, flex_pattern, sparsity};
-
 use physics::model::{Arrays, Rows};
 use physics::pipeline::validity::{check_model, check_start};
 use physics::plugin::Registry;

@@ -43,27 +43,10 @@ mod waiting;
 pub use fan::Hull;
 
 use crate::vector::{cross, dot, sub};
-use id::{FacetId, Marks};
-use locate::Search;
-use merge::Slivers;
+use builder::Builder;
+use failure::Failure;
+use id::FacetId;
 use std::fmt;
-use surface::Surface;
-use tolerance::{Slack, Tolerances};
-
-/// A triangulated convex hull; all indices are input points.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Hull {
-    /// Points on the hull.
-    pub vert: Vec<i32>,
-    /// Hull neighbours of each entry of `vert`, as points.
-    pub neighbours: Vec<Vec<i32>>,
-    /// Triangles, counter-clockwise seen from outside.
-    pub face: Vec<[i32; 3]>,
-}
-
-/// A numerical accident the construction cannot continue from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Failure(&'static str);
 
 /// Lengths and relative distances below this count as zero.
 const MINVAL: f64 = 1e-15;
