@@ -59,6 +59,8 @@ pub struct Crate {
     pub name: String,
     /// Names under which it depends on others, for whatever it builds but its tests.
     pub dependencies: Vec<String>,
+    /// The folder of its modules; none where each of its files is a program, or it is one file.
+    pub modules: Option<String>,
 }
 
 /// All packages.
@@ -93,5 +95,10 @@ fn read(path: &str) -> Crate {
         }
     }
     assert!(!name.is_empty(), "{path} names no package");
-    Crate { name, dependencies }
+    let folder = path.trim_end_matches("Cargo.toml").trim_end_matches('/');
+    let has_modules = |folder: &String| {
+        ["lib.rs", "main.rs"].iter().any(|file| root().join(folder).join(file).is_file())
+    };
+    let modules = [folder.to_owned(), format!("{folder}/src")].into_iter().find(has_modules);
+    Crate { name, dependencies, modules }
 }

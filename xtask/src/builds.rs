@@ -1,24 +1,28 @@
 //! The same bits from every build: unoptimised, with wide vectors, static, and WebAssembly with and without vectors. Each build
 //! steps the models of `validation/digest`, draws their pictures and compares its hashes with the recorded ones. And the
-//! builds with fewer or more features.
+//! builds with fewer features.
 
+use crate::PROFILE;
 use crate::check::{Missing, Outcome};
 use crate::command::{cargo, installed, output, succeed, target_folder};
 use std::path::PathBuf;
 use std::process::Command;
 
+/// What decides the hashes, and what the static command is built of.
+pub const INPUTS: &[&str] = &["src", "mjcf", "assets", "validation/digest"];
+
 const DIGEST: [&str; 2] = ["-p", "robohive-digest"];
-const STATIC_TARGET: &str = "x86_64-unknown-linux-gnu";
+/// The target is named, so that flags hold for what is built, and not for procedural macros.
+pub const STATIC_TARGET: &str = "x86_64-unknown-linux-gnu";
+/// Flags of the static build: those of the configuration, and the C library inside.
+const STATIC_FLAGS: &str = "-C target-feature=+avx,+crt-static";
 const WEB_TARGET: &str = "wasm32-unknown-unknown";
 
-/// Encoders with their networks; and the library without its default features, here and for WebAssembly where the target is
-/// installed.
+/// The library without its default features, here and for WebAssembly where the target is installed.
 pub fn features() -> Outcome {
-    let networks = ["--profile", "ci", "-p", "robohive-encoders", "--features", "networks"];
-    cargo(&[&["clippy"], &networks[..], &["--all-targets", "--", "-D", "warnings"]].concat())?;
-    cargo(&[&["test"], &networks[..]].concat())?;
-    let bare = ["check", "--profile", "ci", "--no-default-features"];
-    for package in ["robohive", "robohive-physics", "robohive-render", "robohive-digest"] {
+    let bare = ["check", "--profile", PROFILE, "--no-default-features"];
+    for package in ["robohive", "robohive-physics", "robohive-render", "robohive-encoders", "robohive-digest"]
+    {
         cargo(&[&bare[..], &["-p", package]].concat())?;
     }
     if !web_target_installed()? {
@@ -30,19 +34,21 @@ pub fn features() -> Outcome {
 /// Builds and runs all of them. Fails where a build does, or computes another hash than the recorded one.
 pub fn run() -> Outcome {
     let mut missing = Vec::new();
-    println!("-- in another program");
-    succeed(Command::new("cargo").args(["run", "--quiet", "--profile", "ci", "--example", "embed"]))?;
     println!("-- unoptimised, two threads");
     digest(&["run", "--quiet"], &["--threads", "2"], "")?;
     println!("-- wide vectors");
     missing.extend(wide_build()?);
     println!("-- static");
     missing.extend(static_build()?);
-    for (name, flags) in [("WebAssembly", ""), ("WebAssembly with vectors", "-C target-feature=+simd128")] {
-        println!("-- {name}");
-        missing.extend(web_build(flags)?);
-    }
+    missing.extend(web_builds("release")?);
     Ok(missing)
+}
+
+/// The builds that are shipped, with optimisation across crates.
+pub fn dist() -> Outcome {
+    println!("-- native");
+    digest(&["run", "--quiet", "--profile", "dist"], &["--threads", "4"], "")?;
+    web_builds("dist")
 }
 
 /// Runs cargo over the digest program.
@@ -62,22 +68,19 @@ fn digest(cargo: &[&str], program: &[&str], flags: &str) -> Result<(), String> {
 fn wide_build() -> Result<Option<Missing>, String> {
     let has_avx2 = std::fs::read_to_string("/proc/cpuinfo").is_ok_and(|text| text.contains(" avx2 "));
     if cfg!(target_arch = "x86_64") && has_avx2 {
-        digest(&["run", "--quiet", "--profile", "ci"], &[], "-C target-cpu=x86-64-v3")?;
+        digest(&["run", "--quiet", "--profile", PROFILE], &[], "-C target-cpu=x86-64-v3")?;
         return Ok(None);
     }
     Ok(Some(Missing::new("the build with wide vectors", "run on an x86-64 processor with AVX2, under Linux")))
 }
 
-/// The digest program and the command line, each one file that needs no other.
+/// The digest program and the command, each one file that needs no other.
 fn static_build() -> Result<Option<Missing>, String> {
-    if !cfg!(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu")) {
+    let Some(folder) = static_programs()? else {
         return Ok(Some(Missing::new("the static build", format!("run on {STATIC_TARGET}"))));
-    }
-    let flags = "-C target-feature=+crt-static";
-    digest(&["run", "--quiet", "--release", "--target", STATIC_TARGET], &["--threads", "4"], flags)?;
-    let arguments = ["build", "--quiet", "--profile", "ci", "-p", "robohive-cli", "--target", STATIC_TARGET];
-    succeed(Command::new("cargo").args(arguments).env("RUSTFLAGS", flags))?;
-    let binary = target_folder()?.join(STATIC_TARGET).join("ci/robohive");
+    };
+    succeed(Command::new(folder.join("robohive-digest")).args(["--threads", "4"]))?;
+    let binary = folder.join("robohive");
     let bytes = std::fs::read(&binary).map_err(|e| format!("{}: {e}", binary.display()))?;
     if asks_for_loader(&bytes) {
         return Err(format!("{} is linked dynamically", binary.display()));
@@ -85,6 +88,17 @@ fn static_build() -> Result<Option<Missing>, String> {
     println!("{}: static, {:.1} MB", binary.display(), bytes.len() as f64 / 1e6);
     output(Command::new(&binary).args(["inspect", "assets/franka/franka_table.xml", "--json"]))?;
     Ok(None)
+}
+
+/// Builds the digest program and the command, statically and as `cargo run --release` does otherwise; the folder that they
+/// are in, or none where they cannot be built.
+pub fn static_programs() -> Result<Option<PathBuf>, String> {
+    if !cfg!(all(target_arch = "x86_64", target_os = "linux", target_env = "gnu")) {
+        return Ok(None);
+    }
+    let build = ["build", "--quiet", "--release", "--target", STATIC_TARGET, "-p", "robohive-cli"];
+    succeed(Command::new("cargo").args(build).args(DIGEST).env("RUSTFLAGS", STATIC_FLAGS))?;
+    Ok(Some(target_folder()?.join(STATIC_TARGET).join("release")))
 }
 
 /// Whether an ELF file of 64 bits has a segment PT_INTERP, the name of the dynamic loader.
@@ -95,18 +109,27 @@ fn asks_for_loader(elf: &[u8]) -> bool {
     (0..count).any(|k| word(table + k * size) as u32 == 3)
 }
 
-/// The digest as a module, under node.
-fn web_build(flags: &str) -> Result<Option<Missing>, String> {
+/// The digest as a module without and with vectors, under node.
+fn web_builds(profile: &str) -> Result<Vec<Missing>, String> {
+    let mut missing = Vec::new();
+    for (name, flags) in [("WebAssembly", ""), ("WebAssembly with vectors", "-C target-feature=+simd128")] {
+        println!("-- {name}");
+        missing.extend(web_build(profile, flags)?);
+    }
+    Ok(missing)
+}
+
+fn web_build(profile: &str, flags: &str) -> Result<Option<Missing>, String> {
     if !web_target_installed()? {
         return Ok(Some(web_target_missing("hashes from WebAssembly")));
     }
     let module = ["--lib", "--crate-type", "cdylib", "--no-default-features", "--target", WEB_TARGET];
-    digest(&[&["rustc", "--quiet", "--release"][..], &module].concat(), &[], flags)?;
+    digest(&[&["rustc", "--quiet", "--profile", profile][..], &module].concat(), &[], flags)?;
     if !installed("node") {
         let what = "hashes from WebAssembly (the module is built; node, which runs it, is not installed)";
         return Ok(Some(Missing::new(what, "install Node.js, https://nodejs.org")));
     }
-    let module = target_folder()?.join(WEB_TARGET).join("release/robohive_digest.wasm");
+    let module = target_folder()?.join(WEB_TARGET).join(profile).join("robohive_digest.wasm");
     succeed(Command::new("node").arg("validation/digest/run.mjs").arg(module))?;
     Ok(None)
 }

@@ -7,19 +7,22 @@ use std::process::Command;
 /// What its tests print where there is no GPU.
 const ABSENT: &str = "not checked: there is no GPU";
 
+/// What decides the pictures and the comparison.
+pub const INPUTS: &[&str] = &["src", "mjcf", "assets", "validation"];
+
 /// Lints what is built for it alone, runs its tests, and sees from what they print whether anything was drawn.
 pub fn run() -> Outcome {
     let packages = ["-p", "robohive-render-gpu", "-p", "robohive-validation", "-p", "robohive-cli"];
     let features = ["--features", "robohive-validation/gpu,robohive-cli/gpu"];
     let mut lint = Command::new("cargo");
-    lint.args(["clippy", "--profile", "ci", "--all-targets"]).args(packages).args(features);
+    lint.args(["clippy", "--profile", crate::PROFILE, "--all-targets"]).args(packages).args(features);
     succeed(lint.args(["--", "-D", "warnings"]))?;
     let renderer = ["-p", "robohive-render-gpu"].as_slice();
     let command = ["-p", "robohive-cli", "--features", "robohive-cli/gpu", "--test", "gpu"].as_slice();
     let mut absent = false;
     for tests in [renderer, command] {
         let mut test = Command::new("cargo");
-        test.args(["test", "--profile", "ci"]).args(tests).args(["--", "--nocapture"]);
+        test.args(["test", "--profile", crate::PROFILE]).args(tests).args(["--", "--nocapture"]);
         absent |= output(&mut test)?.0.contains(ABSENT);
     }
     if !absent {

@@ -1,12 +1,16 @@
 //! Instructions of one step, counted by valgrind: a measure of speed that does not depend on the machine's load.
 //! A rise over the recorded count fails.
 
+use crate::builds::{STATIC_TARGET, static_programs};
 use crate::check::{Missing, Outcome};
 use crate::command::{compiler, installed, output};
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::Path;
 use std::process::Command;
+
+/// What decides the counts.
+pub const INPUTS: &[&str] = &["src/physics", "mjcf", "src/cli", "assets", "benches/instructions.txt"];
 
 /// What is stepped: a name, the model and controls of an asset, and what stands in its text for another.
 struct Case {
@@ -15,7 +19,7 @@ struct Case {
     define: Option<&'static str>,
 }
 
-const CASES: [Case; 8] = [
+static CASES: [Case; 8] = [
     Case { name: "franka_table", asset: "franka/franka_table", define: None },
     Case { name: "elbow", asset: "elbow/elbow", define: None },
     Case { name: "quadruped", asset: "quadruped/quadruped", define: None },
@@ -43,9 +47,10 @@ pub fn run(update: bool) -> Outcome {
     if !installed("valgrind") {
         return missing("valgrind is not installed", "install valgrind, https://valgrind.org");
     }
-    let binary = build()?;
-    let counted: BTreeMap<&str, u64> =
-        CASES.iter().map(|case| Ok((case.name, per_step(&binary, case)?))).collect::<Result<_, String>>()?;
+    let Some(folder) = static_programs()? else {
+        return missing("they are those of a static build", &format!("run on {STATIC_TARGET}"));
+    };
+    let counted = count(&folder.join("robohive"))?;
     let recorded = std::fs::read_to_string(FILE).unwrap_or_default();
     let before = parse(&recorded)?;
     let mut risen = Vec::new();
@@ -85,24 +90,27 @@ pub fn run(update: bool) -> Outcome {
     ))
 }
 
-/// Builds the command as it ships; its path.
-fn build() -> Result<PathBuf, String> {
-    let arguments = ["build", "--release", "-p", "robohive-cli", "--message-format", "json"];
-    let (messages, _) = output(Command::new("cargo").args(arguments))?;
-    let path = messages.lines().filter(|line| line.contains("\"name\":\"robohive\"")).find_map(|line| {
-        line.split_once("\"executable\":\"").and_then(|(_, rest)| rest.split_once('"')).map(|(path, _)| path)
+/// Counts all cases, on all cores.
+fn count(binary: &Path) -> Result<BTreeMap<&'static str, u64>, String> {
+    let counts = std::thread::scope(|scope| {
+        let cores = std::thread::available_parallelism().map_or(1, |cores| cores.get());
+        let parts = CASES.chunks(CASES.len().div_ceil(cores));
+        let work = |part: &'static [Case]| part.iter().map(|case| per_step(binary, case)).collect::<Vec<_>>();
+        let threads: Vec<_> = parts.map(|part| scope.spawn(move || work(part))).collect();
+        threads.into_iter().map(|thread| thread.join()).collect::<Result<Vec<_>, _>>()
     });
-    path.map(PathBuf::from).ok_or_else(|| "cargo names no executable robohive".into())
+    let counts = counts.map_err(|_| "a thread that counts ended")?.concat();
+    CASES.iter().zip(counts).map(|(case, count)| Ok((case.name, count?))).collect()
 }
 
 /// Instructions of one step: what a longer run executes beyond a shorter one, so that loading cancels.
-fn per_step(binary: &PathBuf, case: &Case) -> Result<u64, String> {
+fn per_step(binary: &Path, case: &Case) -> Result<u64, String> {
     let [few, many] = STEPS;
     Ok((collected(binary, case, many)? - collected(binary, case, few)?) / (many - few))
 }
 
 /// Instructions of a whole run.
-fn collected(binary: &PathBuf, case: &Case, steps: u64) -> Result<u64, String> {
+fn collected(binary: &Path, case: &Case, steps: u64) -> Result<u64, String> {
     let stem = case.asset.rsplit('/').next().unwrap_or_default();
     let mut command = Command::new("valgrind");
     command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]).arg(binary);

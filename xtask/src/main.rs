@@ -1,6 +1,7 @@
-//! Continuous integration as a program. `cargo xtask ci` runs what every change must pass, in minutes; `cargo xtask long`
-//! what takes longer; `cargo xtask release` what only a release needs; `cargo xtask NAME…` single checks. With `--strict`
-//! what this machine cannot check counts as a failure.
+//! Continuous integration as a program. `cargo xtask ci` runs what every change must pass; `cargo xtask long` what takes
+//! longer, unless nothing that it depends on has changed since it last passed (`passed.txt`); `cargo xtask release` runs
+//! all of it, always, and what only a release needs; `cargo xtask NAME…` runs single checks, always. With `--strict`
+//! whatever this machine cannot check counts as a failure, with `--all` nothing is skipped.
 //! `cargo xtask instructions --update` records new counts, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder,
 //! `cargo xtask crash-safety [KILLS]` kills recordings at random moments and reads what they leave,
 //! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice.
@@ -14,55 +15,64 @@ mod gpu;
 mod instructions;
 mod mutants;
 mod packages;
+mod passed;
 mod python;
 mod recorded_bits;
+mod tests;
 mod tolerances;
 
-use check::{Check, Outcome, run_all};
+use check::{Check, Outcome, Rules, run_all};
 use command::{cargo, succeed};
 use std::process::ExitCode;
 
+/// The profile of all checks but those of what is shipped, so that one compilation serves them.
+const PROFILE: &str = "ci";
+
 /// All packages but two that checks of their own build: the renderer that needs a GPU's interface, which takes minutes to
-/// compile (`gpu`), and the extension module for Python (`python`).
-const EVERYTHING: &[&str] =
-    &["--workspace", "--exclude", "robohive-render-gpu", "--exclude", "robohive-python"];
+/// compile (`gpu`), and the extension module for Python (`python`). Encoders come with their networks.
+const EVERYTHING: &[&str] = &[
+    "--workspace",
+    "--exclude",
+    "robohive-render-gpu",
+    "--exclude",
+    "robohive-python",
+    "--features",
+    "robohive-encoders/networks",
+];
 
 const QUICK: [Check; 6] = [
-    Check { name: "format", run: || cargo(&["fmt", "--all", "--check"]) },
-    Check {
-        name: "lint",
-        run: || {
-            cargo(
-                &[&["clippy", "--profile", "ci"], EVERYTHING, &["--all-targets", "--", "-D", "warnings"]]
-                    .concat(),
-            )
-        },
-    },
-    Check { name: "test", run: || cargo(&[&["test", "--profile", "ci"], EVERYTHING].concat()) },
-    Check { name: "docs", run: docs },
-    Check { name: "features", run: builds::features },
-    Check { name: "python", run: python::run },
+    Check { name: "format", inputs: &[], run: || cargo(&["fmt", "--all", "--check"]) },
+    Check { name: "lint", inputs: &[], run: lint },
+    Check { name: "test", inputs: &[], run: tests::run },
+    Check { name: "docs", inputs: &[], run: docs },
+    Check { name: "features", inputs: &[], run: builds::features },
+    Check { name: "python", inputs: &[], run: python::run },
 ];
 
-const LONG: [Check; 9] = [
-    Check { name: "tolerances", run: tolerances::run },
-    Check { name: "recorded-bits", run: recorded_bits::run },
-    Check { name: "builds", run: builds::run },
-    Check { name: "packages", run: packages::run },
-    Check { name: "rust-version", run: packages::rust_version },
-    Check { name: "instructions", run: || instructions::run(false) },
-    Check { name: "gpu", run: gpu::run },
-    Check { name: "python-docs", run: python::docs },
-    Check { name: "python-learners", run: python::learners },
+const LONG: [Check; 8] = [
+    Check { name: "recorded-bits", inputs: recorded_bits::INPUTS, run: recorded_bits::run },
+    Check { name: "builds", inputs: builds::INPUTS, run: builds::run },
+    Check { name: "packages", inputs: packages::INPUTS, run: packages::run },
+    Check { name: "rust-version", inputs: &[], run: packages::rust_version },
+    Check { name: "instructions", inputs: instructions::INPUTS, run: || instructions::run(false) },
+    Check { name: "gpu", inputs: gpu::INPUTS, run: gpu::run },
+    Check { name: "python-docs", inputs: python::DOCS_INPUTS, run: python::docs },
+    Check { name: "python-learners", inputs: python::LEARNERS_INPUTS, run: python::learners },
 ];
 
-/// What is run before a release: it installs or builds much.
-const RELEASE: [Check; 2] =
-    [Check { name: "wheel", run: python::wheel }, Check { name: "python-cluster", run: python::cluster }];
+/// What only a release needs: it installs or builds much.
+const RELEASE: [Check; 4] = [
+    Check { name: "dist", inputs: &[], run: builds::dist },
+    Check { name: "publish", inputs: &[], run: packages::publish },
+    Check { name: "wheel", inputs: &[], run: python::wheel },
+    Check { name: "python-cluster", inputs: &[], run: python::cluster },
+];
 
 fn main() -> ExitCode {
     let mut words: Vec<String> = std::env::args().skip(1).collect();
-    let strict = words.iter().position(|word| word == "--strict").map(|at| words.remove(at)).is_some();
+    let mut flag =
+        |name: &str| words.iter().position(|word| word == name).map(|at| words.remove(at)).is_some();
+    let (strict, all) = (flag("--strict"), flag("--all"));
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
         ["fuzz", ref rest @ ..] => verdict(fuzz::run(rest)),
@@ -70,19 +80,23 @@ fn main() -> ExitCode {
         ["mutants", ref rest @ ..] => verdict(mutants::run(rest)),
         ["instructions", "--update"] => verdict(instructions::run(true).map(drop)),
         _ => match chosen(&words) {
-            Some(checks) => verdict(run_all(&checks, strict)),
+            Some(checks) => {
+                let skip = !all && words.iter().all(|word| ["ci", "long"].contains(word));
+                verdict(run_all(&checks, Rules { strict, skip }))
+            }
             None => usage(),
         },
     }
 }
 
-/// The checks that `words` name, singly or as `ci` and `long`; nothing where a word is unknown or there is none.
+/// The checks that `words` name, singly or as `ci`, `long` and `release`; nothing where a word is unknown or there is none.
 fn chosen<'a>(words: &[&str]) -> Option<Vec<&'a Check>> {
+    let all = || QUICK.iter().chain(&LONG).chain(&RELEASE);
     let named = |word: &str| match word {
         "ci" => QUICK.iter().collect(),
         "long" => LONG.iter().collect(),
-        "release" => RELEASE.iter().collect(),
-        _ => QUICK.iter().chain(&LONG).chain(&RELEASE).filter(|check| check.name == word).collect::<Vec<_>>(),
+        "release" => all().collect(),
+        _ => all().filter(|check| check.name == word).collect::<Vec<_>>(),
     };
     let found: Vec<_> = words.iter().map(|word| named(word)).collect();
     let known = !found.is_empty() && found.iter().all(|checks| !checks.is_empty());
@@ -91,7 +105,7 @@ fn chosen<'a>(words: &[&str]) -> Option<Vec<&'a Check>> {
 
 fn usage() -> ExitCode {
     let names: Vec<_> = QUICK.iter().chain(&LONG).chain(&RELEASE).map(|check| check.name).collect();
-    eprintln!("usage: cargo xtask [--strict] ci | long | release | {}", names.join(" | "));
+    eprintln!("usage: cargo xtask [--strict] [--all] ci | long | release | {}", names.join(" | "));
     eprintln!("       cargo xtask instructions --update");
     eprintln!("       cargo xtask crash-safety [KILLS]");
     eprintln!("       cargo xtask mutants [COUNT]");
@@ -109,10 +123,16 @@ fn verdict(result: Result<(), String>) -> ExitCode {
     }
 }
 
+fn lint() -> Outcome {
+    cargo(
+        &[&["clippy", "--profile", PROFILE], EVERYTHING, &["--all-targets", "--", "-D", "warnings"]].concat(),
+    )
+}
+
 fn docs() -> Outcome {
     let mut command = std::process::Command::new("cargo");
     command
-        .args(["doc", "--profile", "ci"])
+        .args(["doc", "--profile", PROFILE])
         .args(EVERYTHING)
         .arg("--no-deps")
         .env("RUSTDOCFLAGS", "-D warnings");

@@ -1,45 +1,83 @@
-//! What is published: every crate that may be, packed and built from its archive; and the oldest compiler promised.
+//! What is published: every crate that may be, packed and compiled from its archive; and the oldest compiler promised.
 
+use crate::PROFILE;
 use crate::check::{Missing, Outcome};
-use crate::command::{cargo, compiler};
+use crate::command::{cargo, compiler, output, succeed, target_folder};
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
-/// Where the archives are built.
-const BUILT: &str = "target/packages";
+/// What archives are made of.
+pub const INPUTS: &[&str] =
+    &["src", "mjcf", "assets", "examples", "README.md", "CHANGELOG.md", "THIRD_PARTY.md"];
 
-/// Removes what cargo unpacked and built of earlier archives of our crates: it takes an archive of the same version for the
-/// same, although the crate has changed since.
-fn forget_archives() -> Result<(), String> {
-    if Path::new(BUILT).exists() {
-        std::fs::remove_dir_all(BUILT).map_err(|error| format!("{BUILT}: {error}"))?;
+/// Packs each crate that is published, unpacks the archives into a workspace in which they stand for each other, and checks
+/// that all compile there: an archive that lacks a file does not.
+pub fn run() -> Outcome {
+    let folder = target_folder()?.join("packages");
+    remove(&folder)?;
+    // A dirty tree is what a change under way has.
+    let pack = ["package", "--quiet", "--workspace", "--no-verify", "--allow-dirty", "--target-dir"];
+    succeed(Command::new("cargo").args(pack).arg(&folder))?;
+    let crates = unpack(&folder.join("package"))?;
+    println!("{} archives: {}", crates.len(), crates.join(", "));
+    let workspace = folder.join("package");
+    let manifest = read(Path::new("Cargo.toml"))?;
+    write(&workspace.join("Cargo.toml"), &workspace_of(&crates, &manifest)?)?;
+    for file in ["Cargo.lock", "rust-toolchain.toml"] {
+        write(&workspace.join(file), &read(Path::new(file))?)?;
     }
-    let home = |name: &str, below: &str| std::env::var_os(name).map(|home| Path::new(&home).join(below));
-    let Some(home) = home("CARGO_HOME", "").or_else(|| home("HOME", ".cargo")) else { return Ok(()) };
-    let folders = |path: &Path| -> Vec<PathBuf> {
-        std::fs::read_dir(path)
-            .map_or(Vec::new(), |entries| entries.flatten().map(|entry| entry.path()).collect())
-    };
-    let named = |path: &Path, start: &str| {
-        path.file_name().is_some_and(|name| name.to_string_lossy().starts_with(start))
-    };
-    // Registries on the disk have names without a host.
-    let local = folders(&home.join("registry/src")).into_iter().filter(|path| named(path, "-"));
-    for unpacked in local.flat_map(|path| folders(&path)).filter(|path| named(path, "robohive")) {
-        std::fs::remove_dir_all(&unpacked).map_err(|error| format!("{}: {error}", unpacked.display()))?;
-    }
-    Ok(())
+    // Compiled beside everything else, so that dependencies are shared.
+    let mut check = Command::new("cargo");
+    check.args(["check", "--workspace", "--profile", PROFILE, "--target-dir"]).arg(target_folder()?);
+    succeed(check.current_dir(&workspace)).map(|()| Vec::new())
 }
 
-/// Packs each crate that is published and builds what the archives hold, each against the others' archives.
-pub fn run() -> Outcome {
-    forget_archives()?;
-    // Profiles and the lock file are the workspace's; a dirty tree is what a change under way has.
-    cargo(&["publish", "--workspace", "--dry-run", "--allow-dirty", "--target-dir", BUILT])
+/// Unpacks every archive in `folder`; the names of their folders.
+fn unpack(folder: &Path) -> Result<Vec<String>, String> {
+    let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    let archives = entries.flatten().map(|entry| entry.path());
+    let archives: Vec<PathBuf> =
+        archives.filter(|path| path.extension().is_some_and(|end| end == "crate")).collect();
+    let mut crates = Vec::new();
+    for archive in &archives {
+        output(Command::new("tar").arg("-xzf").arg(archive).arg("-C").arg(folder))?;
+        let name = archive.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        // Of a manifest that cargo has rewritten, so that it names no path.
+        if read(&folder.join(&name).join("Cargo.toml"))?.contains("\npath = \"..") {
+            return Err(format!("the archive of {name} depends on a folder"));
+        }
+        crates.push(name);
+    }
+    crates.sort();
+    match crates.is_empty() {
+        true => Err("cargo has packed nothing".into()),
+        false => Ok(crates),
+    }
+}
+
+/// The manifest of a workspace of `crates`, folders named after crate and version, with the profiles of `manifest`.
+fn workspace_of(crates: &[String], manifest: &str) -> Result<String, String> {
+    let mut text = format!("[workspace]\nresolver = \"3\"\nmembers = {crates:?}\n\n[patch.crates-io]\n");
+    for folder in crates {
+        let (name, _) = folder.rsplit_once('-').ok_or_else(|| format!("{folder} names no version"))?;
+        let _ = writeln!(text, "{name} = {{ path = {folder:?} }}");
+    }
+    let profiles = manifest.find("\n[profile.").ok_or("Cargo.toml has no profiles")?;
+    Ok(text + &manifest[profiles..])
+}
+
+/// Lets cargo itself go through the motions of publishing all crates, each built from its archive.
+pub fn publish() -> Outcome {
+    let folder = target_folder()?.join("publish");
+    remove(&folder)?;
+    let folder = folder.to_string_lossy().into_owned();
+    cargo(&["publish", "--workspace", "--dry-run", "--allow-dirty", "--target-dir", &folder])
 }
 
 /// Whether all checks of this run used the compiler that `rust-version` promises to be enough.
 pub fn rust_version() -> Outcome {
-    let manifest = std::fs::read_to_string("Cargo.toml").map_err(|error| format!("Cargo.toml: {error}"))?;
+    let manifest = read(Path::new("Cargo.toml"))?;
     let promised = manifest.lines().find_map(|line| line.strip_prefix("rust-version = ")).unwrap_or_default();
     let promised = promised.trim_matches('"');
     let used = compiler()?;
@@ -49,4 +87,19 @@ pub fn rust_version() -> Outcome {
     }
     let what = format!("the minimum Rust version, {promised} (this is {used})");
     Ok(vec![Missing::new(what, format!("rustup toolchain install {promised}.0"))])
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    std::fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+fn remove(folder: &Path) -> Result<(), String> {
+    match folder.exists() {
+        true => std::fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display())),
+        false => Ok(()),
+    }
 }

@@ -1,9 +1,15 @@
 //! The Python package: its wheel, built and installed into an environment of its own, and its tests there.
 
+use crate::PROFILE;
 use crate::check::{Missing, Outcome};
 use crate::command::{installed, output, succeed, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
+
+/// What decides what the documentation of the package says.
+pub const DOCS_INPUTS: &[&str] = &["python", "README.md"];
+/// What decides the verdict of learners' checkers.
+pub const LEARNERS_INPUTS: &[&str] = &["python", "src", "mjcf", "assets"];
 
 /// The oldest Python that the wheel is for.
 const OLDEST: &str =
@@ -34,12 +40,12 @@ env.step(env.action_space.sample())
 /// Lints the extension module, builds the wheel, installs it with what its tests need, checks its types, and runs the tests.
 pub fn run() -> Outcome {
     let lint =
-        ["clippy", "--profile", "ci", "-p", "robohive-python", "--all-targets", "--", "-D", "warnings"];
+        ["clippy", "--profile", PROFILE, "-p", "robohive-python", "--all-targets", "--", "-D", "warnings"];
     succeed(Command::new("cargo").args(lint))?;
     let Some(python) = ready("venv", &["-r", "python/tests/requirements.txt"])? else {
         return Ok(vec![no_python("the Python package")]);
     };
-    let wheel = build(&python, &["--profile", "ci"])?;
+    let wheel = build(&python, &["--profile", PROFILE])?;
     carries_licences(&python, &wheel)?;
     install(&python, &["--no-deps", "--force-reinstall"], &wheel)?;
     let types = ["-m", "mypy", "--config-file", "python/pyproject.toml", "python/robohive"];
@@ -64,7 +70,7 @@ pub fn learners() -> Outcome {
             format!("{} -m pip install torch", python.display()),
         )]);
     }
-    install(&python, &["--force-reinstall", "--no-deps"], &build(&builder, &["--profile", "ci"])?)?;
+    install(&python, &["--force-reinstall", "--no-deps"], &build(&builder, &["--profile", PROFILE])?)?;
     succeed(Command::new(&python).args(["-m", "pytest", "-q", "python/learners"]))?;
     Ok(Vec::new())
 }
@@ -77,7 +83,7 @@ pub fn cluster() -> Outcome {
     else {
         return Ok(vec![no_python("collection on a Ray cluster")]);
     };
-    install(&python, &["--force-reinstall", "--no-deps"], &build(&builder, &["--profile", "ci"])?)?;
+    install(&python, &["--force-reinstall", "--no-deps"], &build(&builder, &["--profile", PROFILE])?)?;
     succeed(Command::new(&python).args(["-m", "pytest", "-q", "-rs", "python/cluster"]))?;
     if output(Command::new(&python).args(["-c", "import torch"])).is_err() {
         return Ok(vec![Missing::new(

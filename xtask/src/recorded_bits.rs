@@ -9,11 +9,15 @@ use std::process::Command;
 /// Exit code of `robohive-validation bits` where the C library's functions are others.
 const OTHER_LIBRARY: i32 = 3;
 
+/// What decides the comparison.
+pub const INPUTS: &[&str] =
+    &["src", "mjcf", "assets", "validation/src", "validation/reference/own", "validation/results/bits.md"];
+
 /// Builds the engine on the C library's functions, apart from other builds, and compares.
 pub fn run() -> Outcome {
     let mut command = Command::new("cargo");
     command
-        .args(["run", "--quiet", "--profile", "ci", "-p", "robohive-validation", "--", "bits"])
+        .args(["run", "--quiet", "--profile", crate::PROFILE, "-p", "robohive-validation", "--", "bits"])
         .env("RUSTFLAGS", "--cfg system_math");
     let folder = target_folder()?.join("system-math");
     let status = command.env("CARGO_TARGET_DIR", folder).status().map_err(|error| error.to_string())?;
