@@ -168,7 +168,10 @@ fn place(folder: &str, path: &str) -> Path {
 /// with all that is below it; those beside each other are compared.
 pub fn circles(folder: &str) -> Vec<String> {
     let arrows = Modules::of(folder).arrows();
-    assert!(arrows.len() < 3 || arrows.values().any(|to| !to.is_empty()), "no module of {folder} needs another");
+    assert!(
+        arrows.len() < 3 || arrows.values().any(|to| !to.is_empty()),
+        "no module of {folder} needs another"
+    );
     let named = |kind: &str, circle: BTreeSet<Path>| {
         let names: Vec<_> = circle.iter().map(|place| place.join("::")).collect();
         format!("{folder}: {kind}: {}", names.join(", "))
@@ -243,7 +246,10 @@ fn modules(texts: &[(&str, &str)]) -> Modules {
 fn paths_lead_to_the_file_that_defines_what_they_name() {
     let found = modules(&[("", ""), ("a", "pub use c::D;\npub use self::c::deep::*;"), ("a::c", "")]);
     let mut found = found;
-    found.0.insert(path("a::c::deep"), Paths::of(&syn::parse_file("pub use super::super::super::g::H;").unwrap()));
+    found.0.insert(
+        path("a::c::deep"),
+        Paths::of(&syn::parse_file("pub use super::super::super::g::H;").unwrap()),
+    );
     found.0.insert(path("g"), Paths::default());
     let resolve = |from: &str, to: &str| found.resolve(&path(from), &path(to), RE_EXPORTS);
     assert_eq!(resolve("a::c", "super::super::g::h"), Some(path("g")));

@@ -96,9 +96,8 @@ fn read(path: &str) -> Crate {
     }
     assert!(!name.is_empty(), "{path} names no package");
     let folder = path.trim_end_matches("Cargo.toml").trim_end_matches('/');
-    let has_modules = |folder: &String| {
-        ["lib.rs", "main.rs"].iter().any(|file| root().join(folder).join(file).is_file())
-    };
+    let has_modules =
+        |folder: &String| ["lib.rs", "main.rs"].iter().any(|file| root().join(folder).join(file).is_file());
     let modules = [folder.to_owned(), format!("{folder}/src")].into_iter().find(has_modules);
     Crate { name, dependencies, modules }
 }
