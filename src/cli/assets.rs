@@ -1,6 +1,6 @@
 //! `assets`: the user's store of model files that belong to others.
 
-use crate::Failure;
+use crate::failure::Failure;
 use crate::terminal::{note, show, show_json, show_verdict};
 use clap::{Args, Subcommand, ValueHint};
 use indicatif::{HumanBytes, ProgressBar, ProgressStyle};

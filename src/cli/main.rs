@@ -1,103 +1,45 @@
-//! The `robohive` command: one subcommand a file.
+//! The `robohive` command: one subcommand a file, in parts that build on those before them: `input` (models and
+//! environments by name), `pictures`, `recordings`, `models`, `environments`; `assets` and `shell` beside them.
 
 mod arguments;
 mod assets;
-mod bench;
-mod bench_env;
-mod bench_render;
-mod bench_visual;
-mod check;
-mod check_env;
-mod compile;
-mod completions;
-mod convert;
-mod data;
-mod drawing;
-mod env_requests;
-mod export;
-mod fields;
-mod film;
-mod gallery;
-mod info;
-mod inspect;
+mod environments;
+mod failure;
+mod input;
 mod interrupt;
-mod library;
-mod list;
-mod loading;
-mod look;
-mod man;
-mod memory;
-mod preview;
-mod recorded;
-mod recording;
-mod render;
-mod render_requests;
-mod renderer;
-mod replay;
-mod rollout;
-mod run;
-mod sim;
-mod subject;
+mod models;
+mod pictures;
+mod recordings;
+mod shell;
 mod terminal;
-mod trace;
+mod version;
 
 use arguments::{Arguments, Command};
-use clap::Parser;
-use std::fmt;
-use std::path::Path;
+use clap::{CommandFactory, Parser};
 use std::process::ExitCode;
-
-/// Why a command did not succeed: the text for standard error, unless all is said, and the exit code.
-pub struct Failure {
-    message: Option<String>,
-    code: u8,
-}
-
-impl Failure {
-    /// The command could not do its work: exit code 1.
-    pub fn new(message: impl fmt::Display) -> Self {
-        Failure { message: Some(message.to_string()), code: 1 }
-    }
-
-    /// The arguments or input files are wrong: exit code 2.
-    pub fn usage(message: impl fmt::Display) -> Self {
-        Failure { message: Some(message.to_string()), code: 2 }
-    }
-
-    /// The output has said why.
-    pub fn silent(code: u8) -> Self {
-        Failure { message: None, code }
-    }
-}
-
-impl fmt::Display for Failure {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message.as_deref().unwrap_or_default())
-    }
-}
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
-        Command::List(a) => list::run(&a),
-        Command::Info(a) => info::run(&a),
-        Command::Run(a) => run::run(&a),
-        Command::Render(a) => render::run(&a),
-        Command::Gallery(a) => gallery::run(&a),
-        Command::Rollout(a) => rollout::run(&a),
-        Command::BenchEnv(a) => bench_env::run(&a),
-        Command::BenchRender(a) => bench_render::run(&a),
-        Command::CheckEnv(a) => check_env::run(&a),
-        Command::Inspect(a) => inspect::run(&a),
-        Command::Compile(a) => compile::run(&a),
-        Command::Convert(a) => convert::run(&a),
-        Command::Sim(a) => sim::run(&a),
-        Command::Trace(a) => trace::run(&a),
-        Command::Check(a) => check::run(&a),
-        Command::Bench(a) => bench::run(&a),
+        Command::List(a) => environments::list::run(&a),
+        Command::Info(a) => environments::info::run(&a),
+        Command::Run(a) => environments::run::run(&a),
+        Command::Render(a) => pictures::render::run(&a),
+        Command::Gallery(a) => pictures::gallery::run(&a),
+        Command::Rollout(a) => environments::rollout::run(&a),
+        Command::BenchEnv(a) => environments::bench_env::run(&a),
+        Command::BenchRender(a) => pictures::bench_render::run(&a),
+        Command::CheckEnv(a) => environments::check_env::run(&a),
+        Command::Inspect(a) => models::inspect::run(&a),
+        Command::Compile(a) => models::compile::run(&a),
+        Command::Convert(a) => models::convert::run(&a),
+        Command::Sim(a) => models::sim::run(&a),
+        Command::Trace(a) => models::trace::run(&a),
+        Command::Check(a) => models::check::run(&a),
+        Command::Bench(a) => models::bench::run(&a),
         Command::Assets(a) => assets::run(&a),
-        Command::Data(a) => data::run(&a),
-        Command::Completions(a) => completions::run(&a),
-        Command::Man(a) => man::run(&a),
+        Command::Data(a) => recordings::data::run(&a),
+        Command::Completions(a) => shell::completions::run(&a, Arguments::command()),
+        Command::Man(a) => shell::man::run(&a, Arguments::command()),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
@@ -106,9 +48,4 @@ fn main() -> ExitCode {
             ExitCode::from(failure.code)
         }
     }
-}
-
-/// A file that cannot be written.
-fn unwritable(path: &Path) -> impl Fn(std::io::Error) -> Failure {
-    move |error| Failure::new(format!("{}: {error}", path.display()))
 }

@@ -210,7 +210,7 @@ fn tangled(arrows: &Arrows) -> BTreeSet<BTreeSet<Path>> {
 }
 
 /// Every module that `from` needs, by itself or through others.
-fn reach<'a>(arrows: &'a Arrows, from: &Path) -> BTreeSet<&'a Path> {
+fn reach<'a>(arrows: &'a Arrows, from: &'a Path) -> BTreeSet<&'a Path> {
     let (mut found, mut open) = (BTreeSet::new(), vec![from]);
     while let Some(place) = open.pop() {
         open.extend(arrows[place].iter().filter(|to| found.insert(*to)));

@@ -1,0 +1,14 @@
+//! Commands that work on models.
+
+pub mod bench;
+pub mod check;
+pub mod compile;
+pub mod convert;
+pub mod fields;
+pub mod inspect;
+pub mod memory;
+pub mod sim;
+pub mod trace;
+
+/// Most steps that one run takes.
+pub const MAX_STEPS: u64 = 1_000_000_000;

@@ -1,0 +1,4 @@
+//! What shells and manuals know of the command.
+
+pub mod completions;
+pub mod man;
