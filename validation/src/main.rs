@@ -3,7 +3,7 @@
 use physics::Model;
 use robohive_validation::reference::{Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
-use robohive_validation::{bits, c_library, collide_table, demonstrations, draws, environments};
+use robohive_validation::{bits, c_library, collide, demonstrations, draws, environments};
 use robohive_validation::{hulls, laws, pictures, policies, round_trip, scenes, solver, wider};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -135,7 +135,7 @@ fn run() -> Result<(), String> {
             ("solver", table, verdict)
         }
         Some("collide") => {
-            let (table, verdict) = collide_table::measure(a.from.as_deref())?;
+            let (table, verdict) = collide::table::measure(a.from.as_deref())?;
             (if a.section.is_empty() { "collide" } else { &a.section }, table, verdict)
         }
         Some("draws") => {

@@ -1,7 +1,7 @@
 //! Momentum and energy of chains on which nothing acts.
 
+use super::law::{Bound, Law, LawError, compile};
 use super::order::{FLYING, HINGES, moving, run};
-use super::{Bound, Law, LawError, compile};
 use crate::tolerance::{ENERGY, ENERGY_IN_SPACE, MOMENTUM, SPIN};
 use physics::math::{Vec3, norm, sub};
 use physics::model::{Disable, Enable, Integrator};

@@ -1,6 +1,6 @@
 //! Order of convergence of the integrators: how the error at a fixed time falls with the time step.
 
-use super::{Bound, Law, LawError, compile};
+use super::law::{Bound, Law, LawError, compile};
 use physics::model::{Disable, Integrator};
 use physics::{Data, Model, integration::integrate};
 

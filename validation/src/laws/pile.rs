@@ -1,12 +1,21 @@
 //! Contacts in motion: two free bodies push each other with equal forces, and a pile of a hundred comes to rest.
 
-use super::{Bound, Law, LawError, Piles, compile};
+use super::law::{Bound, Law, LawError, compile};
 use crate::tolerance::BALANCE;
 use physics::acceleration::contact_force::contact_force;
 use physics::math::{Vec3, add, cross, mul_mat_vec, norm};
 use physics::model::{Cone, Solver};
 use physics::{Data, Model};
 use std::fmt::Write;
+
+/// How many of the four variants of the pile are run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Piles {
+    /// Newton with pyramidal cones.
+    One,
+    /// Newton and CG with both cones.
+    All,
+}
 
 /// Bodies of the pile.
 const BODIES: usize = 100;

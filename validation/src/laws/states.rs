@@ -1,6 +1,6 @@
 //! Laws of the forward pass on recorded states: what two ways of computing one thing must agree on.
 
-use super::{Bound, Law, LawError};
+use super::law::{Bound, Law, LawError};
 use crate::reference::Reference;
 use crate::solver::CONES;
 use crate::tolerance::{CONVERGED_INVERSE, CONVERGED_STORAGE, ISLANDS, OUTSIDE, SLOPE};

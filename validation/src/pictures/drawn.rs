@@ -1,10 +1,10 @@
 //! Our own pictures of a recorded pose.
 
-use super::Views;
 use super::items::{Differences, compare};
 use super::measures::Geometry;
 use super::plan::SceneRow;
 use super::recording::Recording;
+use super::views::Views;
 use physics::model::ObjType;
 use physics::{Data, Model, forward};
 use render::picture::Channels;

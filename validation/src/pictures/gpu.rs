@@ -1,10 +1,11 @@
 //! Pictures of a GPU beside the CPU renderer's, which are the reference, and beside MuJoCo's.
 
+use super::Inputs;
 use super::drawn::Drawn;
 use super::measures::{Colours, Geometry, Shapes, compare_colours, compare_shapes, interior};
 use super::plan::{Plan, SceneRow};
 use super::recording::Recording;
-use super::{Inputs, Views};
+use super::views::Views;
 use render::picture::Channels;
 use render::raster::Shot;
 use render::scene::Scene;

@@ -1,88 +1,28 @@
 //! Comparison with a stream of random placements and rays (`reference/collide.py`): contacts and distances of pairs of
 //! geoms, geom poses injected. Elements of flexes (`reference/flex_pairs.py`) come in the same stream.
 
-use crate::flex_pairs;
-use crate::rays::{self, RayTally};
+pub mod archive;
+mod flex_pairs;
+mod rays;
+pub mod report;
+pub mod table;
+
+pub use archive::next_archive;
+pub use report::{RayTally, Report, Tally};
+
 use crate::reference::{Reference, ReferenceError};
 use crate::tolerance::{CONTACT_BAR, CONTACT_PARAMETER};
-use dataset::{NpzError, NpzReader};
+use archive::{largest, numbers, rows};
+use dataset::NpzReader;
 use physics::collision::distance::{DistanceScratch, geom_distance};
 use physics::collision::{CollisionScratch, collide};
 use physics::data::Contact;
 use physics::model::Options;
 use physics::{Data, Model};
-use std::collections::BTreeMap;
 use std::io::Read;
 
 /// A contact is deep when it goes further than this share of the smaller bounding radius.
 const DEEP: f64 = 0.1;
-/// Largest archive in a stream: 1 GiB.
-const LARGEST: u64 = 1 << 30;
-
-/// How one pair of types in one variant compares.
-#[derive(Clone, Debug, Default)]
-pub struct Tally {
-    /// Placements.
-    pub placements: usize,
-    /// Placements with a contact.
-    pub touching: usize,
-    /// Placements with a contact deeper than a tenth of the smaller bounding radius.
-    pub deep: usize,
-    /// Placements whose answer in MuJoCo changes under a nudge.
-    pub unstable: usize,
-    /// Placements whose contacts differ, among the unstable ones.
-    pub excepted: usize,
-    /// Placements whose contacts differ, among the others.
-    pub different: usize,
-    /// Largest difference in `dist`, `pos`, `frame` where contacts agree.
-    pub worst: [f64; 3],
-    /// Distance queries whose answer in MuJoCo changes under a nudge.
-    pub distance_unstable: usize,
-    /// Distance queries that differ, among the unstable ones.
-    pub distance_excepted: usize,
-    /// Distance queries that differ, among the others.
-    pub distance_different: usize,
-    /// Largest difference in distance and nearest points where queries agree.
-    pub distance_worst: [f64; 2],
-}
-
-/// Everything a stream showed.
-#[derive(Default)]
-pub struct Report {
-    /// Names of variants in the order of the stream.
-    pub variants: Vec<String>,
-    /// By variant and pair of types.
-    pub pairs: BTreeMap<(usize, [usize; 2]), Tally>,
-    /// Elements of flexes, by name of variant and pair.
-    pub flexes: BTreeMap<(String, String), Tally>,
-    /// By name of what the rays met.
-    pub rays: BTreeMap<usize, RayTally>,
-    /// A sentence for each difference that no nudge explains, the first ones.
-    pub differences: Vec<String>,
-}
-
-impl Report {
-    /// Comparisons that differ and are not excepted.
-    pub fn different(&self) -> usize {
-        let pairs: usize = self.pairs.values().map(|t| t.different + t.distance_different).sum();
-        let flexes: usize = self.flexes.values().map(|t| t.different).sum();
-        pairs + flexes + self.rays.values().map(|t| t.different).sum::<usize>()
-    }
-
-    fn variant(&mut self, name: String) -> usize {
-        self.variants.iter().position(|v| *v == name).unwrap_or_else(|| {
-            self.variants.push(name);
-            self.variants.len() - 1
-        })
-    }
-
-    /// Notes a difference.
-    pub(crate) fn note(&mut self, text: impl FnOnce() -> String) {
-        if self.differences.len() < 20 {
-            self.differences.push(text());
-        }
-    }
-}
 
 /// Reads a stream to its end.
 ///
@@ -108,43 +48,6 @@ pub fn compare_stream(source: &mut impl Read) -> Result<Report, ReferenceError> 
         }
     }
     Ok(report)
-}
-
-/// The next archive, after its length in eight bytes; `None` at the end.
-///
-/// # Errors
-/// The stream ends early or holds what is no archive.
-pub fn next_archive(source: &mut impl Read) -> Result<Option<NpzReader>, NpzError> {
-    let fail = |message: &str| NpzError {
-        path: "stream".into(),
-        member: String::new(),
-        message: message.to_owned(),
-    };
-    let mut length = [0; 8];
-    match source.read(&mut length[..1]) {
-        Ok(0) => return Ok(None),
-        Ok(_) => source.read_exact(&mut length[1..]).map_err(|e| fail(&e.to_string()))?,
-        Err(e) => return Err(fail(&e.to_string())),
-    }
-    let length = u64::from_le_bytes(length);
-    if length > LARGEST {
-        return Err(fail("an archive of more than 1 GiB"));
-    }
-    let mut bytes = Vec::new();
-    source.take(length).read_to_end(&mut bytes).map_err(|e| fail(&e.to_string()))?;
-    NpzReader::read(std::io::Cursor::new(bytes)).map(Some)
-}
-
-/// An array as rows of `N` numbers.
-pub(crate) fn rows<const N: usize>(archive: &NpzReader, name: &str) -> Result<Vec<[f64; N]>, ReferenceError> {
-    let values = archive.require(name)?.values.to_f64();
-    let (rows, rest) = values.as_chunks::<N>();
-    if rest.is_empty() { Ok(rows.to_vec()) } else { Err(ReferenceError::Shape(name.to_owned())) }
-}
-
-/// An array of numbers.
-pub(crate) fn numbers(archive: &NpzReader, name: &str) -> Result<Vec<f64>, ReferenceError> {
-    Ok(archive.require(name)?.values.to_f64())
 }
 
 /// One chunk of placements: what was placed where, and MuJoCo's answers.
@@ -391,10 +294,4 @@ fn same_parameters(a: &Contact, b: &Contact) -> bool {
         && near(&a.solimp, &b.solimp)
         && a.dim == b.dim
         && a.exclude == b.exclude
-}
-
-/// Largest difference of two rows; infinite where one is not a number.
-pub(crate) fn largest(a: &[f64], b: &[f64]) -> f64 {
-    let apart = a.iter().zip(b).map(|(a, b)| (a - b).abs());
-    apart.fold(0.0, |most, e| if e.is_nan() { f64::INFINITY } else { most.max(e) })
 }

@@ -1,7 +1,7 @@
 //! The tables of a compared stream of placements and rays.
 
-use crate::collide::{Report, Tally, compare_stream};
-use crate::rays::{RayTally, SCENE, TOGETHER};
+use super::compare_stream;
+use super::report::{RayTally, Report, SCENE, TOGETHER, Tally};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io::BufReader;

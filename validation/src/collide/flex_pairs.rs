@@ -1,7 +1,8 @@
 //! Contacts of flexes at random places (`reference/flex_pairs.py`): a line, triangle or tetrahedron with a geom, with one of
 //! another flex, or with another of its own.
 
-use crate::collide::{Report, Tally, largest, numbers};
+use super::archive::{largest, numbers};
+use super::report::{Report, Tally};
 use crate::reference::ReferenceError;
 use crate::tolerance::CONTACT_BAR;
 use dataset::NpzReader;

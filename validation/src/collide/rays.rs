@@ -1,34 +1,13 @@
 //! Comparison of recorded rays (`reference/rays.py`): against single geoms, and through scenes.
 
-use crate::collide::{Report, largest, numbers, rows};
+use super::archive::{largest, numbers, rows};
+use super::report::{Report, SCENE, TOGETHER};
 use crate::reference::ReferenceError;
 use crate::tolerance::CONTACT_BAR;
 use dataset::NpzReader;
 use physics::math::Vec3;
 use physics::ray::{Hit, Ray, RayFilter, multi_ray, ray, ray_geom};
 use physics::{Data, Model};
-
-/// Rays through a scene, one at a time, and together.
-pub const SCENE: usize = 8;
-/// See [`SCENE`].
-pub const TOGETHER: usize = 9;
-
-/// How the rays against one kind of target compare.
-#[derive(Clone, Debug, Default)]
-pub struct RayTally {
-    /// Rays.
-    pub rays: usize,
-    /// Rays that hit.
-    pub hits: usize,
-    /// Rays whose answer in MuJoCo changes under a nudge, or depends on whether rays are cast together.
-    pub unstable: usize,
-    /// Rays that differ, among the unstable ones.
-    pub excepted: usize,
-    /// Rays that differ, among the others.
-    pub different: usize,
-    /// Largest difference in distance (relative beyond one) and normal where rays agree.
-    pub worst: [f64; 2],
-}
 
 /// What a ray met: the geom, -1 for none; the distance, -1 for none; the normal.
 type Answer = (i32, f64, Vec3);
