@@ -25,8 +25,10 @@ pub struct Paths {
     pub used: Vec<Path>,
     /// Names that it re-exports, each with its path.
     re_exported: BTreeMap<String, Path>,
-    /// Modules of which it re-exports everything.
+    /// Modules whose items it re-exports all.
     globs: Vec<Path>,
+    /// How many modules of the file itself are around what is read.
+    depth: usize,
 }
 
 impl Paths {
@@ -37,11 +39,18 @@ impl Paths {
         paths
     }
 
+    /// Notes a path that is used. In a module of the file itself `super` leads to the file.
+    fn note(&mut self, path: Path) {
+        let inner = path.iter().take(self.depth).take_while(|name| *name == "super").count();
+        let file = (inner > 0).then(|| "self".to_owned());
+        self.used.push(file.into_iter().chain(path.into_iter().skip(inner)).collect());
+    }
+
     fn import(&mut self, public: bool, before: &Path, tree: &syn::UseTree) {
         let with = |name: &syn::Ident| before.iter().cloned().chain([name.to_string()]).collect::<Path>();
         let mut name = |name: &syn::Ident, path: Path| match public {
             true => _ = self.re_exported.insert(name.to_string(), path),
-            false => self.used.push(path),
+            false => self.note(path),
         };
         match tree {
             syn::UseTree::Path(path) => self.import(public, &with(&path.ident), &path.tree),
@@ -51,7 +60,7 @@ impl Paths {
             syn::UseTree::Name(leaf) => name(&leaf.ident, with(&leaf.ident)),
             syn::UseTree::Rename(leaf) => name(&leaf.rename, with(&leaf.ident)),
             syn::UseTree::Glob(_) if public => self.globs.push(before.clone()),
-            syn::UseTree::Glob(_) => self.used.push(before.clone()),
+            syn::UseTree::Glob(_) => self.note(before.clone()),
         }
     }
 }
@@ -65,7 +74,7 @@ impl<'a> Visit<'a> for Paths {
     fn visit_path(&mut self, path: &'a syn::Path) {
         // A single name is a local one, or the `crate` of a visibility.
         if path.segments.len() > 1 {
-            self.used.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
+            self.note(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
         }
         syn::visit::visit_path(self, path);
     }
@@ -76,7 +85,7 @@ impl<'a> Visit<'a> for Paths {
             let rest = &text[start..];
             let end = rest.find(|c: char| !(c.is_alphanumeric() || c == '_' || c == ':'));
             let path = rest[..end.unwrap_or(rest.len())].split("::").filter(|name| !name.is_empty());
-            self.used.push(path.map(str::to_owned).collect());
+            self.note(path.map(str::to_owned).collect());
         }
         syn::visit::visit_macro(self, call);
     }
@@ -87,7 +96,9 @@ impl<'a> Visit<'a> for Paths {
                 && matches!(&attribute.meta, syn::Meta::List(list) if list.tokens.to_string() == "test")
         };
         if !module.attrs.iter().any(is_test) {
+            self.depth += 1;
             syn::visit::visit_item_mod(self, module);
+            self.depth -= 1;
         }
     }
 }
@@ -111,16 +122,15 @@ impl Modules {
         match path.first()?.as_str() {
             "crate" => (place, rest) = (Vec::new(), &path[1..]),
             "self" => rest = &path[1..],
-            "super" => {
-                while let [first, after @ ..] = rest
-                    && first == "super"
-                {
-                    place.pop();
-                    rest = after;
-                }
-            }
+            "super" => {}
             _ if self.0.contains_key(&[from, &path[..1]].concat()) => {}
             _ => return None,
+        }
+        while let [first, after @ ..] = rest
+            && first == "super"
+        {
+            place.pop();
+            rest = after;
         }
         while let [name, after @ ..] = rest {
             place.push(name.clone());
@@ -226,12 +236,12 @@ fn path(text: impl Display) -> Path {
 fn paths_are_found() {
     let file = syn::parse_file(
         "use crate::a::{B, c::D as E};\npub use crate::h::I;\nfn f() { super::g::h(); print!(crate::m::N); }\n\
-         #[cfg(test)]\nmod tests { use crate::z::Y; }",
+         mod inner { use super::j::K; use super::super::l::L; }\n#[cfg(test)]\nmod tests { use crate::z::Y; }",
     )
     .unwrap();
     let found = Paths::of(&file);
     let used: Vec<_> = found.used.iter().map(|path| path.join("::")).collect();
-    assert_eq!(used, ["crate::a::B", "crate::a::c::D", "super::g::h", "crate::m::N"]);
+    assert_eq!(used, ["crate::a::B", "crate::a::c::D", "super::g::h", "crate::m::N", "self::j::K", "self::super::l::L"]);
     assert_eq!(found.re_exported, BTreeMap::from([("I".into(), path("crate::h::I"))]));
 }
 

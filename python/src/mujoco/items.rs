@@ -1,7 +1,7 @@
 //! Items of a scene as `MjvGeom` has them, in both directions.
 
 use super::error::Fault;
-use super::lists::array;
+use super::fresh::array;
 use physics::table::Slice;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

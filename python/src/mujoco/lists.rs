@@ -2,23 +2,12 @@
 //! fresh copy, since what it shows may have another length after the next call.
 
 use super::data::Data;
-use numpy::{PyArray1, PyArrayMethods};
+use super::fresh::array;
+use numpy::PyArray1;
 use physics::data::SolverStat;
 use physics::table::Slice;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-
-/// A fresh numpy array of these scalars.
-pub fn array<'py>(py: Python<'py>, slice: Slice<'_>, shape: Vec<usize>) -> PyResult<Bound<'py, PyAny>> {
-    Ok(match slice {
-        Slice::Bool(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
-        Slice::U8(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
-        Slice::I32(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
-        Slice::I64(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
-        Slice::F32(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
-        Slice::F64(s) => PyArray1::from_slice(py, s).reshape(shape)?.into_any(),
-    })
-}
 
 /// What visits arrays by name.
 type Visit<'a> = dyn Fn(&mut dyn FnMut(&'static str, Vec<usize>, Slice<'_>)) + 'a;

@@ -2,7 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `arena.rs`, `mirror.rs` | numpy arrays beside the engine's, copied around every call |
+//! | `arena.rs`, `mirror.rs`, `fresh.rs` | numpy arrays beside the engine's, copied around every call; fresh ones |
 //! | `model.rs`, `settings.rs`, `load.rs` | models, their options, where they come from |
 //! | `data.rs`, `lists.rs`, `warned.rs`, `saved.rs` | simulations, arrays that change length, warnings, states as vectors |
 //! | `call.rs`, `error.rs` | what every call does, and how it fails |
@@ -20,6 +20,7 @@ mod call;
 mod data;
 mod dynamics;
 mod error;
+mod fresh;
 mod items;
 mod lists;
 mod load;

@@ -2,7 +2,7 @@
 
 use super::arena::Engine;
 use super::error::{FatalError, refused};
-use super::lists::array;
+use super::fresh::array;
 use super::mirror::{Layout, Mirror};
 use super::settings;
 use physics::model::{Arrays, EditError, ObjType};

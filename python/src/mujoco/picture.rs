@@ -3,8 +3,8 @@
 use super::call::caught;
 use super::data::Data;
 use super::error::Fault;
+use super::fresh::array;
 use super::items::{Guest, describe, describe_view};
-use super::lists::array;
 use super::model::Model;
 use physics::table::Slice;
 use pyo3::exceptions::PyRuntimeError;

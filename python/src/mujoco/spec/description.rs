@@ -2,6 +2,7 @@
 
 use super::super::load::Layered;
 use super::super::model::CompiledModel;
+use super::origin::Origin;
 use super::show;
 use super::take::Tree;
 use super::value::{Outline, outline, shown, take};
@@ -19,7 +20,7 @@ use physics::table::Slice;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
 /// A tree of Python: elements by kind, the descriptions they were made in with their settings, sizes and statistics, options.
@@ -42,15 +43,9 @@ type Groups = HashMap<String, HashMap<&'static str, Vec<f64>>>;
 /// What a tree of Python keeps of the text it was read from.
 #[pyclass(frozen, module = "robohive._core.mujoco")]
 pub struct Description {
-    /// Settings of attached models by the index of their first text.
-    pub attached: BTreeMap<u32, Compiler>,
-    /// Folder of the text, with its closing slash.
-    #[pyo3(get)]
-    pub folder: String,
+    origin: Origin,
     /// Settings that the text gives.
     authored: Authored,
-    /// What is opened for the file of an asset: by directory, whether paths are stripped, and name.
-    pub opened: HashMap<(String, bool, String), String>,
     sources: Sources,
     /// What was read, until Python has it.
     spec: Option<Spec>,
@@ -62,10 +57,8 @@ impl Description {
     #[new]
     fn new() -> Self {
         Description {
-            attached: BTreeMap::new(),
+            origin: Origin::default(),
             authored: Authored::default(),
-            folder: String::new(),
-            opened: HashMap::new(),
             sources: Sources::default(),
             spec: None,
         }
@@ -89,6 +82,12 @@ impl Description {
         assets: HashMap<String, Vec<u8>>,
     ) -> PyResult<(Self, Vec<String>)> {
         Self::read(py.detach(|| Loader::default().files(Layered::new(assets)).parse_str(text)))
+    }
+
+    /// Folder of the text, with its closing slash.
+    #[getter]
+    fn folder(&self) -> &str {
+        &self.origin.folder
     }
 
     /// All elements by kind, each with body, frame, text and offset in it.
@@ -208,24 +207,9 @@ impl Description {
 impl Description {
     fn read(parsed: Result<Parsed, Diagnostics>) -> PyResult<(Self, Vec<String>)> {
         let Parsed { spec, authored, sources, warnings, .. } = parsed.map_err(|found| refused(&found))?;
-        let mut opened = HashMap::new();
-        let compiler = &spec.compiler;
-        let mut see = |dir: &str, path: &str, file: &str| {
-            opened.insert((dir.to_owned(), compiler.strippath, path.to_owned()), file.to_owned());
-        };
-        spec.meshes.iter().for_each(|x| see(&compiler.meshdir, &x.path, &x.file));
-        spec.skins.iter().for_each(|x| see(&compiler.meshdir, &x.path, &x.file));
-        spec.hfields.iter().for_each(|x| see(&compiler.meshdir, &x.path, &x.file));
-        for texture in &spec.textures {
-            see(&compiler.texturedir, &texture.path, &texture.file);
-            for (path, file) in texture.cubepaths.iter().zip(&texture.cubefiles) {
-                see(&compiler.texturedir, path, file);
-            }
-        }
-        let folder = sources.folder().to_owned();
-        let attached = spec.attached.clone();
+        let origin = Origin::of(&spec, sources.folder());
         let warnings = warnings.iter().map(ToString::to_string).collect();
-        Ok((Description { attached, authored, folder, opened, sources, spec: Some(spec) }, warnings))
+        Ok((Description { origin, authored, sources, spec: Some(spec) }, warnings))
     }
 }
 
@@ -240,6 +224,7 @@ fn groups(spec: &Spec) -> Groups {
 }
 
 fn spec_of((elements, origins, general, options): Parts<'_>) -> PyResult<Spec> {
+    let origins = origins.iter().map(|(description, settings)| (&description.origin, settings)).collect();
     Tree { elements: &elements, origins, general: &general, options }.spec()
 }
 

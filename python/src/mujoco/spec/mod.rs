@@ -13,6 +13,7 @@
 
 mod deformable;
 mod description;
+mod origin;
 mod parts;
 mod show;
 mod take;

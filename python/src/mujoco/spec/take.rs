@@ -1,6 +1,6 @@
 //! A `Spec` of the elements that Python holds.
 
-use super::description::Description;
+use super::origin::Origin;
 use super::value::take;
 use super::{deformable, parts};
 use crate::mujoco::settings::assign_choice;
@@ -22,8 +22,8 @@ const TEXTS: u32 = 1 << 20;
 /// What a tree of Python consists of.
 pub struct Tree<'a, 'py> {
     pub elements: &'a Bound<'py, PyDict>,
-    /// The tree's own description, then the descriptions of attached models, each with the dictionary of its settings.
-    pub origins: Vec<(PyRef<'py, Description>, Bound<'py, PyDict>)>,
+    /// The tree's own origin, then the origins of attached models, each with the dictionary of its settings.
+    pub origins: Vec<(&'a Origin, &'a Bound<'py, PyDict>)>,
     /// Sizes and statistics.
     pub general: &'a Bound<'py, PyDict>,
     /// `option` and the groups of `visual`.
@@ -55,15 +55,14 @@ impl<'py> Tree<'_, 'py> {
     }
 
     fn settings(&self, spec: &mut Spec) -> PyResult<()> {
-        for (number, (description, settings)) in self.origins.iter().enumerate() {
+        for (number, (origin, settings)) in self.origins.iter().enumerate() {
             let base = number as u32 * TEXTS;
             let mut compiler = Compiler::default();
             take(settings, &mut compiler)?;
             if let Some(options) = settings.get_item("LRopt")? {
                 take(options.getattr("__dict__")?.cast()?, &mut compiler.lengthrange)?;
             }
-            let shifted =
-                description.attached.iter().map(|(file, own)| (file.saturating_add(base), own.clone()));
+            let shifted = origin.attached.iter().map(|(file, own)| (file.saturating_add(base), own.clone()));
             spec.attached.extend(shifted);
             match number {
                 0 => spec.compiler = compiler,
@@ -227,16 +226,16 @@ impl<'py> Tree<'_, 'py> {
         name: &str,
         dir: impl Fn(&Compiler) -> &str,
     ) -> PyResult<(String, String)> {
-        let Some((description, settings)) = self.origins.get(row.3 as usize) else { return Err(misplaced()) };
+        let Some((origin, settings)) = self.origins.get(row.3 as usize) else { return Err(misplaced()) };
         let mut compiler = Compiler::default();
         take(settings, &mut compiler)?;
         // What the text names stays what the reader found, while the directories stay.
         if let Some(opened) =
-            description.opened.get(&(dir(&compiler).to_owned(), compiler.strippath, name.to_owned()))
+            origin.opened.get(&(dir(&compiler).to_owned(), compiler.strippath, name.to_owned()))
         {
             return Ok((opened.clone(), name.to_owned()));
         }
-        Ok(compiler.asset_file(&description.folder, dir(&compiler), name))
+        Ok(compiler.asset_file(&origin.folder, dir(&compiler), name))
     }
 
     fn place_texture(&self, texture: &mut Texture, row: &Row<'_>) -> PyResult<()> {
