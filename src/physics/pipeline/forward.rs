@@ -45,7 +45,7 @@ pub fn forward(m: &Model, d: &mut Data) -> Result<(), StepError> {
     evaluate(m, d, true, &mut ())
 }
 
-/// [`forward`] right after [`step1`], with nothing written in between but inputs: what depends on positions and velocities
+/// [`forward`] right after [`step1`](crate::step1), with nothing written in between but inputs: what depends on positions and velocities
 /// alone is kept.
 pub fn forward_after_step1(m: &Model, d: &mut Data) {
     acceleration(m, d, &mut ());
