@@ -38,32 +38,33 @@ enum Feature {
 /// A point of the segment and the part of the box it is nearest to.
 #[derive(Clone, Copy)]
 struct Nearest {
-    distance2: f64,
     /// Place of the point on the segment.
     at: f64,
     feature: Feature,
 }
 
-/// An edge along an axis of the box. Of the two other axes, `side` says on which side of the box it is, 1 or -1.
+/// An edge along an axis of the box. Along the other two axes it is on this `side` of the box, 1 or -1.
 #[derive(Clone, Copy)]
 struct Edge {
     axis: usize,
     side: Vec3,
 }
 
-/// Sides of four parallel edges. Of equally near edges the first counts.
-const SIDES: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [-1.0, 1.0], [1.0, 1.0]];
-
-/// The twelve edges of a box.
-fn edges() -> impl Iterator<Item = Edge> {
-    [[0, 1, 2], [1, 0, 2], [2, 0, 1]].into_iter().flat_map(|[axis, low, high]| {
-        SIDES.into_iter().map(move |[first, second]| {
-            let mut side = [0.0; 3];
-            (side[low], side[high]) = (first, second);
-            Edge { axis, side }
-        })
-    })
-}
+/// The edges of a box. Of equally near ones the first counts.
+const EDGES: [Edge; 12] = [
+    Edge { axis: 0, side: [0.0, -1.0, -1.0] },
+    Edge { axis: 0, side: [0.0, 1.0, -1.0] },
+    Edge { axis: 0, side: [0.0, -1.0, 1.0] },
+    Edge { axis: 0, side: [0.0, 1.0, 1.0] },
+    Edge { axis: 1, side: [-1.0, 0.0, -1.0] },
+    Edge { axis: 1, side: [1.0, 0.0, -1.0] },
+    Edge { axis: 1, side: [-1.0, 0.0, 1.0] },
+    Edge { axis: 1, side: [1.0, 0.0, 1.0] },
+    Edge { axis: 2, side: [-1.0, -1.0, 0.0] },
+    Edge { axis: 2, side: [1.0, -1.0, 0.0] },
+    Edge { axis: 2, side: [-1.0, 1.0, 0.0] },
+    Edge { axis: 2, side: [1.0, 1.0, 0.0] },
+];
 
 /// Capsule and box.
 pub fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<PreContact>) {
@@ -92,6 +93,27 @@ pub fn capsule_box(capsule: &Shape, cuboid: &Shape, margin: f64, out: &mut Vec<P
     out.extend(slide.and_then(|slide| ball(slide.step() + nearest.at)));
 }
 
+/// The shortest way from the segment to an edge.
+struct Gap {
+    distance2: f64,
+    along_edge: Limited,
+    along_segment: f64,
+}
+
+impl Gap {
+    fn nearest(&self, edge: &Edge) -> Nearest {
+        let feature = match self.along_edge.beyond {
+            None => Feature::Edge { edge: *edge, along: self.along_edge.value },
+            Some(end) => {
+                let mut corner = edge.side;
+                corner[edge.axis] = end;
+                Feature::Corner(corner)
+            }
+        };
+        Nearest { at: self.along_segment, feature }
+    }
+}
+
 impl Segment {
     fn point(&self, x: f64) -> Vec3 {
         add_scaled(self.centre, self.half, x)
@@ -99,22 +121,27 @@ impl Segment {
 
     /// The nearest point of the segment; `None` for squared distances above `limit`.
     fn nearest(&self, size: Vec3, limit: f64) -> Option<Nearest> {
-        let nearer = |best: &Option<Nearest>, other: &Nearest, by: f64| {
-            other.distance2 < best.map_or(limit, |best| best.distance2) - by
-        };
-        let mut best = None;
-        for end in [-1.0, 1.0].into_iter().filter_map(|end| self.end_over_face(size, end)) {
-            best = if nearer(&best, &end, 0.0) { Some(end) } else { best };
+        let (mut least, mut nearest) = (limit, None);
+        for end in [-1.0, 1.0] {
+            if let Some((distance2, feature)) = self.end_over_face(size, end)
+                && distance2 < least
+            {
+                (least, nearest) = (distance2, Some(Nearest { at: end, feature }));
+            }
         }
-        // Nearer by more than rounding, so that a segment parallel to a face does not flip between equal edges.
-        for near in edges().filter_map(|edge| self.near_edge(size, edge)) {
-            best = if nearer(&best, &near, MINVAL) { Some(near) } else { best };
+        for edge in &EDGES {
+            // Nearer by more than rounding, so that a segment parallel to a face does not flip between equal edges.
+            if let Some(gap) = self.gap_to_edge(size, edge)
+                && gap.distance2 < least - MINVAL
+            {
+                (least, nearest) = (gap.distance2, Some(gap.nearest(edge)));
+            }
         }
-        best
+        nearest
     }
 
-    /// An end of the segment inside the box, or outside of one pair of faces only.
-    fn end_over_face(&self, size: Vec3, end: f64) -> Option<Nearest> {
+    /// Squared distance and feature of an end of the segment that is inside the box, or outside of one pair of faces only.
+    fn end_over_face(&self, size: Vec3, end: f64) -> Option<(f64, Feature)> {
         let point = self.point(end);
         let beyond = |k: usize| point[k].abs() > size[k];
         let nearest: Vec3 =
@@ -126,7 +153,7 @@ impl Segment {
             _ => return None,
         };
         let gap = sub(nearest, point);
-        Some(Nearest { distance2: dot(gap, gap), at: end, feature })
+        Some((dot(gap, gap), feature))
     }
 
     /// The points of the segment and an edge that are nearest to each other; `None` for parallel lines.
@@ -134,9 +161,9 @@ impl Segment {
     /// With the edge at `middle + x e` and the segment at `centre + y h`, both x and y in [-1, 1], the square of the gap is
     /// least where its derivatives vanish: `e·e x - e·h y = -e·d` and `h·h y - e·h x = h·d`, with `d = middle - centre`. Where x
     /// or y then leaves its range it is put on the limit, and the other one follows from its own equation alone.
-    fn near_edge(&self, size: Vec3, edge: Edge) -> Option<Nearest> {
-        let Edge { axis, side } = edge;
-        let middle: Vec3 = std::array::from_fn(|k| if k == axis { 0.0 } else { side[k] * size[k] });
+    fn gap_to_edge(&self, size: Vec3, edge: &Edge) -> Option<Gap> {
+        let Edge { axis, side } = *edge;
+        let middle: Vec3 = std::array::from_fn(|k| side[k] * size[k]);
         let span = sub(middle, self.centre);
         let reach = size[axis];
         // The products with one factor `e` carry the minus signs of the equations.
@@ -160,15 +187,7 @@ impl Segment {
         }
         let mut gap = add_scaled(span, self.half, -y.value);
         gap[axis] += reach * x.value;
-        let feature = match x.beyond {
-            None => Feature::Edge { edge, along: x.value },
-            Some(end) => {
-                let mut corner = side;
-                corner[axis] = end;
-                Feature::Corner(corner)
-            }
-        };
-        Some(Nearest { distance2: dot(gap, gap), at: y.value, feature })
+        Some(Gap { distance2: dot(gap, gap), along_edge: x, along_segment: y.value })
     }
 
     /// True when the segment, followed forward, ascends along an axis.
