@@ -1,8 +1,7 @@
 //! A policy moves an arm to a point; its episodes are recorded in HDF5 and filmed.
 
 use robohive::dataset::trace::{Layout, Precision, Recorder, TraceReader};
-use robohive::env::{Options, Row};
-use robohive::physics::data::Data;
+use robohive::env::Options;
 use robohive::physics::elements::SiteId;
 use robohive::render::picture::Channels;
 use robohive::video::Frame;
@@ -10,12 +9,14 @@ use robohive::{Env, OwnModels, Picture, VideoWriter};
 use std::error::Error;
 use std::path::Path;
 
-/// The environment: an arm whose fingertips are to reach a point that every reset draws.
+/// An arm whose fingertips are to reach a point that every reset draws.
 const ID: &str = "hive/FrankaReach-v0";
 /// Columns and rows of a frame.
 const SIZE: [usize; 2] = [160, 120];
 /// How far a joint is sent for a metre of error and a metre of lever [rad/m²].
 const GAIN: f64 = 3.0;
+
+type Outcome<T> = Result<T, Box<dyn Error>>;
 
 /// Moves the fingertips towards the target: every joint turns as its lever on them demands (the transpose of the
 /// Jacobian).
@@ -25,14 +26,14 @@ struct Reacher {
 }
 
 impl Reacher {
-    fn new(env: &Env) -> Result<Self, Box<dyn Error>> {
+    fn new(env: &Env) -> Outcome<Self> {
         let model = &env.scene().model;
         let tip = model.site("grasp").ok_or("the arm has no site between its fingers")?;
         Ok(Reacher { tip, torques: vec![0.0; model.nv] })
     }
 
     fn act(&mut self, env: &Env, action: &mut [f64]) {
-        let (model, data): (_, &Data) = (&env.scene().model, &env.scene().data);
+        let (model, data) = (&env.scene().model, &env.scene().data);
         let error = &env.rows()["reach_err"];
         self.torques.fill(0.0);
         let jacobian = data.jacobian(model, self.tip);
@@ -46,12 +47,7 @@ impl Reacher {
 }
 
 /// Plays and records one episode; the distance that is left [m].
-fn play(
-    env: &mut Env,
-    seed: u64,
-    recorder: &mut Recorder,
-    film: &mut VideoWriter,
-) -> Result<f64, Box<dyn Error>> {
+fn play(env: &mut Env, seed: u64, recorder: &mut Recorder, film: &mut VideoWriter) -> Outcome<f64> {
     let mut policy = Reacher::new(env)?;
     let mut trial = recorder.begin(&format!("Trial{seed}"))?;
     let (mut action, mut picture) = (vec![0.0; env.action_len()], Picture::new(SIZE[0], SIZE[1]));
@@ -60,7 +56,7 @@ fn play(
         policy.act(env, &mut action);
         let step = env.step(&action)?;
         for (row, values) in env.rows().iter() {
-            trial.push(&format!("env_infos/obs_dict/{}", Row::name(row)), &[values.len()], values)?;
+            trial.push(&format!("env_infos/obs_dict/{}", row.name()), &[values.len()], values)?;
         }
         trial.push("actions", &[action.len()], &action)?;
         trial.push("rewards", &[], &[step.reward])?;
@@ -74,7 +70,7 @@ fn play(
 }
 
 /// Plays two episodes into a folder, and reads the recording again.
-fn record(folder: &Path) -> Result<(), Box<dyn Error>> {
+fn record(folder: &Path) -> Outcome<()> {
     let (file, clip) = (folder.join("reach.h5"), folder.join("reach.mp4"));
     let options = Options { changes: "max_episode_steps = 20".parse()?, ..Options::default() };
     let mut env = Env::make(ID, &OwnModels, &options)?;
@@ -94,7 +90,7 @@ fn record(folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-pub fn main() -> Result<(), Box<dyn Error>> {
+pub fn main() -> Outcome<()> {
     let folder = std::env::temp_dir().join(format!("robohive-record-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;
     let outcome = record(&folder);

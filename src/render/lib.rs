@@ -47,6 +47,8 @@ pub mod picture;
 pub mod profile;
 pub mod raster;
 pub mod scene;
+// The filters of textures, which other renderers of this workspace prepare their own from.
+#[doc(hidden)]
 pub mod texture;
 pub mod view;
 
