@@ -3,11 +3,12 @@
 //! ```
 //! use robohive_render::{Assets, Profile};
 //!
-//! let text = "<mujoco><worldbody><geom name='box' type='box' size='1 1 1'/></worldbody></mujoco>";
+//! let text = "<mujoco><asset><mesh name='corner' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset>
+//!   <worldbody><geom type='mesh' mesh='corner'/></worldbody></mujoco>";
 //! let model = robohive_mjcf::load_str(text)?.model;
 //! let empty = robohive_mjcf::load_str("<mujoco/>")?.model;
 //! let [assets, none] = [&model, &empty].map(|model| Assets::new(model, Profile::Mujoco312));
-//! assert!(assets?.bytes() > none?.bytes(), "the triangles of a box take memory");
+//! assert!(assets?.bytes() > none?.bytes(), "the triangles of a mesh take memory");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
