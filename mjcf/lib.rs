@@ -4,6 +4,8 @@
 //! compiled models in a [`Cache`]. What is wrong comes back as [`diagnostic::Diagnostics`]: all findings, each with file,
 //! line, column, element and, where there is one, the way out.
 //!
+//! Programs that depend on the crate `robohive` reach this one as `robohive::mjcf`.
+//!
 //! ```
 //! let text = r#"<mujoco>
 //!   <worldbody>

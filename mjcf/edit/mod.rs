@@ -6,8 +6,9 @@
 //! of the elements that remain. An edit that is refused changes nothing.
 //!
 //! ```
+//! # use physics as robohive_physics;
 //! use robohive_mjcf::{edit, files::Memory, parse_str};
-//! use physics::{Data, model::ObjType};
+//! use robohive_physics::{Data, model::ObjType};
 //!
 //! let text = "<mujoco><worldbody><body name='arm'><joint name='hinge'/><geom name='rod' size='.1'/></body></worldbody></mujoco>";
 //! let parsed = parse_str(text)?;

@@ -4,13 +4,14 @@
 //! value (orientations, inertias, paths, what a body holds) is a field of its own type and not listed.
 //!
 //! ```
+//! # use physics as robohive_physics;
 //! use robohive_mjcf::spec::{Fields, Geom, Value};
 //!
 //! let mut geom = Geom::default();
 //! assert_eq!(geom.assign("type", Value::Integer(6)), Some(true));
 //! assert_eq!(geom.assign("size", Value::Reals(vec![0.1])), Some(false));
 //! assert_eq!(geom.assign("colour", Value::Integer(0)), None);
-//! assert_eq!(geom.kind, physics::model::GeomType::Box);
+//! assert_eq!(geom.kind, robohive_physics::model::GeomType::Box);
 //! ```
 
 /// The value of an attribute.

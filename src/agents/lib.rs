@@ -2,6 +2,19 @@
 //!
 //! [`Policy::open`] reads a policy that was trained for the original; [`Policy::action`] asks it what to do in the present
 //! state of an environment. Agents see observations and rewards, never the model or the state of the physics.
+//!
+//! ```
+//! use robohive_agents::Policy;
+//! # use env as robohive_env;
+//! use robohive_env::{Env, Options, OwnModels};
+//!
+//! let mut env = Env::make("hive/ElbowPose-v0", &OwnModels, &Options::default())?;
+//! env.reset(Some(1))?;
+//! let (mut policy, mut action) = (Policy::random(5), vec![0.0; env.action_len()]);
+//! policy.action(&env, &mut action)?;
+//! assert!(action.iter().all(|value| (-1.0..=1.0).contains(value)) && action[0] != action[1]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod error;
 mod mjrl;

@@ -4,6 +4,21 @@
 //! `FILE.part/NAME.npy` beside the archive `FILE`. Each is a readable numpy array at all times, and holds the rows up to
 //! the last [`GrowingNpz::sync`]: that is what a killed process leaves. [`GrowingNpz::finish`] puts the archive together
 //! and removes them.
+//!
+//! ```
+//! use robohive_dataset::{Dtype, GrowingNpz, NpzReader};
+//!
+//! let path = std::env::temp_dir().join(format!("robohive-growing-{}.npz", std::process::id()));
+//! let mut archive = GrowingNpz::create(&path)?;
+//! let time = archive.column("time", Dtype::F64, &[])?;
+//! for step in 0..3 {
+//!     archive.append(time, 1, |put| put(&f64::from(step).to_le_bytes()))?;
+//! }
+//! archive.finish()?;
+//! assert_eq!(NpzReader::open(&path)?.require("time")?.shape, [3]);
+//! # std::fs::remove_file(&path)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::npy::{Dtype, header};
 use crate::npz::NpzWriter;

@@ -1,4 +1,12 @@
 //! Half-precision numbers, IEEE 754 binary16, which numpy calls float16.
+//!
+//! ```
+//! use robohive_dataset::F16;
+//!
+//! // Eleven bits hold a third to three digits.
+//! let third = F16::from_f64(1.0 / 3.0).to_f64();
+//! assert!(third != 1.0 / 3.0 && (third - 1.0 / 3.0).abs() < 2e-4);
+//! ```
 
 /// A half-precision number: its bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

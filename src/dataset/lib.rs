@@ -1,6 +1,14 @@
 //! Array files. Numpy archives (`.npz`) carry states, trajectories and compiled models in and out; recordings of episodes
 //! (feature `hdf5`) are HDF5 files in the layouts of RoboHive and RoboSet; pickles of
 //! arrays and models are read without being executed.
+//!
+//! ```
+//! use robohive_dataset::Array;
+//!
+//! let array = Array::f64(vec![2, 2], vec![1.0, 0.0, 0.0, 1.0]);
+//! assert_eq!(Array::decode(&array.encode())?.shape, [2, 2]);
+//! # Ok::<(), robohive_dataset::NpyError>(())
+//! ```
 
 pub mod growing;
 pub mod half;

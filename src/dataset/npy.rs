@@ -1,4 +1,13 @@
 //! The numpy array format, versions 1.0 to 3.0 (numpy documentation: `numpy.lib.format`).
+//!
+//! ```
+//! use robohive_dataset::{Array, Values};
+//!
+//! let array = Array::f64(vec![2, 3], vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+//! let read = Array::decode(&array.encode())?;
+//! assert_eq!((read.rows(), read.values), (2, Values::F64(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0])));
+//! # Ok::<(), robohive_dataset::NpyError>(())
+//! ```
 
 use crate::half::F16;
 use std::fmt;

@@ -1,4 +1,18 @@
 //! Numpy archives: a zip file with one `.npy` member an array.
+//!
+//! ```
+//! use robohive_dataset::{Array, NpzReader, NpzWriter};
+//! use std::io::Cursor;
+//!
+//! let mut bytes = Cursor::new(Vec::new());
+//! let mut writer = NpzWriter::new(&mut bytes);
+//! writer.add("qpos", &Array::f64(vec![2], vec![0.1, 0.2]))?;
+//! writer.finish()?;
+//! let archive = NpzReader::read(bytes)?;
+//! assert_eq!(archive.require("qpos")?.values.to_f64(), [0.1, 0.2]);
+//! assert!(archive.get("qvel")?.is_none());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::npy::{Array, MAX_SCALARS};
 use std::collections::BTreeMap;

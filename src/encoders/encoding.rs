@@ -1,4 +1,13 @@
 //! Names of encoders, as the last word of a visual key: `rgb:CAMERA:HxW:ENCODER`.
+//!
+//! ```
+//! use robohive_encoders::Encoding;
+//!
+//! let encoding = Encoding::parse("r3m18")?;
+//! assert_eq!(encoding.to_string(), "r3m18");
+//! assert!(Encoding::parse("r3m19").is_err());
+//! # Ok::<(), robohive_encoders::EncoderError>(())
+//! ```
 
 use crate::error::EncoderError;
 use std::fmt;

@@ -17,26 +17,32 @@
 //!
 //! | step | module | result |
 //! |---|---|---|
-//! | name | [`encoding`] | which network, how many numbers |
+//! | name | [`Encoding`] | which network, how many numbers |
 //! | search | [`locate`] | the file with its weights |
 //! | read | `weights` | tensors of a safetensors file or PyTorch archive, by name and shape |
-//! | prepare | [`prepare`], [`resample`] | 3 × 224 × 224 numbers, as torchvision and Pillow compute them |
+//! | prepare | `prepare`, `resample` | 3 × 224 × 224 numbers, as torchvision and Pillow compute them |
 //! | run | `networks` | features of the picture |
 
-pub mod encoder;
-pub mod encoding;
-pub mod error;
+mod encoder;
+mod encoding;
+mod error;
 pub mod locate;
+mod picture;
+
+// Steps of an encoder, one at a time: what tests and comparisons call, and programs do not need.
 #[cfg(feature = "networks")]
+#[doc(hidden)]
 pub mod networks;
-pub mod picture;
+#[doc(hidden)]
 pub mod prepare;
+#[doc(hidden)]
 pub mod resample;
 #[cfg(feature = "networks")]
+#[doc(hidden)]
 pub mod weights;
 
 pub use encoder::Encoder;
-pub use encoding::Encoding;
+pub use encoding::{Depth, Encoding, Size};
 pub use error::EncoderError;
 pub use picture::Picture;
 pub use prepare::Profile;

@@ -1,4 +1,14 @@
 //! Where the weights of an encoder are on the disk. Nothing is downloaded.
+//!
+//! ```
+//! use robohive_encoders::{Encoding, locate::Search};
+//!
+//! // What is not there is an error that says where it was looked for.
+//! let folder = std::env::temp_dir().join("no-weights-here");
+//! let error = Search::folders(vec![folder]).find(Encoding::parse("r3m18")?).unwrap_err();
+//! assert!(error.to_string().contains("no-weights-here"), "{error}");
+//! # Ok::<(), robohive_encoders::EncoderError>(())
+//! ```
 
 use crate::encoding::{Depth, Encoding, Size};
 use crate::error::EncoderError;

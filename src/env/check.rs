@@ -1,5 +1,14 @@
 //! Whether an environment keeps its contract: spaces, finite numbers, repeatable episodes, saved states, observations that
 //! say something.
+//!
+//! ```
+//! use robohive_env::{Env, Options, OwnModels, check};
+//!
+//! let mut env = Env::make("hive/ElbowPose-v0", &OwnModels, &Options::default())?;
+//! let report = check::check(&mut env, 1, 5)?;
+//! assert!(report.violations.is_empty(), "{:?}", report.violations);
+//! # Ok::<(), robohive_env::EnvError>(())
+//! ```
 
 use crate::environment::Env;
 use crate::error::EnvError;

@@ -1,4 +1,20 @@
 //! What episodes add up to: returns and success.
+//!
+//! ```
+//! use robohive_env::episode::{Summary, evaluate};
+//! use robohive_env::{Env, Options, OwnModels};
+//!
+//! let mut env = Env::make("hive/ElbowPose-v0", &OwnModels, &Options::default())?;
+//! env.reset(Some(1))?;
+//! let (mut episode, action) = (Summary::default(), vec![0.0; env.action_len()]);
+//! for _ in 0..4 {
+//!     let step = env.step(&action)?;
+//!     episode.add(&env, &step);
+//! }
+//! let evaluation = evaluate(&[episode.clone()], env.success());
+//! assert_eq!((episode.steps, evaluation.reward), (4, episode.reward));
+//! # Ok::<(), robohive_env::EnvError>(())
+//! ```
 
 use crate::environment::{Env, Step};
 use crate::task::Success;

@@ -4,6 +4,24 @@
 //! `reset` with a seed, `step` with an action; an episode that the task ends is terminated, one that its length or the
 //! physics ends is truncated. A task ([`Task`]) is a file in [`suite`]: what is observed, what is rewarded, where episodes
 //! start.
+//!
+//! Programs that depend on the crate `robohive` reach this one as `robohive::env`, with the feature `env`.
+//!
+//! ```
+//! use robohive_env::{Env, Options, OwnModels, Rng};
+//!
+//! let mut env = Env::make("hive/ElbowPose-v0", &OwnModels, &Options::default())?;
+//! let (mut draws, mut action) = (Rng::pcg64(1_u64), vec![0.0; env.action_len()]);
+//! let first = env.reset(Some(7))?.to_vec();
+//! for _ in 0..3 {
+//!     env.random_action(&mut draws, &mut action)?;
+//!     let step = env.step(&action)?;
+//!     assert!(step.reward.is_finite() && step.fault.is_none());
+//! }
+//! // The same seed starts the same episode.
+//! assert_eq!(env.reset(Some(7))?, first);
+//! # Ok::<(), robohive_env::EnvError>(())
+//! ```
 
 mod arguments;
 mod assets;

@@ -1,4 +1,15 @@
 //! Every id, from the tables in `registry/`.
+//!
+//! ```
+//! use robohive_env::{Env, Options, OwnModels, Registry};
+//!
+//! let mut registry = Registry::builtin().clone();
+//! let id = registry.register_variant("hive/ElbowPose-v0", &"frame_skip = 5".parse()?, None)?;
+//! assert_eq!(id, "hive/ElbowPose-v0-frame_skip_5");
+//! let env = registry.make(&id, &OwnModels, &Options::default())?;
+//! assert_eq!(env.frame_skip(), 5);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::arguments::Arguments;
 use crate::error::EnvError;

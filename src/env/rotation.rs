@@ -1,4 +1,12 @@
 //! Rotations as RoboHive's tasks state them: Euler angles about the moving x, y and z axes, in this order.
+//!
+//! ```
+//! use robohive_env::rotation::{euler_of_quat, quat_of_euler};
+//!
+//! let euler = [0.3, -0.8, 1.1];
+//! let again = euler_of_quat(quat_of_euler(euler));
+//! assert!(euler.iter().zip(again).all(|(a, b)| (a - b).abs() < 1e-12));
+//! ```
 
 use physics::math::{Mat3, Quat, Vec3, ops};
 use physics::math::{quat_conj, quat_from_axis_angle, quat_mul};

@@ -2,7 +2,8 @@
 //! what draws pictures.
 //!
 //! ```no_run
-//! use env::{Env, Options};
+//! # use env as robohive_env;
+//! use robohive_env::{Env, Options};
 //! use std::sync::Arc;
 //! use robohive_library::{Library, Weights};
 //!

@@ -1,12 +1,16 @@
 //! Physics that follows MuJoCo 3.12: a constant [`Model`], a changing [`Data`], and the stages of a step between them.
 //!
+//! Programs that depend on the crate `robohive` reach this one as `robohive::physics`.
+//!
 //! # Conventions
 //! - SI units; world z up; angles in radians; quaternions w-x-y-z; matrices row-major.
 //! - Spatial vectors are rotation first. "Com-based" means expressed in the world orientation about the centre of
 //!   mass of the kinematic tree.
 //! - Arrays have MuJoCo's names. Indices are `usize` in code; stored references are `i32`, -1 for none.
 //! - A stage takes the model, the stage structs it reads, and `&mut` the one it writes.
-//! - Elements are found by name and viewed by id, see [`elements`]; a model changes only through [`Model::edit`].
+//! - Elements are found by name and viewed by id, see [`elements`].
+//! - The numbers of a model change through [`Model::edit`], which derives what follows from them, through
+//!   [`Model::overwrite`], which derives nothing, and, options alone, through [`Model::options_mut`].
 //! - The same bits everywhere: transcendental functions come from [`math::ops`], sums have a fixed order, and no
 //!   multiply-add is fused.
 //!

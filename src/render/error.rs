@@ -1,4 +1,11 @@
 //! What can be wrong with a picture, in whole sentences.
+//!
+//! ```
+//! use robohive_render::error::{MAX_SIDE, RenderError};
+//!
+//! let error = RenderError::Size { width: MAX_SIDE + 1, height: 48 };
+//! assert!(error.to_string().contains("4096"), "{error}");
+//! ```
 
 use std::fmt;
 

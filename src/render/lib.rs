@@ -6,7 +6,8 @@
 //! state a [`Scene`] lists what is to be drawn from one camera. A renderer turns both into a [`Picture`].
 //!
 //! ```
-//! use physics::{Data, forward};
+//! # use physics as robohive_physics;
+//! use robohive_physics::{Data, forward};
 //! use robohive_render::picture::Channels;
 //! use robohive_render::scene::{Camera, SceneOptions};
 //! use robohive_render::{Assets, Picture, Profile, Renderer, Scene, Settings};
@@ -31,7 +32,7 @@
 //! - Pictures have row 0 at the top. Inside the rasteriser row 0 is at the bottom, as in OpenGL, since the pattern of
 //!   samples and the groups of 2 by 2 pixels that texture filters need are fixed there.
 //! - Depth inside is reversed: 1 at the near plane, 0 at the far one. Depth of a [`Picture`] is in metres.
-//! - Arithmetic has a fixed order, `f32` for triangles and colours, `f64` for projections and the sky; transcendental functions come from `physics::math::ops` or from
+//! - Arithmetic has a fixed order, `f32` for triangles and colours, `f64` for projections and the sky; transcendental functions come from `robohive_physics::math::ops` or from
 //!   polynomials of this crate.
 //! - Vectors of numbers are only added, subtracted, multiplied, divided, compared, selected and rooted: IEEE 754 defines each
 //!   of these results. Fused products and conversions of vectors to integers differ between processors and are not used.
@@ -46,6 +47,8 @@ pub mod picture;
 pub mod profile;
 pub mod raster;
 pub mod scene;
+// The filters of textures, which other renderers of this workspace prepare their own from.
+#[doc(hidden)]
 pub mod texture;
 pub mod view;
 

@@ -1,4 +1,27 @@
 //! What draws: the CPU renderer of this crate, or one that another crate brings, such as a GPU.
+//!
+//! ```
+//! # use physics as robohive_physics;
+//! use robohive_physics::{Data, forward};
+//! use robohive_render::painter::{Cpu, Painters};
+//! use robohive_render::picture::Channels;
+//! use robohive_render::raster::Shot;
+//! use robohive_render::scene::{Camera, SceneOptions};
+//! use robohive_render::{Assets, Picture, Profile, Scene, Settings};
+//!
+//! let model = robohive_mjcf::load_str("<mujoco><worldbody><geom size='.5'/></worldbody></mujoco>")?.model;
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! let assets = Assets::new(&model, Profile::Mujoco312)?;
+//! let mut scene = Scene::new();
+//! scene.update(&model, &data, Camera::free(&model).view(&model, &data)?, &SceneOptions::default())?;
+//! let (settings, mut picture) = (Settings::of(&model), Picture::new(16, 16));
+//! let shot = Shot { assets: &assets, scene: &scene, channels: Channels::DEPTH, picture: &mut picture };
+//! Cpu.painter(&settings).paint(&settings, &mut [shot])?;
+//! // The ball is nearer than the corners.
+//! assert!(picture.depth[8 * 16 + 8] < picture.depth[0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::error::RenderError;
 use crate::raster::{Renderer, Settings, Shot};

@@ -1,4 +1,14 @@
 //! What a renderer fills: colours, depth and segmentation.
+//!
+//! ```
+//! use robohive_render::Picture;
+//! use robohive_render::picture::Channels;
+//!
+//! // A renderer fills the channels that are asked for, and leaves the others as they were.
+//! let picture = Picture::new(64, 48);
+//! assert!((picture.width, picture.height) == (64, 48) && picture.rgb.is_empty());
+//! assert!(Channels::RGB.rgb && !Channels::RGB.depth && Channels::ALL.depth);
+//! ```
 
 /// Which arrays of a [`Picture`] are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

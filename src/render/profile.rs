@@ -1,4 +1,10 @@
 //! Which MuJoCo's pictures are drawn.
+//!
+//! ```
+//! use robohive_render::Profile;
+//!
+//! assert_eq!(Profile::default(), Profile::Mujoco312);
+//! ```
 
 /// The version of MuJoCo whose way of texturing is followed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

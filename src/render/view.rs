@@ -1,4 +1,18 @@
 //! Where a picture is taken from: the pose of the eye and the frustum it sees.
+//!
+//! ```
+//! # use physics as robohive_physics;
+//! use robohive_physics::{Data, forward};
+//! use robohive_render::scene::Camera;
+//!
+//! let text = "<mujoco><worldbody><camera name='above' pos='0 0 2'/><geom size='.1'/></worldbody></mujoco>";
+//! let model = robohive_mjcf::load_str(text)?.model;
+//! let mut data = Data::new(&model);
+//! forward(&model, &mut data)?;
+//! let view = Camera::named(&model, "above")?.view(&model, &data)?;
+//! assert_eq!((view.eye, view.forward), ([0.0, 0.0, 2.0], [0.0, 0.0, -1.0]));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 /// The eye and its frustum, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -72,6 +72,7 @@ impl Search {
     /// nothing is reached.
     ///
     /// ```
+    /// # use physics as robohive_physics;
     /// use robohive_robot::{Pose, Search};
     ///
     /// let model = robohive_mjcf::load_str(
@@ -81,14 +82,14 @@ impl Search {
     /// )?
     /// .model;
     /// let hand = model.site("hand").ok_or("no hand")?;
-    /// let mut data = physics::Data::new(&model);
+    /// let mut data = robohive_physics::Data::new(&model);
     /// data.state.qpos[1] = 0.5;
     /// let pose = Pose { position: Some([1.0, 0.0, -1.0]), ..Pose::default() };
     /// let solution = Search { tolerance: 1e-12, ..Search::default() }.run(&model, &data, hand, &pose, None);
     /// assert!(solution.reached && solution.steps < 20);
     ///
     /// data.state.qpos.copy_from_slice(&solution.qpos);
-    /// physics::forward(&model, &mut data)?;
+    /// robohive_physics::forward(&model, &mut data)?;
     /// assert!(data.site(hand).xpos().iter().zip([1.0, 0.0, -1.0]).all(|(x, y)| (x - y).abs() < 1e-12));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```

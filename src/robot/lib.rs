@@ -5,6 +5,8 @@
 //! the whole state and commands every actuator.
 //!
 //! ```
+//! # use physics as robohive_physics;
+//! # use random as robohive_random;
 //! use robohive_robot::{Config, Options, Robot};
 //!
 //! let model = robohive_mjcf::load_str(
@@ -21,9 +23,9 @@
 //!     "arm.toml",
 //! )?;
 //! let mut robot = Robot::new(&model, Some(&config), Options::default())?;
-//! let mut rng = random::Generator::pcg64(1_u64);
-//! let mut data = physics::Data::new(&model);
-//! physics::forward(&model, &mut data)?;
+//! let mut rng = robohive_random::Generator::pcg64(1_u64);
+//! let mut data = robohive_physics::Data::new(&model);
+//! robohive_physics::forward(&model, &mut data)?;
 //! robot.reset(&model, &data, &mut rng)?;
 //!
 //! // The action asks for 1.5 rad; at 2 rad/s that is 0.2 rad after a tenth of a second.
@@ -31,9 +33,9 @@
 //! assert_eq!(controls, [0.2]);
 //! data.state.ctrl.copy_from_slice(controls);
 //! for _ in 0..50 {
-//!     physics::step(&model, &mut data)?;
+//!     robohive_physics::step(&model, &mut data)?;
 //! }
-//! physics::forward(&model, &mut data)?;
+//! robohive_physics::forward(&model, &mut data)?;
 //! let readings = robot.sense(&model, &data, &mut rng);
 //! assert_eq!((readings.time, readings.values[0]), (data.time(), data.state.qpos[0]));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

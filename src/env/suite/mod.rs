@@ -1,4 +1,17 @@
 //! The tasks, one a file, by the suites of RoboHive, ROBEL's claw, and Gymnasium's locomotion.
+//!
+//! A row of the registry names a task, and gives the settings that the task asks for:
+//!
+//! ```
+//! use robohive_env::{Env, Options, OwnModels};
+//!
+//! let shorter = Options { changes: "pose_thd = 10.0".parse()?, ..Options::default() };
+//! let mut env = Env::make("hive/ElbowPose-v0", &OwnModels, &shorter)?;
+//! env.reset(Some(1))?;
+//! env.step(&vec![0.0; env.action_len()])?;
+//! assert!(env.verdict().solved, "every pose is within 10 rad of the wanted one");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 pub mod arms;
 mod baoding;

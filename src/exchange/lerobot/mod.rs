@@ -6,6 +6,14 @@
 //!
 //! A frame is a step: `observation.state` before it, `action`, and `next.reward`, `next.done`, `next.success` after it. Numbers
 //! are float32, the type that policies take.
+//!
+//! ```
+//! use robohive_exchange::lerobot::FeatureKind;
+//!
+//! let kind = FeatureKind::of("video").ok_or("no such type")?;
+//! assert!(kind.is_picture() && kind.name() == "video");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod export;
 mod features;

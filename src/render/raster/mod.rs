@@ -2,6 +2,16 @@
 //!
 //! What is seen is decided first, sample by sample (`visibility`), then each visible triangle's corners are lit, and each
 //! fragment is shaded once. The result equals what MuJoCo's many passes over all triangles add up to.
+//!
+//! ```
+//! use robohive_render::Settings;
+//! use robohive_render::raster::Samples;
+//!
+//! let text = "<mujoco><visual><quality offsamples='0'/></visual></mujoco>";
+//! let settings = Settings::of(&robohive_mjcf::load_str(text)?.model);
+//! assert_eq!(settings.samples, Samples::One);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod backdrop;
 mod batch;

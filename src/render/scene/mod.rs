@@ -29,7 +29,8 @@ use sink::{Items, Source};
 /// Everything that one picture shows, in the order in which MuJoCo draws it.
 ///
 /// ```
-/// use physics::{Data, forward};
+/// # use physics as robohive_physics;
+/// use robohive_physics::{Data, forward};
 /// use robohive_render::scene::{Camera, Scene, SceneOptions};
 ///
 /// let model = robohive_mjcf::load_str(
