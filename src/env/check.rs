@@ -1,10 +1,10 @@
 //! Whether an environment keeps its contract: spaces, finite numbers, repeatable episodes, saved states, observations that
 //! say something.
 
+use crate::draws::Rng;
 use crate::environment::Env;
 use crate::error::EnvError;
-use crate::exteroception::{Exteroception, Pixels};
-use crate::task::Rng;
+use crate::pictures::eyes::{Exteroception, Pixels};
 use std::fmt;
 
 /// What an environment broke.
