@@ -25,6 +25,13 @@ pub struct Setup<'a> {
     pub config: Option<&'a Config>,
 }
 
+impl Setup<'_> {
+    /// An error about a setting of the environment.
+    pub fn wrong(&self, message: impl Into<String>) -> EnvError {
+        self.spec.wrong(message)
+    }
+}
+
 /// A configuration to start from.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {

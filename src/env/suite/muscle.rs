@@ -73,9 +73,7 @@ impl Muscles {
         let is_muscle: Vec<bool> =
             model.actuator_gaintype.iter().map(|&kind| kind == GainType::Muscle as i32).collect();
         if condition != Condition::None && !is_muscle.contains(&true) {
-            return Err(setup
-                .spec
-                .wrong("muscle_condition is for models with muscles, and this one has none"));
+            return Err(setup.wrong("muscle_condition is for models with muscles, and this one has none"));
         }
         let na = model.na;
         let state = match condition {

@@ -89,7 +89,7 @@ impl PickPlace {
         };
         let sizes = match (args.randomize, args.geom_sizes) {
             (true, None) => {
-                return Err(setup.spec.wrong("geom_sizes is missing, from which randomize draws"));
+                return Err(setup.wrong("geom_sizes is missing, from which randomize draws"));
             }
             (true, sizes) => sizes,
             (false, _) => None,
@@ -112,7 +112,7 @@ fn object(setup: &Setup<'_>, name: &str) -> Result<Object, EnvError> {
     let pose = joints
         .next()
         .filter(|pose| pose.len() == 7)
-        .ok_or_else(|| setup.spec.wrong(format!("the body {name} needs a free joint")))?;
+        .ok_or_else(|| setup.wrong(format!("the body {name} needs a free joint")))?;
     let geoms = view.geoms().map(|geom| geom.index()).collect();
     Ok(Object { body, place: view.pos(), geoms, pose })
 }

@@ -91,7 +91,7 @@ impl Posing {
         let count = fingers.qpos.len();
         if overlay.qpos.len() != count {
             let message = format!("the overlay has {} joints, and the claw {count}", overlay.qpos.len());
-            return Err(setup.spec.wrong(message));
+            return Err(setup.wrong(message));
         }
         let (goals, drawn) = (vec![Goal::default(); count], [vec![0.0; count], vec![0.0; count]]);
         Ok(Posing { fingers, overlay, kind: args.goal, goals, drawn })

@@ -26,9 +26,7 @@ impl Screw {
     /// Settings or elements of the model are missing.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let (Some(velocities), None) = (args.target_velocity_range, args.target_angle_range) else {
-            return Err(setup
-                .spec
-                .wrong("screwing needs target_velocity_range and takes no target_angle_range"));
+            return Err(setup.wrong("screwing needs target_velocity_range and takes no target_angle_range"));
         };
         let valve = Valve::new(&args, SOLVED, setup)?;
         Ok(Screw { valve, velocities, angle: 0.0, velocity: 0.0 })

@@ -21,9 +21,7 @@ impl Turn {
     /// Settings or elements of the model are missing.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let (Some(target), None) = (args.target_angle_range, args.target_velocity_range) else {
-            return Err(setup
-                .spec
-                .wrong("turning needs target_angle_range and takes no target_velocity_range"));
+            return Err(setup.wrong("turning needs target_angle_range and takes no target_velocity_range"));
         };
         let valve = Valve::new(&args, SOLVED, setup)?;
         Ok(Turn { valve, target })

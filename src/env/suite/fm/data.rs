@@ -37,7 +37,7 @@ impl Recording {
         let found = m.nq.min(m.nv);
         let joints =
             args.nq_arm.checked_add(args.nq_ee).filter(|&joints| joints <= found).ok_or_else(|| {
-                setup.spec.wrong(format!("nq_arm and nq_ee are more joints than the {found} of the model"))
+                setup.wrong(format!("nq_arm and nq_ee are more joints than the {found} of the model"))
             })?;
         Ok(Recording { arm: args.nq_arm, joints, tip: setup.scene.site(&args.name_ee)? })
     }

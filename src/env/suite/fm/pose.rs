@@ -69,9 +69,7 @@ impl Reach {
         }
         let m = &setup.scene.model;
         if joints > m.nq.min(m.nv) {
-            return Err(setup
-                .spec
-                .wrong(format!("the task needs {joints} joints, and the model has {}", m.nq)));
+            return Err(setup.wrong(format!("the task needs {joints} joints, and the model has {}", m.nq)));
         }
         let (random, mut target) = match args.target_pose {
             Target::Given(target) => (false, target),
@@ -79,9 +77,7 @@ impl Reach {
         };
         if target.len() != joints {
             let found = target.len();
-            return Err(setup
-                .spec
-                .wrong(format!("target_pose has {found} values, and the robot {joints} joints")));
+            return Err(setup.wrong(format!("target_pose has {found} values, and the robot {joints} joints")));
         }
         if random {
             draw(m, setup.rng, &mut target)?;

@@ -58,14 +58,12 @@ impl Ant {
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let bodies = setup.scene.model.nbody;
         if args.main_body >= bodies {
-            return Err(setup
-                .spec
-                .wrong(format!("main_body is {}, and the model has {bodies} bodies", args.main_body)));
+            return Err(
+                setup.wrong(format!("main_body is {}, and the model has {bodies} bodies", args.main_body))
+            );
         }
         if setup.scene.model.nq < 3 {
-            return Err(setup
-                .spec
-                .wrong("the model has no free joint: an ant's height is its third position"));
+            return Err(setup.wrong("the model has no free joint: an ant's height is its third position"));
         }
         Ok(Ant { args, progress: Progress::default() })
     }

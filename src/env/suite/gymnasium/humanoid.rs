@@ -66,9 +66,7 @@ impl Humanoid {
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let model = &setup.scene.model;
         if model.nq < 3 || model.nv < ROOT {
-            return Err(setup
-                .spec
-                .wrong("the model has no free joint: a humanoid's height is its third position"));
+            return Err(setup.wrong("the model has no free joint: a humanoid's height is its third position"));
         }
         let mass = model.body_mass.iter().sum();
         Ok(Humanoid { args, mass, progress: Progress::default() })

@@ -65,7 +65,7 @@ impl Planar {
         args.healthy_angle_range.get_or_insert([-1.0, 1.0]);
         args.reset_noise_scale.get_or_insert(5e-3);
         if args.healthy_state_range.is_some() {
-            return Err(setup.spec.wrong("healthy_state_range is a setting of Hopper"));
+            return Err(setup.wrong("healthy_state_range is a setting of Hopper"));
         }
         Self::new(&args, Some(UNBOUNDED), setup)
     }
@@ -92,14 +92,14 @@ impl Planar {
             || args.healthy_reward.is_some()
             || args.terminate_when_unhealthy.is_some()
         {
-            return Err(setup.spec.wrong("a cheetah is never unhealthy: it has no settings of health"));
+            return Err(setup.wrong("a cheetah is never unhealthy: it has no settings of health"));
         }
         Self::new(&args, None, setup)
     }
 
     fn new(args: &Args, healthy_state: Option<[f64; 2]>, setup: &Setup<'_>) -> Result<Self, EnvError> {
         if setup.scene.model.nq < 3 {
-            return Err(setup.spec.wrong("a planar robot's first positions are x, height and pitch"));
+            return Err(setup.wrong("a planar robot's first positions are x, height and pitch"));
         }
         let health = healthy_state.map(|state| Health {
             reward: args.healthy_reward.unwrap_or(1.0),

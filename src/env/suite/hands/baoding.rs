@@ -54,7 +54,7 @@ impl Baoding {
             })?;
         }
         if setup.scene.model.nkey == 0 {
-            return Err(setup.spec.wrong("the model has no keyframe, and the hand starts in its first one"));
+            return Err(setup.wrong("the model has no keyframe, and the hand starts in its first one"));
         }
         Ok(Baoding {
             pairs: Pairs::find(setup.scene)?,

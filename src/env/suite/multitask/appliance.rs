@@ -38,7 +38,7 @@ impl Appliance {
             None => Vec::new(),
             Some(names) => names
                 .try_into()
-                .map_err(|_| setup.spec.wrong("obj_body_randomize is a list of names of bodies"))?,
+                .map_err(|_| setup.wrong("obj_body_randomize is a list of names of bodies"))?,
         };
         let args: Args = setup.spec.task_args(own)?;
         let placed = placed.iter().map(|name| setup.scene.body(name)).collect::<Result<_, _>>()?;

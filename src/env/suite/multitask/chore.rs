@@ -145,7 +145,7 @@ impl Chore {
     pub fn new(args: &Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let scene = &*setup.scene;
         if args.obj_jnt_names.len() != args.obj_interaction_site.len() {
-            return Err(setup.spec.wrong("obj_interaction_site needs one site for each of obj_jnt_names"));
+            return Err(setup.wrong("obj_interaction_site needs one site for each of obj_jnt_names"));
         }
         let joints =
             |names: &[String]| names.iter().map(|name| scene.joint(name)).collect::<Result<Vec<_>, _>>();

@@ -99,19 +99,19 @@ impl Pose {
                 Some([0, 1].map(|end| named.0.iter().map(|(_, range)| range[end]).collect::<Vec<f64>>()))
             }
             (None, TargetType::Generate) => {
-                return Err(setup.spec.wrong("target_jnt_range is missing; or target_type is \"fixed\""));
+                return Err(setup.wrong("target_jnt_range is missing; or target_type is \"fixed\""));
             }
             (_, TargetType::Fixed) => None,
         };
         let target = match &ranges {
             Some([low, high]) => low.iter().zip(high).map(|(low, high)| (low + high) / 2.0).collect(),
-            None => args.target_jnt_value.ok_or_else(|| setup.spec.wrong("target_jnt_value is missing"))?,
+            None => args.target_jnt_value.ok_or_else(|| setup.wrong("target_jnt_value is missing"))?,
         };
         let nq = scene.model.nq;
         if target.len() != nq {
             let message =
                 format!("{} target angles are given, and the model has {nq} joint positions", target.len());
-            return Err(setup.spec.wrong(message));
+            return Err(setup.wrong(message));
         }
         let pair = |site: &String| Ok([scene.site(site)?, scene.site(&format!("{site}_target"))?]);
         let sites = args.viz_site_targets.iter().map(pair).collect::<Result<_, EnvError>>()?;
@@ -120,7 +120,7 @@ impl Pose {
                 Some(Weight { body: scene.body(&name)?, range, compat: setup.compat })
             }
             (None, None) => None,
-            _ => return Err(setup.spec.wrong("weight_bodyname and weight_range belong together")),
+            _ => return Err(setup.wrong("weight_bodyname and weight_range belong together")),
         };
         Ok(Pose { muscles, sites, ranges, target, start: args.reset_type, near: args.pose_thd, weight })
     }

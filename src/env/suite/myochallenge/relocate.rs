@@ -93,16 +93,14 @@ impl Relocate {
         let muscles = Muscles::new(Condition::None, setup)?;
         let scene = &*setup.scene;
         if scene.model.nq <= OBJECT_JOINTS + 1 {
-            return Err(setup.spec.wrong(format!(
+            return Err(setup.wrong(format!(
                 "its model has {} joints, too few for an object and an arm",
                 scene.model.nq
             )));
         }
         let key = usize::from(args.obj_xyz_range.is_some());
         if key >= scene.model.nkey {
-            return Err(setup
-                .spec
-                .wrong(format!("its model has no key frame {key}, in which episodes start")));
+            return Err(setup.wrong(format!("its model has no key frame {key}, in which episodes start")));
         }
         let shape = ObjectArgs {
             places: args.obj_xyz_range,

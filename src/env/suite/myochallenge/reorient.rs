@@ -81,9 +81,9 @@ impl Reorient {
         let muscles = Muscles::new(Condition::None, setup)?;
         let scene = &*setup.scene;
         if scene.model.nq <= DIE_JOINTS + 1 {
-            return Err(setup
-                .spec
-                .wrong(format!("its model has {} joints, too few for a die and a hand", scene.model.nq)));
+            return Err(
+                setup.wrong(format!("its model has {} joints, too few for a die and a hand", scene.model.nq))
+            );
         }
         let (object, goal) = (scene.site("object_o")?, scene.site("target_o")?);
         let goal_geom = scene.geom("target_dice")?;

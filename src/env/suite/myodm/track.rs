@@ -73,7 +73,7 @@ impl Track {
         let scene = &*setup.scene;
         let object = scene.body(&args.object_name)?;
         let Some(joints) = scene.model.nq.checked_sub(OBJECT_JOINTS) else {
-            return Err(setup.spec.wrong(format!("its model has fewer than {OBJECT_JOINTS} joints")));
+            return Err(setup.wrong(format!("its model has fewer than {OBJECT_JOINTS} joints")));
         };
         let reference = args.reference.load(joints, setup.assets, setup.compat);
         Ok(Track {
@@ -82,7 +82,7 @@ impl Track {
             object,
             wrist: scene.body("lunate")?,
             target: scene.site("target")?,
-            reference: reference.map_err(|message| setup.spec.wrong(message))?,
+            reference: reference.map_err(|message| setup.wrong(message))?,
             own_rng: setup.rng.clone(),
             start_time: args.motion_start_time,
             lift_height: scene.data.body(object).xipos()[2] + LIFTED,

@@ -46,9 +46,9 @@ impl FreeWalk {
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let m = &setup.scene.model;
         if m.nkey == 0 || m.nq <= TORSO[0] || m.nq - m.nv != TORSO[0] - TORSO[1] {
-            return Err(setup
-                .spec
-                .wrong("the model needs a torso with a free joint, legs, and a key frame to stand in"));
+            return Err(
+                setup.wrong("the model needs a torso with a free joint, legs, and a key frame to stand in")
+            );
         }
         let [low, high] = args.target_distance_range;
         Ok(FreeWalk {

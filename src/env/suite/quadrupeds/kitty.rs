@@ -115,9 +115,7 @@ impl Kitty {
         let m = &scene.model;
         let (first, last) = (m.joint(first), m.joint(last));
         if m.nq < ROOT || m.nv < ROOT {
-            return Err(setup
-                .spec
-                .wrong("the model needs three slides and three hinges of a torso, and legs"));
+            return Err(setup.wrong("the model needs three slides and three hinges of a torso, and legs"));
         }
         Ok(Kitty {
             torso: scene.site(&args.torso_site_name)?,
@@ -200,13 +198,12 @@ impl Kitty {
 
 /// The limits of the configuration, in its order.
 fn limits(setup: &Setup<'_>) -> Result<Vec<Limit>, EnvError> {
-    let config =
-        setup.config.ok_or_else(|| setup.spec.wrong("config_path is missing, which names the limits"))?;
+    let config = setup.config.ok_or_else(|| setup.wrong("config_path is missing, which names the limits"))?;
     let m = &setup.scene.model;
     let limit = |actuator: &robot::ActuatorConfig| -> Result<Limit, EnvError> {
         let id = setup.scene.actuator(&actuator.name)?;
         let joint = usize::try_from(m.actuator_trnid[id.index()][0])
-            .map_err(|_| setup.spec.wrong(format!("the actuator {} moves no joint", actuator.name)))?;
+            .map_err(|_| setup.wrong(format!("the actuator {} moves no joint", actuator.name)))?;
         Ok(Limit { place: m.jnt_qposadr[joint] as usize, range: actuator.position_range })
     };
     config.devices.iter().flat_map(|device| &device.actuators).map(limit).collect()

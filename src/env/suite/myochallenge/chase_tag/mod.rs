@@ -75,13 +75,13 @@ impl ChaseTag {
     /// # Errors
     /// Settings are wrong, the model lacks agent, opponent or ground, or the relief is missing.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
-        let opponent = args.opponent().map_err(|message| setup.spec.wrong(message))?;
+        let opponent = args.opponent().map_err(|message| setup.wrong(message))?;
         let muscles = Muscles::new(Condition::None, setup)?;
         let agent = Agent::new(setup.scene)?;
         if let Some(keys) = args.reset_type.missing_keys(&setup.scene.model) {
-            return Err(setup.spec.wrong(keys));
+            return Err(setup.wrong(keys));
         }
-        let mut terrain = args.ground(setup, setup.assets).map_err(|message| setup.spec.wrong(message))?;
+        let mut terrain = args.ground(setup, setup.assets).map_err(|message| setup.wrong(message))?;
         if let Some(terrain) = &mut terrain {
             draw_ground(terrain, setup.scene, setup.rng)?;
         }
