@@ -10,10 +10,10 @@
 //! # Ok::<(), robohive_env::EnvError>(())
 //! ```
 
+use crate::draws::Rng;
 use crate::environment::Env;
 use crate::error::EnvError;
-use crate::exteroception::{Exteroception, Pixels};
-use crate::task::Rng;
+use crate::pictures::eyes::{Exteroception, Pixels};
 use std::fmt;
 
 /// What an environment broke.

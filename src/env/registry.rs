@@ -1,4 +1,4 @@
-//! Every id, from the tables in `registry/`.
+//! Every id, from the tables in `registry/`, and every task by its name.
 //!
 //! ```
 //! use robohive_env::{Env, Options, OwnModels, Registry};
@@ -13,11 +13,13 @@
 
 use crate::arguments::Arguments;
 use crate::error::EnvError;
-use crate::own_task::OwnTask;
 use crate::spec::Spec;
+use crate::suite;
 use crate::task::{Setup, Task};
+use crate::task_type::TaskType;
 use physics::model::Suggestions;
-use std::collections::{BTreeMap, HashMap};
+use serde::de::DeserializeOwned;
+use std::collections::HashMap;
 use std::sync::LazyLock;
 use toml::Table;
 
@@ -50,13 +52,20 @@ static BUILTIN: LazyLock<Registry> = LazyLock::new(|| {
     registry
 });
 
-/// Ids and what they stand for.
-#[derive(Clone, Debug, Default)]
+/// Ids and what they stand for, and the tasks that they name.
+#[derive(Clone, Debug)]
 pub struct Registry {
     specs: Vec<Spec>,
     by_id: HashMap<String, usize>,
     guests: Vec<Spec>,
-    tasks: BTreeMap<String, OwnTask>,
+    tasks: Vec<TaskType>,
+}
+
+impl Default for Registry {
+    /// No environments, and every task of this crate.
+    fn default() -> Self {
+        Registry { specs: Vec::new(), by_id: HashMap::new(), guests: Vec::new(), tasks: suite::tasks() }
+    }
 }
 
 impl Registry {
@@ -121,19 +130,81 @@ impl Registry {
         Ok(id)
     }
 
-    /// Adds a task under a name that specifications may use, or replaces the one of that name. `build` gets those settings
-    /// of an id that not every environment understands, and the world; [`Registry::make`] calls it.
-    pub fn add_task(
+    /// Adds a task under a name that specifications may use, or replaces the one of that name. `build` makes it from those
+    /// settings of an id that not every environment understands, as whatever type it takes them, and from the world.
+    /// [`Registry::make`] makes environments of this registry.
+    ///
+    /// ```
+    /// use robohive_env::{Defaults, EnvError, Options, OwnModels, Registry, Rows, Setup, Task, Verdict, View};
+    ///
+    /// #[derive(serde::Deserialize)]
+    /// #[serde(deny_unknown_fields)]
+    /// struct Settings {
+    ///     limit: f64,
+    /// }
+    ///
+    /// /// The first joint is to be still.
+    /// #[derive(Clone)]
+    /// struct Still {
+    ///     limit: f64,
+    /// }
+    ///
+    /// impl Still {
+    ///     fn new(settings: Settings, _: &mut Setup<'_>) -> Result<Self, EnvError> {
+    ///         Ok(Still { limit: settings.limit })
+    ///     }
+    /// }
+    ///
+    /// impl Task for Still {
+    ///     fn defaults(&self) -> Defaults {
+    ///         Defaults::new(&["velocity"], &[("still", 1.0)], 10)
+    ///     }
+    ///
+    ///     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
+    ///         rows.set("velocity", "rad/s", [view.data.state.qvel[0]]);
+    ///     }
+    ///
+    ///     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
+    ///         let speed = rows["velocity"][0].abs();
+    ///         terms.set("still", "", [f64::from(speed < self.limit)]);
+    ///         Verdict { sparse: -speed, solved: speed < self.limit, done: false }
+    ///     }
+    /// }
+    ///
+    /// let mut registry = Registry::default();
+    /// registry.add_task("still", Still::new);
+    /// registry.add_table(
+    ///     "suite = 'mine'
+    ///     Still-v0 = { task = 'still', model_path = 'hive/elbow/elbow.xml', max_episode_steps = 100, limit = 0.1 }",
+    /// )?;
+    /// let mut env = registry.make("Still-v0", &OwnModels, &Options::default())?;
+    /// env.reset(Some(1))?;
+    /// # Ok::<(), EnvError>(())
+    /// ```
+    pub fn add_task<S, T>(
         &mut self,
         name: &str,
-        build: impl Fn(&Arguments, &mut Setup<'_>) -> Result<Box<dyn Task>, EnvError> + Send + Sync + 'static,
-    ) {
-        self.tasks.insert(name.to_owned(), OwnTask::new(build));
+        build: impl Fn(S, &mut Setup<'_>) -> Result<T, EnvError> + Send + Sync + 'static,
+    ) where
+        S: DeserializeOwned,
+        T: Task + 'static,
+    {
+        let task = TaskType::new(name, build);
+        match self.tasks.iter_mut().find(|known| known.name() == name) {
+            Some(known) => *known = task,
+            None => self.tasks.push(task),
+        }
     }
 
-    /// The task of a program's own that has this name.
-    pub(crate) fn own_task(&self, name: &str) -> Option<&OwnTask> {
-        self.tasks.get(name)
+    /// The task of a specification.
+    ///
+    /// # Errors
+    /// There is no task of that name; those that exist are named.
+    pub(crate) fn task(&self, spec: &Spec) -> Result<&TaskType, EnvError> {
+        self.tasks.iter().find(|task| task.name() == spec.task).ok_or_else(|| {
+            let names: Vec<_> = self.tasks.iter().map(TaskType::name).collect();
+            spec.wrong(format!("there is no task {}; there are {}", spec.task, names.join(", ")))
+        })
     }
 
     /// Adds every row of a table.

@@ -1,5 +1,6 @@
 //! Named rows of numbers: the observation dictionary, and the terms of a reward.
 
+use robot::Keeper;
 use std::borrow::Cow;
 use std::ops::{Index, Range};
 
@@ -134,6 +135,11 @@ impl Rows {
     /// The number of values differs.
     pub fn assign(&mut self, values: &[f64]) {
         self.values.copy_from_slice(values);
+    }
+
+    /// Writes or reads the values of rows that both sides have.
+    pub(crate) fn keep(&mut self, keeper: &mut Keeper) {
+        keeper.numbers(&mut self.values);
     }
 
     /// Every row with its values.

@@ -14,7 +14,7 @@ pub struct Spec {
     pub id: String,
     /// The suite that it belongs to.
     pub suite: String,
-    /// The task, by the name that [`crate::suite`] gives it.
+    /// The task, by its name in the registry.
     pub task: String,
     /// Steps after which an episode is truncated.
     pub max_episode_steps: usize,

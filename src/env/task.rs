@@ -1,16 +1,20 @@
 //! What an environment asks of a task: where episodes start, what is observed, what is rewarded.
 
+use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
+use crate::spec::Spec;
 use physics::{Data, Model};
 use robot::{Compat, Config, Keeper};
 
-/// numpy's default generator, by which all draws of an environment are made.
-pub type Rng = random::Generator<random::Pcg64>;
-
 /// What a task is built from.
 pub struct Setup<'a> {
+    /// The environment that the task is for.
+    pub spec: &'a Spec,
+    /// Files that settings name.
+    pub assets: &'a dyn Assets,
     /// The world, at its reference configuration and forwarded; edits made here last for all episodes.
     pub scene: &'a mut Scene,
     /// Whether quirks of the original are reproduced.
@@ -19,6 +23,13 @@ pub struct Setup<'a> {
     pub rng: &'a mut Rng,
     /// The robot's configuration, where the id has one.
     pub config: Option<&'a Config>,
+}
+
+impl Setup<'_> {
+    /// An error about a setting of the environment.
+    pub fn wrong(&self, message: impl Into<String>) -> EnvError {
+        self.spec.wrong(message)
+    }
 }
 
 /// A configuration to start from.
@@ -144,8 +155,9 @@ impl Defaults {
     }
 }
 
-/// A task: three functions over a world, and what they remember between steps.
-pub trait Task: Send + Sync {
+/// A task: three functions over a world, and what they remember between steps. [`Registry::add_task`](crate::Registry::add_task)
+/// shows one.
+pub trait Task: TaskCopy + Send + Sync {
     /// The settings that an id may leave out.
     fn defaults(&self) -> Defaults;
 
@@ -214,13 +226,22 @@ pub trait Task: Send + Sync {
     /// Writes, or reads, what the task remembers from step to step and from episode to episode. What stands in the model
     /// or follows from the settings is kept elsewhere.
     fn keep(&mut self, _keeper: &mut Keeper) {}
+}
 
-    /// A copy, for saved states and parallel environments.
+/// Copies of a task behind a pointer, for saved states and parallel environments. Every task that is `Clone` has them.
+pub trait TaskCopy {
+    /// A copy.
     fn boxed(&self) -> Box<dyn Task>;
+}
+
+impl<T: Task + Clone + 'static> TaskCopy for T {
+    fn boxed(&self) -> Box<dyn Task> {
+        Box::new(self.clone())
+    }
 }
 
 impl Clone for Box<dyn Task> {
     fn clone(&self) -> Self {
-        self.boxed()
+        (**self).boxed()
     }
 }

@@ -4,7 +4,7 @@ use super::config::{
     CameraRange, DistractorRange, LightRange, MaterialRange, TextureRange, VisualRandomization,
 };
 use super::dial::{Dial, Draws, Target};
-use crate::suite::Ranges;
+use crate::draws::Ranges;
 use physics::Model;
 use physics::model::{ObjType, Suggestions};
 

@@ -1,6 +1,6 @@
 //! What a configuration says about the look of a scene: the setting `visual_randomization` of an environment.
 
-use crate::suite::Ranges;
+use crate::draws::Ranges;
 use serde::Deserialize;
 
 /// What changes in the look of a scene at every reset. Off, and empty, unless an environment sets it.

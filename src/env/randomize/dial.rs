@@ -2,7 +2,7 @@
 
 use super::config::Pattern;
 use super::texture::{Fill, fill};
-use crate::task::Rng;
+use crate::draws::Rng;
 use physics::math::{Quat, Vec3, add, mul_mat, norm, ops, quat_mul, quat_to_mat, scale};
 use physics::model::Draft;
 use physics::{Model, model::TrackMode};

@@ -13,12 +13,10 @@ pub use config::{
     CameraRange, DistractorRange, LightRange, MaterialRange, Pattern, TextureRange, VisualRandomization,
 };
 
-use crate::environment::Env;
+use crate::draws::Rng;
 use crate::error::EnvError;
-use crate::memory::keep_rows;
 use crate::rows::{Name, Rows};
 use crate::scene::Scene;
-use crate::task::Rng;
 use dial::{Dial, WIDTH};
 use physics::Model;
 use random::SeedSequence;
@@ -74,6 +72,29 @@ impl Look {
         self.write(scene)
     }
 
+    /// What was drawn last.
+    pub(crate) fn drawn(&self) -> &Rows {
+        &self.drawn
+    }
+
+    /// Takes what was drawn before, by the same configuration, and writes it into the model.
+    ///
+    /// # Errors
+    /// It has other rows than this look draws, or values that are not finite.
+    pub(crate) fn show(&mut self, drawn: &Rows, scene: &mut Scene) -> Result<(), EnvError> {
+        let foreign = |message: String| EnvError::ForeignState { message };
+        let rows = drawn.iter().map(|(row, values)| (row.name(), values.len()));
+        if !rows.eq(self.dials.iter().map(|dial| (dial.name.as_str(), dial.width()))) {
+            return Err(foreign("its look has other rows than visual_randomization names".into()));
+        }
+        if let Some((row, _)) = drawn.iter().find(|(_, values)| values.iter().any(|value| !value.is_finite()))
+        {
+            return Err(foreign(format!("the row {} of its look is not finite", row.name())));
+        }
+        self.drawn.clone_from(drawn);
+        self.write(scene)
+    }
+
     fn write(&self, scene: &mut Scene) -> Result<(), EnvError> {
         scene.overwrite(|m| {
             for (dial, (_, values)) in self.dials.iter().zip(self.drawn.iter()) {
@@ -94,7 +115,7 @@ impl Look {
             });
         }
         if drawn {
-            keep_rows(&mut self.drawn, keeper);
+            self.drawn.keep(keeper);
         }
     }
 
@@ -111,40 +132,4 @@ impl Look {
 
 fn stream(seed: u64) -> Rng {
     Rng::pcg64(SeedSequence::with_spawn_key(seed, [STREAM]))
-}
-
-impl Env {
-    /// What the last reset drew of the look of the scene, a row for each thing that changes; `None` where nothing does. It
-    /// has no rows before the first reset.
-    ///
-    /// The row of a texture holds the number of its pattern (colour, checker, gradient, noise), red, green and blue of both
-    /// colours, the squares of a checker along a side, and the seed of a noise.
-    pub fn look(&self) -> Option<&Rows> {
-        self.look.as_ref().map(|look| &look.drawn)
-    }
-
-    /// Gives the scene a look that was drawn before, by the same settings; the state stays.
-    ///
-    /// # Errors
-    /// The look has other rows than this environment draws.
-    pub fn set_look(&mut self, drawn: &Rows) -> Result<(), EnvError> {
-        let foreign = |message: String| EnvError::ForeignState { message };
-        let Some(look) = &mut self.look else {
-            return Err(foreign("this environment has no visual_randomization".into()));
-        };
-        let rows = drawn.iter().map(|(row, values)| (row.name(), values.len()));
-        if !rows.eq(look.dials.iter().map(|dial| (dial.name.as_str(), dial.width()))) {
-            return Err(foreign("its look has other rows than visual_randomization names".into()));
-        }
-        if let Some((row, _)) = drawn.iter().find(|(_, values)| values.iter().any(|value| !value.is_finite()))
-        {
-            return Err(foreign(format!("the row {} of its look is not finite", row.name())));
-        }
-        look.drawn.clone_from(drawn);
-        look.write(&mut self.scene)?;
-        self.scene.forward()?;
-        self.observe_readings()?;
-        self.eyes.close();
-        Ok(())
-    }
 }

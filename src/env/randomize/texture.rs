@@ -1,7 +1,7 @@
 //! Patterns that replace the pixels of a texture.
 
 use super::config::Pattern;
-use crate::task::Rng;
+use crate::draws::Rng;
 use physics::Model;
 
 /// What a texture is filled with.

@@ -1,9 +1,10 @@
 //! Targets that circle in the palm of the muscle-driven hand.
 
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::suite::baoding::{BALLS, Orbit, Pairs};
-use crate::task::{Pose, Rng};
+use crate::task::Pose;
 use robot::Keeper;
 
 /// Middle of the path in the palm [m].

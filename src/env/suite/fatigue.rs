@@ -2,7 +2,7 @@
 
 use crate::error::EnvError;
 use crate::scene::Scene;
-use crate::suite::muscle::{PEAK_FORCE, peak_force};
+use crate::suite::peak_force::{PEAK_FORCE, peak_force};
 use physics::math::ops;
 use physics::model::GainType;
 use physics::{Data, Model};

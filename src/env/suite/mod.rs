@@ -29,56 +29,56 @@ pub mod myobase;
 pub mod myochallenge;
 pub mod myodm;
 mod named;
+mod peak_force;
 pub mod quadrupeds;
 pub mod quirks;
-mod ranges;
 
 pub use bonus::bonus;
-pub use ranges::Ranges;
 
-use crate::assets::Assets;
-use crate::error::EnvError;
-use crate::spec::Spec;
-use crate::task::{Setup, Task};
-use toml::Table;
+use crate::task_type::TaskType;
 
-/// Builds a task: from the id with all its settings, those that are the task's own, files, and the world.
-pub type Build = fn(&Spec, Table, &dyn Assets, &mut Setup<'_>) -> Result<Box<dyn Task>, EnvError>;
-
-/// A task: the name that rows of the registry use, and what builds it.
-pub type Entry = (&'static str, Build);
-
-/// The tasks of every suite.
-const SUITES: [&[Entry]; 11] = [
-    arms::TASKS,
-    claws::TASKS,
-    dclaw::TASKS,
-    fm::TASKS,
-    gymnasium::TASKS,
-    hands::TASKS,
-    multitask::TASKS,
-    myobase::TASKS,
-    myochallenge::TASKS,
-    myodm::TASKS,
-    quadrupeds::TASKS,
-];
-
-/// Builds the task of an id.
-///
-/// # Errors
-/// The task is unknown, or its settings or the model do not fit.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    assets: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let tasks = || SUITES.iter().copied().flatten();
-    match tasks().find(|(name, _)| *name == spec.task) {
-        Some((_, build)) => build(spec, own, assets, setup),
-        None => {
-            let names: Vec<_> = tasks().map(|(name, _)| *name).collect();
-            Err(spec.wrong(format!("there is no task {}; there are {}", spec.task, names.join(", "))))
-        }
-    }
+/// Every task, suite by suite.
+pub(crate) fn tasks() -> Vec<TaskType> {
+    vec![
+        TaskType::new("reach", arms::reach::Reach::new),
+        TaskType::new("push", arms::push::Push::new),
+        TaskType::new("pick_place", arms::pick_place::PickPlace::new),
+        TaskType::new("claw_reorient", claws::reorient::Reorient::new),
+        TaskType::new("dclaw_pose", dclaw::pose::Posing::new),
+        TaskType::new("dclaw_turn", dclaw::turn::Turn::new),
+        TaskType::new("dclaw_screw", dclaw::screw::Screw::new),
+        TaskType::new("ee_pose", fm::pose::Reach::of_robot),
+        TaskType::new("robotiq_pose", fm::pose::Reach::of_robotiq),
+        TaskType::new("robotiq_data", fm::data::Recording::new),
+        TaskType::new("gymnasium_ant", gymnasium::ant::Ant::new),
+        TaskType::new("gymnasium_humanoid", gymnasium::humanoid::Humanoid::new),
+        TaskType::new("gymnasium_walker2d", gymnasium::planar::Planar::walker),
+        TaskType::new("gymnasium_half_cheetah", gymnasium::planar::Planar::cheetah),
+        TaskType::new("gymnasium_hopper", gymnasium::planar::Planar::hopper),
+        TaskType::new("adroit_door", hands::door::Door::new),
+        TaskType::new("adroit_hammer", hands::hammer::Hammer::new),
+        TaskType::new("adroit_pen", hands::pen::Pen::new),
+        TaskType::new("adroit_relocate", hands::relocate::Relocate::new),
+        TaskType::new("adroit_baoding", hands::baoding::Baoding::new),
+        TaskType::new("kitchen", multitask::kitchen::Kitchen::new),
+        TaskType::new("appliance", multitask::appliance::Appliance::new),
+        TaskType::new("muscle_pose", myobase::pose::Pose::new),
+        TaskType::new("muscle_reach", myobase::reach::Reach::new),
+        TaskType::new("key_turn", myobase::key_turn::KeyTurn::new),
+        TaskType::new("object_hold", myobase::object_hold::ObjectHold::new),
+        TaskType::new("pen_twirl", myobase::pen_twirl::PenTwirl::new),
+        TaskType::new("shape_reorient", myobase::shape_reorient::ShapeReorient::new),
+        TaskType::new("muscle_baoding", myobase::baoding::Baoding::new),
+        TaskType::new("leg_stand", myobase::leg_stand::LegStand::new),
+        TaskType::new("leg_walk", myobase::leg_walk::LegWalk::new),
+        TaskType::new("rotate_balls", myochallenge::baoding::Baoding::new),
+        TaskType::new("reorient_die", myochallenge::reorient::Reorient::new),
+        TaskType::new("chase_tag", myochallenge::chase_tag::ChaseTag::new),
+        TaskType::new("relocate_object", myochallenge::relocate::Relocate::new),
+        TaskType::new("track", myodm::track::Track::new),
+        TaskType::new("free_walk", quadrupeds::free_walk::FreeWalk::new),
+        TaskType::new("kitty_walk", quadrupeds::walk::Walk::new),
+        TaskType::new("kitty_orient", quadrupeds::orient::Orient::new),
+        TaskType::new("kitty_stand", quadrupeds::stand::Stand::new),
+    ]
 }

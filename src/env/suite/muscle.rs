@@ -4,8 +4,8 @@ use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::fatigue::Fatigue;
+use crate::suite::peak_force::{PEAK_FORCE, peak_force};
 use crate::task::{Defaults, Setup, Turn, View};
 use physics::Model;
 use physics::elements::ActuatorId;
@@ -14,10 +14,6 @@ use physics::model::GainType;
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 
-/// Where a muscle's parameters hold its peak force [N]; negative where it follows from the model.
-pub const PEAK_FORCE: usize = 2;
-/// Where they hold the scale from which such a peak force follows.
-const FORCE_SCALE: usize = 3;
 /// Part of its peak force that a muscle keeps in sarcopenia.
 const SARCOPENIA: f64 = 0.5;
 /// Bound of the rows of muscle velocity [m/s] and force [kN].
@@ -72,12 +68,12 @@ impl Muscles {
     ///
     /// # Errors
     /// The model lacks what the condition affects.
-    pub fn new(spec: &Spec, condition: Condition, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+    pub fn new(condition: Condition, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let model = &setup.scene.model;
         let is_muscle: Vec<bool> =
             model.actuator_gaintype.iter().map(|&kind| kind == GainType::Muscle as i32).collect();
         if condition != Condition::None && !is_muscle.contains(&true) {
-            return Err(spec.wrong("muscle_condition is for models with muscles, and this one has none"));
+            return Err(setup.wrong("muscle_condition is for models with muscles, and this one has none"));
         }
         let na = model.na;
         let state = match condition {
@@ -91,7 +87,7 @@ impl Muscles {
                 State::Transfer { to: setup.scene.actuator("EPL")?, from: setup.scene.actuator("EIP")? }
             }
         };
-        let mapped = na > 0 && spec.settings()?.0.normalize_act;
+        let mapped = na > 0 && setup.spec.settings()?.0.normalize_act;
         Ok(Muscles { compat: setup.compat, mapped, is_muscle, na, state })
     }
 
@@ -189,15 +185,6 @@ fn within_range(model: &Model, actuator: usize, action: f64) -> f64 {
     if high > low { (low + high) / 2.0 + action * (high - low) / 2.0 } else { action }
 }
 
-/// The force [N] that a muscle can exert at most.
-pub fn peak_force(model: &Model, actuator: usize) -> f64 {
-    let parameters = &model.actuator_gainprm[actuator];
-    match parameters[PEAK_FORCE] {
-        stated if stated >= 0.0 => stated,
-        _ => parameters[FORCE_SCALE] / model.actuator_acc0[model.actuator_outadr[actuator] as usize],
-    }
-}
-
 /// Halves peak forces. The original halves the parameter, which leaves a muscle that takes its force from the model as
 /// strong as it was.
 fn weaken(scene: &mut Scene, compat: Compat) -> Result<(), EnvError> {
@@ -217,7 +204,9 @@ fn weaken(scene: &mut Scene, compat: Compat) -> Result<(), EnvError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::task::Rng;
+    use crate::assets::OwnModels;
+    use crate::draws::Rng;
+    use crate::spec::Spec;
 
     /// Two muscles, one that states its peak force and one that does not, and a motor.
     const LIMB: &str = "<mujoco>
@@ -239,8 +228,9 @@ mod tests {
             args,
         };
         let mut rng = Rng::pcg64(0_u64);
-        let mut setup = Setup { scene: &mut scene, compat, rng: &mut rng, config: None };
-        let muscles = Muscles::new(&spec, condition, &mut setup).unwrap();
+        let mut setup =
+            Setup { spec: &spec, assets: &OwnModels, scene: &mut scene, compat, rng: &mut rng, config: None };
+        let muscles = Muscles::new(condition, &mut setup).unwrap();
         (scene, muscles)
     }
 

@@ -3,7 +3,7 @@
 use super::{VecEnv, at_home};
 use crate::environment::Env;
 use crate::error::EnvError;
-use crate::exteroception::Exteroception;
+use crate::pictures::eyes::Exteroception;
 use render::Settings;
 use render::raster::Shot;
 

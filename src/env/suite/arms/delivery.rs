@@ -5,7 +5,7 @@ use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::spec::Spec;
-use crate::suite::bonus;
+use crate::suite::bonus::bonus;
 use crate::task::{Defaults, Verdict, View};
 use physics::elements::SiteId;
 use physics::math::sub;

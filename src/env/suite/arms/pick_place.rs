@@ -1,13 +1,12 @@
 //! Picking and placing: one of three objects in a bin is to come into the other bin. Objects can be of random shapes.
 
 use super::delivery::{Delivery, Names};
-use crate::assets::Assets;
+use crate::draws::Ranges;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::quat_of_euler;
 use crate::rows::Rows;
-use crate::spec::Spec;
-use crate::suite::Ranges;
-use crate::task::{Defaults, Episode, Rng, Setup, Task, Verdict, View};
+use crate::task::{Defaults, Episode, Setup, Task, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::{Quat, Vec3, add};
 use physics::model::GeomType;
@@ -15,7 +14,6 @@ use robot::Compat;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
-use toml::Table;
 
 /// The objects; settings name the site of the one to be delivered.
 const OBJECTS: [&str; 3] = ["obj0", "obj1", "obj2"];
@@ -29,7 +27,7 @@ const SHAPES: [GeomType; 5] =
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     robot_ndof: usize,
     robot_site_name: String,
     object_site_name: String,
@@ -68,7 +66,7 @@ struct Shape {
 }
 
 #[derive(Clone)]
-struct PickPlace {
+pub struct PickPlace {
     delivery: Delivery,
     targets: Ranges,
     objects: Vec<Object>,
@@ -77,38 +75,36 @@ struct PickPlace {
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings, sites or bodies are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let names = Names {
-        robot_ndof: args.robot_ndof,
-        robot_site_name: &args.robot_site_name,
-        object_site_name: &args.object_site_name,
-        target_site_name: &args.target_site_name,
-    };
-    let sizes = match (args.randomize, args.geom_sizes) {
-        (true, None) => return Err(spec.wrong("geom_sizes is missing, from which randomize draws")),
-        (true, sizes) => sizes,
-        (false, _) => None,
-    };
-    Ok(Box::new(PickPlace {
-        delivery: Delivery::new(spec, setup.scene, &names)?,
-        targets: args.target_xyz_range,
-        objects: OBJECTS.iter().map(|name| object(spec, setup, name)).collect::<Result<_, _>>()?,
-        sizes,
-        compat: setup.compat,
-    }))
+impl PickPlace {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings, sites or bodies are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let names = Names {
+            robot_ndof: args.robot_ndof,
+            robot_site_name: &args.robot_site_name,
+            object_site_name: &args.object_site_name,
+            target_site_name: &args.target_site_name,
+        };
+        let sizes = match (args.randomize, args.geom_sizes) {
+            (true, None) => {
+                return Err(setup.wrong("geom_sizes is missing, from which randomize draws"));
+            }
+            (true, sizes) => sizes,
+            (false, _) => None,
+        };
+        Ok(PickPlace {
+            delivery: Delivery::new(setup.spec, setup.scene, &names)?,
+            targets: args.target_xyz_range,
+            objects: OBJECTS.iter().map(|name| object(setup, name)).collect::<Result<_, _>>()?,
+            sizes,
+            compat: setup.compat,
+        })
+    }
 }
 
-fn object(spec: &Spec, setup: &Setup<'_>, name: &str) -> Result<Object, EnvError> {
+fn object(setup: &Setup<'_>, name: &str) -> Result<Object, EnvError> {
     let body = setup.scene.body(name)?;
     let model = &setup.scene.model;
     let view = model.body(body);
@@ -116,7 +112,7 @@ fn object(spec: &Spec, setup: &Setup<'_>, name: &str) -> Result<Object, EnvError
     let pose = joints
         .next()
         .filter(|pose| pose.len() == 7)
-        .ok_or_else(|| spec.wrong(format!("the body {name} needs a free joint")))?;
+        .ok_or_else(|| setup.wrong(format!("the body {name} needs a free joint")))?;
     let geoms = view.geoms().map(|geom| geom.index()).collect();
     Ok(Object { body, place: view.pos(), geoms, pose })
 }
@@ -206,9 +202,5 @@ impl Task for PickPlace {
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         Delivery::reward(self.compat, rows, terms)
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

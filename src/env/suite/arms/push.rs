@@ -1,19 +1,16 @@
 //! Pushing: an object on the table is to come to a target.
 
 use super::delivery::{Delivery, Names};
-use crate::assets::Assets;
+use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rows::Rows;
-use crate::spec::Spec;
-use crate::suite::Ranges;
 use crate::task::{Defaults, Episode, Setup, Task, Verdict, View};
 use robot::Compat;
 use serde::Deserialize;
-use toml::Table;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     robot_ndof: usize,
     robot_site_name: String,
     object_site_name: String,
@@ -22,31 +19,27 @@ struct Args {
 }
 
 #[derive(Clone)]
-struct Push {
+pub struct Push {
     delivery: Delivery,
     targets: Ranges,
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings or sites are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let names = Names {
-        robot_ndof: args.robot_ndof,
-        robot_site_name: &args.robot_site_name,
-        object_site_name: &args.object_site_name,
-        target_site_name: &args.target_site_name,
-    };
-    let delivery = Delivery::new(spec, setup.scene, &names)?;
-    Ok(Box::new(Push { delivery, targets: args.target_xyz_range, compat: setup.compat }))
+impl Push {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings or sites are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let names = Names {
+            robot_ndof: args.robot_ndof,
+            robot_site_name: &args.robot_site_name,
+            object_site_name: &args.object_site_name,
+            target_site_name: &args.target_site_name,
+        };
+        let delivery = Delivery::new(setup.spec, setup.scene, &names)?;
+        Ok(Push { delivery, targets: args.target_xyz_range, compat: setup.compat })
+    }
 }
 
 impl Task for Push {
@@ -66,9 +59,5 @@ impl Task for Push {
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         Delivery::reward(self.compat, rows, terms)
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

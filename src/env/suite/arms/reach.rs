@@ -1,54 +1,48 @@
 //! Reaching: a site of the robot is to come close to a target site.
 
-use crate::assets::Assets;
+use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
-use crate::spec::Spec;
-use crate::suite::{Ranges, bonus};
+use crate::suite::bonus::bonus;
 use crate::task::{Defaults, Episode, Setup, Task, Verdict, View};
 use physics::elements::SiteId;
 use physics::math::sub;
 use robot::Compat;
 use serde::Deserialize;
-use toml::Table;
 
 /// Beyond this distance [m] the episode ends.
 const FAR: f64 = 1.0;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     robot_site_name: String,
     target_site_name: String,
     target_xyz_range: Ranges,
 }
 
 #[derive(Clone)]
-struct Reach {
+pub struct Reach {
     tip: SiteId,
     target: SiteId,
     targets: Ranges,
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings or sites are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    Ok(Box::new(Reach {
-        tip: setup.scene.site(&args.robot_site_name)?,
-        target: setup.scene.site(&args.target_site_name)?,
-        targets: args.target_xyz_range,
-        compat: setup.compat,
-    }))
+impl Reach {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings or sites are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        Ok(Reach {
+            tip: setup.scene.site(&args.robot_site_name)?,
+            target: setup.scene.site(&args.target_site_name)?,
+            targets: args.target_xyz_range,
+            compat: setup.compat,
+        })
+    }
 }
 
 impl Task for Reach {
@@ -78,9 +72,5 @@ impl Task for Reach {
         terms.set("bonus", "", [bonus(self.compat, &[distance < 0.1, distance < 0.05])]);
         terms.set("penalty", "", [f64::from(distance > FAR)]);
         Verdict { sparse: -distance, solved: distance < 0.05, done: distance > FAR }
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

@@ -1,24 +1,22 @@
 //! Reorienting: an object between three fingers is to take a target's place and orientation.
 
-use crate::assets::Assets;
+use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_mat, norm, quat_of_euler};
 use crate::rows::Rows;
-use crate::spec::Spec;
-use crate::suite::{Ranges, bonus};
+use crate::suite::bonus::bonus;
 use crate::task::{Defaults, Episode, Setup, Task, Verdict, View};
 use physics::elements::SiteId;
 use physics::math::sub;
 use robot::Compat;
 use serde::Deserialize;
-use toml::Table;
 
 /// Beyond this distance [m] the episode ends.
 const FAR: f64 = 1.0;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     object_site_name: String,
     target_site_name: String,
     target_xyz_range: Ranges,
@@ -26,7 +24,7 @@ struct Args {
 }
 
 #[derive(Clone)]
-struct Reorient {
+pub struct Reorient {
     object: SiteId,
     target: SiteId,
     places: Ranges,
@@ -34,24 +32,20 @@ struct Reorient {
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings or sites are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    Ok(Box::new(Reorient {
-        object: setup.scene.site(&args.object_site_name)?,
-        target: setup.scene.site(&args.target_site_name)?,
-        places: args.target_xyz_range,
-        eulers: args.target_euler_range,
-        compat: setup.compat,
-    }))
+impl Reorient {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings or sites are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        Ok(Reorient {
+            object: setup.scene.site(&args.object_site_name)?,
+            target: setup.scene.site(&args.target_site_name)?,
+            places: args.target_xyz_range,
+            eulers: args.target_euler_range,
+            compat: setup.compat,
+        })
+    }
 }
 
 impl Task for Reorient {
@@ -90,9 +84,5 @@ impl Task for Reorient {
         terms.set("bonus", "", [bonus(self.compat, &near)]);
         terms.set("penalty", "", [f64::from(place > FAR)]);
         Verdict { sparse: -place - turn, solved: place < 0.05 && turn < 0.1, done: place > FAR }
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

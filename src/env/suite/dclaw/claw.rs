@@ -1,9 +1,10 @@
 //! The claw in a model: its joints, the poses it may take, and what all its tasks measure.
 
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::spec::Spec;
-use crate::task::{Rng, View};
+use crate::task::View;
 use physics::math::ops;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3};
 use std::ops::Range;

@@ -14,13 +14,7 @@
 //! The joint of the valve is limited to a turn each way, which a screw can reach whose mark starts far from zero.
 
 mod claw;
-mod pose;
-mod screw;
-mod turn;
+pub(super) mod pose;
+pub(super) mod screw;
+pub(super) mod turn;
 mod valve;
-
-use super::Entry;
-
-/// The tasks of this suite by name.
-pub const TASKS: &[Entry] =
-    &[("dclaw_pose", pose::build), ("dclaw_turn", turn::build), ("dclaw_screw", screw::build)];

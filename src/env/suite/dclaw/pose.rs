@@ -1,17 +1,14 @@
 //! Posing: the joints are to take a pose, or to follow one that swings between two.
 
 use super::claw::{Fingers, draw_pose, excess, last_action};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
 use physics::math::ops;
 use robot::Keeper;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_6, PI};
-use toml::Table;
 
 /// Mean error of the joints [rad] below which the task is solved.
 const SOLVED: f64 = PI / 18.0;
@@ -28,7 +25,7 @@ const GOAL_VELOCITY: f64 = FRAC_PI_6;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     /// First and last joint of the claw.
     dof_range_names: [String; 2],
     /// First and last joint of the second claw, which shows the goal.
@@ -73,7 +70,7 @@ impl Goal {
 }
 
 #[derive(Clone)]
-struct Posing {
+pub struct Posing {
     fingers: Fingers,
     overlay: Fingers,
     kind: GoalKind,
@@ -83,26 +80,22 @@ struct Posing {
     drawn: [Vec<f64>; 2],
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings or joints are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let fingers = Fingers::new(spec, setup.scene, &args.dof_range_names)?;
-    let overlay = Fingers::new(spec, setup.scene, &args.overlay_range_names)?;
-    let count = fingers.qpos.len();
-    if overlay.qpos.len() != count {
-        let message = format!("the overlay has {} joints, and the claw {count}", overlay.qpos.len());
-        return Err(spec.wrong(message));
+impl Posing {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings or joints are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let fingers = Fingers::new(setup.spec, setup.scene, &args.dof_range_names)?;
+        let overlay = Fingers::new(setup.spec, setup.scene, &args.overlay_range_names)?;
+        let count = fingers.qpos.len();
+        if overlay.qpos.len() != count {
+            let message = format!("the overlay has {} joints, and the claw {count}", overlay.qpos.len());
+            return Err(setup.wrong(message));
+        }
+        let (goals, drawn) = (vec![Goal::default(); count], [vec![0.0; count], vec![0.0; count]]);
+        Ok(Posing { fingers, overlay, kind: args.goal, goals, drawn })
     }
-    let (goals, drawn) = (vec![Goal::default(); count], [vec![0.0; count], vec![0.0; count]]);
-    Ok(Box::new(Posing { fingers, overlay, kind: args.goal, goals, drawn }))
 }
 
 impl Task for Posing {
@@ -170,10 +163,6 @@ impl Task for Posing {
             keeper.number(&mut goal.amplitude);
             keeper.number(&mut goal.frequency);
         }
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }
 

@@ -1,19 +1,16 @@
 //! Screwing: the valve is to follow a mark that turns at a constant velocity.
 
 use super::valve::{Args, Valve};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
 use robot::Keeper;
-use toml::Table;
 
 /// Error of the angle [rad] below which the task is solved.
 const SOLVED: f64 = 0.2;
 
 #[derive(Clone)]
-struct Screw {
+pub struct Screw {
     valve: Valve,
     velocities: [f64; 2],
     /// Angle of the mark in this episode [rad], whole turns included.
@@ -22,22 +19,18 @@ struct Screw {
     velocity: f64,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings or elements of the model are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let (Some(velocities), None) = (args.target_velocity_range, args.target_angle_range) else {
-        return Err(spec.wrong("screwing needs target_velocity_range and takes no target_angle_range"));
-    };
-    let valve = Valve::new(spec, &args, SOLVED, setup)?;
-    Ok(Box::new(Screw { valve, velocities, angle: 0.0, velocity: 0.0 }))
+impl Screw {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings or elements of the model are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let (Some(velocities), None) = (args.target_velocity_range, args.target_angle_range) else {
+            return Err(setup.wrong("screwing needs target_velocity_range and takes no target_angle_range"));
+        };
+        let valve = Valve::new(&args, SOLVED, setup)?;
+        Ok(Screw { valve, velocities, angle: 0.0, velocity: 0.0 })
+    }
 }
 
 impl Task for Screw {
@@ -67,9 +60,5 @@ impl Task for Screw {
     fn keep(&mut self, keeper: &mut Keeper) {
         keeper.number(&mut self.angle);
         keeper.number(&mut self.velocity);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

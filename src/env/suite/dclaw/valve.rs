@@ -5,7 +5,6 @@ use crate::error::EnvError;
 use crate::rotation::quat_of_euler;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::ops;
@@ -62,11 +61,11 @@ impl Valve {
     ///
     /// # Errors
     /// Elements are missing, or of another kind.
-    pub fn new(spec: &Spec, args: &Args, threshold: f64, setup: &Setup<'_>) -> Result<Self, EnvError> {
+    pub fn new(args: &Args, threshold: f64, setup: &Setup<'_>) -> Result<Self, EnvError> {
         let scene = &*setup.scene;
         let joint = scene.model.joint(scene.joint(&args.valve_joint_name)?);
         Ok(Valve {
-            fingers: Fingers::new(spec, scene, &args.dof_range_names)?,
+            fingers: Fingers::new(setup.spec, scene, &args.dof_range_names)?,
             place: [joint.qpos_range().start, joint.dof_range().start],
             target: scene.body(&args.target_body_name)?,
             initial: args.initial_angle_range,

@@ -1,52 +1,46 @@
 //! Recording: an arm with a gripper that somebody else moves, with what a data set of it holds and no reward.
 
 use super::text_precision::round_frames;
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::task::{Defaults, Setup, Task, Verdict, View};
 use physics::elements::SiteId;
 use robot::Compat;
 use serde::Deserialize;
-use toml::Table;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     nq_arm: usize,
     nq_ee: usize,
     name_ee: String,
 }
 
 #[derive(Clone)]
-struct Recording {
+pub struct Recording {
     arm: usize,
     /// Joints of arm and gripper.
     joints: usize,
     tip: SiteId,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings or the site are missing; the model has fewer joints than the robot.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    if setup.compat == Compat::RoboHive07 {
-        round_frames(setup.scene)?;
+impl Recording {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings or the site are missing; the model has fewer joints than the robot.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        if setup.compat == Compat::RoboHive07 {
+            round_frames(setup.scene)?;
+        }
+        let m = &setup.scene.model;
+        let found = m.nq.min(m.nv);
+        let joints =
+            args.nq_arm.checked_add(args.nq_ee).filter(|&joints| joints <= found).ok_or_else(|| {
+                setup.wrong(format!("nq_arm and nq_ee are more joints than the {found} of the model"))
+            })?;
+        Ok(Recording { arm: args.nq_arm, joints, tip: setup.scene.site(&args.name_ee)? })
     }
-    let m = &setup.scene.model;
-    let found = m.nq.min(m.nv);
-    let joints = args.nq_arm.checked_add(args.nq_ee).filter(|&joints| joints <= found).ok_or_else(|| {
-        spec.wrong(format!("nq_arm and nq_ee are more joints than the {found} of the model"))
-    })?;
-    Ok(Box::new(Recording { arm: args.nq_arm, joints, tip: setup.scene.site(&args.name_ee)? }))
 }
 
 impl Task for Recording {
@@ -69,9 +63,5 @@ impl Task for Recording {
     fn reward(&self, _: &View<'_>, _: &Rows, terms: &mut Rows) -> Verdict {
         terms.set("none", "", [0.0]);
         Verdict::default()
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

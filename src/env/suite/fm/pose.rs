@@ -1,17 +1,15 @@
 //! Poses: the joints are to take a configuration, given or drawn.
 
 use super::text_precision::round_frames;
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
-use crate::spec::Spec;
-use crate::suite::bonus;
-use crate::task::{Defaults, Episode, Rng, Setup, Task, Verdict, View};
+use crate::suite::bonus::bonus;
+use crate::task::{Defaults, Episode, Setup, Task, Verdict, View};
 use physics::Model;
 use robot::{Compat, Keeper};
 use serde::Deserialize;
-use toml::Table;
 
 /// Beyond this distance [rad] in the space of joints the episode ends.
 const FAR: f64 = 10.0;
@@ -21,7 +19,7 @@ const ROBOTIQ_JOINTS: usize = 8;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     target_pose: Target,
 }
 
@@ -40,7 +38,7 @@ enum Drawn {
 }
 
 #[derive(Clone)]
-struct Reach {
+pub struct Reach {
     joints: usize,
     /// Whether every episode draws a target.
     random: bool,
@@ -48,54 +46,44 @@ struct Reach {
     compat: Compat,
 }
 
-/// Builds the task over all joints.
-///
-/// # Errors
-/// The target has no value for each joint; targets are to be drawn, and joints and actuators are not one to one.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let joints = setup.scene.model.nq;
-    over(joints, spec, own, setup)
-}
+impl Reach {
+    /// The task over all joints.
+    ///
+    /// # Errors
+    /// The target has no value for each joint; targets are to be drawn, and joints and actuators are not one to one.
+    pub fn of_robot(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        Self::over(setup.scene.model.nq, args, setup)
+    }
 
-/// Builds the task over the joints of an arm with a Robotiq gripper.
-///
-/// # Errors
-/// As [`build`].
-pub fn build_robotiq(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    over(ROBOTIQ_JOINTS, spec, own, setup)
-}
+    /// The task over the joints of an arm with a Robotiq gripper.
+    ///
+    /// # Errors
+    /// As [`Reach::of_robot`].
+    pub fn of_robotiq(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        Self::over(ROBOTIQ_JOINTS, args, setup)
+    }
 
-fn over(joints: usize, spec: &Spec, own: Table, setup: &mut Setup<'_>) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    if setup.compat == Compat::RoboHive07 {
-        round_frames(setup.scene)?;
+    fn over(joints: usize, args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        if setup.compat == Compat::RoboHive07 {
+            round_frames(setup.scene)?;
+        }
+        let m = &setup.scene.model;
+        if joints > m.nq.min(m.nv) {
+            return Err(setup.wrong(format!("the task needs {joints} joints, and the model has {}", m.nq)));
+        }
+        let (random, mut target) = match args.target_pose {
+            Target::Given(target) => (false, target),
+            Target::Drawn(Drawn::Random) => (true, vec![0.0; joints.min(m.nu)]),
+        };
+        if target.len() != joints {
+            let found = target.len();
+            return Err(setup.wrong(format!("target_pose has {found} values, and the robot {joints} joints")));
+        }
+        if random {
+            draw(m, setup.rng, &mut target)?;
+        }
+        Ok(Reach { joints, random, target, compat: setup.compat })
     }
-    let m = &setup.scene.model;
-    if joints > m.nq.min(m.nv) {
-        return Err(spec.wrong(format!("the task needs {joints} joints, and the model has {}", m.nq)));
-    }
-    let (random, mut target) = match args.target_pose {
-        Target::Given(target) => (false, target),
-        Target::Drawn(Drawn::Random) => (true, vec![0.0; joints.min(m.nu)]),
-    };
-    if target.len() != joints {
-        let found = target.len();
-        return Err(spec.wrong(format!("target_pose has {found} values, and the robot {joints} joints")));
-    }
-    if random {
-        draw(m, setup.rng, &mut target)?;
-    }
-    Ok(Box::new(Reach { joints, random, target, compat: setup.compat }))
 }
 
 /// Draws a target from the ranges of the actuators, the first one first.
@@ -137,9 +125,5 @@ impl Task for Reach {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         keeper.numbers(&mut self.target);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

@@ -2,19 +2,16 @@
 
 use super::progress::Progress;
 use super::start::{VelocityNoise, start};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Task, Timing, Turn, Verdict, View};
 use physics::Data;
 use serde::Deserialize;
-use toml::Table;
 
 /// Gymnasium's settings with its defaults.
 #[derive(Clone, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-struct Args {
+pub struct Args {
     forward_reward_weight: f64,
     ctrl_cost_weight: f64,
     contact_cost_weight: f64,
@@ -48,33 +45,29 @@ impl Default for Args {
 }
 
 #[derive(Clone)]
-struct Ant {
+pub struct Ant {
     args: Args,
     progress: Progress,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit the model.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let bodies = setup.scene.model.nbody;
-    if args.main_body >= bodies {
-        return Err(spec.wrong(format!("main_body is {}, and the model has {bodies} bodies", args.main_body)));
-    }
-    if setup.scene.model.nq < 3 {
-        return Err(spec.wrong("the model has no free joint: an ant's height is its third position"));
-    }
-    Ok(Box::new(Ant { args, progress: Progress::default() }))
-}
-
 impl Ant {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit the model.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let bodies = setup.scene.model.nbody;
+        if args.main_body >= bodies {
+            return Err(
+                setup.wrong(format!("main_body is {}, and the model has {bodies} bodies", args.main_body))
+            );
+        }
+        if setup.scene.model.nq < 3 {
+            return Err(setup.wrong("the model has no free joint: an ant's height is its third position"));
+        }
+        Ok(Ant { args, progress: Progress::default() })
+    }
+
     fn position(&self, data: &Data) -> [f64; 2] {
         let [x, y, _] = data.kin.xpos[self.args.main_body];
         [x, y]
@@ -143,9 +136,5 @@ impl Task for Ant {
 
     fn rewards_paths(&self) -> bool {
         false
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

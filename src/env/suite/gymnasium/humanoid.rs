@@ -2,14 +2,11 @@
 
 use super::progress::Progress;
 use super::start::{VelocityNoise, start};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Task, Timing, Turn, Verdict, View};
 use physics::{Data, Model};
 use serde::Deserialize;
-use toml::Table;
 
 /// Degrees of freedom of the free joint, which no actuator moves.
 const ROOT: usize = 6;
@@ -17,7 +14,7 @@ const ROOT: usize = 6;
 /// Gymnasium's settings with its defaults.
 #[derive(Clone, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-struct Args {
+pub struct Args {
     forward_reward_weight: f64,
     ctrl_cost_weight: f64,
     contact_cost_weight: f64,
@@ -54,33 +51,27 @@ impl Default for Args {
 }
 
 #[derive(Clone)]
-struct Humanoid {
+pub struct Humanoid {
     args: Args,
     /// Mass of all bodies [kg].
     mass: f64,
     progress: Progress,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit the model.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let model = &setup.scene.model;
-    if model.nq < 3 || model.nv < ROOT {
-        return Err(spec.wrong("the model has no free joint: a humanoid's height is its third position"));
-    }
-    let mass = model.body_mass.iter().sum();
-    Ok(Box::new(Humanoid { args, mass, progress: Progress::default() }))
-}
-
 impl Humanoid {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit the model.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let model = &setup.scene.model;
+        if model.nq < 3 || model.nv < ROOT {
+            return Err(setup.wrong("the model has no free joint: a humanoid's height is its third position"));
+        }
+        let mass = model.body_mass.iter().sum();
+        Ok(Humanoid { args, mass, progress: Progress::default() })
+    }
+
     /// The centre of mass in the plane.
     fn position(&self, model: &Model, data: &Data) -> [f64; 2] {
         let bodies = || model.body_mass.iter().zip(data.kin.xipos.iter());
@@ -153,9 +144,5 @@ impl Task for Humanoid {
 
     fn rewards_paths(&self) -> bool {
         false
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

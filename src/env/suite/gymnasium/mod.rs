@@ -6,19 +6,8 @@
 //! they are given, and a step is the frame skip's number of physics steps with no forward pass after them
 //! ([`crate::task::Timing::Plain`]), so that what is observed of bodies and forces is of one time step before.
 
-mod ant;
-mod humanoid;
-mod planar;
+pub(super) mod ant;
+pub(super) mod humanoid;
+pub(super) mod planar;
 mod progress;
 mod start;
-
-use super::Entry;
-
-/// The tasks of this suite by name.
-pub const TASKS: &[Entry] = &[
-    ("gymnasium_ant", ant::build),
-    ("gymnasium_humanoid", humanoid::build),
-    ("gymnasium_walker2d", planar::build_walker),
-    ("gymnasium_half_cheetah", planar::build_cheetah),
-    ("gymnasium_hopper", planar::build_hopper),
-];

@@ -2,20 +2,17 @@
 
 use super::progress::Progress;
 use super::start::{VelocityNoise, start};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Task, Timing, Turn, Verdict, View};
 use physics::Data;
 use serde::Deserialize;
 use std::ops::Range;
-use toml::Table;
 
 /// Settings that every robot of this file has; what is left out is the robot's own.
 #[derive(Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-struct Args {
+pub struct Args {
     forward_reward_weight: Option<f64>,
     ctrl_cost_weight: Option<f64>,
     healthy_reward: Option<f64>,
@@ -41,7 +38,7 @@ struct Health {
 }
 
 #[derive(Clone)]
-struct Planar {
+pub struct Planar {
     forward_weight: f64,
     control_weight: f64,
     /// `None` where a robot can do as it likes.
@@ -55,96 +52,75 @@ struct Planar {
     progress: Progress,
 }
 
-/// Builds the task of a walker on two legs.
-///
-/// # Errors
-/// Settings do not fit the model.
-pub fn build_walker(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let mut args: Args = spec.task_args(own)?;
-    args.ctrl_cost_weight.get_or_insert(1e-3);
-    args.healthy_z_range.get_or_insert([0.8, 2.0]);
-    args.healthy_angle_range.get_or_insert([-1.0, 1.0]);
-    args.reset_noise_scale.get_or_insert(5e-3);
-    if args.healthy_state_range.is_some() {
-        return Err(spec.wrong("healthy_state_range is a setting of Hopper"));
-    }
-    planar(spec, &args, Some(UNBOUNDED), setup)
-}
-
-/// Builds the task of a hopper on one leg.
-///
-/// # Errors
-/// Settings do not fit the model.
-pub fn build_hopper(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let mut args: Args = spec.task_args(own)?;
-    args.ctrl_cost_weight.get_or_insert(1e-3);
-    args.healthy_z_range.get_or_insert([0.7, f64::INFINITY]);
-    args.healthy_angle_range.get_or_insert([-0.2, 0.2]);
-    args.reset_noise_scale.get_or_insert(5e-3);
-    planar(spec, &args, Some([-100.0, 100.0]), setup)
-}
-
-/// Builds the task of a cheetah, which is never unhealthy.
-///
-/// # Errors
-/// Settings do not fit the model.
-pub fn build_cheetah(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let ranges = [args.healthy_state_range, args.healthy_z_range, args.healthy_angle_range];
-    if ranges.iter().any(Option::is_some)
-        || args.healthy_reward.is_some()
-        || args.terminate_when_unhealthy.is_some()
-    {
-        return Err(spec.wrong("a cheetah is never unhealthy: it has no settings of health"));
-    }
-    planar(spec, &args, None, setup)
-}
-
 const UNBOUNDED: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-fn planar(
-    spec: &Spec,
-    args: &Args,
-    healthy_state: Option<[f64; 2]>,
-    setup: &Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    if setup.scene.model.nq < 3 {
-        return Err(spec.wrong("a planar robot's first positions are x, height and pitch"));
+impl Planar {
+    /// The task of a walker on two legs.
+    ///
+    /// # Errors
+    /// Settings do not fit the model.
+    pub fn walker(mut args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        args.ctrl_cost_weight.get_or_insert(1e-3);
+        args.healthy_z_range.get_or_insert([0.8, 2.0]);
+        args.healthy_angle_range.get_or_insert([-1.0, 1.0]);
+        args.reset_noise_scale.get_or_insert(5e-3);
+        if args.healthy_state_range.is_some() {
+            return Err(setup.wrong("healthy_state_range is a setting of Hopper"));
+        }
+        Self::new(&args, Some(UNBOUNDED), setup)
     }
-    let health = healthy_state.map(|state| Health {
-        reward: args.healthy_reward.unwrap_or(1.0),
-        terminates: args.terminate_when_unhealthy.unwrap_or(true),
-        height: args.healthy_z_range.unwrap_or(UNBOUNDED),
-        angle: args.healthy_angle_range.unwrap_or(UNBOUNDED),
-        state: args.healthy_state_range.unwrap_or(state),
-    });
-    let free = health.is_none();
-    let velocity = if free { VelocityNoise::Normal } else { VelocityNoise::Uniform };
-    Ok(Box::new(Planar {
-        forward_weight: args.forward_reward_weight.unwrap_or(1.0),
-        control_weight: args.ctrl_cost_weight.unwrap_or(0.1),
-        noise: (args.reset_noise_scale.unwrap_or(0.1), velocity),
-        skipped: usize::from(args.exclude_current_positions_from_observation.unwrap_or(true)),
-        fastest: if free { f64::INFINITY } else { 10.0 },
-        frame_skip: if free { 5 } else { 4 },
-        health,
-        progress: Progress::default(),
-    }))
+
+    /// The task of a hopper on one leg.
+    ///
+    /// # Errors
+    /// Settings do not fit the model.
+    pub fn hopper(mut args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        args.ctrl_cost_weight.get_or_insert(1e-3);
+        args.healthy_z_range.get_or_insert([0.7, f64::INFINITY]);
+        args.healthy_angle_range.get_or_insert([-0.2, 0.2]);
+        args.reset_noise_scale.get_or_insert(5e-3);
+        Self::new(&args, Some([-100.0, 100.0]), setup)
+    }
+
+    /// The task of a cheetah, which is never unhealthy.
+    ///
+    /// # Errors
+    /// Settings do not fit the model.
+    pub fn cheetah(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let ranges = [args.healthy_state_range, args.healthy_z_range, args.healthy_angle_range];
+        if ranges.iter().any(Option::is_some)
+            || args.healthy_reward.is_some()
+            || args.terminate_when_unhealthy.is_some()
+        {
+            return Err(setup.wrong("a cheetah is never unhealthy: it has no settings of health"));
+        }
+        Self::new(&args, None, setup)
+    }
+
+    fn new(args: &Args, healthy_state: Option<[f64; 2]>, setup: &Setup<'_>) -> Result<Self, EnvError> {
+        if setup.scene.model.nq < 3 {
+            return Err(setup.wrong("a planar robot's first positions are x, height and pitch"));
+        }
+        let health = healthy_state.map(|state| Health {
+            reward: args.healthy_reward.unwrap_or(1.0),
+            terminates: args.terminate_when_unhealthy.unwrap_or(true),
+            height: args.healthy_z_range.unwrap_or(UNBOUNDED),
+            angle: args.healthy_angle_range.unwrap_or(UNBOUNDED),
+            state: args.healthy_state_range.unwrap_or(state),
+        });
+        let free = health.is_none();
+        let velocity = if free { VelocityNoise::Normal } else { VelocityNoise::Uniform };
+        Ok(Planar {
+            forward_weight: args.forward_reward_weight.unwrap_or(1.0),
+            control_weight: args.ctrl_cost_weight.unwrap_or(0.1),
+            noise: (args.reset_noise_scale.unwrap_or(0.1), velocity),
+            skipped: usize::from(args.exclude_current_positions_from_observation.unwrap_or(true)),
+            fastest: if free { f64::INFINITY } else { 10.0 },
+            frame_skip: if free { 5 } else { 4 },
+            health,
+            progress: Progress::default(),
+        })
+    }
 }
 
 fn within(value: f64, [low, high]: [f64; 2]) -> bool {
@@ -217,9 +193,5 @@ impl Task for Planar {
 
     fn rewards_paths(&self) -> bool {
         false
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

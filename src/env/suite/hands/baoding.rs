@@ -1,10 +1,8 @@
 //! Two balls that circle each other in the palm of the hand of Nagabandi et al. (2019).
 
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::baoding::{Following, KEYS, Orbit, Pairs, jumps, wrist_error};
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::BodyId;
@@ -12,7 +10,6 @@ use physics::math::{add, quat_rotate};
 use robot::Compat;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_4;
-use toml::Table;
 
 /// Angles [rad] at which the balls start on their orbit.
 const STARTS: [f64; 2] = [3.0 * FRAC_PI_4, -FRAC_PI_4];
@@ -27,52 +24,46 @@ const SOFTER: f64 = 0.1;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     n_shifts_per_period: Option<i64>,
 }
 
 #[derive(Clone)]
-struct Baoding {
+pub struct Baoding {
     pairs: Pairs,
     palm: BodyId,
     orbit: Orbit,
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit; the model lacks the palm, the balls, the targets or a keyframe.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let jumps = jumps(spec, args.n_shifts_per_period)?;
-    // The original does this once for the simulation and once for the observed one, which are the same.
-    let times = if setup.compat == Compat::RoboHive07 { 2 } else { 1 };
-    for _ in 0..times {
-        setup.scene.overwrite(|m| {
-            let (gains, biases) =
-                (m.actuator_gainprm.as_flattened_mut(), m.actuator_biasprm.as_flattened_mut());
-            gains.iter_mut().for_each(|number| *number *= SOFTER);
-            biases.iter_mut().for_each(|number| *number *= SOFTER);
-        })?;
-    }
-    if setup.scene.model.nkey == 0 {
-        return Err(spec.wrong("the model has no keyframe, and the hand starts in its first one"));
-    }
-    Ok(Box::new(Baoding {
-        pairs: Pairs::find(setup.scene)?,
-        palm: setup.scene.body("palm")?,
-        orbit: Orbit { radii: [0.03, 0.036], center: [0.005, 0.06], period: 6.0, direction: 1.0, jumps },
-        compat: setup.compat,
-    }))
-}
-
 impl Baoding {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit; the model lacks the palm, the balls, the targets or a keyframe.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let jumps = jumps(setup.spec, args.n_shifts_per_period)?;
+        // The original does this once for the simulation and once for the observed one, which are the same.
+        let times = if setup.compat == Compat::RoboHive07 { 2 } else { 1 };
+        for _ in 0..times {
+            setup.scene.overwrite(|m| {
+                let (gains, biases) =
+                    (m.actuator_gainprm.as_flattened_mut(), m.actuator_biasprm.as_flattened_mut());
+                gains.iter_mut().for_each(|number| *number *= SOFTER);
+                biases.iter_mut().for_each(|number| *number *= SOFTER);
+            })?;
+        }
+        if setup.scene.model.nkey == 0 {
+            return Err(setup.wrong("the model has no keyframe, and the hand starts in its first one"));
+        }
+        Ok(Baoding {
+            pairs: Pairs::find(setup.scene)?,
+            palm: setup.scene.body("palm")?,
+            orbit: Orbit { radii: [0.03, 0.036], center: [0.005, 0.06], period: 6.0, direction: 1.0, jumps },
+            compat: setup.compat,
+        })
+    }
+
     /// Puts the targets where they are in a step, which moves with the palm.
     fn place_targets(&self, scene: &mut Scene, steps: usize, dt: f64) -> Result<(), EnvError> {
         let angle = self.orbit.angle(steps, dt);
@@ -136,9 +127,5 @@ impl Task for Baoding {
             solved: following.both() && !following.fallen,
             done: following.fallen,
         }
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

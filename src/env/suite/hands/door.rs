@@ -1,18 +1,15 @@
 //! Opening a door: the hand turns the latch and pulls.
 
 use super::adroit::{set_stiffness, start_at_zero};
-use crate::assets::Assets;
+use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
-use crate::suite::Ranges;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::sub;
 use serde::Deserialize;
-use toml::Table;
 
 /// Where the frame of the door may stand [m].
 const PLACES: Ranges = Ranges { low: [-0.3, 0.25, 0.252], high: [-0.2, 0.35, 0.35] };
@@ -25,10 +22,10 @@ const FAR: f64 = 1.0;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {}
+pub struct Args {}
 
 #[derive(Clone)]
-struct Door {
+pub struct Door {
     palm: SiteId,
     handle: SiteId,
     frame: BodyId,
@@ -36,26 +33,22 @@ struct Door {
     hinge: usize,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// There is a setting, and the task has none; the model lacks the hand or the door.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let Args {} = spec.task_args(own)?;
-    let scene = &mut *setup.scene;
-    set_stiffness(scene)?;
-    let hinge = scene.joint("door_hinge")?;
-    Ok(Box::new(Door {
-        palm: scene.site("S_grasp")?,
-        handle: scene.site("S_handle")?,
-        frame: scene.body("frame")?,
-        hinge: scene.model.jnt_qposadr[hinge.index()] as usize,
-    }))
+impl Door {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// There is a setting, and the task has none; the model lacks the hand or the door.
+    pub fn new(_: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let scene = &mut *setup.scene;
+        set_stiffness(scene)?;
+        let hinge = scene.joint("door_hinge")?;
+        Ok(Door {
+            palm: scene.site("S_grasp")?,
+            handle: scene.site("S_handle")?,
+            frame: scene.body("frame")?,
+            hinge: scene.model.jnt_qposadr[hinge.index()] as usize,
+        })
+    }
 }
 
 impl Task for Door {
@@ -93,10 +86,6 @@ impl Task for Door {
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         judge(norm(&rows["reach_err"]), rows["door_pos"][0], terms)
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }
 

@@ -1,17 +1,14 @@
 //! Driving a nail: the hand takes a hammer from the table and strikes.
 
 use super::adroit::{set_stiffness, start_at_zero};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_quat, norm};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::elements::{BodyId, SensorId, SiteId};
 use physics::math::sub;
 use serde::Deserialize;
-use toml::Table;
 
 /// Lowest and highest place of the board [m].
 const HEIGHTS: [f64; 2] = [0.1, 0.25];
@@ -26,10 +23,10 @@ const HAMMER: usize = 6;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {}
+pub struct Args {}
 
 #[derive(Clone)]
-struct Hammer {
+pub struct Hammer {
     palm: SiteId,
     hammer: BodyId,
     head: SiteId,
@@ -39,28 +36,24 @@ struct Hammer {
     impact: SensorId,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// There is a setting, and the task has none; the model lacks the hand, the hammer or the nail.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let Args {} = spec.task_args(own)?;
-    let scene = &mut *setup.scene;
-    set_stiffness(scene)?;
-    Ok(Box::new(Hammer {
-        palm: scene.site("S_grasp")?,
-        hammer: scene.body("object")?,
-        head: scene.site("tool")?,
-        nail: scene.site("S_target")?,
-        goal: scene.site("nail_goal")?,
-        board: scene.body("nail_board")?,
-        impact: scene.sensor("S_nail")?,
-    }))
+impl Hammer {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// There is a setting, and the task has none; the model lacks the hand, the hammer or the nail.
+    pub fn new(_: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let scene = &mut *setup.scene;
+        set_stiffness(scene)?;
+        Ok(Hammer {
+            palm: scene.site("S_grasp")?,
+            hammer: scene.body("object")?,
+            head: scene.site("tool")?,
+            nail: scene.site("S_target")?,
+            goal: scene.site("nail_goal")?,
+            board: scene.body("nail_board")?,
+            impact: scene.sensor("S_nail")?,
+        })
+    }
 }
 
 impl Task for Hammer {
@@ -125,10 +118,6 @@ impl Task for Hammer {
 
     fn resting_rows(&self) -> Vec<String> {
         vec!["nail_impact".into()]
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }
 

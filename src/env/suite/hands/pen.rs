@@ -1,17 +1,14 @@
 //! Turning a pen in the hand until it points where another one does.
 
 use super::adroit::{set_stiffness, start_at_zero};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::{cosine, norm, quat_of_euler};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::{distance, sub};
 use serde::Deserialize;
-use toml::Table;
 
 /// The tilt of the target about x and about y is drawn from this range [rad].
 const TILTS: [f64; 2] = [-1.0, 1.0];
@@ -26,7 +23,7 @@ const PEN: usize = 6;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {}
+pub struct Args {}
 
 /// A pen by its ends.
 #[derive(Clone)]
@@ -38,7 +35,7 @@ struct Ends {
 }
 
 #[derive(Clone)]
-struct Pen {
+pub struct Pen {
     pen: BodyId,
     place: SiteId,
     target: BodyId,
@@ -46,26 +43,22 @@ struct Pen {
     target_ends: Ends,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// A setting is given, but the task has none; or the model lacks the hand or the pens.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let Args {} = spec.task_args(own)?;
-    let scene = &mut *setup.scene;
-    set_stiffness(scene)?;
-    Ok(Box::new(Pen {
-        pen: scene.body("Object")?,
-        place: scene.site("eps_ball")?,
-        target: scene.body("target")?,
-        pen_ends: Ends::find(scene, "object_top", "object_bottom")?,
-        target_ends: Ends::find(scene, "target_top", "target_bottom")?,
-    }))
+impl Pen {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// A setting is given, but the task has none; or the model lacks the hand or the pens.
+    pub fn new(_: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let scene = &mut *setup.scene;
+        set_stiffness(scene)?;
+        Ok(Pen {
+            pen: scene.body("Object")?,
+            place: scene.site("eps_ball")?,
+            target: scene.body("target")?,
+            pen_ends: Ends::find(scene, "object_top", "object_bottom")?,
+            target_ends: Ends::find(scene, "target_top", "target_bottom")?,
+        })
+    }
 }
 
 impl Ends {
@@ -121,10 +114,6 @@ impl Task for Pen {
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         let away = norm(&rows["obj_err_pos"]);
         judge(away, cosine(&rows["obj_rot"], &rows["obj_des_rot"]), rows["obj_pos"][2], terms)
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }
 

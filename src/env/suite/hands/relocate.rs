@@ -1,18 +1,15 @@
 //! Carrying a ball from the table to a place in the air.
 
 use super::adroit::{set_stiffness, start_at_zero};
-use crate::assets::Assets;
+use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
-use crate::suite::Ranges;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::sub;
 use serde::Deserialize;
-use toml::Table;
 
 /// Where on the table the ball may lie [m].
 const BALLS: Ranges<2> = Ranges { low: [-0.15, -0.15], high: [0.15, 0.3] };
@@ -29,33 +26,29 @@ const BALL: usize = 6;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {}
+pub struct Args {}
 
 #[derive(Clone)]
-struct Relocate {
+pub struct Relocate {
     palm: SiteId,
     ball: BodyId,
     target: SiteId,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// There is a setting, and the task has none; the model lacks the hand, the ball or the target.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let Args {} = spec.task_args(own)?;
-    let scene = &mut *setup.scene;
-    set_stiffness(scene)?;
-    Ok(Box::new(Relocate {
-        palm: scene.site("S_grasp")?,
-        ball: scene.body("Object")?,
-        target: scene.site("target")?,
-    }))
+impl Relocate {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// There is a setting, and the task has none; the model lacks the hand, the ball or the target.
+    pub fn new(_: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let scene = &mut *setup.scene;
+        set_stiffness(scene)?;
+        Ok(Relocate {
+            palm: scene.site("S_grasp")?,
+            ball: scene.body("Object")?,
+            target: scene.site("target")?,
+        })
+    }
 }
 
 impl Task for Relocate {
@@ -95,10 +88,6 @@ impl Task for Relocate {
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         let distances = ["palm_obj_err", "palm_tar_err", "obj_tar_err"].map(|row| norm(&rows[row]));
         judge(distances, rows["obj_pos"][2], terms)
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }
 

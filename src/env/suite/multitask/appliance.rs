@@ -1,12 +1,10 @@
 //! An appliance in front of the robot, opened, closed, or anywhere around it.
 
 use super::chore::{Args, Chore};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::quat_of_euler;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::ops;
@@ -24,31 +22,28 @@ const ANGLE: [f64; 2] = [-1.57, 1.57];
 const AHEAD: f64 = 0.5;
 
 #[derive(Clone)]
-struct Appliance {
+pub struct Appliance {
     chore: Chore,
     /// Bodies that every episode places.
     placed: Vec<BodyId>,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit; elements are missing.
-pub fn build(
-    spec: &Spec,
-    mut own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let placed: Vec<String> = match own.remove("obj_body_randomize") {
-        None => Vec::new(),
-        Some(names) => {
-            names.try_into().map_err(|_| spec.wrong("obj_body_randomize is a list of names of bodies"))?
-        }
-    };
-    let args: Args = spec.task_args(own)?;
-    let placed = placed.iter().map(|name| setup.scene.body(name)).collect::<Result<_, _>>()?;
-    Ok(Box::new(Appliance { chore: Chore::new(spec, &args, setup)?, placed }))
+impl Appliance {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit; elements are missing.
+    pub fn new(mut own: Table, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let placed: Vec<String> = match own.remove("obj_body_randomize") {
+            None => Vec::new(),
+            Some(names) => names
+                .try_into()
+                .map_err(|_| setup.wrong("obj_body_randomize is a list of names of bodies"))?,
+        };
+        let args: Args = setup.spec.task_args(own)?;
+        let placed = placed.iter().map(|name| setup.scene.body(name)).collect::<Result<_, _>>()?;
+        Ok(Appliance { chore: Chore::new(&args, setup)?, placed })
+    }
 }
 
 impl Task for Appliance {
@@ -96,9 +91,5 @@ impl Task for Appliance {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.chore.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

@@ -1,11 +1,12 @@
 //! Moving things in a household to where they belong: joints of objects have goals, and a hand approaches a site.
 
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_mat, euler_of_quat, norm};
 use crate::rows::{Name, Rows};
 use crate::scene::Scene;
 use crate::spec::Spec;
-use crate::task::{Defaults, Pose, Rng, Setup, Verdict, View};
+use crate::task::{Defaults, Pose, Setup, Verdict, View};
 use physics::elements::{BodyId, JointId, SiteId};
 use physics::math::sub;
 use physics::model::JointType;
@@ -141,10 +142,10 @@ impl Chore {
     /// # Errors
     /// Elements are missing; joints and sites of objects are not one to one; goals or positions are no numbers or of
     /// joints that no object has.
-    pub fn new(spec: &Spec, args: &Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+    pub fn new(args: &Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let scene = &*setup.scene;
         if args.obj_jnt_names.len() != args.obj_interaction_site.len() {
-            return Err(spec.wrong("obj_interaction_site needs one site for each of obj_jnt_names"));
+            return Err(setup.wrong("obj_interaction_site needs one site for each of obj_jnt_names"));
         }
         let joints =
             |names: &[String]| names.iter().map(|name| scene.joint(name)).collect::<Result<Vec<_>, _>>();
@@ -155,7 +156,7 @@ impl Chore {
                 let unknown = || {
                     EnvError::missing("object joint", joint, args.obj_jnt_names.iter().map(String::as_str))
                 };
-                Ok((object.ok_or_else(unknown)?, Wish::new(spec, joint, value)?))
+                Ok((object.ok_or_else(unknown)?, Wish::new(setup.spec, joint, value)?))
             };
             wishes.iter().map(wish).collect::<Result<Vec<_>, EnvError>>()
         };
@@ -169,7 +170,7 @@ impl Chore {
                 .collect(),
             objects: objects
                 .into_iter()
-                .map(|joint| object_joint(spec, scene, joint))
+                .map(|joint| object_joint(setup.spec, scene, joint))
                 .collect::<Result<_, _>>()?,
             handles: handles(scene, &args.obj_interaction_site)?,
             init: wishes(&args.obj_init)?,

@@ -1,12 +1,10 @@
 //! A kitchen: knobs, doors, a light, a microwave and a kettle.
 
 use super::chore::{Args, Chore};
-use crate::assets::Assets;
+use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
-use crate::suite::Ranges;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::math::{Vec3, add};
 use robot::Keeper;
@@ -45,7 +43,7 @@ struct Randomness {
 }
 
 #[derive(Clone)]
-struct Kitchen {
+pub struct Kitchen {
     chore: Chore,
     noise: f64,
     shift: Option<Ranges>,
@@ -53,31 +51,28 @@ struct Kitchen {
     place: Vec3,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit; elements are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let (random, mut shared): (Table, Table) =
-        own.into_iter().partition(|(key, _)| OWN.contains(&key.as_str()));
-    let random: Randomness = spec.task_args(random)?;
-    let names = |names: Vec<&str>| Value::Array(names.into_iter().map(Value::from).collect());
-    let (joints, sites) = OBJECTS.into_iter().unzip();
-    shared.entry("obj_jnt_names").or_insert_with(|| names(joints));
-    shared.entry("obj_interaction_site").or_insert_with(|| names(sites));
-    let args: Args = spec.task_args(shared)?;
-    let chore = Chore::new(spec, &args, setup)?;
-    Ok(Box::new(Kitchen {
-        place: setup.scene.model.body_pos[chore.base.index()],
-        chore,
-        noise: random.robot_jnt_reset_noise_scale,
-        shift: random.robot_base_reset_range,
-    }))
+impl Kitchen {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit; elements are missing.
+    pub fn new(own: Table, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let (random, mut shared): (Table, Table) =
+            own.into_iter().partition(|(key, _)| OWN.contains(&key.as_str()));
+        let random: Randomness = setup.spec.task_args(random)?;
+        let names = |names: Vec<&str>| Value::Array(names.into_iter().map(Value::from).collect());
+        let (joints, sites) = OBJECTS.into_iter().unzip();
+        shared.entry("obj_jnt_names").or_insert_with(|| names(joints));
+        shared.entry("obj_interaction_site").or_insert_with(|| names(sites));
+        let args: Args = setup.spec.task_args(shared)?;
+        let chore = Chore::new(&args, setup)?;
+        Ok(Kitchen {
+            place: setup.scene.model.body_pos[chore.base.index()],
+            chore,
+            noise: random.robot_jnt_reset_noise_scale,
+            shift: random.robot_base_reset_range,
+        })
+    }
 }
 
 impl Task for Kitchen {
@@ -112,9 +107,5 @@ impl Task for Kitchen {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.chore.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

@@ -1,10 +1,8 @@
 //! Two balls that circle each other in the palm.
 
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::baoding::{Following, KEYS, jumps, wrist_error};
 use crate::suite::circling::{Circling, draw_radii, open_hand};
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
@@ -12,14 +10,13 @@ use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, 
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_4;
-use toml::Table;
 
 /// Angles [rad] at which the balls start on their path.
 const STARTS: [f64; 2] = [3.0 * FRAC_PI_4, -FRAC_PI_4];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     n_shifts_per_period: Option<i64>,
     #[serde(default = "drop_th")]
     drop_th: f64,
@@ -56,7 +53,7 @@ fn goal_yrange() -> [f64; 2] {
 }
 
 #[derive(Clone)]
-struct Baoding {
+pub struct Baoding {
     muscles: Muscles,
     circling: Circling,
     radii: [[f64; 2]; 2],
@@ -66,33 +63,29 @@ struct Baoding {
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit, or sites are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let jumps = jumps(spec, args.n_shifts_per_period)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    let radii = [args.goal_xrange, args.goal_yrange];
-    let period = args.goal_time_period;
-    let drawn = draw_radii(radii, setup.rng)?;
-    let mut circling = Circling::new(setup.scene, drawn, period[0], STARTS)?;
-    circling.orbit.jumps = jumps;
-    Ok(Box::new(Baoding {
-        muscles,
-        circling,
-        radii,
-        period,
-        drop: args.drop_th,
-        near: args.proximity_th,
-        compat: setup.compat,
-    }))
+impl Baoding {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit, or sites are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let jumps = jumps(setup.spec, args.n_shifts_per_period)?;
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        let radii = [args.goal_xrange, args.goal_yrange];
+        let period = args.goal_time_period;
+        let drawn = draw_radii(radii, setup.rng)?;
+        let mut circling = Circling::new(setup.scene, drawn, period[0], STARTS)?;
+        circling.orbit.jumps = jumps;
+        Ok(Baoding {
+            muscles,
+            circling,
+            radii,
+            period,
+            drop: args.drop_th,
+            near: args.proximity_th,
+            compat: setup.compat,
+        })
+    }
 }
 
 impl Task for Baoding {
@@ -153,9 +146,5 @@ impl Task for Baoding {
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
         self.circling.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

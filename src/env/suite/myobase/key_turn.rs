@@ -1,11 +1,9 @@
 //! Turning a key between thumb and index finger.
 
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
@@ -13,7 +11,6 @@ use physics::math::{add, sub};
 use robot::Keeper;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, PI};
-use toml::Table;
 
 /// Distance [m] at which a finger tip touches the head of the key.
 const TOUCH: f64 = 0.03;
@@ -24,7 +21,7 @@ const OFFSET: [f64; 3] = [0.01; 3];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     #[serde(default = "goal_th")]
     goal_th: f64,
     #[serde(default)]
@@ -39,7 +36,7 @@ fn goal_th() -> f64 {
 }
 
 #[derive(Clone)]
-struct KeyTurn {
+pub struct KeyTurn {
     muscles: Muscles,
     head: SiteId,
     index: SiteId,
@@ -53,30 +50,26 @@ struct KeyTurn {
     goal: f64,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit, or elements are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    let scene = &*setup.scene;
-    let head = scene.site("keyhead")?;
-    Ok(Box::new(KeyTurn {
-        muscles,
-        head,
-        index: scene.site("IFtip")?,
-        thumb: scene.site("THtip")?,
-        key: scene.body("key")?,
-        place: *scene.data.site(head).xpos(),
-        starts: args.key_init_range,
-        goal: args.goal_th,
-    }))
+impl KeyTurn {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit, or elements are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        let scene = &*setup.scene;
+        let head = scene.site("keyhead")?;
+        Ok(KeyTurn {
+            muscles,
+            head,
+            index: scene.site("IFtip")?,
+            thumb: scene.site("THtip")?,
+            key: scene.body("key")?,
+            place: *scene.data.site(head).xpos(),
+            starts: args.key_init_range,
+            goal: args.goal_th,
+        })
+    }
 }
 
 impl Task for KeyTurn {
@@ -146,9 +139,5 @@ impl Task for KeyTurn {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

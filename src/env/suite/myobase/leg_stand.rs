@@ -1,28 +1,26 @@
 //! Standing: from a bent posture, the pelvis is to come to its place and stay there.
 
 use super::terrain;
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, effort};
 use crate::suite::myobase::tips::Tips;
 use crate::suite::named::Named;
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::Model;
 use physics::model::JointType;
 use robot::{Compat, Keeper};
 use serde::Deserialize;
-use toml::Table;
 
 /// Distance [m] of a site within which it has arrived.
 const NEAR: f64 = 0.05;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     target_reach_range: Named<[[f64; 3]; 2]>,
     #[serde(default)]
     joint_random_range: [f64; 2],
@@ -37,7 +35,7 @@ fn far_th() -> f64 {
 }
 
 #[derive(Clone)]
-struct LegStand {
+pub struct LegStand {
     muscles: Muscles,
     tips: Tips,
     /// How far [rad] joints start from the initial pose.
@@ -47,25 +45,19 @@ struct LegStand {
     offsets: Vec<f64>,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit, or elements are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    terrain::remove(setup.scene)?;
-    let tips = Tips::new(setup.scene, &args.target_reach_range, NEAR, args.far_th)?;
-    let offsets = vec![0.0; setup.scene.model.nq];
-    Ok(Box::new(LegStand { muscles, tips, bend: args.joint_random_range, compat: setup.compat, offsets }))
-}
-
 impl LegStand {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit, or elements are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        terrain::remove(setup.scene)?;
+        let tips = Tips::new(setup.scene, &args.target_reach_range, NEAR, args.far_th)?;
+        let offsets = vec![0.0; setup.scene.model.nq];
+        Ok(LegStand { muscles, tips, bend: args.joint_random_range, compat: setup.compat, offsets })
+    }
+
     /// Bends the joints of a pose within their ranges.
     fn bend(&mut self, model: &Model, qpos: &mut [f64], rng: &mut Rng) -> Result<(), EnvError> {
         rng.fill_uniform(self.bend[0], self.bend[1], &mut self.offsets)?;
@@ -133,9 +125,5 @@ impl Task for LegStand {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

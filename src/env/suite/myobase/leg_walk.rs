@@ -1,20 +1,18 @@
 //! Walking at a given speed, on flat ground or on a relief.
 
 use super::terrain::{self, Relief, Terrain};
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::{mat_of_quat, norm};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations, observe_muscles};
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::{Vec3, add_scaled, ops, scale, sub};
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
-use toml::Table;
 
 /// Height [m] of the centre of mass above the feet below which legs kneel.
 const KNEELING: f64 = 0.61;
@@ -29,7 +27,7 @@ const ROTATION: std::ops::Range<usize> = 3..7;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     #[serde(default = "eight_tenths")]
     min_height: f64,
     #[serde(default = "eight_tenths")]
@@ -92,7 +90,7 @@ struct Hips {
 }
 
 #[derive(Clone)]
-struct LegWalk {
+pub struct LegWalk {
     muscles: Muscles,
     terrain: Option<Terrain>,
     bodies: Bodies,
@@ -109,52 +107,48 @@ struct LegWalk {
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit, or elements are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    let fixed = args.variant.as_deref() == Some("fixed");
-    let terrain = match args.terrain {
-        Some(relief) => Some(Terrain::new(setup.scene, relief, fixed, setup.compat)?),
-        None => {
-            terrain::remove(setup.scene)?;
-            None
-        }
-    };
-    let scene = &*setup.scene;
-    let mut pose = Pose { qpos: vec![0.0; scene.model.nq], qvel: vec![0.0; scene.model.nv] };
-    terrain::key_pose(&scene.model, 0, &mut pose)?;
-    Ok(Box::new(LegWalk {
-        muscles,
-        terrain,
-        bodies: Bodies {
-            torso: scene.body("torso")?,
-            pelvis: scene.body("pelvis")?,
-            feet: [scene.body("talus_l")?, scene.body("talus_r")?],
-        },
-        hips: Hips {
-            flexion: places(scene, ["hip_flexion_l", "hip_flexion_r"])?,
-            spread: places(
-                scene,
-                ["hip_adduction_l", "hip_adduction_r", "hip_rotation_l", "hip_rotation_r"],
-            )?,
-        },
-        start: args.reset_type,
-        min_height: args.min_height,
-        max_rot: args.max_rot,
-        period: args.hip_period,
-        velocity: [args.target_x_vel, args.target_y_vel],
-        upright: args.target_rot.unwrap_or_else(|| std::array::from_fn(|k| pose.qpos[ROTATION][k])),
-        compat: setup.compat,
-    }))
+impl LegWalk {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit, or elements are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        let fixed = args.variant.as_deref() == Some("fixed");
+        let terrain = match args.terrain {
+            Some(relief) => Some(Terrain::new(setup.scene, relief, fixed, setup.compat)?),
+            None => {
+                terrain::remove(setup.scene)?;
+                None
+            }
+        };
+        let scene = &*setup.scene;
+        let mut pose = Pose { qpos: vec![0.0; scene.model.nq], qvel: vec![0.0; scene.model.nv] };
+        terrain::key_pose(&scene.model, 0, &mut pose)?;
+        Ok(LegWalk {
+            muscles,
+            terrain,
+            bodies: Bodies {
+                torso: scene.body("torso")?,
+                pelvis: scene.body("pelvis")?,
+                feet: [scene.body("talus_l")?, scene.body("talus_r")?],
+            },
+            hips: Hips {
+                flexion: places(scene, ["hip_flexion_l", "hip_flexion_r"])?,
+                spread: places(
+                    scene,
+                    ["hip_adduction_l", "hip_adduction_r", "hip_rotation_l", "hip_rotation_r"],
+                )?,
+            },
+            start: args.reset_type,
+            min_height: args.min_height,
+            max_rot: args.max_rot,
+            period: args.hip_period,
+            velocity: [args.target_x_vel, args.target_y_vel],
+            upright: args.target_rot.unwrap_or_else(|| std::array::from_fn(|k| pose.qpos[ROTATION][k])),
+            compat: setup.compat,
+        })
+    }
 }
 
 /// Where the angles of joints stand in the row `qpos_without_xy`.
@@ -312,9 +306,5 @@ impl Task for LegWalk {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

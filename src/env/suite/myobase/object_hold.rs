@@ -1,20 +1,18 @@
 //! Holding an object at a goal.
 
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, GeomId, SiteId};
 use physics::geometry::shape::{inertia, volume};
 use physics::math::{add, sub};
 use physics::model::GeomType;
 use robot::{Compat, Keeper};
 use serde::Deserialize;
-use toml::Table;
 
 /// Distance [m] within which the object is at the goal.
 const NEAR: f64 = 0.01;
@@ -31,7 +29,7 @@ const OBJECT: [usize; 2] = [7, 6];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     /// Whether goals and objects are drawn.
     #[serde(default)]
     randomize: bool,
@@ -40,7 +38,7 @@ struct Args {
 }
 
 #[derive(Clone)]
-struct ObjectHold {
+pub struct ObjectHold {
     muscles: Muscles,
     object: SiteId,
     goal: SiteId,
@@ -54,35 +52,29 @@ struct ObjectHold {
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit, or elements are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    let scene = &*setup.scene;
-    let (object, body, geom) = (scene.site("object")?, scene.body("object")?, scene.geom("object")?);
-    let size = scene.model.geom_size[geom.index()];
-    Ok(Box::new(ObjectHold {
-        muscles,
-        object,
-        goal: scene.site("goal")?,
-        body,
-        geom,
-        place: *scene.data.site(object).xpos(),
-        randomize: args.randomize,
-        density: scene.model.body_mass[body.index()] / volume(GeomType::Ellipsoid, size, false),
-        compat: setup.compat,
-    }))
-}
-
 impl ObjectHold {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit, or elements are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        let scene = &*setup.scene;
+        let (object, body, geom) = (scene.site("object")?, scene.body("object")?, scene.geom("object")?);
+        let size = scene.model.geom_size[geom.index()];
+        Ok(ObjectHold {
+            muscles,
+            object,
+            goal: scene.site("goal")?,
+            body,
+            geom,
+            place: *scene.data.site(object).xpos(),
+            randomize: args.randomize,
+            density: scene.model.body_mass[body.index()] / volume(GeomType::Ellipsoid, size, false),
+            compat: setup.compat,
+        })
+    }
+
     /// Draws where the goal is, and how large the object.
     fn draw(&self, scene: &mut Scene, rng: &mut Rng) -> Result<(), EnvError> {
         let (mut offset, mut size) = ([0.0; 3], [0.0; 3]);
@@ -149,9 +141,5 @@ impl Task for ObjectHold {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

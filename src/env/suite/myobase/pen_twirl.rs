@@ -1,12 +1,10 @@
 //! Twirling a pen until it points like its target.
 
 use super::turning::{self, Placement};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::{norm, quat_of_euler};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, observe_activations};
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::Data;
@@ -14,11 +12,10 @@ use physics::elements::{BodyId, SiteId};
 use physics::math::{Vec3, scale, sub};
 use robot::Keeper;
 use serde::Deserialize;
-use toml::Table;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     /// Whether targets are drawn.
     #[serde(default)]
     randomize: bool,
@@ -35,7 +32,7 @@ struct Rod {
 }
 
 #[derive(Clone)]
-struct PenTwirl {
+pub struct PenTwirl {
     muscles: Muscles,
     object: BodyId,
     target: BodyId,
@@ -44,27 +41,23 @@ struct PenTwirl {
     randomize: bool,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit, or elements are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    let scene = &*setup.scene;
-    Ok(Box::new(PenTwirl {
-        muscles,
-        object: scene.body("Object")?,
-        target: scene.body("target")?,
-        place: scene.site("eps_ball")?,
-        rods: [Rod::new(scene, "object")?, Rod::new(scene, "target")?],
-        randomize: args.randomize,
-    }))
+impl PenTwirl {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit, or elements are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        let scene = &*setup.scene;
+        Ok(PenTwirl {
+            muscles,
+            object: scene.body("Object")?,
+            target: scene.body("target")?,
+            place: scene.site("eps_ball")?,
+            rods: [Rod::new(scene, "object")?, Rod::new(scene, "target")?],
+            randomize: args.randomize,
+        })
+    }
 }
 
 impl Rod {
@@ -122,9 +115,5 @@ impl Task for PenTwirl {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

@@ -1,26 +1,24 @@
 //! Pose: joints are to take target angles.
 
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
 use crate::suite::named::Named;
-use crate::task::{Defaults, Episode, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::TAU;
-use toml::Table;
 
 /// Beyond this distance [rad] the episode ends.
 const FAR: f64 = TAU;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     #[serde(default)]
     viz_site_targets: Vec<String>,
     target_jnt_range: Option<Named<[f64; 2]>>,
@@ -72,7 +70,7 @@ struct Weight {
 }
 
 #[derive(Clone)]
-struct Pose {
+pub struct Pose {
     muscles: Muscles,
     /// Sites and those that show where they belong.
     sites: Vec<[SiteId; 2]>,
@@ -85,49 +83,47 @@ struct Pose {
     weight: Option<Weight>,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit each other or the model.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    let scene = &*setup.scene;
-    let ranges = match (&args.target_jnt_range, args.target_type) {
-        (Some(named), TargetType::Generate) => {
-            for (joint, _) in &named.0 {
-                scene.joint(joint)?;
+impl Pose {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit each other or the model.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        let scene = &*setup.scene;
+        let ranges = match (&args.target_jnt_range, args.target_type) {
+            (Some(named), TargetType::Generate) => {
+                for (joint, _) in &named.0 {
+                    scene.joint(joint)?;
+                }
+                Some([0, 1].map(|end| named.0.iter().map(|(_, range)| range[end]).collect::<Vec<f64>>()))
             }
-            Some([0, 1].map(|end| named.0.iter().map(|(_, range)| range[end]).collect::<Vec<f64>>()))
+            (None, TargetType::Generate) => {
+                return Err(setup.wrong("target_jnt_range is missing; or target_type is \"fixed\""));
+            }
+            (_, TargetType::Fixed) => None,
+        };
+        let target = match &ranges {
+            Some([low, high]) => low.iter().zip(high).map(|(low, high)| (low + high) / 2.0).collect(),
+            None => args.target_jnt_value.ok_or_else(|| setup.wrong("target_jnt_value is missing"))?,
+        };
+        let nq = scene.model.nq;
+        if target.len() != nq {
+            let message =
+                format!("{} target angles are given, and the model has {nq} joint positions", target.len());
+            return Err(setup.wrong(message));
         }
-        (None, TargetType::Generate) => {
-            return Err(spec.wrong("target_jnt_range is missing; or target_type is \"fixed\""));
-        }
-        (_, TargetType::Fixed) => None,
-    };
-    let target = match &ranges {
-        Some([low, high]) => low.iter().zip(high).map(|(low, high)| (low + high) / 2.0).collect(),
-        None => args.target_jnt_value.ok_or_else(|| spec.wrong("target_jnt_value is missing"))?,
-    };
-    let nq = scene.model.nq;
-    if target.len() != nq {
-        let message =
-            format!("{} target angles are given, and the model has {nq} joint positions", target.len());
-        return Err(spec.wrong(message));
+        let pair = |site: &String| Ok([scene.site(site)?, scene.site(&format!("{site}_target"))?]);
+        let sites = args.viz_site_targets.iter().map(pair).collect::<Result<_, EnvError>>()?;
+        let weight = match (args.weight_bodyname, args.weight_range) {
+            (Some(name), Some(range)) => {
+                Some(Weight { body: scene.body(&name)?, range, compat: setup.compat })
+            }
+            (None, None) => None,
+            _ => return Err(setup.wrong("weight_bodyname and weight_range belong together")),
+        };
+        Ok(Pose { muscles, sites, ranges, target, start: args.reset_type, near: args.pose_thd, weight })
     }
-    let pair = |site: &String| Ok([scene.site(site)?, scene.site(&format!("{site}_target"))?]);
-    let sites = args.viz_site_targets.iter().map(pair).collect::<Result<_, EnvError>>()?;
-    let weight = match (args.weight_bodyname, args.weight_range) {
-        (Some(name), Some(range)) => Some(Weight { body: scene.body(&name)?, range, compat: setup.compat }),
-        (None, None) => None,
-        _ => return Err(spec.wrong("weight_bodyname and weight_range belong together")),
-    };
-    Ok(Box::new(Pose { muscles, sites, ranges, target, start: args.reset_type, near: args.pose_thd, weight }))
 }
 
 impl Weight {
@@ -219,9 +215,5 @@ impl Task for Pose {
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
         keeper.numbers(&mut self.target);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

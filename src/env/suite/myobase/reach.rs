@@ -1,23 +1,20 @@
 //! Reaching: tips of fingers are to come to their targets.
 
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, effort};
 use crate::suite::myobase::tips::Tips;
 use crate::suite::named::Named;
 use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
 use robot::Keeper;
 use serde::Deserialize;
-use toml::Table;
 
 /// Distance [m] of a tip within which it has arrived.
 const NEAR: f64 = 0.0125;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     target_reach_range: Named<[[f64; 3]; 2]>,
     #[serde(default = "far_th")]
     far_th: f64,
@@ -30,25 +27,21 @@ fn far_th() -> f64 {
 }
 
 #[derive(Clone)]
-struct Reach {
+pub struct Reach {
     muscles: Muscles,
     tips: Tips,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit, or sites are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    let tips = Tips::new(setup.scene, &args.target_reach_range, NEAR, args.far_th)?;
-    Ok(Box::new(Reach { muscles, tips }))
+impl Reach {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit, or sites are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        let tips = Tips::new(setup.scene, &args.target_reach_range, NEAR, args.far_th)?;
+        Ok(Reach { muscles, tips })
+    }
 }
 
 impl Task for Reach {
@@ -85,9 +78,5 @@ impl Task for Reach {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

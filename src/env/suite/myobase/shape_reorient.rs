@@ -1,14 +1,14 @@
 //! Turning objects of many shapes until they point like their targets.
 
 use super::turning::{self, Placement};
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::quat_of_euler;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, observe_activations};
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, GeomId, SiteId};
 use physics::geometry::shape::inertia;
 use physics::math::{scale, sub};
@@ -29,7 +29,7 @@ const SMALLEST: &str = "geometries8";
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     /// The collection of shapes.
     shapes: String,
     #[serde(default)]
@@ -58,7 +58,7 @@ struct Shaped {
 }
 
 #[derive(Clone)]
-struct ShapeReorient {
+pub struct ShapeReorient {
     muscles: Muscles,
     shapes: Arc<Shapes>,
     object: BodyId,
@@ -71,32 +71,28 @@ struct ShapeReorient {
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings do not fit, or elements are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, args.muscle_condition, setup)?;
-    let scene = &*setup.scene;
-    Ok(Box::new(ShapeReorient {
-        muscles,
-        shapes: Arc::new(Shapes::collection(spec, &args.shapes)?),
-        object: scene.body("Object")?,
-        target: scene.body("target")?,
-        place: scene.site("eps_ball")?,
-        shaped: [
-            Shaped::new(scene, ["obj", "top", "bot"])?,
-            Shaped::new(scene, ["target", "t_top", "t_bot"])?,
-        ],
-        large: args.shapes != SMALLEST,
-        compat: setup.compat,
-    }))
+impl ShapeReorient {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings do not fit, or elements are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(args.muscle_condition, setup)?;
+        let scene = &*setup.scene;
+        Ok(ShapeReorient {
+            muscles,
+            shapes: Arc::new(Shapes::collection(setup.spec, &args.shapes)?),
+            object: scene.body("Object")?,
+            target: scene.body("target")?,
+            place: scene.site("eps_ball")?,
+            shaped: [
+                Shaped::new(scene, ["obj", "top", "bot"])?,
+                Shaped::new(scene, ["target", "t_top", "t_bot"])?,
+            ],
+            large: args.shapes != SMALLEST,
+            compat: setup.compat,
+        })
+    }
 }
 
 impl Shapes {
@@ -232,10 +228,6 @@ impl Task for ShapeReorient {
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
         self.shaped.iter_mut().for_each(|shaped| keeper.number(&mut shaped.length));
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }
 

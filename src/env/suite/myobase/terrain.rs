@@ -1,8 +1,9 @@
 //! The ground that legs walk on: flat, or a height field.
 
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::scene::Scene;
-use crate::task::{Pose, Rng};
+use crate::task::Pose;
 use physics::Model;
 use physics::elements::GeomId;
 use physics::math::ops;

@@ -1,12 +1,13 @@
 //! Sites that are to reach targets, and how far they are from them.
 
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::suite::muscle::observe_activations;
 use crate::suite::named::Named;
-use crate::task::{Rng, Verdict, View};
+use crate::task::{Verdict, View};
 use physics::elements::SiteId;
 use physics::math::{add, sub};
 

@@ -1,14 +1,13 @@
 //! Two balls that circle each other in the palm, or rest there.
 
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::baoding::{Following, KEYS};
 use crate::suite::circling::{Circling, draw_radii, open_hand};
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Success, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, GeomId};
 use physics::geometry::shape;
 use physics::math::Vec3;
@@ -16,14 +15,13 @@ use physics::model::{Draft, GeomType};
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
-use toml::Table;
 
 /// Time of a turn [s] before the first reset.
 const FIRST_PERIOD: f64 = 6.0;
 
 #[derive(Clone, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-struct Args {
+pub struct Args {
     /// Height below which a ball is dropped [m].
     drop_th: f64,
     /// Distance from its target within which a ball is right [m].
@@ -81,7 +79,7 @@ struct Balls {
 }
 
 #[derive(Clone)]
-struct Baoding {
+pub struct Baoding {
     args: Args,
     compat: Compat,
     muscles: Muscles,
@@ -92,36 +90,32 @@ struct Baoding {
     friction: Option<[Vec3; 2]>,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings are wrong, or the model lacks the balls or their targets.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, Condition::None, setup)?;
-    let random = args.task_choice == Choice::Random;
-    let way = if random { *setup.rng.choose(&WAYS)? } else { AGAINST_THE_CLOCK };
-    let radii = draw_radii([args.goal_xrange, args.goal_yrange], setup.rng)?;
-    let scene = &*setup.scene;
-    let geoms = [scene.geom("ball1")?, scene.geom("ball2")?];
-    let nominal = scene.model.geom_friction[geoms[0].index()];
-    let bound = |side: f64, change: Vec3| [0, 1, 2].map(|k| nominal[k] + side * change[k]);
-    let mut circling = Circling::new(scene, radii, FIRST_PERIOD, opposite(FRAC_PI_4))?;
-    circling.orbit.direction = way;
-    Ok(Box::new(Baoding {
-        compat: setup.compat,
-        muscles,
-        bodies: [scene.body("ball1")?, scene.body("ball2")?],
-        geoms,
-        circling,
-        friction: args.obj_friction_change.map(|change| [bound(-1.0, change), bound(1.0, change)]),
-        args,
-    }))
+impl Baoding {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings are wrong, or the model lacks the balls or their targets.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(Condition::None, setup)?;
+        let random = args.task_choice == Choice::Random;
+        let way = if random { *setup.rng.choose(&WAYS)? } else { AGAINST_THE_CLOCK };
+        let radii = draw_radii([args.goal_xrange, args.goal_yrange], setup.rng)?;
+        let scene = &*setup.scene;
+        let geoms = [scene.geom("ball1")?, scene.geom("ball2")?];
+        let nominal = scene.model.geom_friction[geoms[0].index()];
+        let bound = |side: f64, change: Vec3| [0, 1, 2].map(|k| nominal[k] + side * change[k]);
+        let mut circling = Circling::new(scene, radii, FIRST_PERIOD, opposite(FRAC_PI_4))?;
+        circling.orbit.direction = way;
+        Ok(Baoding {
+            compat: setup.compat,
+            muscles,
+            bodies: [scene.body("ball1")?, scene.body("ball2")?],
+            geoms,
+            circling,
+            friction: args.obj_friction_change.map(|change| [bound(-1.0, change), bound(1.0, change)]),
+            args,
+        })
+    }
 }
 
 /// Angles of two balls [rad] opposite each other; the first is at `angle`.
@@ -231,9 +225,5 @@ impl Task for Baoding {
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
         self.circling.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

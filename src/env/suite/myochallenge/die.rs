@@ -1,8 +1,8 @@
 //! The die of a model, and how resets vary it.
 
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::scene::Scene;
-use crate::task::Rng;
 use physics::elements::BodyId;
 use physics::math::Vec3;
 use physics::model::Draft;

@@ -1,11 +1,11 @@
 //! An object of random shapes: three geoms of any kind, rigidly joined.
 
 use crate::Compat;
+use crate::draws::Ranges;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::quat_of_euler;
 use crate::scene::Scene;
-use crate::suite::Ranges;
-use crate::task::Rng;
 use physics::elements::BodyId;
 use physics::geometry::shape;
 use physics::math::{Quat, Vec3, inertia_about, principal_axes, quat_to_mat};

@@ -1,20 +1,18 @@
 //! Carrying an object with the whole arm into a receptacle.
 
 use super::object::{Object, ObjectArgs};
-use crate::assets::Assets;
+use crate::draws::Ranges;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_mat, norm, quat_of_euler};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
-use crate::suite::Ranges;
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::sub;
 use robot::{Compat, Keeper};
 use serde::Deserialize;
-use toml::Table;
 
 /// Coordinates of the object, the last ones of the model: three slides and three hinges.
 const OBJECT_JOINTS: usize = 6;
@@ -24,7 +22,7 @@ const ATTEMPTS: usize = 1000;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     /// Positions of the receptacle [m].
     target_xyz_range: Ranges,
     /// Euler angles of the receptacle [rad].
@@ -70,7 +68,7 @@ fn drop_th() -> f64 {
 }
 
 #[derive(Clone)]
-struct Relocate {
+pub struct Relocate {
     compat: Compat,
     muscles: Muscles,
     palm: SiteId,
@@ -86,51 +84,46 @@ struct Relocate {
     reach: f64,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings are wrong, or the model lacks hand, object, receptacle or key frames.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, Condition::None, setup)?;
-    let scene = &*setup.scene;
-    if scene.model.nq <= OBJECT_JOINTS + 1 {
-        return Err(
-            spec.wrong(format!("its model has {} joints, too few for an object and an arm", scene.model.nq))
-        );
-    }
-    let key = usize::from(args.obj_xyz_range.is_some());
-    if key >= scene.model.nkey {
-        return Err(spec.wrong(format!("its model has no key frame {key}, in which episodes start")));
-    }
-    let shape = ObjectArgs {
-        places: args.obj_xyz_range,
-        sizes: args.obj_geom_range,
-        mass: args.obj_mass_range.map(|bounds| [bounds.low, bounds.high]),
-        friction: args.obj_friction_range,
-    };
-    Ok(Box::new(Relocate {
-        compat: setup.compat,
-        muscles,
-        palm: scene.site("S_grasp")?,
-        object: scene.site("object_o")?,
-        goal: scene.site("target_o")?,
-        goal_body: scene.body("target")?,
-        targets: [args.target_xyz_range, args.target_rxryrz_range],
-        shape: Object::new(shape, scene)?,
-        noise: args.qpos_noise_range,
-        key,
-        solved_within: [args.pos_th, args.rot_th],
-        reach: args.drop_th,
-    }))
-}
-
 impl Relocate {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings are wrong, or the model lacks hand, object, receptacle or key frames.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(Condition::None, setup)?;
+        let scene = &*setup.scene;
+        if scene.model.nq <= OBJECT_JOINTS + 1 {
+            return Err(setup.wrong(format!(
+                "its model has {} joints, too few for an object and an arm",
+                scene.model.nq
+            )));
+        }
+        let key = usize::from(args.obj_xyz_range.is_some());
+        if key >= scene.model.nkey {
+            return Err(setup.wrong(format!("its model has no key frame {key}, in which episodes start")));
+        }
+        let shape = ObjectArgs {
+            places: args.obj_xyz_range,
+            sizes: args.obj_geom_range,
+            mass: args.obj_mass_range.map(|bounds| [bounds.low, bounds.high]),
+            friction: args.obj_friction_range,
+        };
+        Ok(Relocate {
+            compat: setup.compat,
+            muscles,
+            palm: scene.site("S_grasp")?,
+            object: scene.site("object_o")?,
+            goal: scene.site("target_o")?,
+            goal_body: scene.body("target")?,
+            targets: [args.target_xyz_range, args.target_rxryrz_range],
+            shape: Object::new(shape, scene)?,
+            noise: args.qpos_noise_range,
+            key,
+            solved_within: [args.pos_th, args.rot_th],
+            reach: args.drop_th,
+        })
+    }
+
     /// Draws where the receptacle stands, and what the object is.
     fn draw(&mut self, scene: &mut Scene, rng: &mut Rng) -> Result<(), EnvError> {
         let place = self.targets[0].draw(rng)?;
@@ -233,9 +226,5 @@ impl Task for Relocate {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

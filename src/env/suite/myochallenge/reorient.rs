@@ -1,12 +1,10 @@
 //! Turning a die in the hand until it lies as a second die does, beside which it is shown.
 
 use super::die::Die;
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_mat, norm, quat_of_euler};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations};
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, GeomId, SiteId};
@@ -14,7 +12,6 @@ use physics::math::{Vec3, add, sub};
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::sync::Arc;
-use toml::Table;
 
 /// Coordinates of the die, the last ones of the model: three slides and three hinges.
 const DIE_JOINTS: usize = 6;
@@ -24,7 +21,7 @@ const PALM_UP: f64 = -1.5;
 
 #[derive(Deserialize)]
 #[serde(default, deny_unknown_fields)]
-struct Args {
+pub struct Args {
     /// Offsets of the goal from its place in the model, per axis [m].
     goal_pos: [f64; 2],
     /// Euler angles of the goal [rad].
@@ -59,7 +56,7 @@ impl Default for Args {
 }
 
 #[derive(Clone)]
-struct Reorient {
+pub struct Reorient {
     args: Arc<Args>,
     compat: Compat,
     muscles: Muscles,
@@ -75,41 +72,37 @@ struct Reorient {
     die: Die,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings are wrong, or the model has no die and goal.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, Condition::None, setup)?;
-    let scene = &*setup.scene;
-    if scene.model.nq <= DIE_JOINTS + 1 {
-        return Err(
-            spec.wrong(format!("its model has {} joints, too few for a die and a hand", scene.model.nq))
-        );
+impl Reorient {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings are wrong, or the model has no die and goal.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(Condition::None, setup)?;
+        let scene = &*setup.scene;
+        if scene.model.nq <= DIE_JOINTS + 1 {
+            return Err(
+                setup.wrong(format!("its model has {} joints, too few for a die and a hand", scene.model.nq))
+            );
+        }
+        let (object, goal) = (scene.site("object_o")?, scene.site("target_o")?);
+        let goal_geom = scene.geom("target_dice")?;
+        let goal_place = *scene.data.site(goal).xpos();
+        let die = Die::new(scene, args.obj_mass_range, args.obj_size_change, args.obj_friction_change)?;
+        Ok(Reorient {
+            compat: setup.compat,
+            muscles,
+            object,
+            goal,
+            goal_body: scene.body("target")?,
+            goal_geom,
+            goal_size: scene.model.geom_size[goal_geom.index()],
+            goal_place,
+            offset: sub(goal_place, *scene.data.site(object).xpos()),
+            die,
+            args: args.into(),
+        })
     }
-    let (object, goal) = (scene.site("object_o")?, scene.site("target_o")?);
-    let goal_geom = scene.geom("target_dice")?;
-    let goal_place = *scene.data.site(goal).xpos();
-    let die = Die::new(scene, args.obj_mass_range, args.obj_size_change, args.obj_friction_change)?;
-    Ok(Box::new(Reorient {
-        compat: setup.compat,
-        muscles,
-        object,
-        goal,
-        goal_body: scene.body("target")?,
-        goal_geom,
-        goal_size: scene.model.geom_size[goal_geom.index()],
-        goal_place,
-        offset: sub(goal_place, *scene.data.site(object).xpos()),
-        die,
-        args: args.into(),
-    }))
 }
 
 impl Task for Reorient {
@@ -194,9 +187,5 @@ impl Task for Reorient {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.muscles.keep(keeper);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

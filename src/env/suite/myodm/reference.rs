@@ -1,8 +1,8 @@
 //! Reference motions: where a robot and an object should be at a time.
 
 use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
-use crate::task::Rng;
 use dataset::NpzReader;
 use physics::math::{ops, quat_normalize};
 use robot::{Compat, Keeper};

@@ -1,20 +1,18 @@
 //! Grasping an object with a muscle-driven hand and moving it along a reference.
 
 use super::reference::{Reference, Source};
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_quat, norm, quat_of_mat, turn_between};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, observe_activations};
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::{ops, sub};
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::PI;
-use toml::Table;
 
 /// Coordinates of the object, the last ones of the model: three slides and three hinges.
 const OBJECT_JOINTS: usize = 6;
@@ -30,7 +28,7 @@ const ASTRAY: f64 = 0.75;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     /// Name of the object's body.
     object_name: String,
     reference: Source,
@@ -50,7 +48,7 @@ fn yes() -> bool {
 }
 
 #[derive(Clone)]
-struct Track {
+pub struct Track {
     compat: Compat,
     muscles: Muscles,
     object: BodyId,
@@ -65,40 +63,34 @@ struct Track {
     ends_astray: bool,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings are wrong, the reference does not fit the model, or the model lacks the object.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    assets: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let muscles = Muscles::new(spec, Condition::None, setup)?;
-    let scene = &*setup.scene;
-    let object = scene.body(&args.object_name)?;
-    let Some(joints) = scene.model.nq.checked_sub(OBJECT_JOINTS) else {
-        return Err(spec.wrong(format!("its model has fewer than {OBJECT_JOINTS} joints")));
-    };
-    let reference = args.reference.load(joints, assets, setup.compat);
-    Ok(Box::new(Track {
-        compat: setup.compat,
-        muscles,
-        object,
-        wrist: scene.body("lunate")?,
-        target: scene.site("target")?,
-        reference: reference.map_err(|message| spec.wrong(message))?,
-        own_rng: setup.rng.clone(),
-        start_time: args.motion_start_time,
-        lift_height: scene.data.body(object).xipos()[2] + LIFTED,
-        ends_without_object: args.ends_without_object,
-        ends_astray: args.ends_astray,
-    }))
-}
-
 impl Track {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings are wrong, the reference does not fit the model, or the model lacks the object.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let muscles = Muscles::new(Condition::None, setup)?;
+        let scene = &*setup.scene;
+        let object = scene.body(&args.object_name)?;
+        let Some(joints) = scene.model.nq.checked_sub(OBJECT_JOINTS) else {
+            return Err(setup.wrong(format!("its model has fewer than {OBJECT_JOINTS} joints")));
+        };
+        let reference = args.reference.load(joints, setup.assets, setup.compat);
+        Ok(Track {
+            compat: setup.compat,
+            muscles,
+            object,
+            wrist: scene.body("lunate")?,
+            target: scene.site("target")?,
+            reference: reference.map_err(|message| setup.wrong(message))?,
+            own_rng: setup.rng.clone(),
+            start_time: args.motion_start_time,
+            lift_height: scene.data.body(object).xipos()[2] + LIFTED,
+            ends_without_object: args.ends_without_object,
+            ends_astray: args.ends_astray,
+        })
+    }
+
     /// Puts the mark where the object should be at a time [s].
     fn show_target(&self, scene: &mut Scene, time: f64) -> Result<(), EnvError> {
         let [x, y, z, ..] = self.reference.at(time + self.start_time).object;
@@ -207,9 +199,5 @@ impl Task for Track {
         self.muscles.keep(keeper);
         self.reference.keep(keeper);
         keeper.generator(&mut self.own_rng);
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

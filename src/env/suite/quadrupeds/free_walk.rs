@@ -1,17 +1,14 @@
 //! Walking with a torso that floats freely: the robot is to come to a target, looking at it.
 
 use super::walk::{Gait, reward};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::{cosine, norm};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 use physics::elements::SiteId;
 use physics::math::ops;
 use serde::Deserialize;
-use toml::Table;
 
 /// Positions and degrees of freedom of the torso; the legs' stand behind them.
 const TORSO: [usize; 2] = [7, 6];
@@ -20,7 +17,7 @@ const UPRIGHT: f64 = 0.9;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Args {
+pub struct Args {
     torso_site_name: String,
     target_site_name: String,
     /// Distance of the target [m].
@@ -32,7 +29,7 @@ struct Args {
 }
 
 #[derive(Clone)]
-struct FreeWalk {
+pub struct FreeWalk {
     torso: SiteId,
     target: SiteId,
     distance: [f64; 2],
@@ -41,32 +38,28 @@ struct FreeWalk {
     gait: Gait,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings, sites or the key frame are missing; the torso does not float.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let m = &setup.scene.model;
-    if m.nkey == 0 || m.nq <= TORSO[0] || m.nq - m.nv != TORSO[0] - TORSO[1] {
-        return Err(
-            spec.wrong("the model needs a torso with a free joint, legs, and a key frame to stand in")
-        );
+impl FreeWalk {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings, sites or the key frame are missing; the torso does not float.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let m = &setup.scene.model;
+        if m.nkey == 0 || m.nq <= TORSO[0] || m.nq - m.nv != TORSO[0] - TORSO[1] {
+            return Err(
+                setup.wrong("the model needs a torso with a free joint, legs, and a key frame to stand in")
+            );
+        }
+        let [low, high] = args.target_distance_range;
+        Ok(FreeWalk {
+            torso: setup.scene.site(&args.torso_site_name)?,
+            target: setup.scene.site(&args.target_site_name)?,
+            distance: args.target_distance_range,
+            angle: args.target_angle_range,
+            noise: args.joint_noise,
+            gait: Gait { upright: UPRIGHT, distance: (low + high) / 2.0, height: m.key_qpos[2] },
+        })
     }
-    let [low, high] = args.target_distance_range;
-    Ok(Box::new(FreeWalk {
-        torso: setup.scene.site(&args.torso_site_name)?,
-        target: setup.scene.site(&args.target_site_name)?,
-        distance: args.target_distance_range,
-        angle: args.target_angle_range,
-        noise: args.joint_noise,
-        gait: Gait { upright: UPRIGHT, distance: (low + high) / 2.0, height: m.key_qpos[2] },
-    }))
 }
 
 impl Task for FreeWalk {
@@ -112,9 +105,5 @@ impl Task for FreeWalk {
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         let [heading, upright] = ["heading", "upright"].map(|row| rows[row][0]);
         reward(&self.gait, norm(&rows["target_error"]), heading, [upright, rows["torso_pos"][2]], terms)
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

@@ -3,7 +3,6 @@
 use crate::error::EnvError;
 use crate::rotation::cosine;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Pose, Setup, View};
 use physics::elements::SiteId;
 use physics::math::ops;
@@ -106,7 +105,7 @@ impl Kitty {
     ///
     /// # Errors
     /// Elements are missing; the id has no robot configuration.
-    pub fn new(spec: &Spec, args: &Args, distance: [f64; 2], setup: &Setup<'_>) -> Result<Self, EnvError> {
+    pub fn new(args: &Args, distance: [f64; 2], setup: &Setup<'_>) -> Result<Self, EnvError> {
         let scene = &*setup.scene;
         let [first, last] = &args.dof_range_names;
         let (first, last) = (scene.joint(first)?, scene.joint(last)?);
@@ -116,7 +115,7 @@ impl Kitty {
         let m = &scene.model;
         let (first, last) = (m.joint(first), m.joint(last));
         if m.nq < ROOT || m.nv < ROOT {
-            return Err(spec.wrong("the model needs three slides and three hinges of a torso, and legs"));
+            return Err(setup.wrong("the model needs three slides and three hinges of a torso, and legs"));
         }
         Ok(Kitty {
             torso: scene.site(&args.torso_site_name)?,
@@ -124,7 +123,7 @@ impl Kitty {
             heading: scene.site(&args.heading_site_name)?,
             qpos: first.qpos_range().start..last.qpos_range().end,
             qvel: first.dof_range().start..last.dof_range().end,
-            limits: limits(spec, setup)?,
+            limits: limits(setup)?,
             distance,
             angle: args.target_angle_range,
             compat: setup.compat,
@@ -198,13 +197,13 @@ impl Kitty {
 }
 
 /// The limits of the configuration, in its order.
-fn limits(spec: &Spec, setup: &Setup<'_>) -> Result<Vec<Limit>, EnvError> {
-    let config = setup.config.ok_or_else(|| spec.wrong("config_path is missing, which names the limits"))?;
+fn limits(setup: &Setup<'_>) -> Result<Vec<Limit>, EnvError> {
+    let config = setup.config.ok_or_else(|| setup.wrong("config_path is missing, which names the limits"))?;
     let m = &setup.scene.model;
     let limit = |actuator: &robot::ActuatorConfig| -> Result<Limit, EnvError> {
         let id = setup.scene.actuator(&actuator.name)?;
         let joint = usize::try_from(m.actuator_trnid[id.index()][0])
-            .map_err(|_| spec.wrong(format!("the actuator {} moves no joint", actuator.name)))?;
+            .map_err(|_| setup.wrong(format!("the actuator {} moves no joint", actuator.name)))?;
         Ok(Limit { place: m.jnt_qposadr[joint] as usize, range: actuator.position_range })
     };
     config.devices.iter().flat_map(|device| &device.actuators).map(limit).collect()

@@ -1,42 +1,35 @@
 //! Orienting: the robot is to turn on the spot until it looks at a target.
 
 use super::kitty::{Args, Kitty};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
-use toml::Table;
 
 /// Cosine of the angle between heading and target at which the task is solved, some 5 degrees.
 const ALIGNED: f64 = 0.996;
 
 #[derive(Clone)]
-struct Orient {
+pub struct Orient {
     kitty: Kitty,
     upright: f64,
     height: f64,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings, elements or the configuration are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let distance = args.target_distance_range.unwrap_or([0.0, 0.0]);
-    Ok(Box::new(Orient {
-        kitty: Kitty::new(spec, &args, distance, setup)?,
-        upright: args.upright_threshold.unwrap_or(0.9),
-        height: (args.target_height_range[0] + args.target_height_range[1]) / 2.0,
-    }))
+impl Orient {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings, elements or the configuration are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let distance = args.target_distance_range.unwrap_or([0.0, 0.0]);
+        Ok(Orient {
+            kitty: Kitty::new(&args, distance, setup)?,
+            upright: args.upright_threshold.unwrap_or(0.9),
+            height: (args.target_height_range[0] + args.target_height_range[1]) / 2.0,
+        })
+    }
 }
 
 impl Task for Orient {
@@ -80,9 +73,5 @@ impl Task for Orient {
         terms.set("bonus_small", "", [f64::from(stands) + f64::from(heading > 0.9)]);
         terms.set("bonus_big", "", [f64::from(solved)]);
         Verdict { sparse: heading, solved, done: fallen }
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

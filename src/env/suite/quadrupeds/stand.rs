@@ -1,15 +1,12 @@
 //! Standing: the robot is to stretch its legs from a crouch, or from anywhere.
 
 use super::kitty::{Args, Kitty, Start};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Setup, Task, Verdict, View};
 use robot::Compat;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4, FRAC_PI_6, PI};
-use toml::Table;
 
 /// The joints of a crouched leg [rad].
 const CROUCH: [f64; 3] = [0.0, FRAC_PI_4, -FRAC_PI_2];
@@ -21,31 +18,27 @@ const STRETCHED: f64 = PI / 12.0;
 const DISTANCE: [f64; 2] = [2.3, 2.3];
 
 #[derive(Clone)]
-struct Stand {
+pub struct Stand {
     kitty: Kitty,
     upright: f64,
     start: Start,
     compat: Compat,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings, elements or the configuration are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let distance = args.target_distance_range.unwrap_or(DISTANCE);
-    Ok(Box::new(Stand {
-        kitty: Kitty::new(spec, &args, distance, setup)?,
-        upright: args.upright_threshold.unwrap_or(0.0),
-        start: args.reset_type.unwrap_or_default(),
-        compat: setup.compat,
-    }))
+impl Stand {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings, elements or the configuration are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let distance = args.target_distance_range.unwrap_or(DISTANCE);
+        Ok(Stand {
+            kitty: Kitty::new(&args, distance, setup)?,
+            upright: args.upright_threshold.unwrap_or(0.0),
+            start: args.reset_type.unwrap_or_default(),
+            compat: setup.compat,
+        })
+    }
 }
 
 impl Task for Stand {
@@ -115,9 +108,5 @@ impl Task for Stand {
         terms.set("bonus_small", "", [f64::from(error < FRAC_PI_6) * upright]);
         terms.set("bonus_big", "", [f64::from(solved)]);
         Verdict { sparse: score, solved, done: fallen }
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

@@ -1,14 +1,11 @@
 //! Walking: the robot is to come to a target, looking at it.
 
 use super::kitty::{Args, Kitty};
-use crate::assets::Assets;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
-use toml::Table;
 
 /// Distance of the target [m], where the id gives none.
 const DISTANCE: [f64; 2] = [2.3, 2.3];
@@ -60,32 +57,28 @@ pub(super) fn reward(
 }
 
 #[derive(Clone)]
-struct Walk {
+pub struct Walk {
     kitty: Kitty,
     gait: Gait,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings, elements or the configuration are missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    _: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let distance = args.target_distance_range.unwrap_or(DISTANCE);
-    let mean = |[low, high]: [f64; 2]| (low + high) / 2.0;
-    Ok(Box::new(Walk {
-        kitty: Kitty::new(spec, &args, distance, setup)?,
-        gait: Gait {
-            upright: args.upright_threshold.unwrap_or(0.9),
-            distance: mean(distance),
-            height: mean(args.target_height_range),
-        },
-    }))
+impl Walk {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings, elements or the configuration are missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let distance = args.target_distance_range.unwrap_or(DISTANCE);
+        let mean = |[low, high]: [f64; 2]| (low + high) / 2.0;
+        Ok(Walk {
+            kitty: Kitty::new(&args, distance, setup)?,
+            gait: Gait {
+                upright: args.upright_threshold.unwrap_or(0.9),
+                distance: mean(distance),
+                height: mean(args.target_height_range),
+            },
+        })
+    }
 }
 
 impl Task for Walk {
@@ -109,9 +102,5 @@ impl Task for Walk {
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         let (heading, upright, height) = (rows["heading"][0], rows["upright"][0], rows["root_pos"][2]);
         reward(&self.gait, norm(&rows["target_error"]), heading, [upright, height], terms)
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

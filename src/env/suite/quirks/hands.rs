@@ -1,6 +1,6 @@
 //! The Adroit hand.
 
-use super::Quirk;
+use super::quirk::Quirk;
 
 /// What RoboHive does otherwise than it means to in these suites.
 pub const QUIRKS: &[Quirk] = &[

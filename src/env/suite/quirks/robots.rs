@@ -1,6 +1,6 @@
 //! Arms, claws, laboratory robots, kitchen and quadrupeds.
 
-use super::Quirk;
+use super::quirk::Quirk;
 
 /// What RoboHive does otherwise than it means to in these suites.
 pub const QUIRKS: &[Quirk] = &[

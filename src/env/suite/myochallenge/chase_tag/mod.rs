@@ -8,21 +8,19 @@ mod start;
 mod terrain;
 mod window;
 
-use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_quat, norm};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::spec::Spec;
 use crate::suite::muscle::{Condition, Muscles, effort, observe_activations, observe_muscles};
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use opponent::Opponent;
 use physics::elements::{BodyId, GeomId, SensorId, SiteId};
 use robot::{Compat, Keeper};
 use settings::{Args, Choice};
 use start::Start;
 use terrain::{Terrain, flatten};
-use toml::Table;
 
 /// Length of a game [s].
 const GAME: f64 = 20.0;
@@ -56,7 +54,7 @@ struct Agent {
 }
 
 #[derive(Clone)]
-struct ChaseTag {
+pub struct ChaseTag {
     compat: Compat,
     muscles: Muscles,
     agent: Agent,
@@ -71,39 +69,35 @@ struct ChaseTag {
     catch: f64,
 }
 
-/// Builds the task.
-///
-/// # Errors
-/// Settings are wrong, the model lacks agent, opponent or ground, or the relief is missing.
-pub fn build(
-    spec: &Spec,
-    own: Table,
-    assets: &dyn Assets,
-    setup: &mut Setup<'_>,
-) -> Result<Box<dyn Task>, EnvError> {
-    let args: Args = spec.task_args(own)?;
-    let opponent = args.opponent().map_err(|message| spec.wrong(message))?;
-    let muscles = Muscles::new(spec, Condition::None, setup)?;
-    let agent = Agent::new(setup.scene)?;
-    if let Some(keys) = args.reset_type.missing_keys(&setup.scene.model) {
-        return Err(spec.wrong(keys));
+impl ChaseTag {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// Settings are wrong, the model lacks agent, opponent or ground, or the relief is missing.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let opponent = args.opponent().map_err(|message| setup.wrong(message))?;
+        let muscles = Muscles::new(Condition::None, setup)?;
+        let agent = Agent::new(setup.scene)?;
+        if let Some(keys) = args.reset_type.missing_keys(&setup.scene.model) {
+            return Err(setup.wrong(keys));
+        }
+        let mut terrain = args.ground(setup, setup.assets).map_err(|message| setup.wrong(message))?;
+        if let Some(terrain) = &mut terrain {
+            draw_ground(terrain, setup.scene, setup.rng)?;
+        }
+        Ok(ChaseTag {
+            compat: setup.compat,
+            muscles,
+            agent,
+            opponent: Opponent::new(opponent, setup.scene, setup.rng)?,
+            before: None,
+            terrain,
+            start: args.reset_type,
+            choice: args.task_choice,
+            role: Role::Chase,
+            catch: args.win_distance,
+        })
     }
-    let mut terrain = args.ground(setup, assets).map_err(|message| spec.wrong(message))?;
-    if let Some(terrain) = &mut terrain {
-        draw_ground(terrain, setup.scene, setup.rng)?;
-    }
-    Ok(Box::new(ChaseTag {
-        compat: setup.compat,
-        muscles,
-        agent,
-        opponent: Opponent::new(opponent, setup.scene, setup.rng)?,
-        before: None,
-        terrain,
-        start: args.reset_type,
-        choice: args.task_choice,
-        role: Role::Chase,
-        catch: args.win_distance,
-    }))
 }
 
 impl Agent {
@@ -279,9 +273,5 @@ impl Task for ChaseTag {
         if let Some(terrain) = &mut self.terrain {
             terrain.keep(keeper);
         }
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }

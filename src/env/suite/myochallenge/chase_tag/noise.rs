@@ -1,8 +1,8 @@
 //! Noise whose power falls with the square of the frequency, as series of fixed length (Timmer and Koenig, "On generating power
 //! law noise", Astronomy and Astrophysics 300, 1995).
 
+use crate::draws::Rng;
 use crate::error::EnvError;
-use crate::task::Rng;
 use physics::math::ops;
 use robot::Keeper;
 use std::f64::consts::{SQRT_2, TAU};

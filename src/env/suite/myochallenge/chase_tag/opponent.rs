@@ -2,10 +2,10 @@
 
 use super::noise::Noise;
 use super::repeller;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_quat, norm, quat_of_euler};
 use crate::scene::Scene;
-use crate::task::Rng;
 use physics::Data;
 use physics::elements::BodyId;
 use physics::math::ops;

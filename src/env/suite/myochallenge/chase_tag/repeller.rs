@@ -1,9 +1,9 @@
 //! Running away from the agent and from walls, as if all of them repelled.
 
 use super::noise::Noise;
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
-use crate::task::Rng;
 use physics::math::ops;
 use std::f64::consts::TAU;
 

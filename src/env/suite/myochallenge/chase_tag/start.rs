@@ -1,8 +1,9 @@
 //! Where the agent starts: in a key frame of a step, perhaps elsewhere on the ground and looking elsewhere.
 
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::{euler_of_quat, norm, quat_of_euler};
-use crate::task::{Pose, Rng};
+use crate::task::Pose;
 use physics::Model;
 use physics::math::ops;
 use robot::Compat;

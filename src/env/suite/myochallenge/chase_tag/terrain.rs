@@ -1,7 +1,7 @@
 //! Ground of nine patches: flat, hilly, rough, or a relief.
 
+use crate::draws::Rng;
 use crate::error::EnvError;
-use crate::task::Rng;
 use physics::math::ops;
 use random::RandomState;
 use robot::Keeper;

@@ -1,9 +1,8 @@
 //! What an environment remembers, in a form that another process can take over: it goes on to the last bit.
 
-use crate::environment::Env;
+use super::env::Env;
 use crate::error::EnvError;
 use crate::randomize::Look;
-use crate::rows::Rows;
 use crate::scene::Scene;
 use physics::Snapshot;
 use physics::table::Slice;
@@ -85,8 +84,8 @@ impl Env {
         if let Some(look) = &mut self.look {
             Look::keep(look, keeper);
         }
-        keep_rows(&mut self.rows, keeper);
-        keep_rows(&mut self.terms, keeper);
+        self.rows.keep(keeper);
+        self.terms.keep(keeper);
         keeper.number(&mut self.verdict.sparse);
         keeper.flag(&mut self.verdict.solved);
         keeper.flag(&mut self.verdict.done);
@@ -115,13 +114,6 @@ fn keep_state(scene: &mut Scene, keeper: &mut Keeper) {
         keeper.numbers(values);
         data.state.assign(name, values);
     }
-}
-
-/// The values of rows that both sides have.
-pub(crate) fn keep_rows(rows: &mut Rows, keeper: &mut Keeper) {
-    let mut values = rows.values().to_vec();
-    keeper.numbers(&mut values);
-    rows.assign(&values);
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Networks that turn pictures into features, for visual keys such as `rgb:CAMERA:224x224:r3m18`.
 
 use crate::message::message;
-use crate::visual::Encoder;
+use crate::pictures::visual::Encoder;
 use robot::Compat;
 use std::sync::Arc;
 

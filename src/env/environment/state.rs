@@ -1,12 +1,13 @@
 //! States of an environment: saved ones, which continue an episode exactly, and recorded ones, which hold what RoboHive
 //! writes into its traces.
 
-use crate::environment::{Env, Past};
+use super::env::{Env, Past};
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::randomize::{Look, LookState};
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::task::{Rng, Task, Verdict};
+use crate::task::{Task, Verdict};
 use physics::{Model, Snapshot};
 use robot::Memory;
 

@@ -152,6 +152,36 @@ pub fn parse_keys<'a>(
     Ok(keys)
 }
 
+impl Encoder {
+    /// The number of features, where a network finds them.
+    pub fn network(self) -> Option<usize> {
+        match self {
+            Encoder::Flat | Encoder::Image => None,
+            Encoder::R3m(depth) | Encoder::Rrl(depth) => Some(if depth == 50 { 2048 } else { 512 }),
+            Encoder::Vc1 { large } => Some(if large { 1024 } else { 768 }),
+        }
+    }
+}
+
+impl VisualKey {
+    /// Shape of the image: H x W x 3 colours (`2d`), all of them in one row (`1d`), the features of a network, or 1 x H x W
+    /// depths.
+    pub fn shape(&self) -> Vec<usize> {
+        let (height, width) = (self.height, self.width);
+        match (self.channel, self.encoder) {
+            (Channel::Depth, _) => vec![1, height, width],
+            (Channel::Rgb, Encoder::Flat) => vec![height * width * 3],
+            (Channel::Rgb, Encoder::Image) => vec![height, width, 3],
+            (Channel::Rgb, encoder) => encoder.network().into_iter().collect(),
+        }
+    }
+
+    /// Whether it is what a network makes of colours.
+    pub fn is_encoded(&self) -> bool {
+        self.channel == Channel::Rgb && self.encoder.network().is_some()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,8 +1,10 @@
-//! Ranges of vectors, as settings state them.
+//! What tasks draw with: the generator, and the boxes that settings state.
 
 use crate::error::EnvError;
-use crate::task::Rng;
 use serde::Deserialize;
+
+/// numpy's default generator, by which all draws of an environment are made.
+pub type Rng = random::Generator<random::Pcg64>;
 
 /// The corners of a box that vectors are drawn from.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]

@@ -1,6 +1,6 @@
 //! Rewards of recorded paths, from their observations alone.
 
-use crate::environment::Env;
+use super::env::Env;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::task::Verdict;

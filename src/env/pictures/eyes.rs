@@ -1,14 +1,13 @@
 //! Visual observations: what the visual keys of an environment show.
 
-use crate::environment::Env;
 use crate::error::EnvError;
-use crate::network::{Network, NetworkError, Networks};
-use crate::sight::Shot;
-use crate::visual::{Channel, Encoder, VisualKey};
+use crate::pictures::network::{Network, NetworkError, Networks};
+use crate::pictures::sight::Shot;
+use crate::pictures::visual::{Channel, VisualKey};
 use physics::Model;
 use render::picture::Channels;
 use render::scene::Camera;
-use render::{Picture, Scene, raster};
+use render::{Assets, Picture, Scene, raster};
 use robot::Compat;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -166,90 +165,54 @@ impl Eyes {
     pub(crate) fn close(&mut self) {
         self.current = false;
     }
-}
 
-impl Loaded {
-    fn get(&self, key: &VisualKey, compat: Compat) -> Result<Arc<dyn Network>, EnvError> {
-        let mut network = self.network.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(network) = &*network {
-            return Ok(network.clone());
-        }
-        let wrong = |error: NetworkError| EnvError::Network { key: key.to_string(), message: error.into() };
-        let loaded = self.networks.load(key.encoder, compat).map_err(wrong)?;
-        Ok(network.insert(loaded).clone())
+    /// Whether the images are up to date.
+    pub(crate) fn open(&self) -> bool {
+        self.current
     }
-}
 
-impl Env {
-    /// The images of the visual keys, drawn of the state that the last observation shows, as the robot's sensors see it. No
-    /// other method draws them, so that an environment with visual keys costs nothing more until they are asked for. Asked
-    /// again in the same state they are not drawn again.
-    ///
-    /// An environment without visual keys has no images. Depth is in metres, of shape 1 x H x W as in the original. A `d:`
-    /// key is drawn whether or not its colours are asked for too; the original leaves it out without them.
-    ///
-    /// # Errors
-    /// The model or a camera cannot be drawn; a network is missing, with the file that has its weights.
-    pub fn exteroception(&mut self) -> Result<&Exteroception, EnvError> {
-        if self.eyes.current {
-            return Ok(&self.eyes.seen);
-        }
-        let network = self.network()?;
-        let data = if self.differs { &self.observed } else { &self.scene.data };
-        let shots = self.eyes.takes.iter_mut().map(|take| Shot {
+    /// The images that were made last.
+    pub(crate) fn seen(&self) -> &Exteroception {
+        &self.seen
+    }
+
+    /// The network that finds the features of a key.
+    pub(crate) fn network(&self, key: &VisualKey, compat: Compat) -> Result<Arc<dyn Network>, EnvError> {
+        self.network.get(key, compat)
+    }
+
+    /// The drawings, to be filled; [`Eyes::finish`] follows.
+    pub(crate) fn shots(&mut self) -> impl Iterator<Item = Shot<'_>> {
+        self.takes.iter_mut().map(|take| Shot {
             camera: take.camera,
             channels: take.channels,
             picture: &mut take.picture,
-        });
-        self.sight.draw(&self.scene.model, data, shots)?;
-        self.take_images(network.as_deref())
-    }
-
-    /// The network of the visual keys, where one of them needs it.
-    fn network(&self) -> Result<Option<Arc<dyn Network>>, EnvError> {
-        let encoded = self.visual_keys.iter().find(|key| key.is_encoded());
-        encoded.map(|key| self.eyes.network.get(key, self.compat)).transpose()
-    }
-
-    /// Lists what the images show, if they are out of date: [`Env::shots`] draw them.
-    pub(crate) fn list_images(&mut self) -> Result<(), EnvError> {
-        if self.eyes.current {
-            return Ok(());
-        }
-        self.network()?;
-        let data = if self.differs { &self.observed } else { &self.scene.data };
-        let Eyes { takes, scenes, .. } = &mut self.eyes;
-        self.sight.list(&self.scene.model, data, takes.iter().map(|take| take.camera), scenes)
-    }
-
-    /// What was listed, to be drawn; [`Env::finish_images`] follows.
-    pub(crate) fn shots(&mut self) -> impl Iterator<Item = raster::Shot<'_>> {
-        let Eyes { takes, scenes, current, .. } = &mut self.eyes;
-        let assets = self.sight.assets().filter(|_| !*current);
-        let listed = takes.iter_mut().zip(&*scenes);
-        assets.into_iter().zip(std::iter::once(listed)).flat_map(|(assets, listed)| {
-            listed.map(move |(take, scene)| raster::Shot {
-                assets,
-                scene,
-                channels: take.channels,
-                picture: &mut take.picture,
-            })
         })
     }
 
-    /// Makes images of the drawings, if they are out of date.
-    pub(crate) fn finish_images(&mut self) -> Result<(), EnvError> {
-        if !self.eyes.current {
-            let network = self.network()?;
-            self.take_images(network.as_deref())?;
-        }
-        Ok(())
+    /// The cameras of the drawings, and where what they show is listed.
+    pub(crate) fn scenes(&mut self) -> (impl ExactSizeIterator<Item = Camera>, &mut Vec<Scene>) {
+        (self.takes.iter().map(|take| take.camera), &mut self.scenes)
     }
 
-    /// Makes images of the drawings.
-    fn take_images(&mut self, network: Option<&dyn Network>) -> Result<&Exteroception, EnvError> {
-        let Eyes { takes, seen, current, .. } = &mut self.eyes;
-        seen.time = self.scene.data.time();
+    /// The drawings of what was listed, to be filled; [`Eyes::finish`] follows.
+    pub(crate) fn listed<'a>(&'a mut self, assets: &'a Assets) -> impl Iterator<Item = raster::Shot<'a>> {
+        self.takes.iter_mut().zip(&self.scenes).map(move |(take, scene)| raster::Shot {
+            assets,
+            scene,
+            channels: take.channels,
+            picture: &mut take.picture,
+        })
+    }
+
+    /// Makes images of the drawings, which were taken at a time [s].
+    pub(crate) fn finish(
+        &mut self,
+        time: f64,
+        network: Option<&dyn Network>,
+    ) -> Result<&Exteroception, EnvError> {
+        let Eyes { takes, seen, current, .. } = self;
+        seen.time = time;
         for take in takes {
             if let Some(index) = take.rgb {
                 let Image { name, pixels, .. } = &mut seen.images[index];
@@ -265,10 +228,17 @@ impl Env {
         *current = true;
         Ok(seen)
     }
+}
 
-    /// The images, where they were drawn of the present state; RoboHive's `visual_dict`, which is empty otherwise.
-    pub fn visuals(&self) -> Option<&Exteroception> {
-        self.eyes.current.then_some(&self.eyes.seen)
+impl Loaded {
+    fn get(&self, key: &VisualKey, compat: Compat) -> Result<Arc<dyn Network>, EnvError> {
+        let mut network = self.network.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(network) = &*network {
+            return Ok(network.clone());
+        }
+        let wrong = |error: NetworkError| EnvError::Network { key: key.to_string(), message: error.into() };
+        let loaded = self.networks.load(key.encoder, compat).map_err(wrong)?;
+        Ok(network.insert(loaded).clone())
     }
 }
 
@@ -285,34 +255,4 @@ fn encode(take: &mut Take, network: Option<&dyn Network>, pixels: &mut Pixels) -
         (Pixels::Numbers(_), None) => {}
     }
     Ok(())
-}
-
-impl Encoder {
-    /// The number of features, where a network finds them.
-    pub fn network(self) -> Option<usize> {
-        match self {
-            Encoder::Flat | Encoder::Image => None,
-            Encoder::R3m(depth) | Encoder::Rrl(depth) => Some(if depth == 50 { 2048 } else { 512 }),
-            Encoder::Vc1 { large } => Some(if large { 1024 } else { 768 }),
-        }
-    }
-}
-
-impl VisualKey {
-    /// Shape of the image: H x W x 3 colours (`2d`), all of them in one row (`1d`), the features of a network, or 1 x H x W
-    /// depths.
-    pub fn shape(&self) -> Vec<usize> {
-        let (height, width) = (self.height, self.width);
-        match (self.channel, self.encoder) {
-            (Channel::Depth, _) => vec![1, height, width],
-            (Channel::Rgb, Encoder::Flat) => vec![height * width * 3],
-            (Channel::Rgb, Encoder::Image) => vec![height, width, 3],
-            (Channel::Rgb, encoder) => encoder.network().into_iter().collect(),
-        }
-    }
-
-    /// Whether it is what a network makes of colours.
-    pub fn is_encoded(&self) -> bool {
-        self.channel == Channel::Rgb && self.encoder.network().is_some()
-    }
 }

@@ -1,12 +1,13 @@
 //! What an environment tells of itself: its current state, and how it is set.
 
-use crate::environment::{Env, action_bounds};
+use super::env::{Env, action_bounds};
+use crate::draws::Rng;
 use crate::error::EnvError;
+use crate::pictures::visual::VisualKey;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::spec::{RewardMode, Settings, Spec};
-use crate::task::{Rng, Success, Verdict};
-use crate::visual::VisualKey;
+use crate::task::{Success, Verdict};
 use mjcf::diagnostic::Diagnostics;
 use robot::Robot;
 

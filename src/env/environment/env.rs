@@ -1,64 +1,28 @@
 //! An environment: a robot in a world, with a task.
 
-use crate::arguments::Arguments;
+use super::options::Options;
+use super::parts::{build_robot, initial_pose, load, read_config};
 use crate::assets::Assets;
+use crate::draws::Rng;
 use crate::error::EnvError;
-use crate::exteroception::Eyes;
-use crate::network::{Networks, NoNetworks};
-use crate::own_task::OwnTask;
-use crate::parts::{build_robot, initial_pose, load, read_config};
+use crate::pictures::eyes::Eyes;
+use crate::pictures::rendering::Rendering;
+use crate::pictures::sight::Sight;
+use crate::pictures::visual::{VisualKey, parse_keys};
 use crate::randomize::Look;
 use crate::registry::Registry;
-use crate::rendering::Rendering;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::sight::Sight;
 use crate::spec::{Settings, Spec};
-use crate::suite;
-use crate::task::{Defaults, Episode, Pose, Rng, Setup, Task, Timing, Turn, Verdict, View};
-use crate::visual::{VisualKey, parse_keys};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Timing, Turn, Verdict, View};
+use crate::task_type::TaskType;
 use mjcf::diagnostic::Diagnostics;
 use physics::{Data, StepError};
-use render::painter::{Cpu, Painters};
 use render::scene::SceneOptions;
 use render::{Picture, Profile};
 use robot::{Compat, Robot};
 use std::ops::Range;
 use std::sync::Arc;
-
-/// How an environment is made.
-#[derive(Clone)]
-pub struct Options {
-    /// Seed of all draws; without one, zero.
-    pub seed: u64,
-    /// Whether quirks of the original are reproduced.
-    pub compat: Compat,
-    /// Settings that differ from the id's, by their names.
-    pub changes: Arguments,
-    /// What [`Env::render`] returns.
-    pub rendering: Rendering,
-    /// Networks for visual keys.
-    pub networks: Arc<dyn Networks>,
-    /// What draws.
-    pub painters: Arc<dyn Painters>,
-    /// A bad number in the physics resets it as MuJoCo does, in the middle of the episode, instead of ending that
-    /// (`Data::autoreset`).
-    pub autoreset: bool,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            seed: 0,
-            compat: Compat::Fixed,
-            changes: Arguments::default(),
-            rendering: Rendering::default(),
-            networks: Arc::new(NoNetworks),
-            painters: Arc::new(Cpu),
-            autoreset: false,
-        }
-    }
-}
 
 /// What a step yields beside the observation.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,7 +96,7 @@ impl Registry {
     /// The id is unknown; files are missing or wrong; settings do not fit.
     pub fn make(&self, id: &str, assets: &dyn Assets, options: &Options) -> Result<Env, EnvError> {
         let spec = self.spec(id)?;
-        Env::build_with(self.own_task(&spec.task), spec, assets, options)
+        Env::of_task(self.task(spec)?, spec, assets, options)
     }
 }
 
@@ -145,17 +109,16 @@ impl Env {
         Registry::builtin().make(id, assets, options)
     }
 
-    /// Makes the environment that a specification describes.
+    /// Makes the environment that a specification describes, whose task is one of this crate.
     ///
     /// # Errors
     /// Files are missing or wrong; settings do not fit.
     pub fn build(spec: &Spec, assets: &dyn Assets, options: &Options) -> Result<Self, EnvError> {
-        Self::build_with(None, spec, assets, options)
+        Self::of_task(Registry::builtin().task(spec)?, spec, assets, options)
     }
 
-    /// [`Env::build`] with a task that need not be one of this crate.
-    fn build_with(
-        task: Option<&OwnTask>,
+    fn of_task(
+        task: &TaskType,
         spec: &Spec,
         assets: &dyn Assets,
         options: &Options,
@@ -167,12 +130,15 @@ impl Env {
         scene.data.autoreset = options.autoreset;
         let mut rng = Rng::pcg64(options.seed);
         let config = read_config(&spec, &settings, assets)?;
-        let mut setup =
-            Setup { scene: &mut scene, compat: options.compat, rng: &mut rng, config: config.as_ref() };
-        let task = match task {
-            Some(task) => task.build(&Arguments(own), &mut setup)?,
-            None => suite::build(&spec, own, assets, &mut setup)?,
+        let mut setup = Setup {
+            spec: &spec,
+            assets,
+            scene: &mut scene,
+            compat: options.compat,
+            rng: &mut rng,
+            config: config.as_ref(),
         };
+        let task = task.build(own, &mut setup)?;
         let defaults = task.defaults();
         let robot = build_robot(&spec, &settings, config.as_ref(), &scene.model, options.compat)?;
         let mut initial = initial_pose(&scene, settings.normalize_act);
