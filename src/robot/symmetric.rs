@@ -1,5 +1,6 @@
-//! Small symmetric equations, solved through eigenvalues: Jacobi's method (Golub and Van Loan, Matrix Computations,
-//! section 8.5).
+//! Small symmetric equations, solved through eigenvalues (Golub and Van Loan, Matrix Computations, section 5.5).
+
+use physics::math::diagonalize;
 
 /// Rows of the largest matrix.
 pub(crate) const ROWS: usize = 6;
@@ -7,13 +8,13 @@ pub(crate) const ROWS: usize = 6;
 /// A matrix of which the first few rows and columns are used.
 pub(crate) type Square = [[f64; ROWS]; ROWS];
 
-/// Sweeps after which rounding is all that is left; fewer than ten are usual.
-const MAX_SWEEPS: usize = 50;
-
 /// The shortest `x` that brings (`a` + `damping` I) `x` as near to `b` as can be. `a` is symmetric without negative
 /// eigenvalues; without damping, those that are rounding errors beside the largest count as zero.
 pub(crate) fn solve(a: &Square, damping: f64, b: &[f64; ROWS]) -> [f64; ROWS] {
-    let (values, vectors) = eigen(a);
+    let (mut diagonal, mut vectors) = (*a, [[0.0; ROWS]; ROWS]);
+    let trace: f64 = (0..ROWS).map(|k| a[k][k]).sum();
+    diagonalize(diagonal.as_flattened_mut(), vectors.as_flattened_mut(), ROWS, f64::EPSILON * trace);
+    let values: [f64; ROWS] = std::array::from_fn(|k| diagonal[k][k]);
     let largest = values.iter().copied().fold(0.0, f64::max);
     let least = if damping > 0.0 { f64::NEG_INFINITY } else { f64::EPSILON * largest };
     let mut x = [0.0; ROWS];
@@ -27,45 +28,6 @@ pub(crate) fn solve(a: &Square, damping: f64, b: &[f64; ROWS]) -> [f64; ROWS] {
         }
     }
     x
-}
-
-/// Eigenvalues and, as columns, eigenvectors.
-fn eigen(a: &Square) -> ([f64; ROWS], Square) {
-    let mut a = *a;
-    let mut vectors: Square = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(u8::from(i == j))));
-    for _ in 0..MAX_SWEEPS {
-        let mut rotated = false;
-        for p in 0..ROWS {
-            for q in p + 1..ROWS {
-                let negligible = f64::EPSILON * 0.01 * (a[p][p] * a[q][q]).abs().sqrt();
-                if a[p][q].abs() > negligible.max(f64::MIN_POSITIVE) {
-                    rotate(&mut a, &mut vectors, p, q);
-                    rotated = true;
-                }
-            }
-        }
-        if !rotated {
-            break;
-        }
-    }
-    (std::array::from_fn(|i| a[i][i]), vectors)
-}
-
-/// Turns the plane of `p` and `q` until their entry off the diagonal is zero.
-fn rotate(a: &mut Square, vectors: &mut Square, p: usize, q: usize) {
-    let half_difference = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-    let tangent = half_difference.signum() / (half_difference.abs() + half_difference.hypot(1.0));
-    let cosine = 1.0 / tangent.hypot(1.0);
-    let sine = tangent * cosine;
-    let turn = |x: f64, y: f64| (cosine * x - sine * y, sine * x + cosine * y);
-    for k in 0..ROWS {
-        (a[k][p], a[k][q]) = turn(a[k][p], a[k][q]);
-    }
-    for k in 0..ROWS {
-        (a[p][k], a[q][k]) = turn(a[p][k], a[q][k]);
-        (vectors[k][p], vectors[k][q]) = turn(vectors[k][p], vectors[k][q]);
-    }
-    (a[p][q], a[q][p]) = (0.0, 0.0);
 }
 
 #[cfg(test)]

@@ -3,77 +3,34 @@
 
 use super::elasticity::Material;
 use crate::vector::sub;
-use physics::math::Vec3;
+use physics::math::{Vec3, diagonalize};
 
-/// Sweeps after which the iteration gives up.
-const SWEEPS: usize = 200;
-/// Size of the entries off the diagonal at which it ends.
+/// Root of the sum of squares off the diagonal at which eigenvalues count as found.
 const TOLERANCE: f64 = 1e-12;
 /// Eigenvalues below this share of the largest are motions of the whole.
 const LEAST: f64 = 1e-8;
 
 /// The number of modes, then the modes, in place of a stiffness matrix of the same size.
-pub(super) fn pack(matrix: &[f64], width: usize) -> (usize, Vec<f64>) {
-    let (values, vectors) = eigen(matrix.to_vec(), width);
-    let largest = values.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    let mut packed = vec![0.0; matrix.len()];
-    let mut count = 0;
-    for (column, value) in values.iter().enumerate() {
-        // Stiffness is stored negative.
-        let has_room = (count + 1) * width < packed.len();
-        if -value > largest * LEAST && has_room {
-            let scale = (-value).sqrt();
-            let mode = &mut packed[1 + count * width..][..width];
-            mode.iter_mut().enumerate().for_each(|(row, x)| *x = scale * vectors[row * width + column]);
-            count += 1;
-        }
+///
+/// With eigenvalues `λ` and eigenvectors `u` of the stiffness `K`, the energy `½ xᵀ K x` of a displacement `x` is
+/// `½ Σ (√λ u · x)²`, so that `√λ u · x` is what a constraint holds at zero. Rigid motions have `λ = 0` and are left out. One row
+/// of the matrix is taken by the number, so there is room for all modes but one.
+pub(super) fn pack(stiffness: &[f64], width: usize) -> (usize, Vec<f64>) {
+    // Stiffness is stored negative, and so are its eigenvalues.
+    let (mut diagonal, mut vectors) = (stiffness.to_vec(), vec![0.0; stiffness.len()]);
+    diagonalize(&mut diagonal, &mut vectors, width, TOLERANCE);
+    let values = || diagonal.iter().step_by(width + 1).map(|value| -value);
+    let least = LEAST * values().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let strained = values().enumerate().filter(|&(_, value)| value > least).take(width - 1);
+    let mut packed = vec![0.0];
+    for (column, value) in strained {
+        let scale = value.sqrt();
+        packed.extend(vectors.iter().skip(column).step_by(width).map(|x| scale * x));
     }
+    let count = (packed.len() - 1) / width;
     packed[0] = count as f64;
+    packed.resize(stiffness.len(), 0.0);
     (count, packed)
-}
-
-/// Eigenvalues and, in columns, eigenvectors of a symmetric matrix, by Jacobi's rotations.
-fn eigen(mut a: Vec<f64>, n: usize) -> (Vec<f64>, Vec<f64>) {
-    let mut vectors: Vec<f64> = (0..n * n).map(|k| if k / n == k % n { 1.0 } else { 0.0 }).collect();
-    for _ in 0..SWEEPS {
-        let mut off = 0.0;
-        for p in 0..n {
-            off = a[p * n + p + 1..(p + 1) * n].iter().fold(off, |sum, x| sum + x * x);
-        }
-        if off < TOLERANCE * TOLERANCE {
-            break;
-        }
-        for p in 0..n {
-            for q in p + 1..n {
-                if a[p * n + q].abs() >= TOLERANCE * 1e-3 {
-                    rotate(&mut a, &mut vectors, n, [p, q]);
-                }
-            }
-        }
-    }
-    ((0..n).map(|i| a[i * n + i]).collect(), vectors)
-}
-
-/// Makes entry `p`, `q` zero.
-fn rotate(a: &mut [f64], vectors: &mut [f64], n: usize, [p, q]: [usize; 2]) {
-    let entry = a[p * n + q];
-    let tau = (a[q * n + q] - a[p * n + p]) / (2.0 * entry);
-    let sign = if tau >= 0.0 { 1.0 } else { -1.0 };
-    let t = sign / (tau.abs() + (1.0 + tau * tau).sqrt());
-    let c = 1.0 / (1.0 + t * t).sqrt();
-    let s = t * c;
-    let turned = |x: f64, y: f64| (c * x - s * y, s * x + c * y);
-    a[p * n + p] -= t * entry;
-    a[q * n + q] += t * entry;
-    (a[p * n + q], a[q * n + p]) = (0.0, 0.0);
-    for r in (0..n).filter(|&r| r != p && r != q) {
-        let (x, y) = turned(a[r * n + p], a[r * n + q]);
-        (a[r * n + p], a[p * n + r]) = (x, x);
-        (a[r * n + q], a[q * n + r]) = (y, y);
-    }
-    for row in vectors.chunks_exact_mut(n) {
-        (row[p], row[q]) = turned(row[p], row[q]);
-    }
 }
 
 /// Adds the twist of a square to its packed modes, as stiff as a bent plate; `x` are its nodes, `across` the axis across it.

@@ -1,7 +1,8 @@
 //! Which facets are united, and in which order, until the hull is convex within round-off.
 //!
 //! A union replaces two planes by one of them, so a facet goes to the neighbour whose plane fits its corners
-//! best, and the unions that bend the hull least come first: they often settle the others.
+//! best, and the unions that bend the hull least come first: they often settle the others (Barber, Dobkin and Huhdanpaa,
+//! "The Quickhull algorithm for convex hulls", 1996, section 4).
 
 use super::builder::Builder;
 use super::cone::Level;
@@ -9,7 +10,7 @@ use super::convexity::{Bend, BendKind};
 use super::failure::Failure;
 use super::id::{FacetId, Marks};
 use super::slivers::Sliver;
-use super::surface::{Convexity, Phase};
+use super::surface::{Convexity, Facet, Phase};
 
 /// Facets with more corners than this are measured at their centre.
 const MANY_CORNERS: usize = 2 * 3 + 20;
@@ -48,6 +49,15 @@ struct Host {
     inverted: bool,
 }
 
+impl Host {
+    /// Whether to take this one, found later than `best`. A facet that is `inverted` itself does not give up an upright
+    /// neighbour for an inverted one.
+    fn is_preferred_to(&self, best: &Host, inverted: bool) -> bool {
+        let turns_over = inverted && self.inverted && !best.inverted;
+        !turns_over && self.distance < best.distance
+    }
+}
+
 impl Builder<'_> {
     /// Unites fresh facets until the hull is convex. `level` triangles go first: they have no plane, and were
     /// made to continue the facet beyond.
@@ -58,19 +68,12 @@ impl Builder<'_> {
         self.grown.clear();
         let mut united = self.join_level(level)?;
         united |= self.unite_inverted()?;
-        let mut bends = self.bends_of_fresh();
-        loop {
-            while !bends.is_empty() {
-                for bend in bends {
-                    united |= self.straighten(bend)?;
-                }
-                bends = self.bends_of_changed();
-            }
-            if !united || !self.dissolve_vertices()? {
-                break;
-            }
-            united = false;
-            bends = self.bends_of_changed();
+        let bends = self.bends_of_fresh();
+        united |= self.straighten_all(bends)?;
+        // Each union may leave vertices inside edges, and facets without them may be slivers or bend to others.
+        while united && self.dissolve_vertices()? {
+            let bends = self.bends_of_changed();
+            united = self.straighten_all(bends)?;
         }
         match self.surface.agenda.order().first_fresh() {
             Some(_) => Ok(()),
@@ -114,27 +117,43 @@ impl Builder<'_> {
         Ok(united)
     }
 
-    /// Unites one of two facets that are not convex to each other with the neighbour that fits best; false if
-    /// they have changed since.
-    fn straighten(&mut self, bend: Bend) -> Result<bool, Failure> {
-        let Bend { kind, first, second, .. } = bend;
-        let facets = &self.surface.facets;
-        if facets[first].phase.is_removed() || facets[second].phase.is_removed() {
-            return Ok(false);
+    /// Straightens bends until unions make no new ones; whether there were unions.
+    fn straighten_all(&mut self, mut bends: Vec<Bend>) -> Result<bool, Failure> {
+        let mut united = false;
+        while !bends.is_empty() {
+            for bend in bends {
+                if self.is_current(&bend) {
+                    self.straighten(bend)?;
+                    united = true;
+                }
+            }
+            bends = self.bends_of_changed();
         }
-        let changed = |facet: FacetId| !facets[facet].tested && facets[facet].phase == Phase::Fresh;
-        if kind == BendKind::Flat && (changed(first) || changed(second)) {
-            return Ok(false);
+        Ok(united)
+    }
+
+    /// Whether both facets of a bend are still there. A flat one counts only as it was measured.
+    fn is_current(&self, bend: &Bend) -> bool {
+        [bend.first, bend.second].into_iter().all(|facet| {
+            let facet = &self.surface.facets[facet];
+            let measured = facet.tested || facet.phase != Phase::Fresh;
+            !facet.phase.is_removed() && (measured || bend.kind != BendKind::Flat)
+        })
+    }
+
+    /// Removes a bend: that one of its facets is united with a neighbour, not always the other one, for which a
+    /// neighbour's plane is nearer. Of equals it is the second, a fresh facet counting as the first.
+    fn straighten(&mut self, bend: Bend) -> Result<(), Failure> {
+        let mut sides = [bend.first, bend.second];
+        if self.surface.facets[bend.first].phase != Phase::Fresh {
+            sides.reverse();
         }
-        let (a, b) = if facets[first].phase == Phase::Fresh { (first, second) } else { (second, first) };
-        let [for_a, for_b] = [self.host_of(a)?, self.host_of(b)?];
-        if for_a.distance < for_b.distance {
-            self.merge(a, for_a)?;
-        } else {
-            self.merge(b, for_b)?;
-        }
+        let [one, other] = sides;
+        let (host, other_host) = (self.host_of(one)?, self.host_of(other)?);
+        let nearer = if host.distance < other_host.distance { (one, host) } else { (other, other_host) };
+        self.merge(nearer.0, nearer.1)?;
         self.unite_slivers()?;
-        Ok(true)
+        Ok(())
     }
 
     /// Dissolves the vertices inside edges of grown facets; whether facets became slivers and were united.
@@ -159,36 +178,33 @@ impl Builder<'_> {
         Ok(united)
     }
 
-    /// The neighbour whose plane is nearest to the corners of `facet`, the first of equals. An upright one
-    /// is not given up for an inverted one if the facet is inverted itself.
+    /// The neighbour whose plane is nearest to the corners of `facet`, the first of equals. Facets with many corners are
+    /// measured at their centre, which takes one height for each neighbour, and only the chosen plane at all corners.
     fn host_of(&mut self, facet: FacetId) -> Result<Host, Failure> {
-        let corners = self.surface.facets[facet].corners.len();
-        let center = (corners > MANY_CORNERS).then(|| self.center_of(facet));
-        let nonconvex = if corners > SOME_CORNERS { self.nonconvex_neighbors(facet) } else { Vec::new() };
-        let neighbors =
-            if nonconvex.is_empty() { self.surface.facets[facet].neighbors.clone() } else { nonconvex };
-        let inverted = self.surface.facets[facet].inverted;
-        let mut best: Option<Host> = None;
-        for neighbor in neighbors {
-            let range = match center {
+        let Facet { ref corners, inverted, .. } = self.surface.facets[facet];
+        let measured_at = (corners.len() > MANY_CORNERS).then(|| self.center_of(facet));
+        let hosts = self.candidates(facet).into_iter().map(|neighbor| {
+            let range = match measured_at {
                 Some(center) => Range::of(std::iter::once(CENTER_FACTOR * self.height(center, neighbor))),
                 None => self.corner_range(facet, neighbor),
             };
-            let distance = range.largest();
-            let host =
-                Host { facet: neighbor, distance, range, inverted: self.surface.facets[neighbor].inverted };
-            let better = best.is_none_or(|best| {
-                !(inverted && host.inverted && !best.inverted) && distance < best.distance
-            });
-            if better {
-                best = Some(host);
-            }
+            let inverted = self.surface.facets[neighbor].inverted;
+            Host { facet: neighbor, distance: range.largest(), range, inverted }
+        });
+        let nearest =
+            hosts.reduce(|best, host| if host.is_preferred_to(&best, inverted) { host } else { best });
+        let mut host = nearest.ok_or(Failure("a facet has no neighbour to be united with"))?;
+        if measured_at.is_some() {
+            host.range = self.corner_range(facet, host.facet);
         }
-        let mut best = best.ok_or(Failure("a facet has no neighbour to be united with"))?;
-        if center.is_some() {
-            best.range = self.corner_range(facet, best.facet);
-        }
-        Ok(best)
+        Ok(host)
+    }
+
+    /// The neighbours that `facet` may be united with: all, or those it bends to if it has some corners.
+    fn candidates(&self, facet: FacetId) -> Vec<FacetId> {
+        let Facet { corners, neighbors, .. } = &self.surface.facets[facet];
+        let bent = if corners.len() > SOME_CORNERS { self.nonconvex_neighbors(facet) } else { Vec::new() };
+        if bent.is_empty() { neighbors.clone() } else { bent }
     }
 
     fn nonconvex_neighbors(&self, facet: FacetId) -> Vec<FacetId> {
@@ -250,7 +266,7 @@ impl Builder<'_> {
                     }
                 }
                 Sliver::Thin(facet) => {
-                    if self.surface.facets[facet].neighbors.len() < 3 {
+                    if self.surface.facets[facet].is_thin() {
                         let host = self.host_of(facet)?;
                         self.merge(facet, host)?;
                         united = true;
@@ -261,52 +277,45 @@ impl Builder<'_> {
         Ok(united)
     }
 
-    /// Looks for slivers where `gone` has been united with `into`.
+    /// Notes the slivers where `gone` has been united with `into`: neighbours of both have lost one, and `into` may now have all
+    /// corners of a neighbour, or lie within one.
     fn find_slivers_around(&mut self, gone: FacetId, into: FacetId) {
         self.find_covered_neighbors(into);
-        for k in 0..self.surface.facets[gone].neighbors.len() {
-            let neighbor = self.surface.facets[gone].neighbors[k];
-            if self.surface.facets[neighbor].neighbors.len() < 3 {
-                self.slivers.add_thin(neighbor);
-            }
+        let facets = &self.surface.facets;
+        for &neighbor in facets[gone].neighbors.iter().filter(|&&neighbor| facets[neighbor].is_thin()) {
+            self.slivers.add_thin(neighbor);
         }
         self.find_sliver(into);
     }
 
-    /// Notes neighbours whose corners are all corners of `facet`, or that `facet` itself is thin. An inverted
-    /// facet does not take an upright one.
+    /// Notes neighbours that `facet` covers, or that `facet` itself is thin. An inverted facet does not take an upright one.
     fn find_covered_neighbors(&mut self, facet: FacetId) {
-        if self.surface.facets[facet].neighbors.len() < 3 {
+        let facets = &self.surface.facets;
+        let host = &facets[facet];
+        if host.is_thin() {
             self.slivers.add_thin(facet);
             return;
         }
-        self.surface.mark_corners(facet);
-        let inverted = self.surface.facets[facet].inverted;
-        for &neighbor in &self.surface.facets[facet].neighbors {
-            let protected = inverted && !self.surface.facets[neighbor].inverted;
-            if !self.slivers.has(neighbor) && !protected && self.surface.all_corners_marked(neighbor) {
+        for &neighbor in &host.neighbors {
+            let covered = &facets[neighbor];
+            let allowed = covered.inverted || !host.inverted;
+            if allowed && !self.slivers.has(neighbor) && host.covers(covered) {
                 self.slivers.add_covered(neighbor, facet);
             }
         }
     }
 
-    /// Notes `facet` if all its corners are a neighbour's, or if it is thin.
+    /// Notes `facet` if it is upright and a sliver: covered by an upright neighbour, the first in its list, or else thin.
     fn find_sliver(&mut self, facet: FacetId) {
-        if self.surface.facets[facet].inverted {
+        let facets = &self.surface.facets;
+        let suspect = &facets[facet];
+        if suspect.inverted {
             return;
         }
-        for k in 0..self.surface.facets[facet].neighbors.len() {
-            let neighbor = self.surface.facets[facet].neighbors[k];
-            if self.surface.facets[neighbor].inverted {
-                continue;
-            }
-            self.surface.mark_corners(neighbor);
-            if self.surface.all_corners_marked(facet) {
-                self.slivers.add_covered(facet, neighbor);
-                return;
-            }
-        }
-        if self.surface.facets[facet].neighbors.len() < 3 {
+        let covers = |&&host: &&FacetId| !facets[host].inverted && facets[host].covers(suspect);
+        if let Some(&host) = suspect.neighbors.iter().find(covers) {
+            self.slivers.add_covered(facet, host);
+        } else if suspect.is_thin() {
             self.slivers.add_thin(facet);
         }
     }

@@ -90,6 +90,18 @@ pub(super) struct Facet {
 }
 
 impl Facet {
+    /// Whether it has too few neighbours to enclose an area.
+    pub(super) fn is_thin(&self) -> bool {
+        self.neighbors.len() < 3
+    }
+
+    /// Whether all corners of `other` are corners of this one. Both lists have the newest first, so that one pass over this
+    /// one's meets the other's in their order.
+    pub(super) fn covers(&self, other: &Facet) -> bool {
+        let mut own = self.corners.iter();
+        other.corners.iter().all(|corner| own.any(|mine| mine == corner))
+    }
+
     /// On which side of the edge between the corners other than `corners[k]` a triangle lies.
     pub(super) fn side_opposite(&self, k: usize) -> Side {
         if k == 1 { self.side.opposite() } else { self.side }
@@ -318,11 +330,6 @@ impl Surface {
         for &corner in &self.facets[facet].corners {
             self.own.add(corner);
         }
-    }
-
-    /// Whether all corners of `facet` are marked.
-    pub(super) fn all_corners_marked(&self, facet: FacetId) -> bool {
-        self.facets[facet].corners.iter().all(|&corner| self.own.has(corner))
     }
 }
 

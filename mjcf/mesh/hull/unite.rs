@@ -122,19 +122,15 @@ impl Surface {
     /// Makes a neighbour of `from` one of `into`, whose other neighbours are marked. A neighbour of both has
     /// two borders with the union, which a triangle's list cannot tell, so it becomes a polygon.
     fn take_neighbor(&mut self, neighbor: FacetId, from: FacetId, into: FacetId) -> Result<(), Failure> {
-        if self.passed.add(neighbor) {
+        let is_shared = !self.passed.add(neighbor);
+        if is_shared {
+            self.become_polygon(neighbor);
+            join_entries(&mut self.facets[neighbor].neighbors, from, into);
+            Ok(())
+        } else {
             self.facets[into].neighbors.push(neighbor);
-            return replace(&mut self.facets[neighbor].neighbors, from, into);
+            replace(&mut self.facets[neighbor].neighbors, from, into)
         }
-        self.become_polygon(neighbor);
-        let list = &mut self.facets[neighbor].neighbors;
-        if list.first() != Some(&from) {
-            take_out(list, from);
-            return Ok(());
-        }
-        // The union keeps the first place.
-        take_out(list, into);
-        replace(list, from, into)
     }
 
     /// Adds the corners of `from` to `into`. Corners of both lose a facet; one with a single facet left is
@@ -178,4 +174,15 @@ impl Surface {
             self.vertices[vertex].loose = true;
         }
     }
+}
+
+/// Makes the entries of two united facets one: that of `into`, in the first place if either had it. The order of the rest
+/// changes as in [`take_out`].
+fn join_entries(list: &mut Vec<FacetId>, from: FacetId, into: FacetId) {
+    if list.first() == Some(&from)
+        && let Some(at) = list.iter().position(|&entry| entry == into)
+    {
+        list.swap(0, at);
+    }
+    take_out(list, from);
 }

@@ -27,7 +27,7 @@ def mj_solveM(m: MjModel, d: MjData, x: Vector, y: ArrayLike) -> None:
     """`M x = y` for every row of `y` (`n x nv`)."""
     right = np.ascontiguousarray(y, np.float64)
     if right.shape[-1] != m.nv:
-        raise TypeError("y should be of shape (n, nv)")
+        raise TypeError("the shape of y must be (n, nv)")
     destination(x, "x", "the shape of y", right.shape)
     write(x, _core.solve_inertia(m, d, right.ravel()))
 

@@ -32,7 +32,7 @@ def destination(array: Any, name: str, shape: str, rows: tuple[int, ...], dtype:
         raise TypeError(f"{name} should be a numpy array of type {np.dtype(dtype).name}")
     fits = array.size == rows[0] if len(rows) == 1 and array.ndim <= 2 else array.shape == rows
     if not fits:
-        raise TypeError(f"{name} should be of {shape}")
+        raise TypeError(f"{name} must have {shape}")
     if not array.flags.writeable:
         raise TypeError(f"{name} is read-only")
 

@@ -102,7 +102,7 @@ class Renderer:
 
     def _painting(self) -> _core.Painter:
         if self._painter is None:
-            raise RuntimeError("render cannot be called after close.")
+            raise RuntimeError("this Renderer is closed")
         return self._painter
 
     def render(self, *, out: NDArray[Any] | None = None) -> NDArray[Any]:
@@ -117,7 +117,7 @@ class Renderer:
         if out is None:
             return picture
         if out.shape != picture.shape:
-            raise ValueError(f"Expected `out.shape == {picture.shape}`. Got `out.shape={out.shape}` instead.")
+            raise ValueError(f"out has the shape {out.shape}, the picture {picture.shape}")
         np.copyto(out, picture, casting="unsafe")
         return out
 

@@ -71,7 +71,7 @@ def rollout(
     nbatch = _common(0, max(len(models), 1), arrays)
     steps = _common(1, nstep or 1, {"control": inputs, **outs})
     if len(models) not in (1, nbatch):
-        raise ValueError(f"nbatch inferred as {nbatch} but model is length {len(models)}")
+        raise ValueError(f"{nbatch} trajectories need one model or {nbatch}, not {len(models)}")
     plan = {
         "nstep": steps,
         "state_spec": _FULL,
@@ -132,7 +132,7 @@ class Rollout:
             RuntimeError: the object is closed.
         """
         if not self._open:
-            raise RuntimeError("rollout requested after thread pool shutdown")
+            raise RuntimeError("this Rollout is closed")
         return rollout(*args, **options)
 
     def close(self) -> None:

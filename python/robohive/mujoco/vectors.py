@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from robohive.mujoco.out import Vector, vector, write
 
 
-def _same(res: Any, values: Any, sizes: str = "res and the vectors should have the same size") -> None:
+def _same(res: Any, values: Any, sizes: str = "res and the vectors differ in size") -> None:
     if np.size(res) != np.size(values):
         raise TypeError(sizes)
     write(res, values)
@@ -18,7 +18,7 @@ def _same(res: Any, values: Any, sizes: str = "res and the vectors should have t
 def _pair(a: ArrayLike, b: ArrayLike) -> tuple[Vector, Vector]:
     first, second = vector(a, "vec1"), vector(b, "vec2")
     if first.size != second.size:
-        raise TypeError("vec1 and vec2 should have the same size")
+        raise TypeError("vec1 and vec2 differ in size")
     return first, second
 
 

@@ -89,7 +89,7 @@ def test_warnings_are_counted_since_a_reset_and_told_once(model, data):
 def test_arguments_of_wrong_types_and_shapes(model, data):
     with pytest.raises(TypeError):
         mj.mj_step(model, 3)
-    with pytest.raises(TypeError, match=r"jacp should be of shape \(3, nv\)"):
+    with pytest.raises(TypeError, match=r"jacp must have shape \(3, nv\)"):
         mj.mj_jac(model, data, np.zeros((2, 2)), None, np.zeros(3), 1)
     with pytest.raises(TypeError, match="point should be a vector of 3"):
         mj.mj_jac(model, data, np.zeros((3, model.nv)), None, np.zeros(2), 1)

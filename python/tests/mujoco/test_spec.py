@@ -126,7 +126,7 @@ def test_attaching_is_refused_as_a_whole():
     frame = spec.worldbody.add_frame(name="here")
     with pytest.raises(ValueError, match="Frame not found"):
         spec.attach(leg, frame="there")
-    with pytest.raises(ValueError, match="One of frame or site"):
+    with pytest.raises(ValueError, match="the frame or the site"):
         spec.attach(leg)
     with pytest.raises(ValueError, match="repeated name"):
         spec.attach(leg, frame=frame, prefix="")

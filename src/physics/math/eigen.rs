@@ -1,5 +1,9 @@
 //! Eigen decomposition of a symmetric 3x3 matrix by Jacobi rotations kept as a quaternion (Golub and Van Loan,
 //! "Matrix Computations", section 8.5).
+//!
+//! Besides [`diagonalize`](super::diagonalize), which serves matrices of any size, this one stays: the axes of inertia of a
+//! compiled model are MuJoCo's to the last bit only if they are kept as a quaternion that is scaled after each turn, and sorted
+//! by quarter turns.
 
 use super::{IDENTITY, Mat3, Quat, Vec3, mul_mat, mul_mat_t_mat, quat_mul, quat_normalize, quat_to_mat};
 

@@ -24,6 +24,7 @@ mod quat;
 mod sine;
 mod sparse;
 mod spatial;
+mod symmetric;
 mod vector;
 
 pub use eigen::{principal_axes, principal_axes_by};
@@ -31,6 +32,7 @@ pub use polynomial::Polynomial;
 pub use quat::*;
 pub use sparse::*;
 pub use spatial::*;
+pub use symmetric::diagonalize;
 pub use vector::*;
 
 /// Smallest value a denominator may take (documentation: `mjMINVAL`).

@@ -67,7 +67,7 @@ class _Items(list[Any]):
 
     def _checked(self, index: Any) -> Any:
         if not isinstance(index, slice) and not 0 <= index < len(self):
-            raise IndexError("Index out of range.")
+            raise IndexError("no element has this number")
         return index
 
 

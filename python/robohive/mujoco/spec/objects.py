@@ -185,7 +185,7 @@ class MjsTendonPath:
 
     def __getitem__(self, index: int) -> MjsWrap:
         if not 0 <= index < len(self._steps):
-            raise IndexError("Index out of range.")
+            raise IndexError("no element has this number")
         return self._steps[index]
 
     def __len__(self) -> int:

@@ -274,7 +274,7 @@ class MjSpec(Lists):
         """
         if (frame is None) == (site is None):
             raise ValueError(
-                "One of frame or site must be specified." if frame is None else "Only one of frame or site can be specified."
+                "give the frame or the site to attach to" if frame is None else "give a frame or a site to attach to, not both"
             )
         kind = "frame" if site is None else "site"
         onto = frame if site is None else site
@@ -282,12 +282,12 @@ class MjSpec(Lists):
         if found is None:
             raise ValueError(f"{kind.capitalize()} not found.")
         if found._owner is not self:
-            raise ValueError(f"{kind.capitalize()} spec does not match parent spec.")
+            raise ValueError(f"the {kind} is part of another description")
         before, after = "/" if prefix is None else prefix, suffix or ""
         files = {affixed(name, before, after): content for name, content in child.assets.items()}
         taken = [name for name in files if name in self.assets]
         if taken and not self.override_assets:
-            raise ValueError(f"Asset {taken[0]} already exists in parent spec.")
+            raise ValueError(f"this description has a file called {taken[0]} already")
         around = attach.attach_spec(found, child, before, after)
         self.assets.update(files)
         return around

@@ -1,7 +1,8 @@
 //! Signed distance fields: MuJoCo's shapes by formula, and what a field must tell.
 //!
-//! The formulas are those of MuJoCo's plugins, from shaders by Inigo Quilez (bowl, torus) and others (bolt and nut:
-//! shadertoy.com/view/XtffzX, gear: shadertoy.com/view/3lG3WR). They bound the distance from below rather than being exact.
+//! The parts have the dimensions of MuJoCo's. The formulas of gear, bolt and nut are derived from the geometry of the parts
+//! and agree with MuJoCo's to rounding; bowl and torus follow its plugins, and through them distance functions by Inigo
+//! Quilez. Where surfaces meet they bound the distance from below rather than being exact.
 
 mod fastener;
 mod gear;
