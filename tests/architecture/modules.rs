@@ -241,7 +241,10 @@ fn paths_are_found() {
     .unwrap();
     let found = Paths::of(&file);
     let used: Vec<_> = found.used.iter().map(|path| path.join("::")).collect();
-    assert_eq!(used, ["crate::a::B", "crate::a::c::D", "super::g::h", "crate::m::N", "self::j::K", "self::super::l::L"]);
+    assert_eq!(
+        used,
+        ["crate::a::B", "crate::a::c::D", "super::g::h", "crate::m::N", "self::j::K", "self::super::l::L"]
+    );
     assert_eq!(found.re_exported, BTreeMap::from([("I".into(), path("crate::h::I"))]));
 }
 

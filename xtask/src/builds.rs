@@ -2,9 +2,9 @@
 //! steps the models of `validation/digest`, draws their pictures and compares its hashes with the recorded ones. And the
 //! builds with fewer features.
 
-use crate::PROFILE;
-use crate::check::{Missing, Outcome};
+use crate::built::PROFILE;
 use crate::command::{cargo, installed, output, succeed, target_folder};
+use crate::outcome::{Missing, Outcome};
 use std::path::PathBuf;
 use std::process::Command;
 

@@ -1,6 +1,6 @@
 //! Running other programs.
 
-use crate::check::Outcome;
+use crate::outcome::Outcome;
 use std::path::PathBuf;
 use std::process::Command;
 

@@ -1,7 +1,7 @@
 //! The GPU renderer, where the machine has a GPU or a driver that stands in for one.
 
-use crate::check::{Missing, Outcome};
 use crate::command::{output, succeed};
+use crate::outcome::{Missing, Outcome};
 use std::process::Command;
 
 /// What its tests print where there is no GPU.
@@ -15,14 +15,14 @@ pub fn run() -> Outcome {
     let packages = ["-p", "robohive-render-gpu", "-p", "robohive-validation", "-p", "robohive-cli"];
     let features = ["--features", "robohive-validation/gpu,robohive-cli/gpu"];
     let mut lint = Command::new("cargo");
-    lint.args(["clippy", "--profile", crate::PROFILE, "--all-targets"]).args(packages).args(features);
+    lint.args(["clippy", "--profile", crate::built::PROFILE, "--all-targets"]).args(packages).args(features);
     succeed(lint.args(["--", "-D", "warnings"]))?;
     let renderer = ["-p", "robohive-render-gpu"].as_slice();
     let command = ["-p", "robohive-cli", "--features", "robohive-cli/gpu", "--test", "gpu"].as_slice();
     let mut absent = false;
     for tests in [renderer, command] {
         let mut test = Command::new("cargo");
-        test.args(["test", "--profile", crate::PROFILE]).args(tests).args(["--", "--nocapture"]);
+        test.args(["test", "--profile", crate::built::PROFILE]).args(tests).args(["--", "--nocapture"]);
         absent |= output(&mut test)?.0.contains(ABSENT);
     }
     if !absent {

@@ -2,8 +2,8 @@
 //! A rise over the recorded count fails.
 
 use crate::builds::{STATIC_TARGET, static_programs};
-use crate::check::{Missing, Outcome};
 use crate::command::{compiler, installed, output};
+use crate::outcome::{Missing, Outcome};
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;

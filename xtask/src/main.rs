@@ -7,6 +7,7 @@
 //! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice.
 
 mod builds;
+mod built;
 mod check;
 mod command;
 mod crash_safety;
@@ -14,6 +15,7 @@ mod fuzz;
 mod gpu;
 mod instructions;
 mod mutants;
+mod outcome;
 mod packages;
 mod passed;
 mod python;
@@ -21,24 +23,11 @@ mod recorded_bits;
 mod tests;
 mod tolerances;
 
-use check::{Check, Outcome, Rules, run_all};
+use built::{EVERYTHING, PROFILE};
+use check::{Check, Rules, run_all};
 use command::{cargo, succeed};
+use outcome::Outcome;
 use std::process::ExitCode;
-
-/// The profile of all checks but those of what is shipped, so that one compilation serves them.
-const PROFILE: &str = "ci";
-
-/// All packages but two that checks of their own build: the renderer that needs a GPU's interface, which takes minutes to
-/// compile (`gpu`), and the extension module for Python (`python`). Encoders come with their networks.
-const EVERYTHING: &[&str] = &[
-    "--workspace",
-    "--exclude",
-    "robohive-render-gpu",
-    "--exclude",
-    "robohive-python",
-    "--features",
-    "robohive-encoders/networks",
-];
 
 const QUICK: [Check; 6] = [
     Check { name: "format", inputs: &[], run: || cargo(&["fmt", "--all", "--check"]) },

@@ -1,8 +1,8 @@
 //! What is published: every crate that may be, packed and compiled from its archive; and the oldest compiler promised.
 
-use crate::PROFILE;
-use crate::check::{Missing, Outcome};
+use crate::built::PROFILE;
 use crate::command::{cargo, compiler, output, succeed, target_folder};
+use crate::outcome::{Missing, Outcome};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,8 +1,8 @@
 //! The Python package: its wheel, built and installed into an environment of its own, and its tests there.
 
-use crate::PROFILE;
-use crate::check::{Missing, Outcome};
+use crate::built::PROFILE;
 use crate::command::{installed, output, succeed, target_folder};
+use crate::outcome::{Missing, Outcome};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -2,8 +2,8 @@
 //! as MuJoCo does, and must then compute every recorded value of the own models. This needs the same C library as the
 //! recording's.
 
-use crate::check::{Missing, Outcome};
 use crate::command::target_folder;
+use crate::outcome::{Missing, Outcome};
 use std::process::Command;
 
 /// Exit code of `robohive-validation bits` where the C library's functions are others.
@@ -17,7 +17,16 @@ pub const INPUTS: &[&str] =
 pub fn run() -> Outcome {
     let mut command = Command::new("cargo");
     command
-        .args(["run", "--quiet", "--profile", crate::PROFILE, "-p", "robohive-validation", "--", "bits"])
+        .args([
+            "run",
+            "--quiet",
+            "--profile",
+            crate::built::PROFILE,
+            "-p",
+            "robohive-validation",
+            "--",
+            "bits",
+        ])
         .env("RUSTFLAGS", "--cfg system_math");
     let folder = target_folder()?.join("system-math");
     let status = command.env("CARGO_TARGET_DIR", folder).status().map_err(|error| error.to_string())?;

@@ -1,9 +1,10 @@
 //! Every test of the workspace. The programs that cargo builds of tests run several at a time, each in the folder of its
 //! package, since most of them are short and some leave cores idle; documentation is tested by cargo.
 
-use crate::check::Outcome;
+use crate::built::{EVERYTHING, PROFILE};
 use crate::command::cargo;
-use crate::{EVERYTHING, PROFILE, tolerances};
+use crate::outcome::Outcome;
+use crate::tolerances;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Mutex;
