@@ -14,6 +14,7 @@ const ARM: &str = "
   </worldbody>
 </mujoco>";
 
+/// Edits an arm and carries its motion over.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The elements of the text; compiling them gives a model, as loading it would.
     let parsed = parse_str(ARM)?;

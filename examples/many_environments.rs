@@ -32,6 +32,7 @@ fn play(threads: usize) -> Result<(f64, usize), Box<dyn std::error::Error>> {
     Ok((sum, ended))
 }
 
+/// Steps the environments under random actions.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let (sum, ended) = play(1)?;
     assert_eq!(ended, COUNT * STEPS / 10, "every episode has ten steps, and the next begins by itself");

@@ -17,6 +17,7 @@ const TABLE: &str = "
   </worldbody>
 </mujoco>";
 
+/// Draws a scene in colours, depth and segmentation.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = load_str(TABLE)?.model;
     let mut data = Data::new(&model);

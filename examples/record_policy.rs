@@ -90,6 +90,7 @@ fn record(folder: &Path) -> Outcome<()> {
     Ok(())
 }
 
+/// Rolls the policy out, records and films it.
 pub fn main() -> Outcome<()> {
     let folder = std::env::temp_dir().join(format!("robohive-record-{}", std::process::id()));
     std::fs::create_dir_all(&folder)?;

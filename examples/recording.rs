@@ -51,6 +51,7 @@ fn record_and_read(file: &Path) -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
+/// Writes trials and reads them back.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let file = std::env::temp_dir().join(format!("robohive-recording-{}.h5", std::process::id()));
     let outcome = record_and_read(&file);

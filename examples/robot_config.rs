@@ -21,6 +21,7 @@ actuator = [{ name = 'servo', pos_range = [-1.5, 1.5], vel_range = [-2, 2] }]";
 /// Control period [s].
 const PERIOD: f64 = 0.1;
 
+/// Moves the robot within its limits.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = load_str(ARM)?.model;
     let config = Config::from_toml(CONFIG, "arm.toml")?;
