@@ -48,11 +48,11 @@ struct Balance {
 }
 
 impl Balance {
-    fn build(own: &Arguments, setup: &mut Setup<'_>) -> Result<Box<dyn Task>, EnvError> {
+    fn new(own: Arguments, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let names = || setup.scene.model.joint_names().map(|(_, name)| name);
         let pivot =
             setup.scene.model.joint("pivot").ok_or_else(|| EnvError::missing("joint", "pivot", names()))?;
-        Ok(Box::new(Balance { pivot, limit: own.get("limit").unwrap_or(0.5) }))
+        Ok(Balance { pivot, limit: own.get("limit").unwrap_or(0.5) })
     }
 }
 
@@ -78,10 +78,6 @@ impl Task for Balance {
         terms.set("upright", "", [f64::from(upright)]);
         Verdict { sparse: f64::from(upright), solved: upright, done: !upright }
     }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
-    }
 }
 
 /// Steps until the pole falls, under a policy of the observation.
@@ -100,7 +96,7 @@ fn balanced(env: &mut Env, policy: impl Fn(&[f64]) -> f64) -> Result<usize, EnvE
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The task gets a name, ids name the task, the model and settings.
     let mut registry = Registry::default();
-    registry.add_task("balance", Balance::build);
+    registry.add_task("balance", Balance::new);
     registry.add_table(
         "suite = 'own'
          ['own/Balance-v0']
