@@ -43,16 +43,16 @@ impl Assets for Cart {
 #[derive(Clone)]
 struct Balance {
     pivot: JointId,
-    /// The angle that counts as fallen [rad].
+    /// The angle that counts as fallen \[rad\].
     limit: f64,
 }
 
 impl Balance {
-    fn build(own: &Arguments, setup: &mut Setup<'_>) -> Result<Box<dyn Task>, EnvError> {
+    fn build(own: Arguments, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let names = || setup.scene.model.joint_names().map(|(_, name)| name);
         let pivot =
             setup.scene.model.joint("pivot").ok_or_else(|| EnvError::missing("joint", "pivot", names()))?;
-        Ok(Box::new(Balance { pivot, limit: own.get("limit").unwrap_or(0.5) }))
+        Ok(Balance { pivot, limit: own.get("limit").unwrap_or(0.5) })
     }
 }
 
@@ -77,10 +77,6 @@ impl Task for Balance {
         let upright = angle.abs() < self.limit;
         terms.set("upright", "", [f64::from(upright)]);
         Verdict { sparse: f64::from(upright), solved: upright, done: !upright }
-    }
-
-    fn boxed(&self) -> Box<dyn Task> {
-        Box::new(self.clone())
     }
 }
 
