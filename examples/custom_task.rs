@@ -43,12 +43,12 @@ impl Assets for Cart {
 #[derive(Clone)]
 struct Balance {
     pivot: JointId,
-    /// The angle that counts as fallen [rad].
+    /// The angle that counts as fallen \[rad\].
     limit: f64,
 }
 
 impl Balance {
-    fn new(own: Arguments, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+    fn build(own: Arguments, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let names = || setup.scene.model.joint_names().map(|(_, name)| name);
         let pivot =
             setup.scene.model.joint("pivot").ok_or_else(|| EnvError::missing("joint", "pivot", names()))?;
@@ -92,11 +92,10 @@ fn balanced(env: &mut Env, policy: impl Fn(&[f64]) -> f64) -> Result<usize, EnvE
     }
 }
 
-/// Makes environments of the task and runs them.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The task gets a name, ids name the task, the model and settings.
     let mut registry = Registry::default();
-    registry.add_task("balance", Balance::new);
+    registry.add_task("balance", Balance::build);
     registry.add_table(
         "suite = 'own'
          ['own/Balance-v0']

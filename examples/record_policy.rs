@@ -13,7 +13,7 @@ use std::path::Path;
 const ID: &str = "hive/FrankaReach-v0";
 /// Columns and rows of a frame.
 const SIZE: [usize; 2] = [160, 120];
-/// How far a joint is sent for a metre of error and a metre of lever [rad/m²].
+/// How far a joint is sent for a metre of error and a metre of lever \[rad/m²\].
 const GAIN: f64 = 3.0;
 
 type Outcome<T> = Result<T, Box<dyn Error>>;
@@ -46,7 +46,7 @@ impl Reacher {
     }
 }
 
-/// Plays and records one episode; the distance that is left [m].
+/// Plays and records one episode; the distance that is left \[m\].
 fn play(env: &mut Env, seed: u64, recorder: &mut Recorder, film: &mut VideoWriter) -> Outcome<f64> {
     let mut policy = Reacher::new(env)?;
     let mut trial = recorder.begin(&format!("Trial{seed}"))?;

@@ -13,7 +13,7 @@ const PENDULUM: &str = "
 /// Steps of a trial.
 const STEPS: usize = 50;
 
-/// Records a pendulum that starts at an angle [rad].
+/// Records a pendulum that starts at an angle \[rad\].
 fn trial(recorder: &mut Recorder, name: &str, angle: f64) -> Result<(), Box<dyn std::error::Error>> {
     let model = load_str(PENDULUM)?.model;
     let hinge = model.joint("hinge").ok_or("no hinge")?;

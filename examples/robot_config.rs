@@ -18,7 +18,7 @@ name = 'arm'
 sensor = [{ name = 'angle', range = [-1.5, 1.5], noise = 0.01 }]
 actuator = [{ name = 'servo', pos_range = [-1.5, 1.5], vel_range = [-2, 2] }]";
 
-/// Control period [s].
+/// Control period \[s\].
 const PERIOD: f64 = 0.1;
 
 /// Moves the robot within its limits.

@@ -5,7 +5,7 @@
 pub struct Cloud {
     /// Vertices of an element less one.
     pub dim: i32,
-    /// Points, three coordinates each [m].
+    /// Points, three coordinates each \[m\].
     pub point: Vec<f64>,
     /// Points of each element.
     pub element: Vec<i32>,

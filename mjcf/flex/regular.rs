@@ -32,7 +32,7 @@ pub(crate) struct Regular {
     pub dim: i32,
     /// Points along each axis.
     pub count: [usize; 3],
-    /// Their distance [m].
+    /// Their distance \[m\].
     pub spacing: [f64; 3],
     /// Texture coordinates are wanted.
     pub textured: bool,

@@ -1,4 +1,4 @@
-//! Height fields: a grid of elevations scaled to [0, 1].
+//! Height fields: a grid of elevations scaled to \[0, 1\].
 
 use super::png;
 use crate::asset::AssetError;

@@ -65,7 +65,7 @@ pub struct TextureSource {
     pub builtin: Builtin,
     /// Marks on a computed pattern.
     pub mark: Mark,
-    /// First colour, [0, 1].
+    /// First colour, \[0, 1\].
     pub rgb1: [f64; 3],
     /// Second colour.
     pub rgb2: [f64; 3],

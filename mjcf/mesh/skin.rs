@@ -18,7 +18,7 @@ pub struct SkinSource {
 /// The arrays of a skin as a file or an element gives them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct RawSkin {
-    /// Vertex positions in the bind pose, three numbers each [m].
+    /// Vertex positions in the bind pose, three numbers each \[m\].
     pub vert: Vec<f32>,
     /// Texture coordinates, two numbers a vertex, or none.
     pub texcoord: Vec<f32>,
@@ -31,7 +31,7 @@ pub struct RawSkin {
 /// The rows one skin contributes to a model. The weights of a vertex add up to one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct CompiledSkin {
-    /// `skin_vert` [m].
+    /// `skin_vert` \[m\].
     pub vert: Vec<[f32; 3]>,
     /// `skin_texcoord`; empty for none.
     pub texcoord: Vec<[f32; 2]>,

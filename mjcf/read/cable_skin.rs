@@ -8,7 +8,7 @@
 use crate::schema::composite::CompositeSkin;
 use crate::spec::{Bone, Skin};
 
-/// Powers of a cubic on [0, 1] (rows), from its values and slopes at both ends (columns: values, then slopes).
+/// Powers of a cubic on \[0, 1\] (rows), from its values and slopes at both ends (columns: values, then slopes).
 const CUBIC: [[f64; 4]; 4] =
     [[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [-3.0, 3.0, -2.0, -1.0], [2.0, -2.0, 1.0, 1.0]];
 

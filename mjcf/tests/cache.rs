@@ -12,7 +12,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 struct Changing {
     files: Arc<Mutex<Memory>>,
     meshes_read: Arc<AtomicUsize>,
-    /// When all files changed, if it can be told [ns].
+    /// When all files changed, if it can be told \[ns\].
     changed: Arc<Mutex<Option<i64>>>,
 }
 

@@ -17,7 +17,7 @@ impl<'a> Picture<'a> {
     /// A picture over height × width × 3 bytes.
     ///
     /// # Errors
-    /// [`EncoderError::Picture`]: a side is zero or longer than [`MAX_SIDE`], or the bytes do not fill the picture.
+    /// [`EncoderError::Picture`]: a side is zero or longer than 16384, or the bytes do not fill the picture.
     pub fn new(height: usize, width: usize, pixels: &'a [u8]) -> Result<Self, EncoderError> {
         let wrong = |reason: String| EncoderError::Picture { height, width, reason };
         if !(1..=MAX_SIDE).contains(&height) || !(1..=MAX_SIDE).contains(&width) {

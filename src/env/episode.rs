@@ -67,7 +67,7 @@ impl Summary {
 /// What RoboHive logs of evaluated episodes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Evaluation {
-    /// Share of successful episodes [%].
+    /// Share of successful episodes \[%\].
     pub success_percentage: f64,
     /// Mean sparse reward of a step.
     pub rwd_sparse: f64,

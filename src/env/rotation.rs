@@ -14,14 +14,14 @@ use physics::math::{quat_conj, quat_from_axis_angle, quat_mul};
 /// The cosine of the middle angle is below this in gimbal lock.
 const GIMBAL_LOCK: f64 = 4.0 * f64::EPSILON;
 
-/// The quaternion of a rotation about x, then about the new y, then about the new z [rad].
+/// The quaternion of a rotation about x, then about the new y, then about the new z \[rad\].
 pub fn quat_of_euler(euler: Vec3) -> Quat {
     let [x, y, z] = euler;
     let about = |axis, angle| quat_from_axis_angle(axis, angle);
     quat_mul(quat_mul(about([1.0, 0.0, 0.0], x), about([0.0, 1.0, 0.0], y)), about([0.0, 0.0, 1.0], z))
 }
 
-/// The angles about x, y and z [rad] of a rotation matrix; the middle one within ±π/2. In gimbal lock the first is zero.
+/// The angles about x, y and z \[rad\] of a rotation matrix; the middle one within ±π/2. In gimbal lock the first is zero.
 pub fn euler_of_mat(mat: &Mat3) -> Vec3 {
     let [xx, xy, xz, yx, yy, yz, _, _, zz] = *mat;
     let cosine = ops::sqrt(zz * zz + yz * yz);
@@ -33,7 +33,7 @@ pub fn euler_of_mat(mat: &Mat3) -> Vec3 {
     }
 }
 
-/// The angles about x, y and z [rad] of a quaternion of any length.
+/// The angles about x, y and z \[rad\] of a quaternion of any length.
 pub fn euler_of_quat(quat: Quat) -> Vec3 {
     euler_of_mat(&mat_of_quat(quat))
 }
@@ -76,7 +76,7 @@ pub fn quat_of_mat(mat: &Mat3) -> Quat {
     row.map(|x| sign * x / norm)
 }
 
-/// The angle [rad] and axis by which `from` turns into `to`, in the frame of the world; the axis is shorter than one where
+/// The angle \[rad\] and axis by which `from` turns into `to`, in the frame of the world; the axis is shorter than one where
 /// the angle is tiny.
 pub fn turn_between(from: Quat, to: Quat) -> (f64, Vec3) {
     let [w, x, y, z] = quat_mul(to, quat_conj(from));

@@ -65,7 +65,7 @@ pub struct Turn<'a> {
     pub action: &'a mut [f64],
     /// Set to send the action to the actuators as controls, without normalisation.
     pub raw: bool,
-    /// Control period [s].
+    /// Control period \[s\].
     pub dt: f64,
     /// Steps taken in this episode.
     pub steps: usize,
@@ -79,7 +79,7 @@ pub struct View<'a> {
     pub data: &'a Data,
     /// Controls applied in the last step (nu), within the robot's limits.
     pub control: &'a [f64],
-    /// Control period [s].
+    /// Control period \[s\].
     pub dt: f64,
     /// Steps taken in this episode.
     pub steps: usize,

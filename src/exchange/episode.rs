@@ -26,7 +26,7 @@ pub struct Episode {
     pub truncations: Array,
     /// What else is known of the states: names without `env_infos/`, `n + 1` rows each.
     pub infos: Vec<(String, Array)>,
-    /// Times of the states [s], `n + 1` of them; empty if they were not recorded.
+    /// Times of the states \[s\], `n + 1` of them; empty if they were not recorded.
     pub times: Vec<f64>,
     /// Seed of the reset, if it was recorded.
     pub seed: Option<i64>,

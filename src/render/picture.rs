@@ -41,7 +41,7 @@ pub struct Picture {
     pub height: usize,
     /// Colours, `height * width * 3`.
     pub rgb: Vec<u8>,
-    /// Distance from the camera's plane [m], `height * width`; the far plane's where there is nothing.
+    /// Distance from the camera's plane \[m\], `height * width`; the far plane's where there is nothing.
     pub depth: Vec<f32>,
     /// Number and type of the object seen (`ObjType`), `height * width`; -1 and -1 where there is nothing.
     pub segmentation: Vec<[i32; 2]>,

@@ -17,7 +17,7 @@
 /// The eye and its frustum, world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// Position of the eye [m].
+    /// Position of the eye \[m\].
     pub eye: [f64; 3],
     /// Unit vector of the gaze.
     pub forward: [f64; 3],

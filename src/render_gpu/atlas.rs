@@ -11,13 +11,13 @@ use wgpu::{BufferUsages, CommandEncoder, Extent3d, Texture, TextureFormat, Textu
 const MAX_PIXELS: usize = 1 << 22;
 /// Most columns or rows of an atlas: positions in it keep 1/256 pixel in single precision with bits to spare.
 const MAX_SIDE: usize = 4096;
-/// Rows that are copied to buffers begin at multiples of this [byte].
+/// Rows that are copied to buffers begin at multiples of this \[byte\].
 const ROW: usize = wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize;
 
 /// Cells of an atlas, one for each picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Grid {
-    /// Columns and rows of a cell [pixel]; even, so that squares of four pixels stay in one cell.
+    /// Columns and rows of a cell \[pixel\]; even, so that squares of four pixels stay in one cell.
     pub cell: [usize; 2],
     /// Cells in a row.
     pub columns: usize,

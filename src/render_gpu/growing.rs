@@ -10,7 +10,7 @@ pub struct Growing {
     buffer: Buffer,
 }
 
-/// Least size [byte], so that an empty list can be bound too.
+/// Least size \[byte\], so that an empty list can be bound too.
 const LEAST: u64 = 4096;
 
 impl Growing {

@@ -9,7 +9,7 @@ use wgpu::{
     TextureUsages, TextureView, TextureViewDescriptor, TextureViewDimension,
 };
 
-/// Most memory of all layers together [byte]; one layer is made in any case.
+/// Most memory of all layers together \[byte\]; one layer is made in any case.
 const MEMORY: usize = 1 << 28;
 /// Most layers.
 const LAYERS: usize = 32;
@@ -54,7 +54,7 @@ fn is_same(a: &Item, b: &Item) -> bool {
     rise.abs() < SAME_HEIGHT
 }
 
-/// Heights of endless planes that differ by less are rounding errors of their centres [m].
+/// Heights of endless planes that differ by less are rounding errors of their centres \[m\].
 const SAME_HEIGHT: f32 = 1e-5;
 
 /// The layers.

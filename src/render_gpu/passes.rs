@@ -11,7 +11,7 @@ pub const STRIDE: usize = 512;
 const FLOATS: usize = 80;
 /// Bytes of a pass in the shader.
 pub const BYTES: usize = 4 * FLOATS;
-/// Place of the layer in a pass [byte].
+/// Place of the layer in a pass \[byte\].
 const LAYER: usize = 13 * 16 + 8;
 /// Lights of a picture in the list of lights.
 pub const LIGHTS: usize = 8;
@@ -35,11 +35,11 @@ pub struct Pass<'a> {
     pub map: [[f32; 4]; 4],
     /// The plane that mirrors, world frame relative to the eye.
     pub mirror: [f32; 4],
-    /// Where highlights are seen from, relative to the eye [m].
+    /// Where highlights are seen from, relative to the eye \[m\].
     pub from: [f32; 3],
     /// Factor of the items' own colours.
     pub reflectance: f32,
-    /// From the world relative to the eye to the distance from the eye's plane [m].
+    /// From the world relative to the eye to the distance from the eye's plane \[m\].
     pub depth: [f32; 4],
     /// First light.
     pub first_light: u32,
@@ -55,7 +55,7 @@ pub struct Pass<'a> {
     pub offset: f32,
     /// Slices of the sky.
     pub slices: usize,
-    /// Columns and rows of the picture [pixel].
+    /// Columns and rows of the picture \[pixel\].
     pub window: [f32; 2],
 }
 
@@ -147,7 +147,7 @@ pub fn clip_rows(projection: &Projection, eye: [f64; 3], [width, height]: [f64; 
 pub struct Lens<'a> {
     /// To pixels from the lower left corner.
     pub projection: &'a Projection,
-    /// Columns and rows [pixel].
+    /// Columns and rows \[pixel\].
     pub window: [f64; 2],
 }
 

@@ -23,7 +23,7 @@ const CAMERAS: usize = 8;
 /// One picture of a batch.
 #[derive(Clone, Debug)]
 pub struct Tile {
-    /// Columns and rows [pixel].
+    /// Columns and rows \[pixel\].
     pub size: [usize; 2],
     /// What it draws.
     pub calls: Calls,

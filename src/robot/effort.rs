@@ -58,7 +58,7 @@ impl Effort {
         b0 + b1 * data.trn.actuator_length[self.output] + b2 * data.vel.actuator_velocity[self.output]
     }
 
-    /// The control that makes this torque now [N m, N].
+    /// The control that makes this torque now \[N m, N\].
     pub(crate) fn control(&self, data: &Data, torque: f64) -> f64 {
         (torque / self.gear - self.passive(data)) / self.gain
     }

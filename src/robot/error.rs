@@ -84,7 +84,7 @@ pub enum RobotError {
         /// Its value.
         value: f64,
     },
-    /// A control period that is no positive number [s].
+    /// A control period that is no positive number \[s\].
     BadDuration(f64),
     /// A vector to be moved from a space into the same one.
     SameSpace,

@@ -14,7 +14,7 @@ use physics::{Data, Model};
 /// Where a site should be.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// Position, world frame [m]; `None` for any.
+    /// Position, world frame \[m\]; `None` for any.
     pub position: Option<Vec3>,
     /// Orientation; `None` for any. It is normalised.
     pub orientation: Option<Quat>,
@@ -25,7 +25,7 @@ pub struct Pose {
 pub struct Search {
     /// The error at which it is reached.
     pub tolerance: f64,
-    /// Weight of the angle [rad] beside the distance [m] in the error.
+    /// Weight of the angle \[rad\] beside the distance \[m\] in the error.
     pub rotation_weight: f64,
     /// Damping while the error is above `damping_threshold`.
     pub damping: f64,
@@ -58,7 +58,7 @@ impl Default for Search {
 pub struct Solution {
     /// Positions of all joints.
     pub qpos: Vec<f64>,
-    /// Distance [m] plus weighted angle [rad] that is left.
+    /// Distance \[m\] plus weighted angle \[rad\] that is left.
     pub error: f64,
     /// Updates made.
     pub steps: usize,

@@ -56,7 +56,7 @@ impl Clock for WallClock {
 #[derive(Clone, Debug, Default)]
 pub struct Pacer<C> {
     clock: C,
-    /// When the current period began [s].
+    /// When the current period began \[s\].
     begun: Option<f64>,
     periods: u64,
     overruns: u64,
@@ -74,7 +74,7 @@ impl<C: Clock> Pacer<C> {
         self.begun = Some(self.clock.now());
     }
 
-    /// Waits until the current period has lasted `duration` seconds; returns how much longer it took already [s]. The
+    /// Waits until the current period has lasted `duration` seconds; returns how much longer it took already \[s\]. The
     /// first period begins here where [`Pacer::start`] was not called.
     pub fn finish(&mut self, duration: f64) -> f64 {
         let now = self.clock.now();
@@ -106,7 +106,7 @@ impl<C: Clock> Pacer<C> {
         self.overruns
     }
 
-    /// By how much the longest overran [s].
+    /// By how much the longest overran \[s\].
     pub fn worst_overrun(&self) -> f64 {
         self.worst
     }

@@ -5,11 +5,11 @@ use crate::keeper::Keeper;
 /// Values of all sensors of all devices.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Readings {
-    /// When they were measured [s]; of several devices, the latest.
+    /// When they were measured \[s\]; of several devices, the latest.
     pub time: f64,
     /// Values in the order of the config; of a robot without config `qpos`, `qvel` and `act`.
     pub values: Vec<f64>,
-    /// When each device measured, in the order of the config [s].
+    /// When each device measured, in the order of the config \[s\].
     pub stamps: Vec<f64>,
 }
 

@@ -11,7 +11,7 @@ use crate::tree;
 use crate::verify::{self, Damage};
 use std::path::{Path, PathBuf};
 
-/// Files of others by virtual path, see the [crate].
+/// Files of others by virtual path, see the \[crate\].
 #[derive(Debug)]
 pub struct Store {
     folder: PathBuf,

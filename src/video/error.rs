@@ -32,9 +32,9 @@ pub enum VideoError {
     },
     /// A depth range that is empty or not finite.
     DepthRange {
-        /// Distance drawn in the first colour [m].
+        /// Distance drawn in the first colour \[m\].
         near: f32,
-        /// Distance drawn in the last colour [m].
+        /// Distance drawn in the last colour \[m\].
         far: f32,
     },
     /// A contact sheet without cells, or one too large for a picture.

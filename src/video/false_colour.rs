@@ -16,7 +16,7 @@ pub const NO_SEGMENT: [u8; 3] = [0, 0, 0];
 
 /// Depth in the colours [`DEPTH_COLOURS`].
 ///
-/// `depth` has `width * height` distances [m], rows from the top. `near` and `far` [m] have the first and the last
+/// `depth` has `width * height` distances \[m\], rows from the top. `near` and `far` \[m\] have the first and the last
 /// colour; what is nearer or farther, infinity included, has them too. NaN and negative distances are [`NO_DEPTH`].
 pub fn depth_image(
     width: u32,

@@ -29,7 +29,7 @@ pub fn encode_png(out: impl Write, frame: &Frame<'_>) -> io::Result<()> {
 
 /// Writes depth as a 16-bit grey PNG in millimetres, the convention of depth cameras.
 ///
-/// `depth` has `width * height` distances [m], rows from the top. A pixel is the distance rounded to a whole millimetre;
+/// `depth` has `width * height` distances \[m\], rows from the top. A pixel is the distance rounded to a whole millimetre;
 /// what is farther than 65.535 m, infinity included, is 65535; what is not a distance (negative or NaN) is 0.
 pub fn write_depth_png(
     path: impl AsRef<Path>,

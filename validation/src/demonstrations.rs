@@ -16,7 +16,7 @@ const FRAME: &str = "frame";
 /// What the recorded observations consist of.
 const ROWS: [&str; 7] =
     ["hand_jnt", "latch_pos", "door_pos", "palm_pos", "handle_pos", "reach_err", "door_open"];
-/// Upper ends of the histogram's bins [rad].
+/// Upper ends of the histogram's bins \[rad\].
 const BINS: [f64; 6] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
 
 /// A replayed trajectory.
@@ -24,13 +24,13 @@ const BINS: [f64; 6] = [0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
 pub struct Replay {
     /// Actions replayed.
     pub steps: usize,
-    /// Differences of the last observation: largest of the joints of the hand [rad].
+    /// Differences of the last observation: largest of the joints of the hand \[rad\].
     pub hand: f64,
-    /// Angle of the door [rad].
+    /// Angle of the door \[rad\].
     pub door: f64,
-    /// Place of the palm [m].
+    /// Place of the palm \[m\].
     pub palm: f64,
-    /// The door's angle at the end [rad]: recorded, and ours.
+    /// The door's angle at the end \[rad\]: recorded, and ours.
     pub angles: [f64; 2],
 }
 

@@ -78,7 +78,7 @@ pub struct StepReport {
     pub steps: usize,
     /// Steps whose positions agree.
     pub agreeing: usize,
-    /// Largest difference of any position after one step [m, rad], and its step.
+    /// Largest difference of any position after one step \[m, rad\], and its step.
     pub worst: (f64, usize),
 }
 
@@ -128,11 +128,11 @@ const SECOND_TWIN: &str = "twin.below";
 pub struct RolloutReport {
     /// Steps compared.
     pub steps: usize,
-    /// Largest difference of any position up to the last step [m, rad].
+    /// Largest difference of any position up to the last step \[m, rad\].
     pub divergence: f64,
     /// MuJoCo's own divergence from its twin.
     pub twin: f64,
-    /// Largest difference of any position up to step [`EARLY`] [m, rad].
+    /// Largest difference of any position up to step [`EARLY`] \[m, rad\].
     pub early: f64,
     /// First step outside the bound, when there is one.
     pub first_outside: Option<usize>,

@@ -40,7 +40,7 @@ pub struct Rules {
 struct Row {
     name: &'static str,
     verdict: Verdict,
-    /// Elapsed and processor time [s].
+    /// Elapsed and processor time \[s\].
     seconds: [f64; 2],
 }
 
@@ -132,7 +132,7 @@ fn in_ci() -> bool {
     std::env::var_os("CI").is_some_and(|value| !value.is_empty() && value != "false")
 }
 
-/// Processor time of all child processes that have ended [s]; 0 where the system does not tell it as Linux does.
+/// Processor time of all child processes that have ended \[s\]; 0 where the system does not tell it as Linux does.
 fn processor_seconds() -> f64 {
     let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
     // `man 5 proc_pid_stat`: fields 16 and 17, in ticks of 1/100 s; the name in parentheses may hold spaces.

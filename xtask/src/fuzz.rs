@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-/// A unit that takes longer [s] is a finding.
+/// A unit that takes longer \[s\] is a finding.
 const HANG: u32 = 1;
-/// More memory [MB] is a finding.
+/// More memory \[MB\] is a finding.
 const MEMORY: u32 = 1024;
 
 /// Seconds for each target where the command line names none.
@@ -20,7 +20,7 @@ const SECONDS: u32 = 600;
 
 /// Longest name of a kept input: libFuzzer names inputs by a digest of 40 digits, of which these tell them apart.
 const NAME: usize = 12;
-/// Kept inputs are at most this long [bytes].
+/// Kept inputs are at most this long \[bytes\].
 const LONGEST_KEPT: &str = "-max_len=1000";
 
 /// Runs each of the targets that the words name, or every one, for the seconds that the first word gives; an error

@@ -8,7 +8,7 @@ use std::process::Command;
 
 /// Mutants tested where the command line names no number.
 const COUNT: usize = 300;
-/// A test run that takes longer [s] has met a loop without end.
+/// A test run that takes longer \[s\] has met a loop without end.
 const TIMEOUT: &str = "300";
 const TABLE: &str = "validation/results/mutants.md";
 /// Where cargo-mutants leaves its logs, within this folder.

@@ -18,13 +18,13 @@ const OLDEST: &str =
 /// The Pythons that one wheel is for, by their minor versions.
 const MINOR_VERSIONS: std::ops::RangeInclusive<u32> = 10..=14;
 
-/// Largest wheel [bytes].
+/// Largest wheel \[bytes\].
 const LARGEST_WHEEL: u64 = 20_000_000;
 
 /// Texts that the metadata of a wheel carry.
 const LICENCES: [&str; 2] = ["licenses/LICENSE", "licenses/THIRD_PARTY.md"];
 
-/// What a fresh environment does first with an installed wheel; prints how long the imports took [ms].
+/// What a fresh environment does first with an installed wheel; prints how long the imports took \[ms\].
 const FIRST_STEP: &str = "
 import time
 import numpy

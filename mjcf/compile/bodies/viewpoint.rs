@@ -95,7 +95,7 @@ fn compile_camera<'s>(
     Ok(CameraNode { spec, pose, intrinsic, fovy: field_of_view(spec.sensor_size[1] / 2.0, intrinsic[1]) })
 }
 
-/// The vertical field of view [degrees] of half a sensor's height and a focal length.
+/// The vertical field of view \[degrees\] of half a sensor's height and a focal length.
 fn field_of_view(half_height: f32, focal: f32) -> f64 {
     f64::from(ops::atan2_single(half_height, focal)) * 360.0 / PI
 }

@@ -20,14 +20,14 @@ const ACROSS: [[usize; 2]; 6] = [[2, 3], [1, 3], [2, 1], [1, 0], [0, 2], [0, 3]]
 /// What a material is made of.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Material {
-    /// Young's modulus [Pa].
+    /// Young's modulus \[Pa\].
     pub young: f64,
     /// Poisson's ratio.
     pub poisson: f64,
 }
 
 impl Material {
-    /// Shear modulus [Pa].
+    /// Shear modulus \[Pa\].
     pub fn shear(self) -> f64 {
         self.young / (2.0 * (1.0 + self.poisson))
     }

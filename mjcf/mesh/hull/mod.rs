@@ -72,7 +72,7 @@ impl fmt::Display for HullError {
 
 impl std::error::Error for HullError {}
 
-/// Hull of `points` [m]; at most `max_vert` vertices unless that is -1.
+/// Hull of `points` \[m\]; at most `max_vert` vertices unless that is -1.
 ///
 /// # Errors
 /// The points span no volume, or the construction meets a numerical accident.

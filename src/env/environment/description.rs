@@ -140,7 +140,7 @@ impl Env {
         Ok(())
     }
 
-    /// Control period [s].
+    /// Control period \[s\].
     pub fn dt(&self) -> f64 {
         self.scene.model.opt.timestep * self.frame_skip as f64
     }

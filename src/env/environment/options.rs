@@ -16,7 +16,7 @@ pub struct Options {
     pub compat: Compat,
     /// Settings that differ from the id's, by their names.
     pub changes: Arguments,
-    /// What [`Env::render`] returns.
+    /// What [`Env::render`](crate::Env::render) returns.
     pub rendering: Rendering,
     /// Networks for visual keys.
     pub networks: Arc<dyn Networks>,

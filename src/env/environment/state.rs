@@ -32,7 +32,7 @@ pub struct EnvState {
 /// A state as RoboHive's traces hold it. What is missing keeps its value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct WorldState {
-    /// Simulation time [s].
+    /// Simulation time \[s\].
     pub time: Option<f64>,
     /// Joint positions (nq).
     pub qpos: Option<Vec<f64>>,
@@ -40,15 +40,15 @@ pub struct WorldState {
     pub qvel: Option<Vec<f64>>,
     /// Actuator activations (na).
     pub act: Option<Vec<f64>>,
-    /// Positions of mocap bodies (nmocap x 3) [m].
+    /// Positions of mocap bodies (nmocap x 3) \[m\].
     pub mocap_pos: Option<Vec<f64>>,
     /// Orientations of mocap bodies (nmocap x 4).
     pub mocap_quat: Option<Vec<f64>>,
-    /// Positions of sites in their bodies (nsite x 3) [m].
+    /// Positions of sites in their bodies (nsite x 3) \[m\].
     pub site_pos: Option<Vec<f64>>,
     /// Orientations of sites in their bodies (nsite x 4).
     pub site_quat: Option<Vec<f64>>,
-    /// Positions of bodies in their parents (nbody x 3) [m].
+    /// Positions of bodies in their parents (nbody x 3) \[m\].
     pub body_pos: Option<Vec<f64>>,
     /// Orientations of bodies in their parents (nbody x 4).
     pub body_quat: Option<Vec<f64>>,

@@ -16,7 +16,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub enum Pixels {
     /// Colours, 8 bits each.
     Bytes(Vec<u8>),
-    /// Depths [m], or the features that a network finds.
+    /// Depths \[m\], or the features that a network finds.
     Numbers(Vec<f32>),
 }
 
@@ -74,7 +74,7 @@ pub struct Exteroception {
 }
 
 impl Exteroception {
-    /// Simulation time at which they were taken [s].
+    /// Simulation time at which they were taken \[s\].
     pub fn time(&self) -> f64 {
         self.time
     }
@@ -205,7 +205,7 @@ impl Eyes {
         })
     }
 
-    /// Makes images of the drawings, which were taken at a time [s].
+    /// Makes images of the drawings, which were taken at a time \[s\].
     pub(crate) fn finish(
         &mut self,
         time: f64,

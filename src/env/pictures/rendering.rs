@@ -9,12 +9,12 @@ message! {
     RenderModeError
 }
 
-/// What [`Env::render`] returns (Gymnasium's `render_mode`).
+/// What [`Env::render`](crate::Env::render) returns (Gymnasium's `render_mode`).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RenderMode {
     /// Colours.
     RgbArray,
-    /// Depth [m].
+    /// Depth \[m\].
     DepthArray,
 }
 
@@ -44,7 +44,7 @@ impl fmt::Display for RenderMode {
     }
 }
 
-/// How [`Env::render`] draws.
+/// How [`Env::render`](crate::Env::render) draws.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Rendering {
     /// What it returns; nothing without one.

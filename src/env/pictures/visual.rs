@@ -14,7 +14,7 @@ message! {
 pub enum Channel {
     /// Colours, 8 bits each.
     Rgb,
-    /// Distance from the camera's plane [m].
+    /// Distance from the camera's plane \[m\].
     Depth,
 }
 

@@ -27,7 +27,7 @@ struct Found<'a> {
     dials: Vec<Dial>,
 }
 
-/// Bounds of colours, and of angles of view [deg].
+/// Bounds of colours, and of angles of view \[deg\].
 const UNIT: [f64; 2] = [0.0, 1.0];
 const VIEWS: [f64; 2] = [0.1, 179.0];
 const ANYTHING: [f64; 2] = [f64::MIN, f64::MAX];

@@ -87,7 +87,7 @@ pub struct LightRange {
     /// Names of lights.
     #[serde(default)]
     pub names: Option<Vec<String>>,
-    /// What is added to the position [m]: in the frame of the light's body, or in the world's if the light follows it.
+    /// What is added to the position \[m\]: in the frame of the light's body, or in the world's if the light follows it.
     #[serde(default)]
     pub pos: Option<Ranges<3>>,
     /// What is added to the unit vector of its direction.
@@ -111,14 +111,14 @@ pub struct CameraRange {
     /// Names of cameras.
     #[serde(default)]
     pub names: Option<Vec<String>>,
-    /// What is added to the position [m]: in the frame of the camera's body, or in the world's if the camera follows it.
+    /// What is added to the position \[m\]: in the frame of the camera's body, or in the world's if the camera follows it.
     #[serde(default)]
     pub pos: Option<Ranges<3>>,
-    /// Rotation vector about the camera's own axes: right, up, backwards [deg]. A camera that targets a body turns towards
+    /// Rotation vector about the camera's own axes: right, up, backwards \[deg\]. A camera that targets a body turns towards
     /// it whatever this says.
     #[serde(default)]
     pub turn: Option<Ranges<3>>,
-    /// Vertical field of view [deg].
+    /// Vertical field of view \[deg\].
     #[serde(default)]
     pub fovy: Option<Ranges<1>>,
 }
@@ -132,10 +132,10 @@ pub struct DistractorRange {
     /// Red, green, blue and opacity of all their geoms, 0 to 1.
     #[serde(default)]
     pub rgba: Option<Ranges<4>>,
-    /// What is added to the position in the parent [m].
+    /// What is added to the position in the parent \[m\].
     #[serde(default)]
     pub pos: Option<Ranges<3>>,
-    /// Rotation vector about the body's own axes [deg].
+    /// Rotation vector about the body's own axes \[deg\].
     #[serde(default)]
     pub turn: Option<Ranges<3>>,
 }

@@ -144,7 +144,7 @@ fn leaning(direction: Vec3, change: Vec3) -> Vec3 {
     if length > f64::EPSILON { scale(changed, 1.0 / length) } else { direction }
 }
 
-/// The quaternion of a rotation vector [deg].
+/// The quaternion of a rotation vector \[deg\].
 fn rotation(degrees: Vec3) -> Quat {
     let vector = degrees.map(f64::to_radians);
     let angle = norm(vector);

@@ -30,11 +30,11 @@ pub const KEYS: [&str; 9] = [
 /// The ellipse that both targets move on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Orbit {
-    /// Half axes [m].
+    /// Half axes \[m\].
     pub radii: [f64; 2],
-    /// Middle [m].
+    /// Middle \[m\].
     pub center: [f64; 2],
-    /// Time of a turn [s].
+    /// Time of a turn \[s\].
     pub period: f64,
     /// 1 counterclockwise, -1 clockwise, 0 at rest.
     pub direction: f64,
@@ -43,7 +43,7 @@ pub struct Orbit {
 }
 
 impl Orbit {
-    /// How far [rad] targets have moved after `steps` control periods `dt` [s].
+    /// How far \[rad\] targets have moved after `steps` control periods `dt` \[s\].
     pub fn angle(&self, steps: usize, dt: f64) -> f64 {
         match self.jumps {
             None => self.direction * TAU * (steps as f64 * dt / self.period),
@@ -54,7 +54,7 @@ impl Orbit {
         }
     }
 
-    /// The place at an angle [m].
+    /// The place at an angle \[m\].
     pub fn at(&self, angle: f64) -> [f64; 2] {
         let (sine, cosine) = ops::sincos(angle);
         [self.radii[0] * cosine + self.center[0], self.radii[1] * sine + self.center[1]]
@@ -127,7 +127,7 @@ impl Pairs {
 /// How well the balls follow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Following {
-    /// From ball to target [m].
+    /// From ball to target \[m\].
     pub distances: [f64; 2],
     /// Whether each ball is at its target.
     pub near: [bool; 2],
@@ -136,7 +136,7 @@ pub struct Following {
 }
 
 impl Following {
-    /// Judges an observation: balls closer than `near` [m] are at their targets, those below the height `drop` [m] fell.
+    /// Judges an observation: balls closer than `near` \[m\] are at their targets, those below the height `drop` \[m\] fell.
     pub fn of(rows: &Rows, near: f64, drop: f64) -> Self {
         let distances = ["target1_err", "target2_err"].map(|row| norm(&rows[row]));
         Following {
@@ -157,7 +157,7 @@ impl Following {
     }
 }
 
-/// How far the wrist is bent [rad], its three joints counted unequally.
+/// How far the wrist is bent \[rad\], its three joints counted unequally.
 pub fn wrist_error(rows: &Rows) -> f64 {
     const WEIGHTS: Vec3 = [5.0, 0.5, 1.0];
     let joints = &rows["hand_pos"];

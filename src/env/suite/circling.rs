@@ -7,9 +7,9 @@ use crate::suite::baoding::{BALLS, Orbit, Pairs};
 use crate::task::Pose;
 use robot::Keeper;
 
-/// Middle of the path in the palm [m].
+/// Middle of the path in the palm \[m\].
 const CENTER: [f64; 2] = [-0.0125, -0.07];
-/// Angle [rad] of the forearm that turns the palm up.
+/// Angle \[rad\] of the forearm that turns the palm up.
 const PALM_UP: f64 = -1.57;
 
 /// The balls in the palm, their targets, and the path of these in an episode.
@@ -19,11 +19,11 @@ pub struct Circling {
     pub pairs: Pairs,
     /// The path.
     pub orbit: Orbit,
-    /// Angles at which the targets begin [rad].
+    /// Angles at which the targets begin \[rad\].
     pub starts: [f64; 2],
 }
 
-/// Draws half axes from their ranges along x and y [m].
+/// Draws half axes from their ranges along x and y \[m\].
 ///
 /// # Errors
 /// A range that cannot be drawn from.
@@ -32,8 +32,8 @@ pub fn draw_radii([[x0, x1], [y0, y1]]: [[f64; 2]; 2], rng: &mut Rng) -> Result<
 }
 
 impl Circling {
-    /// The balls of a scene, whose targets turn counterclockwise and steadily from `starts` [rad] on an ellipse with these
-    /// half axes [m], once in a period [s].
+    /// The balls of a scene, whose targets turn counterclockwise and steadily from `starts` \[rad\] on an ellipse with these
+    /// half axes \[m\], once in a period \[s\].
     ///
     /// # Errors
     /// The model lacks the balls or their targets.
@@ -50,7 +50,7 @@ impl Circling {
         keeper.numbers(&mut self.starts);
     }
 
-    /// Moves the targets to where they are when a control period `dt` [s] has passed `steps` times.
+    /// Moves the targets to where they are when a control period `dt` \[s\] has passed `steps` times.
     ///
     /// # Errors
     /// The place is no number.

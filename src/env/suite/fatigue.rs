@@ -22,11 +22,11 @@ const LOAD_DOF: usize = 1;
 #[derive(Clone)]
 pub struct Fatigue {
     compat: Compat,
-    /// Peak forces of the rested muscles [N]; in the original, the parameter.
+    /// Peak forces of the rested muscles \[N\]; in the original, the parameter.
     rested: Vec<f64>,
-    /// Load over time [N s]; in the original, the sum of distances from the largest moment arm [m].
+    /// Load over time \[N s\]; in the original, the sum of distances from the largest moment arm \[m\].
     spent: Vec<f64>,
-    /// Largest moment arms so far [m].
+    /// Largest moment arms so far \[m\].
     largest: Vec<f64>,
     /// Steps so far.
     steps: usize,

@@ -16,7 +16,7 @@ use serde::Deserialize;
 
 /// Part of its peak force that a muscle keeps in sarcopenia.
 const SARCOPENIA: f64 = 0.5;
-/// Bound of the rows of muscle velocity [m/s] and force [kN].
+/// Bound of the rows of muscle velocity \[m/s\] and force \[kN\].
 const OBSERVED_BOUND: f64 = 100.0;
 /// Time steps of the physics in one step of a muscle task, where the id does not say.
 const FRAME_SKIP: usize = 10;

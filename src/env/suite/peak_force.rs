@@ -2,12 +2,12 @@
 
 use physics::Model;
 
-/// Where a muscle's parameters hold its peak force [N]; negative where it follows from the model.
+/// Where a muscle's parameters hold its peak force \[N\]; negative where it follows from the model.
 pub const PEAK_FORCE: usize = 2;
 /// Where they hold the scale from which such a peak force follows.
 const FORCE_SCALE: usize = 3;
 
-/// The force [N] that a muscle can exert at most.
+/// The force \[N\] that a muscle can exert at most.
 pub fn peak_force(model: &Model, actuator: usize) -> f64 {
     let parameters = &model.actuator_gainprm[actuator];
     match parameters[PEAK_FORCE] {

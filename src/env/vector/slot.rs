@@ -61,7 +61,7 @@ pub struct StepRecord {
     pub replaced: bool,
     /// Physics refused the step: [`Step::fault`].
     pub faulty: bool,
-    /// Simulation time [s].
+    /// Simulation time \[s\].
     pub time: f64,
     /// The weighted sum of the terms of the reward in the present state.
     pub dense: f64,

@@ -189,7 +189,7 @@ fn joint(m: &Model, state: &State, id: usize, gear: [Vec3; 2], in_parent: bool, 
     }
 }
 
-/// A slider crank: the sites of its pin and its slider, and the length of the rod between them [m].
+/// A slider crank: the sites of its pin and its slider, and the length of the rod between them \[m\].
 struct Crank {
     pin: usize,
     slider: usize,

@@ -2,7 +2,7 @@
 //!
 //! | form | arrays | for |
 //! |---|---|---|
-//! | [`Arrays`](super::Arrays) | [`Array`]: shared, copied on write | a finished model |
+//! | `Arrays`(super::Arrays) | [`Array`]: shared, copied on write | a finished model |
 //! | [`Rows`](super::Rows) | `Vec` | a compiler that appends row by row |
 //! | [`Draft`](super::Draft) | [`Writer`]: keeps the length, remembers what was before | an edit |
 //!

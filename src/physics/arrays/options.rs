@@ -48,7 +48,7 @@ macro_rules! settings {
 settings! {
     /// Simulation options (`<option>`).
     Options {
-        /// Duration of a step [s].
+        /// Duration of a step \[s\].
         timestep: f64 = 0.002,
         /// Ratio of frictional to normal impedance of elliptic contacts.
         impratio: f64 = 1.0,
@@ -58,21 +58,21 @@ settings! {
         ls_tolerance: f64 = 0.01,
         /// Improvement below which the no-slip pass stops.
         noslip_tolerance: f64 = 1e-06,
-        /// Accuracy of convex collision [m].
+        /// Accuracy of convex collision \[m\].
         ccd_tolerance: f64 = 1e-06,
         /// Speed below which a tree may sleep.
         sleep_tolerance: f64 = 0.001,
-        /// Acceleration of gravity, world frame [m/s²].
+        /// Acceleration of gravity, world frame \[m/s²\].
         gravity: [f64; 3] = [0.0, 0.0, -9.81],
-        /// Velocity of the medium, world frame [m/s].
+        /// Velocity of the medium, world frame \[m/s\].
         wind: [f64; 3] = [0.0, 0.0, 0.0],
         /// Magnetic flux, world frame.
         magnetic: [f64; 3] = [0.0, -0.5, 0.0],
-        /// Density of the medium [kg/m³].
+        /// Density of the medium \[kg/m³\].
         density: f64 = 0.0,
-        /// Viscosity of the medium [Pa s].
+        /// Viscosity of the medium \[Pa s\].
         viscosity: f64 = 0.0,
-        /// Contact margin under the override flag [m].
+        /// Contact margin under the override flag \[m\].
         o_margin: f64 = 0.0,
         /// Contact reference under the override flag.
         o_solref: [f64; 2] = [0.02, 1.0],
@@ -111,13 +111,13 @@ settings! {
     Statistic {
         /// Mean diagonal of the inertia matrix.
         meaninertia: f64 = 1.0,
-        /// Mean body mass [kg].
+        /// Mean body mass \[kg\].
         meanmass: f64 = 1.0,
-        /// Mean body size [m].
+        /// Mean body size \[m\].
         meansize: f64 = 0.2,
-        /// Half extent of the model [m].
+        /// Half extent of the model \[m\].
         extent: f64 = 2.0,
-        /// Centre of the model, world frame [m].
+        /// Centre of the model, world frame \[m\].
         center: [f64; 3] = [0.0; 3],
     }
     /// General settings (`<visual/global>`).
@@ -126,13 +126,13 @@ settings! {
         cameraid: i32 = -1,
         /// The free camera is orthographic.
         orthographic: i32 = 0,
-        /// Vertical field of view of the free camera, or extent when orthographic [deg, m].
+        /// Vertical field of view of the free camera, or extent when orthographic \[deg, m\].
         fovy: f32 = 45.0,
-        /// Distance between the eyes of the free camera [m].
+        /// Distance between the eyes of the free camera \[m\].
         ipd: f32 = 0.068,
-        /// Azimuth of the free camera at the start [deg].
+        /// Azimuth of the free camera at the start \[deg\].
         azimuth: f32 = 90.0,
-        /// Elevation of the free camera at the start [deg].
+        /// Elevation of the free camera at the start \[deg\].
         elevation: f32 = -45.0,
         /// Width of lines.
         linewidth: f32 = 1.0,
@@ -140,9 +140,9 @@ settings! {
         glow: f32 = 0.3,
         /// Speed of the simulation relative to the clock.
         realtime: f32 = 1.0,
-        /// Width of the off-screen buffer [pixel].
+        /// Width of the off-screen buffer \[pixel\].
         offwidth: i32 = 640,
-        /// Height of the off-screen buffer [pixel].
+        /// Height of the off-screen buffer \[pixel\].
         offheight: i32 = 480,
         /// Inertias are drawn as ellipsoids instead of boxes.
         ellipsoidinertia: i32 = 0,
@@ -151,7 +151,7 @@ settings! {
     }
     /// Rendering quality (`<visual/quality>`).
     VisualQuality {
-        /// Size of the shadow map [pixel].
+        /// Size of the shadow map \[pixel\].
         shadowsize: i32 = 4096,
         /// Samples a pixel, off screen.
         offsamples: i32 = 4,

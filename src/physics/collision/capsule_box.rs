@@ -14,7 +14,7 @@ use super::sphere::ball_box;
 use crate::math::{Vec3, add, add_scaled, dot, mul_mat_t_vec, mul_mat_vec, scale, sub};
 use crate::model::bounds::MINVAL;
 
-/// The capsule's segment in the frame of the box; points are `centre + x half` with x in [-1, 1].
+/// The capsule's segment in the frame of the box; points are `centre + x half` with x in \[-1, 1\].
 struct Segment {
     centre: Vec3,
     axis: Vec3,
@@ -31,7 +31,7 @@ enum Feature {
     Inside,
     /// A corner, by its side of the box along each axis.
     Corner(Vec3),
-    /// The inside of an edge, at `along` in [-1, 1].
+    /// The inside of an edge, at `along` in \[-1, 1\].
     Edge { edge: Edge, along: f64 },
 }
 
@@ -158,7 +158,7 @@ impl Segment {
 
     /// The points of the segment and an edge that are nearest to each other; `None` for parallel lines.
     ///
-    /// With the edge at `middle + x e` and the segment at `centre + y h`, both x and y in [-1, 1], the square of the gap is
+    /// With the edge at `middle + x e` and the segment at `centre + y h`, both x and y in \[-1, 1\], the square of the gap is
     /// least where its derivatives vanish: `e·e x - e·h y = -e·d` and `h·h y - e·h x = h·d`, with `d = middle - centre`. Where x
     /// or y then leaves its range it is put on the limit, and the other one follows from its own equation alone.
     fn gap_to_edge(&self, size: Vec3, edge: &Edge) -> Option<Gap> {
@@ -273,7 +273,7 @@ impl Slide {
     }
 }
 
-/// A coordinate limited to [-1, 1].
+/// A coordinate limited to \[-1, 1\].
 #[derive(Clone, Copy)]
 struct Limited {
     value: f64,

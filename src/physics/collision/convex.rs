@@ -19,7 +19,7 @@ use crate::math::{
 use crate::model::{Disable, Model, Options};
 use crate::stages::Kinematics;
 
-/// Angle by which geoms are rocked to find more contacts [rad].
+/// Angle by which geoms are rocked to find more contacts \[rad\].
 const ROCKING_ANGLE: f64 = 1e-3;
 /// Contacts nearer than this fraction of the smaller bounding radius are one contact.
 const SAME_CONTACT: f64 = 1e-3;

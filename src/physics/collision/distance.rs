@@ -33,7 +33,7 @@ pub struct DistanceScratch {
     points: Vec<PreContact>,
 }
 
-/// Signed distance between geoms `g1` and `g2` [m], at most `limit`, and the nearest points in the world: on `g1`, on `g2`.
+/// Signed distance between geoms `g1` and `g2` \[m\], at most `limit`, and the nearest points in the world: on `g1`, on `g2`.
 /// Overlapping geoms have a negative distance; their points would meet if one geom moved by that depth.
 ///
 /// Filters do not matter: any two geoms can be measured. Points are zeros where the geoms are farther apart than `limit`,

@@ -17,7 +17,7 @@ use super::support::ConvexBody;
 use crate::math::{Mat3, Vec3, add, cross, dot, mul_mat_vec, norm, scale, sub};
 use crate::model::bounds::MINVAL;
 
-/// The upper bound may fall short of the lower one by rounding, not by more than this [m].
+/// The upper bound may fall short of the lower one by rounding, not by more than this \[m\].
 const BOUND_SLACK: f64 = 1e-10;
 const MAX_ROUNDS: usize = 1000;
 /// Faces that there is room for, for every iteration allowed.
@@ -40,7 +40,7 @@ const TETRAHEDRON: [Pattern; 4] =
 /// Depth, nearest points and supporting vertices of two bodies that overlap.
 #[derive(Clone, Copy, Debug)]
 pub struct Penetration {
-    /// Signed distance, not positive [m].
+    /// Signed distance, not positive \[m\].
     pub dist: f64,
     /// Deepest points of the two bodies.
     pub nearest: [Vec3; 2],

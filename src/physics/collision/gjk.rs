@@ -26,9 +26,9 @@ pub const BEYOND: f64 = f64::MAX;
 pub struct Limits {
     /// Most iterations of each algorithm.
     pub iterations: usize,
-    /// Tolerance on distance and depth [m].
+    /// Tolerance on distance and depth \[m\].
     pub tolerance: f64,
-    /// Distances are wanted up to here; 0 asks only whether the bodies touch [m].
+    /// Distances are wanted up to here; 0 asks only whether the bodies touch \[m\].
     pub cutoff: f64,
 }
 
@@ -48,7 +48,7 @@ pub struct Vertex {
 /// What GJK found.
 #[derive(Clone, Copy, Debug)]
 pub struct Proximity {
-    /// Distance; [`BEYOND`] past the cut-off; 0 when a tetrahedron holds the origin [m].
+    /// Distance; [`BEYOND`] past the cut-off; 0 when a tetrahedron holds the origin \[m\].
     pub dist: f64,
     /// The bodies surely do not touch.
     pub separated: bool,

@@ -40,7 +40,7 @@ impl<'a> Grid<'a> {
         beyond(0, -sx, sx) || beyond(1, -sy, sy) || beyond(2, -base, top)
     }
 
-    /// Indices of the first and last grid line that enclose [min, max] along x (0) or y (1).
+    /// Indices of the first and last grid line that enclose \[min, max\] along x (0) or y (1).
     fn lines(&self, axis: usize, min: f64, max: f64) -> (usize, usize) {
         let half = self.size[axis];
         let last = (if axis == 0 { self.columns } else { self.rows }) - 1;

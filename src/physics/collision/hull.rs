@@ -8,7 +8,7 @@ use crate::model::Model;
 /// The mesh of a geom.
 #[derive(Clone, Copy, Debug)]
 pub struct MeshHull<'a> {
-    /// Vertices in the geom frame [m].
+    /// Vertices in the geom frame \[m\].
     vert: &'a [[f32; 3]],
     slope: Option<Slope<'a>>,
     /// Index of the mesh.

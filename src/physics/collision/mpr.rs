@@ -18,7 +18,7 @@ const MAX_STEPS: usize = 10_000;
 /// Depth of two overlapping bodies.
 #[derive(Clone, Copy, Debug)]
 pub struct Overlap {
-    /// Penetration depth, not negative [m].
+    /// Penetration depth, not negative \[m\].
     pub depth: f64,
     /// Direction in which the second body must move out; zero when the bodies only touch.
     pub direction: Vec3,

@@ -18,7 +18,7 @@ const EDGE_ALIGNMENT: f64 = 0.0888;
 /// Nearest points of two bodies and their signed distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Witness {
-    /// Signed distance; negative in penetration [m].
+    /// Signed distance; negative in penetration \[m\].
     pub dist: f64,
     /// A point of each body.
     pub points: [Vec3; 2],

@@ -7,7 +7,7 @@ use crate::stages::Kinematics;
 /// What a narrow-phase function says about one point of contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PreContact {
-    /// Distance between the surfaces; negative in penetration [m].
+    /// Distance between the surfaces; negative in penetration \[m\].
     pub dist: f64,
     /// Midpoint between the surfaces, in the world.
     pub pos: Vec3,
@@ -22,11 +22,11 @@ pub struct PreContact {
 pub struct Shape<'a> {
     /// Kind of shape.
     pub kind: GeomType,
-    /// Centre, in the world [m].
+    /// Centre, in the world \[m\].
     pub pos: Vec3,
     /// Orientation.
     pub mat: Mat3,
-    /// Sizes as the geom type defines them [m].
+    /// Sizes as the geom type defines them \[m\].
     pub size: Vec3,
     /// Index of the geom.
     pub geom: usize,

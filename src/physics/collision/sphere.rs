@@ -35,7 +35,7 @@ fn ball<'a>(s: &'a Shape, centre: Vec3) -> Ball<'a> {
     Ball { centre, radius: s.size[0], mat: &s.mat }
 }
 
-/// `x` limited to [-limit, limit].
+/// `x` limited to \[-limit, limit\].
 pub(super) fn clip(x: f64, limit: f64) -> f64 {
     x.min(limit).max(-limit)
 }

@@ -42,7 +42,7 @@ pub struct Element {
     pub corners: [Vec3; 4],
     /// Number of corners.
     pub count: usize,
-    /// Radius plus half of the margin [m].
+    /// Radius plus half of the margin \[m\].
     pub inflation: f64,
 }
 
@@ -75,7 +75,7 @@ pub struct ConvexBody<'a> {
     pub pos: Vec3,
     /// Orientation.
     pub mat: Mat3,
-    /// The body is inflated by half of this [m].
+    /// The body is inflated by half of this \[m\].
     pub margin: f64,
     /// Vertex of the last support point of a box or mesh; -1 before and for other shapes.
     vertex: i32,

@@ -36,17 +36,17 @@ pub struct LengthRangeOptions {
     pub useexisting: bool,
     /// Take the range of a limited joint or tendon.
     pub uselimit: bool,
-    /// Norm of the acceleration that the pull causes [rad/s², m/s²].
+    /// Norm of the acceleration that the pull causes \[rad/s², m/s²\].
     pub accel: f64,
-    /// Largest norm of the pull; 0 for none [N, N m].
+    /// Largest norm of the pull; 0 for none \[N, N m\].
     pub maxforce: f64,
-    /// Time constant with which velocities decay [s].
+    /// Time constant with which velocities decay \[s\].
     pub timeconst: f64,
-    /// Time step; 0 keeps the model's [s].
+    /// Time step; 0 keeps the model's \[s\].
     pub timestep: f64,
-    /// Time simulated on each side [s].
+    /// Time simulated on each side \[s\].
     pub inttotal: f64,
-    /// Part of it, at the end, in which lengths are recorded [s].
+    /// Part of it, at the end, in which lengths are recorded \[s\].
     pub interval: f64,
     /// Largest variation in that part, as a share of the range.
     pub tolrange: f64,

@@ -5,13 +5,13 @@ use crate::data::{Inertia, Kinematics};
 use crate::math::{Vec3, add, distance, scale};
 use crate::model::{Arrays, GeomType, JointType};
 
-/// Smallest size a body or a model can have [m].
+/// Smallest size a body or a model can have \[m\].
 const MIN_SIZE: f64 = 1e-5;
 
 /// Share of its size with which an infinite or static shape counts.
 const BACKGROUND_SHARE: f64 = 0.1;
 
-/// Radius with which an infinite plane counts [m].
+/// Radius with which an infinite plane counts \[m\].
 const INFINITE_PLANE: f64 = 0.01;
 
 /// Sets `dof_length` and all of `stat` but the mean inertia, from poses at `qpos0` and masses.

@@ -70,7 +70,7 @@ pub struct Data {
     pub(crate) unsettled: bool,
     /// What `autoreset` has done.
     pub warnings: Warnings,
-    /// Potential and kinetic energy [J].
+    /// Potential and kinetic energy \[J\].
     pub energy: [f64; 2],
     /// State and inputs.
     pub state: State,
@@ -133,7 +133,7 @@ impl Data {
         stages.into_iter().fold(0, usize::saturating_add)
     }
 
-    /// Simulation time [s].
+    /// Simulation time \[s\].
     pub fn time(&self) -> f64 {
         self.state.time
     }

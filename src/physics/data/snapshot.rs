@@ -40,7 +40,7 @@ impl fmt::Display for ForeignSnapshot {
 impl std::error::Error for ForeignSnapshot {}
 
 impl Snapshot {
-    /// Simulation time at which it was taken [s].
+    /// Simulation time at which it was taken \[s\].
     pub fn time(&self) -> f64 {
         self.state.time
     }

@@ -31,7 +31,7 @@ impl<'d> ContactView<'d> {
         self.geoms().contains(&Some(geom))
     }
 
-    /// Midpoint between the surfaces, world frame [m].
+    /// Midpoint between the surfaces, world frame \[m\].
     pub fn pos(self) -> &'d Vec3 {
         &self.contact.pos
     }
@@ -46,12 +46,12 @@ impl<'d> ContactView<'d> {
         row(&self.contact.frame, 0)
     }
 
-    /// Distance of the surfaces, negative in penetration [m].
+    /// Distance of the surfaces, negative in penetration \[m\].
     pub fn dist(self) -> f64 {
         self.contact.dist
     }
 
-    /// Force and torque of the first geom on the second in the contact frame, normal first [N, N m]; zero where the
+    /// Force and torque of the first geom on the second in the contact frame, normal first \[N, N m\]; zero where the
     /// contact makes no force.
     pub fn force(self, m: &Model) -> [f64; 6] {
         contact_force(m, &self.d.efc, self.contact)

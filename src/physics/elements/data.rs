@@ -61,7 +61,7 @@ impl<I: Element> DataView<'_, I> {
 }
 
 impl<'d> DataView<'d, BodyId> {
-    /// Position of the body frame, world frame [m].
+    /// Position of the body frame, world frame \[m\].
     pub fn xpos(self) -> &'d Vec3 {
         &self.d.kin.xpos[self.i()]
     }
@@ -76,7 +76,7 @@ impl<'d> DataView<'d, BodyId> {
         &self.d.kin.xmat[self.i()]
     }
 
-    /// Centre of mass, world frame [m].
+    /// Centre of mass, world frame \[m\].
     pub fn xipos(self) -> &'d Vec3 {
         &self.d.kin.xipos[self.i()]
     }
@@ -86,12 +86,12 @@ impl<'d> DataView<'d, BodyId> {
         &self.d.kin.ximat[self.i()]
     }
 
-    /// Centre of mass of the body and all that hangs on it, world frame [m].
+    /// Centre of mass of the body and all that hangs on it, world frame \[m\].
     pub fn subtree_com(self) -> &'d Vec3 {
         &self.d.com.subtree_com[self.i()]
     }
 
-    /// User wrench at the centre of mass, world frame, force first [N, N m].
+    /// User wrench at the centre of mass, world frame, force first \[N, N m\].
     pub fn xfrc_applied(self) -> &'d [f64; 6] {
         &self.d.state.xfrc_applied[self.i()]
     }
@@ -100,14 +100,14 @@ impl<'d> DataView<'d, BodyId> {
 /// The input pose of a mocap body, to write.
 #[derive(Debug)]
 pub struct MocapPose<'d> {
-    /// Position, world frame [m].
+    /// Position, world frame \[m\].
     pub pos: &'d mut Vec3,
     /// Orientation; the simulation normalises it.
     pub quat: &'d mut Quat,
 }
 
 impl<'d> DataViewMut<'d, BodyId> {
-    /// User wrench at the centre of mass, world frame, force first [N, N m]. It stays until it is changed.
+    /// User wrench at the centre of mass, world frame, force first \[N, N m\]. It stays until it is changed.
     pub fn set_xfrc_applied(&mut self, wrench: [f64; 6]) {
         self.d.state.xfrc_applied[self.id.index()] = wrench;
     }
@@ -124,47 +124,47 @@ impl<'d> DataView<'d, JointId> {
         &array[self.id.dof.range()]
     }
 
-    /// Positions: 1 of a hinge or slide [rad, m], a quaternion of a ball, position and quaternion of a free joint.
+    /// Positions: 1 of a hinge or slide \[rad, m\], a quaternion of a ball, position and quaternion of a free joint.
     pub fn qpos(self) -> &'d [f64] {
         &self.d.state.qpos[self.id.qpos.range()]
     }
 
-    /// Velocities: 1 of a hinge or slide, 3 of a ball, linear and angular of a free joint [rad/s, m/s].
+    /// Velocities: 1 of a hinge or slide, 3 of a ball, linear and angular of a free joint \[rad/s, m/s\].
     pub fn qvel(self) -> &'d [f64] {
         self.dofs(&self.d.state.qvel)
     }
 
-    /// Accelerations [rad/s², m/s²].
+    /// Accelerations \[rad/s², m/s²\].
     pub fn qacc(self) -> &'d [f64] {
         self.dofs(&self.d.acc.qacc)
     }
 
-    /// User forces [N m, N].
+    /// User forces \[N m, N\].
     pub fn qfrc_applied(self) -> &'d [f64] {
         self.dofs(&self.d.state.qfrc_applied)
     }
 
-    /// Forces of actuators [N m, N].
+    /// Forces of actuators \[N m, N\].
     pub fn qfrc_actuator(self) -> &'d [f64] {
         self.dofs(&self.d.actuation.qfrc_actuator)
     }
 
-    /// Coriolis, centrifugal and gravity forces [N m, N].
+    /// Coriolis, centrifugal and gravity forces \[N m, N\].
     pub fn qfrc_bias(self) -> &'d [f64] {
         self.dofs(&self.d.vel.qfrc_bias)
     }
 
-    /// Forces of springs, dampers, fluid and gravity compensation [N m, N].
+    /// Forces of springs, dampers, fluid and gravity compensation \[N m, N\].
     pub fn qfrc_passive(self) -> &'d [f64] {
         self.dofs(&self.d.passive.qfrc_passive)
     }
 
-    /// Forces of constraints [N m, N].
+    /// Forces of constraints \[N m, N\].
     pub fn qfrc_constraint(self) -> &'d [f64] {
         self.dofs(&self.d.acc.qfrc_constraint)
     }
 
-    /// Anchor, world frame [m].
+    /// Anchor, world frame \[m\].
     pub fn xanchor(self) -> &'d Vec3 {
         &self.d.kin.xanchor[self.i()]
     }
@@ -186,7 +186,7 @@ impl DataViewMut<'_, JointId> {
         &mut self.d.state.qvel[self.id.dof.range()]
     }
 
-    /// User forces, as many as there are velocities [N m, N]. They stay until they are changed.
+    /// User forces, as many as there are velocities \[N m, N\]. They stay until they are changed.
     pub fn qfrc_applied_mut(&mut self) -> &mut [f64] {
         &mut self.d.state.qfrc_applied[self.id.dof.range()]
     }
@@ -207,7 +207,7 @@ impl DataViewMut<'_, JointId> {
         self.qvel_mut().copy_from_slice(values.as_ref());
     }
 
-    /// Sets the user forces [N m, N].
+    /// Sets the user forces \[N m, N\].
     ///
     /// # Panics
     /// The number of values is not that of [`DataView::qvel`].
@@ -220,7 +220,7 @@ impl DataViewMut<'_, JointId> {
 macro_rules! poses {
     ($($id:ident $pos:ident $mat:ident;)*) => {$(
         impl<'d> DataView<'d, $id> {
-            /// Position, world frame [m].
+            /// Position, world frame \[m\].
             pub fn xpos(self) -> &'d Vec3 {
                 &self.d.kin.$pos[self.i()]
             }
@@ -240,7 +240,7 @@ poses! {
 }
 
 impl<'d> DataView<'d, LightId> {
-    /// Position, world frame [m].
+    /// Position, world frame \[m\].
     pub fn xpos(self) -> &'d Vec3 {
         &self.d.kin.light_xpos[self.i()]
     }
@@ -274,17 +274,17 @@ impl<'d> DataView<'d, ActuatorId> {
         &self.d.state.act[self.id.act.range()]
     }
 
-    /// Forces, 1 for most actuators [N, N m].
+    /// Forces, 1 for most actuators \[N, N m\].
     pub fn force(self) -> &'d [f64] {
         &self.d.actuation.actuator_force[self.id.out.range()]
     }
 
-    /// Lengths, as many as forces [m, rad].
+    /// Lengths, as many as forces \[m, rad\].
     pub fn length(self) -> &'d [f64] {
         &self.d.trn.actuator_length[self.id.out.range()]
     }
 
-    /// Velocities, as many as forces [m/s, rad/s].
+    /// Velocities, as many as forces \[m/s, rad/s\].
     pub fn velocity(self) -> &'d [f64] {
         &self.d.vel.actuator_velocity[self.id.out.range()]
     }

@@ -52,22 +52,22 @@ impl<'m> ModelView<'m, BodyId> {
         all.filter(move |&body| ModelView::new(self.m, body).parent() == Some(self.id))
     }
 
-    /// Mass [kg].
+    /// Mass \[kg\].
     pub fn mass(self) -> f64 {
         self.m.body_mass[self.i()]
     }
 
-    /// Mass of the body and all that hangs on it [kg].
+    /// Mass of the body and all that hangs on it \[kg\].
     pub fn subtree_mass(self) -> f64 {
         self.m.body_subtreemass[self.i()]
     }
 
-    /// Principal moments of inertia [kg m²].
+    /// Principal moments of inertia \[kg m²\].
     pub fn inertia(self) -> Vec3 {
         self.m.body_inertia[self.i()]
     }
 
-    /// Position in the frame of the parent at `qpos0` [m].
+    /// Position in the frame of the parent at `qpos0` \[m\].
     pub fn pos(self) -> Vec3 {
         self.m.body_pos[self.i()]
     }
@@ -104,7 +104,7 @@ impl ModelView<'_, JointId> {
         BodyId::of(self.m, self.m.jnt_bodyid[self.i()] as usize)
     }
 
-    /// Limits, where they are enforced [m, rad].
+    /// Limits, where they are enforced \[m, rad\].
     pub fn range(self) -> Option<[f64; 2]> {
         self.m.jnt_limited[self.i()].then(|| self.m.jnt_range[self.i()])
     }
@@ -114,7 +114,7 @@ impl ModelView<'_, JointId> {
         self.m.jnt_axis[self.i()]
     }
 
-    /// Anchor in the frame of the body [m].
+    /// Anchor in the frame of the body \[m\].
     pub fn pos(self) -> Vec3 {
         self.m.jnt_pos[self.i()]
     }
@@ -141,7 +141,7 @@ impl ModelView<'_, GeomId> {
         BodyId::of(self.m, self.m.geom_bodyid[self.i()] as usize)
     }
 
-    /// Sizes by shape, half extents and radii [m].
+    /// Sizes by shape, half extents and radii \[m\].
     pub fn size(self) -> Vec3 {
         self.m.geom_size[self.i()]
     }
@@ -163,7 +163,7 @@ impl ModelView<'_, SiteId> {
         BodyId::of(self.m, self.m.site_bodyid[self.i()] as usize)
     }
 
-    /// Position in the frame of the body [m].
+    /// Position in the frame of the body \[m\].
     pub fn pos(self) -> Vec3 {
         self.m.site_pos[self.i()]
     }
@@ -175,12 +175,12 @@ impl ModelView<'_, CameraId> {
         BodyId::of(self.m, self.m.cam_bodyid[self.i()] as usize)
     }
 
-    /// Vertical field of view [deg], or vertical extent of an orthographic camera [m].
+    /// Vertical field of view \[deg\], or vertical extent of an orthographic camera \[m\].
     pub fn fovy(self) -> f64 {
         self.m.cam_fovy[self.i()]
     }
 
-    /// Width and height [pixel].
+    /// Width and height \[pixel\].
     pub fn resolution(self) -> [i32; 2] {
         self.m.cam_resolution[self.i()]
     }
@@ -194,7 +194,7 @@ impl ModelView<'_, LightId> {
 }
 
 impl ModelView<'_, TendonId> {
-    /// Limits of its length, where they are enforced [m].
+    /// Limits of its length, where they are enforced \[m\].
     pub fn range(self) -> Option<[f64; 2]> {
         self.m.tendon_limited[self.i()].then(|| self.m.tendon_range[self.i()])
     }
@@ -216,7 +216,7 @@ impl<'m> ModelView<'m, ActuatorId> {
             .map(move |k| self.m.actuator_ctrllimited[k].then(|| self.m.actuator_ctrlrange[k]))
     }
 
-    /// Limits of its force, where they are enforced [N, N m].
+    /// Limits of its force, where they are enforced \[N, N m\].
     pub fn force_range(self) -> Option<[f64; 2]> {
         self.m.actuator_forcelimited[self.i()].then(|| self.m.actuator_forcerange[self.i()])
     }
@@ -269,7 +269,7 @@ impl<'m> ModelView<'m, TextId> {
 }
 
 impl ModelView<'_, KeyId> {
-    /// Time that the keyframe sets [s].
+    /// Time that the keyframe sets \[s\].
     pub fn time(self) -> f64 {
         self.m.key_time[self.i()]
     }

@@ -38,7 +38,7 @@ impl Jacobian {
         frame.jacobian(m, d, self);
     }
 
-    /// Linear and angular velocity, world frame, that joint velocities `qvel` give the frame [m/s, rad/s].
+    /// Linear and angular velocity, world frame, that joint velocities `qvel` give the frame \[m/s, rad/s\].
     pub fn velocity(&self, qvel: &[f64]) -> [Vec3; 2] {
         let product = |matrix: &[f64]| {
             std::array::from_fn(|i| {
@@ -50,7 +50,7 @@ impl Jacobian {
     }
 
     /// Joint forces, added to `qfrc`, that a force at the origin of the frame and a torque, world frame, amount to
-    /// [N, N m].
+    /// \[N, N m\].
     pub fn add_wrench(&self, force: Vec3, torque: Vec3, qfrc: &mut [f64]) {
         let nv = qfrc.len();
         for (i, (f, t)) in force.into_iter().zip(torque).enumerate() {

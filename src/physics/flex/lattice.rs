@@ -18,7 +18,7 @@ pub(crate) struct Lattice {
     pub is_shell: bool,
 }
 
-/// Polynomial `i` of an order, which is one at its own node of [0, 1] and zero at the others.
+/// Polynomial `i` of an order, which is one at its own node of \[0, 1\] and zero at the others.
 pub(super) fn shape(x: f64, i: usize, order: usize) -> f64 {
     match (order, i) {
         (1, 0) => 1.0 - x,
@@ -76,7 +76,7 @@ impl Lattice {
         i * ny * nz + j * nz + k
     }
 
-    /// Nodes and weights of a point with coordinates in [0, 1].
+    /// Nodes and weights of a point with coordinates in \[0, 1\].
     pub fn locate(&self, point: Vec3) -> Place {
         let mut cell = [0; 3];
         let mut along = [[0.0; 3]; 3];

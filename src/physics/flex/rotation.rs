@@ -7,7 +7,7 @@ use crate::math::{
 use crate::model::bounds::MINVAL;
 
 const MAX_ITERATIONS: usize = 500;
-/// Turns below this end the search [rad].
+/// Turns below this end the search \[rad\].
 const TOLERANCE: f64 = 1e-9;
 
 /// The rotation nearest to a matrix, found by turning from no rotation.

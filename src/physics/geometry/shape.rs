@@ -40,7 +40,7 @@ pub enum SizeError {
     NotPositive {
         /// Which of the sizes, counted from 0.
         index: usize,
-        /// The size [m].
+        /// The size \[m\].
         value: f64,
     },
     /// A size that the shape does not need is not a number.
@@ -60,7 +60,7 @@ impl fmt::Display for SizeError {
 
 impl std::error::Error for SizeError {}
 
-/// Checks the sizes [m] that a shape needs; a plane needs only its grid spacing.
+/// Checks the sizes \[m\] that a shape needs; a plane needs only its grid spacing.
 ///
 /// # Errors
 /// The first size that is not positive.

@@ -198,7 +198,7 @@ impl FullRows<'_> {
 mod tests {
     use super::*;
 
-    /// L'DL of [[4, 2, 1], [2, 5, 2], [1, 2, 3]] by hand: D = (d0, 11/3, 3), L rows (1), (l10, 1), (1/3, 2/3, 1).
+    /// L'DL of [\[4, 2, 1\], \[2, 5, 2\], [1, 2, 3]] by hand: D = (d0, 11/3, 3), L rows (1), (l10, 1), (1/3, 2/3, 1).
     #[test]
     fn solve_inverts_product() {
         let rows = LowerRows { rownnz: &[1, 2, 3], rowadr: &[0, 1, 3], colind: &[0, 0, 1, 0, 1, 2] };
@@ -218,7 +218,7 @@ mod tests {
         }
     }
 
-    /// Nodes 1 and 2 hang from node 0 and do not meet: [[5, 1, 2], [3, 4, 0], [-1, 0, 6]].
+    /// Nodes 1 and 2 hang from node 0 and do not meet: [\[5, 1, 2\], \[3, 4, 0\], [-1, 0, 6]].
     #[test]
     fn lu_solves_an_unsymmetric_system() {
         let rows = FullRows {

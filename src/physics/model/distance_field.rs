@@ -3,7 +3,7 @@
 use crate::math::Vec3;
 use std::fmt::Debug;
 
-/// A signed distance field in its own frame [m].
+/// A signed distance field in its own frame \[m\].
 pub trait Field: Debug + Send + Sync {
     /// Distance of `point` from the surface, negative inside.
     fn distance(&self, point: Vec3) -> f64;

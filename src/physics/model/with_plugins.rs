@@ -138,7 +138,7 @@ pub trait Plugin: Debug + Send + Sync {
         Ok(0)
     }
 
-    /// The field of an instance with capability [`Sdf`](Capability::Sdf), in its own frame [m].
+    /// The field of an instance with capability [`Sdf`](Capability::Sdf), in its own frame \[m\].
     ///
     /// # Errors
     /// What is wrong with the attributes.
@@ -195,13 +195,13 @@ pub trait Instance: Debug + Send + Sync {
     /// Sets the state of the instance, which is zero, at a reset of the simulation.
     fn reset(&self, _m: &Model, _state: &mut [f64]) {}
 
-    /// Adds its forces to `qfrc`, one number a degree of freedom [N, N m].
+    /// Adds its forces to `qfrc`, one number a degree of freedom \[N, N m\].
     fn passive(&self, _inputs: &PassiveInputs, _qfrc: &mut [f64]) {}
 
     /// Sets the rates of the activations of its actuators in `act_dot`, which already holds the rates of built-in dynamics.
     fn activation_rates(&self, _inputs: &ActuatorInputs, _act_dot: &mut [f64]) {}
 
-    /// Sets the forces of its actuators in `force`, one number an output, before ranges limit them [N, N m].
+    /// Sets the forces of its actuators in `force`, one number an output, before ranges limit them \[N, N m\].
     fn forces(&self, _inputs: &ActuatorInputs, _act_dot: &[f64], _force: &mut [f64]) {}
 
     /// Reads sensor `sensor` of the model into `out`, which is zero.

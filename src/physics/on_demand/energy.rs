@@ -10,7 +10,7 @@ use crate::sleep::{Awake, object};
 use crate::stages::{Configuration, Inertia, State};
 use crate::velocity::passive::{shift, tendon_stretch, turn};
 
-/// Potential energy: weight of all bodies, springs of joints, tendons and lines of flexes [J].
+/// Potential energy: weight of all bodies, springs of joints, tendons and lines of flexes \[J\].
 pub fn potential(m: &Model, at: &Configuration) -> f64 {
     let Configuration { state, kin, ten, .. } = *at;
     let enabled = |flag: Disable| !m.opt.disableflags.contains(flag);
@@ -46,7 +46,7 @@ fn joint_spring(m: &Model, state: &State, j: usize) -> f64 {
     }
 }
 
-/// Kinetic energy [J]; `momentum` is working memory.
+/// Kinetic energy \[J\]; `momentum` is working memory.
 pub fn kinetic(m: &Model, state: &State, inertia: &Inertia, momentum: &mut Vec<f64>) -> f64 {
     momentum.resize(m.nv, 0.0);
     mul_inertia_matrix(m, &inertia.M, &state.qvel, momentum);

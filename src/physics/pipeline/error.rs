@@ -30,7 +30,7 @@ pub struct BadNumber {
     pub element: String,
     /// The number.
     pub value: f64,
-    /// Simulation time [s].
+    /// Simulation time \[s\].
     pub time: f64,
 }
 
@@ -48,7 +48,7 @@ pub enum StepError {
     BadCtrl(BadNumber),
     /// An activation is not finite after the step.
     BadAct(BadNumber),
-    /// The time step is not positive and finite [s].
+    /// The time step is not positive and finite \[s\].
     BadTimestep(f64),
     /// `tree_asleep` names a tree that there is not.
     BadSleep {

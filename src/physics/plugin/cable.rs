@@ -58,7 +58,7 @@ impl Plugin for Cable {
     }
 }
 
-/// Moduli [Pa].
+/// Moduli \[Pa\].
 struct Material {
     shear: f64,
     young: f64,
@@ -74,9 +74,9 @@ struct Rod {
 /// One body of the chain.
 #[derive(Debug)]
 struct Part {
-    /// Stiffness against twist and against bending about y and z [N m²].
+    /// Stiffness against twist and against bending about y and z \[N m²\].
     stiffness: Vec3,
-    /// Distance from the body before it [m].
+    /// Distance from the body before it \[m\].
     length: f64,
     /// Rotation against the body before it at rest, as a vector.
     rest: Vec3,
@@ -110,7 +110,7 @@ fn part(
     Ok(Part { stiffness, length, rest })
 }
 
-/// Torsion constant and second moments of area of the cross section of a geom [m⁴]; zero for shapes without one.
+/// Torsion constant and second moments of area of the cross section of a geom \[m⁴\]; zero for shapes without one.
 fn section(m: &Model, geom: usize) -> Vec3 {
     let size = m.geom_size[geom];
     let power = ops::pow;

@@ -76,7 +76,7 @@ fn format(config: &Config) -> Result<Format, AttributeError> {
     }
 }
 
-/// Angles between the cells of one axis [rad]; finer in the middle with a positive `gamma`.
+/// Angles between the cells of one axis \[rad\]; finer in the middle with a positive `gamma`.
 fn edges(cells: usize, fov: f64, gamma: f64) -> Vec<f64> {
     let step = 2.0 / cells as f64;
     let scale = fov * PI / 180.0;

@@ -16,9 +16,9 @@ type Vec2 = [f64; 2];
 /// Where a tendon touches its wrapping geom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wrap {
-    /// Length of the curve on the surface [m].
+    /// Length of the curve on the surface \[m\].
     pub length: f64,
-    /// First and last point of contact, world frame [m].
+    /// First and last point of contact, world frame \[m\].
     pub points: [Vec3; 2],
 }
 
@@ -339,7 +339,7 @@ struct Trial {
 }
 
 impl Trial {
-    /// Angle at the centre up to which the law holds [rad].
+    /// Angle at the centre up to which the law holds \[rad\].
     const TOLERANCE: f64 = 1e-6;
 
     fn is_root(&self) -> bool {

@@ -7,9 +7,9 @@ use crate::model::Model;
 
 /// Most steps.
 const STEPS: usize = 40;
-/// A point as near as this lies on the surface [m].
+/// A point as near as this lies on the surface \[m\].
 const NEAR: f64 = 1e-7;
-/// Beyond this the ray has passed [m].
+/// Beyond this the ray has passed \[m\].
 const FAR: f64 = 1e6;
 
 /// Where `ray`, in the frame of geom `g`, first meets its field. Unlike all others, the distance is in metres whatever the

@@ -7,7 +7,7 @@ use crate::ray::Ray;
 use crate::stages::Kinematics;
 use std::f64::consts::PI;
 
-/// Focal lengths of a perspective camera, from its sensor if it has one, else from its field of view [pixel].
+/// Focal lengths of a perspective camera, from its sensor if it has one, else from its field of view \[pixel\].
 fn focal_lengths(m: &Model, camera: usize) -> [f64; 2] {
     if has_sensor(m, camera) {
         [on_sensor(m, camera, 0, 0), on_sensor(m, camera, 1, 1)]
@@ -27,7 +27,7 @@ fn on_sensor(m: &Model, camera: usize, k: usize, side: usize) -> f64 {
     )
 }
 
-/// Image coordinates of `point` in a camera, as if its principal point were the centre of the image [pixel].
+/// Image coordinates of `point` in a camera, as if its principal point were the centre of the image \[pixel\].
 pub(super) fn project(m: &Model, kin: &Kinematics, camera: usize, point: Vec3) -> [f64; 2] {
     let ([width, height], focal) = (m.cam_resolution[camera].map(f64::from), focal_lengths(m, camera));
     let p = mul_mat_t_vec(&kin.cam_xmat[camera], sub(point, kin.cam_xpos[camera]));
@@ -40,7 +40,7 @@ pub(super) fn project(m: &Model, kin: &Kinematics, camera: usize, point: Vec3) -
 pub struct Pinhole {
     focal: [f64; 2],
     center: [f64; 2],
-    /// Height of the view of an orthographic camera [m]; `None` for a perspective one.
+    /// Height of the view of an orthographic camera \[m\]; `None` for a perspective one.
     extent: Option<f64>,
 }
 

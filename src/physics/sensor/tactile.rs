@@ -18,8 +18,8 @@ struct Skin<'a> {
     carrier: i32,
 }
 
-/// Writes three rows of one number a point into zeroed `out`: depth of penetration [m], then the speeds along the first
-/// and the second tangent [m/s], summed over all geoms that a point lies in. Points have tangents where the mesh has
+/// Writes three rows of one number a point into zeroed `out`: depth of penetration \[m\], then the speeds along the first
+/// and the second tangent \[m/s\], summed over all geoms that a point lies in. Points have tangents where the mesh has
 /// three normals a vertex; without, speeds are zero. `touched` is working memory.
 ///
 /// Felt are geoms that the body is in contact with and that have signed distances: primitives, plugins, and meshes that

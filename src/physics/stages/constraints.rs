@@ -6,13 +6,13 @@ use crate::table::{Field, Slice};
 /// One point of contact between two geoms, a geom and a flex, or two flexes (documentation: `mjContact`).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contact {
-    /// Distance between the nearest points; negative in penetration [m].
+    /// Distance between the nearest points; negative in penetration \[m\].
     pub dist: f64,
     /// Midpoint between the surfaces.
     pub pos: Vec3,
     /// Contact frame: rows are the normal, from the first geom to the second, and two tangents.
     pub frame: Mat3,
-    /// The contact makes force when `dist` is below this [m].
+    /// The contact makes force when `dist` is below this \[m\].
     pub includemargin: f64,
     /// Friction coefficients: two tangential, torsional, two rolling.
     pub friction: [f64; 5],
@@ -22,7 +22,7 @@ pub struct Contact {
     pub solreffriction: [f64; 2],
     /// Solver impedance.
     pub solimp: [f64; 5],
-    /// Adhesive force along the normal [N].
+    /// Adhesive force along the normal \[N\].
     pub adhesion: f64,
     /// Friction of the regularised cone.
     pub mu: f64,
@@ -110,11 +110,11 @@ rows! {
         efc_J_colind: Vec<i32>,
         /// Jacobian entries.
         efc_J: Vec<f64>,
-        /// Violation of the constraint [m, rad].
+        /// Violation of the constraint \[m, rad\].
         efc_pos: Vec<f64>,
         /// Inclusion margin.
         efc_margin: Vec<f64>,
-        /// Friction loss [N, N m].
+        /// Friction loss \[N, N m\].
         efc_frictionloss: Vec<f64>,
         /// Diagonal of the inverse inertia in constraint space, approximate.
         efc_diagA: Vec<f64>,

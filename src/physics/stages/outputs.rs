@@ -8,9 +8,9 @@ use super::declare::stage;
 stage! {
     /// Simulation state and user inputs: all that decides the next step.
     State {
-        /// Generalised positions [m, rad, unit quaternions].
+        /// Generalised positions \[m, rad, unit quaternions\].
         qpos: f64 [nq],
-        /// Generalised velocities [m/s, rad/s].
+        /// Generalised velocities \[m/s, rad/s\].
         qvel: f64 [nv],
         /// Actuator activations.
         act: f64 [na],
@@ -20,13 +20,13 @@ stage! {
         qacc_warmstart: f64 [nv],
         /// Control inputs.
         ctrl: f64 [nu],
-        /// User forces in joint space [N, N m].
+        /// User forces in joint space \[N, N m\].
         qfrc_applied: f64 [nv],
-        /// User wrenches on bodies at their centres of mass, force first [N, N m].
+        /// User wrenches on bodies at their centres of mass, force first \[N, N m\].
         xfrc_applied: f64 [nbody; 6],
         /// Which equality constraints are on.
         eq_active: bool [neq],
-        /// Positions of mocap bodies [m].
+        /// Positions of mocap bodies \[m\].
         mocap_pos: f64 [nmocap; 3],
         /// Orientations of mocap bodies.
         mocap_quat: f64 [nmocap; 4],
@@ -47,7 +47,7 @@ stage! {
         /// Degrees of freedom that do not sleep; the first `nv_awake` count.
         dof_awake_ind: i32 [nv],
     } scalars {
-        /// Simulation time [s].
+        /// Simulation time \[s\].
         time: f64,
         /// Trees that are awake.
         ntree_awake: usize,
@@ -113,19 +113,19 @@ stage! {
     Flexes {
         /// Vertex positions.
         flexvert_xpos: f64 [nflexvert; 3],
-        /// Bounding boxes of elements: centre, half sizes [m].
+        /// Bounding boxes of elements: centre, half sizes \[m\].
         flexelem_aabb: f64 [nflexelem; 6],
         /// Stiffness of elements, turned with them; integrators that are implicit in velocity alone fill it.
         flexelem_krot: f64 [nflexstiffness],
         /// Jacobian of edge lengths; structure in the model.
         flexedge_J: f64 [nJfe],
-        /// Lengths of edges [m].
+        /// Lengths of edges \[m\].
         flexedge_length: f64 [nflexedge],
         /// Jacobian of vertex strains; structure in the model.
         flexvert_J: f64 [nJfv; 2],
         /// Strains at vertices.
         flexvert_length: f64 [nflexvert; 2],
-        /// Boxes of the moving bounding volume trees: centre, half sizes [m].
+        /// Boxes of the moving bounding volume trees: centre, half sizes \[m\].
         bvh_aabb_dyn: f64 [nbvhdynamic; 6],
     }
 }
@@ -139,7 +139,7 @@ stage! {
         ten_wrapnum: i32 [ntendon],
         /// Jacobian values; structure in the model.
         ten_J: f64 [nJten],
-        /// Lengths [m, rad].
+        /// Lengths \[m, rad\].
         ten_length: f64 [ntendon],
         /// Geom of each wrap point; -1 site, -2 pulley.
         wrap_obj: i32 [nwrap; 2],
@@ -181,7 +181,7 @@ stage! {
 stage! {
     /// Velocities derived from `qvel` (`com_vel` and the tendon and actuator products).
     Velocity {
-        /// Velocities of flex edges [m/s].
+        /// Velocities of flex edges \[m/s\].
         flexedge_velocity: f64 [nflexedge],
         /// Tendon velocities.
         ten_velocity: f64 [ntendon],

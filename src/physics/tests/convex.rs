@@ -13,7 +13,7 @@ use robohive_physics::math::{
 };
 use robohive_physics::model::{Arrays, GeomType, Model};
 
-/// Fixed pseudo-random numbers in [-1, 1].
+/// Fixed pseudo-random numbers in \[-1, 1\].
 struct Noise(u64);
 
 impl Noise {

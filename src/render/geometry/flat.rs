@@ -50,11 +50,11 @@ pub(super) fn triangle() -> Surface {
 /// What the grid of a plane depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PlaneShape {
-    /// Half sizes along x and y, not positive where it is infinite, and half the spacing of its grid [m].
+    /// Half sizes along x and y, not positive where it is infinite, and half the spacing of its grid \[m\].
     pub size: [f64; 3],
     /// Repetitions of the texture; 0 without a material.
     pub texrepeat: [f32; 2],
-    /// Distance of the far plane [m].
+    /// Distance of the far plane \[m\].
     pub far: f64,
 }
 

@@ -13,11 +13,11 @@ use std::ops::Range;
 /// Vertices and edges that are drawn of a flex, world frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Wires {
-    /// Radius of balls and tubes [m].
+    /// Radius of balls and tubes \[m\].
     radius: f32,
-    /// Middles of balls [m].
+    /// Middles of balls \[m\].
     balls: Vec<[f32; 3]>,
-    /// Ends of tubes [m].
+    /// Ends of tubes \[m\].
     tubes: Vec<[[f32; 3]; 2]>,
 }
 
@@ -47,7 +47,7 @@ impl Wires {
 struct Sight<'a> {
     m: &'a Model,
     flex: usize,
-    /// Positions of its vertices [m].
+    /// Positions of its vertices \[m\].
     points: &'a [Vec3],
     surface: Surface,
 }

@@ -4,7 +4,7 @@ use super::surface::{Surface, face_normal};
 
 /// What a height field's surface depends on.
 pub(super) struct Relief<'a> {
-    /// Half width, half depth, height of the relief, depth of the base [m].
+    /// Half width, half depth, height of the relief, depth of the base \[m\].
     pub size: [f32; 4],
     /// Number of rows, along y, at least 2.
     pub rows: usize,

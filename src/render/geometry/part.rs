@@ -8,7 +8,7 @@ pub struct Part {
     pub surface: usize,
     /// From the surface's coordinates to the item's frame: three rows of a linear map.
     pub linear: [[f32; 3]; 3],
-    /// Origin of the surface's coordinates in the item's frame [m].
+    /// Origin of the surface's coordinates in the item's frame \[m\].
     pub offset: [f32; 3],
     /// How it is textured.
     pub paint: Paint,

@@ -62,7 +62,7 @@ pub(super) fn posed(
     Ok(Some(surface))
 }
 
-/// Vertices moved by the bones, each by its weight, world frame [m].
+/// Vertices moved by the bones, each by its weight, world frame \[m\].
 fn vertices(model: &Model, data: &Data, skin: usize) -> Vec<[f32; 3]> {
     let rest = &model.skin_vert[range(model.skin_vertadr[skin], model.skin_vertnum[skin])];
     let mut moved = vec![[0.0_f32; 3]; rest.len()];

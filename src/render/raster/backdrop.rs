@@ -34,7 +34,7 @@ struct Kept {
     lit: u8,
     /// Its colour under those.
     colour: Rgba,
-    /// Where it lies, world frame [m]; the origin where no lamp casts shadows, and nobody asks.
+    /// Where it lies, world frame \[m\]; the origin where no lamp casts shadows, and nobody asks.
     position: [f32; 3],
 }
 
@@ -101,7 +101,7 @@ impl Backdrop {
         })
     }
 
-    /// Where a fragment lies, world frame [m].
+    /// Where a fragment lies, world frame \[m\].
     pub fn position(&self, known: &Known) -> [f32; 3] {
         self.kept[known.index as usize].position
     }

@@ -11,7 +11,7 @@ use crate::view::Frustum;
 pub struct Image<'a> {
     /// What is seen at them.
     pub visibility: &'a Visibility,
-    /// Size of the window [pixel].
+    /// Size of the window \[pixel\].
     pub extent: Extent,
 }
 
@@ -63,7 +63,7 @@ fn mean(samples: &[Rgba; 4]) -> [u8; 3] {
     [red, green, blue]
 }
 
-/// Distances from the eye's plane [m]; the far plane's where there is nothing.
+/// Distances from the eye's plane \[m\]; the far plane's where there is nothing.
 pub fn write_depth(image: &Image<'_>, frustum: &Frustum, out: &mut Vec<f32>) {
     let (near, far) = (frustum.near, frustum.far);
     let (top, reach) = ((near * far) as f32, (far - near) as f32);

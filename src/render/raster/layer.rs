@@ -168,7 +168,7 @@ fn local(plane: [f64; 4], draw: &Draw) -> HalfSpace {
 /// The part of a region that a box covers, and its depths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reached {
-    /// First and last column and row [pixel].
+    /// First and last column and row \[pixel\].
     pub region: Region,
     /// Least and largest depth.
     pub depths: (f32, f32),

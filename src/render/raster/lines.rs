@@ -17,7 +17,7 @@ const EDGE: f32 = 1.5;
 pub struct Line {
     /// The item that it belongs to.
     pub item: usize,
-    /// Its ends [m].
+    /// Its ends \[m\].
     pub ends: [[f64; 3]; 2],
     /// Its width, in units of the line width.
     pub width: f32,

@@ -13,7 +13,7 @@ pub struct Settings {
     pub shadow: ShadowSettings,
     /// Slices of the sky, 3 to 1024.
     pub slices: usize,
-    /// Width of lines [pixel].
+    /// Width of lines \[pixel\].
     pub line_width: f32,
     /// What stands still in a view is kept from picture to picture. The pictures are the same without.
     pub keep: bool,

@@ -43,7 +43,7 @@ pub struct Present<'a> {
     pub scene: &'a Scene,
     /// Its surfaces.
     pub draws: &'a Draws,
-    /// Size of the window [pixel].
+    /// Size of the window \[pixel\].
     pub extent: Extent,
     /// How finely it is drawn.
     pub settings: Settings,

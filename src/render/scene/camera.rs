@@ -10,19 +10,19 @@ use physics::{Data, Model};
 /// A camera that looks at a point from a distance (documentation: `mjvCamera`).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FreeCamera {
-    /// Where it looks, world frame [m].
+    /// Where it looks, world frame \[m\].
     pub lookat: Vec3,
     /// Body at whose subtree's centre of mass it looks instead.
     pub track: Option<usize>,
-    /// Distance of the eye from where it looks [m].
+    /// Distance of the eye from where it looks \[m\].
     pub distance: f64,
-    /// Azimuth of the gaze about z, from x [deg].
+    /// Azimuth of the gaze about z, from x \[deg\].
     pub azimuth: f64,
-    /// Elevation of the gaze above the horizon [deg].
+    /// Elevation of the gaze above the horizon \[deg\].
     pub elevation: f64,
     /// Parallel rays.
     pub orthographic: bool,
-    /// Vertical field of view, or vertical extent where rays are parallel [deg, m].
+    /// Vertical field of view, or vertical extent where rays are parallel \[deg, m\].
     pub fovy: f64,
 }
 
@@ -183,11 +183,11 @@ fn single(v: Vec3) -> Vec3 {
 
 /// The opening of a camera.
 enum Window {
-    /// Symmetric, as wide as the picture: parallel rays of this vertical extent [m].
+    /// Symmetric, as wide as the picture: parallel rays of this vertical extent \[m\].
     Parallel(f64),
-    /// Symmetric, as wide as the picture: this vertical field of view [deg].
+    /// Symmetric, as wide as the picture: this vertical field of view \[deg\].
     Angle(f64),
-    /// A sensor: its sides, focal lengths and offset of the principal point [m].
+    /// A sensor: its sides, focal lengths and offset of the principal point \[m\].
     Sensor { side: [f32; 2], focal: [f32; 2], offset: [f32; 2] },
 }
 

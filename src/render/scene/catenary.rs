@@ -18,9 +18,9 @@ pub(super) const MAX_POINTS: usize = 100;
 /// A rope between two points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rope {
-    /// Its ends, world frame [m].
+    /// Its ends, world frame \[m\].
     pub ends: [Vec3; 2],
-    /// Its length [m].
+    /// Its length \[m\].
     pub length: f64,
     /// Acceleration of gravity, not zero.
     pub gravity: Vec3,
@@ -58,7 +58,7 @@ struct Plane {
     start: Vec3,
     across: Vec3,
     up: Vec3,
-    /// From the first end to the second [m].
+    /// From the first end to the second \[m\].
     width: f64,
     rise: f64,
 }
@@ -114,11 +114,11 @@ impl Shape {
 
 /// A catenary from the first end on.
 struct Curve {
-    /// Its scale `a` [m].
+    /// Its scale `a` \[m\].
     a: f64,
-    /// How far from the first end it is lowest [m].
+    /// How far from the first end it is lowest \[m\].
     lowest: f64,
-    /// How far the first end is above the curve's axis y = 0 [m].
+    /// How far the first end is above the curve's axis y = 0 \[m\].
     start: f64,
 }
 

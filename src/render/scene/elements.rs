@@ -71,7 +71,7 @@ pub(super) fn skins(from: Source<'_>, items: &mut Items<'_>) {
     }
 }
 
-/// Adds the visible geoms; `eye` is where infinite planes are centred [m].
+/// Adds the visible geoms; `eye` is where infinite planes are centred \[m\].
 pub(super) fn geoms(from: Source<'_>, eye: Vec3, items: &mut Items<'_>) -> Result<(), RenderError> {
     let Source { m, options, .. } = from;
     for i in 0..m.ngeom {

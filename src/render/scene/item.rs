@@ -103,11 +103,11 @@ impl Default for Look {
 pub struct Item {
     /// Its shape.
     pub shape: Shape,
-    /// Position [m].
+    /// Position \[m\].
     pub pos: [f32; 3],
     /// Orientation, row-major.
     pub mat: [f32; 9],
-    /// Half sizes; what each means depends on the shape [m].
+    /// Half sizes; what each means depends on the shape \[m\].
     pub size: [f32; 3],
     /// Colour and opacity, of the element or its material.
     pub rgba: [f32; 4],
@@ -116,7 +116,7 @@ pub struct Item {
     /// Material of the model, for its texture; none for decorations.
     pub material: Option<usize>,
     /// Radius about the position within which the item lies, 0 for planes: transparent items are sorted by the distance of
-    /// the eye less this [m].
+    /// the eye less this \[m\].
     pub rbound: f32,
     /// What it stands for.
     pub object: Object,

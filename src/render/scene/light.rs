@@ -12,7 +12,7 @@ pub enum LightKind {
     Directional,
     /// Rays from a point within a cone.
     Spot {
-        /// Half angle of the cone [deg].
+        /// Half angle of the cone \[deg\].
         cutoff: f32,
         /// Fall of the intensity away from the axis.
         exponent: f32,
@@ -26,7 +26,7 @@ pub enum LightKind {
 pub struct Light {
     /// Kind of light.
     pub kind: LightKind,
-    /// Position [m].
+    /// Position \[m\].
     pub pos: [f32; 3],
     /// Unit direction of its rays or its axis.
     pub dir: [f32; 3],

@@ -56,7 +56,7 @@ pub struct Scene {
     pub ambient: f32,
     /// Where it is seen from.
     pub view: View,
-    /// Distance at which fog begins and at which it is complete [m], and its colour; none by default.
+    /// Distance at which fog begins and at which it is complete \[m\], and its colour; none by default.
     pub fog: Option<Fog>,
     /// The texture of the sky, an index into the model's textures; the background is black without one.
     pub sky: Option<usize>,
@@ -161,16 +161,16 @@ fn rgb([r, g, b, _]: [f32; 4]) -> [f32; 3] {
 /// Fog between two distances from the eye's plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fog {
-    /// Where it begins [m].
+    /// Where it begins \[m\].
     pub start: f32,
-    /// Where it is complete [m].
+    /// Where it is complete \[m\].
     pub end: f32,
     /// Its colour.
     pub rgb: [f32; 3],
 }
 
 impl Fog {
-    /// Share of its own colour that is left of what lies this far from the eye's plane [m].
+    /// Share of its own colour that is left of what lies this far from the eye's plane \[m\].
     pub fn clearness(&self, depth: f32) -> f32 {
         ((self.end - depth) / (self.end - self.start)).clamp(0.0, 1.0)
     }
@@ -188,7 +188,7 @@ pub struct Haze {
     pub share: f32,
     /// Its colour.
     pub rgb: [f32; 3],
-    /// Position of the plane, world frame [m].
+    /// Position of the plane, world frame \[m\].
     pub pos: [f32; 3],
     /// Orientation of the plane, row-major.
     pub mat: [f32; 9],

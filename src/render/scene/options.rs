@@ -188,7 +188,7 @@ pub enum LabelChoice {
     SelectedPoint,
     /// Names of the geoms that touch.
     ContactPoint,
-    /// Magnitude of contact forces [N].
+    /// Magnitude of contact forces \[N\].
     ContactForce,
     /// Numbers of constraint islands.
     Island,
@@ -242,13 +242,13 @@ pub struct Pull {
 pub struct Selection {
     /// Body of the model, not the world.
     pub body: usize,
-    /// The selected point, body frame [m].
+    /// The selected point, body frame \[m\].
     pub point: Vec3,
     /// How the body is pulled.
     pub pull: Pull,
     /// How it is pulled by a second hand, shown in another colour.
     pub second_pull: Pull,
-    /// Where the selected point is pulled to, world frame [m].
+    /// Where the selected point is pulled to, world frame \[m\].
     pub target: Vec3,
     /// Orientation to which the body's inertial frame is pulled.
     pub orientation: Quat,

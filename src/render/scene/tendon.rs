@@ -29,9 +29,9 @@ pub(super) fn tendons(from: Source<'_>, items: &mut Items<'_>) {
 /// One stretch of a tendon's path.
 #[derive(Clone, Copy)]
 pub(super) struct Stretch {
-    /// Its ends, world frame [m].
+    /// Its ends, world frame \[m\].
     pub ends: [Vec3; 2],
-    /// Radius with which it is drawn [m].
+    /// Radius with which it is drawn \[m\].
     pub width: f64,
     /// It is the first of its tendon.
     pub first: bool,

@@ -48,7 +48,7 @@ pub enum HardwareId {
 pub struct SensorConfig {
     /// Name in the model, of a sensor of a joint's position or velocity.
     pub name: String,
-    /// Readings are clipped to it [rad, m, rad/s, m/s].
+    /// Readings are clipped to it \[rad, m, rad/s, m/s\].
     pub range: [f64; 2],
     /// Noise at `noise_scale` 1: largest of uniform noise, standard deviation of Gaussian noise.
     pub noise: f64,
@@ -65,11 +65,11 @@ pub struct SensorConfig {
 pub struct ActuatorConfig {
     /// Name in the model, of an actuator of a joint.
     pub name: String,
-    /// Limits of the commanded position [rad, m].
+    /// Limits of the commanded position \[rad, m\].
     pub position_range: [f64; 2],
-    /// Limits of the rate at which the command leaves the measured position [rad/s, m/s].
+    /// Limits of the rate at which the command leaves the measured position \[rad/s, m/s\].
     pub velocity_range: [f64; 2],
-    /// Limits of the joint's torque or force [N m, N]; `None` for the model's alone.
+    /// Limits of the joint's torque or force \[N m, N\]; `None` for the model's alone.
     pub effort_range: Option<[f64; 2]>,
     /// Operating mode of the motor, for the driver.
     pub mode: Option<String>,

@@ -22,8 +22,8 @@
 //! | `sensor`, `actuator`, `cam` | device | lists | empty |
 //! | `range` | sensor, camera | readings are clipped to it | error |
 //! | `noise` | sensor, camera | largest uniform noise, or standard deviation of Gaussian noise | 0 |
-//! | `pos_range`, `vel_range` | actuator | limits of the commanded position and of its rate [rad or m, 1/s] | error |
-//! | `effort_range` | actuator | limits of the joint's force or torque [N, N m] | none |
+//! | `pos_range`, `vel_range` | actuator | limits of the commanded position and of its rate \[rad or m, 1/s\] | error |
+//! | `effort_range` | actuator | limits of the joint's force or torque \[N, N m\] | none |
 //! | `mode` | actuator | operating mode of the motor, for the driver | none |
 //! | `hdr_id` | sensor, actuator, camera | number or name on the hardware | place in the list |
 //! | `scale`, `offset` | sensor, actuator, camera | hardware to model of sensors, model to hardware of actuators | 1, 0 |

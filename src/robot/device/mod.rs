@@ -18,7 +18,7 @@ pub enum Fault {
     NotConnected,
     /// It cannot be reached.
     Unreachable(String),
-    /// It did not answer in time; the newest reading is this old [ms].
+    /// It did not answer in time; the newest reading is this old \[ms\].
     Stale(u64),
     /// It gave another number of values than the config says.
     Length {
@@ -71,7 +71,7 @@ pub trait Device: Send {
     /// Devices that cannot be reached.
     fn connect(&mut self) -> Result<(), Fault>;
 
-    /// Writes the newest value of every sensor; returns when they were measured [s].
+    /// Writes the newest value of every sensor; returns when they were measured \[s\].
     ///
     /// # Errors
     /// Devices that do not answer.
@@ -100,6 +100,6 @@ pub trait Device: Send {
         Units::Hardware
     }
 
-    /// What the simulation's sensors say [model units]; only simulated devices listen.
+    /// What the simulation's sensors say \[model units\]; only simulated devices listen.
     fn observe_simulation(&mut self, _time: f64, _values: &[f64]) {}
 }

@@ -5,7 +5,7 @@ use super::{Device, Fault, Units};
 /// One recorded reading of a device.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// When it was measured [s].
+    /// When it was measured \[s\].
     pub time: f64,
     /// Value of every sensor, in the order of the config.
     pub values: Vec<f64>,

@@ -82,7 +82,7 @@ pub fn preview(frame: &Frame<'_>, protocol: Protocol, terminal: TerminalSize) ->
     }
 }
 
-/// The frame, scaled down to at most `limit` columns and rows [pixel].
+/// The frame, scaled down to at most `limit` columns and rows \[pixel\].
 fn within(frame: &Frame<'_>, limit: (u32, u32)) -> Image {
     scaled(frame, fit((frame.width(), frame.height()), limit))
 }

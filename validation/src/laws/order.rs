@@ -4,11 +4,11 @@ use super::law::{Bound, Law, LawError, compile};
 use physics::model::{Disable, Integrator};
 use physics::{Data, Model, integration::integrate};
 
-/// Compared time steps [s]; the second is half the first.
+/// Compared time steps \[s\]; the second is half the first.
 const STEPS: [f64; 2] = [4e-3, 2e-3];
-/// Time step of the solution taken as exact [s].
+/// Time step of the solution taken as exact \[s\].
 const EXACT: f64 = 1.25e-4;
-/// Simulated time [s].
+/// Simulated time \[s\].
 const TIME: f64 = 0.2;
 /// Deviation of a measured order, which the next term of the error makes.
 const GIVE: f64 = 0.15;

@@ -23,11 +23,11 @@ const BODIES: usize = 100;
 const STEPS: usize = 2000;
 /// Last steps, over which the largest velocity is watched: soft friction creeps, and now and then a body tips over.
 const WATCHED: usize = 400;
-/// Median, over those steps, of the largest velocity of a pile at rest [m/s, rad/s]; some fall with 30 rad/s.
+/// Median, over those steps, of the largest velocity of a pile at rest \[m/s, rad/s\]; some fall with 30 rad/s.
 const REST: f64 = 1.0;
 /// Root mean square of all velocities over those steps.
 const MEAN: f64 = 0.1;
-/// Deepest penetration in those steps [m]; the bodies are about 0.1 m across.
+/// Deepest penetration in those steps \[m\]; the bodies are about 0.1 m across.
 const DEPTH: f64 = 5e-3;
 
 /// A bin of five planes and a hundred boxes, spheres, capsules, cylinders and ellipsoids above it.

@@ -14,7 +14,7 @@ use render_gpu::{Choice, GpuRenderer};
 use std::fmt::Write;
 use std::time::Instant;
 
-/// Least peak signal-to-noise ratio [dB].
+/// Least peak signal-to-noise ratio \[dB\].
 const PSNR: f64 = 45.0;
 /// Least share of interior pixels that show the same object. Where surfaces share a plane, rounding decides.
 const INSIDE: f64 = 0.9995;
@@ -31,7 +31,7 @@ struct Row {
     colours: Colours,
     no_shadow: Colours,
     shapes: Shapes,
-    /// Peak signal-to-noise ratio of the GPU's and the CPU's picture beside MuJoCo's [dB].
+    /// Peak signal-to-noise ratio of the GPU's and the CPU's picture beside MuJoCo's \[dB\].
     beside_mujoco: [f64; 2],
 }
 

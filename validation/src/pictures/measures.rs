@@ -17,7 +17,7 @@ pub const BACKGROUND: [i32; 2] = [-1, -1];
 pub struct Geometry {
     /// Number of columns.
     pub width: usize,
-    /// Distance from the camera's plane [m].
+    /// Distance from the camera's plane \[m\].
     pub depth: Vec<f32>,
     /// Number and type of the object seen.
     pub ids: Vec<[i32; 2]>,
@@ -26,7 +26,7 @@ pub struct Geometry {
 /// Likeness of colours.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Colours {
-    /// Peak signal-to-noise ratio over all bytes [dB], [`EQUAL`] at most.
+    /// Peak signal-to-noise ratio over all bytes \[dB\], [`EQUAL`] at most.
     pub psnr: f64,
     /// The same over interior pixels.
     pub psnr_interior: f64,
@@ -61,7 +61,7 @@ pub fn compare_colours(recorded: &[u8], ours: &[u8], width: usize, interior: &[b
     }
 }
 
-/// Peak signal-to-noise ratio of pairs of bytes [dB].
+/// Peak signal-to-noise ratio of pairs of bytes \[dB\].
 fn signal_to_noise<'a>(pairs: impl Iterator<Item = (&'a u8, &'a u8)>) -> f64 {
     let (mut sum, mut count) = (0_u64, 0_u64);
     for (a, b) in pairs {

@@ -28,11 +28,11 @@ pub struct Plan {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Bars {
-    /// Least peak signal-to-noise ratio [dB].
+    /// Least peak signal-to-noise ratio \[dB\].
     pub psnr: f64,
     /// Least structural similarity.
     pub ssim: f64,
-    /// Least peak signal-to-noise ratio without shadows [dB].
+    /// Least peak signal-to-noise ratio without shadows \[dB\].
     pub psnr_no_shadow: f64,
     /// Least share of pixels that show the same object.
     pub ids: f64,
@@ -50,11 +50,11 @@ pub struct Bars {
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct Medians {
-    /// Of the peak signal-to-noise ratio [dB].
+    /// Of the peak signal-to-noise ratio \[dB\].
     pub psnr: f64,
     /// Of the structural similarity.
     pub ssim: f64,
-    /// Of the peak signal-to-noise ratio without shadows [dB].
+    /// Of the peak signal-to-noise ratio without shadows \[dB\].
     pub psnr_no_shadow: f64,
 }
 

@@ -148,7 +148,7 @@ fn numbers(values: &Value) -> String {
 /// The rows of a record.
 pub struct Columns {
     arrays: HashMap<String, (usize, Vec<f64>)>,
-    /// Control period [s].
+    /// Control period \[s\].
     dt: f64,
     /// Names of elements whose columns the arrays hold, by kind.
     names: HashMap<&'static str, Vec<String>>,

@@ -11,7 +11,7 @@ use physics::elements::SiteId;
 use physics::math::sub;
 use robot::Compat;
 
-/// Beyond this distance [m] of hand and object the episode ends.
+/// Beyond this distance \[m\] of hand and object the episode ends.
 const FAR: f64 = 1.25;
 
 /// The parts of a delivery, as settings name them.

@@ -18,7 +18,7 @@ use std::ops::Range;
 /// The objects; settings name the site of the one to be delivered.
 const OBJECTS: [&str; 3] = ["obj0", "obj1", "obj2"];
 
-/// Half of the width [m] of the box that an object's place is drawn from.
+/// Half of the width \[m\] of the box that an object's place is drawn from.
 const JITTER: f64 = 0.01;
 
 /// Shapes to choose from.
@@ -42,7 +42,7 @@ pub struct Args {
 #[derive(Clone)]
 struct Object {
     body: BodyId,
-    /// Its place in the model file [m].
+    /// Its place in the model file \[m\].
     place: Vec3,
     geoms: Vec<usize>,
     /// Where its pose stands in `qpos`.

@@ -11,7 +11,7 @@ use physics::math::sub;
 use robot::Compat;
 use serde::Deserialize;
 
-/// Beyond this distance [m] the episode ends.
+/// Beyond this distance \[m\] the episode ends.
 const FAR: f64 = 1.0;
 
 #[derive(Deserialize)]

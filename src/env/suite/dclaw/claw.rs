@@ -12,7 +12,7 @@ use std::ops::Range;
 /// Joints of a finger: at the top, in the middle, at the bottom.
 pub const JOINTS: usize = 3;
 
-/// Where random poses lie, joint by joint of a finger [rad]. Middle joints bend outwards only, so that fingers do not get
+/// Where random poses lie, joint by joint of a finger \[rad\]. Middle joints bend outwards only, so that fingers do not get
 /// entangled.
 const POSES: [[f64; 2]; JOINTS] = [[-0.48, 0.48], [-FRAC_PI_3, 0.0], [-FRAC_PI_2, FRAC_PI_2]];
 
@@ -74,7 +74,7 @@ pub fn excess(velocities: &[f64], limit: f64) -> f64 {
     )
 }
 
-/// Length of the difference to a pose that every finger repeats [rad].
+/// Length of the difference to a pose that every finger repeats \[rad\].
 pub fn distance_to(angles: &[f64], finger: [f64; JOINTS]) -> f64 {
     ops::sqrt(
         angles.iter().zip(finger.into_iter().cycle()).map(|(angle, at)| (angle - at) * (angle - at)).sum(),

@@ -10,16 +10,16 @@ use robot::Keeper;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_6, PI};
 
-/// Mean error of the joints [rad] below which the task is solved.
+/// Mean error of the joints \[rad\] below which the task is solved.
 const SOLVED: f64 = PI / 18.0;
 
-/// Mean error of the joints [rad] from which on the score is zero.
+/// Mean error of the joints \[rad\] from which on the score is zero.
 const LOST: f64 = FRAC_PI_4;
 
-/// Velocity [rad/s] from which a joint counts as too fast.
+/// Velocity \[rad/s\] from which a joint counts as too fast.
 const FAST: f64 = PI;
 
-/// Angular frequencies of goals that swing [rad/s], and the highest velocity that they reach [rad/s].
+/// Angular frequencies of goals that swing \[rad/s\], and the highest velocity that they reach \[rad/s\].
 const FREQUENCIES: [f64; 2] = [0.5, 2.0];
 const GOAL_VELOCITY: f64 = FRAC_PI_6;
 
@@ -48,11 +48,11 @@ enum GoalKind {
 /// Where a joint is to be: an angle about which it swings.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Goal {
-    /// Middle of the swing [rad].
+    /// Middle of the swing \[rad\].
     centre: f64,
-    /// Half its width [rad], zero for a goal at rest.
+    /// Half its width \[rad\], zero for a goal at rest.
     amplitude: f64,
-    /// Angular frequency [rad/s].
+    /// Angular frequency \[rad/s\].
     frequency: f64,
 }
 
@@ -63,7 +63,7 @@ impl Goal {
         Goal { centre: 0.5 * (a + b), amplitude, frequency }
     }
 
-    /// The angle at a time [s].
+    /// The angle at a time \[s\].
     fn at(&self, time: f64) -> f64 {
         self.centre + self.amplitude * ops::sin(self.frequency * time)
     }
@@ -76,7 +76,7 @@ pub struct Posing {
     kind: GoalKind,
     /// The goal of every joint in this episode.
     goals: Vec<Goal>,
-    /// The two poses that an episode draws [rad].
+    /// The two poses that an episode draws \[rad\].
     drawn: [Vec<f64>; 2],
 }
 

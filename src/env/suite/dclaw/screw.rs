@@ -6,16 +6,16 @@ use crate::rows::Rows;
 use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
 use robot::Keeper;
 
-/// Error of the angle [rad] below which the task is solved.
+/// Error of the angle \[rad\] below which the task is solved.
 const SOLVED: f64 = 0.2;
 
 #[derive(Clone)]
 pub struct Screw {
     valve: Valve,
     velocities: [f64; 2],
-    /// Angle of the mark in this episode [rad], whole turns included.
+    /// Angle of the mark in this episode \[rad\], whole turns included.
     angle: f64,
-    /// Velocity of the mark in this episode [rad/s].
+    /// Velocity of the mark in this episode \[rad/s\].
     velocity: f64,
 }
 

@@ -5,7 +5,7 @@ use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::task::{Defaults, Episode, Setup, Task, Verdict, View};
 
-/// Error of the angle [rad] below which the task is solved.
+/// Error of the angle \[rad\] below which the task is solved.
 const SOLVED: f64 = 0.1;
 
 #[derive(Clone)]

@@ -11,10 +11,10 @@ use physics::math::ops;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_3, PI, TAU};
 
-/// The joints of a finger where episodes start, and which they are to stay near [rad].
+/// The joints of a finger where episodes start, and which they are to stay near \[rad\].
 const NOMINAL: [f64; JOINTS] = [0.0, -FRAC_PI_3, FRAC_PI_3];
 
-/// Velocity [rad/s] from which a joint of the claw counts as fast.
+/// Velocity \[rad/s\] from which a joint of the claw counts as fast.
 const FAST: f64 = 0.5;
 
 /// The settings of both tasks.
@@ -27,13 +27,13 @@ pub struct Args {
     valve_joint_name: String,
     #[serde(default = "target")]
     target_body_name: String,
-    /// Where the valve starts [rad].
+    /// Where the valve starts \[rad\].
     pub initial_angle_range: [f64; 2],
-    /// Error of the angle [rad] below which the task is solved.
+    /// Error of the angle \[rad\] below which the task is solved.
     pub success_threshold: Option<f64>,
-    /// Where a valve that is turned is to come to [rad].
+    /// Where a valve that is turned is to come to \[rad\].
     pub target_angle_range: Option<[f64; 2]>,
-    /// How fast the mark of a screw turns [rad/s].
+    /// How fast the mark of a screw turns \[rad/s\].
     pub target_velocity_range: Option<[f64; 2]>,
 }
 
@@ -57,7 +57,7 @@ pub struct Valve {
 }
 
 impl Valve {
-    /// Finds the parts in the model; the task is solved below an error of `threshold` [rad] unless the id gives another.
+    /// Finds the parts in the model; the task is solved below an error of `threshold` \[rad\] unless the id gives another.
     ///
     /// # Errors
     /// Elements are missing, or of another kind.
@@ -86,7 +86,7 @@ impl Valve {
             .proprio(&["claw_qpos"])
     }
 
-    /// Starts an episode at rest, the claw in its nominal pose and the valve at an angle that is drawn and returned [rad].
+    /// Starts an episode at rest, the claw in its nominal pose and the valve at an angle that is drawn and returned \[rad\].
     ///
     /// # Errors
     /// A range that cannot be drawn from.
@@ -99,7 +99,7 @@ impl Valve {
         Ok(angle)
     }
 
-    /// Turns the mark to an angle [rad]. It holds no mass and touches nothing.
+    /// Turns the mark to an angle \[rad\]. It holds no mass and touches nothing.
     ///
     /// # Errors
     /// The angle is not a number.
@@ -133,7 +133,7 @@ impl Valve {
     }
 }
 
-/// The same angle [rad] above minus half a turn, up to half a turn.
+/// The same angle \[rad\] above minus half a turn, up to half a turn.
 fn within_half_a_turn(angle: f64) -> f64 {
     angle - TAU * ((angle - PI) / TAU).ceil()
 }

@@ -11,7 +11,7 @@ use physics::Model;
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 
-/// Beyond this distance [rad] in the space of joints the episode ends.
+/// Beyond this distance \[rad\] in the space of joints the episode ends.
 const FAR: f64 = 10.0;
 
 /// Joints of the arm and the one that drives the gripper; the gripper's other joints follow it.

@@ -53,7 +53,7 @@ impl Default for Args {
 #[derive(Clone)]
 pub struct Humanoid {
     args: Args,
-    /// Mass of all bodies [kg].
+    /// Mass of all bodies \[kg\].
     mass: f64,
     progress: Progress,
 }

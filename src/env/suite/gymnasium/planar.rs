@@ -29,9 +29,9 @@ pub struct Args {
 struct Health {
     reward: f64,
     terminates: bool,
-    /// Height [m].
+    /// Height \[m\].
     height: [f64; 2],
-    /// Pitch [rad].
+    /// Pitch \[rad\].
     angle: [f64; 2],
     /// All positions and velocities but the first two positions.
     state: [f64; 2],

@@ -24,7 +24,7 @@ impl Progress {
         turn.raw = true;
     }
 
-    /// Mean velocity over the step that led to a position [m/s].
+    /// Mean velocity over the step that led to a position \[m/s\].
     pub fn velocity(&self, position: [f64; 2], dt: f64) -> [f64; 2] {
         std::array::from_fn(|k| (position[k] - self.before[k]) / dt)
     }

@@ -4,7 +4,7 @@ use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::task::Pose;
 
-/// First and last actuator of a group, in the order of the model, and the stiffness of the group [N m/rad].
+/// First and last actuator of a group, in the order of the model, and the stiffness of the group \[N m/rad\].
 const STIFFNESS: [(&str, &str, f64); 2] = [("A_WRJ1", "A_WRJ0", 10.0), ("A_FFJ3", "A_THJ0", 1.0)];
 
 /// Makes the wrist and the fingers servos of the stiffness that the tasks were learned with.

@@ -11,13 +11,13 @@ use robot::Compat;
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_4;
 
-/// Angles [rad] at which the balls start on their orbit.
+/// Angles \[rad\] at which the balls start on their orbit.
 const STARTS: [f64; 2] = [3.0 * FRAC_PI_4, -FRAC_PI_4];
-/// How far in front of the palm the balls are [m].
+/// How far in front of the palm the balls are \[m\].
 const DEPTH: f64 = -0.045;
-/// A ball closer than this to its target [m] is there.
+/// A ball closer than this to its target \[m\] is there.
 const NEAR: f64 = 0.015;
-/// A ball below this height [m] fell.
+/// A ball below this height \[m\] fell.
 const DROP: f64 = 0.06;
 /// How much softer the hand is than its model says.
 const SOFTER: f64 = 0.1;

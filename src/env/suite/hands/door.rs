@@ -11,13 +11,13 @@ use physics::elements::{BodyId, SiteId};
 use physics::math::sub;
 use serde::Deserialize;
 
-/// Where the frame of the door may stand [m].
+/// Where the frame of the door may stand \[m\].
 const PLACES: Ranges = Ranges { low: [-0.3, 0.25, 0.252], high: [-0.2, 0.35, 0.35] };
-/// The angle [rad] to which the door is to be opened, as the original rounds it.
+/// The angle \[rad\] to which the door is to be opened, as the original rounds it.
 const WIDE_OPEN: f64 = 1.57;
-/// The door is open beyond this angle [rad].
+/// The door is open beyond this angle \[rad\].
 const OPEN: f64 = 1.35;
-/// A hand farther than this from the handle [m] has given up.
+/// A hand farther than this from the handle \[m\] has given up.
 const FAR: f64 = 1.0;
 
 #[derive(Deserialize)]
@@ -89,7 +89,7 @@ impl Task for Door {
     }
 }
 
-/// Rewards a door at an angle [rad] with the palm at a distance from its handle [m].
+/// Rewards a door at an angle \[rad\] with the palm at a distance from its handle \[m\].
 fn judge(distance: f64, door: f64, terms: &mut Rows) -> Verdict {
     let beyond = |angle: f64| f64::from(door > angle);
     terms.set("reach", "m", [-0.1 * distance]);

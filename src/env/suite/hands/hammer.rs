@@ -10,13 +10,13 @@ use physics::elements::{BodyId, SensorId, SiteId};
 use physics::math::sub;
 use serde::Deserialize;
 
-/// Lowest and highest place of the board [m].
+/// Lowest and highest place of the board \[m\].
 const HEIGHTS: [f64; 2] = [0.1, 0.25];
-/// A hammer above this height [m] is lifted.
+/// A hammer above this height \[m\] is lifted.
 const LIFTED: f64 = 0.04;
-/// The nail is in when this close to where it is to go [m].
+/// The nail is in when this close to where it is to go \[m\].
 const DRIVEN: f64 = 0.01;
-/// A hand farther than this from the hammer [m] has given up.
+/// A hand farther than this from the hammer \[m\] has given up.
 const FAR: f64 = 1.0;
 /// Positions of the hammer, behind the hand's.
 const HAMMER: usize = 6;
@@ -121,7 +121,7 @@ impl Task for Hammer {
     }
 }
 
-/// The bonus for a hammer at a height, and a nail that has a way to go [m].
+/// The bonus for a hammer at a height, and a nail that has a way to go \[m\].
 fn bonus(height: f64, nail: f64) -> f64 {
     2.0 * f64::from(height > LIFTED) + 25.0 * f64::from(nail < 2.0 * DRIVEN) + 75.0 * f64::from(nail < DRIVEN)
 }

@@ -10,11 +10,11 @@ use physics::elements::{BodyId, SiteId};
 use physics::math::{distance, sub};
 use serde::Deserialize;
 
-/// The tilt of the target about x and about y is drawn from this range [rad].
+/// The tilt of the target about x and about y is drawn from this range \[rad\].
 const TILTS: [f64; 2] = [-1.0, 1.0];
-/// A pen whose centre is below this height [m] has fallen.
+/// A pen whose centre is below this height \[m\] has fallen.
 const FALLEN: f64 = 0.075;
-/// A pen closer than this to its place [m] is held.
+/// A pen closer than this to its place \[m\] is held.
 const HELD: f64 = 0.075;
 /// The pen points as the target does when the cosine of the angle between them is above this.
 const ALIGNED: f64 = 0.95;
@@ -30,7 +30,7 @@ pub struct Args {}
 struct Ends {
     top: SiteId,
     bottom: SiteId,
-    /// Their distance [m].
+    /// Their distance \[m\].
     length: f64,
 }
 
@@ -117,7 +117,7 @@ impl Task for Pen {
     }
 }
 
-/// Rewards a pen that is `away` from its place [m], at an angle of this cosine to the target, at a height [m].
+/// Rewards a pen that is `away` from its place \[m\], at an angle of this cosine to the target, at a height \[m\].
 fn judge(away: f64, cosine: f64, height: f64, terms: &mut Rows) -> Verdict {
     let fallen = height < FALLEN;
     let beyond = |least: f64| f64::from(cosine > least && away < HELD);

@@ -11,15 +11,15 @@ use physics::elements::{BodyId, SiteId};
 use physics::math::sub;
 use serde::Deserialize;
 
-/// Where on the table the ball may lie [m].
+/// Where on the table the ball may lie \[m\].
 const BALLS: Ranges<2> = Ranges { low: [-0.15, -0.15], high: [0.15, 0.3] };
-/// Where in the air the target may be [m].
+/// Where in the air the target may be \[m\].
 const TARGETS: Ranges = Ranges { low: [-0.2, -0.2, 0.15], high: [0.2, 0.2, 0.35] };
-/// A ball above this height [m] is lifted.
+/// A ball above this height \[m\] is lifted.
 const LIFTED: f64 = 0.04;
-/// A ball closer than this to the target [m] is there.
+/// A ball closer than this to the target \[m\] is there.
 const ARRIVED: f64 = 0.1;
-/// A hand farther than this from the ball [m] has given up.
+/// A hand farther than this from the ball \[m\] has given up.
 const FAR: f64 = 0.7;
 /// Positions of the ball, behind the hand's.
 const BALL: usize = 6;
@@ -91,7 +91,7 @@ impl Task for Relocate {
     }
 }
 
-/// Rewards the distances from palm to ball, palm to target and ball to target [m], with the ball at a height [m].
+/// Rewards the distances from palm to ball, palm to target and ball to target \[m\], with the ball at a height \[m\].
 fn judge([reach, carry, gap]: [f64; 3], height: f64, terms: &mut Rows) -> Verdict {
     let lifted = f64::from(height > LIFTED);
     let near = |distance: f64| f64::from(gap < distance);

@@ -14,11 +14,11 @@ use toml::Table;
 /// Share of a robot joint's span over which it starts.
 const NOISE: f64 = 0.05;
 
-/// The distance [m] of appliances from a point in front of the robot, and the angle [rad] around it.
+/// The distance \[m\] of appliances from a point in front of the robot, and the angle \[rad\] around it.
 const DISTANCE: [f64; 2] = [0.4, 0.7];
 const ANGLE: [f64; 2] = [-1.57, 1.57];
 
-/// How far ahead [m] that point is.
+/// How far ahead \[m\] that point is.
 const AHEAD: f64 = 0.5;
 
 #[derive(Clone)]

@@ -21,7 +21,7 @@ const HAND: &str = "end_effector";
 /// Share of a joint's span within which it is at its goal, if the span is small.
 const SMALL_SPAN_SHARE: f64 = 0.15;
 
-/// Spans of hinges [rad] and slides [m] that are large, and how near their goals are then.
+/// Spans of hinges \[rad\] and slides \[m\] that are large, and how near their goals are then.
 const LARGE_HINGE: (f64, f64) = (PI, PI / 12.0);
 const LARGE_SLIDE: (f64, f64) = (1.0, 0.05);
 
@@ -98,7 +98,7 @@ pub struct RobotJoint {
     /// Where it stands in `qpos`.
     pub place: usize,
     velocity: usize,
-    /// Its limits [rad, m].
+    /// Its limits \[rad, m\].
     pub range: [f64; 2],
 }
 
@@ -107,7 +107,7 @@ pub struct RobotJoint {
 struct ObjectJoint {
     place: usize,
     velocity: usize,
-    /// How near [rad, m] a position at its goal is.
+    /// How near \[rad, m\] a position at its goal is.
     near: f64,
     goal: f64,
 }

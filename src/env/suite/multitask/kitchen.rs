@@ -38,7 +38,7 @@ struct Randomness {
     /// Share of a robot joint's span over which it starts.
     #[serde(default)]
     robot_jnt_reset_noise_scale: f64,
-    /// Where the robot stands from its place in the model [m].
+    /// Where the robot stands from its place in the model \[m\].
     robot_base_reset_range: Option<Ranges>,
 }
 
@@ -47,7 +47,7 @@ pub struct Kitchen {
     chore: Chore,
     noise: f64,
     shift: Option<Ranges>,
-    /// The robot's place in the model [m].
+    /// The robot's place in the model \[m\].
     place: Vec3,
 }
 

@@ -11,7 +11,7 @@ use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::FRAC_PI_4;
 
-/// Angles [rad] at which the balls start on their path.
+/// Angles \[rad\] at which the balls start on their path.
 const STARTS: [f64; 2] = [3.0 * FRAC_PI_4, -FRAC_PI_4];
 
 #[derive(Deserialize)]

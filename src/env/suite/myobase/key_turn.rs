@@ -12,11 +12,11 @@ use robot::Keeper;
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-/// Distance [m] at which a finger tip touches the head of the key.
+/// Distance \[m\] at which a finger tip touches the head of the key.
 const TOUCH: f64 = 0.03;
-/// Beyond this distance [m] from touching the episode ends.
+/// Beyond this distance \[m\] from touching the episode ends.
 const FAR: f64 = 0.1;
-/// How far [m] the key may stand from its place along each axis.
+/// How far \[m\] the key may stand from its place along each axis.
 const OFFSET: [f64; 3] = [0.01; 3];
 
 #[derive(Deserialize)]
@@ -42,11 +42,11 @@ pub struct KeyTurn {
     index: SiteId,
     thumb: SiteId,
     key: BodyId,
-    /// Where the key stands at first [m].
+    /// Where the key stands at first \[m\].
     place: [f64; 3],
-    /// Angles [rad] of the key that episodes start with.
+    /// Angles \[rad\] of the key that episodes start with.
     starts: [f64; 2],
-    /// Angle [rad] beyond which the key has been turned.
+    /// Angle \[rad\] beyond which the key has been turned.
     goal: f64,
 }
 

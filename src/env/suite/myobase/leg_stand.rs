@@ -15,7 +15,7 @@ use physics::model::JointType;
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 
-/// Distance [m] of a site within which it has arrived.
+/// Distance \[m\] of a site within which it has arrived.
 const NEAR: f64 = 0.05;
 
 #[derive(Deserialize)]
@@ -38,7 +38,7 @@ fn far_th() -> f64 {
 pub struct LegStand {
     muscles: Muscles,
     tips: Tips,
-    /// How far [rad] joints start from the initial pose.
+    /// How far \[rad\] joints start from the initial pose.
     bend: [f64; 2],
     compat: Compat,
     /// Offsets drawn for every joint position (nq).

@@ -14,9 +14,9 @@ use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::{PI, TAU};
 
-/// Height [m] of the centre of mass above the feet below which legs kneel.
+/// Height \[m\] of the centre of mass above the feet below which legs kneel.
 const KNEELING: f64 = 0.61;
-/// How far [rad] hips swing.
+/// How far \[rad\] hips swing.
 const SWING: f64 = 0.8;
 /// Standard deviation of positions that are drawn.
 const NOISE: f64 = 0.02;
@@ -100,7 +100,7 @@ pub struct LegWalk {
     max_rot: f64,
     /// Steps of a walking cycle.
     period: f64,
-    /// Velocities to walk with [m/s].
+    /// Velocities to walk with \[m/s\].
     velocity: [f64; 2],
     /// The orientation of the pelvis that is rewarded.
     upright: [f64; 4],
@@ -179,7 +179,7 @@ impl LegWalk {
         counted / self.period % 1.0
     }
 
-    /// How far [rad] the flexion of the hips is from where the cycle wants it.
+    /// How far \[rad\] the flexion of the hips is from where the cycle wants it.
     fn off_cycle(&self, rows: &Rows) -> f64 {
         let angle = TAU * rows["phase_var"][0];
         let wanted = [SWING * ops::cos(angle + PI), SWING * ops::cos(angle)];

@@ -14,15 +14,15 @@ use physics::model::GeomType;
 use robot::{Compat, Keeper};
 use serde::Deserialize;
 
-/// Distance [m] within which the object is at the goal.
+/// Distance \[m\] within which the object is at the goal.
 const NEAR: f64 = 0.01;
-/// Beyond this distance [m] it has been dropped.
+/// Beyond this distance \[m\] it has been dropped.
 const DROPPED: f64 = 0.3;
-/// Angle [rad] of the forearm that turns the palm up.
+/// Angle \[rad\] of the forearm that turns the palm up.
 const PALM_UP: f64 = -1.5;
-/// How far [m] a goal may be from where the object starts, along each axis.
+/// How far \[m\] a goal may be from where the object starts, along each axis.
 const OFFSET: [f64; 3] = [0.03; 3];
-/// Half axes [m] of the object, lowest and highest.
+/// Half axes \[m\] of the object, lowest and highest.
 const SIZES: [[f64; 3]; 2] = [[0.02; 3], [0.03; 3]];
 /// Positions and degrees of freedom of the object, behind the hand's.
 const OBJECT: [usize; 2] = [7, 6];
@@ -44,10 +44,10 @@ pub struct ObjectHold {
     goal: SiteId,
     body: BodyId,
     geom: GeomId,
-    /// Where the object starts [m].
+    /// Where the object starts \[m\].
     place: [f64; 3],
     randomize: bool,
-    /// Density of the object [kg/m³].
+    /// Density of the object \[kg/m³\].
     density: f64,
     compat: Compat,
 }

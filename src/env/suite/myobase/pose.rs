@@ -13,7 +13,7 @@ use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::TAU;
 
-/// Beyond this distance [rad] the episode ends.
+/// Beyond this distance \[rad\] the episode ends.
 const FAR: f64 = TAU;
 
 #[derive(Deserialize)]

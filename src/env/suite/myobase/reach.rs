@@ -9,7 +9,7 @@ use crate::task::{Defaults, Episode, Setup, Task, Turn, Verdict, View};
 use robot::Keeper;
 use serde::Deserialize;
 
-/// Distance [m] of a tip within which it has arrived.
+/// Distance \[m\] of a tip within which it has arrived.
 const NEAR: f64 = 0.0125;
 
 #[derive(Deserialize)]

@@ -18,9 +18,9 @@ use serde::Deserialize;
 use std::sync::Arc;
 use toml::Table;
 
-/// Mass of every object [kg].
+/// Mass of every object \[kg\].
 const MASS: f64 = 1.2;
-/// Ranges of the target's angles about x and y [rad].
+/// Ranges of the target's angles about x and y \[rad\].
 const ANGLES: [[f64; 2]; 2] = [[-1.0, 1.0], [-0.8, 1.2]];
 /// How far beyond the half length of a capsule the ends of its axis are marked.
 const CAPSULE_END: f64 = 1.3;
@@ -53,7 +53,7 @@ struct Shaped {
     geom: GeomId,
     top: GeomId,
     bottom: GeomId,
-    /// Distance of the marks [m].
+    /// Distance of the marks \[m\].
     length: f64,
 }
 

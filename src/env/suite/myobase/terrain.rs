@@ -14,7 +14,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The geom that shows the height field.
 const GEOM: &str = "terrain";
-/// Where a height field is that is not used [m].
+/// Where a height field is that is not used \[m\].
 const AWAY: [f64; 3] = [0.0, 0.0, -10.0];
 /// Elevations of a height field, a square row by row.
 const CELLS: usize = 10_000;

@@ -31,7 +31,7 @@ pub struct Tips {
 /// How far the sites are from their targets.
 #[derive(Clone, Copy, Debug)]
 pub struct Approach {
-    /// Length of all errors as one vector [m].
+    /// Length of all errors as one vector \[m\].
     pub distance: f64,
     /// One for each of two thresholds that the distance is below.
     pub bonus: f64,
@@ -40,7 +40,7 @@ pub struct Approach {
 }
 
 impl Tips {
-    /// The sites that `ranges` names, with thresholds [m] per site.
+    /// The sites that `ranges` names, with thresholds \[m\] per site.
     ///
     /// # Errors
     /// The model lacks a site or its target.

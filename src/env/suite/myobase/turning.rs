@@ -6,11 +6,11 @@ use crate::suite::muscle::effort;
 use crate::task::{Verdict, View};
 use physics::math::{Vec3, sub};
 
-/// Beyond this distance [m] from its place the object has been dropped.
+/// Beyond this distance \[m\] from its place the object has been dropped.
 const DROPPED: f64 = 0.075;
 /// Cosines of the angle to the target above which the object points like it, roughly and well.
 const ALIGNED: [f64; 2] = [0.9, 0.95];
-/// Angle [rad] of the forearm that turns the palm up.
+/// Angle \[rad\] of the forearm that turns the palm up.
 const PALM_UP: f64 = -1.5;
 /// Joints of the object, behind the hand's.
 pub const OBJECT_JOINTS: usize = 6;
@@ -22,9 +22,9 @@ pub const WEIGHTS: [(&str, f64); 5] =
 /// Where the object is and points, and where it should.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
-    /// Position of the object [m].
+    /// Position of the object \[m\].
     pub position: Vec3,
-    /// Its place [m].
+    /// Its place \[m\].
     pub place: Vec3,
     /// Direction of the object's axis.
     pub axis: Vec3,

@@ -16,24 +16,24 @@ use robot::{Compat, Keeper};
 use serde::Deserialize;
 use std::f64::consts::{FRAC_PI_4, PI, TAU};
 
-/// Time of a turn [s] before the first reset.
+/// Time of a turn \[s\] before the first reset.
 const FIRST_PERIOD: f64 = 6.0;
 
 #[derive(Clone, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Args {
-    /// Height below which a ball is dropped [m].
+    /// Height below which a ball is dropped \[m\].
     drop_th: f64,
-    /// Distance from its target within which a ball is right [m].
+    /// Distance from its target within which a ball is right \[m\].
     proximity_th: f64,
-    /// Time of a turn [s].
+    /// Time of a turn \[s\].
     goal_time_period: [f64; 2],
-    /// Half axes of the path [m].
+    /// Half axes of the path \[m\].
     goal_xrange: [f64; 2],
     goal_yrange: [f64; 2],
-    /// Radius of the balls [m].
+    /// Radius of the balls \[m\].
     obj_size_range: Option<[f64; 2]>,
-    /// Mass of a ball [kg].
+    /// Mass of a ball \[kg\].
     obj_mass_range: Option<[f64; 2]>,
     /// Largest change of the coefficients of friction.
     obj_friction_change: Option<Vec3>,
@@ -118,7 +118,7 @@ impl Baoding {
     }
 }
 
-/// Angles of two balls [rad] opposite each other; the first is at `angle`.
+/// Angles of two balls \[rad\] opposite each other; the first is at `angle`.
 fn opposite(angle: f64) -> [f64; 2] {
     [angle, angle - PI]
 }

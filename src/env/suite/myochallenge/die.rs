@@ -16,9 +16,9 @@ const BOXES: usize = 3;
 #[derive(Clone)]
 pub struct Die {
     compiled: Arc<Compiled>,
-    /// Masses [kg].
+    /// Masses \[kg\].
     masses: [f64; 2],
-    /// Largest change of half sizes [m].
+    /// Largest change of half sizes \[m\].
     size_change: f64,
     friction: Vec<f64>,
     mass: f64,
@@ -35,12 +35,12 @@ struct Compiled {
     friction: [Vec<f64>; 2],
     mass: f64,
     inertia: Vec3,
-    /// Half of its width [m].
+    /// Half of its width \[m\].
     half: f64,
 }
 
 impl Die {
-    /// The die of a scene, with the masses [kg] and the largest changes of half sizes [m] and friction that resets may give it.
+    /// The die of a scene, with the masses \[kg\] and the largest changes of half sizes \[m\] and friction that resets may give it.
     ///
     /// # Errors
     /// The model has no die.
@@ -84,7 +84,7 @@ impl Die {
         Ok(())
     }
 
-    /// How much the die's half sizes have changed [m].
+    /// How much the die's half sizes have changed \[m\].
     pub fn growth(&self) -> f64 {
         self.growth
     }

@@ -23,11 +23,11 @@ const LIGHTEST: [f64; 4] = [0.9, 0.9, 0.9, 1.0];
 /// What may vary; `None` keeps what the model has.
 #[derive(Clone)]
 pub struct ObjectArgs {
-    /// Positions of the object [m].
+    /// Positions of the object \[m\].
     pub places: Option<Ranges>,
-    /// Sizes of its geoms [m], which then have random shapes and places; without them only the position varies.
+    /// Sizes of its geoms \[m\], which then have random shapes and places; without them only the position varies.
     pub sizes: Option<Ranges>,
-    /// Its mass [kg].
+    /// Its mass \[kg\].
     pub mass: Option<[f64; 2]>,
     /// Coefficients of friction.
     pub friction: Option<Ranges>,

@@ -23,26 +23,26 @@ const ATTEMPTS: usize = 1000;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Args {
-    /// Positions of the receptacle [m].
+    /// Positions of the receptacle \[m\].
     target_xyz_range: Ranges,
-    /// Euler angles of the receptacle [rad].
+    /// Euler angles of the receptacle \[rad\].
     target_rxryrz_range: Ranges,
-    /// Positions of the object [m]; without them the object lies where the first key frame has it.
+    /// Positions of the object \[m\]; without them the object lies where the first key frame has it.
     obj_xyz_range: Option<Ranges>,
-    /// Sizes of the object's geoms [m], which then have random shapes, places, friction and mass.
+    /// Sizes of the object's geoms \[m\], which then have random shapes, places, friction and mass.
     obj_geom_range: Option<Ranges>,
     obj_mass_range: Option<Bounds>,
     obj_friction_range: Option<Ranges>,
     /// How far joints start from the key frame, in parts of their range.
     #[serde(default)]
     qpos_noise_range: f64,
-    /// Distance from the receptacle that solves [m].
+    /// Distance from the receptacle that solves \[m\].
     #[serde(default = "pos_th")]
     pos_th: f64,
-    /// Norm of the differences of Euler angles that solves [rad].
+    /// Norm of the differences of Euler angles that solves \[rad\].
     #[serde(default = "rot_th")]
     rot_th: f64,
-    /// Distance from the palm beyond which the object is lost [m].
+    /// Distance from the palm beyond which the object is lost \[m\].
     #[serde(default = "drop_th")]
     drop_th: f64,
 }

@@ -16,27 +16,27 @@ use std::sync::Arc;
 /// Coordinates of the die, the last ones of the model: three slides and three hinges.
 const DIE_JOINTS: usize = 6;
 
-/// Rotation of the forearm that turns the palm up [rad].
+/// Rotation of the forearm that turns the palm up \[rad\].
 const PALM_UP: f64 = -1.5;
 
 #[derive(Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Args {
-    /// Offsets of the goal from its place in the model, per axis [m].
+    /// Offsets of the goal from its place in the model, per axis \[m\].
     goal_pos: [f64; 2],
-    /// Euler angles of the goal [rad].
+    /// Euler angles of the goal \[rad\].
     goal_rot: [f64; 2],
-    /// Largest change of the die's half size [m].
+    /// Largest change of the die's half size \[m\].
     obj_size_change: f64,
-    /// Mass of the die [kg].
+    /// Mass of the die \[kg\].
     obj_mass_range: [f64; 2],
     /// Largest change of the coefficients of friction.
     obj_friction_change: [f64; 3],
-    /// Distance from the goal that solves [m].
+    /// Distance from the goal that solves \[m\].
     pos_th: f64,
-    /// Norm of the differences of Euler angles that solves [rad].
+    /// Norm of the differences of Euler angles that solves \[rad\].
     rot_th: f64,
-    /// Distance from the goal beyond which the die is dropped [m].
+    /// Distance from the goal beyond which the die is dropped \[m\].
     drop_th: f64,
 }
 
@@ -65,9 +65,9 @@ pub struct Reorient {
     goal_body: BodyId,
     goal_geom: GeomId,
     goal_size: Vec3,
-    /// Where the goal is in the model, in the frame of the world [m].
+    /// Where the goal is in the model, in the frame of the world \[m\].
     goal_place: Vec3,
-    /// From the die to the goal while the die is where it should be [m].
+    /// From the die to the goal while the die is where it should be \[m\].
     offset: Vec3,
     die: Die,
 }

@@ -10,7 +10,7 @@ use serde::Deserialize;
 use std::io::Cursor;
 use std::ops::Range;
 
-/// Numbers that state the pose of an object: position [m], and orientation as a quaternion.
+/// Numbers that state the pose of an object: position \[m\], and orientation as a quaternion.
 pub const OBJECT: usize = 7;
 
 /// Frames of a motion are found by their time, rounded to this many per second.
@@ -30,11 +30,11 @@ pub enum Source {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Frames {
-    /// When each frame is due [s]; two numbers for a target that does not move.
+    /// When each frame is due \[s\]; two numbers for a target that does not move.
     time: Vec<f64>,
-    /// Joint positions of the robot [rad, m].
+    /// Joint positions of the robot \[rad, m\].
     robot: Vec<Vec<f64>>,
-    /// Joint velocities of the robot [rad/s, m/s].
+    /// Joint velocities of the robot \[rad/s, m/s\].
     robot_vel: Option<Vec<Vec<f64>>>,
     /// Poses of the object.
     object: Vec<Vec<f64>>,
@@ -177,7 +177,7 @@ impl Frames {
         Ok(())
     }
 
-    /// The frames before and after a time [s] and how far it is from one to the other; one frame where it is due then.
+    /// The frames before and after a time \[s\] and how far it is from one to the other; one frame where it is due then.
     fn around(&self, time: f64) -> (usize, Option<f64>) {
         let last = self.robot.len().max(self.object.len()) - 1;
         let due = rounded(time);
@@ -190,7 +190,7 @@ impl Frames {
     }
 }
 
-/// A time [s] as precise as frames are found by.
+/// A time \[s\] as precise as frames are found by.
 fn rounded(time: f64) -> f64 {
     (time * TIME_PRECISION).round_ties_even() / TIME_PRECISION
 }
@@ -270,7 +270,7 @@ impl Reference {
         constant
     }
 
-    /// The reference at a time [s]; after its end, the last frame. Orientations between frames are normalised.
+    /// The reference at a time \[s\]; after its end, the last frame. Orientations between frames are normalised.
     pub fn at(&self, time: f64) -> Moment<'_> {
         let frames = &self.shown;
         let (frame, share) = frames.around(time);

@@ -17,13 +17,13 @@ use std::f64::consts::PI;
 /// Coordinates of the object, the last ones of the model: three slides and three hinges.
 const OBJECT_JOINTS: usize = 6;
 
-/// Height above the place of the object in the model at which it counts as lifted [m].
+/// Height above the place of the object in the model at which it counts as lifted \[m\].
 const LIFTED: f64 = 0.02;
 
-/// Distance from the reference, and from the wrist, at which the episode ends [m].
+/// Distance from the reference, and from the wrist, at which the episode ends \[m\].
 const LOST: f64 = 0.25;
 
-/// Squared distance of joint positions from the reference at which an episode may end [rad²].
+/// Squared distance of joint positions from the reference at which an episode may end \[rad²\].
 const ASTRAY: f64 = 0.75;
 
 #[derive(Deserialize)]
@@ -32,7 +32,7 @@ pub struct Args {
     /// Name of the object's body.
     object_name: String,
     reference: Source,
-    /// Part of the reference that is left out at its beginning [s].
+    /// Part of the reference that is left out at its beginning \[s\].
     #[serde(default)]
     motion_start_time: f64,
     /// Whether losing the object ends the episode.
@@ -91,7 +91,7 @@ impl Track {
         })
     }
 
-    /// Puts the mark where the object should be at a time [s].
+    /// Puts the mark where the object should be at a time \[s\].
     fn show_target(&self, scene: &mut Scene, time: f64) -> Result<(), EnvError> {
         let [x, y, z, ..] = self.reference.at(time + self.start_time).object;
         scene.overwrite(|m| m.site_pos[self.target.index()] = [x, y, z])

@@ -20,11 +20,11 @@ const UPRIGHT: f64 = 0.9;
 pub struct Args {
     torso_site_name: String,
     target_site_name: String,
-    /// Distance of the target [m].
+    /// Distance of the target \[m\].
     target_distance_range: [f64; 2],
-    /// Direction of the target, from the x axis [rad].
+    /// Direction of the target, from the x axis \[rad\].
     target_angle_range: [f64; 2],
-    /// Largest turn of a joint away from the first key frame at the start [rad].
+    /// Largest turn of a joint away from the first key frame at the start \[rad\].
     joint_noise: f64,
 }
 

@@ -14,7 +14,7 @@ use std::ops::Range;
 /// Joints of the torso: x, y, z, and the angles about them.
 const ROOT: usize = 6;
 
-/// How far [m] the point to look at lies behind the target, so that the heading is steady at the target.
+/// How far \[m\] the point to look at lies behind the target, so that the heading is steady at the target.
 const BEYOND: f64 = 0.5;
 
 /// The settings of all tasks of the robot.
@@ -33,11 +33,11 @@ pub struct Args {
     target_site_name: String,
     #[serde(default = "heading")]
     heading_site_name: String,
-    /// Distance of the target [m].
+    /// Distance of the target \[m\].
     pub target_distance_range: Option<[f64; 2]>,
     #[serde(default = "ahead")]
     target_angle_range: [f64; 2],
-    /// Height of the torso [m].
+    /// Height of the torso \[m\].
     #[serde(default = "standing")]
     pub target_height_range: [f64; 2],
     /// How a standing robot starts.
@@ -76,7 +76,7 @@ fn standing() -> [f64; 2] {
     [0.28; 2]
 }
 
-/// An actuated joint: where it stands in `qpos`, and the limits of the configuration [rad].
+/// An actuated joint: where it stands in `qpos`, and the limits of the configuration \[rad\].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
     /// Place in `qpos`.
@@ -101,7 +101,7 @@ pub struct Kitty {
 }
 
 impl Kitty {
-    /// Finds the robot in the model; `distance` is the target's distance [m].
+    /// Finds the robot in the model; `distance` is the target's distance \[m\].
     ///
     /// # Errors
     /// Elements are missing; the id has no robot configuration.

@@ -8,13 +8,13 @@ use crate::task::{Defaults, Episode, Setup, Task, Verdict, View};
 use robot::Compat;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, FRAC_PI_4, FRAC_PI_6, PI};
 
-/// The joints of a crouched leg [rad].
+/// The joints of a crouched leg \[rad\].
 const CROUCH: [f64; 3] = [0.0, FRAC_PI_4, -FRAC_PI_2];
 
-/// Mean error of the joints [rad] at which the task is solved.
+/// Mean error of the joints \[rad\] at which the task is solved.
 const STRETCHED: f64 = PI / 12.0;
 
-/// Distance of the marks [m], where the id gives none; nothing moves them.
+/// Distance of the marks \[m\], where the id gives none; nothing moves them.
 const DISTANCE: [f64; 2] = [2.3, 2.3];
 
 #[derive(Clone)]

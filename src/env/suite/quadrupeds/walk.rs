@@ -7,7 +7,7 @@ use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Verdict, View};
 
-/// Distance of the target [m], where the id gives none.
+/// Distance of the target \[m\], where the id gives none.
 const DISTANCE: [f64; 2] = [2.3, 2.3];
 
 /// What a walk is measured by.
@@ -15,9 +15,9 @@ const DISTANCE: [f64; 2] = [2.3, 2.3];
 pub(super) struct Gait {
     /// Height of the torso's vertical axis below which the robot has fallen.
     pub upright: f64,
-    /// Mean distance of the target [m].
+    /// Mean distance of the target \[m\].
     pub distance: f64,
-    /// Height of the torso [m].
+    /// Height of the torso \[m\].
     pub height: f64,
 }
 
@@ -34,8 +34,8 @@ impl Gait {
     ];
 }
 
-/// Rewards a robot at this `distance` [m] from its target, by the cosine of its `heading` and how high the tip of its vertical
-/// axis and its torso [m] are.
+/// Rewards a robot at this `distance` \[m\] from its target, by the cosine of its `heading` and how high the tip of its vertical
+/// axis and its torso \[m\] are.
 pub(super) fn reward(
     gait: &Gait,
     distance: f64,

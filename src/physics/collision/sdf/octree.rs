@@ -12,9 +12,9 @@ pub(crate) struct Octree<'a> {
     coeff: &'a [[f64; 8]],
 }
 
-/// A point projected into the box of an octree stands this far inside [m].
+/// A point projected into the box of an octree stands this far inside \[m\].
 const INSIDE: f64 = 1e-6;
-/// Step of differences outside of the box [m].
+/// Step of differences outside of the box \[m\].
 const STEP: f64 = 1e-8;
 
 /// The leaf that holds a point, and where in it, from 0 to 1 along each axis.

@@ -10,7 +10,7 @@ use crate::model::flex::Flex;
 use crate::stages::{Com, Contact, Contacts, Flexes, Inertia};
 use std::ops::Range;
 
-/// Square of the frequency [1/s²].
+/// Square of the frequency \[1/s²\].
 const FREQUENCY_SQUARED: f64 = 5e7;
 
 /// `exclude` of a contact that is a spring, and of one that moves nothing.
@@ -35,7 +35,7 @@ pub(crate) fn mark(m: &Model, con: &mut Contacts) {
 pub(super) struct Touch {
     /// Number of the contact.
     contact: usize,
-    /// [N/m].
+    /// \[N/m\].
     pub stiffness: f64,
     /// Where its derivative is.
     row: Range<usize>,

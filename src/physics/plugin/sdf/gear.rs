@@ -27,7 +27,7 @@ fields! {
 
 #[derive(Debug)]
 struct Wheel {
-    /// Angle by which it is turned, clockwise [rad]. Without it a flank leaves the base circle on the x axis.
+    /// Angle by which it is turned, clockwise \[rad\]. Without it a flank leaves the base circle on the x axis.
     alpha: f64,
     /// Of the pitch circle.
     diameter: f64,

@@ -1,7 +1,7 @@
 //! Light on corners: OpenGL's fixed-function lighting, eight corners at a time.
 //!
-//! c = emission base + g base + sum a (A base + max(N.L, 0) D base + [N.L > 0] max(N.H, 0)^(128 shininess) S specular),
-//! clamped to [0, 1] for every corner and pass (OpenGL 2.1 specification, section 2.14.1, with a local viewer).
+//! c = emission base + g base + sum a (A base + max(N.L, 0) D base + \[N.L > 0\] max(N.H, 0)^(128 shininess) S specular),
+//! clamped to \[0, 1\] for every corner and pass (OpenGL 2.1 specification, section 2.14.1, with a local viewer).
 
 use super::power::power;
 use crate::scene::{Item, Light, LightKind};
@@ -13,7 +13,7 @@ pub type Triple = [f32x8; 3];
 /// Eight corners, world frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Corners {
-    /// Positions [m].
+    /// Positions \[m\].
     pub position: Triple,
     /// Unit normals.
     pub normal: Triple,

@@ -17,9 +17,9 @@ use wide::{f32x4, f32x8, i32x4, u32x4};
 /// One triangle in one pixel.
 #[derive(Clone, Copy, Debug)]
 pub struct Fragment {
-    /// Column [pixel].
+    /// Column \[pixel\].
     pub x: u16,
-    /// Row from below [pixel].
+    /// Row from below \[pixel\].
     pub y: u16,
     /// Group of its samples.
     pub group: u32,
@@ -38,19 +38,19 @@ pub struct SeenTriangle {
     pub draw: u32,
     /// First colours of its corners.
     rows: [u32; 3],
-    /// Point of the window from which columns and rows are counted, so that small numbers are multiplied [pixel].
+    /// Point of the window from which columns and rows are counted, so that small numbers are multiplied \[pixel\].
     anchor: [f32; 2],
     /// What multiplies column, row and 1 to give the corners' shares before normalisation, counted from `anchor`; a lane for
     /// each corner.
     shares: [f32x4; 3],
     /// Texture coordinates or directions of its corners.
     texture: [f32x4; 3],
-    /// Its corners, world frame [m].
+    /// Its corners, world frame \[m\].
     corners: [f32x4; 3],
 }
 
 impl SeenTriangle {
-    /// Shares of the corners in a point of the window [pixel]; they add up to 1.
+    /// Shares of the corners in a point of the window \[pixel\]; they add up to 1.
     #[inline]
     pub fn weights(&self, x: f32, y: f32) -> [f32; 3] {
         let (x, y) = (f32x4::splat(x - self.anchor[0]), f32x4::splat(y - self.anchor[1]));
@@ -113,7 +113,7 @@ pub struct Illumination {
     pub ambient: f32,
     /// Factor of the items' own colours.
     pub reflectance: f32,
-    /// Where highlights are seen from, world frame [m].
+    /// Where highlights are seen from, world frame \[m\].
     pub eye: [f32; 3],
 }
 
@@ -138,7 +138,7 @@ pub struct Seen {
     pub triangles: Vec<SeenTriangle>,
     /// The fragments, row by row from below.
     pub fragments: Vec<Fragment>,
-    /// Where each fragment lies, world frame [m]; only where lamps are kept apart.
+    /// Where each fragment lies, world frame \[m\]; only where lamps are kept apart.
     pub positions: Vec<[f32; 3]>,
     /// Lamps kept apart, and one.
     passes: usize,

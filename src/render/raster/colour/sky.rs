@@ -62,7 +62,7 @@ pub struct Surroundings<'a> {
     pub visibility: &'a Visibility,
     /// From the world to the window.
     pub projection: &'a Projection,
-    /// Size of the window [pixel].
+    /// Size of the window \[pixel\].
     pub extent: Extent,
     /// The scene.
     pub scene: &'a Scene,
@@ -246,7 +246,7 @@ impl Rays {
         Rays { columns: normals.map(|n| n.map(|c| c / determinant)) }
     }
 
-    /// Direction through a point of the window [pixel], of length 1 along the gaze.
+    /// Direction through a point of the window \[pixel\], of length 1 along the gaze.
     fn direction(&self, x: f64, y: f64) -> [f64; 3] {
         let [a, b, c] = self.columns;
         std::array::from_fn(|k| a[k] * x + b[k] * y + c[k])

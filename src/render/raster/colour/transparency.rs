@@ -75,7 +75,7 @@ impl Transparency {
     }
 }
 
-/// Distance of what is behind everything else [m].
+/// Distance of what is behind everything else \[m\].
 const FARTHEST: f32 = 1e10;
 
 /// Distance of an item's nearest point, by a ball about it; very far for planes, and where it is not a number. Transparent

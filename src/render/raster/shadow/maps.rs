@@ -7,7 +7,7 @@ use physics::math::{cross, dot};
 
 /// Texels left free at every side of the map.
 const MARGIN: f64 = 1.0;
-/// Widest full angle of a spot's map [deg].
+/// Widest full angle of a spot's map \[deg\].
 const WIDEST: f32 = 160.0;
 
 /// What every shadow of a scene needs beside its lamp.
@@ -15,7 +15,7 @@ const WIDEST: f32 = 160.0;
 pub struct ShadowSettings {
     /// Texels along a side of the map, at most 8192; none is drawn for 0.
     pub size: usize,
-    /// Half the width of the map of a directional light [m].
+    /// Half the width of the map of a directional light \[m\].
     pub clip: f32,
     /// Share of a spot's cone that the map covers.
     pub scale: f32,

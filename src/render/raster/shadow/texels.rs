@@ -18,7 +18,7 @@ pub struct Question {
     pub view: u32,
     /// What the picture calls it.
     pub name: u32,
-    /// Where it is, world frame [m].
+    /// Where it is, world frame \[m\].
     pub position: [f32; 3],
 }
 
@@ -50,7 +50,7 @@ struct Lookup {
 /// Lookups by column, followed by seven that ask for nothing, so that eight can be read from each.
 #[derive(Clone, Debug, Default)]
 pub struct Sorted {
-    /// Middle of the texel [texel].
+    /// Middle of the texel \[texel\].
     x: Vec<f32>,
     y: Vec<f32>,
     /// Depth of the fragment; -1 in shadow.

@@ -1,6 +1,6 @@
 //! Triangles that leave the space that can be drawn are cut at its faces.
 
-/// Largest distance from the window's origin that a corner may have [pixel]; with it the products of the edge functions
+/// Largest distance from the window's origin that a corner may have \[pixel\]; with it the products of the edge functions
 /// stay within their integers.
 pub const GUARD: f32 = 10240.0;
 

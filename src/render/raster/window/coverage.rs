@@ -8,7 +8,7 @@
 use super::vertices::{Vertex, box_on_grid};
 use wide::{f32x4, f32x8, i32x4};
 
-/// Columns and rows of a tile [pixel].
+/// Columns and rows of a tile \[pixel\].
 const TILE: i32 = 16;
 
 /// Where the samples lie. Four samples make a group: the four of one pixel, or one sample each of four pixels in a row.
@@ -16,9 +16,9 @@ const TILE: i32 = 16;
 pub struct Pattern {
     /// Pixels of a group.
     columns: i32,
-    /// Columns of a group's samples [1/8 pixel].
+    /// Columns of a group's samples \[1/8 pixel\].
     x: [i32; 4],
-    /// Rows of a group's samples [1/8 pixel].
+    /// Rows of a group's samples \[1/8 pixel\].
     y: [i32; 4],
 }
 
@@ -43,7 +43,7 @@ impl Pattern {
         self.x[lane] / 8
     }
 
-    /// First and last place of a sample along the columns or rows of its pixel [1/8 pixel].
+    /// First and last place of a sample along the columns or rows of its pixel \[1/8 pixel\].
     fn places(offsets: [i32; 4]) -> (i32, i32) {
         offsets.iter().fold((8, 0), |(first, last), &x| (first.min(x % 8), last.max(x % 8)))
     }
@@ -90,7 +90,7 @@ pub enum Facing {
 pub struct Target {
     /// Which side is seen.
     facing: Facing,
-    /// Columns and rows in the first two lanes: the offsets that make the pixels of a box cover its samples [1/256 pixel], and
+    /// Columns and rows in the first two lanes: the offsets that make the pixels of a box cover its samples \[1/256 pixel\], and
     /// the number of pixels.
     before: i32x4,
     after: i32x4,
@@ -121,7 +121,7 @@ pub struct Triangle {
     boxed: Boxed,
 }
 
-/// First and last columns and rows with samples of a triangle's box [pixel].
+/// First and last columns and rows with samples of a triangle's box \[pixel\].
 #[derive(Clone, Copy, Debug)]
 pub struct Boxed {
     /// Columns.
@@ -137,11 +137,11 @@ pub struct Edges([Edge; 3]);
 /// Depth of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
-    /// First corner [pixel].
+    /// First corner \[pixel\].
     origin: [f32; 2],
     /// Depth at the first corner.
     z: f32,
-    /// Change of depth along a row and a column [1/pixel].
+    /// Change of depth along a row and a column \[1/pixel\].
     slope: [f32; 2],
 }
 
@@ -206,17 +206,17 @@ impl Plane {
         Plane { origin, z: v[0].z(), slope }
     }
 
-    /// Change of depth along a row and a column [1/pixel].
+    /// Change of depth along a row and a column \[1/pixel\].
     pub fn slope(&self) -> [f32; 2] {
         self.slope
     }
 
-    /// Depth at a point of the window [pixel].
+    /// Depth at a point of the window \[pixel\].
     pub fn depth(&self, x: f32, y: f32) -> f32 {
         self.z + (self.slope[0] * (x - self.origin[0]) + self.slope[1] * (y - self.origin[1]))
     }
 
-    /// Depth at eight points of the window [pixel].
+    /// Depth at eight points of the window \[pixel\].
     #[inline]
     pub fn depths(&self, x: f32x8, y: f32x8) -> f32x8 {
         let [across, up] = self.slope.map(f32x8::splat);

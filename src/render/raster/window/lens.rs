@@ -8,7 +8,7 @@ use super::projection::Projection;
 pub struct Lens {
     /// From the world to the window.
     pub projection: Projection,
-    /// Size of the window [pixel].
+    /// Size of the window \[pixel\].
     pub extent: Extent,
     /// The part of it that is looked at.
     pub region: Region,

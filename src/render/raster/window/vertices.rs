@@ -18,13 +18,13 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    /// The position in the space that can be drawn that is nearest to one in the window [pixel]; its origin for no number.
+    /// The position in the space that can be drawn that is nearest to one in the window \[pixel\]; its origin for no number.
     pub fn new(at: [f32; 2], z: f32) -> Self {
         let [x, y] = at.map(|x| if x.is_nan() { 0.0 } else { x.clamp(-GUARD, GUARD) });
         Vertex { lanes: f32x4::new([x, y, z, 0.0]) }
     }
 
-    /// Column and row [pixel].
+    /// Column and row \[pixel\].
     #[inline]
     pub fn at(&self) -> [f32; 2] {
         let [x, y, ..] = self.lanes.to_array();
@@ -43,7 +43,7 @@ impl Vertex {
         self.lanes.to_array()[3].to_bits()
     }
 
-    /// Column and row in the first two lanes [1/256 pixel].
+    /// Column and row in the first two lanes \[1/256 pixel\].
     #[inline]
     pub fn on_grid(&self) -> i32x4 {
         on_grid(self.lanes)
@@ -56,7 +56,7 @@ fn on_grid(lanes: f32x4) -> i32x4 {
     rounded - i32x4::splat(ROUND.to_bits() as i32)
 }
 
-/// Least and largest column and row of three positions that can be drawn [1/256 pixel]. Rounding keeps their order and
+/// Least and largest column and row of three positions that can be drawn \[1/256 pixel\]. Rounding keeps their order and
 /// forgets the sign of zero, the only thing that minima of vectors leave open for numbers.
 #[inline]
 pub fn box_on_grid([p, q, r]: &[Vertex; 3]) -> [i32x4; 2] {

@@ -8,7 +8,7 @@ use physics::model::ObjType;
 use physics::model::bounds::MINVAL;
 use std::f64::consts::PI;
 
-/// Density of water [kg/m³].
+/// Density of water \[kg/m³\].
 const WATER: f64 = 1000.0;
 
 /// Half sizes of the box or ellipsoid of the same mass and inertia as a body.
@@ -124,7 +124,7 @@ impl Source<'_> {
         self.options.selection.as_ref().filter(|s| (1..self.m.nbody).contains(&s.body))
     }
 
-    /// The selected point, world frame [m].
+    /// The selected point, world frame \[m\].
     fn selected(&self, selection: &Selection) -> Vec3 {
         let kin = &self.d.kin;
         add(mul_mat_vec(&kin.xmat[selection.body], selection.point), kin.xpos[selection.body])

@@ -43,7 +43,7 @@ pub(super) fn cameras(from: Source<'_>, items: &mut Items<'_>) {
     }
 }
 
-/// Left, right, lower and upper reach of a window, and its distance [m].
+/// Left, right, lower and upper reach of a window, and its distance \[m\].
 struct Window {
     reach: [f64; 4],
     distance: f64,

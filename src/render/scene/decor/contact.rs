@@ -12,7 +12,7 @@ use physics::math::{
 use physics::model::ObjType;
 use physics::model::bounds::MINVAL;
 
-/// Length of an arrow for a unit of surface speed [s].
+/// Length of an arrow for a unit of surface speed \[s\].
 const SPEED: f64 = 0.5;
 
 /// Adds points, frames and forces of all contacts, as far as they are asked for.
@@ -86,7 +86,7 @@ fn geom_label(from: Source<'_>, geom: i32) -> String {
     if name.is_empty() { format!("g{geom}") } else { name[..name.floor_char_boundary(MAX_NAME)].to_owned() }
 }
 
-/// Velocity of the material of a moving surface along the contact; none for one at rest [m/s].
+/// Velocity of the material of a moving surface along the contact; none for one at rest \[m/s\].
 fn surface_speed(from: Source<'_>, geom: i32, contact: &Contact) -> Option<Vec3> {
     let (kin, geom) = (&from.d.kin, usize::try_from(geom).ok()?);
     let [a, b, c, x, y, z] = from.m.geom_surfacevel[geom];

@@ -8,7 +8,7 @@ use physics::model::bounds::MINVAL;
 use physics::model::{EqType, ObjType};
 
 impl Source<'_> {
-    /// Length of an arrow for a unit of force [m/N].
+    /// Length of an arrow for a unit of force \[m/N\].
     pub(super) fn force_scale(&self) -> f64 {
         f64::from(self.m.vis.map.force) / self.m.stat.meanmass
     }

@@ -5,7 +5,7 @@ use crate::scene::sink::{Items, Source};
 use physics::math::{Mat3, Vec3};
 
 impl Source<'_> {
-    /// Width and length of the axes of a frame [m].
+    /// Width and length of the axes of a frame \[m\].
     pub(super) fn axis_size(&self) -> [f64; 2] {
         let scale = &self.m.vis.scale;
         [self.size(scale.framewidth), self.size(scale.framelength)]

@@ -7,7 +7,7 @@ use physics::math::add_scaled;
 use physics::model::{ConstraintType, JointType, ObjType};
 
 impl Source<'_> {
-    /// The mark of a joint: an arrow along the axis of a slide or hinge, a ball or box of half size `knob` at others [m].
+    /// The mark of a joint: an arrow along the axis of a slide or hinge, a ball or box of half size `knob` at others \[m\].
     pub(super) fn joint_mark(&self, joint: usize, width: f64, length: f64, knob: f64) -> Option<Form> {
         let (m, kin) = (self.m, &self.d.kin);
         let (pos, mat) = (kin.xanchor[joint], &kin.xmat[m.jnt_bodyid[joint] as usize]);

@@ -6,7 +6,7 @@ use crate::scene::sink::{Form, Items, Source, element, from_z};
 use physics::math::add_scaled;
 use physics::model::ObjType;
 
-/// How far a light stands behind the cylinder that shows it, for it not to light the cylinder [m].
+/// How far a light stands behind the cylinder that shows it, for it not to light the cylinder \[m\].
 const CLEARANCE: f64 = 0.0001;
 
 /// Adds a cylinder behind every light.

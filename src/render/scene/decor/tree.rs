@@ -45,7 +45,7 @@ pub(super) fn of_bodies(from: Source<'_>, items: &mut Items<'_>) {
     }
 }
 
-/// Width of the lines of lattices [pixel].
+/// Width of the lines of lattices \[pixel\].
 const LINE: f64 = 3.0;
 
 /// Adds the boxes of visible flexes, and all their lattices.

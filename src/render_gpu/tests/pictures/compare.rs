@@ -8,7 +8,7 @@ const MARGIN: usize = 2;
 /// Likeness of two pictures.
 #[derive(Debug)]
 pub struct Measures {
-    /// Peak signal-to-noise ratio of the colours [dB].
+    /// Peak signal-to-noise ratio of the colours \[dB\].
     pub psnr: f64,
     /// Interior pixels that show different objects.
     pub other_inside: usize,

@@ -9,7 +9,7 @@ pub fn luma(rgb: &[u8]) -> Vec<u8> {
     rgb.as_chunks::<3>().0.iter().map(weigh).collect()
 }
 
-/// Peak signal to noise ratio [dB]; infinite for equal pictures.
+/// Peak signal to noise ratio \[dB\]; infinite for equal pictures.
 pub fn psnr(a: &[u8], b: &[u8]) -> f64 {
     assert_eq!(a.len(), b.len());
     let squares: f64 = a.iter().zip(b).map(|(&a, &b)| f64::from(a.abs_diff(b)).powi(2)).sum();

@@ -22,15 +22,15 @@ use settings::{Args, Choice};
 use start::Start;
 use terrain::{Terrain, flatten};
 
-/// Length of a game [s].
+/// Length of a game \[s\].
 const GAME: f64 = 20.0;
-/// Distance from the middle, along x or y, beyond which the agent is out [m].
+/// Distance from the middle, along x or y, beyond which the agent is out \[m\].
 const OUT: f64 = 6.5;
-/// Height of the pelvis below which the agent has fallen on flat ground [m].
+/// Height of the pelvis below which the agent has fallen on flat ground \[m\].
 const FALLEN_PELVIS: f64 = 0.5;
-/// Height of the head above the feet below which it has fallen elsewhere [m].
+/// Height of the head above the feet below which it has fallen elsewhere \[m\].
 const FALLEN_HEAD: f64 = 0.2;
-/// Where unused ground is put [m].
+/// Where unused ground is put \[m\].
 const BELOW: [f64; 3] = [0.0, 0.0, -10.0];
 /// Coordinates of the root: positions and degrees of freedom.
 const ROOT: [usize; 2] = [7, 6];

@@ -12,13 +12,13 @@ use physics::math::ops;
 use robot::Keeper;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// The opponent stays within this distance of the middle, along x and along y [m].
+/// The opponent stays within this distance of the middle, along x and along y \[m\].
 const ARENA: f64 = 5.5;
 /// It appears within this distance.
 const SPAWN: f64 = 5.0;
-/// Where it stands when it never moves: position [m] and heading [rad].
+/// Where it stands when it never moves: position \[m\] and heading \[rad\].
 const STAND: [f64; 3] = [0.0, -5.0, 0.0];
-/// Fastest motion [m/s] and turn [rad/s].
+/// Fastest motion \[m/s\] and turn \[rad/s\].
 const FASTEST: f64 = 2.0;
 
 /// How the opponent moves.
@@ -43,13 +43,13 @@ pub struct OpponentArgs {
     pub probabilities: [f64; 3],
     /// Whether it runs away otherwise.
     pub repelled: bool,
-    /// Distance from the agent at which it may appear [m].
+    /// Distance from the agent at which it may appear \[m\].
     pub spawn_distance: f64,
-    /// Speeds of the chase [m/s].
+    /// Speeds of the chase \[m/s\].
     pub chase_speeds: [f64; 2],
-    /// Bounds of random motion [m/s, rad/s].
+    /// Bounds of random motion \[m/s, rad/s\].
     pub random_speeds: [f64; 2],
-    /// Bounds of the speed of an escape [m/s].
+    /// Bounds of the speed of an escape \[m/s\].
     pub escape_speeds: [f64; 2],
 }
 
@@ -138,13 +138,13 @@ impl Opponent {
         }
     }
 
-    /// Position [m] and heading [rad, within ±π].
+    /// Position \[m\] and heading \[rad, within ±π\].
     pub fn pose(&self, data: &Data) -> [f64; 3] {
         let [x, y, _] = data.state.mocap_pos[self.mocap];
         [x, y, euler_of_quat(data.state.mocap_quat[self.mocap])[2]]
     }
 
-    /// The last motion: forwards [m/s] and turning [rad/s], as the policy wanted it.
+    /// The last motion: forwards \[m/s\] and turning \[rad/s\], as the policy wanted it.
     pub fn velocity(&self) -> [f64; 2] {
         self.velocity
     }

@@ -7,19 +7,19 @@ use crate::rotation::norm;
 use physics::math::ops;
 use std::f64::consts::TAU;
 
-/// What is farther away does not repel [m].
+/// What is farther away does not repel \[m\].
 const INFLUENCE: f64 = 3.5;
 /// Strength of the repulsion.
 const STRENGTH: f64 = 20.0;
-/// Distance of the walls from the middle [m], and points on each.
+/// Distance of the walls from the middle \[m\], and points on each.
 const WALL: f64 = 8.7;
 const POINTS: usize = 25;
-/// Below this distance, along x or along y, repulsion gives no direction [m].
+/// Below this distance, along x or along y, repulsion gives no direction \[m\].
 const BALANCED: f64 = 0.1;
-/// Heading of a body that moves along x [rad], rounded as in the original.
+/// Heading of a body that moves along x \[rad\], rounded as in the original.
 const QUARTER: f64 = 1.57;
 
-/// Forward speed [m/s] and turn [rad/s] of a body at a position [m] and heading [rad].
+/// Forward speed \[m/s\] and turn \[rad/s\] of a body at a position \[m\] and heading \[rad\].
 ///
 /// # Errors
 /// None in practice: all ranges are finite.

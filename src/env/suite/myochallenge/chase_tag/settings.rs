@@ -13,7 +13,7 @@ use std::cmp::Ordering;
 
 /// The image of the relief, as the assets name it.
 const RELIEF: &str = "envs/myo/assets/myo_relief.npy";
-/// Farthest that the opponent can be asked to appear from the agent: always possible on its ground [m].
+/// Farthest that the opponent can be asked to appear from the agent: always possible on its ground \[m\].
 const SPAWN_LIMIT: f64 = 5.0;
 /// Rounding that sums of probabilities may have.
 const ROUNDING: f64 = 1e-9;
@@ -24,27 +24,27 @@ const ROUNDING: f64 = 1e-9;
 pub struct Args {
     /// How episodes start.
     pub reset_type: Start,
-    /// Distance of a catch [m].
+    /// Distance of a catch \[m\].
     pub win_distance: f64,
-    /// Distance from the agent at which the opponent may appear [m].
+    /// Distance from the agent at which the opponent may appear \[m\].
     pub min_spawn_distance: f64,
     /// Whether the agent catches or escapes.
     pub task_choice: Choice,
     /// What it walks on.
     pub terrain: Ground,
-    /// Heights of hills [m].
+    /// Heights of hills \[m\].
     pub hills_range: [f64; 2],
-    /// Heights of rough ground [m].
+    /// Heights of rough ground \[m\].
     pub rough_range: [f64; 2],
-    /// Heights of the relief [m].
+    /// Heights of the relief \[m\].
     pub relief_range: [f64; 2],
     /// Whether the opponent may run away.
     pub repeller_opponent: bool,
-    /// Speeds of a chasing opponent [m/s].
+    /// Speeds of a chasing opponent \[m/s\].
     pub chase_vel_range: [f64; 2],
-    /// Bounds of random motion [m/s, rad/s].
+    /// Bounds of random motion \[m/s, rad/s\].
     pub random_vel_range: [f64; 2],
-    /// Bounds of the speed of an escape [m/s].
+    /// Bounds of the speed of an escape \[m/s\].
     pub repeller_vel_range: [f64; 2],
     /// How often the opponent stands at its place, stands anywhere, moves at random, and runs away.
     pub opponent_probabilities: Vec<f64>,

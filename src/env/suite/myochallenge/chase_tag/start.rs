@@ -10,9 +10,9 @@ use robot::Compat;
 use serde::Deserialize;
 use std::f64::consts::TAU;
 
-/// Standard deviation of the joint positions around a key frame [rad].
+/// Standard deviation of the joint positions around a key frame \[rad\].
 const SPREAD: f64 = 0.02;
-/// Starts lie within this distance of the middle, along x and along y [m].
+/// Starts lie within this distance of the middle, along x and along y \[m\].
 const REACH: f64 = 5.0;
 /// Key frames of standing, and of steps with either leg.
 const STANDING: usize = 0;

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// Samples along each side of the ground.
 pub const SIDE: usize = 100;
-/// Length of a side [m].
+/// Length of a side \[m\].
 pub const LENGTH: f64 = 12.0;
 /// Patches along each side.
 const PATCHES: usize = 3;
@@ -22,10 +22,10 @@ const HILLY_AT_MOST: usize = 2;
 const RELIEF_SHARE: f64 = 0.2;
 /// Half waves of the hills.
 const WAVES: f64 = 10.0;
-/// How far rough ground lies below the flat one [m].
+/// How far rough ground lies below the flat one \[m\].
 const ROUGH_OFFSET: f64 = 0.02;
 
-/// Heights of a patch [m], row by row.
+/// Heights of a patch \[m\], row by row.
 type Patch = [f64; PATCH * PATCH];
 
 /// What a patch can be, in the original's order.
@@ -38,7 +38,7 @@ enum Kind {
 
 const KINDS: [Kind; 3] = [Kind::Flat, Kind::Hilly, Kind::Rough];
 
-/// Largest heights of the patches [m].
+/// Largest heights of the patches \[m\].
 #[derive(Clone, Copy, Debug)]
 pub struct Heights {
     /// Of hills.
@@ -93,7 +93,7 @@ impl Terrain {
         }
     }
 
-    /// Draws the heights [m] of a ground.
+    /// Draws the heights \[m\] of a ground.
     ///
     /// # Errors
     /// Heights that cannot be drawn from.
@@ -161,13 +161,13 @@ impl Terrain {
     }
 }
 
-/// Makes the patch flat that a position [m] lies in.
+/// Makes the patch flat that a position \[m\] lies in.
 pub fn flatten(ground: &mut [f32], [x, y]: [f64; 2]) {
     let patch = [y, x].map(|along| (sample(along) / PATCH as i16).clamp(0, PATCHES as i16 - 1) as usize);
     write(ground, patch, &[0.0; PATCH * PATCH]);
 }
 
-/// The sample at a position along one side [m]; the middle of the ground is at 0.
+/// The sample at a position along one side \[m\]; the middle of the ground is at 0.
 pub fn sample(along: f64) -> i16 {
     (along / (LENGTH / SIDE as f64) + SIDE as f64 / 2.0) as i16
 }

@@ -7,11 +7,11 @@ use physics::math::ops;
 const WIDTH: usize = 10;
 /// Samples on the near side of the agent, along each side.
 const BEHIND: f64 = 4.0;
-/// Samples of the grid in a unit of length, and the unit [m].
+/// Samples of the grid in a unit of length, and the unit \[m\].
 const PER_UNIT: f64 = 10.0;
 const UNIT: f64 = 2.0;
 
-/// Heights [m], row by row, of a grid that turns with a heading [rad] about a position [m]; the farthest corner comes first.
+/// Heights \[m\], row by row, of a grid that turns with a heading \[rad\] about a position \[m\]; the farthest corner comes first.
 pub fn heights(ground: &[f32], [x, y]: [f64; 2], heading: f64) -> impl Iterator<Item = f64> + '_ {
     let (sine, cosine) = (ops::sin(heading), ops::cos(heading));
     (0..WIDTH * WIDTH).map(move |k| {
