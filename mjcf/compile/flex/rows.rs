@@ -7,7 +7,7 @@ use super::node::FlexNode;
 use crate::spec::{Elastic2d, Spec};
 use physics::model::{Arrays, EqType, ObjType, Rows};
 
-/// Appends the rows of all flexes; hierarchies after those of bodies and meshes.
+/// Appends the rows of all flexes; their hierarchies stand behind those of bodies and meshes.
 pub(crate) fn fill(
     m: &mut Rows,
     flexes: &[FlexNode<'_>],

@@ -100,7 +100,7 @@ impl Router {
     /// Adds rows that are given under a name.
     ///
     /// # Errors
-    /// Their type or shape is not that of the rows before, or the name cannot be kept.
+    /// Their type or shape differs from earlier rows, or the name cannot be kept.
     pub(crate) fn push(&mut self, key: &str, rows: Rows) -> Result<(), String> {
         let at = self.find(key, rows)?;
         self.next = at + 1;
