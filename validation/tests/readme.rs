@@ -1,0 +1,96 @@
+//! The numbers that README.md lists under *Measured* are those of the tables that it names.
+
+use std::path::Path;
+
+fn read(path: &str) -> String {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    std::fs::read_to_string(root.join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn results(name: &str) -> String {
+    read(&format!("validation/results/{name}.md"))
+}
+
+/// Cells of the table rows that begin with a cell for which `picks` says so.
+fn rows(text: &str, picks: impl Fn(&str) -> bool) -> Vec<Vec<String>> {
+    let cells = |line: &str| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect();
+    let all = text.lines().filter(|line| line.starts_with("| ")).map(cells);
+    all.filter(|cells: &Vec<String>| picks(&cells[0])).collect()
+}
+
+/// The number after the first `before` of a text, as it stands there.
+fn number(text: &str, before: &str) -> f64 {
+    let (_, rest) = text.split_once(before).unwrap_or_else(|| panic!("no {before:?}"));
+    let digits = rest.trim_start().split(|c: char| !(c.is_ascii_digit() || c == '.')).next();
+    digits.and_then(|digits| digits.trim_end_matches('.').parse().ok()).expect("a number")
+}
+
+/// The least and the largest number of a column.
+fn range(rows: &[Vec<String>], column: usize) -> [f64; 2] {
+    let numbers: Vec<f64> = rows.iter().map(|row| row[column].parse().expect("a number")).collect();
+    assert!(numbers.len() >= 5, "{numbers:?}");
+    numbers.iter().fold([f64::INFINITY, 0.0], |[low, high], &n| [low.min(n), high.max(n)])
+}
+
+/// What README.md says in the row that links to a file of results.
+fn said(readme: &str, name: &str) -> String {
+    let link = format!("](validation/results/{name}.md)");
+    let row = readme.lines().find(|line| line.starts_with("| ") && line.contains(&link));
+    let (text, _) = row.and_then(|row| row.split_once(&link)).unwrap_or_else(|| panic!("no row of {name}"));
+    text.rsplit_once('[').expect("a link").1.to_owned()
+}
+
+#[test]
+fn physics_and_compilation() {
+    let readme = read("README.md");
+    let own = results("robohive");
+    let expected = "Of 56 models: loaded 56, compiled alike 56, all stages alike 56, forward alike 56, rollout follows 51";
+    assert!(own.contains(expected) && said(&readme, "robohive") == "56");
+    assert!(readme.contains("[56](validation/results/last_bit.md); [51](validation/results/robohive.md)"));
+    let all = rows(&results("collisions"), |name| name == "all");
+    let total = |column: usize| all[0][column].parse::<f64>().expect("a number");
+    let placements = format!("{} of {:.1} million", total(6), total(1) / 1e6);
+    assert_eq!(said(&readme, "collisions"), placements);
+    let (steps, compile) = (results("steps"), results("compile"));
+    let [one, least] = ["Geometric mean", "; least"].map(|before| number(&steps, before));
+    let [other, other_least] = ["mean of", ", the least"].map(|before| number(&steps, before));
+    assert_eq!(said(&readme, "steps"), format!("{one:.2} ({least:.2}), {other:.2} ({other_least:.2})"));
+    let [cold, cached] = ["ratios, wall (processor): cold", "cached"].map(|before| {
+        let (_, sums) = compile.split_once("geometric means of the").expect("a sum");
+        number(sums, before)
+    });
+    assert_eq!(said(&readme, "compile"), format!("{cold:.2}, {cached:.2}"));
+}
+
+#[test]
+fn environments_and_python() {
+    let readme = read("README.md");
+    let compared = rows(&results("environments"), |id| id.starts_with('`')).len();
+    assert_eq!(said(&readme, "environments"), format!("521 of 521; {compared} of {compared}"));
+    let speed = results("environments_speed");
+    let [original, c] = ["Geometric means:", "x RoboHive,"].map(|before| number(&speed, before));
+    assert_eq!(said(&readme, "environments_speed"), format!("{original:.1} ({c:.1})"));
+    let mut visual = rows(&results("environments_visual"), |id| id.contains("_v2d-"));
+    visual.retain(|row| row.len() == 8);
+    let visual = range(&visual, 4);
+    assert_eq!(said(&readme, "environments_visual"), format!("{:.0} to {:.0}", visual[0], visual[1]));
+    assert!(results("standin").contains(&format!("{} environments agree", said(&readme, "standin"))));
+    assert!(results("standin_suite").contains(&format!("{} tasks run", said(&readme, "standin_suite"))));
+    let python = results("python_speed");
+    let on_one = |picks: &dyn Fn(&str) -> bool| {
+        let rows = rows(&python, |id| picks(id));
+        let one: Vec<_> = rows.into_iter().filter(|row| row[1] == "1").collect();
+        range(&one, 7)
+    };
+    let [muscle, gymnasium] = [on_one(&|id| id.starts_with("myo")), on_one(&|id| id.ends_with("-v5"))];
+    let text = format!("{:.1} to {:.1}; {:.1} to {:.1}", muscle[0], muscle[1], gymnasium[0], gymnasium[1]);
+    assert_eq!(said(&readme, "python_speed"), text);
+}
+
+#[test]
+fn pictures() {
+    let (readme, table) = (read("README.md"), results("pictures"));
+    let line = table.lines().find(|line| line.starts_with("- 224 x 224, 16 scenes:")).expect("a summary");
+    let [shadows, plain] = ["PSNR", "PSNR without shadows"].map(|before| number(line, before));
+    assert!(said(&readme, "pictures").starts_with(&format!("{shadows:.1} dB, {plain:.1} dB;")));
+}
