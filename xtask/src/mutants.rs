@@ -6,6 +6,8 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 
+/// The packages whose tests are run: the crate itself, the compiler, comparisons with recorded runs, and the facade.
+const TESTED_BY: &str = "robohive-physics,robohive-mjcf,robohive-validation,robohive";
 /// Mutants tested where the command line names no number.
 const COUNT: usize = 300;
 /// A test run that takes longer \[s\] has met a loop without end.
@@ -35,8 +37,8 @@ pub fn run(words: &[&str]) -> Result<(), String> {
     let shard = format!("0/{}", (all / count).max(1));
     let mut command = Command::new("cargo");
     command.args(package).args(["--shard", &shard, "--sharding", "round-robin", "--timeout", TIMEOUT]);
-    command.args(["--test-package", "robohive-physics,robohive-validation", "--output", LOGS]);
-    // Quick tests that compare with recorded runs, and those of the crate itself.
+    command.args(["--test-package", TESTED_BY, "--output", LOGS]);
+    // All but the slowest comparisons.
     command.args(["--", "--lib", "--tests", "--", "--skip", "laws_hold", "--skip", "draws"]);
     std::fs::create_dir_all(LOGS).map_err(|error| format!("{LOGS}: {error}"))?;
     // It fails where a mutant is not noticed, which the table says.
@@ -61,9 +63,8 @@ fn table(all: usize, count: usize) -> Result<String, String> {
     let share = 100.0 * (caught + endless) as f64 / (caught + missed + endless).max(1) as f64;
     let mut text = format!(
         "# Mutants\n\nFaults put into `src/physics` one at a time, and whether the tests notice them: {} of {all} possible ones, \
-         spread\nevenly. Of those that compile {share:.0} % are noticed by the tests of `robohive-physics`, `robohive-validation`\n\
-         and `robohive-mjcf`; `elements/`, `data/snapshot.rs` and `batch.rs` are tested in the root package, which does not\n\
-         take part.\n\n```sh\ncargo install cargo-mutants\n\
+         spread\nevenly. Of those that compile {share:.0} % are noticed by the tests of `robohive-physics`, `robohive-mjcf`,\n\
+         `robohive-validation` and `robohive`.\n\n```sh\ncargo install cargo-mutants\n\
          cargo xtask mutants {count}\n```\n\n| outcome | mutants |\n|---|---|\n",
         numbers.iter().sum::<usize>()
     );
