@@ -4,7 +4,8 @@
 //! whatever this machine cannot check counts as a failure, with `--all` nothing is skipped.
 //! `cargo xtask instructions --update` records new counts, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder,
 //! `cargo xtask crash-safety [KILLS]` kills recordings at random moments and reads what they leave,
-//! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice.
+//! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice,
+//! `cargo xtask results [TABLE…]` lists the tables of results by age, or makes them again.
 
 mod builds;
 mod built;
@@ -20,6 +21,7 @@ mod packages;
 mod passed;
 mod python;
 mod recorded_bits;
+mod results;
 mod tests;
 mod tolerances;
 
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         ["fuzz", ref rest @ ..] => verdict(fuzz::run(rest)),
         ["crash-safety", ref rest @ ..] => verdict(crash_safety::run(rest)),
         ["mutants", ref rest @ ..] => verdict(mutants::run(rest)),
+        ["results", ref rest @ ..] => verdict(results::run(rest)),
         ["instructions", "--update"] => verdict(instructions::run(true).map(drop)),
         _ => match chosen(&words) {
             Some(checks) => {
@@ -98,6 +101,7 @@ fn usage() -> ExitCode {
     eprintln!("       cargo xtask instructions --update");
     eprintln!("       cargo xtask crash-safety [KILLS]");
     eprintln!("       cargo xtask mutants [COUNT]");
+    eprintln!("       cargo xtask results [TABLE...]");
     eprintln!("       cargo xtask fuzz [SECONDS | keep] [TARGET...]");
     ExitCode::from(2)
 }
