@@ -92,6 +92,7 @@ fn balanced(env: &mut Env, policy: impl Fn(&[f64]) -> f64) -> Result<usize, EnvE
     }
 }
 
+/// Makes environments of the task and runs them.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The task gets a name, ids name the task, the model and settings.
     let mut registry = Registry::default();
