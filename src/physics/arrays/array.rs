@@ -35,6 +35,12 @@ pub trait Form {
     type Label;
 }
 
+/// A form that holds the arrays itself.
+pub trait Owned: Form {
+    /// An array without rows.
+    fn empty<R: Row, N: 'static>() -> Self::Column<R, N>;
+}
+
 /// The form of a finished model.
 #[derive(Debug)]
 pub enum Finished {}
@@ -45,6 +51,12 @@ impl Form for Finished {
     type Label = String;
 }
 
+impl Owned for Finished {
+    fn empty<R: Row, N: 'static>() -> Array<R, N> {
+        Array::default()
+    }
+}
+
 /// The form to which rows are appended.
 #[derive(Debug)]
 pub enum Growing {}
@@ -53,6 +65,12 @@ impl Form for Growing {
     type Column<R: Row, N: 'static> = Vec<R>;
     type Group<G: 'static> = G;
     type Label = String;
+}
+
+impl Owned for Growing {
+    fn empty<R: Row, N: 'static>() -> Vec<R> {
+        Vec::new()
+    }
 }
 
 /// The form that an edit writes.

@@ -70,34 +70,24 @@ macro_rules! model {
         /// Names of the sizes, in declaration order.
         const SIZES: &[&str] = &[$(stringify!($size),)*];
 
-        impl Default for Arrays {
+        impl<F: Owned> Default for Columns<F>
+        where
+            F::Label: Default,
+            F::Group<Options>: Default,
+            F::Group<Visual>: Default,
+            F::Group<Statistic>: Default,
+        {
             fn default() -> Self {
                 Columns {
-                    name: String::new(),
-                    opt: Options::default(),
-                    vis: Visual::default(),
-                    stat: Statistic::default(),
+                    name: Default::default(),
+                    opt: Default::default(),
+                    vis: Default::default(),
+                    stat: Default::default(),
                     flg_gravcomp: false,
                     flg_surfacevel: false,
                     flg_adhesion: false,
                     $($size: 0,)*
-                    $($field: Array::default(),)*
-                }
-            }
-        }
-
-        impl Default for Rows {
-            fn default() -> Self {
-                Columns {
-                    name: String::new(),
-                    opt: Options::default(),
-                    vis: Visual::default(),
-                    stat: Statistic::default(),
-                    flg_gravcomp: false,
-                    flg_surfacevel: false,
-                    flg_adhesion: false,
-                    $($size: 0,)*
-                    $($field: Vec::new(),)*
+                    $($field: F::empty(),)*
                 }
             }
         }

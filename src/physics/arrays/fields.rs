@@ -1,6 +1,6 @@
 //! The table of the compiled model: sizes, then one line an array.
 
-use super::array::{Array, Drafted, Finished, Form, Growing, Writer};
+use super::array::{Drafted, Finished, Form, Growing, Owned, Writer};
 use super::declare::{model, row_count};
 use super::reader::{ReadError, Reader, array_bytes};
 use super::{flex_rows::model_with_flexes, options::*, skin_rows::model_with_skins};
