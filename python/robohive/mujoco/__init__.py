@@ -17,10 +17,10 @@ from robohive.mujoco._errors import FatalError, UnexpectedError
 from robohive.mujoco._functions import *  # noqa: F403
 from robohive.mujoco._structs import *  # noqa: F403
 from robohive.mujoco.callbacks import *  # noqa: F403
+from robohive.mujoco.functions.naming import mj_versionString
 from robohive.mujoco.install import install, set_instability
 from robohive.mujoco.missing import *  # noqa: F403
 from robohive.mujoco.missing import MISSING
-from robohive.mujoco.naming import mj_versionString
 from robohive.mujoco.renderer import Renderer
 from robohive.mujoco.spec import *  # noqa: F403
 from robohive.mujoco.spec import MjSpec

@@ -1,8 +1,13 @@
 """All functions, where programs look for them that know MuJoCo's own module."""
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.algebra import *  # noqa: F403
-from robohive.mujoco.context import (
+from robohive.mujoco.functions.algebra import *  # noqa: F403
+from robohive.mujoco.functions.naming import *  # noqa: F403
+from robohive.mujoco.functions.query import *  # noqa: F403
+from robohive.mujoco.functions.rotation import *  # noqa: F403
+from robohive.mujoco.functions.stages import *  # noqa: F403
+from robohive.mujoco.functions.vectors import *  # noqa: F403
+from robohive.mujoco.pictures.context import (
     mjr_finish,
     mjr_getError,
     mjr_maxViewport,
@@ -14,15 +19,10 @@ from robohive.mujoco.context import (
     mjr_uploadMesh,
     mjr_uploadTexture,
 )
-from robohive.mujoco.moving import mjv_moveCamera, mjv_select
-from robohive.mujoco.naming import *  # noqa: F403
-from robohive.mujoco.overlay import mjr_label, mjr_overlay
-from robohive.mujoco.query import *  # noqa: F403
-from robohive.mujoco.rotation import *  # noqa: F403
-from robohive.mujoco.scene import mjv_defaultPerturb, mjv_initGeom, mjv_updateScene
-from robohive.mujoco.stages import *  # noqa: F403
-from robohive.mujoco.vectors import *  # noqa: F403
-from robohive.mujoco.view import mjv_defaultCamera, mjv_defaultFreeCamera, mjv_defaultOption
+from robohive.mujoco.pictures.moving import mjv_moveCamera, mjv_select
+from robohive.mujoco.pictures.overlay import mjr_label, mjr_overlay
+from robohive.mujoco.pictures.scene import mjv_defaultPerturb, mjv_initGeom, mjv_updateScene
+from robohive.mujoco.pictures.view import mjv_defaultCamera, mjv_defaultFreeCamera, mjv_defaultOption
 
 mj_step = _core.mj_step
 mj_step1 = _core.mj_step1

@@ -1,8 +1,10 @@
 """All structs, where programs look for them that know MuJoCo's own module."""
 
-from robohive.mujoco.context import GLContext, MjrContext, MjrRect
-from robohive.mujoco.data import MjData
-from robohive.mujoco.lists import (
+from robohive.mujoco.pictures.context import GLContext, MjrContext, MjrRect
+from robohive.mujoco.pictures.scene import MjvGeom, MjvGLCamera, MjvPerturb, MjvScene
+from robohive.mujoco.pictures.view import MjvCamera, MjvOption
+from robohive.mujoco.structs.data import MjData
+from robohive.mujoco.structs.lists import (
     MjContact,
     MjContactList,
     MjSolverStat,
@@ -12,10 +14,8 @@ from robohive.mujoco.lists import (
     MjWarningStat,
     MjWarningStatList,
 )
-from robohive.mujoco.model import MjModel
-from robohive.mujoco.options import MjOption, MjStatistic, MjVisual, MjVisualHeadlight, MjVisualRgba
-from robohive.mujoco.scene import MjvGeom, MjvGLCamera, MjvPerturb, MjvScene
-from robohive.mujoco.view import MjvCamera, MjvOption
+from robohive.mujoco.structs.model import MjModel
+from robohive.mujoco.structs.options import MjOption, MjStatistic, MjVisual, MjVisualHeadlight, MjVisualRgba
 
 __all__ = [
     "GLContext",

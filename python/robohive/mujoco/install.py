@@ -26,7 +26,7 @@ def install() -> None:
     for name in _MODULES:
         sys.modules[f"mujoco.{name}"] = importlib.import_module(f"{here}.{name}")
     for name in _CONTEXTS:
-        sys.modules[f"mujoco.{name}"] = importlib.import_module(f"{here}.context")
+        sys.modules[f"mujoco.{name}"] = importlib.import_module(f"{here}.pictures.context")
 
 
 def set_instability(what: str) -> str:

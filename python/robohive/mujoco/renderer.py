@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.data import MjData
-from robohive.mujoco.enums_elements import mjtObj
-from robohive.mujoco.enums_view import mjtCamera
-from robohive.mujoco.looking import checked, look_of
-from robohive.mujoco.model import MjModel
-from robohive.mujoco.view import MjvCamera, MjvOption, mjv_defaultFreeCamera
+from robohive.mujoco.enums.elements import mjtObj
+from robohive.mujoco.enums.view import mjtCamera
+from robohive.mujoco.pictures.looking import checked, look_of
+from robohive.mujoco.pictures.view import MjvCamera, MjvOption, mjv_defaultFreeCamera
+from robohive.mujoco.structs.data import MjData
+from robohive.mujoco.structs.model import MjModel
 
 
 class Renderer:

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.data import MjData
-from robohive.mujoco.enums_physics import mjtState
-from robohive.mujoco.model import MjModel
+from robohive.mujoco.enums.physics import mjtState
+from robohive.mujoco.structs.data import MjData
+from robohive.mujoco.structs.model import MjModel
 
 _FULL = int(mjtState.mjSTATE_FULLPHYSICS)
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from robohive.mujoco.enums_elements import mjtJoint, mjtObj
+from robohive.mujoco.enums.elements import mjtJoint, mjtObj
 from robohive.mujoco.spec.element import MjsElement
 from robohive.mujoco.spec.plugins import Plugged
 

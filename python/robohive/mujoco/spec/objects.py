@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.enums_elements import mjtGeom, mjtWrap
-from robohive.mujoco.enums_view import mjtMeshBuiltin
+from robohive.mujoco.enums.elements import mjtGeom, mjtWrap
+from robohive.mujoco.enums.view import mjtMeshBuiltin
 from robohive.mujoco.spec.element import MjsElement
 from robohive.mujoco.spec.forms import all_forms
 from robohive.mujoco.spec.plugins import Plugged

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from robohive.mujoco.enums_view import mjtOrientation
+from robohive.mujoco.enums.view import mjtOrientation
 
 #: Ways by their codes, with the numbers that each takes.
 WAYS = {"axisangle": 4, "xyaxes": 6, "zaxis": 3, "euler": 3}

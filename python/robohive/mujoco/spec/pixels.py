@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from robohive.mujoco.enums_view import mjtTexture
+from robohive.mujoco.enums.view import mjtTexture
 
 #: Kinds of pixels of the PNG format, by their number of channels.
 _COLOURS = {1: 0, 3: 2, 4: 6}

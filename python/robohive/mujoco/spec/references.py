@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Any
 
-from robohive.mujoco.enums_elements import mjtEq, mjtObj, mjtTrn
+from robohive.mujoco.enums.elements import mjtEq, mjtObj, mjtTrn
 
 #: What a reference becomes: given the kind of what is named, and its name.
 Rewrite = Callable[[str, str], str]

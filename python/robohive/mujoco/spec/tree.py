@@ -12,10 +12,7 @@ from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
 from robohive.mujoco._errors import FatalError
-from robohive.mujoco.data import MjData
-from robohive.mujoco.enums_physics import mjtCTimer
-from robohive.mujoco.model import MjModel
-from robohive.mujoco.options import MjOption, MjVisual
+from robohive.mujoco.enums.physics import mjtCTimer
 from robohive.mujoco.spec import archive, attach, authored, exchange
 from robohive.mujoco.spec.attach import affixed
 from robohive.mujoco.spec.bodies import MjsBody, MjsFrame
@@ -27,6 +24,9 @@ from robohive.mujoco.spec.lists import Lists
 from robohive.mujoco.spec.orientation import MjsOrientation
 from robohive.mujoco.spec.plugins import numbered
 from robohive.mujoco.spec.settings import MjsCompiler, MjStatistic
+from robohive.mujoco.structs.data import MjData
+from robohive.mujoco.structs.model import MjModel
+from robohive.mujoco.structs.options import MjOption, MjVisual
 
 _MAIN = "main"
 _PARTS = ("qpos", "qvel", "act", "mpos", "mquat", "ctrl")

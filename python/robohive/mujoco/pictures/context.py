@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robohive.mujoco.enums_view import mjtDepthMap, mjtFramebuffer, mjtRndFlag
-from robohive.mujoco.model import MjModel
-from robohive.mujoco.scene import MjvScene
-from robohive.mujoco.view import _Struct
+from robohive.mujoco.enums.view import mjtDepthMap, mjtFramebuffer, mjtRndFlag
+from robohive.mujoco.pictures.scene import MjvScene
+from robohive.mujoco.pictures.view import _Struct
+from robohive.mujoco.structs.model import MjModel
 
 
 class GLContext:

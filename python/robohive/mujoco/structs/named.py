@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from robohive.mujoco.enums_elements import mjtObj
+from robohive.mujoco.enums.elements import mjtObj
 
 #: Kinds of elements by the name of the accessor: prefix of the model's arrays, size, type.
 _KINDS = {

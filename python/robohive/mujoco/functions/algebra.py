@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.data import MjData
-from robohive.mujoco.model import MjModel
-from robohive.mujoco.out import Vector, destination, vector, write
+from robohive.mujoco.functions.out import Vector, destination, vector, write
+from robohive.mujoco.structs.data import MjData
+from robohive.mujoco.structs.model import MjModel
 
 
 def mj_fullM(m: MjModel, d: MjData, dst: Vector) -> None:

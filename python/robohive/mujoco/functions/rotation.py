@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.out import Vector, destination, vector, write
+from robohive.mujoco.functions.out import Vector, destination, vector, write
 
 
 def _put(res: Any, name: str, size: int, values: ArrayLike) -> None:

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco import absent, named
-from robohive.mujoco.fields import declare
-from robohive.mujoco.options import MjOption, MjStatistic, MjVisual
+from robohive.mujoco.structs import absent, named
+from robohive.mujoco.structs.fields import declare
+from robohive.mujoco.structs.options import MjOption, MjStatistic, MjVisual
 
 #: Arrays that are handed out as read-only copies: the structure that a model was compiled into, which no edit can change.
 _STRUCTURE = ("mesh_", "bvh_", "oct_", "names_map", "B_", "D_", "M_", "mapM", "mapD", "plugin_attr")

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from robohive.mujoco._constants import mjVERSION_HEADER
-from robohive.mujoco.enums_elements import mjtObj
-from robohive.mujoco.model import MjModel
+from robohive.mujoco.enums.elements import mjtObj
+from robohive.mujoco.structs.model import MjModel
 
 
 def mj_name2id(m: MjModel, type: int, name: str | bytes) -> int:

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
 from robohive.mujoco._constants import mjMAXVAL
-from robohive.mujoco.data import MjData
-from robohive.mujoco.model import MjModel
+from robohive.mujoco.structs.data import MjData
+from robohive.mujoco.structs.model import MjModel
 
 _Stage = Callable[[MjModel, MjData], None]
 

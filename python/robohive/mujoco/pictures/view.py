@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robohive.mujoco.enums_view import mjtCamera, mjtFrame, mjtLabel, mjtVisFlag
+from robohive.mujoco.enums.view import mjtCamera, mjtFrame, mjtLabel, mjtVisFlag
 
 #: Flags that are set to begin with.
 _SHOWN = ("TEXTURE", "STATIC", "TENDON", "RANGEFINDER", "SKIN", "FLEXEDGE", "FLEXSKIN", "PERTOBJ")

@@ -7,12 +7,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.data import MjData
-from robohive.mujoco.enums_elements import mjtGeom, mjtObj
-from robohive.mujoco.enums_view import mjtCatBit, mjtRndFlag
-from robohive.mujoco.looking import FLAGS, look_of
-from robohive.mujoco.model import MjModel
-from robohive.mujoco.view import MjvCamera, MjvOption, _Struct
+from robohive.mujoco.enums.elements import mjtGeom, mjtObj
+from robohive.mujoco.enums.view import mjtCatBit, mjtRndFlag
+from robohive.mujoco.pictures.looking import FLAGS, look_of
+from robohive.mujoco.pictures.view import MjvCamera, MjvOption, _Struct
+from robohive.mujoco.structs.data import MjData
+from robohive.mujoco.structs.model import MjModel
 
 _LOOK = ("emission", "specular", "shininess", "reflectance")
 

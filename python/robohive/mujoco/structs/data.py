@@ -7,10 +7,10 @@ from weakref import WeakValueDictionary
 import numpy as np
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco import absent, named
-from robohive.mujoco.fields import declare
-from robohive.mujoco.lists import MjContactList, MjSolverStatList, MjTimerStatList, MjWarningStatList
-from robohive.mujoco.model import MjModel, _refuse
+from robohive.mujoco.structs import absent, named
+from robohive.mujoco.structs.fields import declare
+from robohive.mujoco.structs.lists import MjContactList, MjSolverStatList, MjTimerStatList, MjWarningStatList
+from robohive.mujoco.structs.model import MjModel, _refuse
 
 #: Numbers of MuJoCo's memory management, for which there is nothing here.
 _ZEROS = (

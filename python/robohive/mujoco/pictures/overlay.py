@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
-from robohive.mujoco.context import MjrContext, MjrRect
-from robohive.mujoco.enums_view import mjtFont, mjtGridPos
+from robohive.mujoco.enums.view import mjtFont, mjtGridPos
+from robohive.mujoco.pictures.context import MjrContext, MjrRect
 
 #: Pixels between a box and the border of the viewport, and between two lines.
 _PAD = 5

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robohive.mujoco.out import Vector, vector, write
+from robohive.mujoco.functions.out import Vector, vector, write
 
 
 def _same(res: Any, values: Any, sizes: str = "res and the vectors differ in size") -> None:

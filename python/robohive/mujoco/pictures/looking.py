@@ -2,9 +2,9 @@
 
 from typing import Any
 
-from robohive.mujoco.enums_view import mjtCamera, mjtRndFlag, mjtVisFlag
-from robohive.mujoco.model import MjModel
-from robohive.mujoco.view import MjvCamera, MjvOption
+from robohive.mujoco.enums.view import mjtCamera, mjtRndFlag, mjtVisFlag
+from robohive.mujoco.pictures.view import MjvCamera, MjvOption
+from robohive.mujoco.structs.model import MjModel
 
 _GROUPS = ("geom", "site", "joint", "tendon", "actuator", "skin", "flex")
 #: Effects, in the engine's order.

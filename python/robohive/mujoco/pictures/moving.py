@@ -6,12 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robohive.mujoco._errors import FatalError
-from robohive.mujoco.data import MjData
-from robohive.mujoco.enums_view import mjtCamera, mjtMouse, mjtVisFlag
-from robohive.mujoco.model import MjModel
-from robohive.mujoco.query import mj_ray
-from robohive.mujoco.scene import MjvScene
-from robohive.mujoco.view import MjvCamera, MjvOption
+from robohive.mujoco.enums.view import mjtCamera, mjtMouse, mjtVisFlag
+from robohive.mujoco.functions.query import mj_ray
+from robohive.mujoco.pictures.scene import MjvScene
+from robohive.mujoco.pictures.view import MjvCamera, MjvOption
+from robohive.mujoco.structs.data import MjData
+from robohive.mujoco.structs.model import MjModel
 
 _Vector = NDArray[np.float64]
 

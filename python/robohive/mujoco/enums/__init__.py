@@ -1,0 +1,1 @@
+"""Enumerations with the numbers of MuJoCo 3.12."""

@@ -1,0 +1,1 @@
+"""Scenes, views and contexts: from a model in a state to pixels."""

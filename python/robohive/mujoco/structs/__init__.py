@@ -1,0 +1,1 @@
+"""Models, simulations and their options: structs whose arrays are numpy arrays."""
