@@ -98,8 +98,6 @@ const EMPTY_NAMES: [&str; 8] = ["util", "utils", "helper", "helpers", "common", 
 
 /// Files that stand directly in a folder.
 const FOLDER: usize = 25;
-/// Folders that have more.
-const LARGE: [&str; 1] = ["python/robohive/mujoco"];
 
 /// Fails with the list of everything that breaks a rule.
 fn none(broken: Vec<String>, rule: &str) {
@@ -183,9 +181,7 @@ fn folders_are_small_enough_to_read() {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         *sizes.entry(folder.to_owned()).or_default() += 1;
     }
-    let large = sizes.into_iter().filter(|(folder, files)| {
-        *files > FOLDER && !folder.contains("tests") && !LARGE.contains(&folder.as_str())
-    });
+    let large = sizes.into_iter().filter(|(folder, files)| *files > FOLDER && !folder.contains("tests"));
     none(
         large.map(|(folder, files)| format!("{folder}: {files} files")).collect(),
         "folders with too many files",

@@ -30,19 +30,10 @@ const LEAST_EXPONENT: f64 = 0.5;
 /// The environment cannot be drawn.
 pub fn thumbnail(env: &Env, size: Size, painters: &dyn Painters) -> Result<Picture, Failure> {
     let (model, data) = (&env.scene().model, &env.scene().data);
-    let name = camera_of(env);
-    let camera = Camera::named(model, &name).map_err(Failure::new)?;
+    let camera = Camera::free(model);
     let plan = Plan { camera, size, options: SceneOptions::default(), settings: Settings::of(model) };
     let mut drawing = Drawing::new(model, plan, painters)?;
-    let body = Body::of(model, data).map_err(Failure::new)?;
-    let mut shows_body = || -> Result<bool, Failure> {
-        let seen = &drawing.take(model, data, Channels::SEGMENTATION)?.segmentation;
-        Ok(body.share(seen) >= LEAST_SHARE)
-    };
-    let camera = match name != FREE && shows_body()? {
-        true => camera,
-        false => best(&mut drawing, &body, (model, data), size)?,
-    };
+    let camera = viewpoint(env, size, &mut drawing)?;
     drawing.aim(camera, size);
     let mut picture = drawing.take(model, data, Channels::RGB)?.clone();
     if !model.tex_type.contains(&TextureType::Skybox.code()) {
@@ -50,6 +41,21 @@ pub fn thumbnail(env: &Env, size: Size, painters: &dyn Painters) -> Result<Pictu
     }
     raise(&mut picture.rgb);
     Ok(picture)
+}
+
+/// The camera of a thumbnail.
+fn viewpoint(env: &Env, size: Size, drawing: &mut Drawing) -> Result<Camera, Failure> {
+    let (model, data) = (&env.scene().model, &env.scene().data);
+    let body = Body::of(model, data).map_err(Failure::new)?;
+    let name = camera_of(env);
+    if name != FREE {
+        let camera = Camera::named(model, &name).map_err(Failure::new)?;
+        drawing.aim(camera, size);
+        if body.share(&drawing.take(model, data, Channels::SEGMENTATION)?.segmentation) >= LEAST_SHARE {
+            return Ok(camera);
+        }
+    }
+    clearest(drawing, &body, (model, data), size)
 }
 
 /// Makes dark colours lighter by a power, which keeps black and white, until their mean is bright enough.
@@ -65,7 +71,7 @@ fn raise(rgb: &mut [u8]) {
 }
 
 /// The view of a body, of those at [`AZIMUTHS`], that shows it most clearly; the first of equal ones.
-fn best(
+fn clearest(
     drawing: &mut Drawing,
     body: &Body,
     (model, data): (&Model, &Data),
@@ -104,4 +110,82 @@ fn put_on_paper(
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use env::{Options, OwnModels, Registry};
+    use render::painter::Cpu;
+
+    const SIZE: Size = Size { width: 240, height: 180 };
+
+    /// The environments of our own models after a reset, one of each family.
+    fn own() -> Vec<Env> {
+        let ids = ["hive/FrankaReach-v0", "hive/ElbowPose-v0", "hive/QuadrupedWalk-v0"];
+        let suite = Registry::builtin().specs().iter().filter(|spec| spec.suite == "hive");
+        assert_eq!(suite.filter(|spec| !spec.id.contains("_v2d")).count(), ids.len());
+        let make = |id| {
+            let mut env = Env::make(id, &OwnModels, &Options::default()).ok().unwrap();
+            env.reset(Some(0)).unwrap();
+            env
+        };
+        ids.map(make).into()
+    }
+
+    /// What draws an environment.
+    fn drawing(env: &Env) -> Drawing {
+        let model = &env.scene().model;
+        let (camera, settings) = (Camera::free(model), Settings::of(model));
+        let plan = Plan { camera, size: SIZE, options: SceneOptions::default(), settings };
+        Drawing::new(model, plan, &Cpu).ok().unwrap()
+    }
+
+    /// Share of the picture that the body takes up, and share of its width or height, whichever is larger, between the
+    /// outermost pixels of the body.
+    fn measured(env: &Env, drawing: &mut Drawing, size: Size) -> (f64, f64) {
+        let (model, data) = (&env.scene().model, &env.scene().data);
+        let body = Body::of(model, data).unwrap();
+        let seen = drawing.take(model, data, Channels::SEGMENTATION).ok().unwrap().segmentation.clone();
+        let shows = |row: usize, column: usize| body.share(&[seen[row * size.width + column]]) > 0.0;
+        let rows: Vec<_> =
+            (0..size.height).filter(|&row| (0..size.width).any(|column| shows(row, column))).collect();
+        let columns: Vec<_> =
+            (0..size.width).filter(|&column| (0..size.height).any(|row| shows(row, column))).collect();
+        let across = |places: &[usize], side: usize| match places {
+            [first, .., last] => (last - first + 1) as f64 / side as f64,
+            _ => 0.0,
+        };
+        (body.share(&seen), across(&rows, size.height).max(across(&columns, size.width)))
+    }
+
+    #[test]
+    fn a_body_fills_its_picture_from_every_side() {
+        for env in own() {
+            let mut drawing = drawing(&env);
+            let body = Body::of(&env.scene().model, &env.scene().data).unwrap();
+            for azimuth in AZIMUTHS {
+                for size in [SIZE, Size { width: 60, height: 180 }] {
+                    drawing.aim(Camera::Free(body.camera(&env.scene().model, azimuth, size)), size);
+                    let (_, across) = measured(&env, &mut drawing, size);
+                    assert!((0.7..=0.95).contains(&across), "{} {azimuth} {size}: {across}", env.spec().id);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn thumbnails_show_the_body_large_on_a_light_background() {
+        for (env, least) in own().iter().zip([0.03, 0.025, 0.2]) {
+            let picture = thumbnail(env, SIZE, &Cpu).ok().unwrap();
+            let mut drawing = drawing(env);
+            let camera = viewpoint(env, SIZE, &mut drawing).ok().unwrap();
+            drawing.aim(camera, SIZE);
+            let (share, _) = measured(env, &mut drawing, SIZE);
+            let mean =
+                picture.rgb.iter().map(|&value| f64::from(value)).sum::<f64>() / picture.rgb.len() as f64;
+            assert!(share >= least, "{}: {share}", env.spec().id);
+            assert!(mean > 90.0, "{}: {mean}", env.spec().id);
+        }
+    }
 }
