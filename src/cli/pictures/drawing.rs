@@ -42,6 +42,13 @@ impl Drawing {
         Ok(Drawing { plan, assets, painter, scene: Scene::new(), picture })
     }
 
+    /// Looks through another camera, at another size.
+    pub fn aim(&mut self, camera: Camera, size: Size) {
+        self.plan.camera = camera;
+        self.plan.size = size;
+        self.picture = Picture::new(size.width, size.height);
+    }
+
     /// Draws a state that a forward pass has evaluated. The model is the one that the drawing was
     /// made for, but may have been edited.
     ///

@@ -2,18 +2,17 @@
 
 use crate::failure::Failure;
 use crate::input::library::Making;
-use crate::pictures::drawing::{Drawing, Plan, frame};
+use crate::pictures::drawing::frame;
 use crate::pictures::look::Size;
 use crate::pictures::preview::{Choice, Screen};
 use crate::pictures::renderer::RendererArguments;
-use crate::pictures::subject::{are_related, camera_of};
+use crate::pictures::subject::are_related;
+use crate::pictures::thumbnail::thumbnail;
 use crate::terminal::{listed, note, show};
 use clap::{Args, ValueHint};
 use env::{Env, EnvError, Registry, Spec};
 use indicatif::{ProgressBar, ProgressStyle};
-use render::picture::Channels;
-use render::scene::{Camera, SceneOptions};
-use render::{Painters, Picture, Settings};
+use render::{Painters, Picture};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use video::{Sheet, write_png};
@@ -22,7 +21,8 @@ use video::{Sheet, write_png};
 #[derive(Args)]
 #[command(
     after_help = "Every environment is reset with the same seed and drawn from the first camera that it, or an id \
-with the same task and model, observes, else from the free one; its id stands below. Ids that run one task on one model are a family, of which the first is drawn, or all \
+with the same task and model, observes, else from a three-quarter view in which what moves fills the picture; its id \
+stands below. Ids that run one task on one model are a family, of which the first is drawn, or all \
 with --all. Environments whose models are not imported are left out, and a note says so. The sheet does not depend on \
 the number of threads.
 
@@ -180,10 +180,7 @@ fn draw_all(a: &Gallery, specs: &[&Spec]) -> Result<Vec<Outcome>, Failure> {
 /// The picture of an environment after a reset.
 fn draw(a: &Gallery, mut env: Env, painters: &dyn Painters) -> Result<Picture, Failure> {
     env.reset(Some(a.seed)).map_err(Failure::new)?;
-    let model = &env.scene().model;
-    let camera = Camera::named(model, &camera_of(&env)).map_err(Failure::new)?;
-    let plan = Plan { camera, size: a.size, options: SceneOptions::default(), settings: Settings::of(model) };
-    Drawing::new(model, plan, painters)?.take(model, &env.scene().data, Channels::RGB).cloned()
+    thumbnail(&env, a.size, painters)
 }
 
 fn progress(environments: usize) -> ProgressBar {

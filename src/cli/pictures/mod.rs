@@ -3,6 +3,7 @@
 pub mod bench_render;
 pub mod drawing;
 pub mod film;
+pub mod framing;
 pub mod gallery;
 pub mod look;
 pub mod preview;
@@ -11,3 +12,4 @@ pub mod render_requests;
 pub mod renderer;
 pub mod studio;
 pub mod subject;
+pub mod thumbnail;
