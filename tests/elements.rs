@@ -213,3 +213,57 @@ fn an_id_outlives_an_edit() {
     m.edit(|m| m.body_mass[ball.index()] = 5.0).unwrap();
     assert_eq!((m.body("ball"), m.body(ball).mass()), (Some(ball), 5.0));
 }
+
+/// The same kinds of elements in another order.
+const OTHER: &str = r#"
+<mujoco>
+  <worldbody>
+    <body name="arm"><joint name="shoulder" axis="0 1 0"/><geom name="rod" size=".1"/></body>
+    <body name="ball" pos="0 0 1"><freejoint name="free"/><geom name="ball" size=".1"/></body>
+  </worldbody>
+  <actuator><motor name="lift" joint="shoulder"/></actuator>
+</mujoco>"#;
+
+#[test]
+fn an_id_serves_every_model_of_its_structure() {
+    let m = robohive::mjcf::load_str(SCENE).unwrap().model;
+    let ball = m.body("ball").unwrap();
+    let edited = m.edited(|m| m.body_mass[ball] = 5.0).unwrap();
+    let rewritten = m.edited(|m| m.jnt_type.swap(0, 0)).unwrap();
+    let again = robohive::mjcf::load_str(SCENE).unwrap().model;
+    let read = Model::from_bytes(&m.to_bytes()).unwrap();
+    for other in [m.clone(), edited, rewritten, again, read] {
+        let mut d = Data::new(&other);
+        forward(&other, &mut d).unwrap();
+        assert_eq!(other.body(ball).name(), "ball");
+        assert_eq!(d.body(ball).xpos(), &[0.0, 0.0, 0.1]);
+        assert_eq!(other.body("ball"), Some(ball));
+        d.actuator_mut(m.actuator("lift").unwrap()).set_ctrl(1.0);
+        assert_eq!(d.state.ctrl, [1.0]);
+        assert!(d.contacts().any(|contact| contact.touches(m.geom("ball").unwrap())));
+    }
+}
+
+#[cfg(debug_assertions)]
+#[test]
+fn debug_builds_refuse_an_id_of_another_model() {
+    use std::panic::{AssertUnwindSafe, catch_unwind};
+    let m = robohive::mjcf::load_str(SCENE).unwrap().model;
+    let other = robohive::mjcf::load_str(OTHER).unwrap().model;
+    let mut d = Data::new(&m);
+    forward(&m, &mut d).unwrap();
+    let (shoulder, lift) = (other.joint("shoulder").unwrap(), other.actuator("lift").unwrap());
+    let (ball, geom) = (other.body("ball").unwrap(), other.geom("ball").unwrap());
+    let uses: [&mut dyn FnMut(); 5] = [
+        &mut || assert!(m.joint(shoulder).name().is_empty()),
+        &mut || assert!(d.joint(shoulder).qpos().is_empty()),
+        &mut || d.clone().actuator_mut(lift).set_ctrl(1.0),
+        &mut || drop(d.jacobian(&m, ball)),
+        &mut || assert!(d.contacts().all(|contact| contact.touches(geom))),
+    ];
+    for (number, refused) in uses.into_iter().enumerate() {
+        let payload = catch_unwind(AssertUnwindSafe(refused)).unwrap_err();
+        let message = payload.downcast_ref::<&str>().copied().unwrap_or_default();
+        assert!(message.starts_with("this id belongs to another model"), "{number}: {message:?}");
+    }
+}

@@ -4,6 +4,7 @@
 pub(crate) mod bending_factor;
 pub(crate) mod climb;
 pub(crate) mod names;
+pub(crate) mod origin;
 
 use crate::arrays::Statistic;
 use bending_factor::BendingFactor;
@@ -20,6 +21,20 @@ pub(crate) struct Caches {
     pub bending: Arc<OnceLock<BendingFactor>>,
     /// Ids by name.
     pub names: Arc<NameIndex>,
+    /// Structure that ids are checked against; edits keep it.
+    #[cfg(debug_assertions)]
+    pub origin: Arc<OnceLock<origin::Origin>>,
     /// Statistics that follow from the arrays, where those of the model may be given.
     pub statistic: Arc<OnceLock<Statistic>>,
+}
+
+impl Caches {
+    /// Drops all that an edit of the structure may make stale; ids stay valid.
+    pub fn drop_derived(&mut self) {
+        *self = Caches {
+            #[cfg(debug_assertions)]
+            origin: Arc::clone(&self.origin),
+            ..Caches::default()
+        };
+    }
 }

@@ -33,6 +33,7 @@ pub(crate) use scratch::{IntegrateScratch, Rates};
 pub use snapshot::{ForeignSnapshot, Snapshot};
 pub use warnings::{Warning, Warnings};
 
+use crate::caches::origin::Origin;
 use crate::derivative::{DerivativeInputs, inputs_of};
 use crate::flex::Metric;
 use crate::model::{Arrays, Model};
@@ -68,6 +69,8 @@ pub struct Data {
     pub autoreset: bool,
     /// The state has come from elsewhere, with trees that sleep: what stages keep of those is not known.
     pub(crate) unsettled: bool,
+    /// The structure of the model that the data were made for.
+    pub(crate) origin: Origin,
     /// What `autoreset` has done.
     pub warnings: Warnings,
     /// Potential and kinetic energy \[J\].

@@ -108,8 +108,8 @@ impl Consequences {
     /// The same for an edit of the structure, by way of a copy, since it can fail halfway.
     fn derive_all(&self, m: &mut Model) -> Result<(), EditError> {
         let plain = computed_statistic(m)?;
-        let mut next =
-            Model { arrays: m.arrays.clone(), caches: Caches::default(), plugins: m.plugins.clone() };
+        let mut next = m.clone();
+        next.caches.drop_derived();
         let given = std::mem::replace(&mut next.arrays.stat, plain.clone());
         set_bounds(&mut next.arrays, &self.changed);
         set_const(&mut next).map_err(EditError::Structure)?;
@@ -135,7 +135,7 @@ pub(super) fn check(m: &Model, written: Written) -> Result<(), EditError> {
 /// Drops the caches that what was overwritten may have made stale.
 pub(super) fn drop_caches(caches: &mut Caches, written: Written) {
     if written.iter().any(|array| Follow::of(array) == Follow::Structure) {
-        *caches = Caches::default();
+        caches.drop_derived();
     } else if written.iter().any(|array| Follow::of(array) != Follow::Nothing) {
         match Arc::get_mut(&mut caches.statistic) {
             Some(own) => *own = OnceLock::new(),

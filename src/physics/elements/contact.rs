@@ -23,11 +23,16 @@ impl Data {
 impl<'d> ContactView<'d> {
     /// The two geoms; none on the side of a flex.
     pub fn geoms(self) -> [Option<GeomId>; 2] {
-        self.contact.geom.map(|geom| usize::try_from(geom).ok().map(geom_at))
+        self.contact.geom.map(|geom| usize::try_from(geom).ok().map(|geom| geom_at(self.d.origin, geom)))
     }
 
     /// True when `geom` is one of the two.
+    ///
+    /// # Panics
+    /// In debug builds: the id belongs to another model.
+    #[track_caller]
     pub fn touches(self, geom: GeomId) -> bool {
+        geom.origin.check(self.d.origin);
         self.geoms().contains(&Some(geom))
     }
 

@@ -27,13 +27,23 @@ macro_rules! views {
     ($($id:ident $one:ident $($one_mut:ident)?;)*) => {
         impl Data {$(
             #[doc = concat!("What the simulation says of one [`", stringify!($id), "`].")]
+            ///
+            /// # Panics
+            /// In debug builds: the id belongs to another model.
+            #[track_caller]
             pub fn $one(&self, id: $id) -> DataView<'_, $id> {
+                id.origin.check(self.origin);
                 DataView { d: self, id }
             }
 
             $(
                 #[doc = concat!("State and inputs of one [`", stringify!($id), "`], to write.")]
+                ///
+                /// # Panics
+                /// In debug builds: the id belongs to another model.
+                #[track_caller]
                 pub fn $one_mut(&mut self, id: $id) -> DataViewMut<'_, $id> {
+                    id.origin.check(self.origin);
                     DataViewMut { d: self, id }
                 }
             )?

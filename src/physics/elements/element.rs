@@ -1,6 +1,6 @@
 //! What all ids have in common.
 
-use crate::model::{Arrays, ObjType};
+use crate::model::{Arrays, Model, ObjType};
 use std::ops::Range;
 
 /// An id of one kind of element.
@@ -10,11 +10,16 @@ pub trait Element: Copy {
     /// Number of such elements in a model.
     fn count(m: &Arrays) -> usize;
     /// The element at `index` in the arrays of its kind, which must exist.
-    fn of(m: &Arrays, index: usize) -> Self;
+    fn of(m: &Model, index: usize) -> Self;
     /// Place in the arrays of its kind.
     fn index(self) -> usize;
+    /// Checks that the id was found in a model of the structure of `m`.
+    ///
+    /// # Panics
+    /// In debug builds: it was not.
+    fn check_model(self, m: &Model);
     /// The element at `index` in the arrays of its kind; `None` beyond the last.
-    fn at(m: &Arrays, index: usize) -> Option<Self> {
+    fn at(m: &Model, index: usize) -> Option<Self> {
         (index < Self::count(m)).then(|| Self::of(m, index))
     }
 }

@@ -7,13 +7,17 @@ use super::ids::{
     within,
 };
 use super::model::ModelView;
-use crate::model::{Arrays, Model};
+use crate::model::Model;
 
 /// What finds elements of one kind in a model: a name an id, an id a view.
 pub trait Key<'m, I> {
     /// What is found.
     type Found;
     /// Finds it.
+    ///
+    /// # Panics
+    /// In debug builds: the id belongs to another model.
+    #[track_caller]
     fn find_in(self, m: &'m Model) -> Self::Found;
 }
 
@@ -36,6 +40,7 @@ impl<'m, I: Element> Key<'m, I> for &String {
 impl<'m, I: Element> Key<'m, I> for I {
     type Found = ModelView<'m, I>;
 
+    #[track_caller]
     fn find_in(self, m: &'m Model) -> ModelView<'m, I> {
         ModelView::new(m, self)
     }
@@ -45,6 +50,10 @@ macro_rules! finders {
     ($($id:ident $one:ident $many:ident $names:ident,)*) => {$(
         impl Model {
             #[doc = concat!("By name an `Option<", stringify!($id), ">`, by id a [`ModelView`].")]
+            ///
+            /// # Panics
+            /// In debug builds: the id belongs to another model.
+            #[track_caller]
             pub fn $one<'m, K: Key<'m, $id>>(&'m self, key: K) -> K::Found {
                 key.find_in(self)
             }
@@ -87,11 +96,11 @@ finders! {
 }
 
 /// Every element of one kind.
-fn all<I: Element>(m: &Arrays) -> impl ExactSizeIterator<Item = I> + Clone + '_ {
+fn all<I: Element>(m: &Model) -> impl ExactSizeIterator<Item = I> + Clone + '_ {
     within(m, 0, I::count(m))
 }
 
-fn named<I: Element>(m: &Arrays) -> impl Iterator<Item = (I, &str)> + '_ {
+fn named<I: Element>(m: &Model) -> impl Iterator<Item = (I, &str)> + '_ {
     let all = all::<I>(m).map(|id| (id, m.name_of(I::KIND, id.index())));
     all.filter(|(_, name)| !name.is_empty())
 }

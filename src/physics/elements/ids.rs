@@ -1,8 +1,9 @@
 //! The table of ids: one row for each kind of named element.
 
 use super::element::{Element, Span};
+use crate::caches::origin::Origin;
 use crate::model::array::Place;
-use crate::model::{Arrays, JointType, ObjType, counts};
+use crate::model::{Arrays, JointType, Model, ObjType, counts};
 
 macro_rules! ids {
     ($($(#[$doc:meta])* $id:ident $kind:ident $count:ident
@@ -11,6 +12,7 @@ macro_rules! ids {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub struct $id {
             index: u32,
+            pub(super) origin: Origin,
             $(pub(super) $field: $t,)*
         }
 
@@ -29,15 +31,21 @@ macro_rules! ids {
             }
 
             #[allow(unused_variables)]
-            fn of(m: &Arrays, index: usize) -> Self {
+            fn of(m: &Model, index: usize) -> Self {
                 $id {
                     index: index as u32,
+                    origin: m.origin(),
                     $($field: { let ($m, $i) = (m, index); $value },)*
                 }
             }
 
             fn index(self) -> usize {
                 self.index as usize
+            }
+
+            #[track_caller]
+            fn check_model(self, m: &Model) {
+                self.origin.check(m.origin());
             }
         }
 
@@ -122,14 +130,14 @@ fn width(m: &Arrays, i: usize) -> [i32; 2] {
 
 /// `count` elements of one kind from `first` on.
 pub(super) fn within<I: Element>(
-    m: &Arrays,
+    m: &Model,
     first: usize,
     count: usize,
 ) -> impl ExactSizeIterator<Item = I> + Clone + '_ {
     (first..first + count).map(|index| I::of(m, index))
 }
 
-/// A geom of a model that has more than `index`.
-pub(super) const fn geom_at(index: usize) -> GeomId {
-    GeomId { index: index as u32 }
+/// A geom of the model of `origin`, which has more than `index`.
+pub(super) const fn geom_at(origin: Origin, index: usize) -> GeomId {
+    GeomId { index: index as u32, origin }
 }

@@ -15,8 +15,11 @@
 //! An id also indexes the arrays of its kind: `m.jnt_range[id]`, and to write, `m.edit(|m| m.jnt_range[id] = [0.0, 1.0])`.
 //!
 //! The same holds for bodies, geoms, sites, cameras, lights, tendons, actuators, sensors and equality constraints;
-//! meshes, textures and the like have ids and names. An id belongs to its model and to models edited from it. With that
-//! of another model a view shows another element, or panics where there is none.
+//! meshes, textures and the like have ids and names. An id belongs to its model, to clones of it, to
+//! models edited from it, and to models of the same structure: the same elements, with the same names, in the same order,
+//! as when a text is loaded twice. Debug builds keep a digest of the structure in ids and data, and the calls above panic
+//! with an id of another model. Release builds do not check: a view then shows another element, or panics where there is
+//! none. Arrays indexed by an id are checked in neither, since they do not know their model.
 //!
 //! ```
 //! let model = robohive_mjcf::load_str(

@@ -16,7 +16,9 @@ pub struct ModelView<'m, I> {
 }
 
 impl<'m, I: Element> ModelView<'m, I> {
+    #[track_caller]
     pub(super) fn new(m: &'m Model, id: I) -> Self {
+        id.check_model(m);
         ModelView { m, id }
     }
 

@@ -1,5 +1,6 @@
 //! Jacobians and rays by id.
 
+use super::element::Element;
 use super::ids::{BodyId, GeomId, SiteId, geom_at};
 use crate::data::Data;
 use crate::math::Vec3;
@@ -10,23 +11,33 @@ use crate::ray::{Hit, Ray, RayFilter, ray};
 /// What has a frame that moves with a body.
 pub trait Framed {
     /// Writes the Jacobian of the origin and the orientation of the frame.
+    ///
+    /// # Panics
+    /// In debug builds: the id belongs to another model.
+    #[track_caller]
     fn jacobian(self, m: &Model, d: &Data, out: &mut Jacobian);
 }
 
 impl Framed for BodyId {
+    #[track_caller]
     fn jacobian(self, m: &Model, d: &Data, out: &mut Jacobian) {
+        self.check_model(m);
         out.body(m, &d.kin, &d.com, self.index());
     }
 }
 
 impl Framed for GeomId {
+    #[track_caller]
     fn jacobian(self, m: &Model, d: &Data, out: &mut Jacobian) {
+        self.check_model(m);
         out.geom(m, &d.kin, &d.com, self.index());
     }
 }
 
 impl Framed for SiteId {
+    #[track_caller]
     fn jacobian(self, m: &Model, d: &Data, out: &mut Jacobian) {
+        self.check_model(m);
         out.site(m, &d.kin, &d.com, self.index());
     }
 }
@@ -34,6 +45,10 @@ impl Framed for SiteId {
 impl Jacobian {
     /// Jacobian of the frame of a body, geom or site at the poses of the last [`forward`](crate::forward); memory is
     /// reused.
+    ///
+    /// # Panics
+    /// In debug builds: the id belongs to another model.
+    #[track_caller]
     pub fn set_to(&mut self, m: &Model, d: &Data, frame: impl Framed) {
         frame.jacobian(m, d, self);
     }
@@ -63,6 +78,10 @@ impl Jacobian {
 
 impl Data {
     /// Jacobian of the frame of a body, geom or site at the poses of the last [`forward`](crate::forward).
+    ///
+    /// # Panics
+    /// In debug builds: the id belongs to another model.
+    #[track_caller]
     pub fn jacobian(&self, m: &Model, frame: impl Framed) -> Jacobian {
         let mut jacobian = Jacobian::default();
         jacobian.set_to(m, self, frame);
@@ -71,6 +90,6 @@ impl Data {
 
     /// The nearest visible geom that a ray hits, and where, at the poses of the last [`forward`](crate::forward).
     pub fn cast_ray(&self, m: &Model, cast: Ray, filter: RayFilter) -> Option<(GeomId, Hit)> {
-        ray(m, &self.kin, cast, filter).map(|(geom, hit)| (geom_at(geom), hit))
+        ray(m, &self.kin, cast, filter).map(|(geom, hit)| (geom_at(m.origin(), geom), hit))
     }
 }

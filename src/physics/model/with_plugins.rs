@@ -8,6 +8,7 @@ use crate::arrays::{Arrays, ObjType, Options, Stage};
 use crate::caches::Caches;
 use crate::caches::bending_factor::BendingFactor;
 use crate::caches::climb::Slopes;
+use crate::caches::origin::Origin;
 use crate::stages::{
     AccelerationInputs, Configuration, Contacts, PositionInputs, State, Transmission, Velocity,
     VelocityInputs,
@@ -54,6 +55,14 @@ impl Model {
     /// Index of the element of one kind called `name`, by a hash table.
     pub fn id_of(&self, kind: ObjType, name: &str) -> Option<usize> {
         self.caches.names.get(self, kind, name)
+    }
+
+    /// What ids found in the model, and data made for it, are marked with.
+    pub(crate) fn origin(&self) -> Origin {
+        #[cfg(debug_assertions)]
+        return *self.caches.origin.get_or_init(|| Origin::of(&self.arrays));
+        #[cfg(not(debug_assertions))]
+        Origin::default()
     }
 
     /// The arrays to write what is derived from others; caches stay.

@@ -61,6 +61,7 @@ impl Data {
     pub fn reset(&mut self, m: &Model) {
         self.energy = [0.0; 2];
         self.unsettled = false;
+        self.origin = m.origin();
         self.state.reset(m);
         // A model whose trees cannot begin asleep is refused where it is compiled; there they are awake.
         let _ = begin(m, self);
