@@ -243,7 +243,7 @@ def test_pictures(model, data):
         assert (renderer.render() == shell).all(axis=2).any()
         with pytest.raises(ValueError, match='"back" does not exist'):
             renderer.update_scene(data, "back")
-    with pytest.raises(RuntimeError, match="after close"):
+    with pytest.raises(RuntimeError, match="is closed"):
         renderer.render()
     with pytest.raises(ValueError, match="framebuffer"):
         mj.Renderer(model, 4000, 64)
