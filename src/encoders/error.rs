@@ -8,6 +8,7 @@ const LISTED: usize = 8;
 
 /// Why there is no encoder, or no encoding.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum EncoderError {
     /// No encoder has that name.
     UnknownEncoding {

@@ -11,6 +11,7 @@ use std::fmt;
 
 /// Why a picture cannot be drawn.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum RenderError {
     /// The model has no camera of this name.
     UnknownCamera {

@@ -5,6 +5,7 @@ use std::fmt;
 
 /// Why the GPU draws nothing.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum GpuError {
     /// No GPU is what was asked for.
     NoAdapter {

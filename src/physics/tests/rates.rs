@@ -4,7 +4,7 @@
 use robohive_physics::math::{norm, quat_mul, quat_mul_axis};
 use robohive_physics::{Data, Model, forward, inertia};
 
-/// Two arms that meet at their ends, and a tendon between them.
+/// An arm, and a tendon along it. Inertia couples joints of one chain alone, so the tendon stays on one.
 fn model(equality: &str, armature: f64) -> Model {
     let text = format!(
         "<mujoco>
@@ -15,11 +15,11 @@ fn model(equality: &str, armature: f64) -> Model {
               <body name='first' pos='.5 0 0'>
                 <joint axis='0 1 .2'/><geom type='capsule' fromto='0 0 0 .4 0 0' size='.03'/>
                 <site name='tip' pos='.35 .02 0'/>
+                <body name='second' pos='.4 0 .1'>
+                  <joint axis='1 .3 0'/><joint axis='0 1 0'/><geom type='capsule' fromto='0 0 0 .3 0 .1' size='.03'/>
+                  <site name='end' pos='.25 0 .1'/>
+                </body>
               </body>
-            </body>
-            <body name='second' pos='1 0 .1'>
-              <joint axis='1 .3 0'/><joint axis='0 1 0'/><geom type='capsule' fromto='0 0 0 -.3 0 .1' size='.03'/>
-              <site name='end' pos='-.25 0 .1'/>
             </body>
           </worldbody>
           <equality>{equality}</equality>
@@ -63,7 +63,7 @@ fn reference_accelerations_hold_the_rate_of_the_jacobian() {
         let rows = if equality.starts_with("<weld") { 6 } else { 3 };
         let [moving, back, still] = [1.0, -1.0, 0.0].map(|s| at(&m, 0.0, s).efc.efc_aref.to_vec());
         let rate = derivative(&m, |d| d.efc.efc_vel.to_vec());
-        assert!(moving.len() == rows && rate.iter().filter(|x| x.abs() > 0.1).count() >= 3, "{rate:?}");
+        assert!(moving.len() == rows && rate.iter().filter(|x| x.abs() > 0.05).count() >= 3, "{rate:?}");
         for k in 0..rows {
             // Damping is odd in the velocity and cancels; stiffness remains without one.
             let found = still[k] - 0.5 * (moving[k] + back[k]);
