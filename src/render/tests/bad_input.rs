@@ -8,6 +8,9 @@ use robohive_render::scene::{
 };
 use robohive_render::{Assets, Picture, Profile, RenderError, Renderer, Settings, View};
 
+/// Numbers of a model are smaller than this.
+const LARGEST: f64 = 1e100;
+
 fn load(text: &str) -> Model {
     robohive_mjcf::load_str(format!("<mujoco>{text}</mujoco>")).unwrap().model
 }
@@ -124,7 +127,8 @@ fn states_that_are_not_finite_are_refused() {
         assert_eq!(result, Err(RenderError::NotFinite { what: "geom \"ball\"".into() }));
         let mut data = state(&model);
         data.kin.light_xdir[0][1] = bad;
-        assert!(Scene::new().update(&model, &data, view, &SceneOptions::default()).is_err());
+        let result = Scene::new().update(&model, &data, view, &SceneOptions::default());
+        assert!(matches!(result, Err(RenderError::NotFinite { .. })), "{result:?}");
     }
 }
 
@@ -133,7 +137,9 @@ fn sizes_and_colours_of_any_number_are_drawn_or_refused() {
     for size in [0.0, 1e-300, 1e-20, 1e10, 1e30, 1e37, 1e300, f64::INFINITY, -1.0] {
         let mut model = load(BALL);
         let camera = Camera::free(&model);
-        if model.overwrite(|draft| draft.geom_size[1] = [size; 3]).is_err() {
+        let written = model.overwrite(|draft| draft.geom_size[1] = [size; 3]);
+        assert_eq!(written.is_ok(), size.abs() < LARGEST, "{size}: {written:?}");
+        if written.is_err() {
             continue;
         }
         match scene(&model, camera) {
@@ -143,7 +149,9 @@ fn sizes_and_colours_of_any_number_are_drawn_or_refused() {
     }
     for colour in [-1.0, 2.0, 1e30, f32::INFINITY] {
         let mut model = load(BALL);
-        if model.overwrite(|draft| draft.geom_rgba[1] = [colour; 4]).is_ok() {
+        let written = model.overwrite(|draft| draft.geom_rgba[1] = [colour; 4]);
+        assert_eq!(written.is_ok(), colour.is_finite(), "{colour}: {written:?}");
+        if written.is_ok() {
             from_free(&model).unwrap();
         }
     }
@@ -154,8 +162,14 @@ fn planes_of_any_size_are_drawn_or_refused() {
     for size in [-1.0, 1e-300, 1e30, 1e300, f64::INFINITY] {
         let mut model = load(BALL);
         let camera = Camera::free(&model);
-        if model.overwrite(|draft| draft.geom_size[0] = [size, 1.0, size]).is_ok() {
-            let _ = scene(&model, camera).map(|scene| draw(&model, &scene, Settings::of(&model)).unwrap());
+        let written = model.overwrite(|draft| draft.geom_size[0] = [size, 1.0, size]);
+        assert_eq!(written.is_ok(), size.abs() < LARGEST, "{size}: {written:?}");
+        if written.is_err() {
+            continue;
+        }
+        match scene(&model, camera) {
+            Ok(scene) => assert!(draw(&model, &scene, Settings::of(&model)).is_ok(), "{size}"),
+            Err(error) => assert!(error.to_string().contains("floor"), "{size}: {error}"),
         }
     }
 }
@@ -186,7 +200,9 @@ fn frustums_without_room_are_refused() {
 fn extents_without_room_are_refused() {
     for extent in [0.0, -1.0, 1e-30, 1e30, f64::INFINITY, f64::NAN] {
         let mut model = load(BALL);
-        if model.overwrite(|draft| draft.stat.extent = extent).is_err() {
+        let written = model.overwrite(|draft| draft.stat.extent = extent);
+        assert_eq!(written.is_ok(), extent.is_finite(), "{extent}: {written:?}");
+        if written.is_err() {
             continue;
         }
         let result = from_free(&model);
@@ -226,10 +242,12 @@ fn height_fields_without_numbers_are_refused() {
         let error = message(Assets::new(&model, Profile::Mujoco312));
         assert!(error.contains("elevation 3 of hfield \"h\" is"), "{error}");
         let mut assets = Assets::new(&load(text), Profile::Mujoco312).unwrap();
-        assert!(assets.refresh(&model).is_err());
+        let error = message(assets.refresh(&model));
+        assert!(error.contains("elevation 3 of hfield \"h\" is"), "{error}");
     }
     let mut model = load(text);
-    assert!(model.overwrite(|draft| draft.hfield_data[3] = f32::NAN).is_err());
+    let error = model.overwrite(|draft| draft.hfield_data[3] = f32::NAN).expect_err("no number").to_string();
+    assert!(error.contains("hfield_data"), "{error}");
 }
 
 #[test]
@@ -254,7 +272,10 @@ fn materials_and_textures_that_do_not_exist_are_refused_or_plain() {
         let mut model = load(text);
         if model.overwrite(|draft| draft.mat_texid[0] = [id; 10]).is_ok() {
             let found = from_free(&model);
-            assert_eq!(found.is_err(), id > 0, "{id}: {found:?}");
+            match id > 0 {
+                true => assert!(matches!(found, Err(RenderError::Model { .. })), "{id}: {found:?}"),
+                false => assert!(found.is_ok(), "{id}: {found:?}"),
+            }
         }
         let mut model = load(text);
         if model.overwrite(|draft| draft.geom_matid[0] = id).is_ok() {
