@@ -15,6 +15,8 @@ use std::sync::Arc;
 /// Largest difference relative to the larger of 1 and the recorded number. Both sides compute in double precision from the
 /// same numbers, a few hundred operations of magnitudes up to about 10, each rounded by 1e-16.
 const TOLERANCE: f64 = 1e-12;
+/// The same for tasks that weigh the body: joints of the stand-in have 1e-9 kg each, which the recorded model has not.
+const WEIGHED: f64 = 1e-9;
 
 /// The stand-in under every path, and a config without devices.
 struct StandIn(String);
@@ -61,7 +63,8 @@ fn differences(path: &Path) -> Vec<String> {
                 return;
             }
             moved |= state > 0 && columns.row(name, 0) != Some(recorded);
-            let close = |(x, y): (&f64, &f64)| (x - y).abs() <= TOLERANCE * y.abs().max(1.0);
+            let tolerance = if id.starts_with("myoLeg") { WEIGHED } else { TOLERANCE };
+            let close = |(x, y): (&f64, &f64)| (x - y).abs() <= tolerance * y.abs().max(1.0);
             if ours.len() != recorded.len() || !ours.iter().zip(recorded).all(close) {
                 found.push(format!("{id}: {name} of state {state} is {ours:.6?}, not {recorded:.6?}"));
             }

@@ -8,9 +8,6 @@ use robohive_render::scene::{
 };
 use robohive_render::{Assets, Picture, Profile, RenderError, Renderer, Settings, View};
 
-/// Numbers of a model are smaller than this.
-const LARGEST: f64 = 1e100;
-
 fn load(text: &str) -> Model {
     robohive_mjcf::load_str(format!("<mujoco>{text}</mujoco>")).unwrap().model
 }
@@ -137,11 +134,7 @@ fn sizes_and_colours_of_any_number_are_drawn_or_refused() {
     for size in [0.0, 1e-300, 1e-20, 1e10, 1e30, 1e37, 1e300, f64::INFINITY, -1.0] {
         let mut model = load(BALL);
         let camera = Camera::free(&model);
-        let written = model.overwrite(|draft| draft.geom_size[1] = [size; 3]);
-        assert_eq!(written.is_ok(), size.abs() < LARGEST, "{size}: {written:?}");
-        if written.is_err() {
-            continue;
-        }
+        model.overwrite(|draft| draft.geom_size[1] = [size; 3]).unwrap();
         match scene(&model, camera) {
             Ok(scene) => assert!(draw(&model, &scene, Settings::of(&model)).is_ok(), "{size}"),
             Err(error) => assert!(error.to_string().contains("ball"), "{size}: {error}"),
@@ -149,11 +142,8 @@ fn sizes_and_colours_of_any_number_are_drawn_or_refused() {
     }
     for colour in [-1.0, 2.0, 1e30, f32::INFINITY] {
         let mut model = load(BALL);
-        let written = model.overwrite(|draft| draft.geom_rgba[1] = [colour; 4]);
-        assert_eq!(written.is_ok(), colour.is_finite(), "{colour}: {written:?}");
-        if written.is_ok() {
-            from_free(&model).unwrap();
-        }
+        model.overwrite(|draft| draft.geom_rgba[1] = [colour; 4]).unwrap();
+        from_free(&model).unwrap();
     }
 }
 
@@ -162,11 +152,7 @@ fn planes_of_any_size_are_drawn_or_refused() {
     for size in [-1.0, 1e-300, 1e30, 1e300, f64::INFINITY] {
         let mut model = load(BALL);
         let camera = Camera::free(&model);
-        let written = model.overwrite(|draft| draft.geom_size[0] = [size, 1.0, size]);
-        assert_eq!(written.is_ok(), size.abs() < LARGEST, "{size}: {written:?}");
-        if written.is_err() {
-            continue;
-        }
+        model.overwrite(|draft| draft.geom_size[0] = [size, 1.0, size]).unwrap();
         match scene(&model, camera) {
             Ok(scene) => assert!(draw(&model, &scene, Settings::of(&model)).is_ok(), "{size}"),
             Err(error) => assert!(error.to_string().contains("floor"), "{size}: {error}"),
@@ -201,7 +187,7 @@ fn extents_without_room_are_refused() {
     for extent in [0.0, -1.0, 1e-30, 1e30, f64::INFINITY, f64::NAN] {
         let mut model = load(BALL);
         let written = model.overwrite(|draft| draft.stat.extent = extent);
-        assert_eq!(written.is_ok(), extent.is_finite(), "{extent}: {written:?}");
+        assert_eq!(written.is_ok(), !extent.is_nan(), "{extent}: {written:?}");
         if written.is_err() {
             continue;
         }

@@ -26,7 +26,7 @@ pub fn text(meta: &Value) -> String {
     // Starts of episodes; nothing of them is compared.
     keys += "<key/><key/>";
     format!(
-        "<mujoco><compiler angle='radian' autolimits='true' boundmass='1e-14' boundinertia='1e-14'/>\
+        "<mujoco><compiler angle='radian' autolimits='true' boundmass='1e-9' boundinertia='1e-9'/>\
          <option timestep='{}'/>\
          <asset><hfield name='terrain' nrow='100' ncol='100' size='1 1 1 1'/></asset>\
          <worldbody>{world}</worldbody><actuator>{actuators}</actuator><sensor>{sensors}</sensor>\
@@ -38,7 +38,7 @@ pub fn text(meta: &Value) -> String {
 /// Joints, each on a body of its own.
 fn moving(meta: &Value) -> String {
     let mut world = String::new();
-    let inertia = "<inertial pos='0 0 0' mass='1e-14' diaginertia='1e-14 1e-14 1e-14'/>";
+    let inertia = "<inertial pos='0 0 0' mass='1e-9' diaginertia='1e-9 1e-9 1e-9'/>";
     let mut free = expected_free(meta);
     for (index, joint) in list(meta, "joints").enumerate() {
         let kind = JOINTS[joint["type"].as_u64().unwrap() as usize];
@@ -72,7 +72,7 @@ fn still(meta: &Value) -> String {
         if name == "world" || placed.contains(&name.as_str()) {
             continue;
         }
-        let mass = body["mass"].as_f64().unwrap().max(1e-14);
+        let mass = body["mass"].as_f64().unwrap().max(1e-9);
         _ = writeln!(
             world,
             "<body name='{name}' pos='{}' quat='{}'><inertial pos='0 0 0' mass='{mass}' diaginertia='1 1 1'/></body>",
