@@ -4,8 +4,8 @@
 
 Processes that hold the environments step them in turns, 500 steps with zero controls a turn: one thread with half of
 them, two such processes at once, two threads with all. Wall time, medians of the ratios within a turn. Two processes
-share nothing but the machine, so they show what its second core is worth. Needs two idle cores, `numpy`, Linux, and a
-release build of this repository.
+share nothing but the machine, so they show what its second core is worth. Needs two idle cores, `numpy`, Linux, and the
+command built with `cargo build --profile dist`.
 """
 
 import json

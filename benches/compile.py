@@ -7,7 +7,7 @@ Both sides are measured inside a fresh process, around the load alone: wall time
 time of all threads. Ours is `load_seconds` of `robohive bench`: cold without a cache, cached with a folder that an
 earlier process filled, edited with the same folder after an element was added to the text, the new model kept included.
 MuJoCo's is `MjModel.from_xml_path` with an empty asset cache: it keeps none between processes, so an edit costs it the same.
-Runs alternate. FILE lists models below the folder, one a line. Needs `mujoco`, Linux and a release build of this repository.
+Runs alternate. FILE lists models below the folder, one a line. Needs `mujoco`, Linux and the command built with `cargo build --profile dist`.
 """
 
 import argparse
@@ -85,7 +85,7 @@ def write(report, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--binary", default=str(ROOT / "target" / "release" / "robohive"))
+    parser.add_argument("--binary", default=str(ROOT / "target" / "dist" / "robohive"))
     parser.add_argument("--corpus", required=True, type=pathlib.Path, help="folder of models; it is copied, not changed")
     parser.add_argument("--list", required=True, type=pathlib.Path)
     parser.add_argument("--runs", type=int, default=3)

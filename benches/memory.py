@@ -3,8 +3,8 @@
     python benches/memory.py [MODEL...]
 
 Each environment has taken 100 steps from keyframe 0, or `qpos0`, with zero controls. Two processes hold 200 and 600
-environments; what they differ by, a 400th, is the memory of one. Needs `mujoco` 3.12.0, Linux, and a release build of
-this repository.
+environments; what they differ by, a 400th, is the memory of one. Needs `mujoco` 3.12.0, Linux, and the command
+built with `cargo build --profile dist`.
 """
 
 import json

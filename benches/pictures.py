@@ -7,7 +7,7 @@
                                [--write FILE]
 
 FOLDER has RoboHive's `envs` and `simhive` and MuJoCo's `model`, see validation/reference/pictures.py; without it, own
-models alone. Ours is the release build of this repository (`cargo build --release`). Scenes are the listed ones of
+models alone. Ours is the command built with `cargo build --profile dist`. Scenes are the listed ones of
 validation/pictures.toml, with --all every one; sizes are theirs.
 
 Both sides go through the same STATES states, the recorded pose with other noise in each, so that every picture is
@@ -223,7 +223,7 @@ def measure_all(args, models):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--models", type=pathlib.Path)
-    parser.add_argument("--binary", type=pathlib.Path, help="our command; the release build of this repository without it")
+    parser.add_argument("--binary", type=pathlib.Path, help="our command, if not the one built with the profile `dist`")
     parser.add_argument("--only", default="", help="scenes whose name contains this")
     parser.add_argument("--all", action="store_true", help="every scene")
     parser.add_argument("--sizes", type=lambda text: [int(side) for side in text.split(",")], default=[84, 224, 256])

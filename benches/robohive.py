@@ -3,7 +3,7 @@
 
     python benches/robohive.py --robohive PYTHON [--only TEXT] [--rounds N] [--batches] [--write FILE]
 
-PYTHON is an interpreter that has robohive 0.7.0 and mujoco 3.1.3; ours is the release build of this repository, which
+PYTHON is an interpreter that has robohive 0.7.0 and mujoco 3.1.3; ours is the command built with the profile `dist`, which
 finds the same models by ROBOHIVE_STORE or ROBOHIVE_ASSETS. One id of each family of environments, but for
 rpFrankaRobotiqData, which RoboHive makes with PyTorch alone.
 All sides take STEPS steps under random actions, episodes reset as they end; the same actions are then repeated from the
@@ -173,7 +173,7 @@ class Process:
 def binary():
     metadata = ["cargo", "metadata", "--no-deps", "--format-version", "1"]
     text = subprocess.run(metadata, cwd=ROOT, capture_output=True, check=True, text=True).stdout
-    return pathlib.Path(json.loads(text)["target_directory"]) / "release" / "robohive"
+    return pathlib.Path(json.loads(text)["target_directory"]) / "dist" / "robohive"
 
 
 def measure(name, peer, args):
@@ -285,7 +285,7 @@ def write(path, table):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--robohive", help="interpreter that has robohive and mujoco 3.1.3")
-    parser.add_argument("--binary", type=pathlib.Path, help="our command; the release build of this repository without it")
+    parser.add_argument("--binary", type=pathlib.Path, help="our command, if not the one built with the profile `dist`")
     parser.add_argument("--only", default="", help="ids that contain this")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--batches", action="store_true", help="two threads over one as well")

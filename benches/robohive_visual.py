@@ -97,7 +97,7 @@ def theirs(python, name):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--robohive", required=True, help="interpreter that has robohive 0.7.0")
-    parser.add_argument("--binary", default=ROOT / "target/release/robohive", help="the command")
+    parser.add_argument("--binary", default=ROOT / "target/dist/robohive", help="the command")
     parser.add_argument("--write", type=pathlib.Path, help="write the table into this file, between its marks")
     arguments = parser.parse_args()
     lines = ["| id | pictures | RoboHive steps/s | ours | / RoboHive | paper's process | / paper | without pictures |",

@@ -8,7 +8,7 @@ boxes in fifty stacks come to rest, once with sleep enabled and once without: th
 one in which none does, medians of wall time on one thread, both sides in one run, so the ratios matter and not the times.
 
 Scenes whose initial state MuJoCo refuses are left out, and models of more than LARGEST degrees of freedom. Needs `mujoco`
-and `numpy`, and a release build of this repository.
+and `numpy`, and the command built with `cargo build --profile dist`.
 """
 
 import argparse
@@ -33,7 +33,7 @@ SETTLING, TIMED = 1000, 1500
 def release_binary():
     metadata = ["cargo", "metadata", "--no-deps", "--format-version", "1"]
     text = subprocess.run(metadata, cwd=ROOT, capture_output=True, check=True, text=True).stdout
-    return pathlib.Path(json.loads(text)["target_directory"]) / "release" / "robohive"
+    return pathlib.Path(json.loads(text)["target_directory"]) / "dist" / "robohive"
 
 
 def scenes(models, only):
@@ -122,7 +122,7 @@ def main():
     parser.add_argument("--models", required=True, type=pathlib.Path, help="checkout of MuJoCo's repository")
     parser.add_argument("--only", default="", help="scenes whose path contains this")
     parser.add_argument("--steps", default=2000, type=int, help="steps of every scene")
-    parser.add_argument("--binary", type=pathlib.Path, help="the robohive command, if not that of the release build")
+    parser.add_argument("--binary", type=pathlib.Path, help="the robohive command, if not the one built with the profile `dist`")
     args = parser.parse_args()
     if mujoco.__version__ != "3.12.0":
         sys.exit(f"mujoco 3.12.0 is needed, this is {mujoco.__version__}")

@@ -11,7 +11,7 @@ Jitter takes a longer sequence, so that p99.9 leaves out more than the first ste
 
 Own models always; RoboHive's with `--corpus`, the folder that holds its `envs` and `simhive` (a copy is made). With
 `--deformables` instead the scenes with flexes of a checkout of MuJoCo's repository. Needs `mujoco` and `numpy`, Linux,
-and a release build of this repository.
+and the command built with `cargo build --profile dist`.
 """
 
 import argparse
@@ -75,7 +75,7 @@ STAGES = {
 def binary():
     metadata = ["cargo", "metadata", "--no-deps", "--format-version", "1"]
     text = subprocess.run(metadata, cwd=ROOT, capture_output=True, check=True, text=True).stdout
-    return pathlib.Path(json.loads(text)["target_directory"]) / "release" / "robohive"
+    return pathlib.Path(json.loads(text)["target_directory"]) / "dist" / "robohive"
 
 
 class RoboHive:

@@ -4,7 +4,7 @@
     python python/benches/vectors.py [--robohive PYTHON] [--cores 1,2] [--only TEXT] [--rounds N] [--write FILE]
     python python/benches/vectors.py --crossing
 
-This interpreter has this repository's wheel (`maturin build --release`), gymnasium, mujoco==3.12.0 and envpool==1.2.5;
+This interpreter has this repository's wheel (`maturin build --profile dist`), gymnasium, mujoco==3.12.0 and envpool==1.2.5;
 PYTHON has robohive 0.7.0, and ours finds the same models by ROBOHIVE_STORE or ROBOHIVE_ASSETS. Every side is a process of its
 own with ENVS environments, pinned to the same cores, with as many threads as cores (AsyncVectorEnv: a process an
 environment). Sides take turns of a second; all take random actions of their space that were drawn before, and episodes reset

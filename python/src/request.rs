@@ -101,7 +101,7 @@ fn painters(renderer: &str) -> PyResult<Arc<dyn Painters>> {
         .map_err(|valid| PyValueError::new_err(format!("renderer is {valid}, not {renderer:?}")))?;
     renderer.painters().map_err(|NoGpu| {
         PyNotImplementedError::new_err(
-            "this wheel draws on the CPU alone; `maturin build --release --features gpu` builds one that asks a GPU",
+            "this wheel draws on the CPU alone; `maturin build --profile dist --features gpu` builds one that asks a GPU",
         )
     })
 }

@@ -112,7 +112,7 @@ pub fn wheel() -> Outcome {
     let Some(builder) = ready("venv", &["-r", "python/tests/requirements.txt", "ziglang"])? else {
         return Ok(vec![no_python("the published wheel")]);
     };
-    let wheel = build(&builder, &["--release", "--zig", "--compatibility", "manylinux2014"])?;
+    let wheel = build(&builder, &["--profile", "dist", "--zig", "--compatibility", "manylinux2014"])?;
     let size = std::fs::metadata(&wheel).map_err(|error| format!("{}: {error}", wheel.display()))?.len();
     println!("{} has {:.1} MB", wheel.display(), size as f64 / 1e6);
     if size > LARGEST_WHEEL {
