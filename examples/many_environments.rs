@@ -10,7 +10,7 @@ const STEPS: usize = 30;
 
 /// Plays muscles at random on a number of threads; the sum of all rewards, and how many episodes ended.
 fn play(threads: usize) -> Result<(f64, usize), Box<dyn std::error::Error>> {
-    let options = Options { changes: "max_episode_steps = 10".parse()?, ..Options::default() };
+    let options = Options::default().with_changes("max_episode_steps = 10".parse()?);
     let env = Env::make("hive/ElbowPose-v0", &OwnModels, &options)?;
     let mut envs = VecEnv::new(&env, COUNT, Autoreset::SameStep, threads)?;
     let mut draws = robohive::Generator::pcg64(7_u64);

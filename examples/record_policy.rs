@@ -72,7 +72,7 @@ fn play(env: &mut Env, seed: u64, recorder: &mut Recorder, film: &mut VideoWrite
 /// Plays two episodes into a folder, and reads the recording again.
 fn record(folder: &Path) -> Outcome<()> {
     let (file, clip) = (folder.join("reach.h5"), folder.join("reach.mp4"));
-    let options = Options { changes: "max_episode_steps = 20".parse()?, ..Options::default() };
+    let options = Options::default().with_changes("max_episode_steps = 20".parse()?);
     let mut env = Env::make(ID, &OwnModels, &options)?;
     let mut recorder = Recorder::create_with(&file, Layout::RoboHive, Precision::Full, &[("env", ID)])?;
     let mut film = VideoWriter::create(&clip, (SIZE[0] as u32, SIZE[1] as u32), 1.0 / env.dt())?;

@@ -25,7 +25,7 @@ const PERIOD: f64 = 0.1;
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = load_str(ARM)?.model;
     let config = Config::from_toml(CONFIG, "arm.toml")?;
-    let mut robot = Robot::new(&model, Some(&config), Options { noise_scale: 1.0, ..Options::default() })?;
+    let mut robot = Robot::new(&model, Some(&config), Options::default().with_noise_scale(1.0))?;
     let (mut draws, mut data) = (Generator::pcg64(1_u64), Data::new(&model));
     forward(&model, &mut data)?;
     robot.reset(&model, &data, &mut draws)?;

@@ -144,13 +144,12 @@ fn world() -> &'static (Model, Assets) {
 
 fn settings(bytes: &mut Bytes<'_>) -> Settings {
     let size = [0, 1, 2, 3, 64, 255, 4096, usize::MAX][usize::from(bytes.next()) % 8];
-    Settings {
-        samples: if bytes.next() & 1 == 0 { Samples::Four } else { Samples::One },
-        shadow: ShadowSettings { size, clip: bytes.number(), scale: bytes.number() },
-        slices: usize::from(bytes.next()) % 12,
-        line_width: bytes.number(),
-        keep: bytes.next() & 1 == 0,
-    }
+    Settings::default()
+        .with_samples(if bytes.next() & 1 == 0 { Samples::Four } else { Samples::One })
+        .with_shadow(ShadowSettings { size, clip: bytes.number(), scale: bytes.number() })
+        .with_slices(usize::from(bytes.next()) % 12)
+        .with_line_width(bytes.number())
+        .with_keep(bytes.next() & 1 == 0)
 }
 
 fn made_up_scene(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
@@ -273,7 +272,7 @@ fn item(bytes: &mut Bytes<'_>, id: usize) -> Item {
 
 /// A model in text whose numbers are the bytes', written over with others where that is allowed.
 fn made_up_model(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
-    let limits = Limits { copies: 300, memory: 64 << 20, ..Limits::default() };
+    let limits = Limits::default().with_copies(300).with_memory(64 << 20);
     let mut model = Loader::default().limits(limits).load_str(text(bytes)).ok()?.model;
     let over: [f32; 6] = bytes.numbers();
     let _ = model.overwrite(|draft| {
@@ -301,8 +300,8 @@ fn made_up_model(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
         body_trees: flags & 32 == 0,
         ..Show::default()
     };
-    let effects = Effects { fog: flags & 64 == 0, ..Effects::default() };
-    let options = SceneOptions { show, effects, ..SceneOptions::default() };
+    let effects = Effects::default().with_fog(flags & 64 == 0);
+    let options = SceneOptions::default().with_show(show).with_effects(effects);
     let free = FreeCamera::of(&model);
     let camera = match flags & 128 == 0 {
         true => Camera::Fixed(0),
@@ -315,7 +314,7 @@ fn made_up_model(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
     let mut scene = Scene::new();
     scene.update(&model, &data, camera.view(&model, &data).ok()?, &options).ok()?;
     assets.pose(&model, &data, &options).ok()?;
-    Some((assets, scene, Settings { shadow: settings(bytes).shadow, ..Settings::of(&model) }))
+    Some((assets, scene, Settings::of(&model).with_shadow(settings(bytes).shadow)))
 }
 
 /// A number as text that a model may have: not too extreme, so that most are read.

@@ -59,7 +59,7 @@ pub fn urdf(data: &[u8]) {
 
 /// Loads a model; what loads is written, and what can be written loads again with the same arrays.
 fn come_back(files: Memory, path: &str) {
-    let limits = Limits { copies: 300, memory: 64 << 20, ..Limits::default() };
+    let limits = Limits::default().with_copies(300).with_memory(64 << 20);
     let loader = Loader::default().files(files.clone()).limits(limits);
     let Ok(parsed) = loader.parse(path) else { return };
     let mut spec = parsed.spec.clone();

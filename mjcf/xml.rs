@@ -97,6 +97,7 @@ impl Element {
 
 /// Bounds on what a text may cost.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Limits {
     /// Levels of nested elements, includes counted through.
     pub depth: usize,
@@ -126,6 +127,57 @@ impl Default for Limits {
             copies: 1_000_000,
             memory: 2 << 30,
         }
+    }
+}
+
+impl Limits {
+    /// Levels of nested elements, includes counted through.
+    #[must_use]
+    pub fn with_depth(mut self, depth: usize) -> Self {
+        self.depth = depth;
+        self
+    }
+
+    /// Bytes of one text.
+    #[must_use]
+    pub fn with_text_bytes(mut self, text_bytes: usize) -> Self {
+        self.text_bytes = text_bytes;
+        self
+    }
+
+    /// Bytes of all texts of a model together.
+    #[must_use]
+    pub fn with_total_bytes(mut self, total_bytes: usize) -> Self {
+        self.total_bytes = total_bytes;
+        self
+    }
+
+    /// Attributes of one element.
+    #[must_use]
+    pub fn with_attributes(mut self, attributes: usize) -> Self {
+        self.attributes = attributes;
+        self
+    }
+
+    /// Files included, counted with repetition.
+    #[must_use]
+    pub fn with_includes(mut self, includes: usize) -> Self {
+        self.includes = includes;
+        self
+    }
+
+    /// Elements made by `replicate` and `attach`.
+    #[must_use]
+    pub fn with_copies(mut self, copies: usize) -> Self {
+        self.copies = copies;
+        self
+    }
+
+    /// Bytes of what a text asks for.
+    #[must_use]
+    pub fn with_memory(mut self, memory: usize) -> Self {
+        self.memory = memory;
+        self
     }
 }
 

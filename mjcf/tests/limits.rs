@@ -140,7 +140,7 @@ fn the_budget_can_be_raised_and_lowered() {
     let _alone = alone();
     let text = "<mujoco><worldbody><replicate count='2000' offset='3 0 0'><geom size='1'/></replicate></worldbody></mujoco>";
     let within = |memory: usize| {
-        let limits = Limits { memory, ..Limits::default() };
+        let limits = Limits::default().with_memory(memory);
         counted(&Loader::default().limits(limits), text)
     };
     let (refusal, bytes) = within(1_000_000);

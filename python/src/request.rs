@@ -77,7 +77,14 @@ impl Request {
             changes =
                 changes.with("max_episode_steps", i64::MAX).map_err(|error| wrong(error.to_string()))?;
         }
-        let options = Options { seed, compat, changes, rendering, networks, painters, autoreset };
+        let options = Options::default()
+            .with_seed(seed)
+            .with_compat(compat)
+            .with_changes(changes)
+            .with_rendering(rendering)
+            .with_networks(networks)
+            .with_painters(painters)
+            .with_autoreset(autoreset);
         Ok(Request { spec, horizon, options })
     }
 

@@ -9,6 +9,7 @@ use std::path::Path;
 
 /// A policy.
 #[derive(Clone)]
+#[non_exhaustive]
 pub enum Policy {
     /// Every action zero.
     Zero,

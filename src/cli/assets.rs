@@ -170,7 +170,7 @@ fn watch(bar: &ProgressBar) -> impl FnMut(Progress) {
 }
 
 fn import(a: &Import) -> Result<(), Failure> {
-    let options = ImportOptions { limits: limits(&a.limits)?, replace: a.replace };
+    let options = ImportOptions::default().with_limits(limits(&a.limits)?).with_replace(a.replace);
     let mut store = open(&a.place)?;
     let began = Instant::now();
     let bar = progress(a.quiet);

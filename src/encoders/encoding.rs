@@ -14,6 +14,7 @@ use std::fmt;
 
 /// What a picture is turned into.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Encoding {
     /// The bytes in one row: `1d`.
     Flat,

@@ -8,7 +8,7 @@
 //! use robohive_library::{Library, Weights};
 //!
 //! let library = Library::from_environment(None, None).map_err(std::io::Error::other)?;
-//! let options = Options { networks: Arc::new(Weights::from_environment()), ..Options::default() };
+//! let options = Options::default().with_networks(Arc::new(Weights::from_environment()));
 //! let env = Env::make("door-v1", &library, &options)?;
 //! assert_eq!(env.action_len(), 28);
 //! # Ok::<(), Box<dyn std::error::Error>>(())

@@ -16,6 +16,7 @@ use std::sync::Arc;
 
 /// What is asked to draw.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Renderer {
     /// The CPU.
     #[default]

@@ -6,6 +6,7 @@ use wgpu::{DeviceType, TextureFormat, TextureFormatFeatureFlags};
 
 /// Which GPU is wanted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Choice {
     /// The fastest kind that there is: a card of its own before one in the processor, before one in a virtual machine. A
     /// driver that computes on the CPU is not taken.

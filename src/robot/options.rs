@@ -4,6 +4,7 @@ use crate::compat::Compat;
 
 /// What a policy's actions mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum ActionMode {
     /// Positions of joints.
     #[default]
@@ -49,6 +50,7 @@ impl std::str::FromStr for ActionMode {
 
 /// Distribution of the noise of sensors, in units of `noise_scale` × the sensor's `noise`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Noise {
     /// Uniform from -1 to 1.
     #[default]
@@ -59,6 +61,7 @@ pub enum Noise {
 
 /// How a robot acts and senses. The default is RoboHive's: normalised positions, exact readings without delay.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// What actions mean.
     pub mode: ActionMode,
@@ -97,5 +100,77 @@ impl Default for Options {
             hardware: false,
             compat: Compat::Fixed,
         }
+    }
+}
+
+impl Options {
+    /// What actions mean.
+    #[must_use]
+    pub fn with_mode(mut self, mode: ActionMode) -> Self {
+        self.mode = mode;
+        self
+    }
+
+    /// Whether actions are between -1 and 1; otherwise they have units.
+    #[must_use]
+    pub fn with_normalized(mut self, normalized: bool) -> Self {
+        self.normalized = normalized;
+        self
+    }
+
+    /// Factor of every sensor's noise; 0 for none.
+    #[must_use]
+    pub fn with_noise_scale(mut self, noise_scale: f64) -> Self {
+        self.noise_scale = noise_scale;
+        self
+    }
+
+    /// Distribution of the noise.
+    #[must_use]
+    pub fn with_noise(mut self, noise: Noise) -> Self {
+        self.noise = noise;
+        self
+    }
+
+    /// Readings that are kept, the newest among them.
+    #[must_use]
+    pub fn with_history(mut self, history: usize) -> Self {
+        self.history = history;
+        self
+    }
+
+    /// Age of a reading, in time steps of the model.
+    #[must_use]
+    pub fn with_delay_steps(mut self, delay_steps: usize) -> Self {
+        self.delay_steps = delay_steps;
+        self
+    }
+
+    /// Largest further age, drawn for each reading, in time steps of the model.
+    #[must_use]
+    pub fn with_jitter_steps(mut self, jitter_steps: usize) -> Self {
+        self.jitter_steps = jitter_steps;
+        self
+    }
+
+    /// Whether controls are rounded to single precision.
+    #[must_use]
+    pub fn with_single_precision(mut self, single_precision: bool) -> Self {
+        self.single_precision = single_precision;
+        self
+    }
+
+    /// Whether devices come from the registry instead of being simulated.
+    #[must_use]
+    pub fn with_hardware(mut self, hardware: bool) -> Self {
+        self.hardware = hardware;
+        self
+    }
+
+    /// Whether peculiarities of the original are kept.
+    #[must_use]
+    pub fn with_compat(mut self, compat: Compat) -> Self {
+        self.compat = compat;
+        self
     }
 }

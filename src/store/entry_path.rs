@@ -68,7 +68,7 @@ mod tests {
 
     #[test]
     fn entries_are_normalised_or_refused() {
-        let limits = Limits { path: 20, depth: 3, ..Limits::default() };
+        let limits = Limits::default().with_path(20).with_depth(3);
         let path = |raw: &[u8]| entry(raw, &limits);
         assert_eq!(path(b"./a//b/"), Ok("a/b".into()));
         assert_eq!(path(b"./"), Ok(String::new()));

@@ -19,11 +19,28 @@ use std::path::Path;
 
 /// How an import is done.
 #[derive(Debug, Clone, Default)]
+#[non_exhaustive]
 pub struct ImportOptions {
     /// What the source may ask for.
     pub limits: Limits,
     /// Whether files that contradict stored ones replace them.
     pub replace: bool,
+}
+
+impl ImportOptions {
+    /// What the source may ask for.
+    #[must_use]
+    pub fn with_limits(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
+    }
+
+    /// Whether files that contradict stored ones replace them.
+    #[must_use]
+    pub fn with_replace(mut self, replace: bool) -> Self {
+        self.replace = replace;
+        self
+    }
 }
 
 /// What an import did.

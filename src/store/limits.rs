@@ -10,6 +10,7 @@ const SLACK: u64 = 8 << 20;
 
 /// Bounds of what an import reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Limits {
     /// Unpacked bytes of all entries together, those that are skipped included.
     pub bytes: u64,
@@ -30,6 +31,41 @@ impl Default for Limits {
 }
 
 impl Limits {
+    /// Unpacked bytes of all entries together.
+    #[must_use]
+    pub fn with_bytes(mut self, bytes: u64) -> Self {
+        self.bytes = bytes;
+        self
+    }
+
+    /// Entries, folders included.
+    #[must_use]
+    pub fn with_files(mut self, files: u64) -> Self {
+        self.files = files;
+        self
+    }
+
+    /// Unpacked bytes for each byte of an archive, beyond the first 8 MiB.
+    #[must_use]
+    pub fn with_ratio(mut self, ratio: u64) -> Self {
+        self.ratio = ratio;
+        self
+    }
+
+    /// Bytes of a path.
+    #[must_use]
+    pub fn with_path(mut self, path: u64) -> Self {
+        self.path = path;
+        self
+    }
+
+    /// Folders in a path, the file itself included.
+    #[must_use]
+    pub fn with_depth(mut self, depth: u64) -> Self {
+        self.depth = depth;
+        self
+    }
+
     /// Sets the limit called `name`; false when there is none.
     pub fn set(&mut self, name: &str, value: u64) -> bool {
         let limit = match name {

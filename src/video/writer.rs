@@ -19,6 +19,7 @@ const BUFFER: usize = 1 << 18;
 
 /// What a video is stored as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum VideoFormat {
     /// H.264 in MP4, extension `.mp4`: small, plays everywhere. Sides are rounded up to even numbers.
     Mp4,

@@ -77,7 +77,7 @@ fn trajectory(value: Value<'_>) -> Result<Trajectory, String> {
 pub fn replay(assets: &Path, file: &Path) -> Result<Vec<Replay>, String> {
     let bytes = std::fs::read(file).map_err(|error| format!("{}: {error}", file.display()))?;
     let pickle = Pickle::parse(&bytes).map_err(|error| format!("{}: {error}", file.display()))?;
-    let options = Options { compat: Compat::RoboHive07, ..Options::default() };
+    let options = Options::default().with_compat(Compat::RoboHive07);
     let mut env = Env::make(ID, &Folder::new(assets), &options).map_err(|error| error.to_string())?;
     let each = |(k, value)| {
         let wrong = |error| format!("{}, trajectory {k}: {error}", file.display());

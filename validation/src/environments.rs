@@ -219,7 +219,7 @@ fn gathered(environment: &Env, record: &Record) -> Result<Option<Vec<f64>>, Stri
 
 /// The environment of an id, made with this seed.
 fn make(id: &str, assets: &Path, seed: f64) -> Result<Env, String> {
-    let options = Options { seed: seed as u64, compat: Compat::RoboHive07, ..Options::default() };
+    let options = Options::default().with_seed(seed as u64).with_compat(Compat::RoboHive07);
     Env::make(id, &Folder::new(assets), &options).map_err(|error| error.to_string())
 }
 

@@ -45,7 +45,7 @@ pub fn run(assets: &Path, policies: &Path, only: &str) -> Result<Vec<Row>, Strin
 }
 
 fn one(id: &'static str, assets: &Path, policy: &Path, original: usize) -> Result<Row, String> {
-    let options = Options { compat: Compat::RoboHive07, ..Options::default() };
+    let options = Options::default().with_compat(Compat::RoboHive07);
     let mut env = Env::make(id, &Folder::new(assets), &options).map_err(|error| error.to_string())?;
     let mut policy = Policy::open(policy).map_err(|error| error.to_string())?;
     let mut action = vec![0.0; env.action_len()];

@@ -405,15 +405,13 @@ fn variant(k: usize, selection: Selection) -> SceneOptions {
         27 => (1, 2),
         _ => (0, 0),
     };
-    SceneOptions {
-        groups: groups(k),
-        show,
-        label: label(k),
-        frame: frame(k),
-        selection: Some(Selection { pull: hands(first), second_pull: hands(second), ..selection }),
-        tree_depth: if k == 23 { 2 } else { 1 },
-        ..SceneOptions::default()
-    }
+    SceneOptions::default()
+        .with_groups(groups(k))
+        .with_show(show)
+        .with_label(label(k))
+        .with_frame(frame(k))
+        .with_selection(Some(Selection { pull: hands(first), second_pull: hands(second), ..selection }))
+        .with_tree_depth(if k == 23 { 2 } else { 1 })
 }
 
 fn groups(k: usize) -> Groups {

@@ -47,7 +47,7 @@ fn differences(path: &Path) -> Vec<String> {
         serde_json::from_str(&meta.replace("-Infinity", "null").replace("Infinity", "null")).unwrap();
     let id = meta["id"].as_str().unwrap();
     let changes = "define = []\nreparent = []\nvisual_keys = []\nact_mode = 'pos'".parse().unwrap();
-    let options = Options { compat: Compat::RoboHive07, changes, ..Options::default() };
+    let options = Options::default().with_compat(Compat::RoboHive07).with_changes(changes);
     let mut env = match Env::make(id, &StandIn(text(&meta)), &options) {
         Ok(env) => env,
         Err(error) => return vec![format!("{id}: {error}")],

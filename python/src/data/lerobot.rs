@@ -32,7 +32,7 @@ impl LeRobotWriter {
     /// Begins a dataset.
     #[new]
     fn new(root: PathBuf, fps: f64, robot: Option<String>, pictures: &str) -> PyResult<Self> {
-        let settings = Settings { frames_per_second: fps, robot, pictures: pictures_of(pictures)? };
+        let settings = Settings::new(fps).with_robot(robot).with_pictures(pictures_of(pictures)?);
         vacant(&root, "the folder")?;
         let writer = lerobot::LeRobotWriter::create(&root, settings).map_err(data_error)?;
         Ok(LeRobotWriter { writer: Mutex::new(Some(writer)) })

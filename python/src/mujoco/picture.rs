@@ -83,7 +83,12 @@ impl Look {
         let [fixed, dynamic, decorations] = self.categories;
         options.categories = Categories { fixed, dynamic, decor: decorations };
         let [shadows, reflections, sky, haze, fog] = self.effects;
-        options.effects = Effects { shadows, reflections, sky, haze, fog };
+        options.effects = Effects::default()
+            .with_shadows(shadows)
+            .with_reflections(reflections)
+            .with_sky(sky)
+            .with_haze(haze)
+            .with_fog(fog);
         let has = |name: &str| self.shown.iter().any(|shown| shown == name);
         let show = &mut options.show;
         show.textures = has("TEXTURE");

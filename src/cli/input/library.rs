@@ -60,14 +60,14 @@ impl Making {
 
     /// Makes an environment whose pictures these painters draw.
     pub fn make_with(&self, id: &str, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
-        let options = Options { painters, ..self.options()? };
+        let options = self.options()?.with_painters(painters);
         Env::make(id, &self.assets()?, &options).map_err(Failure::usage)
     }
 
     /// How they are made.
     pub fn options(&self) -> Result<Options, Failure> {
         let networks = Arc::new(Weights::from_environment());
-        Ok(Options { compat: self.compat, changes: self.changes()?, networks, ..Options::default() })
+        Ok(Options::default().with_compat(self.compat).with_changes(self.changes()?).with_networks(networks))
     }
 
     /// The settings that differ.

@@ -34,7 +34,7 @@ pub fn load(path: &Path, reading: &Reading) -> Result<Model, Failure> {
 /// What reads the model at `path` as the arguments say, and how it calls that path.
 pub fn loader<'a>(path: &'a Path, reading: &Reading) -> Result<(mjcf::Loader, &'a Path), Failure> {
     let memory = usize::try_from(u64::from(reading.memory) << 20).unwrap_or(usize::MAX);
-    let mut loader = mjcf::Loader::default().limits(mjcf::Limits { memory, ..mjcf::Limits::default() });
+    let mut loader = mjcf::Loader::default().limits(mjcf::Limits::default().with_memory(memory));
     let named = std::env::var_os("ROBOHIVE_CACHE").filter(|folder| !folder.is_empty());
     if let Some(folder) = reading.cache.clone().or(named.map(Into::into)) {
         loader = loader.cache(mjcf::Cache::new(folder));

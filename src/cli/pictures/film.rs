@@ -74,8 +74,8 @@ impl FilmArguments {
         }
         let (camera, _) = self.viewpoint.camera(model, camera)?;
         let size = self.size.unwrap_or(SIZE);
-        let effects = Effects { shadows: !self.no_shadows, ..Effects::default() };
-        let options = SceneOptions { effects, ..SceneOptions::default() };
+        let effects = Effects::default().with_shadows(!self.no_shadows);
+        let options = SceneOptions::default().with_effects(effects);
         let plan = Plan { camera, size, options, settings: Settings::of(model) };
         let drawing = Drawing::new(model, plan, painters)?;
         let rate = self.fps.unwrap_or_else(|| default_rate(period));

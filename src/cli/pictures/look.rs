@@ -364,7 +364,7 @@ impl Look {
     /// How finely pictures of a model are drawn.
     pub fn settings(&self, model: &Model) -> Settings {
         let settings = Settings::of(model);
-        Settings { samples: self.samples.unwrap_or(settings.samples), ..settings }
+        settings.with_samples(self.samples.unwrap_or(settings.samples))
     }
 }
 

@@ -63,8 +63,8 @@ impl<'a> Studio<'a> {
         side: usize,
         kind: Kind,
     ) -> Result<&[Picture], Failure> {
-        let effects = Effects { shadows: kind != Kind::Plain, ..Effects::default() };
-        let options = SceneOptions { effects, ..SceneOptions::default() };
+        let effects = Effects::default().with_shadows(kind != Kind::Plain);
+        let options = SceneOptions::default().with_effects(effects);
         self.scenes.resize_with(cameras.len(), Scene::new);
         self.pictures.resize_with(cameras.len(), Picture::default);
         for (scene, camera) in self.scenes.iter_mut().zip(cameras) {

@@ -137,7 +137,7 @@ fn make(a: &Replay, trace: &TraceReader) -> Result<(String, Env), Failure> {
     };
     let making = Making { settings: a.settings.clone(), compat, assets: a.assets.clone(), cache: None };
     changes.extend(making.changes()?);
-    let options = Options { compat, changes, ..Options::default() };
+    let options = Options::default().with_compat(compat).with_changes(changes);
     let env = Env::make(id, &making.assets()?, &options).map_err(Failure::usage)?;
     Ok((id.to_owned(), env))
 }

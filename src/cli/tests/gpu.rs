@@ -67,12 +67,12 @@ fn a_gpu_draws_the_images_of_all_environments() {
         return;
     }
     let make = |options: Options| {
-        let options = Options { changes: KEYS.parse().unwrap(), ..options };
+        let options = options.with_changes(KEYS.parse().unwrap());
         let env = Env::make("hive/FrankaReach-v0", &OwnModels, &options).unwrap();
         VecEnv::new(&env, 4, Autoreset::NextStep, 2).unwrap()
     };
     let painters = Arc::new(EitherPainters::new(Choice::Any));
-    let mut gpu = make(Options { painters, ..Options::default() });
+    let mut gpu = make(Options::default().with_painters(painters));
     let mut cpu = make(Options::default());
     for step in 0..2_u8 {
         for envs in [&mut gpu, &mut cpu] {

@@ -22,6 +22,7 @@ use rayon::prelude::*;
 use std::path::Path;
 
 /// A network with its weights.
+#[non_exhaustive]
 pub enum Network {
     /// A ResNet.
     Resnet(Resnet),

@@ -9,6 +9,7 @@ use std::sync::Arc;
 
 /// How an environment is made.
 #[derive(Clone)]
+#[non_exhaustive]
 pub struct Options {
     /// Seed of all draws; without one, zero.
     pub seed: u64,
@@ -38,5 +39,56 @@ impl Default for Options {
             painters: Arc::new(Cpu),
             autoreset: false,
         }
+    }
+}
+
+impl Options {
+    /// Seed of all draws.
+    #[must_use]
+    pub fn with_seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Whether quirks of the original are reproduced.
+    #[must_use]
+    pub fn with_compat(mut self, compat: Compat) -> Self {
+        self.compat = compat;
+        self
+    }
+
+    /// Settings that differ from the id's, by their names.
+    #[must_use]
+    pub fn with_changes(mut self, changes: Arguments) -> Self {
+        self.changes = changes;
+        self
+    }
+
+    /// What [`Env::render`](crate::Env::render) returns.
+    #[must_use]
+    pub fn with_rendering(mut self, rendering: Rendering) -> Self {
+        self.rendering = rendering;
+        self
+    }
+
+    /// Networks for visual keys.
+    #[must_use]
+    pub fn with_networks(mut self, networks: Arc<dyn Networks>) -> Self {
+        self.networks = networks;
+        self
+    }
+
+    /// What draws.
+    #[must_use]
+    pub fn with_painters(mut self, painters: Arc<dyn Painters>) -> Self {
+        self.painters = painters;
+        self
+    }
+
+    /// Whether a bad number in the physics resets it in the middle of the episode.
+    #[must_use]
+    pub fn with_autoreset(mut self, autoreset: bool) -> Self {
+        self.autoreset = autoreset;
+        self
     }
 }

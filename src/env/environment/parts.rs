@@ -59,13 +59,11 @@ pub(crate) fn build_robot(
     model: &Model,
     compat: Compat,
 ) -> Result<Robot, EnvError> {
-    let options = robot::Options {
-        mode: settings.action_mode().map_err(|message| spec.wrong(message))?,
-        normalized: settings.normalize_act,
-        noise_scale: settings.noise_scale,
-        compat,
-        ..robot::Options::default()
-    };
+    let options = robot::Options::default()
+        .with_mode(settings.action_mode().map_err(|message| spec.wrong(message))?)
+        .with_normalized(settings.normalize_act)
+        .with_noise_scale(settings.noise_scale)
+        .with_compat(compat);
     Ok(Robot::new(model, config, options)?)
 }
 

@@ -20,6 +20,7 @@ pub enum Channel {
 
 /// What becomes of an image before it is returned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Encoder {
     /// All pixels in one row.
     Flat,

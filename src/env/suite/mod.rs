@@ -5,7 +5,7 @@
 //! ```
 //! use robohive_env::{Env, Options, OwnModels};
 //!
-//! let shorter = Options { changes: "pose_thd = 10.0".parse()?, ..Options::default() };
+//! let shorter = Options::default().with_changes("pose_thd = 10.0".parse()?);
 //! let mut env = Env::make("hive/ElbowPose-v0", &OwnModels, &shorter)?;
 //! env.reset(Some(1))?;
 //! env.step(&vec![0.0; env.action_len()])?;

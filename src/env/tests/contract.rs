@@ -6,7 +6,7 @@ use robohive_env::{Autoreset, Env, EnvError, Options, OwnModels, VecEnv};
 const ID: &str = "hive/FrankaReach-v0";
 
 fn make(changes: &str) -> Result<Env, EnvError> {
-    Env::make(ID, &OwnModels, &Options { changes: changes.parse().unwrap(), ..Options::default() })
+    Env::make(ID, &OwnModels, &Options::default().with_changes(changes.parse().unwrap()))
 }
 
 /// Actions that differ from step to step and from one another.

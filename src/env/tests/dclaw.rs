@@ -61,7 +61,7 @@ fn make_with(id: &str, changes: &str) -> Result<Env, EnvError> {
     let text = format!("dof_range_names = ['FFJ10', 'FFJ12']\n{fingers}\n");
     let mut all: Arguments = text.parse().unwrap();
     all.extend(changes.parse::<Arguments>().unwrap());
-    Env::make(id, &OneFinger, &Options { changes: all, ..Options::default() })
+    Env::make(id, &OneFinger, &Options::default().with_changes(all))
 }
 
 fn make(id: &str) -> Env {

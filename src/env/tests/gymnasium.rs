@@ -5,7 +5,7 @@ use robohive_env::{Env, EnvError, Options, OwnModels, Registry};
 const QUADRUPED: &str = "model_path = 'hive/quadruped/tasks/walk.xml'";
 
 fn make(id: &str, changes: &str) -> Result<Env, EnvError> {
-    let options = Options { changes: changes.parse().unwrap(), ..Options::default() };
+    let options = Options::default().with_changes(changes.parse().unwrap());
     Env::make(id, &OwnModels, &options)
 }
 

@@ -23,7 +23,7 @@ const EVERYTHING: &str = "
 ";
 
 fn make(changes: &str) -> Result<Env, EnvError> {
-    Env::make(ID, &OwnModels, &Options { changes: changes.parse().unwrap(), ..Options::default() })
+    Env::make(ID, &OwnModels, &Options::default().with_changes(changes.parse().unwrap()))
 }
 
 fn picture(env: &mut Env) -> Vec<u8> {

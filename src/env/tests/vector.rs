@@ -7,7 +7,7 @@ const COUNT: usize = 6;
 
 fn envs(autoreset: Autoreset, threads: usize) -> VecEnv {
     let changes = "max_episode_steps = 7".parse().unwrap();
-    let options = Options { changes, ..Options::default() };
+    let options = Options::default().with_changes(changes);
     let env = Env::make("hive/ElbowPose-v0", &OwnModels, &options).unwrap();
     VecEnv::new(&env, COUNT, autoreset, threads).unwrap()
 }

@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex};
 const ID: &str = "hive/FrankaReach-v0";
 
 fn options(keys: &str) -> Options {
-    Options { changes: format!("visual_keys = [{keys}]").parse().unwrap(), ..Options::default() }
+    Options::default().with_changes(format!("visual_keys = [{keys}]").parse().unwrap())
 }
 
 fn make(keys: &str) -> Env {
@@ -156,7 +156,7 @@ impl Painter for Counting {
 fn painters_of_batches_draw_all_images_of_all_environments_at_once() {
     let keys = "'rgb:front:16x16:2d', 'd:front:16x16:2d'";
     let together = Together::default();
-    let options = Options { painters: Arc::new(together.clone()), ..options(keys) };
+    let options = options(keys).with_painters(Arc::new(together.clone()));
     let mut one = Env::make(ID, &OwnModels, &options).unwrap();
     let mut batch = VecEnv::new(&one, 5, Autoreset::NextStep, 2).unwrap();
     let mut plain = VecEnv::new(&make(keys), 5, Autoreset::NextStep, 2).unwrap();
@@ -213,7 +213,7 @@ impl Networks for Counted {
 fn networks_are_loaded_once_and_only_if_needed() {
     let (key, depth) = ("rgb:front:16x16:r3m18", "d:front:16x16:r3m18");
     let networks = Arc::new(Counted::default());
-    let options = Options { networks: networks.clone(), ..options(&format!("'{key}', '{depth}'")) };
+    let options = options(&format!("'{key}', '{depth}'")).with_networks(networks.clone());
     let mut env = Env::make(ID, &OwnModels, &options).unwrap();
     env.reset(Some(1)).unwrap();
     assert_eq!(networks.0.load(Ordering::Relaxed), 0);
@@ -233,7 +233,7 @@ fn networks_are_loaded_once_and_only_if_needed() {
 #[test]
 fn the_profile_follows_whose_behaviour_it_is() {
     let profile = |compat| {
-        let options = Options { compat, ..Options::default() };
+        let options = Options::default().with_compat(compat);
         Env::make(ID, &OwnModels, &options).unwrap().profile()
     };
     assert_eq!(profile(Compat::RoboHive07), Profile::Mujoco313);
@@ -244,7 +244,7 @@ fn the_profile_follows_whose_behaviour_it_is() {
 fn render_returns_what_its_mode_says() {
     let make = |mode: Option<RenderMode>, camera: &str| {
         let rendering = Rendering { mode, camera: camera.into(), width: 24, height: 16 };
-        Env::make(ID, &OwnModels, &Options { rendering, ..Options::default() }).unwrap()
+        Env::make(ID, &OwnModels, &Options::default().with_rendering(rendering)).unwrap()
     };
     assert!(make(None, "front").render().unwrap().is_none());
     let mut env = make(Some(RenderMode::RgbArray), "front");

@@ -42,7 +42,8 @@ pub fn export(trace: &TraceReader, target: &Target, progress: Progress) -> Resul
         None => rate(&Episode::of_trial(trace, first)?)
             .map_err(|message| TraceError::new(trace.path(), format!("{first}/time"), message))?,
     };
-    let settings = Settings { frames_per_second, robot: target.robot.clone(), pictures: target.pictures };
+    let settings =
+        Settings::new(frames_per_second).with_robot(target.robot.clone()).with_pictures(target.pictures);
     let task = match &target.task {
         Some(task) => task.clone(),
         None => {

@@ -4,6 +4,7 @@ use serde_json::{Value, json};
 
 /// Type of a feature.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FeatureKind {
     /// Single precision.
     F32,

@@ -7,6 +7,7 @@ use dataset::{Array, Values};
 
 /// Where pictures are kept.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Pictures {
     /// In MP4 files, which lose little.
     #[default]

@@ -14,6 +14,7 @@ use video::{Frame, VideoWriter, png_bytes};
 
 /// What a dataset is like.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Settings {
     /// Frames a second.
     pub frames_per_second: f64,
@@ -21,6 +22,27 @@ pub struct Settings {
     pub robot: Option<String>,
     /// Where pictures are kept.
     pub pictures: Pictures,
+}
+
+impl Settings {
+    /// A dataset of an unnamed robot at this many frames a second, its pictures in videos.
+    pub fn new(frames_per_second: f64) -> Self {
+        Settings { frames_per_second, robot: None, pictures: Pictures::default() }
+    }
+
+    /// The robot, in a word.
+    #[must_use]
+    pub fn with_robot(mut self, robot: Option<String>) -> Self {
+        self.robot = robot;
+        self
+    }
+
+    /// Where pictures are kept.
+    #[must_use]
+    pub fn with_pictures(mut self, pictures: Pictures) -> Self {
+        self.pictures = pictures;
+        self
+    }
 }
 
 /// A dataset that is being written, in a hidden folder beside the one that it is for; that appears with

@@ -6,6 +6,7 @@ use physics::Model;
 /// How finely a renderer draws; what a model says in `visual/quality` and `visual/map`. Numbers beyond the limits given here
 /// count as the limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// Samples of a pixel: 4, or 1.
     pub samples: Samples,
@@ -47,6 +48,41 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Samples of a pixel.
+    #[must_use]
+    pub fn with_samples(mut self, samples: Samples) -> Self {
+        self.samples = samples;
+        self
+    }
+
+    /// Shadow maps.
+    #[must_use]
+    pub fn with_shadow(mut self, shadow: ShadowSettings) -> Self {
+        self.shadow = shadow;
+        self
+    }
+
+    /// Slices of the sky, 3 to 1024.
+    #[must_use]
+    pub fn with_slices(mut self, slices: usize) -> Self {
+        self.slices = slices;
+        self
+    }
+
+    /// Width of lines \[pixel\].
+    #[must_use]
+    pub fn with_line_width(mut self, line_width: f32) -> Self {
+        self.line_width = line_width;
+        self
+    }
+
+    /// Whether what stands still in a view is kept from picture to picture.
+    #[must_use]
+    pub fn with_keep(mut self, keep: bool) -> Self {
+        self.keep = keep;
+        self
+    }
+
     /// The settings of a model. `offsamples` of 2 or more are four samples; a `shadowsize` of 0 is no shadow.
     pub fn of(model: &Model) -> Self {
         let (quality, map) = (&model.vis.quality, &model.vis.map);

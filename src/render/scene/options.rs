@@ -168,6 +168,7 @@ impl Default for Show {
 /// Elements that get a label.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)]
+#[non_exhaustive]
 pub enum LabelChoice {
     #[default]
     None,
@@ -197,6 +198,7 @@ pub enum LabelChoice {
 /// Elements whose frames are shown. Frames of cameras and lights are shown only together with the elements.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[allow(missing_docs)]
+#[non_exhaustive]
 pub enum FrameChoice {
     #[default]
     None,
@@ -256,6 +258,7 @@ pub struct Selection {
 
 /// Effects of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Effects {
     /// Lights cast shadows.
     pub shadows: bool,
@@ -276,8 +279,46 @@ impl Default for Effects {
     }
 }
 
+impl Effects {
+    /// Whether lights cast shadows.
+    #[must_use]
+    pub fn with_shadows(mut self, shadows: bool) -> Self {
+        self.shadows = shadows;
+        self
+    }
+
+    /// Whether the first reflective item is a mirror.
+    #[must_use]
+    pub fn with_reflections(mut self, reflections: bool) -> Self {
+        self.reflections = reflections;
+        self
+    }
+
+    /// Whether there is a sky.
+    #[must_use]
+    pub fn with_sky(mut self, sky: bool) -> Self {
+        self.sky = sky;
+        self
+    }
+
+    /// Whether there is haze at the horizon of an infinite plane.
+    #[must_use]
+    pub fn with_haze(mut self, haze: bool) -> Self {
+        self.haze = haze;
+        self
+    }
+
+    /// Whether there is fog in the distance.
+    #[must_use]
+    pub fn with_fog(mut self, fog: bool) -> Self {
+        self.fog = fog;
+        self
+    }
+}
+
 /// What a scene shows. The defaults are those of MuJoCo's renderer.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct SceneOptions {
     /// Visible groups.
     pub groups: Groups,
@@ -312,5 +353,70 @@ impl Default for SceneOptions {
             flex_layer: 0,
             effects: Effects::default(),
         }
+    }
+}
+
+impl SceneOptions {
+    /// Visible groups.
+    #[must_use]
+    pub fn with_groups(mut self, groups: Groups) -> Self {
+        self.groups = groups;
+        self
+    }
+
+    /// Kinds of elements and decorations.
+    #[must_use]
+    pub fn with_show(mut self, show: Show) -> Self {
+        self.show = show;
+        self
+    }
+
+    /// Elements that get a label.
+    #[must_use]
+    pub fn with_label(mut self, label: LabelChoice) -> Self {
+        self.label = label;
+        self
+    }
+
+    /// Elements whose frames are shown.
+    #[must_use]
+    pub fn with_frame(mut self, frame: FrameChoice) -> Self {
+        self.frame = frame;
+        self
+    }
+
+    /// Categories of items.
+    #[must_use]
+    pub fn with_categories(mut self, categories: Categories) -> Self {
+        self.categories = categories;
+        self
+    }
+
+    /// The selected body.
+    #[must_use]
+    pub fn with_selection(mut self, selection: Option<Selection>) -> Self {
+        self.selection = selection;
+        self
+    }
+
+    /// Depth at which bounding volume trees are shown.
+    #[must_use]
+    pub fn with_tree_depth(mut self, tree_depth: i32) -> Self {
+        self.tree_depth = tree_depth;
+        self
+    }
+
+    /// Layer of the tetrahedra of flexes whose faces are shown, 0 at the surface.
+    #[must_use]
+    pub fn with_flex_layer(mut self, flex_layer: i32) -> Self {
+        self.flex_layer = flex_layer;
+        self
+    }
+
+    /// Effects of the picture.
+    #[must_use]
+    pub fn with_effects(mut self, effects: Effects) -> Self {
+        self.effects = effects;
+        self
     }
 }

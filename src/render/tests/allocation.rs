@@ -26,7 +26,7 @@ fn later_updates_do_not_allocate() {
     let mut scene = Scene::new();
     let decorated =
         Show { joints: true, contact_points: true, contact_forces: true, inertias: true, ..Show::default() };
-    let options = SceneOptions { show: decorated, ..SceneOptions::default() };
+    let options = SceneOptions::default().with_show(decorated);
     let mut update = |data: &Data| {
         let view = Camera::free(&model).view(&model, data).unwrap();
         scene.update(&model, data, view, &options).unwrap();

@@ -370,7 +370,7 @@ fn a_hundred_thousand_items_are_drawn_and_a_billion_triangles_refused() {
     let place =
         |i: usize| [(i % 100) as f32 * 0.02, (i / 100 % 100) as f32 * 0.02, (i / 10_000) as f32 * 0.1];
     let items = (0..100_000).map(|i| Item { pos: place(i), size: [0.005; 3], ..item(Shape::Box) }).collect();
-    let settings = Settings { samples: Samples::One, ..Settings::of(&model) };
+    let settings = Settings::of(&model).with_samples(Samples::One);
     let picture = draw(&model, &Scene { items, shadows: false, ..base.clone() }, settings).unwrap();
     assert!(!nothing(&picture));
     let fine = load(&format!("<visual><quality numslices='200' numstacks='100'/></visual>{BALL}"));
@@ -402,8 +402,12 @@ fn settings_of_any_number_draw() {
     for bad in [f32::NAN, f32::INFINITY, -1.0, 0.0, 1e30] {
         for size in [0, 1, 2, 3, 16, usize::MAX] {
             let shadow = ShadowSettings { size, clip: bad, scale: bad };
-            let settings =
-                Settings { samples: Samples::Four, shadow, slices: size, line_width: bad, keep: size == 3 };
+            let settings = Settings::default()
+                .with_samples(Samples::Four)
+                .with_shadow(shadow)
+                .with_slices(size)
+                .with_line_width(bad)
+                .with_keep(size == 3);
             draw(&model, &scene, settings).unwrap();
         }
     }

@@ -53,7 +53,7 @@ fn check<const N: usize>(picture: &Picture, places: [usize; N], drawn: [[[u8; 3]
 }
 
 fn foggy() -> SceneOptions {
-    SceneOptions { effects: Effects { fog: true, ..Effects::default() }, ..SceneOptions::default() }
+    SceneOptions::default().with_effects(Effects::default().with_fog(true))
 }
 
 #[test]
@@ -119,7 +119,7 @@ const LABELLED: &str = "<mujoco><worldbody><camera name='eye' pos='0 -2 0' xyaxe
 #[test]
 fn labels_begin_where_their_items_are() {
     let model = parse(LABELLED);
-    let options = SceneOptions { label: LabelChoice::Geom, ..SceneOptions::default() };
+    let options = SceneOptions::default().with_label(LabelChoice::Geom);
     let (plain, labelled) = (scene(&model, &SceneOptions::default()), scene(&model, &options));
     assert_eq!(labelled.items[1].label, "geom 1");
     let (bare, written) = (draw(&model, &plain, 240), draw(&model, &labelled, 240));
@@ -149,7 +149,7 @@ fn labels_begin_where_their_items_are() {
 #[test]
 fn labels_may_be_long_or_in_letters_that_no_font_has() {
     let model = parse(LABELLED);
-    let options = SceneOptions { label: LabelChoice::Geom, ..SceneOptions::default() };
+    let options = SceneOptions::default().with_label(LabelChoice::Geom);
     let mut scene = scene(&model, &options);
     scene.items[0].label = "é漢\n\u{202e}".repeat(5000);
     for side in [1, 7, 64, 700] {

@@ -33,7 +33,7 @@ fn showing(vertices: bool, edges: bool, faces: bool, skins: bool) -> SceneOption
         flex_skins: skins,
         ..Show::default()
     };
-    SceneOptions { show, ..SceneOptions::default() }
+    SceneOptions::default().with_show(show)
 }
 
 fn world(text: &str, angle: f64) -> (Model, Data, Assets) {

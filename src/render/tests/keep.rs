@@ -65,7 +65,7 @@ fn what_is_kept_changes_no_bit() {
     let mut world = World::new();
     let settings = Settings::of(&world.model);
     let mut keeping = Renderer::new(settings);
-    let mut plain = Renderer::new(Settings { keep: false, ..settings });
+    let mut plain = Renderer::new(settings.with_keep(false));
     let mut different = 0;
     let mut last = Vec::new();
     // The ball comes to rest within these, and is then kept too.
@@ -139,7 +139,7 @@ fn pictures_of_one_state_drawn_together_are_those_drawn_alone() {
     let cameras = cameras.map(|name| Camera::named(&world.model, name).expect("a camera"));
     let sizes = [(64, 48), (40, 40), (56, 64), (33, 21), (64, 48)];
     let channels = [Channels::RGB, Channels::ALL, Channels::RGB, Channels::ALL, Channels::DEPTH];
-    let mut alone = Renderer::new(Settings { keep: false, ..settings });
+    let mut alone = Renderer::new(settings.with_keep(false));
     let mut together = Renderer::new(settings);
     for frame in 0..30 {
         world.next();

@@ -38,7 +38,7 @@ impl World {
 
     fn draw(&self, scene: &Scene, [width, height]: [usize; 2]) -> Picture {
         let mut picture = Picture::new(width, height);
-        let settings = Settings { samples: Samples::One, ..Settings::of(&self.model) };
+        let settings = Settings::of(&self.model).with_samples(Samples::One);
         Renderer::new(settings).draw(&self.assets, scene, Channels::ALL, &mut picture).unwrap();
         picture
     }

@@ -44,14 +44,14 @@ fn later_pictures_do_not_allocate() {
         (0..20).for_each(|_| step(&model, &mut data).unwrap());
         let assets = Assets::new(&model, Profile::Mujoco312).unwrap();
         let show = Show { body_trees: true, joints: true, contact_points: true, ..Show::default() };
-        let options = SceneOptions { show, ..SceneOptions::default() };
+        let options = SceneOptions::default().with_show(show);
         let mut scene = Scene::new();
         let camera = Camera::Free(FreeCamera { elevation: -20.0, ..FreeCamera::of(&model) });
         // What stands still is kept after some pictures.
         for (samples, keep, warm) in
             [(Samples::Four, false, 1), (Samples::One, false, 1), (Samples::Four, true, 12)]
         {
-            let mut renderer = Renderer::new(Settings { samples, keep, ..Settings::of(&model) });
+            let mut renderer = Renderer::new(Settings::of(&model).with_samples(samples).with_keep(keep));
             let mut picture = Picture::new(96, 72);
             let mut draw = || {
                 let view = camera.view(&model, &data).unwrap();

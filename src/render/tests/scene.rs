@@ -65,7 +65,7 @@ fn groups_and_opacity_choose_the_items() {
     options.groups.tendons = [false, false, false, false, false, true];
     assert_eq!(objects(&scene_of(&m, &d, &options)), [(GEOM, 3), (TENDON, 1)]);
 
-    let options = SceneOptions { show: Show::NOTHING, ..SceneOptions::default() };
+    let options = SceneOptions::default().with_show(Show::NOTHING);
     assert_eq!(objects(&scene_of(&m, &d, &options)), [(GEOM, 1), (GEOM, 2), (SITE, 1)]);
 }
 
@@ -270,11 +270,9 @@ fn decorations_come_on_request_with_labels() {
         "<worldbody><body name='arm' pos='0 0 1'><joint name='hinge' axis='0 1 0'/><geom size='.1'/></body></worldbody>",
     );
     let plain = scene_of(&m, &d, &SceneOptions::default()).items.len();
-    let options = SceneOptions {
-        show: Show { joints: true, ..Show::default() },
-        label: LabelChoice::Joint,
-        ..SceneOptions::default()
-    };
+    let options = SceneOptions::default()
+        .with_show(Show { joints: true, ..Show::default() })
+        .with_label(LabelChoice::Joint);
     let scene = scene_of(&m, &d, &options);
     let joint = &scene.items[plain];
     assert_eq!(
@@ -284,6 +282,6 @@ fn decorations_come_on_request_with_labels() {
     assert_eq!(joint.category, Category::Decor);
     let axis = [joint.mat[2], joint.mat[5], joint.mat[8]];
     assert!(axis[1] > 0.999_999, "{axis:?}");
-    let options = SceneOptions { label: LabelChoice::Geom, ..SceneOptions::default() };
+    let options = SceneOptions::default().with_label(LabelChoice::Geom);
     assert_eq!(scene_of(&m, &d, &options).items[0].label, "geom 0");
 }

@@ -52,16 +52,16 @@ fn positions_are_limited_in_rate_and_range() {
     // The servo is at 0.3, may move by 0.1; the motor's joint is at -0.2, may move by -0.2 and 0.4.
     assert_eq!(controls(Options::default(), [1.0, 1.0, 0.0, 0.0])[..2], [0.4, 0.2]);
     assert_eq!(controls(Options::default(), [-1.0, -1.0, 0.0, 0.0])[..2], [0.3 - 0.1, -0.4]);
-    let exact = Options { normalized: false, ..Options::default() };
+    let exact = Options::default().with_normalized(false);
     assert_eq!(controls(exact, [0.25, -0.25, 0.0, 0.0])[..2], [0.25, -0.25]);
 }
 
 #[test]
 fn velocities_move_the_command_from_where_the_joint_is() {
-    let options = Options { mode: ActionMode::Velocity, ..Options::default() };
+    let options = Options::default().with_mode(ActionMode::Velocity);
     // Half of the range from -2 to 4 above its middle: 2.5.
     assert_eq!(controls(options.clone(), [0.5, 0.5, 0.0, 0.0])[..2], [0.3 + 0.05, -0.2 + 0.25]);
-    let exact = Options { normalized: false, ..options };
+    let exact = options.with_normalized(false);
     assert_eq!(controls(exact, [0.5, 100.0, 0.0, 0.0])[..2], [0.35, 1.0]);
 }
 
@@ -69,9 +69,9 @@ fn velocities_move_the_command_from_where_the_joint_is() {
 fn actuators_that_the_config_does_not_list_are_normalised_by_their_own_range() {
     // One without range takes the action; RoboHive passes every one on.
     assert_eq!(controls(Options::default(), [0.0, 0.0, 0.7, 0.5])[2..], [0.7, 1.5]);
-    let options = Options { normalized: false, ..Options::default() };
+    let options = Options::default().with_normalized(false);
     assert_eq!(controls(options, [0.0, 0.0, 0.7, 0.5])[2..], [0.7, 0.5]);
-    let options = Options { compat: Compat::RoboHive07, ..Options::default() };
+    let options = Options::default().with_compat(Compat::RoboHive07);
     assert_eq!(controls(options, [0.0, 0.0, 0.7, 0.5])[2..], [0.7, 0.5]);
 }
 
@@ -79,7 +79,7 @@ fn actuators_that_the_config_does_not_list_are_normalised_by_their_own_range() {
 fn without_a_config_every_actuator_is_normalised_by_its_own_range() {
     let (model, data) = arm();
     let control = |compat| {
-        let mut robot = Robot::new(&model, None, Options { compat, ..Options::default() }).unwrap();
+        let mut robot = Robot::new(&model, None, Options::default().with_compat(compat)).unwrap();
         robot.control(&model, &data, &[0.5, -0.5, 0.7, 0.5], 0.1).unwrap().to_vec()
     };
     assert_eq!(control(Compat::Fixed), [1.5, -1.0, 0.7, 1.5]);
@@ -89,13 +89,13 @@ fn without_a_config_every_actuator_is_normalised_by_its_own_range() {
 #[test]
 fn the_original_mistakes_the_address_of_joints_behind_a_ball() {
     // It reads the shoulder's position, 0.3, where the elbow's degree of freedom, 4, points.
-    let options = Options { compat: Compat::RoboHive07, ..Options::default() };
+    let options = Options::default().with_compat(Compat::RoboHive07);
     assert_eq!(controls(options, [0.0, 1.0, 0.0, 0.0])[1], 0.3 + 0.4);
     let (model, mut data) = arm();
     let mut rng = random::Generator::pcg64(0_u64);
     data.sensor.sensordata.copy_from_slice(&[0.1, 0.2, 0.3, 0.4, 0.5, 0.6]);
     let mut sense = |compat| {
-        let mut robot = robot(&model, Options { compat, ..Options::default() });
+        let mut robot = robot(&model, Options::default().with_compat(compat));
         robot.sense(&model, &data, &mut rng).values.clone()
     };
     assert_eq!(sense(Compat::Fixed), [0.4, 0.5]);
@@ -107,7 +107,7 @@ fn torques_are_what_the_joints_get() {
     let (model, mut data) = arm();
     let text = CONFIG.replace("vel_range = [-1, 1]", "vel_range = [-1, 1], effort_range = [-6, 10]");
     let config = Config::from_toml(&text, "arm.toml").unwrap();
-    let options = Options { mode: ActionMode::Torque, ..Options::default() };
+    let options = Options::default().with_mode(ActionMode::Torque);
     let mut robot = Robot::new(&model, Some(&config), options).unwrap();
     // Half above the middle of the servo's range of -6 to 10; the motor's range is its control range times its gear.
     let controls = robot.control(&model, &data, &[0.5, -0.25, 0.0, -1.0], 0.1).unwrap();
@@ -130,7 +130,7 @@ fn torques_are_what_the_joints_get() {
     assert_eq!(action[..2], [6.0, -2.0]);
     robot.normalize(&model, &mut action).unwrap();
     assert_eq!(action[..2], [0.5, -0.25]);
-    let exact = Options { mode: ActionMode::Torque, normalized: false, ..Options::default() };
+    let exact = Options::default().with_mode(ActionMode::Torque).with_normalized(false);
     let mut robot = Robot::new(&model, Some(&config), exact).unwrap();
     let limited = robot.control(&model, &data, &[1e3, -1e3, 0.0, 0.0], 0.1).unwrap();
     // (10 + 50 · 0.3 + 2 · 0.5) / 50 and -8 / 4.
@@ -158,11 +158,10 @@ fn effort_limits_bound_positions_too() {
 fn modes_that_lack_something_are_refused() {
     let (model, _) = arm();
     for mode in [ActionMode::Velocity, ActionMode::Torque] {
-        let error =
-            Robot::new(&model, None, Options { mode, ..Options::default() }).err().unwrap().to_string();
+        let error = Robot::new(&model, None, Options::default().with_mode(mode)).err().unwrap().to_string();
         assert!(error.starts_with(&format!("actions in mode '{mode}': a robot without config")), "{error}");
     }
-    let torque = Options { mode: ActionMode::Torque, ..Options::default() };
+    let torque = Options::default().with_mode(ActionMode::Torque);
     let error = Robot::new(&model, Some(&config()), torque.clone()).err().unwrap().to_string();
     assert_eq!(
         error,
@@ -242,7 +241,7 @@ fn reset_poses_are_clipped_to_what_the_devices_can_have() {
         + "\n[[device]]\nname = 'watched'\nsensor = [{ name = 'v2', range = [-0.25, 0.25] }, { name = 'q2', range = [-0.5, 0.5] }]";
     let config = Config::from_toml(&passive, "arm.toml").unwrap();
     let clip = |compat| {
-        let robot = Robot::new(&model, Some(&config), Options { compat, ..Options::default() }).unwrap();
+        let robot = Robot::new(&model, Some(&config), Options::default().with_compat(compat)).unwrap();
         let (mut qpos, mut qvel) = ([9.0; 6], [9.0; 5]);
         robot.clip_reset(&mut qpos, &mut qvel);
         (qpos, qvel)
@@ -270,7 +269,7 @@ fn vectors_go_to_the_hardware_and_back() {
     assert_eq!(fixed.remap(&read, Part::Sensor, simulation, hardware).unwrap(), [0.25, 0.5]);
 
     // The original: the motor's number is 1, the servo's is -1, the last of the vector.
-    let original = robot(&model, Options { compat: Compat::RoboHive07, ..Options::default() });
+    let original = robot(&model, Options::default().with_compat(Compat::RoboHive07));
     let sent = original.remap(&commands, Part::Actuator, simulation, hardware).unwrap();
     assert_eq!(sent, [0.125, 1.5, 0.5, 0.125]);
     assert_eq!(
@@ -284,7 +283,7 @@ fn vectors_go_to_the_hardware_and_back() {
 
 #[test]
 fn single_precision_rounds_controls() {
-    let options = Options { single_precision: true, ..Options::default() };
+    let options = Options::default().with_single_precision(true);
     let rounded = controls(options, [0.1, 0.1, 0.7, 0.1]);
     let exact = controls(Options::default(), [0.1, 0.1, 0.7, 0.1]);
     assert_ne!(rounded, exact);
@@ -325,12 +324,12 @@ fn quirks_have_names_of_their_own_and_say_both_sides() {
 fn options_that_make_no_sense_are_refused() {
     let (model, _) = arm();
     for (options, name) in [
-        (Options { noise_scale: -1.0, ..Options::default() }, "noise_scale"),
-        (Options { noise_scale: f64::NAN, ..Options::default() }, "noise_scale"),
-        (Options { history: 0, ..Options::default() }, "history"),
-        (Options { history: usize::MAX, ..Options::default() }, "history"),
-        (Options { delay_steps: usize::MAX, jitter_steps: 1, ..Options::default() }, "delay_steps"),
-        (Options { jitter_steps: 1 << 20, ..Options::default() }, "jitter_steps"),
+        (Options::default().with_noise_scale(-1.0), "noise_scale"),
+        (Options::default().with_noise_scale(f64::NAN), "noise_scale"),
+        (Options::default().with_history(0), "history"),
+        (Options::default().with_history(usize::MAX), "history"),
+        (Options::default().with_delay_steps(usize::MAX).with_jitter_steps(1), "delay_steps"),
+        (Options::default().with_jitter_steps(1 << 20), "jitter_steps"),
     ] {
         let error = Robot::new(&model, None, options).err().unwrap();
         assert!(matches!(&error, RobotError::Option { name: found, .. } if *found == name), "{error}");

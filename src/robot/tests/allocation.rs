@@ -22,7 +22,7 @@ const CONFIG: &str = "
 fn acting_and_sensing_allocate_nothing() {
     let model = robohive_mjcf::load_str(ARM).unwrap().model;
     let config = Config::from_toml(CONFIG, "arm.toml").unwrap();
-    let late = Options { noise_scale: 1.0, delay_steps: 3, jitter_steps: 2, ..Options::default() };
+    let late = Options::default().with_noise_scale(1.0).with_delay_steps(3).with_jitter_steps(2);
     for (config, options) in
         [(None, Options::default()), (Some(&config), Options::default()), (Some(&config), late)]
     {

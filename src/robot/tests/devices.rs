@@ -39,7 +39,7 @@ fn log(rows: &[(f64, [f64; 2])], units: Units) -> Registry {
 }
 
 fn hardware() -> Options {
-    Options { hardware: true, noise_scale: 1.0, delay_steps: 3, history: 2, ..Options::default() }
+    Options::default().with_hardware(true).with_noise_scale(1.0).with_delay_steps(3).with_history(2)
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn the_end_of_a_log_is_a_fault_that_stops_the_robot() {
 fn what_a_simulated_robot_read_is_read_again_from_its_log() {
     let (model, mut data, config) = arm();
     let mut rng = Generator::pcg64(1_u64);
-    let noisy = Options { noise_scale: 1.0, ..Options::default() };
+    let noisy = Options::default().with_noise_scale(1.0);
     let mut robot = Robot::new(&model, Some(&config), noisy).unwrap();
     let mut records = Vec::new();
     for _ in 0..20 {

@@ -116,7 +116,11 @@ impl Case {
     }
 
     fn robot(&self, model: &Model, compat: Compat, normalized: bool) -> Robot {
-        let options = Options { mode: self.mode, normalized, noise_scale: 2.0, compat, ..Options::default() };
+        let options = Options::default()
+            .with_mode(self.mode)
+            .with_normalized(normalized)
+            .with_noise_scale(2.0)
+            .with_compat(compat);
         Robot::new(model, self.config().as_ref(), options).unwrap()
     }
 

@@ -56,7 +56,7 @@ fn readings_are_clipped_and_stamped() {
 #[test]
 fn uniform_noise_draws_once_a_sensor_after_clipping() {
     let model = model();
-    let mut robot = robot(&model, Options { noise_scale: 2.0, ..Options::default() });
+    let mut robot = robot(&model, Options::default().with_noise_scale(2.0));
     let data = at(&model, 0.0, [5.0, 0.25], [0.0, 0.0]);
     let (mut rng, mut same) = (Generator::pcg64(7_u64), Generator::pcg64(7_u64));
     for _ in 0..100 {
@@ -70,7 +70,7 @@ fn uniform_noise_draws_once_a_sensor_after_clipping() {
 #[test]
 fn gaussian_noise_has_the_standard_deviation_of_the_config() {
     let model = model();
-    let options = Options { noise_scale: 1.0, noise: Noise::Gaussian, ..Options::default() };
+    let options = Options::default().with_noise_scale(1.0).with_noise(Noise::Gaussian);
     let mut robot = robot(&model, options);
     let data = at(&model, 0.0, [0.5, 0.25], [0.0, 0.0]);
     let mut rng = Generator::pcg64(7_u64);
@@ -86,7 +86,7 @@ fn gaussian_noise_has_the_standard_deviation_of_the_config() {
 #[test]
 fn equal_seeds_give_equal_readings() {
     let model = model();
-    let options = Options { noise_scale: 1.0, delay_steps: 1, jitter_steps: 2, ..Options::default() };
+    let options = Options::default().with_noise_scale(1.0).with_delay_steps(1).with_jitter_steps(2);
     let run = |seed: u64| {
         let (mut robot, mut rng) = (robot(&model, options.clone()), Generator::pcg64(seed));
         let mut data = at(&model, 0.0, [0.0, 0.25], [1.0, 0.0]);
@@ -136,7 +136,7 @@ fn whole(x: f64) -> usize {
 
 #[test]
 fn delayed_readings_have_the_age_that_was_asked_for() {
-    let delayed = |delay_steps| Options { delay_steps, ..Options::default() };
+    let delayed = |delay_steps| Options::default().with_delay_steps(delay_steps);
     for delay in [0, 1, 3, 7] {
         let ages: Vec<_> = times(delayed(delay), 4, true).into_iter().map(whole).collect();
         let expected: Vec<_> = (1..=20).map(|period| (4 * period).min(delay)).collect();
@@ -151,7 +151,7 @@ fn delayed_readings_have_the_age_that_was_asked_for() {
 
 #[test]
 fn jitter_varies_the_age_and_never_turns_back_time() {
-    let options = Options { delay_steps: 2, jitter_steps: 6, ..Options::default() };
+    let options = Options::default().with_delay_steps(2).with_jitter_steps(6);
     let ages: Vec<_> = times(options, 4, true).into_iter().map(whole).collect();
     assert!(ages[2..].iter().all(|age| (2..=8).contains(age)), "{ages:?}");
     assert!(ages[2..].iter().any(|age| *age != ages[2]), "{ages:?}");
@@ -163,7 +163,7 @@ fn jitter_varies_the_age_and_never_turns_back_time() {
 fn a_reset_forgets_what_was_measured_before() {
     let model = model();
     let (mut robot, mut rng) =
-        (robot(&model, Options { delay_steps: 5, ..Options::default() }), Generator::pcg64(5_u64));
+        (robot(&model, Options::default().with_delay_steps(5)), Generator::pcg64(5_u64));
     let mut data = at(&model, 0.0, [0.0, 0.25], [0.5, 0.0]);
     for _ in 0..20 {
         robot.sense(&model, &data, &mut rng);
@@ -181,8 +181,7 @@ fn a_reset_forgets_what_was_measured_before() {
 #[test]
 fn the_history_holds_the_last_readings() {
     let model = model();
-    let (mut robot, mut rng) =
-        (robot(&model, Options { history: 3, ..Options::default() }), Generator::pcg64(5_u64));
+    let (mut robot, mut rng) = (robot(&model, Options::default().with_history(3)), Generator::pcg64(5_u64));
     for k in 0..5 {
         robot.sense(&model, &at(&model, f64::from(k), [0.125 * f64::from(k), 0.25], [0.0, 0.0]), &mut rng);
     }
@@ -196,7 +195,7 @@ fn the_history_holds_the_last_readings() {
 #[test]
 fn a_reset_draws_noise_for_each_reading_of_the_history() {
     let model = model();
-    let mut robot = robot(&model, Options { noise_scale: 1.0, ..Options::default() });
+    let mut robot = robot(&model, Options::default().with_noise_scale(1.0));
     let (mut rng, mut same) = (Generator::pcg64(9_u64), Generator::pcg64(9_u64));
     robot.reset(&model, &at(&model, 0.0, [0.0, 0.25], [0.0, 0.0]), &mut rng).unwrap();
     // RoboHive's order: five readings of three sensors.
@@ -210,7 +209,7 @@ fn a_reset_draws_noise_for_each_reading_of_the_history() {
 #[test]
 fn readings_are_written_where_they_belong() {
     let model = model();
-    let mut robot = robot(&model, Options { compat: Compat::RoboHive07, ..Options::default() });
+    let mut robot = robot(&model, Options::default().with_compat(Compat::RoboHive07));
     let truth = at(&model, 1.5, [0.25, 0.75], [-7.0, 3.0]);
     robot.sense(&model, &truth, &mut Generator::pcg64(1_u64));
     let mut observed = at(&model, 0.0, [9.0, 9.0], [9.0, 9.0]);
@@ -224,7 +223,7 @@ fn readings_are_written_where_they_belong() {
 #[test]
 fn without_a_config_the_whole_state_is_read() {
     let model = model();
-    let mut robot = Robot::new(&model, None, Options { noise_scale: 1.0, ..Options::default() }).unwrap();
+    let mut robot = Robot::new(&model, None, Options::default().with_noise_scale(1.0)).unwrap();
     let mut truth = at(&model, 1.5, [5.0, 0.75], [-7.0, 3.0]);
     truth.state.act[0] = 0.5;
     let mut rng = Generator::pcg64(1_u64);

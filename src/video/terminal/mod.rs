@@ -20,6 +20,7 @@ use crate::scale::{fit, scaled};
 
 /// How a terminal is sent a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Protocol {
     /// Kitty's graphics protocol: kitty, Ghostty, Konsole.
     Kitty,

@@ -142,7 +142,7 @@ fn cameras(model: &Model) -> [Camera; 4] {
 
 /// What is drawn: without decorations for the first cameras, with fog or many decorations for the others.
 fn scene(model: &Model, data: &Data, camera: Camera, kind: Kind, index: usize) -> Result<Scene, String> {
-    let effects = Effects { shadows: kind != Kind::NoShadows, fog: index == 2, ..Effects::default() };
+    let effects = Effects::default().with_shadows(kind != Kind::NoShadows).with_fog(index == 2);
     let show = Show {
         joints: index == 3,
         contact_points: index == 3,
@@ -152,7 +152,7 @@ fn scene(model: &Model, data: &Data, camera: Camera, kind: Kind, index: usize) -
         transparent: index == 2,
         ..Show::default()
     };
-    let options = SceneOptions { effects, show, ..SceneOptions::default() };
+    let options = SceneOptions::default().with_effects(effects).with_show(show);
     let view = camera.view(model, data).map_err(|error| error.to_string())?;
     let mut scene = Scene::new();
     scene.update(model, data, view, &options).map_err(|error| error.to_string())?;
@@ -161,7 +161,7 @@ fn scene(model: &Model, data: &Data, camera: Camera, kind: Kind, index: usize) -
 
 fn settings(model: &Model, kind: Kind) -> Settings {
     let samples = if kind == Kind::OneSample { Samples::One } else { Samples::Four };
-    Settings { samples, ..Settings::of(model) }
+    Settings::of(model).with_samples(samples)
 }
 
 #[cfg(test)]

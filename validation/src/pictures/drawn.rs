@@ -50,7 +50,7 @@ impl Drawn {
             Camera::named(&model, scene.camera.as_deref().unwrap_or("free")).map_err(|e| e.to_string())?;
         let mut assets = Assets::new(&model, recorded.profile()?).map_err(|error| error.to_string())?;
         assets.pose(&model, &data, &SceneOptions::default()).map_err(|error| error.to_string())?;
-        let renderer = Renderer::new(Settings { samples: Samples::Four, ..Settings::of(&model) });
+        let renderer = Renderer::new(Settings::of(&model).with_samples(Samples::Four));
         Ok(Drawn { model, data, camera, assets, renderer })
     }
 
@@ -70,8 +70,7 @@ impl Drawn {
     /// The scene cannot be assembled.
     pub fn scene(&self, shadows: bool) -> Result<Scene, String> {
         let view = self.camera.view(&self.model, &self.data).map_err(|error| error.to_string())?;
-        let options =
-            SceneOptions { effects: Effects { shadows, ..Effects::default() }, ..SceneOptions::default() };
+        let options = SceneOptions::default().with_effects(Effects::default().with_shadows(shadows));
         let mut scene = Scene::new();
         scene.update(&self.model, &self.data, view, &options).map_err(|error| error.to_string())?;
         Ok(scene)

@@ -145,7 +145,7 @@ fn a_renderer_takes_other_settings() {
     let Some(mut gpu) = renderer(shot.settings) else { return };
     let before = shot.on_gpu(&mut gpu, [64, 48]);
     let mut coarse = Shot::of(&mjcf::load_str(WORLD).expect("a model").model, "a", &SceneOptions::default());
-    coarse.settings = Settings { samples: Samples::One, ..shot.settings };
+    coarse.settings = shot.settings.with_samples(Samples::One);
     coarse.settings.shadow.size = 256;
     gpu.set(&coarse.settings).expect("settings");
     let after = coarse.on_gpu(&mut gpu, [64, 48]);

@@ -99,7 +99,7 @@ fn nothing_to_draw_is_black_and_far() {
 fn a_shadow_map_that_no_gpu_can_hold_is_an_error() {
     let mut settings = shot().settings;
     settings.shadow.size = 1 << 20;
-    if renderer(Settings { ..shot().settings }).is_some() {
+    if renderer(shot().settings).is_some() {
         let found = GpuRenderer::new(settings, &Choice::Any).expect_err("too large");
         assert!(matches!(found, GpuError::Unsuitable { .. }), "{found}");
     }

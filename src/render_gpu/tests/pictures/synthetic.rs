@@ -63,7 +63,7 @@ fn a_spot_and_the_sun_with_shadows() {
 
 #[test]
 fn lights_without_shadows() {
-    let options = SceneOptions { effects: Effects { shadows: false, ..Effects::default() }, ..options() };
+    let options = options().with_effects(Effects::default().with_shadows(false));
     check(&format!("{FLOOR}{LAMP}{SUN}"), "near", &options);
 }
 
@@ -106,7 +106,7 @@ fn lines() {
 #[test]
 fn decorations() {
     let show = Show { cameras: true, lights: true, centers_of_mass: true, ..Show::default() };
-    check(&format!("{FLOOR}{LAMP}"), "near", &SceneOptions { show, ..options() });
+    check(&format!("{FLOOR}{LAMP}"), "near", &options().with_show(show));
 }
 
 #[test]
@@ -116,8 +116,8 @@ fn fog() {
     for (plane, camera, end) in
         [(FLOOR, "near", 3.0), (mirror, "near", 3.0), (endless, "near", 60.0), (FLOOR, "flat", 60.0)]
     {
-        let effects = Effects { fog: true, ..Effects::default() };
-        let options = SceneOptions { effects, ..options() };
+        let effects = Effects::default().with_fog(true);
+        let options = options().with_effects(effects);
         let mut shot = Shot::of(&model(&format!("{plane}{LAMP}")), camera, &options);
         let set = |fog: &mut Fog| *fog = Fog { start: 1.0, end, rgb: [0.7, 0.8, 0.9] };
         shot.scene.fog.iter_mut().for_each(set);
@@ -128,7 +128,7 @@ fn fog() {
 
 #[test]
 fn labels_are_those_of_the_cpu() {
-    check(FLOOR, "near", &SceneOptions { label: LabelChoice::Geom, ..options() });
+    check(FLOOR, "near", &options().with_label(LabelChoice::Geom));
 }
 
 #[test]
@@ -149,6 +149,6 @@ fn a_texture_that_lets_light_through() {
 #[test]
 fn one_sample() {
     let mut shot = Shot::of(&model(&format!("{FLOOR}{LAMP}")), "near", &options());
-    shot.settings = Settings { samples: Samples::One, ..shot.settings };
+    shot.settings = shot.settings.with_samples(Samples::One);
     shot.measure([150, 111]).iter().for_each(|found| found.check("one sample"));
 }

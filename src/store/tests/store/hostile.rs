@@ -23,7 +23,7 @@ fn filled(name: &str) -> (Store, PathBuf) {
 fn refusal(store: &mut Store, folder: &Path, bytes: &[u8], limits: Limits) -> String {
     let path = folder.join("hostile");
     fs::write(&path, bytes).unwrap();
-    let options = ImportOptions { limits, replace: true };
+    let options = ImportOptions::default().with_limits(limits).with_replace(true);
     let error = store.import(&path, &options, &mut |_| ()).expect_err("the source is accepted");
     assert_eq!(store.entries().len(), 1);
     assert_sound(store);
@@ -153,18 +153,19 @@ fn archives_that_unpack_to_too_much_are_refused() {
     let refused = |store: &mut Store, limits| {
         refusal(store, &folder, &tar_of(&[GOOD, ("envs/arms/b.xml", &"x".repeat(4000))]), limits)
     };
-    let small = Limits { bytes: 3000, ..Limits::default() };
+    let small = Limits::default().with_bytes(3000);
     assert!(refused(&mut store, small).contains("entry \"envs/arms/b.xml\": more than the limit bytes=3000"));
-    let few = Limits { files: 1, ..Limits::default() };
+    let few = Limits::default().with_files(1);
     assert!(refused(&mut store, few).contains("entry \"envs/arms/b.xml\": more than the limit files=1"));
-    let short = Limits { path: 16, ..Limits::default() };
+    let short = Limits::default().with_path(16);
     assert!(refused(&mut store, short).contains("entry \"envs/arms/good.xml\": more than the limit path=16"));
-    let flat = Limits { depth: 2, ..Limits::default() };
+    let flat = Limits::default().with_depth(2);
     assert!(refused(&mut store, flat).contains("entry \"envs/arms/good.xml\": more than the limit depth=2"));
 
     // What was refused is accepted once the limit is raised.
     fs::write(folder.join("large.tar.xz"), xz(&tar)).unwrap();
-    let options = ImportOptions { limits: Limits { ratio: 1 << 20, ..Limits::default() }, replace: false };
+    let options =
+        ImportOptions::default().with_limits(Limits::default().with_ratio(1 << 20)).with_replace(false);
     assert_eq!(store.import(&folder.join("large.tar.xz"), &options, &mut |_| ()).unwrap().added, 1);
 }
 
@@ -240,7 +241,7 @@ fn archives_changed_at_random_do_no_harm() {
         word = word.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (word >> 8) as usize % n
     };
-    let limits = Limits { bytes: 1 << 20, ..Limits::default() };
+    let limits = Limits::default().with_bytes(1 << 20);
     let (mut imported, mut refused) = (0, 0);
     for round in 0..240 {
         let mut bytes = if round % 3 == 2 { zip.clone() } else { tar.clone() };
@@ -259,7 +260,7 @@ fn archives_changed_at_random_do_no_harm() {
         fs::write(folder.join("changed"), bytes).unwrap();
         _ = fs::remove_dir_all(folder.join("store"));
         let mut store = Store::open(folder.join("store")).unwrap();
-        let options = ImportOptions { limits, replace: false };
+        let options = ImportOptions::default().with_limits(limits).with_replace(false);
         match store.import(&folder.join("changed"), &options, &mut |_| ()) {
             Ok(_) => imported += 1,
             Err(error) => refused += i32::from(!error.to_string().is_empty()),

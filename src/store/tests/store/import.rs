@@ -143,7 +143,7 @@ fn imports_merge_and_contradictions_are_refused_by_name() {
     assert_eq!(paths(&store).len(), 2);
     assert_sound(&store);
 
-    let options = ImportOptions { replace: true, ..Default::default() };
+    let options = ImportOptions::default().with_replace(true);
     let imported = store.import(&folder.join("2.tar"), &options, &mut |_| ()).unwrap();
     assert_eq!((imported.added, imported.unchanged), (1, 1));
     assert_eq!(imported.replaced, ["envs/arms/a.xml"]);
