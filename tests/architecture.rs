@@ -5,6 +5,8 @@
 mod functions;
 #[path = "architecture/modules.rs"]
 mod modules;
+#[path = "architecture/signatures.rs"]
+mod signatures;
 #[path = "architecture/tree.rs"]
 mod tree;
 
@@ -205,6 +207,23 @@ fn functions_are_short_and_take_few_arguments() {
     }
     assert!(seen > 1000, "only {seen} functions found");
     none(broken, "functions with too many lines or arguments");
+}
+
+#[test]
+fn public_functions_have_types_to_rely_on() {
+    let mut broken = Vec::new();
+    let published = |file: &tree::Source| {
+        !["/tests/", "/examples/", "src/cli/"].iter().any(|elsewhere| file.path.contains(elsewhere))
+    };
+    for file in ["mjcf", "src"].into_iter().flat_map(sources).filter(published) {
+        broken.extend(
+            signatures::unreliable(&file.syntax()).iter().map(|found| format!("{} {found}", file.path)),
+        );
+    }
+    assert!(broken.is_empty(), "public functions with types to avoid:\n{}", broken.join("\n"));
+    let planted = "pub fn a() -> Result<u8, String> { Ok(1) } pub trait T { fn b(&self, t: &toml::Table); }
+        impl S { pub fn c(x: Option<Result<u8, String>>) {} fn d() -> Result<u8, String> { Ok(1) } }";
+    assert_eq!(signatures::unreliable(&syn::parse_file(planted).unwrap()).len(), 3);
 }
 
 #[test]

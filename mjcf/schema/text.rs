@@ -11,7 +11,7 @@ pub struct TextError {
 }
 
 /// A number type of attributes.
-pub trait Number: Sized {
+pub(crate) trait Number: Sized {
     /// Reads one token.
     fn read(token: &str) -> Result<Self, String>;
 

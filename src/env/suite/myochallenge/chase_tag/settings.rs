@@ -134,7 +134,7 @@ impl Args {
     ///
     /// # Errors
     /// The model has no height field of the right size; the relief is missing or no image of the right size.
-    pub fn ground(&self, setup: &Setup<'_>, assets: &dyn Assets) -> Result<Option<Terrain>, String> {
+    pub(super) fn ground(&self, setup: &Setup<'_>, assets: &dyn Assets) -> Result<Option<Terrain>, String> {
         if self.terrain == Ground::Flat {
             return Ok(None);
         }
