@@ -41,6 +41,21 @@ fn said(readme: &str, name: &str) -> String {
 }
 
 #[test]
+fn every_table_says_where_it_comes_from() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("results");
+    let files = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let tables: Vec<_> = files.filter(|path| path.extension().is_some_and(|end| end == "md")).collect();
+    assert!(tables.len() > 25, "{}", tables.len());
+    for path in tables {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let made = text.lines().find_map(|line| line.strip_prefix("Made from commit "));
+        let (commit, rest) = made.and_then(|made| made.split_once([' ', ','])).unwrap_or_default();
+        let is_commit = (7..=40).contains(&commit.len()) && commit.bytes().all(|b| b.is_ascii_hexdigit());
+        assert!(is_commit && rest.contains("on "), "{}: {made:?}; run cargo xtask results", path.display());
+    }
+}
+
+#[test]
 fn physics_and_compilation() {
     let readme = read("README.md");
     let own = results("robohive");
