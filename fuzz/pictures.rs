@@ -37,7 +37,7 @@ pub fn render(data: &[u8]) {
     assert!(first == second, "the second picture of a scene is another one");
 }
 
-/// The arrays are as long as asked for, distances lie within the frustum, ids are those of items.
+/// The arrays are as long as asked for, distances lie within the frustum, every id is an item's.
 fn check(picture: &Picture, scene: &Scene, channels: Channels) {
     let pixels = picture.width * picture.height;
     let length = |wanted: bool| if wanted { pixels } else { 0 };

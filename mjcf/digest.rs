@@ -1,5 +1,5 @@
 //! Digests that tell one content from another: SipHash-1-3 with 128 bits (Aumasson and Bernstein, "SipHash: a fast
-//! short-input PRF", 2012; the 128-bit output is that of the authors' reference code), with a key of zeros.
+//! short-input PRF", 2012; the 128-bit output as in the authors' reference code), with a key of zeros.
 //!
 //! 128 bits keep contents apart by accident; they do not keep out somebody who wants two contents to collide. Whoever
 //! may write the files or the cache decides what is loaded anyway.
@@ -116,7 +116,7 @@ fn absorb<const ROUNDS: usize>(mut state: [u64; 4], word: u64) -> [u64; 4] {
     state
 }
 
-/// One round: two half rounds, each of which adds, rotates and exclusive-ors two pairs of words.
+/// One round: two half rounds. Each adds, rotates and exclusive-ors two pairs of words.
 #[inline]
 fn mixed([a, b, c, d]: [u64; 4]) -> [u64; 4] {
     let (a, b) = mixed_pair(a, b, 13);

@@ -1,7 +1,7 @@
 //! Where a model's files come from, and how MJCF paths combine.
 //!
 //! Paths are strings with `/` on every platform, so a model reads alike from disk and from memory (the
-//! browser). The combination rules are those of MuJoCo's file paths: an absolute right side wins, `.` and
+//! browser). Paths are combined as MuJoCo combines them: an absolute right side wins, `.` and
 //! `dir/..` are folded without asking the disk.
 //!
 //! ```

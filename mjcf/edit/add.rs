@@ -18,7 +18,7 @@ const LABEL: &str = "<edit>";
 
 impl Spec {
     /// Adds elements to the body called `onto`: `piece` is MJCF as it stands inside a body, for example
-    /// `<geom type="box" size=".1 .1 .1"/>` or a body with all in it. Classes are those of the model, `class="main"` if none
+    /// `<geom type="box" size=".1 .1 .1"/>` or a body with all in it. It may name the classes of the model, `class="main"` if none
     /// is named.
     ///
     /// # Errors

@@ -95,7 +95,7 @@ impl Spec {
     }
 
     /// Takes the body called `name` out of this model, with all below it, and makes a model of it: what refers to nothing
-    /// else comes along, with the assets in use; what refers to both is lost. Settings and classes are those of this model.
+    /// else comes along, with the assets in use; what refers to both is lost. This model's settings and classes hold.
     ///
     /// # Errors
     /// There is no such body, or it is the world.

@@ -234,7 +234,7 @@ fn next_chunk<'a>(rest: &mut &'a [u8]) -> Result<([u8; 4], &'a [u8]), AssetError
     Ok((*kind, data))
 }
 
-/// Remainders of the polynomial division of CRC-32 (PNG, annex D): row `k` holds those of a byte with `k` zero bytes
+/// Remainders of the polynomial division of CRC-32 (PNG, annex D): row `k` holds the remainders of a byte with `k` zero bytes
 /// behind it, so that eight bytes are divided at once.
 const REMAINDERS: [[u32; 256]; 8] = {
     let mut table = [[0; 256]; 8];

@@ -1,6 +1,6 @@
 //! Attributes of elements by name: what bindings to other languages show and write, from the declarations of the elements.
 //!
-//! Names are those of MuJoCo's `mjSpec`; enumerations are their integers, an absent number is NaN. What is not a plain
+//! Names are the same as in MuJoCo's `mjSpec`; enumerations are their integers, an absent number is NaN. What is not a plain
 //! value (orientations, inertias, paths, what a body holds) is a field of its own type and not listed.
 //!
 //! ```

@@ -9,7 +9,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 /// The array or size `name` of the model (`of` is `model`), the array of the simulation (`data`), or the simulation option
-/// (`option`), as a copy; `None` where there is none.
+/// (`option`), as a copy; `None` if there is none.
 ///
 /// # Errors
 /// `of` is none of these.

@@ -54,7 +54,7 @@ impl Arguments {
         self.0.remove(name).is_some()
     }
 
-    /// Adds the settings of `others`, which replace those of their names.
+    /// Adds the settings of `others`; they replace settings of the same names.
     pub fn extend(&mut self, others: Arguments) {
         self.0.extend(others.0);
     }

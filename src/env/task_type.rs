@@ -38,7 +38,7 @@ impl TaskType {
         &self.name
     }
 
-    /// The task with these settings, which are those of its own.
+    /// The task with these settings, its own.
     ///
     /// # Errors
     /// A setting is unknown, missing or wrong; the world does not fit the task.

@@ -5,7 +5,7 @@ use physics::math::diagonalize;
 /// Rows of the largest matrix.
 pub(crate) const ROWS: usize = 6;
 
-/// A matrix of which the first few rows and columns are used.
+/// A matrix; its first few rows and columns are used.
 pub(crate) type Square = [[f64; ROWS]; ROWS];
 
 /// The shortest `x` that brings (`a` + `damping` I) `x` as near to `b` as can be. `a` is symmetric without negative

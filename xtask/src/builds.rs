@@ -14,7 +14,7 @@ pub const INPUTS: &[&str] = &["src", "mjcf", "assets", "validation/digest"];
 const DIGEST: [&str; 2] = ["-p", "robohive-digest"];
 /// The target is named, so that flags hold for what is built, and not for procedural macros.
 pub const STATIC_TARGET: &str = "x86_64-unknown-linux-gnu";
-/// Flags of the static build: those of the configuration, and the C library inside.
+/// Flags of the static build: as configured, and the C library inside.
 const STATIC_FLAGS: &str = "-C target-feature=+avx,+crt-static";
 const WEB_TARGET: &str = "wasm32-unknown-unknown";
 

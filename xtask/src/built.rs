@@ -1,6 +1,6 @@
 //! What checks build, and how.
 
-/// The profile of all checks but those of what is shipped, so that one compilation serves them.
+/// The profile of all checks, unless they check what is shipped: one compilation serves them.
 pub const PROFILE: &str = "ci";
 
 /// All packages but two that checks of their own build: the renderer that needs a GPU's interface, which takes minutes to

@@ -18,7 +18,7 @@ const MEMORY: u32 = 1024;
 /// Seconds for each target where the command line names none.
 const SECONDS: u32 = 600;
 
-/// Longest name of a kept input: libFuzzer names inputs by a digest of 40 digits, of which these tell them apart.
+/// Longest name of a kept input: libFuzzer names inputs by a digest of 40 digits; this many is enough to distinguish them.
 const NAME: usize = 12;
 /// Kept inputs are at most this long \[bytes\].
 const LONGEST_KEPT: &str = "-max_len=1000";

@@ -19,7 +19,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// What the file says; nothing where there is none.
+    /// What the file says; nothing without a file.
     pub fn read() -> Result<Self, String> {
         let text = match std::fs::read_to_string(FILE) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),

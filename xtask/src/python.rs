@@ -75,7 +75,7 @@ pub fn learners() -> Outcome {
     Ok(Vec::new())
 }
 
-/// Collection on a real Ray cluster of several nodes, some of which die, and RLlib's samplers where torch can be imported.
+/// Collection on a real Ray cluster of several nodes, some die on the way, and RLlib's samplers where torch can be imported.
 pub fn cluster() -> Outcome {
     let requirements = ["-r", "python/cluster/requirements.txt"];
     let (Some(python), Some(builder)) =
@@ -133,7 +133,7 @@ pub fn wheel() -> Outcome {
     Ok(missing)
 }
 
-/// Refuses a wheel without its own licence and those of others.
+/// Refuses a wheel without its own licence and the licences of what is inside.
 fn carries_licences(python: &Path, wheel: &Path) -> Result<(), String> {
     let (listed, _) = output(Command::new(python).args(["-m", "zipfile", "-l"]).arg(wheel))?;
     let lacks = |name: &&&str| !listed.contains(**name);

@@ -103,7 +103,7 @@ fn run_one(program: &Program) -> Finished {
     let began = Instant::now();
     let mut command = Command::new(&program.executable);
     command.arg("--show-output").current_dir(&program.folder).env("CARGO_MANIFEST_DIR", &program.folder);
-    // References beyond those of the repository are for runs that name them.
+    // References from outside the repository are for runs that name them.
     command.env_remove("ROBOHIVE_REFERENCES");
     let stem = program.executable.file_stem().unwrap_or_default().to_string_lossy();
     let package = program.folder.file_name().unwrap_or_default().to_string_lossy();

@@ -40,7 +40,7 @@ pub(super) fn dimension(kind: i64, section: &Section<'_>) -> Result<i32, AssetEr
     }
 }
 
-/// A count of nodes or elements, each of which takes at least `bytes` bytes of those left.
+/// A count of nodes or elements. Each takes at least `bytes` of the bytes left.
 pub(super) fn count(
     number: u64,
     bytes: usize,
@@ -83,7 +83,7 @@ pub(super) fn head(
     Ok(Head { count, first, dimension: dimension as i64, kind: kind as i64 })
 }
 
-/// The nodes' dimension is that of the elements.
+/// Nodes and elements have the same dimension.
 pub(super) fn matching(nodes: &Head, elements: &Head, section: &Section<'_>) -> Result<i32, AssetError> {
     let dim = dimension(elements.kind, section)?;
     if nodes.dimension != elements.dimension || elements.dimension != i64::from(dim) {

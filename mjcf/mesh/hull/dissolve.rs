@@ -20,7 +20,7 @@ impl Surface {
         changed
     }
 
-    /// Removes a vertex between the facets `a` and `b`, of which `facet` is one; false if it has to stay.
+    /// Removes a vertex between the facets `a` and `b`, one of them `facet`; false if it has to stay.
     fn dissolve(&mut self, vertex: VertexId, facet: FacetId, a: FacetId, b: FacetId) -> bool {
         let other = if a == facet { b } else { a };
         let at_vertex = |&&id: &&RidgeId| {
@@ -71,7 +71,7 @@ impl Surface {
             self.delete_ridge(id);
             return;
         }
-        // The right side is that of the way from the newer end.
+        // The right side is the right of someone who walks from the newer end.
         if (from > stays) != (to > stays) {
             ridge.sides.reverse();
         }

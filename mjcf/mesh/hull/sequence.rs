@@ -1,4 +1,4 @@
-//! The orders of facets and vertices: settled items, then those of the current step.
+//! The orders of facets and vertices: settled items, then items of the current step.
 
 use super::id::{FacetId, Id};
 

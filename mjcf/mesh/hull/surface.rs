@@ -133,7 +133,7 @@ pub(super) enum Convexity {
     Nonconvex,
 }
 
-/// Border between two facets, at least one of which is or was a polygon.
+/// Border between two facets; at least one is or was a polygon.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Ridge {
     /// The newer vertex first.

@@ -125,7 +125,7 @@ impl Reader<'_> {
     }
 
     /// What to open for a mesh, and the path that the model records. Where nothing has the name as it stands, a path inside
-    /// a package is looked up below the folders around the file, and below that of the package's name.
+    /// a package is looked up below the folders around the file, and below the one with the package's name.
     fn mesh_file(&self, attribute: &Attribute) -> (String, String) {
         let meshdir = &self.spec.compiler.meshdir;
         let as_named = self.asset_file(attribute, meshdir);

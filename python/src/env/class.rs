@@ -239,7 +239,7 @@ impl PyEnv {
     }
 
     /// An array or size of the model (`model`), an array of the simulation (`data`), or an option (`option`), under MuJoCo's
-    /// name, as a copy; `None` where there is none.
+    /// name, as a copy; `None` if there is none.
     fn array<'py>(&self, py: Python<'py>, of: &str, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
         self.with(py, "sim", |env| arrays::named(py, env.scene(), of, name))
     }

@@ -23,7 +23,7 @@ fn index(id: i64, count: usize, kind: &str) -> Result<usize, Fault> {
     })
 }
 
-/// Jacobians of a point or frame, `3 * nv` each, translation and rotation. `what` says of which: `point`, its `rate`,
+/// Jacobians of a point or frame, `3 * nv` each, translation and rotation. `what` says which: `point`, its `rate`,
 /// `body`, `bodycom`, `geom`, `site`; the second is empty for `subtree` and `angmom`.
 #[pyfunction]
 pub fn jacobian<'py>(

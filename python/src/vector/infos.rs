@@ -256,7 +256,7 @@ pub fn vector<'py, T: Element>(py: Python<'py>, values: impl Iterator<Item = T>)
     PyArray1::from_slice(py, &values.collect::<Vec<_>>())
 }
 
-/// An array of Python's objects, `None` where there is none.
+/// An array of Python's objects, `None` if there is none.
 pub fn objects<'py, T: IntoPyObject<'py>>(
     py: Python<'py>,
     items: impl ExactSizeIterator<Item = Option<T>>,

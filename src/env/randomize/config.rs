@@ -14,7 +14,7 @@ use serde::Deserialize;
 /// distractors = [{ names = ["cup"], rgba = { low = [0, 0, 0, 1], high = [1, 1, 1, 1] } }]
 /// ```
 ///
-/// `names` are those of elements of the model, where a `*` at the end stands for any ending; without `names` all elements of
+/// `names` are names of the model's elements, where a `*` at the end stands for any ending; without `names` all elements of
 /// the kind are meant, those without a name too. Of each entry, only what is given changes; an element that several entries
 /// name follows the last of them.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]

@@ -24,7 +24,7 @@ pub(crate) struct Caches {
     /// Structure that ids are checked against; edits keep it.
     #[cfg(debug_assertions)]
     pub origin: Arc<OnceLock<origin::Origin>>,
-    /// Statistics that follow from the arrays, where those of the model may be given.
+    /// Statistics that follow from the arrays, where the model's own may be given.
     pub statistic: Arc<OnceLock<Statistic>>,
 }
 

@@ -2,7 +2,7 @@
 //! Between Complex Objects in Three-Dimensional Space, 1988), with signed volumes (Montanari, Petrinic and Barbieri, Improving
 //! the GJK Algorithm, ACM TOG 36, 2017).
 //!
-//! The distance of two bodies is that of the origin from their Minkowski difference `A - B`. Let `x` be a point of the
+//! Two bodies are as far apart as the origin is from their Minkowski difference `A - B`. Let `x` be a point of the
 //! difference and `s` its support point in direction `-x`. Every point `y` of the difference has `x·y ≥ x·s`, which bounds the
 //! distance from both sides (van den Bergen, Collision Detection in Interactive 3D Environments, 2003, section 4.3):
 //!

@@ -97,7 +97,7 @@ impl<'a> MeshHull<'a> {
     }
 
     /// Farthest vertex in direction `dir`, from the `last` answer or the first vertex of the hull. Of equally far
-    /// ones it may be another than that of [`Self::farthest`].
+    /// ones it may be another than [`Self::farthest`] finds.
     pub fn farthest_untabulated(&self, dir: Vec3, last: Option<Farthest>) -> Farthest {
         let Some(slope) = &self.slope else { return self.search(dir, None) };
         let start = last.map_or(0, |l| l.start);

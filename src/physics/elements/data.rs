@@ -212,7 +212,7 @@ impl DataViewMut<'_, JointId> {
     /// Sets the velocities.
     ///
     /// # Panics
-    /// The number of values is not that of [`DataView::qvel`].
+    /// There are more or fewer values than [`DataView::qvel`] has.
     pub fn set_qvel(&mut self, values: impl AsRef<[f64]>) {
         self.qvel_mut().copy_from_slice(values.as_ref());
     }
@@ -220,7 +220,7 @@ impl DataViewMut<'_, JointId> {
     /// Sets the user forces \[N m, N\].
     ///
     /// # Panics
-    /// The number of values is not that of [`DataView::qvel`].
+    /// There are more or fewer values than [`DataView::qvel`] has.
     pub fn set_qfrc_applied(&mut self, values: impl AsRef<[f64]>) {
         self.qfrc_applied_mut().copy_from_slice(values.as_ref());
     }

@@ -26,7 +26,7 @@ pub(crate) struct BodyPoint {
 }
 
 impl Difference {
-    /// Jacobian of point `b` minus that of point `a`. Degrees of freedom that move both bodies are left out when
+    /// Jacobian of point `b` minus the Jacobian of point `a`. Degrees of freedom that move both bodies are left out when
     /// `skip_common`, as they cannot move one point of contact relative to itself.
     pub(crate) fn difference(&mut self, m: &Model, com: &Com, a: BodyPoint, b: BodyPoint, skip_common: bool) {
         self.dof.clear();

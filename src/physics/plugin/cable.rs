@@ -1,4 +1,4 @@
-//! `mujoco.elasticity.cable`: bending and twisting of a chain of bodies, each of which turns by a ball or free joint
+//! `mujoco.elasticity.cable`: bending and twisting of a chain of bodies. Each body turns by a ball or free joint
 //! against the one before it.
 //!
 //! Stress between two neighbours is stiffness times the difference between their curvature and the curvature at rest, per

@@ -36,7 +36,7 @@ pub(super) struct Step {
     pub alpha: f64,
     /// By how much the cost falls.
     pub improvement: f64,
-    /// Slope in units of the tolerance; 1 where there is none.
+    /// Slope in units of the tolerance; 1 without a tolerance.
     pub slope: f64,
 }
 

@@ -278,7 +278,7 @@ mod tests {
         for hair in [1e-15, 1e-12, 1e-9, 1e-6, 1e-3] {
             let rope = Rope { ends: [[0.0; 3], [1.0, 0.0, 0.0]], length: 1.0 + hair, gravity: GRAVITY };
             assert_eq!(rope.points(30, &mut points), 30);
-            // A shallow curve is a parabola, of which the sag is sqrt(3 / 8 of the surplus).
+            // A shallow curve is a parabola; its sag is sqrt(3 / 8 of the surplus).
             let (sag, parabola) = (-points[15][2], ops::sqrt(0.375 * hair));
             assert!((sag - parabola).abs() < 1e-3 * parabola + 1e-7, "{sag} {parabola}");
         }

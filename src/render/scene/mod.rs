@@ -90,7 +90,7 @@ impl Scene {
         Scene::default()
     }
 
-    /// Replaces the scene by that of another state, which a forward pass must have evaluated,
+    /// Replaces the scene by the scene of another state, which a forward pass must have evaluated,
     /// seen from `view`. From the second call on, nothing is allocated where no more items are shown than before, and no
     /// labels.
     ///

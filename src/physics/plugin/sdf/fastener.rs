@@ -49,7 +49,7 @@ fn thread(beyond: f64, [x, y, z]: Vec3) -> f64 {
     slanted(beyond, (above - above.round()).abs() * PITCH)
 }
 
-/// Distance from the head: six flats, of which the normals of each opposite two are 60° from the next, between two planes, with
+/// Distance from the head: three pairs of opposite flats, 60° from pair to pair, between two planes, with
 /// a chamfer around its top.
 fn head(beyond: f64, [x, y, z]: Vec3) -> f64 {
     let (sin, cos) = (3.0_f64.sqrt() / 2.0, 0.5);

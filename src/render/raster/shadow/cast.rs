@@ -22,7 +22,7 @@ pub struct Shadows {
 pub struct Casting<'a> {
     /// Triangles.
     pub assets: &'a Assets,
-    /// The surfaces of each picture; those that they share are those of the first.
+    /// The surfaces of each picture; shared ones are in the first.
     pub draws: &'a [Draws],
     /// The lamp's maps.
     pub maps: Maps,
@@ -31,7 +31,7 @@ pub struct Casting<'a> {
 }
 
 impl Shadows {
-    /// Keeps those of `questions` that the lamp reaches past the draws that `casters` picks.
+    /// Keeps the `questions` that the lamp reaches past the draws that `casters` picks.
     pub fn cast(
         &mut self,
         casting: &Casting<'_>,
