@@ -121,22 +121,24 @@ impl LeRobotWriter {
         } else {
             self.compare(&forms)?;
         }
-        let mut row = Vec::new();
-        let mut columns = Vec::new();
+        let (mut columns, mut described) = (Vec::new(), Vec::new());
         for feature in &self.features {
             let Some((_, array)) = frames.features.iter().find(|(name, _)| *name == feature.name) else {
                 return Err(self.fail(&feature.name, "missing, but the first episode has it"));
             };
             let part = self.part(feature, array)?;
             columns.extend(part.column);
-            note(&mut self.stats, &feature.name, &part.stats);
-            row.extend(part.stats.columns(&feature.name));
+            described.push((feature.name.clone(), part.stats));
         }
         let task = self.task(&frames.task);
         for (column, stats) in self.numbering(count, task) {
-            note(&mut self.stats, &column.name, &stats);
-            row.extend(stats.columns(&column.name));
+            described.push((column.name.clone(), stats));
             columns.push(column);
+        }
+        let mut row = Vec::new();
+        for (name, stats) in described {
+            note(&mut self.stats, &name, &stats);
+            row.extend(stats.columns(&name));
         }
         let written = self.write(columns, row, &frames.task, count);
         written.map_err(|e| self.fail("", e))?;
