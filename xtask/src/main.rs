@@ -31,16 +31,16 @@ use command::{cargo, succeed};
 use outcome::Outcome;
 use std::process::ExitCode;
 
-const QUICK: [Check; 6] = [
+const QUICK: [Check; 5] = [
     Check { name: "format", inputs: &[], run: || cargo(&["fmt", "--all", "--check"]) },
     Check { name: "lint", inputs: &[], run: lint },
     Check { name: "test", inputs: &[], run: tests::run },
     Check { name: "docs", inputs: &[], run: docs },
     Check { name: "features", inputs: &[], run: builds::features },
-    Check { name: "python", inputs: &[], run: python::run },
 ];
 
-const LONG: [Check; 8] = [
+const LONG: [Check; 9] = [
+    Check { name: "python", inputs: python::INPUTS, run: python::run },
     Check { name: "recorded-bits", inputs: recorded_bits::INPUTS, run: recorded_bits::run },
     Check { name: "builds", inputs: builds::INPUTS, run: builds::run },
     Check { name: "packages", inputs: packages::INPUTS, run: packages::run },
@@ -48,7 +48,7 @@ const LONG: [Check; 8] = [
     Check { name: "instructions", inputs: instructions::INPUTS, run: || instructions::run(false) },
     Check { name: "gpu", inputs: gpu::INPUTS, run: gpu::run },
     Check { name: "python-docs", inputs: python::DOCS_INPUTS, run: python::docs },
-    Check { name: "python-learners", inputs: python::LEARNERS_INPUTS, run: python::learners },
+    Check { name: "python-learners", inputs: python::INPUTS, run: python::learners },
 ];
 
 /// What only a release needs: it installs or builds much.

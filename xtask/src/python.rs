@@ -6,10 +6,10 @@ use crate::outcome::{Missing, Outcome};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+/// What the package is made of.
+pub const INPUTS: &[&str] = &["python", "src", "mjcf", "assets", "README.md", "THIRD_PARTY.md"];
 /// What decides what the documentation of the package says.
 pub const DOCS_INPUTS: &[&str] = &["python", "README.md"];
-/// What decides the verdict of learners' checkers.
-pub const LEARNERS_INPUTS: &[&str] = &["python", "src", "mjcf", "assets"];
 
 /// The oldest Python that the wheel is for.
 const OLDEST: &str =
