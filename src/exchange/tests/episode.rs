@@ -7,6 +7,8 @@ use dataset::{Array, Values};
 use folder::Folder;
 use robohive_exchange::Episode;
 
+type Columns = Vec<(&'static str, Array)>;
+
 /// A recording with one trial of these rows.
 fn recording(folder: &Folder, columns: &[(&str, Array)]) -> TraceReader {
     let path = folder.path().join("trace.h5");
@@ -28,7 +30,7 @@ fn done(flags: &[bool]) -> Array {
     Array { shape: vec![flags.len()], values: Values::Bool(flags.to_vec()) }
 }
 
-fn columns(flags: &[bool]) -> Vec<(&'static str, Array)> {
+fn columns(flags: &[bool]) -> Columns {
     let rows = flags.len();
     vec![
         ("observations", ramp(&[rows, 2])),
@@ -64,7 +66,7 @@ fn rewards_belong_to_the_step_before_their_row() {
 #[test]
 fn trials_that_are_no_episodes_are_refused_by_name() {
     let folder = Folder::new("trials");
-    let refused = |change: &dyn Fn(&mut Vec<(&'static str, Array)>), expected: &[&str]| {
+    let refused = |change: &dyn Fn(&mut Columns), expected: &[&str]| {
         let mut changed = columns(&[false, false, true]);
         change(&mut changed);
         let error = Episode::of_trial(&recording(&folder, &changed), "Trial0").unwrap_err().to_string();
@@ -74,7 +76,7 @@ fn trials_that_are_no_episodes_are_refused_by_name() {
     refused(&|c| c[2].1 = ramp(&[3, 2]), &["Trial0/rewards", "[3, 2]", "one number"]);
     refused(&|c| c[3].1 = ramp(&[3, 4]), &["Trial0/done", "one number"]);
     refused(&|c| c[4].1 = ramp(&[4]), &["Trial0/time", "4 rows"]);
-    let one_row = |c: &mut Vec<(&'static str, Array)>| {
+    let one_row = |c: &mut Columns| {
         *c = vec![("observations", ramp(&[1, 2])), ("actions", ramp(&[1, 3])), ("rewards", ramp(&[1]))];
         c.push(("done", done(&[true])));
     };

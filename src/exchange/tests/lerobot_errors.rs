@@ -7,12 +7,14 @@ use folder::Folder;
 use robohive_exchange::lerobot::{Frames, LeRobotReader, LeRobotWriter, Settings};
 use std::path::{Path, PathBuf};
 
+type Features = Vec<(String, Array)>;
+
 fn numbers(name: &str, shape: &[usize]) -> (String, Array) {
     let count = shape.iter().product();
     (name.into(), Array::f64(shape.to_vec(), (0..count).map(|i| i as f64).collect()))
 }
 
-fn frames(features: Vec<(String, Array)>) -> Frames {
+fn frames(features: Features) -> Frames {
     Frames { features, task: "task".into() }
 }
 
@@ -36,7 +38,7 @@ fn assert_says<T>(result: Result<T, dataset::trace::TraceError>, expected: &[&st
 #[test]
 fn frames_that_are_none_are_refused_by_name() {
     let folder = Folder::new("frames");
-    let cases: [(Vec<(String, Array)>, &[&str]); 9] = [
+    let cases: [(Features, &[&str]); 9] = [
         (vec![], &["an episode has no features"]),
         (vec![numbers("action", &[0, 2])], &["action", "a frame at least"]),
         (vec![numbers("", &[2])], &["not empty and has no /"]),
