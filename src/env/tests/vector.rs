@@ -110,7 +110,8 @@ fn wrong_batches_are_refused_before_anything_steps() {
         let error = envs.send(&ids, &vec![0.0; ids.len() * len]).unwrap_err().to_string();
         assert!(error.contains(message), "{error}");
     }
-    assert!(envs.send_resets(&[0, 1], &[None]).is_err());
+    let error = envs.send_resets(&[0, 1], &[None]).unwrap_err().to_string();
+    assert!(error.contains("1 seeds for 2 environments"), "{error}");
     assert!(envs.envs().all(|env| env.steps() == 0));
 }
 
