@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use syn::{Attribute, Expr, Item, Lit, Meta, Visibility};
 
 /// Folders of the published crates.
-const PUBLISHED: [&str; 15] = [
+const PUBLISHED: [&str; 16] = [
     "assets",
     "mjcf",
     "src/agents",
@@ -16,6 +16,7 @@ const PUBLISHED: [&str; 15] = [
     "src/physics",
     "src/random",
     "src/render",
+    "src/render_gpu",
     "src/robot",
     "src/store",
     "src/video",

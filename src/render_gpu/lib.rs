@@ -6,6 +6,19 @@
 //! uploaded when they are first seen, or change. The commands (`encode`) draw all pictures side by side into one atlas,
 //! which is read back once.
 //!
+//! ```
+//! # use render as robohive_render;
+//! use robohive_render::{Settings, painter::Painter};
+//! use robohive_render_gpu::{Choice, EitherRenderer, GpuError, GpuRenderer};
+//!
+//! let choice = Choice::Named("no such card".into());
+//! let missing = GpuRenderer::new(Settings::default(), &choice).err();
+//! assert!(matches!(missing, Some(GpuError::NoAdapter { .. })), "{missing:?}");
+//! // Draws on the CPU instead, and a line on the standard error stream says so.
+//! let renderer = EitherRenderer::new(Settings::default(), &choice);
+//! assert!(renderer.name() == "CPU" && !renderer.draws_batches());
+//! ```
+//!
 //! # Conventions
 //! - On the GPU the world is relative to the eye of each picture, so that single precision suffices.
 //! - Row 0 of a target is the lowest of a picture: the patterns of samples of Vulkan, Metal and Direct3D, upside down, are
