@@ -40,7 +40,7 @@ pub fn run() -> Outcome {
     missing.extend(wide_build()?);
     println!("-- static");
     missing.extend(static_build()?);
-    missing.extend(web_builds("release")?);
+    missing.extend(web_builds(PROFILE)?);
     Ok(missing)
 }
 

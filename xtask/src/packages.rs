@@ -33,7 +33,7 @@ pub fn run() -> Outcome {
     succeed(check.current_dir(&workspace)).map(|()| Vec::new())
 }
 
-/// Unpacks every archive in `folder`; the names of their folders.
+/// Unpacks every archive in `folder`; the folders of those that are published.
 fn unpack(folder: &Path) -> Result<Vec<String>, String> {
     let entries = std::fs::read_dir(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
     let archives = entries.flatten().map(|entry| entry.path());
@@ -43,8 +43,12 @@ fn unpack(folder: &Path) -> Result<Vec<String>, String> {
     for archive in &archives {
         output(Command::new("tar").arg("-xzf").arg(archive).arg("-C").arg(folder))?;
         let name = archive.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        // Of a manifest that cargo has rewritten, so that it names no path.
-        if read(&folder.join(&name).join("Cargo.toml"))?.contains("\npath = \"..") {
+        // Cargo has rewritten it, so that it names no path.
+        let manifest = read(&folder.join(&name).join("Cargo.toml"))?;
+        if manifest.contains("\npublish = false") {
+            continue;
+        }
+        if manifest.contains("\npath = \"..") {
             return Err(format!("the archive of {name} depends on a folder"));
         }
         crates.push(name);

@@ -2,7 +2,7 @@
 
 use super::{Measures, Shot, batch, renderer};
 use render::picture::Channels;
-use render::raster::{Samples, Settings};
+use render::raster::Samples;
 use render::scene::SceneOptions;
 use render::{Assets, Picture, Profile};
 

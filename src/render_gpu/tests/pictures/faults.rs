@@ -3,7 +3,7 @@
 use super::{Measures, Shot, renderer};
 use render::painter::{Painter, Painters};
 use render::picture::Channels;
-use render::raster::{self, Settings};
+use render::raster;
 use render::scene::{Scene, SceneOptions};
 use render::{Picture, RenderError};
 use robohive_render_gpu::{Choice, EitherPainters, EitherRenderer, GpuError, GpuRenderer};

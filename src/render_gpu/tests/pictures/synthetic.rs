@@ -2,7 +2,7 @@
 
 use super::{Measures, Shot};
 use physics::Model;
-use render::raster::{Samples, Settings};
+use render::raster::Samples;
 use render::scene::{Effects, Fog, LabelChoice, SceneOptions, Show};
 
 /// Around the worldbody of every model here.
