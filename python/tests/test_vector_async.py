@@ -40,7 +40,8 @@ def test_each_environment_yields_what_stepping_all_yields():
     for ours, theirs in zip(seen, expected, strict=True):
         for one, other in zip(ours, theirs, strict=False):
             assert np.array_equal(one[0], other[0]) and one[1] == other[1]
-    assert sum(len(rows) for rows in seen) >= 5 * 16 - 1
+    # A batch takes two: the last one may be left where it is.
+    assert sum(len(rows) < 16 for rows in seen) <= 1
 
 
 def test_what_cannot_be_sent_or_received():

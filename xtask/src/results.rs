@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 15] = [
+const SPEAK_OF: [(&str, &[&str]); 17] = [
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
     ("environments", &["src/physics", "mjcf", "src/robot", "src/env"]),
@@ -30,7 +30,9 @@ const SPEAK_OF: [(&str, &[&str]); 15] = [
     ("python_speed", &["src/physics", "src/env", "python"]),
     ("quirks", &["src/robot", "src/env/suite"]),
     ("standin", &["src/physics", "mjcf", "python"]),
+    ("standin_myosuite", &["src/physics", "mjcf", "python"]),
     ("standin_suite", &["src/physics", "mjcf", "python"]),
+    ("standin_tests", &["src/physics", "mjcf", "python"]),
 ];
 /// What most tables speak of.
 const ENGINE: &[&str] = &["src/physics", "mjcf"];

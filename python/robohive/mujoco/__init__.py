@@ -10,7 +10,7 @@ Names, arguments, shapes and numbers are those of MuJoCo 3.12. Where something i
 warning, as MuJoCo's do, instead of raising.
 """
 
-from robohive.mujoco import _structs, rollout
+from robohive.mujoco import _functions, _structs, rollout
 from robohive.mujoco._constants import *  # noqa: F403
 from robohive.mujoco._enums import *  # noqa: F403
 from robohive.mujoco._errors import FatalError, UnexpectedError

@@ -2,16 +2,23 @@
 
 from robohive.mujoco import _engine as _core
 from robohive.mujoco.functions.algebra import *  # noqa: F403
+from robohive.mujoco.functions.banded import *  # noqa: F403
+from robohive.mujoco.functions.box import *  # noqa: F403
+from robohive.mujoco.functions.history import *  # noqa: F403
 from robohive.mujoco.functions.naming import *  # noqa: F403
 from robohive.mujoco.functions.query import *  # noqa: F403
 from robohive.mujoco.functions.rotation import *  # noqa: F403
+from robohive.mujoco.functions.slopes import *  # noqa: F403
 from robohive.mujoco.functions.stages import *  # noqa: F403
 from robohive.mujoco.functions.vectors import *  # noqa: F403
+from robohive.mujoco.log import mju_writeLog
 from robohive.mujoco.pictures.context import (
     mjr_finish,
     mjr_getError,
+    mjr_getRendererInfo,
     mjr_maxViewport,
     mjr_readPixels,
+    mjr_rectangle,
     mjr_render,
     mjr_resizeOffscreen,
     mjr_setBuffer,
@@ -19,6 +26,7 @@ from robohive.mujoco.pictures.context import (
     mjr_uploadMesh,
     mjr_uploadTexture,
 )
+from robohive.mujoco.pictures.figure import mjv_defaultFigure
 from robohive.mujoco.pictures.moving import mjv_moveCamera, mjv_select
 from robohive.mujoco.pictures.overlay import mjr_label, mjr_overlay
 from robohive.mujoco.pictures.scene import mjv_defaultPerturb, mjv_initGeom, mjv_updateScene

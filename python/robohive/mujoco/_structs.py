@@ -1,12 +1,13 @@
 """All structs, where programs look for them that know MuJoCo's own module."""
 
-from robohive.mujoco.pictures.context import GLContext, MjrContext, MjrRect
+from robohive.mujoco.pictures.context import GLContext, MjrContext, MjrRect, MjrRendererInfo
+from robohive.mujoco.pictures.figure import MjvFigure, MjvLight
 from robohive.mujoco.pictures.scene import MjvGeom, MjvGLCamera, MjvPerturb, MjvScene
 from robohive.mujoco.pictures.view import MjvCamera, MjvOption
+from robohive.mujoco.log import MjLogConfig
+from robohive.mujoco.structs.contacts import MjContact, MjContactList
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.lists import (
-    MjContact,
-    MjContactList,
     MjSolverStat,
     MjSolverStatList,
     MjTimerStat,
@@ -16,12 +17,14 @@ from robohive.mujoco.structs.lists import (
 )
 from robohive.mujoco.structs.model import MjModel
 from robohive.mujoco.structs.options import MjOption, MjStatistic, MjVisual, MjVisualHeadlight, MjVisualRgba
+from robohive.mujoco.vfs import MjVfs
 
 __all__ = [
     "GLContext",
     "MjContact",
     "MjContactList",
     "MjData",
+    "MjLogConfig",
     "MjModel",
     "MjOption",
     "MjSolverStat",
@@ -29,6 +32,7 @@ __all__ = [
     "MjStatistic",
     "MjTimerStat",
     "MjTimerStatList",
+    "MjVfs",
     "MjVisual",
     "MjVisualHeadlight",
     "MjVisualRgba",
@@ -36,9 +40,12 @@ __all__ = [
     "MjWarningStatList",
     "MjrContext",
     "MjrRect",
+    "MjrRendererInfo",
     "MjvCamera",
+    "MjvFigure",
     "MjvGLCamera",
     "MjvGeom",
+    "MjvLight",
     "MjvOption",
     "MjvPerturb",
     "MjvScene",

@@ -1,51 +1,71 @@
-"""Callbacks. The engine calls no Python while it steps: there is only the handler of warnings, called after a step.
+"""Callbacks: functions of Python that passes call between their stages, and the handler of warnings.
 
-Setting another to None does nothing.
+While one is set, passes are put together in Python (`functions/called.py`), stage by stage, which takes longer.
 """
 
 import warnings
 from collections.abc import Callable
 from typing import Any
 
+from robohive.mujoco import _engine as _core
 
-def _setter(name: str) -> Callable[[Any], None]:
+#: Those that are set, by name.
+_set: dict[str, Any] = {}
+
+
+def _setter(name: str, summary: str) -> Callable[[Any], None]:
+    def set_callback(callback: Any) -> None:
+        if callback is not None and not callable(callback):
+            raise TypeError("callback is not an Optional[Callable]")
+        # The one before is released last: its end may set callbacks too.
+        before = _set.get(name)
+        _set[name] = callback
+        _core.set_called(any(one is not None for one in list(_set.values())))
+        del before
+
+    set_callback.__name__ = f"set_{name}"
+    set_callback.__doc__ = f"Sets `{name}`, None for none: {summary}"
+    return set_callback
+
+
+def _refusing(name: str) -> Callable[[Any], None]:
     def set_callback(callback: Any) -> None:
         if callback is not None:
-            raise NotImplementedError(f"{name}: the engine steps without the interpreter, and calls nothing back")
+            raise NotImplementedError(f"{name}: the engine calls nothing back inside of a stage")
 
     set_callback.__name__ = f"set_{name}"
     set_callback.__doc__ = f"Accepts None; `{name}` is never called."
     return set_callback
 
 
-def _getter(name: str) -> Callable[[], None]:
-    def get_callback() -> None:
-        return None
+def _getter(name: str) -> Callable[[], Any]:
+    def get_callback() -> Any:
+        return _set.get(name)
 
     get_callback.__name__ = f"get_{name}"
-    get_callback.__doc__ = f"None: `{name}` is never called."
+    get_callback.__doc__ = f"`{name}`, None where none is set."
     return get_callback
 
 
-set_mjcb_act_bias = _setter("mjcb_act_bias")
-get_mjcb_act_bias = _getter("mjcb_act_bias")
-set_mjcb_act_dyn = _setter("mjcb_act_dyn")
-get_mjcb_act_dyn = _getter("mjcb_act_dyn")
-set_mjcb_act_gain = _setter("mjcb_act_gain")
-get_mjcb_act_gain = _getter("mjcb_act_gain")
-set_mjcb_contactfilter = _setter("mjcb_contactfilter")
-get_mjcb_contactfilter = _getter("mjcb_contactfilter")
-set_mjcb_control = _setter("mjcb_control")
+set_mjcb_control = _setter("mjcb_control", "`callback(model, data)` sets controls, before actuators act.")
 get_mjcb_control = _getter("mjcb_control")
-set_mjcb_passive = _setter("mjcb_passive")
+set_mjcb_passive = _setter("mjcb_passive", "`callback(model, data)` adds to `qfrc_passive`.")
 get_mjcb_passive = _getter("mjcb_passive")
-set_mjcb_sensor = _setter("mjcb_sensor")
+set_mjcb_sensor = _setter("mjcb_sensor", "`callback(model, data, stage)` writes readings of user sensors.")
 get_mjcb_sensor = _getter("mjcb_sensor")
-set_mjcb_time = _setter("mjcb_time")
+set_mjcb_time = _setter("mjcb_time", "`callback()` is the clock of timers.")
 get_mjcb_time = _getter("mjcb_time")
-set_mju_user_free = _setter("mju_user_free")
+set_mjcb_act_bias = _refusing("mjcb_act_bias")
+get_mjcb_act_bias = _getter("mjcb_act_bias")
+set_mjcb_act_dyn = _refusing("mjcb_act_dyn")
+get_mjcb_act_dyn = _getter("mjcb_act_dyn")
+set_mjcb_act_gain = _refusing("mjcb_act_gain")
+get_mjcb_act_gain = _getter("mjcb_act_gain")
+set_mjcb_contactfilter = _refusing("mjcb_contactfilter")
+get_mjcb_contactfilter = _getter("mjcb_contactfilter")
+set_mju_user_free = _refusing("mju_user_free")
 get_mju_user_free = _getter("mju_user_free")
-set_mju_user_malloc = _setter("mju_user_malloc")
+set_mju_user_malloc = _refusing("mju_user_malloc")
 get_mju_user_malloc = _getter("mju_user_malloc")
 
 _warning: Any = None
@@ -55,10 +75,10 @@ _TEXTS = (
     "the inertia matrix is nearly singular at degree of freedom {}; check masses and armatures",
     "there are more contacts than memory allows: {}",
     "there are more constraint rows than memory allows: {} bytes",
-    "qpos is not finite or too large at degree of freedom {}; the simulation is unstable",
-    "qvel is not finite or too large at degree of freedom {}; the simulation is unstable",
-    "qacc is not finite or too large at degree of freedom {}; the simulation is unstable",
-    "ctrl is not finite or too large at actuator {}; all controls count as zero",
+    "QPOS is not finite or too large at degree of freedom {}; the simulation is unstable",
+    "QVEL is not finite or too large at degree of freedom {}; the simulation is unstable",
+    "QACC is not finite or too large at degree of freedom {}; the simulation is unstable",
+    "CTRL is not finite or too large at actuator {}; all controls count as zero",
 )
 
 
@@ -91,4 +111,6 @@ def get_mju_user_warning() -> Any:
 
 
 def mj_resetCallbacks() -> None:
-    """Nothing to reset."""
+    """Sets all callbacks of passes to None."""
+    _set.clear()
+    _core.set_called(False)

@@ -4,7 +4,18 @@ import importlib
 import sys
 
 #: Modules that programs import by their full names.
-_MODULES = ("_constants", "_enums", "_errors", "_functions", "_specs", "_structs", "rollout")
+_MODULES = (
+    "_constants",
+    "_enums",
+    "_errors",
+    "_functions",
+    "_specs",
+    "_structs",
+    "minimize",
+    "msh2obj",
+    "rollout",
+    "viewer",
+)
 #: Those that bring an OpenGL context, of which nothing is needed here.
 _CONTEXTS = ("_render", "egl", "gl_context", "glfw", "osmesa")
 

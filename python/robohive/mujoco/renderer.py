@@ -9,6 +9,7 @@ from robohive.mujoco import _engine as _core
 from robohive.mujoco.enums.elements import mjtObj
 from robohive.mujoco.enums.view import mjtCamera
 from robohive.mujoco.pictures.looking import checked, look_of
+from robohive.mujoco.pictures.scene import MjvScene
 from robohive.mujoco.pictures.view import MjvCamera, MjvOption, mjv_defaultFreeCamera
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
@@ -17,7 +18,8 @@ from robohive.mujoco.structs.model import MjModel
 class Renderer:
     """Draws pictures of simulations of one model, by the engine's own renderer.
 
-    `max_geom` and `font_scale` are accepted and have no effect: there is no bound, and no text.
+    `scene` takes geoms and flags of the program between `update_scene` and `render`: `max_geom` is how many geoms it has
+    room for, those of the model included. `font_scale` is accepted and has no effect: there is no text.
     """
 
     def __init__(
@@ -35,8 +37,11 @@ class Renderer:
                     f'Image {name} {asked} > framebuffer {name} {most}. Give the model <visual><global off{name}="{asked}"/></visual>'
                 )
         self._model, self._height, self._width = model, height, width
-        self._painter: _core.Painter | None = _core.Painter(width, height)
+        self._scene: MjvScene | None = MjvScene(model, max_geom)
+        self._scene._painter = _core.Painter(width, height)
         self._channel = "rgb"
+        #: What was looked at last, and the flags then.
+        self._looked: tuple[MjData, dict[str, Any], bytes] | None = None
         self._scene_option = MjvOption()
 
     @property
@@ -84,7 +89,11 @@ class Renderer:
             ValueError: there is no such camera.
         """
         look = look_of(self._model, self._camera(camera), scene_option or self._scene_option)
-        self._painting().look(self._model, data, look)
+        self._look(data, look)
+
+    def _look(self, data: MjData, look: dict[str, Any]) -> None:
+        self.scene._look(self._model, data, look)
+        self._looked = data, look, self.scene.flags.tobytes()
 
     def _camera(self, camera: int | str | MjvCamera) -> MjvCamera:
         if isinstance(camera, MjvCamera):
@@ -100,10 +109,16 @@ class Renderer:
         chosen.type, chosen.fixedcamid = mjtCamera.mjCAMERA_FIXED, checked(self._model, int(number))
         return chosen
 
-    def _painting(self) -> _core.Painter:
-        if self._painter is None:
+    @property
+    def scene(self) -> MjvScene:
+        """What is drawn: geoms, to which a program may add, and flags.
+
+        Raises:
+            RuntimeError: the renderer is closed.
+        """
+        if self._scene is None:
             raise RuntimeError("this Renderer is closed")
-        return self._painter
+        return self._scene
 
     def render(self, *, out: NDArray[Any] | None = None) -> NDArray[Any]:
         """The picture: colours `(height, width, 3)` uint8, distances `(height, width)` float32 [m], or objects
@@ -113,7 +128,13 @@ class Renderer:
             RuntimeError: nothing was looked at yet, or the renderer is closed.
             ValueError: `out` has another shape.
         """
-        picture = self._painting().draw(self._channel)
+        scene = self.scene
+        if self._looked is not None and self._looked[2] != scene.flags.tobytes():
+            guests, count = scene._guests(), scene.ngeom
+            self._look(*self._looked[:2])
+            if guests:
+                scene.ngeom = count
+        picture = self._picture(scene)
         if out is None:
             return picture
         if out.shape != picture.shape:
@@ -121,9 +142,16 @@ class Renderer:
         np.copyto(out, picture, casting="unsafe")
         return out
 
+    def _picture(self, scene: MjvScene) -> NDArray[Any]:
+        guests = scene._guests()
+        if not guests:
+            return scene._painter.draw(self._channel)
+        drawn = scene._painter.draw_all((self._width, self._height), guests)
+        return drawn[("rgb", "depth", "segmentation").index(self._channel)]
+
     def close(self) -> None:
         """Frees the memory."""
-        self._painter = None
+        self._scene = self._looked = None
 
     def __enter__(self) -> "Renderer":
         return self

@@ -37,7 +37,7 @@ def rollout(
         initial_state: `(nbatch, nstate)`, states of signature `mjSTATE_FULLPHYSICS`; one row serves all trajectories.
         control: `(nbatch, nstep, ncontrol)`; one trajectory or one step serves all.
         control_spec: what the controls set (`mjtState`).
-        skip_checks: accepted; shapes are always checked.
+        skip_checks: more models than initial states are no error; shapes are always checked.
         nstep: steps of a trajectory where `control` does not say.
         initial_warmstart: `(nbatch, nv)`.
         state: takes the states, `(nbatch, nstep, nstate)`.
@@ -50,7 +50,8 @@ def rollout(
 
     Raises:
         ValueError: shapes contradict each other.
-        FatalError: a trajectory is unstable, unless unstable simulations are reset.
+        FatalError: a trajectory is unstable. Where unstable simulations are reset, it ends there, and its last state is
+            repeated.
     """
     if int(control_spec) & ~int(mjtState.mjSTATE_USER):
         raise ValueError("control_spec can only contain bits in mjSTATE_USER")
@@ -68,6 +69,8 @@ def rollout(
         "sensordata": None if sensordata is None else _shaped("sensordata", sensordata, 3, first.nsensordata),
     }
     arrays = {"initial_state": start, "initial_warmstart": warm, "control": inputs, **outs}
+    if skip_checks and len(models) > 1:
+        models = models[: len(start)]
     nbatch = _common(0, max(len(models), 1), arrays)
     steps = _common(1, nstep or 1, {"control": inputs, **outs})
     if len(models) not in (1, nbatch):
@@ -119,7 +122,8 @@ def _tiled(array: NDArray[np.float64], shape: tuple[int, ...]) -> NDArray[np.flo
 
 
 class Rollout:
-    """Rolls out with a number of threads, `len(data)` of each call; a context manager, as MuJoCo's."""
+    """Rolls out with a number of threads, one for each simulation of a call; with `nthread` 0, in the caller's. A context
+    manager."""
 
     def __init__(self, *, nthread: int | None = None) -> None:
         self.nthread = nthread or 0
@@ -130,9 +134,16 @@ class Rollout:
 
         Raises:
             RuntimeError: the object is closed.
+            ValueError: there are not as many simulations as threads.
         """
         if not self._open:
             raise RuntimeError("this Rollout is closed")
+        data = args[1] if len(args) > 1 else options.get("data")
+        count = 1 if isinstance(data, MjData) or data is None else len(data)
+        if count and self.nthread == 0 and count > 1:
+            raise ValueError("More than one data instance passed but rollout is configured to run on main thread")
+        if count and self.nthread and count != self.nthread:
+            raise ValueError(f"Length of data: {count} not equal to nthread: {self.nthread}")
         return rollout(*args, **options)
 
     def close(self) -> None:

@@ -3,9 +3,11 @@
 use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
+use super::timed::Timed;
 use physics::{Data as Simulation, Model as Compiled};
 use pyo3::prelude::*;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::Instant;
 
 /// Works on a simulation that may change: all that Python wrote is taken over before, all that it reads is up to date
 /// after, also where the work fails.
@@ -18,12 +20,26 @@ pub fn change<R: Send>(
     data: &Bound<'_, Data>,
     work: impl FnOnce(&Compiled, &mut Simulation) -> Result<R, Fault> + Send,
 ) -> PyResult<R> {
+    timed(py, model, data, None, work)
+}
+
+/// [`change`] that counts as so many calls of what is timed.
+pub fn timed<R: Send>(
+    py: Python<'_>,
+    model: &Bound<'_, Model>,
+    data: &Bound<'_, Data>,
+    counts: Option<(Timed, usize)>,
+    work: impl FnOnce(&Compiled, &mut Simulation) -> Result<R, Fault> + Send,
+) -> PyResult<R> {
     let compiled = model.get().current(py)?;
     let mut held = data.get().lock()?;
     held.check_fits(model.get())?;
     held.pull(py)?;
-    let simulation = &mut held.simulation;
+    let (simulation, start) = (&mut held.simulation, counts.map(|_| Instant::now()));
     let result = py.detach(|| caught(|| work(&compiled, simulation)));
+    if let (Some((what, number)), Some(start)) = (counts, start) {
+        held.timers.count(what, number, start);
+    }
     held.push(py)?;
     Ok(result?)
 }

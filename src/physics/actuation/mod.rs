@@ -9,6 +9,8 @@ pub(crate) mod servo;
 pub(crate) mod setpoint;
 pub mod transmission;
 
+pub use history::{Recorded, recall};
+
 pub use setpoint::is_disabled;
 
 use crate::actuation::activation::{activation_rates, next_activation};

@@ -1,6 +1,4 @@
-"""Matrices of dynamics, positions and velocities, states as vectors, derivatives."""
-
-from typing import Any
+"""Matrices of dynamics, positions and velocities, states as vectors."""
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -125,48 +123,6 @@ def mj_copyData(dest: MjData, m: MjModel, src: MjData) -> MjData:
     """Copies everything of a simulation."""
     dest._assign(src)
     return dest
-
-
-def mjd_transitionFD(
-    m: MjModel, d: MjData, eps: float, flg_centered: bool, A: Any = None, B: Any = None, C: Any = None, D: Any = None
-) -> None:
-    """Linearises one step by finite differences of size `eps`.
-
-    `A` (`2nv+na` squared) takes the slopes of the next state with the state, `B` with the controls, `C` and `D` those of
-    the sensors.
-    """
-    state, results = 2 * m.nv + m.na, _core.step_slopes(m, d, eps, bool(flg_centered))
-    shapes = ((state, state), (state, m.nu), (m.nsensordata, state), (m.nsensordata, m.nu))
-    for out, name, shape, values in zip((A, B, C, D), "ABCD", shapes, results, strict=True):
-        if out is not None:
-            destination(out, name, f"shape {shape}", shape)
-            write(out, values)
-
-
-def mjd_inverseFD(
-    m: MjModel,
-    d: MjData,
-    eps: float,
-    flg_actuation: bool,
-    DfDq: Any = None,
-    DfDv: Any = None,
-    DfDa: Any = None,
-    DsDq: Any = None,
-    DsDv: Any = None,
-    DsDa: Any = None,
-    DmDq: Any = None,
-) -> None:
-    """Linearises inverse dynamics: rows of `DfDq`, `DfDv`, `DfDa` hold the change of all forces with one coordinate.
-
-    Raises:
-        NotImplementedError: slopes of sensors or of the inertia, or without actuator forces, are asked for.
-    """
-    if flg_actuation or any(out is not None for out in (DsDq, DsDv, DsDa, DmDq)):
-        raise NotImplementedError("mjd_inverseFD gives slopes of qfrc_inverse only, without actuation")
-    for out, name, values in zip((DfDq, DfDv, DfDa), ("DfDq", "DfDv", "DfDa"), _core.inverse_slopes(m, d, eps), strict=True):
-        if out is not None:
-            destination(out, name, "shape (nv, nv)", (m.nv, m.nv))
-            write(out, values)
 
 
 def mj_setConst(m: MjModel, d: MjData) -> None:

@@ -1,9 +1,11 @@
 """Names and ids, names of types, versions, files of models."""
 
+import html
 from typing import Any
 
 import numpy as np
 
+from robohive.mujoco import _engine as _core
 from robohive.mujoco._constants import mjVERSION_HEADER
 from robohive.mujoco.enums.elements import mjtObj
 from robohive.mujoco.structs.model import MjModel
@@ -40,7 +42,10 @@ def mj_version() -> int:
 
 
 def mj_versionString() -> str:
-    """The version of MuJoCo that is followed."""
+    """mj_versionString() -> str
+
+Return the current version of MuJoCo as a null-terminated string.
+"""
     return f"{mjVERSION_HEADER // 1_000_000}.{mjVERSION_HEADER // 1000 % 1000}.{mjVERSION_HEADER % 1000}"
 
 
@@ -78,3 +83,24 @@ def mj_saveModel(m: MjModel, filename: str | None = None, buffer: Any = None) ->
     elif filename is not None:
         with open(filename, "wb") as file:
             file.write(content)
+
+
+def mju_getXMLDependencies(filename: str) -> list[str]:
+    """Paths of all files that the model of a file is made of, that file first.
+
+    Raises:
+        ValueError: the model is wrong; the message says where.
+    """
+    return _core.dependencies(filename)
+
+
+def mj_printSchema(flg_html: bool, flg_pad: bool) -> str:
+    """The format that the engine reads: every element and attribute with its meaning, as text or HTML; with `flg_pad`
+    HTML keeps the indentation."""
+    text = _core.schema()
+    if not flg_html:
+        return text
+    lines = [html.escape(line) for line in text.splitlines()]
+    if flg_pad:
+        lines = ["&nbsp;" * (len(line) - len(line.lstrip())) + line.lstrip() for line in lines]
+    return "<br>\n".join(lines)

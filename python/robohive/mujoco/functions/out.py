@@ -38,5 +38,5 @@ def destination(array: Any, name: str, shape: str, rows: tuple[int, ...], dtype:
 
 
 def write(array: Any, values: ArrayLike) -> None:
-    """Overwrites an array, whatever its shape."""
-    array[...] = np.asarray(values).reshape(array.shape)
+    """Overwrites an array, whatever its shape; of a subclass, without what that adds to writing."""
+    np.ndarray.__setitem__(array, ..., np.asarray(values).reshape(array.shape))

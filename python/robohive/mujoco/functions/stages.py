@@ -3,10 +3,11 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
+from robohive.mujoco import callbacks
 from robohive.mujoco._constants import mjMAXVAL
+from robohive.mujoco.enums.physics import mjtDisableBit, mjtWarning
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
 
@@ -18,7 +19,7 @@ def _stage(name: str, summary: str) -> _Stage:
         _core.stage(m, d, name)
 
     run.__name__ = run.__qualname__ = f"mj_{name}"
-    run.__doc__ = summary
+    run.__doc__ = f"mj_{name}(m: mujoco._structs.MjModel, d: mujoco._structs.MjData) -> None\n\n{summary}\n"
     return run
 
 
@@ -49,7 +50,7 @@ mj_fwdConstraint = _stage("fwdConstraint", "Constraint forces and accelerations.
 mj_sensorAcc = _stage("sensorAcc", "Sensors of accelerations and forces.")
 mj_rnePostConstraint = _stage("rnePostConstraint", "Accelerations of bodies, and forces between them and from outside.")
 mj_compareFwdInv = _stage("compareFwdInv", "Differences of forward and inverse dynamics.")
-mj_Euler = _stage("Euler", "Advances the state by Euler's method.")
+mj_Euler = _stage("Euler", "Euler integrator, semi-implicit in velocity.")
 mj_implicit = _stage("implicit", "Advances the state implicitly in velocity.")
 
 
@@ -69,22 +70,34 @@ def mj_RungeKutta(m: MjModel, d: MjData, N: int) -> None:
     _core.stage(m, d, "RungeKutta")
 
 
-def _check(values: NDArray[np.float64], array: str, d: MjData) -> None:
+def _check(m: MjModel, d: MjData, array: str, kind: mjtWarning) -> bool:
+    """Whether the numbers are fit; where not, and instability resets, resets and counts a warning."""
+    values = getattr(d, array)
     bad = np.flatnonzero(~(np.abs(values) <= mjMAXVAL))
-    if bad.size:
+    if not bad.size:
+        return True
+    if not _core.resets():
         raise _core.FatalError(f"{array}[{bad[0]}] is {values[bad[0]]} at time {d.time} s; the simulation is unstable")
+    place, time, number = int(bad[0]), d.time, d.warning[kind].number + 1
+    if number == 1:
+        callbacks._tell(int(kind), place, time)
+    if not int(m.opt.disableflags) & int(mjtDisableBit.mjDSBL_AUTORESET):
+        _core.mj_resetData(m, d)
+    d.warning[kind].number, d.warning[kind].lastinfo = number, place
+    return False
 
 
 def mj_checkPos(m: MjModel, d: MjData) -> None:
-    """Raises a `FatalError` for positions that are not finite or too large."""
-    _check(d.qpos, "qpos", d)
+    """Refuses positions that are not finite or too large: a `FatalError`, or a reset with a warning."""
+    _check(m, d, "qpos", mjtWarning.mjWARN_BADQPOS)
 
 
 def mj_checkVel(m: MjModel, d: MjData) -> None:
-    """Raises a `FatalError` for velocities that are not finite or too large."""
-    _check(d.qvel, "qvel", d)
+    """Refuses velocities that are not finite or too large: a `FatalError`, or a reset with a warning."""
+    _check(m, d, "qvel", mjtWarning.mjWARN_BADQVEL)
 
 
 def mj_checkAcc(m: MjModel, d: MjData) -> None:
-    """Raises a `FatalError` for accelerations that are not finite or too large."""
-    _check(d.qacc, "qacc", d)
+    """Refuses accelerations that are not finite or too large: a `FatalError`, or a reset with a warning, and a pass."""
+    if not _check(m, d, "qacc", mjtWarning.mjWARN_BADQACC):
+        _core.mj_forward(m, d)

@@ -198,6 +198,23 @@ def mju_sym2dense(res: Vector, mat: ArrayLike, rownnz: ArrayLike, rowadr: ArrayL
     write(res, lower + np.tril(lower, -1).T)
 
 
+def mju_dense2sparse(res: Vector, mat: ArrayLike, rownnz: Any, rowadr: Any, colind: Any) -> int:
+    """Compressed rows of a matrix: its numbers that are not 0, how many each row has, where it begins, their columns.
+    Returns 1 where `res` or `colind` is too small, else 0."""
+    full = np.atleast_2d(np.asarray(mat, np.float64))
+    rows, columns = np.nonzero(full)
+    if rownnz.size != len(full) or rowadr.size != len(full):
+        raise TypeError("rownnz and rowadr should have a number for each row of mat")
+    if rows.size > res.size or rows.size > colind.size:
+        return 1
+    counts = np.bincount(rows, minlength=len(full))
+    rownnz[...] = counts
+    rowadr[...] = np.cumsum(counts) - counts
+    res[: rows.size] = full[rows, columns]
+    colind[: rows.size] = columns
+    return 0
+
+
 def mju_sparse2dense(res: Vector, mat: ArrayLike, rownnz: ArrayLike, rowadr: ArrayLike, colind: ArrayLike) -> None:
     """A matrix of its compressed rows."""
     values, columns = vector(mat, "mat"), np.asarray(colind)

@@ -3,6 +3,7 @@
 No display, driver or GPU is asked; an OpenGL context, where a program makes one, is an empty shell.
 """
 
+import weakref
 from typing import Any
 
 import numpy as np
@@ -45,6 +46,7 @@ class MjrContext:
         self.readDepthMap: int = mjtDepthMap.mjDEPTH_ZERONEAR
         self.windowAvailable = 0
         self._clear()
+        _draw_into(self)
 
     def _clear(self) -> None:
         size = (self.offHeight, self.offWidth)
@@ -61,6 +63,40 @@ class MjrContext:
         """Rows and columns of a viewport, rows from below."""
         rows = slice(max(viewport.bottom, 0), min(viewport.bottom + viewport.height, self.offHeight))
         return rows, slice(max(viewport.left, 0), min(viewport.left + viewport.width, self.offWidth))
+
+
+#: The context that functions without one draw into.
+_present: list["weakref.ref[MjrContext]"] = []
+
+
+def _draw_into(con: MjrContext) -> None:
+    _present[:] = [weakref.ref(con)]
+
+
+class MjrRendererInfo(_Struct):
+    """Who draws."""
+
+    def __init__(self) -> None:
+        self.renderer, self.backend = "classic", ""
+
+
+def mjr_getRendererInfo(info: MjrRendererInfo) -> None:
+    """Who draws: by MuJoCo's names the classic renderer, and no graphics library."""
+    info.__init__()  # type: ignore[misc]
+
+
+def mjr_rectangle(viewport: MjrRect, r: float, g: float, b: float, a: float) -> None:
+    """Fills a rectangle of the present context, over what is there where `a` is less than 1.
+
+    Raises:
+        RuntimeError: there is no context.
+    """
+    con = _present[0]() if _present else None
+    if con is None:
+        raise RuntimeError("there is no MjrContext to draw into")
+    rows, columns = con._within(viewport)
+    over, cover = 255.0 * np.clip([r, g, b], 0.0, 1.0), min(max(a, 0.0), 1.0)
+    con._rgb[rows, columns] = np.rint(cover * over + (1.0 - cover) * con._rgb[rows, columns])
 
 
 def _window_depth(distance: NDArray[np.float32], scn: MjvScene) -> NDArray[np.float64]:
@@ -130,7 +166,8 @@ def mjr_readPixels(
 
 
 def mjr_setBuffer(framebuffer: int, con: MjrContext) -> None:
-    """Of no effect: all is drawn offscreen."""
+    """Makes this the context that functions without one draw into; all is drawn offscreen."""
+    _draw_into(con)
 
 
 def mjr_resizeOffscreen(width: int, height: int, con: MjrContext) -> None:

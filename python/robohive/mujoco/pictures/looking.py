@@ -18,7 +18,7 @@ def checked(model: MjModel, number: int) -> int:
         ValueError: the model has no such camera.
     """
     if not 0 <= number < model.ncam:
-        raise ValueError(f"no camera has id {number}: the free one is -1, those of the model end at {model.ncam - 1}")
+        raise ValueError(f"camera {number} is out of range: the free one is -1, those of the model end at {model.ncam - 1}")
     return int(number)
 
 

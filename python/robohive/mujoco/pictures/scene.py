@@ -136,14 +136,15 @@ class MjvScene:
     def __init__(self, model: MjModel | None = None, maxgeom: int = 0) -> None:
         """A scene of a model, with room for `maxgeom` geoms."""
         self._model, self._painter = model, _core.Painter(1, 1)
-        self._own = 0
         self.maxgeom = int(maxgeom)
         self._geoms = _Geoms(self.maxgeom)
-        self._count = self.nlight = self.nflex = self.nskin = 0
+        self._own = self._count = self.nlight = self.nflex = self.nskin = 0
+        #: What was looked at last is not read from the engine yet.
+        self._unread = False
         self.flags: NDArray[np.uint8] = np.zeros(mjtRndFlag.mjNRNDFLAG, np.uint8)
         for name in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE", "CULL_FACE"):
             self.flags[mjtRndFlag[f"mjRND_{name}"]] = 1
-        self.camera = (MjvGLCamera(), MjvGLCamera())
+        self._cameras = (MjvGLCamera(), MjvGLCamera())
         self.enabletransform = self.stereo = self.framewidth = self.status = 0
         self.framergb: NDArray[np.float32] = np.zeros(3, np.float32)
         self.translate: NDArray[np.float32] = np.zeros(3, np.float32)
@@ -153,20 +154,53 @@ class MjvScene:
     @property
     def geoms(self) -> Sequence[MjvGeom]:
         """All `maxgeom` geoms; those of the model come first."""
+        self._read()
         return self._geoms
 
     @property
     def ngeom(self) -> int:
         """How many of them are drawn."""
+        self._read()
         return self._count
 
     @ngeom.setter
     def ngeom(self, count: int) -> None:
+        self._read()
         self._count = int(count)
+
+    @property
+    def camera(self) -> tuple[MjvGLCamera, MjvGLCamera]:
+        """Where the picture is taken from, once for each eye."""
+        self._read()
+        return self._cameras
+
+    def _look(self, m: MjModel, d: MjData, look: dict[str, Any]) -> None:
+        """Takes in what is seen; geoms and cameras are read when they are asked for."""
+        look["effects"] = [bool(self.flags[flag]) for flag in FLAGS]
+        self._painter.look(m, d, look)
+        self._model, self._unread = m, True
+
+    def _read(self) -> None:
+        if not self._unread or self._model is None:
+            return
+        self._unread = False
+        rows, view = self._painter.items()
+        # Planes by their number among the planes of the model.
+        planes = np.cumsum(self._model.geom_type == mjtGeom.mjGEOM_PLANE) - 1
+        flat = rows["type"] == mjtGeom.mjGEOM_PLANE
+        rows["dataid"][flat] = planes[rows["objid"][flat]]
+        self._geoms._start(rows)
+        self._count = self._own = min(len(rows["type"]), self.maxgeom)
+        for camera in self._cameras:
+            vars(camera).update(
+                {name: np.array(value, np.float32) if isinstance(value, list) else value for name, value in view.items()}
+            )
 
     def _guests(self) -> list[dict[str, Any]]:
         """What the program added."""
-        return [self._geoms[index]._guest() for index in range(self._own, self.ngeom)]
+        if self._unread:
+            return []
+        return [self._geoms[index]._guest() for index in range(self._own, self._count)]
 
 
 def mjv_updateScene(
@@ -183,19 +217,7 @@ def mjv_updateScene(
     bits = (mjtCatBit.mjCAT_STATIC, mjtCatBit.mjCAT_DYNAMIC, mjtCatBit.mjCAT_DECOR)
     look = look_of(m, cam, opt)
     look["categories"] = [bool(int(catmask) & bit) for bit in bits]
-    look["effects"] = [bool(scn.flags[flag]) for flag in FLAGS]
-    scn._painter.look(m, d, look)
-    rows, view = scn._painter.items()
-    # Planes by their number among the planes of the model.
-    planes = np.cumsum(m.geom_type == mjtGeom.mjGEOM_PLANE) - 1
-    flat = rows["type"] == mjtGeom.mjGEOM_PLANE
-    rows["dataid"][flat] = planes[rows["objid"][flat]]
-    scn._geoms._start(rows)
-    scn.ngeom = scn._own = min(len(rows["type"]), scn.maxgeom)
-    for camera in scn.camera:
-        vars(camera).update(
-            {name: np.array(value, np.float32) if isinstance(value, list) else value for name, value in view.items()}
-        )
+    scn._look(m, d, look)
 
 
 def mjv_initGeom(

@@ -1,5 +1,6 @@
 """What a picture shows: cameras and options of the view."""
 
+import operator
 from typing import Any
 
 import numpy as np
@@ -39,6 +40,14 @@ class MjvCamera(_Struct):
         self.azimuth = 90.0
         self.elevation = -45.0
         self.orthographic = 0
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name in ("fixedcamid", "trackbodyid", "type", "orthographic"):
+            try:
+                value = value if isinstance(value, int) else operator.index(value)
+            except TypeError:
+                raise TypeError(f"MjvCamera.{name} is an integer, not {value!r}") from None
+        super().__setattr__(name, value)
 
 
 class MjvOption(_Struct):

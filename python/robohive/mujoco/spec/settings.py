@@ -2,6 +2,8 @@
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+import numpy as np
+
 from robohive.mujoco.spec.forms import forms
 
 
@@ -20,6 +22,17 @@ class _Settings:
         if form is None:
             raise AttributeError(f"'mujoco.{type(self).__name__}' object has no attribute '{name}'")
         self.__dict__[name] = form.accept(value)
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) is not type(self):
+            return NotImplemented
+        return all(np.array_equal(value, other.__dict__[name]) for name, value in self.__dict__.items())
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        rows = (f"  {name}: {value!r}" for name, value in sorted(self.__dict__.items()))
+        return "\n".join((f"<{type(self).__name__}", *rows, ">"))
 
     if TYPE_CHECKING:
 

@@ -27,6 +27,7 @@ from robohive.mujoco.spec.settings import MjsCompiler, MjStatistic
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
 from robohive.mujoco.structs.options import MjOption, MjVisual
+from robohive.mujoco.vfs import MjVfs, given_files
 
 _MAIN = "main"
 _PARTS = ("qpos", "qvel", "act", "mpos", "mquat", "ctrl")
@@ -76,22 +77,30 @@ class MjSpec(Lists):
 
     @classmethod
     def from_file(
-        cls, filename: str | PathLike[str], include: Mapping[str, Any] | None = None, assets: Mapping[str, Any] | None = None
+        cls,
+        filename: str | PathLike[str],
+        include: Mapping[str, Any] | None = None,
+        assets: Mapping[str, Any] | None = None,
+        vfs: MjVfs | None = None,
     ) -> "MjSpec":
-        """The description in a file, MJCF or URDF; files that it names are looked for in the mappings first.
+        """The description in a file, MJCF or URDF; files that it names are looked for in the mappings or in `vfs` first.
 
         Raises:
             ValueError: what is wrong with it, every finding with file, line, column and element.
         """
-        files = {**_content(include), **_content(assets)}
+        files = _content(given_files(vfs, include, assets))
         return cls._read(_core.Description.of_path(fspath(filename), files), assets)
 
     @classmethod
     def from_string(
-        cls, xml: str, include: Mapping[str, Any] | None = None, assets: Mapping[str, Any] | None = None
+        cls,
+        xml: str,
+        include: Mapping[str, Any] | None = None,
+        assets: Mapping[str, Any] | None = None,
+        vfs: MjVfs | None = None,
     ) -> "MjSpec":
         """The description in a text; see `from_file`."""
-        files = {**_content(include), **_content(assets)}
+        files = _content(given_files(vfs, include, assets))
         return cls._read(_core.Description.of_text(xml, files), assets)
 
     @classmethod
@@ -329,29 +338,36 @@ class MjSpec(Lists):
                 copied.__dict__[kind] = getattr(default, kind)._duplicate(None, self, copied)
             classes[id(default)] = self._classes[name] = copied
 
-    def compile(self) -> MjModel:
-        """The model.
+    def compile(self, vfs: MjVfs | None = None) -> MjModel:
+        """The model; files that the description names are looked for in `assets` and in `vfs` first.
 
         Raises:
             ValueError: what is wrong with the description; this one is attached to another.
         """
-        return self._compiled()[0]
+        return self._compiled(vfs)[0]
 
-    def _compiled(self) -> tuple[MjModel, exchange.Tree, _core.CompiledModel]:
+    def _compiled(self, vfs: MjVfs | None = None) -> tuple[MjModel, exchange.Tree, _core.CompiledModel]:
         if self._parent is not None:
             raise ValueError("Error: cannot compile child spec if attached by reference to a parent spec")
         began = time.perf_counter()
         tree = exchange.Tree(self)
-        compiled, findings = self._run(tree)
-        model = MjModel._of((compiled, findings))
+        found: list[_core.CompiledModel] = []
+
+        def load() -> tuple[_core.CompiledModel, list[str]]:
+            compiled, findings = self._run(tree, given_files(vfs))
+            found.append(compiled)
+            return compiled, findings
+
+        model = MjModel._of(load)
         self.__dict__["_seconds"] = time.perf_counter() - began
         self._number(model)
-        return model, tree, compiled
+        return model, tree, found[0]
 
-    def _run(self, tree: exchange.Tree) -> tuple[_core.CompiledModel, list[str]]:
+    def _run(self, tree: exchange.Tree, more: Mapping[str, Any] | None = None) -> tuple[_core.CompiledModel, list[str]]:
         try:
             found: tuple[_core.CompiledModel, list[str]]
-            found = self._description.compile(tree.parts(), {**_content(self.assets), **tree.pictures}, tree.drawn)
+            files = {**_content(more), **_content(self.assets), **tree.pictures}
+            found = self._description.compile(tree.parts(), files, tree.drawn)
             return found
         except ValueError as error:
             # What programs note of an element goes with what is wrong with it.

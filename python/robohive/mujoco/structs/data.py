@@ -9,7 +9,8 @@ import numpy as np
 from robohive.mujoco import _engine as _core
 from robohive.mujoco.structs import absent, named
 from robohive.mujoco.structs.fields import declare
-from robohive.mujoco.structs.lists import MjContactList, MjSolverStatList, MjTimerStatList, MjWarningStatList
+from robohive.mujoco.structs.contacts import MjContactList, contact_arrays
+from robohive.mujoco.structs.lists import MjSolverStatList, MjTimerStatList, MjWarningStatList
 from robohive.mujoco.structs.model import MjModel, _refuse
 
 #: Numbers of MuJoCo's memory management, for which there is nothing here.
@@ -25,14 +26,16 @@ class MjData(_core.Data, named.DataElements):
 
     Arrays are attributes of MuJoCo's names, with MuJoCo's shapes. They keep their identity: `q = data.qpos` shows the
     new positions after `mj_step`. What is written is taken over by the next call that is given the data. Contacts and
-    constraint rows (`contact`, `efc_*`, `island_*`) change their number with every step and are read-only copies.
+    constraint rows (`contact`, `efc_*`, `island_*`) change their number with every step: their arrays are others after a
+    call that changes the data.
 
     A call in one thread while another is at work with the same data raises a `RuntimeError`.
     """
 
-    model: MjModel
     _shapes: dict[str, list[int]]
     _views: WeakValueDictionary[Any, Any]
+    #: Arrays of elements that were asked for.
+    _slices: dict[tuple[str, int, str], Any]
 
     def __new__(cls, model: MjModel) -> "MjData":
         if not isinstance(model, MjModel):
@@ -41,9 +44,19 @@ class MjData(_core.Data, named.DataElements):
 
     def __init__(self, model: MjModel) -> None:
         inner = self.__dict__
-        inner["model"] = model
         inner["_views"] = WeakValueDictionary()
+        inner["_slices"] = {}
         inner["_shapes"] = {name: shape for name, (_, shape) in self._describe().items()}
+
+    @property
+    def model(self) -> MjModel:
+        """The model that the simulation was made of."""
+        model: MjModel = self._model
+        return model
+
+    @property
+    def _address(self) -> int:
+        return id(self)
 
     def _look_up(self, name: str) -> Any:
         inner = self.__dict__
@@ -53,7 +66,10 @@ class MjData(_core.Data, named.DataElements):
         if name in _ZEROS:
             return 0
         value = absent.of_data(name, self.model)
-        return self._changing(name) if value is None else value
+        if value is None:
+            return self._changing(name)
+        inner[name] = value
+        return value
 
     if not TYPE_CHECKING:  # for checkers, what is not declared is an error
 
@@ -71,7 +87,8 @@ class MjData(_core.Data, named.DataElements):
         if name == "nJ":
             return len(arrays["efc_J"]) if self._is_sparse() else counts["nefc"] * self.model.nv
         if name in arrays:
-            return _fixed(arrays[name])
+            # MuJoCo's arrays without rows own their (no) memory.
+            return arrays[name] if len(arrays[name]) else np.zeros_like(arrays[name])
         islands = np.zeros(20, np.int32)
         values = _core.solver(self)[name][:20]
         islands[: len(values)] = values
@@ -100,7 +117,7 @@ class MjData(_core.Data, named.DataElements):
     @property
     def contact(self) -> MjContactList:
         """The contacts of the last collision detection: a sequence, and an array for each field."""
-        return MjContactList(_core.contacts(self))
+        return MjContactList(lambda: contact_arrays(_core.contacts(self)))
 
     @property
     def warning(self) -> MjWarningStatList:
@@ -113,8 +130,8 @@ class MjData(_core.Data, named.DataElements):
 
     @property
     def timer(self) -> MjTimerStatList:
-        """Timers, by `mjtTimer`. Nothing is timed: all are zero."""
-        return MjTimerStatList()
+        """Timers [s], by `mjtTimer`: calls of `mj_step`, `mj_forward` and `mj_inverse`; all others are zero."""
+        return MjTimerStatList(*_core.timers(self))
 
     @property
     def solver(self) -> MjSolverStatList:

@@ -1,4 +1,4 @@
-"""Contacts, warnings, timers and solver statistics: sequences of records that also show each field as one array."""
+"""Warnings, timers and solver statistics: sequences of records that also show each field as one array."""
 
 import copy
 from collections.abc import Iterator, Mapping
@@ -16,14 +16,17 @@ class _Record:
     def __init__(self, values: Mapping[str, Any] | None = None) -> None:
         self.__dict__.update(copy.deepcopy(self._empty) if values is None else values)
 
+    def _values(self) -> dict[str, Any]:
+        return vars(self)
+
     def __repr__(self) -> str:
-        rows = (f"  {name}: {value!r}" for name, value in sorted(vars(self).items()))
+        rows = (f"  {name}: {value!r}" for name, value in sorted(self._values().items()))
         return "\n".join((f"<{type(self).__name__}", *rows, ">"))
 
     def __eq__(self, other: object) -> bool:
-        if type(other) is not type(self):
+        if not isinstance(other, _Record):
             return NotImplemented
-        mine, theirs = vars(self), vars(other)
+        mine, theirs = self._values(), other._values()
         return mine.keys() == theirs.keys() and all(np.array_equal(mine[name], theirs[name]) for name in mine)
 
     __hash__ = None  # type: ignore[assignment]
@@ -61,7 +64,7 @@ class _List:
         return self._record({name: _scalar(values[number]) for name, values in self._fields.items()})
 
     def __iter__(self) -> Iterator[Any]:
-        return (self[i] for i in range(self._length))
+        return (self[i] for i in range(len(self)))
 
     def __repr__(self) -> str:
         rows = (f"  {name}: {values!r}" for name, values in sorted(self._fields.items()))
@@ -83,33 +86,6 @@ class _List:
 
 def _scalar(value: Any) -> Any:
     return value.item() if np.ndim(value) == 0 else value
-
-
-class MjContact(_Record):
-    """A contact: `dist` [m], `pos` and `frame` (normal, two tangents) in the world, the two partners, and parameters.
-
-    A partner is a `geom`, or an element (`elem`) or a vertex (`vert`) of a `flex`; what it is not is -1.
-    """
-
-    _empty = {
-        **dict.fromkeys(("dist", "includemargin", "adhesion", "mu"), 0.0),
-        **dict.fromkeys(("dim", "exclude", "efc_address", "geom1", "geom2"), 0),
-        "pos": np.zeros(3),
-        "frame": np.zeros(9),
-        **{name: np.zeros(size) for name, size in (("friction", 5), ("solref", 2), ("solreffriction", 2), ("solimp", 5))},
-        **{name: np.zeros(2, np.int32) for name in ("geom", "flex", "elem", "vert")},
-    }
-
-
-class MjContactList(_List):
-    """The contacts of a simulation when it was asked for: read-only."""
-
-    _record = MjContact
-
-    def __init__(self, fields: dict[str, Any]) -> None:
-        count = fields.pop("ncon").item()
-        geom = fields["geom"].reshape(count, 2)
-        super().__init__({**fields, "geom1": geom[:, 0].copy(), "geom2": geom[:, 1].copy()})
 
 
 class MjWarningStat(_Record):
@@ -148,18 +124,18 @@ class MjWarningStatList(_List):
 
 
 class MjTimerStat(_Record):
-    """A timer."""
+    """A timer: what calls took [s], and how many there were."""
 
     _empty = {"duration": 0.0, "number": 0}
 
 
 class MjTimerStatList(_List):
-    """Timers by `mjtTimer`, all zero: nothing is timed."""
+    """Timers by `mjtTimer` when the simulation was asked."""
 
     _record = MjTimerStat
 
-    def __init__(self) -> None:
-        super().__init__({"duration": np.zeros(15), "number": np.zeros(15, np.int32)})
+    def __init__(self, duration: NDArray[np.float64], number: NDArray[np.int32]) -> None:
+        super().__init__({"duration": duration, "number": number})
 
 
 class MjSolverStat(_Record):

@@ -2,7 +2,7 @@
 
 import copy
 import warnings
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 from weakref import WeakValueDictionary
@@ -11,12 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
+from robohive.mujoco.log import compile_timed
 from robohive.mujoco.structs import absent, named
 from robohive.mujoco.structs.fields import declare
 from robohive.mujoco.structs.options import MjOption, MjStatistic, MjVisual
+from robohive.mujoco.vfs import MjVfs, given_files, refuse_repeated
 
 #: Arrays that are handed out as read-only copies: the structure that a model was compiled into, which no edit can change.
-_STRUCTURE = ("mesh_", "bvh_", "oct_", "names_map", "B_", "D_", "M_", "mapM", "mapD", "plugin_attr")
+_STRUCTURE = ("names_map", "B_", "D_", "M_", "mapM", "mapD", "plugin_attr")
 _BYTES = ("names", "paths", "text_data")
 #: Texts that MuJoCo shows as numbers.
 _LETTERS = ("plugin_attr",)
@@ -31,12 +33,14 @@ class MjModel(_core.Model, named.ModelElements):
     (`mj_setConst` does). Numbers that do not fit (NaN, references to no element) make that call raise a `ValueError`
     that names array and place, until they are corrected.
 
-    Arrays of meshes, bounding volumes and sparsity are read-only copies. `tex_data` may be written; pictures show it.
+    Arrays of sparsity are read-only copies. `tex_data` may be written; pictures show it.
     """
 
     _shapes: dict[str, list[int]]
     _size_values: dict[str, int]
     _views: WeakValueDictionary[Any, Any]
+    #: Arrays of elements that were asked for.
+    _slices: dict[tuple[str, int, str], Any]
 
     def __new__(cls, compiled: _core.CompiledModel) -> "MjModel":
         return super().__new__(cls, compiled)
@@ -49,31 +53,40 @@ class MjModel(_core.Model, named.ModelElements):
         inner["_shapes"] = {name: shape for name, (_, shape) in described.items() if "." not in name}
         # Views hold their owner, so that it only holds them weakly.
         inner["_views"] = WeakValueDictionary()
+        inner["_slices"] = {}
+        inner["_flags"] = {}
         inner.update(sizes)
 
     @classmethod
-    def from_xml_path(cls, filename: str | PathLike[str], assets: Mapping[str, bytes] | None = None) -> "MjModel":
-        """Loads a model from an MJCF file; files that it names are looked for among `assets` first, then on the disk.
+    def from_xml_path(
+        cls, filename: str | PathLike[str], assets: Mapping[str, bytes] | None = None, vfs: MjVfs | None = None
+    ) -> "MjModel":
+        """Loads a model from an MJCF file; files that it names are looked for among `assets` or in `vfs`, then on the disk.
 
         Raises:
             ValueError: what is wrong, every finding with file, line, column and element.
         """
-        return cls._of(_core.load_path(fspath(filename), _as_bytes(assets)))
+        files = _own_names(given_files(vfs, assets))
+        return cls._of(lambda: _core.load_path(fspath(filename), _as_bytes(files)))
 
     @classmethod
-    def from_xml_string(cls, xml: str | bytes, assets: Mapping[str, bytes] | None = None) -> "MjModel":
+    def from_xml_string(
+        cls, xml: str | bytes, assets: Mapping[str, bytes] | None = None, vfs: MjVfs | None = None
+    ) -> "MjModel":
         """Loads a model from MJCF text; see `from_xml_path`."""
-        text = xml.decode() if isinstance(xml, bytes) else xml
-        return cls._of(_core.load_text(text, _as_bytes(assets)))
+        text, files = xml.decode() if isinstance(xml, bytes) else xml, _own_names(given_files(vfs, assets))
+        return cls._of(lambda: _core.load_text(text, _as_bytes(files)))
 
     @classmethod
-    def from_binary_path(cls, filename: str, assets: Mapping[str, bytes] | None = None) -> "MjModel":
+    def from_binary_path(
+        cls, filename: str, assets: Mapping[str, bytes] | None = None, vfs: MjVfs | None = None
+    ) -> "MjModel":
         """Loads a model that `mj_saveModel` or `robohive compile` wrote.
 
         Raises:
             ValueError: the file is none of these; MuJoCo's own `.mjb` files are no exception.
         """
-        content = _as_bytes(assets).get(filename)
+        content = _as_bytes(given_files(vfs, assets)).get(filename)
         if content is None:
             with open(filename, "rb") as file:
                 content = file.read()
@@ -85,8 +98,9 @@ class MjModel(_core.Model, named.ModelElements):
             ) from None
 
     @classmethod
-    def _of(cls, loaded: tuple[_core.CompiledModel, list[str]]) -> "MjModel":
-        compiled, findings = loaded
+    def _of(cls, load: Callable[[], tuple[_core.CompiledModel, list[str]]]) -> "MjModel":
+        with compile_timed():
+            compiled, findings = load()
         for finding in findings:
             warnings.warn(finding, stacklevel=3)
         return cls(compiled)
@@ -113,9 +127,12 @@ class MjModel(_core.Model, named.ModelElements):
             raise AttributeError(f"'mujoco.MjModel' object has no attribute '{name}'")
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name not in self._shapes:
+        if name in self._shapes:
+            getattr(self, name)[...] = value
+        elif name.startswith("flg_"):
+            super().__setattr__(name, value)
+        else:
             _refuse(self, name)
-        getattr(self, name)[...] = value
 
     @property
     def opt(self) -> MjOption:
@@ -139,19 +156,49 @@ class MjModel(_core.Model, named.ModelElements):
         return part
 
     @property
+    def _address(self) -> int:
+        return id(self)
+
+    @property
     def flg_gravcomp(self) -> bool:
-        """Some body has gravity compensation."""
-        return bool(self.body_gravcomp.any())
+        """Some body has gravity compensation, or the program says so."""
+        return self._flag("flg_gravcomp", self.body_gravcomp)
+
+    @flg_gravcomp.setter
+    def flg_gravcomp(self, value: bool) -> None:
+        self._set_flag("flg_gravcomp", value, self.body_gravcomp)
+
+    @property
+    def ngravcomp(self) -> int:  # type: ignore[override]
+        """1 with `flg_gravcomp`, else 0."""
+        return int(self.flg_gravcomp)
 
     @property
     def flg_surfacevel(self) -> bool:
-        """Some geom has a surface velocity."""
-        return bool(self.geom_surfacevel.any())
+        """Some geom has a surface velocity, or the program says so."""
+        return self._flag("flg_surfacevel", self.geom_surfacevel)
+
+    @flg_surfacevel.setter
+    def flg_surfacevel(self, value: bool) -> None:
+        self._set_flag("flg_surfacevel", value, self.geom_surfacevel)
 
     @property
     def flg_adhesion(self) -> bool:
-        """Some geom or pair has adhesion."""
-        return bool(self.geom_adhesion.any() or self.pair_adhesion.any())
+        """Some geom or pair has adhesion, or the program says so."""
+        return self._flag("flg_adhesion", self.geom_adhesion) or bool(self.pair_adhesion.any())
+
+    @flg_adhesion.setter
+    def flg_adhesion(self, value: bool) -> None:
+        self._set_flag("flg_adhesion", value, self.geom_adhesion, self.pair_adhesion)
+
+    def _flag(self, name: str, values: NDArray[Any]) -> bool:
+        return bool(self.__dict__["_flags"].get(name)) or bool(values.any())
+
+    def _set_flag(self, name: str, value: bool, *arrays: NDArray[Any]) -> None:
+        """The engine looks at the numbers themselves: a flag that is set changes nothing, and none hides them."""
+        if not value and any(array.any() for array in arrays):
+            raise NotImplementedError(f"{name} cannot be cleared while there are numbers that are not 0; write zeros there")
+        self.__dict__["_flags"][name] = bool(value)
 
     @property
     def _sizes(self) -> NDArray[np.int64]:
@@ -202,3 +249,8 @@ def _refuse(owner: Any, name: str) -> NoReturn:
 
 def _as_bytes(assets: Mapping[str, bytes] | None) -> dict[str, bytes]:
     return {name: bytes(content) for name, content in (assets or {}).items()}
+
+
+def _own_names(files: dict[str, Any]) -> dict[str, Any]:
+    refuse_repeated(files)
+    return files

@@ -57,6 +57,7 @@ class _View:
     """One element; its attributes are views of the arrays of the model or the simulation."""
 
     __slots__ = ("__weakref__", "_kind", "_owner", "id", "name")
+    _OF = ""
 
     def __init__(self, owner: Any, kind: str, number: int, name: str) -> None:
         for field, value in (("_owner", owner), ("_kind", kind), ("id", number), ("name", name)):
@@ -69,10 +70,20 @@ class _View:
         raise NotImplementedError
 
     def __getattr__(self, field: str) -> Any:
+        known = self._owner._slices.get((self._kind, self.id, field))
+        if known is not None:
+            return known
         found = None if field.startswith("_") else self._find(field)
         if found is None:
-            raise AttributeError(f"'{type(self).__name__}' of a {self._kind} has no attribute '{field}'")
+            raise AttributeError(f"'{self._shown()}' object has no attribute '{field}'")
+        if isinstance(found, np.ndarray) and found.base is not None:
+            # A part of an array that stays; others are computed each time.
+            self._owner._slices[self._kind, self.id, field] = found
         return found
+
+    def _shown(self) -> str:
+        """MuJoCo's name for the type of views of this kind of element."""
+        return f"_Mj{self._OF}{self._kind.capitalize()}Views"
 
     def __setattr__(self, field: str, value: Any) -> None:
         getattr(self, field)[...] = value
@@ -82,7 +93,7 @@ class _View:
 
     def __repr__(self) -> str:
         rows = (f"  {field}: {getattr(self, field)!r}" for field in sorted(dir(self)))
-        return "\n".join((f"<{type(self).__name__}", *rows, ">"))
+        return "\n".join((f"<{self._shown()}", *rows, ">"))
 
 
 def _rows(array: Any, number: int) -> Any:
@@ -109,6 +120,7 @@ class ModelView(_View):
     """What a model says of an element."""
 
     __slots__ = ()
+    _OF = "Model"
 
     def _find(self, field: str) -> Any:
         model, prefix = self._owner, _KINDS[self._kind][0]
@@ -162,6 +174,7 @@ class DataView(_View):
     """What a simulation says of an element."""
 
     __slots__ = ()
+    _OF = "Data"
 
     def _find(self, field: str) -> Any:
         data, number, model = self._owner, self.id, self._owner.model
