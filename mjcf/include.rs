@@ -33,6 +33,9 @@ pub struct Expansion<'a> {
     pub substitutions: &'a [Substitution],
     /// Which of them have replaced something.
     pub matched: &'a mut [bool],
+    /// The text is the whole model: names that nothing declares are errors. Otherwise the compiler finds them, once the
+    /// description is whole.
+    pub whole: bool,
     /// Bounds on depth, size and number.
     pub limits: &'a Limits,
     /// Memory asked for so far.
@@ -59,6 +62,7 @@ impl Expansion<'_> {
             files: self.files,
             substitutions: self.substitutions,
             matched: self.matched,
+            whole: self.whole,
             limits: self.limits,
             budget: self.budget,
             sources: self.sources,

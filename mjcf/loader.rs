@@ -103,10 +103,16 @@ impl Gathered {
         }
     }
 
-    /// The expansion of includes that fills it.
-    fn expansion<'a>(&'a mut self, loader: &'a Loader, files: &'a dyn FileProvider) -> Expansion<'a> {
+    /// The expansion of includes that fills it; a `whole` model declares all names that it uses.
+    fn expansion<'a>(
+        &'a mut self,
+        loader: &'a Loader,
+        files: &'a dyn FileProvider,
+        whole: bool,
+    ) -> Expansion<'a> {
         Expansion {
             files,
+            whole,
             substitutions: &loader.substitutions,
             matched: &mut self.matched,
             limits: &loader.limits,
@@ -163,13 +169,14 @@ impl Loader {
         self
     }
 
-    /// Reads the model at `path` and all it includes, without compiling it.
+    /// Reads the model at `path` and all it includes, without compiling it. Names that nothing declares are found when it is
+    /// compiled: what declares them may be added before.
     ///
     /// # Errors
     /// All that is wrong with the texts; a path that is not UTF-8.
     pub fn parse(&self, path: impl AsRef<Path>) -> Result<Parsed, Diagnostics> {
         let path = text_of(path.as_ref())?;
-        self.parse_from(&*self.files, |expansion| expansion.read(path))
+        self.parse_from(&*self.files, false, |expansion| expansion.read(path))
     }
 
     /// Reads a model from text; relative paths start at the top of the file provider.
@@ -177,7 +184,11 @@ impl Loader {
     /// # Errors
     /// All that is wrong with the texts.
     pub fn parse_str(&self, text: impl AsRef<str>) -> Result<Parsed, Diagnostics> {
-        self.parse_from(&*self.files, |expansion| expansion.expand("<text>", text.as_ref().as_bytes()))
+        self.parse_text(text.as_ref(), false)
+    }
+
+    fn parse_text(&self, text: &str, whole: bool) -> Result<Parsed, Diagnostics> {
+        self.parse_from(&*self.files, whole, |expansion| expansion.expand("<text>", text.as_bytes()))
     }
 
     /// The text of the model at `path` with includes in their places and every edit made, and else as its author wrote
@@ -192,7 +203,7 @@ impl Loader {
     ) -> Result<String, Diagnostics> {
         let path = text_of(path.as_ref())?;
         let mut gathered = Gathered::of(self);
-        let mut expansion = gathered.expansion(self, &*self.files);
+        let mut expansion = gathered.expansion(self, &*self.files, false);
         let Some(mut root) = expansion.read(path) else { return Err(gathered.diagnostics) };
         if root.name.eq_ignore_ascii_case("robot") {
             return Err(Diagnostics::of_error(
@@ -227,7 +238,7 @@ impl Loader {
         }
         match &self.cache {
             Some(cache) => self.load_cached(cache, path),
-            None => self.compile(self.parse(path)?),
+            None => self.compile(self.parse_from(&*self.files, true, |expansion| expansion.read(path))?),
         }
     }
 
@@ -236,7 +247,7 @@ impl Loader {
     /// # Errors
     /// All that is wrong with the model.
     pub fn load_str(&self, text: impl AsRef<str>) -> Result<Loaded, Diagnostics> {
-        self.compile(self.parse_str(text)?)
+        self.compile(self.parse_text(text.as_ref(), true)?)
     }
 
     /// The content of the file at `path` and its length, if it begins as a compiled model does.
@@ -273,7 +284,7 @@ impl Loader {
             Err(miss) => matches!(miss, Miss::Damaged),
         };
         let noted = Noted::new(&*self.files);
-        let parsed = self.parse_from(&noted, |expansion| expansion.read(path))?;
+        let parsed = self.parse_from(&noted, true, |expansion| expansion.read(path))?;
         let mut loaded = compile_from(self.resources(&noted, Some(cache)), parsed)?;
         let kept = cache.keep_model(&request, noted.reads(), &loaded);
         let mut warn = |message: String| {
@@ -291,10 +302,11 @@ impl Loader {
     fn parse_from(
         &self,
         files: &dyn FileProvider,
+        whole: bool,
         read: impl FnOnce(&mut Expansion<'_>) -> Option<Element>,
     ) -> Result<Parsed, Diagnostics> {
         let mut gathered = Gathered::of(self);
-        let mut expansion = gathered.expansion(self, files);
+        let mut expansion = gathered.expansion(self, files, whole);
         let Some(mut root) = read(&mut expansion) else { return Err(gathered.diagnostics) };
         self.edit(&mut root, expansion.sources, expansion.diagnostics);
         let read = read::read(&root, expansion);

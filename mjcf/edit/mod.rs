@@ -69,6 +69,7 @@ fn reading<R>(
         files: &files,
         substitutions: &[],
         matched: &mut [],
+        whole: false,
         limits: &limits,
         budget: &mut budget,
         sources: &mut sources,

@@ -65,7 +65,7 @@ pub(super) fn check_root(root: &Element, expansion: &mut Expansion<'_>) -> Optio
             return None;
         }
     }
-    check::check(root, &MUJOCO, sources, diagnostics);
+    check::check(root, &MUJOCO, expansion.whole, sources, diagnostics);
     Some(())
 }
 

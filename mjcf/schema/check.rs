@@ -36,14 +36,16 @@ pub fn check_piece(
     Check { sources, diagnostics, names }.element(piece, element, false);
 }
 
-/// Checks `root` and everything below it against `element`.
+/// Checks `root` and everything below it against `element`; names that nothing declares are errors of a `whole` model.
 pub fn check(
     root: &Element,
     element: &'static ElementType,
+    whole: bool,
     sources: &Sources,
     diagnostics: &mut Diagnostics,
 ) {
-    let mut check = Check { sources, diagnostics, names: Names::default() };
+    let names = Names { open: !whole, ..Names::default() };
+    let mut check = Check { sources, diagnostics, names };
     for (space, name) in [(Space::Body, "world"), (Space::Class, "main")] {
         check.names.declared.entry(space).or_default().insert(name.into(), Loc::NONE);
     }

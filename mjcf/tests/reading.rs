@@ -196,3 +196,20 @@ fn motors_and_servos_follow_their_data_sheets() {
         assert!(message.contains(expected), "{actuator}: {message}");
     }
 }
+
+#[test]
+fn names_that_nothing_declares_are_errors_of_whole_models_alone() {
+    let text = "<mujoco>\n  <worldbody><body name='arm'><geom size='.1'/><site name='here'/></body></worldbody>\n  \
+                <tendon><spatial name='t'><site site='shoulder'/><site site='here'/></spatial></tendon>\n</mujoco>";
+    let parsed = robohive_mjcf::parse_str(text).unwrap_or_else(|found| panic!("{found}"));
+    let found = robohive_mjcf::Loader::default().compile(parsed).err().map(|found| found.to_string());
+    let expected = "<text>:3:29: error: tendon 't': there is no site 'shoulder'";
+    assert!(found.as_ref().is_some_and(|found| found.contains(expected)), "{found:?}");
+
+    let mut whole = robohive_mjcf::parse_str(text).unwrap_or_else(|found| panic!("{found}")).spec;
+    let torso = "<mujoco><worldbody><site name='shoulder' pos='0 0 1'/></worldbody></mujoco>";
+    whole.world.sites.extend(robohive_mjcf::parse_str(torso).expect("a site").spec.world.sites);
+    let model =
+        whole.compile(&robohive_mjcf::files::Memory::default(), &Default::default()).expect("whole").model;
+    assert_eq!((model.nsite, model.ntendon, model.tendon_length0[0]), (2, 1, 1.0));
+}

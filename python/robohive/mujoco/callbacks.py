@@ -3,6 +3,7 @@
 While one is set, passes are put together in Python (`functions/called.py`), stage by stage, which takes longer.
 """
 
+import ctypes
 import warnings
 from collections.abc import Callable
 from typing import Any
@@ -90,7 +91,9 @@ def mju_warningText(warning: int, info: int) -> str:
 def _tell(kind: int, place: int, time: float) -> None:
     """Tells of the first warning of a kind since a reset, in the step that began at `time` [s]."""
     text = f"{mju_warningText(kind, place)}, at time {time:.4f} s"
-    if _warning is not None:
+    if isinstance(_warning, ctypes._CFuncPtr):  # type: ignore[attr-defined]
+        _warning(text.encode())
+    elif _warning is not None:
         _warning(text)
     else:
         warnings.warn(text, RuntimeWarning, stacklevel=2)

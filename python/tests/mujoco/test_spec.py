@@ -263,3 +263,16 @@ def test_pixels_of_a_texture_are_those_of_the_model(kind, size, channels):
     texture.data = pixels[:-1]
     with pytest.raises(ValueError, match="bytes of data for"):
         spec.compile()
+
+
+def test_a_part_may_name_what_its_parent_has():
+    arm = mj.MjSpec.from_string(
+        "<mujoco><worldbody><body name='arm'><geom size='.1'/><site name='hand' pos='1 0 0'/></body></worldbody>"
+        "<tendon><spatial name='t'><site site='shoulder'/><site site='hand'/></spatial></tendon></mujoco>"
+    )
+    with pytest.raises(ValueError, match="1:1.*tendon 't': there is no site 'shoulder'"):
+        arm.compile()
+    torso = mj.MjSpec.from_string("<mujoco><worldbody><site name='shoulder'/><frame name='f'/></worldbody></mujoco>")
+    torso.attach(arm, frame="f", prefix="")
+    model = torso.compile()
+    assert model.ntendon == 1 and model.tendon_length0[0] == 1.0
