@@ -2,23 +2,27 @@
 
     python python/compare/dm_control_tests.py [--only mjcf composer …] [--table validation/results/standin_dm_control.md]
 
-Needs `dm_control`, `mujoco` of the version that the stand-in follows, `pytest`, `mock` and this package; tests of pictures need
+Needs `dm_control`, `mujoco` of the version that the stand-in follows, `absl-py` and this package; tests of pictures need
 OSMesa (`MUJOCO_GL=osmesa`). Each file of tests runs in a process of its own. A test that fails on MuJoCo's bindings is not counted.
 """
 
 import argparse
+import importlib
 import importlib.metadata
 import io
+import json
 import os
 import subprocess
 import sys
 import tempfile
-import xml.etree.ElementTree as Tree
+import unittest
 from pathlib import Path
+
+from mujoco_tests import Outcomes
 
 FOLDERS = "mjcf composer suite locomotion mujoco entities manipulation rl utils".split()
 #: What one file may take [s].
-LIMIT = 1800
+LIMIT = 900
 #: Letters of a cause that are shown.
 SHOWN = 140
 
@@ -28,36 +32,38 @@ def home() -> Path:
     return Path(str(importlib.metadata.distribution("dm_control").locate_file("dm_control")))
 
 
-def outcomes(engine: str, file: Path) -> dict[str, str | None]:
-    """Causes of failures by the names of one file's tests; None of those that pass."""
+def outcomes(engine: str, module: str) -> dict[str, str | None]:
+    """Causes of failures by the names of one module's tests; None of those that pass."""
     with tempfile.TemporaryDirectory() as folder:
-        report = Path(folder) / "report.xml"
-        command = [sys.executable, __file__, "--run", engine, str(file), str(report)]
+        out = Path(folder) / "outcomes.json"
+        command = [sys.executable, __file__, "--run", engine, module, str(out)]
+        environment = {"MUJOCO_GL": "osmesa", **os.environ}
         try:
-            subprocess.run(command, capture_output=True, timeout=LIMIT, check=False, env={"MUJOCO_GL": "osmesa", **os.environ})
+            ended = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False, env=environment)
+            said = ended.stderr
         except subprocess.TimeoutExpired:
-            return {"(the file)": f"it takes more than {LIMIT} s"}
-        if not report.exists():
-            return {"(the file)": "the process ended"}
-        found: dict[str, str | None] = {}
-        for case in Tree.parse(report).iter("testcase"):
-            name = f"{case.get('classname', '').rpartition('.')[2]}.{case.get('name')}"
-            fault = case.find("failure") if case.find("failure") is not None else case.find("error")
-            if case.find("skipped") is None:
-                found[name] = None if fault is None else " ".join((fault.get("message") or "?").split())[:SHOWN]
-        return found
+            said = f"it takes more than {LIMIT} s"
+        if out.exists():
+            causes: dict[str, str | None] = json.loads(out.read_text())
+            return causes
+        return {"(the file)": (said.strip().splitlines() or ["no test"])[-1][:SHOWN]}
 
 
-def run_file(engine: str, file: str, report: str) -> None:
-    """Runs one file's tests in this process."""
+def run_module(engine: str, module: str, out: str) -> None:
+    """Runs one module's tests in this process."""
     if engine == "standin":
         import robohive.mujoco
 
         robohive.mujoco.install()
         robohive.mujoco.set_instability("reset")
-    import pytest
+    from absl import flags
+    from absl.testing import absltest  # noqa: F401  declares the flag
 
-    pytest.main(["-q", "-p", "no:cacheprovider", "-o", "junit_family=xunit1", f"--junitxml={report}", file])
+    flags.FLAGS(["dm_control_tests", f"--test_tmpdir={tempfile.mkdtemp()}"])
+    tests = importlib.import_module(module)
+    unittest.TestLoader().loadTestsFromModule(tests).run(Outcomes(f"{module.rpartition('.')[2]}.py", Path(out)))
+    # Threads that draw may wait for more.
+    os._exit(0)
 
 
 def main() -> None:
@@ -68,17 +74,18 @@ def main() -> None:
     parser.add_argument("--run", nargs=3, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.run:
-        run_file(*options.run)
+        run_module(*options.run)
         return
     out, failed = io.StringIO(), []
     print("| tests of | MuJoCo | stand-in |\n|---|---|---|", file=out)
     for folder in options.only:
         passing, count = 0, 0
         for file in sorted((home() / folder).rglob("*_test.py")) if not folder.endswith(".py") else [home() / folder]:
-            theirs, ours = outcomes("mujoco", file), outcomes("standin", file)
+            place = file.relative_to(home())
+            module = ".".join(("dm_control", *place.with_suffix("").parts))
+            theirs, ours = outcomes("mujoco", module), outcomes("standin", module)
             expected = [name for name, cause in theirs.items() if cause is None]
             lost = [name for name in expected if ours.get(name, "") is not None]
-            place = file.relative_to(home())
             failed += [(place, name, ours.get(name) or ours.get("(the file)") or "the test did not run") for name in lost]
             count, passing = count + len(expected), passing + len(expected) - len(lost)
             print(f"{place}: {len(expected) - len(lost)} of {len(expected)}", file=sys.stderr, flush=True)

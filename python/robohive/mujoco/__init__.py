@@ -25,9 +25,17 @@ from robohive.mujoco.renderer import Renderer
 from robohive.mujoco.spec import *  # noqa: F403
 from robohive.mujoco.spec import MjSpec
 
+from types import ModuleType as _ModuleType
+
 import numpy as _np
 
 from_zip = MjSpec.from_zip
 to_zip = MjSpec.to_zip
 MJTNUM_DTYPE = _np.float64
 __version__ = mj_versionString()
+#: What `from mujoco import *` imports: everything but modules of others.
+__all__ = [  # pyright: ignore[reportUnsupportedDunderAll]
+    _name
+    for _name, _value in list(globals().items())
+    if _name[0] != "_" and not (isinstance(_value, _ModuleType) and not _value.__name__.startswith("robohive.mujoco"))
+]

@@ -6,6 +6,8 @@ use super::error::Fault;
 use super::model::Model;
 use super::timed::{Timed, Timers};
 use super::warned::{Notice, settle, tell};
+use physics::data::Warning;
+use physics::model::bounds::MAXVAL;
 use physics::{
     Data as Simulation, Model as Compiled, StepError, forward, forward_after_step1, inverse, step, step1,
     step2,
@@ -129,7 +131,25 @@ pub fn mj_forward(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> 
     if let Some(forward) = with_callbacks(py, "forward")? {
         return forward.call1((m, d)).map(drop);
     }
-    timed(py, m, d, Some((Timed::Forward, 1)), |model, data| Ok(forward(model, data)?))
+    timed(py, m, d, Some((Timed::Forward, 1)), |model, data| {
+        with_fit_controls(data, |data| Ok(forward(model, data)?))
+    })
+}
+
+/// A pass; where instability resets, controls that are not finite or too large count as zero, with a warning.
+fn with_fit_controls(
+    data: &mut Simulation,
+    pass: impl FnOnce(&mut Simulation) -> Result<(), Fault>,
+) -> Result<(), Fault> {
+    let fits = |ctrl: &f64| ctrl.abs() <= MAXVAL;
+    let bad = data.state.ctrl.iter().position(|ctrl| !fits(ctrl));
+    let Some(bad) = bad.filter(|_| RESETS.load(Ordering::Relaxed)) else { return pass(data) };
+    data.warnings.bad_ctrl = Warning { last: bad, count: data.warnings.bad_ctrl.count + 1 };
+    let none = vec![0.0; data.state.ctrl.len()];
+    let given = std::mem::replace(&mut data.state.ctrl, none);
+    let outcome = pass(data);
+    data.state.ctrl = given;
+    outcome
 }
 
 /// `mj_forward` without the stages before `skipstage` (`mjtStage`); sensors are computed whatever `skipsensor` says.
@@ -147,12 +167,14 @@ pub fn mj_forward_skip(
     _ = skipsensor;
     timed(py, m, d, Some((Timed::Forward, 1)), |model, data| {
         // What depends on positions alone is the same when it is computed again.
-        if skipstage >= 2 {
-            forward_after_step1(model, data)
-        } else {
-            forward(model, data)?
-        }
-        Ok(())
+        with_fit_controls(data, |data| {
+            if skipstage >= 2 {
+                forward_after_step1(model, data)
+            } else {
+                forward(model, data)?
+            }
+            Ok(())
+        })
     })
 }
 

@@ -41,7 +41,12 @@ impl FileProvider for Layered {
 }
 
 fn finish(loaded: Result<mjcf::Loaded, Diagnostics>) -> PyResult<(CompiledModel, Vec<String>)> {
-    let loaded = loaded.map_err(|found| PyValueError::new_err(format!("XML Error: {found}")))?;
+    let loaded = loaded.map_err(|found| {
+        // Programs look for the line by this word.
+        let line = found.errors().find_map(|error| error.position.as_ref().map(|at| at.line));
+        let line = line.map_or(String::new(), |line| format!("\n(line {line})"));
+        PyValueError::new_err(format!("XML Error: {found}{line}"))
+    })?;
     let warnings = loaded.warnings.iter().map(ToString::to_string).collect();
     Ok((CompiledModel { model: Arc::new(loaded.model) }, warnings))
 }

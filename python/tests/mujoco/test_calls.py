@@ -247,3 +247,17 @@ def test_pictures(model, data):
         renderer.render()
     with pytest.raises(ValueError, match="framebuffer"):
         mj.Renderer(model, 4000, 64)
+
+
+def test_a_pass_with_bad_controls_warns_and_counts_them_as_zero(model, data):
+    mj.set_instability("reset")
+    try:
+        mj.mj_forward(model, data)
+        without = data.qacc.copy()
+        data.ctrl[0] = np.nan
+        mj.mj_forward(model, data)
+    finally:
+        mj.set_instability("raise")
+    assert data.warning.number.tolist() == [0, 0, 0, 0, 0, 0, 1]
+    np.testing.assert_array_equal(data.qacc, without)
+    assert np.isnan(data.ctrl[0])

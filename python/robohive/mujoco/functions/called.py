@@ -9,9 +9,12 @@ from typing import Any
 import numpy as np
 
 from robohive.mujoco import callbacks
-from robohive.mujoco.enums.elements import mjtSensor
+from robohive.mujoco._constants import mjMINVAL
+from robohive.mujoco.enums.elements import mjtDyn, mjtSensor
 from robohive.mujoco.enums.physics import mjtDisableBit, mjtIntegrator, mjtStage
 from robohive.mujoco.functions import stages
+from robohive.mujoco.functions.algebra import mj_integratePos
+from robohive.mujoco.functions.out import Vector
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
 
@@ -74,9 +77,56 @@ def forward(m: MjModel, d: MjData, skipstage: int = 0) -> None:
         _acceleration(m, d)
 
 
+def _advanced(m: MjModel, act: Vector, rates: Vector) -> Vector:
+    """Activations after a time step with these rates."""
+    rates, step = rates.copy(), float(m.opt.timestep)
+    for i in range(m.nactuator):
+        if m.actuator_dyntype[i] == int(mjtDyn.mjDYN_FILTEREXACT):
+            constant = max(mjMINVAL, m.actuator_dynprm[i, 0])
+            at = slice(m.actuator_actadr[i], m.actuator_actadr[i] + m.actuator_actnum[i])
+            rates[at] *= constant * -np.expm1(-step / constant) / step
+    after = act + step * rates
+    for i in np.flatnonzero(m.actuator_actlimited).tolist():
+        at = slice(m.actuator_actadr[i], m.actuator_actadr[i] + m.actuator_actnum[i])
+        after[at] = np.clip(after[at], *m.actuator_actrange[i])
+    return after
+
+
+#: Weights of earlier slopes at the inner passes of the classical Runge-Kutta method, and of all slopes at the end.
+_INNER, _END = (0.5, 0.5, 1.0), (1 / 6, 1 / 3, 1 / 3, 1 / 6)
+
+
+def _runge_kutta(m: MjModel, d: MjData) -> None:
+    """Advances by the classical Runge-Kutta method of order 4 (MuJoCo documentation, Computation, "Numerical integration")."""
+    step, time = float(m.opt.timestep), d.time
+    qpos, qvel, act = d.qpos.copy(), d.qvel.copy(), d.act.copy()
+
+    def slopes() -> tuple[Vector, Vector, Vector]:
+        return d.qvel.copy(), d.qacc.copy(), d.act_dot.copy()
+
+    def move(rates: tuple[Vector, Vector, Vector], to: float) -> None:
+        d.qpos[:], d.qvel[:] = qpos, qvel + step * rates[1]
+        mj_integratePos(m, d.qpos, rates[0], step)
+        d.time = time + to * step
+
+    known = [slopes()]
+    for weight in _INNER:
+        last = known[-1]
+        move((weight * last[0], weight * last[1], last[2]), weight)
+        d.act[:] = act + weight * step * last[2]
+        forward(m, d)
+        known.append(slopes())
+    mean = [sum(w * rates[part] for w, rates in zip(_END, known, strict=True)) for part in range(3)]
+    move((np.asarray(mean[0]), np.asarray(mean[1]), np.asarray(mean[2])), 1.0)
+    d.act[:] = _advanced(m, act, np.asarray(mean[2]))
+    d.qacc_warmstart[:] = d.qacc
+
+
 def _integrate(m: MjModel, d: MjData) -> None:
     if m.opt.integrator in (int(mjtIntegrator.mjINT_IMPLICIT), int(mjtIntegrator.mjINT_IMPLICITFAST)):
         stages.mj_implicit(m, d)
+    elif m.opt.integrator == int(mjtIntegrator.mjINT_RK4):
+        _runge_kutta(m, d)
     else:
         stages.mj_Euler(m, d)
 
@@ -85,10 +135,10 @@ def step(m: MjModel, d: MjData, count: int) -> None:
     """`mj_step`, so many times.
 
     Raises:
-        NotImplementedError: the integrator is Runge-Kutta's, whose inner passes call nothing.
+        NotImplementedError: the integrator is Runge-Kutta's, and the model has delays or plugins with a state.
     """
-    if m.opt.integrator == int(mjtIntegrator.mjINT_RK4):
-        raise NotImplementedError("callbacks with the integrator RK4; there are Euler, implicit and implicitfast")
+    if m.opt.integrator == int(mjtIntegrator.mjINT_RK4) and (m.nhistory or m.npluginstate):
+        raise NotImplementedError("callbacks with the integrator RK4 for models with delays, or with plugins that have a state")
     for _ in range(count):
         stages.mj_checkPos(m, d)
         stages.mj_checkVel(m, d)
@@ -107,8 +157,11 @@ def step1(m: MjModel, d: MjData) -> None:
 
 
 def step2(m: MjModel, d: MjData) -> None:
-    """`mj_step2`: accelerations, then the state advances."""
+    """`mj_step2`: accelerations, then the state advances, by Euler's method where the integrator is Runge-Kutta's."""
     with _timed():
         _acceleration(m, d)
     stages.mj_checkAcc(m, d)
-    _integrate(m, d)
+    if m.opt.integrator == int(mjtIntegrator.mjINT_RK4):
+        stages.mj_Euler(m, d)
+    else:
+        _integrate(m, d)

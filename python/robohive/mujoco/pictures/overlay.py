@@ -112,7 +112,13 @@ def _column(font: int, gridpos: int, viewport: MjrRect, text: str, colour: _Colo
     return skip + size[0] - _OVERLAP
 
 
-def mjr_overlay(font: int, gridpos: int, viewport: MjrRect, overlay: str, overlay2: str | None, con: MjrContext) -> None:
+def _decoded(text: str | bytes | None) -> str:
+    return text.decode() if isinstance(text, bytes) else text or ""
+
+
+def mjr_overlay(
+    font: int, gridpos: int, viewport: MjrRect, overlay: str | bytes, overlay2: str | bytes | None, con: MjrContext
+) -> None:
     """Draws text into what was drawn last, white on a darkened box; lines end with a line feed.
 
     Args:
@@ -128,10 +134,11 @@ def mjr_overlay(font: int, gridpos: int, viewport: MjrRect, overlay: str, overla
     """
     if viewport.width <= 0 or viewport.height <= 0:
         return
-    if not overlay2:
-        _column(font, gridpos, viewport, overlay, _CONTENT, 0, con)
+    first, second = _decoded(overlay), _decoded(overlay2)
+    if not second:
+        _column(font, gridpos, viewport, first, _CONTENT, 0, con)
         return
-    columns = [(overlay, _TITLE), (overlay2, _CONTENT)]
+    columns = [(first, _TITLE), (second, _CONTENT)]
     skip = 0
     for text, colour in columns if gridpos in _LEFT_CORNERS else reversed(columns):
         skip = _column(font, gridpos, viewport, text, colour, skip, con)
