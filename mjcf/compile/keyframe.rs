@@ -1,4 +1,4 @@
-//! Keyframes: missing parts are the reference configuration, short ones are completed from it.
+//! Keyframes: missing parts are the reference configuration, short ones are completed.
 
 use super::log::{Log, title};
 use super::nodes::Tree;
@@ -21,13 +21,14 @@ pub(super) fn fill(m: &mut Rows, tree: &Tree, spec: &Spec, log: &mut Log) {
     let mocap: Vec<usize> = (0..m.body_mocapid.len()).filter(|&b| m.body_mocapid[b] >= 0).collect();
     let mpos0: Vec<f64> = mocap.iter().flat_map(|&b| m.body_pos[b]).collect();
     let mquat0: Vec<f64> = mocap.iter().flat_map(|&b| m.body_quat[b]).collect();
-    let empty = Key::default();
+    let (empty, continued) = (Key::default(), continuation(tree));
     let count = spec.keys.len().max(spec.size.nkey.max(0) as usize);
     let kept: Vec<Key> = (0..spec.kept_keys.len()).map(|k| gather(m, tree, spec, k)).collect();
     for key in spec.keys.iter().chain(std::iter::repeat(&empty)).take(count).chain(&kept) {
         m.key_time.push(key.time);
         let mut part = Part { loc: key.loc, what: title("keyframe", &key.name), log };
-        let mut qpos = part.complete(&key.qpos, &m.qpos0, "qpos");
+        let rest = if key.qpos.is_empty() { &m.qpos0 } else { &continued };
+        let mut qpos = part.complete(&key.qpos, rest, "qpos");
         let mut mquat = part.complete(&key.mquat, &mquat0, "mquat");
         m.key_qvel.extend(part.complete(&key.qvel, &vec![0.0; nv], "qvel"));
         m.key_act.extend(part.complete(&key.act, &vec![0.0; na as usize], "act"));
@@ -38,6 +39,18 @@ pub(super) fn fill(m: &mut Rows, tree: &Tree, spec: &Spec, log: &mut Log) {
         m.key_qpos.extend(qpos);
         m.key_mquat.extend(mquat);
     }
+}
+
+/// What a `qpos` that is given in part goes on with, as MuJoCo has it: free and ball joints at the identity whatever the pose
+/// of their bodies is, and the numbers of `ref` as they stand in the text, degrees of hinges too.
+fn continuation(tree: &Tree) -> Vec<f64> {
+    tree.joints()
+        .flat_map(|joint| match joint.spec.kind {
+            JointType::Free => vec![0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
+            JointType::Ball => vec![1.0, 0.0, 0.0, 0.0],
+            JointType::Slide | JointType::Hinge => vec![joint.spec.ref_],
+        })
+        .collect()
 }
 
 /// A keyframe of an attached model: what its elements took along, and the reference elsewhere.

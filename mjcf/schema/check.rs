@@ -5,6 +5,8 @@
 use std::collections::BTreeMap;
 
 use super::legacy::{self, Fate};
+use super::root::MUJOCO;
+use super::tree::WORLDBODY;
 use super::{Child, Count, ElementType, Facts, Naming, Rule, Space};
 use crate::diagnostic::{Diagnostics, Loc, Sources};
 use crate::files::base_name;
@@ -18,6 +20,9 @@ struct Names {
     /// Some objects do not show in the tree, so an unknown name need not be an error.
     open: bool,
 }
+
+/// What fragments that are made to be included hold at their top, and MuJoCo loads as an empty world.
+const STRAYS: [&str; 3] = ["body", "frame", "replicate"];
 
 struct Check<'a> {
     sources: &'a Sources,
@@ -80,6 +85,13 @@ impl Check<'_> {
     }
 
     fn unknown_element(&mut self, child: &Element, parent: &Element, kind: &'static ElementType) {
+        if kind.tag == MUJOCO.tag
+            && let Some(stray) = WORLDBODY.child(&child.name).filter(|c| STRAYS.contains(&c.element.tag))
+        {
+            let message = format!("<{}> outside of <worldbody> is ignored: put it inside", child.name);
+            self.diagnostics.warning(self.sources, child.loc, message);
+            return check_piece(child, stray.element, self.sources, self.diagnostics);
+        }
         let message = format!("unknown element <{}> in <{}>", child.name, parent.name);
         let near = self.diagnostics.nearest(&child.name, kind.children.iter().map(|c| c.element.tag));
         self.error(child.loc, message, near.map(|n| format!("did you mean <{n}>?")));

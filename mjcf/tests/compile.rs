@@ -138,6 +138,28 @@ fn short_keyframes_are_completed() {
     assert_eq!(m.key_qpos[..6], [1.0, 0.0, 0.0, 0.0, 0.5, 0.0]);
 }
 
+/// Measured with MuJoCo 3.12.0: poses of bodies do not count, and `ref` is not converted.
+#[test]
+fn a_position_given_in_part_goes_on_without_the_poses_of_bodies() {
+    let keyed = |key: &str| {
+        let text = format!(
+            "<mujoco><worldbody><body><joint type='slide' ref='.3'/><geom size='.1'/></body>
+             <body pos='1 2 3' quat='0 1 0 0'><freejoint/><geom size='.1'/></body>
+             <body><joint ref='20'/><geom size='.1'/></body>
+             <body quat='0 0 1 0'><joint type='ball'/><geom size='.1'/></body></worldbody>
+             <keyframe><key {key}/></keyframe></mujoco>"
+        );
+        compile(&text)
+    };
+    let whole = keyed("");
+    assert_eq!(whole.key_qpos[..], whole.qpos0[..]);
+    assert_eq!(
+        keyed("qpos='.5'").key_qpos[..],
+        [0.5, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 20.0, 1.0, 0.0, 0.0, 0.0]
+    );
+    assert_eq!(keyed("qpos='.5 1 2'").key_qpos[..6], [0.5, 1.0, 2.0, 0.0, 1.0, 0.0]);
+}
+
 #[test]
 fn a_computed_sphere_has_the_vertices_of_its_subdivisions() {
     let text = r#"<mujoco>

@@ -213,3 +213,21 @@ fn names_that_nothing_declares_are_errors_of_whole_models_alone() {
         whole.compile(&robohive_mjcf::files::Memory::default(), &Default::default()).expect("whole").model;
     assert_eq!((model.nsite, model.ntendon, model.tendon_length0[0]), (2, 1, 1.0));
 }
+
+#[test]
+fn bodies_outside_of_the_world_are_ignored_with_a_warning() {
+    let text = "<mujoco>\n <body name='arm'><geom size='.1'/></body>\n</mujoco>";
+    let loaded = robohive_mjcf::load_str(text).unwrap_or_else(|found| panic!("{found}"));
+    assert_eq!((loaded.model.nbody, loaded.model.ngeom), (1, 0));
+    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(warnings.len(), 1);
+    assert!(warnings[0].contains("2:2: warning: <body> outside of <worldbody> is ignored"), "{warnings:?}");
+
+    let refused = |inside: &str| {
+        let found = robohive_mjcf::load_str(format!("<mujoco>{inside}</mujoco>")).err();
+        found.map(|found| found.to_string()).unwrap_or_default()
+    };
+    assert!(refused("<geom size='.1'/>").contains("unknown element <geom> in <mujoco>"));
+    assert!(refused("<body><bla/></body>").contains("unknown element <bla> in <body>"));
+    assert!(refused("<body><joint name='j'/></body><actuator><motor joint='j'/></actuator>").contains("'j'"));
+}

@@ -2,7 +2,7 @@
 
 use super::arena::{Engine, EngineMut};
 use super::error::FatalError;
-use super::lists::Lent;
+use super::lent::Lent;
 use super::mirror::{Layout, Mirror};
 use super::model::Model;
 use super::timed::Timers;
@@ -209,6 +209,12 @@ impl Data {
         held.simulation.efc.visit_counts(&mut put);
         held.simulation.island.visit_counts(&mut put);
         result.map(|()| all)
+    }
+
+    /// Durations \[s\] and numbers of calls, by `mjtTimer`.
+    fn _timers<'py>(&self, py: Python<'py>) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i32>>) {
+        let Timers { duration, number } = &self.wait(py).timers;
+        (PyArray1::from_slice(py, duration), PyArray1::from_slice(py, number))
     }
 
     /// Every array and count by name, flat.

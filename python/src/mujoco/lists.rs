@@ -1,11 +1,8 @@
-//! Arrays whose length changes from step to step: contacts, constraint rows, islands, iterations of the solver. Those of
-//! contacts, rows and islands are lent until the next call that changes the simulation, which first takes over what was
-//! written into them; then there are others, since their length may be another.
+//! Arrays whose length changes from step to step: contacts, constraint rows, islands, iterations of the solver.
 
 use super::data::Data;
 use super::fresh::array;
-use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
-use physics::Data as Simulation;
+use numpy::PyArray1;
 use physics::data::SolverStat;
 use physics::table::Slice;
 use pyo3::prelude::*;
@@ -23,45 +20,6 @@ fn gather<'py>(py: Python<'py>, visit: &Visit<'_>) -> PyResult<Bound<'py, PyDict
         }
     });
     result.map(|()| all)
-}
-
-/// The arrays that Python was given since the simulation changed last, by name.
-#[derive(Default)]
-pub struct Lent {
-    contacts: Option<Py<PyDict>>,
-    constraints: Option<Py<PyDict>>,
-}
-
-impl Lent {
-    /// Takes over what was written into the arrays.
-    pub fn pull(&self, py: Python<'_>, simulation: &mut Simulation) -> PyResult<()> {
-        for (name, values) in self.contacts.iter().flat_map(|all| all.bind(py).iter()) {
-            if let Some(values) = numbers(&values) {
-                simulation.con.assign(&format!("contact.{name}"), &values);
-            }
-        }
-        for (name, values) in self.constraints.iter().flat_map(|all| all.bind(py).iter()) {
-            if let Some(values) = numbers(&values) {
-                let name: String = name.extract()?;
-                simulation.efc.assign(&name, &values).or_else(|| simulation.island.assign(&name, &values));
-            }
-        }
-        Ok(())
-    }
-
-    /// Forgets the arrays: the simulation has changed.
-    pub fn recall(&mut self) {
-        *self = Lent::default();
-    }
-}
-
-/// The scalars of an array; `None` of what is no array that was lent.
-fn numbers(values: &Bound<'_, PyAny>) -> Option<Vec<f64>> {
-    if let Ok(values) = values.cast::<PyArrayDyn<f64>>() {
-        return Some(values.readonly().as_array().iter().copied().collect());
-    }
-    let values = values.cast::<PyArrayDyn<i32>>().ok()?;
-    Some(values.readonly().as_array().iter().map(|&x| f64::from(x)).collect())
 }
 
 /// Every field of all contacts, by the field's name, until the simulation changes.

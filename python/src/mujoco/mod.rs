@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `arena.rs`, `mirror.rs`, `fresh.rs` | numpy arrays beside the engine's, copied around every call; fresh ones |
 //! | `model.rs`, `settings.rs`, `load.rs` | models, their options, where they come from |
-//! | `data.rs`, `lists.rs`, `warned.rs`, `timed.rs`, `saved.rs` | simulations, arrays that change length, warnings, timers, states as vectors |
+//! | `data.rs`, `lists.rs`, `lent.rs` | simulations, arrays that change length, and what is written into these |
+//! | `warned.rs`, `timed.rs`, `saved.rs` | warnings, timers, states as vectors |
 //! | `call.rs`, `error.rs` | what every call does, and how it fails |
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
 //! | `query.rs`, `algebra.rs`, `quaternion.rs` | questions about poses, matrices, rotations |
@@ -22,6 +23,7 @@ mod dynamics;
 mod error;
 mod fresh;
 mod items;
+mod lent;
 mod lists;
 mod load;
 mod mirror;
@@ -81,6 +83,4 @@ pub mod bindings {
     use super::spec::{Description, actuator_shortcut, orientation, spec_forms};
     #[pymodule_export]
     use super::stages::{newton_euler, stage};
-    #[pymodule_export]
-    use super::timed::timers;
 }

@@ -1,8 +1,5 @@
 //! How long calls took: MuJoCo's timers of whole steps and passes. What happens inside a call is not timed.
 
-use super::data::Data;
-use numpy::PyArray1;
-use pyo3::prelude::*;
 use std::time::Instant;
 
 /// Timers by `mjtTimer`.
@@ -19,8 +16,8 @@ pub enum Timed {
 /// Time that calls took [s], and how many there were, since the simulation was made or reset.
 #[derive(Default)]
 pub struct Timers {
-    duration: [f64; TIMERS],
-    number: [i32; TIMERS],
+    pub duration: [f64; TIMERS],
+    pub number: [i32; TIMERS],
 }
 
 impl Timers {
@@ -29,14 +26,4 @@ impl Timers {
         self.duration[what as usize] += start.elapsed().as_secs_f64();
         self.number[what as usize] = self.number[what as usize].saturating_add(number as i32);
     }
-}
-
-/// Durations [s] and numbers of calls, by `mjtTimer`.
-#[pyfunction]
-pub fn timers<'py>(
-    py: Python<'py>,
-    d: &Bound<'py, Data>,
-) -> (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<i32>>) {
-    let held = d.get().wait(py);
-    (PyArray1::from_slice(py, &held.timers.duration), PyArray1::from_slice(py, &held.timers.number))
 }

@@ -131,7 +131,7 @@ class MjData(_core.Data, named.DataElements):
     @property
     def timer(self) -> MjTimerStatList:
         """Timers [s], by `mjtTimer`: calls of `mj_step`, `mj_forward` and `mj_inverse`; all others are zero."""
-        return MjTimerStatList(*_core.timers(self))
+        return MjTimerStatList(*self._timers())
 
     @property
     def solver(self) -> MjSolverStatList:
