@@ -97,6 +97,11 @@ impl Sources {
         self.files.iter()
     }
 
+    /// The paths of all texts, that of the main file first.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().map(|source| &*source.path)
+    }
+
     /// Path, line and column of `loc`; lines and columns count from one, columns in characters.
     pub fn position(&self, loc: Loc) -> Option<Position> {
         let source = self.get(loc.file)?;

@@ -16,6 +16,7 @@
 
 mod builtin;
 mod hfield;
+mod ktx;
 mod png;
 mod scanline;
 mod source;

@@ -1,6 +1,7 @@
 //! Textures: from one image, from six, or computed.
 
 use super::builtin::{paint_cube, paint_flat_image};
+use super::ktx;
 use super::png::{self, Pixels};
 use super::source::{Builtin, FileImage, MAX_BYTES, TextureSource};
 use crate::asset::AssetError;
@@ -81,6 +82,7 @@ fn container(source: &TextureSource, file: &FileImage) -> Result<CompiledTexture
     if source.hflip || source.vflip {
         return Err(AssetError::inconsistent(format!("KTX texture '{}' cannot be flipped", file.path)));
     }
+    ktx::check(&file.bytes, &file.path)?;
     Ok(CompiledTexture {
         width: byte_count(source, file.bytes.len(), 1, 1)?,
         height: 1,

@@ -66,8 +66,9 @@ impl Reader<'_> {
             return self.error_with(element.loc, message, Some(format!("use {instead}")));
         }
         let parts = self.composite_parts(element, &wanted);
-        let made = vertices(&mut wanted).and_then(|vertices| {
-            self.count_copies(4 * vertices.len())?;
+        let made = count(&mut wanted).and_then(|count| {
+            self.count_copies(count.saturating_mul(4))?;
+            let vertices = vertices(&wanted)?;
             if parts.geom.kind == GeomType::Box {
                 self.count_skin(&parts.skin, vertices.len())?;
             }
@@ -256,13 +257,12 @@ fn segment_body(ix: usize, last: usize, segments: &[Segment], wanted: &Composite
     body
 }
 
-/// The vertices of a cable, given or along its curve.
-fn vertices(wanted: &mut Composite) -> Result<Vec<[f32; 3]>, String> {
+/// How many vertices a cable has, which is checked before they are made.
+fn count(wanted: &mut Composite) -> Result<usize, String> {
     if wanted.count.iter().any(|n| *n < 1) {
         return Err("attribute 'count' of <composite>: set each number to 1 or more".into());
     }
     let given = !wanted.vertex.is_empty();
-    let curve = curve(&wanted.curve)?;
     if given && wanted.count[0] > 1 {
         return Err("<composite> takes either 'vertex' or 'count'".into());
     }
@@ -276,15 +276,18 @@ fn vertices(wanted: &mut Composite) -> Result<Vec<[f32; 3]>, String> {
         return Err("attribute 'size' of <composite> is zero: its first number is the length".into());
     }
     match wanted.count {
-        [2 | 4.., 1, 1] => {}
+        [count @ (2 | 4..), 1, 1] => Ok(count as usize),
         [3, 1, 1] => {
-            return Err(
-                "a cable of three vertices cannot be made, in MuJoCo neither: take two, or more".into()
-            );
+            Err("a cable of three vertices cannot be made, in MuJoCo neither: take two, or more".into())
         }
-        _ => return Err("a cable has one dimension: write its number of vertices as count=\"N 1 1\"".into()),
+        _ => Err("a cable has one dimension: write its number of vertices as count=\"N 1 1\"".into()),
     }
-    if given {
+}
+
+/// The vertices of a cable, given or along its curve.
+fn vertices(wanted: &Composite) -> Result<Vec<[f32; 3]>, String> {
+    let curve = curve(&wanted.curve)?;
+    if !wanted.vertex.is_empty() {
         return Ok(wanted.vertex.as_chunks().0.to_vec());
     }
     let steps = f64::from(wanted.count[0] - 1);

@@ -59,7 +59,13 @@ impl Reader<'_> {
             if config.iter().any(|(known, _)| known == key) {
                 self.error(child.loc, format!("<config> sets '{key}' twice"));
             }
-            config.push((key.to_owned(), child.value("value").unwrap_or_default().to_owned()));
+            let value = child.value("value").unwrap_or_default();
+            if value.trim().is_empty() {
+                // MuJoCo takes it for one that is not given, and for a number that is 0.
+                let message = format!("<config> gives '{key}' no value: write one, or remove <config>");
+                self.error(child.loc, message);
+            }
+            config.push((key.to_owned(), value.to_owned()));
         }
         config
     }

@@ -3,6 +3,7 @@
 use super::element::{SOLIMP, SOLREF};
 use super::flex::Flex;
 use super::orientation::Orientation;
+use super::plugin::PluginUse;
 use crate::diagnostic::Loc;
 use crate::flex::Shape;
 
@@ -80,6 +81,8 @@ pub(crate) struct Flexcomp {
     pub quat: [f64; 4],
     pub alt: Option<Orientation>,
     pub pins: Vec<Pin>,
+    /// What acts on the bodies of its points.
+    pub plugin: Option<PluginUse>,
 }
 
 impl Default for Flexcomp {
@@ -106,6 +109,7 @@ impl Default for Flexcomp {
             quat: [1.0, 0.0, 0.0, 0.0],
             alt: None,
             pins: Vec::new(),
+            plugin: None,
         }
     }
 }

@@ -284,6 +284,19 @@ fn bad_gmsh_files_are_refused_with_line_and_reason() {
         (TEXT_41.replace("1 4 1 4\n3", "2 4 1 4\n3"), Some(5), "in one block"),
         (TEXT_41.replace("1\n2\n3\n4\n0", "1\n2\n4\n3\n0"), Some(9), "one after the other"),
         (TEXT_41.replace("3 1 4 1\n", "2 1 4 1\n"), Some(17), "do not fit each other"),
+        (TEXT_22.replace("0 8", "0 0"), Some(1), "numbers have 8 bytes"),
+        (TEXT_41.replace("0 8", "0 4"), Some(1), "numbers have 8 bytes"),
+        (TEXT_22.replace("3 0 1 0", "2 0 1 0"), Some(8), "node 3 is numbered 2"),
+        (
+            TEXT_22.replace("1\n1 4 2 0 1 1 2 3 4", "2\n1 4 2 0 1 1 2 3 4\n1 4 2 0 1 2 1 3 4"),
+            Some(12),
+            "two elements are numbered 1",
+        ),
+        (
+            TEXT_41.replace("1 1 1 1\n3 1 4 1\n1 1 2 3 4", "1 2 1 1\n3 1 4 2\n1 1 2 3 4\n1 2 1 3 4"),
+            Some(17),
+            "two elements are numbered 1",
+        ),
     ] {
         let error = decode_gmsh(text.as_bytes(), "t.msh").unwrap_err();
         assert!(error.message.contains(reason), "{error}");

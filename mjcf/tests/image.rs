@@ -163,9 +163,57 @@ fn palette_that_ends_inside_a_colour_is_refused() {
     assert!(error.message.contains("the palette ends inside a colour"), "{error}");
 }
 
+/// A KTX file of version 1.1: one level of `length` bytes.
+fn ktx(width: u32, height: u32, length: u32) -> Vec<u8> {
+    let mut file = b"\xabKTX 11\xbb\r\n\x1a\n".to_vec();
+    let header = [0x0403_0201, 0x1401, 1, 0x1908, 0x8058, 0x1908, width, height, 0, 0, 1, 1, 0, length];
+    file.extend(header.iter().flat_map(|x: &u32| x.to_le_bytes()));
+    file.extend(vec![7; 16]);
+    file
+}
+
+/// A KTX file of version 2.0 with one level of 16 bytes at `start`.
+fn ktx2(width: u32, start: u64) -> Vec<u8> {
+    let mut file = b"\xabKTX 20\xbb\r\n\x1a\n".to_vec();
+    let header = [37_u32, 1, width, 2, 0, 0, 1, 1, 0, 0, 0, 0, 0];
+    file.extend(header.iter().flat_map(|x| x.to_le_bytes()));
+    file.extend([0_u64, 0, start, 16, 16].iter().flat_map(|x| x.to_le_bytes()));
+    file.extend([7; 16]);
+    file
+}
+
+#[test]
+fn containers_hold_what_their_headers_say() {
+    let read = |bytes: Vec<u8>| {
+        let file = Some(FileImage { bytes, path: "sky.ktx".into() });
+        texture(&TextureSource { kind: TextureType::Texture2d, file, ..Default::default() })
+    };
+    assert!(read(ktx(2, 2, 16)).is_ok() && read(ktx2(2, 104)).is_ok());
+    for whole in [ktx(2, 2, 16), ktx2(2, 104)] {
+        for end in 0..whole.len() {
+            let error = read(whole[..end].to_vec()).unwrap_err().message;
+            assert!(error.contains("cut short") || end < 12, "{end}: {error}");
+        }
+    }
+    for (bytes, reason) in [
+        (ktx(2, 2, 160), "has 84 bytes, and by its header at least 228"),
+        (ktx(2, 2, u32::MAX), "cut short"),
+        (ktx(0, 2, 16), "is 0 x 2 x 0 pixels"),
+        (ktx(2, u32::MAX, 16), "no flat picture"),
+        (ktx(2, 2, 0), "a level without pixels"),
+        (ktx2(0, 104), "is 0 x 2 x 0 pixels"),
+        (ktx2(2, 105), "has 120 bytes, and by its header at least 121"),
+        (ktx2(2, u64::MAX), "cut short"),
+        (b"no container at all".to_vec(), "does not begin as KTX files"),
+    ] {
+        let error = read(bytes).unwrap_err().message;
+        assert!(error.contains(reason), "{error}");
+    }
+}
+
 #[test]
 fn container_is_kept_byte_for_byte() {
-    let bytes = b"\xabKTX 11\xbb\r\n\x1a\n and more".to_vec();
+    let bytes = ktx(2, 2, 16);
     let file = FileImage { bytes: bytes.clone(), path: "sky.KTX".into() };
     let source = TextureSource { kind: TextureType::Texture2d, file: Some(file), ..Default::default() };
     let kept = texture(&source).unwrap();

@@ -128,7 +128,8 @@ fn faulty_distance_geoms_are_refused_in_their_place() {
         (" mesh=\"ring\"><plugin instance=\"ring\"/>", ">", "a signed distance geom needs a mesh"),
         ("<mesh name=\"ring\">", "<mesh name=\"ring\" scale=\"2 2 2\">", "attribute 'scale' does not apply"),
         ("value=\".4\"", "value=\"wide\"", "attribute 'radius1' is 'wide'"),
-        ("value=\".1\"", "value=\"-1\"", "mesh 'ring' has fewer than 4 vertices"),
+        ("value=\".1\"", "value=\"-1\"", "attribute 'radius2' is -1"),
+        ("value=\".1\"", "value=\".004\"", "mesh 'ring' has fewer than 4 vertices"),
         ("mesh=\"ring\"><plugin instance=\"ring\"/></geom>", "mesh=\"ring\"/>", "without a plugin"),
     ] {
         let faulty = text.replacen(from, to, 1);

@@ -11,6 +11,7 @@ mod failure;
 mod input;
 mod interrupt;
 mod models;
+mod output;
 mod pictures;
 mod recordings;
 mod shell;

@@ -13,6 +13,9 @@ pub(super) fn counts(flex: &Flex) -> Result<(), String> {
     let Flex { dim, elem, vertbody, nodebody, vert, .. } = flex;
     require((1..=3).contains(dim), || format!("dim must be 1, 2 or 3, is {dim}"))?;
     let corners = *dim as usize + 1;
+    require(flex.radius >= 0.0, || {
+        format!("radius is {}: set it to 0 or more, elements are that thick on each side", flex.radius)
+    })?;
     require(!elem.is_empty() && elem.len().is_multiple_of(corners), || {
         format!("'element' has {} numbers, not {corners} an element", elem.len())
     })?;

@@ -1,7 +1,7 @@
 //! Sections whose numbers are binary, little-endian.
 
 use super::cursor::Bytes;
-use super::section::{Section, count, dimension, head, matching, node};
+use super::section::{Section, count, dimension, distinct, head, in_order, matching, node};
 use crate::asset::AssetError;
 use crate::flex::Cloud;
 
@@ -12,8 +12,8 @@ pub(super) fn read_v22(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
     let number = bytes.line_of_digits()?;
     let n = count(number, 4 + 3 * 8, bytes.left(), nodes)?;
     let mut point = Vec::with_capacity(3 * n);
-    for _ in 0..n {
-        bytes.int()?;
+    for place in 0..n {
+        in_order(u64::try_from(bytes.int()?).unwrap_or(0), place, nodes)?;
         for _ in 0..3 {
             point.push(bytes.real()?);
         }
@@ -21,7 +21,7 @@ pub(super) fn read_v22(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
     let mut bytes = Bytes::new(elements);
     let number = bytes.line_of_digits()?;
     let total = count(number, 3 * 4, bytes.left(), elements)?;
-    let (mut dim, mut element, mut read) = (None, Vec::new(), 0);
+    let (mut dim, mut element, mut own_tags, mut read) = (None, Vec::new(), Vec::new(), 0);
     while read < total {
         let own = dimension(bytes.int()?.into(), elements)?;
         if *dim.get_or_insert(own) != own {
@@ -32,7 +32,8 @@ pub(super) fn read_v22(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
             return Err(elements.malformed(format!("a group of {following} elements with {tags} tags each")));
         }
         for _ in 0..following {
-            for _ in 0..=tags {
+            own_tags.push(bytes.int()? as u64);
+            for _ in 0..tags {
                 bytes.int()?;
             }
             for _ in 0..=own {
@@ -42,6 +43,7 @@ pub(super) fn read_v22(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
         }
         read += following as usize;
     }
+    distinct(own_tags, elements)?;
     Ok(Cloud { dim: dim.unwrap_or(0), point, element, ..Cloud::default() })
 }
 
@@ -64,12 +66,14 @@ pub(super) fn read_v41(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
     let head = head(numbers, 3 * 8, bytes.left(), elements)?;
     let dim = matching(&nodes_head, &head, elements)?;
     let mut element = Vec::with_capacity((dim as usize + 1) * head.count);
+    let mut tags = Vec::new();
     for _ in 0..head.count {
-        bytes.long()?;
+        tags.push(bytes.long()?);
         for _ in 0..=dim {
             element.push(node(bytes.long()?, nodes_head.first, nodes_head.count, elements)?);
         }
     }
+    distinct(tags, elements)?;
     Ok(Cloud { dim, point, element, ..Cloud::default() })
 }
 

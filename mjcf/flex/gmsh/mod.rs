@@ -14,6 +14,9 @@ use section::Section;
 /// What every file begins with.
 const MARK: &[u8] = b"$MeshFormat";
 
+/// Bytes of a coordinate.
+const REAL: f64 = 8.0;
+
 /// Layout of the sections.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Version {
@@ -53,6 +56,11 @@ fn header(bytes: &[u8], path: &str) -> Result<(Version, bool), AssetError> {
     let (Some(version), Some(binary)) = (number(), number()) else {
         return Err(refuse("has no version after $MeshFormat"));
     };
+    if number() != Some(REAL) {
+        return Err(refuse(
+            "does not say that its numbers have 8 bytes: write 8 behind version and file type",
+        ));
+    }
     let version = match (100.0 * version).round() {
         220.0 => Version::V22,
         410.0 => Version::V41,

@@ -95,6 +95,26 @@ pub(super) fn matching(nodes: &Head, elements: &Head, section: &Section<'_>) -> 
     Ok(dim)
 }
 
+/// Refuses a node of format 2.2 whose number is not its place, counted from one: elements name nodes by their place.
+pub(super) fn in_order(tag: u64, place: usize, section: &Section<'_>) -> Result<(), AssetError> {
+    let expected = place as u64 + 1;
+    if tag == expected {
+        return Ok(());
+    }
+    Err(section.malformed(format!("node {expected} is numbered {tag}: number nodes 1, 2, 3 ... in order")))
+}
+
+/// Refuses two elements of one number.
+pub(super) fn distinct(mut tags: Vec<u64>, section: &Section<'_>) -> Result<(), AssetError> {
+    tags.sort_unstable();
+    match tags.windows(2).find(|pair| pair[0] == pair[1]) {
+        None => Ok(()),
+        Some(pair) => {
+            Err(section.malformed(format!("two elements are numbered {}: number them apart", pair[0])))
+        }
+    }
+}
+
 /// Index of the node called `tag`.
 pub(super) fn node(tag: u64, first: u64, nodes: usize, section: &Section<'_>) -> Result<i32, AssetError> {
     match tag.checked_sub(first) {

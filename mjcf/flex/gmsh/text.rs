@@ -1,7 +1,7 @@
 //! Sections whose numbers are text.
 
 use super::cursor::Words;
-use super::section::{Section, count, dimension, head, matching, node};
+use super::section::{Section, count, dimension, distinct, head, in_order, matching, node};
 use crate::asset::AssetError;
 use crate::flex::Cloud;
 
@@ -14,8 +14,8 @@ pub(super) fn read_v22(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
     let number = words.count()?;
     let n = count(number, 4 * WORD - 1, words.left(), nodes)?;
     let mut point = Vec::with_capacity(3 * n);
-    for _ in 0..n {
-        words.number::<u64>()?;
+    for place in 0..n {
+        in_order(words.number()?, place, &words.here())?;
         for _ in 0..3 {
             point.push(words.number()?);
         }
@@ -23,9 +23,9 @@ pub(super) fn read_v22(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
     let mut words = Words::new(elements);
     let number = words.count()?;
     let count = count(number, 5 * WORD - 1, words.left(), elements)?;
-    let (mut dim, mut element) = (None, Vec::new());
+    let (mut dim, mut element, mut tags) = (None, Vec::new(), Vec::new());
     for _ in 0..count {
-        words.number::<i64>()?;
+        tags.push(words.number::<i64>()? as u64);
         let own = dimension(words.number()?, &words.here())?;
         if *dim.get_or_insert(own) != own {
             return Err(words.here().malformed("all elements must be of one type"));
@@ -43,6 +43,7 @@ pub(super) fn read_v22(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
             element.push(node(tag, 1, n, &words.here())?);
         }
     }
+    distinct(tags, elements)?;
     Ok(Cloud { dim: dim.unwrap_or(0), point, element, ..Cloud::default() })
 }
 
@@ -69,13 +70,15 @@ pub(super) fn read_v41(nodes: &Section<'_>, elements: &Section<'_>) -> Result<Cl
     let head = head(numbers, 3 * WORD - 1, words.left(), elements)?;
     let dim = matching(&nodes_head, &head, elements)?;
     let mut element = Vec::with_capacity((dim as usize + 1) * head.count);
+    let mut tags = Vec::new();
     for _ in 0..head.count {
-        words.number::<u64>()?;
+        tags.push(words.number()?);
         for _ in 0..=dim {
             let tag = words.number()?;
             element.push(node(tag, nodes_head.first, nodes_head.count, &words.here())?);
         }
     }
+    distinct(tags, elements)?;
     Ok(Cloud { dim, point, element, ..Cloud::default() })
 }
 

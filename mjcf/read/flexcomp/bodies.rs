@@ -22,9 +22,13 @@ impl Reader<'_> {
     ) {
         let parent = self.body_here().name.clone();
         let joint = Joint { frame: None, ..self.spec.classes.of(place.body_class).joint.clone() };
-        let maker = Maker { joint, element, inertiabox: wanted.inertiabox };
+        let maker = Maker { joint, element, inertiabox: wanted.inertiabox, plugin: wanted.plugin.as_ref() };
         let mut flex = flex_of(wanted, &points);
         if points.rigid {
+            if let Some(used) = &wanted.plugin {
+                let why = "<plugin> is ignored: a rigid <flexcomp> has no bodies of its own";
+                self.warning(used.loc, why);
+            }
             flex.vert = points.cloud.point;
             flex.vertbody = vec![parent];
             self.spec.flexes.push(flex);

@@ -1,6 +1,6 @@
 //! The point masses that the points and nodes of a flexcomp are.
 
-use crate::spec::{Body, Inertial, Joint};
+use crate::spec::{Body, Inertial, Joint, PluginUse};
 use crate::xml::Element;
 use physics::model::JointType;
 
@@ -9,6 +9,8 @@ pub(super) struct Maker<'a> {
     /// What the default class of the parent body makes of joints.
     pub joint: Joint,
     pub element: &'a Element,
+    /// What acts on the bodies.
+    pub plugin: Option<&'a PluginUse>,
     /// Half length of the box whose inertia a body has.
     pub inertiabox: f64,
 }
@@ -31,6 +33,7 @@ impl Maker<'_> {
             pos,
             inertial: Some(Inertial { loc, mass, inertia: [moment; 3], ..Inertial::default() }),
             joints: axes.iter().map(slide).collect(),
+            plugin: self.plugin.cloned(),
             ..Body::default()
         }
     }

@@ -21,7 +21,7 @@ use crate::flex::Cloud;
 use crate::schema::flex::{
     CONTACT_ROWS, EDGE_EQUALITY_ROWS, EDGE_ROWS, ELASTICITY_ROWS, FLEXCOMP_ROWS, ORIGIN_ROW, PIN_ROWS,
 };
-use crate::spec::{Dof, Elastic2d, EqualityOf, Flexcomp, Pin, resolve};
+use crate::spec::{Dof, Elastic2d, EqualityOf, Flexcomp, Pin, PluginInstance, PluginUse, resolve};
 use crate::vector::rotate;
 use crate::xml::Element;
 use physics::model::bounds::MINVAL;
@@ -50,6 +50,7 @@ impl Reader<'_> {
         wanted.flex.loc = element.loc;
         self.rows(element, &FLEXCOMP_ROWS, &mut wanted);
         self.rows(element, &ORIGIN_ROW, &mut wanted);
+        let name = wanted.flex.name.clone();
         for child in &element.children {
             match child.name.as_str() {
                 "edge" => {
@@ -58,6 +59,9 @@ impl Reader<'_> {
                 }
                 "elasticity" => self.rows(child, &ELASTICITY_ROWS, &mut wanted.flex),
                 "contact" => self.rows(child, &CONTACT_ROWS, &mut wanted.flex),
+                "plugin" if wanted.plugin.is_none() => {
+                    wanted.plugin = self.child_plugin(element).map(|used| self.flexcomp_plugin(used, &name));
+                }
                 "pin" => {
                     let mut pin = Pin { loc: child.loc, ..Pin::default() };
                     self.rows(child, &PIN_ROWS, &mut pin);
@@ -68,6 +72,21 @@ impl Reader<'_> {
             }
         }
         wanted
+    }
+
+    /// Gives a plugin without an instance one of its own, which the bodies of all points share.
+    fn flexcomp_plugin(&mut self, mut used: PluginUse, name: &str) -> PluginUse {
+        if used.instance.is_empty() {
+            used.instance = format!("flexcomp{name}");
+            self.spec.plugins.push(PluginInstance {
+                name: used.instance.clone(),
+                loc: used.loc,
+                plugin: used.plugin.clone(),
+                config: std::mem::take(&mut used.config),
+                expanded: true,
+            });
+        }
+        used
     }
 
     /// Points and elements, checked, in the parent body; `None` when they are beyond the budget.
@@ -111,6 +130,9 @@ fn check(wanted: &Flexcomp) -> Result<(), String> {
     let flex = &wanted.flex;
     if !(1..=3).contains(&flex.dim) {
         return Err(format!("dim must be 1, 2 or 3, is {}", flex.dim));
+    }
+    if flex.radius < 0.0 {
+        return Err(format!("'radius' is {}: set it to 0 or more", flex.radius));
     }
     let least = if wanted.dof == Dof::Radial && flex.dim == 3 { 2 } else { 1 };
     if wanted.count.iter().any(|&n| n < least) {

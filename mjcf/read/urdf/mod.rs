@@ -47,6 +47,13 @@ pub(super) fn read(root: &Element, expansion: Expansion<'_>) -> Spec {
     reader.spec
 }
 
+/// Nothing can be touched, and nothing moves.
+fn is_empty(root: &Element) -> bool {
+    let touched = |link: &Element| link.children_named("collision").next().is_some();
+    let moves = |joint: &Element| joint.value("type") != Some("fixed");
+    !root.children_named("link").any(touched) && !root.children_named("joint").any(moves)
+}
+
 /// What is known of the whole robot while its links are read.
 #[derive(Default)]
 struct Robot {
@@ -164,6 +171,13 @@ impl Reader<'_> {
                 self.error(element.loc, format!("duplicate link name '{name}'"));
             }
             links.push(Link { element, name, above: None, children: Vec::new() });
+        }
+        if links.is_empty() && root.children_named("link").next().is_none() {
+            let hint = "add <link name=\"...\"> with <inertial> and <collision>".to_owned();
+            self.error_with(root.loc, "<robot> has no <link>: nothing would be simulated", Some(hint));
+        } else if is_empty(root) {
+            let message = "no link has a <collision>, and no joint moves one: nothing is simulated";
+            self.warning(root.loc, message);
         }
         for joint in root.children_named("joint") {
             let ends = ["parent", "child"].map(|tag| {

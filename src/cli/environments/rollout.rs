@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, unwritable};
 use crate::input::library::Source;
+use crate::output::{archive_file, check_place, keep_input};
 use crate::pictures::renderer::RendererArguments;
 use crate::terminal::show;
 use clap::{Args, ValueHint};
@@ -45,12 +46,14 @@ pub struct Rollout {
     #[command(flatten)]
     renderer: RendererArguments,
     /// File to write
-    #[arg(long, value_name = "O.npz", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "O.npz", value_hint = ValueHint::FilePath, value_parser = archive_file)]
     out: PathBuf,
 }
 
 /// Runs the command.
 pub fn run(a: &Rollout) -> Result<(), Failure> {
+    check_place(&a.out)?;
+    [&a.actions, &a.states].into_iter().flatten().try_for_each(|input| keep_input(input, &a.out))?;
     let mut env = a.source.make_with(a.renderer.painters_if(a.visual, "--visual")?)?;
     env.reset(Some(a.seed)).map_err(Failure::new)?;
     let mut log = Log { visual: a.visual, ..Log::default() };

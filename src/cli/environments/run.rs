@@ -3,6 +3,7 @@
 use crate::failure::Failure;
 use crate::input::library::Source;
 use crate::interrupt::Interrupt;
+use crate::output::{check_place, keep_input, recording_file};
 use crate::pictures::film::{Film, FilmArguments};
 use crate::pictures::subject::camera_of;
 use crate::recordings::recording::{self, LayoutName, PrecisionName, Recording};
@@ -14,7 +15,7 @@ use env::Env;
 use env::episode::{Summary, evaluate};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 /// Play episodes of an environment and print returns, success and speed
@@ -55,8 +56,8 @@ pub struct Run {
     /// Seed of the first episode
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     seed: u64,
-    /// Record every episode in this file, .npz or HDF5; replaces it
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Record every episode in this file, .h5 or .hdf5 (HDF5), or .npz; replaces it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = recording_file)]
     record: Option<PathBuf>,
     /// Names of the recorded rows
     #[arg(long, default_value = "robohive", requires = "record")]
@@ -102,6 +103,10 @@ fn read_policy(name: &str) -> Result<Option<Policy>, Failure> {
 
 /// Runs the command.
 pub fn run(a: &Run) -> Result<(), Failure> {
+    if let Some(record) = &a.record {
+        check_place(record)?;
+        keep_input(Path::new(&a.policy), record)?;
+    }
     let read = read_policy(&a.policy)?;
     let painters = a.film.painters(a.visual)?;
     let mut env = a.source.make_with(painters.clone())?;

@@ -3,6 +3,7 @@
 use crate::failure::{Failure, unwritable};
 use crate::input::loading::load;
 use crate::input::source::ModelSource;
+use crate::output::{check_place, compiled_file, keep_input};
 use crate::terminal::show;
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
@@ -21,13 +22,15 @@ pub struct Compile {
     /// The model
     #[command(flatten)]
     pub model: ModelSource,
-    /// File to write
-    #[arg(long, value_name = "FILE.rhm", value_hint = ValueHint::FilePath)]
+    /// File to write; replaces it
+    #[arg(long, value_name = "FILE.rhm", value_hint = ValueHint::FilePath, value_parser = compiled_file)]
     pub out: PathBuf,
 }
 
 /// Runs the command.
 pub fn run(a: &Compile) -> Result<(), Failure> {
+    check_place(&a.out)?;
+    keep_input(&a.model.path, &a.out)?;
     let m = load(&a.model.path, &a.model.reading)?;
     let bytes = m.to_bytes();
     std::fs::write(&a.out, &bytes).map_err(unwritable(&a.out))?;

@@ -3,6 +3,7 @@
 use crate::failure::{Failure, unwritable};
 use crate::input::loading::{STANDARD_INPUT, loader};
 use crate::input::source::ModelSource;
+use crate::output::{check_place, keep_existing, keep_input, model_file};
 use crate::terminal::{note, show};
 use clap::{Args, ValueHint};
 use mjcf::Loader;
@@ -20,11 +21,12 @@ const FOLDER: &str = "assets";
 #[command(
     after_help = "Includes are in place, templates filled in, attached and replicated parts spelled out, angles in \
 radians, and every number is the shortest that reads alike. What is written is read again and compared, so that a file \
-is left only when all its arrays are those of MODEL, to the last bit; paths of assets may differ.
+is left only when all its arrays are those of MODEL, to the last bit; paths of assets may differ. The folder of FILE.xml \
+must exist.
 
 Examples:
-  robohive convert assets/franka/franka_table.xml --out franka.xml
-  robohive convert assets/franka/franka_table.xml --out away/franka.xml --copy-assets
+  robohive convert assets/franka/franka_table.xml --out franka.xml --force
+  robohive convert assets/franka/franka_table.xml --out with_assets.xml --copy-assets
   robohive convert robot.urdf --out robot.xml"
 )]
 pub struct Convert {
@@ -32,8 +34,11 @@ pub struct Convert {
     #[command(flatten)]
     pub model: ModelSource,
     /// File to write
-    #[arg(long, value_name = "FILE.xml", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE.xml", value_hint = ValueHint::FilePath, value_parser = model_file)]
     pub out: PathBuf,
+    /// Replace FILE if it exists; never one that the model is read from
+    #[arg(long)]
+    pub force: bool,
     /// Keep default classes, shortcuts, units and attached models as their author wrote them
     #[arg(long)]
     pub keep_defaults: bool,
@@ -44,6 +49,9 @@ pub struct Convert {
 
 /// Runs the command.
 pub fn run(a: &Convert) -> Result<(), Failure> {
+    check_place(&a.out)?;
+    keep_input(&a.model.path, &a.out)?;
+    keep_existing(&a.out, a.force)?;
     let out = std::path::absolute(&a.out).map_err(unwritable(&a.out))?;
     let dir = utf8(out.parent().unwrap_or(Path::new("/")))?;
     let source = match a.model.path == Path::new(STANDARD_INPUT) {
@@ -53,6 +61,7 @@ pub fn run(a: &Convert) -> Result<(), Failure> {
     };
     let (loader, path) = loader(&source, &a.model.reading)?;
     let parsed = loader.parse(path).map_err(Failure::usage)?;
+    parsed.sources.paths().try_for_each(|read| keep_input(Path::new(read), &out))?;
     let mut spec = parsed.spec.clone();
     let loaded = loader.compile(parsed).map_err(Failure::usage)?;
     loaded.warnings.warnings().for_each(|warning| note(&warning.to_string()));
@@ -72,7 +81,6 @@ pub fn run(a: &Convert) -> Result<(), Failure> {
         spec.to_xml()
     };
     let text = text.map_err(Failure::new)?;
-    std::fs::create_dir_all(&dir).map_err(unwritable(Path::new(&dir)))?;
     copies.write(Path::new(&dir))?;
     write_checked(&out, &text, &loaded.model)?;
     show!("{}: {} bytes, {} files of assets copied", a.out.display(), text.len(), copies.names.len());

@@ -5,6 +5,7 @@ use crate::input::loading::{load, start};
 use crate::input::source::ModelSource;
 use crate::interrupt::Interrupt;
 use crate::models::MAX_STEPS;
+use crate::output::{archive_file, check_place};
 use crate::pictures::film::{Film, FilmArguments};
 use crate::pictures::subject::FREE;
 use crate::terminal::show;
@@ -23,9 +24,9 @@ use std::time::Instant;
 #[command(
     after_help = "A row of the trajectory holds a state, the controls in force from then on, and the sensor \
 readings and energy; the first is the initial state. It is written while the model moves, in bounded \
-memory, to FILE.part/NAME.npy, of which FILE is made at the end. Ctrl-C and instability end a run early: FILE then holds \
+memory, to FILE.npz.part/NAME.npy, of which FILE.npz is made at the end. Ctrl-C and instability end a run early: FILE.npz then holds \
 all rows so far, the last one, if its step failed, with sensor readings and energy NaN. Of a process that is killed \
-remains FILE.part, whose arrays numpy can load.
+remains FILE.npz.part, whose arrays numpy can load.
 
 A video has at most 50 frames for each simulated second unless --fps says otherwise; it, too, is complete after Ctrl-C.
 
@@ -45,8 +46,8 @@ pub struct Sim {
     /// Start from this keyframe, by name or number (default: the first, if any)
     #[arg(long)]
     pub keyframe: Option<String>,
-    /// Write time, qpos, qvel, act, ctrl, sensordata and energy of the initial state and of every step
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    /// Write time, qpos, qvel, act, ctrl, sensordata and energy of the initial state and of every step to this numpy archive
+    #[arg(long, value_name = "FILE.npz", value_hint = ValueHint::FilePath, value_parser = archive_file)]
     pub out: Option<PathBuf>,
     /// No progress on standard error
     #[arg(long, short)]
@@ -59,6 +60,7 @@ pub struct Sim {
 /// Runs the command.
 pub fn run(a: &Sim) -> Result<(), Failure> {
     let painters = a.film.painters(false)?;
+    a.out.as_deref().map_or(Ok(()), check_place)?;
     let mut m = load(&a.model.path, &a.model.reading)?;
     // Every step then computes the energy of the state that it starts from.
     m.options_mut().enableflags.set(Enable::ENERGY, true);

@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use crate::input::loading::load;
 use crate::interrupt::Interrupt;
 use crate::models::fields::{Recorder, is_ragged};
+use crate::output::{archive_file, check_place, keep_input};
 use crate::terminal::note;
 use dataset::{Array, NpzReader};
 use physics::data::Warnings;
@@ -40,7 +41,7 @@ pub struct Trace {
     #[arg(long = "in", value_name = "IN.npz", value_hint = ValueHint::FilePath)]
     pub input: PathBuf,
     /// Numpy archive to write
-    #[arg(long, value_name = "OUT.npz", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "OUT.npz", value_hint = ValueHint::FilePath, value_parser = archive_file)]
     pub out: PathBuf,
     /// Fields to write, separated by commas
     #[arg(long, value_delimiter = ',', default_value = "time,qpos,qvel,act")]
@@ -72,6 +73,8 @@ const OUTPUTS: [&str; 2] = ["sensordata", "energy"];
 
 /// Runs the command. Rows before a failure or a signal are kept.
 pub fn run(a: &Trace) -> Result<(), Failure> {
+    check_place(&a.out)?;
+    keep_input(&a.input, &a.out)?;
     let m = load(&a.model.path, &a.model.reading)?;
     let mut d = Data::new(&m);
     let inputs = read_inputs(a, &m, &d)?;

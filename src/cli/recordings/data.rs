@@ -1,6 +1,7 @@
 //! `data`: what is in recordings of episodes, repair, conversion, replay.
 
 use crate::failure::{Failure, unwritable};
+use crate::output::{check_place, hdf5_file, is_same_file, keep_existing, keep_input, recording_file};
 use crate::recordings::export::{self, Export};
 use crate::recordings::open::open;
 use crate::recordings::recording::{LayoutName, PrecisionName};
@@ -84,14 +85,14 @@ struct Repair {
     #[arg(value_hint = ValueHint::FilePath)]
     file: PathBuf,
     /// Write here and leave FILE as it is
-    #[arg(long, value_name = "FILE.h5", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE.h5", value_hint = ValueHint::FilePath, value_parser = hdf5_file)]
     out: Option<PathBuf>,
 }
 
 /// Write a recording in another layout, format or precision
 #[derive(Args)]
 #[command(
-    after_help = "The ending of OUT says what is written: .npz is a numpy archive, anything else HDF5. What has no \
+    after_help = "The ending of OUT says what is written: .npz is a numpy archive, .h5 and .hdf5 are HDF5. What has no \
 place in the output is named. Reduced precision is that of RoboHive's own recordings, uint8, int8 and float16; a number \
 out of range is an error, where the original writes a wrong one.
 
@@ -108,8 +109,8 @@ struct Convert {
     /// HDF5 file or numpy archive; - for standard input
     #[arg(value_name = "IN", value_hint = ValueHint::FilePath)]
     input: PathBuf,
-    /// File to write
-    #[arg(value_hint = ValueHint::FilePath)]
+    /// File to write, .npz, .h5 or .hdf5
+    #[arg(value_hint = ValueHint::FilePath, value_parser = recording_file)]
     out: PathBuf,
     /// Layout of the output [default: that of the input]
     #[arg(long)]
@@ -310,8 +311,11 @@ fn run_repair(a: &Repair) -> Result<(), Failure> {
         path.push(ending);
         PathBuf::from(path)
     };
-    if a.out.as_deref().is_some_and(|out| same_file(out, &a.file)) {
-        return Err(Failure::usage("--out is FILE itself: leave it out to repair in place"));
+    if let Some(out) = &a.out {
+        if is_same_file(out, &a.file) {
+            return Err(Failure::usage("--out is FILE itself: leave it out to repair in place"));
+        }
+        check_place(out)?;
     }
     let out = a.out.clone().unwrap_or_else(|| beside(".repaired"));
     let report = repair(&a.file, &out).map_err(blame(&a.file))?;
@@ -343,12 +347,9 @@ fn run_repair(a: &Repair) -> Result<(), Failure> {
 }
 
 fn run_convert(a: &Convert) -> Result<(), Failure> {
-    if a.out.exists() && !a.force {
-        return Err(Failure::usage(format!("{}: the file exists; --force replaces it", a.out.display())));
-    }
-    if same_file(&a.input, &a.out) {
-        return Err(Failure::usage(format!("{}: input and output are one file", a.out.display())));
-    }
+    check_place(&a.out)?;
+    keep_existing(&a.out, a.force)?;
+    keep_input(&a.input, &a.out)?;
     let trace = open(&a.input)?;
     let target = Target { layout: a.layout.map(Layout::from), precision: a.precision.into() };
     let done = convert(&trace, &a.out, target).map_err(|error| {
@@ -364,8 +365,4 @@ fn run_convert(a: &Convert) -> Result<(), Failure> {
 /// Wrong input is the caller's fault, a failing output is not.
 fn blame(input: &Path) -> impl Fn(TraceError) -> Failure {
     move |error| if error.path == input { Failure::usage(error) } else { Failure::new(error) }
-}
-
-fn same_file(a: &Path, b: &Path) -> bool {
-    a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
 }

@@ -47,6 +47,10 @@ impl Appender {
     /// The file cannot be written, or another process is writing it.
     pub fn create(path: &Path, attributes: &[(String, String)]) -> Result<Self> {
         match File::open(path) {
+            // A file cannot take the place of a folder or a device.
+            Ok(file) if !file.metadata()?.is_file() => {
+                return Err(Error::new(ErrorKind::InvalidInput, "a recording must be a regular file"));
+            }
             Ok(file) => drop(Lock::take(file)?),
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             Err(error) => return Err(error),

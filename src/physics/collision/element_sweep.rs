@@ -40,6 +40,10 @@ impl Sweep {
         ends.clear();
         for (i, &e) in elements.iter().enumerate() {
             let aabb = &boxes[e as usize];
+            // A box of negative size would end before it begins; nothing touches it.
+            if aabb[axis + 3] < 0.0 {
+                continue;
+            }
             ends.push(key(aabb[axis] - aabb[axis + 3], 2 * i));
             ends.push(key(aabb[axis] + aabb[axis + 3], 2 * i + 1));
         }
@@ -193,6 +197,14 @@ mod tests {
             .collect();
         let bodies = (0..count).map(|e| [if e % 5 == 4 { e - 1 } else { e } as i32; 4]).collect();
         (Sweep { elements: (0..count as u32).collect(), bodies, ..Sweep::default() }, boxes)
+    }
+
+    #[test]
+    fn boxes_of_negative_size_touch_nothing() {
+        let (mut sweep, mut boxes) = sweep(40);
+        boxes.iter_mut().step_by(3).for_each(|aabb| (3..6).for_each(|k| aabb[k] = -aabb[k]));
+        sweep.find_pairs(&boxes, 0);
+        assert!(!sweep.pairs.is_empty() && sweep.pairs.iter().flatten().all(|e| e % 3 != 0));
     }
 
     #[test]

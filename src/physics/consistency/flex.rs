@@ -29,6 +29,7 @@ pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
         require((1..=3).contains(&dim), "flex_dim", f, "1, 2 or 3")?;
         let known = FlexSelf::from_code(m.flex_selfcollide[f]).is_some();
         require(known, "flex_selfcollide", f, "a kind of self-collision")?;
+        require(m.flex_radius[f] >= 0.0, "flex_radius", f, "zero or positive")?;
         require(m.flex_vertnum[f] > 0 && m.flex_elemnum[f] > 0, "flex_elemnum", f, "positive")?;
     }
     let corners = |f: usize| i64::from(m.flex_elemnum[f]) * i64::from(m.flex_dim[f] + 1);

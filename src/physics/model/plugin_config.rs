@@ -49,29 +49,36 @@ impl<'a> Config<'a> {
     /// The number that an attribute gives.
     ///
     /// # Errors
-    /// Its text is no finite number.
+    /// Its text is no number, or one beyond 1e100.
     pub fn number(&self, name: &str) -> Result<Option<f64>, AttributeError> {
         let text = self.text(name).trim();
         if text.is_empty() {
             return Ok(None);
         }
-        number(text)
-            .map(Some)
-            .ok_or_else(|| format!("attribute '{name}' is '{text}': write one number").into())
+        number(text).map(Some).ok_or_else(|| {
+            format!("attribute '{name}' is '{text}': write one number, at most {LARGEST:e} in magnitude")
+                .into()
+        })
     }
 
     /// The numbers that an attribute lists.
     ///
     /// # Errors
-    /// One of its words is no finite number.
+    /// One of its words is no number, or one beyond 1e100.
     pub fn numbers(&self, name: &str) -> Result<Vec<f64>, AttributeError> {
         let text = self.text(name);
-        let read =
-            |word| number(word).ok_or_else(|| format!("attribute '{name}': '{word}' is no number").into());
+        let read = |word| {
+            number(word).ok_or_else(|| {
+                format!("attribute '{name}': '{word}' is no number up to {LARGEST:e} in magnitude").into()
+            })
+        };
         text.split_ascii_whitespace().map(read).collect()
     }
 }
 
+/// Largest magnitude of a number, as of those of a model's other elements.
+const LARGEST: f64 = 1e100;
+
 fn number(text: &str) -> Option<f64> {
-    text.parse::<f64>().ok().filter(|x| x.is_finite())
+    text.parse::<f64>().ok().filter(|x| x.abs() <= LARGEST)
 }

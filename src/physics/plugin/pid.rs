@@ -26,11 +26,16 @@ impl Plugin for Pid {
     fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, AttributeError> {
         let gain = |name| config.number(name).map(Option::unwrap_or_default);
         let integral = gain("ki")?;
+        // The bound of the integral is the quotient: with a negative gain it is positive where 'imax' is negative.
+        let most = config.number("imax")?;
+        if most.is_some_and(|force| force < 0.0) && integral >= 0.0 {
+            return Err("attribute 'imax' is negative: set it to 0 or more".into());
+        }
         let controller = Controller {
             proportional: gain("kp")?,
             integral,
             derivative: gain("kd")?,
-            bound: config.number("imax")?.filter(|_| integral != 0.0).map(|force| force / integral),
+            bound: most.filter(|_| integral != 0.0).map(|force| force / integral),
             slew: config.number("slewmax")?,
             actuators: (0..m.nactuator).filter(|&i| m.actuator_plugin[i] == id as i32).collect(),
         };

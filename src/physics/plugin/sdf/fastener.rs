@@ -6,8 +6,9 @@
 //! axis from where the surface meets that cylinder, the line is `beyond = height`, and the distance from it
 //! `(beyond − height) / √2`.
 
-use super::{Field, fields, intersection, length, subtraction, union};
+use super::{Field, fields, intersection, length, positive, subtraction, union};
 use crate::math::{Vec3, ops};
+use crate::model::AttributeError;
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
 fields! {
@@ -66,6 +67,12 @@ struct Screw {
     radius: f64,
 }
 
+impl Screw {
+    fn check(&self) -> Result<(), AttributeError> {
+        positive("radius", self.radius)
+    }
+}
+
 impl Field for Screw {
     fn distance(&self, point: Vec3) -> f64 {
         let [x, y, z] = point;
@@ -83,6 +90,12 @@ impl Field for Screw {
 #[derive(Debug)]
 struct Hole {
     radius: f64,
+}
+
+impl Hole {
+    fn check(&self) -> Result<(), AttributeError> {
+        positive("radius", self.radius)
+    }
 }
 
 impl Field for Hole {

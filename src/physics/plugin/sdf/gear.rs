@@ -14,8 +14,9 @@
 //! **Width.** At the pitch circle, where `a` is the pressure angle `ψ`, tooth and gap are equally wide: a quarter of the angle
 //! between teeth on each side. Hence `w = π / (2 n) + inv ψ`.
 
-use super::{Field, fields, intersection, length, subtraction, union};
+use super::{Field, fields, intersection, length, positive, subtraction, union};
 use crate::math::{Vec3, ops};
+use crate::model::AttributeError;
 use std::f64::consts::PI;
 
 fields! {
@@ -72,6 +73,15 @@ fn rounded_tip(a: f64, b: f64, reach: f64) -> f64 {
 }
 
 impl Wheel {
+    fn check(&self) -> Result<(), AttributeError> {
+        positive("diameter", self.diameter)?;
+        positive("thickness", self.thickness)?;
+        match self.teeth >= 1.0 {
+            true => Ok(()),
+            false => Err(format!("attribute 'teeth' is {}: set it to 1 or more", self.teeth).into()),
+        }
+    }
+
     /// Pressure angle [rad]: fewer teeth need more. A fit over the usual numbers of teeth, which MuJoCo's gears have.
     fn pressure_angle(&self) -> f64 {
         0.551 + self.teeth * (-6.557e-3 + self.teeth * 3.096e-5)

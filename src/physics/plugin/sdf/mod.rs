@@ -12,7 +12,7 @@ pub(super) use fastener::{Bolt, Nut};
 pub(super) use gear::Gear;
 pub(super) use revolved::{Bowl, Torus};
 
-use crate::model::{Field, Instance};
+use crate::model::{AttributeError, Field, Instance};
 
 /// Declares plugins that are a field and nothing else.
 macro_rules! fields {
@@ -23,9 +23,11 @@ macro_rules! fields {
 
         impl $kind {
             fn read(config: &crate::model::Config) -> Result<$field, crate::model::AttributeError> {
-                Ok($field {
+                let field = $field {
                     $($attribute: config.number(stringify!($attribute))?.unwrap_or($default),)*
-                })
+                };
+                field.check()?;
+                Ok(field)
             }
         }
 
@@ -70,6 +72,14 @@ impl<F: Field> Instance for Solid<F> {
     fn field(&self) -> Option<&dyn Field> {
         Some(&self.0)
     }
+}
+
+/// Refuses a length that is not positive.
+fn positive(name: &str, value: f64) -> Result<(), AttributeError> {
+    if value > 0.0 {
+        return Ok(());
+    }
+    Err(format!("attribute '{name}' is {value}: a positive number is needed").into())
 }
 
 /// What lies in either.

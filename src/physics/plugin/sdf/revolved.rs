@@ -1,7 +1,8 @@
 //! Shapes of revolution about the z axis.
 
-use super::{Field, fields, length};
+use super::{Field, fields, length, positive};
 use crate::math::Vec3;
+use crate::model::AttributeError;
 use crate::model::bounds::MINVAL;
 
 fields! {
@@ -17,6 +18,16 @@ struct Ring {
     radius1: f64,
     /// Of the tube.
     radius2: f64,
+}
+
+impl Ring {
+    fn check(&self) -> Result<(), AttributeError> {
+        positive("radius2", self.radius2)?;
+        match self.radius1 >= 0.0 {
+            true => Ok(()),
+            false => Err(format!("attribute 'radius1' is {}: set it to 0 or more", self.radius1).into()),
+        }
+    }
 }
 
 impl Field for Ring {
@@ -45,6 +56,21 @@ struct Shell {
     radius: f64,
     /// Half the wall.
     thickness: f64,
+}
+
+impl Shell {
+    fn check(&self) -> Result<(), AttributeError> {
+        positive("radius", self.radius)?;
+        positive("thickness", self.thickness)?;
+        match self.height.abs() <= self.radius {
+            true => Ok(()),
+            false => Err(format!(
+                "attribute 'height' is {:e}: the rim lies on the sphere, at most the radius, {}, from its centre",
+                self.height, self.radius
+            )
+            .into()),
+        }
+    }
 }
 
 impl Field for Shell {
