@@ -18,6 +18,7 @@ from robohive.examine import Policy, examine_policy
 from robohive.guests import with_model
 from robohive.paths import success, truncate
 from robohive.simulation import Simulation
+from robohive.whole_numbers import whole
 
 Floats = NDArray[np.float64]
 
@@ -78,8 +79,8 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             "compat": compat,
             "render_mode": render_mode,
             "camera": camera_name,
-            "width": width,
-            "height": height,
+            "width": None if width is None else whole("width", width, 1),
+            "height": None if height is None else whole("height", height, 1),
             "renderer": renderer,
             "instability": instability,
             "time_limit": time_limit,
@@ -93,14 +94,18 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         self._core = core
         self._about = about
         self._input_seed: int | None = None
+        # Whether there is a state to step from: after a reset, or a state that was set.
+        self._begun = False
         self.render_mode: str | None = about["render_mode"]
         self.metadata = {**type(self).metadata, "render_fps": round(1 / about["dt"])}
         low, high = about["action_low"], about["action_high"]
         self.action_space = spaces.Box(low.astype(np.float32), high.astype(np.float32), dtype=np.float32)
         size = about["obs_size"]
+        least, most = about["obs_range"]
         if about["compat"] == "robohive-0.7":
-            least, most = about["obs_range"]
             self.observation_space = spaces.Box(least, most, (size,), dtype=np.float32)  # type: ignore[assignment]
+        elif about["obs_range_given"]:
+            self.observation_space = spaces.Box(least, most, (size,), dtype=np.float64)
         else:
             self.observation_space = spaces.Box(-np.inf, np.inf, (size,), dtype=np.float64)
 
@@ -129,6 +134,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         if seed is not None:
             self._input_seed = _seed(seed)
         result = self._core.reset(self._input_seed if seed is not None else None)
+        self._begun = True
         given = {"reset_qpos": reset_qpos, "reset_qvel": reset_qvel}
         for key, value in (options or {}).items():
             if key not in given:
@@ -153,7 +159,12 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         Returns:
             Observation, reward, terminated, truncated, infos. A step that physics refuses is truncated, has the reward 0 and
             the reason as `fault` in its infos, and must be followed by a reset.
+
+        Raises:
+            gymnasium.error.ResetNeeded: before the first reset.
         """
+        if not (self._begun or self._core.closed()):
+            raise gymnasium.error.ResetNeeded("Cannot call env.step() before calling env.reset()")
         return self._core.step(action, update_exteroception)
 
     def render(self) -> NDArray[Any] | None:
@@ -371,6 +382,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             ValueError: values of another shape.
         """
         self._core.set_world(dict(state_dict))
+        self._begun = True
 
     def compute_path_rewards(self, paths: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
         """Writes `rewards` and `done` of a path from its `observations`: T x size, or N x T x size for several.

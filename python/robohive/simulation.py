@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from robohive import _core
+from robohive.whole_numbers import whole
 
 
 class Simulation:
@@ -125,7 +126,8 @@ class Renderer:
             raise NotImplementedError("segmentation is drawn by `robohive render --segmentation`, not for Python")
         camera = "free" if camera_id in (None, -1) else camera_id
         if not isinstance(camera, str):
-            camera = self._core.camera_name(int(camera))
-        colours, depths = self._core.draw(camera, width, height, depth)
+            camera = self._core.camera_name(whole("camera_id", camera))
+        size = whole("width", width, 1), whole("height", height, 1)
+        colours, depths = self._core.draw(camera, *size, depth)
         return (colours, depths) if rgb and depth else depths if depth else colours
 

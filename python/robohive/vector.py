@@ -15,9 +15,12 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 from robohive import _core
 from robohive.guests import with_model
+from robohive.whole_numbers import whole
 
 Array = NDArray[Any]
 Stepped = tuple[Array, NDArray[np.float64], NDArray[np.bool_], NDArray[np.bool_], dict[str, Any]]
+
+_MOST_THREADS = 1024
 
 _READ = {
     "get_obs": "observation",
@@ -108,10 +111,10 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         self.closed = True  # Until there is something to close.
         self._kwargs = {key: value for key, value in locals().items() if key not in ("self", "settings", "__class__")}
         self._kwargs.update(settings)
-        self.num_envs = int(num_envs)
-        self.num_threads = int(num_threads)
+        self.num_envs = whole("num_envs", num_envs, 1)
+        self.num_threads = whole("num_threads", num_threads, most=_MOST_THREADS)
         self.autoreset_mode = AutoresetMode(autoreset_mode)
-        self.batch_size = self.num_envs if batch_size is None else int(batch_size)
+        self.batch_size = self.num_envs if batch_size is None else whole("batch_size", batch_size, 1)
         if not 1 <= self.batch_size <= self.num_envs:
             raise ValueError(f"batch_size is 1 to num_envs ({self.num_envs}), not {batch_size}")
         if infos not in ("none", "sparse", "full"):
@@ -124,8 +127,8 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             "compat": compat,
             "render_mode": render_mode,
             "camera": camera_name,
-            "width": width,
-            "height": height,
+            "width": None if width is None else whole("width", width, 1),
+            "height": None if height is None else whole("height", height, 1),
             "renderer": renderer,
             "instability": instability,
             "time_limit": time_limit,
@@ -137,6 +140,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             self._single, self.num_envs, first, self.autoreset_mode.value, self.num_threads
         )
         self.closed = False
+        self._begun = False  # Whether there are states to step from.
         self._about = self._single.description()
         self._seeds: list[int | None] = [first + index for index in range(self.num_envs)]
         self._form = {"narrow": dtype == np.float32, "infos": infos, "exteroception": exteroception, "out": None}
@@ -154,7 +158,8 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
     def _make_spaces(self, dtype: np.dtype[Any]) -> None:
         about = self._about
         low, high = about["action_low"], about["action_high"]
-        least, most = about["obs_range"] if about["compat"] == "robohive-0.7" else (-np.inf, np.inf)
+        declared = about["compat"] == "robohive-0.7" or about["obs_range_given"]
+        least, most = about["obs_range"] if declared else (-np.inf, np.inf)
         self.single_action_space = spaces.Box(low.astype(np.float32), high.astype(np.float32), dtype=np.float32)
         self.single_observation_space = spaces.Box(least, most, (about["obs_size"],), dtype=dtype.type)
         self.action_space = batch_space(self.single_action_space, self.num_envs)
@@ -183,6 +188,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         mask = _mask(options, self.num_envs)
         result = self._core.reset(seeds, mask, self._handing(out))
         self._note(range(self.num_envs), seeds)
+        self._begun = True
         return result
 
     def step(self, actions: ArrayLike, out: Array | None = None) -> Stepped:
@@ -195,9 +201,11 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         Raises:
             ValueError: a wrong shape, or values that are not finite; then no environment has stepped.
             TypeError: no numbers.
-            gymnasium.error.ResetNeeded: an episode is over and nothing resets (`AutoresetMode.DISABLED`).
+            gymnasium.error.ResetNeeded: before the first reset; an episode is over and nothing resets
+                (`AutoresetMode.DISABLED`).
             gymnasium.error.ClosedEnvironmentError: after `close`.
         """
+        self._check_begun("step")
         return self._core.step(actions, self._form if out is None else self._handing(out))
 
     def render(self) -> tuple[Any, ...]:
@@ -229,6 +237,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         seeds = self._spread(seed, len(ids))
         self._core.send_resets(ids, seeds)
         self._note(ids, seeds)
+        self._begun = True
 
     def send(self, actions: ArrayLike, env_id: Sequence[int] | None = None) -> None:
         """Lets environments step, and returns at once.
@@ -237,6 +246,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             actions: One row for each of them.
             env_id: Which environments; all without it. Those that `recv` returned have their indices in its infos.
         """
+        self._check_begun("send")
         self._core.send(list(range(self.num_envs)) if env_id is None else _ids(env_id), actions)
 
     def recv(self, batch_size: int | None = None, out: Array | None = None) -> Stepped:
@@ -250,9 +260,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             What `step` returns, with rows in the order in which environments finished, and `env_id` in the infos: their
             indices. Observations are in a new array unless `out` is given. A reset has reward 0.
         """
-        count = self.batch_size if batch_size is None else int(batch_size)
-        if count < 1:
-            raise ValueError(f"batch_size is 1 or more, not {batch_size}")
+        count = self.batch_size if batch_size is None else whole("batch_size", batch_size, 1)
         return self._core.recv(count, {**self._form, "exteroception": False, "out": out})
 
     @property
@@ -321,6 +329,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             raise ValueError(f"{name} takes {self.num_envs} values, one for each environment, not {len(values)}")
         for index, value in enumerate(values):
             getattr(self._core, setters[name])(index, value)
+        self._begun = self._begun or name != "seed"
 
     # Copies.
 
@@ -343,6 +352,10 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         return _remake, (type(self), self._kwargs, self.spec)
 
     # How arrays are handed over.
+
+    def _check_begun(self, call: str) -> None:
+        if not (self._begun or self.closed):
+            raise gymnasium.error.ResetNeeded(f"Cannot call env.{call}() before calling env.reset()")
 
     def _handing(self, out: Array | None) -> dict[str, Any]:
         return self._form if out is None else {**self._form, "out": out}

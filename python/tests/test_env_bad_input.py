@@ -1,5 +1,7 @@
 """Bad input ends in the exception that users of Gymnasium and numpy expect."""
 
+import copy
+import pickle
 import threading
 
 import gymnasium
@@ -74,7 +76,11 @@ def test_unknown_ids_name_the_nearest():
 @pytest.mark.parametrize(
     ("kwargs", "error", "message"),
     [
-        ({"frame_skips": 3}, TypeError, "frame_skips"),
+        ({"frame_skips": 3}, TypeError, "there is no frame_skips; did you mean frame_skip?"),
+        ({"frame_skip": 99999999999}, ValueError, "at most 10000"),
+        ({"obs_range": [5, -5]}, ValueError, "the lower one first"),
+        ({"obs_range": [float("nan"), 5]}, ValueError, "the lower one first"),
+        ({"weighted_reward_keys": {"reach": float("nan")}}, ValueError, "the weight of reach is NaN"),
         ({"frame_skip": "a"}, ValueError, "frame_skip"),
         ({"frame_skip": 0}, ValueError, "1 or more"),
         ({"frame_skip": object()}, TypeError, "frame_skip: a object is no setting"),
@@ -99,10 +105,60 @@ def test_settings_are_checked(kwargs, error, message):
         robohive.make("hive/FrankaReach-v0", **kwargs)
 
 
-def test_cameras_and_sizes_are_checked_when_a_picture_is_drawn():
-    env = robohive.make("hive/FrankaReach-v0", render_mode="rgb_array", camera_name="nowhere")
-    with pytest.raises(ValueError, match="nowhere"):
-        env.render()
+@pytest.mark.parametrize("making", [robohive.make, gymnasium.make, gymnasium.make_vec])
+def test_cameras_are_checked_when_environments_are_made(making):
+    for mode in (None, "rgb_array"):
+        with pytest.raises(ValueError, match="nowhere"):
+            making("hive/FrankaReach-v0", render_mode=mode, camera_name="nowhere")
+
+
+@pytest.mark.parametrize("value", [-1, 0, 2**31, 10**30, 1.5, float("nan"), float("inf"), "wide"])
+@pytest.mark.parametrize("name", ["width", "height"])
+def test_sizes_are_refused_by_their_name(name, value):
+    for making in (robohive.make, gymnasium.make_vec):
+        with pytest.raises(ValueError, match=f"{name} is a whole number from 1 to"):
+            making("hive/FrankaReach-v0", render_mode="rgb_array", **{name: value})
+    with pytest.raises(TypeError, match=f"{name} is a whole number, not a list"):
+        robohive.make("hive/FrankaReach-v0", **{name: [1]})
+
+
+def test_a_step_needs_a_reset_before_it():
+    env = robohive.make("hive/FrankaReach-v0")
+    with pytest.raises(gymnasium.error.ResetNeeded, match="before calling env.reset"):
+        env.step(np.zeros(8))
+    with pytest.raises(gymnasium.error.ResetNeeded, match="before calling env.reset"):
+        copy.deepcopy(env).step(np.zeros(8))
+    env.reset(seed=0)
+    env.step(np.zeros(8))
+    pickle.loads(pickle.dumps(env)).step(np.zeros(8))
+    # A state that is set can be stepped from, too.
+    other = robohive.make("hive/FrankaReach-v0")
+    other.set_env_state(env.get_env_state())
+    other.step(np.zeros(8))
+    env.close()
+    with pytest.raises(gymnasium.error.ClosedEnvironmentError):
+        env.step(np.zeros(8))
+
+
+def test_spaces_have_the_bounds_that_are_declared():
+    plain = robohive.make("hive/FrankaReach-v0")
+    assert np.isinf(plain.observation_space.high).all()
+    for env in (
+        robohive.make("hive/FrankaReach-v0", obs_range=[-5, 4]),
+        gymnasium.make_vec("hive/FrankaReach-v0", obs_range=[-5, 4]),
+    ):
+        space = getattr(env, "single_observation_space", env.observation_space)
+        assert (space.low == -5).all() and (space.high == 4).all()
+    original = robohive.make("hive/FrankaReach-v0", compat="robohive-0.7").observation_space
+    assert (original.low == -10).all() and (original.high == 10).all()
+    own = robohive.make("hive/FrankaReach-v0", normalize_act=False)
+    assert (plain.action_space.low == -1).all() and (plain.action_space.high == 1).all()
+    low, high = own.sim.model.actuator_ctrlrange.T
+    np.testing.assert_array_equal(own.action_space.low, low.astype(np.float32))
+    np.testing.assert_array_equal(own.action_space.high, high.astype(np.float32))
+
+
+def test_sizes_beyond_pictures_are_refused_when_one_is_drawn():
     env = robohive.make("hive/FrankaReach-v0", render_mode="rgb_array", width=10**9)
     with pytest.raises(ValueError):
         env.render()

@@ -2,6 +2,7 @@
 
 import copy
 import pickle
+import time
 
 import gymnasium
 import numpy as np
@@ -147,6 +148,31 @@ def test_arrays_cross_by_dlpack():
     assert tensor.dtype == torch.float64 and tensor.data_ptr() == observation.ctypes.data
     action = torch.zeros(envs.action_space.shape)
     assert np.array_equal(envs.step(action)[0], envs_at_rest(envs.reset(seed=0)[0], envs))
+
+
+def test_counts_are_refused_by_their_name():
+    for name, value in [("num_envs", -1), ("num_envs", 0), ("num_threads", -1), ("num_threads", 10**6), ("batch_size", -2)]:
+        with pytest.raises(ValueError, match=f"{name} is a whole number from"):
+            RoboHiveVectorEnv("hive/FrankaReach-v0", **{"num_envs": 2, name: value})
+
+
+def test_environments_are_counted_before_they_are_made():
+    """A billion environments grew to 20 GB and were killed; a million aborted the interpreter."""
+    for count in (10**6, 10**9):
+        start = time.monotonic()
+        with pytest.raises(MemoryError, match=r"MiB are free: give num_envs at most \d+"):
+            gymnasium.make_vec("hive/FrankaReach-v0", num_envs=count)
+        assert time.monotonic() - start < 5
+
+
+def test_a_step_needs_a_reset_before_it():
+    envs = RoboHiveVectorEnv("hive/FrankaReach-v0", 2)
+    for call in (envs.step, envs.send):
+        with pytest.raises(gymnasium.error.ResetNeeded, match="before calling env.reset"):
+            call(np.zeros((2, 8)))
+    envs.async_reset(seed=0)
+    envs.recv()
+    envs.step(np.zeros((2, 8)))
 
 
 def envs_at_rest(_, envs):

@@ -5,7 +5,12 @@ use crate::mjrl;
 use crate::network::Network;
 use crate::observation::Shown;
 use env::{Env, Rng};
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
+
+/// Most bytes of a file. Those of RoboHive's policies have less than one MiB.
+const MAX_BYTES: u64 = 64 << 20;
 
 /// A policy.
 #[derive(Clone)]
@@ -45,7 +50,14 @@ impl Policy {
     /// The file cannot be read, or holds no policy that is understood.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, PolicyError> {
         let path = path.as_ref();
-        let bytes = std::fs::read(path).map_err(|error| PolicyError::File { path: path.into(), error })?;
+        let fail = |error| PolicyError::File { path: path.into(), error };
+        let mut bytes = Vec::new();
+        let file = File::open(path).map_err(fail)?;
+        file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(fail)?;
+        if bytes.len() as u64 > MAX_BYTES {
+            let message = format!("it has more than {} MiB, and no policy has", MAX_BYTES >> 20);
+            return Err(PolicyError::content(message).within(path));
+        }
         Self::parse(&bytes).map_err(|error| error.within(path))
     }
 

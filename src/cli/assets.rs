@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::terminal::{note, show, show_json, show_verdict};
 use clap::{Args, Subcommand, ValueHint};
 use indicatif::{HumanBytes, ProgressBar, ProgressStyle};
+use mjcf::Loader;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -107,7 +108,8 @@ struct List {
 
 /// Read everything again and name what is damaged
 #[derive(Args)]
-#[command(after_help = "The exit code is 1 when a file is damaged, missing or foreign.
+#[command(after_help = "The exit code is 1 when a file is damaged, missing or foreign. Of sound models it \
+says, on standard error, what is ignored or assumed in them; other commands do not repeat it.
 
 Examples:
   robohive assets verify")]
@@ -274,6 +276,9 @@ fn verify(a: &Verify) -> Result<(), Failure> {
     let damages = damages.map_err(failure)?;
     damages.iter().for_each(|Damage { path, fault, .. }| show!("{fault:<16} {path}"));
     show_remedies(&store, &damages);
+    if damages.is_empty() {
+        show_warnings(&store);
+    }
     let (files, folder) = (store.entries().len(), store.folder().display());
     show_verdict(
         damages.is_empty(),
@@ -282,6 +287,21 @@ fn verify(a: &Verify) -> Result<(), Failure> {
         &if damages.is_empty() { String::new() } else { format!(" in {} places", damages.len()) },
     );
     if damages.is_empty() { Ok(()) } else { Err(Failure::silent(1)) }
+}
+
+/// Says what is ignored or assumed in imported models, each finding once: environments of them do not repeat it.
+fn show_warnings(store: &Store) {
+    let tree = store.tree();
+    let mut said = BTreeSet::new();
+    for (path, _) in store.entries().filter(|(path, _)| path.ends_with(".xml")) {
+        // Parts of models, and templates, are no models by themselves; they are read where they are included.
+        let Ok(parsed) = Loader::default().parse(tree.join(path)) else { continue };
+        for warning in parsed.warnings.warnings() {
+            let place = warning.position.as_ref().map_or(String::new(), |position| format!("{position}: "));
+            said.insert(format!("{place}warning: {}", warning.message));
+        }
+    }
+    said.iter().for_each(|warning| note(warning));
 }
 
 /// Says which commands repair the damage.

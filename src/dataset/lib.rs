@@ -10,6 +10,7 @@
 //! # Ok::<(), robohive_dataset::NpyError>(())
 //! ```
 
+mod expansion;
 pub mod growing;
 pub mod half;
 #[cfg(feature = "hdf5")]

@@ -14,10 +14,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+use crate::expansion;
 use crate::npy::{Array, MAX_SCALARS};
 use std::collections::BTreeMap;
 use std::fmt;
-use std::io::{Read, Seek, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use zip::write::SimpleFileOptions;
 
@@ -70,9 +71,18 @@ impl NpzReader {
     /// Reads an archive from any seekable source.
     ///
     /// # Errors
-    /// The bytes are no archive of arrays, or unpack to more than [`MAX_BYTES`].
+    /// The bytes are no archive of arrays, or unpack to more than [`MAX_BYTES`], or to more than 256 MiB and fifty times
+    /// what they are.
     pub fn read(source: impl Read + Seek) -> Result<Self, NpzError> {
-        Self::read_within(source, MAX_BYTES)
+        let mut source = source;
+        let fail = |e: std::io::Error| NpzError {
+            path: PathBuf::new(),
+            member: String::new(),
+            message: e.to_string(),
+        };
+        let packed = source.seek(SeekFrom::End(0)).map_err(fail)?;
+        source.rewind().map_err(fail)?;
+        Self::read_within(source, expansion::most(packed).min(MAX_BYTES))
     }
 
     fn read_within(source: impl Read + Seek, limit: u64) -> Result<Self, NpzError> {
@@ -88,11 +98,11 @@ impl NpzReader {
         for i in 0..zip.len() {
             let file = zip.by_index(i).map_err(|e| fail("", format!("member {i}: {e}")))?;
             let name = file.name().trim_end_matches(".npy").to_owned();
-            let mut bytes = Vec::new();
+            let mut bytes = Vec::with_capacity(file.size().min(room + 1) as usize);
             file.take(room + 1).read_to_end(&mut bytes).map_err(|e| fail(&name, e.to_string()))?;
             room = room
                 .checked_sub(bytes.len() as u64)
-                .ok_or_else(|| fail(&name, format!("the archive unpacks to more than {limit} bytes")))?;
+                .ok_or_else(|| fail(&name, format!("the archive unpacks to more than {limit} bytes: save it with numpy.savez, which does not compress, or in parts")))?;
             members.insert(name, bytes);
         }
         Ok(NpzReader { path: PathBuf::new(), members })
@@ -241,6 +251,16 @@ mod tests {
         let error = NpzReader::read_within(Cursor::new(&packed), both - 1).err().unwrap();
         assert_eq!(error.member, "b");
         assert!(error.message.contains("unpacks to more than"), "{error}");
+    }
+
+    /// An array deflated to nothing took 1.4 GB.
+    #[test]
+    fn what_a_small_archive_unpacks_to_is_bounded() {
+        let zeros = Array { shape: vec![300 << 20], values: Values::U8(vec![0; 300 << 20]) };
+        let packed = archive(&[("zeros", zeros)]);
+        assert!(packed.len() < 1 << 20);
+        let error = NpzReader::read(Cursor::new(packed)).err().unwrap();
+        assert!(error.message.contains("numpy.savez"), "{error}");
     }
 
     #[test]

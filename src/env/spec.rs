@@ -3,8 +3,10 @@
 use crate::arguments::Arguments;
 use crate::error::EnvError;
 use crate::randomize::VisualRandomization;
+use physics::model::Suggestions;
 use robot::ActionMode;
 use serde::Deserialize;
+use std::cmp::Ordering;
 use toml::{Table, Value};
 
 /// A registered environment.
@@ -120,6 +122,9 @@ const SETTINGS: [&str; 19] = [
     "max_episode_steps",
 ];
 
+/// Most time steps in one step of an environment: a step that takes minutes cannot be interrupted.
+pub const MAX_FRAME_SKIP: usize = 10_000;
+
 impl Spec {
     /// The settings that every environment understands, and those that are left for the task.
     ///
@@ -128,7 +133,9 @@ impl Spec {
     pub(crate) fn settings(&self) -> Result<(Settings, Table), EnvError> {
         let (common, own): (Table, Table) =
             self.args.0.clone().into_iter().partition(|(key, _)| SETTINGS.contains(&key.as_str()));
-        let settings = common.try_into().map_err(|error: toml::de::Error| self.wrong(one_line(&error)))?;
+        let settings: Settings =
+            common.try_into().map_err(|error: toml::de::Error| self.wrong(one_line(&error)))?;
+        settings.check().map_err(|message| self.wrong(message))?;
         Ok((settings, own))
     }
 
@@ -165,14 +172,33 @@ impl Spec {
 }
 
 impl Settings {
+    /// Refuses numbers that mean nothing.
+    fn check(&self) -> Result<(), String> {
+        let [low, high] = self.obs_range;
+        // Not the negation: NaN is in no order.
+        if !matches!(low.partial_cmp(&high), Some(Ordering::Less)) {
+            return Err(format!("obs_range is two numbers, the lower one first, not [{low:?}, {high:?}]"));
+        }
+        if self.frame_skip.is_some_and(|steps| !(1..=MAX_FRAME_SKIP).contains(&steps)) {
+            return Err(format!(
+                "frame_skip is the number of time steps in one step, 1 or more and at most {MAX_FRAME_SKIP}"
+            ));
+        }
+        if !(self.noise_scale >= 0.0 && self.noise_scale.is_finite()) {
+            return Err(format!("noise_scale is a finite number, 0 or more, not {:?}", self.noise_scale));
+        }
+        Ok(())
+    }
+
     /// The weights of the dense reward, where the id gives them.
     ///
     /// # Errors
     /// A weight that is no number: its name.
     pub(crate) fn weights(&self) -> Result<Option<Vec<(String, f64)>>, String> {
         let number = |(key, value): (&String, &Value)| match value {
-            Value::Float(weight) => Ok((key.clone(), *weight)),
+            Value::Float(weight) if weight.is_finite() => Ok((key.clone(), *weight)),
             Value::Integer(weight) => Ok((key.clone(), *weight as f64)),
+            Value::Float(weight) => Err(format!("the weight of {key} is {weight}: weights are finite")),
             _ => Err(format!("the weight of {key} is no number")),
         };
         self.weighted_reward_keys.as_ref().map(|given| given.0.iter().map(number).collect()).transpose()
@@ -187,9 +213,21 @@ impl Settings {
     }
 }
 
-/// What is wrong, and in which setting.
+/// What is wrong, and in which setting; of names that do not exist, the nearest that does.
 fn one_line(error: &toml::de::Error) -> String {
-    error.to_string().trim().replace('\n', " ")
+    let text = error.to_string();
+    let message = error.message();
+    // "unknown field `x`, expected one of `a`, `b`": names stand between backticks.
+    let kind = ["unknown field `", "unknown variant `"].iter().find(|kind| message.starts_with(**kind));
+    let mut names = message.split('`').skip(1).step_by(2);
+    let nearest = kind.and_then(|_| {
+        let unknown = names.next()?;
+        let near = Suggestions::default().nearest(unknown, names.chain(SETTINGS))?;
+        let place = text.trim().strip_prefix(message).unwrap_or_default().trim();
+        let place = if place.is_empty() { String::new() } else { format!(" {place}") };
+        Some(format!("there is no {unknown}{place}; did you mean {near}?"))
+    });
+    nearest.unwrap_or_else(|| text.trim().replace('\n', " "))
 }
 
 /// Writes `changes` over `base`, table by table.
@@ -219,6 +257,56 @@ mod tests {
         assert_eq!(settings.model_path, "a.xml");
         assert_eq!(settings.obs_range, [-10.0, 10.0]);
         assert_eq!(own.keys().collect::<Vec<_>>(), ["far", "range"]);
+    }
+
+    #[test]
+    fn numbers_that_mean_nothing_are_refused() {
+        let wrong = |change: &str| {
+            let changed = spec().with(&change.parse().unwrap()).unwrap();
+            let checked = changed.settings().and_then(|(settings, _)| {
+                settings.weights().map_err(|message| changed.wrong(message)).map(drop)
+            });
+            checked.unwrap_err().to_string()
+        };
+        for range in ["[5, -5]", "[nan, 1]", "[0, nan]", "[1, 1]"] {
+            assert!(wrong(&format!("obs_range = {range}")).contains("the lower one first"), "{range}");
+        }
+        for steps in ["0", "10001", "99999999999"] {
+            let said = wrong(&format!("frame_skip = {steps}"));
+            assert!(said.contains("1 or more and at most 10000"), "{said}");
+        }
+        assert!(wrong("noise_scale = nan").contains("not NaN"));
+        assert!(wrong("noise_scale = -1").contains("0 or more"));
+        for weight in ["nan", "inf"] {
+            let said = wrong(&format!("weighted_reward_keys = {{ reach = {weight} }}"));
+            assert!(said.contains("the weight of reach is"), "{said}");
+        }
+        assert!(spec().with(&"obs_range = [-inf, inf]".parse().unwrap()).unwrap().settings().is_ok());
+    }
+
+    #[derive(Debug, Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct Own {
+        #[serde(rename = "far")]
+        _far: f64,
+    }
+
+    #[test]
+    fn misspelt_names_are_answered_with_the_nearest() {
+        let task = |own: &str| spec().task_args::<Own>(own.parse().unwrap()).unwrap_err().to_string();
+        assert!(
+            task("far = 1.0\nframe_skips = 3").contains("there is no frame_skips; did you mean frame_skip?")
+        );
+        assert!(task("fer = 1.0").contains("there is no fer; did you mean far?"));
+        assert!(task("far = 1.0\nzzzzzz = 3").contains("unknown field `zzzzzz`, expected `far`"));
+        let common = |change: &str| {
+            let changed = spec().with(&change.parse().unwrap()).unwrap();
+            changed.settings().unwrap_err().to_string()
+        };
+        let said = common("reward_mode = 'dens'");
+        assert!(said.contains("there is no dens in `reward_mode`; did you mean dense?"), "{said}");
+        let said = common("visual_randomization = { ligths = [] }");
+        assert!(said.contains("did you mean lights?"), "{said}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a machine has for environments: imported models, a cache of compiled ones, weights of networks, and
+//! What a machine has for environments: imported models, a cache of compiled ones, weights of networks, memory, and
 //! what draws pictures.
 //!
 //! ```no_run
@@ -15,6 +15,7 @@
 //! ```
 
 mod cache;
+pub mod memory;
 mod renderer;
 mod weights;
 
@@ -47,6 +48,13 @@ impl Library {
         };
         let folder = cache.map(Path::to_owned).or_else(cache::folder);
         Ok(Library { search, cache: folder.map(mjcf::Cache::new) })
+    }
+}
+
+impl Library {
+    /// Whether a file is one that was imported.
+    pub fn is_imported(&self, file: &Path) -> bool {
+        self.search.is_imported(file)
     }
 }
 

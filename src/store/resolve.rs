@@ -4,7 +4,7 @@ use crate::entry_path::fold;
 use crate::error::StoreError;
 use crate::store::Store;
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Environment variable with the folder of the store.
 const STORE: &str = "ROBOHIVE_STORE";
@@ -65,6 +65,11 @@ impl Search {
         Ok(Search::new(store, folders.collect()))
     }
 
+    /// Whether a file is one that was imported into the store.
+    pub fn is_imported(&self, file: &Path) -> bool {
+        self.store.as_ref().is_some_and(|store| file.starts_with(store.tree()))
+    }
+
     /// The file with a virtual path, from the first place that has it.
     ///
     /// # Errors
@@ -91,7 +96,6 @@ impl Search {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::path::Path;
 
     #[test]
     #[cfg(all(unix, not(target_os = "macos")))]

@@ -42,6 +42,11 @@ impl Store {
         &self.folder
     }
 
+    /// The folder that shows the files by their virtual paths.
+    pub fn tree(&self) -> PathBuf {
+        tree::path(&self.folder, "")
+    }
+
     /// All files, sorted by virtual path.
     pub fn entries(&self) -> impl ExactSizeIterator<Item = (&str, &Entry)> {
         self.manifest.entries.iter().map(|(path, entry)| (path.as_str(), entry))

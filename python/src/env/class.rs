@@ -329,6 +329,7 @@ fn describe<'py>(py: Python<'py>, env: &Env, request: &Request) -> PyResult<Boun
     dict.set_item("dt", env.dt())?;
     dict.set_item("normalize_act", env.settings().normalize_act)?;
     dict.set_item("obs_range", env.settings().obs_range)?;
+    dict.set_item("obs_range_given", request.options.changes.contains("obs_range"))?;
     dict.set_item("obs_size", env.observation().len())?;
     dict.set_item("obs_keys", env.obs_keys())?;
     dict.set_item("proprio_keys", env.proprio_keys())?;

@@ -8,8 +8,9 @@ use crate::exceptions::exception;
 use crate::infos::Names;
 use crate::turns::Turns;
 use env::{Autoreset, EnvError, VecEnv};
+use library::memory::check_room;
 use numpy::{PyArray1, PyReadonlyArray1};
-use pyo3::exceptions::{PyIndexError, PyRuntimeError, PyValueError};
+use pyo3::exceptions::{PyIndexError, PyMemoryError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::time::{Duration, Instant};
@@ -73,6 +74,9 @@ impl PyVecEnv {
         if count == 0 {
             return Err(PyValueError::new_err("num_envs is 1 or more"));
         }
+        check_room(count, VecEnv::bytes_of(&env)).map_err(|no_room| {
+            PyMemoryError::new_err(format!("{no_room}: give num_envs at most {}", no_room.fitting()))
+        })?;
         let (keys, names) = (Keys::of(py, &env), Names::of(py, &env));
         let made = py.detach(move || VecEnv::new(&env, count, autoreset, threads));
         let mut envs = made.map_err(|error| PyRuntimeError::new_err(error.to_string()))?;

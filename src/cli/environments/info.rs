@@ -27,17 +27,16 @@ pub struct Info {
 /// Runs the command.
 pub fn run(a: &Info) -> Result<(), Failure> {
     let spec = Registry::builtin().spec(&a.source.id).map_err(Failure::usage)?;
-    let made = a.source.make();
+    // All or nothing: half of a description looks like the whole.
+    let env = a.source.make()?;
     if a.json {
         let mut value = json!({
             "id": spec.id, "suite": spec.suite, "task": spec.task, "max_episode_steps": spec.max_episode_steps,
             "settings": serde_json::to_value(&spec.args).map_err(Failure::new)?,
         });
-        if let Ok(env) = &made {
-            describe_json(env, &mut value);
-        }
+        describe_json(&env, &mut value);
         show_json(&value);
-        return made.map(|_| ());
+        return Ok(());
     }
     show!("id           {}", spec.id);
     show!("suite        {}, task {}", spec.suite, spec.task);
@@ -45,7 +44,7 @@ pub fn run(a: &Info) -> Result<(), Failure> {
     for (name, value) in spec.args.iter() {
         show!("setting      {name} = {value}");
     }
-    describe(&made?);
+    describe(&env);
     Ok(())
 }
 

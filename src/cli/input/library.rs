@@ -5,9 +5,10 @@ use crate::terminal::note;
 use ::library::{Library, Weights};
 use clap::{Args, ValueHint};
 use env::{Arguments, Compat, Env, Options};
+use mjcf::diagnostic::Diagnostic;
 use render::Painters;
 use render::painter::Cpu;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// An environment and how it is made.
@@ -39,15 +40,21 @@ pub struct Making {
 }
 
 impl Source {
-    /// Makes the environment, and shows the warnings of its model on standard error.
+    /// Makes the environment, and shows the warnings of its model on standard error; what imported files are known to have,
+    /// `assets verify` says once.
     pub fn make(&self) -> Result<Env, Failure> {
         self.make_with(Arc::new(Cpu))
     }
 
     /// The same for one whose pictures these painters draw.
     pub fn make_with(&self, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
-        let env = self.making.make_with(&self.id, painters)?;
-        env.warnings().warnings().for_each(|warning| note(&warning.to_string()));
+        let library = self.making.assets()?;
+        let env = self.making.make_of(&self.id, &library, painters)?;
+        let imported = |warning: &&Diagnostic| {
+            warning.position.as_ref().is_some_and(|position| library.is_imported(Path::new(&position.path)))
+        };
+        let own = env.warnings().warnings().filter(|warning| !imported(warning));
+        own.for_each(|warning| note(&warning.to_string()));
         Ok(env)
     }
 }
@@ -60,8 +67,12 @@ impl Making {
 
     /// Makes an environment whose pictures these painters draw.
     pub fn make_with(&self, id: &str, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
+        self.make_of(id, &self.assets()?, painters)
+    }
+
+    fn make_of(&self, id: &str, library: &Library, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
         let options = self.options()?.with_painters(painters);
-        Env::make(id, &self.assets()?, &options).map_err(Failure::usage)
+        Env::make(id, library, &options).map_err(Failure::usage)
     }
 
     /// How they are made.

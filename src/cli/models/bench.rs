@@ -4,10 +4,10 @@ use crate::failure::Failure;
 use crate::input::loading::{STANDARD_INPUT, load, start};
 use crate::input::source::Reading;
 use crate::models::MAX_STEPS;
-use crate::models::memory::{environment_bytes, free_bytes, resident_bytes};
 use crate::terminal::{show, show_json};
 use clap::{Args, ValueHint, value_parser};
 use dataset::NpzReader;
+use library::memory::{check_room, resident_bytes};
 use physics::pipeline::watch::{Stage, Watch};
 use physics::{Batch, Data, Model, step, step_watched};
 use serde_json::{Map, Value, json};
@@ -134,20 +134,11 @@ fn answer(workload: &Workload) -> Result<(), Failure> {
 /// Most steps whose times are kept: 800 MB of them.
 const MAX_TIMES: usize = 100_000_000;
 
-/// A batch that does not fit in memory would be ended by the system, without a word.
-fn refuse_beyond_memory(environments: usize, bytes: usize) -> Result<(), Failure> {
-    match free_bytes() {
-        Some(free) if environments.saturating_mul(bytes) > free => {
-            let mib = |bytes: usize| bytes.div_ceil(1 << 20);
-            Err(Failure::usage(format!(
-                "{environments} environments need about {} MiB, {} MiB are free: give --batch at most {}",
-                mib(environments.saturating_mul(bytes)),
-                mib(free),
-                free / bytes.max(1)
-            )))
-        }
-        _ => Ok(()),
-    }
+/// Bytes of one simulation: its arrays, and as much again for contacts, their rows and working memory.
+fn environment_bytes(m: &Model, d: &Data) -> usize {
+    let mut bytes = size_of::<Data>();
+    d.visit(m, &mut |_, _, values| values.pieces(&mut |piece| bytes += piece.len()));
+    2 * bytes
 }
 
 /// What is simulated: environments from one start, under one sequence of controls.
@@ -175,7 +166,9 @@ impl Workload {
             None => (Vec::new(), 0),
         };
         let environments = a.batch.unwrap_or(a.threads) as usize;
-        refuse_beyond_memory(environments, environment_bytes(&m, &start))?;
+        check_room(environments, environment_bytes(&m, &start)).map_err(|no_room| {
+            Failure::usage(format!("{no_room}: give --batch at most {}", no_room.fitting()))
+        })?;
         Ok(Workload {
             m: m.into(),
             start,

@@ -4,6 +4,7 @@ use crate::failure::{Failure, unwritable};
 use crate::input::loading::load;
 use crate::input::source::ModelSource;
 use crate::models::fields::array;
+use crate::output::{archive_file, check_place};
 use crate::terminal::{show, show_json};
 use clap::{Args, ValueHint};
 use dataset::{Array, NpzWriter};
@@ -29,7 +30,7 @@ pub struct Inspect {
     #[command(flatten)]
     pub model: ModelSource,
     /// Write every model array to this numpy archive
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    #[arg(long, value_name = "FILE.npz", value_hint = ValueHint::FilePath, value_parser = archive_file)]
     pub npz: Option<PathBuf>,
     /// Print one JSON object instead of the summary
     #[arg(long)]
@@ -38,6 +39,7 @@ pub struct Inspect {
 
 /// Runs the command.
 pub fn run(a: &Inspect) -> Result<(), Failure> {
+    a.npz.as_deref().map_or(Ok(()), check_place)?;
     let m = load(&a.model.path, &a.model.reading)?;
     if let Some(path) = &a.npz {
         write_arrays(&m, path)?;

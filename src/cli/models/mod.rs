@@ -6,7 +6,6 @@ pub mod compile;
 pub mod convert;
 pub mod fields;
 pub mod inspect;
-pub mod memory;
 pub mod sim;
 pub mod trace;
 

@@ -144,7 +144,11 @@ fn write(
         return Ok("millimetres");
     }
     write_png(path, frame).map_err(Failure::new)?;
-    Ok("colours")
+    Ok(match (picture.depth.is_empty(), picture.segmentation.is_empty()) {
+        (true, true) => "colours",
+        (false, _) => "distances in colours",
+        (true, false) => "objects in colours",
+    })
 }
 
 /// What a picture has, as numbers.

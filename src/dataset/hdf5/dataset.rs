@@ -8,6 +8,7 @@ use super::filter::{self, EXPANSION, Filter};
 use super::header::Message;
 use super::heap;
 use super::index::{self, Chunk, Grid, Index};
+use crate::expansion;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry::{Occupied, Vacant};
 use std::ops::Range;
@@ -66,6 +67,12 @@ impl Dataset {
         let bytes = bytes.filter(|&n| n as u64 <= most).ok_or_else(|| {
             format!("shape {shape:?} needs more bytes than the file can hold: it is damaged")
         })?;
+        if !filters.is_empty() && bytes as u64 > expansion::most(source.length()) {
+            return Err(format!(
+                "{bytes} bytes are deflated into a file of {}: write it without compression, or in parts",
+                source.length()
+            ));
+        }
         let layout = Decoder { source, shape: &shape, element, bytes, filters }.layout(layout)?;
         Ok(Some(Dataset { shape, datatype: datatype::decode(datatype)?, element, layout }))
     }

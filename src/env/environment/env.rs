@@ -18,7 +18,7 @@ use crate::task::{Defaults, Episode, Pose, Setup, Task, Timing, Turn, Verdict, V
 use crate::task_type::TaskType;
 use mjcf::diagnostic::Diagnostics;
 use physics::{Data, StepError};
-use render::scene::SceneOptions;
+use render::scene::{Camera, SceneOptions};
 use render::{Picture, Profile};
 use robot::{Compat, Robot};
 use std::ops::Range;
@@ -143,9 +143,6 @@ impl Env {
         let robot = build_robot(&spec, &settings, config.as_ref(), &scene.model, options.compat)?;
         let mut initial = initial_pose(&scene, settings.normalize_act);
         task.initial_pose(&scene, &mut initial)?;
-        if settings.frame_skip == Some(0) {
-            return Err(spec.wrong("frame_skip is the number of time steps in one step, 1 or more"));
-        }
         let weights = settings.weights().map_err(|message| spec.wrong(message))?;
         let cameras = scene.model.camera_names().map(|(_, name)| name);
         let visual_keys =
@@ -155,6 +152,8 @@ impl Env {
             .map(|config| Look::new(config, &scene.model, options.seed))
             .transpose()
             .map_err(|message| spec.wrong(message))?;
+        // A name that is wrong fails here rather than at the first picture.
+        Camera::named(&scene.model, &options.rendering.camera)?;
         let nu = scene.model.nu;
         let mut env = Env {
             frame_skip: settings.frame_skip.unwrap_or(defaults.frame_skip),

@@ -244,8 +244,14 @@ fn the_profile_follows_whose_behaviour_it_is() {
 fn render_returns_what_its_mode_says() {
     let make = |mode: Option<RenderMode>, camera: &str| {
         let rendering = Rendering { mode, camera: camera.into(), width: 24, height: 16 };
-        Env::make(ID, &OwnModels, &Options::default().with_rendering(rendering)).unwrap()
+        Env::make(ID, &OwnModels, &Options::default().with_rendering(rendering))
     };
+    // A wrong name fails when the environment is made, not at the first picture.
+    for mode in [None, Some(RenderMode::RgbArray)] {
+        let error = make(mode, "fornt").err().unwrap().to_string();
+        assert!(error.contains("fornt") && error.contains("front"), "{error}");
+    }
+    let make = |mode, camera| make(mode, camera).unwrap();
     assert!(make(None, "front").render().unwrap().is_none());
     let mut env = make(Some(RenderMode::RgbArray), "front");
     let front = env.render().unwrap().unwrap().clone();
@@ -254,8 +260,6 @@ fn render_returns_what_its_mode_says() {
     assert_ne!(env.render().unwrap().unwrap().rgb, front.rgb);
     let mut env = make(Some(RenderMode::DepthArray), "front");
     assert_eq!(env.render().unwrap().unwrap().depth.len(), 24 * 16);
-    let error = make(Some(RenderMode::RgbArray), "fornt").render().unwrap_err().to_string();
-    assert!(error.contains("fornt") && error.contains("front"), "{error}");
     let human = "human".parse::<RenderMode>().unwrap_err().to_string();
     assert!(human.contains("window") && human.contains("rgb_array"), "{human}");
     assert_eq!("depth_array".parse(), Ok(RenderMode::DepthArray));

@@ -46,13 +46,23 @@ impl VecEnv {
     /// # Errors
     /// The robot is hardware.
     pub fn new(env: &Env, count: usize, autoreset: Autoreset, threads: usize) -> Result<Self, EnvError> {
-        let slot = |_| Ok::<_, EnvError>(Some(Box::new(Slot::new(env.fork()?, autoreset))));
+        let numbers = count.checked_mul(env.observation().len());
+        let too_many = |_| EnvError::Selection { message: format!("{count} environments fit in no memory") };
+        let (mut slots, mut records, mut observations) = (Vec::new(), Vec::new(), Vec::new());
+        slots.try_reserve_exact(count).map_err(too_many)?;
+        records.try_reserve_exact(count).map_err(too_many)?;
+        observations.try_reserve_exact(numbers.unwrap_or(usize::MAX)).map_err(too_many)?;
+        records.resize(count, StepRecord::default());
+        observations.resize(numbers.unwrap_or_default(), 0.0);
+        for _ in 0..count {
+            slots.push(Some(Box::new(Slot::new(env.fork()?, autoreset))));
+        }
         Ok(VecEnv {
-            slots: (0..count).map(slot).collect::<Result<_, _>>()?,
-            records: vec![StepRecord::default(); count],
+            slots,
+            records,
             width: env.observation().len(),
             action_width: env.action_len(),
-            observations: vec![0.0; count * env.observation().len()],
+            observations,
             pool: Pool::new(threads),
             under_way: 0,
             #[cfg(feature = "threads")]
@@ -60,6 +70,19 @@ impl VecEnv {
             #[cfg(feature = "threads")]
             workers: None,
         })
+    }
+
+    /// Bytes that one more copy of an environment takes, about: what it owns, and what contacts add as it moves.
+    pub fn bytes_of(env: &Env) -> usize {
+        let mut bytes = size_of::<Slot>();
+        for data in [&env.scene.data, &env.observed] {
+            bytes += size_of_val(data);
+            data.visit(&env.scene.model, &mut |_, _, values| {
+                values.pieces(&mut |piece| bytes += piece.len());
+            });
+        }
+        // The rows of the observation and of the reward, and copies of both for the ends of episodes.
+        bytes + 8 * size_of::<f64>() * (env.rows.values().len() + env.terms.values().len())
     }
 
     /// Another batch in the same state, which goes on by itself on threads of its own.
