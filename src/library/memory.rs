@@ -1,4 +1,13 @@
 //! How much memory there is, where the system tells, and whether many environments fit.
+//!
+//! ```
+//! use robohive_library::memory::check_room;
+//!
+//! assert!(check_room(4, 1 << 20).is_ok());
+//! # if robohive_library::memory::free_bytes().is_some() {
+//! assert!(check_room(1_000_000_000, 1 << 20).is_err_and(|refused| refused.fitting() < 1_000_000_000));
+//! # }
+//! ```
 
 use std::fmt;
 use std::fs::read_to_string;

@@ -167,7 +167,7 @@ fn wrong_requests_say_what_is_right() {
     assert!(refused(&["run", REACH, "--video", &out, "--fps", "0"]).contains("frames a second"));
     assert!(refused(&["run", REACH, "--renderer", "cpu"]).contains("--video"));
     assert!(
-        refused(&["rollout", REACH, "--actions", "x.npz", "--out", &out, "--renderer", "cpu"])
+        refused(&["rollout", REACH, "--actions", "x.npz", "--out", "o.npz", "--renderer", "cpu"])
             .contains("--visual")
     );
     assert!(refused(&["render", ARM, "--out", &out, "--renderer", "cuda"]).contains("gpu:NAME"));

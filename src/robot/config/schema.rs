@@ -18,9 +18,9 @@ type Outcome<T> = Result<T, ConfigError>;
 
 /// `{name: device, …}`.
 pub(super) fn named_devices(source: &Source, root: Node) -> Outcome<Config> {
-    let (at, kind) = (root.at, root.kind());
+    let kind = root.kind();
     let Content::Table(entries) = root.content else {
-        return Err(source.error(at, format!("a config is a table of devices, this is {kind}")));
+        return Err(source.error(root.at, format!("a config is a table of devices, this is {kind}")));
     };
     let devices = entries
         .into_iter()
@@ -29,20 +29,11 @@ pub(super) fn named_devices(source: &Source, root: Node) -> Outcome<Config> {
             device(key.name, fields)
         })
         .collect::<Outcome<_>>()?;
-    not_empty(source, at, Config { devices })
-}
-
-/// Refuses a config that names nothing: a robot of it would neither sense nor act.
-fn not_empty(source: &Source, at: usize, config: Config) -> Outcome<Config> {
-    if config.devices.is_empty() {
-        return Err(source.error(at, "the config has no device: name those of the robot, or set no config"));
-    }
-    Ok(config)
+    Ok(Config { devices })
 }
 
 /// `{device: [{name: …}, …]}`.
 pub(super) fn listed_devices(source: &Source, root: Node) -> Outcome<Config> {
-    let start = root.at;
     let mut top = Fields::new(source, "the config", root, &["device"])?;
     let (mut devices, mut names) = (Vec::new(), HashSet::new());
     for node in top.list("device")? {
@@ -56,7 +47,7 @@ pub(super) fn listed_devices(source: &Source, root: Node) -> Outcome<Config> {
         fields.owner = format!("device '{name}'");
         devices.push(device(name, fields)?);
     }
-    not_empty(source, start, Config { devices })
+    Ok(Config { devices })
 }
 
 fn device(name: String, mut fields: Fields) -> Outcome<DeviceConfig> {

@@ -49,16 +49,6 @@ fn numbers_and_arithmetic_are_pythons() {
 }
 
 #[test]
-fn a_config_without_a_device_is_refused() {
-    for text in ["{}", "{ }  # nothing"] {
-        assert!(refused(text).starts_with("arm.config:1:1: the config has no device: name those"), "{text}");
-    }
-    for text in ["", "# nothing", "device = []"] {
-        assert!(refused_toml(text).contains("the config has no device: name those"), "{text}");
-    }
-}
-
-#[test]
 fn texts_are_pythons() {
     for (text, value) in [
         ("'a\"b'", "a\"b"),
