@@ -1,6 +1,7 @@
 //! Values that many elements have: lengths, limits that may be left to the range, user data.
 
 use crate::spec::Limited;
+use physics::math::Legible;
 
 /// Largest length a file may ask for without giving the data.
 const MAX_LENGTH: i64 = 1 << 24;
@@ -32,6 +33,7 @@ pub(super) fn resolve_limited(
 
 /// What is wrong with a range that ends where it begins, or below.
 pub(super) fn rising(attribute: &str, [low, high]: [f64; 2]) -> String {
+    let (low, high) = (Legible(low), Legible(high));
     format!("attribute '{attribute}' goes from {low} to {high}: set the second number above the first")
 }
 

@@ -2,6 +2,7 @@
 
 use crate::asset::AssetError;
 use crate::diagnostic::Loc;
+use physics::math::Legible;
 use physics::model::bounds::MINVAL;
 
 /// What an `asset/skin` element says, with its file already read.
@@ -134,7 +135,10 @@ fn normalise(vertices: usize, bones: &mut [Bone]) -> Result<(), String> {
         }
     }
     if let Some(v) = totals.iter().position(|&total| total.is_nan() || f64::from(total) <= MINVAL) {
-        return Err(format!("the weights of vertex {v} add up to {}, not to a positive number", totals[v]));
+        return Err(format!(
+            "the weights of vertex {v} add up to {}, not to a positive number",
+            Legible(totals[v])
+        ));
     }
     for bone in bones {
         for (&v, weight) in bone.vertid.iter().zip(&mut bone.vertweight) {

@@ -1,6 +1,7 @@
 //! `compiler`, `option`, `size`, `visual`, `statistic`, `custom` and `keyframe`. Repeated sections merge, the
 //! later attribute wins.
 
+use physics::math::Legible;
 use physics::model::ObjType;
 
 use super::reader::Reader;
@@ -52,7 +53,7 @@ impl Reader<'_> {
         self.rows(section, &OPTIONS, &mut option);
         if let Some(attribute) = section.attribute("timestep").filter(|_| option.timestep <= 0.0) {
             let message =
-                format!("attribute 'timestep' of <option> must be positive, is {}", option.timestep);
+                format!("attribute 'timestep' of <option> must be positive, is {}", Legible(option.timestep));
             self.error(attribute.value_loc, message);
         }
         self.authored.attributes(section);

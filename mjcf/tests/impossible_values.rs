@@ -126,3 +126,31 @@ fn vertices_of_a_composite_are_counted_before_they_are_made() {
     let said = Loader::default().limits(limits).load_str(cable("1000")).unwrap_err().to_string();
     assert!(said.contains("parts of <composite>: needs"), "{said}");
 }
+
+/// A number of three hundred digits hides what is wrong with it.
+#[test]
+fn large_numbers_are_shown_in_powers_of_ten() {
+    let in_world = |element: &str| format!("<mujoco><worldbody>{element}</worldbody></mujoco>");
+    let tendon = |attribute: &str| {
+        let joint = "<worldbody><body><joint name='j'/><geom size='1'/></body></worldbody>";
+        format!(
+            "<mujoco>{joint}<tendon><fixed {attribute}><joint joint='j' coef='1'/></fixed></tendon></mujoco>"
+        )
+    };
+    for text in [
+        in_world("<geom size='-1e90'/>"),
+        in_world("<camera fovy='1e90'/>"),
+        tendon("limited='true' range='1e90 -1e90'"),
+        "<mujoco><option timestep='-1e90'/></mujoco>".into(),
+        flexcomp("radius='-1e90'", ""),
+        flexcomp("radius='1e90'", ""),
+    ] {
+        let said = refused(&text);
+        assert!(said.contains("e90") && !said.contains("00000"), "{said}");
+    }
+    let model = load_str(in_world("<body><joint/><geom size='1'/></body>")).unwrap().model;
+    let mut data = physics::Data::new(&model);
+    data.state.qpos[0] = 1e300;
+    let said = physics::step(&model, &mut data).unwrap_err().to_string();
+    assert!(said.contains("is 1e300 at time 0 s, which is too large"), "{said}");
+}

@@ -12,6 +12,7 @@ import importlib.metadata
 import importlib.util
 import io
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -45,12 +46,17 @@ class Outcomes(unittest.TestResult):
         super().__init__()
         self.file, self.out = file, out
         self.causes: dict[str, str | None] = {}
+        self.places: dict[str, dict[str, int]] = {}
 
     def _name(self, test: unittest.TestCase) -> str:
         place, _, parameters = test.id().partition(" ")
         name = ".".join(place.split(".")[-2:])
-        # Without the number of a set of parameters: engines may have different lists of attributes.
-        return f"{name.rstrip('0123456789')} {parameters}" if parameters else name
+        if not parameters:
+            return name
+        # Without the number of a set of parameters and without addresses: engines may have different lists of attributes.
+        shown = f"{name.rstrip('0123456789')} {re.sub('0x[0-9a-f]+', '', parameters)}"
+        count = self.places.setdefault(shown, {}).setdefault(test.id(), len(self.places.get(shown, {})) + 1)
+        return shown if count == 1 else f"{shown} #{count}"
 
     def startTest(self, test: unittest.TestCase) -> None:  # noqa: N802
         """Notes a test that begins: should the process die, it fails."""

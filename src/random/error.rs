@@ -108,7 +108,7 @@ impl Display for RandomError {
                 write!(f, "{weights} weights were given for {population} members: give one for each")
             }
             Self::BadWeight { index, weight } => {
-                write!(f, "weight {index} is {weight}: weights must not be negative or NaN")
+                write!(f, "weight {index} is {weight:?}: weights must not be negative or NaN")
             }
             Self::WeightSum { sum } => {
                 write!(f, "the weights sum to {sum}: divide them by their sum, so that it is 1")
@@ -118,13 +118,13 @@ impl Display for RandomError {
                 "{count} members cannot be chosen without replacement: only {positive} have a weight above zero"
             ),
             Self::UnboundedInterval { low, high } => {
-                write!(f, "the interval from {low} to {high} has no finite length: give finite ends")
+                write!(f, "the interval from {low:?} to {high:?} has no finite length: give finite ends")
             }
             Self::ReversedInterval { low, high } => {
-                write!(f, "the interval from {low} to {high} is reversed: exchange its ends")
+                write!(f, "the interval from {low:?} to {high:?} is reversed: exchange its ends")
             }
             Self::BadScale { scale } => {
-                write!(f, "the standard deviation is {scale}: it must not be negative or NaN")
+                write!(f, "the standard deviation is {scale:?}: it must not be negative or NaN")
             }
             Self::LengthMismatch { expected, found } => {
                 write!(

@@ -9,6 +9,7 @@ use crate::compile::values::push_user;
 use crate::spec::{Camera, Compiler, Light, Site, Spec, resolve};
 use crate::vector::{EPS, normalize};
 use physics::geometry::shape;
+use physics::math::Legible;
 use physics::math::ops;
 use physics::model::{GeomType, ObjType, Rows};
 use std::f64::consts::PI;
@@ -65,7 +66,7 @@ fn compile_camera<'s>(
     }
     normalize(&mut pose.quat);
     if spec.fovy >= 180.0 {
-        return Err(format!("fovy must be below 180 degrees, is {}", spec.fovy));
+        return Err(format!("fovy must be below 180 degrees, is {}", Legible(spec.fovy)));
     }
     let given = [spec.focal_length, spec.focal_pixel, spec.principal_length, spec.principal_pixel];
     let sensor = spec.sensor_size[0] > 0.0 && spec.sensor_size[1] > 0.0;
@@ -110,7 +111,7 @@ fn compile_light<'s>(spec: &'s Light, frame: Option<&Pose>) -> Result<LightNode<
         return Err("direction has no length".into());
     }
     if !(0.0..=1.0).contains(&spec.softness) {
-        return Err(format!("attribute 'softness' is {}: set it from 0 to 1", spec.softness));
+        return Err(format!("attribute 'softness' is {}: set it from 0 to 1", Legible(spec.softness)));
     }
     Ok(LightNode { spec, pos, dir })
 }

@@ -5,6 +5,7 @@ use crate::compile::lookup::Lookup;
 use crate::compile::plugins::Plugins;
 use crate::compile::values::{bounded, push_user, resolve_limited, rising};
 use crate::spec::{Actuator, Spec};
+use physics::math::Legible;
 use physics::model::input::{self, EXPONENTIAL_MAP, FEED_FORWARD, POSITION, QUATERNION, VELOCITY, VOLTAGE};
 use physics::model::{BiasType, DynType, GainType, JointType, ObjType, Rows, TrnType};
 use physics::plugin::Capability;
@@ -72,7 +73,10 @@ fn transmission(actuator: &Actuator, lookup: &Lookup, what: &str, log: &mut Log)
         TrnType::Slidercrank if actuator.cranklength <= 0.0 => {
             log.error(
                 loc,
-                format!("{what}: attribute 'cranklength' is {}: set a length above 0", actuator.cranklength),
+                format!(
+                    "{what}: attribute 'cranklength' is {}: set a length above 0",
+                    Legible(actuator.cranklength)
+                ),
             );
             [-1, -1]
         }
@@ -298,7 +302,8 @@ fn check_muscle(prm: &[f64; 10]) -> Result<(), String> {
     if prm[4] >= 1.0 || prm[5] <= 1.0 {
         return Err(format!(
             "a muscle works around length 1: 'lmin' is {}, set it below; 'lmax' is {}, set it above",
-            prm[4], prm[5]
+            Legible(prm[4]),
+            Legible(prm[5])
         ));
     }
     if prm[3] <= 0.0 || prm[6] <= 0.0 || prm[7] <= 0.0 || prm[8] <= 0.0 {

@@ -4,6 +4,7 @@ use crate::compile::log::{Log, title};
 use crate::compile::lookup::Lookup;
 use crate::compile::values::{push_user, resolve_limited, rising};
 use crate::spec::{Spec, Tendon, Wrap, WrapKind};
+use physics::math::Legible;
 use physics::model::{GeomType, ObjType, Rows, WrapType};
 
 /// Appends all tendons.
@@ -72,10 +73,10 @@ fn check_path(m: &Rows, tendon: &Tendon) -> Result<(), String> {
         return Err("a spatial tendon needs at least two path elements".into());
     }
     if tendon.width <= 0.0 {
-        return Err(format!("attribute 'width' is {}: set it above 0", tendon.width));
+        return Err(format!("attribute 'width' is {}: set it above 0", Legible(tendon.width)));
     }
     if tendon.armature < 0.0 {
-        return Err(format!("attribute 'armature' is {}: set it to 0 or more", tendon.armature));
+        return Err(format!("attribute 'armature' is {}: set it to 0 or more", Legible(tendon.armature)));
     }
     for i in 0..count {
         let open = |at: Option<usize>| at.is_none_or(|k| k >= count || is(k, WrapType::Pulley));

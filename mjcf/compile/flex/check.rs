@@ -1,6 +1,7 @@
 //! What is asked of a flex before it is compiled.
 
 use crate::spec::{Elastic2d, Flex};
+use physics::math::Legible;
 use physics::model::FlexSelf;
 
 /// Refuses unless `holds`.
@@ -14,7 +15,10 @@ pub(super) fn counts(flex: &Flex) -> Result<(), String> {
     require((1..=3).contains(dim), || format!("dim must be 1, 2 or 3, is {dim}"))?;
     let corners = *dim as usize + 1;
     require(flex.radius >= 0.0, || {
-        format!("radius is {}: set it to 0 or more, elements are that thick on each side", flex.radius)
+        format!(
+            "radius is {}: set it to 0 or more, elements are that thick on each side",
+            Legible(flex.radius)
+        )
     })?;
     require(!elem.is_empty() && elem.len().is_multiple_of(corners), || {
         format!("'element' has {} numbers, not {corners} an element", elem.len())
@@ -80,7 +84,7 @@ fn material(flex: &Flex) -> Result<(), String> {
     })?;
     require(!surface || flex.thickness > 0.0, || "elastic2d needs a positive thickness".into())?;
     require(!(surface || flex.young > 0.0) || ratio, || {
-        format!("Poisson's ratio must be at least 0 and below 0.5, is {}", flex.poisson)
+        format!("Poisson's ratio must be at least 0 and below 0.5, is {}", Legible(flex.poisson))
     })?;
     require(!surface || flex.dim == 2 || !flex.nodebody.is_empty(), || {
         "elastic2d is for triangles, and for interpolated flexes".into()

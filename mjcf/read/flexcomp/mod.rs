@@ -24,6 +24,7 @@ use crate::schema::flex::{
 use crate::spec::{Dof, Elastic2d, EqualityOf, Flexcomp, Pin, PluginInstance, PluginUse, resolve};
 use crate::vector::rotate;
 use crate::xml::Element;
+use physics::math::Legible;
 use physics::model::bounds::MINVAL;
 use points::Points;
 
@@ -132,16 +133,17 @@ fn check(wanted: &Flexcomp) -> Result<(), String> {
         return Err(format!("dim must be 1, 2 or 3, is {}", flex.dim));
     }
     if flex.radius < 0.0 {
-        return Err(format!("'radius' is {}: set it to 0 or more", flex.radius));
+        return Err(format!("'radius' is {}: set it to 0 or more", Legible(flex.radius)));
     }
     let least = if wanted.dof == Dof::Radial && flex.dim == 3 { 2 } else { 1 };
     if wanted.count.iter().any(|&n| n < least) {
         return Err(format!("the numbers of 'count' must be at least {least}"));
     }
     let size = 2.0 * flex.radius + flex.margin;
+    let least_spacing = Legible(size);
     if !wanted.shape.is_given() && wanted.spacing.iter().any(|&x| x < size) {
         return Err(format!(
-            "the numbers of 'spacing' must be at least {size}, twice the radius plus the margin"
+            "the numbers of 'spacing' must be at least {least_spacing}, twice the radius plus the margin"
         ));
     }
     if wanted.scale.iter().any(|&x| x < MINVAL) {

@@ -13,6 +13,7 @@ use clap::{Args, ValueHint};
 use dataset::growing::ColumnId;
 use dataset::{Dtype, GrowingNpz};
 use indicatif::{ProgressBar, ProgressStyle};
+use physics::math::Legible;
 use physics::model::Enable;
 use physics::table::Slice;
 use physics::{Data, Model, StepError, forward, step};
@@ -100,7 +101,10 @@ fn number_of_steps(seconds: f64, timestep: f64) -> Result<u64, Failure> {
         return Ok(steps as u64);
     }
     Err(Failure::usage(format!(
-        "--seconds {seconds} asks for {steps} steps of {timestep} s; 0 to {MAX_STEPS} can be run"
+        "--seconds {} asks for {} steps of {} s; 0 to {MAX_STEPS} can be run",
+        Legible(seconds),
+        Legible(steps),
+        Legible(timestep)
     )))
 }
 

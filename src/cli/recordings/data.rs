@@ -257,7 +257,8 @@ fn show_columns(columns: Vec<Merged>) {
     let width = |of: fn(&Merged) -> &str| columns.iter().map(|c| of(c).chars().count()).max().unwrap_or(0);
     let (keys, shapes, kinds) = (width(|c| &c.key), width(|c| &c.shape), width(|c| &c.kind));
     for column in &columns {
-        let range = column.range.map_or(String::new(), |(low, high)| format!("{low:.6} to {high:.6}"));
+        let range =
+            column.range.map_or(String::new(), |(low, high)| format!("{} to {}", shown(low), shown(high)));
         let nans = if column.nans == 0 { String::new() } else { format!(", {} NaN", column.nans) };
         let text = column.text.as_ref().map_or(String::new(), |text| format!("{text:?}"));
         let line = format!(
@@ -266,6 +267,11 @@ fn show_columns(columns: Vec<Merged>) {
         );
         show!("{}", line.trim_end());
     }
+}
+
+/// A number with six digits behind the point, or in powers of ten where that would be long.
+fn shown(x: f64) -> String {
+    if x.abs() < 1e15 || !x.is_finite() { format!("{x:.6}") } else { format!("{x:.6e}") }
 }
 
 /// A number, spelt where JSON has none for it.

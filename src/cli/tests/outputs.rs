@@ -113,6 +113,12 @@ fn endings_are_checked_before_the_work_begins() {
 }
 
 #[test]
+fn large_numbers_are_shown_in_powers_of_ten() {
+    let said = refused(&["sim", "assets/pile/pile.xml", "--seconds", "1e300"]);
+    assert!(said.contains("--seconds 1e300 asks for 5e302 steps") && !said.contains("00000000000"), "{said}");
+}
+
+#[test]
 fn a_recording_does_not_take_the_place_of_a_folder() {
     let folder = folder("recorded_folder");
     let place = folder.join("episodes.h5");

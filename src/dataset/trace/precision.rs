@@ -70,6 +70,8 @@ fn reduce(x: f64, kept: Dtype, out: &mut Vec<u8>) -> Result<(), String> {
         _ => !x.is_finite() || F16::from_f64(x).to_f64().is_finite(),
     };
     if !fits {
+        // Not three hundred digits.
+        let x = if x.abs() < 1e15 { x.to_string() } else { format!("{x:e}") };
         return Err(format!("{x} does not fit into {}: record in full precision", kept.name()));
     }
     match kept {
@@ -98,6 +100,7 @@ mod tests {
         assert_eq!(reduced(&[65504.0, 0.1]).map(|v| v.to_f64()), Ok(vec![65504.0, 0.0999755859375]));
         assert!(reduced(&[f64::NAN]).is_ok_and(|v| v.to_f64()[0].is_nan()));
         assert_eq!(reduced(&[f64::INFINITY]).map(|v| v.to_f64()), Ok(vec![f64::INFINITY]));
+        assert!(reduced(&[1e300]).unwrap_err().starts_with("1e300 does not fit into float16"));
         assert!(reduced(&[256u32]).unwrap_err().contains("256 does not fit into uint8"));
         assert!(reduced(&[128i32]).unwrap_err().contains("int8"));
         assert!(reduced(&[70000.0f32]).unwrap_err().contains("float16"));

@@ -6,6 +6,7 @@ use super::config::{
 use super::dial::{Dial, Draws, Target};
 use crate::draws::Ranges;
 use physics::Model;
+use physics::math::Legible;
 use physics::model::{ObjType, Suggestions};
 
 /// Everything that a configuration changes, in its order.
@@ -194,7 +195,11 @@ fn bounds<const N: usize>(what: &str, range: &Ranges<N>, within: [f64; 2]) -> Re
         return Ok(pairs);
     }
     let [low, high] = within;
-    let limits = if within == ANYTHING { String::new() } else { format!(", within {low} and {high}") };
+    let limits = if within == ANYTHING {
+        String::new()
+    } else {
+        format!(", within {} and {}", Legible(low), Legible(high))
+    };
     Err(format!("{what} of visual_randomization needs finite bounds, low not above high{limits}"))
 }
 

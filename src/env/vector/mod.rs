@@ -81,8 +81,9 @@ impl VecEnv {
                 values.pieces(&mut |piece| bytes += piece.len());
             });
         }
-        // The rows of the observation and of the reward, and copies of both for the ends of episodes.
-        bytes + 8 * size_of::<f64>() * (env.rows.values().len() + env.terms.values().len())
+        let pixels: usize = env.visual_keys().iter().map(|key| key.shape().iter().product::<usize>()).sum();
+        // As much again for working memory, rows and the task, which add up to less in all that were measured.
+        2 * bytes + size_of::<f32>() * pixels
     }
 
     /// Another batch in the same state, which goes on by itself on threads of its own.

@@ -17,6 +17,7 @@
 
 use crate::arrays::GeomType;
 use crate::arrays::bounds::MAXVAL;
+use crate::math::Legible;
 use crate::math::Vec3;
 use crate::math::ops;
 use std::f64::consts::PI;
@@ -51,7 +52,7 @@ impl fmt::Display for SizeError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             SizeError::NotPositive { index, value } => {
-                write!(f, "size {} must be positive, is {value}", index + 1)
+                write!(f, "size {} must be positive, is {}", index + 1, Legible(value))
             }
             SizeError::NotANumber => f.write_str("size is not a number"),
         }

@@ -17,6 +17,7 @@ pub mod dense;
 #[cfg_attr(system_math, allow(dead_code))]
 mod double_double;
 mod eigen;
+mod legible;
 pub mod ops;
 mod polynomial;
 mod quat;
@@ -28,6 +29,7 @@ mod symmetric;
 mod vector;
 
 pub use eigen::{principal_axes, principal_axes_by};
+pub use legible::Legible;
 pub use polynomial::Polynomial;
 pub use quat::*;
 pub use sparse::*;

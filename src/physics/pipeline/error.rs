@@ -18,6 +18,7 @@
 
 pub use crate::model::NotSimulated;
 
+use crate::math::Legible;
 use crate::stages::OverBudget;
 use std::fmt;
 
@@ -76,6 +77,7 @@ impl fmt::Display for StepError {
             StepError::BadCtrl(bad) => ("ctrl", bad, "check what sets the control"),
             StepError::BadAct(bad) => ("act", bad, UNSTABLE),
             StepError::BadTimestep(timestep) => {
+                let timestep = Legible(timestep);
                 return write!(f, "the time step is {timestep} s; it must be positive and finite");
             }
             StepError::BadSleep { tree, next } => {
@@ -89,6 +91,7 @@ impl fmt::Display for StepError {
         };
         let BadNumber { index, element, value, time } = bad;
         let fault = if value.is_finite() { "too large" } else { "not finite" };
+        let (value, time) = (Legible(value), Legible(time));
         write!(f, "{array}[{index}] of {element} is {value} at time {time} s, which is {fault}; {hint}")
     }
 }

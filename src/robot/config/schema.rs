@@ -5,6 +5,7 @@ use super::devices::{
 };
 use super::error::{ConfigError, Source};
 use super::node::{Content, Key, Node};
+use physics::math::Legible;
 use physics::model::Suggestions;
 use std::collections::HashSet;
 
@@ -248,7 +249,11 @@ impl<'a> Fields<'a> {
         };
         let (low, high) = (self.finite(key, low)?, self.finite(key, high)?);
         if low > high {
-            return Err(self.wrong(at, key, &format!("begins at {low}, above its end {high}")));
+            return Err(self.wrong(
+                at,
+                key,
+                &format!("begins at {}, above its end {}", Legible(low), Legible(high)),
+            ));
         }
         Ok(Some([low, high]))
     }

@@ -15,6 +15,7 @@
 //! between teeth on each side. Hence `w = π / (2 n) + inv ψ`.
 
 use super::{Field, fields, intersection, length, positive, subtraction, union};
+use crate::math::Legible;
 use crate::math::{Vec3, ops};
 use crate::model::AttributeError;
 use std::f64::consts::PI;
@@ -78,7 +79,7 @@ impl Wheel {
         positive("thickness", self.thickness)?;
         match self.teeth >= 1.0 {
             true => Ok(()),
-            false => Err(format!("attribute 'teeth' is {}: set it to 1 or more", self.teeth).into()),
+            false => Err(format!("attribute 'teeth' is {}: set it to 1 or more", Legible(self.teeth)).into()),
         }
     }
 

@@ -12,6 +12,7 @@ pub(super) use fastener::{Bolt, Nut};
 pub(super) use gear::Gear;
 pub(super) use revolved::{Bowl, Torus};
 
+use crate::math::Legible;
 use crate::model::{AttributeError, Field, Instance};
 
 /// Declares plugins that are a field and nothing else.
@@ -79,7 +80,7 @@ fn positive(name: &str, value: f64) -> Result<(), AttributeError> {
     if value > 0.0 {
         return Ok(());
     }
-    Err(format!("attribute '{name}' is {value}: a positive number is needed").into())
+    Err(format!("attribute '{name}' is {}: a positive number is needed", Legible(value)).into())
 }
 
 /// What lies in either.

@@ -1,6 +1,7 @@
 //! Shapes of revolution about the z axis.
 
 use super::{Field, fields, length, positive};
+use crate::math::Legible;
 use crate::math::Vec3;
 use crate::model::AttributeError;
 use crate::model::bounds::MINVAL;
@@ -25,7 +26,9 @@ impl Ring {
         positive("radius2", self.radius2)?;
         match self.radius1 >= 0.0 {
             true => Ok(()),
-            false => Err(format!("attribute 'radius1' is {}: set it to 0 or more", self.radius1).into()),
+            false => {
+                Err(format!("attribute 'radius1' is {}: set it to 0 or more", Legible(self.radius1)).into())
+            }
         }
     }
 }
@@ -65,8 +68,9 @@ impl Shell {
         match self.height.abs() <= self.radius {
             true => Ok(()),
             false => Err(format!(
-                "attribute 'height' is {:e}: the rim lies on the sphere, at most the radius, {}, from its centre",
-                self.height, self.radius
+                "attribute 'height' is {}: the rim lies on the sphere, at most the radius, {}, from its centre",
+                Legible(self.height),
+                Legible(self.radius)
             )
             .into()),
         }
