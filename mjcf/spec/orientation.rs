@@ -115,7 +115,7 @@ pub(crate) fn from_axes(x: Vec3, y: Vec3, z: Vec3) -> Quat {
     q
 }
 
-/// Legible rotation that takes the z axis to the unit vector `v`.
+/// Shortest rotation that takes the z axis to the unit vector `v`.
 pub(crate) fn minimal_rotation(v: Vec3) -> Quat {
     let mut axis = cross([0.0, 0.0, 1.0], v);
     let s = normalize(&mut axis);

@@ -114,7 +114,7 @@ pub fn quat_from_axis_angle(axis: Vec3, angle: f64) -> Quat {
     [c, axis[0] * s, axis[1] * s, axis[2] * s]
 }
 
-/// Legible rotation that takes the z axis to `direction`.
+/// Shortest rotation that takes the z axis to `direction`.
 pub fn quat_from_z(direction: Vec3) -> Quat {
     let (to, length) = normalize(direction);
     if length < MINVAL {

@@ -1,4 +1,4 @@
-//! Legible path of a tendon around a sphere or a cylinder (documentation: Computation, "Tendon").
+//! Shortest path of a tendon around a sphere or a cylinder (documentation: Computation, "Tendon").
 //!
 //! The problem is reduced to a circle in the plane that holds the path (sphere) or is normal to the axis
 //! (cylinder). A path outside the circle touches it along an arc; a path that must stay inside, because its
