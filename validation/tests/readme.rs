@@ -91,6 +91,15 @@ fn environments_and_python() {
     assert_eq!(said(&readme, "environments_visual"), format!("{:.0} to {:.0}", visual[0], visual[1]));
     assert!(results("standin").contains(&format!("{} environments agree", said(&readme, "standin"))));
     assert!(results("standin_suite").contains(&format!("{} tasks run", said(&readme, "standin_suite"))));
+    let tests = rows(&results("standin_tests"), |first| first == "all");
+    let passing = tests[0][2].split(',').next();
+    assert_eq!(
+        passing.map(|passing| format!("{passing} of {}", tests[0][1])),
+        Some(said(&readme, "standin_tests"))
+    );
+    let muscles = results("standin_myosuite");
+    let [run, on_ours] = ["ids; ", "run on MuJoCo, "].map(|before| number(&muscles, before));
+    assert_eq!(said(&readme, "standin_myosuite"), format!("{on_ours} of {run}"));
     let python = results("python_speed");
     let on_one = |picks: &dyn Fn(&str) -> bool| {
         let rows = rows(&python, |id| picks(id));
