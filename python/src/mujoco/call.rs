@@ -23,7 +23,7 @@ pub fn change<R: Send>(
     timed(py, model, data, None, work)
 }
 
-/// [`change`] that counts as so many calls of what is timed.
+/// [`change`], counted as that number of calls of what is timed.
 pub fn timed<R: Send>(
     py: Python<'_>,
     model: &Bound<'_, Model>,

@@ -132,7 +132,7 @@ def _integrate(m: MjModel, d: MjData) -> None:
 
 
 def step(m: MjModel, d: MjData, count: int) -> None:
-    """`mj_step`, so many times.
+    """`mj_step`, `count` times.
 
     Raises:
         NotImplementedError: the integrator is Runge-Kutta's, and the model has delays or plugins with a state.
