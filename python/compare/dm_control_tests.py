@@ -37,7 +37,8 @@ def outcomes(engine: str, module: str) -> dict[str, str | None]:
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "outcomes.json"
         command = [sys.executable, __file__, "--run", engine, module, str(out)]
-        environment = {"MUJOCO_GL": "osmesa", **os.environ}
+        # Names of tests that show sets are then the same on both.
+        environment = {"MUJOCO_GL": "osmesa", **os.environ, "PYTHONHASHSEED": "0"}
         try:
             ended = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False, env=environment)
             said = ended.stderr
@@ -99,8 +100,8 @@ def main() -> None:
         versions = ", ".join(f"{name} {importlib.metadata.version(name)}" for name in ("dm_control", "mujoco", "numpy"))
         options.table.write_text(
             "# dm_control's own tests on the stand-in for `mujoco`\n\n"
-            "`python python/compare/dm_control_tests.py --table validation/results/standin_dm_control.md`, with "
-            f"{versions}. The first column counts the tests that pass on MuJoCo's own bindings, the second those of them that "
+            f"`python python/compare/dm_control_tests.py --only {' '.join(options.only)} --table "
+            f"validation/results/standin_dm_control.md`, with {versions}. The first column counts the tests that pass on MuJoCo's own bindings, the second those of them that "
             "pass on the stand-in.\n\n" + out.getvalue()
         )
 

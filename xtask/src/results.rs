@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 17] = [
+const SPEAK_OF: [(&str, &[&str]); 18] = [
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
     ("environments", &["src/physics", "mjcf", "src/robot", "src/env"]),
@@ -30,6 +30,7 @@ const SPEAK_OF: [(&str, &[&str]); 17] = [
     ("python_speed", &["src/physics", "src/env", "python"]),
     ("quirks", &["src/robot", "src/env/suite"]),
     ("standin", &["src/physics", "mjcf", "python"]),
+    ("standin_dm_control", &["src/physics", "mjcf", "python"]),
     ("standin_myosuite", &["src/physics", "mjcf", "python"]),
     ("standin_suite", &["src/physics", "mjcf", "python"]),
     ("standin_tests", &["src/physics", "mjcf", "python"]),
