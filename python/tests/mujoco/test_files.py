@@ -75,3 +75,14 @@ def test_the_viewer_can_be_imported_and_opens_no_window():
     model = mj.MjModel.from_xml_string("<mujoco/>")
     with pytest.raises(NotImplementedError, match="opens no window"):
         viewer.launch_passive(model, mj.MjData(model))
+
+
+def test_what_was_loaded_last_is_written(tmp_path):
+    model = mj.MjModel.from_xml_string(MESH.format("m.obj"), {"m.obj": TETRAHEDRON.encode()})
+    mj.mj_saveLastXML(str(tmp_path / "saved.xml"), model)
+    (tmp_path / "m.obj").write_text(TETRAHEDRON)
+    again = mj.MjModel.from_xml_path(str(tmp_path / "saved.xml"))
+    assert again.mesh_vert.tolist() == model.mesh_vert.tolist()
+    with pytest.raises(NotImplementedError, match="another or was changed"):
+        mj.mj_saveLastXML(str(tmp_path / "other.xml"), mj.MjModel(mj.MjSpec().compile()._compiled()))
+    assert not (tmp_path / "other.xml").exists()

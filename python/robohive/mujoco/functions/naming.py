@@ -8,6 +8,7 @@ import numpy as np
 from robohive.mujoco import _engine as _core
 from robohive.mujoco._constants import mjVERSION_HEADER
 from robohive.mujoco.enums.elements import mjtObj
+from robohive.mujoco.last import last_loaded
 from robohive.mujoco.structs.model import MjModel
 
 
@@ -104,3 +105,21 @@ def mj_printSchema(flg_html: bool, flg_pad: bool) -> str:
     if flg_pad:
         lines = ["&nbsp;" * (len(line) - len(line.lstrip())) + line.lstrip() for line in lines]
     return "<br>\n".join(lines)
+
+
+def mj_saveLastXML(filename: str, m: MjModel) -> None:
+    """Writes the description that was loaded last, of which `m` was compiled, as MJCF.
+
+    Raises:
+        FatalError: none was loaded.
+        NotImplementedError: `m` is another model, or was changed; `MjSpec` writes what a program edits.
+    """
+    from robohive.mujoco.spec.tree import MjSpec
+
+    last = last_loaded()
+    if last is None:
+        raise _core.FatalError("mj_saveLastXML: no XML was loaded")
+    spec = MjSpec.from_string(last.source, assets=last.files) if last.is_text else MjSpec.from_file(last.source, assets=last.files)
+    if spec.compile()._to_bytes() != m._to_bytes():
+        raise NotImplementedError("mj_saveLastXML writes what was loaded last, and this model is another or was changed: use MjSpec")
+    spec.to_file(filename)

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
+from robohive.mujoco.last import remember
 from robohive.mujoco.log import compile_timed
 from robohive.mujoco.structs import absent, named
 from robohive.mujoco.structs.fields import declare
@@ -66,16 +67,21 @@ class MjModel(_core.Model, named.ModelElements):
         Raises:
             ValueError: what is wrong, every finding with file, line, column and element.
         """
-        files = _own_names(given_files(vfs, assets))
-        return cls._of(lambda: _core.load_path(fspath(filename), _as_bytes(files)))
+        path, files = fspath(filename), _as_bytes(_own_names(given_files(vfs, assets)))
+        model = cls._of(lambda: _core.load_path(path, files))
+        remember(path, False, files)
+        return model
 
     @classmethod
     def from_xml_string(
         cls, xml: str | bytes, assets: Mapping[str, bytes] | None = None, vfs: MjVfs | None = None
     ) -> "MjModel":
         """Loads a model from MJCF text; see `from_xml_path`."""
-        text, files = xml.decode() if isinstance(xml, bytes) else xml, _own_names(given_files(vfs, assets))
-        return cls._of(lambda: _core.load_text(text, _as_bytes(files)))
+        text = xml.decode() if isinstance(xml, bytes) else xml
+        files = _as_bytes(_own_names(given_files(vfs, assets)))
+        model = cls._of(lambda: _core.load_text(text, files))
+        remember(text, True, files)
+        return model
 
     @classmethod
     def from_binary_path(
