@@ -29,10 +29,10 @@ pub(super) fn fill(m: &mut Rows, tree: &Tree, spec: &Spec, log: &mut Log) {
         let mut part = Part { loc: key.loc, what: title("keyframe", &key.name), log };
         let rest = if key.qpos.is_empty() { &m.qpos0 } else { &continued };
         let mut qpos = part.complete(&key.qpos, rest, "qpos");
-        let mut mquat = part.complete(&key.mquat, &mquat0, "mquat");
+        let mut mquat = part.complete_rows::<4>(&key.mquat, &mquat0, "mquat");
         m.key_qvel.extend(part.complete(&key.qvel, &vec![0.0; nv], "qvel"));
         m.key_act.extend(part.complete(&key.act, &vec![0.0; na as usize], "act"));
-        m.key_mpos.extend(part.complete(&key.mpos, &mpos0, "mpos"));
+        m.key_mpos.extend(part.complete_rows::<3>(&key.mpos, &mpos0, "mpos"));
         m.key_ctrl.extend(part.complete(&key.ctrl, &vec![0.0; nu], "ctrl"));
         normalize_rotations(m, &mut qpos[..nq]);
         mquat.chunks_exact_mut(4).for_each(normalize);
@@ -104,6 +104,22 @@ struct Part<'a, 'b> {
 }
 
 impl Part<'_, '_> {
+    /// `given`, rows of `N` numbers, continued by `default`; a row that is not whole counts as missing, as in MuJoCo.
+    fn complete_rows<const N: usize>(&mut self, given: &[f64], default: &[f64], name: &str) -> Vec<f64> {
+        let whole = given.len() - given.len() % N;
+        if whole < given.len() && given.len() <= default.len() {
+            let message = format!(
+                "{}: the last {} of {} numbers of {name} are ignored: give {N} for each mocap body",
+                self.what,
+                given.len() - whole,
+                given.len()
+            );
+            self.log.diagnostics.warning(self.log.sources, self.loc, message);
+            return self.complete(&given[..whole], default, name);
+        }
+        self.complete(given, default, name)
+    }
+
     /// `given`, continued by `default`.
     fn complete(&mut self, given: &[f64], default: &[f64], name: &str) -> Vec<f64> {
         if given.len() > default.len() {

@@ -160,6 +160,27 @@ fn a_position_given_in_part_goes_on_without_the_poses_of_bodies() {
     assert_eq!(keyed("qpos='.5 1 2'").key_qpos[..6], [0.5, 1.0, 2.0, 0.0, 1.0, 0.0]);
 }
 
+/// Measured with MuJoCo 3.12.0: a body whose numbers are not all given keeps its pose.
+#[test]
+fn mocap_poses_given_in_part_count_body_by_body() {
+    let keyed = |key: &str| {
+        let text = format!(
+            "<mujoco><worldbody><body mocap='true' pos='4 5 6' quat='0 1 0 0'/>
+             <body mocap='true' pos='7 8 9' quat='0 0 0 1'/></worldbody><keyframe><key {key}/></keyframe></mujoco>"
+        );
+        let loaded = robohive_mjcf::load_str(text).unwrap_or_else(|found| panic!("{found}"));
+        let m = loaded.model;
+        (m.key_mpos.to_vec(), m.key_mquat.to_vec(), loaded.warnings.iter().count())
+    };
+    let (mpos, mquat) = (vec![4.0, 5.0, 6.0, 7.0, 8.0, 9.0], vec![0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    for key in ["mpos='1'", "mpos='1 1'", "mquat='1'", "mquat='0 0 1'"] {
+        assert_eq!(keyed(key), (mpos.clone(), mquat.clone(), 1), "{key}");
+    }
+    assert_eq!(keyed("mpos='1 1 1 2'"), (vec![1.0, 1.0, 1.0, 7.0, 8.0, 9.0], mquat.clone(), 1));
+    assert_eq!(keyed("mquat='0 0 1 0 1 0'").1, [0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    assert_eq!(keyed("mpos='1 1 1'"), (vec![1.0, 1.0, 1.0, 7.0, 8.0, 9.0], mquat, 0));
+}
+
 #[test]
 fn a_computed_sphere_has_the_vertices_of_its_subdivisions() {
     let text = r#"<mujoco>
