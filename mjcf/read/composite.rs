@@ -14,7 +14,7 @@ use crate::schema::composite::{
     CABLE, COMPOSITE_ROWS, Composite, CompositeSkin, GEOM_ROWS, JOINT_ROWS, JOINT_UNUSED, SITE_ROWS,
     SKIN_ROWS, TYPES,
 };
-use crate::spec::{Body, Exclude, Geom, Joint, PluginInstance, PluginUse, Site, Text, from_axes};
+use crate::spec::{Body, Exclude, Geom, Joint, PluginUse, Site, Text, from_axes};
 use crate::vector::{compose, normalize};
 use crate::xml::Element;
 
@@ -147,25 +147,15 @@ impl Reader<'_> {
         Parts { joint, geom, site, skin, plugin }
     }
 
-    /// Gives a plugin without an instance one of its own, which all bodies share.
-    fn composite_plugin(&mut self, mut used: PluginUse, prefix: &str) -> PluginUse {
+    /// A plugin with an instance, which all bodies share.
+    fn composite_plugin(&mut self, used: PluginUse, prefix: &str) -> PluginUse {
         if used.plugin != PLUGIN {
             self.error(
                 used.loc,
                 format!("<composite> takes no plugin but {PLUGIN}: set plugin=\"{PLUGIN}\""),
             );
         }
-        if used.instance.is_empty() {
-            used.instance = format!("composite{prefix}");
-            self.spec.plugins.push(PluginInstance {
-                name: used.instance.clone(),
-                loc: used.loc,
-                plugin: used.plugin.clone(),
-                config: std::mem::take(&mut used.config),
-                expanded: true,
-            });
-        }
-        used
+        self.shared_plugin(used, format!("composite{prefix}"))
     }
 
     /// Adds the bodies of a cable, and what belongs to it elsewhere.

@@ -52,6 +52,21 @@ impl Reader<'_> {
         Some(self.plugin_use(first))
     }
 
+    /// Gives a plugin without an instance one of its own of this name, which all bodies that are made share.
+    pub(super) fn shared_plugin(&mut self, mut used: PluginUse, name: String) -> PluginUse {
+        if used.instance.is_empty() {
+            used.instance.clone_from(&name);
+            self.spec.plugins.push(PluginInstance {
+                name,
+                loc: used.loc,
+                plugin: used.plugin.clone(),
+                config: std::mem::take(&mut used.config),
+                expanded: true,
+            });
+        }
+        used
+    }
+
     fn plugin_config(&mut self, element: &Element) -> PluginConfig {
         let mut config = PluginConfig::new();
         for child in element.children_named("config") {

@@ -10,21 +10,17 @@ import argparse
 import importlib
 import importlib.metadata
 import io
-import json
 import os
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-from mujoco_tests import Outcomes
+from mujoco_tests import Outcomes, outcomes_of
 
 FOLDERS = "mjcf composer suite locomotion mujoco entities manipulation rl utils".split()
 #: What one file may take [s].
 LIMIT = 900
-#: Letters of a cause that are shown.
-SHOWN = 140
 
 
 def home() -> Path:
@@ -34,20 +30,9 @@ def home() -> Path:
 
 def outcomes(engine: str, module: str) -> dict[str, str | None]:
     """Causes of failures by the names of one module's tests; None of those that pass."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "outcomes.json"
-        command = [sys.executable, __file__, "--run", engine, module, str(out)]
-        # Names of tests that show sets are then the same on both.
-        environment = {"MUJOCO_GL": "osmesa", **os.environ, "PYTHONHASHSEED": "0"}
-        try:
-            ended = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False, env=environment)
-            said = ended.stderr
-        except subprocess.TimeoutExpired:
-            said = f"it takes more than {LIMIT} s"
-        if out.exists():
-            causes: dict[str, str | None] = json.loads(out.read_text())
-            return causes
-        return {"(the file)": (said.strip().splitlines() or ["no test"])[-1][:SHOWN]}
+    # Names of tests that show sets are the same on both with one seed of hashes.
+    environment = {"MUJOCO_GL": "osmesa", **os.environ, "PYTHONHASHSEED": "0"}
+    return outcomes_of([sys.executable, __file__, "--run", engine, module], LIMIT, environment)
 
 
 def run_module(engine: str, module: str, out: str) -> None:

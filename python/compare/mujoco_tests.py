@@ -126,21 +126,24 @@ def run_file(engine: str, name: str, out: Path, only: str | None) -> None:
     loader.loadTestsFromModule(module).run(Outcomes(file, out))
 
 
-def outcomes(engine: str, name: str, only: str | None) -> dict[str, str | None]:
-    """Causes of failures of one file, run in a process of its own."""
+def outcomes_of(command: list[str], limit: float, environment: dict[str, str] | None = None) -> dict[str, str | None]:
+    """Causes of failures that a process of its own writes into the file whose name is appended to its command."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "outcomes.json"
-        command = [sys.executable, __file__, "--run", engine, name, str(out)] + (["--match", only] if only else [])
         try:
-            ended = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT, check=False)
-            said = ended.stderr
+            whole = [*command, str(out)]
+            said = subprocess.run(whole, capture_output=True, text=True, timeout=limit, check=False, env=environment).stderr
         except subprocess.TimeoutExpired:
-            said = f"it takes more than {LIMIT} s"
+            said = f"it takes more than {limit} s"
         if out.exists():
             causes: dict[str, str | None] = json.loads(out.read_text())
             return causes
-        lines = said.strip().splitlines() or ["no test"]
-        return {"(the file)": lines[-1][:SHOWN]}
+        return {"(the file)": (said.strip().splitlines() or ["no test"])[-1][:SHOWN]}
+
+
+def outcomes(engine: str, name: str, only: str | None) -> dict[str, str | None]:
+    """Causes of failures of one file's tests."""
+    return outcomes_of([sys.executable, __file__, *(["--match", only] if only else []), "--run", engine, name], LIMIT)
 
 
 def escaped(cause: str) -> str:

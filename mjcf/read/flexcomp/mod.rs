@@ -21,7 +21,7 @@ use crate::flex::Cloud;
 use crate::schema::flex::{
     CONTACT_ROWS, EDGE_EQUALITY_ROWS, EDGE_ROWS, ELASTICITY_ROWS, FLEXCOMP_ROWS, ORIGIN_ROW, PIN_ROWS,
 };
-use crate::spec::{Dof, Elastic2d, EqualityOf, Flexcomp, Pin, PluginInstance, PluginUse, resolve};
+use crate::spec::{Dof, Elastic2d, EqualityOf, Flexcomp, Pin, resolve};
 use crate::vector::rotate;
 use crate::xml::Element;
 use physics::math::Legible;
@@ -61,7 +61,8 @@ impl Reader<'_> {
                 "elasticity" => self.rows(child, &ELASTICITY_ROWS, &mut wanted.flex),
                 "contact" => self.rows(child, &CONTACT_ROWS, &mut wanted.flex),
                 "plugin" if wanted.plugin.is_none() => {
-                    wanted.plugin = self.child_plugin(element).map(|used| self.flexcomp_plugin(used, &name));
+                    let used = self.child_plugin(element);
+                    wanted.plugin = used.map(|used| self.shared_plugin(used, format!("flexcomp{name}")));
                 }
                 "pin" => {
                     let mut pin = Pin { loc: child.loc, ..Pin::default() };
@@ -73,21 +74,6 @@ impl Reader<'_> {
             }
         }
         wanted
-    }
-
-    /// Gives a plugin without an instance one of its own, which the bodies of all points share.
-    fn flexcomp_plugin(&mut self, mut used: PluginUse, name: &str) -> PluginUse {
-        if used.instance.is_empty() {
-            used.instance = format!("flexcomp{name}");
-            self.spec.plugins.push(PluginInstance {
-                name: used.instance.clone(),
-                loc: used.loc,
-                plugin: used.plugin.clone(),
-                config: std::mem::take(&mut used.config),
-                expanded: true,
-            });
-        }
-        used
     }
 
     /// Points and elements, checked, in the parent body; `None` when they are beyond the budget.

@@ -4,24 +4,27 @@ While one is set, passes are put together in Python (`functions/called.py`), sta
 """
 
 import ctypes
+import threading
 import warnings
 from collections.abc import Callable
 from typing import Any
 
 from robohive.mujoco import _engine as _core
 
-#: Those that are set, by name.
+#: Those that are set, by name; threads change them and what the engine knows of them together.
 _set: dict[str, Any] = {}
+_lock = threading.RLock()
 
 
 def _setter(name: str, summary: str) -> Callable[[Any], None]:
     def set_callback(callback: Any) -> None:
         if callback is not None and not callable(callback):
             raise TypeError("callback is not an Optional[Callable]")
-        # The one before is released last: its end may set callbacks too.
-        before = _set.get(name)
-        _set[name] = callback
-        _core.set_called(any(one is not None for one in list(_set.values())))
+        with _lock:
+            before = _set.get(name)
+            _set[name] = callback
+            _core.set_called(any(one is not None for one in _set.values()))
+        # The one before is released outside of the lock: its end may set callbacks too.
         del before
 
     set_callback.__name__ = f"set_{name}"
@@ -115,5 +118,8 @@ def get_mju_user_warning() -> Any:
 
 def mj_resetCallbacks() -> None:
     """Sets all callbacks of passes to None."""
-    _set.clear()
-    _core.set_called(False)
+    with _lock:
+        before = dict(_set)
+        _set.clear()
+        _core.set_called(False)
+    del before

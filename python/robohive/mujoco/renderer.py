@@ -130,10 +130,9 @@ class Renderer:
         """
         scene = self.scene
         if self._looked is not None and self._looked[2] != scene.flags.tobytes():
-            guests, count = scene._guests(), scene.ngeom
-            self._look(*self._looked[:2])
-            if guests:
-                scene.ngeom = count
+            data, look, _ = self._looked
+            scene._look_again(self._model, data, look)
+            self._looked = data, look, scene.flags.tobytes()
         picture = self._picture(scene)
         if out is None:
             return picture

@@ -131,24 +131,31 @@ pub fn mj_forward(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> 
     if let Some(forward) = with_callbacks(py, "forward")? {
         return forward.call1((m, d)).map(drop);
     }
-    timed(py, m, d, Some((Timed::Forward, 1)), |model, data| {
-        with_fit_controls(data, |data| Ok(forward(model, data)?))
-    })
+    pass(py, m, d, forward)
 }
 
-/// A pass; where instability resets, controls that are not finite or too large count as zero, with a warning.
-fn with_fit_controls(
-    data: &mut Simulation,
-    pass: impl FnOnce(&mut Simulation) -> Result<(), Fault>,
-) -> Result<(), Fault> {
-    let fits = |ctrl: &f64| ctrl.abs() <= MAXVAL;
-    let bad = data.state.ctrl.iter().position(|ctrl| !fits(ctrl));
-    let Some(bad) = bad.filter(|_| RESETS.load(Ordering::Relaxed)) else { return pass(data) };
-    data.warnings.bad_ctrl = Warning { last: bad, count: data.warnings.bad_ctrl.count + 1 };
-    let none = vec![0.0; data.state.ctrl.len()];
-    let given = std::mem::replace(&mut data.state.ctrl, none);
-    let outcome = pass(data);
-    data.state.ctrl = given;
+/// A pass; where instability resets, controls that are not finite or too large count as zero, with a warning that is told
+/// like those of steps.
+fn pass(
+    py: Python<'_>,
+    m: &Bound<'_, Model>,
+    d: &Bound<'_, Data>,
+    way: fn(&Compiled, &mut Simulation) -> Result<(), StepError>,
+) -> PyResult<()> {
+    let mut notices = Vec::new();
+    let outcome = timed(py, m, d, Some((Timed::Forward, 1)), |model, data| {
+        let (warnings, time) = (data.warnings, data.state.time);
+        let bad = data.state.ctrl.iter().position(|ctrl| ctrl.is_nan() || ctrl.abs() > MAXVAL);
+        let Some(bad) = bad.filter(|_| RESETS.load(Ordering::Relaxed)) else { return Ok(way(model, data)?) };
+        data.warnings.bad_ctrl = Warning { last: bad, count: warnings.bad_ctrl.count + 1 };
+        let none = vec![0.0; data.state.ctrl.len()];
+        let given = std::mem::replace(&mut data.state.ctrl, none);
+        let outcome = way(model, data);
+        data.state.ctrl = given;
+        settle(data, &warnings, time, &mut notices);
+        Ok(outcome?)
+    });
+    tell(py, &notices)?;
     outcome
 }
 
@@ -165,17 +172,13 @@ pub fn mj_forward_skip(
         return forward.call1((m, d, skipstage)).map(drop);
     }
     _ = skipsensor;
-    timed(py, m, d, Some((Timed::Forward, 1)), |model, data| {
-        // What depends on positions alone is the same when it is computed again.
-        with_fit_controls(data, |data| {
-            if skipstage >= 2 {
-                forward_after_step1(model, data)
-            } else {
-                forward(model, data)?
-            }
-            Ok(())
-        })
-    })
+    // What depends on positions alone is the same when it is computed again.
+    pass(py, m, d, if skipstage >= 2 { after_velocity } else { forward })
+}
+
+fn after_velocity(model: &Compiled, data: &mut Simulation) -> Result<(), StepError> {
+    forward_after_step1(model, data);
+    Ok(())
 }
 
 /// Computes the forces that make the present acceleration `qacc`, into `qfrc_inverse`.
@@ -187,12 +190,11 @@ pub fn mj_inverse(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> 
 /// Returns to the reference configuration: all numbers as in new data.
 #[pyfunction(name = "mj_resetData")]
 pub fn mj_reset_data(py: Python<'_>, m: &Bound<'_, Model>, d: &Bound<'_, Data>) -> PyResult<()> {
+    d.get().wait(py).timers = Timers::default();
     change(py, m, d, |model, data| {
         clear(model, data);
         Ok(())
-    })?;
-    d.get().wait(py).timers = Timers::default();
-    Ok(())
+    })
 }
 
 /// Returns to keyframe `key`; to the reference configuration where there is no such keyframe.
@@ -203,6 +205,7 @@ pub fn mj_reset_data_keyframe(
     d: &Bound<'_, Data>,
     key: i64,
 ) -> PyResult<()> {
+    d.get().wait(py).timers = Timers::default();
     change(py, m, d, |model, data| {
         clear(model, data);
         if let Some(key) = usize::try_from(key).ok().filter(|&key| key < model.nkey) {

@@ -68,6 +68,10 @@ def test_shapes_and_names_that_do_not_fit_are_refused(model, data):
         model.nq = 3
     with pytest.raises(AttributeError, match="no attribute 'body_weight'"):
         model.body_weight  # noqa: B018
+    with pytest.raises(AttributeError, match="no attribute 'flg_weight'"):
+        model.flg_weight = True
+    with pytest.raises(AttributeError, match="_state"):
+        model.body(0)._state  # noqa: B018
     with pytest.raises(ValueError, match="read-only"):
         model.M_rownnz[0] = 1
 

@@ -130,5 +130,8 @@ def test_the_clock_is_asked_and_timers_count(scene):
     mj.set_mjcb_time(lambda: ticks.append(1) or float(len(ticks)))
     mj.mj_forward(model, data)
     assert len(ticks) >= 2
-    mj.mj_resetData(model, data)
-    assert data.timer.number.tolist() == [0] * 15
+    for reset in (mj.mj_resetData, lambda m, d: mj.mj_resetDataKeyframe(m, d, 0)):
+        mj.set_mjcb_time(None)
+        mj.mj_step(model, data)
+        reset(model, data)
+        assert data.timer.number.tolist() == [0] * 15

@@ -207,3 +207,44 @@ def test_cameras_geoms_and_clicks_are_mujocos(orthographic):
         module.mj_forward(model, data)
         found.append([*moves(module, model), *clicks(module, model, data), *geoms(module, model, data)])
     assert np.allclose(*found, rtol=0, atol=2e-6)
+
+
+def test_a_renderers_scene_takes_geoms_and_flags_in_any_order():
+    model = mj.MjModel.from_xml_string(
+        "<mujoco><worldbody><light pos='1 0 3'/><geom type='plane' size='2 2 .1'/><geom size='.2' pos='0 0 .5'/></worldbody></mujoco>"
+    )
+    data = mj.MjData(model)
+    mj.mj_forward(model, data)
+
+    def drawn(*changes):
+        with mj.Renderer(model, 48, 48) as renderer:
+            renderer.update_scene(data)
+            for change in changes:
+                change(renderer.scene)
+            return renderer.render()
+
+    def add(scene):
+        place = scene.geoms[scene.ngeom]
+        mj.mjv_initGeom(place, mj.mjtGeom.mjGEOM_SPHERE, [0.3, 0, 0], [0.5, 0, 0.5], np.eye(3).ravel(), [1, 0, 0, 1])
+        scene.ngeom += 1
+
+    def no_shadow(scene):
+        scene.flags[mj.mjtRndFlag.mjRND_SHADOW] = 0
+
+    plain, both = drawn(), drawn(add, no_shadow)
+    assert (plain != drawn(add)).any() and (plain != drawn(no_shadow)).any() and (both != drawn(add)).any()
+    np.testing.assert_array_equal(both, drawn(no_shadow, add))
+    with mj.Renderer(model, 48, 48, max_geom=4) as renderer:
+        renderer.update_scene(data)
+        add(renderer.scene)
+        renderer.render()
+        renderer.update_scene(data)
+        # An update drops what was added.
+        np.testing.assert_array_equal(renderer.render(), plain)
+
+
+def test_sizes_of_round_geoms_are_mujocos():
+    given, geom = [0.3, 0.5, 0.7], mj.MjvScene(mj.MjModel.from_xml_string("<mujoco/>"), 1).geoms[0]
+    for kind, size in {"SPHERE": [0.3] * 3, "CAPSULE": [0.3, 0.3, 0.5], "CYLINDER": [0.3, 0.3, 0.5], "BOX": given}.items():
+        mj.mjv_initGeom(geom, mj.mjtGeom[f"mjGEOM_{kind}"], given, np.zeros(3), np.eye(3).ravel(), np.ones(4))
+        np.testing.assert_allclose(geom.size, size, rtol=1e-6)

@@ -46,14 +46,15 @@ impl VecEnv {
     /// # Errors
     /// The robot is hardware.
     pub fn new(env: &Env, count: usize, autoreset: Autoreset, threads: usize) -> Result<Self, EnvError> {
-        let numbers = count.checked_mul(env.observation().len());
+        // More than there can be where the product overflows: the reservation is then refused.
+        let numbers = count.saturating_mul(env.observation().len());
         let too_many = |_| EnvError::Selection { message: format!("{count} environments fit in no memory") };
         let (mut slots, mut records, mut observations) = (Vec::new(), Vec::new(), Vec::new());
         slots.try_reserve_exact(count).map_err(too_many)?;
         records.try_reserve_exact(count).map_err(too_many)?;
-        observations.try_reserve_exact(numbers.unwrap_or(usize::MAX)).map_err(too_many)?;
+        observations.try_reserve_exact(numbers).map_err(too_many)?;
         records.resize(count, StepRecord::default());
-        observations.resize(numbers.unwrap_or_default(), 0.0);
+        observations.resize(numbers, 0.0);
         for _ in 0..count {
             slots.push(Some(Box::new(Slot::new(env.fork()?, autoreset))));
         }
@@ -82,7 +83,7 @@ impl VecEnv {
             });
         }
         let pixels: usize = env.visual_keys().iter().map(|key| key.shape().iter().product::<usize>()).sum();
-        // As much again for working memory, rows and the task, which add up to less in all that were measured.
+        // As much again stands for working memory, rows and the task, which have no count of their own.
         2 * bytes + size_of::<f32>() * pixels
     }
 

@@ -66,7 +66,7 @@ def mju_bandMulMatVec(
     lower = _dense(mat, ntotal, nband, ndense)
     full = lower + np.tril(lower, -1).T if flg_sym else lower
     vectors = np.asarray(vec, np.float64).reshape(nvec, ntotal)
-    destination(res, "res", "size ntotal*nvec", np.shape(res) if np.size(res) == vectors.size else (vectors.size,))
+    destination(res, "res", "size ntotal*nvec", (vectors.size,))
     write(res, vectors @ full.T)
 
 

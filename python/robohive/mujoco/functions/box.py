@@ -14,8 +14,9 @@ _ITERATIONS, _GRADIENT, _DECREASE, _SHRINK, _STEP, _SHARE = 100, 1e-16, 1e-16, 0
 def mju_boxQP(
     res: Vector, R: Vector, index: Any, H: ArrayLike, g: ArrayLike, lower: ArrayLike | None, upper: ArrayLike | None
 ) -> int:
-    """Minimises `x'Hx/2 + x'g` with `lower <= x <= upper`, from `res` on, by projected Newton steps (Tassa, Mansard and
-    Todorov, "Control-limited differential dynamic programming", 2014, section III.B).
+    """Minimises `x'Hx/2 + x'g` with `lower <= x <= upper`, from `res` on, by projected Newton steps (Bertsekas,
+    "Projected Newton methods for optimization problems with simple constraints", 1982; for limits of controls Tassa, Mansard and
+    Todorov, "Control-limited differential dynamic programming", 2014).
 
     `res` takes the solution, `index` the free variables, `R` the Cholesky factor (lower) of their part of `H`.
     Returns how many are free, -1 where `H` is not positive definite.

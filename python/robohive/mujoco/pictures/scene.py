@@ -14,6 +14,12 @@ from robohive.mujoco.pictures.view import MjvCamera, MjvOption, _Struct
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
 
+#: Which number of a round shape's size goes along each axis.
+_ROUND = {
+    int(mjtGeom.mjGEOM_SPHERE): [0, 0, 0],
+    int(mjtGeom.mjGEOM_CAPSULE): [0, 0, 1],
+    int(mjtGeom.mjGEOM_CYLINDER): [0, 0, 1],
+}
 _LOOK = ("emission", "specular", "shininess", "reflectance")
 
 
@@ -87,6 +93,9 @@ class _Geoms(Sequence[MjvGeom]):
 
     def _start(self, rows: Mapping[str, Any]) -> None:
         self._made, self._rows = {}, rows
+
+    def _put(self, first: int, geoms: Sequence[MjvGeom]) -> None:
+        self._made.update(enumerate(geoms, first))
 
     def __len__(self) -> int:
         return self._count
@@ -180,6 +189,15 @@ class MjvScene:
         self._painter.look(m, d, look)
         self._model, self._unread = m, True
 
+    def _look_again(self, m: MjModel, d: MjData, look: dict[str, Any]) -> None:
+        """Takes in the same with the present flags, and keeps what the program added."""
+        added = [] if self._unread else [self._geoms[index] for index in range(self._own, self._count)]
+        self._look(m, d, look)
+        if added:
+            self._read()
+            self._geoms._put(self._own, added)
+            self._count = self._own + len(added)
+
     def _read(self) -> None:
         if not self._unread or self._model is None:
             return
@@ -228,9 +246,14 @@ def mjv_initGeom(
     mat: ArrayLike | None = None,
     rgba: ArrayLike | None = None,
 ) -> None:
-    """Sets a geom: `size` and `pos` (3) [m], `mat` (9), `rgba` (4); what is not given, to its default."""
+    """Sets a geom: `size` and `pos` (3) [m], `mat` (9), `rgba` (4); what is not given, to its default.
+
+    Of a sphere `size` is the radius, of capsules and cylinders radius and half length; what follows does not count.
+    """
     geom.__init__()  # type: ignore[misc]
     geom.type = int(type)
+    if size is not None and geom.type in _ROUND:
+        size = np.ravel(size)[_ROUND[geom.type]]
     for name, value in {"size": size, "pos": pos, "mat": mat, "rgba": rgba}.items():
         if value is not None:
             setattr(geom, name, value)

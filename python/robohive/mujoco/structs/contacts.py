@@ -10,7 +10,6 @@ from robohive.mujoco.structs.lists import _List, _Record
 
 #: Numbers of the Hessian of an elliptic cone. The engine keeps it elsewhere: zeros, which may be written.
 _HESSIAN = 36
-_PARTNERS = ("geom1", "geom2")
 
 
 class MjContact(_Record):

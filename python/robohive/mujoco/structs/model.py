@@ -21,6 +21,8 @@ from robohive.mujoco.vfs import MjVfs, given_files, refuse_repeated
 #: Arrays that are handed out as read-only copies: the structure that a model was compiled into, which no edit can change.
 _STRUCTURE = ("names_map", "B_", "D_", "M_", "mapM", "mapD", "plugin_attr")
 _BYTES = ("names", "paths", "text_data")
+#: What a program may say that there is.
+_FLAGS = ("flg_gravcomp", "flg_surfacevel", "flg_adhesion")
 #: Texts that MuJoCo shows as numbers.
 _LETTERS = ("plugin_attr",)
 _Part = TypeVar("_Part", MjOption, MjStatistic, MjVisual)
@@ -135,7 +137,7 @@ class MjModel(_core.Model, named.ModelElements):
     def __setattr__(self, name: str, value: Any) -> None:
         if name in self._shapes:
             getattr(self, name)[...] = value
-        elif name.startswith("flg_"):
+        elif name in _FLAGS:
             super().__setattr__(name, value)
         else:
             _refuse(self, name)

@@ -70,10 +70,12 @@ class _View:
         raise NotImplementedError
 
     def __getattr__(self, field: str) -> Any:
+        if field.startswith("_"):
+            raise AttributeError(f"'{type(self).__name__}' object has no attribute '{field}'")
         known = self._owner._slices.get((self._kind, self.id, field))
         if known is not None:
             return known
-        found = None if field.startswith("_") else self._find(field)
+        found = self._find(field)
         if found is None:
             raise AttributeError(f"'{self._shown()}' object has no attribute '{field}'")
         if isinstance(found, np.ndarray) and found.base is not None:
