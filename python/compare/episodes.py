@@ -1,4 +1,4 @@
-"""Plays seeded episodes of Gymnasium environments on MuJoCo or on the stand-in, and keeps observations and rewards.
+"""Plays seeded episodes of other people's environments on MuJoCo or on the stand-in, and keeps observations and rewards.
 
     python episodes.py mujoco out.npz --ids Ant-v5 FetchReach-v4 [--steps 1000] [--nudge 1e-12] [--signs 3]
 """
@@ -11,6 +11,8 @@ import zlib
 from typing import Any
 
 import numpy as np
+
+from environment_sets import make
 
 
 def flat(observation: Any) -> np.ndarray:
@@ -39,9 +41,7 @@ def nudge(env: Any, moves: np.ndarray) -> None:
 
 def play(name: str, steps: int, size: float, signs: int) -> dict[str, np.ndarray]:
     """Observations and rewards of `steps` steps; a new episode begins where one ends."""
-    import gymnasium
-
-    env = gymnasium.make(name)
+    env = make(name)
     draws = np.random.default_rng(zlib.crc32(name.encode()))
     low, high = env.action_space.low, env.action_space.high
     observations, rewards, episodes = [], [], []
@@ -105,10 +105,6 @@ def main() -> None:
         robohive.mujoco.install()
     else:
         make_comparable()
-    import gymnasium
-    import gymnasium_robotics
-
-    gymnasium.register_envs(gymnasium_robotics)
     kept = {}
     for name in options.ids:
         try:

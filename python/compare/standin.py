@@ -1,8 +1,9 @@
-"""Compares Gymnasium's and Gymnasium-Robotics' environments on the stand-in with the same on MuJoCo 3.12, and writes the table.
+"""Compares other people's environments on the stand-in with the same on MuJoCo 3.12, and writes the table.
 
-    python standin.py --table ../../validation/results/standin.md [--keep FOLDER]
+    python standin.py gymnasium --table ../../validation/results/standin.md [--keep FOLDER]
+    python standin.py metaworld --table ../../validation/results/standin_metaworld.md [--keep FOLDER]
 
-Needs `mujoco==3.12.0`, `gymnasium`, `gymnasium-robotics` and this package. Each environment plays 1000 steps of seeded random
+Needs `mujoco==3.12.0`, the packages of the set (`gymnasium` and `gymnasium-robotics`, or `metaworld`) and this package. Each environment plays 1000 steps of seeded random
 actions on MuJoCo, on MuJoCo from several starts 1e-12 away, and on the stand-in. Up to every step of an episode, observations
 and rewards may differ by 1e-9 or ten times what MuJoCo differs from itself.
 """
@@ -16,20 +17,8 @@ from pathlib import Path
 
 import numpy as np
 
+from environment_sets import SETS, EnvironmentSet
 from names import rows_of
-
-GROUPS = {
-    "Gymnasium": "Ant Humanoid HumanoidStandup HalfCheetah Hopper Walker2d Swimmer Reacher Pusher InvertedPendulum "
-    "InvertedDoublePendulum".split(),
-    "Fetch": "FetchReach-v4 FetchPush-v4 FetchSlide-v4 FetchPickAndPlace-v4".split(),
-    "Hands": "HandReach-v3 HandManipulateBlock-v1 HandManipulateBlockRotateZ-v1 HandManipulateBlockRotateXYZ-v1 "
-    "HandManipulateBlock_BooleanTouchSensors-v1 HandManipulateBlock_ContinuousTouchSensors-v1 HandManipulateEgg-v1 "
-    "HandManipulateEggRotate-v1 HandManipulateEgg_ContinuousTouchSensors-v1 HandManipulatePen-v1 "
-    "HandManipulatePenRotate-v1 HandManipulatePen_BooleanTouchSensors-v1".split(),
-    "Mazes": "PointMaze_UMaze-v3 PointMaze_Open-v3 PointMaze_Medium-v3 PointMaze_Large-v3 PointMaze_Open_Diverse_GR-v3 "
-    "AntMaze_UMaze-v5 AntMaze_Open-v5 AntMaze_Medium-v5 AntMaze_Large-v5 AntMaze_Medium_Diverse_GR-v5".split(),
-}
-GROUPS["Gymnasium"] = [f"{name}-v5" for name in GROUPS["Gymnasium"]]
 
 #: How far observations may differ whatever MuJoCo's own divergence is.
 BAR = 1e-9
@@ -84,22 +73,44 @@ def version(package: str) -> str:
     return f"{package} {importlib.metadata.version(package)}"
 
 
-def name_rows() -> list[str]:
-    """Every name of the bindings that the environments use."""
-    import gymnasium
-    import gymnasium_robotics
-
-    return rows_of([Path(gymnasium.__file__).parent / "envs" / "mujoco", Path(gymnasium_robotics.__file__).parent])
+def page(environments: EnvironmentSet, rows: list[list[str]], command: str, steps: int) -> str:
+    """The page of results."""
+    agree = sum(row[-1] == "yes" for row in rows)
+    lines = [
+        f"# {environments.title} on the stand-in for `mujoco`",
+        "",
+        f"`{command}`, with " + ", ".join(version(p) for p in ("mujoco", *environments.packages, "numpy")) + ".",
+        "",
+        f"{agree} of {len(rows)} environments agree over {steps} steps of seeded random actions. A new episode, of the "
+        "next seed, begins where one ends. Difference: the largest of any observation or reward between the stand-in and "
+        f"MuJoCo; own divergence: the same between MuJoCo and MuJoCo from {STARTS} starts, of which every position is moved by "
+        "1e-12 (of robots that settle in their reset, before they do). Share: the largest difference in units of what is "
+        "allowed, 1e-9 or ten times the own divergence up to that step of the episode. Where that is exceeded, the stand-in "
+        f"plays from the same {STARTS} starts too: contacts of smooth shapes, found to a tolerance, split motions in two "
+        f"branches by their last bits, and sparse rewards are steps. {environments.note}",
+        "",
+        "| environment | episodes | difference | own divergence | share | agrees |",
+        "|---|---|---|---|---|---|",
+        *("| " + " | ".join(row) + " |" for row in rows),
+        "",
+        "## Names",
+        "",
+        *rows_of(environments.sources()),
+        "",
+    ]
+    return "\n".join(lines)
 
 
 def main() -> None:
     """Plays, compares, writes."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("set", choices=SETS)
     parser.add_argument("--table", type=Path)
     parser.add_argument("--keep", type=Path)
     parser.add_argument("--steps", type=int, default=1000)
     options = parser.parse_args()
-    ids = [name for group in GROUPS.values() for name in group]
+    environments = SETS[options.set]
+    ids = environments.ids()
     folder = options.keep or Path(tempfile.mkdtemp())
     folder.mkdir(exist_ok=True)
     truth, *nudged = (play(folder, "mujoco", start, ids, options.steps) for start in range(STARTS + 1))
@@ -112,35 +123,11 @@ def main() -> None:
             if row[0] in again:
                 agreeing = sum(compare(row[0], truth, nudged, other)[-1] == "yes" for other in others)
                 row[-1] += f"; {agreeing} of {STARTS} starts of its own agree"
-    agree = sum(row[-1] == "yes" for row in rows)
-    lines = [
-        "# Gymnasium's environments on the stand-in for `mujoco`",
-        "",
-        f"`{' '.join(['python', 'python/compare/standin.py', '--table', 'validation/results/standin.md'])}`, with "
-        + ", ".join(version(p) for p in ("mujoco", "gymnasium", "gymnasium-robotics", "numpy")) + ".",
-        "",
-        f"{agree} of {len(rows)} environments agree over {options.steps} steps of seeded random actions. A new episode, of the "
-        "next seed, begins where one ends. Difference: the largest of any observation or reward between the stand-in and "
-        f"MuJoCo; own divergence: the same between MuJoCo and MuJoCo from {STARTS} starts, of which every position is moved by "
-        "1e-12 (of robots that settle in their reset, before they do). Share: the largest difference in units of what is "
-        "allowed, 1e-9 or ten times the own divergence up to that step of the episode. Where that is exceeded, the stand-in "
-        f"plays from the same {STARTS} starts too: contacts of smooth shapes, found to a tolerance, split motions in two "
-        "branches by their last bits, and sparse rewards are steps. Gymnasium-Robotics' Fetch and hand "
-        "environments do not start on MuJoCo 3.12's own bindings, whose enumerations are not equal to numpy's integers; for "
-        "this comparison they were replaced by integers.",
-        "",
-        "| environment | episodes | difference | own divergence | share | agrees |",
-        "|---|---|---|---|---|---|",
-        *("| " + " | ".join(row) + " |" for row in rows),
-        "",
-        "## Names",
-        "",
-        *name_rows(),
-        "",
-    ]
-    print("\n".join(lines))
+    table = f" --table validation/results/{options.table.name}" if options.table else ""
+    text = page(environments, rows, f"python python/compare/standin.py {options.set}{table}", options.steps)
+    print(text)
     if options.table:
-        options.table.write_text("\n".join(lines))
+        options.table.write_text(text)
 
 
 if __name__ == "__main__":
