@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 22] = [
+const ORDER: [(&str, &[&str]); 23] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -43,6 +43,7 @@ const ORDER: [(&str, &[&str]); 22] = [
     ),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
     ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
+    ("robohive-viewer", &["physics", "mjcf", "random", "render"]),
     (
         "robohive-python",
         &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],

@@ -1,6 +1,7 @@
 //! Saved states of a simulation.
 
 use super::{Data, State};
+use crate::arrays::Arrays;
 use std::fmt;
 
 /// All that decides the next step of a simulation: time, positions, velocities, activations, delay buffers, the start
@@ -40,6 +41,11 @@ impl fmt::Display for ForeignSnapshot {
 impl std::error::Error for ForeignSnapshot {}
 
 impl Snapshot {
+    /// Bytes of a snapshot of a model of these sizes.
+    pub fn bytes(m: &Arrays) -> usize {
+        State::bytes(m)
+    }
+
     /// Simulation time at which it was taken \[s\].
     pub fn time(&self) -> f64 {
         self.state.time

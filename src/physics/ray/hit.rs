@@ -22,7 +22,7 @@ pub struct Hit {
 
 impl Ray {
     /// Point at distance `x`.
-    pub(super) fn at(&self, x: f64) -> Vec3 {
+    pub fn at(&self, x: f64) -> Vec3 {
         std::array::from_fn(|k| self.origin[k] + x * self.direction[k])
     }
 

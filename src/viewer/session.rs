@@ -1,0 +1,354 @@
+//! A model that is run, looked at and touched: all that a viewer does but drawing and windows.
+
+use crate::camera::{Plane, orbit, pan, zoom};
+use crate::hand::{Grip, Hand};
+use crate::history::History;
+use crate::noise::Noise;
+use crate::pointer::{Picked, pick};
+use crate::speed::Pace;
+use mjcf::edit::carry_state;
+use physics::math::sub;
+use physics::{Data, Model, Snapshot, StepError, forward, step};
+use render::scene::{Camera, FreeCamera, SceneOptions};
+use render::{RenderError, View};
+
+/// A model, its state, and what a person does with it.
+pub struct Session {
+    model: Model,
+    data: Data,
+    running: bool,
+    pace: Pace,
+    history: History,
+    hand: Option<Hand>,
+    selected: Option<Picked>,
+    fault: Option<String>,
+    /// Noise on controls.
+    pub noise: Noise,
+    /// What it is seen with.
+    pub camera: Camera,
+    /// What is shown.
+    pub options: SceneOptions,
+}
+
+/// What a drag does while nothing is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// Turns about the point that is looked at.
+    Orbit,
+    /// Moves that point in a plane.
+    Pan(Plane),
+    /// Comes nearer.
+    Zoom,
+}
+
+impl Session {
+    /// A session that begins, paused, at the first keyframe, or at the reference where there is none.
+    ///
+    /// # Errors
+    /// This state cannot be evaluated.
+    pub fn new(model: Model) -> Result<Self, StepError> {
+        let mut data = Data::new(&model);
+        if model.nkey > 0 {
+            // There is a keyframe 0.
+            let _ = data.reset_to_key(&model, 0);
+        }
+        forward(&model, &mut data)?;
+        let mut session = Session {
+            running: false,
+            pace: Pace::near(f64::from(model.vis.global.realtime)),
+            history: History::of(&model),
+            hand: None,
+            selected: None,
+            fault: None,
+            noise: Noise::new(0),
+            camera: Camera::free(&model),
+            options: SceneOptions::default(),
+            model,
+            data,
+        };
+        if let Ok(camera) = usize::try_from(session.model.vis.global.cameraid)
+            && camera < session.model.ncam
+        {
+            session.camera = Camera::Fixed(camera);
+        }
+        session.history.push(&session.data);
+        Ok(session)
+    }
+
+    /// The model.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// Its state, evaluated.
+    pub fn data(&self) -> &Data {
+        &self.data
+    }
+
+    /// Whether time goes by.
+    pub fn is_running(&self) -> bool {
+        self.running
+    }
+
+    /// Lets time go by, or stops it. From a state of the past, the states after it are dropped when it goes on.
+    pub fn run(&mut self, running: bool) {
+        self.running = running && self.fault.is_none();
+        self.pace.forget();
+    }
+
+    /// The chosen speed, and what is reached of it.
+    pub fn pace(&self) -> &Pace {
+        &self.pace
+    }
+
+    /// The same, to be changed.
+    pub fn pace_mut(&mut self) -> &mut Pace {
+        &mut self.pace
+    }
+
+    /// The states so far.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// Why the simulation has stopped, if a step failed.
+    pub fn fault(&self) -> Option<&str> {
+        self.fault.as_deref()
+    }
+
+    /// What was picked last.
+    pub fn selected(&self) -> Option<Picked> {
+        self.selected
+    }
+
+    /// Real time went by \[s\]: takes the steps that are due while `may_go_on`, which is asked before each. Returns how many.
+    pub fn advance(&mut self, seconds: f64, may_go_on: &mut dyn FnMut() -> bool) -> usize {
+        if !self.running {
+            self.place_held(true);
+            return 0;
+        }
+        self.pace.elapse(seconds);
+        let (timestep, mut steps) = (self.model.opt.timestep, 0);
+        while self.running && self.pace.is_due(timestep) && may_go_on() {
+            self.step();
+            self.pace.stepped(timestep);
+            steps += 1;
+        }
+        self.pace.settle();
+        if steps > 0 {
+            self.history.push(&self.data);
+        }
+        steps
+    }
+
+    /// One step forward: to the next state of the history where there is one, else a new one.
+    pub fn step_forward(&mut self) {
+        self.running = false;
+        match self.history.behind() {
+            0 => {
+                self.step();
+                self.history.push(&self.data);
+            }
+            behind => self.show_past(behind - 1),
+        }
+    }
+
+    /// One state back in the history.
+    pub fn step_back(&mut self) {
+        self.show_past(self.history.behind() + 1);
+    }
+
+    /// The state that lies `behind` the latest, or the oldest that is kept; the simulation pauses.
+    pub fn show_past(&mut self, behind: usize) {
+        self.running = false;
+        if let Some(snapshot) = self.history.go_to(behind) {
+            let snapshot = snapshot.clone();
+            self.show(&snapshot);
+        }
+    }
+
+    /// The first keyframe, or the reference.
+    pub fn reset(&mut self) {
+        self.reset_to((self.model.nkey > 0).then_some(0));
+    }
+
+    /// A keyframe, or the reference. A keyframe that the model does not have changes nothing.
+    pub fn reset_to(&mut self, key: Option<usize>) {
+        match key {
+            None => self.data.reset(&self.model),
+            Some(key) => {
+                if self.data.reset_to_key(&self.model, key).is_err() {
+                    return;
+                }
+            }
+        }
+        self.settle();
+        self.history.push(&self.data);
+    }
+
+    /// A state that was saved of this model.
+    fn show(&mut self, snapshot: &Snapshot) {
+        // States of the history are of this model.
+        let _ = self.data.restore(snapshot);
+        self.settle();
+    }
+
+    /// Writes controls, positions or other inputs, and evaluates what follows.
+    pub fn edit(&mut self, write: impl FnOnce(&Model, &mut Data)) {
+        write(&self.model, &mut self.data);
+        self.settle();
+    }
+
+    /// Evaluates a state that was put here rather than stepped to.
+    fn settle(&mut self) {
+        self.pace.forget();
+        self.fault = forward(&self.model, &mut self.data).err().map(|error| error.to_string());
+        self.running &= self.fault.is_none();
+    }
+
+    /// Another model in its place, in the state of the former by the names of elements; camera and options stay where they
+    /// can.
+    ///
+    /// # Errors
+    /// Its state cannot be evaluated; the session stays as it was.
+    pub fn replace(&mut self, model: Model) -> Result<(), StepError> {
+        let mut data = carry_state(&self.model, &self.data, &model);
+        forward(&model, &mut data)?;
+        self.camera = self.camera_in(&model);
+        (self.hand, self.selected, self.fault) = (None, None, None);
+        self.history = History::of(&model);
+        self.history.push(&data);
+        (self.model, self.data) = (model, data);
+        self.pace.forget();
+        Ok(())
+    }
+
+    /// The present camera in another model, by name.
+    fn camera_in(&self, model: &Model) -> Camera {
+        match self.camera {
+            Camera::Fixed(camera) => {
+                let name =
+                    self.model.camera_names().find(|(id, _)| id.index() == camera).map(|(_, name)| name);
+                name.and_then(|name| model.camera(name)).map_or_else(|| Camera::free(model), Camera::from)
+            }
+            Camera::Free(free) => {
+                Camera::Free(FreeCamera { track: free.track.filter(|&b| b < model.nbody), ..free })
+            }
+        }
+    }
+
+    fn step(&mut self) {
+        self.data.state.xfrc_applied.iter_mut().for_each(|wrench| *wrench = [0.0; 6]);
+        if let Some(hand) = &self.hand {
+            hand.place(&self.model, &mut self.data, false);
+            let [force, torque] = hand.wrench(&self.model, &self.data);
+            let [x, y, z] = force;
+            let [a, b, c] = torque;
+            self.data.state.xfrc_applied[hand.body()] = [x, y, z, a, b, c];
+        }
+        self.noise.step(&self.model, &mut self.data, None);
+        if let Err(error) = step(&self.model, &mut self.data) {
+            self.fault = Some(error.to_string());
+            self.running = false;
+        }
+    }
+
+    /// Moves what is held without physics.
+    fn place_held(&mut self, paused: bool) {
+        let moved = self.hand.as_ref().is_some_and(|hand| hand.place(&self.model, &mut self.data, paused));
+        if moved {
+            self.settle();
+        }
+    }
+}
+
+/// Cameras and hands.
+impl Session {
+    /// What the camera sees now.
+    ///
+    /// # Errors
+    /// It stands or looks nowhere.
+    pub fn view(&self) -> Result<View, RenderError> {
+        self.camera.view(&self.model, &self.data)
+    }
+
+    /// What is drawn: the options, with the hand.
+    pub fn shown(&self) -> SceneOptions {
+        self.options.with_selection(self.hand.as_ref().map(Hand::selection))
+    }
+
+    /// Moves the camera by a drag in heights of the view. Fixed cameras stay.
+    pub fn look(&mut self, look: Look, drag: [f64; 2]) {
+        if let Camera::Free(free) = &mut self.camera {
+            match look {
+                Look::Orbit => orbit(free, drag),
+                Look::Pan(plane) => pan(free, plane, drag),
+                Look::Zoom => zoom(free, &self.model, drag[1]),
+            }
+        }
+    }
+
+    /// Selects what is at a place of the picture, from its lower left corner to 1, or nothing.
+    pub fn select(&mut self, aspect: f64, at: [f64; 2]) -> Option<Picked> {
+        let view = self.view().ok()?;
+        self.selected =
+            pick(&self.model, &self.data, &view, &self.options, aspect, at).filter(|picked| picked.body > 0);
+        self.hand = None;
+        self.selected
+    }
+
+    /// Looks at a place of the picture; with `track`, follows its body from now on.
+    pub fn look_at(&mut self, aspect: f64, at: [f64; 2], track: bool) {
+        let Ok(view) = self.view() else { return };
+        let Some(picked) = pick(&self.model, &self.data, &view, &self.options, aspect, at) else { return };
+        let distance = sub(picked.point, view.eye);
+        let mut free = match self.camera {
+            Camera::Free(free) => free,
+            Camera::Fixed(_) => {
+                FreeCamera { distance: physics::math::norm(distance), ..FreeCamera::of(&self.model) }
+            }
+        };
+        free.lookat = picked.point;
+        free.track = (track && picked.body > 0).then_some(picked.body);
+        self.camera = Camera::Free(free);
+    }
+
+    /// The next camera: the free one, then those of the model; back with `-1`.
+    pub fn cycle_camera(&mut self, by: isize) {
+        let count = self.model.ncam as isize + 1;
+        let now = match self.camera {
+            Camera::Free(_) => 0,
+            Camera::Fixed(camera) => camera as isize + 1,
+        };
+        self.camera = match (now + by).rem_euclid(count) {
+            0 => Camera::free(&self.model),
+            camera => Camera::Fixed(camera as usize - 1),
+        };
+    }
+
+    /// Takes hold of what is selected.
+    pub fn grab(&mut self, grip: Grip) {
+        let (Some(picked), Ok(view)) = (self.selected, self.view()) else { return };
+        self.hand = Hand::grab(&self.model, &self.data, &view, grip, picked.body, picked.local);
+    }
+
+    /// Moves the hand by a drag in heights of the view.
+    pub fn drag(&mut self, plane: Plane, drag: [f64; 2]) {
+        let Ok(view) = self.view() else { return };
+        if let Some(hand) = &mut self.hand {
+            hand.drag(&self.model, &self.data, &view, plane, drag);
+        }
+    }
+
+    /// Lets go. Forces of the hand end.
+    pub fn release(&mut self) {
+        if let Some(hand) = self.hand.take() {
+            self.data.state.xfrc_applied[hand.body()] = [0.0; 6];
+        }
+    }
+
+    /// Whether something is held.
+    pub fn holds(&self) -> bool {
+        self.hand.is_some()
+    }
+}
