@@ -1,7 +1,8 @@
 //! `fusestatic`: bodies without joints become part of their parents (XML reference, `compiler/fusestatic`).
 
-use super::inertia::{MassPart, combine};
-use super::nodes::{BodyNode, Tree};
+use super::hierarchy;
+use super::inertia::{self, MassPart};
+use super::nodes::{BodyNode, GeomNode, Tree};
 use crate::spec::Spec;
 use physics::model::bounds::MINVAL;
 use physics::model::{EqType, ObjType, SensorType, TrnType};
@@ -11,6 +12,7 @@ use std::collections::BTreeSet;
 pub(super) fn fuse_static(tree: &mut Tree, spec: &Spec) -> Result<(), String> {
     let wanted = referenced_bodies(spec, tree);
     let sensed = sensed_sites(spec);
+    let mut remembered = 0;
     let mut id = 1;
     while id < tree.bodies.len() {
         let body = &tree.bodies[id];
@@ -21,13 +23,14 @@ pub(super) fn fuse_static(tree: &mut Tree, spec: &Spec) -> Result<(), String> {
         if keeps {
             id += 1;
         } else {
-            fuse(tree, id)?;
+            fuse(tree, id, &mut remembered)?;
         }
     }
     Ok(())
 }
 
-fn fuse(tree: &mut Tree, id: usize) -> Result<(), String> {
+/// Fuses a body into its parent; `remembered` counts the leaves that its hierarchies had meanwhile.
+fn fuse(tree: &mut Tree, id: usize, remembered: &mut usize) -> Result<(), String> {
     let body = tree.bodies.remove(id);
     let parent = body.parent;
     for other in &mut tree.bodies[id..] {
@@ -39,6 +42,10 @@ fn fuse(tree: &mut Tree, id: usize) -> Result<(), String> {
         }
     }
     let par = &mut tree.bodies[parent];
+    if par.former.leaves.is_empty() {
+        hierarchy::remember_leaves(par, remembered);
+    }
+    let both_collide = [&*par, &body].iter().all(|body| body.geoms.iter().any(GeomNode::collides));
     if parent != 0 && body.mass >= MINVAL {
         add_mass(par, &body)?;
     }
@@ -53,12 +60,14 @@ fn fuse(tree: &mut Tree, id: usize) -> Result<(), String> {
     // MuJoCo compiles cameras and lights again after fusing, so they keep the pose of the file.
     par.cameras.extend(body.cameras);
     par.lights.extend(body.lights);
+    par.former.spare += body.former.spare + usize::from(both_collide);
+    hierarchy::remember_leaves(par, remembered);
     Ok(())
 }
 
 fn add_mass(parent: &mut BodyNode, body: &BodyNode) -> Result<(), String> {
     let own = MassPart { mass: parent.mass, inertia: parent.inertia, pose: parent.inertial };
-    if let Some(sum) = combine(&[own, body.as_part()])? {
+    if let Some(sum) = inertia::fuse(own, body.as_part())? {
         (parent.mass, parent.inertia, parent.inertial) = (sum.mass, sum.inertia, sum.pose);
     }
     Ok(())

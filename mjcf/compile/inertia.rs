@@ -25,6 +25,18 @@ pub(super) fn principal(full: [f64; 6]) -> Result<(Vec3, Quat), String> {
 
 /// One body out of several parts; `Ok(None)` without mass.
 pub(super) fn combine(parts: &[MassPart]) -> Result<Option<MassPart>, String> {
+    sum(parts, |total, own, shift| total + own + shift)
+}
+
+/// A body and one that is welded to it; `Ok(None)` without mass. It rounds as MuJoCo's `fusestatic` does, which is not
+/// how the parts of one body are summed.
+pub(super) fn fuse(body: MassPart, welded: MassPart) -> Result<Option<MassPart>, String> {
+    sum(&[body, welded], |total, own, shift| total + (own + shift))
+}
+
+/// Sum of parts, where `add` adds to an element of the inertia what a part has about its own centre and what its offset
+/// adds.
+fn sum(parts: &[MassPart], add: impl Fn(f64, f64, f64) -> f64) -> Result<Option<MassPart>, String> {
     let mut mass = 0.0;
     let mut com = [0.0; 3];
     for part in parts {
@@ -42,7 +54,7 @@ pub(super) fn combine(parts: &[MassPart]) -> Result<Option<MassPart>, String> {
         let own = in_parent_axes(part.inertia, part.pose.quat);
         let shift = about_offset(part.mass, sub(part.pose.pos, com));
         for k in 0..6 {
-            total[k] = total[k] + own[k] + shift[k];
+            total[k] = add(total[k], own[k], shift[k]);
         }
     }
     let (inertia, quat) = principal(total)?;

@@ -172,6 +172,9 @@ fn compile_static(spec: &Spec, resources: Resources<'_>, log: &mut Log) -> Optio
     plugins.fill(&mut m, log);
     bodies::fill(&mut m, &tree, (spec, &plugins), &lookup, log);
     hierarchy::fill_meshes(&mut m, &assets);
+    if spec.flexes.is_empty() {
+        hierarchy::fill_spare(&mut m, &tree);
+    }
     let flexes = flex::compile(spec, &tree, &lookup, log);
     flex::fill(&mut m, &flexes, &tree, spec, &lookup, log);
     elements::fill(&mut m, (spec, &plugins), &lookup, log);

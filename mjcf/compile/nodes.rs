@@ -56,7 +56,18 @@ pub(super) struct BodyNode<'s> {
     pub sites: Vec<SiteNode<'s>>,
     pub cameras: Vec<CameraNode<'s>>,
     pub lights: Vec<LightNode<'s>>,
+    /// What `fusestatic` leaves behind in the hierarchy of the body.
+    pub former: FormerTrees<'s>,
     pub is_world: bool,
+}
+
+/// Traces of the hierarchies that a body had before bodies were fused into it.
+#[derive(Default)]
+pub(super) struct FormerTrees<'s> {
+    /// For each index of a node, the geom of the last leaf that stood there.
+    pub leaves: Vec<Option<&'s Geom>>,
+    /// How many bodies with a hierarchy were fused into this one while it had one: as many nodes are spare.
+    pub spare: usize,
 }
 
 impl<'s> BodyNode<'s> {
@@ -108,6 +119,13 @@ pub(super) struct GeomNode<'s> {
     pub material: String,
     pub surfacevel: [f64; 6],
     pub fluid: [f64; 12],
+}
+
+impl GeomNode<'_> {
+    /// Whether the geom may collide without a pair that names it: a leaf of its body's hierarchy.
+    pub(super) fn collides(&self) -> bool {
+        self.spec.contype != 0 || self.spec.conaffinity != 0
+    }
 }
 
 /// A site in the frame of its body.

@@ -88,6 +88,43 @@ fn fusing_static_bodies_keeps_the_mechanism() {
     }
 }
 
+/// MuJoCo 3.12.0's numbers: former leaves at inner nodes, and spare nodes behind the last tree.
+#[test]
+fn fused_hierarchies_keep_what_mujoco_keeps() {
+    let fused = |bodies: &str| {
+        compile(&format!("<mujoco><compiler fusestatic='true'/><worldbody>{bodies}</worldbody></mujoco>"))
+    };
+    let m = fused(
+        "<body><freejoint/><geom size='.1'/><geom size='.3' pos='0 0 2' contype='0' conaffinity='0'/>
+         <body pos='1 0 0'><geom size='.1'/><body pos='1 0 0'><geom size='.1'/><body pos='1 0 0'>
+         <geom size='.1'/><geom size='.1' pos='0 0 1'/><body pos='1 0 0'><geom size='.1'/></body>
+         </body></body></body></body>
+         <body pos='3 3 3'><geom size='.1'/><geom size='.2'/><body pos='0 2 0'><geom size='.2'/></body></body>",
+    );
+    assert_eq!((m.nbody, m.nbvh, &m.body_bvhnum[..]), (2, 21, &[5, 11][..]));
+    assert_eq!(&m.bvh_nodeid[..5], [-1, 0, 1, 1, 2]);
+    assert_eq!(&m.bvh_nodeid[5..16], [3, 6, 3, 5, 5, 6, -1, 8, 8, 7, 9]);
+    assert_eq!(&m.bvh_nodeid[16..], [0; 5]);
+    assert_eq!(m.bvh_child[16..], [[0, 0]; 5]);
+    // Trees without a leaf leave nothing behind.
+    let m = fused(
+        "<body pos='1 0 0'><geom size='.1'/><geom size='.1' pos='0 1 0'/></body>
+         <body pos='0 1 0'><geom size='.1'/><body pos='0 0 1'><geom size='.2'/></body></body>",
+    );
+    assert_eq!(&m.bvh_nodeid[..], [-1, 2, 2, 3, 1, 0, 1, 0, 0]);
+}
+
+#[test]
+fn fused_inertia_is_mujocos_to_the_last_bit() {
+    let m = compile(
+        "<mujoco><compiler fusestatic='true'/><worldbody><body><freejoint/>
+         <inertial pos='0 0 0' mass='1' diaginertia='.7 .8 .9'/>
+         <body pos='.3 .1 .2'><inertial pos='0 0 0' mass='.7' diaginertia='.5 .6 .7'/></body>
+         </body></worldbody></mujoco>",
+    );
+    assert_eq!(m.body_inertia[1], [1.6429203110361983, 1.4539306096472717, 1.2184431969635852]);
+}
+
 #[test]
 fn total_mass_is_scaled_and_visual_geoms_still_weigh() {
     let text = TREE.replace(

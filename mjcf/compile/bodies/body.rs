@@ -7,7 +7,7 @@ use crate::compile::assets::Assets;
 use crate::compile::frame::{Pose, add, direction, same_frame, same_position};
 use crate::compile::inertia::{MassPart, combine, principal};
 use crate::compile::log::{Log, title};
-use crate::compile::nodes::{BodyNode, Tree};
+use crate::compile::nodes::{BodyNode, FormerTrees, Tree};
 use crate::compile::values::push_user;
 use crate::spec::{AlignFree, Body, Compiler, Geom, InertiaFromGeom, Inertial, Spec, resolve};
 use crate::vector::{EPS, compose, normalize, rotate};
@@ -53,6 +53,7 @@ pub(super) fn compile<'s>(
         sites: Vec::new(),
         cameras: Vec::new(),
         lights: Vec::new(),
+        former: FormerTrees::default(),
         is_world: id == 0,
     };
     check_joints(&node, parent, log);

@@ -122,7 +122,7 @@ model_with_skins! {
 
         bvh_depth: i32 [nbvh]                     "Depth of the node in its tree.",
         bvh_child: i32 [nbvh; 2]                  "Children, -1 for a leaf.",
-        bvh_nodeid: i32 [nbvh]                    "Geom, mesh face or flex element of a leaf, -1 for an inner node.",
+        bvh_nodeid: i32 [nbvh]                    "Geom, mesh face or flex element of a leaf; -1 for an inner node, or after `fusestatic` what a former leaf bounded.",
         bvh_aabb: f64 [nbvhstatic; 6]             "Bounding box in the frame of its owner: centre, half sizes \\[m\\].",
 
         oct_depth: i32 [noct]                     "Depth of the cell.",

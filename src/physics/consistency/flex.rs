@@ -1,7 +1,7 @@
 //! Flexes: their parts lie in the arrays, and refer to each other.
 
 use super::requirement::{Inconsistent, ranges, references, require, spans, within};
-use super::tree::nodes_of;
+use super::tree::{Inner, nodes_of};
 use crate::arrays::{Arrays, FlexSelf};
 use crate::constants::flex_pattern::Patterns;
 use crate::constants::{bending_factor, flex_pattern};
@@ -67,7 +67,7 @@ fn parts(m: &Arrays, f: usize) -> Result<(), Inconsistent> {
     if let Ok(first) = usize::try_from(m.flex_bvhadr[f]) {
         let nodes = m.flex_bvhnum[f] as usize;
         require(nodes > 0 && first >= m.nbvhstatic, "flex_bvhadr", f, "behind the boxes that stand still")?;
-        nodes_of(m, first, nodes, m.flex_elemnum[f] as usize)?;
+        nodes_of(m, first, nodes, m.flex_elemnum[f] as usize, Inner::NamesNothing)?;
     }
     bodies(m, f)?;
     numbers(m, f, edges.len())

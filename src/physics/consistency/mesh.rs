@@ -1,7 +1,7 @@
 //! Meshes, height fields, textures, and the geoms that use them.
 
 use super::requirement::{Inconsistent, ranges, require, spans};
-use super::tree::nodes_of;
+use super::tree::{Inner, nodes_of};
 use crate::arrays::{Arrays, GeomType};
 
 pub(super) fn check(m: &Arrays) -> Result<(), Inconsistent> {
@@ -76,7 +76,7 @@ fn check_mesh(m: &Arrays, mesh: usize) -> Result<(), Inconsistent> {
     if let Ok(first) = usize::try_from(m.mesh_bvhadr[mesh]) {
         let nodes = m.mesh_bvhnum[mesh] as usize;
         require(nodes > 0, "mesh_bvhnum", mesh, "at least the root")?;
-        nodes_of(m, first, nodes, m.mesh_facenum[mesh] as usize)?;
+        nodes_of(m, first, nodes, m.mesh_facenum[mesh] as usize, Inner::NamesNothing)?;
     }
     octree(m, mesh)?;
     hull(m, mesh)

@@ -138,25 +138,42 @@ fn hierarchies(m: &Arrays) -> Result<(), Inconsistent> {
         let first = m.body_bvhadr[b] as usize;
         let nodes = m.body_bvhnum[b] as usize;
         require(nodes > 0, "body_bvhnum", b, "at least the root")?;
-        nodes_of(m, first, nodes, m.ngeom)?;
+        nodes_of(m, first, nodes, m.ngeom, Inner::MayNameFormerLeaf)?;
     }
     Ok(())
 }
 
+/// What `bvh_nodeid` has for inner nodes.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Inner {
+    /// -1 always.
+    NamesNothing,
+    /// -1, or a leaf that stood there before `fusestatic` fused bodies.
+    MayNameFormerLeaf,
+}
+
 /// Nodes of one hierarchy with leaves below `leaves`: an inner node, all nodes of its left child, all of its right one.
-pub(super) fn nodes_of(m: &Arrays, first: usize, nodes: usize, leaves: usize) -> Result<(), Inconsistent> {
+pub(super) fn nodes_of(
+    m: &Arrays,
+    first: usize,
+    nodes: usize,
+    leaves: usize,
+    inner: Inner,
+) -> Result<(), Inconsistent> {
     let mut right = Vec::new();
     let mut next = Some(0);
     for n in 0..nodes {
-        let ([a, b], leaf) = (m.bvh_child[first + n], m.bvh_nodeid[first + n]);
+        let ([a, b], id) = (m.bvh_child[first + n], m.bvh_nodeid[first + n]);
         require(next == Some(n as i32), "bvh_child", 2 * (first + n), "the root of a tree")?;
-        if leaf >= 0 {
-            let whole = (leaf as usize) < leaves && [a, b] == [-1, -1];
-            require(whole, "bvh_nodeid", first + n, "what a leaf bounds")?;
+        let named = id >= 0 && (id as usize) < leaves;
+        if [a, b] == [-1, -1] {
+            require(named, "bvh_nodeid", first + n, "what a leaf bounds")?;
             next = right.pop();
         } else {
-            let inner = a == n as i32 + 1 && leaf == -1 && right.len() + 2 < MAX_LEVELS;
-            require(inner, "bvh_child", 2 * (first + n), "a later node of the tree")?;
+            let later = a == n as i32 + 1 && right.len() + 2 < MAX_LEVELS;
+            require(later, "bvh_child", 2 * (first + n), "a later node of the tree")?;
+            let may_be = id == -1 || named && inner == Inner::MayNameFormerLeaf;
+            require(may_be, "bvh_nodeid", first + n, "-1, since the node has children")?;
             right.push(b);
             next = Some(a);
         }
