@@ -43,7 +43,7 @@ const ORDER: [(&str, &[&str]); 23] = [
     ),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
     ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
-    ("robohive-viewer", &["physics", "mjcf", "random", "render"]),
+    ("robohive-viewer", &["assets", "physics", "mjcf", "random", "render", "video"]),
     (
         "robohive-python",
         &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],
@@ -61,6 +61,7 @@ const ORDER: [(&str, &[&str]); 23] = [
             "render",
             "render_gpu",
             "video",
+            "viewer",
             "exchange",
             "env",
             "agents",

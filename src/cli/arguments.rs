@@ -21,6 +21,7 @@ use crate::recordings::data::Data;
 use crate::shell::completions::Completions;
 use crate::shell::man::Man;
 use crate::version::VERSION;
+use crate::view::View;
 use clap::{Parser, Subcommand};
 
 /// Robots described in MJCF, moved as MuJoCo 3.12 moves them.
@@ -78,6 +79,8 @@ pub enum Command {
     Check(Check),
     /// Measure steps per second
     Bench(Bench),
+    /// Look at a model in a window, run it, pull it
+    View(View),
     /// Keep the model files of RoboHive: import, list and verify them
     Assets(Assets),
     /// Look into recordings of episodes, repair them, convert them

@@ -34,6 +34,8 @@
 //! - Drags are measured in heights of the picture, to the right and up.
 
 mod camera;
+mod command;
+mod flags;
 mod hand;
 mod history;
 mod noise;
@@ -42,12 +44,16 @@ mod session;
 mod speed;
 pub mod text;
 mod watch;
+#[cfg(feature = "window")]
+pub mod window;
 
 pub use camera::{Plane, orbit, pan, zoom};
+pub use command::{Command, FRAMES, LABELS, Shortcut, shortcuts};
+pub use flags::{EFFECTS, Flag, SHOW};
 pub use hand::{Grip, Hand};
 pub use history::History;
 pub use noise::Noise;
 pub use pointer::{Picked, pick, ray_through};
-pub use session::{Look, Session};
+pub use session::{Look, Selected, Session};
 pub use speed::{Pace, SPEEDS};
 pub use watch::{WatchError, watch};

@@ -1,16 +1,17 @@
 //! A model that is run, looked at and touched: all that a viewer does but drawing and windows.
 
-use crate::camera::{Plane, orbit, pan, zoom};
-use crate::hand::{Grip, Hand};
+mod touch;
+
+use crate::camera::Plane;
+use crate::hand::Hand;
 use crate::history::History;
 use crate::noise::Noise;
-use crate::pointer::{Picked, pick};
 use crate::speed::Pace;
 use mjcf::edit::carry_state;
-use physics::math::sub;
+use physics::math::Vec3;
+use physics::model::Options;
 use physics::{Data, Model, Snapshot, StepError, forward, step};
 use render::scene::{Camera, FreeCamera, SceneOptions};
-use render::{RenderError, View};
 
 /// A model, its state, and what a person does with it.
 pub struct Session {
@@ -20,14 +21,24 @@ pub struct Session {
     pace: Pace,
     history: History,
     hand: Option<Hand>,
-    selected: Option<Picked>,
+    selected: Option<Selected>,
     fault: Option<String>,
+    revision: u64,
     /// Noise on controls.
     pub noise: Noise,
     /// What it is seen with.
     pub camera: Camera,
     /// What is shown.
     pub options: SceneOptions,
+}
+
+/// A body that a person has chosen, and a point of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Selected {
+    /// The body, not the world.
+    pub body: usize,
+    /// The point, in the frame of the body \[m\].
+    pub point: Vec3,
 }
 
 /// What a drag does while nothing is held.
@@ -60,6 +71,7 @@ impl Session {
             hand: None,
             selected: None,
             fault: None,
+            revision: 0,
             noise: Noise::new(0),
             camera: Camera::free(&model),
             options: SceneOptions::default(),
@@ -114,11 +126,6 @@ impl Session {
     /// Why the simulation has stopped, if a step failed.
     pub fn fault(&self) -> Option<&str> {
         self.fault.as_deref()
-    }
-
-    /// What was picked last.
-    pub fn selected(&self) -> Option<Picked> {
-        self.selected
     }
 
     /// Real time went by \[s\]: takes the steps that are due while `may_go_on`, which is asked before each. Returns how many.
@@ -199,8 +206,20 @@ impl Session {
         self.settle();
     }
 
+    /// Writes options of the physics, and evaluates what follows.
+    pub fn edit_options(&mut self, write: impl FnOnce(&mut Options)) {
+        write(self.model.options_mut());
+        self.settle();
+    }
+
+    /// A number that grows with every change of the state or the model.
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
     /// Evaluates a state that was put here rather than stepped to.
     fn settle(&mut self) {
+        self.revision += 1;
         self.pace.forget();
         self.fault = forward(&self.model, &mut self.data).err().map(|error| error.to_string());
         self.running &= self.fault.is_none();
@@ -219,6 +238,7 @@ impl Session {
         self.history = History::of(&model);
         self.history.push(&data);
         (self.model, self.data) = (model, data);
+        self.revision += 1;
         self.pace.forget();
         Ok(())
     }
@@ -238,6 +258,7 @@ impl Session {
     }
 
     fn step(&mut self) {
+        self.revision += 1;
         self.data.state.xfrc_applied.iter_mut().for_each(|wrench| *wrench = [0.0; 6]);
         if let Some(hand) = &self.hand {
             hand.place(&self.model, &mut self.data, false);
@@ -259,96 +280,5 @@ impl Session {
         if moved {
             self.settle();
         }
-    }
-}
-
-/// Cameras and hands.
-impl Session {
-    /// What the camera sees now.
-    ///
-    /// # Errors
-    /// It stands or looks nowhere.
-    pub fn view(&self) -> Result<View, RenderError> {
-        self.camera.view(&self.model, &self.data)
-    }
-
-    /// What is drawn: the options, with the hand.
-    pub fn shown(&self) -> SceneOptions {
-        self.options.with_selection(self.hand.as_ref().map(Hand::selection))
-    }
-
-    /// Moves the camera by a drag in heights of the view. Fixed cameras stay.
-    pub fn look(&mut self, look: Look, drag: [f64; 2]) {
-        if let Camera::Free(free) = &mut self.camera {
-            match look {
-                Look::Orbit => orbit(free, drag),
-                Look::Pan(plane) => pan(free, plane, drag),
-                Look::Zoom => zoom(free, &self.model, drag[1]),
-            }
-        }
-    }
-
-    /// Selects what is at a place of the picture, from its lower left corner to 1, or nothing.
-    pub fn select(&mut self, aspect: f64, at: [f64; 2]) -> Option<Picked> {
-        let view = self.view().ok()?;
-        self.selected =
-            pick(&self.model, &self.data, &view, &self.options, aspect, at).filter(|picked| picked.body > 0);
-        self.hand = None;
-        self.selected
-    }
-
-    /// Looks at a place of the picture; with `track`, follows its body from now on.
-    pub fn look_at(&mut self, aspect: f64, at: [f64; 2], track: bool) {
-        let Ok(view) = self.view() else { return };
-        let Some(picked) = pick(&self.model, &self.data, &view, &self.options, aspect, at) else { return };
-        let distance = sub(picked.point, view.eye);
-        let mut free = match self.camera {
-            Camera::Free(free) => free,
-            Camera::Fixed(_) => {
-                FreeCamera { distance: physics::math::norm(distance), ..FreeCamera::of(&self.model) }
-            }
-        };
-        free.lookat = picked.point;
-        free.track = (track && picked.body > 0).then_some(picked.body);
-        self.camera = Camera::Free(free);
-    }
-
-    /// The next camera: the free one, then those of the model; back with `-1`.
-    pub fn cycle_camera(&mut self, by: isize) {
-        let count = self.model.ncam as isize + 1;
-        let now = match self.camera {
-            Camera::Free(_) => 0,
-            Camera::Fixed(camera) => camera as isize + 1,
-        };
-        self.camera = match (now + by).rem_euclid(count) {
-            0 => Camera::free(&self.model),
-            camera => Camera::Fixed(camera as usize - 1),
-        };
-    }
-
-    /// Takes hold of what is selected.
-    pub fn grab(&mut self, grip: Grip) {
-        let (Some(picked), Ok(view)) = (self.selected, self.view()) else { return };
-        self.hand = Hand::grab(&self.model, &self.data, &view, grip, picked.body, picked.local);
-    }
-
-    /// Moves the hand by a drag in heights of the view.
-    pub fn drag(&mut self, plane: Plane, drag: [f64; 2]) {
-        let Ok(view) = self.view() else { return };
-        if let Some(hand) = &mut self.hand {
-            hand.drag(&self.model, &self.data, &view, plane, drag);
-        }
-    }
-
-    /// Lets go. Forces of the hand end.
-    pub fn release(&mut self) {
-        if let Some(hand) = self.hand.take() {
-            self.data.state.xfrc_applied[hand.body()] = [0.0; 6];
-        }
-    }
-
-    /// Whether something is held.
-    pub fn holds(&self) -> bool {
-        self.hand.is_some()
     }
 }

@@ -24,6 +24,7 @@ mod recorded_bits;
 mod results;
 mod tests;
 mod tolerances;
+mod window;
 
 use built::{EVERYTHING, PROFILE};
 use check::{Check, Rules, run_all};
@@ -39,7 +40,7 @@ const QUICK: [Check; 5] = [
     Check { name: "features", inputs: &[], run: builds::features },
 ];
 
-const LONG: [Check; 9] = [
+const LONG: [Check; 10] = [
     Check { name: "python", inputs: python::INPUTS, run: python::run },
     Check { name: "recorded-bits", inputs: recorded_bits::INPUTS, run: recorded_bits::run },
     Check { name: "builds", inputs: builds::INPUTS, run: builds::run },
@@ -47,6 +48,7 @@ const LONG: [Check; 9] = [
     Check { name: "rust-version", inputs: &[], run: packages::rust_version },
     Check { name: "instructions", inputs: instructions::INPUTS, run: || instructions::run(false) },
     Check { name: "gpu", inputs: gpu::INPUTS, run: gpu::run },
+    Check { name: "window", inputs: window::INPUTS, run: window::run },
     Check { name: "python-docs", inputs: python::DOCS_INPUTS, run: python::docs },
     Check { name: "python-learners", inputs: python::INPUTS, run: python::learners },
 ];

@@ -1,0 +1,239 @@
+//! The window without a display: keys, clicks on what is named, drags on the picture, dropped files.
+
+use eframe::egui::accesskit::{Node, NodeId, TreeUpdate};
+use eframe::egui::{
+    Context, DroppedFile, Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, pos2, vec2,
+};
+use physics::model::ObjType;
+use render::scene::Camera;
+use robohive_viewer::Session;
+use robohive_viewer::window::{App, Source};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// An app and what a window would tell it.
+struct Window {
+    context: Context,
+    app: App,
+    time: f64,
+    tree: Option<TreeUpdate>,
+}
+
+impl Window {
+    fn of(source: Option<Source>) -> Self {
+        let context = Context::default();
+        context.enable_accesskit();
+        let app = App::new(&context, source);
+        let mut window = Window { context, app, time: 0.0, tree: None };
+        // Panels take their sizes in the first frames.
+        (0..3).for_each(|_| window.frame(Vec::new()));
+        window
+    }
+
+    fn own(name: &str) -> Self {
+        Self::of(Source::own().find(|source| source.title() == name))
+    }
+
+    fn input(&mut self, input: RawInput) {
+        self.time += 1.0 / 60.0;
+        let screen = Rect::from_min_size(Pos2::ZERO, vec2(900.0, 560.0));
+        let input = RawInput { screen_rect: Some(screen), time: Some(self.time), ..input };
+        let app = &mut self.app;
+        let mut output = self.context.run_ui(input, |ui| app.show(ui));
+        output.textures_delta.clear();
+        self.tree = output.platform_output.accesskit_update.or(self.tree.take());
+    }
+
+    fn frame(&mut self, events: Vec<Event>) {
+        self.input(RawInput { events, ..RawInput::default() });
+    }
+
+    fn session(&self) -> &Session {
+        self.app.opened().expect("a model is open")
+    }
+
+    fn press(&mut self, key: Key, modifiers: Modifiers) {
+        let event = |pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
+        self.frame(vec![Event::ModifiersChanged(modifiers), event(true), event(false)]);
+        self.frame(vec![Event::ModifiersChanged(Modifiers::NONE)]);
+    }
+
+    fn button(&mut self, at: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) {
+        let click = Event::PointerButton { pos: at, button, pressed, modifiers };
+        self.frame(vec![Event::ModifiersChanged(modifiers), Event::PointerMoved(at), click]);
+    }
+
+    fn click(&mut self, at: Pos2) {
+        self.button(at, PointerButton::Primary, true, Modifiers::NONE);
+        self.button(at, PointerButton::Primary, false, Modifiers::NONE);
+    }
+
+    fn drag(&mut self, path: &[Pos2], button: PointerButton, modifiers: Modifiers) {
+        self.button(path[0], button, true, modifiers);
+        path.iter().for_each(|at| self.frame(vec![Event::PointerMoved(*at)]));
+        self.button(path[path.len() - 1], button, false, modifiers);
+        self.frame(vec![Event::ModifiersChanged(Modifiers::NONE)]);
+    }
+
+    /// The middle of what has this name, as a screen reader finds it.
+    fn named(&self, name: &str) -> Pos2 {
+        let tree = self.tree.as_ref().expect("a tree of what can be used");
+        let nodes = || tree.nodes.iter().map(|(id, node): &(NodeId, _)| (id, node));
+        let found = nodes().find(|(_, node)| text(node) == Some(name) && node.bounds().is_some());
+        let names: Vec<&str> = nodes().filter_map(|(_, node)| text(node)).collect();
+        let (_, node) = found.unwrap_or_else(|| panic!("nothing is called {name}: {names:?}"));
+        let bounds = node.bounds().unwrap();
+        pos2(((bounds.x0 + bounds.x1) / 2.0) as f32, ((bounds.y0 + bounds.y1) / 2.0) as f32)
+    }
+
+    fn use_named(&mut self, name: &str) {
+        self.click(self.named(name));
+        self.frame(Vec::new());
+    }
+
+    fn drop_file(&mut self, path: &Path) {
+        let file: Arc<dyn DroppedFile + Send + Sync> = Arc::new(Dropped(path.to_owned()));
+        self.input(RawInput { dropped_files: vec![file], ..RawInput::default() });
+        self.frame(Vec::new());
+    }
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+/// The name of what can be used, or what is written.
+fn text(node: &Node) -> Option<&str> {
+    node.label().or(node.value())
+}
+
+/// The middle of the picture.
+const MIDDLE: Pos2 = pos2(536.0, 280.0);
+
+#[test]
+fn every_model_of_our_own_is_shown() {
+    let mut shown = 0;
+    for source in Source::own() {
+        let window = Window::of(Some(source.clone()));
+        assert_eq!(window.app.trouble(), None, "{source:?}");
+        assert!(window.session().model().ngeom > 0, "{source:?}");
+        shown += 1;
+    }
+    assert!(shown >= 10, "{shown}");
+}
+
+#[test]
+fn keys_run_step_and_switch() {
+    let mut window = Window::own("pile");
+    let timestep = window.session().model().opt.timestep;
+    (0..3).for_each(|_| window.press(Key::ArrowRight, Modifiers::NONE));
+    assert!((window.session().data().time() - 3.0 * timestep).abs() < 1e-12);
+    window.press(Key::ArrowLeft, Modifiers::NONE);
+    assert_eq!(window.session().history().behind(), 1);
+    window.press(Key::Space, Modifiers::NONE);
+    assert!(window.session().is_running());
+    window.press(Key::Space, Modifiers::NONE);
+    assert!(!window.session().is_running());
+    window.press(Key::Minus, Modifiers::NONE);
+    assert_eq!(window.session().pace().percent(), 80.0);
+    window.press(Key::C, Modifiers::NONE);
+    window.press(Key::S, Modifiers::NONE);
+    window.press(Key::Num1, Modifiers::SHIFT);
+    window.press(Key::F7, Modifiers::NONE);
+    let options = window.session().options;
+    assert!(options.show.contact_points && !options.effects.shadows && !options.groups.sites[1]);
+    assert_ne!(options.label, render::scene::LabelChoice::None);
+}
+
+#[test]
+fn what_is_named_can_be_used() {
+    let mut window = Window::own("franka_table");
+    window.use_named("Step");
+    window.use_named("Step");
+    assert_eq!(window.session().history().len(), 3);
+    window.use_named("Step back");
+    assert_eq!(window.session().history().behind(), 1);
+    window.use_named("Run");
+    assert!(window.session().is_running());
+    window.use_named("Pause");
+    assert!(!window.session().is_running());
+    window.use_named("Clear all");
+    assert!(window.session().data().state.ctrl.iter().all(|&x| x == 0.0));
+    window.use_named("Physics");
+    (0..30).for_each(|_| window.frame(Vec::new()));
+    window.use_named("Help");
+    (0..5).for_each(|_| window.frame(Vec::new()));
+    window.named("Run or pause");
+}
+
+#[test]
+fn drags_turn_the_camera_and_pull_bodies() {
+    let mut window = Window::own("pile");
+    let Camera::Free(before) = window.session().camera else { panic!() };
+    let path = [MIDDLE, MIDDLE + vec2(56.0, 0.0), MIDDLE + vec2(56.0, 28.0)];
+    window.drag(&path, PointerButton::Primary, Modifiers::NONE);
+    let Camera::Free(after) = window.session().camera else { panic!() };
+    assert!(after.azimuth < before.azimuth - 10.0 && after.elevation < before.elevation - 5.0, "{after:?}");
+    // Click twice wherever a body is.
+    let body = (0..40).find_map(|i| {
+        let at = MIDDLE + vec2((i % 8) as f32 * 20.0 - 80.0, (i / 8) as f32 * 30.0 - 60.0);
+        window.click(at);
+        window.click(at);
+        (0..40).for_each(|_| window.frame(Vec::new()));
+        window.session().selected().map(|selected| (at, selected.body))
+    });
+    let (at, body) = body.expect("some body is near the middle");
+    let place = |window: &Window| window.session().data().kin.xpos[body];
+    let was = place(&window);
+    window.drag(
+        &[at, at - vec2(0.0, 40.0), at - vec2(0.0, 80.0)],
+        PointerButton::Secondary,
+        Modifiers::COMMAND,
+    );
+    let is = place(&window);
+    assert!(is[2] > was[2] + 0.01, "it was placed higher: {was:?}, {is:?}");
+    assert!(!window.session().holds());
+}
+
+#[test]
+fn dropped_files_open_and_say_what_is_wrong() {
+    let folder = std::env::temp_dir().join(format!("robohive-window-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let (good, bad) = (folder.join("good.xml"), folder.join("bad.xml"));
+    let text = "<mujoco model='dropped'><worldbody><body name='a'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+    std::fs::write(&good, text).unwrap();
+    std::fs::write(&bad, "<mujoco>\n<worldbody><geom sise='1'/></worldbody></mujoco>").unwrap();
+    let mut window = Window::of(None);
+    window.drop_file(&bad);
+    let trouble = window.app.trouble().expect("the file is wrong").to_owned();
+    assert!(
+        trouble.contains("bad.xml:2:") && trouble.contains("sise") && trouble.contains("size"),
+        "{trouble}"
+    );
+    assert!(window.app.opened().is_none());
+    window.drop_file(&good);
+    assert_eq!((window.app.trouble(), window.session().model().name.as_str()), (None, "dropped"));
+    // Read again, it goes on where it was; with an error, it stays.
+    (0..5).for_each(|_| window.press(Key::ArrowRight, Modifiers::NONE));
+    let height = window.session().data().state.qpos[2];
+    std::fs::write(&good, text.replace("name='a'", "name='a' gravcomp='1'")).unwrap();
+    window.press(Key::L, Modifiers::COMMAND);
+    assert_eq!(
+        (window.session().model().body_gravcomp[1], window.session().data().state.qpos[2]),
+        (1.0, height)
+    );
+    std::fs::write(&good, "<mujoco>").unwrap();
+    window.press(Key::L, Modifiers::COMMAND);
+    assert!(window.app.trouble().is_some_and(|trouble| trouble.contains("good.xml")));
+    assert_eq!(window.session().model().label_of(ObjType::Body, 1), "body \"a\"");
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -1,0 +1,60 @@
+//! A model that is open.
+
+use super::screen::Screen;
+use super::source::Source;
+use crate::session::Session;
+use std::time::{Duration, Instant, SystemTime};
+
+/// How often files are looked at for changes.
+const LOOK: Duration = Duration::from_millis(500);
+
+/// A session and its picture, and where they came from.
+pub struct Opened {
+    /// The simulation.
+    pub session: Session,
+    /// Its picture.
+    pub screen: Screen,
+    /// Its model's file.
+    pub source: Source,
+    /// What was ignored or assumed when the model was read.
+    pub warnings: String,
+    changed: Option<SystemTime>,
+    looked: Instant,
+}
+
+impl Opened {
+    /// Opens a model.
+    ///
+    /// # Errors
+    /// It cannot be read, evaluated or drawn.
+    pub(super) fn open(source: Source) -> Result<Self, String> {
+        let changed = source.changed();
+        let loaded = source.load()?;
+        let session = Session::new(loaded.model).map_err(|error| error.to_string())?;
+        let screen = Screen::new(session.model()).map_err(|error| error.to_string())?;
+        let warnings = loaded.warnings.to_string();
+        Ok(Opened { session, screen, source, warnings, changed, looked: Instant::now() })
+    }
+
+    /// Reads the model again, in the state that it is in.
+    ///
+    /// # Errors
+    /// As [`Opened::open`]; the model stays the former one.
+    pub(super) fn reload(&mut self) -> Result<(), String> {
+        self.changed = self.source.changed();
+        let loaded = self.source.load()?;
+        let screen = Screen::new(&loaded.model).map_err(|error| error.to_string())?;
+        self.session.replace(loaded.model).map_err(|error| error.to_string())?;
+        (self.screen, self.warnings) = (screen, loaded.warnings.to_string());
+        Ok(())
+    }
+
+    /// Whether its file was changed since it was read, looked up twice a second.
+    pub fn is_outdated(&mut self) -> bool {
+        if self.looked.elapsed() < LOOK {
+            return false;
+        }
+        self.looked = Instant::now();
+        self.source.changed().is_some_and(|now| self.changed.is_some_and(|then| now != then))
+    }
+}
