@@ -43,7 +43,7 @@ const ORDER: [(&str, &[&str]); 23] = [
     ),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
     ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
-    ("robohive-viewer", &["assets", "physics", "mjcf", "random", "render", "video"]),
+    ("robohive-viewer", &["assets", "physics", "mjcf", "random", "render", "video", "env", "agents"]),
     (
         "robohive-python",
         &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],

@@ -2,7 +2,7 @@
 
     python python/compare/dm_control_tests.py [--only mjcf composer …] [--table validation/results/standin_dm_control.md]
 
-Needs `dm_control`, `mujoco` of the version that the stand-in follows, `absl-py` and this package; tests of pictures need
+Needs `dm_control`, `mujoco` of the version that the stand-in follows, `absl-py`, `mock` and this package; tests of pictures need
 OSMesa (`MUJOCO_GL=osmesa`). Each file of tests runs in a process of its own. A test that fails on MuJoCo's bindings is not counted.
 """
 
@@ -20,7 +20,7 @@ from mujoco_tests import Outcomes, outcomes_of
 
 FOLDERS = "mjcf composer suite locomotion mujoco entities manipulation rl utils".split()
 #: What one file may take [s].
-LIMIT = 900
+LIMIT = 3600
 
 
 def home() -> Path:

@@ -6,6 +6,7 @@ use crate::camera::Plane;
 use crate::hand::Hand;
 use crate::history::History;
 use crate::noise::Noise;
+use crate::play::{Play, PlayError};
 use crate::speed::Pace;
 use mjcf::edit::carry_state;
 use physics::math::Vec3;
@@ -24,6 +25,8 @@ pub struct Session {
     selected: Option<Selected>,
     fault: Option<String>,
     revision: u64,
+    /// The environment whose model and state these are, where it is one.
+    play: Option<Box<Play>>,
     /// Noise on controls.
     pub noise: Noise,
     /// What it is seen with.
@@ -64,6 +67,20 @@ impl Session {
             let _ = data.reset_to_key(&model, 0);
         }
         forward(&model, &mut data)?;
+        Ok(Session::at(model, data))
+    }
+
+    /// A session with an environment, paused at the first state of its episode. Its steps are control periods; the states
+    /// that were are shown, and it goes on from the latest.
+    pub fn playing(play: Play) -> Self {
+        let scene = play.env().scene();
+        let mut session = Session::at(scene.model.clone(), scene.data.clone());
+        session.pace = Pace::near(100.0);
+        session.play = Some(Box::new(play));
+        session
+    }
+
+    fn at(model: Model, data: Data) -> Self {
         let mut session = Session {
             running: false,
             pace: Pace::near(f64::from(model.vis.global.realtime)),
@@ -72,6 +89,7 @@ impl Session {
             selected: None,
             fault: None,
             revision: 0,
+            play: None,
             noise: Noise::new(0),
             camera: Camera::free(&model),
             options: SceneOptions::default(),
@@ -84,7 +102,17 @@ impl Session {
             session.camera = Camera::Fixed(camera);
         }
         session.history.push(&session.data);
-        Ok(session)
+        session
+    }
+
+    /// The environment that is played.
+    pub fn play(&self) -> Option<&Play> {
+        self.play.as_deref()
+    }
+
+    /// The same, to choose what acts.
+    pub fn play_mut(&mut self) -> Option<&mut Play> {
+        self.play.as_deref_mut()
     }
 
     /// The model.
@@ -104,6 +132,9 @@ impl Session {
 
     /// Lets time go by, or stops it. From a state of the past, the states after it are dropped when it goes on.
     pub fn run(&mut self, running: bool) {
+        if running && self.play.is_some() && self.history.behind() > 0 {
+            self.show_past(0);
+        }
         self.running = running && self.fault.is_none();
         self.pace.forget();
     }
@@ -131,14 +162,16 @@ impl Session {
     /// Real time went by \[s\]: takes the steps that are due while `may_go_on`, which is asked before each. Returns how many.
     pub fn advance(&mut self, seconds: f64, may_go_on: &mut dyn FnMut() -> bool) -> usize {
         if !self.running {
-            self.place_held(true);
+            if self.play.is_none() {
+                self.place_held(true);
+            }
             return 0;
         }
         self.pace.elapse(seconds);
-        let (timestep, mut steps) = (self.model.opt.timestep, 0);
-        while self.running && self.pace.is_due(timestep) && may_go_on() {
+        let (span, mut steps) = (self.span(), 0);
+        while self.running && self.pace.is_due(span) && may_go_on() {
             self.step();
-            self.pace.stepped(timestep);
+            self.pace.stepped(span);
             steps += 1;
         }
         self.pace.settle();
@@ -146,6 +179,11 @@ impl Session {
             self.history.push(&self.data);
         }
         steps
+    }
+
+    /// What a step takes: a time step of the model, or a control period of the environment \[s\].
+    pub fn span(&self) -> f64 {
+        self.play.as_ref().map_or(self.model.opt.timestep, |play| play.env().dt())
     }
 
     /// One step forward: to the next state of the history where there is one, else a new one.
@@ -174,13 +212,23 @@ impl Session {
         }
     }
 
-    /// The first keyframe, or the reference.
+    /// The first keyframe, or the reference; of an environment, the start of the next episode.
     pub fn reset(&mut self) {
+        if let Some(play) = &mut self.play {
+            let begun = play.begin(play.seed().wrapping_add(1));
+            self.mirror(begun);
+            self.history.push(&self.data);
+            return;
+        }
         self.reset_to((self.model.nkey > 0).then_some(0));
     }
 
-    /// A keyframe, or the reference. A keyframe that the model does not have changes nothing.
+    /// A keyframe, or the reference. A keyframe that the model does not have changes nothing; nor does any in an environment,
+    /// which starts as its task says.
     pub fn reset_to(&mut self, key: Option<usize>) {
+        if self.play.is_some() {
+            return;
+        }
         match key {
             None => self.data.reset(&self.model),
             Some(key) => {
@@ -200,7 +248,7 @@ impl Session {
         self.settle();
     }
 
-    /// Writes controls, positions or other inputs, and evaluates what follows.
+    /// Writes controls, positions or other inputs, and evaluates what follows. In an environment the next step forgets them.
     pub fn edit(&mut self, write: impl FnOnce(&Model, &mut Data)) {
         write(&self.model, &mut self.data);
         self.settle();
@@ -234,6 +282,7 @@ impl Session {
         let mut data = carry_state(&self.model, &self.data, &model);
         forward(&model, &mut data)?;
         self.camera = self.camera_in(&model);
+        self.play = None;
         (self.hand, self.selected, self.fault) = (None, None, None);
         self.history = History::of(&model);
         self.history.push(&data);
@@ -261,17 +310,35 @@ impl Session {
         self.revision += 1;
         self.data.state.xfrc_applied.iter_mut().for_each(|wrench| *wrench = [0.0; 6]);
         if let Some(hand) = &self.hand {
-            hand.place(&self.model, &mut self.data, false);
+            if self.play.is_none() {
+                hand.place(&self.model, &mut self.data, false);
+            }
             let [force, torque] = hand.wrench(&self.model, &self.data);
             let [x, y, z] = force;
             let [a, b, c] = torque;
             self.data.state.xfrc_applied[hand.body()] = [x, y, z, a, b, c];
+        }
+        if let Some(play) = &mut self.play {
+            let stepped = play.step(&self.data.state.xfrc_applied);
+            return self.mirror(stepped);
         }
         self.noise.step(&self.model, &mut self.data, None);
         if let Err(error) = step(&self.model, &mut self.data) {
             self.fault = Some(error.to_string());
             self.running = false;
         }
+    }
+
+    /// Shows where the environment is.
+    fn mirror(&mut self, went: Result<(), PlayError>) {
+        let Some(play) = &self.play else { return };
+        let scene = play.env().scene();
+        self.revision += 1;
+        // Resets may have changed the model; its arrays are shared.
+        self.model = scene.model.clone();
+        self.data.clone_from(&scene.data);
+        self.fault = went.err().map(|error| error.to_string());
+        self.running &= self.fault.is_none();
     }
 
     /// Moves what is held without physics.

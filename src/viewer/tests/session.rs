@@ -1,8 +1,10 @@
 //! A session: time, history, keyframes, reloading, hands, and what is copied from it.
 
+use agents::Policy;
+use env::{Env, Options, OwnModels};
 use physics::{Data, step};
 use render::scene::Camera;
-use robohive_viewer::{Grip, Look, Plane, SPEEDS, Session, WatchError, text, watch};
+use robohive_viewer::{Acting, Grip, Look, Plane, Play, SPEEDS, Session, WatchError, text, watch};
 use std::path::Path;
 
 fn own(name: &str) -> Session {
@@ -242,4 +244,77 @@ fn numbers_are_watched_by_name() {
     assert_eq!(look("qpos", 7), Err(WatchError::Index { name: "qpos".into(), index: 7, len: 7 }));
     let unknown = look("qposs", 0).unwrap_err().to_string();
     assert_eq!(unknown, "no array \"qposs\"; did you mean \"qpos\"?");
+}
+
+/// What `robohive run` would play: the mirror shows the environment's own state, episode after episode.
+#[test]
+fn an_environment_is_played_as_without_a_viewer() {
+    let id = "hive/ElbowPose-v0";
+    let make = || Env::make(id, &OwnModels, &Options::default()).unwrap();
+    let mut session = Session::playing(Play::new(make(), None, 7).unwrap());
+    let (mut alone, mut policy) = (make(), Policy::random(7));
+    alone.reset(Some(7)).unwrap();
+    let mut action = vec![0.0; alone.action_len()];
+    let (mut total, length) = (0.0, alone.spec().max_episode_steps);
+    session.run(true);
+    while session.play().unwrap().episode().steps < length {
+        assert_eq!(session.advance(session.span(), &mut || true), 1);
+        policy.action(&alone, &mut action).unwrap();
+        total += alone.step(&action).unwrap().reward;
+    }
+    assert_eq!(session.data().state.qpos, alone.scene().data.state.qpos);
+    let play = session.play().unwrap();
+    assert_eq!((play.episode().reward, play.finished().0, play.is_over()), (total, 1, true));
+    // The next step starts the next episode.
+    session.advance(session.span(), &mut || true);
+    alone.reset(Some(8)).unwrap();
+    assert_eq!((session.play().unwrap().seed(), session.data().time()), (8, alone.scene().data.time()));
+    assert_eq!(session.data().state.qpos, alone.scene().data.state.qpos);
+}
+
+#[test]
+fn an_environment_goes_on_from_its_latest_state() {
+    let env = Env::make("hive/FrankaReach-v0", &OwnModels, &Options::default()).unwrap();
+    let mut session = Session::playing(Play::new(env, None, 0).unwrap());
+    (0..5).for_each(|_| session.step_forward());
+    let latest = session.data().time();
+    (0..3).for_each(|_| session.step_back());
+    assert!(session.data().time() < latest);
+    session.run(true);
+    assert_eq!(session.data().time(), latest);
+    session.advance(session.span(), &mut || true);
+    assert!((session.data().time() - latest - session.span()).abs() < 1e-9);
+}
+
+#[test]
+fn hands_and_pulls_act_in_an_environment() {
+    let env = Env::make("hive/FrankaReach-v0", &OwnModels, &Options::default()).unwrap();
+    let mut session = Session::playing(Play::new(env, None, 0).unwrap());
+    let play = session.play_mut().unwrap();
+    play.let_act(Acting::Policy);
+    assert_eq!(play.acting(), Acting::Random, "there is no policy");
+    play.let_act(Acting::Hand);
+    play.hand().fill(0.25);
+    session.step_forward();
+    assert!(session.play().unwrap().action().iter().all(|&a| a == 0.25));
+    // A body that is pulled upwards rises against the same action.
+    let hand = session.model().nbody - 1;
+    let height = |session: &Session| session.data().kin.xpos[hand][2];
+    let mut left =
+        Session::playing(Play::new(session.play().unwrap().env().fork().unwrap(), None, 3).unwrap());
+    let mut pulled =
+        Session::playing(Play::new(session.play().unwrap().env().fork().unwrap(), None, 3).unwrap());
+    for session in [&mut left, &mut pulled] {
+        session.play_mut().unwrap().let_act(Acting::Zero);
+    }
+    pulled.set_selected(Some(hand));
+    pulled.grab(Grip::Pull);
+    pulled.drag(Plane::Vertical, [0.0, 0.5]);
+    for session in [&mut left, &mut pulled] {
+        session.run(true);
+        for _ in 0..5 {
+            session.advance(session.span(), &mut || true);
+        }
+    }
+    assert!(height(&pulled) > height(&left) + 1e-4, "{} {}", height(&pulled), height(&left));
 }

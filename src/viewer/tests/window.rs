@@ -132,6 +132,24 @@ fn every_model_of_our_own_is_shown() {
 }
 
 #[test]
+fn environments_are_played() {
+    let mut sources = Source::own_environments();
+    let mut window = Window::of(sources.find(|source| source.title() == "hive/FrankaReach-v0"));
+    assert_eq!(window.app.trouble(), None);
+    window.use_named("Step");
+    window.use_named("Zero");
+    window.use_named("Step");
+    let play = window.session().play().unwrap();
+    assert_eq!((play.episode().steps, play.action()), (2, &vec![0.0; play.env().action_len()][..]));
+    // Rewards are shown by name, and the next episode begins where it is asked for.
+    let term = play.env().terms().rows()[0].name().to_owned();
+    window.named(&term);
+    window.use_named("Reset");
+    let play = window.session().play().unwrap();
+    assert_eq!((play.episode().steps, play.seed()), (0, 1));
+}
+
+#[test]
 fn keys_run_step_and_switch() {
     let mut window = Window::own("pile");
     let timestep = window.session().model().opt.timestep;

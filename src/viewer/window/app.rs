@@ -158,6 +158,14 @@ impl App {
                         }
                     }
                 });
+                ui.menu_button("Play an environment of our own", |ui| {
+                    for source in Source::own_environments() {
+                        if ui.button(source.title()).clicked() {
+                            self.open(source);
+                            ui.close();
+                        }
+                    }
+                });
                 if ui.button("Reload  Ctrl+L").clicked() {
                     self.reload();
                 }
@@ -263,16 +271,27 @@ impl App {
             Panel::left("left").default_size(240.0).show_collapsible(ui, &mut self.shows_left, |ui| {
                 ScrollArea::vertical().show(ui, |ui| {
                     section(ui, "Simulation", true, |ui| panels::simulation(ui, session));
+                    if session.play().is_some() {
+                        section(ui, "Episode", true, |ui| panels::episode(ui, session));
+                    }
                     section(ui, "View", true, |ui| panels::visual(ui, session));
                     section(ui, "Groups", false, |ui| panels::groups(ui, session));
-                    section(ui, "Physics", false, |ui| panels::options(ui, session));
+                    if session.play().is_none() {
+                        section(ui, "Physics", false, |ui| panels::options(ui, session));
+                    }
                 });
             });
             Panel::right("right").default_size(280.0).show_collapsible(ui, &mut self.shows_right, |ui| {
                 ScrollArea::vertical().show(ui, |ui| {
-                    section(ui, "Controls", true, |ui| panels::controls(ui, session));
-                    section(ui, "Joints", false, |ui| panels::joints(ui, session));
-                    section(ui, "Equality", false, |ui| panels::equalities(ui, session));
+                    if session.play().is_some() {
+                        section(ui, "Reward", true, |ui| panels::reward(ui, session));
+                        section(ui, "Actions", true, |ui| panels::actions(ui, session));
+                        section(ui, "Observation", false, |ui| panels::observation(ui, session));
+                    } else {
+                        section(ui, "Controls", true, |ui| panels::controls(ui, session));
+                        section(ui, "Joints", false, |ui| panels::joints(ui, session));
+                        section(ui, "Equality", false, |ui| panels::equalities(ui, session));
+                    }
                     section(ui, "Watch", false, |ui| panels::watched(ui, session, &mut self.watched));
                     section(ui, "Sensors", false, |ui| panels::sensors(ui, session));
                     section(ui, "Contacts", false, |ui| panels::contacts(ui, session));

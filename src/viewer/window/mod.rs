@@ -2,7 +2,7 @@
 //!
 //! | part | what it does |
 //! |---|---|
-//! | `source` | where models come from, and when their files have changed |
+//! | `source` | where models and environments come from, and when files have changed |
 //! | `opened` | a model that is open: its session and its picture |
 //! | `screen` | the picture, drawn as finely as time allows |
 //! | `canvas` | the picture in the window, and gestures on it |
@@ -19,7 +19,7 @@ mod screen;
 mod source;
 
 pub use app::App;
-pub use source::Source;
+pub use source::{Recipe, Source};
 
 use std::fmt;
 

@@ -29,19 +29,21 @@ impl Opened {
     /// It cannot be read, evaluated or drawn.
     pub(super) fn open(source: Source) -> Result<Self, String> {
         let changed = source.changed();
-        let loaded = source.load()?;
-        let session = Session::new(loaded.model).map_err(|error| error.to_string())?;
+        let (session, warnings) = source.start()?;
         let screen = Screen::new(session.model()).map_err(|error| error.to_string())?;
-        let warnings = loaded.warnings.to_string();
         Ok(Opened { session, screen, source, warnings, changed, looked: Instant::now() })
     }
 
-    /// Reads the model again, in the state that it is in.
+    /// Reads the model again, in the state that it is in; an environment begins anew.
     ///
     /// # Errors
     /// As [`Opened::open`]; the model stays the former one.
     pub(super) fn reload(&mut self) -> Result<(), String> {
         self.changed = self.source.changed();
+        if self.session.play().is_some() {
+            *self = Opened::open(self.source.clone())?;
+            return Ok(());
+        }
         let loaded = self.source.load()?;
         let screen = Screen::new(&loaded.model).map_err(|error| error.to_string())?;
         self.session.replace(loaded.model).map_err(|error| error.to_string())?;

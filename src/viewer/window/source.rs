@@ -1,19 +1,46 @@
 //! Where models come from.
 
+use crate::play::{Play, PlayError};
+use crate::session::Session;
+use env::{Env, Options, OwnModels, Registry};
 use mjcf::diagnostic::Diagnostics;
 use mjcf::files::Memory;
 use mjcf::{Loaded, Loader};
 use physics::Model;
+use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::SystemTime;
 
-/// A model that can be opened.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A model or an environment that can be opened.
+#[derive(Clone, Debug)]
 pub enum Source {
     /// A file: MJCF, URDF, or what `robohive compile` wrote.
     File(PathBuf),
     /// A model of our own, by its path in `assets/`.
     Own(&'static str),
+    /// An environment.
+    Environment(Recipe),
+}
+
+/// How an environment is made.
+#[derive(Clone)]
+pub struct Recipe {
+    id: String,
+    make: Arc<dyn Fn() -> Result<Play, PlayError> + Send + Sync>,
+}
+
+impl Recipe {
+    /// The environment of an id, made and started by `make`.
+    pub fn new(id: &str, make: impl Fn() -> Result<Play, PlayError> + Send + Sync + 'static) -> Self {
+        Recipe { id: id.to_owned(), make: Arc::new(make) }
+    }
+}
+
+impl fmt::Debug for Recipe {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("Recipe").field(&self.id).finish()
+    }
 }
 
 impl Source {
@@ -26,6 +53,16 @@ impl Source {
             .map(Source::Own)
     }
 
+    /// Environments on models of our own.
+    pub fn own_environments() -> impl Iterator<Item = Source> {
+        let own = Registry::builtin().specs().iter().filter(|spec| spec.id.starts_with("hive/"));
+        own.map(|spec| {
+            let id = spec.id.clone();
+            let make = move || Play::new(Env::make(&id, &OwnModels, &Options::default())?, None, 0);
+            Source::Environment(Recipe::new(&spec.id, make))
+        })
+    }
+
     /// What people call it.
     pub fn title(&self) -> String {
         match self {
@@ -33,16 +70,33 @@ impl Source {
             Source::Own(path) => {
                 Path::new(path).file_stem().unwrap_or_default().to_string_lossy().into_owned()
             }
+            Source::Environment(recipe) => recipe.id.clone(),
         }
     }
 
-    /// Reads and compiles it.
+    /// A session with it, and what was ignored or assumed when its model was read.
+    ///
+    /// # Errors
+    /// What is wrong with it, with file, line and column.
+    pub(super) fn start(&self) -> Result<(Session, String), String> {
+        if let Source::Environment(recipe) = self {
+            let play = (recipe.make)().map_err(|error| error.to_string())?;
+            let warnings = play.env().warnings().to_string();
+            return Ok((Session::playing(play), warnings));
+        }
+        let loaded = self.load()?;
+        let session = Session::new(loaded.model).map_err(|error| error.to_string())?;
+        Ok((session, loaded.warnings.to_string()))
+    }
+
+    /// Reads and compiles a model.
     ///
     /// # Errors
     /// What is wrong with it, with file, line and column.
     pub(super) fn load(&self) -> Result<Loaded, String> {
         match self {
             Source::File(path) => load_file(path),
+            Source::Environment(recipe) => Err(format!("{} is an environment, not a model", recipe.id)),
             Source::Own(path) => {
                 let mut files = Memory::default();
                 assets::FILES.iter().for_each(|(path, text)| files.insert(path, text.as_bytes()));
@@ -55,7 +109,7 @@ impl Source {
     pub fn changed(&self) -> Option<SystemTime> {
         match self {
             Source::File(path) => std::fs::metadata(path).and_then(|about| about.modified()).ok(),
-            Source::Own(_) => None,
+            Source::Own(_) | Source::Environment(_) => None,
         }
     }
 }

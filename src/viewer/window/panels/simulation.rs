@@ -28,6 +28,9 @@ pub fn simulation(ui: &mut Ui, session: &mut Session) {
         session.perform(command);
     }
     history(ui, session);
+    if session.play().is_some() {
+        return;
+    }
     keyframes(ui, session);
     ui.add(Slider::new(&mut session.noise.scale, 0.0..=1.0).text("noise scale"));
     ui.add(Slider::new(&mut session.noise.rate, 0.0..=4.0).text("noise time [s]"));
