@@ -28,9 +28,21 @@ pub(crate) fn foreign(bytes: &[u8]) -> Option<&'static str> {
         [0xff, 0xfe, 0, 0, ..] | [0, 0, 0xfe, 0xff, ..] => Some("text in UTF-32"),
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => Some("text in UTF-16"),
         _ if !bytes.contains(&0) => None,
+        _ if nul(bytes).is_some() => Some("text with a NUL in it"),
         _ if wide(0) != wide(1) => Some("text in UTF-16"),
         _ => Some("binary"),
     }
+}
+
+/// The first NUL of what is text apart from that; `None` for anything else.
+pub(crate) fn nul(bytes: &[u8]) -> Option<usize> {
+    let first = bytes.iter().position(|&byte| byte == 0)?;
+    let zeros = bytes.iter().filter(|&&byte| byte == 0).count();
+    let is_control = |byte: &u8| byte.is_ascii_control() && !b"\t\n\x0c\r\0".contains(byte);
+    // Every other byte of English text in UTF-16 is zero.
+    let wide = bytes.len() >= 4 && 3 * zeros >= bytes.len();
+    let is_text = !wide && !bytes.iter().any(is_control) && std::str::from_utf8(bytes).is_ok();
+    is_text.then_some(first)
 }
 
 /// What MuJoCo stores its arrays after: a number of its own, and the size of its own.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use crate::budget::{ADVICE, ATTRIBUTE, Budget, ELEMENT};
 use crate::diagnostic::{Diagnostics, Loc, Sources};
-use crate::encoding::{foreign, refused};
+use crate::encoding::{foreign, nul, refused};
 
 /// One XML element.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -264,6 +264,9 @@ fn scan(text: &mut [u8], limits: &Limits, budget: &mut Budget) -> Result<Scan, F
     }
     if let Some(why) = refused(text) {
         return fault(0, why);
+    }
+    if let Some(at) = nul(text) {
+        return fault(at, "the text has a NUL here (a zero byte), which XML has no place for: remove it");
     }
     if let Some(encoding) = foreign(text) {
         return fault(0, format!("file is {encoding}: a model is text in UTF-8"));

@@ -240,6 +240,17 @@ fn what_mujocos_parser_forgives_is_read() {
     assert_eq!(model.geom_pos, [[0.0, 0.0, 1.0]]);
 }
 
+/// Half of a very short text may be zeros, as in UTF-16.
+#[test]
+fn a_nul_in_a_text_is_named_at_its_place() {
+    for (text, place) in
+        [("<mujoco>\n</mujoco>\0", "2:10"), ("<mujoco>\0</mujoco>", "1:9"), ("a\0", "1:2"), ("\0", "1:1")]
+    {
+        let said = load_str(text).unwrap_err().to_string();
+        assert!(said.starts_with(&format!("<text>:{place}: error: the text has a NUL here")), "{said}");
+    }
+}
+
 #[test]
 fn bytes_that_are_no_text_are_named() {
     let text = "<mujoco><worldbody/></mujoco>";
@@ -253,7 +264,6 @@ fn bytes_that_are_no_text_are_named() {
         (wide(&[], u16::to_be_bytes), "text in UTF-16"),
         (vec![0xff, 0xfe, 0, 0, b'<', 0, 0, 0], "text in UTF-32"),
         (b"\x7fELF\x02\x01\x01\0\0".to_vec(), "binary"),
-        (b"<mujoco>\0</mujoco>".to_vec(), "binary"),
     ];
     for (bytes, what) in cases {
         let mut memory = Memory::default();

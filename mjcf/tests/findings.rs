@@ -60,7 +60,8 @@ fn files_that_are_no_text_are_named_as_what_they_are() {
         (&big, "is text in UTF-16"),
         (b"\x89PNG\r\n\x1a\n", "is a PNG image"),
         (b"PK\x03\x04", "is a zip archive"),
-        (b"<mujoco>\0</mujoco>", "is binary"),
+        (b"\x7fELF\x02\x01\x01\0\0", "is binary"),
+        (b"<mujoco>\0</mujoco>", " a NUL "),
     ] {
         let findings = load_files(&[("model.xml", content)]).unwrap_err();
         assert!(first(&findings).message.contains(expected), "{findings}");
