@@ -17,6 +17,8 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from robohive.whole_numbers import whole
+
 Array = NDArray[Any]
 
 
@@ -119,6 +121,7 @@ class EpisodeRunner:
 
         from robohive.vector import make_vec
 
+        num_envs, threads = whole("num_envs", num_envs, 1), whole("threads", threads)
         self._envs = make_vec(
             id,
             num_envs,
@@ -222,7 +225,7 @@ def collect(
         seed: Base of all seeds.
         settings: Settings of the environment that differ from the id's.
     """
-    numbers = range(episodes) if isinstance(episodes, int) else list(episodes)
+    numbers = range(whole("episodes", episodes)) if isinstance(episodes, int) else list(episodes)
     runner = EpisodeRunner(id, policy, seed=seed, num_envs=num_envs, threads=threads, settings=settings)
     try:
         yield from runner.run(numbers)

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from robohive import _core
 from robohive.paths import stack
+from robohive.whole_numbers import whole
 
 if TYPE_CHECKING:
     from robohive.envs import RoboHiveEnv
@@ -39,8 +40,9 @@ def examine_policy(
         raise ValueError(f"mode is exploration or evaluation, not {mode}")
     if render not in (None, "None", "none", "offscreen"):
         raise ValueError(f"render is offscreen or None, not {render}: this build opens no window")
+    horizon = whole("horizon", horizon, 1)
     paths = []
-    for episode in range(num_episodes):
+    for episode in range(whole("num_episodes", num_episodes)):
         frames: list[NDArray[np.uint8]] | None = [] if render == "offscreen" else None
         path = _episode(env, policy, horizon, mode == "exploration", camera, frame_size, frames)
         if frames:

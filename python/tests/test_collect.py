@@ -53,3 +53,10 @@ def test_an_episode_says_why_physics_refused_its_last_step():
 def test_episodes_are_those_asked_for(numbers):
     episodes = list(collect(ID, numbers, policy=RandomPolicy, num_envs=2, threads=1))
     assert sorted(episode.index for episode in episodes) == sorted(numbers)
+
+
+@pytest.mark.parametrize(("name", "value"), [("episodes", -1), ("num_envs", 0), ("num_envs", -3), ("threads", -1)])
+def test_counts_are_refused_by_their_name(name, value):
+    arguments = {"episodes": 1, name: value}
+    with pytest.raises(ValueError, match=f"^{name} is a whole number from"):
+        list(collect(ID, policy=RandomPolicy, **arguments))

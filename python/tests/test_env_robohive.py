@@ -127,6 +127,9 @@ def test_policies_are_examined(env, tmp_path):
     assert path["rewards"].shape == (horizon,) and path["terminated"] is False
     assert path["env_infos"]["solved"].shape == (horizon,)
     assert path["env_infos"]["state"]["qpos"].shape == (horizon, env.sim.model.nq)
+    for name, value in (("horizon", 0), ("horizon", -1), ("num_episodes", -1)):
+        with pytest.raises(ValueError, match=f"^{name} is a whole number from"):
+            env.examine_policy(Drift(8), **{name: value})
     evaluated = env.examine_policy(Drift(8), horizon=3, mode="evaluation")[0]
     assert (evaluated["actions"] == 0.2).all()
     env.examine_policy(

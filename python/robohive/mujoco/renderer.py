@@ -13,6 +13,7 @@ from robohive.mujoco.pictures.scene import MjvScene
 from robohive.mujoco.pictures.view import MjvCamera, MjvOption, mjv_defaultFreeCamera
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
+from robohive.whole_numbers import whole
 
 
 class Renderer:
@@ -28,8 +29,10 @@ class Renderer:
         """Pictures of `height` and `width` pixels.
 
         Raises:
-            ValueError: they exceed `offwidth` or `offheight` of the model.
+            ValueError: they are no sizes, or exceed `offwidth` or `offheight` of the model.
         """
+        height, width = whole("height", height, 1), whole("width", width, 1)
+        max_geom = whole("max_geom", max_geom)
         sizes = model.vis.global_
         for name, asked, most in (("width", width, sizes.offwidth), ("height", height, sizes.offheight)):
             if asked > most:

@@ -10,6 +10,7 @@ from robohive.mujoco import _engine as _core
 from robohive.mujoco.enums.physics import mjtState
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
+from robohive.whole_numbers import whole
 
 _FULL = int(mjtState.mjSTATE_FULLPHYSICS)
 
@@ -49,7 +50,7 @@ def rollout(
         States and sensor readings after every step.
 
     Raises:
-        ValueError: shapes contradict each other.
+        ValueError: shapes contradict each other; `nstep` is no number of steps.
         FatalError: a trajectory is unstable. Where unstable simulations are reset, it ends there, and its last state is
             repeated.
     """
@@ -72,7 +73,7 @@ def rollout(
     if skip_checks and len(models) > 1:
         models = models[: len(start)]
     nbatch = _common(0, max(len(models), 1), arrays)
-    steps = _common(1, nstep or 1, {"control": inputs, **outs})
+    steps = _common(1, whole("nstep", nstep or 1, 1), {"control": inputs, **outs})
     if len(models) not in (1, nbatch):
         raise ValueError(f"{nbatch} trajectories need one model or {nbatch}, not {len(models)}")
     plan = {
@@ -126,7 +127,7 @@ class Rollout:
     manager."""
 
     def __init__(self, *, nthread: int | None = None) -> None:
-        self.nthread = nthread or 0
+        self.nthread = whole("nthread", nthread or 0)
         self._open = True
 
     def rollout(self, *args: Any, **options: Any) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

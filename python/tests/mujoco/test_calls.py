@@ -262,3 +262,19 @@ def test_a_pass_with_bad_controls_warns_and_counts_them_as_zero(model, data):
     assert data.warning.number.tolist() == [0, 0, 0, 0, 0, 0, 1]
     np.testing.assert_array_equal(data.qacc, without)
     assert np.isnan(data.ctrl[0])
+
+
+@pytest.mark.parametrize("value", [-1, 10**30, 1.5])
+def test_sizes_and_counts_are_refused_by_their_name(model, data, value):
+    start = np.zeros((1, mj.mj_stateSize(model, mj.mjtState.mjSTATE_FULLPHYSICS)))
+    calls = {
+        "height": lambda: mj.Renderer(model, value, 16),
+        "width": lambda: mj.Renderer(model, 16, value),
+        "max_geom": lambda: mj.Renderer(model, 16, 16, max_geom=value),
+        "maxgeom": lambda: mj.MjvScene(model, value),
+        "nstep": lambda: rollout.rollout(model, data, start, nstep=value),
+        "nthread": lambda: rollout.Rollout(nthread=value),
+    }
+    for name, call in calls.items():
+        with pytest.raises(ValueError, match=f"^{name} is a whole number from"):
+            call()

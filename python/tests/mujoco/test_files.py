@@ -86,3 +86,10 @@ def test_what_was_loaded_last_is_written(tmp_path):
     with pytest.raises(NotImplementedError, match="another or was changed"):
         mj.mj_saveLastXML(str(tmp_path / "other.xml"), mj.MjModel(mj.MjSpec().compile()._compiled()))
     assert not (tmp_path / "other.xml").exists()
+
+
+@pytest.mark.parametrize(("text", "place"), [("<mujoco>\n</mujoco>\0", "2:10"), ("a\0", "1:2"), ("\0", "1:1")])
+def test_a_nul_in_a_text_is_named(text, place):
+    for read in (mj.MjModel.from_xml_string, mj.MjSpec.from_string):
+        with pytest.raises(ValueError, match=f"<text>:{place}: error: the text has a NUL here"):
+            read(text)

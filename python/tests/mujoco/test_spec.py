@@ -167,6 +167,34 @@ def test_deleting_a_body_takes_what_refers_to_it(leg):
         leg.delete(leg.worldbody)
 
 
+@pytest.mark.parametrize("kind", ["body", "frame", "joint", "freejoint", "geom", "site", "camera", "light"])
+def test_nothing_is_added_to_what_was_deleted(leg, kind):
+    shin = leg.body("shin")
+    frame = shin.add_frame(name="around")
+    leg.delete(shin)
+    for place, name in ((shin, "the body 'shin'"), (frame, "the frame 'around'")):
+        with pytest.raises(ValueError, match=f"^{name} was deleted from its description$"):
+            getattr(place, f"add_{kind}")()
+
+
+def test_what_was_deleted_is_not_attached_or_replaced(leg):
+    shin = leg.body("shin")
+    frame = shin.add_frame()
+    leg.delete(shin)
+    site = leg.worldbody.add_site()
+    for call in (
+        shin.to_frame,
+        lambda: shin.make_flex("cloth"),
+        lambda: shin.attach_frame(leg.worldbody.add_frame()),
+        lambda: site.attach_body(shin),
+    ):
+        with pytest.raises(ValueError, match="the body 'shin' was deleted"):
+            call()
+    for call in (lambda: leg.attach(mj.MjSpec(), frame=frame), lambda: leg.worldbody.attach_frame(frame)):
+        with pytest.raises(ValueError, match="the frame was deleted"):
+            call()
+
+
 def test_copies_share_nothing(leg):
     for duplicate in (leg.copy(), copy.copy(leg), copy.deepcopy(leg)):
         duplicate.body("thigh").pos[0] = 5

@@ -13,6 +13,7 @@ from robohive.mujoco.pictures.looking import FLAGS, look_of
 from robohive.mujoco.pictures.view import MjvCamera, MjvOption, _Struct
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
+from robohive.whole_numbers import whole
 
 #: Which number of a round shape's size goes along each axis.
 _ROUND = {
@@ -145,7 +146,7 @@ class MjvScene:
     def __init__(self, model: MjModel | None = None, maxgeom: int = 0) -> None:
         """A scene of a model, with room for `maxgeom` geoms."""
         self._model, self._painter = model, _core.Painter(1, 1)
-        self.maxgeom = int(maxgeom)
+        self.maxgeom = whole("maxgeom", maxgeom)
         self._geoms = _Geoms(self.maxgeom)
         self._own = self._count = self.nlight = self.nflex = self.nskin = 0
         #: What was looked at last is not read from the engine yet.

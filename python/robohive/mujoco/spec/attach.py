@@ -129,7 +129,7 @@ def _spread(spec: Any) -> None:
 
 def _source_of(to: Any, element: Any) -> tuple[Any, Any]:
     """The description that an element is taken from, and the element there: a copy where it must not move."""
-    source = element._owner
+    source = element._home()
     if source is not to and not to._copies:
         return source, element
     duplicate, known = exchange.duplicate(source)
@@ -148,7 +148,7 @@ def _place(onto: Any) -> tuple[MjsBody, MjsFrame | None]:
 
 def attach_spec(onto: Any, child: Any, prefix: str, suffix: str) -> MjsFrame:
     """Attaches all of a description to a frame or a site; returns the frame that it stands in."""
-    to = onto._owner
+    to = onto._home()
     if child is to:
         child = child.copy()
     elif child.parent is not None:
@@ -175,8 +175,9 @@ def attach_spec(onto: Any, child: Any, prefix: str, suffix: str) -> MjsFrame:
 
 def attach_body(onto: Any, body: MjsBody, prefix: str, suffix: str) -> MjsBody:
     """Attaches a body to a frame or a site; returns it."""
-    to, own = onto._owner, body._owner is onto._owner
-    if body._parent is None or body is body._owner._world:
+    to, home = onto._home(), body._home()
+    own = home is to
+    if body._parent is None or body is home._world:
         raise ValueError("the world cannot be attached; attach its description")
     taken: MjsBody
     source, taken = _source_of(to, body)
@@ -194,7 +195,8 @@ def attach_body(onto: Any, body: MjsBody, prefix: str, suffix: str) -> MjsBody:
 
 def attach_frame(onto: MjsBody, frame: MjsFrame, prefix: str, suffix: str) -> MjsFrame:
     """Attaches a frame with what stands in it to a body; returns it."""
-    to, own = onto._owner, frame._owner is onto._owner
+    to = onto._home()
+    own = frame._home() is to
     taken: MjsFrame
     source, taken = _source_of(to, frame)
     if own:
@@ -232,8 +234,8 @@ def _within(body: MjsBody, frame: MjsFrame) -> list[Any]:
 
 def to_frame(body: MjsBody) -> MjsFrame:
     """Replaces a body by a frame."""
-    parent = body._parent
-    if parent is None or body is body._owner._world:
+    parent, spec = body._parent, body._home()
+    if parent is None or body is spec._world:
         raise ValueError("the world cannot become a frame")
     frame: MjsFrame = parent.add_frame(body._frame, pos=body.pos, quat=body.quat)
     frame.__dict__["alt"] = body.alt.copied()
@@ -243,7 +245,7 @@ def to_frame(body: MjsBody) -> MjsFrame:
             element.__dict__.update(_parent=parent, _frame=element._frame or frame)
             parent._contents[kind].append(element)
     if body.name:
-        body._owner._names["body"].pop(body.name, None)
+        spec._names["body"].pop(body.name, None)
     body.__dict__["_owner"] = None
     return frame
 

@@ -100,9 +100,10 @@ class _Holding(MjsElement):
         raise NotImplementedError
 
     def _add(self, kind: type[Any], default: "MjsDefault | None", arguments: dict[str, Any], frame: Any = None) -> Any:
+        spec = self._home()
+        spec._check_open()
         body, around = self._place()
-        body._owner._check_open()
-        made = body._owner._made(kind, default)
+        made = spec._made(kind, default)
         made.__dict__.update(_parent=body, _frame=frame or around)
         made._fill(arguments)
         body._contents[kind._kind].append(made)
@@ -128,9 +129,10 @@ class _Holding(MjsElement):
         for name in attributes:
             if name not in ("align", "group", "name"):
                 raise TypeError(f"Invalid {name} keyword argument. Valid options are: align, group, name.")
+        spec = self._home()
+        spec._check_open()
         body, frame = self._place()
-        body._owner._check_open()
-        joint = MjsJoint(body._owner)
+        joint = MjsJoint(spec)
         joint.__dict__.update(_parent=body, _frame=frame, type=mjtJoint.mjJNT_FREE)
         if "align" in attributes:
             attributes["align"] = int(attributes["align"])

@@ -59,7 +59,7 @@ def make_flex(
     Raises:
         ValueError: what is wrong with the arguments; a name is taken, or the body has none.
     """
-    spec = body._owner
+    spec = body._home()
     spec._check_open()
     attributes: dict[str, Any] = {"name": name, "type": type, "dim": int(dim), "dof": dof, **numbers}
     for key, values in grid.items():

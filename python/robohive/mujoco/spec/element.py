@@ -93,6 +93,18 @@ class MjsElement:
             self.name = arguments["name"]
         return self
 
+    def _home(self) -> "MjSpec":
+        """The description that the element is part of.
+
+        Raises:
+            ValueError: it was deleted.
+        """
+        if self._owner is None:
+            name = getattr(self, "name", "")
+            raise ValueError(f"the {self._kind}{name and f' {name!r}'} was deleted from its description")
+        owner: MjSpec = self._owner
+        return owner
+
     @property
     def id(self) -> int:
         """Number of the element in the model that was compiled last, -1 before that."""

@@ -145,7 +145,7 @@ class MjsWrap:
         self.info = ""
 
     def _find(self, kind: str, name: str) -> Any:
-        return self._tendon._owner._names[kind].get(name) if name else None
+        return self._tendon._home()._names[kind].get(name) if name else None
 
     @property
     def target(self) -> Any:

@@ -290,7 +290,7 @@ class MjSpec(Lists):
         found = self._names[kind].get(onto) if isinstance(onto, str) else onto
         if found is None:
             raise ValueError(f"{kind.capitalize()} not found.")
-        if found._owner is not self:
+        if found._home() is not self:
             raise ValueError(f"the {kind} is part of another description")
         before, after = "/" if prefix is None else prefix, suffix or ""
         files = {affixed(name, before, after): content for name, content in child.assets.items()}
