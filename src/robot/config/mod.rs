@@ -49,7 +49,8 @@ impl Config {
     /// `+ - * /` over numbers and `np.pi`. Nothing is evaluated beyond that. `file` names the text in errors.
     ///
     /// # Errors
-    /// Texts that are no such literal, unknown, missing and repeated keys, values that are wrong: with line and column.
+    /// Texts that are no such literal or name no device, unknown, missing and repeated keys, values that are wrong: with
+    /// line and column.
     pub fn from_literal(text: &str, file: &str) -> Result<Config, ConfigError> {
         let source = error::Source::new(text, file)?;
         let root = literal::parse(&source)?;
@@ -59,7 +60,8 @@ impl Config {
     /// Reads the TOML form. `file` names the text in errors.
     ///
     /// # Errors
-    /// Texts that are no TOML, unknown, missing and repeated keys, values that are wrong: with line and column.
+    /// Texts that are no TOML or name no device, unknown, missing and repeated keys, values that are wrong: with line and
+    /// column.
     pub fn from_toml(text: &str, file: &str) -> Result<Config, ConfigError> {
         let source = error::Source::new(text, file)?;
         let root = toml_reader::parse(&source)?;
@@ -86,8 +88,8 @@ impl Config {
         }
     }
 
-    /// The config as TOML, which [`Config::from_toml`] reads as an equal one. Parameters that are `None` are left out,
-    /// since TOML has no word for it.
+    /// The config as TOML, which [`Config::from_toml`] reads as an equal one if it has a device. Parameters that are `None`
+    /// are left out, since TOML has no word for it.
     pub fn to_toml(&self) -> String {
         toml_writer::text(self)
     }

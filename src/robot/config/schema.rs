@@ -29,12 +29,13 @@ pub(super) fn named_devices(source: &Source, root: Node) -> Outcome<Config> {
             let fields = Fields::new(source, &format!("device '{}'", key.name), value, &DEVICE)?;
             device(key.name, fields)
         })
-        .collect::<Outcome<_>>()?;
-    Ok(Config { devices })
+        .collect::<Outcome<Vec<_>>>()?;
+    some(source, root.at, devices)
 }
 
 /// `{device: [{name: …}, …]}`.
 pub(super) fn listed_devices(source: &Source, root: Node) -> Outcome<Config> {
+    let at = root.at;
     let mut top = Fields::new(source, "the config", root, &["device"])?;
     let (mut devices, mut names) = (Vec::new(), HashSet::new());
     for node in top.list("device")? {
@@ -47,6 +48,15 @@ pub(super) fn listed_devices(source: &Source, root: Node) -> Outcome<Config> {
         }
         fields.owner = format!("device '{name}'");
         devices.push(device(name, fields)?);
+    }
+    some(source, at, devices)
+}
+
+/// A config with devices: a robot without any would neither act nor sense.
+fn some(source: &Source, at: usize, devices: Vec<DeviceConfig>) -> Outcome<Config> {
+    if devices.is_empty() {
+        return Err(source
+            .error(at, "the config has no device; a robot without config has every sensor and actuator"));
     }
     Ok(Config { devices })
 }

@@ -272,6 +272,25 @@ fn wrong_toml_is_refused_where_it_stands() {
 }
 
 #[test]
+fn a_config_has_a_device() {
+    for text in ["{}", "\n# nothing\n{}"] {
+        let line = text.lines().count();
+        assert!(
+            refused(text).starts_with(&format!("arm.config:{line}:1: the config has no device")),
+            "{}",
+            refused(text)
+        );
+    }
+    for text in ["", "# nothing\n", "device = []"] {
+        assert!(
+            refused_toml(text).starts_with("arm.toml:1:1: the config has no device"),
+            "{}",
+            refused_toml(text)
+        );
+    }
+}
+
+#[test]
 fn files_are_read_by_extension() {
     let folder = std::env::temp_dir().join(format!("robohive-robot-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
