@@ -96,7 +96,7 @@ impl Reader<'_> {
         for (_, attribute, effect) in parts.into_iter().filter(|(is_user, ..)| *is_user) {
             self.warning(
                 loc,
-                format!("{attribute}=\"user\" is for callbacks, of which there are none: {effect}, as in MuJoCo without one"),
+                format!("{attribute}=\"user\" is for a program's callbacks; without one {effect}"),
             );
         }
     }

@@ -35,7 +35,7 @@ def _setter(name: str, summary: str) -> Callable[[Any], None]:
 def _refusing(name: str) -> Callable[[Any], None]:
     def set_callback(callback: Any) -> None:
         if callback is not None:
-            raise NotImplementedError(f"{name}: the engine calls nothing back inside of a stage")
+            raise NotImplementedError(f"{name}: the engine takes its memory from Rust's allocator alone")
 
     set_callback.__name__ = f"set_{name}"
     set_callback.__doc__ = f"Accepts None; `{name}` is never called."
@@ -59,13 +59,13 @@ set_mjcb_sensor = _setter("mjcb_sensor", "`callback(model, data, stage)` writes 
 get_mjcb_sensor = _getter("mjcb_sensor")
 set_mjcb_time = _setter("mjcb_time", "`callback()` is the clock of timers.")
 get_mjcb_time = _getter("mjcb_time")
-set_mjcb_act_bias = _refusing("mjcb_act_bias")
+set_mjcb_act_bias = _setter("mjcb_act_bias", "`callback(model, data, id)` is the bias of an actuator of type `user` [N, N m].")
 get_mjcb_act_bias = _getter("mjcb_act_bias")
-set_mjcb_act_dyn = _refusing("mjcb_act_dyn")
+set_mjcb_act_dyn = _setter("mjcb_act_dyn", "`callback(model, data, id)` is the rate of activation of an actuator of type `user` [1/s].")
 get_mjcb_act_dyn = _getter("mjcb_act_dyn")
-set_mjcb_act_gain = _refusing("mjcb_act_gain")
+set_mjcb_act_gain = _setter("mjcb_act_gain", "`callback(model, data, id)` is the gain of an actuator of type `user`.")
 get_mjcb_act_gain = _getter("mjcb_act_gain")
-set_mjcb_contactfilter = _refusing("mjcb_contactfilter")
+set_mjcb_contactfilter = _setter("mjcb_contactfilter", "`callback(model, data, geom1, geom2)` is not 0 where two geoms shall not touch.")
 get_mjcb_contactfilter = _getter("mjcb_contactfilter")
 set_mju_user_free = _refusing("mju_user_free")
 get_mju_user_free = _getter("mju_user_free")

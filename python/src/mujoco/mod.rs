@@ -8,6 +8,7 @@
 //! | `warned.rs`, `timed.rs`, `saved.rs` | warnings, timers, states as vectors |
 //! | `call.rs`, `error.rs` | what every call does, and how it fails |
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
+//! | `asked.rs` | stages in parts, between which callbacks are asked |
 //! | `query.rs`, `algebra.rs`, `quaternion.rs` | questions about poses, matrices, rotations |
 //! | `picture.rs`, `items.rs` | pictures, and the items of a scene |
 //! | `spec/` | descriptions of models: read, compiled, written |
@@ -17,6 +18,7 @@
 
 mod algebra;
 mod arena;
+mod asked;
 mod call;
 mod data;
 mod dynamics;
@@ -48,6 +50,8 @@ pub mod bindings {
     use super::algebra::{
         difference, full_matrix, inverse_slopes, moved, mul_inertia, solve_inertia, step_slopes,
     };
+    #[pymodule_export]
+    use super::asked::{actuator_forces, actuator_rates, collide_known};
     #[pymodule_export]
     use super::data::{Data, data_fields};
     #[pymodule_export]

@@ -117,8 +117,8 @@ def test_exceptions_pass_through_and_leave_the_data_usable(scene):
 def test_what_cannot_be_called_is_refused():
     with pytest.raises(TypeError, match="Optional"):
         mj.set_mjcb_control(3)
-    with pytest.raises(NotImplementedError, match="mjcb_contactfilter"):
-        mj.set_mjcb_contactfilter(lambda m, d, a, b: 1)
+    with pytest.raises(NotImplementedError, match="mju_user_malloc"):
+        mj.set_mju_user_malloc(lambda size: None)
 
 
 def test_the_clock_is_asked_and_timers_count(scene):

@@ -9,14 +9,6 @@ from spec_scripts import SCRIPTS, two_legs
 SKIPPED = ("names", "paths", "names_map", "text_data", "signature", "oct_", "bvh_", "narena", "nbuffer", "B_", "D_", "M_", "map")
 
 
-@pytest.fixture(scope="module")
-def truth():
-    module = pytest.importorskip("mujoco")
-    if module is mj or getattr(module, "__version__", None) != "3.12.0":
-        pytest.skip("compares with mujoco 3.12.0")
-    return module
-
-
 def names(module, model):
     kinds = {"body": "nbody", "jnt": "njnt", "geom": "ngeom", "site": "nsite", "actuator": "nactuator", "sensor": "nsensor"}
     kinds |= {"key": "nkey", "tendon": "ntendon", "mat": "nmat", "mesh": "nmesh", "eq": "neq", "tuple": "ntuple"}

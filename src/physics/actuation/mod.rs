@@ -8,6 +8,7 @@ pub(crate) mod muscle;
 pub(crate) mod servo;
 pub(crate) mod setpoint;
 pub mod transmission;
+pub mod user;
 
 pub use history::{Recorded, recall};
 
@@ -17,6 +18,7 @@ use crate::actuation::activation::{activation_rates, next_activation};
 use crate::actuation::muscle::Muscle;
 use crate::actuation::setpoint::{activations, nearest_setpoint, setpoint_period};
 use crate::actuation::transmission::moment;
+use crate::actuation::user::{Unset, UserActuators};
 use crate::math::{
     IDENTITY, Quat, Vec3, clip, norm, quat_difference, quat_from_axis_angle, quat_normalize, scale,
 };
@@ -37,23 +39,68 @@ pub fn actuation(
     passive: &Passive,
     out: &mut Actuation,
 ) {
+    let inputs = ActuatorInputs { m, state, trn, vel };
+    if let Some(bad) = all_rates(&inputs, out) {
+        all_forces(&inputs, bad, &Unset, passive, out);
+    }
+}
+
+/// The first half of [`actuation`]: rates of activation; forces are zero.
+pub fn rates(inputs: &ActuatorInputs, out: &mut Actuation) {
+    all_rates(inputs, out);
+}
+
+/// The second half of [`actuation`]: forces under the rates of activation in `out`, where `user` has gains and biases of
+/// type `user`.
+pub fn forces(inputs: &ActuatorInputs, user: &impl UserActuators, passive: &Passive, out: &mut Actuation) {
+    if clear(inputs.m, out) {
+        all_forces(inputs, any_is_bad(inputs), user, passive, out);
+    }
+}
+
+/// Sets forces to zero; whether there is something that may act.
+#[inline(always)]
+fn clear(m: &Model, out: &mut Actuation) -> bool {
     out.actuator_force.fill(0.0);
     out.qfrc_actuator.fill(0.0);
-    if m.nactuator == 0 || m.opt.disableflags.contains(Disable::ACTUATION) {
-        return;
-    }
-    // One bad control switches all of them off.
+    m.nactuator > 0 && !m.opt.disableflags.contains(Disable::ACTUATION)
+}
+
+/// Whether a control is not finite or too large: one bad control switches all of them off.
+#[inline(always)]
+fn any_is_bad(inputs: &ActuatorInputs) -> bool {
     let is_bad = |u: f64| u.is_nan() || u.abs() > MAXVAL;
-    let bad = (0..m.nu).any(|k| is_bad(clamped_control(m, state, k)));
+    (0..inputs.m.nu).any(|k| is_bad(clamped_control(inputs.m, inputs.state, k)))
+}
+
+/// [`rates`]; whether a control is bad, `None` where nothing acts.
+#[inline(always)]
+fn all_rates(inputs: &ActuatorInputs, out: &mut Actuation) -> Option<bool> {
+    let &ActuatorInputs { m, state, trn, vel } = inputs;
+    if !clear(m, out) {
+        return None;
+    }
+    let bad = any_is_bad(inputs);
     let ctrl = |k: usize| if bad { 0.0 } else { clamped_control(m, state, k) };
     activation_rates(m, state, trn, vel, ctrl, &mut out.act_dot);
     if m.nplugin > 0 {
-        let inputs = ActuatorInputs { m, state, trn, vel };
         for (_, running) in m.plugins().with(Capability::Actuator) {
-            running.instance.activation_rates(&inputs, &mut out.act_dot);
+            running.instance.activation_rates(inputs, &mut out.act_dot);
         }
     }
+    Some(bad)
+}
 
+#[inline(always)]
+fn all_forces(
+    inputs: &ActuatorInputs,
+    bad: bool,
+    user: &impl UserActuators,
+    passive: &Passive,
+    out: &mut Actuation,
+) {
+    let &ActuatorInputs { m, state, trn, vel } = inputs;
+    let ctrl = |k: usize| if bad { 0.0 } else { clamped_control(m, state, k) };
     let awake = Awake::of(m, state);
     let without_plugins = m.nplugin == 0;
     let works = |i: usize| {
@@ -74,19 +121,19 @@ pub fn actuation(
                     dc_motor::electrical_force(m, act, i, (length, velocity), ctrl, &out.act_dot)
                 }
                 Some(GainType::Pid) => {
-                    servo::pid_force(m, act, i, length, ctrl, &out.act_dot) + bias(m, i, length, velocity)
+                    let force = servo::pid_force(m, act, i, length, ctrl, &out.act_dot);
+                    force + bias(m, i, length, velocity, user)
                 }
                 _ => {
                     let input = input(m, state, i, length, ctrl, &out.act_dot);
-                    gain(m, i, length, velocity) * input + bias(m, i, length, velocity)
+                    gain(m, i, length, velocity, user) * input + bias(m, i, length, velocity, user)
                 }
             };
         }
     }
     if m.nplugin > 0 {
-        let inputs = ActuatorInputs { m, state, trn, vel };
         for (_, running) in m.plugins().with(Capability::Actuator) {
-            running.instance.forces(&inputs, &out.act_dot, &mut out.actuator_force);
+            running.instance.forces(inputs, &out.act_dot, &mut out.actuator_force);
         }
     }
     limit_tendon_forces(m, &mut out.actuator_force);
@@ -140,26 +187,26 @@ pub(crate) fn muscle<'a>(m: &Model, i: usize, prm: &'a [f64; 10]) -> Muscle<'a> 
     Muscle { lengthrange: m.actuator_lengthrange[out], acc0: m.actuator_acc0[out], prm }
 }
 
-fn gain(m: &Model, i: usize, length: f64, velocity: f64) -> f64 {
+fn gain(m: &Model, i: usize, length: f64, velocity: f64, user: &impl UserActuators) -> f64 {
     let prm = &m.actuator_gainprm[i];
     match GainType::from_code(m.actuator_gaintype[i]) {
         Some(GainType::Fixed) => prm[0],
         Some(GainType::Affine) => prm[0] + prm[1] * length + prm[2] * velocity,
         Some(GainType::Muscle) => muscle(m, i, prm).gain(length, velocity),
-        // What MuJoCo takes where no callback is set.
-        Some(GainType::User) => 1.0,
+        Some(GainType::User) => user.gain(i),
         // These have forces of their own or are refused by `validity::check_model`.
         Some(GainType::Dcmotor | GainType::So3 | GainType::Pid) | None => 0.0,
     }
 }
 
 #[inline]
-fn bias(m: &Model, i: usize, length: f64, velocity: f64) -> f64 {
+fn bias(m: &Model, i: usize, length: f64, velocity: f64, user: &impl UserActuators) -> f64 {
     let prm = &m.actuator_biasprm[i];
     match BiasType::from_code(m.actuator_biastype[i]) {
         Some(BiasType::Affine) => prm[0] + prm[1] * length + prm[2] * velocity,
         Some(BiasType::Muscle) => muscle(m, i, prm).bias(length),
-        Some(BiasType::None | BiasType::Dcmotor | BiasType::So3 | BiasType::User) | None => 0.0,
+        Some(BiasType::User) => user.bias(i),
+        Some(BiasType::None | BiasType::Dcmotor | BiasType::So3) | None => 0.0,
     }
 }
 

@@ -31,6 +31,7 @@ pub mod convex;
 pub mod distance;
 pub(crate) mod element_sweep;
 pub(crate) mod epa;
+pub mod filter;
 mod flex;
 #[doc(hidden)]
 pub mod gjk;
@@ -56,9 +57,9 @@ pub(crate) mod thin;
 
 use crate::model::NotSimulated;
 use crate::model::{Disable, GeomType, Model, ObjType};
-use crate::sleep::{Awake, is_on};
 use crate::stages::{Contacts, Demand, Flexes, Kinematics, OverBudget, State, StepBudget};
-use broad_phase::{geoms, spheres_apart, types_match};
+use broad_phase::{geoms, spheres_apart};
+use filter::{ByType, PairFilter, SleepFilter};
 #[doc(hidden)]
 pub use flex::World;
 pub use scratch::CollisionScratch;
@@ -155,8 +156,8 @@ pub fn collide(
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
-    let filter = Filter { sleeps: false, awake: Awake::EVERYTHING };
-    find(World { m, kin, flexes }, filter, budget, scratch, con)
+    let sleep = SleepFilter::none();
+    find(World { m, kin, flexes }, (sleep, &mut ByType), budget, scratch, con)
 }
 
 /// [`collide`] without what sleeps: of two that meet, one is awake, and not a fixed one where the other sleeps.
@@ -164,6 +165,7 @@ pub fn collide(
 /// # Errors
 /// As [`collide`].
 #[doc(hidden)]
+#[inline]
 pub fn collide_awake(
     at: World,
     state: &State,
@@ -171,37 +173,33 @@ pub fn collide_awake(
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
-    let filter = Filter { sleeps: is_on(at.m), awake: Awake::of(at.m, state) };
-    if !filter.awake.is_everything() && !state.body_awake.contains(&1) {
+    collide_filtered(at, state, &mut ByType, budget, scratch, con)
+}
+
+/// [`collide_awake`] of the pairs of geoms that `filter` admits.
+///
+/// # Errors
+/// As [`collide`].
+#[doc(hidden)]
+pub fn collide_filtered(
+    at: World,
+    state: &State,
+    filter: &mut impl PairFilter,
+    budget: StepBudget,
+    scratch: &mut CollisionScratch,
+    con: &mut Contacts,
+) -> Result<(), OverBudget> {
+    let sleep = SleepFilter::of(at.m, state);
+    if !sleep.awake.is_everything() && !state.body_awake.contains(&1) {
         con.contact.clear();
         return Ok(());
     }
-    find(at, filter, budget, scratch, con)
+    find(at, (sleep, filter), budget, scratch, con)
 }
 
-/// Which pairs sleep leaves out.
-#[derive(Clone, Copy)]
-struct Filter<'a> {
-    /// The model lets trees sleep: of a predefined pair, one body must be able to move.
-    sleeps: bool,
-    awake: Awake<'a>,
-}
-
-impl Filter<'_> {
-    fn drops(self, m: &Model, pair: usize) -> bool {
-        let body = |geom: i32| m.geom_bodyid[geom as usize] as usize;
-        let stands = |geom: i32| {
-            let b = body(geom);
-            let fixed = m.body_treeid[b] < 0 && m.body_mocapid[m.body_rootid[b] as usize] < 0;
-            fixed || self.awake.sleeps(b)
-        };
-        self.sleeps && stands(m.pair_geom1[pair]) && stands(m.pair_geom2[pair])
-    }
-}
-
-fn find(
+fn find<F: PairFilter>(
     at: World,
-    filter: Filter,
+    (sleep, filter): (SleepFilter, &mut F),
     budget: StepBudget,
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
@@ -214,20 +212,20 @@ fn find(
     scratch.budget = budget;
     let mut broad = std::mem::take(&mut scratch.broad);
     let most = budget.count(BODY_PAIR_BYTES);
-    broad.run(m, filter.awake, kin, flexes, most);
+    broad.run(m, sleep.awake, kin, flexes, most);
     let result = if broad.pairs.len() > most {
         Err(budget.exceeded(Demand::BodyPairs, broad.pairs.len(), BODY_PAIR_BYTES))
     } else {
-        touch(at, filter, &broad.pairs, scratch, con)
+        touch(at, (sleep, filter), &broad.pairs, scratch, con)
     };
     scratch.broad = broad;
     result
 }
 
 /// Contacts of the pairs of bodies and of all predefined pairs.
-fn touch(
+fn touch<F: PairFilter>(
     at: World,
-    filter: Filter,
+    (sleep, filter): (SleepFilter, &mut F),
     pairs: &[u32],
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
@@ -240,7 +238,7 @@ fn touch(
         let mut merged = false;
         while next < m.npair && m.pair_signature[next] as u32 <= signature {
             merged = m.pair_signature[next] as u32 == signature;
-            if !filter.drops(m, next) {
+            if !sleep.drops(m, next) {
                 predefined(m, kin, next, scratch, con);
             }
             scratch.check(con)?;
@@ -252,18 +250,18 @@ fn touch(
         let hidden = if merged { start..next } else { 0..0 };
         let (b1, b2) = ((signature >> 16) as usize, (signature & 0xffff) as usize);
         match [b1, b2].map(|b| b.checked_sub(m.nbody)) {
-            [_, None] => body_pair(m, kin, b1, b2, hidden, scratch, con)?,
+            [_, None] => body_pair(at, [b1, b2], hidden, filter, scratch, con)?,
             [None, Some(f)] => flex::body_flex(at, b1, f, scratch, con),
             [Some(f1), Some(f2)] => flex::two_flexes(at, [f1, f2], scratch, con),
         }
         scratch.check(con)?;
     }
-    for pair in (next..m.npair).filter(|&pair| !filter.drops(m, pair)) {
+    for pair in (next..m.npair).filter(|&pair| !sleep.drops(m, pair)) {
         predefined(m, kin, pair, scratch, con);
         scratch.check(con)?;
     }
     if m.nflex > 0 {
-        flex::self_contacts(at, filter.awake, scratch, con);
+        flex::self_contacts(at, sleep.awake, scratch, con);
         scratch.check(con)?;
     }
     Ok(())
@@ -280,11 +278,10 @@ fn predefined(m: &Model, kin: &Kinematics, pair: usize, scratch: &mut CollisionS
 
 /// Contacts of the geoms of two bodies, except those `hidden` by predefined pairs.
 fn body_pair(
-    m: &Model,
-    kin: &Kinematics,
-    b1: usize,
-    b2: usize,
+    World { m, kin, .. }: World,
+    [b1, b2]: [usize; 2],
     hidden: std::ops::Range<usize>,
+    filter: &mut impl PairFilter,
     scratch: &mut CollisionScratch,
     con: &mut Contacts,
 ) -> Result<(), OverBudget> {
@@ -314,7 +311,8 @@ fn body_pair(
             break;
         }
         let reach = mixing::margin(m, g1, g2, None) + mixing::gap(m, g1, g2, None);
-        if geoms_match(m, g1, g2, hidden.clone()) && !spheres_apart(m, kin, g1, g2, reach) {
+        let named = || is_named(m, g1, g2, hidden.clone());
+        if filter.admits(m, g1, g2, named) && !spheres_apart(m, kin, g1, g2, reach) {
             narrow(m, kin, (g1, g2), None, reach, scratch, con);
         }
     }
@@ -327,15 +325,12 @@ fn ordered(m: &Model, g1: usize, g2: usize) -> (usize, usize) {
     if m.geom_type[g1] > m.geom_type[g2] { (g2, g1) } else { (g1, g2) }
 }
 
-/// Contact types match and no predefined pair in `hidden` names the same geoms.
-fn geoms_match(m: &Model, g1: usize, g2: usize, mut hidden: std::ops::Range<usize>) -> bool {
-    let named = |k: usize| {
+/// Whether a predefined pair in `hidden` names the same geoms.
+fn is_named(m: &Model, g1: usize, g2: usize, mut hidden: std::ops::Range<usize>) -> bool {
+    hidden.any(|k| {
         let pair = (m.pair_geom1[k] as usize, m.pair_geom2[k] as usize);
         pair == (g1, g2) || pair == (g2, g1)
-    };
-    let (t1, a1) = (m.geom_contype[g1], m.geom_conaffinity[g1]);
-    let (t2, a2) = (m.geom_contype[g2], m.geom_conaffinity[g2]);
-    types_match(t1, a1, t2, a2) && !hidden.any(named)
+    })
 }
 
 /// Appends the contacts of one pair of geoms.

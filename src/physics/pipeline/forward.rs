@@ -17,7 +17,8 @@
 use crate::acceleration::rne_post::rne_post_constraint;
 use crate::actuation::actuation;
 use crate::actuation::transmission::{actuator_velocity, transmission};
-use crate::collision::{World, collide_awake};
+use crate::collision::filter::{ByType, PairFilter};
+use crate::collision::{World, collide_filtered};
 use crate::constraint::{find_islands, make_constraint, reference};
 use crate::data::{Data, configuration_of};
 use crate::flex::{Poses, edge_velocities, flexes};
@@ -120,6 +121,20 @@ pub(crate) fn position_and_velocity(
 /// Contacts and constraint rows need more memory than the budget.
 #[doc(hidden)]
 pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
+    position_of_pairs(m, d, &mut ByType, watch)
+}
+
+/// [`position`] with contacts of those pairs of geoms that `filter` admits.
+///
+/// # Errors
+/// As [`position`].
+#[doc(hidden)]
+pub fn position_of_pairs(
+    m: &Model,
+    d: &mut Data,
+    filter: &mut impl PairFilter,
+    watch: &mut impl Watch,
+) -> Result<(), StepError> {
     if d.unsettled {
         settle(m, d)?;
     }
@@ -144,10 +159,10 @@ pub fn position(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), S
     factor_inertia_of(m, awake, &mut d.inertia);
     watch.ended(Stage::Inertia);
     let world = World { m, kin: &d.kin, flexes: &d.flex };
-    collide_awake(world, &d.state, d.budget, &mut s.collision, &mut d.con)?;
+    collide_filtered(world, &d.state, filter, d.budget, &mut s.collision, &mut d.con)?;
     if sleeps {
         if wake::by_contacts(m, &d.con, &mut d.state) {
-            collide_awake(world, &d.state, d.budget, &mut s.collision, &mut d.con)?;
+            collide_filtered(world, &d.state, filter, d.budget, &mut s.collision, &mut d.con)?;
         }
         wake::by_equalities(m, &mut d.state);
     }

@@ -8,15 +8,29 @@ from robohive.mujoco import _engine as _core
 from robohive.mujoco import callbacks
 from robohive.mujoco._constants import mjMAXVAL
 from robohive.mujoco.enums.physics import mjtDisableBit, mjtWarning
+from robohive.mujoco.functions import asked
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
 
 _Stage = Callable[[MjModel, MjData], None]
 
 
+#: Stages inside of which callbacks are asked, while these are set.
+_ASKING: dict[str, tuple[tuple[str, ...], _Stage]] = {
+    "collision": (("mjcb_contactfilter",), lambda m, d: asked.contacts(m, d, alone=True)),
+    "fwdPosition": (("mjcb_contactfilter",), lambda m, d: asked.contacts(m, d, alone=False)),
+    "fwdActuation": (("mjcb_act_dyn", "mjcb_act_gain", "mjcb_act_bias"), asked.actuation),
+}
+
+
 def _stage(name: str, summary: str) -> _Stage:
+    wanted, asking = _ASKING.get(name, ((), None))
+
     def run(m: MjModel, d: MjData) -> None:
-        _core.stage(m, d, name)
+        if asking is not None and any(callbacks._set.get(callback) is not None for callback in wanted):
+            asking(m, d)
+        else:
+            _core.stage(m, d, name)
 
     run.__name__ = run.__qualname__ = f"mj_{name}"
     run.__doc__ = f"mj_{name}(m: mujoco._structs.MjModel, d: mujoco._structs.MjData) -> None\n\n{summary}\n"
