@@ -7,6 +7,7 @@ from robohive.mujoco.functions.box import *  # noqa: F403
 from robohive.mujoco.functions.history import *  # noqa: F403
 from robohive.mujoco.functions.naming import *  # noqa: F403
 from robohive.mujoco.functions.query import *  # noqa: F403
+from robohive.mujoco.functions.room import _realloc_con_efc, _realloc_island
 from robohive.mujoco.functions.rotation import *  # noqa: F403
 from robohive.mujoco.functions.slopes import *  # noqa: F403
 from robohive.mujoco.functions.stages import *  # noqa: F403

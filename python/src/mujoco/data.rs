@@ -5,6 +5,7 @@ use super::error::FatalError;
 use super::lent::Lent;
 use super::mirror::{Layout, Mirror};
 use super::model::Model;
+use super::statistics;
 use super::timed::Timers;
 use super::warned::Warned;
 use mjcf::edit::carry_state;
@@ -167,6 +168,7 @@ impl Data {
         held.check_fits(other.get().model.get())?;
         from.pull(py)?;
         held.simulation.clone_from(&from.simulation);
+        held.timers.clone_from(&from.timers);
         held.push(py)
     }
 
@@ -229,15 +231,20 @@ impl Data {
                 result = all.set_item(name, PyArray1::from_vec(py, slice.to_f64()));
             }
         });
-        result.map(|()| all)
+        result?;
+        statistics::dump(&held, |name, values| all.set_item(name, PyArray1::from_vec(py, values)))?;
+        Ok(all)
     }
 
     /// Overwrites every array by what `_dump` returned.
     fn _restore(&self, py: Python<'_>, arrays: HashMap<String, Vec<f64>>) -> PyResult<()> {
         let mut held = self.lock()?;
-        let simulation = &mut held.simulation;
-        simulation.con.contact.clear();
+        held.simulation.con.contact.clear();
         for (name, values) in &arrays {
+            if statistics::restore(&mut held, name, values) {
+                continue;
+            }
+            let simulation = &mut held.simulation;
             match (name.as_str(), &values[..]) {
                 ("energy", [potential, kinetic]) => simulation.energy = [*potential, *kinetic],
                 ("solver_fwdinv", [a, b]) => simulation.solver.solver_fwdinv = [*a, *b],

@@ -1,7 +1,7 @@
 //! Arrays of contacts, constraint rows and islands, lent to Python until the next call that changes the simulation. That
 //! call first takes over what was written into them; then there are others, since their length may be another.
 
-use numpy::{PyArrayDyn, PyArrayMethods};
+use numpy::{PyArray1, PyArrayDyn, PyArrayMethods};
 use physics::Data as Simulation;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -11,6 +11,8 @@ use pyo3::types::PyDict;
 pub struct Lent {
     pub contacts: Option<Py<PyDict>>,
     pub constraints: Option<Py<PyDict>>,
+    /// The dense Jacobian of the constraint rows, and the number of its columns.
+    pub jacobian: Option<(usize, Py<PyArray1<f64>>)>,
 }
 
 impl Lent {
@@ -26,6 +28,14 @@ impl Lent {
                 let name: String = name.extract()?;
                 simulation.efc.assign(&name, &values).or_else(|| simulation.island.assign(&name, &values));
             }
+        }
+        if let Some((columns, dense)) = &self.jacobian
+            && let Some(values) = numbers(dense.bind(py).as_any())
+            && values.len() == simulation.efc.nefc * columns
+            && values != simulation.efc.dense_jacobian(*columns)
+            && simulation.efc.set_dense_jacobian(*columns, &values)
+        {
+            (simulation.island.nisland, simulation.island.nidof) = (0, 0);
         }
         Ok(())
     }

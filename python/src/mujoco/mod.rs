@@ -6,6 +6,7 @@
 //! | `model.rs`, `settings.rs`, `load.rs` | models, their options, where they come from |
 //! | `data.rs`, `lists.rs`, `lent.rs` | simulations, arrays that change length, and what is written into these |
 //! | `warned.rs`, `timed.rs`, `saved.rs` | warnings, timers, states as vectors |
+//! | `statistics.rs` | what of these and of the solver is shown, and kept in pickles |
 //! | `call.rs`, `error.rs` | what every call does, and how it fails |
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
 //! | `asked.rs` | stages in parts, between which callbacks are asked |
@@ -38,6 +39,7 @@ mod saved;
 mod settings;
 mod spec;
 mod stages;
+mod statistics;
 mod timed;
 mod warned;
 
@@ -62,7 +64,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::error::{FatalError, UnexpectedError};
     #[pymodule_export]
-    use super::lists::{constraints, contacts, dense_jacobian, solver};
+    use super::lists::{constraints, contacts, dense_jacobian, make_islands, make_rows};
     #[pymodule_export]
     use super::load::{dependencies, load_path, load_text, schema};
     #[pymodule_export]
@@ -87,4 +89,6 @@ pub mod bindings {
     use super::spec::{Description, actuator_shortcut, orientation, spec_forms};
     #[pymodule_export]
     use super::stages::{newton_euler, stage};
+    #[pymodule_export]
+    use super::statistics::solver;
 }

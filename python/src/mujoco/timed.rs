@@ -14,7 +14,7 @@ pub enum Timed {
 }
 
 /// Time that calls took [s], and how many there were, since the simulation was made or reset.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Timers {
     pub duration: [f64; TIMERS],
     pub number: [i32; TIMERS],

@@ -3,6 +3,27 @@
 //! Without a program they are what MuJoCo takes where no callback is set: gain 1, bias 0, activations at rest. A program
 //! that knows better asks [`asked`] which actuators want what, and computes actuation in two halves:
 //! [`rates`](super::rates), after which it sets rates of activation, and [`forces`](super::forces) with its gains and biases.
+//!
+//! ```
+//! use robohive_physics::actuation::user::{Given, asked};
+//! use robohive_physics::actuation::{forces, rates};
+//! use robohive_physics::{Data, forward, model::ActuatorInputs};
+//!
+//! let m = robohive_mjcf::load_str(
+//!     "<mujoco><worldbody><body><joint name='j'/><geom size='.1'/></body></worldbody><actuator><general joint='j' gaintype='user'/></actuator></mujoco>",
+//! )?
+//! .model;
+//! let mut d = Data::new(&m);
+//! d.state.ctrl[0] = 0.5;
+//! forward(&m, &mut d)?;
+//! assert_eq!((asked(&m, &d.state).gain, d.actuation.actuator_force[0]), (vec![0], 0.5));
+//!
+//! let inputs = ActuatorInputs { m: &m, state: &d.state, trn: &d.trn, vel: &d.vel };
+//! rates(&inputs, &mut d.actuation);
+//! forces(&inputs, &Given { gain: vec![6.0], bias: vec![0.0] }, &d.passive, &mut d.actuation);
+//! assert_eq!(d.actuation.actuator_force[0], 3.0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 use crate::actuation::setpoint::{activations, is_disabled};
 use crate::model::{BiasType, DynType, GainType, Model};

@@ -205,6 +205,28 @@ impl Constraints {
         }
         dense
     }
+
+    /// Takes over a dense Jacobian, `nefc * nv`: in place while no entries are there but those of the present pattern.
+    /// Otherwise all rows get an entry for every column, and the return is true: rows may couple more than their islands.
+    pub fn set_dense_jacobian(&mut self, nv: usize, dense: &[f64]) -> bool {
+        let mut kept = vec![0.0; dense.len()];
+        for row in 0..self.nefc {
+            let start = self.efc_J_rowadr[row] as usize;
+            for k in start..start + self.efc_J_rownnz[row] as usize {
+                let at = row * nv + self.efc_J_colind[k] as usize;
+                self.efc_J[k] = dense[at];
+                kept[at] = dense[at];
+            }
+        }
+        if kept == dense {
+            return false;
+        }
+        self.efc_J = dense.to_vec();
+        self.efc_J_colind = (0..dense.len()).map(|k| (k % nv) as i32).collect();
+        self.efc_J_rowadr = (0..self.nefc).map(|row| (row * nv) as i32).collect();
+        self.efc_J_rownnz = vec![nv as i32; self.nefc];
+        true
+    }
 }
 
 /// One iteration of the constraint solver, or one sweep of the removal of slip (documentation: `mjSolverStat`).

@@ -13,7 +13,7 @@ from robohive.mujoco.structs.contacts import MjContactList, contact_arrays
 from robohive.mujoco.structs.lists import MjSolverStatList, MjTimerStatList, MjWarningStatList
 from robohive.mujoco.structs.model import MjModel, _refuse
 
-#: Numbers of MuJoCo's memory management, for which there is nothing here.
+#: Numbers of MuJoCo's memory management, for which there is nothing here: what is written is kept, and has no effect.
 _ZEROS = (
     "maxuse_arena maxuse_con maxuse_efc maxuse_stack narena nbuffer nplugin parena pbase pstack threadpool"
 ).split()
@@ -64,7 +64,7 @@ class MjData(_core.Data, named.DataElements):
             value = inner[name] = self._array(name)
             return value
         if name in _ZEROS:
-            return 0
+            return inner.get(f"_{name}", 0)
         value = absent.of_data(name, self.model)
         if value is None:
             return self._changing(name)
@@ -82,7 +82,7 @@ class MjData(_core.Data, named.DataElements):
         if name in counts:
             return counts[name]
         if name.startswith("efc_J") and not self._is_sparse():
-            return _fixed(self._dense_jacobian(name, counts["nefc"]))
+            return self._dense_jacobian(name, counts["nefc"])
         arrays = _core.constraints(self)
         if name == "nJ":
             return len(arrays["efc_J"]) if self._is_sparse() else counts["nefc"] * self.model.nv
@@ -96,11 +96,13 @@ class MjData(_core.Data, named.DataElements):
 
     def _dense_jacobian(self, name: str, rows: int) -> Any:
         """The Jacobian as MuJoCo has it with dense matrices, which the engine keeps in compressed rows all the same."""
-        columns = self.model.nv
+        columns, kept = self.model.nv, _core.constraints(self)
+        if name == "efc_J" and kept["efc_J_rownnz"].sum() != len(kept["efc_J"]):
+            return kept["efc_J"]  # Room that was made, of which no row is filled yet.
         if name == "efc_J":
             return _core.dense_jacobian(self, columns)
         # The pattern is computed for sparse matrices only.
-        return np.zeros(rows * columns if name == "efc_J_colind" else rows, np.int32)
+        return _fixed(np.zeros(rows * columns if name == "efc_J_colind" else rows, np.int32))
 
     def _is_sparse(self) -> bool:
         jacobian = self.model.opt.jacobian
@@ -111,6 +113,8 @@ class MjData(_core.Data, named.DataElements):
             super().__setattr__(name, value)
         elif name in self._shapes:
             getattr(self, name)[...] = value
+        elif name in _ZEROS:
+            self.__dict__[f"_{name}"] = int(value)
         else:
             _refuse(self, name)
 

@@ -160,7 +160,7 @@ class MjSolverStatList(_List):
             values = statistics[name]
             whole = np.zeros((self._ISLANDS, self._ITERATIONS), np.int32 if name[0] == "n" else np.float64)
             start = 0
-            for island, count in enumerate(counts[: self._ISLANDS]):
+            for island, count in enumerate(map(int, counts[: self._ISLANDS])):
                 kept = min(count, self._ITERATIONS)
                 whole[island, :kept] = values[start : start + kept]
                 start += count
