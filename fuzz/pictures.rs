@@ -2,6 +2,7 @@
 
 use std::sync::OnceLock;
 
+use super::bytes::Bytes;
 use mjcf::{Limits, Loader};
 use physics::{Data, Model, forward};
 use render::picture::Channels;
@@ -53,64 +54,13 @@ fn check(picture: &Picture, scene: &Scene, channels: Channels) {
     assert!(picture.segmentation.iter().all(known));
 }
 
-/// Bytes that run out: zeros follow.
-struct Bytes<'a>(&'a [u8]);
-
-impl Bytes<'_> {
-    fn next(&mut self) -> u8 {
-        let Some((&first, rest)) = self.0.split_first() else { return 0 };
-        self.0 = rest;
-        first
-    }
-
-    /// A number: of a fine grid, of a coarse one, an extreme one, or any bits.
-    fn number(&mut self) -> f32 {
-        const EXTREME: [f32; 16] = [
-            0.0,
-            -0.0,
-            1.0,
-            f32::NAN,
-            f32::INFINITY,
-            f32::NEG_INFINITY,
-            f32::MAX,
-            f32::MIN,
-            f32::MIN_POSITIVE,
-            1e-40,
-            1e10,
-            -1e10,
-            1e-6,
-            255.5,
-            1e20,
-            180.0,
-        ];
-        let kind = self.next();
-        let fine = f32::from(self.next() as i8);
-        match kind % 8 {
-            0 => {
-                f32::from_bits(u32::from_le_bytes([self.next(), self.next(), self.next(), fine as i8 as u8]))
-            }
-            1 => EXTREME[fine.abs() as usize % 16],
-            2 => fine,
-            _ => fine / 32.0,
-        }
-    }
-
-    fn numbers<const N: usize>(&mut self) -> [f32; N] {
-        std::array::from_fn(|_| self.number())
-    }
-
-    fn wide<const N: usize>(&mut self) -> [f64; N] {
-        self.numbers().map(f64::from)
-    }
-
-    /// Mostly one of a few turns, else any matrix.
-    fn turn(&mut self) -> [f32; 9] {
-        match self.next() % 4 {
-            0 => [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-            1 => [0.0, 0.0, 1.0, 0.6, 0.8, 0.0, -0.8, 0.6, 0.0],
-            2 => [0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6],
-            _ => self.numbers(),
-        }
+/// Mostly one of a few turns, else any matrix.
+fn turn(bytes: &mut Bytes) -> [f32; 9] {
+    match bytes.next() % 4 {
+        0 => [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        1 => [0.0, 0.0, 1.0, 0.6, 0.8, 0.0, -0.8, 0.6, 0.0],
+        2 => [0.36, 0.48, -0.8, -0.8, 0.6, 0.0, 0.48, 0.64, 0.6],
+        _ => bytes.numbers(),
     }
 }
 
@@ -162,7 +112,7 @@ fn made_up_scene(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
         share: bytes.number(),
         rgb: bytes.numbers(),
         pos: bytes.numbers(),
-        mat: bytes.turn(),
+        mat: turn(bytes),
     });
     let lights = (0..effects >> 4).map(|_| light(bytes)).collect();
     let mut items = Vec::new();
@@ -253,7 +203,7 @@ fn item(bytes: &mut Bytes<'_>, id: usize) -> Item {
     Item {
         shape: shapes[usize::from(bytes.next()) % shapes.len()],
         pos: bytes.numbers(),
-        mat: bytes.turn(),
+        mat: turn(bytes),
         size: bytes.numbers(),
         rgba: if choice & 2 == 0 {
             [0.5, 0.6, 0.7, if choice & 4 == 0 { 1.0 } else { 0.4 }]

@@ -1,25 +1,29 @@
 //! One function for each decoder that reads bytes of unknown origin, and for the renderer, whose scenes and models are made
-//! up from bytes. It may refuse them, quickly and within little memory; a panic, more than a second or more than a gigabyte
+//! up from bytes, as flexes are. It may refuse them, quickly and within little memory; a panic, more than a second or more than a gigabyte
 //! is a finding.
 
+mod bytes;
+pub mod flexes;
+mod models;
 pub mod pictures;
+pub mod robots;
+pub mod tasks;
 
 use std::io::Cursor;
 
 use dataset::trace::{TraceReader, summarise};
 use dataset::{Array, NpzReader};
-use mjcf::files::{Memory, Overlay};
+use mjcf::files::Memory;
 use mjcf::image::{CompiledHfield, FileImage, HfieldSource, TextureSource, TextureType};
 use mjcf::mesh::{MeshInertia, MeshSource, RawMesh, SkinSource, convex_hull, decode, process, skin};
-use mjcf::{Limits, Loader};
+use physics::Model;
 use physics::model::binary::seal;
-use physics::{Data, Model, forward, step};
 
 /// What decodes one input.
 pub type Target = fn(&[u8]);
 
 /// Every target by name.
-pub const TARGETS: [(&str, Target); 14] = [
+pub const TARGETS: [(&str, Target); 18] = [
     ("mjcf", mjcf),
     ("urdf", urdf),
     ("stl", stl),
@@ -34,6 +38,10 @@ pub const TARGETS: [(&str, Target); 14] = [
     ("hdf5", hdf5),
     ("binary", binary),
     ("render", pictures::render),
+    ("flex", flexes::flex),
+    ("robot", robots::robot),
+    ("settings", tasks::settings),
+    ("policy", tasks::policy),
 ];
 
 /// Files that a model of the `mjcf` target may name, in the order in which the input gives them.
@@ -45,7 +53,7 @@ pub fn mjcf(data: &[u8]) {
     for (path, content) in FILES.iter().zip(data.split(|&byte| byte == 0)) {
         memory.insert(path, content);
     }
-    come_back(memory, FILES[0]);
+    models::come_back(memory, FILES[0]);
 }
 
 /// A robot and the mesh that it may show: two texts, a zero byte between them.
@@ -54,29 +62,7 @@ pub fn urdf(data: &[u8]) {
     for (path, content) in ["r.urdf", "m.obj"].iter().zip(data.split(|&byte| byte == 0)) {
         memory.insert(path, content);
     }
-    come_back(memory, "r.urdf");
-}
-
-/// Loads a model; what loads is written, and what can be written loads again with the same arrays.
-fn come_back(files: Memory, path: &str) {
-    let limits = Limits::default().with_copies(300).with_memory(64 << 20);
-    let loader = Loader::default().files(files.clone()).limits(limits);
-    let Ok(parsed) = loader.parse(path) else { return };
-    let mut spec = parsed.spec.clone();
-    let Ok(loaded) = loader.compile(parsed) else { return };
-    assert!(loaded.model.nbody > 0);
-    spec.settle_keys(&loaded.model);
-    if spec.place_assets("").is_err() {
-        return;
-    }
-    let Ok(text) = spec.to_xml() else { return };
-    let again = Loader::default().files(Overlay::new(files, path, text.as_bytes())).load(path);
-    let again = again.unwrap_or_else(|findings| panic!("{findings}\n{text}"));
-    // Numbers that are not alike come of numbers that are no numbers; sizes are alike.
-    assert_eq!(
-        (again.model.nq, again.model.nbody, again.model.ngeom),
-        (loaded.model.nq, loaded.model.nbody, loaded.model.ngeom)
-    );
+    models::come_back(memory, "r.urdf");
 }
 
 /// A mesh of GMSH in either format, binary or text; elements that are read have the points they name.
@@ -214,28 +200,7 @@ pub fn binary(data: &[u8]) {
         // Not `bytes` themselves: any byte but zero is a truth.
         let written = model.to_bytes();
         assert!(Model::from_bytes(&written).is_ok_and(|again| again.to_bytes() == written));
-        steps(model);
+        models::steps(model);
     }
     let _ = Model::from_bytes(data);
-}
-
-/// Three steps of a model that asks for no more memory and iterations than take no time.
-fn steps(mut m: Model) {
-    if m.nsensordata.max(m.nhistory).max(m.na).max(m.nuserdata) > 1 << 12 {
-        return;
-    }
-    let opt = m.options_mut();
-    for count in
-        [&mut opt.iterations, &mut opt.ls_iterations, &mut opt.noslip_iterations, &mut opt.ccd_iterations]
-    {
-        *count = (*count).min(50);
-    }
-    let mut d = Data::new(&m);
-    d.state.ctrl.fill(0.5);
-    for _ in 0..3 {
-        if step(&m, &mut d).is_err() {
-            break;
-        }
-    }
-    let _ = forward(&m, &mut d);
 }
