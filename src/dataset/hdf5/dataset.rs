@@ -67,12 +67,7 @@ impl Dataset {
         let bytes = bytes.filter(|&n| n as u64 <= most).ok_or_else(|| {
             format!("shape {shape:?} needs more bytes than the file can hold: it is damaged")
         })?;
-        if !filters.is_empty() && bytes as u64 > expansion::most(source.length()) {
-            return Err(format!(
-                "{bytes} bytes are deflated into a file of {}: write it without compression, or in parts",
-                source.length()
-            ));
-        }
+        within_expansion(source, &filters, bytes as u64)?;
         let layout = Decoder { source, shape: &shape, element, bytes, filters }.layout(layout)?;
         Ok(Some(Dataset { shape, datatype: datatype::decode(datatype)?, element, layout }))
     }
@@ -231,6 +226,17 @@ fn dataspace(body: &[u8]) -> Decoded<Vec<usize>> {
     (0..rank).map(axis).collect()
 }
 
+/// Refuses filtered bytes that are more than a file of this length may become.
+fn within_expansion(source: &Source, filters: &[Filter], bytes: u64) -> Decoded<()> {
+    let length = source.length();
+    if filters.is_empty() || bytes <= expansion::most(length) {
+        return Ok(());
+    }
+    Err(format!(
+        "{bytes} bytes are deflated into a file of {length}: write it without compression, or in parts"
+    ))
+}
+
 /// What a layout is read with.
 struct Decoder<'a> {
     source: &'a Source,
@@ -296,6 +302,8 @@ impl Decoder<'_> {
         let bytes = product.filter(|_| fits).ok_or("the chunks do not fit the shape: the file is damaged")?;
         let counts: Vec<u64> =
             self.shape.iter().zip(&lengths).map(|(&axis, &length)| (axis as u64).div_ceil(length)).collect();
+        // A chunk may be larger than the dataset.
+        within_expansion(self.source, &self.filters, bytes)?;
         let filtered = !self.filters.is_empty();
         let grid = Grid { counts: &counts, chunk: &lengths, bytes, filtered };
         let chunks = if self.bytes == 0 { Vec::new() } else { index::chunks(self.source, &index, &grid)? };
@@ -346,4 +354,34 @@ fn check(chunks: &[Chunk], counts: &[u64], source: &Source) -> Decoded<()> {
         return Err("the chunks have more bytes than the file: it is damaged".into());
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is wrong with deflated bytes, `rows` in chunks of `chunk`, in a file of 300 KB.
+    fn refusal(rows: u64, chunk: u32) -> String {
+        let message = |kind, data: Vec<u8>| Message { kind, data };
+        let space = [&[2, 1, 0, 1][..], &rows.to_le_bytes()].concat();
+        let datatype = [&[0x10, 0, 0, 0][..], &1_u32.to_le_bytes(), &[0, 0, 8, 0]].concat();
+        let layout = [&[3, 2, 2][..], &[0; 8], &chunk.to_le_bytes(), &1_u32.to_le_bytes()].concat();
+        let messages = [
+            message(kind::DATASPACE, space),
+            message(kind::DATATYPE, datatype),
+            message(kind::LAYOUT, layout),
+            message(kind::FILTERS, vec![2, 1, 1, 0, 0, 0, 1, 0, 6, 0, 0, 0]),
+        ];
+        Dataset::decode(&Source::memory(vec![0; 300_000]), &messages).unwrap_err()
+    }
+
+    /// Neither the dataset nor a chunk of it is inflated.
+    #[test]
+    fn what_a_small_file_inflates_to_is_bounded() {
+        let deflated = |bytes: u64| format!("{bytes} bytes are deflated into a file of 300000");
+        assert!(refusal(300_000_000, 1000).starts_with(&deflated(300_000_000)));
+        assert!(refusal(10, 300_000_000).starts_with(&deflated(300_000_000)));
+        assert!(refusal(u64::MAX, 1000).contains("more bytes than the file can hold"));
+        assert!(!refusal(1000, 100).contains("deflated"));
+    }
 }
