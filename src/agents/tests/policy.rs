@@ -187,6 +187,14 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(path.to_str(), Some("no/such/file"));
 }
 
+/// A file without end is read up to the limit.
+#[cfg(unix)]
+#[test]
+fn a_file_that_is_too_long_is_refused() {
+    let Err(error) = Policy::open("/dev/zero") else { panic!("zeros are no policy") };
+    assert_eq!(error.to_string(), "the policy /dev/zero: it has more than 64 MiB, and no policy has");
+}
+
 #[test]
 fn a_damaged_policy_is_an_error_and_never_a_panic() {
     let whole = policy(4, 2, "tanh");

@@ -100,6 +100,41 @@ fn verify_names_damage_and_the_command_that_repairs_it() {
     shown(&store, &["verify"]);
 }
 
+/// The models of DAPG share a file with an option that MuJoCo no longer has.
+#[test]
+fn verify_says_once_what_is_ignored_in_several_models() {
+    let folder = empty("ignored");
+    let store = folder.join("store");
+    let models = folder.join("simhive/Adroit");
+    fs::create_dir_all(&models).unwrap();
+    fs::write(
+        models.join("shared.xml"),
+        "<mujocoinclude><size njmax='500'/>\n<option apirate='200'/></mujocoinclude>",
+    )
+    .unwrap();
+    for name in ["door.xml", "hammer.xml", "pen.xml"] {
+        let text = "<mujoco><include file='shared.xml'/><worldbody><geom size='1'/></worldbody></mujoco>";
+        fs::write(models.join(name), text).unwrap();
+    }
+    shown(&store, &["import", folder.join("simhive").to_str().unwrap(), "-q"]);
+    let out = assets(&store, &["verify", "-q"]);
+    assert!(out.status.success(), "{}", text(&out.stdout));
+    let said = text(&out.stderr);
+    assert_eq!(said.matches("'apirate'").count(), 1, "{said}");
+    assert!(said.contains("shared.xml:2:"), "{said}");
+}
+
+/// Half of a description looks like the whole.
+#[test]
+fn an_environment_without_its_model_is_described_by_an_error_alone() {
+    let folder = empty("nothing_imported");
+    for words in [&["info", "door-v1"][..], &["info", "door-v1", "--json"]] {
+        let out = command().args(words).env("ROBOHIVE_STORE", folder.join("store")).output().unwrap();
+        assert_eq!((out.status.success(), text(&out.stdout).as_str()), (false, ""), "{words:?}");
+        assert!(text(&out.stderr).contains("robohive assets import"), "{}", text(&out.stderr));
+    }
+}
+
 #[test]
 fn wrong_input_is_named() {
     let folder = empty("wrong");

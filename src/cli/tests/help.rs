@@ -112,6 +112,23 @@ fn link(from: &Path, to: &Path) {
     std::os::windows::fs::symlink_dir(from, to).unwrap();
 }
 
+/// A row of the table in README.md names commands, or the first subcommand and then the others alone.
+#[test]
+fn the_table_of_commands_names_every_command() {
+    let readme = std::fs::read_to_string(Path::new(ROOT).join("README.md")).unwrap();
+    for words in commands() {
+        let named = ["`", " "].map(|end| format!("`robohive {}{end}", words[0]));
+        let row = readme
+            .lines()
+            .find(|line| line.starts_with("| `robohive ") && named.iter().any(|name| line.contains(name)));
+        let row = row.unwrap_or_else(|| panic!("README.md has no row for {words:?}"));
+        let named = words.get(1).is_none_or(|inner| {
+            [format!("{inner}`"), format!("{} {inner} ", words[0])].iter().any(|form| row.contains(form))
+        });
+        assert!(named, "{words:?} is not in the row {row}");
+    }
+}
+
 #[test]
 fn help_fits_eighty_columns() {
     for name in commands() {
