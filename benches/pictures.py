@@ -109,7 +109,7 @@ def resident(process):
 # The measuring side.
 
 def start_ours(scene, args):
-    own = scene["file"].startswith("assets/")
+    own = scene["file"].startswith(("assets/", "validation/"))
     command = [args.binary, "bench-render", (ROOT if own else args.models) / scene["file"], "--requests"]
     command += ["--camera", scene.get("camera", "free")]
     for text, value in scene.get("define", {}).items():
@@ -203,7 +203,7 @@ def scenes():
 def chosen(args):
     """Scenes whose models are there."""
     for scene in scenes():
-        there = scene["file"].startswith("assets/") or args.models
+        there = scene["file"].startswith(("assets/", "validation/")) or args.models
         if there and args.only in scene["name"] and (args.all or scene["bars"] == "listed"):
             yield scene
 

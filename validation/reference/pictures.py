@@ -54,6 +54,7 @@ RASTERISERS = {
     "softpipe": {"MUJOCO_GL": "egl", "GALLIUM_DRIVER": "softpipe"},
 }
 ROBOHIVE = ("envs/", "simhive/")
+OWN = ("assets/", "validation/")
 SAMPLES = 4
 HINGE_NOISE, SLIDE_NOISE = 0.15, 0.02  # rad, m
 LEAST_SHININESS = 1e-6
@@ -89,7 +90,7 @@ def load(scene, folder):
     """The compiled model, and its arrays that were changed after compilation."""
     import mujoco
     import numpy as np
-    path = (ROOT if scene["file"].startswith("assets/") else folder) / scene["file"]
+    path = (ROOT if scene["file"].startswith(OWN) else folder) / scene["file"]
     if scene.get("define"):
         text = path.read_text(errors="surrogateescape")
         for word, value in scene["define"].items():
@@ -234,7 +235,7 @@ def draw(rasteriser, listed, args):
             continue
         if floor and scene["bars"] != "floor" or old(mujoco) and not scene["file"].startswith(ROBOHIVE):
             continue
-        if not args.models and not scene["file"].startswith("assets/"):
+        if not args.models and not scene["file"].startswith(OWN):
             continue
         try:
             arrays = (record_floor if floor else record)(scene, args.sizes or listed["sizes"], args.copy)

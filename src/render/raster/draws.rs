@@ -1,6 +1,6 @@
 //! The surfaces of a scene, each with its place in the world.
 
-use super::lines::{Line, list};
+use super::lines::{Line, OPAQUE, list};
 use super::window::coverage::Facing;
 use super::window::projection::Affine;
 use crate::error::RenderError;
@@ -50,8 +50,6 @@ fn too_many(scene: &Scene) -> RenderError {
     RenderError::Model { message }
 }
 
-/// Opacity from which on an item is opaque.
-const OPAQUE: f32 = 0.995;
 /// Factor of a plane's opacity when it is seen from behind.
 const BEHIND: f32 = 0.3;
 
@@ -159,6 +157,12 @@ impl Draws {
         let index = self.of_triangle(number);
         let end = self.list.get(index + 1).map_or(self.triangles, |draw| draw.first_triangle);
         (self.list[index].item, self.list[index].first_triangle..end)
+    }
+
+    /// The lines of an item.
+    pub fn lines_of(&self, item: usize) -> impl Iterator<Item = &Line> {
+        let first = self.lines.partition_point(|line| line.item < item);
+        self.lines[first..].iter().take_while(move |line| line.item == item)
     }
 
     /// The surface that a triangle belongs to.

@@ -9,6 +9,8 @@ use super::window::lens::Lens;
 use super::window::vertices::{Vertex, inside};
 use crate::scene::{Item, Scene, Shape};
 
+/// Opacity from which on an item is opaque.
+pub(super) const OPAQUE: f32 = 0.995;
 /// Width of the edges of boxes, in units of the line width.
 const EDGE: f32 = 1.5;
 
@@ -21,16 +23,19 @@ pub struct Line {
     pub ends: [[f64; 3]; 2],
     /// Its width, in units of the line width.
     pub width: f32,
+    /// It is blended over what is behind it.
+    pub transparent: bool,
 }
 
 /// Appends the lines of a scene.
 pub fn list(scene: &Scene, out: &mut Vec<Line>) {
     out.clear();
     for (index, item) in scene.items.iter().enumerate() {
+        let transparent = item.rgba[3] < OPAQUE;
         match item.shape {
             Shape::Line => {
                 let ends = [place(item, [0.0; 3]), place(item, [0.0, 0.0, item.size[2]])];
-                out.push(Line { item: index, ends, width: item.size[0] });
+                out.push(Line { item: index, ends, width: item.size[0], transparent });
             }
             Shape::LineBox => {
                 for (axis, sides) in (0..12).map(|k| (k / 4, k % 4)) {
@@ -43,7 +48,7 @@ pub fn list(scene: &Scene, out: &mut Vec<Line>) {
                         }
                         place(item, p)
                     };
-                    out.push(Line { item: index, ends: [end(-1.0), end(1.0)], width: EDGE });
+                    out.push(Line { item: index, ends: [end(-1.0), end(1.0)], width: EDGE, transparent });
                 }
             }
             _ => {}

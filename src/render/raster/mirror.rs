@@ -104,7 +104,8 @@ impl Mirror {
             let colour = kept.mirror.colour(known);
             canvas.set(&known.fragment, colour);
         }
-        self.transparency.draw(&stage, &self.visibility, &self.light, brush, canvas);
+        let shown = (&self.visibility, frame.settings.line_width);
+        self.transparency.draw(&stage, shown, &self.light, brush, canvas);
     }
 
     /// Closes the samples at which the item's upper side is not seen; whether any are left.

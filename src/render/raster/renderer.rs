@@ -8,6 +8,7 @@ use super::draws::{Draws, mark_shared};
 use super::image::{Image, write_depth, write_rgb, write_segmentation};
 use super::labels;
 use super::layer::Layer;
+use super::lines::Line;
 use super::mirror::Mirror;
 use super::opaque::{Frame, Opaque};
 use super::settings::{Samples, Settings};
@@ -171,7 +172,7 @@ impl Renderer {
             let stage = Stage { assets, scene, draws, layer, lens: &lens };
             visibility.clear(Pattern::CENTER, picture.width, picture.height);
             stage.look(visibility, |draw| !scene.items[draw.item].unlisted);
-            look_at_lines(&stage, &self.settings, visibility);
+            look_at_lines(&stage, &self.settings, visibility, |line| !scene.items[line.item].unlisted);
             let image = Image { visibility, extent: lens.extent };
             if channels.depth {
                 write_depth(&image, &scene.view.frustum, &mut picture.depth);
@@ -222,7 +223,7 @@ impl Renderer {
         layer.update(assets, draws, &lens, |draw| draw.transparent || !kept.stills.has(draw));
         let stage = Stage { assets, scene, draws, layer, lens: &lens };
         stage.look(visibility, |draw| !draw.transparent && !kept.stills.has(draw));
-        look_at_lines(&stage, settings, visibility);
+        look_at_lines(&stage, settings, visibility, |line| !line.transparent);
         canvas.clear(visibility.groups.len());
         let reflective = draws.reflective(scene);
         if let Some(item) = reflective {
@@ -279,7 +280,7 @@ impl Renderer {
             }
         }
         light.set(scene, scene.view.eye.map(|x| x as f32), false);
-        transparency.draw(&stage, visibility, light, &brush, canvas);
+        transparency.draw(&stage, (visibility, settings.line_width), light, &brush, canvas);
         write_rgb(&Image { visibility, extent: lens.extent }, canvas, &mut picture.rgb);
         labels::draw(scene, picture);
     }
@@ -338,11 +339,16 @@ fn brush<'a>(assets: &'a Assets, scene: &Scene) -> Brush<'a> {
     Brush { assets, veil: scene.fog.map(|fog| Veil::new(fog, scene.view.eye, scene.view.forward)) }
 }
 
-/// Adds the lines.
-fn look_at_lines(stage: &Stage<'_>, settings: &Settings, visibility: &mut Visibility) {
+/// Adds the lines that `wanted` picks.
+fn look_at_lines(
+    stage: &Stage<'_>,
+    settings: &Settings,
+    visibility: &mut Visibility,
+    wanted: impl Fn(&Line) -> bool,
+) {
     let pattern = visibility.pattern;
     for (number, line) in (stage.draws.triangles..).zip(&stage.draws.lines) {
-        if pattern == Pattern::FOUR || !stage.scene.items[line.item].unlisted {
+        if wanted(line) {
             line.triangles(stage.lens, &pattern, settings.line_width, |triangle| {
                 visibility.draw(number, triangle);
             });

@@ -133,7 +133,7 @@ impl SceneRow {
 
     /// The model is one of this repository.
     pub fn is_own(&self) -> bool {
-        self.file.starts_with("assets/")
+        ["assets/", "validation/"].iter().any(|folder| self.file.starts_with(folder))
     }
 
     /// The model file: of this repository, or below the folder of other models.

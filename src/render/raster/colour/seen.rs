@@ -102,6 +102,28 @@ const CHUNK: usize = 16;
 /// Most lamps whose shadows are drawn: a fragment has a bit for each.
 const MAX_SHADOWED: usize = 8;
 
+/// Calls `see` with the fragments of a triangle where it is not behind what a window shows.
+#[inline]
+pub fn uncovered(shown: &Visibility, triangle: &Triangle, mut see: impl FnMut(Fragment)) {
+    let pattern = shown.pattern;
+    triangle.cover(&pattern, |row, column, mask, depth| {
+        let index = row * shown.per_row + column;
+        let depth: i32x4 = cast(depth.simd_ge(shown.groups[index].depth));
+        let lanes = (mask & depth).to_bitmask() as u8;
+        let fragment = |x: usize, lanes: u8| {
+            let (x, y) = (x as u16, row as u16);
+            Fragment { x, y, group: index as u32, triangle: 0, lanes, lit: 0 }
+        };
+        if pattern != Pattern::FOUR {
+            for lane in (0..4).filter(|lane| lanes >> lane & 1 != 0) {
+                see(fragment(4 * column + lane, 1 << lane));
+            }
+        } else if lanes != 0 {
+            see(fragment(column, lanes));
+        }
+    });
+}
+
 /// Which light falls on the triangles of a layer.
 #[derive(Clone, Debug, Default)]
 pub struct Illumination {
@@ -220,23 +242,7 @@ impl Seen {
     /// Adds the fragments of a triangle where it is not behind what a window shows.
     #[inline]
     pub fn cover(&mut self, shown: &Visibility, number: u32, triangle: &Triangle) {
-        let pattern = shown.pattern;
-        triangle.cover(&pattern, |row, column, mask, depth| {
-            let index = row * shown.per_row + column;
-            let depth: i32x4 = cast(depth.simd_ge(shown.groups[index].depth));
-            let lanes = (mask & depth).to_bitmask() as u8;
-            let fragment = |x: usize, lanes: u8| {
-                let (x, y) = (x as u16, row as u16);
-                Fragment { x, y, group: index as u32, triangle: 0, lanes, lit: 0 }
-            };
-            if pattern != Pattern::FOUR {
-                for lane in (0..4).filter(|lane| lanes >> lane & 1 != 0) {
-                    self.add(number, fragment(4 * column + lane, 1 << lane));
-                }
-            } else if lanes != 0 {
-                self.add(number, fragment(column, lanes));
-            }
-        });
+        uncovered(shown, triangle, |fragment| self.add(number, fragment));
     }
 
     /// Adds a fragment of a triangle.

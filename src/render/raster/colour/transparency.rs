@@ -1,8 +1,8 @@
 //! Items that let others shine through: blended over the picture front to back, and then again back to front, as MuJoCo
 //! does; each shows twice.
 
-use super::paint::{Brush, Canvas, over};
-use super::seen::{Illumination, Seen};
+use super::paint::{Brush, Canvas, eight_bits, over};
+use super::seen::{Fragment, Illumination, Seen, uncovered};
 use crate::raster::stage::Stage;
 use crate::raster::visibility::Visibility;
 use crate::scene::{Item, Shape};
@@ -14,21 +14,34 @@ pub struct Transparency {
     seen: Seen,
     /// Distance from the eye, item, and its fragments.
     items: Vec<(f32, usize, Range<usize>)>,
+    /// Fragments of lines, which have their items' colours.
+    of_lines: Vec<Fragment>,
 }
 
 impl Transparency {
-    /// Blends all transparent items but `except` over the canvas, where nothing opaque is nearer.
+    /// Blends all transparent items over the canvas, where nothing opaque is nearer; with the width of lines \[pixel\].
     pub fn draw(
         &mut self,
         stage: &Stage<'_>,
-        visibility: &Visibility,
+        (visibility, line_width): (&Visibility, f32),
         light: &Illumination,
         brush: &Brush<'_>,
         canvas: &mut Canvas,
     ) {
         self.sort(stage);
         self.seen.begin(stage.draws.triangles);
+        self.of_lines.clear();
         for (_, item, fragments) in &mut self.items {
+            if is_line(&stage.scene.items[*item]) {
+                let first = self.of_lines.len();
+                for line in stage.draws.lines_of(*item) {
+                    line.triangles(stage.lens, &visibility.pattern, line_width, |triangle| {
+                        uncovered(visibility, triangle, |fragment| self.of_lines.push(fragment));
+                    });
+                }
+                *fragments = first..self.of_lines.len();
+                continue;
+            }
             let first = self.seen.fragments.len();
             let of_item = stage.draws.list.partition_point(|draw| draw.item < *item);
             for (index, draw) in
@@ -50,6 +63,15 @@ impl Transparency {
         let back = self.items.iter().rev();
         for (_, item, fragments) in self.items.iter().chain(back) {
             let item = &stage.scene.items[*item];
+            if is_line(item) {
+                let [r, g, b, opacity] = item.rgba;
+                let [r, g, b] = [r, g, b].map(|x| light.reflectance * x);
+                let colour = [r, g, b, opacity].map(eight_bits);
+                for fragment in &self.of_lines[fragments.clone()] {
+                    canvas.touch(fragment, |below| over(colour, below));
+                }
+                continue;
+            }
             for fragment in &self.seen.fragments[fragments.clone()] {
                 let draw = &stage.draws.list[self.seen.triangles[fragment.triangle as usize].draw as usize];
                 let colour = brush.colour(&self.seen, &draw.paint, draw.alpha(item), fragment);
@@ -62,17 +84,22 @@ impl Transparency {
     fn sort(&mut self, stage: &Stage<'_>) {
         let eye = stage.scene.view.eye.map(|x| x as f32);
         self.items.clear();
+        let surfaces = stage.draws.list.iter().filter(|draw| draw.transparent).map(|draw| draw.item);
+        let lines = stage.draws.lines.iter().filter(|line| line.transparent).map(|line| line.item);
         let mut last = usize::MAX;
-        for draw in stage.draws.list.iter().filter(|draw| draw.transparent) {
-            if draw.item == last {
-                continue;
+        for item in surfaces.chain(lines) {
+            if item != last {
+                last = item;
+                self.items.push((distance(&stage.scene.items[item], eye), item, 0..0));
             }
-            last = draw.item;
-            let item = &stage.scene.items[draw.item];
-            self.items.push((distance(item, eye), draw.item, 0..0));
         }
         self.items.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
+}
+
+/// Whether an item is made of lines.
+fn is_line(item: &Item) -> bool {
+    matches!(item.shape, Shape::Line | Shape::LineBox)
 }
 
 /// Distance of what is behind everything else \[m\].
