@@ -4,11 +4,16 @@ from robohive.mujoco import _engine as _core
 from robohive.mujoco.functions.algebra import *  # noqa: F403
 from robohive.mujoco.functions.banded import *  # noqa: F403
 from robohive.mujoco.functions.box import *  # noqa: F403
+from robohive.mujoco.functions.defaults import *  # noqa: F403
 from robohive.mujoco.functions.history import *  # noqa: F403
+from robohive.mujoco.functions.inertia import *  # noqa: F403
 from robohive.mujoco.functions.naming import *  # noqa: F403
+from robohive.mujoco.functions.parts import *  # noqa: F403
+from robohive.mujoco.functions.printing import *  # noqa: F403
 from robohive.mujoco.functions.query import *  # noqa: F403
 from robohive.mujoco.functions.room import _realloc_con_efc, _realloc_island
 from robohive.mujoco.functions.rotation import *  # noqa: F403
+from robohive.mujoco.functions.scalars import *  # noqa: F403
 from robohive.mujoco.functions.slopes import *  # noqa: F403
 from robohive.mujoco.functions.stages import *  # noqa: F403
 from robohive.mujoco.functions.vectors import *  # noqa: F403

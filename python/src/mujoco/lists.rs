@@ -10,6 +10,7 @@ use physics::data::{Constraints, Contact, Islands};
 use physics::table::Slice;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use std::collections::HashMap;
 
 /// What visits arrays by name.
 type Visit<'a> = dyn Fn(&mut dyn FnMut(&'static str, Vec<usize>, Slice<'_>)) + 'a;
@@ -141,6 +142,23 @@ pub fn make_islands(
             d.island.assign(name, &vec![0.0; rows]);
         }
         (d.island.nisland, d.island.nidof) = (nisland, nidof);
+        Ok(())
+    })
+}
+
+/// Replaces all contacts by those of these fields, each a number a contact or more, by name.
+#[pyfunction]
+pub fn set_contacts(
+    py: Python<'_>,
+    m: &Bound<'_, Model>,
+    d: &Bound<'_, Data>,
+    fields: HashMap<String, Vec<f64>>,
+) -> PyResult<()> {
+    change(py, m, d, |_, d| {
+        d.con.contact.clear();
+        for (name, values) in &fields {
+            d.con.assign(&format!("contact.{name}"), values);
+        }
         Ok(())
     })
 }

@@ -64,7 +64,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::error::{FatalError, UnexpectedError};
     #[pymodule_export]
-    use super::lists::{constraints, contacts, dense_jacobian, make_islands, make_rows};
+    use super::lists::{constraints, contacts, dense_jacobian, make_islands, make_rows, set_contacts};
     #[pymodule_export]
     use super::load::{dependencies, load_path, load_text, schema};
     #[pymodule_export]
@@ -79,7 +79,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::query::{
         axis_rates, cast_at_geom, cast_at_shape, cast_ray, cast_rays, contact_force, geom_distance, jacobian,
-        joint_forces, object_motion, recall,
+        joint_forces, muscle_forces, muscle_rate, object_motion, recall,
     };
     #[pymodule_export]
     use super::rollout::roll_out;
@@ -88,7 +88,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::spec::{Description, actuator_shortcut, orientation, spec_forms};
     #[pymodule_export]
-    use super::stages::{newton_euler, stage};
+    use super::stages::{forces_at, inverse_skip, newton_euler, stage};
     #[pymodule_export]
     use super::statistics::solver;
 }

@@ -5,6 +5,7 @@ use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
 use numpy::{PyArray1, PyReadonlyArray2};
+use physics::actuation::muscle::{Muscle, activation_rate};
 use physics::actuation::{Recorded, recall as recall_recorded};
 use physics::collision::distance::{DistanceScratch, geom_distance as distance_of};
 use physics::math::Vec3;
@@ -250,4 +251,27 @@ pub fn recall(
         };
         Ok(recall_recorded(m, &d.state.history, element, time, (interp >= 0).then_some(interp)))
     })
+}
+
+/// Gain \[N\] and bias \[N\] of a muscle of these parameters at a length and a velocity.
+#[pyfunction]
+pub fn muscle_forces(
+    length: f64,
+    velocity: f64,
+    lengthrange: [f64; 2],
+    acc0: f64,
+    parameters: [f64; 9],
+) -> (f64, f64) {
+    let mut prm = [0.0; 10];
+    prm[..9].copy_from_slice(&parameters);
+    let muscle = Muscle { lengthrange, acc0, prm: &prm };
+    (muscle.gain(length, velocity), muscle.bias(length))
+}
+
+/// Rate of a muscle's activation \[1/s\].
+#[pyfunction]
+pub fn muscle_rate(ctrl: f64, act: f64, parameters: [f64; 3]) -> f64 {
+    let mut prm = [0.0; 10];
+    prm[..3].copy_from_slice(&parameters);
+    activation_rate(ctrl, act, &prm)
 }

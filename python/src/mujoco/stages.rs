@@ -16,12 +16,13 @@ use physics::inertia::{factor_inertia, make_inertia};
 use physics::model::Model as Compiled;
 use physics::on_demand::{energy, momentum};
 use physics::pipeline::forward::{
-    acceleration_sensors, constrained_acceleration, position, position_sensors, unconstrained_acceleration,
-    velocity, velocity_sensors,
+    Known, acceleration_sensors, constrained_acceleration, position, position_sensors,
+    unconstrained_acceleration, velocity, velocity_sensors,
 };
 use physics::pipeline::integrate::{Factors, euler, implicit, runge_kutta};
-use physics::pipeline::inverse::compare_with_forward;
+use physics::pipeline::inverse::{compare_with_forward, inverse_after};
 use physics::position::{camera, com, kinematics, tendon};
+use physics::solver::{constraint_force, force_at};
 use physics::velocity::{bias, com_vel, passive};
 use pyo3::prelude::*;
 
@@ -98,6 +99,7 @@ fn motion_stage(m: &Compiled, d: &mut physics::Data, name: &str) -> Result<bool,
         "fwdActuation" => actuation(m, &d.state, &d.trn, &d.vel, &d.passive, &mut d.actuation),
         "fwdAcceleration" => unconstrained_acceleration(m, d),
         "fwdConstraint" => constrained_acceleration(m, d),
+        "invConstraint" => constraint_force(m, &d.con, &mut d.efc, &mut d.acc, &mut d.scratch.solver),
         "sensorAcc" => acceleration_sensors(m, d),
         "rnePostConstraint" => {
             rne_post_constraint(m, &configuration!(d), &d.vel, &d.con, &d.efc, &d.acc, &mut d.sensor);
@@ -126,4 +128,38 @@ pub fn newton_euler<'py>(
         Ok(forces)
     })?;
     Ok(PyArray1::from_vec(py, forces))
+}
+
+/// Inverse dynamics without the stages before `skipstage` (`mjtStage`), with or without sensors.
+#[pyfunction]
+pub fn inverse_skip(
+    py: Python<'_>,
+    m: &Bound<'_, Model>,
+    d: &Bound<'_, Data>,
+    skipstage: i64,
+    sensors: bool,
+) -> PyResult<()> {
+    let known = match skipstage {
+        ..=0 => Known::Nothing,
+        1 => Known::Position,
+        2.. => Known::Velocity,
+    };
+    change(py, m, d, |m, d| Ok(inverse_after(m, d, known, sensors)?))
+}
+
+/// Constraint forces and states at these residuals, one a row.
+#[pyfunction]
+pub fn forces_at(
+    py: Python<'_>,
+    m: &Bound<'_, Model>,
+    d: &Bound<'_, Data>,
+    residual: Vec<f64>,
+) -> PyResult<()> {
+    change(py, m, d, |_, d| {
+        if residual.len() != d.efc.nefc {
+            return Err(Fault::Value(format!("{} residuals of {} rows", residual.len(), d.efc.nefc)));
+        }
+        force_at(&residual, &d.con, &mut d.efc, &mut d.acc, &mut d.scratch.solver);
+        Ok(())
+    })
 }

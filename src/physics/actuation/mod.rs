@@ -4,7 +4,8 @@
 pub(crate) mod activation;
 pub(crate) mod dc_motor;
 pub(crate) mod history;
-pub(crate) mod muscle;
+#[doc(hidden)]
+pub mod muscle;
 pub(crate) mod servo;
 pub(crate) mod setpoint;
 pub mod transmission;

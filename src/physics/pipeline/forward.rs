@@ -54,8 +54,9 @@ pub fn forward_after_step1(m: &Model, d: &mut Data) {
 }
 
 /// What of the last evaluation still holds.
+#[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
-pub(crate) enum Known {
+pub enum Known {
     /// Nothing.
     Nothing,
     /// All that depends on positions alone.

@@ -41,7 +41,11 @@ pub fn inverse(m: &Model, d: &mut Data) -> Result<(), StepError> {
 }
 
 /// `inverse` where part of the last evaluation still holds, with or without sensors.
-pub(crate) fn inverse_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Result<(), StepError> {
+///
+/// # Errors
+/// As [`inverse`].
+#[doc(hidden)]
+pub fn inverse_after(m: &Model, d: &mut Data, known: Known, sensors: bool) -> Result<(), StepError> {
     position_and_velocity(m, d, known, sensors, &mut ())?;
     let mut s = std::mem::take(&mut d.scratch.inverse);
     s.given.clone_from(&d.acc.qacc);

@@ -113,8 +113,34 @@ pub fn solve(
 }
 
 /// Computes the constraint forces, with their states, that go with acceleration `qacc`.
-pub(crate) fn constraint_force(
+#[doc(hidden)]
+pub fn constraint_force(
     m: &Model,
+    con: &Contacts,
+    efc: &mut Constraints,
+    acc: &mut Acceleration,
+    scratch: &mut SolverScratch,
+) {
+    residual_of(m, efc, &acc.qacc, &mut scratch.jar);
+    force_of_residual(con, efc, acc, scratch);
+}
+
+/// Computes the constraint forces, with their states, that go with the residuals `J qacc - aref`, one a row.
+#[doc(hidden)]
+pub fn force_at(
+    residual: &[f64],
+    con: &Contacts,
+    efc: &mut Constraints,
+    acc: &mut Acceleration,
+    scratch: &mut SolverScratch,
+) {
+    scratch.jar.clear();
+    scratch.jar.extend_from_slice(residual);
+    force_of_residual(con, efc, acc, scratch);
+}
+
+/// The forces that go with the residuals in `scratch`.
+fn force_of_residual(
     con: &Contacts,
     efc: &mut Constraints,
     acc: &mut Acceleration,
@@ -123,7 +149,6 @@ pub(crate) fn constraint_force(
     let SolverScratch { rows, jar, all, state, .. } = scratch;
     all.clear();
     all.extend(0..efc.nefc as i32);
-    residual_of(m, efc, &acc.qacc, jar);
     rows.gather(efc, &con.contact, all);
     state.resize(efc.nefc, ConstraintState::Satisfied);
     efc.efc_force.resize(efc.nefc, 0.0);

@@ -23,7 +23,7 @@ _ASKING: dict[str, tuple[tuple[str, ...], _Stage]] = {
 }
 
 
-def _stage(name: str, summary: str) -> _Stage:
+def _stage(name: str, summary: str, called: str | None = None) -> _Stage:
     wanted, asking = _ASKING.get(name, ((), None))
 
     def run(m: MjModel, d: MjData) -> None:
@@ -32,8 +32,8 @@ def _stage(name: str, summary: str) -> _Stage:
         else:
             _core.stage(m, d, name)
 
-    run.__name__ = run.__qualname__ = f"mj_{name}"
-    run.__doc__ = f"mj_{name}(m: mujoco._structs.MjModel, d: mujoco._structs.MjData) -> None\n\n{summary}\n"
+    run.__name__ = run.__qualname__ = called or f"mj_{name}"
+    run.__doc__ = f"{run.__name__}(m: mujoco._structs.MjModel, d: mujoco._structs.MjData) -> None\n\n{summary}\n"
     return run
 
 
@@ -51,6 +51,9 @@ mj_transmission = _stage("transmission", "Lengths and moment arms of actuators."
 mj_fwdPosition = _stage("fwdPosition", "All that depends on positions.")
 mj_sensorPos = _stage("sensorPos", "Sensors of positions, and the potential energy.")
 mj_energyPos = _stage("energyPos", "Potential energy [J].")
+mj_invPosition = _stage("fwdPosition", "All that depends on positions, of inverse dynamics.", "mj_invPosition")
+mj_invVelocity = _stage("fwdVelocity", "All that depends on velocities, of inverse dynamics.", "mj_invVelocity")
+mj_invConstraint = _stage("invConstraint", "Constraint forces that go with the present acceleration.")
 mj_comVel = _stage("comVel", "Velocities of bodies.")
 mj_passive = _stage("passive", "Forces of springs, dampers, fluid and gravity compensation.")
 mj_referenceConstraint = _stage("referenceConstraint", "Velocity and reference acceleration of constraint rows.")
