@@ -17,9 +17,25 @@ from robohive.mujoco.structs.lists import (
 )
 from robohive.mujoco.structs.model import MjModel
 from robohive.mujoco.structs.options import MjOption, MjStatistic, MjVisual, MjVisualHeadlight, MjVisualRgba
+from robohive.mujoco.structs.plain import (
+    MjByteVec,
+    MjDoubleVec,
+    MjFloatVec,
+    MjIntVec,
+    MjLogMessage,
+    MjPreContact,
+    MjrVertexAttribute,
+)
 from robohive.mujoco.vfs import MjVfs
 
 __all__ = [
+    "MjByteVec",
+    "MjDoubleVec",
+    "MjFloatVec",
+    "MjIntVec",
+    "MjLogMessage",
+    "MjPreContact",
+    "MjrVertexAttribute",
     "GLContext",
     "MjContact",
     "MjContactList",

@@ -181,6 +181,40 @@ def mjr_maxViewport(con: MjrContext) -> MjrRect:
     return MjrRect(0, 0, con.offWidth, con.offHeight)
 
 
+def mjr_restoreBuffer(con: MjrContext) -> None:
+    """Makes this the context that functions without one draw into: there are no auxiliary buffers to come back from."""
+    _draw_into(con)
+
+
+def mjr_defaultRendererInfo(info: MjrRendererInfo) -> None:
+    """Sets the values of new information."""
+    info.__init__()  # type: ignore[misc]
+
+
+def mjr_findRect(x: int, y: int, nrect: int, rect: MjrRect) -> int:
+    """0 where the pixel is in the rectangle, the only one that can be given; else, and where `nrect` is 0, -1."""
+    inside = 0 <= x - rect.left < rect.width and 0 <= y - rect.bottom < rect.height
+    return 0 if inside and nrect > 0 else -1
+
+
+def mjr_drawPixels(
+    rgb: NDArray[np.uint8] | None, depth: NDArray[np.float32] | None, viewport: MjrRect, con: MjrContext
+) -> None:
+    """Puts a rectangle of pixels into the picture, in the layout of `mjr_readPixels`; depths are 0 at the near plane, 1 at the far.
+
+    Raises:
+        TypeError: an array has another size than the viewport, or the viewport is not within the context.
+    """
+    rows, columns = con._within(viewport)
+    for name, given, picture in (("rgb", rgb, con._rgb), ("depth", depth, con._depth)):
+        if given is None:
+            continue
+        place = picture[rows, columns]
+        if given.size != place.size or place.shape[:2] != (viewport.height, viewport.width):
+            raise TypeError(f"{name} should be of a viewport within the context's {con.offWidth} x {con.offHeight}")
+        place[...] = given.reshape(place.shape)
+
+
 def mjr_finish() -> None:
     """Of no effect: drawing has ended when `mjr_render` returns."""
 

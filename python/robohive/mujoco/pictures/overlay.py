@@ -165,3 +165,14 @@ def mjr_label(
     _blend(con, viewport, (r, g, b), a)
     left, bottom = (viewport.width - side * len(txt)) // 2, (viewport.height - side) // 2
     _text(con, font, viewport, (max(0, left), bottom), txt, (rt, gt, bt))
+
+
+def mjr_text(font: int, txt: str, con: MjrContext, x: float, y: float, r: float, g: float, b: float) -> None:
+    """Writes a line of the colour `r`, `g`, `b` whose lower left corner is at `x`, `y`, shares of the picture's size."""
+    whole = MjrRect(0, 0, con.offWidth, con.offHeight)
+    _text(con, font, whole, (int(x * con.offWidth), int(y * con.offHeight)), txt, (r, g, b))
+
+
+def mjr_changeFont(fontscale: int, con: MjrContext) -> None:
+    """Sets the size of letters [%]."""
+    con.fontScale = int(fontscale)
