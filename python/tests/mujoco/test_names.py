@@ -89,3 +89,46 @@ def test_install_puts_the_module_where_mujoco_is_looked_for(monkeypatch):
     monkeypatch.setitem(sys.modules, "mujoco", object())
     with pytest.raises(ImportError, match="imported already"):
         mj.install()
+
+
+#: What programs write with a member `e` (1) of an enumeration, and one of another, `f` (1).
+COMPARISONS = (
+    "e == 1",
+    "1 == e",
+    "e != 1",
+    "e == True",
+    "e == 1.0",
+    "e != 1.0",
+    "e == np.int32(1)",
+    "e != np.int32(1)",
+    "np.int32(1) == e",
+    "np.int32(2) != e",
+    "np.array([1, 2]) == e",
+    "e == np.array([1, 2])",
+    "e == f",
+    "e != f",
+    "f == e",
+    "e == type(e)(1)",
+    "e == None",
+    "e != 'x'",
+    "e in (np.int32(1),)",
+    "np.int32(1) in (e,)",
+    "1 in (e,)",
+    "{e: 1}.get(1)",
+    "{1: 1}.get(e)",
+    "{e: 1}.get(np.int32(1))",
+    "hash(e) == hash(1)",
+    "str(e)",
+    "repr(e)",
+    "f'{e}'",
+    "int(e) + e",
+    "np.arange(3)[e]",
+)
+
+
+@pytest.mark.parametrize("expression", COMPARISONS)
+def test_members_compare_as_mujocos(truth, expression):
+    def value(module):
+        return eval(expression, {"np": np, "e": module.mjtObj.mjOBJ_BODY, "f": module.mjtJoint.mjJNT_BALL})
+
+    assert np.array_equal(value(mj), value(truth))

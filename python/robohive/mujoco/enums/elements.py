@@ -1,6 +1,6 @@
 """Enumerations of elements of models, with the numbers of MuJoCo 3.12."""
 
-from enum import IntEnum
+from robohive.mujoco.enums.numbered import Numbered
 
 __all__ = [
     "mjtBias",
@@ -27,7 +27,7 @@ __all__ = [
 ]
 
 
-class mjtBias(IntEnum):
+class mjtBias(Numbered):
     """Values of `mjtBias`."""
 
     mjBIAS_NONE = 0
@@ -38,7 +38,7 @@ class mjtBias(IntEnum):
     mjBIAS_USER = 5
 
 
-class mjtCamLight(IntEnum):
+class mjtCamLight(Numbered):
     """Values of `mjtCamLight`."""
 
     mjCAMLIGHT_FIXED = 0
@@ -48,7 +48,7 @@ class mjtCamLight(IntEnum):
     mjCAMLIGHT_TARGETBODYCOM = 4
 
 
-class mjtCamOutBit(IntEnum):
+class mjtCamOutBit(Numbered):
     """Values of `mjtCamOutBit`."""
 
     mjCAMOUT_RGB = 1
@@ -59,7 +59,7 @@ class mjtCamOutBit(IntEnum):
     mjNCAMOUT = 5
 
 
-class mjtConDataField(IntEnum):
+class mjtConDataField(Numbered):
     """Values of `mjtConDataField`."""
 
     mjCONDATA_FOUND = 0
@@ -72,14 +72,14 @@ class mjtConDataField(IntEnum):
     mjNCONDATA = 7
 
 
-class mjtCtrlChart(IntEnum):
+class mjtCtrlChart(Numbered):
     """Values of `mjtCtrlChart`."""
 
     mjCHART_EXPMAP = 1
     mjCHART_QUAT = 2
 
 
-class mjtCtrlInput(IntEnum):
+class mjtCtrlInput(Numbered):
     """Values of `mjtCtrlInput`."""
 
     mjINPUT_POS = 1
@@ -89,7 +89,7 @@ class mjtCtrlInput(IntEnum):
     mjINPUT_NONE = 16
 
 
-class mjtDataType(IntEnum):
+class mjtDataType(Numbered):
     """Values of `mjtDataType`."""
 
     mjDATATYPE_REAL = 0
@@ -98,7 +98,7 @@ class mjtDataType(IntEnum):
     mjDATATYPE_QUATERNION = 3
 
 
-class mjtDyn(IntEnum):
+class mjtDyn(Numbered):
     """Values of `mjtDyn`."""
 
     mjDYN_NONE = 0
@@ -111,7 +111,7 @@ class mjtDyn(IntEnum):
     mjDYN_USER = 7
 
 
-class mjtEq(IntEnum):
+class mjtEq(Numbered):
     """Values of `mjtEq`."""
 
     mjEQ_CONNECT = 0
@@ -124,7 +124,7 @@ class mjtEq(IntEnum):
     mjEQ_DISTANCE = 7
 
 
-class mjtFlexSelf(IntEnum):
+class mjtFlexSelf(Numbered):
     """Values of `mjtFlexSelf`."""
 
     mjFLEXSELF_NONE = 0
@@ -134,7 +134,7 @@ class mjtFlexSelf(IntEnum):
     mjFLEXSELF_AUTO = 4
 
 
-class mjtGain(IntEnum):
+class mjtGain(Numbered):
     """Values of `mjtGain`."""
 
     mjGAIN_FIXED = 0
@@ -146,7 +146,7 @@ class mjtGain(IntEnum):
     mjGAIN_USER = 6
 
 
-class mjtGeom(IntEnum):
+class mjtGeom(Numbered):
     """Values of `mjtGeom`."""
 
     mjGEOM_PLANE = 0
@@ -171,7 +171,7 @@ class mjtGeom(IntEnum):
     mjGEOM_NONE = 1001
 
 
-class mjtJoint(IntEnum):
+class mjtJoint(Numbered):
     """Values of `mjtJoint`."""
 
     mjJNT_FREE = 0
@@ -180,7 +180,7 @@ class mjtJoint(IntEnum):
     mjJNT_HINGE = 3
 
 
-class mjtLightType(IntEnum):
+class mjtLightType(Numbered):
     """Values of `mjtLightType`."""
 
     mjLIGHT_SPOT = 0
@@ -189,7 +189,7 @@ class mjtLightType(IntEnum):
     mjLIGHT_IMAGE = 3
 
 
-class mjtObj(IntEnum):
+class mjtObj(Numbered):
     """Values of `mjtObj`."""
 
     mjOBJ_UNKNOWN = 0
@@ -224,7 +224,7 @@ class mjtObj(IntEnum):
     mjOBJ_MODEL = 102
 
 
-class mjtRayDataField(IntEnum):
+class mjtRayDataField(Numbered):
     """Values of `mjtRayDataField`."""
 
     mjRAYDATA_DIST = 0
@@ -236,7 +236,7 @@ class mjtRayDataField(IntEnum):
     mjNRAYDATA = 6
 
 
-class mjtSDFType(IntEnum):
+class mjtSDFType(Numbered):
     """Values of `mjtSDFType`."""
 
     mjSDFTYPE_SINGLE = 0
@@ -245,7 +245,7 @@ class mjtSDFType(IntEnum):
     mjSDFTYPE_COLLISION = 3
 
 
-class mjtSameFrame(IntEnum):
+class mjtSameFrame(Numbered):
     """Values of `mjtSameFrame`."""
 
     mjSAMEFRAME_NONE = 0
@@ -255,7 +255,7 @@ class mjtSameFrame(IntEnum):
     mjSAMEFRAME_INERTIAROT = 4
 
 
-class mjtSensor(IntEnum):
+class mjtSensor(Numbered):
     """Values of `mjtSensor`."""
 
     mjSENS_TOUCH = 0
@@ -309,7 +309,7 @@ class mjtSensor(IntEnum):
     mjSENS_USER = 48
 
 
-class mjtTrn(IntEnum):
+class mjtTrn(Numbered):
     """Values of `mjtTrn`."""
 
     mjTRN_JOINT = 0
@@ -322,7 +322,7 @@ class mjtTrn(IntEnum):
     mjTRN_UNDEFINED = 1000
 
 
-class mjtWrap(IntEnum):
+class mjtWrap(Numbered):
     """Values of `mjtWrap`."""
 
     mjWRAP_NONE = 0

@@ -1,6 +1,6 @@
 """Enumerations of options and states of simulations, with the numbers of MuJoCo 3.12."""
 
-from enum import IntEnum
+from robohive.mujoco.enums.numbered import Numbered
 
 __all__ = [
     "mjtCTimer",
@@ -22,7 +22,7 @@ __all__ = [
 ]
 
 
-class mjtCTimer(IntEnum):
+class mjtCTimer(Numbered):
     """Values of `mjtCTimer`."""
 
     mjCTIMER_TOTAL = 0
@@ -37,14 +37,14 @@ class mjtCTimer(IntEnum):
     mjNCTIMER = 9
 
 
-class mjtCone(IntEnum):
+class mjtCone(Numbered):
     """Values of `mjtCone`."""
 
     mjCONE_PYRAMIDAL = 0
     mjCONE_ELLIPTIC = 1
 
 
-class mjtConstraint(IntEnum):
+class mjtConstraint(Numbered):
     """Values of `mjtConstraint`."""
 
     mjCNSTR_EQUALITY = 0
@@ -57,7 +57,7 @@ class mjtConstraint(IntEnum):
     mjCNSTR_CONTACT_ELLIPTIC = 7
 
 
-class mjtConstraintState(IntEnum):
+class mjtConstraintState(Numbered):
     """Values of `mjtConstraintState`."""
 
     mjCNSTRSTATE_SATISFIED = 0
@@ -67,7 +67,7 @@ class mjtConstraintState(IntEnum):
     mjCNSTRSTATE_CONE = 4
 
 
-class mjtDisableBit(IntEnum):
+class mjtDisableBit(Numbered):
     """Values of `mjtDisableBit`."""
 
     mjDSBL_CONSTRAINT = 1
@@ -93,7 +93,7 @@ class mjtDisableBit(IntEnum):
     mjNDISABLE = 20
 
 
-class mjtEnableBit(IntEnum):
+class mjtEnableBit(Numbered):
     """Values of `mjtEnableBit`."""
 
     mjENBL_OVERRIDE = 1
@@ -105,7 +105,7 @@ class mjtEnableBit(IntEnum):
     mjNENABLE = 6
 
 
-class mjtIntegrator(IntEnum):
+class mjtIntegrator(Numbered):
     """Values of `mjtIntegrator`."""
 
     mjINT_EULER = 0
@@ -114,7 +114,7 @@ class mjtIntegrator(IntEnum):
     mjINT_IMPLICITFAST = 3
 
 
-class mjtJacobian(IntEnum):
+class mjtJacobian(Numbered):
     """Values of `mjtJacobian`."""
 
     mjJAC_DENSE = 0
@@ -122,7 +122,7 @@ class mjtJacobian(IntEnum):
     mjJAC_AUTO = 2
 
 
-class mjtLRMode(IntEnum):
+class mjtLRMode(Numbered):
     """Values of `mjtLRMode`."""
 
     mjLRMODE_NONE = 0
@@ -131,7 +131,7 @@ class mjtLRMode(IntEnum):
     mjLRMODE_ALL = 3
 
 
-class mjtSleepPolicy(IntEnum):
+class mjtSleepPolicy(Numbered):
     """Values of `mjtSleepPolicy`."""
 
     mjSLEEP_AUTO = 0
@@ -142,7 +142,7 @@ class mjtSleepPolicy(IntEnum):
     mjSLEEP_INIT = 5
 
 
-class mjtSleepState(IntEnum):
+class mjtSleepState(Numbered):
     """Values of `mjtSleepState`."""
 
     mjS_STATIC = -1
@@ -150,7 +150,7 @@ class mjtSleepState(IntEnum):
     mjS_AWAKE = 1
 
 
-class mjtSolver(IntEnum):
+class mjtSolver(Numbered):
     """Values of `mjtSolver`."""
 
     mjSOL_PGS = 0
@@ -158,7 +158,7 @@ class mjtSolver(IntEnum):
     mjSOL_NEWTON = 2
 
 
-class mjtStage(IntEnum):
+class mjtStage(Numbered):
     """Values of `mjtStage`."""
 
     mjSTAGE_NONE = 0
@@ -167,7 +167,7 @@ class mjtStage(IntEnum):
     mjSTAGE_ACC = 3
 
 
-class mjtState(IntEnum):
+class mjtState(Numbered):
     """Values of `mjtState`."""
 
     mjSTATE_TIME = 1
@@ -191,7 +191,7 @@ class mjtState(IntEnum):
     mjSTATE_INTEGRATION = 16383
 
 
-class mjtTimer(IntEnum):
+class mjtTimer(Numbered):
     """Values of `mjtTimer`."""
 
     mjTIMER_STEP = 0
@@ -212,7 +212,7 @@ class mjtTimer(IntEnum):
     mjNTIMER = 15
 
 
-class mjtWarning(IntEnum):
+class mjtWarning(Numbered):
     """Values of `mjtWarning`."""
 
     mjWARN_INERTIA = 0

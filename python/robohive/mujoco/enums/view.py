@@ -1,6 +1,6 @@
 """Enumerations of texts, pictures and user interfaces, with the numbers of MuJoCo 3.12."""
 
-from enum import IntEnum
+from robohive.mujoco.enums.numbered import Numbered
 
 __all__ = [
     "mjrIndexType",
@@ -46,21 +46,21 @@ __all__ = [
 ]
 
 
-class mjrIndexType(IntEnum):
+class mjrIndexType(Numbered):
     """Values of `mjrIndexType`."""
 
     mjINDEX_TYPE_U16 = 0
     mjINDEX_TYPE_U32 = 1
 
 
-class mjrMeshPrimitiveType(IntEnum):
+class mjrMeshPrimitiveType(Numbered):
     """Values of `mjrMeshPrimitiveType`."""
 
     mjMESH_PRIMITIVE_TYPE_TRIANGLES = 0
     mjMESH_PRIMITIVE_TYPE_LINES = 1
 
 
-class mjrPixelFormat(IntEnum):
+class mjrPixelFormat(Numbered):
     """Values of `mjrPixelFormat`."""
 
     mjPIXEL_FORMAT_UNKNOWN = 0
@@ -72,7 +72,7 @@ class mjrPixelFormat(IntEnum):
     mjPIXEL_FORMAT_KTX = 6
 
 
-class mjrVertexAttributeType(IntEnum):
+class mjrVertexAttributeType(Numbered):
     """Values of `mjrVertexAttributeType`."""
 
     mjVERTEX_ATTRIBUTE_TYPE_FLOAT2 = 0
@@ -81,7 +81,7 @@ class mjrVertexAttributeType(IntEnum):
     mjVERTEX_ATTRIBUTE_TYPE_UBYTE4 = 3
 
 
-class mjrVertexAttributeUsage(IntEnum):
+class mjrVertexAttributeUsage(Numbered):
     """Values of `mjrVertexAttributeUsage`."""
 
     mjVERTEX_ATTRIBUTE_USAGE_POSITION = 0
@@ -91,7 +91,7 @@ class mjrVertexAttributeUsage(IntEnum):
     mjVERTEX_ATTRIBUTE_USAGE_COLOR = 4
 
 
-class mjtAlignFree(IntEnum):
+class mjtAlignFree(Numbered):
     """Values of `mjtAlignFree`."""
 
     mjALIGNFREE_FALSE = 0
@@ -99,7 +99,7 @@ class mjtAlignFree(IntEnum):
     mjALIGNFREE_AUTO = 2
 
 
-class mjtBuiltin(IntEnum):
+class mjtBuiltin(Numbered):
     """Values of `mjtBuiltin`."""
 
     mjBUILTIN_NONE = 0
@@ -108,7 +108,7 @@ class mjtBuiltin(IntEnum):
     mjBUILTIN_FLAT = 3
 
 
-class mjtButton(IntEnum):
+class mjtButton(Numbered):
     """Values of `mjtButton`."""
 
     mjBUTTON_NONE = 0
@@ -117,7 +117,7 @@ class mjtButton(IntEnum):
     mjBUTTON_MIDDLE = 3
 
 
-class mjtCamera(IntEnum):
+class mjtCamera(Numbered):
     """Values of `mjtCamera`."""
 
     mjCAMERA_FREE = 0
@@ -126,7 +126,7 @@ class mjtCamera(IntEnum):
     mjCAMERA_USER = 3
 
 
-class mjtCatBit(IntEnum):
+class mjtCatBit(Numbered):
     """Values of `mjtCatBit`."""
 
     mjCAT_STATIC = 1
@@ -135,7 +135,7 @@ class mjtCatBit(IntEnum):
     mjCAT_ALL = 7
 
 
-class mjtColorSpace(IntEnum):
+class mjtColorSpace(Numbered):
     """Values of `mjtColorSpace`."""
 
     mjCOLORSPACE_AUTO = 0
@@ -143,7 +143,7 @@ class mjtColorSpace(IntEnum):
     mjCOLORSPACE_SRGB = 2
 
 
-class mjtConflict(IntEnum):
+class mjtConflict(Numbered):
     """Values of `mjtConflict`."""
 
     mjCONFLICT_WARNING = 0
@@ -151,14 +151,14 @@ class mjtConflict(IntEnum):
     mjCONFLICT_ERROR = 2
 
 
-class mjtDepthMap(IntEnum):
+class mjtDepthMap(Numbered):
     """Values of `mjtDepthMap`."""
 
     mjDEPTH_ZERONEAR = 0
     mjDEPTH_ZEROFAR = 1
 
 
-class mjtEvent(IntEnum):
+class mjtEvent(Numbered):
     """Values of `mjtEvent`."""
 
     mjEVENT_NONE = 0
@@ -172,7 +172,7 @@ class mjtEvent(IntEnum):
     mjEVENT_FILESDROP = 8
 
 
-class mjtFont(IntEnum):
+class mjtFont(Numbered):
     """Values of `mjtFont`."""
 
     mjFONT_NORMAL = 0
@@ -180,7 +180,7 @@ class mjtFont(IntEnum):
     mjFONT_BIG = 2
 
 
-class mjtFontScale(IntEnum):
+class mjtFontScale(Numbered):
     """Values of `mjtFontScale`."""
 
     mjFONTSCALE_50 = 50
@@ -191,7 +191,7 @@ class mjtFontScale(IntEnum):
     mjFONTSCALE_300 = 300
 
 
-class mjtFrame(IntEnum):
+class mjtFrame(Numbered):
     """Values of `mjtFrame`."""
 
     mjFRAME_NONE = 0
@@ -205,21 +205,21 @@ class mjtFrame(IntEnum):
     mjNFRAME = 8
 
 
-class mjtFramebuffer(IntEnum):
+class mjtFramebuffer(Numbered):
     """Values of `mjtFramebuffer`."""
 
     mjFB_WINDOW = 0
     mjFB_OFFSCREEN = 1
 
 
-class mjtGeomInertia(IntEnum):
+class mjtGeomInertia(Numbered):
     """Values of `mjtGeomInertia`."""
 
     mjINERTIA_VOLUME = 0
     mjINERTIA_SHELL = 1
 
 
-class mjtGridPos(IntEnum):
+class mjtGridPos(Numbered):
     """Values of `mjtGridPos`."""
 
     mjGRID_TOPLEFT = 0
@@ -232,7 +232,7 @@ class mjtGridPos(IntEnum):
     mjGRID_RIGHT = 7
 
 
-class mjtInertiaFromGeom(IntEnum):
+class mjtInertiaFromGeom(Numbered):
     """Values of `mjtInertiaFromGeom`."""
 
     mjINERTIAFROMGEOM_FALSE = 0
@@ -240,7 +240,7 @@ class mjtInertiaFromGeom(IntEnum):
     mjINERTIAFROMGEOM_AUTO = 2
 
 
-class mjtItem(IntEnum):
+class mjtItem(Numbered):
     """Values of `mjtItem`."""
 
     mjITEM_END = -2
@@ -262,7 +262,7 @@ class mjtItem(IntEnum):
     mjNITEM = 14
 
 
-class mjtLabel(IntEnum):
+class mjtLabel(Numbered):
     """Values of `mjtLabel`."""
 
     mjLABEL_NONE = 0
@@ -285,7 +285,7 @@ class mjtLabel(IntEnum):
     mjNLABEL = 17
 
 
-class mjtLimited(IntEnum):
+class mjtLimited(Numbered):
     """Values of `mjtLimited`."""
 
     mjLIMITED_FALSE = 0
@@ -293,7 +293,7 @@ class mjtLimited(IntEnum):
     mjLIMITED_AUTO = 2
 
 
-class mjtLogLevel(IntEnum):
+class mjtLogLevel(Numbered):
     """Values of `mjtLogLevel`."""
 
     mjLOG_DEBUG = 0
@@ -302,7 +302,7 @@ class mjtLogLevel(IntEnum):
     mjLOG_ERROR = 3
 
 
-class mjtLogTopic(IntEnum):
+class mjtLogTopic(Numbered):
     """Values of `mjtLogTopic`."""
 
     mjTOPIC_NONE = 0
@@ -312,7 +312,7 @@ class mjtLogTopic(IntEnum):
     mjNTOPIC = 3
 
 
-class mjtMark(IntEnum):
+class mjtMark(Numbered):
     """Values of `mjtMark`."""
 
     mjMARK_NONE = 0
@@ -321,7 +321,7 @@ class mjtMark(IntEnum):
     mjMARK_RANDOM = 3
 
 
-class mjtMeshBuiltin(IntEnum):
+class mjtMeshBuiltin(Numbered):
     """Values of `mjtMeshBuiltin`."""
 
     mjMESH_BUILTIN_NONE = 0
@@ -334,7 +334,7 @@ class mjtMeshBuiltin(IntEnum):
     mjMESH_BUILTIN_PLATE = 7
 
 
-class mjtMeshInertia(IntEnum):
+class mjtMeshInertia(Numbered):
     """Values of `mjtMeshInertia`."""
 
     mjMESH_INERTIA_CONVEX = 0
@@ -343,7 +343,7 @@ class mjtMeshInertia(IntEnum):
     mjMESH_INERTIA_SHELL = 3
 
 
-class mjtMouse(IntEnum):
+class mjtMouse(Numbered):
     """Values of `mjtMouse`."""
 
     mjMOUSE_NONE = 0
@@ -358,7 +358,7 @@ class mjtMouse(IntEnum):
     mjMOUSE_TURN_H = 9
 
 
-class mjtOrientation(IntEnum):
+class mjtOrientation(Numbered):
     """Values of `mjtOrientation`."""
 
     mjORIENTATION_QUAT = 0
@@ -368,14 +368,14 @@ class mjtOrientation(IntEnum):
     mjORIENTATION_EULER = 4
 
 
-class mjtPertBit(IntEnum):
+class mjtPertBit(Numbered):
     """Values of `mjtPertBit`."""
 
     mjPERT_TRANSLATE = 1
     mjPERT_ROTATE = 2
 
 
-class mjtPluginCapabilityBit(IntEnum):
+class mjtPluginCapabilityBit(Numbered):
     """Values of `mjtPluginCapabilityBit`."""
 
     mjPLUGIN_ACTUATOR = 1
@@ -384,14 +384,14 @@ class mjtPluginCapabilityBit(IntEnum):
     mjPLUGIN_SDF = 8
 
 
-class mjtProjection(IntEnum):
+class mjtProjection(Numbered):
     """Values of `mjtProjection`."""
 
     mjPROJ_PERSPECTIVE = 0
     mjPROJ_ORTHOGRAPHIC = 1
 
 
-class mjtRndFlag(IntEnum):
+class mjtRndFlag(Numbered):
     """Values of `mjtRndFlag`."""
 
     mjRND_SHADOW = 0
@@ -408,7 +408,7 @@ class mjtRndFlag(IntEnum):
     mjNRNDFLAG = 11
 
 
-class mjtSection(IntEnum):
+class mjtSection(Numbered):
     """Values of `mjtSection`."""
 
     mjSECT_CLOSED = 0
@@ -416,7 +416,7 @@ class mjtSection(IntEnum):
     mjSECT_FIXED = 2
 
 
-class mjtStereo(IntEnum):
+class mjtStereo(Numbered):
     """Values of `mjtStereo`."""
 
     mjSTEREO_NONE = 0
@@ -424,7 +424,7 @@ class mjtStereo(IntEnum):
     mjSTEREO_SIDEBYSIDE = 2
 
 
-class mjtTexture(IntEnum):
+class mjtTexture(Numbered):
     """Values of `mjtTexture`."""
 
     mjTEXTURE_2D = 0
@@ -432,7 +432,7 @@ class mjtTexture(IntEnum):
     mjTEXTURE_SKYBOX = 2
 
 
-class mjtTextureRole(IntEnum):
+class mjtTextureRole(Numbered):
     """Values of `mjtTextureRole`."""
 
     mjTEXROLE_USER = 0
@@ -448,7 +448,7 @@ class mjtTextureRole(IntEnum):
     mjNTEXROLE = 10
 
 
-class mjtVisFlag(IntEnum):
+class mjtVisFlag(Numbered):
     """Values of `mjtVisFlag`."""
 
     mjVIS_CONVEXHULL = 0

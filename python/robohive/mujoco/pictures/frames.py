@@ -233,6 +233,7 @@ def mjv_moveModel(m: MjModel, action: int, reldx: float, reldy: float, roomup: A
     """
     if not scn.enabletransform:
         return
+    action = int(action)
     above, ahead = vector(roomup, "roomup", 3), np.zeros(3)
     mjv_cameraInRoom(None, ahead, None, scn)
     ahead = _unit(ahead - (ahead @ above) * above)
@@ -248,7 +249,7 @@ def mjv_moveModel(m: MjModel, action: int, reldx: float, reldy: float, roomup: A
     elif action == mjtMouse.mjMOUSE_ZOOM:
         scn.scale = float(np.clip(scn.scale + 3.0 * reldy * np.log1p(scn.scale / 3.0), 0.01, 100.0))
     else:
-        raise FatalError(f"mjv_moveModel: unexpected action {int(action)}")
+        raise FatalError(f"mjv_moveModel: unexpected action {action}")
 
 
 def mjv_alignToCamera(res: _Vector, vec: ArrayLike, forward: ArrayLike) -> None:
@@ -268,10 +269,10 @@ def mjv_connector(geom: MjvGeom, type: int, width: float, from_: ArrayLike, to: 
     Raises:
         FatalError: geoms of this type connect nothing.
     """
-    if type not in _CONNECTORS:
+    if int(type) not in _CONNECTORS:
         raise FatalError(f"mjv_connector: invalid geom type {int(type)}")
     start, end = vector(from_, "from", 3), vector(to, "to", 3)
-    centred = type in (mjtGeom.mjGEOM_CAPSULE, mjtGeom.mjGEOM_CYLINDER)
+    centred = int(type) in (mjtGeom.mjGEOM_CAPSULE, mjtGeom.mjGEOM_CYLINDER)
     turn = np.zeros(4)
     mju_quatZ2Vec(turn, end - start)
     length = float(np.linalg.norm(end - start))

@@ -140,7 +140,7 @@ def mjr_overlay(
         return
     columns = [(first, _TITLE), (second, _CONTENT)]
     skip = 0
-    for text, colour in columns if gridpos in _LEFT_CORNERS else reversed(columns):
+    for text, colour in columns if int(gridpos) in _LEFT_CORNERS else reversed(columns):
         skip = _column(font, gridpos, viewport, text, colour, skip, con)
 
 

@@ -73,7 +73,7 @@ def _drag(action: int, x: float, y: float, forward: _Vector) -> _Vector:
         mjtMouse.mjMOUSE_ZOOM: (0.0, 0.0, 0.0),
     }.get(action)  # type: ignore[call-overload]
     if plain is None:
-        raise FatalError(f"mjv_movePerturb: unexpected action {int(action)}")
+        raise FatalError(f"mjv_movePerturb: unexpected action {action}")
     out = np.zeros(3)
     mjv_alignToCamera(out, plain, forward)
     return out
@@ -101,6 +101,7 @@ def mjv_movePerturb(
     Raises:
         FatalError: `action` is no value of `mjtMouse` that moves, or the scene was never updated.
     """
+    action = int(action)
     drag = _drag(action, reldx, reldy, _in_model(scn)[1])
     if action in (mjtMouse.mjMOUSE_ROTATE_V, mjtMouse.mjMOUSE_ROTATE_H):
         _turn(m, d, drag, pert)
