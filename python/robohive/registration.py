@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from robohive import _core
+from robohive.guests import MODELS
 
 if TYPE_CHECKING:
     from robohive.envs import RoboHiveEnv
@@ -19,12 +20,14 @@ def register_envs() -> None:
     """Registers every id with Gymnasium; nothing is constructed.
 
     An id that another package registered before stays that package's: `make` of this package still makes ours. RoboHive's
-    ids have no namespace; those on models of this project are in the namespace `hive`.
+    ids have no namespace; those on models of this project are in the namespace `hive`, and Gymnasium's own tasks, on its
+    models, in `gymnasium`: `gymnasium.make("robohive:gymnasium/Ant-v5")`.
     """
     # Not before it is called: Gymnasium's own import calls it.
     from gymnasium.envs.registration import register, registry
 
-    for id, _, horizon in _core.ids():
+    guests = [(id, None, _core.horizon(id)) for id in MODELS]
+    for id, _, horizon in [*_core.ids(), *guests]:
         if id not in registry:
             register(
                 id=id,

@@ -6,6 +6,7 @@ import sys
 import gymnasium
 import pytest
 import robohive
+from robohive.guests import MODELS
 
 ARM = "hive/FrankaReach-v0"
 
@@ -23,6 +24,19 @@ def test_every_id_is_registered_with_the_length_of_its_episodes():
         assert spec.vector_entry_point == "robohive.vector:make_vec"
     assert gymnasium.spec("door-v1").max_episode_steps == 200 and gymnasium.spec("door-v1").namespace is None
     assert gymnasium.spec(ARM).namespace == "hive"
+
+
+@pytest.mark.parametrize("id", sorted(MODELS))
+def test_gymnasiums_own_tasks_are_made_by_their_ids(id):
+    env = gymnasium.make(f"robohive:{id}")
+    theirs = gymnasium.spec(id.removeprefix("gymnasium/"))
+    assert env.spec is not None and env.spec.entry_point == "robohive.envs:RoboHiveEnv"
+    assert env.spec.max_episode_steps == theirs.max_episode_steps
+    observation, _ = env.reset(seed=0)
+    assert env.observation_space.contains(observation)
+    vectors = gymnasium.make_vec(f"robohive:{id}", 2, vectorization_mode="vector_entry_point")
+    observations, _ = vectors.reset(seed=0)
+    assert observations.shape == (2, *observation.shape) and (observations[0] == observation).all()
 
 
 @pytest.mark.parametrize(
