@@ -261,3 +261,30 @@ fn a_rope_hangs_as_a_catenary() {
         assert!((point[2] - expected).abs() < 0.01 * sag, "{point:?}: {expected}");
     }
 }
+
+/// The normal of the contact has no part along the slide; friction has.
+#[test]
+fn trees_that_friction_alone_couples_are_one_island() {
+    let accelerations = |jacobian: &str, island: &str| {
+        let text = format!(
+            "<mujoco><option jacobian='{jacobian}'><flag island='{island}'/></option><worldbody>\
+             <body><freejoint/><geom size='.3'/></body>\
+             <body name='b'><joint type='slide'/><geom size='.01' contype='0' conaffinity='0'/>\
+             <flexcomp name='f' type='direct' dim='2' point='.31 0 0 .5 .1 0 .5 -.1 0' element='0 1 2' radius='.02'\
+             rigid='true'/></body></worldbody></mujoco>"
+        );
+        let m = robohive::mjcf::load_str(&text).unwrap_or_else(|error| panic!("{error}")).model;
+        let mut d = Data::new(&m);
+        d.state.qvel[6] = 1.0;
+        forward(&m, &mut d).unwrap();
+        assert_eq!((d.con.contact.len(), d.island.nisland), (1, usize::from(island == "enable")));
+        d.acc.qacc.clone()
+    };
+    let whole = accelerations("dense", "disable");
+    assert!((whole[6] + 9.81).abs() > 1.0, "friction brakes the slide: {whole:?}");
+    for jacobian in ["dense", "sparse"] {
+        for (a, b) in accelerations(jacobian, "enable").iter().zip(&whole) {
+            assert!((a - b).abs() < 1e-7, "{jacobian}: {a} {b}");
+        }
+    }
+}

@@ -37,9 +37,16 @@ pub fn find_islands(
     while i < efc.nefc {
         let tree = unite_row(m, con, efc, i, &mut scratch.parent);
         let constraint = (efc.efc_type[i], efc.efc_id[i]);
+        let flex = is_flex_contact(con, efc, i);
         let alone = is_flex_equality(m, efc, i);
         i += 1;
         while !alone && i < efc.nefc && (efc.efc_type[i], efc.efc_id[i]) == constraint {
+            // Friction may couple a tree that the normal of a contact does not; sparse rows of a constraint have the same
+            // columns.
+            if flex && !m.is_sparse() {
+                let other = unite_moved(m, efc, i, &mut scratch.parent);
+                unite(&mut scratch.parent, tree, other);
+            }
             i += 1;
         }
         scratch.blocks.push((i, tree));
@@ -66,11 +73,10 @@ fn unite_row(m: &Model, con: &Contacts, efc: &Constraints, i: usize, parent: &mu
             | ConstraintType::ContactPyramidal
             | ConstraintType::ContactElliptic,
         ) => {
-            let geoms = con.contact[id].geom;
-            if geoms.iter().any(|&g| g < 0) {
+            if is_flex_contact(con, efc, i) {
                 return unite_columns(m, efc, i, parent);
             }
-            let [a, b] = geoms.map(|g| m.body_treeid[m.geom_bodyid[g as usize] as usize]);
+            let [a, b] = con.contact[id].geom.map(|g| m.body_treeid[m.geom_bodyid[g as usize] as usize]);
             pair(a, b, parent)
         }
         Some(ConstraintType::Equality)
@@ -85,9 +91,25 @@ fn unite_row(m: &Model, con: &Contacts, efc: &Constraints, i: usize, parent: &mu
     }
 }
 
-/// Unites the trees of the non-zero columns of row `i` and returns the first. If all columns are zero, as in contacts of a
-/// body with itself, it returns the tree of the first column.
+/// Whether row `i` belongs to a contact with a flex. Contacts have the last rows.
+fn is_flex_contact(con: &Contacts, efc: &Constraints, i: usize) -> bool {
+    i >= efc.ne + efc.nf + efc.nl && con.contact[efc.efc_id[i] as usize].geom.iter().any(|&geom| geom < 0)
+}
+
+/// Unites the trees of the columns of row `i` and returns the first. If all columns are zero, as in contacts of a body with
+/// itself, it returns the tree of the first column.
 fn unite_columns(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> i32 {
+    let first = unite_moved(m, efc, i, parent);
+    if first >= 0 || efc.efc_J_rownnz[i] == 0 {
+        return first;
+    }
+    let tree = m.dof_treeid[efc.efc_J_colind[efc.efc_J_rowadr[i] as usize] as usize];
+    unite(parent, tree, tree);
+    tree
+}
+
+/// Unites the trees of the columns of row `i`, of a dense row the non-zero ones; returns the first, -1 where there is none.
+fn unite_moved(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> i32 {
     let start = efc.efc_J_rowadr[i] as usize;
     let (mut first, mut previous) = (-1, -1);
     for k in start..start + efc.efc_J_rownnz[i] as usize {
@@ -98,10 +120,6 @@ fn unite_columns(m: &Model, efc: &Constraints, i: usize, parent: &mut [i32]) -> 
         unite(parent, tree, previous);
         previous = tree;
         first = if first < 0 { tree } else { first };
-    }
-    if first < 0 && efc.efc_J_rownnz[i] > 0 {
-        first = m.dof_treeid[efc.efc_J_colind[start] as usize];
-        unite(parent, first, first);
     }
     first
 }
