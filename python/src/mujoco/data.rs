@@ -232,7 +232,9 @@ impl Data {
             }
         });
         result?;
-        statistics::dump(&held, |name, values| all.set_item(name, PyArray1::from_vec(py, values)))?;
+        statistics::dump(&held.simulation, &held.timers, |name, values| {
+            all.set_item(name, PyArray1::from_vec(py, values))
+        })?;
         Ok(all)
     }
 
@@ -241,10 +243,10 @@ impl Data {
         let mut held = self.lock()?;
         held.simulation.con.contact.clear();
         for (name, values) in &arrays {
-            if statistics::restore(&mut held, name, values) {
+            let Held { simulation, timers, .. } = &mut *held;
+            if statistics::restore(simulation, timers, name, values) {
                 continue;
             }
-            let simulation = &mut held.simulation;
             match (name.as_str(), &values[..]) {
                 ("energy", [potential, kinetic]) => simulation.energy = [*potential, *kinetic],
                 ("solver_fwdinv", [a, b]) => simulation.solver.solver_fwdinv = [*a, *b],

@@ -6,7 +6,7 @@
 //! | `model.rs`, `settings.rs`, `load.rs` | models, their options, where they come from |
 //! | `data.rs`, `lists.rs`, `lent.rs` | simulations, arrays that change length, and what is written into these |
 //! | `warned.rs`, `timed.rs`, `saved.rs` | warnings, timers, states as vectors |
-//! | `statistics.rs` | what of these and of the solver is shown, and kept in pickles |
+//! | `statistics.rs` | what of these and of the solver is kept in pickles |
 //! | `call.rs`, `error.rs` | what every call does, and how it fails |
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
 //! | `asked.rs` | stages in parts, between which callbacks are asked |
@@ -79,7 +79,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::query::{
         axis_rates, cast_at_geom, cast_at_shape, cast_ray, cast_rays, contact_force, geom_distance, jacobian,
-        joint_forces, muscle_forces, muscle_rate, object_motion, recall,
+        joint_forces, muscle_forces, muscle_rate, object_motion, recall, solver,
     };
     #[pymodule_export]
     use super::rollout::roll_out;
@@ -89,6 +89,4 @@ pub mod bindings {
     use super::spec::{Description, actuator_shortcut, orientation, spec_forms};
     #[pymodule_export]
     use super::stages::{forces_at, inverse_skip, newton_euler, stage};
-    #[pymodule_export]
-    use super::statistics::solver;
 }

@@ -4,6 +4,7 @@ use super::call::read;
 use super::data::Data;
 use super::error::Fault;
 use super::model::Model;
+use super::statistics;
 use numpy::{PyArray1, PyReadonlyArray2};
 use physics::actuation::muscle::{Muscle, activation_rate};
 use physics::actuation::{Recorded, recall as recall_recorded};
@@ -14,6 +15,7 @@ use physics::position::frame::frame;
 use physics::position::jacobian::{Jacobian, angular_momentum_matrix, axis_rate, subtree_com_jacobian};
 use physics::ray::{Hit, Ray, RayFilter, multi_ray, ray, ray_geom, ray_shape};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 /// A numpy array of numbers.
 type Vector<'py> = Bound<'py, PyArray1<f64>>;
@@ -23,6 +25,16 @@ fn index(id: i64, count: usize, kind: &str) -> Result<usize, Fault> {
     usize::try_from(id).ok().filter(|&i| i < count).ok_or_else(|| {
         Fault::Value(format!("there is no {kind} {id}: the model has {count}, numbered from 0"))
     })
+}
+
+/// Iterations and non-zeros of each island, and every iteration: improvement, gradient, slope, and the counts.
+#[pyfunction]
+pub fn solver<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py, PyDict>> {
+    let all = PyDict::new(py);
+    for (name, values) in statistics::columns(&d.get().wait(py).simulation.solver) {
+        all.set_item(name, values)?;
+    }
+    Ok(all)
 }
 
 /// Jacobians of a point or frame, `3 * nv` each, translation and rotation. `what` says which: `point`, its `rate`,

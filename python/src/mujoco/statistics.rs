@@ -1,14 +1,13 @@
-//! What a simulation counts beside its numbers: iterations of the solver, warnings, durations of calls. Shown to Python, and
-//! kept in pickles.
+//! What a simulation counts beside its numbers, as pickles keep it: iterations of the solver, warnings, durations of calls.
 
-use super::data::{Data, Held};
+use super::timed::Timers;
 use super::warned::Warned;
+use physics::Data as Simulation;
 use physics::data::{SolverStat, SolverStatistics};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 
 /// Every column of the solver's statistics: counts of each island, then a number for each iteration.
-fn columns(statistics: &SolverStatistics) -> [(&'static str, Vec<f64>); 9] {
+pub fn columns(statistics: &SolverStatistics) -> [(&'static str, Vec<f64>); 9] {
     let of = |value: fn(&SolverStat) -> f64| statistics.solver.iter().map(value).collect();
     let counts = |values: &[i32]| values.iter().map(|&x| f64::from(x)).collect();
     [
@@ -24,42 +23,36 @@ fn columns(statistics: &SolverStatistics) -> [(&'static str, Vec<f64>); 9] {
     ]
 }
 
-/// Iterations and non-zeros of each island, and every iteration: improvement, gradient, slope, and the counts.
-#[pyfunction]
-pub fn solver<'py>(py: Python<'py>, d: &Bound<'py, Data>) -> PyResult<Bound<'py, PyDict>> {
-    let all = PyDict::new(py);
-    for (name, values) in columns(&d.get().wait(py).simulation.solver) {
-        all.set_item(name, values)?;
-    }
-    Ok(all)
-}
-
 /// Calls `put(name, values)` for everything that is counted.
 ///
 /// # Errors
 /// Those of `put`.
-pub fn dump(held: &Held, mut put: impl FnMut(&str, Vec<f64>) -> PyResult<()>) -> PyResult<()> {
-    for (name, values) in columns(&held.simulation.solver) {
+pub fn dump(
+    simulation: &Simulation,
+    timers: &Timers,
+    mut put: impl FnMut(&str, Vec<f64>) -> PyResult<()>,
+) -> PyResult<()> {
+    for (name, values) in columns(&simulation.solver) {
         put(name, values)?;
     }
     let mut warned = Warned::default();
-    warned.show(&held.simulation.warnings);
+    warned.show(&simulation.warnings);
     for (which, name) in Warned::NAMES.into_iter().enumerate() {
         put(name, warned.array(which).iter().map(|&x| f64::from(x)).collect())?;
     }
-    put("timer.duration", held.timers.duration.to_vec())?;
-    put("timer.number", held.timers.number.iter().map(|&x| f64::from(x)).collect())
+    put("timer.duration", timers.duration.to_vec())?;
+    put("timer.number", timers.number.iter().map(|&x| f64::from(x)).collect())
 }
 
 /// Takes over what [`dump`] put under a name; false where it puts nothing under it.
-pub fn restore(held: &mut Held, name: &str, values: &[f64]) -> bool {
+pub fn restore(simulation: &mut Simulation, timers: &mut Timers, name: &str, values: &[f64]) -> bool {
     let whole = || values.iter().map(|&x| x as i32).collect::<Vec<_>>();
-    let statistics = &mut held.simulation.solver;
+    let statistics = &mut simulation.solver;
     if let Some(which) = Warned::NAMES.iter().position(|&known| known == name) {
         let mut warned = Warned::default();
-        warned.show(&held.simulation.warnings);
+        warned.show(&simulation.warnings);
         warned.array_mut(which).iter_mut().zip(whole()).for_each(|(to, from)| *to = from);
-        held.simulation.warnings = warned.counts();
+        simulation.warnings = warned.counts();
         return true;
     }
     match name {
@@ -72,8 +65,8 @@ pub fn restore(held: &mut Held, name: &str, values: &[f64]) -> bool {
         "nchange" => each(statistics, values, |s, x| s.nchange = x as i32),
         "neval" => each(statistics, values, |s, x| s.neval = x as i32),
         "nupdate" => each(statistics, values, |s, x| s.nupdate = x as i32),
-        "timer.duration" => held.timers.duration.iter_mut().zip(values).for_each(|(to, &from)| *to = from),
-        "timer.number" => held.timers.number.iter_mut().zip(whole()).for_each(|(to, from)| *to = from),
+        "timer.duration" => timers.duration.iter_mut().zip(values).for_each(|(to, &from)| *to = from),
+        "timer.number" => timers.number.iter_mut().zip(whole()).for_each(|(to, from)| *to = from),
         _ => return false,
     }
     true
