@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 23] = [
+const ORDER: [(&str, &[&str]); 24] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -44,6 +44,7 @@ const ORDER: [(&str, &[&str]); 23] = [
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
     ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
     ("robohive-viewer", &["assets", "physics", "mjcf", "random", "render", "video", "env", "agents"]),
+    ("robohive-web", &["assets", "physics", "mjcf", "render", "env", "agents", "viewer"]),
     (
         "robohive-python",
         &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],
@@ -69,7 +70,7 @@ const ORDER: [(&str, &[&str]); 23] = [
         ],
     ),
     ("xtask", &[]),
-    ("robohive-fuzz", &["physics", "mjcf", "dataset", "render"]),
+    ("robohive-fuzz", &["physics", "mjcf", "dataset", "random", "robot", "render", "env", "agents"]),
 ];
 
 /// What the library may use of others: all of it pure Rust.

@@ -35,6 +35,7 @@
 
 mod camera;
 mod command;
+mod drawing;
 mod flags;
 mod hand;
 mod history;
@@ -50,6 +51,7 @@ pub mod window;
 
 pub use camera::{Plane, orbit, pan, zoom};
 pub use command::{Command, FRAMES, LABELS, Shortcut, shortcuts};
+pub use drawing::Drawing;
 pub use flags::{EFFECTS, Flag, SHOW};
 pub use hand::{Grip, Hand};
 pub use history::History;

@@ -214,13 +214,18 @@ impl Session {
 
     /// The first keyframe, or the reference; of an environment, the start of the next episode.
     pub fn reset(&mut self) {
-        if let Some(play) = &mut self.play {
-            let begun = play.begin(play.seed().wrapping_add(1));
-            self.mirror(begun);
-            self.history.push(&self.data);
-            return;
+        if let Some(play) = &self.play {
+            return self.begin(play.seed().wrapping_add(1));
         }
         self.reset_to((self.model.nkey > 0).then_some(0));
+    }
+
+    /// The start of the episode of a seed. A session without an environment stays as it is.
+    pub fn begin(&mut self, seed: u64) {
+        let Some(play) = &mut self.play else { return };
+        let begun = play.begin(seed);
+        self.mirror(begun);
+        self.history.push(&self.data);
     }
 
     /// A keyframe, or the reference. A keyframe that the model does not have changes nothing; nor does any in an environment,

@@ -5,6 +5,7 @@
 //! `cargo xtask instructions --update` records new counts, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder,
 //! `cargo xtask crash-safety [KILLS]` kills recordings at random moments and reads what they leave,
 //! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice,
+//! `cargo xtask web [FOLDER]` builds the page and tests it in node,
 //! `cargo xtask results [TABLE…]` lists the tables of results by age, or makes them again.
 
 mod builds;
@@ -24,6 +25,8 @@ mod recorded_bits;
 mod results;
 mod tests;
 mod tolerances;
+#[cfg(feature = "web")]
+mod web;
 mod window;
 
 use built::{EVERYTHING, PROFILE};
@@ -72,6 +75,7 @@ fn main() -> ExitCode {
         ["crash-safety", ref rest @ ..] => verdict(crash_safety::run(rest)),
         ["mutants", ref rest @ ..] => verdict(mutants::run(rest)),
         ["results", ref rest @ ..] => verdict(results::run(rest)),
+        ["web", ref rest @ ..] => verdict(web(rest)),
         ["instructions", "--update"] => verdict(instructions::run(true).map(drop)),
         _ => match chosen(&words) {
             Some(checks) => {
@@ -105,6 +109,7 @@ fn usage() -> ExitCode {
     eprintln!("       cargo xtask mutants [COUNT]");
     eprintln!("       cargo xtask results [TABLE...]");
     eprintln!("       cargo xtask fuzz [SECONDS | keep] [TARGET...]");
+    eprintln!("       cargo xtask web [FOLDER]");
     ExitCode::from(2)
 }
 
@@ -132,4 +137,21 @@ fn docs() -> Outcome {
         .arg("--no-deps")
         .env("RUSTDOCFLAGS", "-D warnings");
     succeed(&mut command).map(|()| Vec::new())
+}
+
+/// Builds the page, in a program that has what makes its script.
+#[cfg(not(feature = "web"))]
+fn web(words: &[&str]) -> Result<(), String> {
+    cargo(&[&["run", "--quiet", "--package", "xtask", "--features", "web", "--", "web"], words].concat())
+        .map(drop)
+}
+
+/// Builds the page and tests it, and names what could not be tested.
+#[cfg(feature = "web")]
+fn web(words: &[&str]) -> Result<(), String> {
+    let missing = web::run(words)?;
+    missing
+        .iter()
+        .for_each(|missing| println!("== not checked: {}, to get it: {}", missing.what, missing.get));
+    Ok(())
 }

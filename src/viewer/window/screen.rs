@@ -1,12 +1,11 @@
 //! The picture of a session, drawn as finely as time allows.
 
+use crate::drawing::Drawing;
 use crate::session::Session;
 use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use physics::Model;
-use render::picture::Channels;
-use render::raster::Shot;
 use render::scene::{Camera, SceneOptions};
-use render::{Assets, Painter, Picture, Profile, RenderError, Renderer, Scene, Settings};
+use render::{Picture, RenderError};
 use std::time::Instant;
 
 /// What a picture may take while things move \[s\].
@@ -14,13 +13,9 @@ const BUDGET: f64 = 0.05;
 /// Coarsest picture, in parts of the window's width.
 const COARSEST: usize = 4;
 
-/// What draws a session, and the last picture of it.
+/// What draws a session, and the texture of the last picture.
 pub struct Screen {
-    assets: Assets,
-    scene: Scene,
-    settings: Settings,
-    painter: Box<dyn Painter>,
-    picture: Picture,
+    drawing: Drawing,
     texture: Option<TextureHandle>,
     shown: Option<Shown>,
     /// What a pixel takes \[s\].
@@ -42,17 +37,7 @@ impl Screen {
     /// # Errors
     /// A texture or mesh cannot be drawn.
     pub fn new(model: &Model) -> Result<Self, RenderError> {
-        let settings = Settings::of(model);
-        Ok(Screen {
-            assets: Assets::new(model, Profile::Mujoco312)?,
-            scene: Scene::new(),
-            settings,
-            painter: Box::new(Renderer::new(settings)),
-            picture: Picture::default(),
-            texture: None,
-            shown: None,
-            cost: 0.0,
-        })
+        Ok(Screen { drawing: Drawing::new(model)?, texture: None, shown: None, cost: 0.0 })
     }
 
     /// The picture of the present state for a window of `size` pixels: coarse while things move and drawing is slow, fine
@@ -97,19 +82,8 @@ impl Screen {
         size: [usize; 2],
     ) -> Result<TextureHandle, RenderError> {
         let began = Instant::now();
-        let (model, data, options) = (session.model(), session.data(), session.shown());
-        self.assets.refresh(model)?;
-        self.assets.pose(model, data, &options)?;
-        self.scene.update(model, data, session.view()?, &options)?;
-        [self.picture.width, self.picture.height] = size;
-        let shot = Shot {
-            assets: &self.assets,
-            scene: &self.scene,
-            channels: Channels::RGB,
-            picture: &mut self.picture,
-        };
-        self.painter.paint(&self.settings, &mut [shot])?;
-        let image = ColorImage::from_rgb(size, &self.picture.rgb);
+        let picture = self.drawing.draw(session, size)?;
+        let image = ColorImage::from_rgb(size, &picture.rgb);
         let texture = match &mut self.texture {
             Some(texture) => {
                 texture.set(image, TextureOptions::LINEAR);
@@ -125,6 +99,6 @@ impl Screen {
 
     /// The picture that is shown.
     pub fn picture(&self) -> &Picture {
-        &self.picture
+        self.drawing.picture()
     }
 }

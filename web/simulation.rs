@@ -1,0 +1,248 @@
+//! A simulation as JavaScript holds it.
+
+use crate::files::{Files, load_own};
+use mjcf::Loaded;
+use physics::Data;
+use viewer::{Command, Drawing, Grip, Look, Plane, Session, shortcuts, text};
+use wasm_bindgen::prelude::{JsError, wasm_bindgen};
+
+/// A model or an environment that is run, drawn and touched.
+#[wasm_bindgen]
+pub struct Simulation {
+    pub(crate) session: Session,
+    drawing: Drawing,
+    warnings: String,
+}
+
+/// Turns a message into an exception.
+pub(crate) fn exception(message: impl std::fmt::Display) -> JsError {
+    JsError::new(&message.to_string())
+}
+
+impl Simulation {
+    pub(crate) fn of(session: Session, warnings: String) -> Result<Self, String> {
+        let drawing = Drawing::new(session.model()).map_err(|error| error.to_string())?;
+        Ok(Simulation { session, drawing, warnings })
+    }
+
+    fn loaded(loaded: Loaded) -> Result<Self, String> {
+        let session = Session::new(loaded.model).map_err(|error| error.to_string())?;
+        Self::of(session, loaded.warnings.to_string())
+    }
+}
+
+#[wasm_bindgen]
+impl Simulation {
+    /// The model at a path among files.
+    ///
+    /// # Errors
+    /// All that is wrong with it, each with file, line and column; meshes and other files that are missing too.
+    pub fn open(files: &Files, path: &str) -> Result<Simulation, JsError> {
+        files.load(path).and_then(Self::loaded).map_err(exception)
+    }
+
+    /// A model of our own, by its name in `ownModels()`.
+    ///
+    /// # Errors
+    /// There is none of that name.
+    pub fn own(name: &str) -> Result<Simulation, JsError> {
+        load_own(name).and_then(Self::loaded).map_err(exception)
+    }
+
+    /// What was ignored or assumed when the model was read; empty if nothing was.
+    #[wasm_bindgen(getter)]
+    pub fn warnings(&self) -> String {
+        self.warnings.clone()
+    }
+
+    /// Name of the model, or id of the environment.
+    #[wasm_bindgen(getter)]
+    pub fn name(&self) -> String {
+        match self.session.play() {
+            Some(play) => play.env().spec().id.clone(),
+            None => self.session.model().name.clone(),
+        }
+    }
+
+    /// Simulated time \[s\].
+    #[wasm_bindgen(getter)]
+    pub fn time(&self) -> f64 {
+        self.session.data().time()
+    }
+
+    /// Time that a step takes \[s\].
+    #[wasm_bindgen(getter)]
+    pub fn timestep(&self) -> f64 {
+        self.session.span()
+    }
+
+    /// Number of contacts.
+    #[wasm_bindgen(getter)]
+    pub fn contacts(&self) -> usize {
+        self.session.data().con.contact.len()
+    }
+
+    /// Why the simulation has stopped, if a step failed.
+    #[wasm_bindgen(getter)]
+    pub fn fault(&self) -> Option<String> {
+        self.session.fault().map(str::to_owned)
+    }
+
+    /// Whether time goes by.
+    #[wasm_bindgen(getter)]
+    pub fn running(&self) -> bool {
+        self.session.is_running()
+    }
+
+    /// Lets time go by in `advance`, or stops it.
+    #[wasm_bindgen(setter)]
+    pub fn set_running(&mut self, running: bool) {
+        self.session.run(running);
+    }
+
+    /// Real time went by \[s\]: takes the steps that are due, as many as `budget` milliseconds allow. Returns how many.
+    pub fn advance(&mut self, seconds: f64, budget: f64) -> usize {
+        let end = clock::now() + budget;
+        self.session.advance(seconds, &mut || clock::now() < end)
+    }
+
+    /// Takes `count` steps. Returns how many were taken; fewer when one failed, then `fault` says why.
+    pub fn step(&mut self, count: usize) -> usize {
+        (0..count)
+            .take_while(|_| {
+                self.session.step_forward();
+                self.session.fault().is_none()
+            })
+            .count()
+    }
+
+    /// One state back in the history.
+    #[wasm_bindgen(js_name = stepBack)]
+    pub fn step_back(&mut self) {
+        self.session.step_back();
+    }
+
+    /// How many states the one that is shown lies behind the latest.
+    #[wasm_bindgen(getter)]
+    pub fn behind(&self) -> usize {
+        self.session.history().behind()
+    }
+
+    /// The first keyframe, or the reference; of an environment, the start of the next episode.
+    pub fn reset(&mut self) {
+        self.session.reset();
+    }
+
+    /// Hash of the state: time, positions, velocities, activations and accelerations, in 16 hexadecimal digits. Every build
+    /// computes the same.
+    pub fn hash(&self) -> String {
+        format!("{:016x}", hash(self.session.data()))
+    }
+
+    /// The present state as an element of `<keyframe>`, every number exact.
+    #[wasm_bindgen(js_name = keyText)]
+    pub fn key_text(&self) -> String {
+        text::key(self.session.model(), self.session.data(), true)
+    }
+
+    /// Draws the present state: bytes R, G, B, A of each pixel, row by row from the top, as `ImageData` takes them.
+    ///
+    /// # Errors
+    /// The size is zero or above 8192, or the camera has no place.
+    pub fn draw(&mut self, width: usize, height: usize) -> Result<Vec<u8>, JsError> {
+        const MOST: usize = 8192;
+        if !(1..=MOST).contains(&width) || !(1..=MOST).contains(&height) {
+            return Err(exception(format!(
+                "a picture has 1 to {MOST} pixels a side, not {width} by {height}"
+            )));
+        }
+        let picture = self.drawing.draw(&self.session, [width, height]).map_err(exception)?;
+        let (pixels, _) = picture.rgb.as_chunks::<3>();
+        Ok(pixels.iter().flat_map(|&[r, g, b]| [r, g, b, 255]).collect())
+    }
+
+    /// A number that grows with every change of the state: a picture of the same one need not be drawn again.
+    #[wasm_bindgen(getter)]
+    pub fn revision(&self) -> f64 {
+        self.session.revision() as f64
+    }
+
+    /// Turns the free camera by a drag, in heights of the picture to the right and up.
+    pub fn orbit(&mut self, right: f64, up: f64) {
+        self.session.look(Look::Orbit, [right, up]);
+    }
+
+    /// Moves it in the vertical plane.
+    pub fn pan(&mut self, right: f64, up: f64) {
+        self.session.look(Look::Pan(Plane::Vertical), [right, up]);
+    }
+
+    /// Brings it nearer.
+    pub fn zoom(&mut self, nearer: f64) {
+        self.session.look(Look::Zoom, [0.0, nearer]);
+    }
+
+    /// Selects the body at a place of the picture, from its lower left corner to 1: its label, or nothing.
+    pub fn select(&mut self, aspect: f64, right: f64, up: f64) -> Option<String> {
+        let picked = self.session.select(aspect, [right, up])?;
+        Some(self.session.model().label_of(physics::model::ObjType::Body, picked.body))
+    }
+
+    /// Takes hold of the selected body, to pull it, or to turn it. False when none is selected.
+    pub fn grab(&mut self, turn: bool) -> bool {
+        self.session.grab(if turn { Grip::Turn } else { Grip::Pull });
+        self.session.holds()
+    }
+
+    /// Moves what is held by a drag, in heights of the picture; in the horizontal plane, or the vertical one.
+    pub fn drag(&mut self, right: f64, up: f64, horizontal: bool) {
+        let plane = if horizontal { Plane::Horizontal } else { Plane::Vertical };
+        self.session.drag(plane, [right, up]);
+    }
+
+    /// Lets go.
+    pub fn release(&mut self) {
+        self.session.release();
+    }
+
+    /// Does what a key does in MuJoCo's viewer (`KeyboardEvent.code` without `Key`, `Shift+` before it). False for other keys.
+    pub fn key(&mut self, key: &str) -> bool {
+        let command: Option<Command> =
+            shortcuts().into_iter().find(|shortcut| shortcut.key == key).map(|shortcut| shortcut.command);
+        command.map(|command| self.session.perform(command)).is_some()
+    }
+}
+
+/// Milliseconds that go by.
+mod clock {
+    #[cfg(target_arch = "wasm32")]
+    mod page {
+        use wasm_bindgen::prelude::wasm_bindgen;
+
+        #[wasm_bindgen]
+        extern "C" {
+            #[wasm_bindgen(js_namespace = performance)]
+            pub fn now() -> f64;
+        }
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    pub use page::now;
+
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn now() -> f64 {
+        use std::sync::OnceLock;
+        use std::time::Instant;
+        static START: OnceLock<Instant> = OnceLock::new();
+        START.get_or_init(Instant::now).elapsed().as_secs_f64() * 1e3
+    }
+}
+
+/// FNV-1a over the bits of a state.
+fn hash(data: &Data) -> u64 {
+    let state = &data.state;
+    let numbers = [&[state.time][..], &state.qpos, &state.qvel, &state.act, &data.acc.qacc].concat();
+    numbers.into_iter().flat_map(f64::to_le_bytes).fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
