@@ -18,6 +18,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod appearance;
 mod distance_field;
 pub(crate) mod flex;
 mod not_simulated;
@@ -35,13 +36,15 @@ pub use crate::arrays::{
     VisualGlobal, VisualHeadlight, VisualMap, VisualQuality, VisualRgba, VisualScale, WrapType, array,
     bounds, counts, input,
 };
+pub use appearance::{Appearance, Mark};
 pub use distance_field::Field;
 pub use not_simulated::NotSimulated;
 pub use plugin_config::{AttributeError, Config};
 pub use plugin_error::{PluginError, RegistryError};
 pub use suggestion::Suggestions;
 pub use with_plugins::{
-    ActuatorInputs, Capability, Instance, Model, PassiveInputs, Plugin, Registry, SensorInputs,
+    ActuatorInputs, AppearanceInputs, Capability, Instance, Model, PassiveInputs, Plugin, Registry,
+    SensorInputs,
 };
 pub(crate) use with_plugins::{Instances, Running};
 

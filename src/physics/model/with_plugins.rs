@@ -1,6 +1,7 @@
 //! A compiled model, and the plugins at work in it. They stand in one file because they name each other: a model keeps
 //! instances of plugins, and an instance computes from the model.
 
+use super::appearance::Appearance;
 use super::distance_field::Field;
 use super::plugin_config::{AttributeError, Config};
 use super::plugin_error::RegistryError;
@@ -199,6 +200,17 @@ pub enum SensorInputs<'a> {
     Acceleration(&'a AccelerationInputs<'a>),
 }
 
+/// What a picture may depend on.
+#[derive(Clone, Copy, Debug)]
+pub struct AppearanceInputs<'a> {
+    /// The model.
+    pub m: &'a Model,
+    /// State, poses, contacts and forces.
+    pub at: AccelerationInputs<'a>,
+    /// Readings of all sensors.
+    pub readings: &'a [f64],
+}
+
 /// A plugin at work in one model. It may keep what follows from the model, and nothing that a step changes.
 pub trait Instance: Debug + Send + Sync {
     /// Sets the state of the instance, which is zero, at a reset of the simulation.
@@ -219,6 +231,10 @@ pub trait Instance: Debug + Send + Sync {
     /// Moves the state of the instance, `own`, over a time step. The rest of the state is that after the step, without
     /// `plugin_state`.
     fn advance(&self, _m: &Model, _state: &State, _own: &mut [f64]) {}
+
+    /// Changes how the state looks: colours of geoms, and shapes beside them. Called whenever a scene is put together, whatever
+    /// the plugin can be asked for.
+    fn appearance(&self, _inputs: &AppearanceInputs, _out: &mut Appearance) {}
 
     /// Its signed distance field.
     fn field(&self) -> Option<&dyn Field> {

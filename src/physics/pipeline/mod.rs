@@ -17,6 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod appearance;
 pub mod autoreset;
 mod demand;
 pub mod error;

@@ -2,14 +2,15 @@
 //! against the one before it.
 //!
 //! Stress between two neighbours is stiffness times the difference between their curvature and the curvature at rest, per
-//! unit of length. The half-way frames of the discrete elastic rods of Bergou et al. 2008 are the frames of the bodies here.
+//! unit of length; with `vmax` \[N m\] its norm colours the geoms in pictures, from blue to red. The half-way frames of the discrete elastic rods of Bergou et al. 2008 are the frames of the bodies here.
 
 use crate::math::{
     IDENTITY, Quat, Vec3, add, dot, norm, ops, quat_conj, quat_difference, quat_mul, quat_rotate,
-    quat_to_velocity, rotational, sub,
+    quat_to_velocity, rotational, scale, sub,
 };
 use crate::model::{
-    AttributeError, Capability, Config, GeomType, Instance, JointType, Model, PassiveInputs, Plugin,
+    Appearance, AppearanceInputs, AttributeError, Capability, Config, Disable, GeomType, Instance, JointType,
+    Model, PassiveInputs, Plugin,
 };
 use crate::position::chain::chain;
 use crate::position::kinematics::kinematics;
@@ -36,10 +37,12 @@ impl Plugin for Cable {
     fn instance(&self, config: &Config, m: &Model, id: usize) -> Result<Box<dyn Instance>, AttributeError> {
         let modulus = |name| config.number(name).map(Option::unwrap_or_default);
         let material = Material { shear: modulus("twist")?, young: modulus("bend")? };
-        modulus("vmax")?;
+        let reddest = modulus("vmax")?;
         let flat = config.text("flat") == "true";
         let bodies: Vec<usize> = (1..m.nbody).filter(|&b| m.body_plugin[b] == id as i32).collect();
-        let Some(&first) = bodies.first() else { return Ok(Box::new(Rod { first: 0, parts: Vec::new() })) };
+        let Some(&first) = bodies.first() else {
+            return Ok(Box::new(Rod { first: 0, parts: Vec::new(), reddest }));
+        };
         if bodies.last() != Some(&(first + bodies.len() - 1)) {
             return Err(
                 "the bodies that use the instance must follow each other: give others their own".into()
@@ -54,7 +57,7 @@ impl Plugin for Cable {
         let kin = at_reference(m);
         let parts =
             bodies.iter().map(|&b| part(m, &kin, b, b > first, flat, &material)).collect::<Result<_, _>>()?;
-        Ok(Box::new(Rod { first, parts }))
+        Ok(Box::new(Rod { first, parts, reddest }))
     }
 }
 
@@ -69,6 +72,8 @@ struct Material {
 struct Rod {
     first: usize,
     parts: Vec<Part>,
+    /// Moment that is shown red \[N m\]; 0 shows none.
+    reddest: f64,
 }
 
 /// One body of the chain.
@@ -159,10 +164,57 @@ impl Part {
     }
 }
 
+/// Rotation of `body` against the one before it.
+fn turn(m: &Model, qpos: &[f64], body: usize) -> Quat {
+    quat_mul(m.body_quat[body], relative(m, qpos, body))
+}
+
+/// Blue, cyan, green, yellow and red, evenly from 0 to `reddest`.
+fn rainbow(x: f64, reddest: f64) -> [f64; 3] {
+    let place = 4.0 * x.max(0.0).min(reddest) / reddest;
+    if place < 1.0 {
+        [0.0, place, 1.0]
+    } else if place < 2.0 {
+        [0.0, 1.0, 2.0 - place]
+    } else if place < 3.0 {
+        [place - 2.0, 1.0, 0.0]
+    } else {
+        [1.0, 4.0 - place, 0.0]
+    }
+}
+
+impl Rod {
+    /// Moment of the bond between part `k` and the one before it, in the frame of that; zero for the first part.
+    fn bond(&self, m: &Model, qpos: &[f64], k: usize) -> Vec3 {
+        let disabled = |flag: Disable| m.opt.disableflags.contains(flag);
+        if k == 0 || disabled(Disable::SPRING) && disabled(Disable::DAMPER) {
+            return [0.0; 3];
+        }
+        let quat = turn(m, qpos, self.first + k);
+        quat_rotate(quat_conj(quat), self.parts[k].moment(quat))
+    }
+}
+
 impl Instance for Rod {
+    fn appearance(&self, inputs: &AppearanceInputs, out: &mut Appearance) {
+        if self.reddest == 0.0 {
+            return;
+        }
+        let (m, qpos) = (inputs.m, &inputs.at.state.qpos);
+        let last = self.parts.len().saturating_sub(1);
+        for k in 0..self.parts.len() {
+            // Ends show their only bond.
+            let [before, after] = [k.max(1).min(last), (k + 1).min(last)].map(|k| self.bond(m, qpos, k));
+            let strength = norm(scale(add(before, after), 0.5));
+            let geom = m.body_geomadr[self.first + k] as usize;
+            let [r, g, b] = rainbow(strength, self.reddest).map(|x| x as f32);
+            out.colour_geom(geom, [r, g, b, m.geom_rgba[geom][3]]);
+        }
+    }
+
     fn passive(&self, inputs: &PassiveInputs, qfrc: &mut [f64]) {
         let PassiveInputs { m, at, .. } = *inputs;
-        let turn = |body: usize| quat_mul(m.body_quat[body], relative(m, &at.state.qpos, body));
+        let turn = |body: usize| turn(m, &at.state.qpos, body);
         for (k, part) in self.parts.iter().enumerate() {
             if part.stiffness == [0.0; 3] {
                 continue;

@@ -10,11 +10,16 @@
 //! `mujoco.sdf.bolt`, `bowl`, `gear`, `nut` and `torus`. Others are added to a [`Registry`], which the loader of models
 //! takes.
 //!
+//! [`Instance::appearance`] changes pictures: it colours geoms and adds shapes, an [`Appearance`], as callbacks for visualisation
+//! do in MuJoCo. Nothing is written into the model.
+//!
 //! ```
-//! use robohive_physics::plugin::{AttributeError, Capability, Config, Instance, PassiveInputs, Plugin, Registry};
+//! use robohive_physics::plugin::{Appearance, AppearanceInputs, AttributeError, Capability, Config};
+//! use robohive_physics::plugin::{Instance, PassiveInputs, Plugin, Registry};
+//! use robohive_physics::pipeline::appearance::appearance;
 //! use robohive_physics::{Data, Model, step};
 //!
-//! /// Pushes every degree of freedom of the model with one force.
+//! /// Pushes every degree of freedom of the model with one force, and shows the first geom redder the stronger it is.
 //! #[derive(Debug)]
 //! struct Push(f64);
 //!
@@ -40,6 +45,9 @@
 //!     fn passive(&self, _: &PassiveInputs, qfrc: &mut [f64]) {
 //!         qfrc.iter_mut().for_each(|f| *f += self.0);
 //!     }
+//!     fn appearance(&self, _: &AppearanceInputs, out: &mut Appearance) {
+//!         out.colour_geom(0, [self.0 as f32 / 4.0, 0.0, 0.0, 1.0]);
+//!     }
 //! }
 //!
 //! let mut registry = Registry::default();
@@ -49,6 +57,9 @@
 //! let mut data = Data::new(&model);
 //! step(&model, &mut data)?;
 //! assert_eq!(data.passive.qfrc_passive[0], 3.0);
+//! let mut seen = Appearance::default();
+//! appearance(&model, &data, &mut seen);
+//! assert_eq!(seen.colour_of(0), Some([0.75, 0.0, 0.0, 1.0]));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -60,7 +71,7 @@ mod sdf;
 mod touch_grid;
 
 pub use crate::model::{
-    ActuatorInputs, AttributeError, Capability, Config, Field, Instance, PassiveInputs, Plugin, PluginError,
-    Registry, RegistryError, SensorInputs,
+    ActuatorInputs, Appearance, AppearanceInputs, AttributeError, Capability, Config, Field, Instance, Mark,
+    PassiveInputs, Plugin, PluginError, Registry, RegistryError, SensorInputs,
 };
 pub use crate::stages::{AccelerationInputs, PositionInputs, VelocityInputs};

@@ -1,12 +1,17 @@
 //! `mujoco.sensor.touch_grid`: contact forces on the body of a site as pictures, by azimuth and elevation seen from the
-//! site along its negative z axis. One picture a channel: normal, two tangential forces, then the torques.
+//! site along its negative z axis. One picture a channel: normal, two tangential forces, then the torques. In pictures of the
+//! scene a plate stands in every cell that is touched, as far from the site as the contacts in it are on average.
 
 use crate::acceleration::contact_force::contact_force;
-use crate::math::{Vec3, mul_mat_t_vec, ops, sub};
-use crate::model::{
-    AttributeError, Capability, Config, Instance, Model, ObjType, Plugin, SensorInputs, SensorType,
+use crate::math::{
+    Vec3, add, column, mat_to_quat, mul_mat_t_vec, mul_mat_vec, norm, ops, quat_from_axis_angle, quat_mul,
+    quat_to_mat, scale, sub,
 };
-use crate::stages::AccelerationInputs;
+use crate::model::{
+    Appearance, AppearanceInputs, AttributeError, Capability, Config, GeomType, Instance, Mark, Model,
+    ObjType, Plugin, SensorInputs, SensorType,
+};
+use crate::stages::{AccelerationInputs, Contact};
 use std::f64::consts::PI;
 
 /// The plugin.
@@ -115,14 +120,10 @@ fn normal_first([x, y, z]: Vec3) -> Vec3 {
 impl Grid {
     fn fill(&self, m: &Model, inputs: &AccelerationInputs, site: usize, out: &mut [f64]) {
         let body = m.body_weldid[m.site_bodyid[site] as usize];
-        let (pos, mat) = (inputs.kin.site_xpos[site], &inputs.kin.site_xmat[site]);
-        let [width, height] = [0, 1].map(|axis| self.edges[axis].len() - 1);
-        for contact in &inputs.con.contact {
-            let Some(bodies) = bodies(m, contact.geom) else { continue };
-            if bodies.iter().all(|&b| m.body_weldid[b as usize] != body) {
-                continue;
-            }
-            let Some(at) = self.cell_of(mul_mat_t_vec(mat, sub(contact.pos, pos))) else { continue };
+        let mat = &inputs.kin.site_xmat[site];
+        let [width, height] = self.size();
+        for (contact, bodies, place) in touches(m, inputs, site) {
+            let Some(at) = self.cell_of(place) else { continue };
             let wrench = contact_force(m, inputs.efc, contact);
             // From the smaller to the larger body.
             let sign = if body < bodies[0].max(bodies[1]) { -1.0 } else { 1.0 };
@@ -138,12 +139,71 @@ impl Grid {
         }
     }
 
+    /// Cells along azimuth and elevation.
+    fn size(&self) -> [usize; 2] {
+        [0, 1].map(|axis| self.edges[axis].len() - 1)
+    }
+
+    /// The cells with contacts, along azimuth first, and the mean distance of their contacts \[m\].
+    fn touched(&self, m: &Model, inputs: &AccelerationInputs, site: usize) -> Vec<([usize; 2], f64)> {
+        let mut found: Vec<([usize; 2], f64)> = touches(m, inputs, site)
+            .filter_map(|(.., place)| Some((self.cell_of(place)?, norm(place))))
+            .collect();
+        found.sort_by_key(|&(cell, _)| cell);
+        let mean = |same: &[([usize; 2], f64)]| {
+            (same[0].0, same.iter().map(|(_, distance)| distance).sum::<f64>() / same.len() as f64)
+        };
+        found.chunk_by(|(cell, _), (next, _)| cell == next).map(mean).collect()
+    }
+
+    /// The plate in a cell, `distance` from the site.
+    fn plate(&self, inputs: &AppearanceInputs, sensor: usize, cell: [usize; 2], distance: f64) -> Mark {
+        let site = inputs.m.sensor_objid[sensor] as usize;
+        let (pos, mat) = (inputs.at.kin.site_xpos[site], &inputs.at.kin.site_xmat[site]);
+        let ends = |axis: usize| [self.edges[axis][cell[axis]], self.edges[axis][cell[axis] + 1]];
+        let [azimuth, elevation] = [0, 1].map(|axis| 0.5 * (ends(axis)[0] + ends(axis)[1]));
+        let half = |axis: usize| 0.5 * distance * (ends(axis)[1] - ends(axis)[0]);
+        let away = distance * (1.0 - THICKNESS);
+        let (level, height) = (away * ops::cos(elevation), away * ops::sin(elevation));
+        let local = [level * ops::sin(azimuth), height, -level * ops::cos(azimuth)];
+        let turned = quat_mul(
+            quat_from_axis_angle(scale(column(mat, 1), -1.0), azimuth),
+            quat_mul(quat_from_axis_angle(column(mat, 0), elevation), mat_to_quat(mat)),
+        );
+        Mark {
+            shape: GeomType::Box,
+            size: [half(0), half(1), distance * THICKNESS],
+            pos: add(mul_mat_vec(mat, local), pos),
+            mat: quat_to_mat(turned),
+            rgba: [1.0; 4],
+            id: sensor,
+        }
+    }
+
     /// The cell in whose direction `p` is seen.
     fn cell_of(&self, [x, y, z]: Vec3) -> Option<[usize; 2]> {
         let azimuth = ops::atan2(x, -z);
         let elevation = ops::atan2(y, ops::sqrt(x * x + z * z));
         Some([cell(&self.edges[0], azimuth)?, cell(&self.edges[1], elevation)?])
     }
+}
+
+/// Half thickness of a plate, in its distances.
+const THICKNESS: f64 = 0.02;
+
+/// The contacts on the body of a site, with the bodies of both and where they are in the site's frame \[m\].
+fn touches<'a>(
+    m: &'a Model,
+    inputs: &'a AccelerationInputs,
+    site: usize,
+) -> impl Iterator<Item = (&'a Contact, [i32; 2], Vec3)> {
+    let body = m.body_weldid[m.site_bodyid[site] as usize];
+    let (pos, mat) = (inputs.kin.site_xpos[site], &inputs.kin.site_xmat[site]);
+    inputs.con.contact.iter().filter_map(move |contact| {
+        let bodies = bodies(m, contact.geom)?;
+        let touches = bodies.iter().any(|&b| m.body_weldid[b as usize] == body);
+        touches.then(|| (contact, bodies, mul_mat_t_vec(mat, sub(contact.pos, pos))))
+    })
 }
 
 /// The bodies of two geoms; `None` where one is no geom.
@@ -153,6 +213,29 @@ fn bodies(m: &Model, geoms: [i32; 2]) -> Option<[i32; 2]> {
 }
 
 impl Instance for Grid {
+    fn appearance(&self, inputs: &AppearanceInputs, out: &mut Appearance) {
+        let Some(sensor) = self.sensor else { return };
+        let (m, [width, height]) = (inputs.m, self.size());
+        let first = m.sensor_adr[sensor] as usize;
+        let readings = &inputs.readings[first..];
+        let cells = width * height;
+        let strongest = readings[..cells].iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        if strongest == 0.0 {
+            return;
+        }
+        let site = m.sensor_objid[sensor] as usize;
+        for (cell, distance) in self.touched(m, &inputs.at, site) {
+            if distance == 0.0 {
+                continue;
+            }
+            let mut plate = self.plate(inputs, sensor, cell, distance);
+            for (channel, part) in plate.rgba[..self.channels.min(3)].iter_mut().enumerate() {
+                *part = (readings[channel * cells + cell[1] * width + cell[0]].abs() / strongest) as f32;
+            }
+            out.add_mark(plate);
+        }
+    }
+
     fn read(&self, m: &Model, inputs: &SensorInputs, sensor: usize, out: &mut [f64]) {
         if let (SensorInputs::Acceleration(inputs), true) = (inputs, self.sensor == Some(sensor)) {
             self.fill(m, inputs, m.sensor_objid[sensor] as usize, out);

@@ -8,7 +8,7 @@ use physics::model::{ObjType, TrnType};
 
 /// Adds the slider and the rod of every slider crank; the rod is red where it does not reach the crank.
 pub(super) fn slider_cranks(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !from.shows(Category::Dynamic) {
         return;
     }

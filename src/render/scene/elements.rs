@@ -10,7 +10,7 @@ use physics::model::{GeomType, ObjType};
 
 /// Adds the visible flexes, at their first vertices.
 pub(super) fn flexes(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     let show = &options.show;
     let draws = show.flex_vertices || show.flex_edges || show.flex_faces || show.flex_skins;
     if !from.shows(Category::Dynamic) || !draws {
@@ -51,7 +51,7 @@ fn first_moving_body(m: &Model, flex: usize) -> i32 {
 
 /// Adds the visible skins, at their first bones.
 pub(super) fn skins(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !from.shows(Category::Dynamic) || !options.show.skins {
         return;
     }
@@ -73,13 +73,14 @@ pub(super) fn skins(from: Source<'_>, items: &mut Items<'_>) {
 
 /// Adds the visible geoms; `eye` is where infinite planes are centred \[m\].
 pub(super) fn geoms(from: Source<'_>, eye: Vec3, items: &mut Items<'_>) -> Result<(), RenderError> {
-    let Source { m, options, .. } = from;
+    let Source { m, options, appearance, .. } = from;
     for i in 0..m.ngeom {
         let category = from.category(m.geom_bodyid[i] as usize);
         if !from.shows(category) || !is_visible(&options.groups.geoms, m.geom_group[i]) {
             continue;
         }
-        let coat = from.coat(m.geom_matid[i], m.geom_rgba[i], category);
+        let rgba = appearance.colour_of(i).unwrap_or(m.geom_rgba[i]);
+        let coat = from.coat(m.geom_matid[i], rgba, category);
         let mut coat = from.island_coat(m.geom_bodyid[i], coat);
         if coat.rgba[3] == 0.0 {
             continue;
@@ -96,7 +97,7 @@ pub(super) fn geoms(from: Source<'_>, eye: Vec3, items: &mut Items<'_>) -> Resul
 
 /// Adds the visible sites.
 pub(super) fn sites(from: Source<'_>, items: &mut Items<'_>) -> Result<(), RenderError> {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     for i in 0..m.nsite {
         let category = from.category(m.site_bodyid[i] as usize);
         if !from.shows(category) || !is_visible(&options.groups.sites, m.site_group[i]) {

@@ -22,7 +22,8 @@ pub use options::{
 use crate::RenderError;
 use crate::view::View;
 use physics::math::{Vec3, column, dot, sub};
-use physics::model::TextureType;
+use physics::model::{Appearance, TextureType};
+use physics::pipeline::appearance::appearance;
 use physics::{Data, Model};
 use sink::{Items, Source};
 
@@ -66,6 +67,8 @@ pub struct Scene {
     pub shadows: bool,
     /// Mirrors are drawn.
     pub reflections: bool,
+    /// What plugins show; `items` have it.
+    pub appearance: Appearance,
 }
 
 impl Default for Scene {
@@ -80,6 +83,7 @@ impl Default for Scene {
             haze: None,
             shadows: true,
             reflections: true,
+            appearance: Appearance::default(),
         }
     }
 }
@@ -106,8 +110,10 @@ impl Scene {
         view: View,
         options: &SceneOptions,
     ) -> Result<(), RenderError> {
-        let from = Source { m: model, d: data, options };
+        appearance(model, data, &mut self.appearance);
+        let from = Source { m: model, d: data, options, appearance: &self.appearance };
         let mut items = Items::within(&mut self.items);
+        decor::mark::of_plugins(from, &mut items)?;
         elements::flexes(from, &mut items);
         elements::skins(from, &mut items);
         elements::geoms(from, view.eye, &mut items)?;

@@ -6,7 +6,7 @@ use crate::RenderError;
 use physics::math::{Mat3, Vec3, add_scaled, column, cross, norm, ops, quat_from_axis_angle, quat_to_mat};
 use physics::math::{add, scale, sub};
 use physics::model::bounds::MINVAL;
-use physics::model::{GeomType, ObjType};
+use physics::model::{Appearance, GeomType, ObjType};
 use physics::{Data, Model};
 
 /// The matrix that turns nothing.
@@ -21,6 +21,8 @@ pub(super) struct Source<'a> {
     pub d: &'a Data,
     /// What is shown.
     pub options: &'a SceneOptions,
+    /// What plugins show.
+    pub appearance: &'a Appearance,
 }
 
 impl Source<'_> {

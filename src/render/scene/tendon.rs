@@ -59,7 +59,7 @@ pub(super) fn stretches(from: Source<'_>, tendon: usize) -> impl Iterator<Item =
 const PULLEY: i32 = -2;
 
 fn taut(from: Source<'_>, i: usize, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     let mut rgba = m.tendon_rgba[i];
     if m.tendon_matid[i] == -1 && rgba == GREY {
         rgba = from.strained(rgba, ConstraintType::LimitTendon, i);

@@ -88,7 +88,7 @@ fn label(from: Source<'_>, i: usize, text: &mut String) {
 
 /// Colour by control, or by activation: from one colour at zero to another at either end of the range.
 fn color(from: Source<'_>, i: usize) -> [f32; 4] {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     let ctrl = usize::try_from(m.actuator_ctrladr[i]).ok();
     let limited = ctrl.is_some_and(|k| m.actuator_ctrllimited[k]);
     let range = match ctrl {

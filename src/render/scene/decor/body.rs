@@ -31,7 +31,7 @@ fn is_ellipsoid(from: Source<'_>) -> bool {
 
 /// Adds the equivalent inertias of bodies with mass.
 pub(super) fn inertias(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.inertias {
         return;
     }
@@ -63,7 +63,7 @@ fn bare_label<'i>(items: &'i mut Items<'_>, body: usize, pos: Vec3, mat: &[f64; 
 
 /// Adds labels of bodies where inertias do not carry them.
 pub(super) fn labels(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if options.show.inertias {
         return;
     }
@@ -74,7 +74,7 @@ pub(super) fn labels(from: Source<'_>, items: &mut Items<'_>) {
 
 /// Adds numbers of constraint islands at the bodies in them.
 pub(super) fn island_labels(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if options.label != LabelChoice::Island {
         return;
     }
@@ -89,7 +89,7 @@ pub(super) fn island_labels(from: Source<'_>, items: &mut Items<'_>) {
 
 /// Adds the centre of mass of every kinematic tree.
 pub(super) fn centers_of_mass(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.centers_of_mass {
         return;
     }
@@ -101,7 +101,7 @@ pub(super) fn centers_of_mass(from: Source<'_>, items: &mut Items<'_>) {
 
 /// Adds capsules from the centre of mass of each body through its joints, the last first, to its parent's.
 pub(super) fn connections(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.connections {
         return;
     }
@@ -144,7 +144,7 @@ fn pull_color(rgba: [f32; 4], first: bool, second: bool) -> [f32; 4] {
 
 /// Adds what the selected body is pulled to: a spring to a ball, and its box in the wanted orientation.
 pub(super) fn pull(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     let Some(s) = from.selection().filter(|_| options.show.perturbation) else { return };
     let (object, target) = (unnamed(s.body), quat_to_mat(s.orientation));
     let active =

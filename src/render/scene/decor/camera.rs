@@ -12,7 +12,7 @@ const FAINT: f32 = 0.3;
 
 /// Adds every camera: body, lens, and the frustum of one with a resolution.
 pub(super) fn cameras(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.cameras {
         return;
     }

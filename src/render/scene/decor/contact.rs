@@ -99,7 +99,7 @@ fn surface_speed(from: Source<'_>, geom: i32, contact: &Contact) -> Option<Vec3>
 
 /// Adds the force of a contact as one arrow, or its normal and frictional part as two.
 fn add_forces(from: Source<'_>, i: usize, contact: &Contact, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     let [x, y, z, ..] = contact_force(m, &d.efc, contact);
     let force = if contact.dim >= 3 { [x, y, z] } else { [x, 0.0, 0.0] };
     if norm(force) < MINVAL {

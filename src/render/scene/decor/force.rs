@@ -16,7 +16,7 @@ impl Source<'_> {
 
 /// Adds the user forces on bodies.
 pub(super) fn applied(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.applied_forces {
         return;
     }
@@ -33,7 +33,7 @@ pub(super) fn applied(from: Source<'_>, items: &mut Items<'_>) {
 
 /// Adds both anchors of every active connect and weld constraint.
 pub(super) fn constraints(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.constraints {
         return;
     }

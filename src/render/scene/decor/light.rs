@@ -11,7 +11,7 @@ const CLEARANCE: f64 = 0.0001;
 
 /// Adds a cylinder behind every light.
 pub(super) fn lights(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.lights {
         return;
     }

@@ -8,6 +8,7 @@ mod force;
 mod frame;
 mod joint;
 mod light;
+pub(super) mod mark;
 mod ray;
 mod tree;
 

@@ -12,7 +12,7 @@ pub(super) const LINE: f64 = 3.0;
 
 /// Adds what rangefinders and `fromto` sensors measured.
 pub(super) fn rays(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.rangefinders {
         return;
     }

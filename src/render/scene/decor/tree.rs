@@ -27,7 +27,7 @@ fn add_box(from: Source<'_>, node: usize, aabb: &[f64; 6], frame: (Vec3, &Mat3),
 
 /// Adds the boxes of each body's hierarchy: a leaf in the frame of its geom, an inner node in the body's inertial frame.
 pub(super) fn of_bodies(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.body_trees {
         return;
     }
@@ -50,7 +50,7 @@ const LINE: f64 = 3.0;
 
 /// Adds the boxes of visible flexes, and all their lattices.
 pub(super) fn of_flexes(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.mesh_trees {
         return;
     }
@@ -101,7 +101,7 @@ fn lattice(from: Source<'_>, flex: usize, items: &mut Items<'_>) {
 
 /// Adds the boxes of the meshes of all geoms.
 pub(super) fn of_meshes(from: Source<'_>, items: &mut Items<'_>) {
-    let Source { m, d, options } = from;
+    let Source { m, d, options, .. } = from;
     if !options.show.mesh_trees {
         return;
     }
