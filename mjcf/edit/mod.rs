@@ -43,6 +43,7 @@ mod remove;
 mod rename;
 mod scale;
 mod shortcut;
+mod spaces;
 
 pub use crate::read::Authored;
 pub use carry::carry_state;

@@ -7,6 +7,7 @@ use physics::model::{ObjType, TrackMode};
 use super::find::{missing, word};
 use super::refuse;
 use super::rename::each_body;
+use super::spaces::by_space;
 use crate::diagnostic::Diagnostics;
 use crate::read::copy::{Names, Referring, collect};
 use crate::schema::Space;
@@ -79,36 +80,25 @@ impl Spec {
                 self.$list.retain(|x| x.name != name)
             };
         }
-        match space {
+        macro_rules! asset {
+            ($list:ident) => {
+                self.$list.retain(|x| asset_name(&x.name, &x.path) != name)
+            };
+        }
+        macro_rules! held {
+            ($list:ident) => {
+                each_body(&mut self.world, &mut |b| b.$list.retain(|x| x.name != name))
+            };
+        }
+        by_space!(space, bodies held, assets asset, lists list, {
             Space::Body => {
                 if let Some(body) = self.take_body(name) {
                     collect(&body, &mut gone);
                 }
             }
-            Space::Joint => each_body(&mut self.world, &mut |b| b.joints.retain(|x| x.name != name)),
-            Space::Geom => each_body(&mut self.world, &mut |b| b.geoms.retain(|x| x.name != name)),
-            Space::Site => each_body(&mut self.world, &mut |b| b.sites.retain(|x| x.name != name)),
-            Space::Camera => each_body(&mut self.world, &mut |b| b.cameras.retain(|x| x.name != name)),
-            Space::Light => each_body(&mut self.world, &mut |b| b.lights.retain(|x| x.name != name)),
-            Space::Mesh => self.meshes.retain(|x| asset_name(&x.name, &x.path) != name),
-            Space::Skin => self.skins.retain(|x| asset_name(&x.name, &x.path) != name),
-            Space::Hfield => self.hfields.retain(|x| asset_name(&x.name, &x.path) != name),
-            Space::Texture => self.textures.retain(|x| asset_name(&x.name, &x.path) != name),
-            Space::Material => list!(materials),
-            Space::Pair => list!(pairs),
-            Space::Exclude => list!(excludes),
-            Space::Flex => list!(flexes),
-            Space::Equality => list!(equalities),
-            Space::Tendon => list!(tendons),
-            Space::Actuator => list!(actuators),
-            Space::Sensor => list!(sensors),
-            Space::Numeric => list!(numerics),
-            Space::Text => list!(texts),
-            Space::Tuple => list!(tuples),
-            Space::Plugin => list!(plugins),
             Space::Key => self.take_key(name),
             Space::Frame | Space::Class => unreachable!("neither is removed by name"),
-        }
+        });
         gone
     }
 

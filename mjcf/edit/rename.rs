@@ -4,6 +4,7 @@ use physics::model::ObjType;
 
 use super::find::{missing, word};
 use super::refuse;
+use super::spaces::by_space;
 use crate::diagnostic::Diagnostics;
 use crate::schema::Space;
 use crate::spec::{Body, Spec, asset_name};
@@ -62,47 +63,21 @@ impl Spec {
                 }
             };
         }
-        match space {
+        macro_rules! held {
+            ($list:ident) => {
+                each_body(&mut self.world, &mut |b| b.$list.iter_mut().for_each(|x| visit(&mut x.name)))
+            };
+        }
+        by_space!(space, bodies held, assets assets, lists list, {
             Space::Body => each_body(&mut self.world, &mut |body| visit(&mut body.name)),
-            Space::Joint => {
-                each_body(&mut self.world, &mut |b| b.joints.iter_mut().for_each(|x| visit(&mut x.name)))
-            }
-            Space::Geom => {
-                each_body(&mut self.world, &mut |b| b.geoms.iter_mut().for_each(|x| visit(&mut x.name)))
-            }
-            Space::Site => {
-                each_body(&mut self.world, &mut |b| b.sites.iter_mut().for_each(|x| visit(&mut x.name)))
-            }
-            Space::Camera => {
-                each_body(&mut self.world, &mut |b| b.cameras.iter_mut().for_each(|x| visit(&mut x.name)));
-            }
-            Space::Light => {
-                each_body(&mut self.world, &mut |b| b.lights.iter_mut().for_each(|x| visit(&mut x.name)))
-            }
-            Space::Mesh => assets!(meshes),
-            Space::Skin => assets!(skins),
-            Space::Hfield => assets!(hfields),
-            Space::Texture => assets!(textures),
-            Space::Material => list!(materials),
             Space::Frame => list!(frames),
-            Space::Pair => list!(pairs),
-            Space::Exclude => list!(excludes),
-            Space::Flex => list!(flexes),
-            Space::Equality => list!(equalities),
-            Space::Tendon => list!(tendons),
-            Space::Actuator => list!(actuators),
-            Space::Sensor => list!(sensors),
-            Space::Numeric => list!(numerics),
-            Space::Text => list!(texts),
-            Space::Tuple => list!(tuples),
-            Space::Plugin => list!(plugins),
             Space::Key => {
                 list!(keys);
                 list!(kept_keys);
             }
             // Classes are found by `Spec::classes`.
             Space::Class => {}
-        }
+        });
     }
 }
 

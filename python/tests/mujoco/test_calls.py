@@ -63,6 +63,39 @@ def test_an_unstable_simulation_raises_or_resets(model, data):
         mj.set_instability("ignore")
 
 
+@pytest.mark.parametrize("integrator", ["Euler", "RK4", "implicit", "implicitfast"])
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, 1e11])
+def test_bad_controls_are_counted_as_in_mujoco(integrator, value):
+    truth = pytest.importorskip("mujoco")
+    text = (
+        f"<mujoco><option integrator='{integrator}'/><worldbody><body><joint name='j'/><geom size='.1' pos='.3 0 0'/></body>"
+        "</worldbody><actuator><motor joint='j'/><motor joint='j' gear='2'/></actuator></mujoco>"
+    )
+
+    def seen(engine):
+        model = engine.MjModel.from_xml_string(text)
+        data, found = engine.MjData(model), []
+
+        def halves(model, data):
+            engine.mj_step1(model, data)
+            engine.mj_step2(model, data)
+
+        for call in (engine.mj_step, engine.mj_forward, halves, engine.mj_inverse):
+            data.ctrl[:] = 0.3, value
+            call(model, data)
+            found.append([warning.number for warning in data.warning] + [data.warning[6].lastinfo])
+        return found, data.ctrl.tolist(), data.time
+
+    mj.set_mju_user_warning(lambda text: None)
+    mj.set_instability("reset")
+    try:
+        ours = seen(mj)
+    finally:
+        mj.set_instability("raise")
+        mj.set_mju_user_warning(None)
+    assert repr(ours) == repr(seen(truth))
+
+
 def test_warnings_are_counted_since_a_reset_and_told_once(model, data):
     told, warning = [], data.warning
     mj.set_instability("reset")

@@ -24,7 +24,7 @@ pub struct Warnings {
     pub bad_qvel: Warning,
     /// Resets for an acceleration.
     pub bad_qacc: Warning,
-    /// Steps that took all controls as zero for a bad one.
+    /// Evaluations that took all controls as zero for a bad one: four in a step of Runge-Kutta's method, else one.
     pub bad_ctrl: Warning,
 }
 

@@ -21,6 +21,9 @@ use crate::pipeline::inverse::compare_with_forward;
 use crate::pipeline::validity::{check_acceleration, check_result, check_state};
 use crate::pipeline::watch::{Stage, Watch};
 
+/// Evaluations of a step of Runge-Kutta's method beyond the first.
+const RK4_STAGES: usize = 3;
+
 /// Advances the simulation by one time step.
 ///
 /// # Errors
@@ -37,7 +40,13 @@ pub fn step(m: &Model, d: &mut Data) -> Result<(), StepError> {
 /// As `step`.
 pub fn step_watched(m: &Model, d: &mut Data, watch: &mut impl Watch) -> Result<(), StepError> {
     if let Err(error) = check_state(m, d) {
-        return recover(m, d, error, |m, d| step_watched(m, d, watch));
+        let bad_controls = matches!(error, StepError::BadCtrl(_));
+        recover(m, d, error, |m, d| step_watched(m, d, watch))?;
+        // Each evaluation of a step finds them.
+        if bad_controls && m.opt.integrator == Integrator::Rk4 {
+            d.warnings.bad_ctrl.count += RK4_STAGES;
+        }
+        return Ok(());
     }
     watch.ended(Stage::Checks);
     evaluate(m, d, true, watch)?;
