@@ -129,6 +129,7 @@ fn made_up_scene(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
         haze,
         shadows: !flag(3),
         reflections: true,
+        ..Scene::default()
     };
     Some((world().1.clone(), scene, settings))
 }
