@@ -2,7 +2,8 @@
 //! against the one before it.
 //!
 //! Stress between two neighbours is stiffness times the difference between their curvature and the curvature at rest, per
-//! unit of length; with `vmax` \[N m\] its norm colours the geoms in pictures, from blue to red. The half-way frames of the discrete elastic rods of Bergou et al. 2008 are the frames of the bodies here.
+//! unit of length; with `vmax` \[N m\] its norm colours the geoms in pictures, from blue to red. The half-way frames of the
+//! discrete elastic rods of Bergou et al. 2008 are the frames of the bodies here.
 
 use crate::math::{
     IDENTITY, Quat, Vec3, add, dot, norm, ops, quat_conj, quat_difference, quat_mul, quat_rotate,

@@ -46,7 +46,7 @@ impl Instance for Height {
 
 const TEXT: &str = "<mujoco><extension><plugin plugin='test.height'><instance name='h'/></plugin></extension><worldbody>
     <body pos='0 0 .5'><plugin instance='h'/><joint type='slide' axis='0 0 1'/><geom size='.1' rgba='0 0 1 1'/></body>
-    <geom size='.1' pos='0 1 .25' rgba='0 0 1 0'/></worldbody></mujoco>";
+    <body pos='0 1 .25'><geom size='.1' rgba='0 0 1 0'/></body></worldbody></mujoco>";
 
 fn scene(shape: GeomType, height: f64) -> Result<Scene, RenderError> {
     let mut registry = Registry::default();
