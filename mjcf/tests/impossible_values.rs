@@ -28,6 +28,17 @@ fn the_radius_of_a_flex_is_not_negative() {
     assert!(said.starts_with("<text>:2:1: error: flex 'f': radius is -0.1: set it to 0 or more"), "{said}");
 }
 
+/// Its bodies' positions could not be read again from the text that is written.
+#[test]
+fn points_of_a_flexcomp_are_no_farther_than_a_text_can_say() {
+    let said = refused(&flexcomp("spacing='1e100 1e100 1'", ""));
+    assert!(
+        said.starts_with("<text>:3:1: error: <flexcomp> 'f': a coordinate of a point is")
+            && said.contains("at most 5e99 can be: lower 'spacing', 'scale' or 'pos'"),
+        "{said}"
+    );
+}
+
 #[test]
 fn a_plugin_of_a_flexcomp_must_be_known_and_fit() {
     let said = refused(&flexcomp("", "<plugin plugin='mujoco.elasticity.shel'/>"));

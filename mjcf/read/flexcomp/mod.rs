@@ -21,6 +21,7 @@ use crate::flex::Cloud;
 use crate::schema::flex::{
     CONTACT_ROWS, EDGE_EQUALITY_ROWS, EDGE_ROWS, ELASTICITY_ROWS, FLEXCOMP_ROWS, ORIGIN_ROW, PIN_ROWS,
 };
+use crate::schema::text::LARGEST;
 use crate::spec::{Dof, Elastic2d, EqualityOf, Flexcomp, Pin, resolve};
 use crate::vector::rotate;
 use crate::xml::Element;
@@ -97,6 +98,7 @@ impl Reader<'_> {
             let turned = rotate(*point, quat);
             *point = std::array::from_fn(|k| turned[k] + wanted.pos[k]);
         }
+        check_distance(&cloud.point).map_err(at)?;
         let mut points = Points {
             bounds: bounds(&cloud.point),
             pinned: Vec::new(),
@@ -149,6 +151,18 @@ fn check(wanted: &Flexcomp) -> Result<(), String> {
         return Err("pins of lines are given by 'id' and 'range', not by places of a grid".into());
     }
     Ok(())
+}
+
+/// Differences of points become positions of bodies, which are written as numbers of a text.
+fn check_distance(point: &[f64]) -> Result<(), String> {
+    const FARTHEST: f64 = LARGEST / 2.0;
+    match point.iter().find(|x| !(x.abs() <= FARTHEST)) {
+        None => Ok(()),
+        Some(&x) => Err(format!(
+            "a coordinate of a point is {}, and at most {FARTHEST:e} can be: lower 'spacing', 'scale' or 'pos'",
+            Legible(x)
+        )),
+    }
 }
 
 /// What elements need of points.
