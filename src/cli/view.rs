@@ -20,8 +20,8 @@ A build has the window with the feature `window`: cargo install --path src/cli -
 
 Examples:
   robohive view assets/franka/franka_table.xml
-  robohive view quadruped                         a model of our own
-  robohive view hive/FrankaReach-v0               an environment, acted in at random
+  robohive view quadruped
+  robohive view hive/FrankaReach-v0
   robohive view door-v1 --policy door-v1.pickle
   robohive view"
 )]

@@ -30,7 +30,8 @@ impl Assets for StandIn {
 
     fn read(&self, path: &str) -> Result<Arc<[u8]>, AssetError> {
         if path.ends_with(".config") {
-            Ok(Arc::from(&b"{}"[..]))
+            // A device that senses and moves nothing.
+            Ok(Arc::from(&b"{'none': {'interface': {'type': 'none'}, 'sensor': [], 'actuator': []}}"[..]))
         } else {
             Err(format!("no {path} here").into())
         }

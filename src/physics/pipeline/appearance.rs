@@ -7,7 +7,7 @@
 //!
 //! let text = "<mujoco><extension><plugin plugin='mujoco.elasticity.cable'><instance name='c'>
 //!     <config key='bend' value='1e6'/><config key='vmax' value='1'/></instance></plugin></extension>
-//!     <worldbody><composite type='cable' curve='s' count='5 1 1' size='1' initial='none'><plugin instance='c'/>
+//!     <worldbody><composite type='cable' curve='s' count='5 1 1' size='1' initial='none'><plugin plugin='mujoco.elasticity.cable' instance='c'/>
 //!     <joint kind='main' damping='.1'/><geom type='capsule' size='.01'/></composite></worldbody></mujoco>";
 //! let model = robohive_mjcf::load_str(text)?.model;
 //! let mut data = Data::new(&model);

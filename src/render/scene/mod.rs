@@ -8,6 +8,7 @@ mod elements;
 mod island;
 mod item;
 mod light;
+mod mark;
 mod options;
 mod sink;
 mod tendon;
@@ -113,7 +114,7 @@ impl Scene {
         appearance(model, data, &mut self.appearance);
         let from = Source { m: model, d: data, options, appearance: &self.appearance };
         let mut items = Items::within(&mut self.items);
-        decor::mark::of_plugins(from, &mut items)?;
+        mark::of_plugins(from, &mut items)?;
         elements::flexes(from, &mut items);
         elements::skins(from, &mut items);
         elements::geoms(from, view.eye, &mut items)?;

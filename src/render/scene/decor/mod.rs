@@ -8,7 +8,6 @@ mod force;
 mod frame;
 mod joint;
 mod light;
-pub(super) mod mark;
 mod ray;
 mod tree;
 

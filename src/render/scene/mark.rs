@@ -1,13 +1,13 @@
 //! Shapes that plugins add.
 
+use super::sink::{Form, Items, Source, unnamed};
 use crate::RenderError;
-use crate::scene::sink::{Form, Items, Source, unnamed};
 
 /// Adds the marks of plugins, whatever else is shown: they come before everything else, as in MuJoCo.
 ///
 /// # Errors
 /// A mark has a shape that its size does not tell.
-pub(in crate::scene) fn of_plugins(from: Source<'_>, items: &mut Items<'_>) -> Result<(), RenderError> {
+pub(super) fn of_plugins(from: Source<'_>, items: &mut Items<'_>) -> Result<(), RenderError> {
     for mark in from.appearance.marks() {
         let form = Form::primitive(mark.shape.code(), mark.size, mark.pos, &mark.mat).ok_or_else(|| {
             let message = format!(
