@@ -9,6 +9,8 @@ from scenes import ARM
 
 #: Fields of MuJoCo's own solver and memory that nothing here corresponds to.
 INTERNAL = ("efc_AR", "efc_Y", "efc_J_rowsuper", "efm", "iefc", "iacc", "ifrc", "nA", "nY", "nefm", "flg_", "_")
+#: What MuJoCo leaves as the memory was where the Jacobian is dense, as in this model.
+UNWRITTEN = ("efc_J_colind", "efc_J_rowadr", "efc_J_rownnz")
 
 
 def test_enumerations_have_mujocos_numbers(truth):
@@ -54,7 +56,7 @@ def _same(theirs, ours):
         if isinstance(value, np.ndarray):
             own = getattr(ours, name)
             assert (own.shape, own.dtype) == (value.shape, value.dtype), name
-            assert np.allclose(own, value, rtol=1e-9, atol=1e-12), name
+            assert name in UNWRITTEN or np.allclose(own, value, rtol=1e-9, atol=1e-12), name
             count += 1
     return count
 

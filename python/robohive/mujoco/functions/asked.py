@@ -16,7 +16,9 @@ def _ask(name: str, numbers: list[int], m: MjModel, d: MjData, default: float) -
     """What a callback says of these actuators; of the others, and without a callback, the default."""
     out = np.full(m.nactuator, default)
     callback = callbacks._set.get(name)
-    for i in numbers if callback is not None else ():
+    if callback is None:
+        return out
+    for i in numbers:
         value = callback(m, d, i)
         if not isinstance(value, Real):
             raise TypeError(f"{name} callback did not return a number")

@@ -84,7 +84,7 @@ def mj_maxContact(m: MjModel, g1: int, g2: int, has_margin: int) -> int:
     if (low, high) in _CLOSED:
         return _CLOSED[low, high]  # type: ignore[index]
     if low == mjtGeom.mjGEOM_PLANE:
-        return _ON_PLANE.get(high, 0)  # type: ignore[call-overload]
+        return int(_ON_PLANE.get(high, 0))  # type: ignore[call-overload]
     disabled = int(m.opt.disableflags)
     if disabled & int(mjtDisableBit.mjDSBL_MULTICCD):
         return 1

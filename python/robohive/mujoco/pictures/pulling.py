@@ -133,8 +133,8 @@ def mjv_applyPerturbForce(m: MjModel, d: MjData, pert: MjvPerturb) -> None:
         wrench[3:] = np.cross(arm, wrench[:3]) - np.sqrt(m.vis.map.stiffnessrot) * inertia * (axis @ spin) * axis
     if active & mjtPertBit.mjPERT_ROTATE:
         stiffness = m.vis.map.stiffnessrot
-        away = _core.multiply(pert.refquat, _core.conjugate(_inertial_turn(m, d, body)))
-        wrench[3:] = np.asarray(_core.velocity(away, 1.0 / (stiffness * inertia))) - np.sqrt(stiffness) * inertia * spin
+        turn = _core.multiply(pert.refquat, _core.conjugate(_inertial_turn(m, d, body)))
+        wrench[3:] = np.asarray(_core.velocity(turn, 1.0 / (stiffness * inertia))) - np.sqrt(stiffness) * inertia * spin
 
 
 def mjv_applyPerturbPose(m: MjModel, d: MjData, pert: MjvPerturb, flg_paused: int) -> None:
