@@ -156,7 +156,7 @@ fn check(wanted: &Flexcomp) -> Result<(), String> {
 /// Differences of points become positions of bodies, which are written as numbers of a text.
 fn check_distance(point: &[f64]) -> Result<(), String> {
     const FARTHEST: f64 = LARGEST / 2.0;
-    match point.iter().find(|x| !(x.abs() <= FARTHEST)) {
+    match point.iter().find(|x| x.is_nan() || x.abs() > FARTHEST) {
         None => Ok(()),
         Some(&x) => Err(format!(
             "a coordinate of a point is {}, and at most {FARTHEST:e} can be: lower 'spacing', 'scale' or 'pos'",
