@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 24] = [
+const ORDER: [(&str, &[&str]); 25] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -36,6 +36,7 @@ const ORDER: [(&str, &[&str]); 24] = [
     ("robohive-render-gpu", &["physics", "render"]),
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
     ("robohive-agents", &["dataset", "env"]),
+    ("robohive-record", &["physics", "dataset", "env"]),
     ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",
@@ -43,7 +44,10 @@ const ORDER: [(&str, &[&str]); 24] = [
     ),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
     ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
-    ("robohive-viewer", &["assets", "physics", "mjcf", "random", "render", "video", "env", "agents"]),
+    (
+        "robohive-viewer",
+        &["assets", "physics", "mjcf", "dataset", "random", "render", "video", "env", "agents", "record"],
+    ),
     ("robohive-web", &["assets", "physics", "mjcf", "render", "env", "agents", "viewer"]),
     (
         "robohive-python",
@@ -65,6 +69,7 @@ const ORDER: [(&str, &[&str]); 24] = [
             "viewer",
             "exchange",
             "env",
+            "record",
             "agents",
             "validation",
         ],
@@ -74,7 +79,7 @@ const ORDER: [(&str, &[&str]); 24] = [
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 15] = [
+const OTHERS: [(&str, &[&str]); 16] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
     ("robohive-dataset", &["zip", "flate2"]),
@@ -92,6 +97,7 @@ const OTHERS: [(&str, &[&str]); 15] = [
     ("robohive-render-gpu", &["bytemuck", "pollster", "wgpu"]),
     ("robohive-env", &["rayon", "serde", "toml"]),
     ("robohive-agents", &["libm"]),
+    ("robohive-record", &[]),
     ("robohive", &[]),
 ];
 

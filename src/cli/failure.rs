@@ -1,5 +1,6 @@
 //! Why a command did not succeed.
 
+use record::RecordError;
 use std::fmt;
 use std::path::Path;
 
@@ -31,6 +32,16 @@ impl Failure {
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.message.as_deref().unwrap_or_default())
+    }
+}
+
+impl From<RecordError> for Failure {
+    /// What the file or the arguments leave open is wrong input; the rest could not be done.
+    fn from(error: RecordError) -> Self {
+        match error {
+            RecordError::Trace(error) => Failure::new(error),
+            RecordError::Env(_) | RecordError::Description(_) => Failure::usage(error),
+        }
     }
 }
 

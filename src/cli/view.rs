@@ -91,7 +91,10 @@ mod subjects {
             .map_err(|error| Failure::usage(error.to_string()))?;
         let (library, options, seed) = (a.making.assets()?, a.making.options()?, a.seed);
         let name = id.to_owned();
-        let make = move || Play::new(Env::make(&name, &library, &options)?, policy.clone(), seed);
+        let make = move || {
+            let env = Env::make(&name, &library, &options)?;
+            Ok(Play::new(env, policy.clone(), seed)?.made_by(options.clone()))
+        };
         // What is wrong is said here rather than in the window.
         make().map_err(Failure::usage)?;
         Ok(Source::Environment(Recipe::new(id, make)))

@@ -1,5 +1,6 @@
 //! The picture of a session.
 
+use crate::ghost::Ghost;
 use crate::session::Session;
 use physics::Model;
 use render::picture::Channels;
@@ -10,6 +11,7 @@ use render::{Assets, Painter, Picture, Profile, RenderError, Renderer, Scene, Se
 pub struct Drawing {
     assets: Assets,
     scene: Scene,
+    ghost: Ghost,
     settings: Settings,
     painter: Box<dyn Painter>,
     picture: Picture,
@@ -25,6 +27,7 @@ impl Drawing {
         Ok(Drawing {
             assets: Assets::new(model, Profile::Mujoco312)?,
             scene: Scene::new(),
+            ghost: Ghost::default(),
             settings,
             painter: Box::new(Renderer::new(settings)),
             picture: Picture::default(),
@@ -39,7 +42,11 @@ impl Drawing {
         let (model, data, options) = (session.model(), session.data(), session.shown());
         self.assets.refresh(model)?;
         self.assets.pose(model, data, &options)?;
-        self.scene.update(model, data, session.view()?, &options)?;
+        let view = session.view()?;
+        self.scene.update(model, data, view, &options)?;
+        if let Some(reference) = session.reference() {
+            self.ghost.haunt(&mut self.scene, model, reference.data(), view, &options)?;
+        }
         [self.picture.width, self.picture.height] = size;
         let shot = Shot {
             assets: &self.assets,

@@ -1,9 +1,13 @@
 //! An environment that is played before somebody's eyes: what acts in it, and how its episode goes.
 
+use crate::tape::{EpisodeTape, Recorded};
 use agents::{Policy, PolicyError};
+use dataset::trace::{Layout, Precision};
 use env::episode::Summary;
-use env::{Env, EnvError};
+use env::{Env, EnvError, Options};
+use record::{COMPAT, ID, RecordError, Recording, SETTINGS};
 use std::fmt;
+use std::path::Path;
 
 /// What chooses the actions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,6 +36,9 @@ pub struct Play {
     /// Episodes that are over, and the sum of their successes.
     finished: usize,
     successes: f64,
+    tape: Option<EpisodeTape>,
+    /// How the environment was made, for its recordings.
+    made: Options,
 }
 
 /// Why an environment cannot go on.
@@ -41,6 +48,8 @@ pub enum PlayError {
     Env(Box<EnvError>),
     /// The policy is one for another environment.
     Policy(Box<PolicyError>),
+    /// The recording cannot go on; the episodes before are in the file.
+    Record(Box<RecordError>),
 }
 
 impl Play {
@@ -60,10 +69,17 @@ impl Play {
             episode: Summary::default(),
             finished: 0,
             successes: 0.0,
+            tape: None,
+            made: Options::default(),
             env,
         };
         play.begin(seed)?;
         Ok(play)
+    }
+
+    /// Says how the environment was made, where that is not by default: recordings name it.
+    pub fn made_by(self, options: Options) -> Self {
+        Play { made: options, ..self }
     }
 
     /// The environment.
@@ -133,14 +149,34 @@ impl Play {
             (Acting::Hand, _) => self.action.copy_from_slice(&self.hand),
             (Acting::Zero | Acting::Policy, _) => self.action.fill(0.0),
         }
+        self.tape.as_mut().map_or(Ok(()), |tape| tape.row(&self.env, &self.action))?;
         self.env.push_bodies(wrenches);
         let step = self.env.step(&self.action)?;
         self.episode.add(&self.env, &step);
         if self.is_over() {
             self.finished += 1;
             self.successes += self.episode.success(self.env.success());
+            self.tape.as_mut().map_or(Ok(()), |tape| tape.end(&self.env))?;
         }
         Ok(())
+    }
+
+    /// Records the episodes that begin from now on: see [`Session::record`](crate::Session::record).
+    pub(crate) fn record(&mut self, path: &Path) -> Result<(), PlayError> {
+        let (compat, settings) = (self.made.compat.to_string(), self.made.changes.to_string());
+        let attributes = [(ID, &self.env.spec().id[..]), (COMPAT, &compat), (SETTINGS, settings.trim_end())];
+        let recording = Recording::create(path, Layout::RoboHive, Precision::Full, &attributes)?;
+        self.tape = Some(EpisodeTape::new(recording, path));
+        Ok(())
+    }
+
+    /// The recording that goes on.
+    pub(crate) fn recording(&self) -> Option<Recorded> {
+        self.tape.as_ref().map(EpisodeTape::so_far)
+    }
+
+    pub(crate) fn stop_recording(&mut self) -> Result<Option<Recorded>, PlayError> {
+        Ok(self.tape.take().map(EpisodeTape::finish).transpose()?)
     }
 
     /// The first state of the episode of a seed.
@@ -153,6 +189,9 @@ impl Play {
         // As `robohive run` draws them, so that it plays the same episode.
         self.random = Policy::random(seed);
         self.env.reset(Some(seed))?;
+        if let Some(tape) = &mut self.tape {
+            tape.begin(seed);
+        }
         Ok(())
     }
 }
@@ -162,6 +201,7 @@ impl fmt::Display for PlayError {
         match self {
             PlayError::Env(error) => write!(f, "{error}"),
             PlayError::Policy(error) => write!(f, "{error}"),
+            PlayError::Record(error) => write!(f, "{error}"),
         }
     }
 }
@@ -177,5 +217,11 @@ impl From<EnvError> for PlayError {
 impl From<PolicyError> for PlayError {
     fn from(error: PolicyError) -> Self {
         PlayError::Policy(Box::new(error))
+    }
+}
+
+impl From<RecordError> for PlayError {
+    fn from(error: RecordError) -> Self {
+        PlayError::Record(Box::new(error))
     }
 }

@@ -1,23 +1,31 @@
 //! A model that is run, looked at and touched: all that a viewer does but drawing and windows.
 
+mod keys;
+mod replayed;
 mod touch;
+
+pub use keys::KEPT_KEYS;
+pub use replayed::ForeignTrajectory;
 
 use crate::camera::Plane;
 use crate::hand::Hand;
 use crate::history::History;
 use crate::noise::Noise;
 use crate::play::{Play, PlayError};
+use crate::profile::Profile;
+use crate::replay::{Reference, Replay};
 use crate::speed::Pace;
+use crate::tape::StateTape;
 use mjcf::edit::carry_state;
 use physics::math::Vec3;
-use physics::model::Options;
-use physics::{Data, Model, Snapshot, StepError, forward, step};
+use physics::model::{Options, Visual};
+use physics::{Data, Model, Snapshot, StepError, forward, step, step_watched};
 use render::scene::{Camera, FreeCamera, SceneOptions};
 
 /// A model, its state, and what a person does with it.
 pub struct Session {
-    model: Model,
-    data: Data,
+    pub(crate) model: Model,
+    pub(crate) data: Data,
     running: bool,
     pace: Pace,
     history: History,
@@ -26,7 +34,17 @@ pub struct Session {
     fault: Option<String>,
     revision: u64,
     /// The environment whose model and state these are, where it is one.
-    play: Option<Box<Play>>,
+    pub(crate) play: Option<Box<Play>>,
+    /// States that are being recorded.
+    pub(crate) tape: Option<StateTape>,
+    /// States that a person keeps.
+    kept: Vec<Snapshot>,
+    /// Recorded states that are shown instead of a simulation.
+    replay: Option<Box<Replay>>,
+    /// Recorded states that are drawn beside it.
+    reference: Option<Box<Reference>>,
+    /// Where the time of steps goes, while a person looks at it.
+    pub profile: Option<Profile>,
     /// Noise on controls.
     pub noise: Noise,
     /// What it is seen with.
@@ -90,6 +108,11 @@ impl Session {
             fault: None,
             revision: 0,
             play: None,
+            tape: None,
+            profile: None,
+            kept: Vec::new(),
+            replay: None,
+            reference: None,
             noise: Noise::new(0),
             camera: Camera::free(&model),
             options: SceneOptions::default(),
@@ -162,10 +185,13 @@ impl Session {
     /// Real time went by \[s\]: takes the steps that are due while `may_go_on`, which is asked before each. Returns how many.
     pub fn advance(&mut self, seconds: f64, may_go_on: &mut dyn FnMut() -> bool) -> usize {
         if !self.running {
-            if self.play.is_none() {
+            if self.play.is_none() && self.replay.is_none() {
                 self.place_held(true);
             }
             return 0;
+        }
+        if self.replay.is_some() {
+            return self.advance_replay(seconds);
         }
         self.pace.elapse(seconds);
         let (span, mut steps) = (self.span(), 0);
@@ -177,22 +203,34 @@ impl Session {
         self.pace.settle();
         if steps > 0 {
             self.history.push(&self.data);
+            if let Some(profile) = &mut self.profile {
+                profile.end_frame(&self.data);
+            }
+            self.follow();
         }
         steps
     }
 
     /// What a step takes: a time step of the model, or a control period of the environment \[s\].
     pub fn span(&self) -> f64 {
-        self.play.as_ref().map_or(self.model.opt.timestep, |play| play.env().dt())
+        match (&self.play, &self.replay) {
+            (Some(play), _) => play.env().dt(),
+            (_, Some(replay)) => replay.span().unwrap_or(self.model.opt.timestep),
+            _ => self.model.opt.timestep,
+        }
     }
 
     /// One step forward: to the next state of the history where there is one, else a new one.
     pub fn step_forward(&mut self) {
         self.running = false;
+        if let Some(replay) = &self.replay {
+            return self.seek(replay.row() + 1);
+        }
         match self.history.behind() {
             0 => {
                 self.step();
                 self.history.push(&self.data);
+                self.follow();
             }
             behind => self.show_past(behind - 1),
         }
@@ -200,6 +238,9 @@ impl Session {
 
     /// One state back in the history.
     pub fn step_back(&mut self) {
+        if let Some(replay) = &self.replay {
+            return self.seek(replay.row().saturating_sub(1));
+        }
         self.show_past(self.history.behind() + 1);
     }
 
@@ -212,8 +253,11 @@ impl Session {
         }
     }
 
-    /// The first keyframe, or the reference; of an environment, the start of the next episode.
+    /// The first keyframe, or the reference; of an environment, the start of the next episode; of a replay, its first state.
     pub fn reset(&mut self) {
+        if self.replay.is_some() {
+            return self.seek(0);
+        }
         if let Some(play) = &self.play {
             return self.begin(play.seed().wrapping_add(1));
         }
@@ -231,7 +275,7 @@ impl Session {
     /// A keyframe, or the reference. A keyframe that the model does not have changes nothing; nor does any in an environment,
     /// which starts as its task says.
     pub fn reset_to(&mut self, key: Option<usize>) {
-        if self.play.is_some() {
+        if self.play.is_some() || self.replay.is_some() {
             return;
         }
         match key {
@@ -265,6 +309,12 @@ impl Session {
         self.settle();
     }
 
+    /// Writes visualisation options, on which no motion depends. In an environment the next step forgets them.
+    pub fn edit_visual(&mut self, write: impl FnOnce(&mut Visual)) {
+        write(self.model.visual_mut());
+        self.revision += 1;
+    }
+
     /// A number that grows with every change of the state or the model.
     pub fn revision(&self) -> u64 {
         self.revision
@@ -272,10 +322,15 @@ impl Session {
 
     /// Evaluates a state that was put here rather than stepped to.
     fn settle(&mut self) {
-        self.revision += 1;
         self.pace.forget();
+        self.evaluate();
+    }
+
+    fn evaluate(&mut self) {
+        self.revision += 1;
         self.fault = forward(&self.model, &mut self.data).err().map(|error| error.to_string());
         self.running &= self.fault.is_none();
+        self.follow();
     }
 
     /// Another model in its place, in the state of the former by the names of elements; camera and options stay where they
@@ -288,12 +343,18 @@ impl Session {
         forward(&model, &mut data)?;
         self.camera = self.camera_in(&model);
         self.play = None;
+        self.tape = None;
+        self.kept.clear();
+        self.replay = self.replay.take().filter(|replay| replay.trajectory().fits(&model));
+        let reference = self.reference.take().filter(|reference| reference.trajectory().fits(&model));
+        self.reference = reference.map(|old| Box::new(Reference::new(old.trajectory().clone(), &model)));
         (self.hand, self.selected, self.fault) = (None, None, None);
         self.history = History::of(&model);
         self.history.push(&data);
         (self.model, self.data) = (model, data);
         self.revision += 1;
         self.pace.forget();
+        self.follow();
         Ok(())
     }
 
@@ -328,10 +389,29 @@ impl Session {
             return self.mirror(stepped);
         }
         self.noise.step(&self.model, &mut self.data, None);
-        if let Err(error) = step(&self.model, &mut self.data) {
-            self.fault = Some(error.to_string());
-            self.running = false;
+        if let Some(Err(why)) = self.tape.as_mut().map(|tape| tape.before(&self.data)) {
+            return self.stop_at(why);
         }
+        let stepped = match &mut self.profile {
+            Some(profile) => {
+                let clock = profile.clock();
+                clock.begin();
+                step_watched(&self.model, &mut self.data, clock)
+            }
+            None => step(&self.model, &mut self.data),
+        };
+        let taped = self.tape.as_mut().map(|tape| tape.after(&self.data, stepped.is_ok()));
+        if let Err(error) = stepped {
+            self.stop_at(error.to_string());
+        } else if let Some(Err(why)) = taped {
+            self.stop_at(why);
+        }
+    }
+
+    /// Something failed: time stops, and what was recorded so far stays.
+    fn stop_at(&mut self, why: String) {
+        self.fault = Some(why);
+        self.running = false;
     }
 
     /// Shows where the environment is.
@@ -344,6 +424,7 @@ impl Session {
         self.data.clone_from(&scene.data);
         self.fault = went.err().map(|error| error.to_string());
         self.running &= self.fault.is_none();
+        self.follow();
     }
 
     /// Moves what is held without physics.

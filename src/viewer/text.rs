@@ -1,6 +1,7 @@
 //! States and cameras as MJCF, to be pasted into a model.
 
 use physics::math::{Vec3, cross};
+use physics::table::Slice;
 use physics::{Data, Model};
 use render::View;
 use std::fmt::Write;
@@ -33,6 +34,11 @@ pub fn camera(view: &View) -> String {
     format!("<camera pos=\"{}\" xyaxes=\"{} {}\"/>", join(view.eye), join(right), join(view.up))
 }
 
+/// A number in six digits.
+pub fn short(x: f64) -> String {
+    number(x, false)
+}
+
 /// A number in six digits, or in as many as it takes.
 fn number(x: f64, exact: bool) -> String {
     if exact || x == 0.0 {
@@ -50,4 +56,23 @@ fn number(x: f64, exact: bool) -> String {
 /// Without the zeros that end a fraction.
 fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}
+
+/// Every array of a simulation by its name, row by row, for people to read: what a file is written with.
+pub fn arrays(model: &Model, data: Option<&Data>) -> String {
+    let mut text = String::new();
+    let mut add = |name: &str, shape: Vec<usize>, values: Slice<'_>| {
+        let axes: Vec<String> = shape.iter().map(usize::to_string).collect();
+        let _ = writeln!(text, "{name} [{}]", axes.join(" x "));
+        let width = shape.iter().skip(1).product::<usize>().max(1);
+        for row in values.to_f64().chunks(width) {
+            let numbers: Vec<String> = row.iter().map(|&x| number(x, false)).collect();
+            let _ = writeln!(text, "  {}", numbers.join(" "));
+        }
+    };
+    match data {
+        Some(data) => data.visit(model, &mut add),
+        None => model.visit(&mut add),
+    }
+    text
 }

@@ -6,7 +6,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{check_place, keep_input, recording_file};
 use crate::pictures::film::{Film, FilmArguments};
 use crate::pictures::subject::camera_of;
-use crate::recordings::recording::{self, LayoutName, PrecisionName, Recording};
+use crate::recordings::names::{LayoutName, PrecisionName};
 use crate::terminal::{listed, note, show, show_json};
 use agents::Policy;
 use clap::{Args, ValueHint};
@@ -14,6 +14,7 @@ use dataset::trace::is_npz;
 use env::Env;
 use env::episode::{Summary, evaluate};
 use indicatif::{ProgressBar, ProgressStyle};
+use record::Recording;
 use serde_json::json;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -152,9 +153,9 @@ fn open_recording(a: &Run) -> Result<Recording, Failure> {
     let settings = a.source.making.changes()?.to_string();
     let (compat, seed) = (a.source.making.compat.to_string(), a.seed.to_string());
     let attributes = [
-        (recording::ID, &a.source.id[..]),
-        (recording::COMPAT, &compat),
-        (recording::SETTINGS, settings.trim_end()),
+        (record::ID, &a.source.id[..]),
+        (record::COMPAT, &compat),
+        (record::SETTINGS, settings.trim_end()),
         ("policy", &a.policy),
         ("seed", &seed),
     ];

@@ -10,13 +10,11 @@ use crate::pictures::film::{Film, FilmArguments};
 use crate::pictures::subject::FREE;
 use crate::terminal::show;
 use clap::{Args, ValueHint};
-use dataset::growing::ColumnId;
-use dataset::{Dtype, GrowingNpz};
 use indicatif::{ProgressBar, ProgressStyle};
 use physics::math::Legible;
 use physics::model::Enable;
-use physics::table::Slice;
 use physics::{Data, Model, StepError, forward, step};
+use record::StateRecording;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -47,7 +45,8 @@ pub struct Sim {
     /// Start from this keyframe, by name or number (default: the first, if any)
     #[arg(long)]
     pub keyframe: Option<String>,
-    /// Write time, qpos, qvel, act, ctrl, sensordata and energy of the initial state and of every step to this numpy archive
+    /// Write time, qpos, qvel, act, ctrl, mocap_pos, mocap_quat, sensordata and energy of the initial state and of every step to
+    /// this numpy archive
     #[arg(long, value_name = "FILE.npz", value_hint = ValueHint::FilePath, value_parser = archive_file)]
     pub out: Option<PathBuf>,
     /// No progress on standard error
@@ -132,7 +131,7 @@ fn advance(
     m: &Model,
     d: &mut Data,
     steps: u64,
-    (mut recording, mut pictures): (Option<&mut Recording>, Option<&mut Pictures>),
+    (mut recording, mut pictures): (Option<&mut Recording<'_>>, Option<&mut Pictures>),
     bar: &ProgressBar,
 ) -> Result<Run, Failure> {
     // Without a file to complete, signals end the process at once.
@@ -223,61 +222,27 @@ impl Pictures {
     }
 }
 
-/// A trajectory that is being written. A row is a state, the controls in force from then on, and what the step from that
-/// state measures.
-struct Recording {
-    out: GrowingNpz,
-    path: PathBuf,
-    state: [ColumnId; 5],
-    measured: [ColumnId; 2],
-    rows: u64,
+/// The trajectory that is being written, and where to.
+struct Recording<'a> {
+    states: StateRecording,
+    path: &'a Path,
 }
 
-impl Recording {
-    fn create(path: &Path, d: &Data) -> Result<Self, Failure> {
-        let fail = |e| unwritable(path)(e);
-        let mut out = GrowingNpz::create(path).map_err(fail)?;
-        let mut column = |name: &str, row: &[usize]| out.column(name, Dtype::F64, row).map_err(fail);
-        let s = &d.state;
-        let state = [
-            column("time", &[])?,
-            column("qpos", &[s.qpos.len()])?,
-            column("qvel", &[s.qvel.len()])?,
-            column("act", &[s.act.len()])?,
-            column("ctrl", &[s.ctrl.len()])?,
-        ];
-        let measured = [column("sensordata", &[d.sensor.sensordata.len()])?, column("energy", &[2])?];
-        Ok(Recording { out, path: path.to_owned(), state, measured, rows: 0 })
+impl<'a> Recording<'a> {
+    fn create(path: &'a Path, d: &Data) -> Result<Self, Failure> {
+        let states = StateRecording::create(path, d).map_err(unwritable(path))?;
+        Ok(Recording { states, path })
     }
 
-    /// Appends the state that a step starts from.
     fn state(&mut self, d: &Data) -> Result<(), Failure> {
-        let s = &d.state;
-        let values: [&[f64]; 5] = [&[d.state.time], &s.qpos, &s.qvel, &s.act, &s.ctrl];
-        self.append(self.state, values)
+        self.states.state(d).map_err(unwritable(self.path))
     }
 
-    /// Appends what the step measured of that state: nothing if it failed.
     fn measurements(&mut self, d: &Data, measured: bool) -> Result<(), Failure> {
-        if measured {
-            self.append(self.measured, [&d.sensor.sensordata, &d.energy])?;
-        } else {
-            self.append(self.measured, [&vec![f64::NAN; d.sensor.sensordata.len()], &[f64::NAN; 2]])?;
-        }
-        self.rows += 1;
-        self.out.sync_if_due().map_err(unwritable(&self.path))
+        self.states.measurements(d, measured).map_err(unwritable(self.path))
     }
 
-    fn append<const N: usize>(&mut self, columns: [ColumnId; N], rows: [&[f64]; N]) -> Result<(), Failure> {
-        for (column, row) in columns.into_iter().zip(rows) {
-            let put = |out: &mut dyn FnMut(&[u8])| Slice::F64(row).pieces(out);
-            self.out.append(column, 1, put).map_err(unwritable(&self.path))?;
-        }
-        Ok(())
-    }
-
-    /// Completes the file; the number of rows.
     fn finish(self) -> std::io::Result<u64> {
-        self.out.finish().map(|()| self.rows)
+        self.states.finish()
     }
 }

@@ -3,8 +3,8 @@
 use crate::failure::{Failure, unwritable};
 use crate::output::{check_place, hdf5_file, is_same_file, keep_existing, keep_input, recording_file};
 use crate::recordings::export::{self, Export};
+use crate::recordings::names::{LayoutName, PrecisionName};
 use crate::recordings::open::open;
-use crate::recordings::recording::{LayoutName, PrecisionName};
 use crate::recordings::replay::{self, Replay};
 use crate::terminal::{note, show, show_json};
 use clap::{Args, Subcommand, ValueHint};

@@ -2,7 +2,6 @@
 
 use crate::failure::Failure;
 use crate::recordings::open::open;
-use crate::recordings::recording::ID;
 use crate::terminal::{note, show};
 use clap::{Args, Subcommand, ValueEnum, ValueHint};
 use dataset::trace::{TraceError, TraceReader};
@@ -10,6 +9,7 @@ use env::Registry;
 use exchange::Exported;
 use exchange::lerobot::{self, Pictures};
 use exchange::minari::{self, DatasetId, env_spec};
+use record::ID;
 use std::path::{Path, PathBuf};
 
 /// Write a recording as a dataset that Minari or LeRobot loads

@@ -2,7 +2,6 @@
 
 pub mod data;
 pub mod export;
+pub mod names;
 pub mod open;
-pub mod recorded;
-pub mod recording;
 pub mod replay;

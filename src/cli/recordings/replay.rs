@@ -3,12 +3,11 @@
 use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::recordings::open::open;
-use crate::recordings::recorded::{Column, Recorded};
-use crate::recordings::recording;
 use crate::terminal::{note, show, show_json};
 use clap::{Args, ValueHint};
 use dataset::trace::TraceReader;
-use env::{Arguments, Compat, Env, Options};
+use env::{Compat, Env, Options};
+use record::{Column, Description, Recorded};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -86,7 +85,7 @@ pub fn run(a: &Replay) -> Result<(), Failure> {
     for (number, name) in trace.trials().iter().enumerate() {
         let seed = a.seed.filter(|_| number == 0);
         if a.trials.as_ref().is_none_or(|places| places.hold(number)) {
-            let trial = Recorded::read(&trace, name)?;
+            let trial = Recorded::read(&trace, name).map_err(Failure::usage)?;
             outcomes.push(replay(&mut env, name, &trial, a.seed.is_some(), seed)?);
         } else if a.seed.is_some() {
             // Its reset draws, too.
@@ -116,30 +115,14 @@ fn check_trials(a: &Replay, trace: &TraceReader) -> Result<(), Failure> {
 
 /// The environment that the arguments name, or else the recording.
 fn make(a: &Replay, trace: &TraceReader) -> Result<(String, Env), Failure> {
-    let attributes = trace.attributes().map_err(Failure::usage)?;
-    let attribute = |name: &str| attributes.iter().find(|(key, _)| key == name).map(|(_, text)| &text[..]);
-    let wrong = |name: &str, error: String| {
-        Failure::usage(format!("{}: attribute {name}: {error}", trace.path().display()))
-    };
-    let named = attribute(recording::ID);
-    let id = a.id.as_deref().or(named).ok_or_else(|| {
-        Failure::usage(format!("{} names no environment: give its id", trace.path().display()))
-    })?;
-    let compat = match (a.compat, attribute(recording::COMPAT)) {
-        (Some(compat), _) => compat,
-        (None, Some(name)) => name.parse().map_err(|e| wrong(recording::COMPAT, format!("{e}")))?,
-        // Files without this attribute are RoboHive's own.
-        (None, None) => Compat::RoboHive07,
-    };
-    let mut changes = match attribute(recording::SETTINGS).filter(|_| named == Some(id)) {
-        Some(text) => text.parse::<Arguments>().map_err(|e| wrong(recording::SETTINGS, e.to_string()))?,
-        None => Arguments::default(),
-    };
+    let described = Description::of(trace, a.id.as_deref()).map_err(Failure::usage)?;
+    let compat = a.compat.unwrap_or(described.compat);
     let making = Making { settings: a.settings.clone(), compat, assets: a.assets.clone(), cache: None };
+    let mut changes = described.settings;
     changes.extend(making.changes()?);
     let options = Options::default().with_compat(compat).with_changes(changes);
-    let env = Env::make(id, &making.assets()?, &options).map_err(Failure::usage)?;
-    Ok((id.to_owned(), env))
+    let env = Env::make(&described.id, &making.assets()?, &options).map_err(Failure::usage)?;
+    Ok((described.id, env))
 }
 
 /// What came of a trial.

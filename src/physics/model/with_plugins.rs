@@ -5,7 +5,7 @@ use super::appearance::Appearance;
 use super::distance_field::Field;
 use super::plugin_config::{AttributeError, Config};
 use super::plugin_error::RegistryError;
-use crate::arrays::{Arrays, ObjType, Options, Stage};
+use crate::arrays::{Arrays, ObjType, Options, Stage, Visual};
 use crate::caches::Caches;
 use crate::caches::bending_factor::BendingFactor;
 use crate::caches::climb::Slopes;
@@ -74,6 +74,11 @@ impl Model {
     /// The options, to change. Nothing in the model is derived from them.
     pub fn options_mut(&mut self) -> &mut Options {
         &mut self.arrays.opt
+    }
+
+    /// The visualisation options, to change. Nothing in the model is derived from them, and no motion depends on them.
+    pub fn visual_mut(&mut self) -> &mut Visual {
+        &mut self.arrays.vis
     }
 
     /// The plugins that [`Arrays::plugin`] counts.

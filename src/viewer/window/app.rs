@@ -27,7 +27,7 @@ pub struct App {
     /// What could not be opened, drawn or written, until something is.
     trouble: Option<String>,
     keys: Keys,
-    watched: panels::Inspection,
+    desk: panels::Desk,
     shows_left: bool,
     shows_right: bool,
     shows_help: bool,
@@ -41,7 +41,7 @@ impl App {
             opened: None,
             trouble: None,
             keys: Keys::new(),
-            watched: panels::Inspection::default(),
+            desk: panels::Desk::default(),
             shows_left: true,
             shows_right: true,
             shows_help: false,
@@ -65,7 +65,10 @@ impl App {
 
     fn open(&mut self, source: Source) {
         match Opened::open(source) {
-            Ok(opened) => (self.opened, self.trouble) = (Some(opened), None),
+            Ok(opened) => {
+                (self.opened, self.trouble) = (Some(opened), None);
+                self.desk.forget();
+            }
             Err(why) => self.trouble = Some(why),
         }
     }
@@ -95,6 +98,7 @@ impl App {
         }
         let began = Instant::now();
         opened.session.advance(elapsed, &mut || began.elapsed().as_secs_f64() < SHARE * FRAME);
+        self.desk.signals.measure(&opened.session);
         if opened.session.is_running() || opened.session.holds() {
             context.request_repaint();
         } else {
@@ -274,10 +278,14 @@ impl App {
                     if session.play().is_some() {
                         section(ui, "Episode", true, |ui| panels::episode(ui, session));
                     }
+                    section(ui, "Recording", false, |ui| panels::recording(ui, session, &mut self.desk));
+                    section(ui, "Replay", session.replay().is_some(), |ui| panels::replay(ui, session));
                     section(ui, "View", true, |ui| panels::visual(ui, session));
                     section(ui, "Groups", false, |ui| panels::groups(ui, session));
+                    section(ui, "Appearance", false, |ui| panels::appearance(ui, session));
                     if session.play().is_none() {
                         section(ui, "Physics", false, |ui| panels::options(ui, session));
+                        section(ui, "Profiler", false, |ui| panels::profiler(ui, session));
                     }
                 });
             });
@@ -291,8 +299,11 @@ impl App {
                         section(ui, "Controls", true, |ui| panels::controls(ui, session));
                         section(ui, "Joints", false, |ui| panels::joints(ui, session));
                         section(ui, "Equality", false, |ui| panels::equalities(ui, session));
+                        section(ui, "Mocap", false, |ui| panels::mocaps(ui, session));
                     }
-                    section(ui, "Watch", false, |ui| panels::watched(ui, session, &mut self.watched));
+                    section(ui, "Element", false, |ui| panels::looked_at(ui, session, &mut self.desk));
+                    section(ui, "Watch", false, |ui| panels::watch_field(ui, session, &mut self.desk));
+                    section(ui, "Plots", false, |ui| panels::plots(ui, session, &mut self.desk));
                     section(ui, "Sensors", false, |ui| panels::sensors(ui, session));
                     section(ui, "Contacts", false, |ui| panels::contacts(ui, session));
                 });
@@ -304,7 +315,7 @@ impl App {
 
     /// The picture, and messages over it.
     fn picture(&mut self, ui: &mut Ui) {
-        let mut messages: Vec<String> = self.trouble.clone().into_iter().collect();
+        let mut messages: Vec<String> = self.trouble.iter().chain(&self.desk.notice).cloned().collect();
         match &mut self.opened {
             Some(opened) => {
                 messages.extend(opened.session.fault().map(str::to_owned));

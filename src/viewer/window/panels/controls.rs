@@ -1,7 +1,8 @@
-//! Sliders of controls and joints, and switches of equality constraints.
+//! Sliders of controls, joints and mocap bodies, and switches of equality constraints.
 
 use crate::session::Session;
-use eframe::egui::{Slider, Ui};
+use eframe::egui::{DragValue, Slider, Ui};
+use physics::math::quat_normalize;
 use physics::model::{JointType, ObjType};
 use std::f64::consts::PI;
 
@@ -47,6 +48,34 @@ pub fn joints(ui: &mut Ui, session: &mut Session) {
     }
     if changed {
         session.edit(|_, data| data.state.qpos.copy_from_slice(&values));
+    }
+}
+
+/// Position and orientation of each mocap body, which moves while the simulation runs, too.
+pub fn mocaps(ui: &mut Ui, session: &mut Session) {
+    let model = session.model();
+    let state = &session.data().state;
+    let (mut places, mut turns) = (state.mocap_pos.clone(), state.mocap_quat.clone());
+    let mut changed = false;
+    let mut row = |ui: &mut Ui, values: &mut [f64]| {
+        ui.horizontal(|ui| {
+            for value in values {
+                changed |= ui.add(DragValue::new(value).speed(0.005).max_decimals(4)).changed();
+            }
+        });
+    };
+    for body in 0..model.nbody {
+        let Ok(mocap) = usize::try_from(model.body_mocapid[body]) else { continue };
+        ui.label(model.label_of(ObjType::Body, body));
+        row(ui, &mut places[mocap]);
+        row(ui, &mut turns[mocap]);
+    }
+    if changed {
+        turns.iter_mut().for_each(|turn| *turn = quat_normalize(*turn));
+        session.edit(|_, data| {
+            data.state.mocap_pos.copy_from_slice(&places);
+            data.state.mocap_quat.copy_from_slice(&turns);
+        });
     }
 }
 

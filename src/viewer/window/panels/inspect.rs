@@ -1,34 +1,9 @@
-//! Numbers: a watched array, sensors, contacts.
+//! Numbers: sensors, contacts.
 
 use crate::session::Session;
-use crate::watch::watch;
-use eframe::egui::{Color32, DragValue, Ui};
+use eframe::egui::{Color32, Ui};
 use egui_plot::{Bar, BarChart, Plot};
 use physics::model::ObjType;
-
-/// What a person watches.
-pub struct Inspection {
-    name: String,
-    index: usize,
-}
-
-impl Default for Inspection {
-    fn default() -> Self {
-        Inspection { name: "qpos".into(), index: 0 }
-    }
-}
-
-/// A number by the name of its array.
-pub fn watched(ui: &mut Ui, session: &Session, watched: &mut Inspection) {
-    ui.horizontal(|ui| {
-        ui.text_edit_singleline(&mut watched.name);
-        ui.add(DragValue::new(&mut watched.index));
-    });
-    match watch(session.model(), session.data(), watched.name.trim(), watched.index) {
-        Ok(value) => ui.monospace(format!("{value}")),
-        Err(error) => ui.colored_label(ui.visuals().warn_fg_color, error.to_string()),
-    };
-}
 
 /// Readings of all sensors, as bars.
 pub fn sensors(ui: &mut Ui, session: &Session) {

@@ -1,16 +1,28 @@
 //! What stands beside the picture.
 
+mod appearance;
 mod controls;
+mod desk;
 mod inspect;
+mod looked_at;
 mod options;
 mod play;
+mod plots;
+mod profiler;
+mod recorded;
 mod simulation;
 mod visual;
 
-pub use controls::{controls, equalities, joints};
-pub use inspect::{Inspection, contacts, sensors, watched};
+pub use appearance::appearance;
+pub use controls::{controls, equalities, joints, mocaps};
+pub use desk::Desk;
+pub use inspect::{contacts, sensors};
+pub use looked_at::looked_at;
 pub use options::options;
 pub use play::{actions, episode, observation, reward};
+pub use plots::{plots, watch_field};
+pub use profiler::profiler;
+pub use recorded::{recording, replay};
 pub use simulation::simulation;
 pub use visual::{groups, visual};
 

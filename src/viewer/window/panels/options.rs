@@ -4,6 +4,9 @@ use crate::session::Session;
 use eframe::egui::{ComboBox, DragValue, Ui};
 use physics::model::{Cone, Disable, Enable, Integrator, Jacobian, Options, Solver};
 
+/// Groups of actuators that can be switched.
+const GROUPS: usize = 6;
+
 /// A numeric option: its name, and where it stands.
 type Number = (&'static str, fn(&mut Options) -> &mut f64);
 /// An option that counts.
@@ -22,12 +25,13 @@ const NUMBERS: [Number; 10] = [
     ("o_margin", |o| &mut o.o_margin),
 ];
 
-const COUNTS: [Count; 5] = [
+const COUNTS: [Count; 6] = [
     ("iterations", |o| &mut o.iterations),
     ("ls_iterations", |o| &mut o.ls_iterations),
     ("noslip_iterations", |o| &mut o.noslip_iterations),
     ("ccd_iterations", |o| &mut o.ccd_iterations),
     ("sdf_iterations", |o| &mut o.sdf_iterations),
+    ("sdf_initpoints", |o| &mut o.sdf_initpoints),
 ];
 
 const DISABLE: [(&str, Disable); 20] = [
@@ -85,6 +89,29 @@ pub fn options(ui: &mut Ui, session: &mut Session) {
             ui.label(name);
         });
     }
+    ui.collapsing("Contact override", |ui| {
+        for (name, values) in [
+            ("o_solref", &mut options.o_solref[..]),
+            ("o_solimp", &mut options.o_solimp[..]),
+            ("o_friction", &mut options.o_friction[..]),
+        ] {
+            ui.horizontal(|ui| {
+                values.iter_mut().for_each(|x| drop(ui.add(DragValue::new(x).speed(0.005).max_decimals(6))));
+                ui.label(name);
+            });
+        }
+    });
+    ui.collapsing("Actuator groups", |ui| {
+        ui.horizontal(|ui| {
+            for group in 0..GROUPS {
+                let mut on = options.disableactuator & (1 << group) == 0;
+                let hint = format!("actuators of group {group} make force");
+                if ui.toggle_value(&mut on, group.to_string()).on_hover_text(hint).changed() {
+                    options.disableactuator ^= 1 << group;
+                }
+            }
+        });
+    });
     ui.collapsing("Disabled", |ui| {
         for (name, bit) in DISABLE {
             let mut on = options.disableflags.contains(bit);

@@ -1,4 +1,4 @@
-//! Time: run, step, speed, history, keyframes, noise.
+//! Time: run, step, speed, history, keyframes, kept states, noise.
 
 use crate::command::Command;
 use crate::session::Session;
@@ -31,7 +31,11 @@ pub fn simulation(ui: &mut Ui, session: &mut Session) {
     if session.play().is_some() {
         return;
     }
+    if session.replay().is_some() {
+        return;
+    }
     keyframes(ui, session);
+    kept_keys(ui, session);
     ui.add(Slider::new(&mut session.noise.scale, 0.0..=1.0).text("noise scale"));
     ui.add(Slider::new(&mut session.noise.rate, 0.0..=4.0).text("noise time [s]"));
 }
@@ -55,6 +59,30 @@ fn keyframes(ui: &mut Ui, session: &mut Session) {
                 session.reset_to(Some(key));
                 ui.close();
             }
+        }
+    });
+}
+
+/// States that a person keeps, to return to and to copy into a model.
+fn kept_keys(ui: &mut Ui, session: &mut Session) {
+    ui.horizontal_wrapped(|ui| {
+        if ui.button("Keep state").clicked() {
+            session.keep_key();
+        }
+        if session.kept_keys().is_empty() {
+            return;
+        }
+        ui.menu_button("Load kept state", |ui| {
+            for number in 0..session.kept_keys().len() {
+                let time = session.kept_keys()[number].time();
+                if ui.button(format!("{number}: {time:.3} s")).clicked() {
+                    session.load_key(number);
+                    ui.close();
+                }
+            }
+        });
+        if ui.button("Copy kept states").clicked() {
+            ui.ctx().copy_text(session.keys_text());
         }
     });
 }

@@ -4,9 +4,9 @@ use crate::command::{FRAMES, LABELS};
 use crate::flags::{EFFECTS, Flag, SHOW};
 use crate::session::Session;
 use crate::text;
-use eframe::egui::{ComboBox, Slider, Ui};
+use eframe::egui::{ComboBox, DragValue, Slider, Ui};
 use physics::model::ObjType;
-use render::scene::Camera;
+use render::scene::{Camera, FreeCamera};
 
 /// Camera, labels, frames, switches.
 pub fn visual(ui: &mut Ui, session: &mut Session) {
@@ -37,12 +37,35 @@ fn camera(ui: &mut Ui, session: &mut Session) {
             ui.selectable_value(&mut chosen, camera, name(camera));
         }
     });
+    if let Camera::Free(free) = &mut chosen {
+        free_camera(ui, free);
+    }
     session.camera = chosen;
     if ui.button("Copy camera").clicked()
         && let Ok(view) = session.view()
     {
         ui.ctx().copy_text(text::camera(&view));
     }
+}
+
+/// Where the free camera looks from.
+fn free_camera(ui: &mut Ui, free: &mut FreeCamera) {
+    ui.collapsing("Free camera", |ui| {
+        let mut row = |name: &str, value: &mut f64, speed: f64, range: std::ops::RangeInclusive<f64>| {
+            ui.horizontal(|ui| {
+                ui.add(DragValue::new(value).speed(speed).range(range).max_decimals(4));
+                ui.label(name);
+            });
+        };
+        row("azimuth [°]", &mut free.azimuth, 0.5, -1e6..=1e6);
+        row("elevation [°]", &mut free.elevation, 0.5, -89.0..=89.0);
+        row("distance [m]", &mut free.distance, 0.01, 1e-6..=1e9);
+        row("field of view [°, m]", &mut free.fovy, 0.2, 1e-3..=179.0);
+        for (axis, value) in ["x [m]", "y [m]", "z [m]"].into_iter().zip(&mut free.lookat) {
+            row(axis, value, 0.01, -1e9..=1e9);
+        }
+        ui.checkbox(&mut free.orthographic, "orthographic");
+    });
 }
 
 fn choice<T: Copy + PartialEq>(ui: &mut Ui, label: &str, list: &[(&str, T)], value: &mut T) {

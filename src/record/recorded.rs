@@ -1,8 +1,8 @@
 //! Trials of a recording, as a replay needs them.
 
-use crate::failure::Failure;
-use crate::recordings::recording;
-use dataset::trace::{Entry, Layout, TraceReader};
+use crate::error::RecordError;
+use crate::{SEED, STATE};
+use dataset::trace::{Entry, Layout, TraceError, TraceReader};
 use dataset::{Dtype, F16, Values};
 use env::{Env, WorldState};
 
@@ -56,26 +56,26 @@ impl Recorded {
     ///
     /// # Errors
     /// The file is damaged, or there are no actions.
-    pub fn read(trace: &TraceReader, trial: &str) -> Result<Self, Failure> {
-        let source = Source { trace, entries: trace.entries(trial).map_err(Failure::usage)? };
-        let roboset = trace.layout(trial).map_err(Failure::usage)? == Some(Layout::RoboSet);
+    pub fn read(trace: &TraceReader, trial: &str) -> Result<Self, RecordError> {
+        let source = Source { trace, entries: trace.entries(trial)? };
+        let roboset = trace.layout(trial)? == Some(Layout::RoboSet);
         let mut state = Vec::new();
         for name in WorldState::NAMES {
             let column = match name {
                 "qpos" if roboset => source.arm_and_hand("qp")?,
                 "qvel" if roboset => source.arm_and_hand("qv")?,
                 "time" if roboset => source.column("data/time")?,
-                _ => source.column(&format!("{}{name}", recording::STATE))?,
+                _ => source.column(&format!("{}{name}", STATE))?,
             };
             state.extend(column.map(|column| (name, column)));
         }
         let actions = if roboset { source.arm_and_hand("ctrl")? } else { source.column("actions")? };
         let actions = actions.ok_or_else(|| {
             let key = if roboset { "data/ctrl_arm" } else { "actions" };
-            Failure::usage(format!("{}, {trial}: no {key} to replay", trace.path().display()))
+            TraceError::new(trace.path(), trial, format!("no {key} to replay"))
         })?;
         Ok(Recorded {
-            seed: source.seed(if roboset { "config/seed" } else { recording::SEED })?,
+            seed: source.seed(if roboset { "config/seed" } else { SEED })?,
             roboset,
             actions,
             state,
@@ -119,15 +119,15 @@ impl Source<'_> {
         self.entries.iter().find(|entry| entry.key == key)
     }
 
-    fn column(&self, key: &str) -> Result<Option<Column>, Failure> {
+    fn column(&self, key: &str) -> Result<Option<Column>, RecordError> {
         let Some(entry) = self.entry(key) else { return Ok(None) };
-        let array = self.trace.read(entry).map_err(Failure::usage)?;
+        let array = self.trace.read(entry)?;
         let width = array.shape.iter().skip(1).product();
         Ok(Some(Column { width, dtype: array.values.dtype(), values: array.values.to_f64() }))
     }
 
     /// RoboSet's columns of arm and hand side by side.
-    fn arm_and_hand(&self, part: &str) -> Result<Option<Column>, Failure> {
+    fn arm_and_hand(&self, part: &str) -> Result<Option<Column>, RecordError> {
         let arm = self.column(&format!("data/{part}_arm"))?;
         let hand = self.column(&format!("data/{part}_ee"))?;
         Ok(match (arm, hand) {
@@ -137,16 +137,13 @@ impl Source<'_> {
     }
 
     /// A seed, in all its bits.
-    fn seed(&self, key: &str) -> Result<Option<u64>, Failure> {
+    fn seed(&self, key: &str) -> Result<Option<u64>, RecordError> {
         let Some(entry) = self.entry(key) else { return Ok(None) };
-        match self.trace.read(entry).map_err(Failure::usage)?.values {
+        match self.trace.read(entry)?.values {
             Values::U64(seeds) if seeds.len() == 1 => Ok(Some(seeds[0])),
             other => {
-                let (path, kind) = (self.trace.path().display(), other.dtype().name());
-                Err(Failure::usage(format!(
-                    "{path}, {}: a seed is one uint64, and here is {kind}",
-                    entry.path()
-                )))
+                let wrong = format!("a seed is one uint64, and here is {}", other.dtype().name());
+                Err(TraceError::new(self.trace.path(), entry.path(), wrong).into())
             }
         }
     }

@@ -1,0 +1,40 @@
+//! Layouts and precisions by the names that arguments have for them.
+
+use clap::ValueEnum;
+use dataset::trace::{Layout, Precision};
+
+/// Names of rows in the files.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum LayoutName {
+    /// By environment: time, observations, actions, rewards, done, env_infos/...
+    Robohive,
+    /// By robot: data/..., derived/..., config/...
+    Roboset,
+}
+
+impl From<LayoutName> for Layout {
+    fn from(name: LayoutName) -> Self {
+        match name {
+            LayoutName::Robohive => Layout::RoboHive,
+            LayoutName::Roboset => Layout::RoboSet,
+        }
+    }
+}
+
+/// Bits of numbers in the files.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum PrecisionName {
+    /// All bits
+    Full,
+    /// Uint8, int8, float16
+    Reduced,
+}
+
+impl From<PrecisionName> for Precision {
+    fn from(name: PrecisionName) -> Self {
+        match name {
+            PrecisionName::Full => Precision::Full,
+            PrecisionName::Reduced => Precision::Reduced,
+        }
+    }
+}

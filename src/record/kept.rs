@@ -1,0 +1,92 @@
+//! An episode in memory, until it is over and a file takes it.
+
+use crate::error::RecordError;
+use crate::row::{Sink, push_row, set_look};
+use dataset::trace::{TraceError, Trial};
+use dataset::{Array, Dtype, Scalar, Values};
+use env::Env;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Rows of an episode, without images, as they will stand in a recording.
+#[derive(Clone, Debug, Default)]
+pub struct Kept {
+    seed: u64,
+    rows: usize,
+    columns: BTreeMap<String, Column>,
+    whole: Vec<(String, Array)>,
+}
+
+#[derive(Clone, Debug)]
+struct Column {
+    dtype: Dtype,
+    shape: Vec<usize>,
+    rows: usize,
+    bytes: Vec<u8>,
+}
+
+impl Kept {
+    /// An episode that starts from the reset with `seed`.
+    pub fn new(seed: u64) -> Self {
+        Kept { seed, ..Kept::default() }
+    }
+
+    /// Seed of its reset.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Number of rows so far.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Adds the row of the current state and of the action that is taken in it; in the last state of an episode, a NaN
+    /// action.
+    ///
+    /// # Errors
+    /// The environment's rows changed their shape.
+    pub fn row(&mut self, env: &Env, action: &[f64]) -> Result<(), RecordError> {
+        if self.rows == 0 {
+            set_look(self, env)?;
+        }
+        self.rows += 1;
+        Ok(push_row(self, env, action)?)
+    }
+
+    /// Hands all rows to a trial.
+    pub(crate) fn write(&self, trial: &mut Trial<'_>) -> Result<(), TraceError> {
+        for (key, array) in &self.whole {
+            trial.set(key, array)?;
+        }
+        for (key, column) in &self.columns {
+            let shape = [&[column.rows][..], &column.shape].concat();
+            trial
+                .push_rows(key, &Array { shape, values: Values::from_bytes(column.dtype, &column.bytes) })?;
+        }
+        Ok(())
+    }
+}
+
+impl Sink for Kept {
+    fn push<T: Scalar>(&mut self, key: &str, shape: &[usize], row: &[T]) -> Result<(), TraceError> {
+        let column = self.columns.entry(key.to_owned()).or_insert_with(|| Column {
+            dtype: T::DTYPE,
+            shape: shape.to_vec(),
+            rows: 0,
+            bytes: Vec::new(),
+        });
+        if column.dtype != T::DTYPE || column.shape != shape {
+            let message = format!("a row of shape {shape:?} after rows of shape {:?}", column.shape);
+            return Err(TraceError::new(Path::new(""), key, message));
+        }
+        column.rows += 1;
+        row.iter().for_each(|&scalar| scalar.put(&mut column.bytes));
+        Ok(())
+    }
+
+    fn set(&mut self, key: &str, array: &Array) -> Result<(), TraceError> {
+        self.whole.push((key.to_owned(), array.clone()));
+        Ok(())
+    }
+}
