@@ -8,7 +8,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
-const NAMES: [&str; 7] = ["act", "ctrl", "energy", "qpos", "qvel", "sensordata", "time"];
+const NAMES: [&str; 9] =
+    ["act", "ctrl", "energy", "mocap_pos", "mocap_quat", "qpos", "qvel", "sensordata", "time"];
 
 fn values(archive: &NpzReader, name: &str) -> Vec<f64> {
     archive.require(name).unwrap().values.to_f64()
