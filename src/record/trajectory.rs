@@ -124,7 +124,10 @@ impl Trajectory {
         if rows == 0 {
             return wrong("no states".into());
         }
-        if let Some(row) = self.times.windows(2).position(|pair| !(pair[0] <= pair[1])) {
+        if let Some(row) = self.times.iter().position(|time| !time.is_finite()) {
+            return wrong(format!("time is {} in row {row}", self.times[row]));
+        }
+        if let Some(row) = self.times.windows(2).position(|pair| pair[0] > pair[1]) {
             return wrong(format!("time does not go on from row {row} to row {}", row + 1));
         }
         for Part { name: part, width, values } in &self.parts {

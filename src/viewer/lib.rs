@@ -66,7 +66,7 @@ pub use play::{Acting, Play, PlayError};
 pub use pointer::{Picked, pick, ray_through};
 pub use profile::{FRAMES_KEPT, Frame, Profile, convergence};
 pub use replay::{Reference, Replay};
-pub use session::{ForeignTrajectory, KEPT_KEYS, Look, Selected, Session};
+pub use session::{ForeignTrajectory, KEPT_KEYS, Look, Selected, Session, TapeError};
 pub use signals::{Series, Signal, Signals};
 pub use speed::{Pace, SPEEDS};
 pub use tape::Recorded;

@@ -1,6 +1,5 @@
 //! Where the time of steps goes.
 
-use crate::session::Session;
 use physics::Data;
 use physics::pipeline::watch::{Stage, Watch};
 use std::collections::VecDeque;
@@ -109,9 +108,9 @@ impl Watch for Clock {
 
 /// What the constraint solver gained in each iteration of the last step: the logarithm (base 10) of the improvement and of the
 /// gradient, islands one after the other.
-pub fn convergence(session: &Session) -> Vec<[f64; 2]> {
+pub fn convergence(data: &Data) -> Vec<[f64; 2]> {
     let log = |x: f64| x.max(1e-15).log10();
-    let done: usize = session.data().solver.solver_niter.iter().map(|&n| n.max(0) as usize).sum();
-    let iterations = session.data().solver.solver.iter().take(done);
+    let done: usize = data.solver.solver_niter.iter().map(|&n| n.max(0) as usize).sum();
+    let iterations = data.solver.solver.iter().take(done);
     iterations.map(|iteration| [log(iteration.improvement), log(iteration.gradient)]).collect()
 }

@@ -2,10 +2,12 @@
 
 mod keys;
 mod replayed;
+mod taped;
 mod touch;
 
 pub use keys::KEPT_KEYS;
 pub use replayed::ForeignTrajectory;
+pub use taped::TapeError;
 
 use crate::camera::Plane;
 use crate::hand::Hand;
@@ -24,8 +26,8 @@ use render::scene::{Camera, FreeCamera, SceneOptions};
 
 /// A model, its state, and what a person does with it.
 pub struct Session {
-    pub(crate) model: Model,
-    pub(crate) data: Data,
+    model: Model,
+    data: Data,
     running: bool,
     pace: Pace,
     history: History,
@@ -34,9 +36,9 @@ pub struct Session {
     fault: Option<String>,
     revision: u64,
     /// The environment whose model and state these are, where it is one.
-    pub(crate) play: Option<Box<Play>>,
+    play: Option<Box<Play>>,
     /// States that are being recorded.
-    pub(crate) tape: Option<StateTape>,
+    tape: Option<StateTape>,
     /// States that a person keeps.
     kept: Vec<Snapshot>,
     /// Recorded states that are shown instead of a simulation.
@@ -390,7 +392,7 @@ impl Session {
         }
         self.noise.step(&self.model, &mut self.data, None);
         if let Some(Err(why)) = self.tape.as_mut().map(|tape| tape.before(&self.data)) {
-            return self.stop_at(why);
+            return self.stop_at(why.to_string());
         }
         let stepped = match &mut self.profile {
             Some(profile) => {
@@ -404,7 +406,7 @@ impl Session {
         if let Err(error) = stepped {
             self.stop_at(error.to_string());
         } else if let Some(Err(why)) = taped {
-            self.stop_at(why);
+            self.stop_at(why.to_string());
         }
     }
 

@@ -1,9 +1,9 @@
 //! What is written to files while a session goes on.
 
-use crate::session::Session;
 use physics::{Data, Model, step};
 use record::{Kept, RecordError, Recording, StateRecording};
 use std::fmt;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Episodes of an environment that are being recorded.
@@ -38,19 +38,18 @@ impl fmt::Display for Recorded {
 }
 
 impl StateTape {
-    pub(crate) fn new(path: &Path, data: &Data) -> Result<Self, String> {
-        let recording = StateRecording::create(path, data).map_err(|error| unwritable(path, &error))?;
-        Ok(StateTape { recording, path: path.to_owned() })
+    pub(crate) fn new(path: &Path, data: &Data) -> io::Result<Self> {
+        Ok(StateTape { recording: StateRecording::create(path, data)?, path: path.to_owned() })
     }
 
     /// A step starts from `data`.
-    pub(crate) fn before(&mut self, data: &Data) -> Result<(), String> {
-        self.recording.state(data).map_err(|error| unwritable(&self.path, &error))
+    pub(crate) fn before(&mut self, data: &Data) -> io::Result<()> {
+        self.recording.state(data)
     }
 
     /// The step was taken, or failed.
-    pub(crate) fn after(&mut self, data: &Data, taken: bool) -> Result<(), String> {
-        self.recording.measurements(data, taken).map_err(|error| unwritable(&self.path, &error))
+    pub(crate) fn after(&mut self, data: &Data, taken: bool) -> io::Result<()> {
+        self.recording.measurements(data, taken)
     }
 
     pub(crate) fn so_far(&self) -> Recorded {
@@ -58,19 +57,18 @@ impl StateTape {
     }
 
     /// Adds the last state, with what a step from it would measure, and completes the file.
-    pub(crate) fn finish(mut self, model: &Model, data: &Data) -> Result<Recorded, String> {
+    pub(crate) fn finish(mut self, model: &Model, data: &Data) -> io::Result<Recorded> {
         let mut last = data.clone();
         self.before(&last)?;
         let taken = step(model, &mut last).is_ok();
         self.after(&last, taken)?;
-        let (path, count) = (self.path.clone(), self.recording.rows());
-        self.recording.finish().map_err(|error| unwritable(&path, &error))?;
-        Ok(Recorded { path, count, unit: "states" })
+        let count = self.recording.finish()?;
+        Ok(Recorded { path: self.path, count, unit: "states" })
     }
-}
 
-fn unwritable(path: &Path, error: &dyn fmt::Display) -> String {
-    format!("{}: {error}", path.display())
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
 }
 
 impl EpisodeTape {
@@ -103,41 +101,5 @@ impl EpisodeTape {
     pub(crate) fn finish(self) -> Result<Recorded, RecordError> {
         let (path, episodes, _) = self.recording.close()?;
         Ok(Recorded { path, count: episodes as u64, unit: "episodes" })
-    }
-}
-
-impl Session {
-    /// Begins to record: an environment's episodes, from the start of the next one on, into a recording in RoboHive's layout
-    /// (`.h5` or `.npz`); else the state before every step, into a numpy archive. A recording that goes on is completed first.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    pub fn record(&mut self, path: &Path) -> Result<(), String> {
-        self.stop_recording()?;
-        match &mut self.play {
-            Some(play) => play.record(path).map_err(|error| error.to_string()),
-            None => {
-                self.tape = Some(StateTape::new(path, &self.data)?);
-                Ok(())
-            }
-        }
-    }
-
-    /// The recording that goes on.
-    pub fn recording(&self) -> Option<Recorded> {
-        let episodes = self.play.as_ref().and_then(|play| play.recording());
-        episodes.or_else(|| self.tape.as_ref().map(StateTape::so_far))
-    }
-
-    /// Completes the recording that goes on, if there is one.
-    ///
-    /// # Errors
-    /// The file cannot be written.
-    pub fn stop_recording(&mut self) -> Result<Option<Recorded>, String> {
-        if let Some(tape) = self.tape.take() {
-            return tape.finish(&self.model, &self.data).map(Some);
-        }
-        let ended = self.play.as_mut().map(|play| play.stop_recording()).transpose();
-        ended.map(Option::flatten).map_err(|error| error.to_string())
     }
 }

@@ -5,7 +5,7 @@ use dataset::trace::TraceReader;
 use env::{Env, Options, OwnModels};
 use record::{Description, Trajectory};
 use robohive_viewer::{Acting, Drawing, Play, Session, Signal, Signals, convergence};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 fn model(path: &str) -> physics::Model {
     mjcf::load(format!("{}/../../{path}", env!("CARGO_MANIFEST_DIR"))).unwrap().model
@@ -15,7 +15,7 @@ fn place(name: &str) -> PathBuf {
     std::env::temp_dir().join(format!("robohive-viewer-{}-{name}", std::process::id()))
 }
 
-fn archive(path: &PathBuf) -> NpzReader {
+fn archive(path: &Path) -> NpzReader {
     NpzReader::open(path).unwrap()
 }
 
@@ -114,7 +114,7 @@ fn episodes_are_recorded_from_their_start_and_shown_again() {
     // The present episode has begun already: the next one is the first in the file.
     session.record(&path).unwrap();
     session.begin(7);
-    let horizon = session.play().unwrap().env().spec().max_episode_steps as usize;
+    let horizon = session.play().unwrap().env().spec().max_episode_steps;
     (0..horizon + 3).for_each(|_| session.step_forward());
     let recorded = session.stop_recording().unwrap().unwrap();
     assert_eq!((recorded.count, recorded.unit), (1, "episodes"));
@@ -183,6 +183,6 @@ fn a_profile_adds_up_and_changes_no_step() {
     let mean = profile.mean();
     assert!(mean.whole() > 0.0 && mean.stages.iter().filter(|&&seconds| seconds > 0.0).count() > 8);
     assert!(mean.contacts > 0 && mean.rows >= mean.contacts && mean.iterations > 0);
-    let gains = convergence(&watched);
+    let gains = convergence(watched.data());
     assert!(gains.len() == mean.iterations && gains.iter().all(|[improvement, _]| improvement.is_finite()));
 }

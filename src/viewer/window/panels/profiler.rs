@@ -60,7 +60,7 @@ pub fn profiler(ui: &mut Ui, session: &mut Session) {
         ],
     );
     ui.label("Convergence of the last step, powers of ten");
-    let gains = convergence(session);
+    let gains = convergence(session.data());
     Plot::new("convergence").height(120.0).legend(Legend::default()).show(ui, |plot| {
         for (column, name) in ["improvement", "gradient"].into_iter().enumerate() {
             let points: PlotPoints<'_> =

@@ -16,7 +16,7 @@ pub fn recording(ui: &mut Ui, session: &mut Session, desk: &mut Desk) {
         if ui.button("Stop recording").clicked() {
             desk.notice = match session.stop_recording() {
                 Ok(written) => written.map(|written| format!("recorded {written}")),
-                Err(why) => Some(why),
+                Err(why) => Some(why.to_string()),
             };
         }
         return;
@@ -42,7 +42,7 @@ fn begin(session: &mut Session, path: &Path, episodes: bool) -> Result<(), Strin
     if path.exists() {
         return Err(format!("{} is there already: choose another name", path.display()));
     }
-    session.record(path)
+    session.record(path).map_err(|error| error.to_string())
 }
 
 /// The replay's place, and the reference's difference.
