@@ -32,6 +32,7 @@ mod encoding;
 mod escape;
 pub mod files;
 pub mod flex;
+pub mod format;
 pub mod image;
 mod include;
 mod loaded;

@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 25] = [
+const ORDER: [(&str, &[&str]); 26] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -74,6 +74,7 @@ const ORDER: [(&str, &[&str]); 25] = [
             "validation",
         ],
     ),
+    ("robohive-site", &["physics", "mjcf", "env", "viewer"]),
     ("xtask", &[]),
     ("robohive-fuzz", &["physics", "mjcf", "dataset", "random", "robot", "render", "env", "agents"]),
 ];
@@ -253,12 +254,15 @@ fn names_say_what_is_inside() {
 }
 
 #[test]
-fn python_records_measures_or_belongs_to_the_package() {
-    let folders = ["validation/reference/", "benches/", "python/"];
+fn python_records_measures_documents_or_belongs_to_the_package() {
+    let folders = ["validation/reference/", "benches/", "python/", "site/"];
     let elsewhere = tree::files("", "py")
         .into_iter()
         .filter(|path| !folders.iter().any(|folder| path.starts_with(folder)));
-    none(elsewhere.collect(), "Python beyond recording and measuring MuJoCo, and the package");
+    none(
+        elsewhere.collect(),
+        "Python beyond recording and measuring MuJoCo, the package and its documentation",
+    );
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod resources;
 mod sizes;
 mod values;
 
+pub(crate) use elements::{datatype, needstage};
 pub(crate) use resources::Resources;
 
 use crate::budget::Budget;

@@ -11,7 +11,7 @@ pub enum Fate {
 }
 
 /// Element, attribute, fate.
-const DROPPED: &[(&str, &str, Fate)] = &[
+pub const DROPPED: &[(&str, &str, Fate)] = &[
     ("option", "apirate", Fate::Ignored("it set the rate of a removed communication layer")),
     ("option", "collision", Fate::IgnoredIf("all", "pairs and excludes now decide alone")),
     ("option", "mpr_iterations", Fate::Ignored("use ccd_iterations")),

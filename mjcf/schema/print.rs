@@ -50,7 +50,8 @@ fn attribute(facts: Facts, kind: Kind, doc: &str) -> String {
     format!("{}: {}{required} — {doc}", facts.name, KindText(kind))
 }
 
-struct KindText(Kind);
+/// What an attribute may hold, as in `3 real`.
+pub struct KindText(pub Kind);
 
 impl fmt::Display for KindText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

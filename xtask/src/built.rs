@@ -1,16 +1,32 @@
 //! What checks build, and how.
 
+use crate::command::succeed;
+use std::process::Command;
+
 /// The profile of all checks, unless they check what is shipped: one compilation serves them.
 pub const PROFILE: &str = "ci";
 
-/// All packages but two that checks of their own build: the renderer that needs a GPU's interface, which takes minutes to
-/// compile (`gpu`), and the extension module for Python (`python`). Encoders come with their networks.
+/// All packages but three that checks of their own build: the renderer that needs a GPU's interface, which takes minutes to
+/// compile (`gpu`), the extension module for Python (`python`), and what makes the documentation site (`site`). Encoders come
+/// with their networks.
 pub const EVERYTHING: &[&str] = &[
     "--workspace",
     "--exclude",
     "robohive-render-gpu",
     "--exclude",
     "robohive-python",
+    "--exclude",
+    "robohive-site",
     "--features",
     "robohive-encoders/networks",
 ];
+
+/// Builds rustdoc's pages of [`EVERYTHING`].
+///
+/// # Errors
+/// Something is wrong in them.
+pub fn document() -> Result<(), String> {
+    let mut doc = Command::new("cargo");
+    doc.args(["doc", "--profile", PROFILE]).args(EVERYTHING).arg("--no-deps");
+    succeed(doc.env("RUSTDOCFLAGS", "-D warnings"))
+}

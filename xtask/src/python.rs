@@ -8,8 +8,6 @@ use std::process::Command;
 
 /// What the package is made of.
 pub const INPUTS: &[&str] = &["python", "src", "mjcf", "assets", "README.md", "THIRD_PARTY.md"];
-/// What decides what the documentation of the package says.
-pub const DOCS_INPUTS: &[&str] = &["python", "README.md"];
 
 /// The oldest Python that the wheel is for.
 const OLDEST: &str =
@@ -42,12 +40,7 @@ pub fn run() -> Outcome {
     let lint =
         ["clippy", "--profile", PROFILE, "-p", "robohive-python", "--all-targets", "--", "-D", "warnings"];
     succeed(Command::new("cargo").args(lint))?;
-    let Some(python) = ready("venv", &["-r", "python/tests/requirements.txt"])? else {
-        return Ok(vec![no_python("the Python package")]);
-    };
-    let wheel = build(&python, &["--profile", PROFILE])?;
-    carries_licences(&python, &wheel)?;
-    install(&python, &["--no-deps", "--force-reinstall"], &wheel)?;
+    let Some(python) = with_package()? else { return Ok(vec![no_python("the Python package")]) };
     let types = ["-m", "mypy", "--config-file", "python/pyproject.toml", "python/robohive"];
     succeed(Command::new(&python).args(types))?;
     let types = ["-m", "basedpyright", "--project", "python/pyproject.toml", "--pythonpath"];
@@ -94,16 +87,13 @@ pub fn cluster() -> Outcome {
     Ok(Vec::new())
 }
 
-/// The documentation, every link and every name of it resolved.
-pub fn docs() -> Outcome {
-    let Some(python) = ready("docs", &["-r", "python/docs/requirements.txt"])? else {
-        return Ok(vec![no_python("the documentation of the Python package")]);
-    };
-    let site = target_folder()?.join("python/site");
-    let build =
-        ["-m", "mkdocs", "build", "--strict", "--quiet", "--config-file", "python/mkdocs.yml", "--site-dir"];
-    succeed(Command::new(&python).args(build).arg(site))?;
-    Ok(Vec::new())
+/// An interpreter with the package, as it is in the sources, and what its tests need; none where there is no Python for it.
+pub fn with_package() -> Result<Option<PathBuf>, String> {
+    let Some(python) = ready("venv", &["-r", "python/tests/requirements.txt"])? else { return Ok(None) };
+    let wheel = build(&python, &["--profile", PROFILE])?;
+    carries_licences(&python, &wheel)?;
+    install(&python, &["--no-deps", "--force-reinstall"], &wheel)?;
+    Ok(Some(python))
 }
 
 /// The wheel that is published: for every Linux of the last ten years, of bounded size, the same for every Python, and

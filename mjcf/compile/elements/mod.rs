@@ -7,6 +7,7 @@ mod sensor;
 mod tendon;
 
 pub(super) use constraint::sorted_names;
+pub(crate) use sensor::{datatype, needstage};
 
 use super::log::Log;
 use super::lookup::Lookup;

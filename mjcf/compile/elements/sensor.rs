@@ -218,7 +218,8 @@ fn check_distance(m: &Rows, sensor: &Sensor, object: i32, base: i32) -> Result<(
     if ends.iter().any(field) { Err("height fields have no distance sensors".into()) } else { Ok(()) }
 }
 
-fn datatype(kind: SensorType) -> DataType {
+/// The kind of numbers of a sensor whose text does not tell it.
+pub(crate) fn datatype(kind: SensorType) -> DataType {
     use SensorType::*;
     match kind {
         Touch | Insidesite => DataType::Positive,
@@ -228,7 +229,8 @@ fn datatype(kind: SensorType) -> DataType {
     }
 }
 
-fn needstage(kind: SensorType) -> Stage {
+/// The stage of a sensor whose text does not tell it.
+pub(crate) fn needstage(kind: SensorType) -> Stage {
     use SensorType::*;
     match kind {
         Touch | Accelerometer | Force | Torque | Actuatorfrc | Jointactfrc | Tendonactfrc | Jointlimitfrc

@@ -1,6 +1,7 @@
 //! `man`: manual pages, from the same definitions as the help.
 
 use crate::failure::{Failure, unwritable};
+use crate::shell::markdown::{markdown, with_subcommands};
 use crate::terminal::{show, write_bytes};
 use clap::{Args, ValueHint};
 use clap_mangen::roff::{Roff, roman};
@@ -13,17 +14,25 @@ use std::path::PathBuf;
 
 Examples:
   robohive man | man -l -
-  robohive man --out share/man/man1")]
+  robohive man --out share/man/man1
+  robohive man --markdown > commands.md")]
 pub struct Man {
     /// Write the pages of all commands to this folder
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub out: Option<PathBuf>,
+    /// Print one Markdown text of all commands instead
+    #[arg(long, conflicts_with = "out")]
+    pub markdown: bool,
 }
 
 /// Runs `man` for the pages of `command`.
 pub fn run(a: &Man, command: clap::Command) -> Result<(), Failure> {
     let mut main = command.disable_help_subcommand(true);
     main.build();
+    if a.markdown {
+        write_bytes(markdown(&main).as_bytes());
+        return Ok(());
+    }
     let Some(folder) = &a.out else {
         write_bytes(&page(&main).map_err(Failure::new)?);
         return Ok(());
@@ -36,11 +45,6 @@ pub fn run(a: &Man, command: clap::Command) -> Result<(), Failure> {
         show!("{}", path.display());
     }
     Ok(())
-}
-
-/// A command, its subcommands, and theirs.
-fn with_subcommands(command: &clap::Command) -> Vec<&clap::Command> {
-    std::iter::once(command).chain(command.get_subcommands().flat_map(with_subcommands)).collect()
 }
 
 /// The page of a command.
