@@ -5,7 +5,7 @@ use crate::schema::legacy::{DROPPED, Fate};
 use crate::schema::print::KindText;
 use crate::schema::root::MUJOCO;
 use crate::schema::sensor::{MEASUREMENTS, Simple};
-use crate::schema::{ElementType, Rule};
+use crate::schema::{ElementType, Rows, Rule};
 use physics::model::{DataType, Stage};
 
 /// An attribute of an element.
@@ -49,6 +49,8 @@ pub struct Element {
 /// assert!(geom.parents.contains(&"body"));
 /// let size = geom.attributes.iter().find(|a| a.name == "size").ok_or("no size")?;
 /// assert!(size.kind.contains("real") && size.in_defaults && !size.required);
+/// let compiler = elements.iter().find(|e| e.tag == "compiler").ok_or("no compiler")?;
+/// assert!(compiler.attributes.iter().all(|a| !a.in_defaults));
 /// # Ok::<(), &str>(())
 /// ```
 pub fn elements() -> Vec<Element> {
@@ -80,12 +82,21 @@ fn collect(
 fn attributes(kind: &ElementType) -> Vec<Attribute> {
     let mut list = Vec::new();
     for rows in kind.rows {
+        let stands_in_classes = stands_in_classes(*rows);
         rows.describe(&mut |facts, kind, doc| {
-            let (name, required, in_defaults) = (facts.name, facts.required, facts.in_defaults);
+            let (name, required) = (facts.name, facts.required);
+            let in_defaults = facts.in_defaults && stands_in_classes;
             list.push(Attribute { name, kind: KindText(kind).to_string(), doc, required, in_defaults });
         });
     }
     list
+}
+
+/// Whether a block of rows belongs to an element that default classes hold.
+fn stands_in_classes(rows: &'static dyn Rows) -> bool {
+    let classes = MUJOCO.child("default").into_iter().flat_map(|default| default.element.children);
+    let blocks = classes.filter(|child| child.defaults).flat_map(|child| child.element.rows);
+    blocks.into_iter().any(|block| std::ptr::addr_eq(*block, rows))
 }
 
 fn sentence(rule: &Rule) -> String {
