@@ -48,7 +48,7 @@ const ORDER: [(&str, &[&str]); 26] = [
         "robohive-viewer",
         &["assets", "physics", "mjcf", "dataset", "random", "render", "video", "env", "agents", "record"],
     ),
-    ("robohive-web", &["assets", "physics", "mjcf", "render", "env", "agents", "viewer"]),
+    ("robohive-web", &["assets", "physics", "mjcf", "dataset", "render", "env", "agents", "viewer"]),
     (
         "robohive-python",
         &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],

@@ -60,7 +60,7 @@ impl Simulation {
             play.let_act(Acting::Hand);
             play.hand().copy_from_slice(action);
         }
-        self.session.step_forward();
+        self.step(1);
         if let Some(fault) = self.session.fault() {
             return Err(exception(fault));
         }

@@ -6,14 +6,21 @@
 //! | `files` | files and archives in memory, within limits, and which of them are models |
 //! | `simulation` | a session, its picture, and what gestures do |
 //! | `environment` | a session with an environment: actions, rewards, observations |
-//! | `lists` | names, numbers and ranges of controls, sensors, cameras and switches |
+//! | `lists` | numbers and ranges of controls, sensors, cameras and switches |
+//! | `names` | elements by name, arrays by MuJoCo's names |
+//! | `state` | inputs written, keyframes, states saved and restored |
+//! | `recording`, `recorded` | every step as a row of a numpy archive |
 //!
 //! Functions that JavaScript calls throw an `Error` whose message says what is wrong and where.
 
 mod environment;
 mod files;
 mod lists;
+mod names;
+mod recorded;
+mod recording;
 mod simulation;
+mod state;
 
 pub use files::Files;
 pub use simulation::Simulation;

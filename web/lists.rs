@@ -1,6 +1,6 @@
 //! Names, numbers and ranges of what a page shows beside the picture.
 
-use crate::simulation::{Simulation, exception};
+use crate::simulation::{Simulation, called, exception};
 use physics::model::ObjType;
 use render::scene::Camera;
 use viewer::{EFFECTS, SHOW};
@@ -26,11 +26,15 @@ impl Simulation {
         self.session.data().sensor.sensordata.clone()
     }
 
-    /// Names of the sensors.
-    #[wasm_bindgen(js_name = sensorNames)]
-    pub fn sensor_names(&self) -> Vec<String> {
+    /// The readings of one sensor, by its name.
+    ///
+    /// # Errors
+    /// There is no such sensor.
+    pub fn sensor(&self, name: &str) -> Result<Vec<f64>, JsError> {
+        let sensor = self.id("sensor", name)?;
         let model = self.session.model();
-        (0..model.nsensor).map(|sensor| model.label_of(ObjType::Sensor, sensor)).collect()
+        let (first, count) = (model.sensor_adr[sensor] as usize, model.sensor_dim[sensor] as usize);
+        Ok(self.session.data().sensor.sensordata[first..first + count].to_vec())
     }
 
     /// Controls, `[nu]`.
@@ -44,7 +48,7 @@ impl Simulation {
     pub fn control_names(&self) -> Vec<String> {
         let model = self.session.model();
         let names = (0..model.nactuator).flat_map(|actuator| {
-            let name = model.label_of(ObjType::Actuator, actuator);
+            let name = called(model, ObjType::Actuator, actuator);
             (0..model.actuator_ctrlnum[actuator]).map(move |place| match place {
                 0 => name.clone(),
                 _ => format!("{name} {place}"),
@@ -82,7 +86,7 @@ impl Simulation {
     /// Names of the model's cameras.
     pub fn cameras(&self) -> Vec<String> {
         let model = self.session.model();
-        (0..model.ncam).map(|camera| model.label_of(ObjType::Camera, camera)).collect()
+        (0..model.ncam).map(|camera| called(model, ObjType::Camera, camera)).collect()
     }
 
     /// Looks through a camera of the model, by its place in `cameras()`, or through the free one (-1).
@@ -100,6 +104,15 @@ impl Simulation {
             }
         };
         Ok(())
+    }
+
+    /// The camera in use, by its place in `cameras()`; -1 is the free one.
+    #[wasm_bindgen(getter)]
+    pub fn camera(&self) -> i32 {
+        match self.session.camera {
+            Camera::Free(_) => -1,
+            Camera::Fixed(camera) => camera as i32,
+        }
     }
 
     /// Names of what can be shown or hidden.

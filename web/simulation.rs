@@ -1,8 +1,12 @@
 //! A simulation as JavaScript holds it.
 
 use crate::files::{Files, load_own};
+use crate::recording::Recording;
 use mjcf::Loaded;
-use physics::Data;
+use physics::model::ObjType;
+use physics::{Data, Model};
+use render::Picture;
+use render::picture::Channels;
 use viewer::{Command, Drawing, Grip, Look, Plane, Session, shortcuts, text};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
@@ -10,6 +14,7 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 #[wasm_bindgen]
 pub struct Simulation {
     pub(crate) session: Session,
+    pub(crate) recording: Option<Recording>,
     drawing: Drawing,
     warnings: String,
 }
@@ -19,10 +24,18 @@ pub(crate) fn exception(message: impl std::fmt::Display) -> JsError {
     JsError::new(&message.to_string())
 }
 
+/// What people call an element: its name, or its kind and number.
+pub(crate) fn called(model: &Model, kind: ObjType, id: usize) -> String {
+    match model.name_of(kind, id) {
+        "" => model.label_of(kind, id),
+        name => name.to_owned(),
+    }
+}
+
 impl Simulation {
     pub(crate) fn of(session: Session, warnings: String) -> Result<Self, String> {
         let drawing = Drawing::new(session.model()).map_err(|error| error.to_string())?;
-        Ok(Simulation { session, drawing, warnings })
+        Ok(Simulation { session, drawing, warnings, recording: None })
     }
 
     fn loaded(loaded: Loaded) -> Result<Self, String> {
@@ -103,15 +116,35 @@ impl Simulation {
     /// Real time went by \[s\]: takes the steps that are due, as many as `budget` milliseconds allow. Returns how many.
     pub fn advance(&mut self, seconds: f64, budget: f64) -> usize {
         let end = clock::now() + budget;
-        self.session.advance(seconds, &mut || clock::now() < end)
+        let Some(recording) = self.recording.as_mut().filter(|_| self.session.is_running()) else {
+            return self.session.advance(seconds, &mut || clock::now() < end);
+        };
+        // Step by step, each of which becomes a row.
+        let (mut left, mut steps) = (seconds, 0);
+        loop {
+            let piece = left.min(self.session.span());
+            left -= piece;
+            let stepped = recording.around(&mut self.session, |session| {
+                let mut first = true;
+                session.advance(piece, &mut || std::mem::take(&mut first) && clock::now() < end)
+            });
+            steps += stepped;
+            if left <= 0.0 && stepped == 0 {
+                return steps;
+            }
+        }
     }
 
     /// Takes `count` steps. Returns how many were taken; fewer when one failed, then `fault` says why.
     pub fn step(&mut self, count: usize) -> usize {
+        let one = |session: &mut Session| {
+            session.step_forward();
+            usize::from(session.fault().is_none())
+        };
         (0..count)
-            .take_while(|_| {
-                self.session.step_forward();
-                self.session.fault().is_none()
+            .take_while(|_| match &mut self.recording {
+                Some(recording) => recording.around(&mut self.session, one) > 0,
+                None => one(&mut self.session) > 0,
             })
             .count()
     }
@@ -145,20 +178,45 @@ impl Simulation {
         text::key(self.session.model(), self.session.data(), true)
     }
 
+    /// Distance from the camera's plane \[m\] of what each pixel shows, row by row from the top.
+    ///
+    /// # Errors
+    /// The size is zero or above 8192, or the camera has no place.
+    #[wasm_bindgen(js_name = drawDepth)]
+    pub fn draw_depth(&mut self, width: usize, height: usize) -> Result<Vec<f32>, JsError> {
+        let picture = self.picture([width, height], Channels::DEPTH)?;
+        Ok(picture.depth.clone())
+    }
+
+    /// Number and type (MuJoCo's `mjtObj`) of what each pixel shows, row by row from the top; -1 and -1 where there is nothing.
+    ///
+    /// # Errors
+    /// The size is zero or above 8192, or the camera has no place.
+    #[wasm_bindgen(js_name = drawSegmentation)]
+    pub fn draw_segmentation(&mut self, width: usize, height: usize) -> Result<Vec<i32>, JsError> {
+        let picture = self.picture([width, height], Channels::SEGMENTATION)?;
+        Ok(picture.segmentation.as_flattened().to_vec())
+    }
+
     /// Draws the present state: bytes R, G, B, A of each pixel, row by row from the top, as `ImageData` takes them.
     ///
     /// # Errors
     /// The size is zero or above 8192, or the camera has no place.
     pub fn draw(&mut self, width: usize, height: usize) -> Result<Vec<u8>, JsError> {
+        let picture = self.picture([width, height], Channels::RGB)?;
+        let (pixels, _) = picture.rgb.as_chunks::<3>();
+        Ok(pixels.iter().flat_map(|&[r, g, b]| [r, g, b, 255]).collect())
+    }
+
+    fn picture(&mut self, size: [usize; 2], channels: Channels) -> Result<&Picture, JsError> {
         const MOST: usize = 8192;
-        if !(1..=MOST).contains(&width) || !(1..=MOST).contains(&height) {
+        let [width, height] = size;
+        if !size.iter().all(|side| (1..=MOST).contains(side)) {
             return Err(exception(format!(
                 "a picture has 1 to {MOST} pixels a side, not {width} by {height}"
             )));
         }
-        let picture = self.drawing.draw(&self.session, [width, height]).map_err(exception)?;
-        let (pixels, _) = picture.rgb.as_chunks::<3>();
-        Ok(pixels.iter().flat_map(|&[r, g, b]| [r, g, b, 255]).collect())
+        self.drawing.draw_channels(&self.session, size, channels).map_err(exception)
     }
 
     /// A number that grows with every change of the state: a picture of the same one need not be drawn again.
@@ -182,10 +240,24 @@ impl Simulation {
         self.session.look(Look::Zoom, [0.0, nearer]);
     }
 
-    /// Selects the body at a place of the picture, from its lower left corner to 1: its label, or nothing.
+    /// Selects the body at a place of the picture, from its lower left corner to 1: its name, or nothing.
     pub fn select(&mut self, aspect: f64, right: f64, up: f64) -> Option<String> {
-        let picked = self.session.select(aspect, [right, up])?;
-        Some(self.session.model().label_of(physics::model::ObjType::Body, picked.body))
+        self.session.select(aspect, [right, up])?;
+        self.selected()
+    }
+
+    /// Selects a body by its place in `names("body")`; none at 0, which is the world.
+    #[wasm_bindgen(js_name = selectBody)]
+    pub fn select_body(&mut self, body: usize) -> Option<String> {
+        self.session.set_selected(Some(body));
+        self.selected()
+    }
+
+    /// Name of the selected body.
+    #[wasm_bindgen(getter)]
+    pub fn selected(&self) -> Option<String> {
+        let selected = self.session.selected()?;
+        Some(called(self.session.model(), ObjType::Body, selected.body))
     }
 
     /// Takes hold of the selected body, to pull it, or to turn it. False when none is selected.
@@ -203,6 +275,24 @@ impl Simulation {
     /// Lets go.
     pub fn release(&mut self) {
         self.session.release();
+    }
+
+    /// Chosen speed \[% of real time\].
+    #[wasm_bindgen(getter)]
+    pub fn speed(&self) -> f64 {
+        self.session.pace().percent()
+    }
+
+    /// Speed that was reached lately \[% of real time\]; nothing before there is a measurement.
+    #[wasm_bindgen(getter, js_name = reachedSpeed)]
+    pub fn reached_speed(&self) -> Option<f64> {
+        self.session.pace().reached()
+    }
+
+    /// Keys and what they do, one after the other.
+    #[wasm_bindgen(js_name = shortcuts)]
+    pub fn keys() -> Vec<String> {
+        shortcuts().into_iter().flat_map(|shortcut| [shortcut.key, shortcut.name]).collect()
     }
 
     /// Does what a key does in MuJoCo's viewer (`KeyboardEvent.code` without `Key`, `Shift+` before it). False for other keys.

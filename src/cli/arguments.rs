@@ -22,6 +22,7 @@ use crate::shell::completions::Completions;
 use crate::shell::man::Man;
 use crate::version::VERSION;
 use crate::view::View;
+use crate::web::Web;
 use clap::{Parser, Subcommand};
 
 /// Robots described in MJCF, moved as MuJoCo 3.12 moves them.
@@ -81,6 +82,8 @@ pub enum Command {
     Bench(Bench),
     /// Look at a model in a window, run it, pull it
     View(View),
+    /// Look at models and environments in a browser of this machine
+    Web(Web),
     /// Keep the model files of RoboHive: import, list and verify them
     Assets(Assets),
     /// Look into recordings of episodes, repair them, convert them

@@ -1,5 +1,5 @@
 //! The commit that the command is built from, read from git's files so that no git is needed. A source tree without
-//! them builds a command that names its version alone.
+//! them builds a command that names its version alone. With the feature `page`, the files of the page.
 
 use std::fs::read_to_string;
 use std::path::{Path, PathBuf};
@@ -9,6 +9,40 @@ fn main() {
     let commit = published_commit().or_else(checked_out_commit);
     let text = commit.map_or("follows".to_owned(), |commit| format!("commit {}, follows", &commit[..10]));
     println!("cargo::rustc-env=ROBOHIVE_FOLLOWS={text}");
+    if std::env::var_os("CARGO_FEATURE_PAGE").is_some() {
+        embed_page();
+    }
+}
+
+/// Writes a table of the page's files, which the command includes.
+fn embed_page() {
+    println!("cargo::rerun-if-env-changed=ROBOHIVE_PAGE");
+    let named = std::env::var_os("ROBOHIVE_PAGE").map_or("../../target/web".into(), PathBuf::from);
+    let folder = named.canonicalize().unwrap_or(named);
+    println!("cargo::rerun-if-changed={}", folder.display());
+    let entries =
+        std::fs::read_dir(&folder).map(|entries| entries.flatten().map(|entry| entry.path()).collect());
+    let mut files: Vec<PathBuf> = entries.unwrap_or_default();
+    files.retain(|path| path.is_file() && !path.ends_with("inline.js"));
+    files.sort();
+    if !files.iter().any(|path| path.ends_with("index.html")) {
+        println!(
+            "cargo::error=the feature `page` needs the page, and {} does not hold it: run `cargo xtask web` first, or \
+             name its folder in ROBOHIVE_PAGE",
+            folder.display()
+        );
+        return;
+    }
+    let row = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default();
+        format!("({name:?}, include_bytes!({path:?}).as_slice()),\n")
+    };
+    let rows: String = files.iter().map(row).collect();
+    let table = format!("pub const FILES: &[(&str, &[u8])] = &[\n{rows}];\n");
+    let place = PathBuf::from(std::env::var_os("OUT_DIR").unwrap_or_default()).join("page.rs");
+    if let Err(error) = std::fs::write(&place, table) {
+        println!("cargo::error={}: {error}", place.display());
+    }
 }
 
 /// The commit that `cargo package` notes in a published crate.

@@ -1,5 +1,5 @@
 //! The `robohive` command: one subcommand a file, in parts that build on those before them: `input` (models and
-//! environments by name), `pictures`, `recordings`, `models`, `environments`; `assets`, `view` and `shell` beside them.
+//! environments by name), `pictures`, `recordings`, `models`, `environments`; `assets`, `view`, `web` and `shell` beside them.
 
 // Comments of arguments are what `--help` prints, where brackets are units and defaults.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -18,6 +18,7 @@ mod shell;
 mod terminal;
 mod version;
 mod view;
+mod web;
 
 use arguments::{Arguments, Command};
 use clap::{CommandFactory, Parser};
@@ -42,6 +43,7 @@ fn main() -> ExitCode {
         Command::Check(a) => models::check::run(&a),
         Command::Bench(a) => models::bench::run(&a),
         Command::View(a) => view::run(&a),
+        Command::Web(a) => web::run(&a),
         Command::Assets(a) => assets::run(&a),
         Command::Data(a) => recordings::data::run(&a),
         Command::Completions(a) => shell::completions::run(&a, Arguments::command()),

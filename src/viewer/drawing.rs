@@ -39,6 +39,19 @@ impl Drawing {
     /// # Errors
     /// The camera or an item has no place.
     pub fn draw(&mut self, session: &Session, size: [usize; 2]) -> Result<&Picture, RenderError> {
+        self.draw_channels(session, size, Channels::RGB)
+    }
+
+    /// Draws colours, depth or segmentation of the present state.
+    ///
+    /// # Errors
+    /// The camera or an item has no place.
+    pub fn draw_channels(
+        &mut self,
+        session: &Session,
+        size: [usize; 2],
+        channels: Channels,
+    ) -> Result<&Picture, RenderError> {
         let (model, data, options) = (session.model(), session.data(), session.shown());
         self.assets.refresh(model)?;
         self.assets.pose(model, data, &options)?;
@@ -48,12 +61,7 @@ impl Drawing {
             self.ghost.haunt(&mut self.scene, model, reference.data(), view, &options)?;
         }
         [self.picture.width, self.picture.height] = size;
-        let shot = Shot {
-            assets: &self.assets,
-            scene: &self.scene,
-            channels: Channels::RGB,
-            picture: &mut self.picture,
-        };
+        let shot = Shot { assets: &self.assets, scene: &self.scene, channels, picture: &mut self.picture };
         self.painter.paint(&self.settings, &mut [shot])?;
         Ok(&self.picture)
     }

@@ -19,6 +19,7 @@ use crate::replay::{Reference, Replay};
 use crate::speed::Pace;
 use crate::tape::StateTape;
 use mjcf::edit::carry_state;
+use physics::data::ForeignSnapshot;
 use physics::math::Vec3;
 use physics::model::{Options, Visual};
 use physics::{Data, Model, Snapshot, StepError, forward, step, step_watched};
@@ -251,7 +252,8 @@ impl Session {
         self.running = false;
         if let Some(snapshot) = self.history.go_to(behind) {
             let snapshot = snapshot.clone();
-            self.show(&snapshot);
+            // States of the history are of this model.
+            let _ = self.show(&snapshot);
         }
     }
 
@@ -292,11 +294,21 @@ impl Session {
         self.history.push(&self.data);
     }
 
-    /// A state that was saved of this model.
-    fn show(&mut self, snapshot: &Snapshot) {
-        // States of the history are of this model.
-        let _ = self.data.restore(snapshot);
+    /// A state that was saved of this model: the steps that follow are those that followed it.
+    ///
+    /// # Errors
+    /// It is one of another model; nothing changes.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), ForeignSnapshot> {
+        self.show(snapshot)?;
+        self.history.push(&self.data);
+        Ok(())
+    }
+
+    fn show(&mut self, snapshot: &Snapshot) -> Result<(), ForeignSnapshot> {
+        self.data.restore(snapshot)?;
         self.settle();
+        // The evaluation has changed where the solver starts from.
+        self.data.restore(snapshot)
     }
 
     /// Writes controls, positions or other inputs, and evaluates what follows. In an environment the next step forgets them.

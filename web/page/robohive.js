@@ -1,51 +1,31 @@
-// RoboHive in a page: `load()` gets the module, whose classes simulate and draw; `<robohive-viewer>` shows one.
+// `<robohive-viewer>`: a simulation in a page.
 //
 //   <script type="module" src="robohive.js"></script>
 //   <robohive-viewer own="quadruped" running></robohive-viewer>
 //
-// Attributes: `src` (address of a model or a zip archive), `own` (name of a model of our own), `environment` (an id),
-// `seed`, `model` (which model of the archive), `camera` (its name), `running`, `bare` (no bar).
+// | attribute | what it says |
+// |---|---|
+// | `src` | address of a model or a zip archive, or `github:OWNER/NAME/BRANCH/PATH` |
+// | `path` | which model of the archive |
+// | `own` | name of a model of our own |
+// | `environment`, `seed`, `policy` | an id, the seed of its first episode, the address of a policy made for RoboHive |
+// | `camera` | name of a camera |
+// | `running`, `paused` | whether time goes by: `paused` wins |
+// | `controls` | shows the panel of controls |
+// | `bare` | shows no bar |
+// | `loading` | `eager`: opened before it is seen |
+//
+// Events: `load` (`detail.name`), `error` (`detail.message`, `detail.missing`), `step` (`detail.time`, `detail.steps`), `pick`
+// (`detail.body`), `record` (`detail.name`, `detail.bytes`; prevent the default to keep the file from being downloaded).
 
-import init, * as engine from "./engine.js";
+import { instance, MissingFiles, openFiles, openUrl } from "./api.js";
+import { bytesOf, chosen, download, dropped, readAll } from "./files.js";
+import { Film } from "./film.js";
+import { listen } from "./gestures.js";
+import { build } from "./look.js";
+import { fill } from "./panel.js";
 
-let module;
-
-/** The engine's classes and functions, once its module is compiled. In node give it the bytes of `engine_bg.wasm`. */
-export async function load(bytes) {
-  module ??= init(bytes ? { module_or_path: bytes } : undefined);
-  await module;
-  return engine;
-}
-
-const STYLE = `
-  :host { display: block; position: relative; min-height: 240px; background: #24272b; color: #e8e8e8;
-          font: 13px system-ui, sans-serif; overflow: hidden; }
-  canvas { position: absolute; inset: 0; width: 100%; height: 100%; touch-action: none; outline-offset: -2px; }
-  .bar { position: absolute; left: 0; right: 0; bottom: 0; display: flex; gap: 6px; align-items: center; padding: 6px;
-         background: #000a; flex-wrap: wrap; }
-  .bar button, .bar select { font: inherit; color: inherit; background: #444; border: 0; border-radius: 4px;
-                             padding: 3px 9px; max-width: 14em; }
-  .bar button:focus-visible, .bar select:focus-visible { outline: 2px solid #8bf; }
-  .side { position: absolute; top: 0; right: 0; bottom: 38px; width: 240px; overflow: auto; padding: 8px; background: #000a; }
-  .side label { display: block; margin-bottom: 4px; overflow-wrap: anywhere; } .side input[type=range] { width: 100%; }
-  .message { position: absolute; left: 8px; top: 8px; right: 8px; max-height: 45%; overflow: auto; padding: 8px;
-             white-space: pre-wrap; font-family: ui-monospace, monospace; background: #000c; border-left: 3px solid #e66; }
-  [hidden] { display: none !important; }`;
-
-const BAR = `
-  <canvas tabindex="0" role="img" aria-label="simulation"></canvas>
-  <div class="message" role="alert" hidden></div>
-  <div class="side" hidden></div>
-  <div class="bar">
-    <button data-does="run" title="Space">Run</button>
-    <button data-does="back" title="Arrow left">Step back</button>
-    <button data-does="step" title="Arrow right">Step</button>
-    <button data-does="reset" title="Backspace">Reset</button>
-    <select data-does="camera" aria-label="camera"></select>
-    <select data-does="model" aria-label="model" hidden></select>
-    <button data-does="side" aria-expanded="false">Controls</button>
-    <span class="status"></span>
-  </div>`;
+export * from "./api.js";
 
 /** Milliseconds of a frame that physics may take, and that a picture may take while things move. */
 const PHYSICS = 9;
@@ -53,50 +33,84 @@ const PICTURE = 45;
 /** Coarsest picture, in parts of the canvas's width, and longest time that is caught up with [s]. */
 const COARSEST = 4;
 const LONGEST = 0.25;
+/** Bytes of memory that a failed load may leave behind. */
+const LEFT = 256 << 20;
 
-/** A simulation in a page. `simulation` is the engine's object; `open(files, path)` shows another. */
+/** A simulation in a page. */
 export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
-  static observedAttributes = ["src", "own", "environment", "model", "camera", "running", "seed"];
+  static observedAttributes = ["src", "path", "own", "environment", "seed", "policy", "camera", "running", "paused", "controls", "bare"];
 
-  #files;
+  /** The engine's `Simulation`, or nothing yet. */
+  simulation;
+  #engine;
+  #observer;
+  #visible = false;
+  #stale = true;
+  /** Counts what is opened: the last one wins. */
+  #turn = 0;
+  #pending;
+  /** What is open and lacks files: how to open it again with more. */
+  #again;
+  #film;
+  #hidden = 0;
   #cost = 0;
   #drawn = {};
   #last = 0;
   #frame = 0;
-  #pending;
-  /** The engine's `Simulation`, or nothing yet. */
-  simulation;
+  #watch = () => this.#hide();
 
   connectedCallback() {
     if (!this.shadowRoot) this.#build();
-    this.#refresh();
-    this.#last = performance.now();
-    this.#frame = requestAnimationFrame((now) => this.#show(now));
+    this.#observer = new IntersectionObserver((seen) => this.#see(seen.at(-1).isIntersecting));
+    this.#observer.observe(this);
+    document.addEventListener("visibilitychange", this.#watch);
+    this.#stale = true;
+    if (this.getAttribute("loading") === "eager") this.#refresh();
   }
 
   disconnectedCallback() {
-    cancelAnimationFrame(this.#frame);
+    this.#observer.disconnect();
+    document.removeEventListener("visibilitychange", this.#watch);
+    clearTimeout(this.#pending);
+    this.#see(false);
+    this.#turn += 1;
     this.#take(undefined);
+    this.#engine = undefined;
   }
 
   attributeChangedCallback(name, before, after) {
     if (!this.isConnected || !this.shadowRoot || before === after) return;
-    if (name === "camera") return this.#useCamera();
-    if (name === "running") return this.run(after !== null);
-    this.#refresh();
+    if (name === "camera") this.#useCamera();
+    else if (name === "running" || name === "paused") this.run(this.#wantsToRun);
+    else if (name === "controls") this.#unfold(after !== null);
+    else if (name === "bare") this.#part(".bar").hidden = after !== null;
+    else {
+      this.#stale = true;
+      if (this.#visible) this.#refresh();
+    }
   }
 
-  /** Shows the model at `path` among `files` (the engine's `Files`), or the one nearest to the top. */
-  async open(files, path) {
-    const { Simulation } = await load();
-    this.#files = files;
-    const models = files.models();
-    const chosen = path ?? models[0];
-    const list = this.#part("[data-does=model]");
-    list.replaceChildren(...models.map((name) => new Option(name, name, false, name === chosen)));
-    list.hidden = models.length < 2;
-    if (!chosen) throw new Error(`none of ${files.length} files is a model: a model is MJCF or URDF, .xml or .urdf`);
-    this.#take(Simulation.open(files, chosen));
+  /** The engine's classes and functions, in an instance of this element alone. */
+  async engine() {
+    this.#engine ??= instance();
+    this.#engine.catch(() => (this.#engine = undefined));
+    return this.#engine;
+  }
+
+  /** Shows the model at `path` among files (`{ path, bytes }`) and archives, or the one nearest to the top. */
+  openFiles(files, path) {
+    return this.#open((engine) => this.#among(engine, files, path));
+  }
+
+  /** Shows a model or an archive by its address. */
+  openUrl(address, path) {
+    return this.#open(async (engine) => {
+      const files = new engine.Files();
+      this.#again = (more, chosen) => this.#within(files, more, chosen ?? path);
+      const simulation = await openUrl(address, { engine, path, files });
+      this.#models(files, path);
+      return simulation;
+    });
   }
 
   /** Lets time go by, or stops it. */
@@ -105,203 +119,326 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     this.#label();
   }
 
+  /** Whether time stands still. */
+  get paused() {
+    return !this.simulation?.running;
+  }
+
+  /** Begins to record every step; `endRecording` gives the archive. */
+  record() {
+    this.simulation?.record();
+    this.#label();
+  }
+
+  /** Ends the recording and offers it as a file. */
+  endRecording() {
+    if (this.simulation?.recordingFull) this.say("The recording was full: the last steps are not in it.");
+    this.#offer("states.npz", this.simulation.endRecording());
+  }
+
   /** Says something over the picture, or nothing. */
-  say(message) {
+  say(message, missing = []) {
     const box = this.#part(".message");
-    box.textContent = message ?? "";
+    box.querySelector("pre").textContent = message ?? "";
+    box.querySelector(".supply").hidden = !missing.length;
     box.hidden = !message;
-    if (message) this.dispatchEvent(new CustomEvent("robohive-message", { detail: message, bubbles: true }));
+  }
+
+  get #wantsToRun() {
+    return this.hasAttribute("running") && !this.hasAttribute("paused");
   }
 
   #part(selector) {
     return this.shadowRoot.querySelector(selector);
   }
 
+  #tell(type, detail, options = {}) {
+    return this.dispatchEvent(new CustomEvent(type, { detail, ...options }));
+  }
+
   #build() {
     const root = this.attachShadow({ mode: "open" });
-    root.innerHTML = `<style>${STYLE}</style>${BAR}`;
+    build(root);
     this.#part(".bar").hidden = this.hasAttribute("bare");
     root.addEventListener("click", (event) => this.#does(event.target.dataset?.does));
     this.#part("[data-does=camera]").addEventListener("change", (event) => this.#camera(Number(event.target.value)));
-    this.#part("[data-does=model]").addEventListener("change", (event) => this.#try(() => this.open(this.#files, event.target.value)));
-    this.#gestures(this.#part("canvas"));
+    const models = this.#part("[data-does=path]");
+    models.addEventListener("change", () => this.#open(() => this.#again([], models.value)));
+    const input = this.#part("input[type=file]");
+    input.addEventListener("change", () => this.#given(chosen(input)));
+    const canvas = this.#part("canvas");
+    listen(canvas, {
+      now: () => this.simulation,
+      changed: () => this.#changed(),
+      selected: (body) => this.#selected(body),
+    });
+    canvas.addEventListener("contextlost", () => this.say("The browser has taken the picture's memory away, and will give it back."));
+    canvas.addEventListener("contextrestored", () => (this.say(), this.#changed()));
     this.addEventListener("dragover", (event) => event.preventDefault());
     this.addEventListener("drop", (event) => {
       event.preventDefault();
-      this.#try(async () => this.open(await dropped(event.dataTransfer)));
+      const listed = dropped(event.dataTransfer);
+      // It is waited for later, where its failure is told.
+      listed.catch(() => {});
+      this.#given(listed);
     });
+  }
+
+  /** The element has come into sight, or gone out of it. */
+  #see(visible) {
+    if (visible === this.#visible) return;
+    this.#visible = visible;
+    if (visible && this.#stale) this.#refresh();
+    if (visible) {
+      this.#last = performance.now();
+      this.#frame = requestAnimationFrame((now) => this.#show(now));
+    } else if (!this.#isRecording) {
+      cancelAnimationFrame(this.#frame);
+    }
+  }
+
+  get #isRecording() {
+    return Boolean(this.#film || this.simulation?.recording);
+  }
+
+  /** The tab is hidden or shown: browsers draw nothing in hidden ones, so a recording stands still, and says so. */
+  #hide() {
+    this.#film?.pause(document.hidden);
+    if (document.hidden) this.#hidden = performance.now();
+    else if (this.#isRecording && this.simulation?.running) {
+      const seconds = ((performance.now() - this.#hidden) / 1000).toFixed(0);
+      this.say(`The simulation and its recording stood still for ${seconds} s, while the tab was hidden; no step is missing.`);
+    }
+    this.#last = performance.now();
   }
 
   /** Opens what the attributes name. Of several changes at once the last counts. */
   #refresh() {
     clearTimeout(this.#pending);
-    this.#pending = setTimeout(() => this.#try(() => this.#named()));
+    this.#stale = false;
+    this.#pending = setTimeout(() => this.#named());
   }
 
-  async #named() {
-    const { Simulation, Files } = await load();
-    const [src, own, environment] = ["src", "own", "environment"].map((name) => this.getAttribute(name));
-    if (environment) return this.#take(Simulation.environment(environment, BigInt(this.getAttribute("seed") ?? 0)));
-    if (own) return this.#take(Simulation.own(own));
-    if (!src) return;
-    const answer = await fetch(src);
-    if (!answer.ok) throw new Error(`${src}: ${answer.status} ${answer.statusText}`);
-    const files = new Files();
-    add(files, src.split("/").pop(), new Uint8Array(await answer.arrayBuffer()));
-    await this.open(files, this.getAttribute("model") ?? undefined);
+  #named() {
+    const [src, own, environment, path] = ["src", "own", "environment", "path"].map((name) => this.getAttribute(name));
+    if (environment) return this.#open((engine) => this.#environment(engine, environment));
+    if (own) return this.#open((engine) => engine.Simulation.own(own));
+    if (src) return this.openUrl(src, path ?? undefined);
   }
 
-  /** Does something that may fail, and says why it did. */
-  async #try(action) {
+  async #environment(engine, id) {
+    const address = this.getAttribute("policy");
+    const policy = address ? await bytesOf(await fetch(address), address, engine.Files.mostBytes()) : undefined;
+    if (address && !policy) throw new Error(`${address}: there is no such file`);
+    return this.#play(engine, id, policy);
+  }
+
+  #play(engine, id, policy) {
+    return engine.Simulation.environment(id, BigInt(this.getAttribute("seed") ?? 0), policy);
+  }
+
+  /** Opens a model among files, and remembers how to go on where some are missing. */
+  async #among(engine, given, path) {
+    const files = new engine.Files();
+    this.#again = (more, chosen) => this.#within(files, more, chosen ?? path);
+    const simulation = await openFiles(given, { engine, path, files });
+    this.#models(files, path);
+    return simulation;
+  }
+
+  async #within(files, more, path) {
+    const simulation = await openFiles(more, { engine: await this.engine(), path, files });
+    this.#models(files, path);
+    return simulation;
+  }
+
+  /** Lists the models among files. */
+  #models(files, path) {
+    const models = files.models();
+    const list = this.#part("[data-does=path]");
+    list.replaceChildren(...models.map((name) => new Option(name, name, false, name === (path ?? models[0]))));
+    list.hidden = models.length < 2;
+  }
+
+  /** Files that a person gave: a policy for the environment that is shown, what a model lacks, or something new. */
+  #given(listed) {
+    return this.#open(async (engine) => {
+      const files = await readAll(await listed, engine.Files.mostBytes());
+      const environment = this.simulation?.isEnvironment && this.simulation.name;
+      if (environment && files.length === 1 && /\.(pickle|pkl)$/i.test(files[0].path)) return this.#play(engine, environment, files[0].bytes);
+      const lacking = !this.#part(".supply").hidden && this.#again;
+      const models = files.some(({ path }) => /\.(xml|urdf|mjcf|rhm|zip|mjz)$/i.test(path));
+      return lacking && !models ? lacking(files) : this.#among(engine, files);
+    });
+  }
+
+  /** Shows what `make(engine)` opens, or why it cannot be opened. */
+  async #open(make) {
+    const turn = ++this.#turn;
+    this.setAttribute("aria-busy", "true");
+    this.#part(".status").textContent = "loading…";
     try {
+      // Compiling a model blocks the page: what says so is painted first.
+      await new Promise((done) => setTimeout(done, 20));
+      const simulation = await make(await this.engine());
+      if (turn !== this.#turn || !simulation) return simulation?.free();
       this.say();
-      await action();
+      await this.#take(simulation);
+      this.#tell("load", { name: simulation.name });
     } catch (error) {
-      this.say(error.message ?? String(error));
+      if (turn === this.#turn) await this.#fail(error);
+    } finally {
+      if (turn === this.#turn) this.removeAttribute("aria-busy");
     }
   }
 
-  #take(simulation) {
+  /** Says what went wrong. An instance that has broken, or that a failed load has swollen, is given up: another opens what comes next. */
+  async #fail(error) {
+    const missing = error instanceof MissingFiles ? error.missing : [];
+    const broken = error instanceof WebAssembly.RuntimeError || error instanceof RangeError;
+    const engine = await this.#engine?.catch(() => undefined);
+    if (broken || (engine?.memoryBytes() > LEFT && !missing.length)) this.#engine = this.#again = undefined;
+    if (broken) {
+      this.simulation = undefined;
+      this.#changed();
+    }
+    const what = broken ? `The engine has stopped, most likely for lack of memory: ${error.message}` : (error.message ?? String(error));
+    const more = missing.length ? `\n\n${missing.length} missing: drop them here, or add them:\n${missing.join("\n")}` : "";
+    this.say(what + more, missing);
+    this.#part(".status").textContent = this.simulation?.name ?? "";
+    this.#tell("error", { message: what, missing });
+  }
+
+  /** Does something that may fail, and says why it did. */
+  #attempt(action) {
+    try {
+      action();
+    } catch (error) {
+      this.#fail(error);
+    }
+  }
+
+  async #take(simulation) {
+    if (this.#film) this.#endFilm();
     this.simulation?.free();
     this.simulation = simulation;
-    this.#drawn = {};
+    this.#changed();
     if (!simulation) return;
-    simulation.running = this.hasAttribute("running");
     const cameras = this.#part("[data-does=camera]");
     cameras.replaceChildren(...["free camera", ...simulation.cameras()].map((name, k) => new Option(name, k - 1)));
     this.#useCamera();
-    this.#sliders();
-    this.#label();
+    const { Simulation } = await this.engine();
+    if (simulation !== this.simulation) return;
+    fill(this.#part(".side"), simulation, {
+      changed: () => this.#changed(),
+      attempt: (action) => this.#attempt(action),
+      Simulation,
+    });
+    this.#unfold(this.hasAttribute("controls"));
+    this.run(this.#wantsToRun);
     if (simulation.warnings) console.info(simulation.warnings);
-    this.dispatchEvent(new CustomEvent("robohive-open", { detail: simulation.name, bubbles: true }));
   }
 
   #useCamera() {
-    const name = this.getAttribute("camera");
-    const place = this.simulation?.cameras().findIndex((camera) => camera.includes(name ?? "\n")) ?? -1;
+    const place = this.simulation?.cameras().indexOf(this.getAttribute("camera")) ?? -1;
     if (place >= 0) this.#camera(place);
   }
 
   #camera(place) {
-    this.#try(() => this.simulation?.useCamera(place));
-    this.#part("[data-does=camera]").value = place;
+    this.#attempt(() => this.simulation?.useCamera(place));
+    this.#changed();
+  }
+
+  #changed() {
     this.#drawn = {};
   }
 
+  #selected(body) {
+    this.#part("[role=status]").textContent = body ? `${body} is selected` : "nothing is selected";
+    this.#tell("pick", { body });
+  }
+
   #does(what) {
-    const simulation = this.simulation;
+    const { simulation } = this;
+    if (what === "dismiss") this.say();
+    else if (what === "supply") this.#part("input[type=file]").click();
     if (!simulation) return;
     if (what === "run") this.run(!simulation.running);
     else if (what === "step") simulation.step(1);
     else if (what === "back") simulation.stepBack();
     else if (what === "reset") simulation.reset();
-    else if (what === "side") {
-      const side = this.#part(".side");
-      side.hidden = !side.hidden;
-      this.#part("[data-does=side]").setAttribute("aria-expanded", String(!side.hidden));
-    }
+    else if (what === "side") this.#unfold(this.#part(".side").hidden);
+    else if (what === "record") simulation.recording ? this.endRecording() : this.record();
+    else if (what === "film") this.#attempt(() => (this.#film ? this.#endFilm() : this.#beginFilm()));
     this.#label();
   }
 
+  #beginFilm() {
+    const { clientWidth, clientHeight } = this;
+    this.#film = new Film(clientWidth, clientHeight);
+  }
+
+  async #endFilm() {
+    const film = this.#film;
+    this.#film = undefined;
+    const { name } = this.simulation;
+    this.#label();
+    this.#offer(`film.${film.ending}`, await film.end(), name);
+  }
+
+  /** Offers a file, unless who listens keeps it. */
+  #offer(ending, bytes, name = this.simulation.name) {
+    const file = `${name.replace(/[^\w.-]+/g, "_") || "simulation"}.${ending}`;
+    if (this.#tell("record", { name: file, bytes }, { cancelable: true })) download(file, bytes);
+    this.#label();
+  }
+
+  #unfold(open) {
+    this.#part(".side").hidden = !open;
+    this.#part("[data-does=side]").setAttribute("aria-expanded", String(open));
+  }
+
   #label() {
-    this.#part("[data-does=run]").textContent = this.simulation?.running ? "Pause" : "Run";
-  }
-
-  /** A slider for each control; of an environment, what it observes is not for sliders. */
-  #sliders() {
-    const { simulation } = this;
-    const ranges = simulation.isEnvironment ? [] : simulation.controlRanges();
-    const values = simulation.controls;
-    const rows = simulation.isEnvironment ? [] : simulation.controlNames().map((name, k) => {
-      const [low, high] = [ranges[2 * k], ranges[2 * k + 1]];
-      const input = Object.assign(document.createElement("input"), { type: "range", min: low, max: high, step: (high - low) / 1000, value: values[k] });
-      input.addEventListener("input", () => this.#try(() => this.simulation.setControl(k, Number(input.value))));
-      const label = document.createElement("label");
-      label.append(name, input);
-      return label;
-    });
-    const switches = simulation.switches().map((name) => {
-      const input = Object.assign(document.createElement("input"), { type: "checkbox", checked: simulation.shows(name) });
-      input.addEventListener("change", () => { this.simulation.show(name, input.checked); this.#drawn = {}; });
-      const label = document.createElement("label");
-      label.append(input, ` ${name}`);
-      return label;
-    });
-    this.#part(".side").replaceChildren(...rows, ...switches);
-  }
-
-  #gestures(canvas) {
-    let held;
-    const fingers = new Map();
-    const share = (event) => {
-      const box = canvas.getBoundingClientRect();
-      return [box.width / box.height, (event.clientX - box.left) / box.width, (box.bottom - event.clientY) / box.height];
-    };
-    canvas.addEventListener("pointerdown", (event) => {
-      canvas.setPointerCapture(event.pointerId);
-      fingers.set(event.pointerId, event);
-      held = event.ctrlKey && this.simulation?.grab(event.button === 0);
-    });
-    canvas.addEventListener("pointermove", (event) => {
-      const before = fingers.get(event.pointerId);
-      if (!before || !this.simulation) return;
-      const height = canvas.clientHeight;
-      const [right, up] = [(event.clientX - before.clientX) / height, (before.clientY - event.clientY) / height];
-      if (fingers.size === 2) {
-        const [other] = [...fingers.values()].filter((finger) => finger.pointerId !== event.pointerId);
-        const apart = (finger) => Math.hypot(finger.clientX - other.clientX, finger.clientY - other.clientY);
-        this.simulation.zoom((apart(event) - apart(before)) / height);
-        this.simulation.pan(right / 2, up / 2);
-      } else if (held) this.simulation.drag(right, up, event.shiftKey);
-      else if (event.buttons & 2) this.simulation.pan(right, up);
-      else if (event.buttons & 4) this.simulation.zoom(up);
-      else this.simulation.orbit(right, up);
-      this.#drawn = {};
-      fingers.set(event.pointerId, event);
-    });
-    const end = (event) => {
-      fingers.delete(event.pointerId);
-      if (held) this.simulation?.release();
-      held = false;
-    };
-    canvas.addEventListener("pointerup", end);
-    canvas.addEventListener("pointercancel", end);
-    canvas.addEventListener("contextmenu", (event) => event.preventDefault());
-    canvas.addEventListener("dblclick", (event) => {
-      const label = this.simulation?.select(...share(event));
-      this.dispatchEvent(new CustomEvent("robohive-select", { detail: label, bubbles: true }));
-      this.#drawn = {};
-    });
-    canvas.addEventListener("wheel", (event) => {
-      event.preventDefault();
-      this.simulation?.zoom(-0.02 * Math.sign(event.deltaY));
-      this.#drawn = {};
-    }, { passive: false });
-    canvas.addEventListener("keydown", (event) => {
-      const code = (event.shiftKey ? "Shift+" : "") + event.code.replace(/^Key/, "");
-      if (event.ctrlKey || event.metaKey || !this.simulation?.key(code)) return;
-      event.preventDefault();
-      this.#drawn = {};
-      this.#label();
-    });
+    const running = this.simulation?.running ?? false;
+    this.#part("[data-does=run]").textContent = running ? "Pause" : "Run";
+    this.#part("[data-does=record]").setAttribute("aria-pressed", String(this.simulation?.recording ?? false));
+    this.#part("[data-does=film]").setAttribute("aria-pressed", String(Boolean(this.#film)));
   }
 
   #show(now) {
+    if (!this.#visible && !this.#isRecording) return;
     this.#frame = requestAnimationFrame((next) => this.#show(next));
     const { simulation } = this;
-    const elapsed = Math.min((now - this.#last) / 1000, LONGEST);
+    const elapsed = Math.min(Math.max(now - this.#last, 0) / 1000, LONGEST);
     this.#last = now;
     if (!simulation) return;
-    simulation.advance(elapsed, PHYSICS);
     try {
+      const steps = simulation.advance(elapsed, PHYSICS);
       this.#draw(simulation);
+      if (steps) this.#tell("step", { time: simulation.time, steps });
+      if (simulation.fault && this.#part(".message").hidden) this.#fault(simulation.fault);
+      this.#status(simulation);
     } catch (error) {
-      this.run(false);
-      this.say(error.message);
+      if (!(error instanceof WebAssembly.RuntimeError)) this.run(false);
+      this.#fail(error);
     }
-    if (simulation.fault) this.say(simulation.fault);
+  }
+
+  #fault(fault) {
+    this.say(`The simulation has stopped: ${fault}`);
+    this.#label();
+    this.#tell("error", { message: fault, missing: [] });
+  }
+
+  #status(simulation) {
     const past = simulation.behind ? ` (−${simulation.behind})` : "";
-    this.#part(".status").textContent = `${simulation.name}  ${simulation.time.toFixed(3)} s${past}  ${simulation.contacts} contacts`;
+    const speed = simulation.running && simulation.reachedSpeed ? `  ${simulation.reachedSpeed.toFixed(0)} %` : "";
+    const kept = simulation.recording ? `  ${simulation.recorded} states recorded` : "";
+    const text = `${simulation.name}  ${simulation.time.toFixed(3)} s${past}${speed}  ${simulation.contacts} contacts${kept}`;
+    this.#part(".status").textContent = text;
+    if (this.#part("[data-does=run]").textContent !== (simulation.running ? "Pause" : "Run")) this.#label();
+    const cameras = this.#part("[data-does=camera]");
+    if (Number(cameras.value) !== simulation.camera) cameras.value = simulation.camera;
   }
 
   /** A coarse picture while things move and drawing is slow, a fine one when they stand still. */
@@ -312,42 +449,17 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     const parts = Math.min(COARSEST, Math.max(1, Math.ceil(Math.sqrt((this.#cost * whole[0] * whole[1]) / PICTURE))));
     const still = this.#drawn.revision === simulation.revision;
     const size = whole.map((side) => Math.ceil(side / (still ? 1 : parts)));
-    if (still && this.#drawn.size === String(size)) return;
-    const began = performance.now();
-    const bytes = simulation.draw(...size);
-    [canvas.width, canvas.height] = size;
-    canvas.getContext("2d").putImageData(new ImageData(new Uint8ClampedArray(bytes.buffer, bytes.byteOffset, bytes.length), ...size), 0, 0);
-    this.#cost = (performance.now() - began) / (size[0] * size[1]);
-    this.#drawn = { revision: simulation.revision, size: String(size) };
+    if (!still || this.#drawn.size !== String(size)) {
+      const began = performance.now();
+      const bytes = simulation.draw(...size);
+      [canvas.width, canvas.height] = size;
+      const pixels = new Uint8ClampedArray(bytes.buffer, bytes.byteOffset, bytes.length);
+      canvas.getContext("2d").putImageData(new ImageData(pixels, ...size), 0, 0);
+      this.#cost = (performance.now() - began) / (size[0] * size[1]);
+      this.#drawn = { revision: simulation.revision, size: String(size) };
+    }
+    this.#film?.show(canvas);
   }
-}
-
-/** Adds a file or an archive. */
-function add(files, path, bytes) {
-  if (/\.(zip|mjz)$/i.test(path)) files.addArchive("", bytes);
-  else files.add(path, bytes);
-}
-
-/** All files of what was dropped, folders with what is in them. */
-async function dropped(transfer) {
-  const { Files } = await load();
-  const files = new Files();
-  const entries = [...transfer.items].map((item) => item.webkitGetAsEntry?.()).filter(Boolean);
-  const walk = async (entry) => {
-    if (entry.isFile) {
-      const file = await new Promise((done, failed) => entry.file(done, failed));
-      add(files, entry.fullPath.replace(/^\//, ""), new Uint8Array(await file.arrayBuffer()));
-      return;
-    }
-    const reader = entry.createReader();
-    for (;;) {
-      const some = await new Promise((done, failed) => reader.readEntries(done, failed));
-      if (!some.length) return;
-      for (const inner of some) await walk(inner);
-    }
-  };
-  for (const entry of entries) await walk(entry);
-  return files;
 }
 
 globalThis.customElements?.define("robohive-viewer", RoboHiveViewer);

@@ -1,14 +1,27 @@
-// The module in node: hashes of own models and environments after steps, the example of the package, and bad input.
-//   node node.mjs FOLDER HASHES.json STEPS
-import { readFile } from "node:fs/promises";
+// The module in node: hashes and pictures of own models and environments after steps, the interface, bad input.
+//   node node.mjs FOLDER REFERENCES STEPS WIDTH HEIGHT
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { brotliCompressSync, constants } from "node:zlib";
 import assert from "node:assert/strict";
+import { boxMesh, zip } from "./zip.mjs";
 
-const [folder, hashes, steps] = process.argv.slice(2);
-const { load } = await import(pathToFileURL(`${folder}/robohive.js`));
-const { Files, Simulation, ownModels, ownEnvironments } = await load(await readFile(`${folder}/engine_bg.wasm`));
+/** Most bytes of the module as a host that compresses sends it. */
+const MOST = 4e6;
 
-const native = JSON.parse(await readFile(hashes, "utf8"));
+const [folder, references, steps, ...sides] = process.argv.slice(2);
+const [width, height] = sides.map(Number);
+const module = await readFile(`${folder}/engine_bg.wasm`);
+const packed = brotliCompressSync(module, { params: { [constants.BROTLI_PARAM_QUALITY]: 9, [constants.BROTLI_PARAM_SIZE_HINT]: module.length } });
+console.log(`the module has ${(module.length / 1e6).toFixed(2)} MB, ${(packed.length / 1e6).toFixed(2)} MB by brotli`);
+assert.ok(packed.length < MOST, `more than ${MOST / 1e6} MB by brotli`);
+
+const { instance, load, MissingFiles, openFile, openFiles, openText, openWith } = await import(pathToFileURL(`${folder}/node.js`));
+const { Files, Simulation, ownModels, ownEnvironments } = await load();
+
+const native = JSON.parse(await readFile(`${references}/hashes.json`, "utf8"));
 const names = [...ownModels(), ...ownEnvironments()];
 assert.equal(names.length, Object.keys(native).length);
 for (const name of names) {
@@ -17,7 +30,9 @@ for (const name of names) {
   const taken = simulation.step(Number(steps));
   const seconds = (performance.now() - began) / 1000;
   assert.equal(`${taken} ${simulation.hash()}`, native[name], name);
-  console.log(`${name}: the native hash after ${taken} steps, ${Math.round(taken / seconds)} steps a second`);
+  const picture = Buffer.from(simulation.draw(width, height));
+  assert.ok(picture.equals(await readFile(`${references}/${name.replace("/", "-")}.rgba`)), `${name} looks as native`);
+  console.log(`${name}: the native hash and picture after ${taken} steps, ${Math.round(taken / seconds)} steps a second`);
   simulation.free();
 }
 
@@ -52,5 +67,107 @@ assert.ok(Number.isFinite(step.reward) && !step.terminated && first.length === e
 assert.throws(() => env.act(new Float64Array(1)), /finite numbers/);
 assert.throws(() => Simulation.environment("hive/FrankaReech-v0", 0n), /FrankaReach/);
 assert.throws(() => Simulation.own("nothing"), /quadruped/);
-assert.throws(() => new Files().addArchive("broken.zip", bytes("PK\u0003\u0004 and no more")), /damaged zip/);
-console.log("files, controls, pictures, environments and refusals are as they should be");
+assert.throws(() => new Files().addArchive("broken.zip", bytes("PK\u0003\u0004 and no more")), /broken\.zip: a damaged zip/);
+
+// Elements and arrays by name, states saved and restored to the last bit.
+const humanoid = Simulation.own("humanoid");
+assert.equal(humanoid.names("joint").length, humanoid.array("jnt_type").values.length);
+const [body] = humanoid.names("body").slice(1);
+assert.equal(humanoid.id("body", body), 1);
+assert.deepEqual([...humanoid.array("xpos").shape], [humanoid.names("body").length, 3]);
+assert.throws(() => humanoid.array("xposs"), /did you mean "xpos"/);
+assert.throws(() => humanoid.id("body", `${body}x`), new RegExp(body));
+assert.throws(() => humanoid.names("bodies"), /body, joint/);
+humanoid.step(200);
+const [saved, archive] = [humanoid.save(), humanoid.stateBytes()];
+humanoid.step(100);
+const there = humanoid.hash();
+humanoid.step(50);
+humanoid.restore(saved);
+humanoid.step(100);
+assert.equal(humanoid.hash(), there, "the steps after a saved state are those that followed it");
+humanoid.restoreBytes(archive);
+humanoid.step(100);
+assert.equal(humanoid.hash(), there, "after one in an archive too");
+humanoid.stepBack();
+humanoid.running = true;
+assert.ok(humanoid.advance(0.05, 1000) > 0);
+assert.throws(() => two.restore(saved), /another model|not taken of this model/);
+assert.throws(() => two.restoreBytes(archive), /qpos|another number/);
+assert.throws(() => two.restoreBytes(bytes("no archive")), Error);
+assert.throws(() => two.write("qpos", [NaN]), /no number/);
+assert.throws(() => two.write("qpos", [1, 2]), /another length/);
+assert.throws(() => two.write("xpos", [1]), /cannot be written/);
+two.write("qpos", [0.5]);
+assert.equal(two.qpos[0], 0.5);
+assert.throws(() => two.resetToKey(0), /0 keyframes/);
+assert.throws(() => two.sensor("nothing"), /no sensor/);
+assert.throws(() => env.save(), /environment/);
+
+// Depth and segmentation.
+const depth = humanoid.drawDepth(32, 24);
+assert.ok(depth.length === 32 * 24 && depth.every((distance) => distance > 0));
+assert.ok(new Set(humanoid.drawSegmentation(32, 24)).size > 2);
+
+// Recordings: one row a step, wherever steps are taken.
+const falling = Simulation.own("pile");
+falling.record();
+falling.step(10);
+falling.running = true;
+const advanced = falling.advance(0.1, 10_000);
+assert.equal(falling.recorded, 10 + advanced);
+const rows = 10 + advanced;
+assert.match(Buffer.from(falling.endRecording().slice(0, 4)).toString("latin1"), /^PK/);
+assert.throws(() => falling.endRecording(), /nothing is recorded/);
+env.record();
+env.resetTo(1n);
+env.act(new Float64Array(bounds.length / 2));
+assert.equal(env.recorded, 1);
+assert.ok(rows > 10);
+
+// Files from the disk, from a function, without their folders, and in archives.
+const place = await mkdtemp(join(tmpdir(), "robohive-"));
+const scene = `<mujoco><compiler meshdir="meshes"/><asset><mesh file="box.stl"/></asset><include file="parts/arm.xml"/></mujoco>`;
+const part = `<mujoco><worldbody><light pos="0 0 3"/><body><freejoint/><geom type="mesh" mesh="box"/></body></worldbody></mujoco>`;
+await writeFile(join(place, "alone.xml"), part.replace(/<geom.*?>/, `<geom size=".1"/>`));
+assert.equal((await openFile(join(place, "alone.xml"))).names("body").length, 2);
+await writeFile(join(place, "scene.zip"), zip([["a/scene.xml", scene], ["a/parts/arm.xml", part], ["a/meshes/box.stl", boxMesh(0.1, 0.2, 0.3)]]));
+const zipped = await openFile(join(place, "scene.zip"));
+assert.equal(zipped.array("mesh_vertnum").values[0], 8);
+const asked = [];
+const provided = { "scene.xml": scene, "parts/arm.xml": part, "meshes/box.stl": boxMesh(0.1, 0.2, 0.3) };
+const read = (path) => (asked.push(path), provided[path] && (typeof provided[path] === "string" ? bytes(provided[path]) : provided[path]));
+const read_from = await openWith("scene.xml", read);
+read_from.step(10);
+zipped.step(10);
+assert.equal(read_from.hash(), zipped.hash());
+assert.deepEqual(asked.sort(), ["meshes/box.stl", "parts/arm.xml", "scene.xml"]);
+const flat = [["scene.xml", scene], ["arm.xml", part], ["box.stl", boxMesh(0.1, 0.2, 0.3)]];
+const gathered = await openFiles(flat.map(([path, content]) => ({ path, bytes: typeof content === "string" ? bytes(content) : content })));
+gathered.step(10);
+assert.equal(gathered.hash(), zipped.hash(), "files without their folders are found by their names");
+const two_missing = scene.replace(`<mesh file="box.stl"/>`, `<mesh file="box.stl"/><mesh file="arm.obj"/>`);
+const lacking = openWith("scene.xml", (path) => ({ "scene.xml": bytes(two_missing), "parts/arm.xml": bytes(part) })[path]);
+await assert.rejects(lacking, (error) => error instanceof MissingFiles && error.missing.join() === "meshes/arm.obj,meshes/box.stl" && /arm\.obj/.test(error.message));
+await assert.rejects(openFile(join(place, "nothing.xml")), /there is no such file/);
+await assert.rejects(openText("<mujoco><worldbody><geom/></worldbody>"), /model\.xml:1/);
+await rm(place, { recursive: true });
+
+// Hostile archives.
+const refused = (archive, why) => assert.throws(() => new Files().addArchive("a.zip", archive), why);
+refused(zip([["../evil.xml", "<mujoco/>"]]), /leads out/);
+refused(zip([["/etc/../../x.xml", "<mujoco/>"]]), /leads out/);
+refused(zip([["bomb.stl", Buffer.alloc(100 << 20)]]), /honest archive/);
+refused(zip([]), /holds no file/);
+const truncated = zip([["a.xml", "<mujoco/>"]]);
+truncated[45] ^= 0xff;
+refused(truncated, /damaged/);
+assert.equal(new Files().addArchive("names.zip", zip([[Buffer.from([0xff, 0xfe, 0x2e, 0x78]), "x"], ["<img src=x onerror=alert(1)>.xml", "<mujoco/>"]])), 2);
+
+// Instances are apart, of one compiled module.
+const apart = await instance();
+assert.notEqual(apart.Simulation, Simulation);
+assert.equal(apart.Simulation.own("elbow").step(10), 10);
+assert.throws(() => Simulation.open(new apart.Files(), "x.xml"), /expected instance of Files/);
+assert.ok(apart.memoryBytes() > 1 << 20);
+console.log("files, archives, controls, states, recordings, pictures, environments and refusals are as they should be");

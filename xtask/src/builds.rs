@@ -134,12 +134,14 @@ fn web_build(profile: &str, flags: &str) -> Result<Option<Missing>, String> {
     Ok(None)
 }
 
-fn web_target_installed() -> Result<bool, String> {
+/// Whether the compiler has the target.
+pub fn web_target_installed() -> Result<bool, String> {
     let (folder, _) =
         output(Command::new("rustc").args(["--print", "target-libdir", "--target", WEB_TARGET]))?;
     Ok(PathBuf::from(folder.trim()).is_dir())
 }
 
-fn web_target_missing(what: &str) -> Missing {
+/// Says that something needs the target.
+pub fn web_target_missing(what: &str) -> Missing {
     Missing::new(format!("{what} (the target is not installed)"), format!("rustup target add {WEB_TARGET}"))
 }

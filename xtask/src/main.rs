@@ -5,7 +5,7 @@
 //! `cargo xtask instructions --update` records new counts, `cargo xtask fuzz [SECONDS] [TARGET…]` fuzzes every decoder,
 //! `cargo xtask crash-safety [KILLS]` kills recordings at random moments and reads what they leave,
 //! `cargo xtask mutants [COUNT]` puts faults into the sources and sees whether tests notice,
-//! `cargo xtask web [FOLDER]` builds the page and tests it in node,
+//! `cargo xtask web [FOLDER]` builds the page and tests it in node and in a browser,
 //! `cargo xtask site [FOLDER]` builds the documentation, checks its links and runs its code,
 //! `cargo xtask results [TABLE…]` lists the tables of results by age, or makes them again.
 
@@ -29,6 +29,7 @@ mod tests;
 mod tolerances;
 #[cfg(feature = "web")]
 mod web;
+mod web_tools;
 mod window;
 
 use built::{EVERYTHING, PROFILE};
@@ -45,7 +46,7 @@ const QUICK: [Check; 5] = [
     Check { name: "features", inputs: &[], run: builds::features },
 ];
 
-const LONG: [Check; 10] = [
+const LONG: [Check; 11] = [
     Check { name: "python", inputs: python::INPUTS, run: python::run },
     Check { name: "recorded-bits", inputs: recorded_bits::INPUTS, run: recorded_bits::run },
     Check { name: "builds", inputs: builds::INPUTS, run: builds::run },
@@ -55,8 +56,12 @@ const LONG: [Check; 10] = [
     Check { name: "gpu", inputs: gpu::INPUTS, run: gpu::run },
     Check { name: "window", inputs: window::INPUTS, run: window::run },
     Check { name: "site", inputs: site::INPUTS, run: site::run },
+    Check { name: "page", inputs: PAGE_INPUTS, run: page },
     Check { name: "python-learners", inputs: python::INPUTS, run: python::learners },
 ];
+
+/// What decides what the page shows and does.
+const PAGE_INPUTS: &[&str] = &["src", "mjcf", "assets", "web", "xtask/src/web"];
 
 /// What only a release needs: it installs or builds much.
 const RELEASE: [Check; 4] = [
@@ -135,6 +140,15 @@ fn lint() -> Outcome {
 
 fn docs() -> Outcome {
     built::document().map(|()| Vec::new())
+}
+
+/// Builds the page and tests it, where it can be built.
+fn page() -> Outcome {
+    if !builds::web_target_installed()? {
+        return Ok(vec![builds::web_target_missing("the page")]);
+    }
+    web(&[])?;
+    web_tools::missing()
 }
 
 /// Builds the page, in a program that has what makes its script.

@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 18] = [
+const SPEAK_OF: [(&str, &[&str]); 19] = [
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
     ("environments", &["src/physics", "mjcf", "src/robot", "src/env"]),
@@ -34,6 +34,7 @@ const SPEAK_OF: [(&str, &[&str]); 18] = [
     ("standin_myosuite", &["src/physics", "mjcf", "python"]),
     ("standin_suite", &["src/physics", "mjcf", "python"]),
     ("standin_tests", &["src/physics", "mjcf", "python"]),
+    ("web", &["src/physics", "mjcf", "src/render", "src/viewer", "web"]),
 ];
 /// What most tables speak of.
 const ENGINE: &[&str] = &["src/physics", "mjcf"];

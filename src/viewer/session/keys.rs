@@ -29,8 +29,8 @@ impl Session {
         let simulates = self.play.is_none() && self.replay.is_none();
         if let Some(snapshot) = self.kept.get(number).filter(|_| simulates).cloned() {
             self.running = false;
-            self.show(&snapshot);
-            self.history.push(&self.data);
+            // Kept states are of this model.
+            let _ = self.restore(&snapshot);
         }
     }
 

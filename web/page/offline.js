@@ -1,0 +1,34 @@
+// Keeps the page for when there is no network: the newest files while there is one, those of this version otherwise.
+
+const VERSION = "@VERSION@";
+const FILES = ["./", /* @FILES@ */];
+
+addEventListener("install", (event) => {
+  const keep = async () => (await caches.open(VERSION)).addAll(FILES.map((file) => new Request(file, { cache: "no-cache" })));
+  event.waitUntil(keep());
+});
+
+addEventListener("activate", (event) => {
+  const clear = async () => {
+    for (const name of await caches.keys()) if (name.startsWith("robohive-") && name !== VERSION) await caches.delete(name);
+    await clients.claim();
+  };
+  event.waitUntil(clear());
+});
+
+addEventListener("fetch", (event) => {
+  const { request } = event;
+  const here = new URL("./", location.href).href;
+  if (request.method !== "GET" || !request.url.startsWith(here)) return;
+  const answer = async () => {
+    const kept = await caches.open(VERSION);
+    try {
+      return await fetch(request);
+    } catch (error) {
+      const found = await kept.match(request, { ignoreSearch: true });
+      if (found) return found;
+      throw error;
+    }
+  };
+  event.respondWith(answer());
+});

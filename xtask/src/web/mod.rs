@@ -1,0 +1,59 @@
+//! The page: one folder of files that any static host serves and that is the npm package, and its tests.
+
+mod bind;
+mod checks;
+mod files;
+mod notices;
+mod offline;
+
+use crate::command::{installed, succeed, target_folder};
+use crate::outcome::Outcome;
+use files::{copy, remove, write};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// What the module is compiled for.
+const TARGET: &str = "wasm32-unknown-unknown";
+/// How modules are built.
+const PROFILE: &str = "release";
+/// The modules: the package, the name of its script, and what it compiles to.
+const MODULES: [(&str, &str, &str); 1] = [("robohive-web", "engine", "robohive_web.wasm")];
+/// Files of the page that are written by hand.
+const PAGE: &str = "web/page";
+
+/// Builds the page into `folder`, or `web` in the target folder, and tests it as far as this machine can.
+pub fn run(words: &[&str]) -> Outcome {
+    let folder = match words.first() {
+        Some(word) => PathBuf::from(word),
+        None => target_folder()?.join("web"),
+    };
+    build(&folder)?;
+    println!("{} holds the page", folder.display());
+    checks::run(&folder)
+}
+
+fn build(folder: &Path) -> Result<(), String> {
+    fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
+    for (package, name, file) in MODULES {
+        let build = ["build", "--profile", PROFILE, "-p", package, "--lib", "--target", TARGET];
+        succeed(Command::new("cargo").args(build).env("RUSTFLAGS", "-C target-feature=+simd128"))?;
+        bind::bind(&target_folder()?.join(TARGET).join(PROFILE).join(file), name, folder)?;
+    }
+    for entry in fs::read_dir(PAGE).map_err(|error| format!("{PAGE}: {error}"))? {
+        let path = entry.map_err(|error| format!("{PAGE}: {error}"))?.path();
+        copy(&path, &folder.join(path.file_name().unwrap_or_default()))?;
+    }
+    copy(Path::new("LICENSE"), &folder.join("LICENSE"))?;
+    write(&folder.join("THIRD_PARTY.txt"), &notices::of("robohive-web", TARGET)?)?;
+    write_made(folder)
+}
+
+/// Writes what is made of the others.
+fn write_made(folder: &Path) -> Result<(), String> {
+    match installed("node") {
+        true => offline::inline(folder)?,
+        false => remove(&folder.join("inline.js"))?,
+    }
+    offline::version(folder)
+}
