@@ -46,7 +46,19 @@ const ORDER: [(&str, &[&str]); 26] = [
     ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
     (
         "robohive-viewer",
-        &["assets", "physics", "mjcf", "dataset", "random", "render", "video", "env", "agents", "record"],
+        &[
+            "assets",
+            "physics",
+            "mjcf",
+            "dataset",
+            "random",
+            "render",
+            "render_gpu",
+            "video",
+            "env",
+            "agents",
+            "record",
+        ],
     ),
     ("robohive-web", &["assets", "physics", "mjcf", "dataset", "render", "env", "agents", "viewer"]),
     (

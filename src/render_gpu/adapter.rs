@@ -2,7 +2,7 @@
 
 use crate::error::GpuError;
 use std::fmt;
-use wgpu::{DeviceType, TextureFormat, TextureFormatFeatureFlags};
+use wgpu::{DeviceType, DownlevelFlags, TextureFormat, TextureFormatFeatureFlags};
 
 /// Which GPU is wanted.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -45,13 +45,23 @@ impl fmt::Display for Adapter {
     }
 }
 
+impl Adapter {
+    /// Whether it is a driver that computes on the CPU.
+    pub fn is_software(&self) -> bool {
+        self.kind == SOFTWARE
+    }
+}
+
+/// What a driver that computes on the CPU is called.
+const SOFTWARE: &str = "software";
+
 impl From<&wgpu::AdapterInfo> for Adapter {
     fn from(info: &wgpu::AdapterInfo) -> Self {
         let kind = match info.device_type {
             DeviceType::DiscreteGpu => "discrete GPU",
             DeviceType::IntegratedGpu => "integrated GPU",
             DeviceType::VirtualGpu => "virtual GPU",
-            DeviceType::Cpu => "software",
+            DeviceType::Cpu => SOFTWARE,
             DeviceType::Other => "other",
         };
         let driver = [info.backend.to_string(), info.driver.clone(), info.driver_info.clone()];
@@ -61,11 +71,13 @@ impl From<&wgpu::AdapterInfo> for Adapter {
 }
 
 /// Names of the GPUs of this machine.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn adapters() -> Vec<Adapter> {
     enumerate().iter().map(|adapter| Adapter::from(&adapter.get_info())).collect()
 }
 
 /// The GPU that is wanted.
+#[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn pick(choice: &Choice) -> Result<wgpu::Adapter, GpuError> {
     let mut all = enumerate();
     let found: Vec<String> =
@@ -80,11 +92,12 @@ pub(crate) fn pick(choice: &Choice) -> Result<wgpu::Adapter, GpuError> {
         }
     };
     match all.into_iter().find(fits) {
-        Some(adapter) => check(adapter),
+        Some(adapter) => Ok(adapter),
         None => Err(GpuError::NoAdapter { wanted: choice.to_string(), found }),
     }
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 fn enumerate() -> Vec<wgpu::Adapter> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = wgpu::Backends::VULKAN | wgpu::Backends::METAL | wgpu::Backends::DX12;
@@ -92,6 +105,7 @@ fn enumerate() -> Vec<wgpu::Adapter> {
     pollster::block_on(wgpu::Instance::new(descriptor).enumerate_adapters(backends))
 }
 
+#[cfg(not(target_arch = "wasm32"))]
 fn rank(kind: DeviceType) -> u8 {
     match kind {
         DeviceType::DiscreteGpu => 0,
@@ -102,17 +116,24 @@ fn rank(kind: DeviceType) -> u8 {
     }
 }
 
-/// Refuses a GPU without four samples a pixel.
-fn check(adapter: wgpu::Adapter) -> Result<wgpu::Adapter, GpuError> {
+/// What pictures need of an interface, and WebGL 2 lacks: lists that corners read, meshes that share their buffers.
+const NEEDED: DownlevelFlags = DownlevelFlags::VERTEX_STORAGE.union(DownlevelFlags::BASE_VERTEX);
+
+/// Refuses a GPU, or an interface to it, that cannot draw pictures.
+pub(crate) fn check(adapter: &wgpu::Adapter) -> Result<(), GpuError> {
+    let unsuitable = |message| {
+        Err(GpuError::Unsuitable { adapter: Adapter::from(&adapter.get_info()).to_string(), message })
+    };
+    let lacking = NEEDED - adapter.get_downlevel_capabilities().flags;
+    if !lacking.is_empty() {
+        return unsuitable(format!("its interface lacks {lacking:?}"));
+    }
     let four = TextureFormatFeatureFlags::MULTISAMPLE_X4;
     let lacking = [TextureFormat::Rgba8Unorm, TextureFormat::Depth32Float]
         .into_iter()
         .find(|&format| !adapter.get_texture_format_features(format).flags.contains(four));
     match lacking {
-        None => Ok(adapter),
-        Some(format) => Err(GpuError::Unsuitable {
-            adapter: Adapter::from(&adapter.get_info()).to_string(),
-            message: format!("it has no four samples a pixel for {format:?}"),
-        }),
+        None => Ok(()),
+        Some(format) => unsuitable(format!("it has no four samples a pixel for {format:?}")),
     }
 }

@@ -1,6 +1,6 @@
 //! An open GPU, and what its driver complains about.
 
-use crate::adapter::Adapter;
+use crate::adapter::{Adapter, check};
 use crate::error::GpuError;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -33,15 +33,27 @@ pub struct Gpu {
 
 impl Gpu {
     /// Opens a GPU with all that it offers.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn open(adapter: &wgpu::Adapter) -> Result<Self, GpuError> {
-        let known = Adapter::from(&adapter.get_info());
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("renderer"),
             required_limits: adapter.limits(),
             ..wgpu::DeviceDescriptor::default()
         };
-        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor))
-            .map_err(|error| GpuError::NoDevice { adapter: known.to_string(), message: error.to_string() })?;
+        let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).map_err(|error| {
+            let adapter = Adapter::from(&adapter.get_info()).to_string();
+            GpuError::NoDevice { adapter, message: error.to_string() }
+        })?;
+        Self::shared(adapter, &device, &queue)
+    }
+
+    /// A GPU that is open already; its complaints are heard from now on.
+    pub fn shared(
+        adapter: &wgpu::Adapter,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Self, GpuError> {
+        check(adapter)?;
         let complaint = Complaint::default();
         let uncaptured = complaint.clone();
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| uncaptured.note(translated(error))));
@@ -51,7 +63,8 @@ impl Gpu {
                 lost.note(GpuError::Lost { message });
             }
         });
-        Ok(Gpu { device, queue, adapter: known, complaint })
+        let known = Adapter::from(&adapter.get_info());
+        Ok(Gpu { device: device.clone(), queue: queue.clone(), adapter: known, complaint })
     }
 
     /// Whether the driver has complained since it was last asked.
@@ -60,6 +73,7 @@ impl Gpu {
     }
 
     /// Waits until all commands are done.
+    #[cfg(not(target_arch = "wasm32"))]
     pub fn wait(&self) -> Result<(), GpuError> {
         let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
         self.check()?;

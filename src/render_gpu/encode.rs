@@ -118,7 +118,7 @@ impl Studio<'_> {
     ) -> Pen<'s, 's> {
         let mean = targets.mean.as_ref().filter(|_| last);
         let (colour_load, depth_load) = match first {
-            true => (LoadOp::Clear(Color::TRANSPARENT), LoadOp::Clear(0.0)),
+            true => (LoadOp::Clear(Color::BLACK), LoadOp::Clear(0.0)),
             false => (LoadOp::Load, LoadOp::Load),
         };
         let colour = wgpu::RenderPassColorAttachment {

@@ -4,7 +4,8 @@
 //! # Dataflow
 //! A batch of scenes becomes a list of instances and calls (`stage`), which is uploaded at once. Surfaces and textures are
 //! uploaded when they are first seen, or change. The commands (`encode`) draw all pictures side by side into one atlas,
-//! which is read back once.
+//! which is read back once. A picture may also stay in the memory of the GPU ([`GpuRenderer::show`]), for a window that is
+//! drawn by the same GPU; in a page, where nothing may wait, that is all there is.
 //!
 //! ```
 //! # use render as robohive_render;
@@ -28,6 +29,7 @@
 mod adapter;
 mod atlas;
 mod device;
+#[cfg(not(target_arch = "wasm32"))]
 mod either;
 mod encode;
 mod error;
@@ -42,7 +44,12 @@ mod renderer;
 mod stage;
 mod textures;
 
-pub use adapter::{Adapter, Choice, adapters};
+#[cfg(not(target_arch = "wasm32"))]
+pub use adapter::adapters;
+pub use adapter::{Adapter, Choice};
+#[cfg(not(target_arch = "wasm32"))]
 pub use either::{EitherPainters, EitherRenderer};
 pub use error::GpuError;
-pub use renderer::GpuRenderer;
+pub use renderer::{GpuRenderer, Shown};
+/// Its types are those of [`GpuRenderer::shared`].
+pub use wgpu;

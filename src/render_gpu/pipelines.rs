@@ -246,7 +246,8 @@ fn create(
     };
     let constants = [("PAINT", paint), ("SAMPLES", f64::from(samples))];
     let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
-    let write_mask = if writes_colour { ColorWrites::ALL } else { ColorWrites::empty() };
+    // Pictures stay opaque; numbers and depths of items have two channels.
+    let write_mask = if writes_colour { ColorWrites::COLOR } else { ColorWrites::empty() };
     let targets = [Some(ColorTargetState { format, blend, write_mask })];
     // The slope is the factor of `glPolygonOffset`; its units are added where the map is read.
     let slope_scale = match key.kind {

@@ -1,7 +1,12 @@
 //! From scenes to pictures.
 
-use crate::adapter::{Adapter, Choice, pick};
-use crate::atlas::{Atlas, Grid, ReadBack};
+#[cfg(not(target_arch = "wasm32"))]
+mod batch;
+#[cfg(not(target_arch = "wasm32"))]
+mod read_back;
+
+use crate::adapter::{Adapter, check};
+use crate::atlas::{Atlas, Grid};
 use crate::device::Gpu;
 use crate::encode::Studio;
 use crate::error::GpuError;
@@ -13,9 +18,9 @@ use crate::stage::Stage;
 use crate::textures::Textures;
 use render::error::MAX_SIDE;
 use render::picture::Channels;
-use render::raster::{Samples, Settings, Shot, draw_labels};
+use render::raster::{Samples, Settings};
 use render::scene::Scene;
-use render::{Assets, Picture, RenderError};
+use render::{Assets, RenderError};
 use std::sync::Arc;
 
 /// Draws scenes on a GPU. It keeps the memory of a batch, so that the next one of the same sizes and scenes makes nothing
@@ -30,15 +35,52 @@ pub struct GpuRenderer {
     lamps: Lamps,
     pipelines: Pipelines,
     atlas: Atlas,
+    #[cfg(not(target_arch = "wasm32"))]
+    back: Option<read_back::Return>,
+}
+
+/// A picture that stays in the memory of the GPU, until the next one is drawn.
+#[derive(Clone, Debug)]
+pub struct Shown<'a> {
+    /// The texture, `Rgba8Unorm` with values as screens take them, opaque. Row 0 is the lowest of the picture.
+    pub view: &'a wgpu::TextureView,
+    /// Shares of its columns and rows that the picture takes.
+    pub taken: [f32; 2],
+}
+
+/// What a picture of some size shows.
+#[derive(Clone, Copy, Debug)]
+struct View<'a> {
+    assets: &'a Assets,
+    scene: &'a Scene,
+    size: [usize; 2],
 }
 
 impl GpuRenderer {
-    /// A renderer with the settings of a model, see [`Settings::of`], on the GPU that is chosen.
+    /// A renderer on a GPU that somebody else has opened, with the settings of a model. It hears of every error of `device`
+    /// and of its loss from now on. Nothing waits, so that it is also there for a page.
     ///
     /// # Errors
-    /// There is no such GPU, or it cannot draw pictures with these settings.
-    pub fn new(settings: Settings, choice: &Choice) -> Result<Self, GpuError> {
-        let gpu = Gpu::open(&pick(choice)?)?;
+    /// The GPU cannot draw pictures, or not with these settings.
+    pub fn shared(
+        settings: Settings,
+        adapter: &wgpu::Adapter,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<Self, GpuError> {
+        Self::on(settings, Gpu::shared(adapter, device, queue)?)
+    }
+
+    /// What is known of a GPU with which [`GpuRenderer::shared`] can draw.
+    ///
+    /// # Errors
+    /// It cannot draw pictures.
+    pub fn suits(adapter: &wgpu::Adapter) -> Result<Adapter, GpuError> {
+        check(adapter)?;
+        Ok(Adapter::from(&adapter.get_info()))
+    }
+
+    fn on(settings: Settings, gpu: Gpu) -> Result<Self, GpuError> {
         suits(&gpu, &settings)?;
         let samples = samples(&settings);
         let textures = Textures::new(&gpu);
@@ -46,9 +88,20 @@ impl GpuRenderer {
         let stage = Stage::new(&gpu);
         let groups = [stage.layout(), textures.layout(), lamps.layout()];
         let pipelines = Pipelines::new(&gpu, samples, groups);
-        let (meshes, atlas) = (Meshes::new(&gpu), Atlas::new(&gpu, samples));
+        let (meshes, atlas) = (Meshes::new(&gpu), Atlas::new(samples));
         gpu.check()?;
-        Ok(GpuRenderer { settings, gpu, meshes, textures, stage, lamps, pipelines, atlas })
+        Ok(GpuRenderer {
+            settings,
+            gpu,
+            meshes,
+            textures,
+            stage,
+            lamps,
+            pipelines,
+            atlas,
+            #[cfg(not(target_arch = "wasm32"))]
+            back: None,
+        })
     }
 
     /// Draws as finely as these settings say from now on. Other samples and sizes of shadow maps take new memory.
@@ -65,7 +118,7 @@ impl GpuRenderer {
         if resized || settings.samples != self.settings.samples {
             let groups = [self.stage.layout(), self.textures.layout(), self.lamps.layout()];
             self.pipelines = Pipelines::new(&self.gpu, samples, groups);
-            self.atlas = Atlas::new(&self.gpu, samples);
+            self.atlas = Atlas::new(samples);
         }
         self.settings = *settings;
         self.gpu.check()
@@ -81,83 +134,72 @@ impl GpuRenderer {
         &self.gpu.adapter
     }
 
-    /// Draws a scene of the model that `assets` were made of into the wanted channels of a picture, at its size.
+    /// Draws a scene of the model that `assets` were made of, `size` pixels wide and high, into a texture that stays in the
+    /// memory of the GPU. It has no labels.
     ///
     /// # Errors
-    /// As [`GpuRenderer::draw_batch`].
-    pub fn draw(
-        &mut self,
-        assets: &Assets,
-        scene: &Scene,
-        channels: Channels,
-        picture: &mut Picture,
-    ) -> Result<(), GpuError> {
-        self.draw_batch(&mut [Shot { assets, scene, channels, picture }])
+    /// The picture has no pixels or too many, the view's frustum is empty or not finite, or the GPU failed. In a page its
+    /// refusals are told when the next picture is drawn.
+    pub fn show(&mut self, assets: &Assets, scene: &Scene, size: [usize; 2]) -> Result<Shown<'_>, GpuError> {
+        let view = [View { assets, scene, size }];
+        self.prepare(&view)?;
+        let encoder = self.commands(&view, Channels::RGB)?;
+        self.gpu.queue.submit([encoder.finish()]);
+        self.gpu.check()?;
+        let Grid { cell, columns, rows } = self.atlas.grid;
+        let share = |pixels: usize, cells: usize, cell: usize| pixels as f32 / (cells * cell) as f32;
+        let taken = [share(size[0], columns, cell[0]), share(size[1], rows, cell[1])];
+        match self.atlas.drawn() {
+            Some((_, view)) => Ok(Shown { view, taken }),
+            None => Err(GpuError::Refused { message: "it has no colours".into() }),
+        }
     }
 
-    /// Draws all shots, of one model or several, each with the wanted channels of its picture: in one submission and with one
-    /// read-back, unless they have more than four million pixels together.
-    ///
-    /// # Errors
-    /// A picture has no pixels or too many, a view's frustum is empty or not finite, or the GPU failed.
-    pub fn draw_batch(&mut self, shots: &mut [Shot<'_>]) -> Result<(), GpuError> {
+    /// Uploads what these views show, and makes room for them. Returns how many are drawn at once.
+    fn prepare(&mut self, views: &[View<'_>]) -> Result<usize, GpuError> {
         let mut largest = [0; 2];
-        for shot in shots.iter_mut() {
-            let Picture { width, height, rgb, depth, segmentation } = shot.picture;
-            let (width, height) = (*width, *height);
+        for &View { size: [width, height], .. } in views {
             if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
                 return Err(RenderError::Size { width, height }.into());
             }
             largest = [largest[0].max(width), largest[1].max(height)];
-            rgb.clear();
-            depth.clear();
-            segmentation.clear();
         }
-        let wanted = wanted(shots);
-        if wanted == (Channels { rgb: false, depth: false, segmentation: false }) {
-            return Ok(());
+        if views.is_empty() {
+            return Ok(0);
         }
-        let mut assets: Vec<&Assets> = shots.iter().map(|shot| shot.assets).collect();
+        let mut assets: Vec<&Assets> = views.iter().map(|view| view.assets).collect();
         assets.dedup_by(|a, b| std::ptr::eq(*a, *b));
         self.meshes.update(&self.gpu, &assets);
         self.textures.update(&self.gpu, &assets);
-        self.atlas.fit(Grid::fitting(shots.len(), largest));
-        let cells = self.atlas.grid.cells();
-        shots.chunks_mut(cells).try_for_each(|shots| self.draw_atlas(shots, wanted))
+        self.atlas.fit(Grid::fitting(views.len(), largest));
+        Ok(self.atlas.grid.cells())
     }
 
-    /// Draws as many shots as the atlas holds, with these channels.
-    fn draw_atlas(&mut self, shots: &mut [Shot<'_>], wanted: Channels) -> Result<(), GpuError> {
-        let GpuRenderer { settings, gpu, meshes, textures, stage, lamps, pipelines, atlas } = self;
+    /// The commands that draw these views, as many as the atlas holds, with these channels.
+    fn commands(&mut self, views: &[View<'_>], wanted: Channels) -> Result<wgpu::CommandEncoder, GpuError> {
+        let GpuRenderer { settings, gpu, meshes, textures, stage, lamps, pipelines, atlas, .. } = self;
         stage.clear();
-        let mut seen: Vec<Seen<'_>> = Vec::with_capacity(shots.len());
-        for shot in shots.iter() {
-            let Shot { assets, scene, picture, .. } = shot;
+        let mut seen: Vec<Seen<'_>> = Vec::with_capacity(views.len());
+        for View { assets, scene, size } in views {
             let known = seen.last().filter(|last| std::ptr::eq(last.assets, *assets));
             let places = known.map(|last| last.places.clone());
             let places = places.unwrap_or_else(|| Arc::new(Places::of(assets, meshes, textures)));
             seen.push(Seen { assets, scene, places });
-            stage.add(&seen, [picture.width, picture.height], settings, lamps)?;
+            stage.add(&seen, *size, settings, lamps)?;
         }
-        let wants_items = wanted.depth || wanted.segmentation;
         let layers = lamps.layers(stage.shadows.len());
         let maps = (wanted.rgb && !stage.shadows.is_empty()).then(|| lamps.reserve(gpu, layers));
         stage.upload(gpu, maps.map_or(1, |maps| maps.layers.len()))?;
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("batch") };
         let mut encoder = gpu.device.create_command_encoder(&descriptor);
         let mut studio = Studio { gpu, stage, meshes, textures, pipelines };
-        if wants_items {
+        if wanted.depth || wanted.segmentation {
             studio.items(&mut encoder, atlas);
         }
         if wanted.rgb {
             studio.colours(&mut encoder, atlas, maps);
         }
-        atlas.copy(gpu, &mut encoder, shots.len(), [wanted.rgb, wants_items]);
-        gpu.queue.submit([encoder.finish()]);
-        gpu.check()?;
-        atlas.read(gpu, shots.len(), |back| {
-            shots.iter_mut().enumerate().for_each(|(cell, shot)| take(back, cell, shot));
-        })
+        Ok(encoder)
     }
 }
 
@@ -178,46 +220,5 @@ fn samples(settings: &Settings) -> u32 {
     match settings.samples {
         Samples::One => 1,
         Samples::Four => 4,
-    }
-}
-
-/// The channels that any of these shots wants.
-fn wanted(shots: &[Shot<'_>]) -> Channels {
-    let any = |channel: fn(&Channels) -> bool| shots.iter().any(|shot| channel(&shot.channels));
-    Channels { rgb: any(|c| c.rgb), depth: any(|c| c.depth), segmentation: any(|c| c.segmentation) }
-}
-
-/// Fills a picture with what was read back.
-fn take(back: &ReadBack<'_>, cell: usize, shot: &mut Shot<'_>) {
-    let Shot { scene, channels, picture, .. } = shot;
-    let size = [picture.width, picture.height];
-    if channels.rgb {
-        for row in back.colours(cell, size) {
-            picture.rgb.extend(row.as_chunks::<4>().0.iter().flat_map(|&[r, g, b, _]| [r, g, b]));
-        }
-        draw_labels(scene, picture);
-    }
-    if !channels.depth && !channels.segmentation {
-        return;
-    }
-    let frustum = &scene.view.frustum;
-    let (near, far) = (frustum.near, frustum.far);
-    let (top, reach) = ((near * far) as f32, (far - near) as f32);
-    let metres = |z: f32| match frustum.orthographic {
-        true => far as f32 - z * reach,
-        false => top / (near as f32 + z * reach),
-    };
-    for row in back.items(cell, size) {
-        for &[a, b, c, d, e, f, g, h] in row.as_chunks::<8>().0 {
-            if channels.depth {
-                picture.depth.push(metres(f32::from_ne_bytes([e, f, g, h])));
-            }
-            if channels.segmentation {
-                let item = u32::from_ne_bytes([a, b, c, d]) as usize;
-                let object =
-                    item.checked_sub(1).and_then(|item| scene.items.get(item)).map(|item| item.object);
-                picture.segmentation.push(object.map_or([-1; 2], |object| [object.id, object.kind]));
-            }
-        }
     }
 }

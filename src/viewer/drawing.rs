@@ -7,13 +7,62 @@ use render::picture::Channels;
 use render::raster::Shot;
 use render::{Assets, Painter, Picture, Profile, RenderError, Renderer, Scene, Settings};
 
+/// What a session's model is drawn of, and how its present state looks.
+pub struct Scenery {
+    /// Triangles and textures.
+    pub assets: Assets,
+    /// What is drawn.
+    pub scene: Scene,
+    ghost: Ghost,
+    /// How finely.
+    pub settings: Settings,
+}
+
+impl Scenery {
+    /// Prepares triangles and textures for a session's model.
+    ///
+    /// # Errors
+    /// A texture or mesh cannot be drawn.
+    pub fn new(model: &Model) -> Result<Self, RenderError> {
+        let assets = Assets::new(model, Profile::Mujoco312)?;
+        Ok(Scenery { assets, scene: Scene::new(), ghost: Ghost::default(), settings: Settings::of(model) })
+    }
+
+    /// Takes the present state of a session with this model.
+    ///
+    /// # Errors
+    /// The camera or an item has no place.
+    pub fn update(&mut self, session: &Session) -> Result<(), RenderError> {
+        let (model, data, options) = (session.model(), session.data(), session.shown());
+        self.assets.refresh(model)?;
+        self.assets.pose(model, data, &options)?;
+        let view = session.view()?;
+        self.scene.update(model, data, view, &options)?;
+        if let Some(reference) = session.reference() {
+            self.ghost.haunt(&mut self.scene, model, reference.data(), view, &options)?;
+        }
+        Ok(())
+    }
+
+    /// Draws what was updated into these channels of a picture, at its size.
+    ///
+    /// # Errors
+    /// The size is zero or too large; what draws fails.
+    pub fn paint(
+        &self,
+        painter: &mut dyn Painter,
+        channels: Channels,
+        picture: &mut Picture,
+    ) -> Result<(), RenderError> {
+        let Scenery { assets, scene, settings, .. } = self;
+        painter.paint(settings, &mut [Shot { assets, scene, channels, picture }])
+    }
+}
+
 /// What draws a session, and the last picture of it.
 pub struct Drawing {
-    assets: Assets,
-    scene: Scene,
-    ghost: Ghost,
-    settings: Settings,
-    painter: Box<dyn Painter>,
+    scenery: Scenery,
+    painter: Renderer,
     picture: Picture,
 }
 
@@ -23,15 +72,8 @@ impl Drawing {
     /// # Errors
     /// A texture or mesh cannot be drawn.
     pub fn new(model: &Model) -> Result<Self, RenderError> {
-        let settings = Settings::of(model);
-        Ok(Drawing {
-            assets: Assets::new(model, Profile::Mujoco312)?,
-            scene: Scene::new(),
-            ghost: Ghost::default(),
-            settings,
-            painter: Box::new(Renderer::new(settings)),
-            picture: Picture::default(),
-        })
+        let scenery = Scenery::new(model)?;
+        Ok(Drawing { painter: Renderer::new(scenery.settings), scenery, picture: Picture::default() })
     }
 
     /// Draws the present state of a session with this model, `size` pixels wide and high.
@@ -52,17 +94,9 @@ impl Drawing {
         size: [usize; 2],
         channels: Channels,
     ) -> Result<&Picture, RenderError> {
-        let (model, data, options) = (session.model(), session.data(), session.shown());
-        self.assets.refresh(model)?;
-        self.assets.pose(model, data, &options)?;
-        let view = session.view()?;
-        self.scene.update(model, data, view, &options)?;
-        if let Some(reference) = session.reference() {
-            self.ghost.haunt(&mut self.scene, model, reference.data(), view, &options)?;
-        }
+        self.scenery.update(session)?;
         [self.picture.width, self.picture.height] = size;
-        let shot = Shot { assets: &self.assets, scene: &self.scene, channels, picture: &mut self.picture };
-        self.painter.paint(&self.settings, &mut [shot])?;
+        self.scenery.paint(&mut self.painter, channels, &mut self.picture)?;
         Ok(&self.picture)
     }
 

@@ -37,6 +37,7 @@ mod camera;
 mod command;
 mod drawing;
 pub mod element;
+mod files;
 mod flags;
 mod ghost;
 mod hand;
@@ -57,7 +58,8 @@ pub mod window;
 
 pub use camera::{Plane, orbit, pan, zoom};
 pub use command::{Command, FRAMES, LABELS, Shortcut, shortcuts};
-pub use drawing::Drawing;
+pub use drawing::{Drawing, Scenery};
+pub use files::{Files, FilesError, Unreadable, is_archive, is_model};
 pub use flags::{EFFECTS, Flag, SHOW};
 pub use hand::{Grip, Hand};
 pub use history::History;

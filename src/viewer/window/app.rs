@@ -3,16 +3,18 @@
 use super::canvas::canvas;
 use super::keys::Keys;
 use super::opened::Opened;
+use super::painters::Painters;
 use super::panels;
-use super::source::Source;
-use crate::command::Command;
+use super::saving::{Save, into_working_folder};
+use super::source::{Source, dropped};
 use crate::text;
 use eframe::egui::{
-    self, Align2, CentralPanel, CollapsingHeader, Context, Key, MenuBar, Modifiers, Panel, RichText,
+    self, Align2, CentralPanel, CollapsingHeader, Context, Key, MenuBar, Modifiers, Panel, Rect, RichText,
     ScrollArea, Ui, ViewportCommand,
 };
-use std::time::{Duration, Instant};
-use video::{Frame as Pixels, write_png};
+use std::time::Duration;
+use video::{Frame as Pixels, png_bytes};
+use web_time::Instant;
 
 /// What physics may take of a frame.
 const SHARE: f64 = 0.7;
@@ -23,9 +25,15 @@ const LONGEST: f64 = 0.25;
 
 /// The viewer.
 pub struct App {
-    opened: Option<Opened>,
+    pub(super) opened: Option<Opened>,
     /// What could not be opened, drawn or written, until something is.
-    trouble: Option<String>,
+    pub(super) trouble: Option<String>,
+    /// What draws.
+    pub(super) painters: Painters,
+    /// Where screenshots and other files go.
+    pub(super) save: Save,
+    /// Where the picture was in the last frame \[point\].
+    pub(super) area: Rect,
     keys: Keys,
     desk: panels::Desk,
     shows_left: bool,
@@ -35,11 +43,19 @@ pub struct App {
 }
 
 impl App {
-    /// A viewer of `source`, or of nothing yet.
+    /// A viewer of `source`, or of nothing yet, drawn by the CPU.
     pub fn new(_context: &Context, source: Option<Source>) -> Self {
+        App::drawn_by(Painters::default(), source)
+    }
+
+    /// A viewer of `source`, or of nothing yet, drawn by `painters`.
+    pub fn drawn_by(painters: Painters, source: Option<Source>) -> Self {
         let mut app = App {
             opened: None,
             trouble: None,
+            painters,
+            save: Box::new(into_working_folder),
+            area: Rect::NOTHING,
             keys: Keys::new(),
             desk: panels::Desk::default(),
             shows_left: true,
@@ -53,17 +69,8 @@ impl App {
         app
     }
 
-    /// The model that is open.
-    pub fn opened(&self) -> Option<&crate::Session> {
-        self.opened.as_ref().map(|opened| &opened.session)
-    }
-
-    /// What went wrong last.
-    pub fn trouble(&self) -> Option<&str> {
-        self.trouble.as_deref()
-    }
-
-    fn open(&mut self, source: Source) {
+    /// Opens something else; where it cannot be opened, [`App::trouble`] says why, and what was open stays.
+    pub fn open(&mut self, source: Source) {
         match Opened::open(source) {
             Ok(opened) => {
                 (self.opened, self.trouble) = (Some(opened), None);
@@ -83,10 +90,11 @@ impl App {
     fn advance(&mut self, context: &Context) {
         let elapsed = self.last.elapsed().as_secs_f64().min(LONGEST);
         self.last = Instant::now();
-        let dropped =
-            context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
-        if let Some(path) = dropped {
-            self.open(Source::File(path));
+        let path = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
+        match path.map(|path| dropped(&path)) {
+            Some(Ok(source)) => self.open(source),
+            Some(Err(why)) => self.trouble = Some(why),
+            None => {}
         }
         self.general_keys(context);
         if self.opened.as_mut().is_some_and(Opened::is_outdated) {
@@ -139,16 +147,18 @@ impl App {
         }
     }
 
-    /// Writes the picture into `screenshot.png`, or the next free name.
+    /// Saves the picture as `screenshot.png`.
     fn screenshot(&mut self) {
-        let Some(opened) = &self.opened else { return };
-        let picture = opened.screen.picture();
-        let names =
-            (0..).map(|i| if i == 0 { "screenshot.png".into() } else { format!("screenshot-{i}.png") });
-        let Some(name) = names.take(10_000).find(|name| !std::path::Path::new(name).exists()) else { return };
-        let written = Pixels::new(picture.width as u32, picture.height as u32, &picture.rgb)
-            .and_then(|pixels| write_png(&name, &pixels));
-        self.trouble = written.err().map(|error| format!("{name}: {error}"));
+        let Some(opened) = &mut self.opened else { return };
+        let size = opened.screen.size();
+        let png = opened.screen.picture(&opened.session, size).map_err(|error| error.to_string());
+        let png = png.and_then(|picture| {
+            let pixels = Pixels::new(picture.width as u32, picture.height as u32, &picture.rgb);
+            pixels.map(|pixels| png_bytes(&pixels)).map_err(|error| error.to_string())
+        });
+        let saved =
+            png.and_then(|png| (self.save)("screenshot.png", &png).map_err(|error| error.to_string()));
+        self.trouble = saved.err();
     }
 
     fn menu(&mut self, ui: &mut Ui) {
@@ -179,15 +189,30 @@ impl App {
                 if ui.button("Copy state  Ctrl+C").clicked() {
                     self.copy_state(ui.ctx(), false);
                 }
-                if ui.button("Quit  Ctrl+Q").clicked() {
+                if !cfg!(target_arch = "wasm32") && ui.button("Quit  Ctrl+Q").clicked() {
                     ui.ctx().send_viewport_cmd(ViewportCommand::Close);
                 }
             });
             ui.menu_button("View", |ui| {
                 ui.checkbox(&mut self.shows_left, "Left panel  Tab");
                 ui.checkbox(&mut self.shows_right, "Right panel  Shift+Tab");
+                if self.painters.has_gpu() {
+                    let mut uses_gpu = self.painters.uses_gpu();
+                    ui.checkbox(&mut uses_gpu, "Draw by the GPU");
+                    self.painters.use_gpu(uses_gpu);
+                }
                 egui::widgets::global_theme_preference_buttons(ui);
             });
+            let siblings = self.opened.as_ref().map_or(&[][..], |opened| &opened.siblings);
+            if siblings.len() > 1 {
+                let chosen = ui.menu_button("Models", |ui| {
+                    let clicked = |source: &&Source| ui.button(source.title()).clicked();
+                    siblings.iter().find(clicked).cloned()
+                });
+                if let Some(source) = chosen.inner.flatten() {
+                    self.open(source);
+                }
+            }
             if ui.button("Help").clicked() {
                 self.shows_help = !self.shows_help;
             }
@@ -218,6 +243,10 @@ impl App {
                     "selected: {}",
                     session.model().label_of(physics::model::ObjType::Body, selected.body)
                 ));
+            }
+            let drawn = ui.label(format!("drawn by {}", self.painters.name()));
+            if !self.painters.reason().is_empty() {
+                drawn.on_hover_text(self.painters.reason());
             }
         });
     }
@@ -260,6 +289,11 @@ fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui))
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
+    }
+
+    #[cfg(target_arch = "wasm32")]
+    fn as_any_mut(&mut self) -> Option<&mut dyn std::any::Any> {
+        Some(self)
     }
 }
 
@@ -319,8 +353,9 @@ impl App {
         match &mut self.opened {
             Some(opened) => {
                 messages.extend(opened.session.fault().map(str::to_owned));
-                if let Err(why) = canvas(ui, opened) {
-                    messages.push(why);
+                match canvas(ui, opened, &mut self.painters) {
+                    Ok(area) => self.area = area,
+                    Err(why) => messages.push(why),
                 }
                 if !opened.warnings.is_empty() {
                     messages.push(opened.warnings.clone());
@@ -339,13 +374,6 @@ impl App {
                     });
                 },
             );
-        }
-    }
-
-    /// Does what a command says, as its key does.
-    pub fn perform(&mut self, command: Command) {
-        if let Some(opened) = &mut self.opened {
-            opened.session.perform(command);
         }
     }
 }

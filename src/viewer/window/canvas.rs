@@ -1,32 +1,55 @@
 //! The picture in the window, and gestures on it.
 
 use super::opened::Opened;
+use super::painters::Painters;
+use super::screen::Screen;
 use crate::camera::Plane;
 use crate::hand::Grip;
 use crate::session::Look;
-use eframe::egui::{Color32, PointerButton, Rect, Response, Sense, Ui, pos2};
+use eframe::egui::{Align2, Color32, FontId, Painter, PointerButton, Rect, Response, Sense, Ui, pos2, vec2};
 
 /// What a turn of the wheel by one notch zooms, and points a notch scrolls.
 const ZOOM: f64 = 0.02;
 const NOTCH: f64 = 50.0;
+/// Height of the letters of labels \[point\].
+const LETTER: f32 = 12.0;
 
-/// Shows the picture and answers gestures. The error says why there is no picture.
-pub(super) fn canvas(ui: &mut Ui, opened: &mut Opened) -> Result<(), String> {
+/// Shows the picture and answers gestures: where it is. The error says why there is no picture.
+pub(super) fn canvas(ui: &mut Ui, opened: &mut Opened, painters: &mut Painters) -> Result<Rect, String> {
     let (area, response) = ui.allocate_exact_size(ui.available_size(), Sense::click_and_drag());
     if area.width() < 1.0 || area.height() < 1.0 {
-        return Ok(());
+        return Ok(area);
     }
     gestures(ui, opened, area, &response);
     let scale = ui.ctx().pixels_per_point();
     let size = [area.width(), area.height()].map(|points| ((points * scale).round() as usize).max(1));
-    let (texture, unfinished) =
-        opened.screen.draw(ui.ctx(), &opened.session, size).map_err(|error| error.to_string())?;
-    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-    ui.painter().image(texture.id(), area, whole, Color32::WHITE);
+    let (painted, unfinished) =
+        opened.screen.draw(ui.ctx(), painters, &opened.session, size).map_err(|error| error.to_string())?;
+    ui.painter().image(painted.texture, area, painted.place, Color32::WHITE);
+    if !painted.labelled {
+        write_labels(ui.painter(), &opened.screen, area, size);
+    }
     if unfinished {
         ui.ctx().request_repaint();
     }
-    Ok(())
+    Ok(area)
+}
+
+/// Writes labels over a picture without: white with a dark edge, as the CPU writes them.
+fn write_labels(painter: &Painter, screen: &Screen, area: Rect, size: [usize; 2]) {
+    let point = area.height() / size[1] as f32;
+    let font = FontId::monospace(LETTER);
+    let painter = painter.with_clip_rect(area);
+    for (text, [right, up]) in screen.labels(size) {
+        let at = pos2(area.left() + right as f32 * point, area.bottom() - up as f32 * point);
+        let write = |shift, colour| {
+            painter.text(at + shift, Align2::LEFT_BOTTOM, text, font.clone(), colour);
+        };
+        for shift in [vec2(1.0, 0.0), vec2(-1.0, 0.0), vec2(0.0, 1.0), vec2(0.0, -1.0)] {
+            write(shift, Color32::BLACK);
+        }
+        write(vec2(0.0, 0.0), Color32::WHITE);
+    }
 }
 
 /// Left drag orbits, right drag pans, middle drag and wheel zoom; double clicks select, look and track; with Ctrl, drags turn

@@ -4,24 +4,41 @@
 //! |---|---|
 //! | `source` | where models and environments come from, and when files have changed |
 //! | `opened` | a model that is open: its session and its picture |
+//! | `painters` | the GPU of the window and the CPU, which draw pictures into textures |
 //! | `screen` | the picture, drawn as finely as time allows |
+//! | `saving` | where screenshots and other files go |
 //! | `canvas` | the picture in the window, and gestures on it |
 //! | `keys` | keys to commands |
 //! | `panels` | what stands beside the picture |
 //! | `app` | all of it |
+//! | `script` | what programs ask the window for |
+//!
+//! Nothing but `run` needs a window of the system: the time is asked of `web_time`, files are opened from memory too, and saved
+//! by what the window is given.
 
 mod app;
 mod canvas;
 mod keys;
 mod opened;
+mod painters;
 mod panels;
+mod saving;
 mod screen;
+mod script;
 mod source;
 
 pub use app::App;
-pub use source::{Recipe, Source};
+/// Its types are those of [`setup`] and [`Painters::of`].
+pub use eframe;
+pub use opened::Opened;
+pub use painters::Painters;
+pub use saving::Save;
+pub use source::{NoModel, Recipe, Source};
 
+use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use render_gpu::wgpu;
 use std::fmt;
+use std::sync::Arc;
 
 /// Why there is no window.
 #[derive(Debug)]
@@ -40,19 +57,36 @@ impl fmt::Display for NoWindow {
 
 impl std::error::Error for NoWindow {}
 
+/// How a window or a page opens its GPU: with all that it offers, which pictures need.
+pub fn setup() -> WgpuConfiguration {
+    let limits = |adapter: &wgpu::Adapter| wgpu::DeviceDescriptor {
+        label: Some("window"),
+        required_limits: adapter.limits(),
+        ..wgpu::DeviceDescriptor::default()
+    };
+    let setup = WgpuSetupCreateNew {
+        device_descriptor: Arc::new(limits),
+        ..WgpuSetupCreateNew::without_display_handle()
+    };
+    WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..WgpuConfiguration::default() }
+}
+
 /// Opens a window that shows `source`, or nothing yet, and returns when it is closed.
 ///
 /// # Errors
 /// There is no display, or nothing that draws on it.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn run(source: Option<Source>) -> Result<(), NoWindow> {
     let viewport = eframe::egui::ViewportBuilder::default()
         .with_title("RoboHive")
         .with_app_id("robohive")
         .with_inner_size([1280.0, 800.0])
         .with_drag_and_drop(true);
-    let options = eframe::NativeOptions { viewport, ..eframe::NativeOptions::default() };
+    let options =
+        eframe::NativeOptions { viewport, wgpu_options: setup(), ..eframe::NativeOptions::default() };
     let make = move |context: &eframe::CreationContext<'_>| {
-        let app: Box<dyn eframe::App> = Box::new(App::new(&context.egui_ctx, source));
+        let painters = Painters::of(context.wgpu_render_state.as_ref());
+        let app: Box<dyn eframe::App> = Box::new(App::drawn_by(painters, source));
         Ok(app)
     };
     eframe::run_native("RoboHive", options, Box::new(make)).map_err(|error| NoWindow(error.to_string()))

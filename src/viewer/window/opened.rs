@@ -3,7 +3,8 @@
 use super::screen::Screen;
 use super::source::Source;
 use crate::session::Session;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Duration, SystemTime};
+use web_time::Instant;
 
 /// How often files are looked at for changes.
 const LOOK: Duration = Duration::from_millis(500);
@@ -16,6 +17,8 @@ pub struct Opened {
     pub screen: Screen,
     /// Its model's file.
     pub source: Source,
+    /// Models that lie beside it in the same files.
+    pub siblings: Vec<Source>,
     /// What was ignored or assumed when the model was read.
     pub warnings: String,
     changed: Option<SystemTime>,
@@ -31,7 +34,8 @@ impl Opened {
         let changed = source.changed();
         let (session, warnings) = source.start()?;
         let screen = Screen::new(session.model()).map_err(|error| error.to_string())?;
-        Ok(Opened { session, screen, source, warnings, changed, looked: Instant::now() })
+        let siblings = source.siblings();
+        Ok(Opened { session, screen, source, siblings, warnings, changed, looked: Instant::now() })
     }
 
     /// Reads the model again, in the state that it is in; an environment begins anew.

@@ -1,23 +1,27 @@
 //! The picture of a session, drawn as finely as time allows.
 
-use crate::drawing::Drawing;
+use super::painters::{Painted, Painters};
+use crate::drawing::Scenery;
 use crate::session::Session;
-use eframe::egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use eframe::egui::Context;
 use physics::Model;
+use render::picture::Channels;
+use render::raster::Projection;
 use render::scene::{Camera, SceneOptions};
-use render::{Picture, RenderError};
-use std::time::Instant;
+use render::{Picture, RenderError, Renderer};
+use web_time::Instant;
 
 /// What a picture may take while things move \[s\].
 const BUDGET: f64 = 0.05;
 /// Coarsest picture, in parts of the window's width.
 const COARSEST: usize = 4;
 
-/// What draws a session, and the texture of the last picture.
+/// What a session is drawn of, and its last picture.
 pub struct Screen {
-    drawing: Drawing,
-    texture: Option<TextureHandle>,
-    shown: Option<Shown>,
+    scenery: Scenery,
+    shown: Option<(Shown, Painted)>,
+    /// Pixels of the window that the picture takes.
+    size: [usize; 2],
     /// What a pixel takes \[s\].
     cost: f64,
 }
@@ -29,6 +33,7 @@ struct Shown {
     camera: Camera,
     options: SceneOptions,
     size: [usize; 2],
+    uses_gpu: bool,
 }
 
 impl Screen {
@@ -37,7 +42,7 @@ impl Screen {
     /// # Errors
     /// A texture or mesh cannot be drawn.
     pub fn new(model: &Model) -> Result<Self, RenderError> {
-        Ok(Screen { drawing: Drawing::new(model)?, texture: None, shown: None, cost: 0.0 })
+        Ok(Screen { scenery: Scenery::new(model)?, shown: None, size: [1; 2], cost: 0.0 })
     }
 
     /// The picture of the present state for a window of `size` pixels: coarse while things move and drawing is slow, fine
@@ -48,25 +53,37 @@ impl Screen {
     pub fn draw(
         &mut self,
         context: &Context,
+        painters: &mut Painters,
         session: &Session,
         size: [usize; 2],
-    ) -> Result<(TextureHandle, bool), RenderError> {
+    ) -> Result<(Painted, bool), RenderError> {
+        self.size = size;
+        let uses_gpu = painters.uses_gpu();
         let wanted = |size| Shown {
             revision: session.revision(),
             camera: session.camera,
             options: session.shown(),
             size,
+            uses_gpu,
         };
-        if let (Some(texture), true) = (&self.texture, self.shown.as_ref() == Some(&wanted(size))) {
-            return Ok((texture.clone(), false));
+        let is_shown = |shown: &Option<(Shown, Painted)>, size| {
+            shown.as_ref().filter(|(shown, _)| *shown == wanted(size)).map(|(_, painted)| *painted)
+        };
+        if let Some(painted) = is_shown(&self.shown, size) {
+            return Ok((painted, false));
         }
-        let parts = self.parts(size);
+        // A GPU draws fine pictures at once; the time that it takes is not known here.
+        let parts = if uses_gpu { 1 } else { self.parts(size) };
         let coarse = size.map(|side| side.div_ceil(parts));
-        let stands_still = self.shown.as_ref() == Some(&wanted(coarse));
+        let stands_still = is_shown(&self.shown, coarse).is_some();
         let chosen = if stands_still { size } else { coarse };
-        let texture = self.paint(context, session, chosen)?;
-        self.shown = Some(wanted(chosen));
-        Ok((texture, chosen != size))
+        let began = Instant::now();
+        self.scenery.update(session)?;
+        let painted = painters.paint(context, &self.scenery, chosen)?;
+        self.cost = began.elapsed().as_secs_f64() / (chosen[0] * chosen[1]).max(1) as f64;
+        // What draws may have changed.
+        self.shown = Some((Shown { uses_gpu: painters.uses_gpu(), ..wanted(chosen) }, painted));
+        Ok((painted, chosen != size))
     }
 
     /// By how many pixels of the window a pixel of the picture is wide.
@@ -75,30 +92,44 @@ impl Screen {
         ((whole / BUDGET).sqrt().ceil() as usize).clamp(1, COARSEST)
     }
 
-    fn paint(
-        &mut self,
-        context: &Context,
-        session: &Session,
-        size: [usize; 2],
-    ) -> Result<TextureHandle, RenderError> {
-        let began = Instant::now();
-        let picture = self.drawing.draw(session, size)?;
-        let image = ColorImage::from_rgb(size, &picture.rgb);
-        let texture = match &mut self.texture {
-            Some(texture) => {
-                texture.set(image, TextureOptions::LINEAR);
-                texture.clone()
-            }
-            None => {
-                self.texture.insert(context.load_texture("picture", image, TextureOptions::LINEAR)).clone()
-            }
-        };
-        self.cost = began.elapsed().as_secs_f64() / (size[0] * size[1]).max(1) as f64;
-        Ok(texture)
+    /// Forgets its last picture, whose texture is gone.
+    pub fn forget(&mut self) {
+        self.shown = None;
     }
 
-    /// The picture that is shown.
-    pub fn picture(&self) -> &Picture {
-        self.drawing.picture()
+    /// The labels of the last picture, and where each begins in a window of `size` pixels: from its lower left corner
+    /// \[pixel\].
+    pub fn labels(&self, size: [usize; 2]) -> impl Iterator<Item = (&str, [f64; 2])> {
+        let scene = &self.scenery.scene;
+        let projection = Projection::of(&scene.view, size[0], size[1]).ok();
+        let labelled = scene.items.iter().filter(|item| !item.label.is_empty());
+        labelled.filter_map(move |item| {
+            let p = item.pos.map(f64::from);
+            let rows = projection.as_ref()?.0;
+            let [x, y, z, w] = rows.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
+            let inside = |at: f64, end: f64| (0.0..=end * w).contains(&at);
+            let seen = w > 0.0 && inside(x, size[0] as f64) && inside(y, size[1] as f64) && inside(z, 1.0);
+            seen.then_some((item.label.as_str(), [x / w, y / w]))
+        })
+    }
+
+    /// Columns and rows of the window that the picture takes \[pixel\].
+    pub fn size(&self) -> [usize; 2] {
+        self.size
+    }
+
+    /// The picture of the present state as the CPU draws it, `size` pixels wide and high.
+    ///
+    /// # Errors
+    /// The camera or an item has no place; the size is zero or too large.
+    pub fn picture(
+        &mut self,
+        session: &Session,
+        [width, height]: [usize; 2],
+    ) -> Result<Picture, RenderError> {
+        let mut picture = Picture::new(width, height);
+        self.scenery.update(session)?;
+        self.scenery.paint(&mut Renderer::new(self.scenery.settings), Channels::RGB, &mut picture)?;
+        Ok(picture)
     }
 }

@@ -1,5 +1,6 @@
 //! Where models come from.
 
+use crate::files::{Files, is_archive};
 use crate::play::{Play, PlayError};
 use crate::session::Session;
 use env::{Env, Options, OwnModels, Registry};
@@ -17,6 +18,8 @@ use std::time::SystemTime;
 pub enum Source {
     /// A file: MJCF, URDF, or what `robohive compile` wrote.
     File(PathBuf),
+    /// A model among files in memory, by its path.
+    Among(Arc<Files>, String),
     /// A model of our own, by its path in `assets/`.
     Own(&'static str),
     /// An environment.
@@ -63,10 +66,26 @@ impl Source {
         })
     }
 
+    /// The model among files that is nearest to the top.
+    ///
+    /// # Errors
+    /// None of them is a model.
+    pub fn among(files: Files) -> Result<Source, NoModel> {
+        let Some(path) = files.models().into_iter().next() else { return Err(NoModel(files.len())) };
+        Ok(Source::Among(Arc::new(files), path))
+    }
+
+    /// Models that lie beside this one in the same files.
+    pub fn siblings(&self) -> Vec<Source> {
+        let Source::Among(files, _) = self else { return Vec::new() };
+        files.models().into_iter().map(|path| Source::Among(files.clone(), path)).collect()
+    }
+
     /// What people call it.
     pub fn title(&self) -> String {
         match self {
             Source::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            Source::Among(_, path) => path.clone(),
             Source::Own(path) => {
                 Path::new(path).file_stem().unwrap_or_default().to_string_lossy().into_owned()
             }
@@ -96,6 +115,7 @@ impl Source {
     pub(super) fn load(&self) -> Result<Loaded, String> {
         match self {
             Source::File(path) => load_file(path),
+            Source::Among(files, path) => files.load(path).map_err(|error| error.to_string()),
             Source::Environment(recipe) => Err(format!("{} is an environment, not a model", recipe.id)),
             Source::Own(path) => {
                 let mut files = Memory::default();
@@ -109,14 +129,69 @@ impl Source {
     pub fn changed(&self) -> Option<SystemTime> {
         match self {
             Source::File(path) => std::fs::metadata(path).and_then(|about| about.modified()).ok(),
-            Source::Own(_) | Source::Environment(_) => None,
+            Source::Among(..) | Source::Own(_) | Source::Environment(_) => None,
         }
     }
 }
 
+/// None of some files is a model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NoModel(usize);
+
+impl fmt::Display for NoModel {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "none of {} files is a model: a model is MJCF or URDF, .xml, .mjcf or .urdf", self.0)
+    }
+}
+
+impl std::error::Error for NoModel {}
+
 /// Whether a file is a part of models rather than one.
 fn is_part(path: &str) -> bool {
     path.contains("/parts/")
+}
+
+/// What a path that was dropped leads to: a file, or what is nearest to the top of a folder or an archive.
+pub(super) fn dropped(path: &Path) -> Result<Source, String> {
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();
+    let mut files = Files::new();
+    if path.is_dir() {
+        add_folder(&mut files, path, &name)?;
+    } else if is_archive(&name) {
+        let bytes = std::fs::read(path).map_err(|error| format!("{}: {error}", path.display()))?;
+        files.add(&name, bytes).map_err(|error| error.to_string())?;
+    } else {
+        return Ok(Source::File(path.to_owned()));
+    }
+    let source = Source::among(files).map_err(|error| format!("{name}: {error}"))?;
+    // Models of a folder stay where they are, so that they are read again when they change.
+    match (path.parent().filter(|_| path.is_dir()), source) {
+        (Some(parent), Source::Among(_, inside)) => Ok(Source::File(parent.join(inside))),
+        (_, source) => Ok(source),
+    }
+}
+
+/// Deepest folder that is looked into.
+const DEEPEST: usize = 32;
+
+/// Lists the files of a folder.
+fn add_folder(files: &mut Files, folder: &Path, name: &str) -> Result<(), String> {
+    let wrong = |error: std::io::Error| format!("{}: {error}", folder.display());
+    if name.matches('/').count() > DEEPEST {
+        return Err(format!("{}: folders are nested more than {DEEPEST} deep", folder.display()));
+    }
+    for entry in std::fs::read_dir(folder).map_err(wrong)? {
+        let entry = entry.map_err(wrong)?;
+        let inside = format!("{name}/{}", entry.file_name().to_string_lossy());
+        let kind = entry.file_type().map_err(wrong)?;
+        if kind.is_dir() {
+            add_folder(files, &entry.path(), &inside)?;
+        } else if kind.is_file() {
+            // Their contents are read where they are.
+            files.insert(&inside, Vec::new()).map_err(|error| error.to_string())?;
+        }
+    }
+    Ok(())
 }
 
 fn load_file(path: &Path) -> Result<Loaded, String> {

@@ -5,6 +5,7 @@ mod batches;
 mod compare;
 mod faults;
 mod models;
+mod shown;
 mod synthetic;
 
 use compare::Measures;
