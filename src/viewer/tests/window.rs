@@ -255,3 +255,121 @@ fn dropped_files_open_and_say_what_is_wrong() {
     assert_eq!(window.session().model().label_of(ObjType::Body, 1), "body \"a\"");
     std::fs::remove_dir_all(&folder).unwrap();
 }
+
+/// A folder of its own for the files of a test.
+fn folder(name: &str) -> PathBuf {
+    let folder = std::env::temp_dir().join(format!("robohive-window-{name}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+#[test]
+fn a_dropped_trajectory_is_replayed_and_a_second_one_shown_beside_it() {
+    let folder = folder("trajectory");
+    let states = folder.join("states.npz");
+    let mut session = Session::new(Window::own("pile").session().model().clone()).unwrap();
+    session.record(&states).unwrap();
+    session.run(true);
+    session.advance(0.05, &mut || true);
+    session.stop_recording().unwrap();
+    let mut window = Window::of(None);
+    window.drop_file(&states);
+    assert!(
+        window.app.trouble().is_some_and(|why| why.contains("open the model first")),
+        "{:?}",
+        window.app.trouble()
+    );
+    let mut window = Window::own("pile");
+    window.drop_file(&states);
+    assert_eq!(window.app.trouble(), None);
+    let rows = window.session().replay().expect("it is replayed").trajectory().len();
+    window.press(Key::ArrowRight, Modifiers::NONE);
+    assert_eq!((window.session().replay().unwrap().row(), rows), (1, 26));
+    window.drop_file(&states);
+    assert_eq!(window.session().reference().unwrap().difference(), Some(0.0));
+    window.use_named("Simulate from here");
+    assert!(window.session().replay().is_none() && window.session().reference().is_some());
+    window.drop_file(&folder.join("other.npz"));
+    assert!(window.app.trouble().is_some_and(|why| why.contains("other.npz")), "{:?}", window.app.trouble());
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn recorded_episodes_are_shown_trial_by_trial() {
+    let folder = folder("episodes");
+    let file = folder.join("reach.h5");
+    let mut sources = Source::own_environments();
+    let mut window = Window::of(sources.find(|source| source.title() == "hive/FrankaReach-v0"));
+    let session = window.app.opened_mut().unwrap();
+    let horizon = session.play().unwrap().env().spec().max_episode_steps;
+    session.record(&file).unwrap();
+    session.begin(3);
+    (0..2 * horizon + 2).for_each(|_| session.step_forward());
+    assert_eq!(session.stop_recording().unwrap().unwrap().count, 2);
+    window.drop_file(&file);
+    assert_eq!(window.app.trouble(), None);
+    window.app.opened_mut().unwrap().seek(usize::MAX);
+    let first = window.session().data().state.qpos.clone();
+    assert_eq!(window.session().replay().unwrap().trajectory().len(), horizon + 1);
+    window.use_named("Trial0");
+    (0..10).for_each(|_| window.frame(Vec::new()));
+    window.use_named("Trial1");
+    assert!(window.session().replay().unwrap().trajectory().name().ends_with("Trial1"));
+    window.app.opened_mut().unwrap().seek(usize::MAX);
+    assert_ne!(window.session().data().state.qpos, first, "each has actions of its own");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn keys_move_the_action_instead_of_switching() {
+    let mut sources = Source::own_environments();
+    let mut window = Window::of(sources.find(|source| source.title() == "hive/FrankaReach-v0"));
+    window.use_named("By hand");
+    window.use_named("Keys move actions");
+    let shows = window.session().options.show;
+    let hold = |pressed| Event::Key {
+        key: Key::D,
+        physical_key: None,
+        pressed,
+        repeat: false,
+        modifiers: Modifiers::NONE,
+    };
+    window.frame(vec![hold(true)]);
+    for _ in 0..5 {
+        std::thread::sleep(std::time::Duration::from_millis(20));
+        window.frame(Vec::new());
+    }
+    window.frame(vec![hold(false)]);
+    let moved = window.app.opened_mut().unwrap().play_mut().unwrap().hand().to_vec();
+    assert!(moved[0] > 0.0 && moved[1..].iter().all(|&x| x == 0.0), "{moved:?}");
+    assert_eq!(window.session().options.show, shows, "D would hide static bodies");
+}
+
+#[test]
+fn states_models_and_numbers_are_written() {
+    let mut window = Window::own("pile");
+    let written = std::rc::Rc::new(std::cell::RefCell::new(Vec::new()));
+    let to = written.clone();
+    window.app.save_by(Box::new(move |name, bytes| {
+        to.borrow_mut().push((name.to_owned(), bytes.to_vec()));
+        Ok(name.to_owned())
+    }));
+    window.use_named("Keep state");
+    for name in ["Save as MJCF", "Save compiled", "Print data", "Save kept states"] {
+        window.use_named("File");
+        (0..5).for_each(|_| window.frame(Vec::new()));
+        window.use_named(name);
+        (0..5).for_each(|_| window.frame(Vec::new()));
+    }
+    assert_eq!(window.app.trouble(), None);
+    let written = written.borrow();
+    let of =
+        |name: &str| &written.iter().find(|(file, _)| file == name).unwrap_or_else(|| panic!("no {name}")).1;
+    let text = |name: &str| String::from_utf8(of(name).clone()).unwrap();
+    let again = mjcf::load_str(text("model.xml")).unwrap().model;
+    let model = window.session().model();
+    assert_eq!((again.nbody, &again.body_mass[..]), (model.nbody, &model.body_mass[..]));
+    assert_eq!(physics::Model::from_bytes(of("model.rhm")).unwrap().nq, model.nq);
+    assert!(text("data.txt").contains(&format!("qpos [{}]", model.nq)));
+    assert!(text("keyframes.xml").contains("<key time=\"0\" qpos="));
+}

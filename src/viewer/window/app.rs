@@ -1,12 +1,18 @@
 //! The window as a whole.
 
+use super::beside::{steering_panel, trials_panel};
 use super::canvas::canvas;
+use super::episodes::Making;
+use super::exports::EXPORTS;
+use super::film::Film;
 use super::keys::Keys;
 use super::opened::Opened;
+use super::overlay::overlay;
 use super::painters::Painters;
 use super::panels;
 use super::saving::{Save, into_working_folder};
-use super::source::{Source, dropped};
+use super::source::Source;
+use super::steer::Steering;
 use crate::text;
 use eframe::egui::{
     self, Align2, CentralPanel, CollapsingHeader, Context, Key, MenuBar, Modifiers, Panel, Rect, RichText,
@@ -35,7 +41,13 @@ pub struct App {
     /// Where the picture was in the last frame \[point\].
     pub(super) area: Rect,
     keys: Keys,
-    desk: panels::Desk,
+    pub(super) desk: panels::Desk,
+    /// The video that is being written.
+    pub(super) film: Option<Film>,
+    pub(super) steering: Steering,
+    /// What makes the environments of recordings.
+    pub(super) making: Making,
+    shows_info: bool,
     shows_left: bool,
     shows_right: bool,
     shows_help: bool,
@@ -58,6 +70,10 @@ impl App {
             area: Rect::NOTHING,
             keys: Keys::new(),
             desk: panels::Desk::default(),
+            film: None,
+            steering: Steering::default(),
+            making: Making::default(),
+            shows_info: false,
             shows_left: true,
             shows_right: true,
             shows_help: false,
@@ -91,23 +107,24 @@ impl App {
         let elapsed = self.last.elapsed().as_secs_f64().min(LONGEST);
         self.last = Instant::now();
         let path = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
-        match path.map(|path| dropped(&path)) {
-            Some(Ok(source)) => self.open(source),
-            Some(Err(why)) => self.trouble = Some(why),
-            None => {}
+        if let Some(path) = path {
+            self.open_path(&path);
         }
         self.general_keys(context);
         if self.opened.as_mut().is_some_and(Opened::is_outdated) {
             self.reload();
         }
+        self.steer(context, elapsed);
         let Some(opened) = &mut self.opened else { return };
-        for command in self.keys.pressed(context) {
+        for command in self.keys.pressed(context, &self.steering.taken(&opened.session)) {
             opened.session.perform(command);
         }
         let began = Instant::now();
         opened.session.advance(elapsed, &mut || began.elapsed().as_secs_f64() < SHARE * FRAME);
         self.desk.signals.measure(&opened.session);
-        if opened.session.is_running() || opened.session.holds() {
+        let moves = opened.session.is_running() || opened.session.holds();
+        self.film_on();
+        if moves {
             context.request_repaint();
         } else {
             context.request_repaint_after(Duration::from_millis(500));
@@ -128,6 +145,13 @@ impl App {
         }
         if pressed(Modifiers::NONE, Key::F1) {
             self.shows_help = !self.shows_help;
+        }
+        if pressed(Modifiers::NONE, Key::F2) {
+            self.shows_info = !self.shows_info;
+        }
+        if pressed(Modifiers::NONE, Key::F5) {
+            let full = context.input(|input| input.viewport().fullscreen.unwrap_or(false));
+            context.send_viewport_cmd(ViewportCommand::Fullscreen(!full));
         }
         if pressed(Modifiers::NONE, Key::Tab) {
             self.shows_left = !self.shows_left;
@@ -186,6 +210,16 @@ impl App {
                 if ui.button("Screenshot  Ctrl+P").clicked() {
                     self.screenshot();
                 }
+                let filming = if self.film.is_some() { "Complete the video" } else { "Film" };
+                if ui.button(filming).clicked() {
+                    self.film();
+                }
+                for export in &EXPORTS {
+                    if ui.button(export.name).clicked() {
+                        self.export(export);
+                        ui.close();
+                    }
+                }
                 if ui.button("Copy state  Ctrl+C").clicked() {
                     self.copy_state(ui.ctx(), false);
                 }
@@ -196,6 +230,7 @@ impl App {
             ui.menu_button("View", |ui| {
                 ui.checkbox(&mut self.shows_left, "Left panel  Tab");
                 ui.checkbox(&mut self.shows_right, "Right panel  Shift+Tab");
+                ui.checkbox(&mut self.shows_info, "Info  F2");
                 if self.painters.has_gpu() {
                     let mut uses_gpu = self.painters.uses_gpu();
                     ui.checkbox(&mut uses_gpu, "Draw by the GPU");
@@ -278,7 +313,10 @@ const GESTURES: [(&str, &str); 9] = [
     ("Ctrl and right double click", "track a body"),
     ("Ctrl and left drag", "turn the selected body"),
     ("Ctrl and right drag", "pull the selected body, with Shift in the horizontal plane"),
-    ("Drop a file", "open it"),
+    (
+        "Drop a file",
+        "open a model, replay an .npz trajectory of it, or show the episodes of an .h5 recording",
+    ),
 ];
 
 /// A section of a panel.
@@ -305,7 +343,8 @@ impl App {
         Panel::top("menu").show(ui, |ui| self.menu(ui));
         Panel::bottom("status").show(ui, |ui| self.status(ui));
         if let Some(opened) = &mut self.opened {
-            let session = &mut opened.session;
+            let Opened { session, episodes, .. } = opened;
+            let mut wrong = Ok(());
             Panel::left("left").default_size(240.0).show_collapsible(ui, &mut self.shows_left, |ui| {
                 ScrollArea::vertical().show(ui, |ui| {
                     section(ui, "Simulation", true, |ui| panels::simulation(ui, session));
@@ -313,7 +352,14 @@ impl App {
                         section(ui, "Episode", true, |ui| panels::episode(ui, session));
                     }
                     section(ui, "Recording", false, |ui| panels::recording(ui, session, &mut self.desk));
-                    section(ui, "Replay", session.replay().is_some(), |ui| panels::replay(ui, session));
+                    if session.replay().is_some() || session.reference().is_some() {
+                        section(ui, "Replay", true, |ui| {
+                            if let Some(episodes) = episodes {
+                                wrong = trials_panel(ui, session, episodes);
+                            }
+                            panels::replay(ui, session);
+                        });
+                    }
                     section(ui, "View", true, |ui| panels::visual(ui, session));
                     section(ui, "Groups", false, |ui| panels::groups(ui, session));
                     section(ui, "Appearance", false, |ui| panels::appearance(ui, session));
@@ -327,7 +373,10 @@ impl App {
                 ScrollArea::vertical().show(ui, |ui| {
                     if session.play().is_some() {
                         section(ui, "Reward", true, |ui| panels::reward(ui, session));
-                        section(ui, "Actions", true, |ui| panels::actions(ui, session));
+                        section(ui, "Actions", true, |ui| {
+                            wrong = steering_panel(ui, &mut self.steering);
+                            panels::actions(ui, session);
+                        });
                         section(ui, "Observation", false, |ui| panels::observation(ui, session));
                     } else {
                         section(ui, "Controls", true, |ui| panels::controls(ui, session));
@@ -342,6 +391,9 @@ impl App {
                     section(ui, "Contacts", false, |ui| panels::contacts(ui, session));
                 });
             });
+            if let Err(why) = wrong {
+                self.trouble = Some(why);
+            }
         }
         CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
         self.help(&context);
@@ -354,7 +406,11 @@ impl App {
             Some(opened) => {
                 messages.extend(opened.session.fault().map(str::to_owned));
                 match canvas(ui, opened, &mut self.painters) {
-                    Ok(area) => self.area = area,
+                    Ok(area) => {
+                        self.area = area;
+                        let frame = f64::from(ui.input(|input| input.stable_dt));
+                        overlay(ui.painter(), area, &opened.session, frame, self.shows_info);
+                    }
                     Err(why) => messages.push(why),
                 }
                 if !opened.warnings.is_empty() {

@@ -16,8 +16,9 @@ impl Keys {
         Keys(shortcuts().into_iter().filter_map(known).collect())
     }
 
-    /// The commands of the keys pressed since the last frame, unless a person types text.
-    pub fn pressed(&self, context: &Context) -> Vec<Command> {
+    /// The commands of the keys pressed since the last frame, but those that something else takes; none while a person types
+    /// text.
+    pub fn pressed(&self, context: &Context, taken: &[Key]) -> Vec<Command> {
         if context.egui_wants_keyboard_input() {
             return Vec::new();
         }
@@ -25,6 +26,7 @@ impl Keys {
             let held = input.modifiers;
             let is_pressed = |(modifiers, key, _): &&(Modifiers, Key, Shortcut)| {
                 input.key_pressed(*key)
+                    && !taken.contains(key)
                     && held.shift == modifiers.shift
                     && held.command == modifiers.command
                     && !held.alt

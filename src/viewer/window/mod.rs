@@ -11,25 +11,35 @@
 //! | `keys` | keys to commands |
 //! | `panels` | what stands beside the picture |
 //! | `app` | all of it |
+//! | `beside` | files that are opened and written, videos, and actions that a person steers |
+//! | `episodes`, `exports`, `film`, `steer`, `gamepad`, `overlay` | one of these each |
 //! | `script` | what programs ask the window for |
 //!
 //! Nothing but `run` needs a window of the system: the time is asked of `web_time`, files are opened from memory too, and saved
 //! by what the window is given.
 
 mod app;
+mod beside;
 mod canvas;
+mod episodes;
+mod exports;
+mod film;
+mod gamepad;
 mod keys;
 mod opened;
+mod overlay;
 mod painters;
 mod panels;
 mod saving;
 mod screen;
 mod script;
 mod source;
+mod steer;
 
 pub use app::App;
 /// Its types are those of [`setup`] and [`Painters::of`].
 pub use eframe;
+pub use episodes::{Making, Recording};
 pub use opened::Opened;
 pub use painters::Painters;
 pub use saving::Save;

@@ -1,5 +1,6 @@
 //! A model that is open.
 
+use super::episodes::Episodes;
 use super::screen::Screen;
 use super::source::Source;
 use crate::session::Session;
@@ -19,6 +20,8 @@ pub struct Opened {
     pub source: Source,
     /// Models that lie beside it in the same files.
     pub siblings: Vec<Source>,
+    /// The recording whose episodes are shown.
+    pub(super) episodes: Option<Box<Episodes>>,
     /// What was ignored or assumed when the model was read.
     pub warnings: String,
     changed: Option<SystemTime>,
@@ -32,10 +35,19 @@ impl Opened {
     /// It cannot be read, evaluated or drawn.
     pub(super) fn open(source: Source) -> Result<Self, String> {
         let changed = source.changed();
-        let (session, warnings) = source.start()?;
+        let (session, warnings, episodes) = match &source {
+            Source::Episodes(recording) => {
+                let (session, episodes) = recording.start()?;
+                (session, String::new(), Some(Box::new(episodes)))
+            }
+            _ => {
+                let (session, warnings) = source.start()?;
+                (session, warnings, None)
+            }
+        };
         let screen = Screen::new(session.model()).map_err(|error| error.to_string())?;
         let siblings = source.siblings();
-        Ok(Opened { session, screen, source, siblings, warnings, changed, looked: Instant::now() })
+        Ok(Opened { session, screen, source, siblings, episodes, warnings, changed, looked: Instant::now() })
     }
 
     /// Reads the model again, in the state that it is in; an environment begins anew.
@@ -44,7 +56,7 @@ impl Opened {
     /// As [`Opened::open`]; the model stays the former one.
     pub(super) fn reload(&mut self) -> Result<(), String> {
         self.changed = self.source.changed();
-        if self.session.play().is_some() {
+        if self.session.play().is_some() || self.episodes.is_some() {
             *self = Opened::open(self.source.clone())?;
             return Ok(());
         }

@@ -1,5 +1,6 @@
 //! Where models come from.
 
+use super::episodes::Recording;
 use crate::files::{Files, is_archive};
 use crate::play::{Play, PlayError};
 use crate::session::Session;
@@ -24,6 +25,8 @@ pub enum Source {
     Own(&'static str),
     /// An environment.
     Environment(Recipe),
+    /// Recorded episodes of an environment.
+    Episodes(Recording),
 }
 
 /// How an environment is made.
@@ -90,6 +93,7 @@ impl Source {
                 Path::new(path).file_stem().unwrap_or_default().to_string_lossy().into_owned()
             }
             Source::Environment(recipe) => recipe.id.clone(),
+            Source::Episodes(recording) => recording.path.display().to_string(),
         }
     }
 
@@ -117,19 +121,35 @@ impl Source {
             Source::File(path) => load_file(path),
             Source::Among(files, path) => files.load(path).map_err(|error| error.to_string()),
             Source::Environment(recipe) => Err(format!("{} is an environment, not a model", recipe.id)),
-            Source::Own(path) => {
-                let mut files = Memory::default();
-                assets::FILES.iter().for_each(|(path, text)| files.insert(path, text.as_bytes()));
-                Loader::default().files(files).load(path).map_err(|errors| errors.to_string())
+            Source::Episodes(recording) => {
+                Err(format!("{} holds episodes, not a model", recording.path.display()))
             }
+            Source::Own(path) => own_files().load(path).map_err(|errors| errors.to_string()),
         }
+    }
+
+    /// The model as one MJCF text, as it was read; files of assets are named from the folder where the program runs.
+    ///
+    /// # Errors
+    /// It is no MJCF or URDF of a file or of our own, or has names that no text can say.
+    pub(super) fn mjcf(&self) -> Result<String, String> {
+        let parsed = match self {
+            Source::File(path) => Loader::default().parse(path),
+            Source::Own(path) => own_files().parse(path),
+            _ => return Err(format!("{} is not a file of MJCF or URDF", self.title())),
+        };
+        let mut spec = parsed.map_err(|errors| errors.to_string())?.spec;
+        if let Source::File(_) = self {
+            spec.place_assets("").map_err(|errors| errors.to_string())?;
+        }
+        spec.to_xml().map_err(|errors| errors.to_string())
     }
 
     /// When its file was changed last.
     pub fn changed(&self) -> Option<SystemTime> {
         match self {
             Source::File(path) => std::fs::metadata(path).and_then(|about| about.modified()).ok(),
-            Source::Among(..) | Source::Own(_) | Source::Environment(_) => None,
+            Source::Among(..) | Source::Own(_) | Source::Environment(_) | Source::Episodes(_) => None,
         }
     }
 }
@@ -145,6 +165,13 @@ impl fmt::Display for NoModel {
 }
 
 impl std::error::Error for NoModel {}
+
+/// What reads models of our own.
+fn own_files() -> Loader {
+    let mut files = Memory::default();
+    assets::FILES.iter().for_each(|(path, text)| files.insert(path, text.as_bytes()));
+    Loader::default().files(files)
+}
 
 /// Whether a file is a part of models rather than one.
 fn is_part(path: &str) -> bool {

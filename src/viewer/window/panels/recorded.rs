@@ -74,7 +74,4 @@ pub fn replay(ui: &mut Ui, session: &mut Session) {
             let _ = session.set_reference(None);
         }
     }
-    if session.replay().is_none() && session.reference().is_none() {
-        ui.label("Drop an .npz trajectory of this model to replay it; a second one is shown beside it");
-    }
 }

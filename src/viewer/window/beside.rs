@@ -1,0 +1,124 @@
+//! What the window does beside showing a session: files that it opens and writes, videos, and actions that a person steers.
+
+use super::app::App;
+use super::episodes::{Episodes, Recording, trajectory};
+use super::exports::Export;
+use super::film::Film;
+use super::source::{Source, dropped};
+use super::steer::Steering;
+use crate::session::Session;
+use eframe::egui::{ComboBox, Context, Ui};
+use std::path::Path;
+
+/// Trajectories and recordings of episodes by the endings of their files.
+const TRAJECTORIES: [&str; 1] = ["npz"];
+const EPISODES: [&str; 2] = ["h5", "hdf5"];
+
+impl App {
+    /// Opens what a path leads to: a trajectory of the open model, recorded episodes, a model, or a folder or archive with one.
+    pub(super) fn open_path(&mut self, path: &Path) {
+        let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
+        if TRAJECTORIES.contains(&ending.as_str()) {
+            self.trouble = self.show_trajectory(path).err();
+        } else if EPISODES.contains(&ending.as_str()) {
+            let making = self.making.clone();
+            self.open(Source::Episodes(Recording { path: path.to_owned(), making }));
+        } else {
+            match dropped(path) {
+                Ok(source) => self.open(source),
+                Err(why) => self.trouble = Some(why),
+            }
+        }
+    }
+
+    /// Replays a trajectory of the open model; the second one is shown beside the first.
+    fn show_trajectory(&mut self, path: &Path) -> Result<(), String> {
+        let Some(opened) = &mut self.opened else {
+            return Err(format!("{}: open the model first whose states these are", path.display()));
+        };
+        let session = &mut opened.session;
+        let states = trajectory(path, session)?;
+        let shown = if session.replay().is_some() {
+            session.set_reference(Some(states))
+        } else {
+            session.set_replay(Some(states))
+        };
+        shown.map_err(|error| error.to_string())
+    }
+
+    /// Writes what a menu offers.
+    pub(super) fn export(&mut self, export: &Export) {
+        let Some(opened) = &self.opened else { return };
+        let contents = (export.contents)(&opened.source, &opened.session);
+        let written =
+            contents.and_then(|bytes| (self.save)(export.file, &bytes).map_err(|error| error.to_string()));
+        match written {
+            Ok(place) => self.desk.notice = Some(format!("written {place}")),
+            Err(why) => self.trouble = Some(why),
+        }
+    }
+
+    /// Begins a video of what is shown, or completes the one that was begun.
+    pub(super) fn film(&mut self) {
+        let Some(opened) = &self.opened else { return };
+        match self.film.take() {
+            Some(film) => match film.finish() {
+                Ok(written) => self.desk.notice = Some(format!("written {written}")),
+                Err(why) => self.trouble = Some(why),
+            },
+            None => match Film::begin_new(&opened.session) {
+                Ok(film) => self.film = Some(film),
+                Err(why) => self.trouble = Some(why),
+            },
+        }
+    }
+
+    /// After time went by: the video gets its frames.
+    pub(super) fn film_on(&mut self) {
+        let (Some(opened), Some(film)) = (&self.opened, &mut self.film) else { return };
+        if let Err(why) = film.show(&opened.session) {
+            (self.film, self.trouble) = (None, Some(why));
+        }
+    }
+
+    /// Before time goes by: keys and gamepad move the action.
+    pub(super) fn steer(&mut self, context: &Context, seconds: f64) {
+        let Some(opened) = &mut self.opened else { return };
+        if let Err(why) = self.steering.steer(context, &mut opened.session, seconds) {
+            self.trouble = Some(why);
+        }
+    }
+}
+
+/// What moves the action of an environment, beside sliders. The error says why a gamepad does not.
+pub(super) fn steering_panel(ui: &mut Ui, steering: &mut Steering) -> Result<(), String> {
+    ui.checkbox(&mut steering.by_keys, "Keys move actions").on_hover_text(
+        "A D, S W, Q E, J L, K I, U O, F H, G T, Z X and N M, a pair for each part of the action",
+    );
+    let mut on = steering.has_gamepad();
+    match ui.checkbox(&mut on, "Gamepad moves actions").changed() {
+        true => steering.use_gamepad(on),
+        false => Ok(()),
+    }
+}
+
+/// The episodes of a recording, one of which is shown. The error says why another one is not.
+pub(super) fn trials_panel(
+    ui: &mut Ui,
+    session: &mut Session,
+    episodes: &mut Episodes,
+) -> Result<(), String> {
+    let mut chosen = episodes.shown();
+    let names = episodes.trials();
+    ComboBox::from_label("Episode").selected_text(&names[chosen]).show_ui(ui, |ui| {
+        for (trial, name) in names.iter().enumerate() {
+            ui.selectable_value(&mut chosen, trial, name);
+        }
+    });
+    if chosen != episodes.shown() {
+        let (camera, options) = (session.camera, session.options);
+        *session = episodes.session(chosen)?;
+        (session.camera, session.options) = (camera, options);
+    }
+    Ok(())
+}
