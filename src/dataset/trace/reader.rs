@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// Bytes of a dataset that is read whole at most: rows of a longer one are read piece by piece.
-const MAX_BYTES: usize = 1 << 32;
+const MAX_BYTES: u64 = 1 << 32;
 
 /// A recording.
 pub struct TraceReader {
@@ -252,7 +252,7 @@ impl TraceReader {
     /// It holds no numbers, is longer than 4 GiB, or the file is damaged.
     pub fn read(&self, entry: &Entry) -> Result<Array, TraceError> {
         if let Content::Hdf5 { dataset, .. } = &entry.content
-            && dataset.rows().saturating_mul(dataset.row_bytes()) > MAX_BYTES
+            && dataset.rows().saturating_mul(dataset.row_bytes()) as u64 > MAX_BYTES
         {
             let message = format!("more than {MAX_BYTES} bytes: read it row by row");
             return Err(TraceError::new(&self.path, entry.path(), message));
