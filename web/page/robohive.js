@@ -51,6 +51,8 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
   #pending;
   /** What is open and lacks files: how to open it again with more. */
   #again;
+  /** The fault that was told. */
+  #told;
   #film;
   #hidden = 0;
   #cost = 0;
@@ -322,6 +324,7 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     if (this.#film) this.#endFilm();
     this.simulation?.free();
     this.simulation = simulation;
+    this.#told = undefined;
     this.#changed();
     if (!simulation) return;
     const cameras = this.#part("[data-does=camera]");
@@ -416,7 +419,7 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
       const steps = simulation.advance(elapsed, PHYSICS);
       this.#draw(simulation);
       if (steps) this.#tell("step", { time: simulation.time, steps });
-      if (simulation.fault && this.#part(".message").hidden) this.#fault(simulation.fault);
+      if (simulation.fault !== this.#told) this.#fault(simulation.fault);
       this.#status(simulation);
     } catch (error) {
       if (!(error instanceof WebAssembly.RuntimeError)) this.run(false);
@@ -424,7 +427,10 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     }
   }
 
+  /** Says once why the simulation has stopped. */
   #fault(fault) {
+    this.#told = fault;
+    if (!fault) return;
     this.say(`The simulation has stopped: ${fault}`);
     this.#label();
     this.#tell("error", { message: fault, missing: [] });
