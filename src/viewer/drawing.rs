@@ -47,6 +47,7 @@ impl Drawing {
         if let Some(reference) = session.reference() {
             self.ghost.haunt(&mut self.scene, model, reference.data(), view, &options)?;
         }
+        self.scene.items.extend_from_slice(session.guests());
         [self.picture.width, self.picture.height] = size;
         let shot = Shot {
             assets: &self.assets,

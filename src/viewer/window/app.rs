@@ -4,6 +4,7 @@ use super::canvas::canvas;
 use super::keys::Keys;
 use super::opened::Opened;
 use super::panels;
+use super::program::Program;
 use super::source::Source;
 use crate::command::Command;
 use crate::text;
@@ -23,13 +24,15 @@ const LONGEST: f64 = 0.25;
 
 /// The viewer.
 pub struct App {
-    opened: Option<Opened>,
+    pub(super) opened: Option<Opened>,
     /// What could not be opened, drawn or written, until something is.
-    trouble: Option<String>,
+    pub(super) trouble: Option<String>,
+    /// The program whose window this is.
+    pub(super) program: Option<Program>,
     keys: Keys,
     desk: panels::Desk,
-    shows_left: bool,
-    shows_right: bool,
+    pub(super) shows_left: bool,
+    pub(super) shows_right: bool,
     shows_help: bool,
     last: Instant,
 }
@@ -40,6 +43,7 @@ impl App {
         let mut app = App {
             opened: None,
             trouble: None,
+            program: None,
             keys: Keys::new(),
             desk: panels::Desk::default(),
             shows_left: true,
@@ -63,7 +67,7 @@ impl App {
         self.trouble.as_deref()
     }
 
-    fn open(&mut self, source: Source) {
+    pub(super) fn open(&mut self, source: Source) {
         match Opened::open(source) {
             Ok(opened) => {
                 (self.opened, self.trouble) = (Some(opened), None);
@@ -74,6 +78,9 @@ impl App {
     }
 
     fn reload(&mut self) {
+        if self.asks_for_reload() {
+            return;
+        }
         if let Some(opened) = &mut self.opened {
             self.trouble = opened.reload().err();
         }
@@ -83,9 +90,11 @@ impl App {
     fn advance(&mut self, context: &Context) {
         let elapsed = self.last.elapsed().as_secs_f64().min(LONGEST);
         self.last = Instant::now();
+        self.receive(context);
         let dropped =
             context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
-        if let Some(path) = dropped {
+        let follows = self.opened.as_ref().is_some_and(|opened| opened.session.is_following());
+        if let Some(path) = dropped.filter(|_| !follows) {
             self.open(Source::File(path));
         }
         self.general_keys(context);
@@ -93,8 +102,10 @@ impl App {
             self.reload();
         }
         let Some(opened) = &mut self.opened else { return };
-        for command in self.keys.pressed(context) {
-            opened.session.perform(command);
+        if self.program.as_ref().is_none_or(|program| program.keys) {
+            for command in self.keys.pressed(context) {
+                opened.session.perform(command);
+            }
         }
         let began = Instant::now();
         opened.session.advance(elapsed, &mut || began.elapsed().as_secs_f64() < SHARE * FRAME);
@@ -203,6 +214,7 @@ impl App {
         ui.horizontal(|ui| {
             ui.label(RichText::new(opened.source.title()).strong());
             let paused = match (session.is_running(), session.history().behind()) {
+                _ if session.is_following() => "driven by a program".to_owned(),
                 (true, _) => "running".to_owned(),
                 (false, 0) => "paused".to_owned(),
                 (false, behind) => format!("paused (-{behind})"),
@@ -261,6 +273,10 @@ impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
     }
+
+    fn on_exit(&mut self) {
+        self.leave();
+    }
 }
 
 impl App {
@@ -274,12 +290,16 @@ impl App {
             let session = &mut opened.session;
             Panel::left("left").default_size(240.0).show_collapsible(ui, &mut self.shows_left, |ui| {
                 ScrollArea::vertical().show(ui, |ui| {
-                    section(ui, "Simulation", true, |ui| panels::simulation(ui, session));
+                    if !session.is_following() {
+                        section(ui, "Simulation", true, |ui| panels::simulation(ui, session));
+                    }
                     if session.play().is_some() {
                         section(ui, "Episode", true, |ui| panels::episode(ui, session));
                     }
-                    section(ui, "Recording", false, |ui| panels::recording(ui, session, &mut self.desk));
-                    section(ui, "Replay", session.replay().is_some(), |ui| panels::replay(ui, session));
+                    if !session.is_following() {
+                        section(ui, "Recording", false, |ui| panels::recording(ui, session, &mut self.desk));
+                        section(ui, "Replay", session.replay().is_some(), |ui| panels::replay(ui, session));
+                    }
                     section(ui, "View", true, |ui| panels::visual(ui, session));
                     section(ui, "Groups", false, |ui| panels::groups(ui, session));
                     section(ui, "Appearance", false, |ui| panels::appearance(ui, session));
@@ -309,8 +329,13 @@ impl App {
                 });
             });
         }
-        CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
+        CentralPanel::no_frame().show(ui, |ui| {
+            let area = ui.max_rect();
+            self.picture(ui);
+            self.show_overlays(ui, area);
+        });
         self.help(&context);
+        self.report();
     }
 
     /// The picture, and messages over it.

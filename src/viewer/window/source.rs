@@ -21,6 +21,8 @@ pub enum Source {
     Own(&'static str),
     /// An environment.
     Environment(Recipe),
+    /// A model that a program has sent, by its title.
+    Program(String),
 }
 
 /// How an environment is made.
@@ -71,6 +73,7 @@ impl Source {
                 Path::new(path).file_stem().unwrap_or_default().to_string_lossy().into_owned()
             }
             Source::Environment(recipe) => recipe.id.clone(),
+            Source::Program(title) => title.clone(),
         }
     }
 
@@ -97,6 +100,9 @@ impl Source {
         match self {
             Source::File(path) => load_file(path),
             Source::Environment(recipe) => Err(format!("{} is an environment, not a model", recipe.id)),
+            Source::Program(title) => {
+                Err(format!("{title} is the model of a program, which alone can read it again"))
+            }
             Source::Own(path) => {
                 let mut files = Memory::default();
                 assets::FILES.iter().for_each(|(path, text)| files.insert(path, text.as_bytes()));
@@ -109,7 +115,7 @@ impl Source {
     pub fn changed(&self) -> Option<SystemTime> {
         match self {
             Source::File(path) => std::fs::metadata(path).and_then(|about| about.modified()).ok(),
-            Source::Own(_) | Source::Environment(_) => None,
+            Source::Own(_) | Source::Environment(_) | Source::Program(_) => None,
         }
     }
 }
