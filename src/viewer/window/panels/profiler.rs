@@ -7,6 +7,9 @@ use eframe::egui::Ui;
 use egui_plot::{Legend, Line, Plot, PlotPoints};
 use physics::pipeline::watch::Stage;
 
+/// What is plotted of a frame.
+type Value<'a> = &'a dyn Fn(&Frame) -> f64;
+
 /// Time of each stage, sizes of the problem, and convergence of the last step.
 pub fn profiler(ui: &mut Ui, session: &mut Session) {
     let mut on = session.profile.is_some();
@@ -26,7 +29,7 @@ pub fn profiler(ui: &mut Ui, session: &mut Session) {
         (name(stage), format!("{:9.2} µs {:5.1} %", seconds * 1e6, 100.0 * seconds / whole))
     }));
     table(ui, "stages", rows);
-    let lines = |ui: &mut Ui, id: &str, series: &[(&str, &dyn Fn(&Frame) -> f64)]| {
+    let lines = |ui: &mut Ui, id: &str, series: &[(&str, Value<'_>)]| {
         ui.label(id);
         Plot::new(id).height(120.0).legend(Legend::default()).show(ui, |plot| {
             for (name, value) in series {
