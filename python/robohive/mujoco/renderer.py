@@ -43,8 +43,6 @@ class Renderer:
         self._scene: MjvScene | None = MjvScene(model, max_geom)
         self._scene._painter = _core.Painter(width, height)
         self._channel = "rgb"
-        #: What was looked at last, and the flags then.
-        self._looked: tuple[MjData, dict[str, Any], bytes] | None = None
         self._scene_option = MjvOption()
 
     @property
@@ -92,11 +90,7 @@ class Renderer:
             ValueError: there is no such camera.
         """
         look = look_of(self._model, self._camera(camera), scene_option or self._scene_option)
-        self._look(data, look)
-
-    def _look(self, data: MjData, look: dict[str, Any]) -> None:
         self.scene._look(self._model, data, look)
-        self._looked = data, look, self.scene.flags.tobytes()
 
     def _camera(self, camera: int | str | MjvCamera) -> MjvCamera:
         if isinstance(camera, MjvCamera):
@@ -131,12 +125,7 @@ class Renderer:
             RuntimeError: nothing was looked at yet, or the renderer is closed.
             ValueError: `out` has another shape.
         """
-        scene = self.scene
-        if self._looked is not None and self._looked[2] != scene.flags.tobytes():
-            data, look, _ = self._looked
-            scene._look_again(self._model, data, look)
-            self._looked = data, look, scene.flags.tobytes()
-        picture = self._picture(scene)
+        picture = self._picture(self.scene)
         if out is None:
             return picture
         if out.shape != picture.shape:
@@ -147,13 +136,13 @@ class Renderer:
     def _picture(self, scene: MjvScene) -> NDArray[Any]:
         guests = scene._guests()
         if not guests:
-            return scene._painter.draw(self._channel)
-        drawn = scene._painter.draw_all((self._width, self._height), guests)
+            return scene._painter.draw(self._channel, scene._effects())
+        drawn = scene._painter.draw_all((self._width, self._height), guests, scene._effects())
         return drawn[("rgb", "depth", "segmentation").index(self._channel)]
 
     def close(self) -> None:
         """Frees the memory."""
-        self._scene = self._looked = None
+        self._scene = None
 
     def __enter__(self) -> "Renderer":
         return self

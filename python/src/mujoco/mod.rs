@@ -29,6 +29,7 @@ mod items;
 mod lent;
 mod lists;
 mod load;
+mod look;
 mod mirror;
 mod model;
 mod picture;

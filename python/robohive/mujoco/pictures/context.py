@@ -125,20 +125,20 @@ def mjr_render(viewport: MjrRect, scn: MjvScene, con: MjrContext) -> None:
 
     Raises:
         RuntimeError: the scene was never updated.
-        NotImplementedError: wireframe or additive transparency is asked for.
     """
-    for flag in (mjtRndFlag.mjRND_WIREFRAME, mjtRndFlag.mjRND_ADDITIVE):
-        if scn.flags[flag]:
-            raise NotImplementedError(f"robohive.mujoco does not draw with {flag.name}")
-    rgb, depth, objects = scn._painter.draw_all((viewport.width, viewport.height), scn._guests())
+    size = viewport.width, viewport.height
+    rgb, distance, objects = scn._painter.draw_all(size, scn._guests(), scn._effects())
+    depth = _window_depth(distance, scn)
     if scn.flags[mjtRndFlag.mjRND_SEGMENT]:
         rgb = _objects(objects, scn)
+    if scn.flags[mjtRndFlag.mjRND_DEPTH]:
+        rgb = np.repeat(np.rint(255 * (1 - depth)).astype(np.uint8)[..., None], 3, -1)
     rows, columns = con._within(viewport)
     place = slice(rows.start - viewport.bottom, rows.stop - viewport.bottom), slice(
         columns.start - viewport.left, columns.stop - viewport.left
     )
     con._rgb[rows, columns] = rgb[::-1][place]
-    con._depth[rows, columns] = _window_depth(depth, scn)[::-1][place]
+    con._depth[rows, columns] = depth[::-1][place]
 
 
 def mjr_readPixels(
