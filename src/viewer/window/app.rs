@@ -1,8 +1,7 @@
 //! The window as a whole.
 
-use super::beside::{steering_panel, trials_panel};
 use super::canvas::canvas;
-use super::episodes::Making;
+use super::episodes::{Making, trials_panel};
 use super::exports::EXPORTS;
 use super::film::Film;
 use super::keys::Keys;
@@ -12,7 +11,7 @@ use super::painters::Painters;
 use super::panels;
 use super::saving::{Save, into_working_folder};
 use super::source::Source;
-use super::steer::Steering;
+use super::steer::{Steering, steering_panel};
 use crate::text;
 use eframe::egui::{
     self, Align2, CentralPanel, CollapsingHeader, Context, Key, MenuBar, Modifiers, Panel, Rect, RichText,

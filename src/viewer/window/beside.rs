@@ -1,13 +1,11 @@
 //! What the window does beside showing a session: files that it opens and writes, videos, and actions that a person steers.
 
 use super::app::App;
-use super::episodes::{Episodes, Recording, trajectory};
+use super::episodes::{Recording, trajectory};
 use super::exports::Export;
 use super::film::Film;
 use super::source::{Source, dropped};
-use super::steer::Steering;
-use crate::session::Session;
-use eframe::egui::{ComboBox, Context, Ui};
+use eframe::egui::Context;
 use std::path::Path;
 
 /// Trajectories and recordings of episodes by the endings of their files.
@@ -88,37 +86,4 @@ impl App {
             self.trouble = Some(why);
         }
     }
-}
-
-/// What moves the action of an environment, beside sliders. The error says why a gamepad does not.
-pub(super) fn steering_panel(ui: &mut Ui, steering: &mut Steering) -> Result<(), String> {
-    ui.checkbox(&mut steering.by_keys, "Keys move actions").on_hover_text(
-        "A D, S W, Q E, J L, K I, U O, F H, G T, Z X and N M, a pair for each part of the action",
-    );
-    let mut on = steering.has_gamepad();
-    match ui.checkbox(&mut on, "Gamepad moves actions").changed() {
-        true => steering.use_gamepad(on),
-        false => Ok(()),
-    }
-}
-
-/// The episodes of a recording, one of which is shown. The error says why another one is not.
-pub(super) fn trials_panel(
-    ui: &mut Ui,
-    session: &mut Session,
-    episodes: &mut Episodes,
-) -> Result<(), String> {
-    let mut chosen = episodes.shown();
-    let names = episodes.trials();
-    ComboBox::from_label("Episode").selected_text(&names[chosen]).show_ui(ui, |ui| {
-        for (trial, name) in names.iter().enumerate() {
-            ui.selectable_value(&mut chosen, trial, name);
-        }
-    });
-    if chosen != episodes.shown() {
-        let (camera, options) = (session.camera, session.options);
-        *session = episodes.session(chosen)?;
-        (session.camera, session.options) = (camera, options);
-    }
-    Ok(())
 }

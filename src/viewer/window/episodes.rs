@@ -2,14 +2,15 @@
 
 use crate::session::Session;
 use dataset::trace::TraceReader;
-use env::{Env, Options, OwnModels};
+use eframe::egui::{ComboBox, Ui};
+use env::{Env, EnvError, Options, OwnModels};
 use record::{Description, Trajectory};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// What makes an environment, or says why it cannot.
-type Maker = dyn Fn(&Description) -> Result<Env, String> + Send + Sync;
+type Maker = dyn Fn(&Description) -> Result<Env, EnvError> + Send + Sync;
 
 /// How the environment that a recording describes is made.
 #[derive(Clone)]
@@ -17,7 +18,7 @@ pub struct Making(Arc<Maker>);
 
 impl Making {
     /// Environments are made by `make`.
-    pub fn by(make: impl Fn(&Description) -> Result<Env, String> + Send + Sync + 'static) -> Self {
+    pub fn by(make: impl Fn(&Description) -> Result<Env, EnvError> + Send + Sync + 'static) -> Self {
         Making(Arc::new(make))
     }
 }
@@ -28,7 +29,7 @@ impl Default for Making {
         Making::by(|described| {
             let options =
                 Options::default().with_compat(described.compat).with_changes(described.settings.clone());
-            Env::make(&described.id, &OwnModels, &options).map_err(|error| error.to_string())
+            Env::make(&described.id, &OwnModels, &options)
         })
     }
 }
@@ -60,7 +61,7 @@ impl Recording {
     pub(super) fn start(&self) -> Result<(Session, Episodes), String> {
         let trace = TraceReader::open(&self.path).map_err(|error| error.to_string())?;
         let described = Description::of(&trace, None).map_err(|error| error.to_string())?;
-        let env = (self.making.0)(&described)?;
+        let env = (self.making.0)(&described).map_err(|error| error.to_string())?;
         if trace.trials().is_empty() {
             return Err(format!("{} has no episodes", self.path.display()));
         }
@@ -98,4 +99,25 @@ pub(super) fn trajectory(path: &Path, session: &Session) -> Result<Trajectory, S
     let archive = dataset::NpzReader::open(path).map_err(|error| error.to_string())?;
     Trajectory::of_archive(&path.display().to_string(), &archive, session.model())
         .map_err(|error| error.to_string())
+}
+
+/// The episodes of a recording, one of which is shown. The error says why another one is not.
+pub(super) fn trials_panel(
+    ui: &mut Ui,
+    session: &mut Session,
+    episodes: &mut Episodes,
+) -> Result<(), String> {
+    let mut chosen = episodes.shown();
+    let names = episodes.trials();
+    ComboBox::from_label("Episode").selected_text(&names[chosen]).show_ui(ui, |ui| {
+        for (trial, name) in names.iter().enumerate() {
+            ui.selectable_value(&mut chosen, trial, name);
+        }
+    });
+    if chosen != episodes.shown() {
+        let (camera, options) = (session.camera, session.options);
+        *session = episodes.session(chosen)?;
+        (session.camera, session.options) = (camera, options);
+    }
+    Ok(())
 }

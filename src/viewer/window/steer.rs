@@ -3,7 +3,7 @@
 use super::gamepad::Gamepad;
 use crate::play::Acting;
 use crate::session::Session;
-use eframe::egui::{Context, Key};
+use eframe::egui::{Context, Key, Ui};
 
 /// Keys that lower and raise the parts of an action, part by part.
 pub(super) const PAIRS: [(Key, Key); 10] = [
@@ -85,5 +85,17 @@ impl Steering {
             }
         }
         Ok(())
+    }
+}
+
+/// What moves the action of an environment, beside sliders. The error says why a gamepad does not.
+pub(super) fn steering_panel(ui: &mut Ui, steering: &mut Steering) -> Result<(), String> {
+    ui.checkbox(&mut steering.by_keys, "Keys move actions").on_hover_text(
+        "A D, S W, Q E, J L, K I, U O, F H, G T, Z X and N M, a pair for each part of the action",
+    );
+    let mut on = steering.has_gamepad();
+    match ui.checkbox(&mut on, "Gamepad moves actions").changed() {
+        true => steering.use_gamepad(on),
+        false => Ok(()),
     }
 }
