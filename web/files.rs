@@ -13,7 +13,7 @@ use zip::ZipArchive;
 const MOST_BYTES: usize = 1 << 29;
 /// Most files.
 const MOST_FILES: usize = 20_000;
-/// Bytes that an archive may unpack to: so many, and so many more for each of its own.
+/// Size limit of an unpacked archive, against zip bombs: 8 MiB plus 250 times the size of the archive.
 const UNPACKED: usize = 8 << 20;
 const UNPACKED_EACH: usize = 250;
 

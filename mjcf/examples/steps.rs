@@ -1,5 +1,5 @@
-//! How long steps take on one thread: for every line `MODEL STEPS` on standard input, the seconds that so many steps took, which
-//! go on where the last line of the same model ended. `benches/web.mjs` measures WebAssembly beside it.
+//! Measures steps on one thread. Reads lines `MODEL STEPS` from standard input and prints the elapsed seconds of each. A model is
+//! loaded once; later lines continue from its last state. `benches/web.mjs` compares WebAssembly with it.
 
 use physics::{Data, Model, forward, step};
 use robohive_mjcf as mjcf;

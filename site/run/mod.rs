@@ -47,7 +47,7 @@ struct Running<'a> {
     printed: Option<String>,
 }
 
-/// Runs the blocks of `page` in `folder`, which is made anew.
+/// Runs the blocks of `page` in `folder`. A folder of that name is deleted first.
 ///
 /// # Errors
 /// The folder cannot be made.
