@@ -23,9 +23,10 @@ fn recorded(root: &Path) -> Result<Sizes, String> {
     let line = |(number, line): (usize, &str)| {
         let mut words = line.split(' ');
         let id = words.next().unwrap_or_default().to_owned();
-        let sizes: Vec<usize> = words.filter_map(|word| word.parse().ok()).collect();
-        let sizes: [usize; 2] =
-            sizes.try_into().map_err(|_| format!("{RECORD}:{}: an id and two numbers", number + 1))?;
+        let sizes: Option<Vec<usize>> = words.map(|word| word.parse().ok()).collect();
+        let sizes = sizes.and_then(|sizes| <[usize; 2]>::try_from(sizes).ok());
+        let sizes =
+            sizes.ok_or_else(|| format!("{RECORD}:{}: a line is an id and two numbers", number + 1))?;
         Ok((id, sizes))
     };
     text.lines().enumerate().map(line).collect()

@@ -347,22 +347,22 @@ impl Session {
         self.follow();
     }
 
-    /// Another model in its place, in the state of the former by the names of elements; camera and options stay where they
-    /// can.
+    /// Another model in its place, in the state of the former by the names of elements; camera, options and kept states stay
+    /// where they can, and a recording is completed.
     ///
     /// # Errors
     /// Its state cannot be evaluated; the session stays as it was.
     pub fn replace(&mut self, model: Model) -> Result<(), StepError> {
         let mut data = carry_state(&self.model, &self.data, &model);
         forward(&model, &mut data)?;
+        let unwritten = self.end_recording();
         self.camera = self.camera_in(&model);
         self.play = None;
-        self.tape = None;
-        self.kept.clear();
+        self.kept = self.kept_in(&model);
         self.replay = self.replay.take().filter(|replay| replay.trajectory().fits(&model));
         let reference = self.reference.take().filter(|reference| reference.trajectory().fits(&model));
         self.reference = reference.map(|old| Box::new(Reference::new(old.trajectory().clone(), &model)));
-        (self.hand, self.selected, self.fault) = (None, None, None);
+        (self.hand, self.selected, self.fault) = (None, None, unwritten);
         self.history = History::of(&model);
         self.history.push(&data);
         (self.model, self.data) = (model, data);

@@ -2,7 +2,8 @@
 
 use super::Session;
 use crate::text;
-use physics::Snapshot;
+use mjcf::edit::carry_state;
+use physics::{Model, Snapshot};
 
 /// Most states that are kept: what is more is a recording.
 pub const KEPT_KEYS: usize = 100;
@@ -32,6 +33,18 @@ impl Session {
             // Kept states are of this model.
             let _ = self.restore(&snapshot);
         }
+    }
+
+    /// The kept states in another model, by the names of elements.
+    pub(super) fn kept_in(&self, model: &Model) -> Vec<Snapshot> {
+        let carried = |kept: &Snapshot| {
+            let (mut data, mut snapshot) = (self.data.clone(), Snapshot::default());
+            // Kept states are of the present model.
+            let _ = data.restore(kept);
+            carry_state(&self.model, &data, model).save(&mut snapshot);
+            snapshot
+        };
+        self.kept.iter().map(carried).collect()
     }
 
     /// The kept states as an element `<keyframe>`, every number exact.

@@ -24,7 +24,7 @@ impl Session {
     }
 
     /// Shows a trajectory, from its first state on, instead of simulating; `None` simulates from the state that is shown. An
-    /// environment that was played ends.
+    /// environment that was played ends, and a recording is completed.
     ///
     /// # Errors
     /// Its states are of another model; the session stays as it was.
@@ -34,8 +34,10 @@ impl Session {
         self.release();
         self.replay = replay.map(Box::new);
         if self.replay.is_some() {
+            let unwritten = self.end_recording();
             self.play = None;
             self.go_to_row(0);
+            self.fault = self.fault.take().or(unwritten);
         }
         Ok(())
     }

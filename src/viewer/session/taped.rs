@@ -63,4 +63,16 @@ impl Session {
         let ended = self.play.as_mut().map(|play| play.stop_recording()).transpose();
         ended.map(Option::flatten).map_err(TapeError::Episodes)
     }
+
+    /// Completes the recording before something else takes the place of what it is of. Why it is not complete, if it is not.
+    pub(super) fn end_recording(&mut self) -> Option<String> {
+        self.stop_recording().err().map(|error| error.to_string())
+    }
+}
+
+impl Drop for Session {
+    /// A recording that goes on is completed. Of one that cannot be, the parts stay beside the file.
+    fn drop(&mut self) {
+        let _ = self.stop_recording();
+    }
 }

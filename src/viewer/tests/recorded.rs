@@ -186,3 +186,32 @@ fn a_profile_adds_up_and_changes_no_step() {
     let gains = convergence(watched.data());
     assert!(gains.len() == mean.iterations && gains.iter().all(|[improvement, _]| improvement.is_finite()));
 }
+
+#[test]
+fn what_takes_the_place_of_a_recorded_motion_completes_the_file() {
+    let steps = |session: &mut Session| (0..7).for_each(|_| session.step_forward());
+    let rows = |path: &Path| {
+        let rows = archive(path).require("time").unwrap().rows();
+        std::fs::remove_file(path).unwrap();
+        rows
+    };
+    let (reloaded, replayed, dropped) = (place("reloaded.npz"), place("replayed.npz"), place("dropped.npz"));
+    let mut session = Session::new(model("assets/pile/pile.xml")).unwrap();
+    session.record(&reloaded).unwrap();
+    steps(&mut session);
+    session.keep_key();
+    session.replace(model("assets/pile/pile.xml")).unwrap();
+    assert_eq!((session.fault(), session.kept_keys().len()), (None, 1));
+    assert!(session.kept_keys()[0].time() > 0.0, "what was kept is kept over a reload");
+    let trajectory = Trajectory::of_archive("reloaded.npz", &archive(&reloaded), session.model()).unwrap();
+    session.record(&replayed).unwrap();
+    steps(&mut session);
+    session.set_replay(Some(trajectory)).unwrap();
+    assert!(session.recording().is_none());
+    session.set_replay(None).unwrap();
+    session.record(&dropped).unwrap();
+    steps(&mut session);
+    drop(session);
+    // The states before seven steps, and the last.
+    assert_eq!([reloaded, replayed, dropped].map(|path| rows(&path)), [8, 8, 8]);
+}

@@ -54,12 +54,12 @@ pub struct App {
 }
 
 impl App {
-    /// A viewer of `source`, or of nothing yet, drawn by the CPU.
+    /// A viewer that renders on the CPU. It opens `source`, or starts empty.
     pub fn new(_context: &Context, source: Option<Source>) -> Self {
         App::drawn_by(Painters::default(), source)
     }
 
-    /// A viewer of `source`, or of nothing yet, drawn by `painters`.
+    /// A viewer that renders with `painters`. It opens `source`, or starts empty.
     pub fn drawn_by(painters: Painters, source: Option<Source>) -> Self {
         let mut app = App {
             opened: None,
@@ -90,6 +90,7 @@ impl App {
             Ok(opened) => {
                 (self.opened, self.trouble) = (Some(opened), None);
                 self.desk.forget();
+                self.end_film();
             }
             Err(why) => self.trouble = Some(why),
         }
@@ -98,6 +99,9 @@ impl App {
     fn reload(&mut self) {
         if let Some(opened) = &mut self.opened {
             self.trouble = opened.reload().err();
+            if self.trouble.is_none() {
+                self.end_film();
+            }
         }
     }
 
@@ -326,6 +330,10 @@ fn section(ui: &mut Ui, title: &str, open: bool, contents: impl FnOnce(&mut Ui))
 impl eframe::App for App {
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.end_film();
     }
 
     #[cfg(target_arch = "wasm32")]

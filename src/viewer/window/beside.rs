@@ -59,15 +59,21 @@ impl App {
     /// Begins a video of what is shown, or completes the one that was begun.
     pub(super) fn film(&mut self) {
         let Some(opened) = &self.opened else { return };
-        match self.film.take() {
-            Some(film) => match film.finish() {
-                Ok(written) => self.desk.notice = Some(format!("written {written}")),
-                Err(why) => self.trouble = Some(why),
-            },
-            None => match Film::begin_new(&opened.session) {
-                Ok(film) => self.film = Some(film),
-                Err(why) => self.trouble = Some(why),
-            },
+        if self.film.is_some() {
+            return self.end_film();
+        }
+        match Film::begin_new(&opened.session) {
+            Ok(film) => self.film = Some(film),
+            Err(why) => self.trouble = Some(why),
+        }
+    }
+
+    /// Completes the video that was begun: it is of the model that is open.
+    pub(super) fn end_film(&mut self) {
+        match self.film.take().map(Film::finish) {
+            Some(Ok(written)) => self.desk.notice = Some(format!("written {written}")),
+            Some(Err(why)) => self.trouble = Some(why),
+            None => {}
         }
     }
 
