@@ -30,7 +30,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// Names of the models of our own, in `Simulation.own`.
 #[wasm_bindgen(js_name = ownModels)]
 pub fn own_models() -> Vec<String> {
-    files::own_models().map(|(name, _)| name).collect()
+    viewer::own_models().map(|(name, _)| name.to_owned()).collect()
 }
 
 /// Ids of the environments of our own, in `Simulation.environment`.

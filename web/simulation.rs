@@ -1,13 +1,13 @@
 //! A simulation as JavaScript holds it.
 
-use crate::files::{Files, load_own};
+use crate::files::Files;
 use crate::recording::Recording;
 use mjcf::Loaded;
 use physics::model::ObjType;
 use physics::{Data, Model};
 use render::Picture;
 use render::picture::Channels;
-use viewer::{Command, Drawing, Grip, Look, Plane, Session, shortcuts, text};
+use viewer::{Command, Drawing, Grip, Look, Plane, Session, load_own, shortcuts, text};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
 /// A model or an environment that is run, drawn and touched.
@@ -59,7 +59,8 @@ impl Simulation {
     /// # Errors
     /// There is none of that name.
     pub fn own(name: &str) -> Result<Simulation, JsError> {
-        load_own(name).and_then(Self::loaded).map_err(exception)
+        let loaded = load_own(name).map_err(exception)?;
+        Self::loaded(loaded).map_err(exception)
     }
 
     /// What was ignored or assumed when the model was read; empty if nothing was.

@@ -3,18 +3,21 @@
 use mjcf::diagnostic::Diagnostics;
 use mjcf::files::{FileError, FileProvider, Memory};
 use mjcf::{Loaded, Loader};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt;
 use std::io::{Cursor, Read};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use zip::ZipArchive;
 
-/// Most bytes of all files together. A page has at most four gigabytes.
-const MOST_BYTES: usize = 1 << 30;
+/// Most bytes of all files together. A page has at most four gigabytes, of which compiled models take their share.
+pub const MOST_BYTES: usize = if cfg!(target_arch = "wasm32") { 1 << 29 } else { 1 << 30 };
 /// Most files.
 const MOST_FILES: usize = 20_000;
 /// Most missing files that a message names.
 const MOST_NAMED: usize = 40;
+/// Size limit of an unpacked archive, against zip bombs: 8 MiB plus 250 times the size of the archive.
+const UNPACKED: usize = 8 << 20;
+const UNPACKED_EACH: usize = 250;
 
 /// Files by their paths, within limits of number and size.
 #[derive(Clone, Debug, Default)]
@@ -47,6 +50,18 @@ pub enum FilesError {
         /// The path of the entry.
         entry: String,
     },
+    /// An archive unpacks to more than can be held, or than an honest one of its size does.
+    Bomb {
+        /// Its name.
+        archive: String,
+        /// Most bytes that it may unpack to.
+        most: usize,
+    },
+    /// An archive holds no file.
+    Empty {
+        /// Its name.
+        archive: String,
+    },
 }
 
 impl fmt::Display for FilesError {
@@ -62,6 +77,12 @@ impl fmt::Display for FilesError {
             FilesError::LeadsOut { archive, entry } => {
                 write!(f, "{archive}: the entry {entry:?} leads out of the archive")
             }
+            FilesError::Bomb { archive, most } => write!(
+                f,
+                "{archive}: unpacks to more than {} MiB, beyond what can be opened, or what an honest archive of its size holds",
+                most >> 20
+            ),
+            FilesError::Empty { archive } => write!(f, "{archive}: the archive holds no file"),
         }
     }
 }
@@ -73,8 +94,10 @@ impl std::error::Error for FilesError {}
 pub struct Unreadable {
     /// All that is wrong, each with its place.
     pub diagnostics: Diagnostics,
-    /// Paths of the files that were looked for and are not there.
+    /// Paths of the files that were read and are not there: the model cannot be opened without them.
     pub missing: Vec<String>,
+    /// Paths at which a file was looked for before another place was tried. Whoever fetches files tries these first.
+    pub tried: Vec<String>,
 }
 
 impl fmt::Display for Unreadable {
@@ -113,47 +136,59 @@ impl Files {
         Ok(())
     }
 
-    /// Adds the files of a zip archive, in a folder of its name where `folder` is not empty.
+    /// Adds the files of a zip archive into `folder`, or at the top where that is empty; `name` is what messages call it.
+    /// Returns how many there are.
     ///
     /// # Errors
-    /// The archive is damaged, has entries that lead out of it, or unpacks to more than can be held.
-    pub fn unpack(&mut self, folder: &str, archive: &[u8]) -> Result<(), FilesError> {
-        let wrong = |error: &dyn fmt::Display| {
-            let archive = if folder.is_empty() { "the dropped file" } else { folder };
-            FilesError::Damaged { archive: archive.to_owned(), message: error.to_string() }
+    /// The archive is damaged or empty, has entries that lead out of it, or unpacks to more than can be held.
+    pub fn unpack(&mut self, name: &str, folder: &str, archive: &[u8]) -> Result<usize, FilesError> {
+        let archive_name = || name.to_owned();
+        let wrong = |error: &dyn fmt::Display| FilesError::Damaged {
+            archive: archive_name(),
+            message: error.to_string(),
         };
-        let mut archive = ZipArchive::new(Cursor::new(archive)).map_err(|error| wrong(&error))?;
-        for index in 0..archive.len() {
-            let entry = archive.by_index(index).map_err(|error| wrong(&error))?;
+        let most = archive.len().saturating_mul(UNPACKED_EACH).saturating_add(UNPACKED).min(MOST_BYTES);
+        let mut zip = ZipArchive::new(Cursor::new(archive)).map_err(|error| wrong(&error))?;
+        let (mut unpacked, mut count) = (0, 0);
+        for index in 0..zip.len() {
+            let entry = zip.by_index(index).map_err(|error| wrong(&error))?;
             if entry.is_dir() {
                 continue;
             }
             let Some(inside) = entry.enclosed_name() else {
-                return Err(FilesError::LeadsOut {
-                    archive: folder.to_owned(),
-                    entry: entry.name().to_owned(),
-                });
+                return Err(FilesError::LeadsOut { archive: archive_name(), entry: entry.name().to_owned() });
             };
             let inside = inside.to_string_lossy().replace('\\', "/");
-            let left = (MOST_BYTES - self.bytes.min(MOST_BYTES)) as u64;
             let mut content = Vec::new();
             // Sizes in archives may lie.
+            let left = (most - unpacked) as u64;
             entry.take(left + 1).read_to_end(&mut content).map_err(|error| wrong(&error))?;
+            unpacked += content.len();
+            if unpacked > most {
+                return Err(FilesError::Bomb { archive: archive_name(), most });
+            }
             let path = if folder.is_empty() { inside } else { format!("{folder}/{inside}") };
             self.insert(&path, content)?;
+            count += 1;
         }
-        Ok(())
+        if count == 0 { Err(FilesError::Empty { archive: archive_name() }) } else { Ok(count) }
     }
 
-    /// Adds a file, or what is in it where its name is that of a zip archive.
+    /// Adds a file, or what is in it, in a folder of its name, where that is the name of a zip archive.
     ///
     /// # Errors
     /// As [`Files::insert`] and [`Files::unpack`].
     pub fn add(&mut self, path: &str, content: Vec<u8>) -> Result<(), FilesError> {
         if is_archive(path) {
-            return self.unpack(path.rsplit_once('.').map_or(path, |(name, _)| name), &content);
+            let folder = path.rsplit_once('.').map_or(path, |(name, _)| name);
+            return self.unpack(path, folder, &content).map(drop);
         }
         self.insert(path, content)
+    }
+
+    /// Paths of all files.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.paths.iter().map(String::as_str)
     }
 
     /// Paths of the files that may be models, those that are nearest to the top first.
@@ -173,22 +208,56 @@ impl Files {
         self.paths.is_empty()
     }
 
-    /// Reads and compiles a model. A file without a folder stands for a missing one of its name.
+    /// Lets the file whose path ends most as `missing` does stand for it too, as where files were chosen without their
+    /// folders. Returns the path of that file; nothing where no file has the same name, or several are as near.
+    pub fn substitute(&mut self, missing: &str) -> Option<String> {
+        let found = self.nearest(missing)?;
+        let content = self.memory.read(&found).ok()?;
+        self.memory.insert(missing, content);
+        self.paths.insert(missing.to_owned());
+        Some(found)
+    }
+
+    /// The only file with most components of its path, from the last on, as `missing` has them.
+    fn nearest(&self, missing: &str) -> Option<String> {
+        let shared = |path: &str| {
+            let pairs = path.rsplit('/').zip(missing.rsplit(['/', '\\']));
+            pairs.take_while(|(a, b)| a.eq_ignore_ascii_case(b)).count()
+        };
+        let most = self.paths.iter().map(|path| shared(path)).max().filter(|&most| most > 0)?;
+        let mut nearest = self.paths.iter().filter(|path| shared(path) == most);
+        nearest.next().filter(|_| nearest.next().is_none()).cloned()
+    }
+
+    /// Reads and compiles a model.
     ///
     /// # Errors
     /// All that is wrong with it, each with file, line and column, and the files that are missing.
     pub fn load(&self, path: &str) -> Result<Loaded, Unreadable> {
-        let loose = self.paths.iter().filter(|path| !path.contains('/'));
-        let files = Noting {
-            memory: self.memory.clone(),
-            loose: loose.map(|path| (path.to_ascii_lowercase(), path.clone())).collect(),
-            missing: Arc::default(),
-        };
-        let missing = files.missing.clone();
-        Loader::default().files(files).load(path).map_err(|diagnostics| {
-            let missing = missing.lock().unwrap_or_else(PoisonError::into_inner);
-            Unreadable { diagnostics, missing: missing.iter().cloned().collect() }
+        let asked = Asked { memory: self.memory.clone(), vain: Arc::default() };
+        let vain = asked.vain.clone();
+        Loader::default().files(asked).load(path).map_err(|diagnostics| {
+            let vain = vain.lock().unwrap_or_else(PoisonError::into_inner);
+            let list = |paths: &BTreeSet<String>| paths.iter().cloned().collect();
+            Unreadable { diagnostics, missing: list(&vain.read), tried: list(&vain.tried) }
         })
+    }
+
+    /// Reads and compiles a model; for a file that is missing the one of its name stands, as [`Files::substitute`] chooses it.
+    ///
+    /// # Errors
+    /// As [`Files::load`].
+    pub fn load_gathered(&self, path: &str) -> Result<Loaded, Unreadable> {
+        let mut files = self.clone();
+        loop {
+            let error = match files.load(path) {
+                Ok(loaded) => return Ok(loaded),
+                Err(error) => error,
+            };
+            if error.missing.iter().filter(|missing| files.substitute(missing).is_some()).count() == 0 {
+                return Err(error);
+            }
+        }
     }
 }
 
@@ -207,36 +276,40 @@ fn ends_with_any(path: &str, endings: &[&str]) -> bool {
     endings.iter().any(|ending| path.ends_with(ending))
 }
 
-/// Files that remembers which were asked for in vain.
+/// Files in memory, and which others were asked for.
 #[derive(Debug)]
-struct Noting {
+struct Asked {
     memory: Memory,
-    /// Files without a folder, by their names in lower case.
-    loose: BTreeMap<String, String>,
-    missing: Arc<Mutex<BTreeSet<String>>>,
+    vain: Arc<Mutex<Vain>>,
 }
 
-impl Noting {
-    /// The file of this path, or the one without a folder that stands for it.
-    fn place(&self, path: &str) -> Option<String> {
-        if self.memory.exists(path) {
-            return Some(path.to_owned());
-        }
-        let name = path.rsplit('/').next().unwrap_or(path);
-        self.loose.get(&name.to_ascii_lowercase()).cloned()
+/// Paths at which there was nothing.
+#[derive(Debug, Default)]
+struct Vain {
+    read: BTreeSet<String>,
+    tried: BTreeSet<String>,
+}
+
+impl Asked {
+    fn vain(&self) -> MutexGuard<'_, Vain> {
+        self.vain.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl FileProvider for Noting {
+impl FileProvider for Asked {
     fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError> {
-        let Some(place) = self.place(path) else {
-            self.missing.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_owned());
-            return Err(FileError::NotFound);
-        };
-        self.memory.read(&place)
+        let read = self.memory.read(path);
+        if read.is_err() {
+            self.vain().read.insert(path.to_owned());
+        }
+        read
     }
 
     fn exists(&self, path: &str) -> bool {
-        self.place(path).is_some()
+        let exists = self.memory.exists(path);
+        if !exists {
+            self.vain().tried.insert(path.to_owned());
+        }
+        exists
     }
 }

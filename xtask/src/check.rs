@@ -25,7 +25,7 @@ const NOT_IN_CI: [(&str, &str); 11] = [
     ("the page (the target", "its machines cannot add compilation targets"),
     ("the page in", "some of its machines have no browser"),
     ("the build with wide vectors", "some of its processors lack AVX2"),
-    ("the site in a browser", "its machines have no browser"),
+    ("the site in a browser", "some of its machines have no browser"),
     ("blocks of the site for lack of the npm package", "its machines cannot add compilation targets"),
     ("blocks of the site for lack of packages that blocks of Python import", "they are gigabytes"),
     (

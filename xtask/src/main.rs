@@ -55,8 +55,9 @@ const LONG: [Check; 11] = [
     Check { name: "instructions", inputs: instructions::INPUTS, run: || instructions::run(false) },
     Check { name: "gpu", inputs: gpu::INPUTS, run: gpu::run },
     Check { name: "window", inputs: window::INPUTS, run: window::run },
-    Check { name: "site", inputs: site::INPUTS, run: site::run },
     Check { name: "page", inputs: PAGE_INPUTS, run: page },
+    // Blocks of JavaScript and live models take the page.
+    Check { name: "site", inputs: site::INPUTS, run: site::run },
     Check { name: "python-learners", inputs: python::INPUTS, run: python::learners },
 ];
 

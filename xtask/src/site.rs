@@ -5,6 +5,7 @@ use crate::built::{PROFILE, document};
 use crate::command::{cargo, installed, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
 use crate::python;
+use crate::web_tools;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -114,11 +115,12 @@ fn lacking(line: &str) -> Option<Missing> {
 
 /// Opens pages in a browser, on a desktop and a phone, light and dark, where there is one.
 fn look(site: &Path, target: &Path) -> Outcome {
+    let tools = web_tools::folder()?;
     let ready = ["node", "chromium"].iter().all(|program| installed(program));
-    if !ready || !target.join("node_modules/playwright-core").is_dir() {
+    if !ready || !tools.join("node_modules/playwright-core").is_dir() {
         let get = format!(
             "install node and chromium, and npm install --prefix {} playwright-core",
-            target.display()
+            tools.display()
         );
         return Ok(vec![Missing::new("the site in a browser", get)]);
     }
@@ -127,6 +129,6 @@ fn look(site: &Path, target: &Path) -> Outcome {
         .map_err(|error| format!("site/tests/look.mjs: {error}"))?;
     let site = site.canonicalize().map_err(|error| format!("{}: {error}", site.display()))?;
     let mut node = Command::new("node");
-    node.current_dir(target).arg(script).arg(site).arg("chromium").arg(target.join("site/screenshots"));
+    node.current_dir(tools).arg(script).arg(site).arg("chromium").arg(target.join("site/screenshots"));
     succeed(&mut node).map(|()| Vec::new())
 }

@@ -25,16 +25,23 @@ fn archive(entries: &[(&str, &str)]) -> Vec<u8> {
 }
 
 #[test]
-fn all_missing_files_are_listed_and_loose_ones_stand_for_them() {
+fn all_missing_files_are_listed_and_others_stand_for_them() {
     let mut files = of(&[("robot/arm.xml", ARM), ("robot/meshes/link.obj", MESH)]);
     let error = files.load("robot/arm.xml").expect_err("the hand is missing");
     assert_eq!(error.missing, ["robot/meshes/hand.obj"]);
     assert!(error.to_string().contains("1 file is missing"), "{error}");
-    // In another folder it stands for nothing, alone it does.
-    files.insert("other/hand.obj", MESH.into()).unwrap();
-    assert!(files.load("robot/arm.xml").is_err());
+    // The only file of its name stands for it, whatever its folder; of several, one that is nearer than all others.
     files.insert("HAND.obj", MESH.into()).unwrap();
-    assert_eq!(files.load("robot/arm.xml").expect("all is there").model.nmesh, 2);
+    assert!(files.load("robot/arm.xml").is_err(), "a file stands for itself alone, unless it is gathered");
+    assert_eq!(files.load_gathered("robot/arm.xml").expect("all is there").model.nmesh, 2);
+    files.insert("other/hand.obj", MESH.into()).unwrap();
+    assert_eq!(
+        files.load_gathered("robot/arm.xml").expect_err("two are as near").missing,
+        ["robot/meshes/hand.obj"]
+    );
+    files.insert("spare/meshes/hand.obj", MESH.into()).unwrap();
+    assert_eq!(files.clone().substitute("robot/meshes/hand.obj").as_deref(), Some("spare/meshes/hand.obj"));
+    assert_eq!(files.load_gathered("robot/arm.xml").expect("all is there").model.nmesh, 2);
     let error = of(&[("arm.xml", ARM)]).load("arm.xml").expect_err("both are missing");
     assert_eq!(error.missing, ["meshes/hand.obj", "meshes/link.obj"]);
 }
@@ -54,8 +61,13 @@ fn damaged_archives_and_entries_that_lead_out_are_refused() {
     let mut files = Files::new();
     let mut packed = archive(&[("scene.xml", ARM)]);
     packed.truncate(packed.len() / 2);
-    assert!(matches!(files.add("a.zip", packed), Err(FilesError::Damaged { archive, .. }) if archive == "a"));
+    assert!(
+        matches!(files.add("a.zip", packed), Err(FilesError::Damaged { archive, .. }) if archive == "a.zip")
+    );
     let out = files.add("b.zip", archive(&[("../../etc/passwd", "x")]));
     assert!(matches!(out, Err(FilesError::LeadsOut { .. })), "{out:?}");
+    let bomb = archive(&[("bomb.xml", &" ".repeat(32 << 20))]);
+    assert!(matches!(files.add("c.zip", bomb), Err(FilesError::Bomb { archive, .. }) if archive == "c.zip"));
+    assert!(matches!(files.add("d.zip", archive(&[])), Err(FilesError::Empty { .. })));
     assert!(files.is_empty());
 }

@@ -2,11 +2,11 @@
 
 use super::episodes::Recording;
 use crate::files::{Files, is_archive};
+use crate::own::{own_loader, own_models};
 use crate::play::{Play, PlayError};
 use crate::session::Session;
 use env::{Env, Options, OwnModels, Registry};
 use mjcf::diagnostic::Diagnostics;
-use mjcf::files::Memory;
 use mjcf::{Loaded, Loader};
 use physics::Model;
 use std::fmt;
@@ -52,11 +52,7 @@ impl fmt::Debug for Recipe {
 impl Source {
     /// Models of our own.
     pub fn own() -> impl Iterator<Item = Source> {
-        assets::FILES
-            .iter()
-            .map(|(path, _)| *path)
-            .filter(|path| path.ends_with(".xml") && !is_part(path))
-            .map(Source::Own)
+        own_models().map(|(_, path)| Source::Own(path))
     }
 
     /// Environments on models of our own.
@@ -119,12 +115,12 @@ impl Source {
     pub(super) fn load(&self) -> Result<Loaded, String> {
         match self {
             Source::File(path) => load_file(path),
-            Source::Among(files, path) => files.load(path).map_err(|error| error.to_string()),
+            Source::Among(files, path) => files.load_gathered(path).map_err(|error| error.to_string()),
             Source::Environment(recipe) => Err(format!("{} is an environment, not a model", recipe.id)),
             Source::Episodes(recording) => {
                 Err(format!("{} holds episodes, not a model", recording.path.display()))
             }
-            Source::Own(path) => own_files().load(path).map_err(|errors| errors.to_string()),
+            Source::Own(path) => own_loader().load(path).map_err(|errors| errors.to_string()),
         }
     }
 
@@ -135,7 +131,7 @@ impl Source {
     pub(super) fn mjcf(&self) -> Result<String, String> {
         let parsed = match self {
             Source::File(path) => Loader::default().parse(path),
-            Source::Own(path) => own_files().parse(path),
+            Source::Own(path) => own_loader().parse(path),
             _ => return Err(format!("{} is not a file of MJCF or URDF", self.title())),
         };
         let mut spec = parsed.map_err(|errors| errors.to_string())?.spec;
@@ -165,18 +161,6 @@ impl fmt::Display for NoModel {
 }
 
 impl std::error::Error for NoModel {}
-
-/// What reads models of our own.
-fn own_files() -> Loader {
-    let mut files = Memory::default();
-    assets::FILES.iter().for_each(|(path, text)| files.insert(path, text.as_bytes()));
-    Loader::default().files(files)
-}
-
-/// Whether a file is a part of models rather than one.
-fn is_part(path: &str) -> bool {
-    path.contains("/parts/")
-}
 
 /// What a path that was dropped leads to: a file, or what is nearest to the top of a folder or an archive.
 pub(super) fn dropped(path: &Path) -> Result<Source, String> {
