@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 26] = [
+const ORDER: [(&str, &[&str]); 27] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -60,7 +60,8 @@ const ORDER: [(&str, &[&str]); 26] = [
             "record",
         ],
     ),
-    ("robohive-web", &["assets", "physics", "mjcf", "dataset", "render", "env", "agents", "viewer"]),
+    ("robohive-web", &["physics", "mjcf", "dataset", "render", "env", "agents", "viewer"]),
+    ("robohive-web-app", &["env", "agents", "viewer", "robohive-web"]),
     (
         "robohive-python",
         &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],

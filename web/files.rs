@@ -1,6 +1,7 @@
 //! Files in memory as JavaScript holds them.
 
 use mjcf::Loaded;
+use mjcf::diagnostic::Diagnostics;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use viewer::MOST_BYTES;
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
@@ -87,18 +88,26 @@ impl Files {
 }
 
 impl Files {
+    /// The files.
+    pub fn all(&self) -> &viewer::Files {
+        &self.files
+    }
+
     fn vain(&self) -> MutexGuard<'_, Vain> {
         self.vain.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Reads and compiles a model.
-    pub(crate) fn load(&self, path: &str) -> Result<Loaded, String> {
+    /// Reads and compiles a model, and notes which files it asked for in vain.
+    ///
+    /// # Errors
+    /// All that is wrong with it, each with file, line and column.
+    pub fn load(&self, path: &str) -> Result<Loaded, Diagnostics> {
         let loaded = self.files.load(path);
         *self.vain() = match &loaded {
             Ok(_) => Vain::default(),
             Err(error) => Vain { missing: error.missing.clone(), tried: error.tried.clone() },
         };
         // Scripts list the missing files themselves, or fetch them.
-        loaded.map_err(|error| error.diagnostics.to_string())
+        loaded.map_err(|error| error.diagnostics)
     }
 }

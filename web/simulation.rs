@@ -3,8 +3,8 @@
 use crate::files::Files;
 use crate::recording::Recording;
 use mjcf::Loaded;
+use physics::Model;
 use physics::model::ObjType;
-use physics::{Data, Model};
 use render::Picture;
 use render::picture::Channels;
 use viewer::{Command, Drawing, Grip, Look, Plane, Session, load_own, shortcuts, text};
@@ -51,7 +51,8 @@ impl Simulation {
     /// # Errors
     /// All that is wrong with it, each with file, line and column; meshes and other files that are missing too.
     pub fn open(files: &Files, path: &str) -> Result<Simulation, JsError> {
-        files.load(path).and_then(Self::loaded).map_err(exception)
+        let loaded = files.load(path).map_err(exception)?;
+        Self::loaded(loaded).map_err(exception)
     }
 
     /// A model of our own, by its name in `ownModels()`.
@@ -170,7 +171,7 @@ impl Simulation {
     /// Hash of the state: time, positions, velocities, activations and accelerations, in 16 hexadecimal digits. Every build
     /// computes the same.
     pub fn hash(&self) -> String {
-        format!("{:016x}", hash(self.session.data()))
+        format!("{:016x}", self.session.hash())
     }
 
     /// The present state as an element of `<keyframe>`, every number exact.
@@ -327,13 +328,4 @@ mod clock {
         static START: OnceLock<Instant> = OnceLock::new();
         START.get_or_init(Instant::now).elapsed().as_secs_f64() * 1e3
     }
-}
-
-/// FNV-1a over the bits of a state.
-fn hash(data: &Data) -> u64 {
-    let state = &data.state;
-    let numbers = [&[state.time][..], &state.qpos, &state.qvel, &state.act, &data.acc.qacc].concat();
-    numbers.into_iter().flat_map(f64::to_le_bytes).fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
 }

@@ -151,6 +151,15 @@ impl Session {
         &self.data
     }
 
+    /// FNV-1a over the bits of time, positions, velocities, activations and accelerations. Every build computes the same.
+    pub fn hash(&self) -> u64 {
+        let state = &self.data.state;
+        let numbers = [&[state.time][..], &state.qpos, &state.qvel, &state.act, &self.data.acc.qacc].concat();
+        numbers.into_iter().flat_map(f64::to_le_bytes).fold(0xcbf2_9ce4_8422_2325, |hash: u64, byte| {
+            (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
+        })
+    }
+
     /// Whether time goes by.
     pub fn is_running(&self) -> bool {
         self.running

@@ -2,10 +2,15 @@
 
 const VERSION = "@VERSION@";
 const FILES = ["./", /* @FILES@ */];
+/** What the viewer needs beside: kept once it has been opened. */
+const VIEWER = [/* @VIEWER@ */];
 
-addEventListener("install", (event) => {
-  const keep = async () => (await caches.open(VERSION)).addAll(FILES.map((file) => new Request(file, { cache: "no-cache" })));
-  event.waitUntil(keep());
+const keep = async (files, cache) => (await caches.open(VERSION)).addAll(files.map((file) => new Request(file, { cache })));
+
+addEventListener("install", (event) => event.waitUntil(keep(FILES, "no-cache")));
+
+addEventListener("message", (event) => {
+  if (event.data === "viewer") event.waitUntil(keep(VIEWER, "default"));
 });
 
 addEventListener("activate", (event) => {

@@ -30,7 +30,7 @@ export async function serve(folder, more = new Map()) {
 export async function start(options = {}) {
   const { chromium } = createRequire(`${process.cwd()}/`)("playwright-core");
   const executablePath = execFileSync("which", ["chromium"], { encoding: "utf8" }).trim();
-  return chromium.launch({ executablePath, args: ["--no-sandbox", "--disable-gpu", ...(options.args ?? [])] });
+  return chromium.launch({ executablePath, args: ["--no-sandbox", ...(options.args ?? ["--disable-gpu"])] });
 }
 
 /** A page whose complaints end the test, but for those that `expected` names. */

@@ -1,7 +1,7 @@
 //! The documentation site: one folder of files that any static host serves. Its links are checked, and the code on its pages
 //! is compiled or run.
 
-use crate::built::{PROFILE, document};
+use crate::built::{EVERYTHING, PROFILE, document};
 use crate::command::{cargo, installed, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
 use crate::python;
@@ -57,7 +57,9 @@ pub fn run() -> Outcome {
 /// Builds the site into a folder and checks it.
 pub fn build(site: &Path) -> Outcome {
     let target = target_folder()?;
-    cargo(&["build", "--profile", PROFILE, "-p", "robohive-cli", "-p", "robohive-site"])?;
+    cargo(&["build", "--profile", PROFILE, "-p", "robohive-site"])?;
+    // The command as its own tests have it: built for the site alone it would be compiled again, with most of what it uses.
+    cargo(&[&["test", "--no-run", "--profile", PROFILE], EVERYTHING, &["--test", "help"]].concat())?;
     document()?;
     let api = target.join("site/api");
     published(&target.join("doc"), &api)?;

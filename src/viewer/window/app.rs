@@ -86,7 +86,12 @@ impl App {
 
     /// Opens something else; where it cannot be opened, [`App::trouble`] says why, and what was open stays.
     pub fn open(&mut self, source: Source) {
-        match Opened::open(source) {
+        self.take(Opened::open(source));
+    }
+
+    /// Shows what was opened, or says why it could not be.
+    pub(super) fn take(&mut self, opened: Result<Opened, String>) {
+        match opened {
             Ok(opened) => {
                 (self.opened, self.trouble) = (Some(opened), None);
                 self.desk.forget();

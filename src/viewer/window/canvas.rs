@@ -6,6 +6,7 @@ use super::screen::Screen;
 use crate::camera::Plane;
 use crate::hand::Grip;
 use crate::session::Look;
+use eframe::egui::emath::GuiRounding;
 use eframe::egui::{Align2, Color32, FontId, Painter, PointerButton, Rect, Response, Sense, Ui, pos2, vec2};
 
 /// What a turn of the wheel by one notch zooms, and points a notch scrolls.
@@ -20,8 +21,10 @@ pub(super) fn canvas(ui: &mut Ui, opened: &mut Opened, painters: &mut Painters) 
     if area.width() < 1.0 || area.height() < 1.0 {
         return Ok(area);
     }
-    gestures(ui, opened, area, &response);
+    // Pixels of the picture are pixels of the window: between them it would be blurred.
     let scale = ui.ctx().pixels_per_point();
+    let area = area.round_to_pixels(scale);
+    gestures(ui, opened, area, &response);
     let size = [area.width(), area.height()].map(|points| ((points * scale).round() as usize).max(1));
     let (painted, unfinished) =
         opened.screen.draw(ui.ctx(), painters, &opened.session, size).map_err(|error| error.to_string())?;

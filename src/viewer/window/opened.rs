@@ -45,9 +45,18 @@ impl Opened {
                 (session, warnings, None)
             }
         };
+        Ok(Opened { episodes, changed, ..Opened::with(source, session, warnings)? })
+    }
+
+    /// Shows a session, which `source` would make again.
+    ///
+    /// # Errors
+    /// It cannot be drawn.
+    pub(super) fn with(source: Source, session: Session, warnings: String) -> Result<Self, String> {
         let screen = Screen::new(session.model()).map_err(|error| error.to_string())?;
-        let siblings = source.siblings();
-        Ok(Opened { session, screen, source, siblings, episodes, warnings, changed, looked: Instant::now() })
+        let (changed, siblings) = (source.changed(), source.siblings());
+        let looked = Instant::now();
+        Ok(Opened { session, screen, source, siblings, episodes: None, warnings, changed, looked })
     }
 
     /// Reads the model again, in the state that it is in; an environment begins anew.

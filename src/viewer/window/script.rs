@@ -3,12 +3,20 @@
 use super::app::App;
 use super::opened::Opened;
 use super::saving::Save;
+use super::source::Source;
 use crate::command::{Command, shortcuts};
 use crate::session::Session;
 use eframe::egui::Rect;
+use mjcf::Loaded;
 use render::{Picture, RenderError};
 
 impl App {
+    /// Shows a model that was read of `source`, as [`App::open`] does.
+    pub fn open_loaded(&mut self, source: Source, loaded: Loaded) {
+        let session = Session::new(loaded.model).map_err(|error| error.to_string());
+        self.take(session.and_then(|session| Opened::with(source, session, loaded.warnings.to_string())));
+    }
+
     /// The model that is open.
     pub fn opened(&self) -> Option<&Session> {
         self.opened.as_ref().map(|opened| &opened.session)

@@ -14,7 +14,8 @@ const SIDES: [&str; 2] = ["320", "240"];
 
 /// Scripts in node alone, and with what npm installs and a browser.
 const IN_NODE: [&str; 1] = ["node.mjs"];
-const IN_BROWSER: [&str; 5] = ["package.mjs", "page.mjs", "drops.mjs", "element.mjs", "memory.mjs"];
+const IN_BROWSER: [&str; 6] =
+    ["package.mjs", "page.mjs", "drops.mjs", "element.mjs", "memory.mjs", "viewer.mjs"];
 
 /// Runs what this machine can run.
 pub fn run(folder: &Path) -> Outcome {

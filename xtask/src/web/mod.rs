@@ -18,7 +18,10 @@ const TARGET: &str = "wasm32-unknown-unknown";
 /// How modules are built.
 const PROFILE: &str = "release";
 /// The modules: the package, the name of its script, and what it compiles to.
-const MODULES: [(&str, &str, &str); 1] = [("robohive-web", "engine", "robohive_web.wasm")];
+const MODULES: [(&str, &str, &str); 2] = [
+    ("robohive-web", "engine", "robohive_web.wasm"),
+    ("robohive-web-app", "viewer", "robohive_web_app.wasm"),
+];
 /// Files of the page that are written by hand.
 const PAGE: &str = "web/page";
 
@@ -45,7 +48,7 @@ fn build(folder: &Path) -> Result<(), String> {
         copy(&path, &folder.join(path.file_name().unwrap_or_default()))?;
     }
     copy(Path::new("LICENSE"), &folder.join("LICENSE"))?;
-    write(&folder.join("THIRD_PARTY.txt"), &notices::of("robohive-web", TARGET)?)?;
+    write(&folder.join("THIRD_PARTY.txt"), &notices::of("robohive-web-app", TARGET)?)?;
     write_made(folder)
 }
 

@@ -10,6 +10,8 @@ use std::process::Command;
 const ASKED: [&str; 3] = [".js", ".html", ".wasm"];
 /// Scripts that it does not ask for.
 const NOT_ASKED: [&str; 3] = ["node.js", "inline.js", "offline.js"];
+/// Begins the names of what only the viewer asks for.
+const VIEWER: &str = "viewer";
 
 /// Writes `inline.js`: the interface with the module inside, compressed, for bundlers that know no assets.
 pub fn inline(folder: &Path) -> Result<(), String> {
@@ -42,7 +44,9 @@ pub fn version(folder: &Path) -> Result<(), String> {
         }
     }
     let path = folder.join("offline.js");
-    let list: Vec<String> = names.iter().map(|name| format!("{name:?}")).collect();
+    let (viewer, page): (Vec<_>, Vec<_>) = names.iter().partition(|name| name.starts_with(VIEWER));
+    let list =
+        |names: &[&String]| names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
     let text = read(&path)?.replace("@VERSION@", &format!("robohive-{hash:016x}"));
-    write(&path, &text.replace("/* @FILES@ */", &list.join(", ")))
+    write(&path, &text.replace("/* @FILES@ */", &list(&page)).replace("/* @VIEWER@ */", &list(&viewer)))
 }
