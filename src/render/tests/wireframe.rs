@@ -106,14 +106,15 @@ const GLASS: &str =
 
 #[test]
 fn added_transparency_weakens_nothing() {
-    let picture = draw(&parse(GLASS), Effects::default().with_additive(true));
-    // A ball of 51, 102, 153 under half a light, and half of the glass: 102 * .5.
-    assert_eq!(pixel(&picture, 32, 32), [26 + 51, 51 + 26, 77 + 13]);
-    let blended = draw(&parse(GLASS), Effects::default());
+    let shown = |effects: Effects| pixel(&draw(&parse(GLASS), effects), 32, 32);
+    // What MuJoCo draws; the two terms of a sum are rounded one by one.
+    let near = |found: [u8; 3], theirs: [u8; 3]| found.iter().zip(theirs).all(|(a, b)| a.abs_diff(b) <= 1);
+    // A ball of 51, 102, 153 under half a light, and half of the glass's 102, 51, 26.
+    let added = shown(Effects::default().with_additive(true));
+    assert!(near(added, [76, 77, 89]), "{added:?}");
     // Blended twice: a quarter of the ball is left.
-    let expected = [26 / 4 + 102 * 3 / 4, 51 / 4 + 51 * 3 / 4, 77 / 4 + 26 * 3 / 4];
-    let found = pixel(&blended, 32, 32);
-    assert!(found.iter().zip(expected).all(|(a, b)| a.abs_diff(b) <= 2), "{found:?}, not {expected:?}");
+    let blended = shown(Effects::default());
+    assert!(near(blended, [82, 51, 38]), "{blended:?}");
 }
 
 #[test]
