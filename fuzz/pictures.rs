@@ -129,6 +129,9 @@ fn made_up_scene(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
         haze,
         shadows: !flag(3),
         reflections: true,
+        wireframe: flag(5),
+        additive: flag(6),
+        culling: !flag(7),
         ..Scene::default()
     };
     Some((world().1.clone(), scene, settings))
@@ -251,7 +254,7 @@ fn made_up_model(bytes: &mut Bytes<'_>) -> Option<(Assets, Scene, Settings)> {
         body_trees: flags & 32 == 0,
         ..Show::default()
     };
-    let effects = Effects::default().with_fog(flags & 64 == 0);
+    let effects = Effects::default().with_fog(flags & 64 == 0).with_wireframe(flags & 65 == 65);
     let options = SceneOptions::default().with_show(show).with_effects(effects);
     let free = FreeCamera::of(&model);
     let camera = match flags & 128 == 0 {

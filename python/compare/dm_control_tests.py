@@ -3,7 +3,8 @@
     python python/compare/dm_control_tests.py [--only mjcf composer …] [--table validation/results/standin_dm_control.md]
 
 Needs `dm_control`, `mujoco` of the version that the stand-in follows, `absl-py`, `mock` and this package; tests of pictures need
-OSMesa (`MUJOCO_GL=osmesa`). Each file of tests runs in a process of its own. A test that fails on MuJoCo's bindings is not counted.
+OSMesa (`MUJOCO_GL=osmesa`), those of recorded motions `h5py` and protobuf 5, as newer ones lack what dm_control 1.0.45 asks for.
+Each file of tests runs in a process of its own. A test that fails on MuJoCo's bindings is not counted.
 """
 
 import argparse

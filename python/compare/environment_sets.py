@@ -60,8 +60,8 @@ SETS = {
         ("gymnasium", "gymnasium-robotics"),
         _gymnasium_ids,
         ("gymnasium/envs/mujoco", "gymnasium_robotics"),
-        "Gymnasium-Robotics' Fetch and hand environments do not start on MuJoCo 3.12's own bindings, whose enumerations are "
-        "not equal to numpy's integers; for this comparison they were replaced by integers.",
+        "Gymnasium-Robotics' Fetch and hand environments do not start on MuJoCo 3.12's bindings, whose enumerations are "
+        "not equal to numpy's integers; for this comparison they were replaced by integers on both sides.",
     ),
     "metaworld": EnvironmentSet(
         "Meta-World's tasks",

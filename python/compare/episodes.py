@@ -78,8 +78,8 @@ def play(name: str, steps: int, size: float, signs: int) -> dict[str, np.ndarray
 def make_comparable() -> None:
     """Replaces MuJoCo's enumerations by integers of the same values.
 
-    Those of MuJoCo 3.12 are not equal to numpy's integers, which Gymnasium-Robotics 1.4 compares them with: its Fetch and hand
-    environments do not start on MuJoCo's own bindings.
+    Those of MuJoCo 3.12, and the stand-in's, are not equal to numpy's integers, which Gymnasium-Robotics 1.4 compares them with:
+    its Fetch and hand environments do not start.
     """
     import mujoco
 
@@ -103,8 +103,7 @@ def main() -> None:
         import robohive.mujoco
 
         robohive.mujoco.install()
-    else:
-        make_comparable()
+    make_comparable()
     kept = {}
     for name in options.ids:
         try:

@@ -4,8 +4,8 @@
 
 Needs `myosuite`, `mujoco` of the version that the stand-in follows, and this package. Each id plays 100 steps of seeded random
 actions. One that differs by more than 1e-6 plays again: on MuJoCo from positions that are moved by 1e-12, which shows how far
-MuJoCo leaves itself; on MuJoCo with enumerations that are integers; and, where `--exact` names the Python of an environment
-whose wheel was built with RUSTFLAGS="--cfg system_math", on the stand-in with the C library's sine and its like.
+MuJoCo leaves itself; and, where `--exact` names the Python of an environment whose wheel was built with
+RUSTFLAGS="--cfg system_math", on the stand-in with the C library's sine and its like.
 """
 
 import argparse
@@ -19,8 +19,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-
-from episodes import make_comparable
 
 STEPS = 100
 #: How far observations and rewards may differ.
@@ -65,8 +63,6 @@ def one_process(engine: str, nudge: int, ids: list[str]) -> None:
 
         robohive.mujoco.install()
         robohive.mujoco.set_instability("reset")
-    elif engine == "integers":
-        make_comparable()
     out = sys.stdout
     with contextlib.redirect_stdout(sys.stderr):
         import myosuite
@@ -105,8 +101,6 @@ def difference(a: dict[str, Any], b: dict[str, Any]) -> float:
 
 def explanation(far: dict[str, float]) -> str:
     """What makes an id agree that differs, by the differences of its further runs."""
-    if far["integers"] <= BAR:
-        return "yes, where enumerations equal numpy's integers"
     if far.get("exact", float("inf")) <= BAR:
         return f"yes, with the C library's functions ({far['exact']:.1e})"
     return "as MuJoCo leaves itself" if far["own"] > BAR else "no"
@@ -119,7 +113,6 @@ def rows_of(ids: list[str], exact: str | None) -> tuple[list[str], list[str]]:
     worst = {name: difference(theirs[name], ours[name]) for name in running if "rows" in ours[name]}
     differing = [name for name, far in worst.items() if far > BAR]
     moved = [run("mujoco", nudge, differing) for nudge in range(1, NUDGES + 1)]
-    integers = run("integers", 0, differing)
     again = run("standin", 0, differing, exact) if exact else {}
     rows, verdicts = [], []
     for name in ids:
@@ -132,22 +125,19 @@ def rows_of(ids: list[str], exact: str | None) -> tuple[list[str], list[str]]:
         far = {"own": 0.0}
         if name in differing:
             far["own"] = max(difference(theirs[name], one[name]) for one in moved if "rows" in one[name])
-            far["integers"] = difference(integers[name], ours[name]) if "rows" in integers[name] else float("inf")
             if "rows" in again.get(name, {}):
                 far["exact"] = difference(theirs[name], again[name])
         verdicts.append(explanation(far) if name in differing else "yes")
         own = f"{far['own']:.1e}" if name in differing else ""
         rows.append(f"| {name} | {worst[name]:.1e} | {own} | {verdicts[-1]} |")
-    starts = ("yes, with", "yes, where", "as MuJoCo", "no")
+    starts = ("yes, with", "as MuJoCo", "no")
     kinds = [sum(verdict.startswith(start) for verdict in verdicts) for start in starts]
     agree, total = verdicts.count("yes"), max(len(running), 1)
     counts = [
         f"{len(ids)} ids; {len(running)} run on MuJoCo, {len(worst)} of these on the stand-in. {agree} ({100 * agree / total:.1f} %) "
         f"have the same observations and rewards within {BAR:g} over {STEPS} steps as shipped, and {agree + kinds[0]} "
         f"({100 * (agree + kinds[0]) / total:.1f} %) when both call the C library's sine and its like, whose last bits these "
-        f"motions amplify. {kinds[1]} compare enumerations with numpy's integers, which are never equal in MuJoCo 3.12, and draw "
-        f"other targets: with integers in their place they agree. Left: {kinds[2]} that differ as MuJoCo does from itself, {kinds[3]} "
-        "others.",
+        f"motions amplify. Left: {kinds[1]} that differ as MuJoCo does from itself, {kinds[2]} others.",
     ]
     return rows, counts
 

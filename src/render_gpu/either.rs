@@ -2,13 +2,14 @@
 
 use crate::adapter::Choice;
 use crate::error::GpuError;
-use crate::renderer::GpuRenderer;
+use crate::renderer::{GpuRenderer, missing};
 use render::painter::{Painter, Painters};
 use render::raster::{Settings, Shot};
 use render::{RenderError, Renderer};
 use std::sync::{Arc, Mutex, Once, PoisonError};
 
-/// A renderer on a GPU or on the CPU; both draw the same picture but for rounding.
+/// A renderer on a GPU or on the CPU; both draw the same picture but for rounding. Effects that a GPU does not have, such as
+/// wireframes, are left to the CPU.
 #[derive(Debug)]
 pub enum EitherRenderer {
     /// On a GPU.
@@ -35,6 +36,9 @@ impl EitherRenderer {
 impl Painter for EitherRenderer {
     fn paint(&mut self, settings: &Settings, shots: &mut [Shot<'_>]) -> Result<(), RenderError> {
         match self {
+            EitherRenderer::Gpu(_) if shots.iter().any(|shot| missing(shot.scene).is_some()) => {
+                Renderer::new(*settings).draw_all(shots)
+            }
             EitherRenderer::Gpu(renderer) => {
                 renderer.set(settings)?;
                 Ok(renderer.draw_batch(shots)?)

@@ -40,6 +40,11 @@ pub enum GpuError {
         /// What it says.
         message: String,
     },
+    /// The scene has an effect that a GPU does not draw.
+    Effect {
+        /// Its name.
+        name: &'static str,
+    },
     /// The scene or the picture is at fault; the CPU renderer says the same.
     Render(RenderError),
 }
@@ -65,6 +70,12 @@ impl fmt::Display for GpuError {
                 write!(f, "the memory of the GPU does not suffice; draw fewer or smaller pictures at once")
             }
             GpuError::Refused { message } => write!(f, "the driver of the GPU refused a command: {message}"),
+            GpuError::Effect { name } => {
+                write!(
+                    f,
+                    "a GPU draws no {name}; draw this scene with the CPU renderer, robohive_render::Renderer"
+                )
+            }
             GpuError::Render(error) => error.fmt(f),
         }
     }

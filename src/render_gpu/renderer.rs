@@ -138,7 +138,8 @@ impl GpuRenderer {
     /// memory of the GPU. It has no labels.
     ///
     /// # Errors
-    /// The picture has no pixels or too many, the view's frustum is empty or not finite, or the GPU failed. In a page its
+    /// The picture has no pixels or too many, the view's frustum is empty or not finite, the scene has an effect that a GPU does not
+    /// draw, or the GPU failed. In a page its
     /// refusals are told when the next picture is drawn.
     pub fn show(&mut self, assets: &Assets, scene: &Scene, size: [usize; 2]) -> Result<Shown<'_>, GpuError> {
         let view = [View { assets, scene, size }];
@@ -158,9 +159,12 @@ impl GpuRenderer {
     /// Uploads what these views show, and makes room for them. Returns how many are drawn at once.
     fn prepare(&mut self, views: &[View<'_>]) -> Result<usize, GpuError> {
         let mut largest = [0; 2];
-        for &View { size: [width, height], .. } in views {
+        for &View { scene, size: [width, height], .. } in views {
             if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
                 return Err(RenderError::Size { width, height }.into());
+            }
+            if let Some(name) = missing(scene) {
+                return Err(GpuError::Effect { name });
             }
             largest = [largest[0].max(width), largest[1].max(height)];
         }
@@ -201,6 +205,16 @@ impl GpuRenderer {
         }
         Ok(encoder)
     }
+}
+
+/// The effect of a scene that a GPU does not draw.
+pub fn missing(scene: &Scene) -> Option<&'static str> {
+    let effects = [
+        (scene.wireframe, "wireframe"),
+        (scene.additive, "additive transparency"),
+        (!scene.culling, "backs of surfaces"),
+    ];
+    effects.into_iter().find(|&(on, _)| on).map(|(_, name)| name)
 }
 
 /// Refuses settings with which a GPU cannot draw.

@@ -66,10 +66,13 @@ pub const SHOW: [Flag<Show>; 30] = flags! { Show:
 };
 
 /// Effects of the picture.
-pub const EFFECTS: [Flag<Effects>; 5] = flags! { Effects:
+pub const EFFECTS: [Flag<Effects>; 8] = flags! { Effects:
     "Shadow" Some("S") => shadows,
+    "Wireframe" Some("W") => wireframe,
     "Reflection" Some("R") => reflections,
+    "Additive" Some("L") => additive,
     "Skybox" Some("K") => sky,
     "Fog" Some("G") => fog,
     "Haze" Some("Slash") => haze,
+    "Cull face" None => culling,
 };

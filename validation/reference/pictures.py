@@ -58,6 +58,8 @@ OWN = ("assets/", "validation/")
 SAMPLES = 4
 HINGE_NOISE, SLIDE_NOISE = 0.15, 0.02  # rad, m
 LEAST_SHININESS = 1e-6
+# The flag of each effect, and whether it is on.
+EFFECTS = {"wireframe": ("mjRND_WIREFRAME", 1), "additive": ("mjRND_ADDITIVE", 1), "no_culling": ("mjRND_CULL_FACE", 0)}
 
 ITEM = ["type", "dataid", "objtype", "objid", "category", "matid", "texcoord", "segid", "size", "pos", "mat", "rgba",
         "emission", "specular", "shininess", "reflectance", "modelrbound"]
@@ -133,15 +135,18 @@ def pose(model, seed=0):
 # Pictures
 
 class Camera:
-    """Pictures of one state from one camera, at one size and number of samples."""
+    """Pictures of one state from one camera, at one size and number of samples, with the effects of a scene."""
 
-    def __init__(self, model, data, camera, side, samples):
+    def __init__(self, model, data, scene, side, samples):
         import mujoco
         model.vis.quality.offsamples = samples
         self.renderer = mujoco.Renderer(model, side, side)
         # Infinite planes are centred by the camera of the update before.
         for _ in range(2):
-            self.renderer.update_scene(data, camera)
+            self.renderer.update_scene(data, scene.get("camera", -1))
+        for effect in scene.get("effects", []):
+            flag, on = EFFECTS[effect]
+            self.renderer.scene.flags[getattr(mujoco.mjtRndFlag, flag)] = on
 
     def __enter__(self):
         return self
@@ -183,14 +188,13 @@ def record(scene, sizes, folder):
     data = pose(model)
     out = {name: getattr(data, name) for name in ["qpos", "act", "mocap_pos", "mocap_quat"]}
     out |= {"model/" + name: value for name, value in edits.items()}
-    camera = scene.get("camera", -1)
     for side in sizes:
-        with Camera(model, data, camera, side, SAMPLES) as view:
+        with Camera(model, data, scene, side, SAMPLES) as view:
             out |= assembled(view.renderer.scene)  # Drawing changes it.
             out[f"{side}/rgb"] = view.rgb()
             out[f"{side}/rgb_no_shadow"] = view.rgb(shadows=False)
             out[f"{side}/depth"], out[f"{side}/ids"] = view.depth_and_ids()
-        with Camera(model, data, camera, side, 0) as view:
+        with Camera(model, data, scene, side, 0) as view:
             out[f"{side}/rgb_1"] = view.rgb()
     return out
 
@@ -201,7 +205,7 @@ def record_floor(scene, sizes, folder):
     data = pose(model)
     out = {}
     for side in sizes:
-        with Camera(model, data, scene.get("camera", -1), side, 0) as view:
+        with Camera(model, data, scene, side, 0) as view:
             out[f"{side}/rgb_1"] = view.rgb()
             out[f"{side}/depth"], out[f"{side}/ids"] = view.depth_and_ids()
     return out

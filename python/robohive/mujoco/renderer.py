@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from robohive.mujoco import _engine as _core
 from robohive.mujoco.enums.elements import mjtObj
-from robohive.mujoco.enums.view import mjtCamera
+from robohive.mujoco.enums.view import mjtCamera, mjtRndFlag
+from robohive.mujoco.pictures.context import drawn
 from robohive.mujoco.pictures.looking import checked, look_of
 from robohive.mujoco.pictures.scene import MjvScene
 from robohive.mujoco.pictures.view import MjvCamera, MjvOption, mjv_defaultFreeCamera
@@ -20,7 +21,7 @@ class Renderer:
     """Draws pictures of simulations of one model, by the engine's own renderer.
 
     `scene` takes geoms and flags of the program between `update_scene` and `render`: `max_geom` is how many geoms it has
-    room for, those of the model included. `font_scale` is accepted and has no effect: there is no text.
+    room for, those of the model included. `font_scale` is accepted and has no effect: letters of labels have one size.
     """
 
     def __init__(
@@ -43,8 +44,6 @@ class Renderer:
         self._scene: MjvScene | None = MjvScene(model, max_geom)
         self._scene._painter = _core.Painter(width, height)
         self._channel = "rgb"
-        #: What was looked at last, and the flags then.
-        self._looked: tuple[MjData, dict[str, Any], bytes] | None = None
         self._scene_option = MjvOption()
 
     @property
@@ -92,11 +91,7 @@ class Renderer:
             ValueError: there is no such camera.
         """
         look = look_of(self._model, self._camera(camera), scene_option or self._scene_option)
-        self._look(data, look)
-
-    def _look(self, data: MjData, look: dict[str, Any]) -> None:
         self.scene._look(self._model, data, look)
-        self._looked = data, look, self.scene.flags.tobytes()
 
     def _camera(self, camera: int | str | MjvCamera) -> MjvCamera:
         if isinstance(camera, MjvCamera):
@@ -131,12 +126,7 @@ class Renderer:
             RuntimeError: nothing was looked at yet, or the renderer is closed.
             ValueError: `out` has another shape.
         """
-        scene = self.scene
-        if self._looked is not None and self._looked[2] != scene.flags.tobytes():
-            data, look, _ = self._looked
-            scene._look_again(self._model, data, look)
-            self._looked = data, look, scene.flags.tobytes()
-        picture = self._picture(scene)
+        picture = self._picture(self.scene)
         if out is None:
             return picture
         if out.shape != picture.shape:
@@ -145,15 +135,14 @@ class Renderer:
         return out
 
     def _picture(self, scene: MjvScene) -> NDArray[Any]:
-        guests = scene._guests()
-        if not guests:
-            return scene._painter.draw(self._channel)
-        drawn = scene._painter.draw_all((self._width, self._height), guests)
-        return drawn[("rgb", "depth", "segmentation").index(self._channel)]
+        flagged = self._channel == "rgb" and scene.flags[[mjtRndFlag.mjRND_SEGMENT, mjtRndFlag.mjRND_DEPTH]].any()
+        if not flagged and not scene._guests():
+            return scene._painter.draw(self._channel, scene._effects())
+        return drawn(scene, (self._width, self._height))[("rgb", "depth", "segmentation").index(self._channel)]
 
     def close(self) -> None:
         """Frees the memory."""
-        self._scene = self._looked = None
+        self._scene = None
 
     def __enter__(self) -> "Renderer":
         return self

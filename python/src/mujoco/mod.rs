@@ -11,7 +11,7 @@
 //! | `dynamics.rs`, `stages.rs`, `rollout.rs` | steps and passes, their parts, trajectories on threads |
 //! | `asked.rs` | stages in parts, between which callbacks are asked |
 //! | `query.rs`, `algebra.rs`, `quaternion.rs` | questions about poses, matrices, rotations |
-//! | `picture.rs`, `items.rs` | pictures, and the items of a scene |
+//! | `pictures/` | pictures, and the items of a scene |
 //! | `spec/` | descriptions of models: read, compiled, written |
 //!
 //! Functions with MuJoCo's signatures that write into arrays of the caller are Python (`robohive/mujoco`); here is what
@@ -25,13 +25,12 @@ mod data;
 mod dynamics;
 mod error;
 mod fresh;
-mod items;
 mod lent;
 mod lists;
 mod load;
 mod mirror;
 mod model;
-mod picture;
+mod pictures;
 mod quaternion;
 mod query;
 mod rollout;
@@ -70,7 +69,7 @@ pub mod bindings {
     #[pymodule_export]
     use super::model::{CompiledModel, Model, default_settings, model_fields};
     #[pymodule_export]
-    use super::picture::{Painter, letter_rows};
+    use super::pictures::painter::{Painter, letter_rows};
     #[pymodule_export]
     use super::quaternion::{
         conjugate, eigen, integrate, matrix, multiply, multiply_axis, normalise, of_axis_angle, rotate,

@@ -254,18 +254,17 @@ impl Model {
         Ok(value)
     }
 
-    /// Overwrites one setting.
-    fn _set_setting(&self, py: Python<'_>, group: &str, name: &str, values: Vec<f64>) -> PyResult<()> {
+    /// Overwrites a setting that is one number. What was written into arrays counts from the next call on.
+    fn _set_setting(&self, py: Python<'_>, group: &str, name: &str, value: f64) -> PyResult<()> {
         let mut held = self.lock(py)?;
-        held.accept_edits(py, true)?;
         let mut fits = None;
         let edited = Arc::make_mut(&mut held.model).overwrite(|draft| {
-            fits = settings::assign(draft, group, name, &values);
+            fits = settings::assign(draft, group, name, &[value]);
         });
         edited.map_err(|error: EditError| refused(&error))?;
         match fits {
-            Some(true) => held.mirror.push(py, &held.view()),
-            Some(false) => Err(PyValueError::new_err(format!("{values:?} is no value of {group}.{name}"))),
+            Some(true) => Ok(()),
+            Some(false) => Err(PyValueError::new_err(format!("[{value:?}] is no value of {group}.{name}"))),
             None => Err(PyAttributeError::new_err(format!("{group} has no setting {name:?}"))),
         }
     }

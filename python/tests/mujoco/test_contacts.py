@@ -42,6 +42,24 @@ def test_a_list_taken_before_is_live(scene):
         first.dist
 
 
+@pytest.mark.parametrize(("before", "after", "passes"), [(2, 1, 1), (1, 2, 2)])
+def test_a_list_may_change_while_it_is_gone_through(truth, before, after, passes):
+    for module in (truth, mj):
+        model = module.MjModel.from_xml_string(BALLS)
+        data = module.MjData(model)
+
+        def touch(count, model=model, data=data, module=module):
+            data.qpos[9] = 0.049 if count == 2 else 0.5
+            module.mj_forward(model, data)
+
+        touch(before)
+        seen = []
+        for contact in data.contact:
+            seen.append(contact.geom2)
+            touch(after)
+        assert len(seen) == passes, module.__name__
+
+
 def test_what_is_written_into_a_contact_reaches_the_engine(scene):
     model, data = scene
     data.contact[0].friction[0] = 0.25

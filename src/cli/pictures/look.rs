@@ -164,6 +164,10 @@ pub enum Decoration {
     Bounds,
     /// Fog in the distance
     Fog,
+    /// Outlines of polygons instead of surfaces
+    Wireframe,
+    /// Transparent items added to what is behind them
+    Additive,
 }
 
 impl Decoration {
@@ -189,6 +193,8 @@ impl Decoration {
             Decoration::Islands => show.islands = true,
             Decoration::Bounds => (show.body_trees, show.mesh_trees) = (true, true),
             Decoration::Fog => options.effects.fog = true,
+            Decoration::Wireframe => options.effects.wireframe = true,
+            Decoration::Additive => options.effects.additive = true,
             Decoration::Frames => options.frame = FrameChoice::Body,
             Decoration::GeomFrames => options.frame = FrameChoice::Geom,
             Decoration::SiteFrames => options.frame = FrameChoice::Site,

@@ -1,6 +1,6 @@
 //! Collects triangles into a surface, with every position, normal and texture coordinate stored once.
 
-use super::surface::Surface;
+use super::surface::{Corners, HALVES, Surface};
 use std::collections::HashMap;
 
 /// What a triangle needs at one corner.
@@ -26,17 +26,25 @@ pub(super) struct Builder {
 impl Builder {
     /// Adds a triangle, counter-clockwise from outside.
     pub fn triangle(&mut self, corners: [Corner; 3]) {
+        let (position, lit) = self.rows(corners);
+        self.surface.push(position, lit.normal, lit.texcoord);
+    }
+
+    /// The rows of a triangle's corners.
+    fn rows(&mut self, corners: [Corner; 3]) -> ([u32; 3], Corners) {
         let surface = &mut self.surface;
         let position = corners.map(|c| row(&mut self.positions, &mut surface.positions, c.position));
         let normal = corners.map(|c| row(&mut self.normals, &mut surface.normals, c.normal));
         let texcoord = corners.map(|c| row(&mut self.texcoords, &mut surface.texcoords, c.texcoord));
-        surface.push(position, normal, texcoord);
+        (position, Corners { normal, texcoord })
     }
 
-    /// Adds a quadrilateral, cut along the diagonal that OpenGL drivers use: from its second to its fourth corner.
-    pub fn quad(&mut self, [a, b, c, d]: [Corner; 4]) {
-        self.triangle([a, b, d]);
-        self.triangle([b, c, d]);
+    /// Adds a quadrilateral as two triangles.
+    pub fn quad(&mut self, quad: [Corner; 4]) {
+        for (corners, sides) in HALVES {
+            let (position, lit) = self.rows(corners.map(|k| quad[k]));
+            self.surface.push_part(position, lit, sides);
+        }
     }
 
     /// The surface, with its bounds.

@@ -56,6 +56,7 @@ pub(super) fn posed(
         texcoords: last.texcoords.clone(),
         faces: last.faces.clone(),
         corners: last.corners.clone(),
+        outlines: last.outlines.clone(),
         ..Surface::default()
     };
     surface.finish();

@@ -22,6 +22,9 @@ pub struct Surface {
     pub faces: Vec<[u32; 3]>,
     /// The same triangles' light and paint, which only those seen need.
     pub corners: Vec<Corners>,
+    /// Bits of the sides of each triangle that outline its polygon; side k runs from corner k to the next one. The diagonal
+    /// along which a quadrilateral is cut is none.
+    pub outlines: Vec<u8>,
     /// Middle and half sides of the box about the positions.
     pub bounds: Bounds,
     /// Each run of [`CLUSTER`] triangles.
@@ -47,6 +50,12 @@ pub type Bounds = [[f32; 3]; 2];
 /// Triangles of a cluster: few enough for their corners to be numbered by bytes.
 pub const CLUSTER: usize = 64;
 
+/// All sides of a triangle.
+const ALL_SIDES: u8 = 0b111;
+/// The two triangles of a quadrilateral, cut along the diagonal that OpenGL drivers use, from its second to its fourth corner: their
+/// corners, and their sides but the diagonal.
+pub(super) const HALVES: [([usize; 3], u8); 2] = [([0, 1, 3], 0b101), ([1, 2, 3], 0b011)];
+
 impl Surface {
     /// Bytes that its arrays take.
     pub fn bytes(&self) -> usize {
@@ -55,24 +64,28 @@ impl Surface {
             + std::mem::size_of_val(&self.texcoords[..])
             + std::mem::size_of_val(&self.faces[..])
             + std::mem::size_of_val(&self.corners[..])
+            + std::mem::size_of_val(&self.outlines[..])
             + std::mem::size_of_val(&self.rows[..])
             + std::mem::size_of_val(&self.places[..])
     }
 
     /// Adds a triangle by the rows of its positions, normals and texture coordinates.
     pub(super) fn push(&mut self, position: [u32; 3], normal: [u32; 3], texcoord: [u32; 3]) {
-        self.faces.push(position);
-        self.corners.push(Corners { normal, texcoord });
+        self.push_part(position, Corners { normal, texcoord }, ALL_SIDES);
     }
 
-    /// Cuts a quadrilateral along the diagonal that OpenGL drivers use: from its second to its fourth corner.
+    /// Adds a triangle of a polygon, with the sides that outline it.
+    pub(super) fn push_part(&mut self, position: [u32; 3], corners: Corners, sides: u8) {
+        self.faces.push(position);
+        self.corners.push(corners);
+        self.outlines.push(sides);
+    }
+
+    /// Adds a quadrilateral as two triangles.
     pub(super) fn push_quad(&mut self, position: [u32; 4], normal: u32, texcoord: [u32; 4]) {
-        for [i, j, k] in [[0, 1, 3], [1, 2, 3]] {
-            self.push(
-                [position[i], position[j], position[k]],
-                [normal; 3],
-                [texcoord[i], texcoord[j], texcoord[k]],
-            );
+        for (corners, sides) in HALVES {
+            let lit = Corners { normal: [normal; 3], texcoord: corners.map(|k| texcoord[k]) };
+            self.push_part(corners.map(|k| position[k]), lit, sides);
         }
     }
 

@@ -33,7 +33,7 @@ pub struct Draw {
     pub shared: bool,
     /// Its first position in the layers.
     pub first_vertex: usize,
-    /// Number of its first triangle; 0 is no triangle.
+    /// Number of its first triangle; 0 is no triangle. In a wireframe every triangle has three numbers, one a side.
     pub first_triangle: u32,
 }
 
@@ -83,6 +83,8 @@ pub struct Draws {
     pub triangles: u32,
     /// Lines, which have no surface.
     pub lines: Vec<Line>,
+    /// Numbers that every triangle has: one, or one for each side.
+    pub numbers_each: u32,
     parts: Vec<Part>,
 }
 
@@ -91,7 +93,7 @@ impl Draws {
     pub fn clear(&mut self) {
         self.list.clear();
         self.lines.clear();
-        (self.vertices, self.triangles) = (0, 1);
+        (self.vertices, self.triangles, self.numbers_each) = (0, 1, 1);
     }
 
     /// Lists the surfaces of a scene.
@@ -100,6 +102,7 @@ impl Draws {
     /// There are more than `MAX_TRIANGLES` triangles or positions.
     pub fn update(&mut self, assets: &Assets, scene: &Scene) -> Result<(), RenderError> {
         self.clear();
+        self.numbers_each = if scene.wireframe { 3 } else { 1 };
         list(scene, &mut self.lines);
         let eye = scene.view.eye.map(|x| x as f32);
         for (index, item) in scene.items.iter().enumerate() {
@@ -110,7 +113,7 @@ impl Draws {
             for part in &self.parts {
                 let world = place(item, part);
                 let surface = &assets.surfaces[part.surface];
-                let facing = match (part.two_sided, behind) {
+                let facing = match (part.two_sided || !scene.culling, behind) {
                     (true, _) => Facing::Both,
                     (false, true) => Facing::Back,
                     (false, false) => Facing::Front,
@@ -130,10 +133,11 @@ impl Draws {
                     first_triangle: self.triangles,
                 });
                 self.vertices += surface.positions.len();
-                if self.vertices.max(self.triangles as usize + surface.faces.len()) > MAX_TRIANGLES {
+                let triangles = (self.triangles / self.numbers_each) as usize + surface.faces.len();
+                if self.vertices.max(triangles) > MAX_TRIANGLES {
                     return Err(too_many(scene));
                 }
-                self.triangles += surface.faces.len() as u32;
+                self.triangles += surface.faces.len() as u32 * self.numbers_each;
             }
         }
         Ok(())

@@ -1,7 +1,8 @@
 //! The surfaces of a scene under one projection: which can be seen, and their triangles in the window.
 
 use super::draws::{Draw, Draws};
-use super::window::clip::{GUARD, clip};
+use super::lines::strip;
+use super::window::clip::{Corner, GUARD, clip, clip_line};
 use super::window::coverage::{Facing, Pattern, Region, Target, Triangle};
 use super::window::lens::{Lens, Sides};
 use super::window::projection::Columns;
@@ -12,6 +13,8 @@ use crate::geometry::{Assets, Bounds, CLUSTER, Surface};
 #[derive(Clone, Debug, Default)]
 pub struct Layer {
     reach: Vec<Reach>,
+    /// Numbers that every triangle has.
+    numbers_each: u32,
 }
 
 /// Where a surface lies, as its box tells.
@@ -37,6 +40,7 @@ enum Side {
 impl Layer {
     /// Places the surfaces that `wanted` picks and whose boxes are not beside the window.
     pub fn update(&mut self, assets: &Assets, draws: &Draws, lens: &Lens, wanted: impl Fn(&Draw) -> bool) {
+        self.numbers_each = draws.numbers_each;
         self.reach.clear();
         self.reach.extend(draws.list.iter().map(|draw| {
             if !wanted(draw) {
@@ -52,7 +56,7 @@ impl Layer {
     }
 
     /// Calls `see(number, triangle)` for every triangle of a surface that covers samples; one that is cut gives several with the
-    /// same number.
+    /// same number. Where the lens shows outlines, they are those of lines.
     #[inline]
     pub fn triangles(
         &self,
@@ -62,6 +66,17 @@ impl Layer {
         pattern: &Pattern,
         mut see: impl FnMut(u32, &Triangle),
     ) {
+        if let Some(width) = lens.wire {
+            let target = Target::new(*pattern, Facing::Both, &lens.region);
+            self.outlines(assets, (index, draw), lens, |number, ends| {
+                for corners in strip(ends, width, pattern) {
+                    if let Some(triangle) = Triangle::new(&corners, &target) {
+                        see(number, &triangle);
+                    }
+                }
+            });
+            return;
+        }
         let target = Target::new(*pattern, facing(draw, lens), &lens.region);
         self.corners(
             assets,
@@ -92,8 +107,9 @@ impl Layer {
         // As many as a byte can number.
         let mut window = [Vertex::default(); 256];
         let clusters = surface.clusters.iter().zip(surface.places.chunks(CLUSTER));
+        let step = self.numbers_each as usize;
         for ((index, (cluster, faces)), first) in
-            clusters.enumerate().zip((draw.first_triangle..).step_by(CLUSTER))
+            clusters.enumerate().zip((draw.first_triangle..).step_by(CLUSTER * step))
         {
             // A box costs as much as some triangles.
             let hidden = faces.len() > SMALL
@@ -105,13 +121,13 @@ impl Layer {
             let rows = surface.rows_of(index);
             if *whole {
                 project_whole(columns, &surface.positions, rows, &mut window);
-                for (number, &[a, b, c]) in (first..).zip(faces) {
+                for (number, &[a, b, c]) in (first..).step_by(step).zip(faces) {
                     see(number, &[window[usize::from(a)], window[usize::from(b)], window[usize::from(c)]]);
                 }
                 continue;
             }
             project(columns, *half, (&surface.positions, rows), &mut window);
-            for (number, face) in (first..).zip(faces) {
+            for (number, face) in (first..).step_by(step).zip(faces) {
                 let [a, b, c] = *face;
                 let v = [window[usize::from(a)], window[usize::from(b)], window[usize::from(c)]];
                 if (v[0].beyond() | v[1].beyond() | v[2].beyond()) == 0 {
@@ -119,6 +135,36 @@ impl Layer {
                 } else if (v[0].beyond() & v[1].beyond() & v[2].beyond()) == 0 {
                     let points = face.map(|place| surface.positions[rows[usize::from(place)] as usize]);
                     cut(columns, *half, points, |corners| see(number, corners));
+                }
+            }
+        }
+    }
+
+    /// Calls `see(number, ends)` for the sides that outline a surface's triangles, of those that the lens shows; the number tells
+    /// triangle and side.
+    pub fn outlines(
+        &self,
+        assets: &Assets,
+        (index, draw): (usize, &Draw),
+        lens: &Lens,
+        mut see: impl FnMut(u32, [Vertex; 2]),
+    ) {
+        let Reach::Seen { columns, half, .. } = &self.reach[index] else { return };
+        let (surface, facing) = (draw.surface(assets), facing(draw, lens));
+        let project = |row: u32| -> Corner {
+            let p = surface.positions[row as usize];
+            let [x, y, z, w] = columns.apply(p);
+            [x, y, z, w, half.map_or(1.0, |half| distance(half, p))]
+        };
+        let numbers = (draw.first_triangle..).step_by(self.numbers_each as usize);
+        for ((face, &sides), first) in surface.faces.iter().zip(&surface.outlines).zip(numbers) {
+            let corners = face.map(project);
+            if !shows(facing, &corners) {
+                continue;
+            }
+            for (number, side) in (first..).zip(0..3).filter(|(_, side)| sides >> side & 1 != 0) {
+                if let Some(ends) = clip_line([corners[side], corners[(side + 1) % 3]]) {
+                    see(number, ends.map(|end| inside(&end)));
                 }
             }
         }
@@ -142,6 +188,19 @@ pub fn facing(draw: &Draw, lens: &Lens) -> Facing {
         (Facing::Front, true, Sides::Seen) => Facing::Back,
         (Facing::Back, true, Sides::Seen) => Facing::Front,
         (Facing::Both, true, Sides::Seen) => Facing::Both,
+    }
+}
+
+/// Whether a triangle shows a side, by the sense of rotation of its corners before division by w.
+fn shows(facing: Facing, corners: &[Corner; 3]) -> bool {
+    let [a, b, c] = corners.map(|[x, y, _, w, _]| [x, y, w].map(f64::from));
+    let turn = a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    match facing {
+        Facing::Front => turn > 0.0,
+        Facing::Back => turn < 0.0,
+        Facing::Both => true,
     }
 }
 

@@ -74,24 +74,28 @@ impl Line {
             [x, y, z, w, side as f32]
         };
         let Some(ends) = clip_line(self.ends.map(project)) else { return };
-        let [a, b] = ends.map(|end| inside(&end));
-        let (dx, dy) = (b.at()[0] - a.at()[0], b.at()[1] - a.at()[1]);
-        let half = 0.5 * self.width * line_width;
-        let (x, y) = if *pattern == Pattern::FOUR {
-            let length = (dx * dx + dy * dy).sqrt().max(1e-3);
-            (-dy * half / length, dx * half / length)
-        } else if dx.abs() > dy.abs() {
-            (0.0, half)
-        } else {
-            (half, 0.0)
-        };
-        let beside = |v: Vertex, sign: f32| Vertex::new([v.at()[0] + sign * x, v.at()[1] + sign * y], v.z());
-        let [p, q, r, s] = [beside(a, 1.0), beside(a, -1.0), beside(b, -1.0), beside(b, 1.0)];
         let target = Target::new(*pattern, Facing::Both, &lens.region);
-        for corners in [[p, q, s], [q, r, s]] {
+        for corners in strip(ends.map(|end| inside(&end)), self.width * line_width, pattern) {
             if let Some(triangle) = Triangle::new(&corners, &target) {
                 see(&triangle);
             }
         }
     }
+}
+
+/// The two triangles that a line covers, of a width in pixels.
+pub fn strip([a, b]: [Vertex; 2], width: f32, pattern: &Pattern) -> [[Vertex; 3]; 2] {
+    let (dx, dy) = (b.at()[0] - a.at()[0], b.at()[1] - a.at()[1]);
+    let half = 0.5 * width;
+    let (x, y) = if *pattern == Pattern::FOUR {
+        let length = (dx * dx + dy * dy).sqrt().max(1e-3);
+        (-dy * half / length, dx * half / length)
+    } else if dx.abs() > dy.abs() {
+        (0.0, half)
+    } else {
+        (half, 0.0)
+    };
+    let beside = |v: Vertex, sign: f32| Vertex::new([v.at()[0] + sign * x, v.at()[1] + sign * y], v.z());
+    let [p, q, r, s] = [beside(a, 1.0), beside(a, -1.0), beside(b, -1.0), beside(b, 1.0)];
+    [[p, q, s], [q, r, s]]
 }

@@ -9,10 +9,11 @@ use super::layer::Layer;
 use super::opaque::Frame;
 use super::stage::Stage;
 use super::still::{Kept, Plan};
-use super::visibility::Visibility;
+use super::visibility::{MIRRORED, Visibility};
 use super::window::lens::Lens;
 use super::window::projection::mirror;
 use crate::scene::{Item, Scene, Shape};
+use wide::bytemuck::cast;
 use wide::{f32x4, u32x4};
 
 /// The mirror image of a picture.
@@ -20,6 +21,8 @@ use wide::{f32x4, u32x4};
 pub struct Mirror {
     layer: Layer,
     visibility: Visibility,
+    /// The mirror itself, filled, where the picture shows outlines alone.
+    pane: Visibility,
     seen: Seen,
     known: Vec<Known>,
     light: Illumination,
@@ -31,6 +34,7 @@ impl Default for Mirror {
         Mirror {
             layer: Layer::default(),
             visibility: Visibility::new(super::window::coverage::Pattern::CENTER),
+            pane: Visibility::new(super::window::coverage::Pattern::CENTER),
             seen: Seen::default(),
             known: Vec::new(),
             light: Illumination::default(),
@@ -45,7 +49,8 @@ const CLOSED: f32 = 2.0;
 const UPPER: f32 = 0.5;
 
 impl Mirror {
-    /// Paints what `item` mirrors on the samples at which its upper side is seen. Nothing in it casts shadows.
+    /// Paints what `item` mirrors on the samples at which its upper side is seen; in a wireframe, wherever it lies. Nothing in it casts
+    /// shadows. Whether it mirrors at all.
     pub fn draw(
         &mut self,
         stage: &Stage<'_>,
@@ -53,9 +58,9 @@ impl Mirror {
         frame: &Frame<'_>,
         kept: &mut Kept,
         canvas: &mut Canvas,
-    ) {
+    ) -> bool {
         let scene = stage.scene;
-        let Some(lens) = reflected(stage.lens, scene, item) else { return };
+        let Some(lens) = reflected(stage.lens, scene, item) else { return false };
         let turn = mirror(lens.point, lens.normal);
         let seen_from = |p: [f64; 3]| turn.map(|row| row[0] * p[0] + row[1] * p[1] + row[2] * p[2] + row[3]);
         self.light.set(scene, seen_from(scene.view.eye).map(|x| x as f32), false);
@@ -82,7 +87,7 @@ impl Mirror {
             self.visibility.copy(&kept.mirror.visibility);
         }
         if !self.open(stage, item, shown) {
-            return;
+            return false;
         }
         let wanted = |draw: &Draw| draw.item != item && !still(kept, draw);
         self.layer.update(stage.assets, stage.draws, &lens, wanted);
@@ -106,6 +111,7 @@ impl Mirror {
         }
         let shown = (&self.visibility, frame.settings.line_width);
         self.transparency.draw(&stage, shown, &self.light, brush, canvas);
+        true
     }
 
     /// Closes the samples at which the item's upper side is not seen; whether any are left.
@@ -117,11 +123,22 @@ impl Mirror {
         let numbers = draws[first].first_triangle..after;
         let surface = draws[first].surface(stage.assets);
         let upper = |number: u32| {
-            let face = &surface.corners[(number - numbers.start) as usize];
+            let face = &surface.corners[((number - numbers.start) / stage.draws.numbers_each) as usize];
             surface.normals[face.normal[0] as usize][2] > UPPER
         };
+        let Mirror { layer, visibility, pane, .. } = self;
+        let shown = match stage.lens.wire {
+            None => shown,
+            Some(_) => {
+                let filled = Lens { wire: None, ..*stage.lens };
+                layer.update(stage.assets, stage.draws, &filled, |draw| draw.item == item);
+                pane.copy_shape(shown);
+                Stage { layer, lens: &filled, ..*stage }.look(pane, |draw| draw.item == item);
+                pane
+            }
+        };
         let mut any = false;
-        for (mirrored, shown) in self.visibility.groups.iter_mut().zip(&shown.groups) {
+        for (mirrored, shown) in visibility.groups.iter_mut().zip(&shown.groups) {
             let (mut depth, mut number) = (mirrored.depth.to_array(), mirrored.triangle.to_array());
             for (lane, &seen) in shown.triangle.to_array().iter().enumerate() {
                 if numbers.contains(&seen) && upper(seen) {
@@ -133,6 +150,15 @@ impl Mirror {
             (mirrored.depth, mirrored.triangle) = (f32x4::new(depth), u32x4::new(number));
         }
         any
+    }
+
+    /// Marks the samples of a wireframe that show nothing but a mirror image, over which no sky is painted.
+    pub fn mark(&self, shown: &mut Visibility) {
+        for (mirrored, shown) in self.visibility.groups.iter().zip(&mut shown.groups) {
+            let ours = mirrored.triangle.simd_gt(u32x4::ZERO) & shown.triangle.simd_eq(u32x4::ZERO);
+            shown.triangle = ours.select(u32x4::splat(MIRRORED), shown.triangle);
+            shown.depth = cast::<_, f32x4>(ours).select(mirrored.depth, shown.depth);
+        }
     }
 }
 

@@ -161,12 +161,14 @@ impl Renderer {
         let Shot { assets, scene, channels, ref mut picture } = *shot;
         let (draws, sheet) = (&mut self.draws[view], &mut self.sheets[view]);
         draws.clear();
-        let lens = lens(scene, picture)?;
+        let lens = lens(scene, picture, &self.settings)?;
         draws.update(assets, scene)?;
         picture.rgb.clear();
         picture.depth.clear();
         picture.segmentation.clear();
         if channels.depth || channels.segmentation {
+            // Wireframes have the depth and the objects of filled surfaces, as MuJoCo's renderer has them.
+            let lens = Lens { wire: None, ..lens };
             let Sheet { layer, visibility, .. } = sheet;
             layer.update(assets, draws, &lens, |draw| !scene.items[draw.item].unlisted);
             let stage = Stage { assets, scene, draws, layer, lens: &lens };
@@ -212,7 +214,8 @@ impl Renderer {
             let stage = Stage { assets, scene, draws, layer, lens: &lens };
             stage.look(visibility, |draw| kept.stills.has(draw) && !draw.transparent);
             opaque.collect_still(&stage, &frame, visibility);
-            let cast = Cast { stage: &stage, settings: &settings.shadow, draws: std::slice::from_ref(draws) };
+            let (settings, wire) = (&settings.shadow, lens.wire);
+            let cast = Cast { stage: &stage, settings, wire, draws: std::slice::from_ref(draws) };
             umbra.fall_from(&cast, |draw| kept.stills.has(draw), opaque);
             opaque.keep(&stage, &frame, visibility, kept);
         }
@@ -227,7 +230,10 @@ impl Renderer {
         canvas.clear(visibility.groups.len());
         let reflective = draws.reflective(scene);
         if let Some(item) = reflective {
-            mirror.draw(&stage, (item, visibility), &frame, kept, canvas);
+            let mirrors = mirror.draw(&stage, (item, visibility), &frame, kept, canvas);
+            if mirrors && scene.wireframe {
+                mirror.mark(visibility);
+            }
         }
         opaque.collect(&stage, &frame, visibility, kept);
         *colour = Some(Colour { lens, place, plan, reflective });
@@ -245,7 +251,8 @@ impl Renderer {
         let Shot { assets, scene, .. } = shots[view];
         let stage =
             Stage { assets, scene, draws: &draws[view], layer: &sheets[view].layer, lens: &colour.lens };
-        let cast = Cast { stage: &stage, settings: &settings.shadow, draws: &draws[..count] };
+        let (settings, wire) = (&settings.shadow, colour.lens.wire);
+        let cast = Cast { stage: &stage, settings, wire, draws: &draws[..count] };
         umbra.fall(&cast, &mut opaques[..count], |view| {
             let Colour { place, plan, .. } = sheets[view].colour?;
             (plan != Plan::Without).then(|| views.kept(place))
@@ -305,7 +312,7 @@ fn together(shots: &[Shot<'_>]) -> usize {
         let first = &before[0];
         std::ptr::eq(shot.assets, first.assets)
             && depths(shot) == depths(first)
-            && shot.scene.shadows == first.scene.shadows
+            && (shot.scene.shadows, shot.scene.wireframe) == (first.scene.shadows, first.scene.wireframe)
             && lamps(shot.scene).eq(lamps(first.scene))
             && before.iter().all(|other| shot.scene.view != other.scene.view)
     };
@@ -319,7 +326,7 @@ fn lamps(scene: &Scene) -> impl Iterator<Item = &Light> {
 }
 
 /// What a picture is seen through.
-fn lens(scene: &Scene, picture: &Picture) -> Result<Lens, RenderError> {
+fn lens(scene: &Scene, picture: &Picture, settings: &Settings) -> Result<Lens, RenderError> {
     let (width, height) = (picture.width, picture.height);
     if !(1..=MAX_SIDE).contains(&width) || !(1..=MAX_SIDE).contains(&height) {
         return Err(RenderError::Size { width, height });
@@ -332,6 +339,7 @@ fn lens(scene: &Scene, picture: &Picture) -> Result<Lens, RenderError> {
         deepest: 1.0,
         mirror: None,
         sides: Sides::Seen,
+        wire: scene.wireframe.then_some(settings.line_width),
     })
 }
 
@@ -360,8 +368,8 @@ fn look_at_lines(
 fn paint_lines(scene: &Scene, draws: &Draws, visibility: &Visibility, canvas: &mut Canvas) {
     for (group, samples) in visibility.groups.iter().zip(&mut canvas.groups) {
         for (number, sample) in group.triangle.to_array().into_iter().zip(samples) {
-            if number >= draws.triangles {
-                let line = draws.lines[(number - draws.triangles) as usize];
+            let line = number.checked_sub(draws.triangles).and_then(|place| draws.lines.get(place as usize));
+            if let Some(line) = line {
                 *sample = scene.items[line.item].rgba.map(eight_bits);
             }
         }

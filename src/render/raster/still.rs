@@ -99,13 +99,14 @@ struct Around {
     fog: Option<Fog>,
     shadows: bool,
     reflections: bool,
+    culling: bool,
 }
 
 impl Views {
     /// The view that a scene is seen from, and what to do with its backdrop. The view stays in its place until as many others
     /// as there is room for are found.
     pub fn find(&mut self, now: &Present<'_>) -> (Place, Plan) {
-        if !now.settings.keep {
+        if !now.settings.keep || now.scene.wireframe {
             return (None, Plan::Without);
         }
         let Present { scene, extent, settings, .. } = *now;
@@ -146,6 +147,7 @@ impl Kept {
             fog: None,
             shadows: false,
             reflections: false,
+            culling: true,
         };
         Kept {
             around,
@@ -199,7 +201,8 @@ impl Kept {
         let a = &self.around;
         let around = a.view == scene.view && a.extent == extent && a.settings == settings;
         let lights = a.lights == scene.lights && a.ambient == scene.ambient && a.fog == scene.fog;
-        let flags = a.shadows == scene.shadows && a.reflections == scene.reflections;
+        let flags =
+            (a.shadows, a.reflections, a.culling) == (scene.shadows, scene.reflections, scene.culling);
         let surfaces = self.surfaces.len() == assets.surfaces.len()
             && self.surfaces.iter().zip(&assets.surfaces).all(|(a, b)| Arc::ptr_eq(a, b));
         let textures = self.textures.len() == assets.textures.len()
@@ -216,7 +219,7 @@ impl Kept {
         (a.view, a.extent, a.settings) = (scene.view, extent, settings);
         a.lights.clone_from(&scene.lights);
         (a.ambient, a.fog) = (scene.ambient, scene.fog);
-        (a.shadows, a.reflections) = (scene.shadows, scene.reflections);
+        (a.shadows, a.reflections, a.culling) = (scene.shadows, scene.reflections, scene.culling);
         self.surfaces.clone_from(&assets.surfaces);
         self.textures.clone_from(&assets.textures);
         self.items.clone_from(&scene.items);

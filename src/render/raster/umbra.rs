@@ -19,6 +19,8 @@ pub struct Cast<'a> {
     pub stage: &'a Stage<'a>,
     /// The maps.
     pub settings: &'a ShadowSettings,
+    /// Width of the lines that outline triangles \[texel\]; none where they are filled.
+    pub wire: Option<f32>,
     /// Surfaces of each picture.
     pub draws: &'a [Draws],
 }
@@ -27,12 +29,13 @@ impl<'a> Cast<'a> {
     /// The lamps that cast shadows.
     fn castings(&self, lamps: usize) -> impl Iterator<Item = Casting<'a>> + use<'a> {
         let Stage { assets, scene, .. } = *self.stage;
-        let (settings, draws) = (self.settings, self.draws);
+        let (settings, draws, wire) = (self.settings, self.draws, self.wire);
         scene.lights.iter().filter(|light| light.shadow).take(lamps).map(move |light| Casting {
             assets,
             draws,
             maps: maps(light, scene, settings),
             size: settings.size,
+            wire,
         })
     }
 }

@@ -7,6 +7,9 @@ use super::window::coverage::{Pattern, Triangle};
 use wide::bytemuck::cast;
 use wide::{f32x4, i32x4, u32x4};
 
+/// The number of what is seen in the mirror of a wireframe; larger than that of any triangle or line.
+pub const MIRRORED: u32 = i32::MAX as u32;
+
 /// Four samples.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Group {

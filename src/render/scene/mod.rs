@@ -68,6 +68,12 @@ pub struct Scene {
     pub shadows: bool,
     /// Mirrors are drawn.
     pub reflections: bool,
+    /// Surfaces are drawn as the outlines of their polygons.
+    pub wireframe: bool,
+    /// What is transparent is added to what is behind it, and does not weaken it.
+    pub additive: bool,
+    /// The backs of closed surfaces are left out.
+    pub culling: bool,
     /// What plugins show; `items` have it.
     pub appearance: Appearance,
 }
@@ -84,6 +90,9 @@ impl Default for Scene {
             haze: None,
             shadows: true,
             reflections: true,
+            wireframe: false,
+            additive: false,
+            culling: true,
             appearance: Appearance::default(),
         }
     }
@@ -135,6 +144,8 @@ impl Scene {
         let sky = (0..model.ntex).find(|&i| model.tex_type[i] == TextureType::Skybox.code());
         self.shadows = effects.shadows;
         self.reflections = effects.reflections;
+        (self.wireframe, self.additive, self.culling) =
+            (effects.wireframe, effects.additive, effects.culling);
         self.sky = sky.filter(|_| effects.sky);
         self.haze = self.sky.filter(|_| effects.haze).and_then(|_| self.horizon(model));
         self.fog = effects.fog.then(|| Fog {

@@ -270,12 +270,27 @@ pub struct Effects {
     pub haze: bool,
     /// Fog in the distance.
     pub fog: bool,
+    /// Surfaces are drawn as the outlines of their polygons.
+    pub wireframe: bool,
+    /// What is transparent is added to what is behind it, and does not weaken it.
+    pub additive: bool,
+    /// The backs of closed surfaces are left out.
+    pub culling: bool,
 }
 
 impl Default for Effects {
-    /// All but fog.
+    /// All but fog, wireframe and added transparency.
     fn default() -> Self {
-        Effects { shadows: true, reflections: true, sky: true, haze: true, fog: false }
+        Effects {
+            shadows: true,
+            reflections: true,
+            sky: true,
+            haze: true,
+            fog: false,
+            wireframe: false,
+            additive: false,
+            culling: true,
+        }
     }
 }
 
@@ -312,6 +327,27 @@ impl Effects {
     #[must_use]
     pub fn with_fog(mut self, fog: bool) -> Self {
         self.fog = fog;
+        self
+    }
+
+    /// Whether surfaces are drawn as the outlines of their polygons.
+    #[must_use]
+    pub fn with_wireframe(mut self, wireframe: bool) -> Self {
+        self.wireframe = wireframe;
+        self
+    }
+
+    /// Whether what is transparent is added to what is behind it.
+    #[must_use]
+    pub fn with_additive(mut self, additive: bool) -> Self {
+        self.additive = additive;
+        self
+    }
+
+    /// Whether the backs of closed surfaces are left out.
+    #[must_use]
+    pub fn with_culling(mut self, culling: bool) -> Self {
+        self.culling = culling;
         self
     }
 }

@@ -89,6 +89,8 @@ impl Painters {
             match gpu.paint(scenery, size) {
                 Ok(painted) => return Ok(painted),
                 Err(GpuError::Render(error)) => return Err(error),
+                // This picture is left to the CPU.
+                Err(GpuError::Effect { .. }) => {}
                 Err(error) => (self.gpu, self.reason) = (None, error.to_string()),
             }
         }

@@ -2,7 +2,7 @@
 
 use super::items::{Differences, compare};
 use super::measures::Geometry;
-use super::plan::SceneRow;
+use super::plan::{Effect, SceneRow};
 use super::recording::Recording;
 use super::views::Views;
 use physics::model::ObjType;
@@ -20,6 +20,7 @@ pub struct Drawn {
     camera: Camera,
     assets: Assets,
     renderer: Renderer,
+    effects: Effects,
 }
 
 impl Drawn {
@@ -51,7 +52,12 @@ impl Drawn {
         let mut assets = Assets::new(&model, recorded.profile()?).map_err(|error| error.to_string())?;
         assets.pose(&model, &data, &SceneOptions::default()).map_err(|error| error.to_string())?;
         let renderer = Renderer::new(Settings::of(&model).with_samples(Samples::Four));
-        Ok(Drawn { model, data, camera, assets, renderer })
+        let effects = scene.effects.iter().fold(Effects::default(), |effects, effect| match effect {
+            Effect::Wireframe => effects.with_wireframe(true),
+            Effect::Additive => effects.with_additive(true),
+            Effect::NoCulling => effects.with_culling(false),
+        });
+        Ok(Drawn { model, data, camera, assets, renderer, effects })
     }
 
     /// The triangles and textures of the model.
@@ -70,7 +76,7 @@ impl Drawn {
     /// The scene cannot be assembled.
     pub fn scene(&self, shadows: bool) -> Result<Scene, String> {
         let view = self.camera.view(&self.model, &self.data).map_err(|error| error.to_string())?;
-        let options = SceneOptions::default().with_effects(Effects::default().with_shadows(shadows));
+        let options = SceneOptions::default().with_effects(self.effects.with_shadows(shadows));
         let mut scene = Scene::new();
         scene.update(&self.model, &self.data, view, &options).map_err(|error| error.to_string())?;
         Ok(scene)

@@ -64,8 +64,11 @@ pub fn measure(inputs: &Inputs<'_>) -> Result<(String, Result<(), String>), Stri
     let plan = Plan::listed()?;
     let (mut text, mut missed, mut speeds) = (String::from(HEADER), 0, String::new());
     let mut adapter = None;
-    let chosen =
-        |scene: &&SceneRow| scene.name.contains(inputs.only) && (inputs.models.is_some() || scene.is_own());
+    let chosen = |scene: &&SceneRow| {
+        // Other effects are left to the CPU.
+        let drawn = scene.effects.is_empty();
+        drawn && scene.name.contains(inputs.only) && (inputs.models.is_some() || scene.is_own())
+    };
     for scene in plan.scenes.iter().filter(chosen) {
         let Ok(recorded) = Recording::open(inputs.references, scene) else { continue };
         let mut drawn = Drawn::open(inputs.models, scene, &recorded)?;

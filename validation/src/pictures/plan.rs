@@ -88,8 +88,23 @@ pub struct SceneRow {
     pub define: BTreeMap<String, String>,
     /// The geom of a height field that is raised and filled.
     pub terrain: Option<String>,
+    /// Effects that it is drawn with.
+    #[serde(default)]
+    pub effects: Vec<Effect>,
     /// Why its picture differs as it does.
     pub note: Option<String>,
+}
+
+/// An effect that pictures have only where they are asked for it.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Effect {
+    /// Outlines instead of surfaces.
+    Wireframe,
+    /// Transparent items are added.
+    Additive,
+    /// Backs of surfaces are drawn.
+    NoCulling,
 }
 
 impl Plan {

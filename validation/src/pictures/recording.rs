@@ -1,7 +1,7 @@
 //! What `reference/pictures.py` recorded of a scene.
 
 use super::measures::Geometry;
-use super::plan::SceneRow;
+use super::plan::{Effect, SceneRow};
 use dataset::{Array, NpzReader, Values};
 use render::Profile;
 use serde_json::Value;
@@ -27,8 +27,12 @@ impl Recording {
         recording.meta =
             serde_json::from_slice(&meta).map_err(|error| recording.error(&error.to_string()))?;
         let recorded = |key: &str| recording.meta["scene"][key].as_str();
-        if recorded("file") != Some(&scene.file) || recorded("camera") != scene.camera.as_deref() {
-            return Err(recording.error("recorded of another model or camera; record it again"));
+        let effects: Vec<Effect> =
+            serde_json::from_value(recording.meta["scene"]["effects"].clone()).unwrap_or_default();
+        let same = recorded("file") == Some(&scene.file) && recorded("camera") == scene.camera.as_deref();
+        if !same || effects != scene.effects {
+            return Err(recording
+                .error("recorded of another model or camera, or with other effects; record it again"));
         }
         Ok(recording)
     }

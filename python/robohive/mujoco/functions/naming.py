@@ -108,18 +108,18 @@ def mj_printSchema(flg_html: bool, flg_pad: bool) -> str:
 
 
 def mj_saveLastXML(filename: str, m: MjModel) -> None:
-    """Writes the description that was loaded last, of which `m` was compiled, as MJCF.
+    """Writes the description that was loaded last as MJCF, with the numbers of `m`, a model of the same elements. Warns of arrays that
+    were written and that no description holds.
 
     Raises:
-        FatalError: none was loaded.
-        NotImplementedError: `m` is another model, or was changed; `MjSpec` writes what a program edits.
+        FatalError: none was loaded, or `m` is a model of other elements.
     """
+    from robohive.mujoco.spec.taken_back import take_back
     from robohive.mujoco.spec.tree import MjSpec
 
     last = last_loaded()
     if last is None:
         raise _core.FatalError("mj_saveLastXML: no XML was loaded")
     spec = MjSpec.from_string(last.source, assets=last.files) if last.is_text else MjSpec.from_file(last.source, assets=last.files)
-    if spec.compile()._to_bytes() != m._to_bytes():
-        raise NotImplementedError("mj_saveLastXML writes what was loaded last, and this model is another or was changed: use MjSpec")
+    take_back(spec, m)
     spec.to_file(filename)

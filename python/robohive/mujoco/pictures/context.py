@@ -120,25 +120,35 @@ def _objects(segmentation: NDArray[np.int32], scn: MjvScene) -> NDArray[np.uint8
     return bytes[places.reshape(-1)].reshape(*segmentation.shape[:2], 3)
 
 
+def drawn(scn: MjvScene, size: tuple[int, int]) -> tuple[NDArray[np.uint8], NDArray[np.float32], NDArray[np.int32]]:
+    """Colours, distances [m] and objects of a scene in pictures of this width and height, as its flags say.
+
+    Raises:
+        RuntimeError: the scene was never updated.
+    """
+    rgb, distance, objects = scn._painter.draw_all(size, scn._guests(), scn._effects())
+    if scn.flags[mjtRndFlag.mjRND_SEGMENT]:
+        rgb = _objects(objects, scn)
+    if scn.flags[mjtRndFlag.mjRND_DEPTH]:
+        # MuJoCo draws no colours then.
+        rgb[...] = 0
+    return rgb, distance, objects
+
+
 def mjr_render(viewport: MjrRect, scn: MjvScene, con: MjrContext) -> None:
     """Draws a scene into a rectangle.
 
     Raises:
         RuntimeError: the scene was never updated.
-        NotImplementedError: wireframe or additive transparency is asked for.
     """
-    for flag in (mjtRndFlag.mjRND_WIREFRAME, mjtRndFlag.mjRND_ADDITIVE):
-        if scn.flags[flag]:
-            raise NotImplementedError(f"robohive.mujoco does not draw with {flag.name}")
-    rgb, depth, objects = scn._painter.draw_all((viewport.width, viewport.height), scn._guests())
-    if scn.flags[mjtRndFlag.mjRND_SEGMENT]:
-        rgb = _objects(objects, scn)
+    rgb, distance, _ = drawn(scn, (viewport.width, viewport.height))
+    depth = _window_depth(distance, scn)
     rows, columns = con._within(viewport)
     place = slice(rows.start - viewport.bottom, rows.stop - viewport.bottom), slice(
         columns.start - viewport.left, columns.stop - viewport.left
     )
     con._rgb[rows, columns] = rgb[::-1][place]
-    con._depth[rows, columns] = _window_depth(depth, scn)[::-1][place]
+    con._depth[rows, columns] = depth[::-1][place]
 
 
 def mjr_readPixels(

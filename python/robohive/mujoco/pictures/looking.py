@@ -2,13 +2,11 @@
 
 from typing import Any
 
-from robohive.mujoco.enums.view import mjtCamera, mjtRndFlag, mjtVisFlag
+from robohive.mujoco.enums.view import mjtCamera, mjtVisFlag
 from robohive.mujoco.pictures.view import MjvCamera, MjvOption
 from robohive.mujoco.structs.model import MjModel
 
 _GROUPS = ("geom", "site", "joint", "tendon", "actuator", "skin", "flex")
-#: Effects, in the engine's order.
-FLAGS = tuple(mjtRndFlag[f"mjRND_{name}"] for name in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE", "FOG"))
 
 
 def checked(model: MjModel, number: int) -> int:
@@ -36,7 +34,11 @@ def look_of(model: MjModel, camera: MjvCamera, option: MjvOption) -> dict[str, A
         "groups": [[bool(x) for x in getattr(option, f"{kind}group")] for kind in _GROUPS],
         "shown": shown,
         "categories": [True, True, True],
-        "effects": [True, True, True, True, False],
+        "label": int(option.label),
+        "frame": int(option.frame),
+        "bvh_depth": int(option.bvh_depth),
+        "flex_layer": int(option.flex_layer),
+        "selection": None,
     }
 
 

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from robohive.mujoco import _engine as _core
 from robohive.mujoco.enums.elements import mjtGeom, mjtObj
 from robohive.mujoco.enums.view import mjtCatBit, mjtRndFlag
-from robohive.mujoco.pictures.looking import FLAGS, look_of
+from robohive.mujoco.pictures.looking import look_of
 from robohive.mujoco.pictures.view import MjvCamera, MjvOption, _Struct
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
@@ -22,6 +22,11 @@ _ROUND = {
     int(mjtGeom.mjGEOM_CYLINDER): [0, 0, 1],
 }
 _LOOK = ("emission", "specular", "shininess", "reflectance")
+#: Flags that change what is drawn, in the engine's order.
+_EFFECTS = tuple(
+    mjtRndFlag[f"mjRND_{name}"]
+    for name in ("SHADOW", "REFLECTION", "SKYBOX", "HAZE", "FOG", "WIREFRAME", "ADDITIVE", "CULL_FACE")
+)
 
 
 class MjvGeom(_Struct):
@@ -63,7 +68,7 @@ class MjvGeom(_Struct):
         """As the engine takes it."""
         numbers = {name: getattr(self, name) for name in ("type", "dataid", "objtype", "objid")}
         rows = {name: np.ravel(getattr(self, name)).tolist() for name in ("size", "pos", "mat", "rgba")}
-        return {**numbers, **rows, "look": [float(getattr(self, name)) for name in _LOOK]}
+        return {**numbers, **rows, "look": [float(getattr(self, name)) for name in _LOOK], "label": str(self.label)}
 
 
 def _of_model(rows: Mapping[str, Any], index: int) -> MjvGeom:
@@ -95,9 +100,6 @@ class _Geoms(Sequence[MjvGeom]):
     def _start(self, rows: Mapping[str, Any]) -> None:
         self._made, self._rows = {}, rows
 
-    def _put(self, first: int, geoms: Sequence[MjvGeom]) -> None:
-        self._made.update(enumerate(geoms, first))
-
     def __len__(self) -> int:
         return self._count
 
@@ -127,7 +129,7 @@ class MjvGLCamera(_Struct):
 
 
 class MjvPerturb(_Struct):
-    """A body selected and pulled with the mouse; the pictures here show none."""
+    """A body selected, and where it is pulled to."""
 
     def __init__(self) -> None:
         self.select = self.active = self.active2 = 0
@@ -140,7 +142,7 @@ class MjvPerturb(_Struct):
 class MjvScene:
     """What there is to draw of a simulation, and geoms that a program adds behind: `geoms[ngeom]`, then `ngeom += 1`.
 
-    `flags` are read by `mjv_updateScene`, apart from those of segmentation, which `mjr_render` reads.
+    `flags` are read by `mjr_render`.
     """
 
     def __init__(self, model: MjModel | None = None, maxgeom: int = 0) -> None:
@@ -186,18 +188,12 @@ class MjvScene:
 
     def _look(self, m: MjModel, d: MjData, look: dict[str, Any]) -> None:
         """Takes in what is seen; geoms and cameras are read when they are asked for."""
-        look["effects"] = [bool(self.flags[flag]) for flag in FLAGS]
         self._painter.look(m, d, look)
         self._model, self._unread = m, True
 
-    def _look_again(self, m: MjModel, d: MjData, look: dict[str, Any]) -> None:
-        """Takes in the same with the present flags, and keeps what the program added."""
-        added = [] if self._unread else [self._geoms[index] for index in range(self._own, self._count)]
-        self._look(m, d, look)
-        if added:
-            self._read()
-            self._geoms._put(self._own, added)
-            self._count = self._own + len(added)
+    def _effects(self) -> list[bool]:
+        """The flags that the engine draws with."""
+        return [bool(self.flags[flag]) for flag in _EFFECTS]
 
     def _read(self) -> None:
         if not self._unread or self._model is None:
@@ -228,15 +224,32 @@ def mjv_updateScene(
     """Takes in what is seen of a simulation, whose poses must have been computed.
 
     Raises:
-        NotImplementedError: a body is selected for a perturbation.
-        ValueError: there is no such camera.
+        ValueError: there is no such camera, or no such body as `pert` selects.
     """
-    if pert is not None and pert.select > 0:
-        raise NotImplementedError("robohive.mujoco draws no perturbation by mouse")
     bits = (mjtCatBit.mjCAT_STATIC, mjtCatBit.mjCAT_DYNAMIC, mjtCatBit.mjCAT_DECOR)
     look = look_of(m, cam, opt)
     look["categories"] = [bool(int(catmask) & bit) for bit in bits]
+    if pert is not None and pert.select > 0:
+        look["selection"] = _selection(m, pert)
     scn._look(m, d, look)
+
+
+def _selection(m: MjModel, pert: MjvPerturb) -> dict[str, Any]:
+    """A selected body as the engine takes it.
+
+    Raises:
+        ValueError: the model has no such body.
+    """
+    if pert.select >= m.nbody:
+        raise ValueError(f"body {pert.select} is out of range: the model has {m.nbody}")
+    return {
+        "body": int(pert.select),
+        "point": pert.localpos,
+        "active": int(pert.active),
+        "active2": int(pert.active2),
+        "target": pert.refselpos,
+        "orientation": pert.refquat,
+    }
 
 
 def mjv_initGeom(

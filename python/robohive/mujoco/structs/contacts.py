@@ -1,6 +1,6 @@
 """Contacts: records on their own, and the contacts of a simulation, which stay up to date and may be written."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -110,6 +110,13 @@ class MjContactList(_List):
 
     def __len__(self) -> int:
         return len(self._numbers)
+
+    def __iter__(self) -> Iterator[Any]:
+        # Programs change the simulation as they go, so that the list may end earlier.
+        number = 0
+        while number < len(self):
+            yield self[number]
+            number += 1
 
     def __getitem__(self, index: Any) -> Any:
         if isinstance(index, slice):

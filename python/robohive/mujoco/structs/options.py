@@ -57,7 +57,7 @@ class _Settings:
         elif inner["_model"] is None:
             inner["_own"][name] = kind(value)
         else:
-            inner["_model"]._set_setting(self._group, name, [float(kind(value))])
+            inner["_model"]._set_setting(self._group, name, float(kind(value)))
 
     def __dir__(self) -> list[str]:
         return sorted(self._fields)

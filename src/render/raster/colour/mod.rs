@@ -4,5 +4,6 @@ mod lighting;
 pub mod paint;
 mod power;
 pub mod seen;
+mod shares;
 pub mod sky;
 pub mod transparency;

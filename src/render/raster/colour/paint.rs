@@ -224,11 +224,21 @@ impl Canvas {
 /// A colour laid over another with its opacity, in arithmetic of eight bits.
 #[inline]
 pub fn over(top: Rgba, below: Rgba) -> Rgba {
-    let product = |a: u8, b: u8| {
-        let t = u32::from(a) * u32::from(b) + 128;
-        ((t + (t >> 8)) >> 8) as u8
-    };
     let alpha = top[3];
     let mix = |k: usize| product(top[k], alpha).saturating_add(product(below[k], 255 - alpha));
     [mix(0), mix(1), mix(2), below[3]]
+}
+
+/// A colour added to another, weakened by its opacity.
+#[inline]
+pub fn onto(top: Rgba, below: Rgba) -> Rgba {
+    let mix = |k: usize| product(top[k], top[3]).saturating_add(below[k]);
+    [mix(0), mix(1), mix(2), below[3]]
+}
+
+/// The product of two numbers from 0 to 1, in eight bits.
+#[inline]
+fn product(a: u8, b: u8) -> u8 {
+    let t = u32::from(a) * u32::from(b) + 128;
+    ((t + (t >> 8)) >> 8) as u8
 }

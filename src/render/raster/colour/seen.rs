@@ -3,8 +3,9 @@
 //! A fragment is one triangle in one pixel. It is shaded once, at the middle of the pixel, for all of the triangle's samples there.
 
 use super::lighting::{Corners, Lamp, Material, Triple, add_lamp, clamped, own_light, unit};
-use crate::geometry::{Assets, Paint};
-use crate::raster::draws::Draw;
+use super::shares::{anchor, shares, shares_along};
+use crate::geometry::{Assets, Corners as Rows, Paint};
+use crate::raster::draws::{Draw, Draws};
 use crate::raster::stage::Stage;
 use crate::raster::visibility::Visibility;
 use crate::raster::window::coverage::{Extent, Pattern, Triangle};
@@ -286,7 +287,7 @@ impl Seen {
             let mut from = draw.first_triangle.max(first);
             while let Some(number) = self.next_seen(from..end.min(last.saturating_add(1))) {
                 let place = self.places[number as usize] as usize - 1;
-                self.triangles[place] = self.prepare((assets, lens.extent), (index, draw), columns, number);
+                self.triangles[place] = self.prepare((assets, draws, lens.extent), index, columns, number);
                 from = number + 1;
             }
             self.light_waiting(assets, draw, &scene.items[draw.item], light);
@@ -311,17 +312,27 @@ impl Seen {
         Some(numbers.start + (skipped + seen) as u32)
     }
 
-    /// A triangle without its colours, whose corners wait to be lit.
+    /// A triangle without its colours, whose corners wait to be lit; or one side of it, as a triangle whose last two corners are
+    /// one.
     fn prepare(
         &mut self,
-        (assets, extent): (&Assets, Extent),
-        (index, draw): (usize, &Draw),
+        (assets, draws, extent): (&Assets, &Draws, Extent),
+        index: usize,
         columns: &Columns,
         number: u32,
     ) -> SeenTriangle {
+        let draw = &draws.list[index];
         let surface = draw.surface(assets);
-        let index_in_surface = (number - draw.first_triangle) as usize;
-        let (face, corners) = (surface.faces[index_in_surface], &surface.corners[index_in_surface]);
+        let place = number - draw.first_triangle;
+        let outlined = draws.numbers_each == 3;
+        let (index_in_surface, order) = match (place % 3) as usize {
+            side if outlined => ((place / 3) as usize, [side, (side + 1) % 3, (side + 1) % 3]),
+            _ => (place as usize, [0, 1, 2]),
+        };
+        let face = order.map(|k| surface.faces[index_in_surface][k]);
+        let corners = surface.corners[index_in_surface];
+        let corners =
+            Rows { normal: order.map(|k| corners.normal[k]), texcoord: order.map(|k| corners.texcoord[k]) };
         let points = face.map(|i| surface.positions[i as usize]);
         let window = points.map(|p| columns.apply(p));
         let anchor = anchor(window[0], extent);
@@ -347,7 +358,8 @@ impl Seen {
                 Paint::Cube { scale, .. } => std::array::from_fn(|i| scale[i] * points[k][i]),
             })
         });
-        let shares = shares(window, anchor);
+        let shares =
+            if outlined { shares_along([window[0], window[1]], anchor) } else { shares(window, anchor) };
         SeenTriangle {
             draw: index as u32,
             rows,
@@ -435,29 +447,6 @@ fn same_numbers(numbers: [u32; 4], mut take: impl FnMut(u32, u8)) {
         left &= !same;
         take(number, same);
     }
-}
-
-/// The pixel of the window nearest to a corner, or the first where the corner is behind the eye. It depends on nothing but
-/// the triangle, as its colours then do.
-fn anchor([x, y, _, w]: [f32; 4], extent: Extent) -> [f32; 2] {
-    let near =
-        |x: f32, pixels: i32| if w > 0.0 { (x / w).clamp(0.0, pixels as f32).floor() + 0.5 } else { 0.5 };
-    [near(x, extent.width), near(y, extent.height)]
-}
-
-/// What multiplies column, row and 1, counted from `anchor`, to give the share of each corner: with corners (x w, y w, w) as rows
-/// of a matrix, the columns of its inverse (Olano and Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997).
-pub fn shares(corners: [[f32; 4]; 3], anchor: [f32; 2]) -> [[f32; 3]; 3] {
-    let rows = corners.map(|[x, y, _, w]| {
-        let w = f64::from(w);
-        [f64::from(x) - f64::from(anchor[0]) * w, f64::from(y) - f64::from(anchor[1]) * w, w]
-    });
-    let normals: [[f64; 3]; 3] = std::array::from_fn(|i| {
-        let (a, b) = (rows[(i + 1) % 3], rows[(i + 2) % 3]);
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-    });
-    let determinant: f64 = (0..3).map(|k| rows[0][k] * normals[0][k]).sum();
-    normals.map(|n| n.map(|x| (x / determinant) as f32))
 }
 
 #[cfg(test)]

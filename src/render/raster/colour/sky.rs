@@ -1,7 +1,7 @@
 //! What surrounds the items: the sky, and haze over the horizon.
 
 use super::paint::{Canvas, Rgba, eight_bits, over};
-use super::seen::shares;
+use super::shares::shares;
 use crate::raster::visibility::Visibility;
 use crate::raster::window::clip::clip;
 use crate::raster::window::coverage::{Extent, Facing, Pattern, Target, Triangle};

@@ -1,7 +1,7 @@
 //! Items that let others shine through: blended over the picture front to back, and then again back to front, as MuJoCo
-//! does; each shows twice.
+//! does; each shows twice. Where transparency is additive they are added, once.
 
-use super::paint::{Brush, Canvas, eight_bits, over};
+use super::paint::{Brush, Canvas, eight_bits, onto, over};
 use super::seen::{Fragment, Illumination, Seen, uncovered};
 use crate::raster::stage::Stage;
 use crate::raster::visibility::Visibility;
@@ -60,7 +60,9 @@ impl Transparency {
             *fragments = first..self.seen.fragments.len();
         }
         self.seen.light(stage, light);
-        let back = self.items.iter().rev();
+        let additive = stage.scene.additive;
+        let blend = if additive { onto } else { over };
+        let back = self.items.iter().rev().filter(|_| !additive);
         for (_, item, fragments) in self.items.iter().chain(back) {
             let item = &stage.scene.items[*item];
             if is_line(item) {
@@ -68,14 +70,14 @@ impl Transparency {
                 let [r, g, b] = [r, g, b].map(|x| light.reflectance * x);
                 let colour = [r, g, b, opacity].map(eight_bits);
                 for fragment in &self.of_lines[fragments.clone()] {
-                    canvas.touch(fragment, |below| over(colour, below));
+                    canvas.touch(fragment, |below| blend(colour, below));
                 }
                 continue;
             }
             for fragment in &self.seen.fragments[fragments.clone()] {
                 let draw = &stage.draws.list[self.seen.triangles[fragment.triangle as usize].draw as usize];
                 let colour = brush.colour(&self.seen, &draw.paint, draw.alpha(item), fragment);
-                canvas.touch(fragment, |below| over(colour, below));
+                canvas.touch(fragment, |below| blend(colour, below));
             }
         }
     }

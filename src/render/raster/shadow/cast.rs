@@ -6,7 +6,8 @@ use super::texels::{Question, Texels};
 use crate::geometry::Assets;
 use crate::raster::draws::{Draw, Draws};
 use crate::raster::layer::{Layer, facing};
-use crate::raster::window::coverage::{Extent, Pattern, Target};
+use crate::raster::lines::strip;
+use crate::raster::window::coverage::{Extent, Facing, Pattern, Target};
 use crate::raster::window::lens::{Lens, Sides};
 use std::ops::Range;
 
@@ -28,6 +29,8 @@ pub struct Casting<'a> {
     pub maps: Maps,
     /// Texels along a side of the map.
     pub size: usize,
+    /// Width of the lines that outline triangles \[texel\]; none where they are filled.
+    pub wire: Option<f32>,
 }
 
 impl Shadows {
@@ -64,7 +67,7 @@ impl Shadows {
         casters: impl Fn(&Draw) -> bool,
         questions: Range<usize>,
     ) {
-        let Casting { assets, draws, maps, size } = *casting;
+        let Casting { assets, draws, maps, size, wire } = *casting;
         let Shadows { layer, texels: Texels { grid, sorted, .. } } = self;
         let rule = CasterRule::of(assets.profile());
         let lens = Lens {
@@ -74,10 +77,20 @@ impl Shadows {
             deepest: grid.deepest,
             mirror: None,
             sides: if rule.averted { Sides::Averted } else { Sides::Both },
+            wire,
         };
         layer.update(assets, &draws[view], &lens, |draw| draw.casts && casters(draw));
         let questions = questions.start as u32..questions.end as u32;
         for (index, draw) in draws[view].list.iter().enumerate() {
+            if let Some(width) = wire {
+                let target = Target::new(Pattern::CENTER, Facing::Both, &lens.region);
+                layer.outlines(assets, (index, draw), &lens, |_, ends| {
+                    for corners in strip(ends, width, &Pattern::CENTER) {
+                        grid.shade(&corners, &target, rule.of_lines(), (&questions, sorted));
+                    }
+                });
+                continue;
+            }
             let target = Target::new(Pattern::CENTER, facing(draw, &lens), &lens.region);
             layer.corners(
                 assets,

@@ -22,4 +22,10 @@ impl CasterRule {
             Profile::Mujoco313 => CasterRule { averted: true, slopes: 0.0, constant: 0.0 },
         }
     }
+
+    /// How the lines of a wireframe are drawn, which nothing is added to: they lie in their own shadow in half of their texels, at
+    /// random, as in MuJoCo's pictures.
+    pub fn of_lines(self) -> Self {
+        CasterRule { slopes: 0.0, constant: 0.0, ..self }
+    }
 }

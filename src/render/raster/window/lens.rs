@@ -18,6 +18,8 @@ pub struct Lens {
     pub mirror: Option<[f64; 4]>,
     /// Which sides of triangles are drawn.
     pub sides: Sides,
+    /// Width of the lines that outline triangles \[pixel\]; none where they are filled.
+    pub wire: Option<f32>,
 }
 
 /// Which sides of triangles a layer shows.

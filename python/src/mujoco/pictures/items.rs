@@ -1,7 +1,7 @@
 //! Items of a scene as `MjvGeom` has them, in both directions.
 
-use super::error::Fault;
-use super::fresh::array;
+use crate::mujoco::error::Fault;
+use crate::mujoco::fresh::array;
 use physics::table::Slice;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -22,6 +22,7 @@ pub struct Guest {
     rgba: [f32; 4],
     /// Emission, specularity, shininess, reflectance.
     look: [f32; 4],
+    label: String,
 }
 
 /// `mjtGeom` of shapes without data; spheres and ellipsoids are one shape here.
@@ -78,7 +79,7 @@ impl Guest {
             object: Object { kind: self.objtype, id: self.objid },
             category: Category::Decor,
             unlisted: false,
-            label: String::new(),
+            label: self.label.clone(),
         })
     }
 }

@@ -1,17 +1,18 @@
 //! Pictures of a simulation: colours, depth, segmentation, without a display.
 
-use super::call::caught;
-use super::data::Data;
-use super::error::Fault;
-use super::fresh::array;
 use super::items::{Guest, describe, describe_view};
-use super::model::Model;
+use super::look::{Around, Look, Switches};
+use crate::mujoco::call::caught;
+use crate::mujoco::data::Data;
+use crate::mujoco::error::Fault;
+use crate::mujoco::fresh::array;
+use crate::mujoco::model::Model;
 use physics::table::Slice;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use render::picture::{Channels, Picture};
-use render::scene::{Camera, Categories, Effects, FreeCamera, Groups, Scene, SceneOptions};
+use render::scene::Scene;
 use render::{Assets, Profile, Renderer, Settings};
 use std::sync::Mutex;
 
@@ -24,95 +25,12 @@ pub struct Painter {
 struct Held {
     assets: Option<Assets>,
     scene: Scene,
+    /// What surrounds the scene with all effects.
+    around: Around,
     renderer: Option<Renderer>,
     picture: Picture,
     /// Meshes of the model.
     meshes: usize,
-}
-
-/// A free camera: what it looks at, distance, azimuth and elevation [deg], parallel rays.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub struct Free {
-    lookat: [f64; 3],
-    track: Option<usize>,
-    distance: f64,
-    azimuth: f64,
-    elevation: f64,
-    orthographic: bool,
-}
-
-/// What a picture shows.
-#[derive(FromPyObject)]
-#[pyo3(from_item_all)]
-pub struct Look {
-    /// A camera of the model, or the free one.
-    camera: Option<usize>,
-    free: Option<Free>,
-    /// Visible groups of geoms, sites, joints, tendons, actuators, skins, flexes.
-    groups: [[bool; 6]; 7],
-    /// Flags by the names of the fields of `render::scene::Show` that the renderer takes.
-    shown: Vec<String>,
-    /// Items of bodies that are fixed, of those that move, decorations.
-    categories: [bool; 3],
-    /// Shadows, reflections, sky, haze, fog.
-    effects: [bool; 5],
-}
-
-impl Look {
-    fn camera(&self, model: &physics::Model) -> Camera {
-        match (&self.camera, &self.free) {
-            (Some(id), _) => Camera::Fixed(*id),
-            (None, Some(free)) => Camera::Free(FreeCamera {
-                lookat: free.lookat,
-                track: free.track,
-                distance: free.distance,
-                azimuth: free.azimuth,
-                elevation: free.elevation,
-                orthographic: free.orthographic,
-                ..FreeCamera::of(model)
-            }),
-            (None, None) => Camera::free(model),
-        }
-    }
-
-    fn options(&self) -> SceneOptions {
-        let mut options = SceneOptions::default();
-        let [geoms, sites, joints, tendons, actuators, skins, flexes] = self.groups;
-        options.groups = Groups { geoms, sites, joints, tendons, actuators, skins, flexes };
-        let [fixed, dynamic, decorations] = self.categories;
-        options.categories = Categories { fixed, dynamic, decor: decorations };
-        let [shadows, reflections, sky, haze, fog] = self.effects;
-        options.effects = Effects::default()
-            .with_shadows(shadows)
-            .with_reflections(reflections)
-            .with_sky(sky)
-            .with_haze(haze)
-            .with_fog(fog);
-        let has = |name: &str| self.shown.iter().any(|shown| shown == name);
-        let show = &mut options.show;
-        show.textures = has("TEXTURE");
-        show.static_bodies = has("STATIC");
-        show.tendons = has("TENDON");
-        show.skins = has("SKIN");
-        show.flex_vertices = has("FLEXVERT");
-        show.flex_edges = has("FLEXEDGE");
-        show.flex_faces = has("FLEXFACE");
-        show.flex_skins = has("FLEXSKIN");
-        show.rangefinders = has("RANGEFINDER");
-        show.convex_hulls = has("CONVEXHULL");
-        show.transparent = has("TRANSPARENT");
-        show.joints = has("JOINT");
-        show.actuators = has("ACTUATOR");
-        show.cameras = has("CAMERA");
-        show.lights = has("LIGHT");
-        show.constraints = has("CONSTRAINT");
-        show.inertias = has("INERTIA");
-        show.centers_of_mass = has("COM");
-        show.contact_points = has("CONTACTPOINT");
-        show.contact_forces = has("CONTACTFORCE");
-        options
-    }
 }
 
 #[pymethods]
@@ -120,7 +38,8 @@ impl Painter {
     #[new]
     fn new(width: usize, height: usize) -> Self {
         let picture = Picture::new(width, height);
-        let held = Held { assets: None, scene: Scene::new(), renderer: None, picture, meshes: 0 };
+        let (scene, around) = (Scene::new(), Around::default());
+        let held = Held { assets: None, scene, around, renderer: None, picture, meshes: 0 };
         Painter { held: Mutex::new(held) }
     }
 
@@ -136,7 +55,9 @@ impl Painter {
             caught(|| {
                 let refused = |error: render::RenderError| Fault::Value(error.to_string());
                 let view = look.camera(&compiled).view(&compiled, simulation).map_err(refused)?;
-                inside.scene.update(&compiled, simulation, view, &look.options()).map_err(refused)?;
+                let options = look.options()?;
+                inside.scene.update(&compiled, simulation, view, &options).map_err(refused)?;
+                inside.around = Around::of(&inside.scene);
                 match &mut inside.assets {
                     Some(assets) => assets.refresh(&compiled).map_err(refused)?,
                     None => {
@@ -144,7 +65,7 @@ impl Painter {
                     }
                 }
                 if let Some(assets) = &mut inside.assets {
-                    assets.pose(&compiled, simulation, &look.options()).map_err(refused)?;
+                    assets.pose(&compiled, simulation, &options).map_err(refused)?;
                 }
                 inside.meshes = compiled.nmesh;
                 let settings = Settings::of(&compiled);
@@ -158,8 +79,8 @@ impl Painter {
     }
 
     /// Draws what was last looked at: `rgb` (height, width, 3), `depth` (height, width) [m] or `segmentation` (height,
-    /// width, 2).
-    fn draw<'py>(&self, py: Python<'py>, channel: &str) -> PyResult<Bound<'py, PyAny>> {
+    /// width, 2), with these effects.
+    fn draw<'py>(&self, py: Python<'py>, channel: &str, effects: Switches) -> PyResult<Bound<'py, PyAny>> {
         let channels = match channel {
             "rgb" => Channels::RGB,
             "depth" => Channels::DEPTH,
@@ -167,19 +88,22 @@ impl Painter {
         };
         let mut held = self.ready()?;
         let inside = &mut *held;
+        inside.around.set(&mut inside.scene, effects);
         py.detach(|| caught(|| inside.draw(channels)))?;
         shown(py, &held.picture, channel)
     }
 
-    /// Draws what was last looked at, and `guests`, in pictures of this size: colours, distances, objects.
+    /// Draws what was last looked at, and `guests`, in pictures of this size, with these effects: colours, distances, objects.
     fn draw_all<'py>(
         &self,
         py: Python<'py>,
         size: (usize, usize),
         guests: Vec<Guest>,
+        effects: Switches,
     ) -> PyResult<[Bound<'py, PyAny>; 3]> {
         let mut held = self.ready()?;
         let inside = &mut *held;
+        inside.around.set(&mut inside.scene, effects);
         py.detach(|| {
             caught(|| {
                 (inside.picture.width, inside.picture.height) = size;
