@@ -63,7 +63,7 @@ const ORDER: [(&str, &[&str]); 26] = [
     ("robohive-web", &["assets", "physics", "mjcf", "dataset", "render", "env", "agents", "viewer"]),
     (
         "robohive-python",
-        &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],
+        &["physics", "mjcf", "dataset", "random", "library", "render", "video", "viewer", "exchange", "env"],
     ),
     (
         "robohive-cli",

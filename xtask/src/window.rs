@@ -16,5 +16,5 @@ pub fn run() -> Outcome {
     cargo(&[&clippy[..], &packages, &features, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     let test =
         ["test", "--profile", PROFILE, "-p", "robohive-viewer", "--features", "robohive-viewer/window"];
-    cargo(&[&test[..], &["--test", "window"]].concat())
+    cargo(&[&test[..], &["--test", "window", "--test", "served"]].concat())
 }

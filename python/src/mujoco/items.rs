@@ -22,6 +22,7 @@ pub struct Guest {
     rgba: [f32; 4],
     /// Emission, specularity, shininess, reflectance.
     look: [f32; 4],
+    label: String,
 }
 
 /// `mjtGeom` of shapes without data; spheres and ellipsoids are one shape here.
@@ -78,7 +79,7 @@ impl Guest {
             object: Object { kind: self.objtype, id: self.objid },
             category: Category::Decor,
             unlisted: false,
-            label: String::new(),
+            label: self.label.clone(),
         })
     }
 }

@@ -10,7 +10,10 @@
 //! | `canvas` | the picture in the window, and gestures on it |
 //! | `keys` | keys to commands |
 //! | `panels` | what stands beside the picture |
+//! | `program_overlays` | texts, images and figures that a program lays over the picture |
+//! | `glfw` | keys by the numbers that programs know |
 //! | `app` | all of it |
+//! | `program`, `remote`, `serve` | a window of another program |
 //! | `beside` | files that are opened and written, videos, and actions that a person steers |
 //! | `episodes`, `exports`, `film`, `steer`, `gamepad`, `overlay` | one of these each |
 //! | `script` | what programs ask the window for |
@@ -25,14 +28,20 @@ mod episodes;
 mod exports;
 mod film;
 mod gamepad;
+mod glfw;
 mod keys;
 mod opened;
 mod overlay;
 mod painters;
 mod panels;
+mod program;
+mod program_overlays;
+mod remote;
 mod saving;
 mod screen;
 mod script;
+#[cfg(not(target_arch = "wasm32"))]
+mod serve;
 mod source;
 mod steer;
 
@@ -43,6 +52,8 @@ pub use episodes::{Making, Recording};
 pub use opened::Opened;
 pub use painters::Painters;
 pub use saving::Save;
+#[cfg(not(target_arch = "wasm32"))]
+pub use serve::{NoService, serve};
 pub use source::{NoModel, Recipe, Source};
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -54,14 +65,21 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct NoWindow(String);
 
-impl fmt::Display for NoWindow {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
+impl NoWindow {
+    /// What is missing.
+    fn need(&self) -> String {
+        format!(
             "no window can be opened: {}; a window needs a display (DISPLAY or WAYLAND_DISPLAY) and OpenGL, Vulkan, Metal or \
-             Direct3D; without one, `robohive render` draws pictures and `robohive sim --video` videos",
+             Direct3D",
             self.0
         )
+    }
+}
+
+impl fmt::Display for NoWindow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let need = self.need();
+        write!(f, "{need}; without one, `robohive render` draws pictures and `robohive sim --video` videos")
     }
 }
 
@@ -87,6 +105,12 @@ pub fn setup() -> WgpuConfiguration {
 /// There is no display, or nothing that draws on it.
 #[cfg(not(target_arch = "wasm32"))]
 pub fn run(source: Option<Source>) -> Result<(), NoWindow> {
+    open(move |made| Some(App::drawn_by(Painters::of(made.wgpu_render_state.as_ref()), source)))
+}
+
+/// Opens the window of an app, and returns when it is closed. Without an app, none stays open.
+#[cfg(not(target_arch = "wasm32"))]
+fn open(make: impl FnOnce(&eframe::CreationContext<'_>) -> Option<App>) -> Result<(), NoWindow> {
     let viewport = eframe::egui::ViewportBuilder::default()
         .with_title("RoboHive")
         .with_app_id("robohive")
@@ -94,10 +118,9 @@ pub fn run(source: Option<Source>) -> Result<(), NoWindow> {
         .with_drag_and_drop(true);
     let options =
         eframe::NativeOptions { viewport, wgpu_options: setup(), ..eframe::NativeOptions::default() };
-    let make = move |context: &eframe::CreationContext<'_>| {
-        let painters = Painters::of(context.wgpu_render_state.as_ref());
-        let app: Box<dyn eframe::App> = Box::new(App::drawn_by(painters, source));
-        Ok(app)
-    };
-    eframe::run_native("RoboHive", options, Box::new(make)).map_err(|error| NoWindow(error.to_string()))
+    let create: eframe::AppCreator<'_> = Box::new(move |made| {
+        let app = make(made).ok_or("there is nothing to show")?;
+        Ok(Box::new(app))
+    });
+    eframe::run_native("RoboHive", options, create).map_err(|error| NoWindow(error.to_string()))
 }

@@ -50,6 +50,30 @@ impl Opened {
         Ok(Opened { session, screen, source, siblings, episodes, warnings, changed, looked: Instant::now() })
     }
 
+    /// A session that a program has asked for.
+    ///
+    /// # Errors
+    /// Its model cannot be drawn.
+    pub(super) fn of_program(session: Session, title: &str) -> Result<Self, String> {
+        let screen = Screen::new(session.model()).map_err(|error| error.to_string())?;
+        let source = Source::Program(title.to_owned());
+        Ok(Opened {
+            session,
+            screen,
+            source,
+            siblings: Vec::new(),
+            episodes: None,
+            warnings: String::new(),
+            changed: None,
+            looked: Instant::now(),
+        })
+    }
+
+    /// Whether a program has sent the model.
+    pub(super) fn is_a_programs(&self) -> bool {
+        matches!(self.source, Source::Program(_))
+    }
+
     /// Reads the model again, in the state that it is in; an environment begins anew.
     ///
     /// # Errors

@@ -27,6 +27,8 @@ pub enum Source {
     Environment(Recipe),
     /// Recorded episodes of an environment.
     Episodes(Recording),
+    /// A model that a program has sent, by its title.
+    Program(String),
 }
 
 /// How an environment is made.
@@ -90,6 +92,7 @@ impl Source {
             }
             Source::Environment(recipe) => recipe.id.clone(),
             Source::Episodes(recording) => recording.path.display().to_string(),
+            Source::Program(title) => title.clone(),
         }
     }
 
@@ -120,6 +123,9 @@ impl Source {
             Source::Episodes(recording) => {
                 Err(format!("{} holds episodes, not a model", recording.path.display()))
             }
+            Source::Program(title) => {
+                Err(format!("{title} is the model of a program, which alone can read it again"))
+            }
             Source::Own(path) => own_loader().load(path).map_err(|errors| errors.to_string()),
         }
     }
@@ -145,7 +151,11 @@ impl Source {
     pub fn changed(&self) -> Option<SystemTime> {
         match self {
             Source::File(path) => std::fs::metadata(path).and_then(|about| about.modified()).ok(),
-            Source::Among(..) | Source::Own(_) | Source::Environment(_) | Source::Episodes(_) => None,
+            Source::Among(..)
+            | Source::Own(_)
+            | Source::Environment(_)
+            | Source::Episodes(_)
+            | Source::Program(_) => None,
         }
     }
 }
