@@ -18,7 +18,7 @@ use viewer::remote::{Client, Order, Post, Reports};
 const PATIENCE: Duration = Duration::from_secs(90);
 
 /// A window in a process of its own. Calls of a window that is closed do nothing.
-#[pyclass(frozen, name = "Window", module = "robohive._core")]
+#[pyclass(frozen, weakref, name = "Window", module = "robohive._core")]
 pub struct PyWindow {
     client: Mutex<Client>,
     reports: Arc<Post<Reports>>,

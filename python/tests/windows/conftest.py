@@ -14,11 +14,14 @@ def virtual(tmp_path_factory):
         pytest.skip("there is no Xvfb: apt-get install xvfb")
     folder = tmp_path_factory.mktemp("display")
     ready, told = os.pipe()
-    arguments = ["-displayfd", str(told), "-screen", "0", "1280x1024x24", "-fbdir", str(folder), "-nolisten", "tcp"]
+    # Without -noreset it starts anew whenever its last window is closed, and refuses those that open meanwhile.
+    arguments = ["-noreset", "-nolisten", "tcp", "-screen", "0", "1280x1024x24", "-fbdir", str(folder), "-displayfd", str(told)]
     server = subprocess.Popen(["Xvfb", *arguments], pass_fds=[told], stderr=subprocess.DEVNULL)
     os.close(told)
-    number = os.read(ready, 20).decode().strip()
-    os.close(ready)
+    with os.fdopen(ready) as words:
+        number = words.readline().strip()
+    if not number:
+        pytest.fail(f"Xvfb ended with status {server.wait()} before there was a display")
     yield Display(number, folder / "Xvfb_screen0")
     server.terminate()
     server.wait()

@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 import robohive.mujoco as mj
-from displays import eventually
+from displays import LONG, eventually
 from robohive.mujoco import viewer
 
 SCENE = """<mujoco model="scene">
@@ -41,8 +41,9 @@ def scene():
 def test_without_a_display_the_error_says_what_is_missing(scene, no_display):
     with pytest.raises(mj.FatalError, match=r"no window can be opened.*DISPLAY or WAYLAND_DISPLAY.*mujoco\.Renderer.*xvfb-run"):
         viewer.launch_passive(*scene)
-    with pytest.raises(mj.FatalError, match="DISPLAY"):
+    with pytest.raises(mj.FatalError, match="DISPLAY") as raised:
         viewer.launch(*scene)
+    assert ".rs:" not in str(raised.value), "a place in sources means nothing to a user"
     with pytest.raises(mj.FatalError, match="DISPLAY"):
         viewer.launch_from_path("model.xml")
 
@@ -137,10 +138,15 @@ def test_keys_reach_the_program_and_the_window(scene, display):
         eventually(lambda: pressed("space", 32), "the program hears of the space bar")
         eventually(lambda: pressed("Right", 262), "the program hears of an arrow")
         # C switches contact points; the program sees it.
-        keys.clear()
-        eventually(lambda: pressed("c", 67), "the program hears of C")
-        presses = keys.count(67)
-        eventually(lambda: shown.opt.flags[flag] == keys.count(67) % 2, f"{presses} presses of C switch contact points")
+        presses = []
+
+        def pressed_c():
+            presses.append(display.person("key", "c"))
+            return 67 in keys
+
+        eventually(pressed_c, "the program hears of C")
+        eventually(lambda: keys.count(67) == len(presses), f"the program hears of all {len(presses)} presses of C")
+        eventually(lambda: shown.opt.flags[flag] == len(presses) % 2, f"{len(presses)} presses of C switch contact points")
         # What the program says last counts.
         shown.opt.flags[flag] = 1
         shown.cam.azimuth = 12.0
@@ -225,6 +231,41 @@ def closing(display, process, done):
         display.focus(process)
         display.person("key", "ctrl+q")
         done.wait(1.0)
+
+
+def test_a_person_closes_a_window_and_the_loop_ends(scene, display):
+    m, d = scene
+    with viewer.launch_passive(m, d) as shown:
+        process, done = shown._window.process(), threading.Event()
+        person = threading.Thread(target=closing, args=(display, process, done))
+        person.start()
+        until = time.monotonic() + LONG
+        while shown.is_running() and time.monotonic() < until:
+            mj.mj_step(m, d)
+            shown.sync()
+        done.set()
+        person.join()
+        assert not shown.is_running() and shown.d is None
+        shown.sync()
+
+
+@pytest.mark.parametrize("end", ["", "os._exit(3)", "os.kill(os.getpid(), signal.SIGKILL)"])
+def test_windows_close_when_their_program_ends(display, tmp_path, end):
+    path = tmp_path / "scene.xml"
+    path.write_text(SCENE)
+    program = f"""
+import os, signal
+import robohive.mujoco as mj
+from robohive.mujoco import viewer
+m = mj.MjModel.from_xml_path({str(path)!r})
+shown = viewer.launch_passive(m, mj.MjData(m))
+print(shown._window.process(), flush=True)
+{end}
+"""
+    run = subprocess.run([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True, timeout=LONG)
+    process = int(run.stdout)
+    assert run.returncode == (3 if "_exit" in end else -signal.SIGKILL if end else 0)
+    eventually(lambda: not os.path.exists(f"/proc/{process}"), "the window has closed")
 
 
 def test_managed_windows_run_and_return_the_last_state(scene, display, monkeypatch):

@@ -122,5 +122,12 @@ fn open(make: impl FnOnce(&eframe::CreationContext<'_>) -> Option<App>) -> Resul
         let app = make(made).ok_or("there is nothing to show")?;
         Ok(Box::new(app))
     });
-    eframe::run_native("RoboHive", options, create).map_err(|error| NoWindow(error.to_string()))
+    eframe::run_native("RoboHive", options, create).map_err(|error| NoWindow(cause(&error.to_string())))
+}
+
+/// An error without the place in winit's sources that it names.
+#[cfg(not(target_arch = "wasm32"))]
+fn cause(error: &str) -> String {
+    let os = error.split_once("os error at ").and_then(|(_, rest)| rest.split_once(": "));
+    os.map_or(error, |(_, cause)| cause).trim_end_matches('.').to_owned()
 }
