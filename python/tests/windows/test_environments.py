@@ -2,12 +2,14 @@
 
 import copy
 import pickle
+import warnings
 
 import gymnasium
 import numpy as np
 import pytest
 import robohive
 from displays import eventually
+from gymnasium.utils.env_checker import check_env
 from robohive.errors import WindowError
 
 
@@ -37,6 +39,13 @@ def test_the_window_follows_every_step_and_closes_with_the_environment(display):
     env.step(env.action_space.sample())
     env.close()
     assert not window.is_open()
+
+
+def test_gymnasiums_checker_accepts_the_window(display):
+    with warnings.catch_warnings():
+        # Observations are unbounded, and RoboHive's `seed` is there: the checker remarks both.
+        warnings.filterwarnings("ignore", message=".*infinity.*|.*`seed` function.*")
+        check_env(gymnasium.make("hive/FrankaReach-v0").unwrapped)
 
 
 def test_robohives_methods_open_the_window(env, display):
