@@ -292,7 +292,7 @@ impl App {
                     session.model().label_of(physics::model::ObjType::Body, selected.body)
                 ));
             }
-            let drawn = ui.label(format!("drawn by {}", self.painters.name()));
+            let drawn = ui.label(format!("drawn by {}", self.painters.drawer_of(opened.screen.channel)));
             if !self.painters.reason().is_empty() {
                 drawn.on_hover_text(self.painters.reason());
             }
@@ -361,7 +361,7 @@ impl App {
         Panel::top("menu").show(ui, |ui| self.menu(ui));
         Panel::bottom("status").show(ui, |ui| self.status(ui));
         if let Some(opened) = &mut self.opened {
-            let Opened { session, episodes, .. } = opened;
+            let Opened { session, screen, episodes, .. } = opened;
             let mut wrong = Ok(());
             Panel::left("left").default_size(240.0).show_collapsible(ui, &mut self.shows_left, |ui| {
                 ScrollArea::vertical().show(ui, |ui| {
@@ -382,7 +382,7 @@ impl App {
                             panels::replay(ui, session);
                         });
                     }
-                    section(ui, "View", true, |ui| panels::visual(ui, session));
+                    section(ui, "View", true, |ui| panels::visual(ui, session, &mut screen.channel));
                     section(ui, "Groups", false, |ui| panels::groups(ui, session));
                     section(ui, "Appearance", false, |ui| panels::appearance(ui, session));
                     if session.play().is_none() {

@@ -25,7 +25,7 @@ impl App {
             self.trouble = self.show_trajectory(path).err();
         } else if EPISODES.contains(&ending.as_str()) {
             let making = self.making.clone();
-            self.open(Source::Episodes(Recording { path: path.to_owned(), making }));
+            self.open(Source::Episodes(Recording { path: path.to_owned(), environment: None, making }));
         } else {
             match dropped(path) {
                 Ok(source) => self.open(source),

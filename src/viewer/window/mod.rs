@@ -5,6 +5,7 @@
 //! | `source` | where models and environments come from, and when files have changed |
 //! | `opened` | a model that is open: its session and its picture |
 //! | `painters` | the GPU of the window and the CPU, which draw pictures into textures |
+//! | `channel` | colours, depth or objects |
 //! | `screen` | the picture, drawn as finely as time allows |
 //! | `saving` | where screenshots and other files go |
 //! | `canvas` | the picture in the window, and gestures on it |
@@ -24,6 +25,7 @@
 mod app;
 mod beside;
 mod canvas;
+mod channel;
 mod episodes;
 mod exports;
 mod film;
@@ -46,6 +48,7 @@ mod source;
 mod steer;
 
 pub use app::App;
+pub use channel::Channel;
 /// Its types are those of [`setup`] and [`Painters::of`].
 pub use eframe;
 pub use episodes::{Making, Recording};
@@ -54,7 +57,7 @@ pub use painters::Painters;
 pub use saving::Save;
 #[cfg(not(target_arch = "wasm32"))]
 pub use serve::{NoService, serve};
-pub use source::{NoModel, Recipe, Source};
+pub use source::{NoModel, Recipe, Source, States, Unopened};
 
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use render_gpu::wgpu;
@@ -99,13 +102,18 @@ pub fn setup() -> WgpuConfiguration {
     WgpuConfiguration { wgpu_setup: WgpuSetup::CreateNew(setup), ..WgpuConfiguration::default() }
 }
 
-/// Opens a window that shows `source`, or nothing yet, and returns when it is closed.
+/// Opens a window that shows `source`, or nothing yet, and returns when it is closed. `making` makes the environments of
+/// recordings that are dropped on it.
 ///
 /// # Errors
 /// There is no display, or nothing that draws on it.
 #[cfg(not(target_arch = "wasm32"))]
-pub fn run(source: Option<Source>) -> Result<(), NoWindow> {
-    open(move |made| Some(App::drawn_by(Painters::of(made.wgpu_render_state.as_ref()), source)))
+pub fn run(source: Option<Source>, making: Making) -> Result<(), NoWindow> {
+    open(move |made| {
+        let mut app = App::drawn_by(Painters::of(made.wgpu_render_state.as_ref()), source);
+        app.make_by(making);
+        Some(app)
+    })
 }
 
 /// Opens the window of an app, and returns when it is closed. Without an app, none stays open.

@@ -85,7 +85,8 @@ impl Opened {
             return Ok(());
         }
         let loaded = self.source.load()?;
-        let screen = Screen::new(&loaded.model).map_err(|error| error.to_string())?;
+        let mut screen = Screen::new(&loaded.model).map_err(|error| error.to_string())?;
+        screen.channel = self.screen.channel;
         self.session.replace(loaded.model).map_err(|error| error.to_string())?;
         (self.screen, self.warnings) = (screen, loaded.warnings.to_string());
         Ok(())
