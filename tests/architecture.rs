@@ -64,7 +64,7 @@ const ORDER: [(&str, &[&str]); 27] = [
     ("robohive-web-app", &["env", "agents", "viewer", "robohive-web"]),
     (
         "robohive-python",
-        &["physics", "mjcf", "dataset", "random", "library", "render", "video", "exchange", "env"],
+        &["physics", "mjcf", "dataset", "random", "library", "render", "video", "viewer", "exchange", "env"],
     ),
     (
         "robohive-cli",

@@ -17,6 +17,7 @@ from robohive import _core
 from robohive.examine import Policy, examine_policy
 from robohive.guests import with_model
 from robohive.paths import success, truncate
+from robohive.screen import Screen
 from robohive.simulation import Simulation
 from robohive.whole_numbers import whole
 
@@ -36,7 +37,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
     Calls from two threads at once raise `RuntimeError`; each is made with the interpreter's lock released.
     """
 
-    metadata: dict[str, Any] = {"render_modes": ["rgb_array", "depth_array"], "render_fps": 30}
+    metadata: dict[str, Any] = {"render_modes": ["human", "rgb_array", "depth_array"], "render_fps": 30}
 
     def __init__(
         self,
@@ -60,7 +61,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             env_id: An id of `robohive.ids()`.
             seed: Seed of all draws; without one, from the operating system.
             compat: `fixed`, or `robohive-0.7` to reproduce what RoboHive computes otherwise than it means to.
-            render_mode: `rgb_array` or `depth_array`; `gymnasium.make` shows `human` through `rgb_array`.
+            render_mode: `rgb_array` or `depth_array`; or `human`, a window that follows every reset and step, at real time.
             camera_name: Camera of pictures, by its name in the model, or `free`.
             width: Columns of pictures; 640 without it.
             height: Rows of pictures; 480 without it.
@@ -77,7 +78,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         making = {
             "seed": _seed(seed),
             "compat": compat,
-            "render_mode": render_mode,
+            "render_mode": None if render_mode == "human" else render_mode,
             "camera": camera_name,
             "width": None if width is None else whole("width", width, 1),
             "height": None if height is None else whole("height", height, 1),
@@ -87,16 +88,17 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             "override_keys": list(override_keys),
         }
         self._arguments = (env_id, with_model(env_id, settings), making)
-        self._start(_core.Env(*self._arguments))
+        self._start(_core.Env(*self._arguments), render_mode)
 
-    def _start(self, core: _core.Env) -> None:
+    def _start(self, core: _core.Env, render_mode: str | None) -> None:
         about = core.description()
         self._core = core
         self._about = about
+        self._screen: Screen | None = None
         self._input_seed: int | None = None
         # Whether there is a state to step from: after a reset, or a state that was set.
         self._begun = False
-        self.render_mode: str | None = about["render_mode"]
+        self.render_mode: str | None = render_mode
         self.metadata = {**type(self).metadata, "render_fps": round(1 / about["dt"])}
         low, high = about["action_low"], about["action_high"]
         self.action_space = spaces.Box(low.astype(np.float32), high.astype(np.float32), dtype=np.float32)
@@ -143,7 +145,9 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         state = {key.removeprefix("reset_"): value for key, value in given.items() if value is not None}
         if state:
             self._core.set_world(state)
-            return self._core.observation(), self._core.infos()
+            result = self._core.observation(), self._core.infos()
+        if self.render_mode == "human":
+            self._show(waits=False)
         return result
 
     def step(
@@ -165,16 +169,33 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         """
         if not (self._begun or self._core.closed()):
             raise gymnasium.error.ResetNeeded("Cannot call env.step() before calling env.reset()")
-        return self._core.step(action, update_exteroception)
+        result = self._core.step(action, update_exteroception)
+        if self.render_mode == "human":
+            self._show(waits=True)
+        return result
 
     def render(self) -> NDArray[Any] | None:
-        """A picture of the present state: H x W x 3 bytes of colour, or H x W depths [m] of 32 bits."""
+        """A picture of the present state: H x W x 3 bytes of colour, or H x W depths [m] of 32 bits. With the mode `human` none:
+        resets and steps have shown the state in the window, and this shows what was set since."""
         if self.render_mode is None:
             gymnasium.logger.warn("render was called without a render_mode; make the environment with one")
+        if self.render_mode == "human" and not self._core.closed():
+            self._show(waits=False)
+            return None
         return self._core.render()
 
+    def _show(self, waits: bool) -> None:
+        """Shows the present state in a window, which the first call opens; then waits until its time has come."""
+        if self._screen is None:
+            self._screen = Screen(self.id, self._core, self.dt)
+        self._screen.show(self._core, waits)
+
     def close(self) -> None:
-        """Frees the simulation. Calls after it raise `gymnasium.error.ClosedEnvironmentError`, but for another `close`."""
+        """Frees the simulation and closes its window. Calls after it raise `gymnasium.error.ClosedEnvironmentError`, but for
+        another `close`."""
+        screen, self._screen = self._screen, None
+        if screen is not None:
+            screen.close()
         self._core.close()
 
     # Copies.
@@ -182,7 +203,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
     def __reduce__(self) -> tuple[Any, ...]:
         """Pickles how the environment was made and all that decides its next steps and episodes: it goes on to the last bit,
         in another process too. The models are read there."""
-        rest = {key: value for key, value in self.__dict__.items() if key != "_core"}
+        rest = {key: value for key, value in self.__dict__.items() if key != "_core"} | {"_screen": None}
         memory = None if self._core.closed() else self._core.memory()
         return _restored, (type(self), rest, memory)
 
@@ -191,7 +212,8 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         other = type(self).__new__(type(self))
         memo[id(self)] = other
         for key, value in self.__dict__.items():
-            other.__dict__[key] = value if key == "_core" else copy.deepcopy(value, memo)
+            shared = {"_core": value, "_screen": None}
+            other.__dict__[key] = shared[key] if key in shared else copy.deepcopy(value, memo)
         if not self._core.closed():
             other._core = self._core.fork()
         return other
@@ -435,7 +457,8 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             horizon: Most steps of an episode.
             num_episodes: How many.
             mode: `exploration` or `evaluation`.
-            render: `offscreen` writes a video of every episode, `filename` + number + `.mp4`; None does not.
+            render: `onscreen` shows a window; `offscreen` writes a video of every episode, `filename` + number + `.mp4`; None
+                does neither.
             camera_name: Camera of the videos; the free one without it.
             frame_size: Width and height of the videos.
             output_dir: Folder that they go to; None: the system's for temporary files.
@@ -455,14 +478,12 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         )
 
     def mj_render(self) -> None:
-        """RoboHive's window.
+        """Shows the present state in a window, which the first call opens, as RoboHive does.
 
         Raises:
-            gymnasium.error.UnsupportedMode: always; this build opens no window.
+            robohive.errors.WindowError: there is no display.
         """
-        raise gymnasium.error.UnsupportedMode(
-            "this build opens no window; render_mode rgb_array and sim.renderer.render_offscreen return pictures"
-        )
+        self._show(waits=False)
 
 
 def _restored(

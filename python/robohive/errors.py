@@ -7,3 +7,7 @@ class SettingError(ValueError, TypeError):
 
 class PhysicsError(RuntimeError):
     """Physics refuses a state: numbers that are not finite, or beyond what it can simulate."""
+
+
+class WindowError(RuntimeError):
+    """No window can be opened: there is no display, or the wheel was built without windows."""

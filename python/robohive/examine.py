@@ -38,13 +38,13 @@ def examine_policy(
     """Plays episodes; see `RoboHiveEnv.examine_policy`."""
     if mode not in ("exploration", "evaluation"):
         raise ValueError(f"mode is exploration or evaluation, not {mode}")
-    if render not in (None, "None", "none", "offscreen"):
-        raise ValueError(f"render is offscreen or None, not {render}: this build opens no window")
+    if render not in (None, "None", "none", "offscreen", "onscreen"):
+        raise ValueError(f"render is onscreen, offscreen or None, not {render}")
     horizon = whole("horizon", horizon, 1)
     paths = []
     for episode in range(whole("num_episodes", num_episodes)):
         frames: list[NDArray[np.uint8]] | None = [] if render == "offscreen" else None
-        path = _episode(env, policy, horizon, mode == "exploration", camera, frame_size, frames)
+        path = _episode(env, policy, horizon, mode == "exploration", camera, frame_size, frames, render == "onscreen")
         if frames:
             _core.write_video(f"{video}{episode}.mp4", np.stack(frames), 1.0 / env.dt)
         paths.append(path)
@@ -59,6 +59,7 @@ def _episode(
     camera: str,
     frame_size: tuple[int, int],
     frames: list[NDArray[np.uint8]] | None,
+    shows: bool,
 ) -> dict[str, Any]:
     observation, _ = env.reset()
     observations: list[NDArray[np.float64]] = []
@@ -70,6 +71,8 @@ def _episode(
         action, details = policy.get_action(observation)
         action = action if explores else details["evaluation"]
         following, reward, done, _, info = env.step(action)
+        if shows:
+            env.mj_render()
         if frames is not None:
             frames.append(env.sim.renderer.render_offscreen(*frame_size, camera_id=camera))
         observations.append(observation)

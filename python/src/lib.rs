@@ -13,6 +13,7 @@ mod request;
 mod settings;
 mod turns;
 mod vector;
+mod window;
 mod world;
 
 use pyo3::pymodule;
@@ -26,6 +27,8 @@ mod _core {
     use super::film::write_video;
     #[pymodule_export]
     use super::vector::PyVecEnv;
+    #[pymodule_export]
+    use super::window::{PyWindow, effect_names, serve_window};
     use ::env::Registry;
     use pyo3::prelude::*;
 
@@ -40,6 +43,10 @@ mod _core {
     /// Version of the package.
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+    /// Whether there are windows.
+    #[pymodule_export]
+    const HAS_WINDOWS: bool = cfg!(feature = "window");
 
     /// Ids with the names of their suites and the steps of an episode, in the registry's order.
     #[pyfunction]

@@ -136,8 +136,8 @@ def test_policies_are_examined(env, tmp_path):
         Drift(8), horizon=3, render="offscreen", frame_size=(64, 48), output_dir=f"{tmp_path}/", filename="film"
     )
     assert (tmp_path / "film0.mp4").read_bytes()[4:8] == b"ftyp"
-    with pytest.raises(ValueError, match="no window"):
-        env.examine_policy(Drift(8), render="onscreen")
+    with pytest.raises(ValueError, match="onscreen, offscreen or None"):
+        env.examine_policy(Drift(8), render="aside")
     with pytest.raises(ValueError, match="exploration or evaluation"):
         env.examine_policy(Drift(8), mode="best")
 

@@ -57,6 +57,30 @@ pub fn segment_colour(id: i32) -> [u8; 3] {
     hue_colour(hue, saturation, value)
 }
 
+/// Share of the farthest distance beyond which colours of depth do not reach: there is the far plane, where nothing is.
+const BACKGROUND: f32 = 0.99;
+/// Share of the other pixels that are nearer than the last colour: an infinite floor would take all colours.
+const NEAR_SHARE: f64 = 0.9;
+
+/// Distances of a picture \[m\] for the first and the last colour: from the nearest to where nine tenths of what is seen are
+/// nearer, as an infinite floor would take all colours; the far plane, where nothing is, has no part in it.
+pub fn depth_range(depth: &[f32]) -> (f32, f32) {
+    let mut sorted = depth.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    let (near, farthest) = (sorted.first().copied().unwrap_or(0.0), sorted.last().copied().unwrap_or(0.0));
+    let seen = sorted.partition_point(|&distance| distance < BACKGROUND * farthest);
+    let far = sorted.get((NEAR_SHARE * seen as f64) as usize).copied().unwrap_or(farthest);
+    (near, far.max(near.next_up()))
+}
+
+/// Objects of each type that have numbers of their own.
+const TYPE: i32 = 1 << 20;
+
+/// One number for an object and its type, negative for none, to be coloured by [`segmentation_image`].
+pub fn object_number([object, kind]: [i32; 2]) -> i32 {
+    if object < 0 { -1 } else { kind.wrapping_mul(TYPE).wrapping_add(object).max(0) }
+}
+
 /// The colour at a fraction of the way from near to far, clamped to 0..=1.
 fn depth_colour(fraction: f64) -> [u8; 3] {
     let intervals = (DEPTH_COLOURS.len() - 1) as f64;
@@ -128,5 +152,23 @@ mod tests {
         assert!(matches!(depth_image(6, 1, &depth, (2.0, 2.0)), Err(VideoError::DepthRange { .. })));
         assert!(matches!(depth_image(6, 1, &depth, (f32::NAN, 2.0)), Err(VideoError::DepthRange { .. })));
         assert!(matches!(depth_image(5, 1, &depth, (1.0, 2.0)), Err(VideoError::Length { .. })));
+    }
+
+    #[test]
+    fn a_picture_of_one_distance_has_a_range() {
+        for depth in [vec![2.0_f32], vec![2.0; 10]] {
+            let (near, far) = depth_range(&depth);
+            assert!(near == 2.0 && far > near);
+        }
+        let mut depth: Vec<f32> = (10..20).map(|distance| distance as f32).collect();
+        depth.extend([1000.0; 100]);
+        assert_eq!(depth_range(&depth), (10.0, 19.0), "the sky has no part in it");
+    }
+
+    #[test]
+    fn objects_of_different_types_differ() {
+        assert_eq!(object_number([-1, -1]), -1);
+        assert_ne!(object_number([4, 5]), object_number([4, 6]));
+        assert_eq!(object_number([5, 5]) - object_number([4, 5]), 1);
     }
 }

@@ -49,7 +49,8 @@ mod yuv;
 
 pub use error::VideoError;
 pub use false_colour::{
-    DEPTH_COLOURS, NO_DEPTH, NO_SEGMENT, depth_image, segment_colour, segmentation_image,
+    DEPTH_COLOURS, NO_DEPTH, NO_SEGMENT, depth_image, depth_range, object_number, segment_colour,
+    segmentation_image,
 };
 pub use frame::{Frame, Image};
 pub use limits::{FRAME_RATES, MAX_SIDE};

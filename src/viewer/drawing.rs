@@ -41,6 +41,7 @@ impl Scenery {
         if let Some(reference) = session.reference() {
             self.ghost.haunt(&mut self.scene, model, reference.data(), view, &options)?;
         }
+        self.scene.items.extend_from_slice(session.guests());
         Ok(())
     }
 

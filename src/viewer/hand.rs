@@ -25,18 +25,18 @@ pub enum Grip {
 /// A hand on a body.
 #[derive(Clone, Debug)]
 pub struct Hand {
-    grip: Grip,
+    pub(crate) grip: Grip,
     /// Body and point that are held.
     body: usize,
     point: Vec3,
     /// Mass that the point seems to have \[kg\].
-    mass: f64,
+    pub(crate) mass: f64,
     /// Metres in the world for a drag over the height of the view.
-    reach: f64,
+    pub(crate) reach: f64,
     /// Where the point, and the frame of the body's inertia, are wanted, world frame.
-    target: Vec3,
-    origin: Vec3,
-    orientation: Quat,
+    pub(crate) target: Vec3,
+    pub(crate) origin: Vec3,
+    pub(crate) orientation: Quat,
 }
 
 impl Hand {

@@ -1,5 +1,6 @@
 //! A model that is run, looked at and touched: all that a viewer does but drawing and windows.
 
+mod follow;
 mod keys;
 mod replayed;
 mod taped;
@@ -23,7 +24,7 @@ use physics::data::ForeignSnapshot;
 use physics::math::Vec3;
 use physics::model::{Options, Visual};
 use physics::{Data, Model, Snapshot, StepError, forward, step, step_watched};
-use render::scene::{Camera, FreeCamera, SceneOptions};
+use render::scene::{Camera, FreeCamera, Item, SceneOptions};
 
 /// A model, its state, and what a person does with it.
 pub struct Session {
@@ -48,6 +49,10 @@ pub struct Session {
     reference: Option<Box<Reference>>,
     /// Where the time of steps goes, while a person looks at it.
     pub profile: Option<Profile>,
+    /// Another program has the time.
+    follows: bool,
+    /// Items that a program adds to the scene.
+    guests: Vec<Item>,
     /// Noise on controls.
     pub noise: Noise,
     /// What it is seen with.
@@ -116,6 +121,8 @@ impl Session {
             kept: Vec::new(),
             replay: None,
             reference: None,
+            follows: false,
+            guests: Vec::new(),
             noise: Noise::new(0),
             camera: Camera::free(&model),
             options: SceneOptions::default(),
@@ -170,7 +177,7 @@ impl Session {
         if running && self.play.is_some() && self.history.behind() > 0 {
             self.show_past(0);
         }
-        self.running = running && self.fault.is_none();
+        self.running = running && self.fault.is_none() && !self.follows;
         self.pace.forget();
     }
 
@@ -197,7 +204,7 @@ impl Session {
     /// Real time went by \[s\]: takes the steps that are due while `may_go_on`, which is asked before each. Returns how many.
     pub fn advance(&mut self, seconds: f64, may_go_on: &mut dyn FnMut() -> bool) -> usize {
         if !self.running {
-            if self.play.is_none() && self.replay.is_none() {
+            if self.play.is_none() && self.replay.is_none() && !self.follows {
                 self.place_held(true);
             }
             return 0;
@@ -234,6 +241,9 @@ impl Session {
 
     /// One step forward: to the next state of the history where there is one, else a new one.
     pub fn step_forward(&mut self) {
+        if self.follows {
+            return;
+        }
         self.running = false;
         if let Some(replay) = &self.replay {
             return self.seek(replay.row() + 1);
@@ -258,6 +268,9 @@ impl Session {
 
     /// The state that lies `behind` the latest, or the oldest that is kept; the simulation pauses.
     pub fn show_past(&mut self, behind: usize) {
+        if self.follows {
+            return;
+        }
         self.running = false;
         if let Some(snapshot) = self.history.go_to(behind) {
             let snapshot = snapshot.clone();
@@ -288,7 +301,7 @@ impl Session {
     /// A keyframe, or the reference. A keyframe that the model does not have changes nothing; nor does any in an environment,
     /// which starts as its task says.
     pub fn reset_to(&mut self, key: Option<usize>) {
-        if self.play.is_some() || self.replay.is_some() {
+        if self.play.is_some() || self.replay.is_some() || self.follows {
             return;
         }
         match key {

@@ -19,10 +19,15 @@ pub fn run() -> Outcome {
     succeed(lint.args(["--", "-D", "warnings"]))?;
     let renderer = ["-p", "robohive-render-gpu"].as_slice();
     let command = ["-p", "robohive-cli", "--features", "robohive-cli/gpu", "--test", "gpu"].as_slice();
+    drawn(&[renderer, command])
+}
+
+/// Runs tests that draw by a GPU, and sees from what they print whether there was one.
+pub fn drawn(all: &[&[&str]]) -> Outcome {
     let mut absent = false;
-    for tests in [renderer, command] {
+    for tests in all {
         let mut test = Command::new("cargo");
-        test.args(["test", "--profile", crate::built::PROFILE]).args(tests).args(["--", "--nocapture"]);
+        test.args(["test", "--profile", crate::built::PROFILE]).args(*tests).args(["--", "--nocapture"]);
         absent |= output(&mut test)?.0.contains(ABSENT);
     }
     if !absent {

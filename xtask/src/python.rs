@@ -46,7 +46,15 @@ pub fn run() -> Outcome {
     let types = ["-m", "basedpyright", "--project", "python/pyproject.toml", "--pythonpath"];
     succeed(Command::new(&python).args(types).arg(&python))?;
     succeed(Command::new(&python).args(["-m", "pytest", "-q", "python/tests"]))?;
-    Ok(Vec::new())
+    let lacks = |(program, package): (&str, &str)| {
+        (!installed(program)).then(|| {
+            Missing::new(
+                format!("windows from Python on a virtual display (there is no {program})"),
+                format!("apt-get install {package}"),
+            )
+        })
+    };
+    Ok([("Xvfb", "xvfb"), ("xdotool", "xdotool")].into_iter().filter_map(lacks).collect())
 }
 
 /// The checkers of learners' libraries, where torch can be imported, which is too large to be installed unasked.

@@ -16,6 +16,11 @@ _set: dict[str, Any] = {}
 _lock = threading.RLock()
 
 
+def is_any_set() -> bool:
+    """Whether passes call functions of Python."""
+    return any(one is not None for one in _set.values())
+
+
 def _setter(name: str, summary: str) -> Callable[[Any], None]:
     def set_callback(callback: Any) -> None:
         if callback is not None and not callable(callback):
@@ -23,7 +28,7 @@ def _setter(name: str, summary: str) -> Callable[[Any], None]:
         with _lock:
             before = _set.get(name)
             _set[name] = callback
-            _core.set_called(any(one is not None for one in _set.values()))
+            _core.set_called(is_any_set())
         # The one before is released outside of the lock: its end may set callbacks too.
         del before
 

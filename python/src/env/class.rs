@@ -298,7 +298,11 @@ impl PyEnv {
         PyEnv::of(py, env, self.request.clone())
     }
 
-    fn with<T>(&self, py: Python<'_>, call: &str, f: impl FnOnce(&Env) -> PyResult<T>) -> PyResult<T> {
+    /// Looks at the environment, for a call of this name.
+    ///
+    /// # Errors
+    /// It was closed, or is in a call of another thread; or those of `f`.
+    pub fn with<T>(&self, py: Python<'_>, call: &str, f: impl FnOnce(&Env) -> PyResult<T>) -> PyResult<T> {
         f(&self.live.take(py, call)?.env)
     }
 }

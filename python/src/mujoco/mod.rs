@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `arena.rs`, `mirror.rs`, `fresh.rs` | numpy arrays beside the engine's, copied around every call; fresh ones |
-//! | `model.rs`, `settings.rs`, `load.rs` | models, their options, where they come from |
+//! | `model.rs`, `load.rs` | models, their options, where they come from |
 //! | `data.rs`, `lists.rs`, `lent.rs` | simulations, arrays that change length, and what is written into these |
 //! | `warned.rs`, `timed.rs`, `saved.rs` | warnings, timers, states as vectors |
 //! | `statistics.rs` | what of these and of the solver is kept in pickles |
@@ -35,12 +35,15 @@ mod quaternion;
 mod query;
 mod rollout;
 mod saved;
-mod settings;
 mod spec;
 mod stages;
 mod statistics;
 mod timed;
 mod warned;
+
+pub use data::Data;
+pub use model::Model;
+pub use pictures::{Free, Guest};
 
 use pyo3::pymodule;
 

@@ -4,7 +4,6 @@ use super::arena::Engine;
 use super::error::{FatalError, refused};
 use super::fresh::array;
 use super::mirror::{Layout, Mirror};
-use super::settings;
 use physics::model::{Arrays, EditError, ObjType};
 use physics::table::Slice;
 use physics::{Model as Compiled, set_const};
@@ -13,6 +12,7 @@ use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 use pyo3::types::{PyBytes, PyDict};
 use std::sync::{Arc, Mutex, MutexGuard};
+use viewer::settings;
 
 /// A model as the compiler made it, on its way into an `MjModel`.
 #[pyclass(frozen, module = "robohive._core.mujoco")]

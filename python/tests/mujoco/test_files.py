@@ -69,14 +69,6 @@ def test_msh_that_lies_about_its_size(tmp_path):
         msh2obj.msh_to_obj(file)
 
 
-def test_the_viewer_can_be_imported_and_opens_no_window():
-    from robohive.mujoco import viewer
-
-    model = mj.MjModel.from_xml_string("<mujoco/>")
-    with pytest.raises(NotImplementedError, match="opens no window"):
-        viewer.launch_passive(model, mj.MjData(model))
-
-
 def test_what_was_loaded_last_is_written(tmp_path):
     model = mj.MjModel.from_xml_string(MESH.format("m.obj"), {"m.obj": TETRAHEDRON.encode()})
     mj.mj_saveLastXML(str(tmp_path / "saved.xml"), model)

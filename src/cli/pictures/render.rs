@@ -12,7 +12,9 @@ use dataset::{Array, Values};
 use render::Picture;
 use render::picture::Channels;
 use std::path::{Path, PathBuf};
-use video::{Frame, Image, depth_image, segmentation_image, write_depth_png, write_png};
+use video::{
+    Frame, Image, depth_image, depth_range, object_number, segmentation_image, write_depth_png, write_png,
+};
 
 /// Draw a model or an environment: colours, depth or segmentation
 #[derive(Args)]
@@ -166,58 +168,12 @@ fn array(picture: &Picture) -> Array {
 fn false_colours(picture: &Picture) -> Result<Option<Image>, Failure> {
     let (width, height) = (picture.width as u32, picture.height as u32);
     let image = if !picture.depth.is_empty() {
-        depth_image(width, height, &picture.depth, range(&picture.depth))
+        depth_image(width, height, &picture.depth, depth_range(&picture.depth))
     } else if !picture.segmentation.is_empty() {
-        let numbers: Vec<i32> = picture.segmentation.iter().map(|&seen| number(seen)).collect();
+        let numbers: Vec<i32> = picture.segmentation.iter().map(|&seen| object_number(seen)).collect();
         segmentation_image(width, height, &numbers)
     } else {
         return Ok(None);
     };
     image.map(Some).map_err(Failure::new)
-}
-
-/// Share of the farthest distance beyond which colours of depth do not reach: there is the far plane, where nothing is.
-const BACKGROUND: f32 = 0.99;
-/// Share of the other pixels that are nearer than the last colour: an infinite floor would take all colours.
-const NEAR_SHARE: f64 = 0.9;
-
-/// Distances with the first and the last colour.
-fn range(depth: &[f32]) -> (f32, f32) {
-    let mut sorted = depth.to_vec();
-    sorted.sort_by(f32::total_cmp);
-    let (near, farthest) = (sorted.first().copied().unwrap_or(0.0), sorted.last().copied().unwrap_or(0.0));
-    let seen = sorted.partition_point(|&distance| distance < BACKGROUND * farthest);
-    let far = sorted.get((NEAR_SHARE * seen as f64) as usize).copied().unwrap_or(farthest);
-    (near, far.max(near.next_up()))
-}
-
-/// Objects of each type that have numbers of their own.
-const TYPE: i32 = 1 << 20;
-
-/// One number for an object and its type, negative for none.
-fn number([object, kind]: [i32; 2]) -> i32 {
-    if object < 0 { -1 } else { kind.wrapping_mul(TYPE).wrapping_add(object).max(0) }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_picture_of_one_distance_has_a_range() {
-        for depth in [vec![2.0_f32], vec![2.0; 10]] {
-            let (near, far) = range(&depth);
-            assert!(near == 2.0 && far > near);
-        }
-        let mut depth: Vec<f32> = (10..20).map(|distance| distance as f32).collect();
-        depth.extend([1000.0; 100]);
-        assert_eq!(range(&depth), (10.0, 19.0), "the sky has no part in it");
-    }
-
-    #[test]
-    fn objects_of_different_types_differ() {
-        assert_eq!(number([-1, -1]), -1);
-        assert_ne!(number([4, 5]), number([4, 6]));
-        assert_eq!(number([5, 5]) - number([4, 5]), 1);
-    }
 }

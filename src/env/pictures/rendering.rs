@@ -26,8 +26,8 @@ impl FromStr for RenderMode {
             "rgb_array" => Ok(RenderMode::RgbArray),
             "depth_array" => Ok(RenderMode::DepthArray),
             "human" => {
-                Err("render_mode human needs a window, and this build opens none; rgb_array and depth_array \
-                            return pictures to show or to save"
+                Err("render_mode human is the window of one environment in Python; here rgb_array and depth_array return \
+                     pictures to show or to save"
                     .into())
             }
             _ => Err(format!("render_mode is rgb_array or depth_array, not {name}").into()),

@@ -111,6 +111,11 @@ impl Session {
         }
     }
 
+    /// The hand.
+    pub fn hand(&self) -> Option<&Hand> {
+        self.hand.as_ref()
+    }
+
     /// Whether something is held.
     pub fn holds(&self) -> bool {
         self.hand.is_some()

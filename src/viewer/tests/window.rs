@@ -2,12 +2,14 @@
 
 use eframe::egui::accesskit::{Node, NodeId, TreeUpdate};
 use eframe::egui::{
-    Context, DroppedFile, Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, pos2, vec2,
+    Context, DroppedFile, Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Shape, pos2, vec2,
 };
 use physics::model::ObjType;
+use render::picture::Channels;
 use render::scene::Camera;
-use robohive_viewer::Session;
-use robohive_viewer::window::{App, Source};
+use robohive_viewer::window::{App, Making, Recording, Source, States};
+use robohive_viewer::{Drawing, Session};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -17,6 +19,8 @@ struct Window {
     app: App,
     time: f64,
     tree: Option<TreeUpdate>,
+    /// Texts of the last frame.
+    texts: Vec<String>,
 }
 
 impl Window {
@@ -24,7 +28,7 @@ impl Window {
         let context = Context::default();
         context.enable_accesskit();
         let app = App::new(&context, source);
-        let mut window = Window { context, app, time: 0.0, tree: None };
+        let mut window = Window { context, app, time: 0.0, tree: None, texts: Vec::new() };
         // Panels take their sizes in the first frames.
         (0..3).for_each(|_| window.frame(Vec::new()));
         window
@@ -41,6 +45,14 @@ impl Window {
         let app = &mut self.app;
         let mut output = self.context.run_ui(input, |ui| app.show(ui));
         output.textures_delta.clear();
+        self.texts = output
+            .shapes
+            .iter()
+            .filter_map(|shown| match &shown.shape {
+                Shape::Text(text) => Some(text.galley.text().to_owned()),
+                _ => None,
+            })
+            .collect();
         self.tree = output.platform_output.accesskit_update.or(self.tree.take());
     }
 
@@ -295,6 +307,41 @@ fn a_dropped_trajectory_is_replayed_and_a_second_one_shown_beside_it() {
 }
 
 #[test]
+fn recorded_states_open_with_their_model() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let states = |name: &str| root.join(format!("validation/reference/own/{name}.npz"));
+    let model = |name: &str| Source::own().find(|source| source.title() == name).unwrap();
+    let shown = |replayed: Option<&str>, reference: &str| {
+        let [replayed, reference] = [replayed, Some(reference)].map(|name| name.map(states));
+        Source::States(Box::new(States { of: model("pile"), replayed, reference }))
+    };
+    let source = shown(Some("pile"), "pile");
+    assert!(source.title().ends_with("pile.npz: pile") && source.check().is_ok());
+    let mut window = Window::of(Some(source));
+    assert_eq!(window.session().reference().unwrap().difference(), Some(0.0));
+    window.press(Key::ArrowRight, Modifiers::NONE);
+    assert_eq!(window.session().replay().unwrap().row(), 1);
+    // Read again, the model is shown in the same states.
+    window.press(Key::L, Modifiers::COMMAND);
+    assert_eq!((window.app.trouble(), window.session().replay().map(|replay| replay.row())), (None, Some(1)));
+    assert!(window.session().reference().is_some());
+    // Beside a simulation, a reference alone.
+    let window = Window::of(Some(shown(None, "pile")));
+    assert!(window.session().replay().is_none() && window.session().reference().is_some());
+    let wrong = shown(Some("franka_table"), "pile");
+    let why = wrong.check().unwrap_err().to_string();
+    assert!(why.contains("franka_table.npz") && why.contains("is it of this model?"), "{why}");
+    let window = Window::of(Some(wrong));
+    assert_eq!(window.app.trouble(), Some(&why[..]));
+    let environment = Source::own_environments().next().unwrap();
+    let wrong = States { of: environment, replayed: Some(states("pile")), reference: None };
+    let why = Source::States(Box::new(wrong)).check().unwrap_err().to_string();
+    assert!(why.contains("is an environment"), "{why}");
+    let missing = Recording { path: "nowhere.h5".into(), environment: None, making: Making::default() };
+    assert!(Source::Episodes(missing).check().unwrap_err().to_string().contains("nowhere.h5"));
+}
+
+#[test]
 fn recorded_episodes_are_shown_trial_by_trial() {
     let folder = folder("episodes");
     let file = folder.join("reach.h5");
@@ -318,6 +365,43 @@ fn recorded_episodes_are_shown_trial_by_trial() {
     window.app.opened_mut().unwrap().seek(usize::MAX);
     assert_ne!(window.session().data().state.qpos, first, "each has actions of its own");
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn depth_and_objects_are_seen_in_false_colours() {
+    let mut window = Window::own("pile");
+    let size = [160, 120];
+    let mut drawing = Drawing::new(window.session().model()).unwrap();
+    let drawn = |window: &mut Window| window.app.drawn_by_cpu(size).unwrap().unwrap();
+    let choose = |window: &mut Window, from: &str, to: &str| {
+        window.use_named(from);
+        (0..10).for_each(|_| window.frame(Vec::new()));
+        window.use_named(to);
+        (0..3).for_each(|_| window.frame(Vec::new()));
+        assert_eq!(window.app.trouble(), None);
+    };
+    let colours = drawn(&mut window).rgb;
+    choose(&mut window, "Colours", "Depth");
+    let seen = drawn(&mut window);
+    let depth = drawing.draw_channels(window.session(), size, Channels::DEPTH).unwrap().depth.clone();
+    assert_eq!(seen.depth, depth);
+    let nearest = (0..depth.len()).min_by(|&a, &b| depth[a].total_cmp(&depth[b])).unwrap();
+    let farthest = (0..depth.len()).max_by(|&a, &b| depth[a].total_cmp(&depth[b])).unwrap();
+    let pixel = |at: usize| [seen.rgb[3 * at], seen.rgb[3 * at + 1], seen.rgb[3 * at + 2]];
+    assert_eq!([pixel(nearest), pixel(farthest)], [video::DEPTH_COLOURS[0], video::DEPTH_COLOURS[4]]);
+    assert_eq!(window.texts.iter().filter(|text| text.ends_with(" m")).count(), 2, "{:?}", window.texts);
+    window.named("drawn by CPU");
+    choose(&mut window, "Depth", "Objects");
+    let seen = drawn(&mut window);
+    let objects = drawing.draw_channels(window.session(), size, Channels::SEGMENTATION).unwrap();
+    assert_eq!(seen.segmentation, objects.segmentation);
+    let pairs: BTreeSet<_> = seen.segmentation.iter().zip(seen.rgb.as_chunks::<3>().0).collect();
+    let kinds: BTreeSet<_> = seen.segmentation.iter().collect();
+    let shades: BTreeSet<_> = seen.rgb.as_chunks::<3>().0.iter().collect();
+    assert!(kinds.len() > 5 && pairs.len() == kinds.len() && shades.len() == kinds.len(), "{kinds:?}");
+    assert!(!window.texts.iter().any(|text| text.ends_with(" m")));
+    choose(&mut window, "Objects", "Colours");
+    assert_eq!(drawn(&mut window).rgb, colours);
 }
 
 #[test]

@@ -9,6 +9,7 @@ use super::opened::Opened;
 use super::overlay::overlay;
 use super::painters::Painters;
 use super::panels;
+use super::program::Program;
 use super::saving::{Save, into_working_folder};
 use super::source::Source;
 use super::steer::{Steering, steering_panel};
@@ -39,6 +40,8 @@ pub struct App {
     pub(super) save: Save,
     /// Where the picture was in the last frame \[point\].
     pub(super) area: Rect,
+    /// The program whose window this is.
+    pub(super) program: Option<Program>,
     keys: Keys,
     pub(super) desk: panels::Desk,
     /// The video that is being written.
@@ -47,8 +50,8 @@ pub struct App {
     /// What makes the environments of recordings.
     pub(super) making: Making,
     shows_info: bool,
-    shows_left: bool,
-    shows_right: bool,
+    pub(super) shows_left: bool,
+    pub(super) shows_right: bool,
     shows_help: bool,
     last: Instant,
 }
@@ -67,6 +70,7 @@ impl App {
             painters,
             save: Box::new(into_working_folder),
             area: Rect::NOTHING,
+            program: None,
             keys: Keys::new(),
             desk: panels::Desk::default(),
             film: None,
@@ -102,6 +106,9 @@ impl App {
     }
 
     fn reload(&mut self) {
+        if self.asks_for_reload() {
+            return;
+        }
         if let Some(opened) = &mut self.opened {
             self.trouble = opened.reload().err();
             if self.trouble.is_none() {
@@ -114,6 +121,7 @@ impl App {
     fn advance(&mut self, context: &Context) {
         let elapsed = self.last.elapsed().as_secs_f64().min(LONGEST);
         self.last = Instant::now();
+        self.receive(context);
         let path = context.input(|input| input.raw.dropped_files.first().map(|file| file.path().to_owned()));
         if let Some(path) = path {
             self.open_path(&path);
@@ -124,8 +132,10 @@ impl App {
         }
         self.steer(context, elapsed);
         let Some(opened) = &mut self.opened else { return };
-        for command in self.keys.pressed(context, &self.steering.taken(&opened.session)) {
-            opened.session.perform(command);
+        if self.program.as_ref().is_none_or(|program| program.keys) {
+            for command in self.keys.pressed(context, &self.steering.taken(&opened.session)) {
+                opened.session.perform(command);
+            }
         }
         let began = Instant::now();
         opened.session.advance(elapsed, &mut || began.elapsed().as_secs_f64() < SHARE * FRAME);
@@ -196,22 +206,10 @@ impl App {
     fn menu(&mut self, ui: &mut Ui) {
         MenuBar::new().ui(ui, |ui| {
             ui.menu_button("File", |ui| {
-                ui.menu_button("Open a model of our own", |ui| {
-                    for source in Source::own() {
-                        if ui.button(source.title()).clicked() {
-                            self.open(source);
-                            ui.close();
-                        }
-                    }
-                });
-                ui.menu_button("Play an environment of our own", |ui| {
-                    for source in Source::own_environments() {
-                        if ui.button(source.title()).clicked() {
-                            self.open(source);
-                            ui.close();
-                        }
-                    }
-                });
+                if !self.opened.as_ref().is_some_and(|opened| opened.session.is_following()) {
+                    self.open_menu(ui, "Open a model of our own", Source::own());
+                    self.open_menu(ui, "Play an environment of our own", Source::own_environments());
+                }
                 if ui.button("Reload  Ctrl+L").clicked() {
                     self.reload();
                 }
@@ -262,6 +260,17 @@ impl App {
         });
     }
 
+    fn open_menu(&mut self, ui: &mut Ui, title: &str, sources: impl Iterator<Item = Source>) {
+        ui.menu_button(title, |ui| {
+            for source in sources {
+                if ui.button(source.title()).clicked() {
+                    self.open(source);
+                    ui.close();
+                }
+            }
+        });
+    }
+
     fn status(&self, ui: &mut Ui) {
         let Some(opened) = &self.opened else {
             ui.label("Nothing is open");
@@ -271,6 +280,7 @@ impl App {
         ui.horizontal(|ui| {
             ui.label(RichText::new(opened.source.title()).strong());
             let paused = match (session.is_running(), session.history().behind()) {
+                _ if session.is_following() => "driven by a program".to_owned(),
                 (true, _) => "running".to_owned(),
                 (false, 0) => "paused".to_owned(),
                 (false, behind) => format!("paused (-{behind})"),
@@ -287,7 +297,7 @@ impl App {
                     session.model().label_of(physics::model::ObjType::Body, selected.body)
                 ));
             }
-            let drawn = ui.label(format!("drawn by {}", self.painters.name()));
+            let drawn = ui.label(format!("drawn by {}", self.painters.drawer_of(opened.screen.channel)));
             if !self.painters.reason().is_empty() {
                 drawn.on_hover_text(self.painters.reason());
             }
@@ -339,6 +349,7 @@ impl eframe::App for App {
 
     fn on_exit(&mut self) {
         self.end_film();
+        self.leave_program();
     }
 
     #[cfg(target_arch = "wasm32")]
@@ -355,15 +366,19 @@ impl App {
         Panel::top("menu").show(ui, |ui| self.menu(ui));
         Panel::bottom("status").show(ui, |ui| self.status(ui));
         if let Some(opened) = &mut self.opened {
-            let Opened { session, episodes, .. } = opened;
+            let Opened { session, screen, episodes, .. } = opened;
             let mut wrong = Ok(());
             Panel::left("left").default_size(240.0).show_collapsible(ui, &mut self.shows_left, |ui| {
                 ScrollArea::vertical().show(ui, |ui| {
-                    section(ui, "Simulation", true, |ui| panels::simulation(ui, session));
+                    if !session.is_following() {
+                        section(ui, "Simulation", true, |ui| panels::simulation(ui, session));
+                    }
                     if session.play().is_some() {
                         section(ui, "Episode", true, |ui| panels::episode(ui, session));
                     }
-                    section(ui, "Recording", false, |ui| panels::recording(ui, session, &mut self.desk));
+                    if !session.is_following() {
+                        section(ui, "Recording", false, |ui| panels::recording(ui, session, &mut self.desk));
+                    }
                     if session.replay().is_some() || session.reference().is_some() {
                         section(ui, "Replay", true, |ui| {
                             if let Some(episodes) = episodes {
@@ -372,7 +387,7 @@ impl App {
                             panels::replay(ui, session);
                         });
                     }
-                    section(ui, "View", true, |ui| panels::visual(ui, session));
+                    section(ui, "View", true, |ui| panels::visual(ui, session, &mut screen.channel));
                     section(ui, "Groups", false, |ui| panels::groups(ui, session));
                     section(ui, "Appearance", false, |ui| panels::appearance(ui, session));
                     if session.play().is_none() {
@@ -407,8 +422,13 @@ impl App {
                 self.trouble = Some(why);
             }
         }
-        CentralPanel::no_frame().show(ui, |ui| self.picture(ui));
+        CentralPanel::no_frame().show(ui, |ui| {
+            let area = ui.max_rect();
+            self.picture(ui);
+            self.show_overlays(ui, area);
+        });
         self.help(&context);
+        self.report();
     }
 
     /// The picture, and messages over it.

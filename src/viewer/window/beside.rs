@@ -13,14 +13,19 @@ const TRAJECTORIES: [&str; 1] = ["npz"];
 const EPISODES: [&str; 2] = ["h5", "hdf5"];
 
 impl App {
-    /// Opens what a path leads to: a trajectory of the open model, recorded episodes, a model, or a folder or archive with one.
+    /// Opens what a path leads to: a trajectory of the open model, recorded episodes, a model, or a folder or archive with one. In the
+    /// window of a program that simulates, nothing.
     pub(super) fn open_path(&mut self, path: &Path) {
+        if self.opened.as_ref().is_some_and(|opened| opened.session.is_following()) {
+            self.trouble = Some(format!("{}: this window shows what a program simulates", path.display()));
+            return;
+        }
         let ending = path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_lowercase();
         if TRAJECTORIES.contains(&ending.as_str()) {
             self.trouble = self.show_trajectory(path).err();
         } else if EPISODES.contains(&ending.as_str()) {
             let making = self.making.clone();
-            self.open(Source::Episodes(Recording { path: path.to_owned(), making }));
+            self.open(Source::Episodes(Recording { path: path.to_owned(), environment: None, making }));
         } else {
             match dropped(path) {
                 Ok(source) => self.open(source),

@@ -1,5 +1,6 @@
 //! The picture in the window, and gestures on it.
 
+use super::channel::show_scale;
 use super::opened::Opened;
 use super::painters::Painters;
 use super::screen::Screen;
@@ -29,6 +30,9 @@ pub(super) fn canvas(ui: &mut Ui, opened: &mut Opened, painters: &mut Painters) 
     let (painted, unfinished) =
         opened.screen.draw(ui.ctx(), painters, &opened.session, size).map_err(|error| error.to_string())?;
     ui.painter().image(painted.texture, area, painted.place, Color32::WHITE);
+    if let Some(scale) = painted.scale {
+        show_scale(ui.painter(), area, scale);
+    }
     if !painted.labelled {
         write_labels(ui.painter(), &opened.screen, area, size);
     }

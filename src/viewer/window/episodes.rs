@@ -52,6 +52,8 @@ pub(super) struct Episodes {
 pub struct Recording {
     /// The file: HDF5 in the layout of RoboHive or RoboSet, as `robohive run --record` writes it.
     pub path: PathBuf,
+    /// The id of its environment, where it does not name it.
+    pub environment: Option<String>,
     /// What makes its environment.
     pub making: Making,
 }
@@ -60,7 +62,8 @@ impl Recording {
     /// A session that shows the first episode.
     pub(super) fn start(&self) -> Result<(Session, Episodes), String> {
         let trace = TraceReader::open(&self.path).map_err(|error| error.to_string())?;
-        let described = Description::of(&trace, None).map_err(|error| error.to_string())?;
+        let described =
+            Description::of(&trace, self.environment.as_deref()).map_err(|error| error.to_string())?;
         let env = (self.making.0)(&described).map_err(|error| error.to_string())?;
         if trace.trials().is_empty() {
             return Err(format!("{} has no episodes", self.path.display()));

@@ -59,6 +59,30 @@ impl Opened {
         Ok(Opened { session, screen, source, siblings, episodes: None, warnings, changed, looked })
     }
 
+    /// A session that a program has asked for.
+    ///
+    /// # Errors
+    /// Its model cannot be drawn.
+    pub(super) fn of_program(session: Session, title: &str) -> Result<Self, String> {
+        let screen = Screen::new(session.model()).map_err(|error| error.to_string())?;
+        let source = Source::Program(title.to_owned());
+        Ok(Opened {
+            session,
+            screen,
+            source,
+            siblings: Vec::new(),
+            episodes: None,
+            warnings: String::new(),
+            changed: None,
+            looked: Instant::now(),
+        })
+    }
+
+    /// Whether a program has sent the model.
+    pub(super) fn is_a_programs(&self) -> bool {
+        matches!(self.source, Source::Program(_))
+    }
+
     /// Reads the model again, in the state that it is in; an environment begins anew.
     ///
     /// # Errors
@@ -70,7 +94,8 @@ impl Opened {
             return Ok(());
         }
         let loaded = self.source.load()?;
-        let screen = Screen::new(&loaded.model).map_err(|error| error.to_string())?;
+        let mut screen = Screen::new(&loaded.model).map_err(|error| error.to_string())?;
+        screen.channel = self.screen.channel;
         self.session.replace(loaded.model).map_err(|error| error.to_string())?;
         (self.screen, self.warnings) = (screen, loaded.warnings.to_string());
         Ok(())

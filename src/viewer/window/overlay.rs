@@ -8,10 +8,10 @@ const LETTERS: f32 = 13.0;
 /// Distance from the edges \[point\].
 const MARGIN: f32 = 10.0;
 
-/// Says that time stands still, unless it goes by; with `info`, also time, sizes, solver, energy and frames a second.
+/// Says that time stands still, unless it goes by or another program has it; with `info`, also time, sizes, solver, energy and frames a second.
 pub(super) fn overlay(painter: &Painter, area: Rect, session: &Session, frame: f64, info: bool) {
     let painter = painter.with_clip_rect(area);
-    if !session.is_running() {
+    if !session.is_running() && !session.is_following() {
         let behind = session.history().behind();
         let text = match (session.replay(), behind) {
             (Some(replay), _) => format!("REPLAY {} / {}", replay.row() + 1, replay.trajectory().len()),

@@ -1,9 +1,9 @@
 //! What draws the picture: the GPU that draws the window, or the CPU.
 
+use super::channel::Channel;
 use crate::drawing::Scenery;
 use eframe::egui::{ColorImage, Context, Rect, TextureHandle, TextureId, TextureOptions, pos2};
 use eframe::egui_wgpu::RenderState;
-use render::picture::Channels;
 use render::{Picture, RenderError, Renderer};
 use render_gpu::{Adapter, GpuError, GpuRenderer, Shown, wgpu};
 
@@ -16,6 +16,8 @@ pub struct Painted {
     pub place: Rect,
     /// Labels are in it already.
     pub labelled: bool,
+    /// Of depth, the distances \[m\] that have the first and the last colour.
+    pub scale: Option<[f32; 2]>,
 }
 
 /// The painters of a window. Pictures of all its models go to the same textures, one after the other.
@@ -68,12 +70,18 @@ impl Painters {
         }
     }
 
+    /// What draws colours, or something else, for people.
+    pub fn drawer_of(&self, channel: Channel) -> String {
+        if channel == Channel::Colours { self.name() } else { "CPU".into() }
+    }
+
     /// Why the GPU does not draw; empty where it does.
     pub fn reason(&self) -> &str {
         if self.uses_gpu() { "" } else { &self.reason }
     }
 
-    /// Draws what stands in `scenery`, `size` pixels wide and high. A GPU that fails is not asked again.
+    /// Draws what stands in `scenery`, `size` pixels wide and high; depth and objects by the CPU. A GPU that fails is not asked
+    /// again.
     ///
     /// # Errors
     /// The size is zero or too large, or the view's frustum is empty.
@@ -81,9 +89,11 @@ impl Painters {
         &mut self,
         context: &Context,
         scenery: &Scenery,
+        channel: Channel,
         size: [usize; 2],
     ) -> Result<Painted, RenderError> {
         if self.prefers_gpu
+            && channel == Channel::Colours
             && let Some(gpu) = &mut self.gpu
         {
             match gpu.paint(scenery, size) {
@@ -94,7 +104,7 @@ impl Painters {
                 Err(error) => (self.gpu, self.reason) = (None, error.to_string()),
             }
         }
-        self.cpu.paint(context, scenery, size)
+        self.cpu.paint(context, scenery, channel, size)
     }
 
     /// The texture of the last picture by the GPU, bytes R, G, B, A from the top: what tests look at.
@@ -121,21 +131,25 @@ impl CpuPainter {
         &mut self,
         context: &Context,
         scenery: &Scenery,
+        channel: Channel,
         size: [usize; 2],
     ) -> Result<Painted, RenderError> {
         let renderer = self.renderer.get_or_insert_with(|| Renderer::new(scenery.settings));
         [self.picture.width, self.picture.height] = size;
-        scenery.paint(renderer, Channels::RGB, &mut self.picture)?;
+        let scale = channel.draw(scenery, renderer, &mut self.picture)?;
         let image = ColorImage::from_rgb(size, &self.picture.rgb);
+        // Between two objects there is no third.
+        let options =
+            if channel == Channel::Objects { TextureOptions::NEAREST } else { TextureOptions::LINEAR };
         let texture = match &mut self.texture {
             Some(texture) => {
-                texture.set(image, TextureOptions::LINEAR);
+                texture.set(image, options);
                 &*texture
             }
-            None => self.texture.insert(context.load_texture("picture", image, TextureOptions::LINEAR)),
+            None => self.texture.insert(context.load_texture("picture", image, options)),
         };
         let place = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-        Ok(Painted { texture: texture.id(), place, labelled: true })
+        Ok(Painted { texture: texture.id(), place, labelled: channel == Channel::Colours, scale })
     }
 }
 
@@ -176,7 +190,7 @@ impl GpuPainter {
         };
         self.known = Some((view.clone(), texture));
         let place = Rect::from_min_max(pos2(0.0, top), pos2(right, 0.0));
-        Ok(Painted { texture, place, labelled: false })
+        Ok(Painted { texture, place, labelled: false, scale: None })
     }
 }
 

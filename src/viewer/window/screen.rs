@@ -1,11 +1,11 @@
 //! The picture of a session, drawn as finely as time allows.
 
+use super::channel::Channel;
 use super::painters::{Painted, Painters};
 use crate::drawing::Scenery;
 use crate::session::Session;
 use eframe::egui::Context;
 use physics::Model;
-use render::picture::Channels;
 use render::raster::Projection;
 use render::scene::{Camera, SceneOptions};
 use render::{Picture, RenderError, Renderer};
@@ -18,6 +18,8 @@ const COARSEST: usize = 4;
 
 /// What a session is drawn of, and its last picture.
 pub struct Screen {
+    /// What of the scene it shows.
+    pub channel: Channel,
     scenery: Scenery,
     shown: Option<(Shown, Painted)>,
     /// Pixels of the window that the picture takes.
@@ -34,6 +36,7 @@ struct Shown {
     options: SceneOptions,
     size: [usize; 2],
     uses_gpu: bool,
+    channel: Channel,
 }
 
 impl Screen {
@@ -42,7 +45,13 @@ impl Screen {
     /// # Errors
     /// A texture or mesh cannot be drawn.
     pub fn new(model: &Model) -> Result<Self, RenderError> {
-        Ok(Screen { scenery: Scenery::new(model)?, shown: None, size: [1; 2], cost: 0.0 })
+        Ok(Screen {
+            channel: Channel::default(),
+            scenery: Scenery::new(model)?,
+            shown: None,
+            size: [1; 2],
+            cost: 0.0,
+        })
     }
 
     /// The picture of the present state for a window of `size` pixels: coarse while things move and drawing is slow, fine
@@ -58,13 +67,15 @@ impl Screen {
         size: [usize; 2],
     ) -> Result<(Painted, bool), RenderError> {
         self.size = size;
-        let uses_gpu = painters.uses_gpu();
+        let channel = self.channel;
+        let uses_gpu = painters.uses_gpu() && channel == Channel::Colours;
         let wanted = |size| Shown {
             revision: session.revision(),
             camera: session.camera,
             options: session.shown(),
             size,
             uses_gpu,
+            channel,
         };
         let is_shown = |shown: &Option<(Shown, Painted)>, size| {
             shown.as_ref().filter(|(shown, _)| *shown == wanted(size)).map(|(_, painted)| *painted)
@@ -79,10 +90,10 @@ impl Screen {
         let chosen = if stands_still { size } else { coarse };
         let began = Instant::now();
         self.scenery.update(session)?;
-        let painted = painters.paint(context, &self.scenery, chosen)?;
+        let painted = painters.paint(context, &self.scenery, channel, chosen)?;
         self.cost = began.elapsed().as_secs_f64() / (chosen[0] * chosen[1]).max(1) as f64;
         // What draws may have changed.
-        self.shown = Some((Shown { uses_gpu: painters.uses_gpu(), ..wanted(chosen) }, painted));
+        self.shown = Some((Shown { uses_gpu: uses_gpu && painters.uses_gpu(), ..wanted(chosen) }, painted));
         Ok((painted, chosen != size))
     }
 
@@ -118,7 +129,7 @@ impl Screen {
         self.size
     }
 
-    /// The picture of the present state as the CPU draws it, `size` pixels wide and high.
+    /// The picture of the present state as the CPU draws it, depth and objects in false colours, `size` pixels wide and high.
     ///
     /// # Errors
     /// The camera or an item has no place; the size is zero or too large.
@@ -129,7 +140,7 @@ impl Screen {
     ) -> Result<Picture, RenderError> {
         let mut picture = Picture::new(width, height);
         self.scenery.update(session)?;
-        self.scenery.paint(&mut Renderer::new(self.scenery.settings), Channels::RGB, &mut picture)?;
+        self.channel.draw(&self.scenery, &mut Renderer::new(self.scenery.settings), &mut picture)?;
         Ok(picture)
     }
 }

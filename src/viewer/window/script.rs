@@ -1,6 +1,7 @@
 //! What a program asks the window for: the page around it, and tests.
 
 use super::app::App;
+use super::episodes::Making;
 use super::opened::Opened;
 use super::saving::Save;
 use super::source::Source;
@@ -61,6 +62,11 @@ impl App {
     pub fn perform_named(&mut self, name: &str) -> bool {
         let found = shortcuts().into_iter().find(|shortcut| shortcut.name == name);
         found.map(|shortcut| self.perform(shortcut.command)).is_some()
+    }
+
+    /// Lets `making` make the environments of recordings that are opened.
+    pub fn make_by(&mut self, making: Making) {
+        self.making = making;
     }
 
     /// Sends screenshots and other files elsewhere than into the working folder.

@@ -1,6 +1,6 @@
 //! Where models come from.
 
-use super::episodes::Recording;
+use super::episodes::{Recording, trajectory};
 use crate::files::{Files, is_archive};
 use crate::own::{own_loader, own_models};
 use crate::play::{Play, PlayError};
@@ -27,6 +27,47 @@ pub enum Source {
     Environment(Recipe),
     /// Recorded episodes of an environment.
     Episodes(Recording),
+    /// A model with states of it that were recorded.
+    States(Box<States>),
+    /// A model that a program has sent, by its title.
+    Program(String),
+}
+
+/// Recorded states of a model: numpy archives, as `robohive sim --out` writes them.
+#[derive(Clone, Debug)]
+pub struct States {
+    /// The model.
+    pub of: Source,
+    /// Those that are replayed; without them the model is simulated.
+    pub replayed: Option<PathBuf>,
+    /// Those that are drawn beside the others, at the same time.
+    pub reference: Option<PathBuf>,
+}
+
+impl States {
+    fn start(&self) -> Result<(Session, String), String> {
+        let (mut session, warnings) = self.of.start()?;
+        if session.play().is_some() {
+            return Err(format!(
+                "{} is an environment; recorded states are those of a model",
+                self.of.title()
+            ));
+        }
+        if let Some(path) = &self.replayed {
+            let states = trajectory(path, &session)?;
+            session.set_replay(Some(states)).map_err(|error| error.to_string())?;
+        }
+        if let Some(path) = &self.reference {
+            let states = trajectory(path, &session)?;
+            session.set_reference(Some(states)).map_err(|error| error.to_string())?;
+        }
+        Ok((session, warnings))
+    }
+
+    fn title(&self) -> String {
+        let model = self.of.title();
+        self.replayed.as_ref().map_or(model.clone(), |path| format!("{}: {model}", path.display()))
+    }
 }
 
 /// How an environment is made.
@@ -90,7 +131,21 @@ impl Source {
             }
             Source::Environment(recipe) => recipe.id.clone(),
             Source::Episodes(recording) => recording.path.display().to_string(),
+            Source::States(states) => states.title(),
+            Source::Program(title) => title.clone(),
         }
+    }
+
+    /// Tries whether it can be opened.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn check(&self) -> Result<(), Unopened> {
+        let tried = match self {
+            Source::Episodes(recording) => recording.start().map(drop),
+            _ => self.start().map(drop),
+        };
+        tried.map_err(Unopened)
     }
 
     /// A session with it, and what was ignored or assumed when its model was read.
@@ -102,6 +157,9 @@ impl Source {
             let play = (recipe.make)().map_err(|error| error.to_string())?;
             let warnings = play.env().warnings().to_string();
             return Ok((Session::playing(play), warnings));
+        }
+        if let Source::States(states) = self {
+            return states.start();
         }
         let loaded = self.load()?;
         let session = Session::new(loaded.model).map_err(|error| error.to_string())?;
@@ -120,6 +178,10 @@ impl Source {
             Source::Episodes(recording) => {
                 Err(format!("{} holds episodes, not a model", recording.path.display()))
             }
+            Source::States(states) => states.of.load(),
+            Source::Program(title) => {
+                Err(format!("{title} is the model of a program, which alone can read it again"))
+            }
             Source::Own(path) => own_loader().load(path).map_err(|errors| errors.to_string()),
         }
     }
@@ -132,6 +194,7 @@ impl Source {
         let parsed = match self {
             Source::File(path) => Loader::default().parse(path),
             Source::Own(path) => own_loader().parse(path),
+            Source::States(states) => return states.of.mjcf(),
             _ => return Err(format!("{} is not a file of MJCF or URDF", self.title())),
         };
         let mut spec = parsed.map_err(|errors| errors.to_string())?.spec;
@@ -145,10 +208,27 @@ impl Source {
     pub fn changed(&self) -> Option<SystemTime> {
         match self {
             Source::File(path) => std::fs::metadata(path).and_then(|about| about.modified()).ok(),
-            Source::Among(..) | Source::Own(_) | Source::Environment(_) | Source::Episodes(_) => None,
+            Source::States(states) => states.of.changed(),
+            Source::Among(..)
+            | Source::Own(_)
+            | Source::Environment(_)
+            | Source::Episodes(_)
+            | Source::Program(_) => None,
         }
     }
 }
+
+/// Why something cannot be opened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unopened(String);
+
+impl fmt::Display for Unopened {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for Unopened {}
 
 /// None of some files is a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -30,7 +30,7 @@ def look_of(model: MjModel, camera: MjvCamera, option: MjvOption) -> dict[str, A
     shown = [flag.name.removeprefix("mjVIS_") for flag in mjtVisFlag if flag < len(option.flags) and option.flags[flag]]
     return {
         "camera": checked(model, camera.fixedcamid) if fixed else None,
-        "free": None if fixed else _free(camera),
+        "free": None if fixed else free_camera(camera),
         "groups": [[bool(x) for x in getattr(option, f"{kind}group")] for kind in _GROUPS],
         "shown": shown,
         "categories": [True, True, True],
@@ -42,7 +42,8 @@ def look_of(model: MjModel, camera: MjvCamera, option: MjvOption) -> dict[str, A
     }
 
 
-def _free(camera: MjvCamera) -> dict[str, Any]:
+def free_camera(camera: MjvCamera) -> dict[str, Any]:
+    """A camera that is none of the model, as the engine takes it."""
     tracked = camera.trackbodyid if camera.type == mjtCamera.mjCAMERA_TRACKING else None
     names = ("distance", "azimuth", "elevation")
     return {

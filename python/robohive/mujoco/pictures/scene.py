@@ -68,7 +68,8 @@ class MjvGeom(_Struct):
         """As the engine takes it."""
         numbers = {name: getattr(self, name) for name in ("type", "dataid", "objtype", "objid")}
         rows = {name: np.ravel(getattr(self, name)).tolist() for name in ("size", "pos", "mat", "rgba")}
-        return {**numbers, **rows, "look": [float(getattr(self, name)) for name in _LOOK], "label": str(self.label)}
+        label = self.label.decode(errors="replace") if isinstance(self.label, bytes) else str(self.label)
+        return {**numbers, **rows, "look": [float(getattr(self, name)) for name in _LOOK], "label": label}
 
 
 def _of_model(rows: Mapping[str, Any], index: int) -> MjvGeom:

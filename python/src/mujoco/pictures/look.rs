@@ -113,20 +113,27 @@ fn chosen<T: Copy>(list: &[T], kind: &str, number: i64) -> Result<T, Fault> {
     })
 }
 
+impl Free {
+    /// The camera in a model, whose field of view it has.
+    pub fn of(&self, model: &physics::Model) -> FreeCamera {
+        FreeCamera {
+            lookat: self.lookat,
+            track: self.track,
+            distance: self.distance,
+            azimuth: self.azimuth,
+            elevation: self.elevation,
+            orthographic: self.orthographic,
+            ..FreeCamera::of(model)
+        }
+    }
+}
+
 impl Look {
     /// Where it is seen from.
     pub fn camera(&self, model: &physics::Model) -> Camera {
         match (&self.camera, &self.free) {
             (Some(id), _) => Camera::Fixed(*id),
-            (None, Some(free)) => Camera::Free(FreeCamera {
-                lookat: free.lookat,
-                track: free.track,
-                distance: free.distance,
-                azimuth: free.azimuth,
-                elevation: free.elevation,
-                orthographic: free.orthographic,
-                ..FreeCamera::of(model)
-            }),
+            (None, Some(free)) => Camera::Free(free.of(model)),
             (None, None) => Camera::free(model),
         }
     }

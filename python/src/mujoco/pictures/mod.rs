@@ -9,3 +9,6 @@
 mod items;
 mod look;
 pub mod painter;
+
+pub use items::Guest;
+pub use look::Free;

@@ -3,13 +3,13 @@
 use super::origin::Origin;
 use super::value::take;
 use super::{deformable, parts};
-use crate::mujoco::settings::assign_choice;
 use mjcf::diagnostic::Loc;
 use mjcf::spec::*;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use std::collections::HashMap;
+use viewer::settings::assign_choice;
 
 /// An element of Python: attributes, body, frame, the description it was made in, where that one's text declares it.
 type Row<'py> = (Bound<'py, PyDict>, i64, i64, u32, Option<(u32, u32)>);

@@ -4,13 +4,15 @@ use crate::command::{FRAMES, LABELS};
 use crate::flags::{EFFECTS, Flag, SHOW};
 use crate::session::Session;
 use crate::text;
+use crate::window::channel::{CHANNELS, Channel};
 use eframe::egui::{ComboBox, DragValue, Slider, Ui};
 use physics::model::ObjType;
 use render::scene::{Camera, FreeCamera};
 
-/// Camera, labels, frames, switches.
-pub fn visual(ui: &mut Ui, session: &mut Session) {
+/// Camera, what of the scene is seen, labels, frames, switches.
+pub fn visual(ui: &mut Ui, session: &mut Session, channel: &mut Channel) {
     camera(ui, session);
+    choice(ui, "Picture", &CHANNELS, channel);
     let options = &mut session.options;
     choice(ui, "Label", &LABELS, &mut options.label);
     choice(ui, "Frame", &FRAMES, &mut options.frame);

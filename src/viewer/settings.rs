@@ -1,4 +1,4 @@
-//! Options, statistics and visual settings of a model by group and name, as `model.opt.timestep` asks for them.
+//! Options, statistics and visual settings of a model by group and name, as MuJoCo's `model.opt.timestep` asks for them.
 
 use physics::model::{Arrays, Draft, Options, Visual};
 use physics::table::Slice;

@@ -1,0 +1,1 @@
+"""Windows by MuJoCo's names: what crosses, the handle, managed windows."""
