@@ -399,24 +399,10 @@ fn sky(@builtin(vertex_index) index: u32) -> Sky {
     return Sky(times(current.clip, at), select(at, current.gaze.xyz, current.gaze.w != 0.0), at);
 }
 
-// The mip level of a cube, of which a pixel shows the direction d and its neighbours d + right and d + down. Some drivers choose
-// the coarsest one for a slice of the sky when they are left to choose.
-fn cube_level(d: vec3f, right: vec3f, down: vec3f) -> f32 {
-    let far = max(abs(d.x), max(abs(d.y), abs(d.z)));
-    let axis = select(select(vec3f(0.0, 0.0, 1.0), vec3f(0.0, 1.0, 0.0), abs(d.y) == far), vec3f(1.0, 0.0, 0.0), abs(d.x) == far);
-    let depth = dot(d, axis);
-    // Parts of half a face.
-    let u = (right * depth - d * dot(right, axis)) / (depth * depth);
-    let v = (down * depth - d * dot(down, axis)) / (depth * depth);
-    let half_side = 0.5 * f32(textureDimensions(cube_texture).x);
-    return log2(half_side * sqrt(max(dot(u, u), dot(v, v))));
-}
-
 @fragment
 fn paint_sky(in: Sky) -> @location(0) vec4f {
     let d = in.direction;
-    let level = cube_level(d, dpdx(d), dpdy(d));
-    var colour = textureSampleLevel(cube_texture, cube_sampler, vec3f(d.x, d.z, -d.y), level).rgb;
+    var colour = textureSample(cube_texture, cube_sampler, vec3f(d.x, d.z, -d.y)).rgb;
     if current.fog.w != 0.0 {
         colour = mix(current.fog.rgb, colour, clearness(dot(current.gaze.xyz, in.world)));
     }

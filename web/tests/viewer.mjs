@@ -19,8 +19,12 @@ const bytes = packed.reduce((a, b) => a + b, 0);
 console.log(`the viewer has ${(bytes / 1e6).toFixed(2)} MB by brotli`);
 assert.ok(bytes <= MOST, `more than ${MOST / 1e6} MB by brotli`);
 
-/** What `validation/pictures.toml` asks of pictures beside each other, and of the quadruped's steep shadows [dB]. */
-const bar = (name) => (name === "quadruped" ? 35 : 40);
+/**
+ * What `validation/pictures.toml` asks of pictures beside each other, of the quadruped's steep shadows, and of skies by WebGPU
+ * on SwiftShader, which gives one slice of the sky's cylinder a single direction (Mesa's driver does not) [dB].
+ */
+const bar = (name, way) => (name === "quadruped" || (way === "webgpu" && SKIES.includes(name)) ? 35 : 40);
+const SKIES = ["franka_table", "reach"];
 /** Columns and rows at the left top where the window writes that time stands still. */
 const LABEL = [130, 36];
 /** The model whose warnings stand over the lower half of its picture. */
@@ -78,11 +82,11 @@ async function likeness(page, name) {
 }
 
 /** Waits until the page shows what the CPU draws. */
-async function drawn(page, name) {
+async function drawn(page, name, way) {
   const end = Date.now() + PATIENCE;
   let best = 0;
-  while (best < bar(name) && Date.now() < end) best = Math.max(best, await likeness(page, name));
-  assert.ok(best >= bar(name), `${name}: the page shows what the CPU draws only within ${best.toFixed(1)} dB`);
+  while (best < bar(name, way) && Date.now() < end) best = Math.max(best, await likeness(page, name));
+  assert.ok(best >= bar(name, way), `${name}: the page shows what the CPU draws only within ${best.toFixed(1)} dB`);
   return best;
 }
 
@@ -101,7 +105,7 @@ async function window(way) {
   const likenesses = {};
   for (const name of models) {
     await go(page, `model=${name}`);
-    likenesses[name] = (await drawn(page, name)).toFixed(1);
+    likenesses[name] = (await drawn(page, name, way)).toFixed(1);
     await shoot(page, `${way}-${name}`);
   }
   console.log(`${way}: drawn by ${(await page.evaluate(() => robohive.viewer.drawnBy())).join("; ")}: ${JSON.stringify(likenesses)} dB`);

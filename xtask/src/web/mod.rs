@@ -38,9 +38,11 @@ pub fn run(words: &[&str]) -> Outcome {
 
 fn build(folder: &Path) -> Result<(), String> {
     fs::create_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))?;
-    for (package, name, file) in MODULES {
-        let build = ["build", "--profile", PROFILE, "-p", package, "--lib", "--target", TARGET];
-        succeed(Command::new("cargo").args(build).env("RUSTFLAGS", "-C target-feature=+simd128"))?;
+    let packages = MODULES.iter().flat_map(|(package, _, _)| ["-p", package]);
+    let mut build = Command::new("cargo");
+    build.args(["build", "--profile", PROFILE, "--lib", "--target", TARGET]).args(packages);
+    succeed(build.env("RUSTFLAGS", "-C target-feature=+simd128"))?;
+    for (_, name, file) in MODULES {
         bind::bind(&target_folder()?.join(TARGET).join(PROFILE).join(file), name, folder)?;
     }
     for entry in fs::read_dir(PAGE).map_err(|error| format!("{PAGE}: {error}"))? {
