@@ -60,7 +60,7 @@ const ORDER: [(&str, &[&str]); 27] = [
             "record",
         ],
     ),
-    ("robohive-web", &["physics", "mjcf", "dataset", "render", "env", "agents", "viewer"]),
+    ("robohive-web", &["physics", "mjcf", "dataset", "record", "render", "env", "agents", "viewer"]),
     ("robohive-web-app", &["env", "agents", "viewer", "robohive-web"]),
     (
         "robohive-python",

@@ -10,6 +10,7 @@
 //! | `names` | elements by name, arrays by MuJoCo's names |
 //! | `state` | inputs written, keyframes, states saved and restored |
 //! | `recording`, `recorded` | every step as a row of a numpy archive |
+//! | `replay` | such rows shown again, two trajectories beside each other |
 //!
 //! Functions that JavaScript calls throw an `Error` whose message says what is wrong and where.
 
@@ -19,10 +20,12 @@ mod lists;
 mod names;
 mod recorded;
 mod recording;
+mod replay;
 mod simulation;
 mod state;
 
 pub use files::Files;
+pub use replay::replay;
 pub use simulation::Simulation;
 
 use wasm_bindgen::prelude::wasm_bindgen;

@@ -101,6 +101,8 @@ fn quantities(session: &Session, measured: bool, f: &mut dyn FnMut(&'static str,
             f("qpos", &state.qpos);
             f("qvel", &state.qvel);
             f("act", &state.act);
+            f("mocap_pos", state.mocap_pos.as_flattened());
+            f("mocap_quat", state.mocap_quat.as_flattened());
             if let Some(play) = play {
                 f("observation", play.env().observation());
             }

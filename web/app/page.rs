@@ -3,7 +3,7 @@
 use agents::Policy;
 use env::{Env, Options, OwnModels};
 use js_sys::{Function, Uint8Array};
-use robohive_web::Files;
+use robohive_web::{Files, replay};
 use std::cell::{RefCell, RefMut};
 use std::io;
 use viewer::window::eframe::{self, CreationContext, WebLogger, WebOptions, WebRunner};
@@ -129,6 +129,17 @@ impl Viewer {
         let mut app = self.app()?;
         open(&mut app);
         app.take_trouble().map_or(Ok(()), |why| Err(JsError::new(&why)))
+    }
+
+    /// Shows the recorded states in a numpy archive, as `Simulation.replay` does.
+    ///
+    /// # Errors
+    /// The archive is damaged, or holds no states of the model that is open.
+    pub fn replay(&self, name: &str, archive: &[u8]) -> Result<(), JsError> {
+        let mut app = self.app()?;
+        let session =
+            app.opened_mut().ok_or_else(|| JsError::new("open the model first whose states these are"))?;
+        replay(session, name, archive)
     }
 
     /// Uses a camera whose name contains a text. False where there is none.

@@ -5,6 +5,9 @@ export function isArchive(path, bytes) {
   return /\.(zip|mjz)$/i.test(path) || (bytes[0] === 0x50 && bytes[1] === 0x4b && bytes[2] === 3 && bytes[3] === 4);
 }
 
+/** Whether a file may hold recorded states, by its name. */
+export const isTrajectory = (path) => /\.npz$/i.test(path);
+
 /** Says that something is too large. */
 function refuse(name, bytes, most) {
   const mebibytes = (count) => `${Math.round(count / (1 << 20))} MiB`;
@@ -33,6 +36,13 @@ export async function bytesOf(answer, name, most) {
   const whole = new Uint8Array(size);
   parts.reduce((at, part) => (whole.set(part, at), at + part.length), 0);
   return whole;
+}
+
+/** The bytes of a file by its address. */
+export async function bytesAt(address, most) {
+  const bytes = await bytesOf(await fetch(address), address, most);
+  if (!bytes) throw new Error(`${address}: there is no such file`);
+  return bytes;
 }
 
 /** Reads files (`{ path, file }`) unless they are too large together. */

@@ -35,6 +35,7 @@ const PARTS = `
     <button data-does="back" title="Arrow left">Step back</button>
     <button data-does="step" title="Arrow right">Step</button>
     <button data-does="reset" title="Backspace">Reset</button>
+    <input type="range" data-does="seek" aria-label="recorded state" min="0" step="1" value="0" hidden>
     <select data-does="camera" aria-label="camera"></select>
     <select data-does="path" aria-label="model" hidden></select>
     <button data-does="record" aria-pressed="false" title="every step, as a numpy archive">Record</button>

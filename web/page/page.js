@@ -23,7 +23,7 @@ function follow() {
   const wanted = new URLSearchParams(location.hash.slice(1));
   const model = wanted.get("model");
   if (model) wanted.set(lists.own.includes(model) ? "own" : "src", model);
-  for (const name of ["src", "own", "environment", "path", "camera", "seed", "policy", "running", "controls"])
+  for (const name of ["src", "own", "environment", "path", "camera", "seed", "policy", "replay", "running", "controls"])
     wanted.has(name) ? viewer.setAttribute(name, wanted.get(name)) : viewer.removeAttribute(name);
   for (const id of Object.keys(lists)) document.getElementById(id).value = wanted.get(id) ?? "";
 }
@@ -36,7 +36,7 @@ for (const button of document.querySelectorAll("[data-opens]")) {
     try {
       const files = await readAll(chosen(input), Files.mostBytes());
       input.value = "";
-      await viewer.openFiles(files);
+      await viewer.give(files);
     } catch (error) {
       viewer.say(error.message);
     }

@@ -26,6 +26,8 @@ export class RoboHiveViewer extends HTMLElement {
   engine(): Promise<Engine>;
   /** Shows the model at `path` among files and archives, or the one nearest to the top. */
   openFiles(files: { path: string; bytes: Uint8Array }[], path?: string): Promise<void>;
+  /** Takes files as if they were dropped: a model, what it lacks, recorded states, or a policy. */
+  give(files: { path: string; bytes: Uint8Array }[]): Promise<void>;
   /** Shows a model or an archive by its address. */
   openUrl(address: string | URL, path?: string): Promise<void>;
   /** Lets time go by, or stops it. */

@@ -9,6 +9,7 @@
 // | `path` | which model of the archive |
 // | `own` | name of a model of our own |
 // | `environment`, `seed`, `policy` | an id, the seed of its first episode, the address of a policy made for RoboHive |
+// | `replay` | address of recorded states (`.npz`) that are shown instead of a simulation |
 // | `camera` | name of a camera |
 // | `running`, `paused` | whether time goes by: `paused` wins |
 // | `controls` | shows the panel of controls |
@@ -19,7 +20,7 @@
 // (`detail.body`), `record` (`detail.name`, `detail.bytes`; prevent the default to keep the file from being downloaded).
 
 import { instance, MissingFiles, openFiles, openUrl } from "./api.js";
-import { bytesOf, chosen, download, dropped, readAll } from "./files.js";
+import { bytesAt, chosen, download, dropped, isTrajectory, readAll } from "./files.js";
 import { Film } from "./film.js";
 import { listen } from "./gestures.js";
 import { build } from "./look.js";
@@ -38,7 +39,7 @@ const LEFT = 256 << 20;
 
 /** A simulation in a page. */
 export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
-  static observedAttributes = ["src", "path", "own", "environment", "seed", "policy", "camera", "running", "paused", "controls", "bare"];
+  static observedAttributes = ["src", "path", "own", "environment", "seed", "policy", "replay", "camera", "running", "paused", "controls", "bare"];
 
   /** The engine's `Simulation`, or nothing yet. */
   simulation;
@@ -104,6 +105,11 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     return this.#open((engine) => this.#among(engine, files, path));
   }
 
+  /** Takes files (`{ path, bytes }`) as if they were dropped: a model, what it lacks, recorded states, or a policy. */
+  give(files) {
+    return this.#open((engine) => this.#sort(engine, files));
+  }
+
   /** Shows a model or an archive by its address. */
   openUrl(address, path) {
     return this.#open(async (engine) => {
@@ -163,6 +169,7 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     build(root);
     this.#part(".bar").hidden = this.hasAttribute("bare");
     root.addEventListener("click", (event) => this.#does(event.target.dataset?.does));
+    this.#part("[data-does=seek]").addEventListener("input", (event) => this.simulation?.seek(Number(event.target.value)));
     this.#part("[data-does=camera]").addEventListener("change", (event) => this.#camera(Number(event.target.value)));
     const models = this.#part("[data-does=path]");
     models.addEventListener("change", () => this.#open(() => this.#again([], models.value)));
@@ -230,8 +237,7 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
 
   async #environment(engine, id) {
     const address = this.getAttribute("policy");
-    const policy = address ? await bytesOf(await fetch(address), address, engine.Files.mostBytes()) : undefined;
-    if (address && !policy) throw new Error(`${address}: there is no such file`);
+    const policy = address ? await bytesAt(address, engine.Files.mostBytes()) : undefined;
     return this.#play(engine, id, policy);
   }
 
@@ -262,16 +268,27 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     list.hidden = models.length < 2;
   }
 
-  /** Files that a person gave: a policy for the environment that is shown, what a model lacks, or something new. */
+  /** Takes what a person gave. */
   #given(listed) {
-    return this.#open(async (engine) => {
-      const files = await readAll(await listed, engine.Files.mostBytes());
-      const environment = this.simulation?.isEnvironment && this.simulation.name;
-      if (environment && files.length === 1 && /\.(pickle|pkl)$/i.test(files[0].path)) return this.#play(engine, environment, files[0].bytes);
-      const lacking = !this.#part(".supply").hidden && this.#again;
-      const models = files.some(({ path }) => /\.(xml|urdf|mjcf|rhm|zip|mjz)$/i.test(path));
-      return lacking && !models ? lacking(files) : this.#among(engine, files);
-    });
+    return this.#open(async (engine) => this.#sort(engine, await readAll(await listed, engine.Files.mostBytes())));
+  }
+
+  /** Files by what they are: recorded states, a policy for the environment that is shown, what a model lacks, or something new. */
+  #sort(engine, files) {
+    const [first, ...more] = files;
+    const alone = this.simulation && first && !more.length;
+    if (alone && isTrajectory(first.path)) return this.#replay(first);
+    const environment = this.simulation?.isEnvironment && this.simulation.name;
+    if (environment && alone && /\.(pickle|pkl)$/i.test(first.path)) return this.#play(engine, environment, first.bytes);
+    const lacking = !this.#part(".supply").hidden && this.#again;
+    const models = files.some(({ path }) => /\.(xml|urdf|mjcf|rhm|zip|mjz)$/i.test(path));
+    return lacking && !models ? lacking(files) : this.#among(engine, files);
+  }
+
+  #replay({ path, bytes }) {
+    this.simulation.replay(path, bytes);
+    this.say();
+    this.#replays();
   }
 
   /** Shows what `make(engine)` opens, or why it cannot be opened. */
@@ -330,6 +347,8 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     const cameras = this.#part("[data-does=camera]");
     cameras.replaceChildren(...["free camera", ...simulation.cameras()].map((name, k) => new Option(name, k - 1)));
     this.#useCamera();
+    await this.#replayNamed(simulation);
+    this.#replays();
     const { Simulation } = await this.engine();
     if (simulation !== this.simulation) return;
     fill(this.#part(".side"), simulation, {
@@ -340,6 +359,25 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     this.#unfold(this.hasAttribute("controls"));
     this.run(this.#wantsToRun);
     if (simulation.warnings) console.info(simulation.warnings);
+  }
+
+  /** Shows the states that the attribute names. */
+  async #replayNamed(simulation) {
+    const address = this.getAttribute("replay");
+    if (!address) return;
+    const { Files } = await this.engine();
+    const bytes = await bytesAt(address, Files.mostBytes());
+    if (simulation === this.simulation) simulation.replay(address, bytes);
+  }
+
+  /** The slider through recorded states, where there are some. */
+  #replays() {
+    const slider = this.#part("[data-does=seek]");
+    const { states = 0 } = this.simulation ?? {};
+    slider.hidden = !states;
+    slider.max = Math.max(states - 1, 0);
+    this.#part("[data-does=record]").hidden = states > 0;
+    this.#changed();
   }
 
   #useCamera() {
@@ -439,8 +477,13 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
   #status(simulation) {
     const past = simulation.behind ? ` (−${simulation.behind})` : "";
     const speed = simulation.running && simulation.reachedSpeed ? `  ${simulation.reachedSpeed.toFixed(0)} %` : "";
+    const { states, state, difference } = simulation;
+    const slider = this.#part("[data-does=seek]");
+    if (slider.hidden === states > 0) this.#replays();
+    if (states && Number(slider.value) !== state) slider.value = state;
+    const beside = difference === undefined ? "" : `  ${difference.toExponential(1)} beside`;
     const kept = simulation.recording ? `  ${simulation.recorded} states recorded` : "";
-    const text = `${simulation.name}  ${simulation.time.toFixed(3)} s${past}${speed}  ${simulation.contacts} contacts${kept}`;
+    const text = `${simulation.name}  ${simulation.time.toFixed(3)} s${past}${speed}  ${simulation.contacts} contacts${kept}${beside}`;
     this.#part(".status").textContent = text;
     if (this.#part("[data-does=run]").textContent !== (simulation.running ? "Pause" : "Run")) this.#label();
     const cameras = this.#part("[data-does=camera]");

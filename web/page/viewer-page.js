@@ -2,7 +2,7 @@
 // neither. Links say what is open, as on the light page (page.js).
 
 import { MissingFiles, openFiles, openUrl } from "./api.js";
-import { bytesOf, chosen, download, dropped, readAll } from "./files.js";
+import { bytesAt, chosen, download, dropped, isTrajectory, readAll } from "./files.js";
 
 /** Milliseconds between looks at what the window says. */
 const LOOK = 500;
@@ -82,14 +82,15 @@ class Window {
       const [model, environment] = [names.get("model"), names.get("environment")];
       if (environment) {
         const address = names.get("policy");
-        const policy = address ? await bytesOf(await fetch(address), address, this.module.Files.mostBytes()) : undefined;
-        if (address && !policy) throw new Error(`${address}: there is no such file`);
+        const policy = address ? await bytesAt(address, this.module.Files.mostBytes()) : undefined;
         this.viewer.openEnvironment(environment, BigInt(names.get("seed") ?? 0), policy);
       } else if (this.module.ownModels().includes(model)) {
         this.viewer.openOwn(model);
       } else {
         await this.#reading(names.get("path") ?? undefined, (from) => openUrl(model, from));
       }
+      const replay = names.get("replay");
+      if (replay) this.viewer.replay(replay, await bytesAt(replay, this.module.Files.mostBytes()));
       const camera = names.get("camera");
       if (camera && !this.viewer.useCamera(camera)) throw new Error(`no camera's name contains ${camera}`);
       if (names.has("running") && !this.viewer.running) this.viewer.perform("Run or pause");
@@ -99,6 +100,7 @@ class Window {
   /** Opens files (`{ path, bytes }`): a model, or what the last one lacks. */
   open(files) {
     return this.#try(async () => {
+      if (files.length === 1 && isTrajectory(files[0].path)) return this.viewer.replay(files[0].path, files[0].bytes);
       const lacking = this.#lacking;
       const models = files.some(({ path }) => /\.(xml|urdf|mjcf|rhm|zip|mjz)$/i.test(path));
       if (lacking && !models) await this.#reading(lacking.path, (from) => openFiles(files, { ...from, files: lacking.files }));
@@ -170,12 +172,12 @@ class Plain {
   follow(names) {
     const model = names.get("model");
     if (model) names.set(this.module.ownModels().includes(model) ? "own" : "src", model);
-    for (const name of ["src", "own", "environment", "path", "camera", "seed", "policy", "running"])
+    for (const name of ["src", "own", "environment", "path", "camera", "seed", "policy", "replay", "running"])
       names.has(name) ? this.viewer.setAttribute(name, names.get(name)) : this.viewer.removeAttribute(name);
   }
 
   open(files) {
-    return this.viewer.openFiles(files);
+    return this.viewer.give(files);
   }
 }
 

@@ -117,13 +117,41 @@ falling.running = true;
 const advanced = falling.advance(0.1, 10_000);
 assert.equal(falling.recorded, 10 + advanced);
 const rows = 10 + advanced;
-assert.match(Buffer.from(falling.endRecording().slice(0, 4)).toString("latin1"), /^PK/);
+const kept = falling.qpos;
+assert.throws(() => falling.replay("states.npz", bytes("PK")), /end the recording first/);
+const recorded = falling.endRecording();
 assert.throws(() => falling.endRecording(), /nothing is recorded/);
 env.record();
 env.resetTo(1n);
 env.act(new Float64Array(bounds.length / 2));
 assert.equal(env.recorded, 1);
 assert.ok(rows > 10);
+
+// Recorded states are shown again, a second recording beside the first.
+const again = Simulation.own("pile");
+again.replay("states.npz", recorded);
+assert.deepEqual([again.states, again.state, again.difference], [rows, 0, undefined]);
+again.seek(rows - 2);
+assert.equal(again.step(1), 1);
+assert.equal(again.state, rows - 1);
+const last = again.qpos;
+again.endReplay();
+assert.equal(again.states, 0);
+assert.equal(again.step(1), 1);
+assert.ok(again.qpos.every((value, k) => Math.abs(value - kept[k]) < 1e-9), "it goes on from the last recorded state");
+assert.ok(last.some((value, k) => value !== kept[k]));
+const other = Simulation.own("pile");
+const lifted = other.qpos;
+lifted[2] += 0.25;
+other.write("qpos", lifted);
+other.record();
+other.step(rows);
+again.replay("first.npz", recorded);
+again.replay("second.npz", other.endRecording());
+again.seek(0);
+assert.ok(Math.abs(again.difference - 0.25) < 1e-12, `${again.difference}`);
+assert.throws(() => Simulation.own("elbow").replay("states.npz", recorded), /states\.npz[^]*another model|states\.npz/);
+assert.throws(() => again.replay("broken.npz", bytes("PK\u0003\u0004 and no more")), /broken\.npz/);
 
 // Files from the disk, from a function, without their folders, and in archives.
 const place = await mkdtemp(join(tmpdir(), "robohive-"));

@@ -128,10 +128,28 @@ async function window(way) {
   await page.waitForFunction(() => /pile, paused at/.test(document.getElementById("status").textContent));
   await drawn(page, "pile");
 
+  await replays(page);
   await files(page);
   await lost(page, way);
   assert.deepEqual(complaints, []);
   await browser.close();
+}
+
+/** Recorded states in place of a simulation, as the light page records them. */
+async function replays(page) {
+  const recorded = await page.evaluate(async () => {
+    const { load } = await import("./api.js");
+    const simulation = (await load()).Simulation.own("pile");
+    simulation.record();
+    simulation.step(40);
+    return [...simulation.endRecording()];
+  });
+  await go(page, "model=pile");
+  await page.locator("#files").setInputFiles({ name: "states.npz", mimeType: "application/zip", buffer: Buffer.from(recorded) });
+  await page.waitForFunction(() => robohive.viewer.perform("One step forward") && robohive.viewer.time > 0.07, null, { timeout: PATIENCE });
+  assert.equal(await page.evaluate(() => (robohive.viewer.step(100), robohive.viewer.time)), await page.evaluate(() => robohive.viewer.time), "it ends at the last state");
+  assert.equal(await message(page), "");
+  await drawn(page, "pile");
 }
 
 /** A model in parts: what is missing is listed, and added. What is broken is said. */

@@ -31,7 +31,10 @@ _Texts = tuple[int | None, int | None, str | None, str | None]
 def take_settings(window: _windows.Window, model: MjModel, settings: list[tuple[str, str, list[float]]]) -> None:
     """Writes options of the physics and visual settings that a person has changed in a window."""
     for group, name, values in settings:
-        model._set_setting(group, name, values)
+        if len(values) == 1:
+            model._set_setting(group, name, values[0])
+        else:
+            model._array(f"{group}.{name}")[...] = values
     if settings:
         window.agrees(model)
 
