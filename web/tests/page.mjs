@@ -137,8 +137,9 @@ await page.waitForFunction(() => document.querySelector("robohive-viewer").simul
 await part("[data-does=seek]").press("End");
 assert.ok(await state(({ simulation }) => simulation.state === simulation.states - 1 && simulation.time > 0.05));
 assert.equal(await message(), "");
-await opened("model=elbow&running");
+await opened("model=pile");
 await part("[data-does=seek]").waitFor({ state: "hidden" });
+await opened("model=elbow&running");
 const filmed = page.waitForEvent("download");
 await part("[data-does=film]").click();
 await page.waitForTimeout(1500);
