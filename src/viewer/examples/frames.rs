@@ -6,7 +6,7 @@
 use eframe::egui::{Context, RawInput};
 use eframe::egui_wgpu::{RenderState, RendererOptions, wgpu};
 use pollster::block_on;
-use robohive_viewer::window::{Painters, setup};
+use robohive_viewer::window::{Channel, Painters, setup};
 use robohive_viewer::{Command, Scenery, Session, load_own, own_models};
 use std::error::Error;
 use std::time::Instant;
@@ -56,7 +56,7 @@ fn rate(
         scenery.update(&session)?;
         let mut drawn = Ok(());
         let mut output = context.run_ui(RawInput::default(), |ui| {
-            drawn = painters.paint(ui.ctx(), &scenery, size).map(drop);
+            drawn = painters.paint(ui.ctx(), &scenery, Channel::Colours, size).map(drop);
         });
         output.textures_delta.clear();
         drawn?;
