@@ -17,8 +17,9 @@ from robohive.mujoco.pictures.view import MjvCamera, MjvOption
 
 _GROUPS = tuple(f"{kind}group" for kind in ("geom", "site", "joint", "tendon", "actuator", "flex", "skin"))
 _NAMES, _SHOWN = _windows.effect_names()
+_FLAGS = {row[0].casefold(): place for place, row in enumerate(mjRNDSTRING)}
 #: Places of the window's effects among the flags of a scene.
-_EFFECTS = [[row[0] for row in mjRNDSTRING].index(name) for name in _NAMES]
+_EFFECTS = [_FLAGS[name.casefold()] for name in _NAMES]
 
 
 def sight(cam: MjvCamera, opt: MjvOption, flags: NDArray[np.uint8] | None) -> dict[str, Any]:
@@ -30,7 +31,7 @@ def sight(cam: MjvCamera, opt: MjvOption, flags: NDArray[np.uint8] | None) -> di
         "free": None if free is None else {**free, "lookat": [float(x) for x in cam.lookat]},
         "groups": [[bool(x) for x in getattr(opt, kind)] for kind in _GROUPS],
         "show": [bool(x) for x in opt.flags[:_SHOWN]],
-        "effects": [name != "Fog" for name in _NAMES] if flags is None else [bool(flags[place]) for place in _EFFECTS],
+        "effects": [mjRNDSTRING[place][1] == "1" if flags is None else bool(flags[place]) for place in _EFFECTS],
         "label": int(opt.label),
         "frame": int(opt.frame),
         "tree_depth": int(opt.bvh_depth),
