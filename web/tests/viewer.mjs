@@ -206,7 +206,24 @@ async function plain() {
   console.log("neither: the plain element draws");
 }
 
+/** What was loaded once is there without a network. */
+async function offline() {
+  const { browser, page } = await open("webgl2");
+  const kept = async () => {
+    for (const name of await caches.keys()) if (await (await caches.open(name)).match("viewer_bg.wasm")) return true;
+    return false;
+  };
+  await page.waitForFunction(kept, null, { timeout: PATIENCE });
+  await page.context().setOffline(true);
+  await page.reload();
+  await page.waitForFunction(() => globalThis.robohive, null, { timeout: PATIENCE });
+  assert.match(await page.evaluate(() => robohive.viewer.summary()), /^quadruped/);
+  await browser.close();
+  console.log("offline: the window opens");
+}
+
 await window("webgl2");
 await window("webgpu");
 await plain();
+await offline();
 host.close();
