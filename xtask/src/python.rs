@@ -20,7 +20,7 @@ const MINOR_VERSIONS: std::ops::RangeInclusive<u32> = 10..=14;
 const LARGEST_WHEEL: u64 = 20_000_000;
 
 /// Texts that the metadata of a wheel carry.
-const LICENCES: [&str; 2] = ["licenses/LICENSE", "licenses/THIRD_PARTY.md"];
+const LICENCES: [&str; 3] = ["licenses/LICENSE", "licenses/THIRD_PARTY.md", "licenses/FONTS.txt"];
 
 /// What a fresh environment does first with an installed wheel; prints how long the imports took \[ms\].
 const FIRST_STEP: &str = "

@@ -48,16 +48,27 @@ fn entries(list: &Value) -> impl Iterator<Item = &Value> {
 
 /// Texts of licences and notices in a folder.
 fn notices(folder: &Path) -> Result<Vec<String>, String> {
+    let is_notice = |name: &str| {
+        let name = name.to_uppercase();
+        ["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| name.starts_with(start))
+    };
+    let mut texts = texts(folder, is_notice)?;
+    // Fonts stand beside their licences.
+    let fonts = folder.join("fonts");
+    if fonts.is_dir() {
+        texts.extend(self::texts(&fonts, |name| name.ends_with(".txt"))?);
+    }
+    // The Apache licence stands in LICENSE once.
+    texts.retain(|text| !text.contains("Apache License"));
+    Ok(texts)
+}
+
+/// The files of a folder whose names are `wanted`, in order.
+fn texts(folder: &Path, wanted: impl Fn(&str) -> bool) -> Result<Vec<String>, String> {
     let wrong = |error| format!("{}: {error}", folder.display());
     let mut files: Vec<_> =
         fs::read_dir(folder).map_err(wrong)?.flatten().map(|entry| entry.path()).collect();
     files.sort();
-    files.retain(|path| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy().to_uppercase();
-        path.is_file()
-            && ["LICENSE", "LICENCE", "COPYING", "NOTICE"].iter().any(|start| name.starts_with(start))
-    });
-    // The Apache licence stands in LICENSE once.
-    let texts = files.iter().map(|path| fs::read_to_string(path).map_err(wrong));
-    texts.filter(|text| !text.as_ref().is_ok_and(|text| text.contains("Apache License"))).collect()
+    files.retain(|path| path.is_file() && wanted(&path.file_name().unwrap_or_default().to_string_lossy()));
+    files.iter().map(|path| fs::read_to_string(path).map_err(wrong)).collect()
 }
