@@ -16,11 +16,7 @@ pub fn replay(session: &mut Session, name: &str, archive: &[u8]) -> Result<(), J
     let archive =
         NpzReader::read(Cursor::new(archive)).map_err(|error| exception(format!("{name}: {error}")))?;
     let states = Trajectory::of_archive(name, &archive, session.model()).map_err(exception)?;
-    let shown = match session.replay() {
-        Some(_) => session.set_reference(Some(states)),
-        None => session.set_replay(Some(states)),
-    };
-    shown.map_err(exception)
+    session.add_trajectory(states).map_err(exception)
 }
 
 #[wasm_bindgen]

@@ -168,6 +168,19 @@ impl Viewer {
         })
     }
 
+    /// Id of the environment that is open; nothing where none is.
+    #[wasm_bindgen(getter)]
+    pub fn environment(&self) -> Result<Option<String>, JsError> {
+        let app = self.app()?;
+        Ok(app.opened().and_then(Session::play).map(|play| play.env().spec().id.clone()))
+    }
+
+    /// Seed of the episode that is open; 0 where none is.
+    #[wasm_bindgen(getter)]
+    pub fn seed(&self) -> Result<u64, JsError> {
+        Ok(self.app()?.opened().and_then(Session::play).map_or(0, |play| play.seed()))
+    }
+
     /// Hash of the state, in 16 hexadecimal digits. Every build computes the same.
     pub fn hash(&self) -> Result<String, JsError> {
         self.with(|session| format!("{:016x}", session.hash()))

@@ -5,8 +5,10 @@ export function isArchive(path, bytes) {
   return /\.(zip|mjz)$/i.test(path) || (bytes[0] === 0x50 && bytes[1] === 0x4b && bytes[2] === 3 && bytes[3] === 4);
 }
 
-/** Whether a file may hold recorded states, by its name. */
+/** What a file may hold, by its name: a model or an archive with one, recorded states, a policy. */
+export const isModel = (path) => /\.(xml|urdf|mjcf|rhm|zip|mjz)$/i.test(path);
 export const isTrajectory = (path) => /\.npz$/i.test(path);
+export const isPolicy = (path) => /\.(pickle|pkl)$/i.test(path);
 
 /** Says that something is too large. */
 function refuse(name, bytes, most) {

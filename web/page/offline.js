@@ -7,10 +7,17 @@ const VIEWER = [/* @VIEWER@ */];
 
 const keep = async (files, cache) => (await caches.open(VERSION)).addAll(files.map((file) => new Request(file, { cache })));
 
+/** Keeps those that are not kept yet: the module of the viewer is large. */
+async function keepMissing(files) {
+  const kept = await caches.open(VERSION);
+  const found = await Promise.all(files.map((file) => kept.match(file)));
+  await kept.addAll(files.filter((_, k) => !found[k]));
+}
+
 addEventListener("install", (event) => event.waitUntil(keep(FILES, "no-cache")));
 
 addEventListener("message", (event) => {
-  if (event.data === "viewer") event.waitUntil(keep(VIEWER, "default"));
+  if (event.data === "viewer") event.waitUntil(keepMissing(VIEWER));
 });
 
 addEventListener("activate", (event) => {

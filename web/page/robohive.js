@@ -20,7 +20,7 @@
 // (`detail.body`), `record` (`detail.name`, `detail.bytes`; prevent the default to keep the file from being downloaded).
 
 import { instance, MissingFiles, openFiles, openUrl } from "./api.js";
-import { bytesAt, chosen, download, dropped, isTrajectory, readAll } from "./files.js";
+import { bytesAt, chosen, download, dropped, isModel, isPolicy, isTrajectory, readAll } from "./files.js";
 import { Film } from "./film.js";
 import { listen } from "./gestures.js";
 import { build } from "./look.js";
@@ -279,10 +279,9 @@ export class RoboHiveViewer extends (globalThis.HTMLElement ?? Object) {
     const alone = this.simulation && first && !more.length;
     if (alone && isTrajectory(first.path)) return this.#replay(first);
     const environment = this.simulation?.isEnvironment && this.simulation.name;
-    if (environment && alone && /\.(pickle|pkl)$/i.test(first.path)) return this.#play(engine, environment, first.bytes);
+    if (environment && alone && isPolicy(first.path)) return this.#play(engine, environment, first.bytes);
     const lacking = !this.#part(".supply").hidden && this.#again;
-    const models = files.some(({ path }) => /\.(xml|urdf|mjcf|rhm|zip|mjz)$/i.test(path));
-    return lacking && !models ? lacking(files) : this.#among(engine, files);
+    return lacking && !files.some(({ path }) => isModel(path)) ? lacking(files) : this.#among(engine, files);
   }
 
   #replay({ path, bytes }) {

@@ -2,7 +2,7 @@
 // neither. Links say what is open, as on the light page (page.js).
 
 import { MissingFiles, openFiles, openUrl } from "./api.js";
-import { bytesAt, chosen, download, dropped, isTrajectory, readAll } from "./files.js";
+import { bytesAt, chosen, download, dropped, isModel, isPolicy, isTrajectory, readAll } from "./files.js";
 
 /** Milliseconds between looks at what the window says. */
 const LOOK = 500;
@@ -97,13 +97,16 @@ class Window {
     });
   }
 
-  /** Opens files (`{ path, bytes }`): a model, or what the last one lacks. */
+  /** Opens files (`{ path, bytes }`): recorded states, a policy for the environment, what a model lacks, or something new. */
   open(files) {
     return this.#try(async () => {
-      if (files.length === 1 && isTrajectory(files[0].path)) return this.viewer.replay(files[0].path, files[0].bytes);
+      const [first, ...more] = files;
+      const alone = first && !more.length;
+      if (alone && isTrajectory(first.path)) return this.viewer.replay(first.path, first.bytes);
+      const { environment, seed } = this.viewer;
+      if (alone && isPolicy(first.path) && environment) return this.viewer.openEnvironment(environment, seed, first.bytes);
       const lacking = this.#lacking;
-      const models = files.some(({ path }) => /\.(xml|urdf|mjcf|rhm|zip|mjz)$/i.test(path));
-      if (lacking && !models) await this.#reading(lacking.path, (from) => openFiles(files, { ...from, files: lacking.files }));
+      if (lacking && !files.some(({ path }) => isModel(path))) await this.#reading(lacking.path, (from) => openFiles(files, { ...from, files: lacking.files }));
       else await this.#reading(undefined, (from) => openFiles(files, from));
     });
   }

@@ -129,6 +129,7 @@ async function window(way) {
   await drawn(page, "pile");
 
   await replays(page);
+  await policies(page);
   await files(page);
   await lost(page, way);
   assert.deepEqual(complaints, []);
@@ -150,6 +151,16 @@ async function replays(page) {
   assert.equal(await page.evaluate(() => (robohive.viewer.step(100), robohive.viewer.time)), await page.evaluate(() => robohive.viewer.time), "it ends at the last state");
   assert.equal(await message(page), "");
   await drawn(page, "pile");
+}
+
+/** A policy is for the environment that is open; one that is none is refused. */
+async function policies(page) {
+  await go(page, "environment=hive/ElbowPose-v0&seed=3");
+  assert.deepEqual(await page.evaluate(() => [robohive.viewer.environment, String(robohive.viewer.seed)]), ["hive/ElbowPose-v0", "3"]);
+  await chosen(page, "pickle|policy", file("policy.pickle", "no pickle"));
+  assert.match(await page.evaluate(() => robohive.viewer.summary()), /ElbowPose/, "what was open stays");
+  await go(page, "model=pile");
+  assert.equal(await page.evaluate(() => robohive.viewer.environment), undefined);
 }
 
 /** A model in parts: what is missing is listed, and added. What is broken is said. */

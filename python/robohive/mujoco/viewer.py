@@ -37,9 +37,11 @@ def launch(
     show_left_ui: bool = True,
     show_right_ui: bool = True,
 ) -> None:
-    """Opens a window in which time goes by, and returns when it is closed: of a model, which begins in the state of `data`, and
-    whose last state `data` has afterwards; of what `loader` returns, which is called again for every reload; or of nothing,
-    until a file is dropped on it. With callbacks of physics (`set_mjcb_control` …) it goes by in this process, which calls them.
+    """Opens a window that simulates, and returns when it is closed.
+
+    With a model the simulation starts from `data`, and `data` holds its last state when the window is closed. With a loader, the
+    window shows the model that it returns and calls it again for each reload. With neither, the window is empty until a file is
+    dropped on it. With callbacks of physics (`set_mjcb_control` …) it goes by in this process, which calls them.
 
     Raises:
         FatalError: no window can be opened, or it was lost.

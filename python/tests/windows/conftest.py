@@ -14,7 +14,7 @@ def virtual(tmp_path_factory):
         pytest.skip("there is no Xvfb: apt-get install xvfb")
     folder = tmp_path_factory.mktemp("display")
     ready, told = os.pipe()
-    # Without -noreset it starts anew whenever its last window is closed, and refuses those that open meanwhile.
+    # Without -noreset, Xvfb resets when its last client disconnects, and refuses connections during the reset.
     arguments = ["-noreset", "-nolisten", "tcp", "-screen", "0", "1280x1024x24", "-fbdir", str(folder), "-displayfd", str(told)]
     server = subprocess.Popen(["Xvfb", *arguments], pass_fds=[told], stderr=subprocess.DEVNULL)
     os.close(told)

@@ -42,6 +42,17 @@ impl Session {
         Ok(())
     }
 
+    /// Shows a trajectory instead of simulating; where one is shown already, draws this one beside it.
+    ///
+    /// # Errors
+    /// Its states are of another model; the session stays as it was.
+    pub fn add_trajectory(&mut self, trajectory: Trajectory) -> Result<(), ForeignTrajectory> {
+        match self.replay {
+            Some(_) => self.set_reference(Some(trajectory)),
+            None => self.set_replay(Some(trajectory)),
+        }
+    }
+
     /// Goes to a recorded state, or to the last one; the simulation pauses. Without a replay nothing happens.
     pub fn seek(&mut self, row: usize) {
         self.running = false;

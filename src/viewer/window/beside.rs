@@ -41,12 +41,7 @@ impl App {
         };
         let session = &mut opened.session;
         let states = trajectory(path, session)?;
-        let shown = if session.replay().is_some() {
-            session.set_reference(Some(states))
-        } else {
-            session.set_replay(Some(states))
-        };
-        shown.map_err(|error| error.to_string())
+        session.add_trajectory(states).map_err(|error| error.to_string())
     }
 
     /// Writes what a menu offers.

@@ -26,9 +26,12 @@ impl App {
         let Some(program) = &mut self.program else { return };
         (self.shows_left, self.shows_right) = (opening.left, opening.right);
         context.send_viewport_cmd(ViewportCommand::Title(opening.title.clone()));
-        match program.open(opening) {
-            Ok(opened) => (self.opened, self.trouble) = (opened, None),
-            Err(why) => self.trouble = Some(why),
+        match program.open(opening).transpose() {
+            Some(opened) => self.take(opened),
+            None => {
+                self.end_film();
+                (self.opened, self.trouble) = (None, None);
+            }
         }
         if let Some(path) = &opening.file {
             self.open(Source::File(PathBuf::from(path)));

@@ -27,8 +27,12 @@ impl Recording {
         recording.meta =
             serde_json::from_slice(&meta).map_err(|error| recording.error(&error.to_string()))?;
         let recorded = |key: &str| recording.meta["scene"][key].as_str();
-        let effects: Vec<Effect> =
-            serde_json::from_value(recording.meta["scene"]["effects"].clone()).unwrap_or_default();
+        let effects: Vec<Effect> = match &recording.meta["scene"]["effects"] {
+            // Recordings from before there were effects name none.
+            Value::Null => Vec::new(),
+            named => serde_json::from_value(named.clone())
+                .map_err(|error| recording.error(&format!("effects: {error}")))?,
+        };
         let same = recorded("file") == Some(&scene.file) && recorded("camera") == scene.camera.as_deref();
         if !same || effects != scene.effects {
             return Err(recording
