@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 27] = [
+const ORDER: [(&str, &[&str]); 30] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -32,6 +32,9 @@ const ORDER: [(&str, &[&str]); 27] = [
     ("robohive-encoders", &["dataset"]),
     ("robohive-mjcf", &["physics"]),
     ("robohive-robot", &["physics", "random"]),
+    ("robohive-protocol", &[]),
+    ("robohive-wire", &["physics", "protocol", "random", "robot"]),
+    ("robohive-hardware", &["protocol", "robot"]),
     ("robohive-render", &["physics"]),
     ("robohive-render-gpu", &["physics", "render"]),
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
@@ -75,6 +78,8 @@ const ORDER: [(&str, &[&str]); 27] = [
             "random",
             "store",
             "robot",
+            "wire",
+            "hardware",
             "library",
             "render",
             "render_gpu",
@@ -93,7 +98,7 @@ const ORDER: [(&str, &[&str]); 27] = [
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 16] = [
+const OTHERS: [(&str, &[&str]); 19] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
     ("robohive-dataset", &["zip", "flate2"]),
@@ -107,6 +112,9 @@ const OTHERS: [(&str, &[&str]); 16] = [
     ("robohive-encoders", &["libm", "ndarray", "rayon", "serde", "serde_json", "zip"]),
     ("robohive-mjcf", &["roxmltree", "fdeflate"]),
     ("robohive-robot", &["toml"]),
+    ("robohive-protocol", &[]),
+    ("robohive-wire", &["rustix"]),
+    ("robohive-hardware", &["serial2"]),
     ("robohive-render", &["font8x8", "rayon", "wide"]),
     ("robohive-render-gpu", &["bytemuck", "pollster", "wgpu"]),
     ("robohive-env", &["rayon", "serde", "toml"]),
@@ -141,6 +149,9 @@ fn crates_depend_on_those_before_them() {
         "random",
         "store",
         "robot",
+        "protocol",
+        "wire",
+        "hardware",
         "env",
         "validation",
         "video",

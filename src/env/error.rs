@@ -71,6 +71,8 @@ pub enum EnvError {
     },
     /// A step after the end of an episode that only a reset can continue.
     NeedsReset,
+    /// The surroundings of a robot that is hardware could not be prepared for an episode: why.
+    NotReady(String),
     /// Physics refuses the state.
     Physics(StepError),
     /// The robot's configuration is malformed.
@@ -157,6 +159,7 @@ impl fmt::Display for EnvError {
             EnvError::NeedsReset => {
                 write!(f, "physics refused the last step, which ended the episode: reset first")
             }
+            EnvError::NotReady(why) => write!(f, "the episode cannot begin: {why}"),
             EnvError::Physics(error) => write!(f, "{error}"),
             EnvError::Config(error) => write!(f, "{error}"),
             EnvError::Edit(error) => write!(f, "{error}"),

@@ -48,7 +48,9 @@ pub use crate::assets::{AssetError, Assets, Folder, OwnModels};
 pub use draws::{Ranges, Rng};
 #[doc(hidden)]
 pub use environment::Injected;
-pub use environment::{Env, EnvMemory, EnvState, Options, PathReward, Step, WorldState};
+pub use environment::{
+    Env, EnvMemory, EnvState, Hardware, NotReady, Options, PathReward, Ready, Step, WorldState,
+};
 pub use error::{EnvError, panic_text};
 pub use pictures::eyes::{Exteroception, Image, Pixels};
 pub use pictures::network::{Network, NetworkError, Networks, NoNetworks};

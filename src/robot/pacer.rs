@@ -10,6 +10,16 @@ pub trait Clock {
     fn wait(&mut self, seconds: f64);
 }
 
+impl<C: Clock + ?Sized> Clock for Box<C> {
+    fn now(&mut self) -> f64 {
+        (**self).now()
+    }
+
+    fn wait(&mut self, seconds: f64) {
+        (**self).wait(seconds);
+    }
+}
+
 /// The machine's clock; it waits by sleeping.
 #[derive(Clone, Copy, Debug)]
 pub struct WallClock {

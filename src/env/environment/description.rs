@@ -1,6 +1,7 @@
 //! What an environment tells of itself: its current state, and how it is set.
 
-use super::env::{Env, action_bounds};
+use super::env::Env;
+use super::parts::action_bounds;
 use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::pictures::visual::VisualKey;

@@ -1,7 +1,8 @@
 //! An environment: a robot in a world, with a task.
 
+use super::hardware::Live;
 use super::options::Options;
-use super::parts::{build_robot, initial_pose, load, read_config};
+use super::parts::{action_bounds, build_robot, initial_pose, load, read_config};
 use crate::assets::Assets;
 use crate::draws::Rng;
 use crate::error::EnvError;
@@ -58,6 +59,8 @@ pub struct Env {
     pub(crate) compat: Compat,
     pub(crate) task: Box<dyn Task>,
     pub(crate) robot: Robot,
+    /// The robot is hardware, which the scene mirrors.
+    pub(crate) live: Option<Live>,
     pub(crate) rng: Rng,
     pub(crate) initial: Pose,
     pub(crate) scene: Scene,
@@ -129,7 +132,11 @@ impl Env {
         let mut scene = Scene::new(loaded.model)?;
         scene.data.autoreset = options.autoreset;
         let mut rng = Rng::pcg64(options.seed);
-        let config = read_config(&spec, &settings, assets)?;
+        let hardware = options.hardware.as_ref();
+        let config = match hardware.and_then(|hardware| hardware.config.clone()) {
+            Some(config) => Some(config),
+            None => read_config(&spec, &settings, assets)?,
+        };
         let mut setup = Setup {
             spec: &spec,
             assets,
@@ -140,7 +147,7 @@ impl Env {
         };
         let task = task.build(own, &mut setup)?;
         let defaults = task.defaults();
-        let robot = build_robot(&spec, &settings, config.as_ref(), &scene.model, options.compat)?;
+        let robot = build_robot(&spec, &settings, config.as_ref(), &scene.model, options.compat, hardware)?;
         let mut initial = initial_pose(&scene, settings.normalize_act);
         task.initial_pose(&scene, &mut initial)?;
         let weights = settings.weights().map_err(|message| spec.wrong(message))?;
@@ -171,6 +178,7 @@ impl Env {
             compat: options.compat,
             task,
             robot,
+            live: hardware.map(Live::new),
             rng,
             start: initial.clone(),
             initial,
@@ -195,7 +203,7 @@ impl Env {
 
     /// Learns the rows of the observation. The original takes a step with a zero action here, which hidden counters see.
     fn first_observation(&mut self) -> Result<(), EnvError> {
-        if self.compat == Compat::RoboHive07 {
+        if self.compat == Compat::RoboHive07 && self.live.is_none() {
             self.advance(&vec![0.0; self.scene.model.nu])??;
         }
         self.perceive(Past::Unknown)?;
@@ -239,6 +247,7 @@ impl Env {
             compat: self.compat,
             task: self.task.clone(),
             robot: self.robot.fork()?,
+            live: None,
             rng: self.rng.clone(),
             initial: self.initial.clone(),
             scene: self.scene.clone(),
@@ -279,7 +288,7 @@ impl Env {
     /// Starts an episode and returns its first observation. A seed restarts all draws first.
     ///
     /// # Errors
-    /// The task draws from an impossible range, or physics refuses the first state.
+    /// The task draws from an impossible range, or physics refuses the first state; devices that fail.
     pub fn reset(&mut self, seed: Option<u64>) -> Result<&[f64], EnvError> {
         if let Some(seed) = seed {
             self.seed(seed);
@@ -303,6 +312,11 @@ impl Env {
         self.scene.data.state.qvel.copy_from_slice(&self.start.qvel);
         self.scene.forward()?;
         self.robot.reset(&self.scene.model, &self.scene.data, &mut self.rng)?;
+        if let Some(live) = &mut self.live {
+            (live.ready)(&self.start.qpos).map_err(|error| EnvError::NotReady(error.to_string()))?;
+            live.begun = None;
+            live.pacer.start();
+        }
         let mut episode = Episode {
             scene: &mut self.scene,
             rng: &mut self.rng,
@@ -376,6 +390,10 @@ impl Env {
             self.robot.control(model, data, &self.action, dt)?
         };
         data.state.ctrl.copy_from_slice(control);
+        if let Some(live) = &mut self.live {
+            live.pacer.finish(dt);
+            return Ok(Ok(()));
+        }
         let robot = &mut self.robot;
         let tracks = robot.tracks_steps();
         let track = |data: &Data| {
@@ -393,8 +411,12 @@ impl Env {
     pub(crate) fn perceive(&mut self, past: Past) -> Result<(), StepError> {
         let Scene { model, data } = &mut self.scene;
         self.robot.sense(model, data, &mut self.rng);
-        // The original writes what it read into the simulation itself.
-        let written = self.compat == Compat::RoboHive07 && self.robot.write_readings(data);
+        // The original writes what it read into the simulation itself; hardware is all that there is to know.
+        let mirrors = self.compat == Compat::RoboHive07 || self.live.is_some();
+        let written = mirrors && self.robot.write_readings(data);
+        if let Some(live) = &mut self.live {
+            data.state.time -= *live.begun.get_or_insert(data.state.time);
+        }
         if past == Past::Unknown || written {
             self.scene.forward()?
         } else if past == Past::Advance {
@@ -408,7 +430,7 @@ impl Env {
     /// Computes the state as the last readings show it, where that is kept apart from the true one.
     pub(crate) fn observe_readings(&mut self) -> Result<(), StepError> {
         self.differs = false;
-        if self.compat == Compat::Fixed {
+        if self.compat == Compat::Fixed && self.live.is_none() {
             self.observed.state.clone_from(&self.scene.data.state);
             if self.robot.write_readings(&mut self.observed) {
                 physics::forward(&self.scene.model, &mut self.observed)?;
@@ -472,8 +494,4 @@ fn sight(defaults: &Defaults, options: &Options) -> Sight {
     shown.show.actuators = defaults.show_actuators;
     shown.show.activations = defaults.show_actuators;
     Sight::new(profile, shown, options.painters.clone())
-}
-
-pub(crate) fn action_bounds(scene: &Scene, normalized: bool, k: usize) -> [f64; 2] {
-    if normalized { [-1.0, 1.0] } else { scene.model.actuator_ctrlrange[k] }
 }

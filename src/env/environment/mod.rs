@@ -3,6 +3,7 @@
 mod description;
 mod drawing;
 mod env;
+mod hardware;
 mod images;
 mod look;
 mod memory;
@@ -12,6 +13,7 @@ mod paths;
 mod state;
 
 pub use env::{Env, Step};
+pub use hardware::{Hardware, NotReady, Ready};
 pub use memory::EnvMemory;
 pub use options::Options;
 pub use paths::PathReward;

@@ -1,5 +1,6 @@
 //! How an environment is made.
 
+use super::hardware::Hardware;
 use crate::arguments::Arguments;
 use crate::pictures::network::{Networks, NoNetworks};
 use crate::pictures::rendering::Rendering;
@@ -26,6 +27,8 @@ pub struct Options {
     /// A bad number in the physics resets it as MuJoCo does, in the middle of the episode, instead of ending that
     /// (`Data::autoreset`).
     pub autoreset: bool,
+    /// The robot's devices, if it is not simulated.
+    pub hardware: Option<Hardware>,
 }
 
 impl Default for Options {
@@ -38,6 +41,7 @@ impl Default for Options {
             networks: Arc::new(NoNetworks),
             painters: Arc::new(Cpu),
             autoreset: false,
+            hardware: None,
         }
     }
 }
@@ -54,6 +58,13 @@ impl Options {
     #[must_use]
     pub fn with_compat(mut self, compat: Compat) -> Self {
         self.compat = compat;
+        self
+    }
+
+    /// The robot's devices, if it is not simulated.
+    #[must_use]
+    pub fn with_hardware(mut self, hardware: Option<Hardware>) -> Self {
+        self.hardware = hardware;
         self
     }
 

@@ -1,5 +1,6 @@
 //! The parts that an environment is made of: model, robot, initial pose.
 
+use super::hardware::Hardware;
 use crate::assets::{AssetError, Assets, foreign_model, own_file, own_model};
 use crate::error::EnvError;
 use crate::scene::Scene;
@@ -58,13 +59,18 @@ pub(crate) fn build_robot(
     config: Option<&Config>,
     model: &Model,
     compat: Compat,
+    hardware: Option<&Hardware>,
 ) -> Result<Robot, EnvError> {
     let options = robot::Options::default()
         .with_mode(settings.action_mode().map_err(|message| spec.wrong(message))?)
         .with_normalized(settings.normalize_act)
         .with_noise_scale(settings.noise_scale)
-        .with_compat(compat);
-    Ok(Robot::new(model, config, options)?)
+        .with_compat(compat)
+        .with_hardware(hardware.is_some());
+    Ok(match hardware {
+        Some(hardware) => Robot::with_devices(model, config, options, &hardware.registry)?,
+        None => Robot::new(model, config, options)?,
+    })
 }
 
 /// The reference configuration; where actions are normalised, every hinge and slide that an actuator moves is in the
@@ -92,4 +98,9 @@ pub(crate) fn initial_pose(scene: &Scene, normalized: bool) -> Pose {
 /// Reads TOML from files of that extension, and RoboHive's literals from all others.
 fn parse_config(text: &str, path: &str) -> Result<Config, ConfigError> {
     if path.ends_with(".toml") { Config::from_toml(text, path) } else { Config::from_literal(text, path) }
+}
+
+/// What an action may be, of one actuator.
+pub(crate) fn action_bounds(scene: &Scene, normalized: bool, k: usize) -> [f64; 2] {
+    if normalized { [-1.0, 1.0] } else { scene.model.actuator_ctrlrange[k] }
 }

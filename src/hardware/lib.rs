@@ -1,0 +1,48 @@
+//! Drivers of real devices, behind the [`Device`](robot::Device) that a [`Robot`](robot::Robot) talks to.
+//!
+//! [`registry`] knows a driver for each `type` of interface that a robot's config may name; give it to
+//! [`Robot::with_devices`](robot::Robot::with_devices) with `Options::with_hardware(true)`, and the same robot moves the
+//! device instead of a simulation.
+//!
+//! | `type` | devices | page |
+//! |---|---|---|
+//! | `dynamixel` | Dynamixel servos with protocol 2.0 on a serial bus | [`dynamixel`] |
+//!
+//! # Safety
+//!
+//! A driver speaks its device's protocol and nothing else. Around each stands the same [`Guarded`] device, which
+//! - takes a lock, so that no second program commands the device;
+//! - moves nothing before [`Setup::armed`], and with [`Setup::dry_run`] says what it would send;
+//! - refuses commands that are no finite numbers, and keeps the others within [`Limits`] of value and rate;
+//! - begins from where the device stands, and moves to the start of an episode by minimum jerk;
+//! - watches, in a thread of its own, that commands and readings come: after [`Timeouts`] without one the device is in its
+//!   safe state, and stays there until the next reset;
+//! - makes the device safe when the robot is dropped, by a panic too;
+//! - keeps the last minutes in a [`recorder`] file, which a killed process leaves complete.
+//!
+//! # Real and virtual time
+//!
+//! A driver sees its device through a [`Port`](protocol::Port), and time through [`Setup`]'s clock. With the ports and the
+//! clock of `robohive-wire` a robot runs against simulated devices in virtual time, to the bit the same every time.
+
+mod driver;
+pub mod dynamixel;
+mod guard;
+mod parameters;
+mod port;
+pub mod recorder;
+mod registry;
+mod safety;
+mod service;
+mod setup;
+
+pub use driver::Driver;
+pub use guard::Guarded;
+pub use parameters::Parameters;
+pub use port::{Opener, Serial, serial_ports};
+pub use registry::registry;
+pub use safety::limits::Limits;
+pub use safety::lock::Lock;
+pub use safety::watchdog::Timeouts;
+pub use service::{Services, TendedClock};
+pub use setup::{Clocks, Setup};

@@ -1,0 +1,92 @@
+//! Parameters of an interface, as a driver reads them.
+
+use robot::{DeviceConfig, Fault, Value};
+use std::collections::BTreeMap;
+
+/// The entries of a device's interface that no driver has read yet. What is left when a driver has read all it knows is an
+/// error, so that a misspelt key is not ignored.
+#[derive(Clone, Debug)]
+pub struct Parameters {
+    left: BTreeMap<String, Value>,
+    known: Vec<&'static str>,
+}
+
+fn refused(key: &str, why: &str) -> Fault {
+    Fault::Refused(format!("the parameter '{key}' of its interface {why}"))
+}
+
+impl Parameters {
+    /// Those of a device.
+    pub fn new(config: &DeviceConfig) -> Parameters {
+        Parameters { left: config.interface.parameters.clone(), known: Vec::new() }
+    }
+
+    fn take(&mut self, key: &'static str) -> Option<Value> {
+        self.known.push(key);
+        self.left.remove(key).filter(|value| *value != Value::None)
+    }
+
+    /// A text.
+    ///
+    /// # Errors
+    /// The value is something else.
+    pub fn text(&mut self, key: &'static str) -> Result<Option<String>, Fault> {
+        match self.take(key) {
+            None => Ok(None),
+            Some(Value::Text(text)) => Ok(Some(text)),
+            Some(_) => Err(refused(key, "is not a text")),
+        }
+    }
+
+    /// A number within bounds, or `otherwise`.
+    ///
+    /// # Errors
+    /// The value is something else.
+    pub fn number(&mut self, key: &'static str, otherwise: f64, bounds: [f64; 2]) -> Result<f64, Fault> {
+        let value = match self.take(key) {
+            None => return Ok(otherwise),
+            Some(Value::Integer(value)) => value as f64,
+            Some(Value::Number(value)) => value,
+            Some(_) => return Err(refused(key, "is not a number")),
+        };
+        let [low, high] = bounds;
+        if (low..=high).contains(&value) {
+            Ok(value)
+        } else {
+            Err(refused(key, &format!("is {value}; it must be from {low} to {high}")))
+        }
+    }
+
+    /// A list of numbers.
+    ///
+    /// # Errors
+    /// The value is something else.
+    pub fn numbers(&mut self, key: &'static str) -> Result<Option<Vec<f64>>, Fault> {
+        let Some(value) = self.take(key) else { return Ok(None) };
+        let Value::List(items) = value else { return Err(refused(key, "is not a list of numbers")) };
+        let number = |item: &Value| match item {
+            Value::Integer(value) => Ok(*value as f64),
+            Value::Number(value) => Ok(*value),
+            _ => Err(refused(key, "is not a list of numbers")),
+        };
+        items.iter().map(number).collect::<Result<_, _>>().map(Some)
+    }
+
+    /// Takes keys that the original's drivers have and these do not need.
+    pub fn skip(&mut self, keys: &[&'static str]) {
+        for key in keys {
+            self.left.remove(*key);
+        }
+    }
+
+    /// Nothing may be left.
+    ///
+    /// # Errors
+    /// A key that the driver does not know, with those that it does.
+    pub fn finish(self) -> Result<(), Fault> {
+        match self.left.keys().next() {
+            None => Ok(()),
+            Some(key) => Err(refused(key, &format!("is not known; there are {}", self.known.join(", ")))),
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! What stands between a command and a device.
+
+pub(crate) mod limits;
+pub(crate) mod lock;
+pub(crate) mod watchdog;

@@ -1,0 +1,70 @@
+//! Work beside the caller's: watchdogs and control loops, in threads or on a clock.
+
+use robot::Clock;
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+
+/// How often a watchdog looks, in a thread or on a tended clock \[s\].
+pub(crate) const LOOK: f64 = 0.005;
+
+/// Work that goes on beside the caller's.
+pub(crate) trait Service: Send {
+    /// Does what is due at `now` \[s\].
+    fn tend(&mut self, now: f64);
+}
+
+/// Watchdogs and control loops that a clock runs.
+#[derive(Clone, Default)]
+pub struct Services(Arc<Mutex<Vec<Listed>>>);
+
+/// A service that ends with its device.
+type Listed = Weak<Mutex<dyn Service>>;
+
+impl Services {
+    pub(crate) fn add(&self, service: Listed) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(service);
+    }
+
+    /// Lets each do what is due at `now`; those that are gone are forgotten.
+    fn tend(&self, now: f64) {
+        let mut services = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        services.retain(|service| service.strong_count() > 0);
+        let due: Vec<_> = services.iter().filter_map(Weak::upgrade).collect();
+        drop(services);
+        for service in due {
+            service.lock().unwrap_or_else(PoisonError::into_inner).tend(now);
+        }
+    }
+}
+
+/// A clock that tends [`Services`] while it is waited for, as their threads would.
+pub struct TendedClock<C> {
+    clock: C,
+    services: Services,
+}
+
+impl<C: Clock> TendedClock<C> {
+    /// Runs `services` on `clock`.
+    pub fn new(clock: C, services: Services) -> Self {
+        TendedClock { clock, services }
+    }
+}
+
+impl<C: Clock> Clock for TendedClock<C> {
+    fn now(&mut self) -> f64 {
+        self.clock.now()
+    }
+
+    fn wait(&mut self, seconds: f64) {
+        let end = self.clock.now() + seconds;
+        loop {
+            let now = self.clock.now();
+            self.services.tend(now);
+            // Tending takes time too: it may talk to a device.
+            let left = end - self.clock.now();
+            if left <= 0.0 {
+                return;
+            }
+            self.clock.wait(left.min(LOOK));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! What drivers run with: what is allowed, and whose time it is.
+
+use crate::port::{Opener, Serial};
+use crate::service::Services;
+use protocol::Port;
+use robot::{Clock, WallClock};
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Makes a clock; all of them show the same time.
+pub type Clocks = Arc<dyn Fn() -> Box<dyn Clock + Send> + Send + Sync>;
+
+/// What drivers run with.
+#[derive(Clone)]
+#[non_exhaustive]
+pub struct Setup {
+    /// Devices may move.
+    pub armed: bool,
+    /// Devices are read, and told nothing; what they would be told is said instead.
+    pub dry_run: bool,
+    /// Where the last minutes are kept, one file a device; nowhere when `None`.
+    pub records: Option<PathBuf>,
+    /// Opens serial ports.
+    pub serial: Opener,
+    /// Time.
+    pub clocks: Clocks,
+    /// What a driver has to say to a person.
+    pub say: Arc<dyn Fn(&str) + Send + Sync>,
+    /// Watchdogs and control loops that a [`TendedClock`](crate::TendedClock) runs; `None` gives each a thread.
+    pub services: Option<Services>,
+    /// Whether other programs are kept from the same device.
+    pub locks: bool,
+}
+
+impl Default for Setup {
+    /// Real ports in real time. Nothing moves.
+    fn default() -> Self {
+        let start = WallClock::default();
+        Setup {
+            armed: false,
+            dry_run: false,
+            records: None,
+            serial: Arc::new(open_serial),
+            clocks: Arc::new(move || Box::new(start)),
+            say: Arc::new(|line| eprintln!("{line}")),
+            services: None,
+            locks: true,
+        }
+    }
+}
+
+fn open_serial(path: &str, baud: u32) -> io::Result<Box<dyn Port>> {
+    Ok(Box::new(Serial::open(path, baud)?))
+}
+
+impl Setup {
+    /// Devices in the time of `clock`, without threads and without locks: for simulated devices. What moves the time must be
+    /// a [`TendedClock`](crate::TendedClock) over the same [`Services`].
+    #[must_use]
+    pub fn in_virtual_time(mut self, clocks: Clocks, services: Services, serial: Opener) -> Self {
+        self.clocks = clocks;
+        self.services = Some(services);
+        self.serial = serial;
+        self.locks = false;
+        self
+    }
+
+    /// Whether devices may move.
+    #[must_use]
+    pub fn with_armed(mut self, armed: bool) -> Self {
+        self.armed = armed;
+        self
+    }
+
+    /// Whether devices are told nothing.
+    #[must_use]
+    pub fn with_dry_run(mut self, dry_run: bool) -> Self {
+        self.dry_run = dry_run;
+        self
+    }
+
+    /// Where the last minutes of each device are kept.
+    #[must_use]
+    pub fn with_records(mut self, folder: Option<PathBuf>) -> Self {
+        self.records = folder;
+        self
+    }
+}

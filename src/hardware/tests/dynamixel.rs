@@ -1,0 +1,315 @@
+//! A robot over simulated Dynamixel servos: the same motion as in simulation, and what its safety does.
+
+use protocol::Port;
+use protocol::dynamixel::{MODELS, address, hardware_error};
+use robohive_hardware::{Services, Setup, TendedClock, registry};
+use robot::{Clock, Config, Fault, Options, Robot, RobotError};
+use std::io;
+use std::sync::{Arc, Mutex};
+use wire::dynamixel::{Bus, Servo};
+use wire::{Bench, Carries, LinkId, Plant, Rates, Shared, VirtualClock, VirtualPort};
+
+const ARM: &str = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody>
+    <body><joint name='shoulder' axis='0 1 0' damping='.1' armature='.01'/>
+      <geom type='capsule' fromto='0 0 0 .2 0 0' size='.02' mass='.3'/>
+      <body pos='.2 0 0'><joint name='elbow' axis='0 1 0' damping='.1' armature='.01'/>
+        <geom type='capsule' fromto='0 0 0 .2 0 0' size='.02' mass='.2'/></body></body></worldbody>
+  <actuator><position name='shoulder' joint='shoulder' kp='20' kv='1'/>
+    <position name='elbow' joint='elbow' kp='10' kv='.5'/></actuator>
+  <sensor><jointpos name='shoulder_angle' joint='shoulder'/><jointpos name='elbow_angle' joint='elbow'/>
+    <jointvel name='elbow_speed' joint='elbow'/></sensor></mujoco>";
+
+fn config(extra: &str) -> Config {
+    let text = format!(
+        "[[device]]
+         name = 'arm'
+         interface = {{ type = 'dynamixel', name = 'bus0', reset_time = 1, {extra} }}
+         sensor = [{{ name = 'shoulder_angle', range = [-2, 2], hdr_id = 10, scale = 1, offset = -3.141592653589793 }},
+                   {{ name = 'elbow_angle', range = [-2, 2], hdr_id = 11, scale = -1, offset = 3.141592653589793 }},
+                   {{ name = 'elbow_speed', range = [-9, 9], hdr_id = 11, scale = -1 }}]
+         actuator = [{{ name = 'shoulder', pos_range = [-1, 1], vel_range = [-2, 2], hdr_id = 10, scale = 1, offset = 3.141592653589793 }},
+                     {{ name = 'elbow', pos_range = [-1, 1], vel_range = [-2, 2], hdr_id = 11, scale = -1, offset = 3.141592653589793 }}]"
+    );
+    Config::from_toml(&text, "arm.toml").expect("a sound config")
+}
+
+struct Rig {
+    model: physics::Model,
+    bench: Shared,
+    link: LinkId,
+    services: Services,
+    setup: Setup,
+    said: Arc<Mutex<Vec<String>>>,
+}
+
+impl Rig {
+    fn new(carries: Carries, prepare: impl FnOnce(&mut [Servo])) -> Rig {
+        let model = robohive_mjcf::load_str(ARM).expect("a sound model").model;
+        let plant = Plant::new(model.clone()).expect("a sound state");
+        let mut servos = Vec::new();
+        for (id, name, scale) in [(10, "shoulder", 1.0), (11, "elbow", -1.0)] {
+            let mut servo = Servo::new(&MODELS[0], id);
+            servo.mount(plant.motor(name).expect("an actuator"), scale, std::f64::consts::PI);
+            servos.push(servo);
+        }
+        prepare(&mut servos);
+        let mut bench = Bench::new(plant);
+        let link = bench.connect(Box::new(Bus::new(servos)), carries);
+        let bench = Arc::new(Mutex::new(bench));
+        let services = Services::default();
+        let (clocked, opened) = (bench.clone(), bench.clone());
+        let open = move |path: &str, _: u32| -> io::Result<Box<dyn Port>> {
+            if path != "bus0" {
+                return Err(io::Error::new(io::ErrorKind::NotFound, format!("there is no {path}")));
+            }
+            opened.lock().unwrap().set_connected(link, true);
+            Ok(Box::new(VirtualPort::new(opened.clone(), link)))
+        };
+        let said = Arc::new(Mutex::new(Vec::new()));
+        let heard = said.clone();
+        let mut setup = Setup::default().in_virtual_time(
+            Arc::new(move || Box::new(VirtualClock::new(clocked.clone()))),
+            services.clone(),
+            Arc::new(open),
+        );
+        setup.say = Arc::new(move |line| heard.lock().unwrap().push(line.to_owned()));
+        Rig { model, bench, link, services, setup: setup.with_armed(true), said }
+    }
+
+    fn robot(&self, config: &Config) -> Result<Robot, RobotError> {
+        let options = Options::default().with_hardware(true).with_normalized(false);
+        Robot::with_devices(&self.model, Some(config), options, &registry(&self.setup))
+    }
+
+    fn clock(&self) -> TendedClock<VirtualClock> {
+        TendedClock::new(VirtualClock::new(self.bench.clone()), self.services.clone())
+    }
+
+    fn positions(&self) -> [f64; 2] {
+        let bench = self.bench.lock().unwrap();
+        [bench.plant().position(0), bench.plant().position(1)]
+    }
+}
+
+/// What a policy might do: two sines.
+fn action(k: u32) -> [f64; 2] {
+    let t = f64::from(k) * 0.1;
+    [0.6 * t.sin(), 0.5 * (1.3 * t).cos() - 0.5]
+}
+
+#[test]
+fn the_same_policy_ends_within_quantisation_of_the_simulation() {
+    let rig = Rig::new(Carries::AT_ONCE, |_| {});
+    let config = config("profile_velocity = 0");
+    let model = rig.model.clone();
+    let mut rng = random::Generator::pcg64(1_u64);
+    let mut simulated = Robot::new(&model, Some(&config), Options::default().with_normalized(false)).unwrap();
+    let mut truth = physics::Data::new(&model);
+    physics::forward(&model, &mut truth).unwrap();
+    simulated.reset(&model, &truth, &mut rng).unwrap();
+
+    let mut hardware = rig.robot(&config).unwrap();
+    let mut mirror = truth.clone();
+    hardware.reset(&model, &mirror, &mut rng).unwrap();
+    rig.bench.lock().unwrap().plant_mut().place(&[0.0; 2], &[0.0; 2]).unwrap();
+    hardware.sense(&model, &mirror, &mut rng);
+    hardware.write_readings(&mut mirror);
+
+    let mut clock = rig.clock();
+    let mut worst = 0.0_f64;
+    for k in 0..100 {
+        let controls = simulated.control(&model, &truth, &action(k), 0.1).unwrap();
+        truth.state.ctrl.copy_from_slice(controls);
+        for _ in 0..50 {
+            physics::step(&model, &mut truth).unwrap();
+        }
+        physics::forward(&model, &mut truth).unwrap();
+        simulated.sense(&model, &truth, &mut rng);
+
+        hardware.control(&model, &mirror, &action(k), 0.1).unwrap();
+        clock.wait(0.1);
+        hardware.sense(&model, &mirror, &mut rng);
+        hardware.write_readings(&mut mirror);
+        for (a, b) in truth.state.qpos.iter().zip(&rig.positions()) {
+            worst = worst.max((a - b).abs());
+        }
+    }
+    hardware.close().unwrap();
+    // A unit of position is 1.5 mrad: half of it for the command, half for the reading that limits the velocity.
+    assert!(worst < 1.6e-3, "{worst}");
+    assert!(worst > 1e-5, "the servos quantise, so that something must differ");
+    assert!(truth.state.qpos[0].abs() > 0.05, "it moved");
+}
+
+#[test]
+fn nothing_moves_before_it_is_armed_and_a_dry_run_says_what_it_would_send() {
+    let mut rig = Rig::new(Carries::serial(1e6), |servos| {
+        // An earlier user left a goal far away.
+        servos[0].set_register(address::GOAL_POSITION, 3000);
+    });
+    let (config, model) = (config(""), rig.model.clone());
+    let mut rng = random::Generator::pcg64(1_u64);
+    let data = physics::Data::new(&model);
+    rig.setup.armed = false;
+    let mut robot = rig.robot(&config).unwrap();
+    let error = robot.reset(&model, &data, &mut rng).unwrap_err();
+    assert!(error.to_string().contains("nothing moves before it is armed"), "{error}");
+    rig.clock().wait(0.5);
+    let read = robot.sense(&model, &data, &mut rng).values[0];
+    assert!(read > 0.5 && (read - rig.positions()[0]).abs() < 0.02, "it falls, and can be read: {read}");
+    robot.close().unwrap();
+
+    rig.setup.dry_run = true;
+    let mut robot = rig.robot(&config).unwrap();
+    robot.reset(&model, &data, &mut rng).unwrap();
+    robot.control(&model, &data, &[0.5, 0.0], 0.1).unwrap();
+    rig.clock().wait(0.1);
+    robot.close().unwrap();
+    let said = rig.said.lock().unwrap();
+    assert!(said.last().unwrap().starts_with("arm: would be sent [3.3416"), "{:?}", said.last());
+    drop(said);
+    // The arm hangs without torque; nothing gave it any.
+    let bench = rig.bench.lock().unwrap();
+    assert_eq!(bench.plant().effort(0), 0.0);
+}
+
+#[test]
+fn an_old_goal_does_not_make_it_leap() {
+    let rig = Rig::new(Carries::serial(1e6), |servos| {
+        servos.iter_mut().for_each(|servo| servo.set_register(address::GOAL_POSITION, 4000));
+    });
+    let (config, model) = (config(""), rig.model.clone());
+    let mut rng = random::Generator::pcg64(1_u64);
+    let mut robot = rig.robot(&config).unwrap();
+    let data = physics::Data::new(&model);
+    // A reset to where the arm stands: it must stay there.
+    robot.reset(&model, &data, &mut rng).unwrap();
+    assert!(rig.positions().iter().all(|position| position.abs() < 0.25), "{:?}", rig.positions());
+    robot.close().unwrap();
+}
+
+#[test]
+fn silence_stops_it_and_a_reset_goes_on() {
+    let rig = Rig::new(Carries::serial(1e6), |_| {});
+    let (config, model) = (config(""), rig.model.clone());
+    let mut rng = random::Generator::pcg64(1_u64);
+    let mut robot = rig.robot(&config).unwrap();
+    let data = physics::Data::new(&model);
+    robot.reset(&model, &data, &mut rng).unwrap();
+    robot.control(&model, &data, &[0.8, 0.0], 1.0).unwrap();
+    let mut clock = rig.clock();
+    clock.wait(0.2);
+    robot.control(&model, &data, &[0.8, 0.0], 1.0).unwrap();
+    // The policy hangs. Within its quarter of a second and a look of the watchdog the arm is told to hold.
+    clock.wait(0.27);
+    let held = rig.positions();
+    let error = robot.control(&model, &data, &[0.8, 0.0], 1.0).unwrap_err();
+    assert!(error.to_string().contains("no command came for 0.25 s"), "{error}");
+    clock.wait(1.0);
+    let later = rig.positions();
+    assert!((held[0] - later[0]).abs() < 0.1, "{held:?} {later:?}");
+    robot.reset(&model, &data, &mut rng).unwrap();
+    robot.control(&model, &data, &[0.2, 0.0], 0.1).unwrap();
+    robot.close().unwrap();
+}
+
+#[test]
+fn the_servos_stop_by_themselves_when_the_process_is_killed() {
+    let rig = Rig::new(Carries::serial(1e6), |_| {});
+    let (config, model) = (config(""), rig.model.clone());
+    let mut rng = random::Generator::pcg64(1_u64);
+    let mut robot = rig.robot(&config).unwrap();
+    let data = physics::Data::new(&model);
+    robot.reset(&model, &data, &mut rng).unwrap();
+    robot.control(&model, &data, &[0.9, 0.0], 2.0).unwrap();
+    // Time that nobody tends: no watchdog of ours looks any more.
+    VirtualClock::new(rig.bench.clone()).wait(0.105);
+    let stopped = rig.positions();
+    VirtualClock::new(rig.bench.clone()).wait(1.0);
+    let later = rig.positions();
+    assert!((stopped[0] - later[0]).abs() < 0.1, "{stopped:?} {later:?}");
+    std::mem::forget(robot);
+}
+
+#[test]
+fn bad_commands_and_failing_hardware_are_named() {
+    let rig = Rig::new(Carries::serial(1e6), |_| {});
+    let (config, model) = (config(""), rig.model.clone());
+    let mut rng = random::Generator::pcg64(1_u64);
+    let mut robot = rig.robot(&config).unwrap();
+    let data = physics::Data::new(&model);
+    robot.reset(&model, &data, &mut rng).unwrap();
+    assert!(robot.control(&model, &data, &[f64::NAN, 0.0], 0.1).is_err());
+    robot.control(&model, &data, &[0.0, 0.0], 0.1).unwrap();
+    rig.bench.lock().unwrap().stop_button(true);
+    rig.clock().wait(0.3);
+    let error = robot.control(&model, &data, &[0.0, 0.0], 0.1).unwrap_err();
+    assert!(matches!(error, RobotError::Device { fault: Fault::Stale(60..=90), .. }), "{error:?}");
+    let error = robot.reset(&model, &data, &mut rng).unwrap_err().to_string();
+    assert!(error.contains("servo 10 does not answer at 1000000 baud on bus0"), "{error}");
+    rig.bench.lock().unwrap().stop_button(false);
+    robot.reset(&model, &data, &mut rng).unwrap();
+    robot.close().unwrap();
+
+    let wrong = Rig::new(Carries::AT_ONCE, |servos| {
+        servos[1].set_register(address::SHUTDOWN, 0x3F);
+        servos[1].break_down(hardware_error::OVERLOAD);
+        servos[1].set_register(address::ID, 12);
+    });
+    let error = wrong.robot(&config).err().unwrap().to_string();
+    assert!(error.contains("servo 11 does not answer"), "{error}");
+    for (extra, part) in [
+        ("baudrate = 5", "'baudrate' of its interface is not known; there are name, safe"),
+        ("baud = 1", "'baud' of its interface is 1; it must be from 9600 to 4500000"),
+        ("safe = 'sit'", "there are hold, off"),
+    ] {
+        let error = rig.robot(&self::config(extra)).err().unwrap().to_string();
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+#[test]
+fn a_thousand_seeded_faults_end_in_errors_or_in_motion_within_limits() {
+    let rates: Rates =
+        "drop=0.01,delay=0.01,reorder=0.01,duplicate=0.01,corrupt=0.02,truncate=0.01,stall=0.0005,disconnect=0.0005"
+            .parse()
+            .unwrap();
+    let (mut struck, mut episodes, mut errors, mut seed) = (0, 0, 0, 0);
+    while struck < 1000 {
+        seed += 1;
+        let rig = Rig::new(Carries::serial(1e6), |_| {});
+        let (config, model) = (config(""), rig.model.clone());
+        let mut rng = random::Generator::pcg64(seed);
+        let mut robot = rig.robot(&config).unwrap();
+        rig.bench.lock().unwrap().inject(rig.link, rates, seed);
+        let data = physics::Data::new(&model);
+        let mut clock = rig.clock();
+        for _ in 0..3 {
+            episodes += 1;
+            if robot.reset(&model, &data, &mut rng).is_err() {
+                errors += 1;
+                continue;
+            }
+            for k in 0..20 {
+                if robot.control(&model, &data, &action(k), 0.1).is_err() {
+                    errors += 1;
+                    break;
+                }
+                clock.wait(0.1);
+                robot.sense(&model, &data, &mut rng);
+                assert!(rig.positions().iter().all(|position| position.abs() < 1.3), "{:?}", rig.positions());
+            }
+        }
+        // Whatever happened, the arm comes to rest: held, or hanging where it never got torque.
+        let hits = rig.bench.lock().unwrap().struck(rig.link);
+        rig.bench.lock().unwrap().inject(rig.link, Rates::default(), 0);
+        robot.close().unwrap_or_default();
+        VirtualClock::new(rig.bench.clone()).wait(10.0);
+        let before = rig.positions();
+        VirtualClock::new(rig.bench.clone()).wait(0.5);
+        let after = rig.positions();
+        assert!((before[0] - after[0]).abs() < 0.01, "seed {seed}: {before:?} {after:?}");
+        struck += hits;
+    }
+    assert!(errors > 0 && errors < episodes, "{errors} of {episodes}");
+}

@@ -1,0 +1,18 @@
+//! Cyclic redundancy checks of 16 bits.
+
+/// CRC-16 with polynomial 0x8005, most significant bit first, from `crc` on: Dynamixel protocol 2.0 begins with 0.
+///
+/// ```
+/// let ping = [0xFF, 0xFF, 0xFD, 0x00, 0x01, 0x03, 0x00, 0x01];
+/// assert_eq!(robohive_protocol::crc::buypass(0, &ping), 0x4E19);
+/// ```
+pub fn buypass(crc: u16, bytes: &[u8]) -> u16 {
+    bytes.iter().fold(crc, |crc, &byte| {
+        (0..8).fold(
+            crc ^ u16::from(byte) << 8,
+            |crc, _| {
+                if crc & 0x8000 != 0 { crc << 1 ^ 0x8005 } else { crc << 1 }
+            },
+        )
+    })
+}

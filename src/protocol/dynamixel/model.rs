@@ -1,0 +1,233 @@
+//! What models of servos have in common, and in what they differ.
+
+use super::registers::{Register, TABLE, address};
+
+/// Positions of one turn of the output shaft.
+pub const POSITION_PER_TURN: f64 = 4096.0;
+
+/// Bits of the register "Hardware Error Status".
+pub mod hardware_error {
+    #![allow(missing_docs)]
+    pub const VOLTAGE: u8 = 1;
+    pub const HALL_SENSOR: u8 = 2;
+    pub const HEAT: u8 = 4;
+    pub const ENCODER: u8 = 8;
+    pub const ELECTRICAL: u8 = 16;
+    pub const OVERLOAD: u8 = 32;
+
+    const NAMES: [(u8, &str); 6] = [
+        (VOLTAGE, "input voltage out of range"),
+        (HALL_SENSOR, "motor's Hall sensor"),
+        (HEAT, "overheating"),
+        (ENCODER, "encoder"),
+        (ELECTRICAL, "electrical shock"),
+        (OVERLOAD, "overload"),
+    ];
+
+    /// The bits in words.
+    pub fn describe(bits: u8) -> String {
+        let words: Vec<_> = NAMES.iter().filter(|(bit, _)| bits & bit != 0).map(|(_, word)| *word).collect();
+        if words.is_empty() { format!("unknown ({bits:#04x})") } else { words.join(", ") }
+    }
+}
+
+/// Operating modes, as the register says them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Mode {
+    /// Goal current.
+    Current = 0,
+    /// Goal velocity.
+    Velocity = 1,
+    /// Goal position within one turn.
+    Position = 3,
+    /// Goal position over 256 turns each way.
+    ExtendedPosition = 4,
+    /// Goal position with the goal current as its limit.
+    CurrentPosition = 5,
+    /// Goal PWM.
+    Pwm = 16,
+}
+
+impl Mode {
+    /// The mode of a register's value.
+    pub fn of(value: u8) -> Option<Mode> {
+        [
+            Mode::Current,
+            Mode::Velocity,
+            Mode::Position,
+            Mode::ExtendedPosition,
+            Mode::CurrentPosition,
+            Mode::Pwm,
+        ]
+        .into_iter()
+        .find(|mode| *mode as u8 == value)
+    }
+}
+
+/// A model of servo with protocol 2.0.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Model {
+    /// Name.
+    pub name: &'static str,
+    /// What the register "Model Number" says.
+    pub number: u16,
+    /// Modes.
+    pub modes: &'static [Mode],
+    /// One unit of current \[A\]; `None` where the servo measures load (0.1 % of the largest torque) instead.
+    pub current_unit: Option<f64>,
+    /// Torque \[N m\] and current \[A\] when it is held fast at its nominal voltage.
+    pub stall: [f64; 2],
+    /// Registers whose value after a factory reset is not the XM430-W350's.
+    initial: &'static [(u16, i64)],
+}
+
+const ALL_MODES: &[Mode] = &[
+    Mode::Current,
+    Mode::Velocity,
+    Mode::Position,
+    Mode::ExtendedPosition,
+    Mode::CurrentPosition,
+    Mode::Pwm,
+];
+const WITHOUT_CURRENT: &[Mode] = &[Mode::Velocity, Mode::Position, Mode::ExtendedPosition, Mode::Pwm];
+
+/// Models that are known; the e-Manual's page of each is the source.
+pub const MODELS: [Model; 7] = [
+    Model {
+        name: "XM430-W350",
+        number: 1020,
+        modes: ALL_MODES,
+        current_unit: Some(2.69e-3),
+        stall: [4.1, 2.3],
+        initial: &[],
+    },
+    Model {
+        name: "XL430-W250",
+        number: 1060,
+        modes: WITHOUT_CURRENT,
+        current_unit: None,
+        stall: [1.5, 1.4],
+        initial: &[
+            (34, 65),
+            (32, 120),
+            (address::TEMPERATURE_LIMIT, 72),
+            (address::VELOCITY_LIMIT, 265),
+            (84, 640),
+            (80, 4000),
+        ],
+    },
+    Model {
+        name: "XL330-M288",
+        number: 1200,
+        modes: ALL_MODES,
+        current_unit: Some(1e-3),
+        stall: [0.52, 1.47],
+        initial: XL330,
+    },
+    Model {
+        name: "XL330-M077",
+        number: 1190,
+        modes: ALL_MODES,
+        current_unit: Some(1e-3),
+        stall: [0.215, 1.47],
+        initial: XL330,
+    },
+    Model {
+        name: "MX-28(2.0)",
+        number: 30,
+        modes: WITHOUT_CURRENT,
+        current_unit: None,
+        stall: [2.5, 1.4],
+        initial: &[],
+    },
+    Model {
+        name: "MX-64(2.0)",
+        number: 311,
+        modes: ALL_MODES,
+        current_unit: Some(3.36e-3),
+        stall: [6.0, 4.1],
+        initial: &[],
+    },
+    Model {
+        name: "MX-106(2.0)",
+        number: 321,
+        modes: ALL_MODES,
+        current_unit: Some(3.36e-3),
+        stall: [8.4, 5.2],
+        initial: &[],
+    },
+];
+
+const XL330: &[(u16, i64)] = &[
+    (32, 70),
+    (34, 35),
+    (address::TEMPERATURE_LIMIT, 70),
+    (address::CURRENT_LIMIT, 1750),
+    (address::VELOCITY_LIMIT, 445),
+    (address::SHUTDOWN, 53),
+    (84, 400),
+    (address::PRESENT_VOLTAGE, 50),
+];
+
+/// The model of this number.
+pub fn model(number: u16) -> Option<&'static Model> {
+    MODELS.iter().find(|model| model.number == number)
+}
+
+impl Model {
+    /// One unit of velocity \[rad/s\]: 0.229 turns a minute.
+    pub const VELOCITY_UNIT: f64 = 0.229 / 60.0 * std::f64::consts::TAU;
+    /// One unit of "Profile Acceleration" \[rad/s²\]: 214.577 turns a minute, each minute.
+    pub const ACCELERATION_UNIT: f64 = 214.577 / 3600.0 * std::f64::consts::TAU;
+    /// One unit of position \[rad\].
+    pub const POSITION_UNIT: f64 = std::f64::consts::TAU / POSITION_PER_TURN;
+    /// One unit of "Return Delay Time" \[s\].
+    pub const DELAY_UNIT: f64 = 2e-6;
+    /// One unit of "Bus Watchdog" \[s\].
+    pub const WATCHDOG_UNIT: f64 = 0.02;
+
+    /// Torque of one ampere \[N m/A\], from those at stall.
+    pub fn torque_constant(&self) -> f64 {
+        self.stall[0] / self.stall[1]
+    }
+
+    /// Its registers, sorted by address.
+    pub fn registers(&self) -> impl Iterator<Item = Register> + '_ {
+        TABLE.into_iter().map(|register| {
+            let own = self.initial.iter().find(|(address, _)| *address == register.address);
+            let initial = match register.address {
+                address::MODEL_NUMBER => i64::from(self.number),
+                _ => own.map_or(register.initial, |(_, value)| *value),
+            };
+            Register { initial, ..register }
+        })
+    }
+
+    /// The register that has the byte at this address.
+    pub fn register(&self, address: u16) -> Option<Register> {
+        self.registers().find(|r| (r.address..r.address + r.size).contains(&address))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn registers_do_not_overlap_and_their_values_fit() {
+        for model in MODELS {
+            let mut end = 0;
+            for register in model.registers() {
+                assert!(register.address >= end, "{} of {}", register.name, model.name);
+                end = register.address + register.size;
+                let [low, high] = register.range;
+                assert!((low..=high).contains(&register.initial), "{} of {}", register.name, model.name);
+            }
+            assert!(end <= address::INDIRECT_ADDRESS);
+            assert!(
+                model.initial.iter().all(|(at, _)| model.register(*at).is_some_and(|r| r.address == *at))
+            );
+        }
+    }
+}

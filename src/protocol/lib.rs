@@ -1,0 +1,18 @@
+//! What devices of robots say on the wire: packets as bytes, control tables, checksums, and the ports that carry them.
+//!
+//! Everything here is pure: nothing is opened, no clock is read, nothing is drawn. Drivers (`robohive-hardware`) and the
+//! simulated devices that they are proven against (`robohive-wire`) share these layouts, so each has one place. That both
+//! sides read a document the same way does not prove that it was read right; the tests of `robohive-wire` therefore let
+//! clients written by other people talk to the simulated devices.
+//!
+//! | module | devices | source |
+//! |---|---|---|
+//! | [`dynamixel`] | Dynamixel servos, protocol 2.0 | ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0" and the control tables of each model |
+//!
+//! Numbers on the wire are little-endian unless a page says otherwise.
+
+pub mod crc;
+pub mod dynamixel;
+mod port;
+
+pub use port::Port;

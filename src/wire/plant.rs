@@ -1,0 +1,196 @@
+//! The robot and its surroundings, which the devices of a bench move and measure.
+
+use physics::model::TrnType;
+use physics::{Data, Model, StepError};
+use std::fmt;
+
+/// What a device makes of one motor.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Drive {
+    /// The actuator as the model has it, with this control: for a position servo the target \[rad, m\].
+    Control(f64),
+    /// No torque; the joint turns freely.
+    #[default]
+    Off,
+    /// This velocity \[rad/s, m/s\], held with the damping that the model's servo has.
+    Velocity(f64),
+    /// This torque or force \[N m, N\], within the actuator's range of forces.
+    Effort(f64),
+}
+
+/// Gains of an actuator: `[gain, constant bias, bias of length, bias of velocity]`.
+type Gains = [f64; 4];
+
+/// An actuator of the model, on one joint.
+#[derive(Clone, Copy, Debug)]
+struct Motor {
+    control: usize,
+    position: usize,
+    velocity: usize,
+    own: Gains,
+    limited: bool,
+    set: Gains,
+}
+
+/// A plant cannot be made of a model.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlantError(String);
+
+impl fmt::Display for PlantError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl std::error::Error for PlantError {}
+
+/// A model in motion. What it is told stays until it is told otherwise.
+pub struct Plant {
+    model: Model,
+    data: Data,
+    motors: Vec<Option<Motor>>,
+    /// Time steps since it was made or set.
+    steps: u64,
+    begun: f64,
+    fault: Option<StepError>,
+}
+
+impl Plant {
+    /// A model at its reference configuration, or its first key.
+    ///
+    /// # Errors
+    /// The state is one that physics refuses.
+    pub fn new(model: Model) -> Result<Plant, StepError> {
+        let mut data = Data::new(&model);
+        physics::forward(&model, &mut data)?;
+        let motors = (0..model.nactuator).map(|id| motor(&model, id)).collect();
+        Ok(Plant { model, data, motors, steps: 0, begun: 0.0, fault: None })
+    }
+
+    /// The model; gains of its actuators change with what devices make of them.
+    pub fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// The state.
+    pub fn data(&self) -> &Data {
+        &self.data
+    }
+
+    /// The number of an actuator that moves one joint.
+    ///
+    /// # Errors
+    /// The model has none of that name, or it moves something else.
+    pub fn motor(&self, actuator: &str) -> Result<usize, PlantError> {
+        let Some(id) = self.model.actuator(actuator) else {
+            let nearest = physics::model::Suggestions::default()
+                .nearest(actuator, self.model.actuator_names().map(|(_, name)| name));
+            let hint = nearest.map_or_else(String::new, |name| format!("; did you mean '{name}'?"));
+            return Err(PlantError(format!("the model has no actuator '{actuator}'{hint}")));
+        };
+        let id = id.index();
+        match self.motors[id] {
+            Some(_) => Ok(id),
+            None => {
+                Err(PlantError(format!("the actuator '{actuator}' does not move a single hinge or slide")))
+            }
+        }
+    }
+
+    /// Drives a motor, from the next time step on.
+    pub fn drive(&mut self, motor: usize, drive: Drive) {
+        let Some(Some(state)) = self.motors.get_mut(motor) else { return };
+        let Motor { own, .. } = *state;
+        let (gains, control) = match drive {
+            Drive::Control(control) => (own, control),
+            Drive::Off => ([0.0; 4], 0.0),
+            Drive::Velocity(velocity) => {
+                // A servo without damping of its own gets a tenth of its stiffness.
+                let damping = if own[3] < 0.0 { -own[3] } else { 0.1 * own[0].abs() };
+                ([damping, 0.0, 0.0, -damping], velocity)
+            }
+            Drive::Effort(effort) => ([1.0, 0.0, 0.0, 0.0], effort),
+        };
+        self.data.state.ctrl[state.control] = control;
+        if gains == state.set {
+            return;
+        }
+        state.set = gains;
+        let limited = state.limited && gains == own;
+        let written = self.model.overwrite(|draft| {
+            draft.actuator_gainprm[motor][0] = gains[0];
+            draft.actuator_biasprm[motor][..3].copy_from_slice(&gains[1..]);
+            draft.actuator_ctrllimited[motor] = limited;
+        });
+        debug_assert!(written.is_ok(), "gains are finite");
+    }
+
+    /// Position of a motor's joint \[rad, m\].
+    pub fn position(&self, motor: usize) -> f64 {
+        self.motors[motor].map_or(0.0, |motor| self.data.state.qpos[motor.position])
+    }
+
+    /// Velocity of a motor's joint \[rad/s, m/s\].
+    pub fn velocity(&self, motor: usize) -> f64 {
+        self.motors[motor].map_or(0.0, |motor| self.data.state.qvel[motor.velocity])
+    }
+
+    /// Torque or force of a motor in the last time step \[N m, N\].
+    pub fn effort(&self, motor: usize) -> f64 {
+        self.data.actuation.actuator_force[motor]
+    }
+
+    /// Seconds that it has moved.
+    pub fn time(&self) -> f64 {
+        self.begun + self.steps as f64 * self.model.opt.timestep
+    }
+
+    /// When the next time step ends.
+    pub fn next(&self) -> f64 {
+        self.begun + (self.steps + 1) as f64 * self.model.opt.timestep
+    }
+
+    /// One time step. Physics that fails stops the plant, see [`Plant::fault`].
+    pub fn step(&mut self) {
+        self.steps += 1;
+        if self.fault.is_none() {
+            self.fault = physics::step(&self.model, &mut self.data).err();
+        }
+    }
+
+    /// Why physics refused to go on.
+    pub fn fault(&self) -> Option<&StepError> {
+        self.fault.as_ref()
+    }
+
+    /// Puts robot and surroundings somewhere else, as a person would between two episodes; controls stay.
+    ///
+    /// # Errors
+    /// The state is one that physics refuses.
+    pub fn place(&mut self, qpos: &[f64], qvel: &[f64]) -> Result<(), StepError> {
+        let controls = self.data.state.ctrl.to_vec();
+        self.data.reset(&self.model);
+        self.data.state.qpos.copy_from_slice(qpos);
+        self.data.state.qvel.copy_from_slice(qvel);
+        self.data.state.ctrl.copy_from_slice(&controls);
+        self.fault = None;
+        physics::forward(&self.model, &mut self.data)
+    }
+}
+
+/// The motor of an actuator; `None` unless it moves one hinge or slide.
+fn motor(model: &Model, id: usize) -> Option<Motor> {
+    let joint = model.actuator_trnid[id][0];
+    let on_joint = model.actuator_trntype[id] == TrnType::Joint as i32 && model.actuator_ctrlnum[id] == 1;
+    let joint = usize::try_from(joint).ok().filter(|_| on_joint)?;
+    let bias = &model.actuator_biasprm[id];
+    let own = [model.actuator_gainprm[id][0], bias[0], bias[1], bias[2]];
+    Some(Motor {
+        control: model.actuator_ctrladr[id] as usize,
+        position: model.jnt_qposadr[joint] as usize,
+        velocity: model.jnt_dofadr[joint] as usize,
+        own,
+        limited: model.actuator_ctrllimited[id],
+        set: own,
+    })
+}
