@@ -18,6 +18,8 @@ use crate::pictures::bench_render::BenchRender;
 use crate::pictures::gallery::Gallery;
 use crate::pictures::render::Render;
 use crate::recordings::data::Data;
+use crate::robots::hardware::Hardware;
+use crate::robots::wire::Wire;
 use crate::shell::completions::Completions;
 use crate::shell::man::Man;
 use crate::version::VERSION;
@@ -84,6 +86,10 @@ pub enum Command {
     View(View),
     /// Look at models and environments in a browser of this machine
     Web(Web),
+    /// Look at a robot's devices: which there are, how they answer, what they measure
+    Hardware(Hardware),
+    /// Serve simulated devices on pseudo-terminals
+    Wire(Wire),
     /// Keep the model files of RoboHive: import, list and verify them
     Assets(Assets),
     /// Look into recordings of episodes, repair them, convert them

@@ -1,5 +1,5 @@
 //! The `robohive` command: one subcommand a file, in parts that build on those before them: `input` (models and
-//! environments by name), `pictures`, `recordings`, `models`, `environments`; `assets`, `view`, `web` and `shell` beside them.
+//! environments by name), `pictures`, `recordings`, `models`, `robots` (devices), `environments`; `assets`, `view`, `web` and `shell` beside them.
 
 // Comments of arguments are what `--help` prints, where brackets are units and defaults.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -14,6 +14,7 @@ mod models;
 mod output;
 mod pictures;
 mod recordings;
+mod robots;
 mod shell;
 mod terminal;
 mod version;
@@ -44,6 +45,8 @@ fn main() -> ExitCode {
         Command::Bench(a) => models::bench::run(&a),
         Command::View(a) => view::run(&a),
         Command::Web(a) => web::run(&a),
+        Command::Hardware(a) => robots::hardware::run(&a),
+        Command::Wire(a) => robots::wire::run(&a),
         Command::Assets(a) => assets::run(&a),
         Command::Data(a) => recordings::data::run(&a),
         Command::Completions(a) => shell::completions::run(&a, Arguments::command()),

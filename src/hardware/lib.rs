@@ -40,7 +40,7 @@ pub use driver::Driver;
 pub use guard::Guarded;
 pub use parameters::Parameters;
 pub use port::{Opener, Serial, serial_ports};
-pub use registry::registry;
+pub use registry::{device, kinds, registry};
 pub use safety::limits::Limits;
 pub use safety::lock::Lock;
 pub use safety::watchdog::Timeouts;

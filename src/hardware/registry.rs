@@ -11,19 +11,39 @@ type Maker = fn(&DeviceConfig, &Setup) -> Result<Box<dyn Driver>, Fault>;
 
 const MAKERS: [(&str, Maker); 1] = [("dynamixel", dynamixel)];
 
+/// Types of interface that there are drivers for.
+pub fn kinds() -> impl Iterator<Item = &'static str> {
+    MAKERS.iter().map(|(kind, _)| *kind)
+}
+
 /// All drivers of this crate, each with what makes it safe around it.
 pub fn registry(setup: &Setup) -> Registry {
     let mut registry = Registry::default();
     for (kind, make) in MAKERS {
         let setup = setup.clone();
-        registry.register(kind, move |config| {
-            let driver = make(config, &setup)?;
-            let (sensors, actuators) = (config.sensors.len(), config.actuators.len());
-            let guarded = Guarded::new(&config.name, driver, sensors, actuators, &setup);
-            Ok(Box::new(guarded) as Box<dyn Device>)
-        });
+        registry.register(kind, move |config| guarded(config, make, &setup));
     }
     registry
+}
+
+/// One device of a config, without a robot around it; not yet connected.
+///
+/// # Errors
+/// An interface that nothing drives; what the config says wrongly.
+pub fn device(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Device>, Fault> {
+    let kind = config.interface.kind.as_deref().unwrap_or("none");
+    let found = MAKERS.iter().find(|(known, _)| *known == kind);
+    let (_, make) = found.ok_or_else(|| {
+        let known: Vec<_> = kinds().collect();
+        Fault::Refused(format!("nothing drives the interface '{kind}'; there are {}", known.join(", ")))
+    })?;
+    guarded(config, *make, setup)
+}
+
+fn guarded(config: &DeviceConfig, make: Maker, setup: &Setup) -> Result<Box<dyn Device>, Fault> {
+    let driver = make(config, setup)?;
+    let (sensors, actuators) = (config.sensors.len(), config.actuators.len());
+    Ok(Box::new(Guarded::new(&config.name, driver, sensors, actuators, setup)))
 }
 
 fn dynamixel(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {

@@ -39,6 +39,7 @@ mod device;
 pub mod dynamixel;
 mod faults;
 mod plant;
+mod rig;
 #[cfg(unix)]
 mod serve;
 mod virtual_port;
@@ -47,6 +48,7 @@ pub use bench::{Bench, Carries, LinkId};
 pub use device::{Device, Moment, Outbox};
 pub use faults::{Rates, RatesError};
 pub use plant::{Drive, Plant, PlantError};
+pub use rig::{Rigged, kinds, rig};
 #[cfg(unix)]
 pub use serve::{End, Terminal, serve};
 pub use virtual_port::{Shared, VirtualClock, VirtualPort};

@@ -36,6 +36,13 @@ struct Motor {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlantError(String);
 
+impl PlantError {
+    /// An error that says this.
+    pub(crate) fn new(message: impl Into<String>) -> PlantError {
+        PlantError(message.into())
+    }
+}
+
 impl fmt::Display for PlantError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.0)

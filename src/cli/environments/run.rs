@@ -7,6 +7,7 @@ use crate::output::{check_place, keep_input, recording_file};
 use crate::pictures::film::{Film, FilmArguments};
 use crate::pictures::subject::camera_of;
 use crate::recordings::names::{LayoutName, PrecisionName};
+use crate::robots::live::Live;
 use crate::terminal::{listed, note, show, show_json};
 use agents::Policy;
 use clap::{Args, ValueHint};
@@ -36,13 +37,17 @@ plays a recording again.
 
 --video shows one episode after the other, each from the state of its reset, in simulated time: at most 50 frames a second unless --fps says otherwise. The file has its name when the command ends, also by Ctrl-C.
 
+--hardware runs the same task on devices: each step is sent to them and waits for its control period, and the model mirrors what \
+they measure. Nothing moves without --arm; --rehearse puts simulated devices behind the real drivers.
+
 Examples:
   robohive run hive/FrankaReach-v0
   robohive run hive/FrankaReach-v0 --policy zero --episodes 20 --seed 7
   robohive run hive/FrankaReach-v0 --set max_episode_steps=20 --json
   robohive run hive/FrankaReach-v0 --record reach.h5
   robohive run hive/FrankaReach-v0 --episodes 1 --video reach.mp4 --camera front
-  robohive run hive/FrankaReach_v2d-v0 --episodes 2 --record reach.h5 --visual"
+  robohive run hive/FrankaReach_v2d-v0 --episodes 2 --record reach.h5 --visual
+  robohive run hive/QuadrupedWalk-v0 --arm --rehearse --hardware assets/quadruped/servos.toml"
 )]
 pub struct Run {
     /// The environment
@@ -81,6 +86,9 @@ pub struct Run {
     /// Its video
     #[command(flatten)]
     film: FilmArguments,
+    /// Its robot
+    #[command(flatten)]
+    live: Live,
 }
 
 /// What acts in an episode of this seed.
@@ -110,7 +118,8 @@ pub fn run(a: &Run) -> Result<(), Failure> {
     }
     let read = read_policy(&a.policy)?;
     let painters = a.film.painters(a.visual)?;
-    let mut env = a.source.make_with(painters.clone())?;
+    let hardware = a.live.hardware(&a.source.id, &a.source.making)?;
+    let mut env = a.source.make_on(hardware, painters.clone())?;
     let mut recording = a.record.as_ref().map(|_| open_recording(a)).transpose()?;
     let mut film = a.film.film(&env.scene().model, &camera_of(&env), env.dt(), &*painters)?;
     let hidden = a.quiet || a.json || a.film.previews();

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::terminal::note;
 use ::library::{Library, Weights};
 use clap::{Args, ValueHint};
-use env::{Arguments, Compat, Env, Options};
+use env::{Arguments, Compat, Env, Hardware, Options};
 use mjcf::diagnostic::Diagnostic;
 use render::Painters;
 use render::painter::Cpu;
@@ -48,8 +48,14 @@ impl Source {
 
     /// The same for one whose pictures these painters draw.
     pub fn make_with(&self, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
+        self.make_on(None, painters)
+    }
+
+    /// The same for one whose robot is hardware.
+    pub fn make_on(&self, hardware: Option<Hardware>, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
         let library = self.making.assets()?;
-        let env = self.making.make_of(&self.id, &library, painters)?;
+        let options = self.making.options()?.with_painters(painters).with_hardware(hardware);
+        let env = Env::make(&self.id, &library, &options).map_err(Failure::usage)?;
         let imported = |warning: &&Diagnostic| {
             warning.position.as_ref().is_some_and(|position| library.is_imported(Path::new(&position.path)))
         };

@@ -1,0 +1,95 @@
+//! Environments whose robot is hardware.
+
+use crate::failure::Failure;
+use crate::input::library::Making;
+use crate::robots::rehearsal::{Rehearsal, simulated};
+use crate::terminal::note;
+use ::hardware::{Setup, registry};
+use clap::{Args, ValueHint};
+use env::Hardware;
+use robot::{Config, WallClock};
+use std::io::BufRead;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// How a robot that is hardware is reached.
+#[derive(Args)]
+pub struct Live {
+    /// Run on the devices that this robot config names, instead of in simulation
+    #[arg(long, value_name = "CONFIG", value_hint = ValueHint::FilePath)]
+    pub hardware: Option<PathBuf>,
+    /// How far devices may go
+    #[command(flatten)]
+    pub arming: Arming,
+    /// Drive simulated devices in simulated time instead of real ones: a rehearsal of the whole way
+    #[arg(long, requires = "hardware", conflicts_with = "flight")]
+    pub rehearse: bool,
+}
+
+/// How far devices may go.
+#[derive(Args)]
+pub struct Arming {
+    /// Let the devices move
+    #[arg(long)]
+    pub arm: bool,
+    /// Read the devices, and print what they would be sent instead of sending it
+    #[arg(long, conflicts_with = "arm")]
+    pub dry_run: bool,
+    /// Keep the last minutes of commands, readings and faults of each device in this folder
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    pub flight: Option<PathBuf>,
+}
+
+impl Arming {
+    /// What drivers run with.
+    pub fn setup(&self) -> Setup {
+        let mut setup = Setup::default()
+            .with_armed(self.arm)
+            .with_dry_run(self.dry_run)
+            .with_records(self.flight.clone());
+        setup.say = Arc::new(|line| note(line));
+        setup
+    }
+}
+
+impl Live {
+    /// The devices for an environment of this id; `None` in simulation.
+    pub fn hardware(&self, id: &str, making: &Making) -> Result<Option<Hardware>, Failure> {
+        let Some(path) = &self.hardware else {
+            if self.arming.arm || self.arming.dry_run || self.arming.flight.is_some() {
+                return Err(Failure::usage(
+                    "--arm, --dry-run and --flight are about devices: name their config with --hardware",
+                ));
+            }
+            return Ok(None);
+        };
+        let config = Config::read(path).map_err(Failure::usage)?;
+        if self.rehearse {
+            let rehearsal = Rehearsal::new(&config, &simulated(id, making)?)?;
+            let setup = rehearsal.setup(self.arming.setup());
+            return Ok(Some(Hardware {
+                registry: Arc::new(registry(&setup)),
+                clock: rehearsal.clocks(),
+                ready: rehearsal.person(),
+                config: Some(config),
+            }));
+        }
+        let start = WallClock::default();
+        Ok(Some(Hardware {
+            registry: Arc::new(registry(&self.arming.setup())),
+            clock: Arc::new(move || Box::new(start)),
+            ready: Arc::new(|_| ask()),
+            config: Some(config),
+        }))
+    }
+}
+
+/// Waits for a person to prepare the surroundings.
+fn ask() -> Result<(), env::NotReady> {
+    note("the robot stands at the start of an episode; put everything in place and press Enter");
+    let mut line = String::new();
+    if std::io::stdin().lock().read_line(&mut line)? == 0 {
+        return Err("nobody is there to prepare it: standard input has ended".into());
+    }
+    Ok(())
+}

@@ -1,0 +1,7 @@
+//! Robots that are hardware, and devices that stand in for them.
+
+pub mod devices;
+pub mod hardware;
+pub mod live;
+pub mod rehearsal;
+pub mod wire;

@@ -1,0 +1,200 @@
+//! `wire`: simulated devices that other programs open.
+
+use crate::failure::Failure;
+use crate::input::library::Making;
+use crate::interrupt::Interrupt;
+use crate::robots::rehearsal::simulated;
+use crate::terminal::show;
+use clap::{Args, ValueHint};
+use protocol::dynamixel::MODELS;
+use robot::{Config, Value};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+use wire::dynamixel::{Bus, Servo};
+use wire::{Bench, Carries, End, LinkId, Plant, Rates, Terminal, serve};
+
+/// Serve simulated devices on pseudo-terminals, for any program that speaks their protocols
+#[derive(Args)]
+#[command(
+    after_help = "With a robot config and an environment, every device of the config that can be simulated moves and measures that \
+environment's model: `robohive run ID --hardware OUT` then drives it through the real drivers, in real time. With --ids alone, servos \
+stand on a bench, each with a flywheel.
+
+--faults takes probabilities a message: drop, delay, reorder, duplicate, corrupt, truncate, stall, disconnect, stop. The same seed \
+strikes the same messages.
+
+Examples:
+  robohive wire --ids 1-6 --model XL330-M288 --faults drop=0.001,corrupt=0.001 --seconds 0.2
+  robohive wire --config assets/quadruped/servos.toml --env hive/QuadrupedWalk-v0 --seconds 0.2"
+)]
+pub struct Wire {
+    /// Robot config whose devices are simulated
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "env", required_unless_present = "ids")]
+    config: Option<PathBuf>,
+    /// Environment whose model they move
+    #[arg(long, value_name = "ID", requires = "config")]
+    env: Option<String>,
+    /// Write the config with the addresses of the simulated devices to this file (TOML)
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "config")]
+    out: Option<PathBuf>,
+    /// Dynamixel servos with these ids on one bus, as 1-6 or 10,11,20
+    #[arg(long, value_name = "IDS", value_parser = ids, conflicts_with = "config")]
+    ids: Option<Ids>,
+    /// Model of the servos
+    #[arg(long, value_name = "MODEL", default_value = MODELS[0].name, value_parser = model)]
+    model: &'static str,
+    /// Baud rate of their bus, which decides how long answers take
+    #[arg(long, value_name = "BAUD", default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(9600..=4_500_000))]
+    baud: u32,
+    /// Make this path a link to the first pseudo-terminal
+    #[arg(long, value_name = "PATH", value_hint = ValueHint::FilePath)]
+    link: Option<PathBuf>,
+    /// Faults of every link, as drop=0.01,delay=0.05
+    #[arg(long, value_name = "FAULT=P,…", default_value = "")]
+    faults: Rates,
+    /// Seed of the faults
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    seed: u64,
+    /// End after this time [s]
+    #[arg(long, value_name = "SECONDS")]
+    seconds: Option<f64>,
+    /// How the environment is made
+    #[command(flatten)]
+    making: Making,
+}
+
+/// Ids of servos.
+#[derive(Clone)]
+struct Ids(Vec<u8>);
+
+fn ids(text: &str) -> Result<Ids, String> {
+    let wrong = || format!("'{text}' is no list of ids from 0 to 252, as 1-6 or 10,11,20");
+    let mut ids = Vec::new();
+    for part in text.split(',') {
+        let (first, last) = part.split_once('-').unwrap_or((part, part));
+        let [first, last] = [first, last].map(|id| id.trim().parse::<u8>().ok().filter(|id| *id <= 252));
+        ids.extend(first.ok_or_else(wrong)?..=last.ok_or_else(wrong)?);
+    }
+    Ok(Ids(ids))
+}
+
+fn model(text: &str) -> Result<&'static str, String> {
+    let known = || MODELS.iter().map(|model| model.name).collect::<Vec<_>>().join(", ");
+    let found = MODELS.iter().find(|model| model.name == text);
+    found.map(|model| model.name).ok_or_else(|| format!("there are {}", known()))
+}
+
+/// A device that is served.
+struct Served {
+    name: String,
+    link: LinkId,
+}
+
+/// Runs the command.
+pub fn run(a: &Wire) -> Result<(), Failure> {
+    let (mut bench, mut config, served) = match (&a.config, &a.env) {
+        (Some(path), Some(id)) => rigged(a, path, id)?,
+        _ => stand(a)?,
+    };
+    served.iter().for_each(|device| bench.inject(device.link, a.faults, a.seed));
+    let mut ends = Vec::new();
+    for Served { name, link } in &served {
+        let terminal = Terminal::open().map_err(Failure::new)?;
+        let path = terminal.path().display().to_string();
+        show!("{name}: {path}");
+        if let Some(device) = config.devices.iter_mut().find(|device| device.name == *name) {
+            device.interface.parameters.insert("name".to_owned(), Value::Text(path));
+        }
+        ends.push((*link, End::Terminal(terminal)));
+    }
+    let _linked = a.link.as_deref().map(|path| Linked::new(path, &ends[0].1.address())).transpose()?;
+    if let Some(out) = &a.out {
+        std::fs::write(out, config.to_toml())
+            .map_err(|error| Failure::new(format!("{}: {error}", out.display())))?;
+        show!("config: {}", out.display());
+    }
+    serve_until(a, bench, ends)
+}
+
+/// Serves until a signal, or until the time is over.
+fn serve_until(a: &Wire, bench: Bench, mut ends: Vec<(LinkId, End)>) -> Result<(), Failure> {
+    let bench = Arc::new(Mutex::new(bench));
+    let stop = Arc::new(AtomicBool::new(false));
+    let interrupt = Interrupt::listen().map_err(Failure::new)?;
+    let begun = Instant::now();
+    let over = || a.seconds.is_some_and(|seconds| begun.elapsed().as_secs_f64() >= seconds);
+    std::thread::scope(|scope| {
+        let serving = scope.spawn(|| serve(&bench, &mut ends, &stop));
+        while interrupt.code().is_none() && !over() && !serving.is_finished() {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        stop.store(true, Ordering::Relaxed);
+        serving.join().unwrap_or(Ok(())).map_err(Failure::new)
+    })?;
+    let bench = bench.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let struck: u64 = ends.iter().map(|(link, _)| bench.struck(*link)).sum();
+    show!("served {:.1} s, {struck} faults", bench.time());
+    match bench.plant().fault() {
+        Some(fault) => Err(Failure::new(format!("the plant stopped: {fault}"))),
+        None => interrupt.code().map_or(Ok(()), |code| Err(Failure::silent(code))),
+    }
+}
+
+/// Devices of a config on the model of an environment.
+fn rigged(a: &Wire, path: &Path, id: &str) -> Result<(Bench, Config, Vec<Served>), Failure> {
+    let config = Config::read(path).map_err(Failure::usage)?;
+    let env = simulated(id, &a.making)?;
+    let plant = Plant::new(env.scene().model.clone()).map_err(Failure::new)?;
+    let (bench, rigged) = wire::rig(&config, plant, false).map_err(Failure::usage)?;
+    let served = rigged.into_iter().map(|device| Served { name: device.device, link: device.link });
+    Ok((bench, config, served.collect()))
+}
+
+/// Servos with flywheels.
+fn stand(a: &Wire) -> Result<(Bench, Config, Vec<Served>), Failure> {
+    let ids = a.ids.as_ref().map_or(&[][..], |ids| &ids.0);
+    let wheel = |id: &u8| {
+        format!(
+            "<body pos='{id} 0 0'><joint name='{id}' axis='0 1 0' damping='.05' armature='.01'/><geom type='cylinder' size='.05 .01' mass='.1'/></body>"
+        )
+    };
+    let motor = |id: &u8| format!("<position name='{id}' joint='{id}' kp='10' kv='.5' forcerange='-4 4'/>");
+    let text = format!(
+        "<mujoco><option gravity='0 0 0' integrator='implicitfast'/><worldbody>{}</worldbody><actuator>{}</actuator></mujoco>",
+        ids.iter().map(wheel).collect::<String>(),
+        ids.iter().map(motor).collect::<String>()
+    );
+    let plant = Plant::new(mjcf::load_str(&text).map_err(Failure::usage)?.model).map_err(Failure::new)?;
+    let kind = MODELS.iter().find(|model| model.name == a.model).unwrap_or(&MODELS[0]);
+    let mut servos = Vec::new();
+    for id in ids {
+        let mut servo = Servo::new(kind, *id);
+        servo.mount(plant.motor(&id.to_string()).map_err(Failure::new)?, 1.0, std::f64::consts::PI);
+        servos.push(servo);
+    }
+    let baud = f64::from(a.baud);
+    let mut bench = Bench::new(plant);
+    let link = bench.connect(Box::new(Bus::new(servos).with_baud(baud)), Carries::serial(baud));
+    Ok((bench, Config::default(), vec![Served { name: "servos".to_owned(), link }]))
+}
+
+/// A link in the file system that goes when the command does.
+struct Linked(PathBuf);
+
+impl Linked {
+    fn new(path: &Path, to: &str) -> Result<Linked, Failure> {
+        std::os::unix::fs::symlink(to, path).map_err(|error| {
+            Failure::usage(format!("--link {}: {error}; choose a path that does not exist", path.display()))
+        })?;
+        show!("linked as {}", path.display());
+        Ok(Linked(path.to_owned()))
+    }
+}
+
+impl Drop for Linked {
+    fn drop(&mut self) {
+        std::fs::remove_file(&self.0).unwrap_or_default();
+    }
+}
