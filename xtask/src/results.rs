@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 19] = [
+const SPEAK_OF: [(&str, &[&str]); 20] = [
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
     ("environments", &["src/physics", "mjcf", "src/robot", "src/env"]),
@@ -33,6 +33,7 @@ const SPEAK_OF: [(&str, &[&str]); 19] = [
     ("standin_dm_control", &["src/physics", "mjcf", "python"]),
     ("standin_myosuite", &["src/physics", "mjcf", "python"]),
     ("standin_suite", &["src/physics", "mjcf", "python"]),
+    ("standin_sysid", &["src/physics", "mjcf", "python"]),
     ("standin_tests", &["src/physics", "mjcf", "python"]),
     ("web", &["src/physics", "mjcf", "src/render", "src/viewer", "web"]),
 ];
