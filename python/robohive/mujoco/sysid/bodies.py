@@ -15,7 +15,7 @@ from robohive.mujoco.sysid.inertia import (
     pseudoinertia_from_pi,
     theta_from_pseudoinertia,
 )
-from robohive.mujoco.sysid.value import InertiaType, Parameter
+from robohive.mujoco.sysid.parameters.value import InertiaType, Parameter
 
 Vector = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from robohive.mujoco.spec import MjSpec
 from robohive.mujoco.structs.model import MjModel
 from robohive.mujoco.sysid.bodies import apply_body_inertia, theta_inertia_from_body
-from robohive.mujoco.sysid.value import InertiaType, ModifierFn, Parameter
+from robohive.mujoco.sysid.parameters.value import InertiaType, ModifierFn, Parameter
 
 Vector = NDArray[np.float64]
 

@@ -20,7 +20,6 @@ from robohive.mujoco.sysid.bodies import (
     scale_body_inertia,
     theta_inertia_from_body,
 )
-from robohive.mujoco.sysid.collection import ParameterDict
 from robohive.mujoco.sysid.inertia import (
     cholesky_decompose_upper,
     inertia_to_fullinertia,
@@ -30,6 +29,7 @@ from robohive.mujoco.sysid.inertia import (
     theta_from_pseudoinertia,
 )
 from robohive.mujoco.sysid.inertia_parameter import body_inertia_param
+from robohive.mujoco.sysid.parameters.collection import ParameterDict
 
 __all__ = [
     "apply_body_inertia",

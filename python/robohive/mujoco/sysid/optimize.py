@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from robohive.mujoco import minimize
-from robohive.mujoco.sysid.collection import ParameterDict
 from robohive.mujoco.sysid.optional import needed
+from robohive.mujoco.sysid.parameters.collection import ParameterDict
 
 Vector = NDArray[np.float64]
 ResidualFn: TypeAlias = Callable[..., Any]

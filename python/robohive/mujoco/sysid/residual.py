@@ -14,9 +14,9 @@ from robohive.mujoco.spec import MjSpec
 from robohive.mujoco.structs.data import MjData
 from robohive.mujoco.structs.model import MjModel
 from robohive.mujoco.sysid import signal_modifier
-from robohive.mujoco.sysid.collection import ParameterDict
 from robohive.mujoco.sysid.model_modifier import apply_param_modifiers
 from robohive.mujoco.sysid.observed import construct_ts_from_defaults
+from robohive.mujoco.sysid.parameters.collection import ParameterDict
 from robohive.mujoco.sysid.rollouts import state_signals, sysid_rollout
 from robohive.mujoco.sysid.sequences import ModelSequences
 from robohive.mujoco.sysid.signals import SignalType, control_signals, sensor_signals

@@ -9,10 +9,10 @@ import pickle
 from collections.abc import Sequence
 from typing import Any
 
-from robohive.mujoco.sysid.collection import ParameterDict
 from robohive.mujoco.sysid.confidence import calculate_intervals
 from robohive.mujoco.sysid.model_modifier import apply_param_modifiers_spec
 from robohive.mujoco.sysid.optimize import ResidualFn
+from robohive.mujoco.sysid.parameters.collection import ParameterDict
 from robohive.mujoco.sysid.sequences import ModelSequences
 
 _log = logging.getLogger("absl")

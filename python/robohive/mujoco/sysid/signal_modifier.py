@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from robohive.mujoco.enums.elements import mjtObj
 from robohive.mujoco.functions.naming import mj_name2id
 from robohive.mujoco.structs.model import MjModel
+from robohive.mujoco.sysid.parameters.value import Parameter
 from robohive.mujoco.sysid.timeseries import TimeSeries
-from robohive.mujoco.sysid.value import Parameter
 
 Vector = NDArray[np.float64]
 

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from robohive.mujoco.structs.model import MjModel
 from robohive.mujoco.sysid import signal_modifier
-from robohive.mujoco.sysid.collection import ParameterDict
+from robohive.mujoco.sysid.parameters.collection import ParameterDict
+from robohive.mujoco.sysid.parameters.value import Parameter
 from robohive.mujoco.sysid.timeseries import TimeSeries
-from robohive.mujoco.sysid.value import Parameter
 
 Vector = NDArray[np.float64]
 _TARGETS = ("predicted", "measured", "both")

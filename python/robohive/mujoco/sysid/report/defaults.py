@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from robohive.mujoco.sysid.collection import ParameterDict
-from robohive.mujoco.sysid.comparison import at_bound
 from robohive.mujoco.sysid.confidence import calculate_intervals
 from robohive.mujoco.sysid.model_modifier import apply_param_modifiers
 from robohive.mujoco.sysid.optimize import ResidualFn
+from robohive.mujoco.sysid.parameters.collection import ParameterDict
+from robohive.mujoco.sysid.parameters.comparison import at_bound
 from robohive.mujoco.sysid.report.builder import ReportBuilder, Section, table
 from robohive.mujoco.sysid.report.plots import curves
 from robohive.mujoco.sysid.residual import BuildModelFn

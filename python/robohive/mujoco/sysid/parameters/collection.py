@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from robohive.mujoco.sysid.comparison import comparison
 from robohive.mujoco.sysid.optional import needed
-from robohive.mujoco.sysid.value import Parameter, Vector
+from robohive.mujoco.sysid.parameters.comparison import comparison
+from robohive.mujoco.sysid.parameters.value import Parameter, Vector
 
 
 class ParameterDict:
