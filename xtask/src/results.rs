@@ -15,13 +15,14 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 20] = [
+const SPEAK_OF: [(&str, &[&str]); 21] = [
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
     ("environments", &["src/physics", "mjcf", "src/robot", "src/env"]),
     ("environments_speed", &["src/physics", "mjcf", "src/robot", "src/env"]),
     ("environments_visual", &["src/physics", "mjcf", "src/robot", "src/env", "src/render"]),
     ("gymnasium", &["src/physics", "mjcf", "src/env"]),
+    ("identify", &["src/physics", "mjcf", "src/identify"]),
     ("items", &["src/physics", "mjcf", "src/render/scene"]),
     ("pictures", &["src/physics", "mjcf", "src/render"]),
     ("pictures_gpu", &["src/physics", "mjcf", "src/render", "src/render_gpu"]),
