@@ -3,7 +3,7 @@
 //! A [`Log`] has the initial state of a robot, the controls that it was given and what its sensors read. [`Quantity::choose`]
 //! makes [`Parameter`]s of damping, friction, armature, gains, masses and delay; [`identify`] finds the values with which
 //! simulated readings are nearest to recorded ones, how certain they are, and which of them the log cannot tell.
-//! [`patched`] writes them into a description, and [`report`] says all of it on one page.
+//! [`patched`] writes them into a description, and [`report()`] says all of it on one page.
 //!
 //! The readings of each channel are weighted by the noise that is left in it after a first fit, so that channels of different
 //! units count by what they know (feasible generalised least squares: Seber and Wild, "Nonlinear regression", 2003, section
