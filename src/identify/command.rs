@@ -33,7 +33,13 @@ mod tests {
     use crate::log::{Log, Readings};
 
     fn log() -> Log {
-        let readings = Readings { names: vec![], columns: vec![], of_sensors: true, values: vec![] };
+        let readings = Readings {
+            names: vec![],
+            columns: vec![],
+            of_sensors: true,
+            quaternions: vec![],
+            values: vec![],
+        };
         Log {
             name: String::new(),
             times: vec![0.0, 0.1, 0.2, 0.3],

@@ -114,7 +114,6 @@ pub fn identify(
         let reason = format!("differ from those of {}, {}", first.name, columns.join(", "));
         return Err(IdentifyError::column(&other.name, "the columns", reason));
     }
-    logs.iter().try_for_each(|log| log.comparable(model))?;
     let windows = windows(logs, model.nq + model.nv + model.na, options.window);
     let weights = Vec::new();
     let mut problem = Problem { model, logs, windows: &windows, parameters, weights };
@@ -151,7 +150,7 @@ pub fn identify(
         .collect();
     let Uncertainty { deviations, covariance, unknown } = uncertainty(parameters, &jacobian);
     let after = problem.readings(std::slice::from_ref(&values))?.remove(0);
-    let unweighted = |readings: &[f64]| differences(readings, &measured, columns.len());
+    let unweighted = |readings: &[f64]| differences(&problem.differences(readings, &measured), columns.len());
     let (left, right) = (unweighted(&before), unweighted(&after));
     Ok(Found {
         parameters: parameters.to_vec(),
@@ -161,7 +160,7 @@ pub fn identify(
         unknown,
         before: left.iter().map(|column| root_mean_square(column)).collect(),
         noise: right.iter().map(|column| root_mean_square(column)).collect(),
-        correlation: right.iter().map(|column| correlation(column)).collect(),
+        correlation: right.iter().zip(&spread).map(|(column, spread)| correlation(column, *spread)).collect(),
         curves: curves(&problem, &measured, &before, &after),
         columns,
         rounds,
@@ -208,16 +207,16 @@ fn root_mean_square(values: &[f64]) -> f64 {
 }
 
 /// What is left of each column, without what is missing.
-fn differences(readings: &[f64], measured: &[f64], width: usize) -> Vec<Vec<f64>> {
-    let column = |c: usize| {
-        let rows = readings.iter().zip(measured).skip(c).step_by(width).filter(|(_, y)| y.is_finite());
-        rows.map(|(x, y)| x - y).collect()
-    };
+fn differences(left: &[f64], width: usize) -> Vec<Vec<f64>> {
+    let column = |c: usize| left.iter().skip(c).step_by(width).copied().filter(|x| x.is_finite()).collect();
     (0..width).map(column).collect()
 }
 
-/// Correlation of each number with the next.
-fn correlation(left: &[f64]) -> f64 {
+/// Correlation of each number with the next; none of what is rounding beside the spread of readings.
+fn correlation(left: &[f64], spread: f64) -> f64 {
+    if root_mean_square(left) <= LEAST_NOISE * spread {
+        return 0.0;
+    }
     let square: f64 = left.iter().map(|x| x * x).sum();
     let product: f64 = left.windows(2).map(|pair| pair[0] * pair[1]).sum();
     if square > 0.0 { product / square } else { 0.0 }

@@ -19,6 +19,8 @@ pub struct Readings {
     pub(crate) columns: Vec<usize>,
     /// The columns are of `sensordata`.
     pub(crate) of_sensors: bool,
+    /// First columns of quaternions, of which either sign is the same rotation.
+    pub(crate) quaternions: Vec<usize>,
     /// All rows, one after the other; NaN for what is missing.
     pub(crate) values: Vec<f64>,
 }
@@ -26,27 +28,34 @@ pub struct Readings {
 impl Readings {
     /// All sensors of a model, in the order of `sensordata`.
     pub fn sensors(model: &Model, values: Vec<f64>) -> Self {
-        let mut names = Vec::new();
+        let (mut names, mut quaternions) = (Vec::new(), Vec::new());
         for sensor in 0..model.nsensor {
+            let kind = model.sensor_type[sensor];
+            if [SensorType::Framequat, SensorType::Ballquat].iter().any(|quat| quat.code() == kind) {
+                quaternions.push(names.len());
+            }
             let label = called(model, ObjType::Sensor, sensor);
             let width = model.sensor_dim[sensor];
             names
                 .extend((0..width).map(|i| if width == 1 { label.clone() } else { format!("{label}[{i}]") }));
         }
-        Readings { columns: (0..names.len()).collect(), names, of_sensors: true, values }
+        Readings { columns: (0..names.len()).collect(), names, of_sensors: true, quaternions, values }
     }
 
     /// All positions of a model, in the order of `qpos`.
     pub fn positions(model: &Model, values: Vec<f64>) -> Self {
-        let mut names = vec![String::new(); model.nq];
+        let (mut names, mut quaternions) = (vec![String::new(); model.nq], Vec::new());
         for joint in 0..model.njnt {
             let (label, first) = (called(model, ObjType::Joint, joint), model.jnt_qposadr[joint] as usize);
             let end = if joint + 1 < model.njnt { model.jnt_qposadr[joint + 1] as usize } else { model.nq };
+            if end - first >= 4 {
+                quaternions.push(end - 4);
+            }
             for (i, at) in (first..end).enumerate() {
                 names[at] = if end - first == 1 { label.clone() } else { format!("{label}[{i}]") };
             }
         }
-        Readings { columns: (0..names.len()).collect(), names, of_sensors: false, values }
+        Readings { columns: (0..names.len()).collect(), names, of_sensors: false, quaternions, values }
     }
 
     /// The number of columns.
@@ -58,7 +67,11 @@ impl Readings {
     fn keep(self, kept: &[usize]) -> Self {
         let (width, rows) = (self.width(), self.values.len() / self.width().max(1));
         let values = (0..rows).flat_map(|row| kept.iter().map(move |&c| row * width + c));
+        let whole = |first: &usize| {
+            kept.windows(4).position(|four| *four == [*first, first + 1, first + 2, first + 3])
+        };
         Readings {
+            quaternions: self.quaternions.iter().filter_map(whole).collect(),
             values: values.map(|at| self.values[at]).collect(),
             names: kept.iter().map(|&c| self.names[c].clone()).collect(),
             columns: kept.iter().map(|&c| self.columns[c]).collect(),
@@ -222,27 +235,5 @@ impl Log {
             }
         }
         Ok(self)
-    }
-
-    /// Refuses columns whose differences mean nothing.
-    ///
-    /// # Errors
-    /// One is of a quaternion.
-    pub(crate) fn comparable(&self, model: &Model) -> Result<(), IdentifyError> {
-        let quaternion =
-            |kind: i32| [SensorType::Framequat, SensorType::Ballquat].iter().any(|quat| quat.code() == kind);
-        let read = |sensor: usize| {
-            let first = model.sensor_adr[sensor] as usize;
-            self.readings.columns.iter().any(|column| (first..first + 4).contains(column))
-        };
-        let turned = (0..model.nsensor).find(|&i| quaternion(model.sensor_type[i]) && read(i));
-        match turned.filter(|_| self.readings.of_sensors) {
-            None => Ok(()),
-            Some(sensor) => Err(IdentifyError::column(
-                &self.name,
-                &called(model, ObjType::Sensor, sensor),
-                "reads a quaternion, whose sign means nothing: name the other columns as those to compare",
-            )),
-        }
     }
 }

@@ -66,11 +66,27 @@ impl Problem<'_> {
         rows.copied().collect()
     }
 
-    /// Residuals of readings: what was simulated without what was read, over the noise; 0 for what is missing.
+    /// What was simulated without what was read, quaternions of the nearer sign; NaN for what is missing.
+    pub fn differences(&self, readings: &[f64], measured: &[f64]) -> Vec<f64> {
+        let mut left: Vec<f64> = readings.iter().zip(measured).map(|(x, y)| x - y).collect();
+        let Some(log) = self.logs.first() else { return left };
+        let width = log.readings.width();
+        for row in (0..readings.len()).step_by(width) {
+            for first in log.readings.quaternions.iter().map(|column| row + column) {
+                let (x, y) = (&readings[first..first + 4], &measured[first..first + 4]);
+                if x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>() < 0.0 {
+                    (0..4).for_each(|i| left[first + i] = x[i] + y[i]);
+                }
+            }
+        }
+        left
+    }
+
+    /// Residuals of readings: differences over the noise; 0 for what is missing.
     pub fn weighted(&self, readings: &[f64], measured: &[f64]) -> Vec<f64> {
-        let width = self.weights.len();
-        let pairs = readings.iter().zip(measured).enumerate();
-        pairs.map(|(i, (x, y))| if y.is_finite() { (x - y) * self.weights[i % width] } else { 0.0 }).collect()
+        let (width, left) = (self.weights.len(), self.differences(readings, measured));
+        let all = left.iter().enumerate();
+        all.map(|(i, x)| if x.is_finite() { x * self.weights[i % width] } else { 0.0 }).collect()
     }
 
     /// Residuals of priors.

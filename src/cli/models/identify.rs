@@ -31,8 +31,9 @@ FOLDER gets model.xml, the whole model with the values found; patch.xml, the cha
 report.html, with curves before and after. Standard deviations are those of noise; what the log cannot tell is named.
 
 Examples:
-  robohive identify log.npz --model arm.xml --fit damping,frictionloss,armature --out fitted
-  robohive identify a.npz b.npz --model arm.xml --fit 'wrist*.damping,delay' --columns 'pos*' --prior 'delay=0.01,0.002'"
+  robohive sim assets/franka/franka_table.xml --seconds 0.4 --out log.npz
+  robohive identify log.npz --model assets/franka/franka_table.xml --fit joint1.damping,joint4.armature --out fitted
+  robohive identify log.npz --model assets/franka/franka_table.xml --fit delay --prior delay=0.01,0.002 --window 0.2"
 )]
 pub struct Identify {
     /// Logs, numpy archives
@@ -118,6 +119,15 @@ fn place(a: &Identify, folder: &Path) -> Result<PathBuf, Failure> {
 }
 
 fn log(a: &Identify, path: &Path, model: &Model) -> Result<Log, Failure> {
+    let of_episodes =
+        |ending: &std::ffi::OsStr| ["h5", "hdf5"].iter().any(|own| ending.eq_ignore_ascii_case(own));
+    if path.extension().is_some_and(of_episodes) {
+        return Err(Failure::usage(format!(
+            "{}: recordings of episodes hold actions of environments instead of controls: write time, ctrl, qpos, qvel and sensordata \
+             to a numpy archive",
+            path.display()
+        )));
+    }
     let archive = NpzReader::open(path).map_err(Failure::usage)?;
     let log = Log::of_archive(&path.display().to_string(), &archive, model).map_err(Failure::usage)?;
     match &a.columns {
@@ -174,15 +184,11 @@ fn show_found(found: &Found) {
             direction.parts.iter().map(|(name, share)| format!("{share:+.2} {name}")).collect();
         show!("not told     {}", parts.join(", "));
     }
-    let total = |noise: &[f64]| {
-        noise.iter().zip(&found.before).map(|(x, y)| x / y.max(f64::MIN_POSITIVE)).sum::<f64>()
-    };
-    let share = total(&found.noise) / found.columns.len() as f64;
-    show!(
-        "readings     {} columns; {:.2} % of the distance before is left",
-        found.columns.len(),
-        100.0 * share
-    );
+    // The first round weighs columns by their spread alone, before and after.
+    let ends =
+        found.rounds.first().and_then(|round| Some((round.first()?.objective, round.last()?.objective)));
+    let share = ends.map_or(0.0, |(before, after)| if before > 0.0 { after / before } else { 0.0 });
+    show!("readings     {} columns; {:.2e} of the sum of squares is left", found.columns.len(), share);
     let correlated: Vec<_> = found
         .columns
         .iter()

@@ -69,6 +69,9 @@ fn wrong_words_are_refused_with_the_way_out() {
     )
     .unwrap();
     let other = path("other.xml");
+    let episodes = robohive(&["identify", &path("episodes.h5"), "--model", &model, "--fit", "damping"]);
+    assert_eq!(episodes.status.code(), Some(2));
+    assert!(text(&episodes.stderr).contains("episodes.h5: recordings of episodes hold actions"));
     for (words, part) in [
         (vec!["--model", &model, "--fit", "hing.damping"], "did you mean 'hinge'?"),
         (vec!["--model", &model, "--fit", "kv"], "there are none"),
