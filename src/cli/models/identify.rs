@@ -31,9 +31,9 @@ FOLDER gets model.xml, the whole model with the values found; patch.xml, the cha
 report.html, with curves before and after. Standard deviations are those of noise; what the log cannot tell is named.
 
 Examples:
-  robohive sim assets/franka/franka_table.xml --seconds 0.4 --out log.npz
-  robohive identify log.npz --model assets/franka/franka_table.xml --fit joint1.damping,joint4.armature --out fitted
-  robohive identify log.npz --model assets/franka/franka_table.xml --fit delay --prior delay=0.01,0.002 --window 0.2"
+  robohive sim assets/elbow/elbow.xml --seconds 0.5 --out log.npz
+  robohive identify log.npz --model assets/elbow/elbow.xml --fit damping,armature --out fitted
+  robohive identify log.npz --model assets/elbow/elbow.xml --fit delay --prior delay=0.01,0.01"
 )]
 pub struct Identify {
     /// Logs, numpy archives
