@@ -66,8 +66,8 @@ pub struct Found {
     pub noise: Vec<f64>,
     /// The same before the fit.
     pub before: Vec<f64>,
-    /// Correlation of successive residuals in each column: 0 of noise; near 1 the model lacks something, and deviations are too
-    /// small.
+    /// Correlation of successive residuals in each column: 0 of noise; near 1 the model lacks something or this is a local minimum, and deviations
+    /// are too small.
     pub correlation: Vec<f64>,
     /// The course of each round.
     pub rounds: Vec<Vec<Trace>>,

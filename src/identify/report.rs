@@ -98,8 +98,8 @@ fn columns(found: &Found) -> String {
     text +=
         "</table><p>What is left is the root of the mean square of residuals, in the unit of the column.</p>";
     if found.correlation.iter().any(|&c| c > CORRELATED) {
-        text += "<p>Highlighted: residuals follow each other, so that the model lacks something that the robot has, and \
-                 standard deviations are too small.</p>";
+        text += "<p>Highlighted: residuals follow each other: the model lacks something that the robot has, or the fit ended \
+                 in a local minimum. Standard deviations are too small then.</p>";
     }
     text
 }

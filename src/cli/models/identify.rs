@@ -198,7 +198,7 @@ fn show_found(found: &Found) {
         .collect();
     if !correlated.is_empty() {
         note(&format!(
-            "residuals of {} follow each other: the model lacks something, and deviations are too small",
+            "residuals of {} follow each other: the model lacks something or the fit ended in a local minimum; deviations are too small",
             correlated.join(", ")
         ));
     }
