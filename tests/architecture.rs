@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 30] = [
+const ORDER: [(&str, &[&str]); 31] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -40,6 +40,7 @@ const ORDER: [(&str, &[&str]); 30] = [
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
     ("robohive-agents", &["dataset", "env"]),
     ("robohive-record", &["physics", "dataset", "env"]),
+    ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),
     ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",
@@ -88,6 +89,7 @@ const ORDER: [(&str, &[&str]); 30] = [
             "exchange",
             "env",
             "record",
+            "identify",
             "agents",
             "validation",
         ],
@@ -98,7 +100,7 @@ const ORDER: [(&str, &[&str]); 30] = [
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 19] = [
+const OTHERS: [(&str, &[&str]); 20] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
     ("robohive-dataset", &["zip", "flate2"]),
@@ -120,6 +122,7 @@ const OTHERS: [(&str, &[&str]); 19] = [
     ("robohive-env", &["rayon", "serde", "toml"]),
     ("robohive-agents", &["libm"]),
     ("robohive-record", &[]),
+    ("robohive-identify", &["rayon"]),
     ("robohive", &[]),
 ];
 
@@ -156,6 +159,7 @@ fn crates_depend_on_those_before_them() {
         "validation",
         "video",
         "exchange",
+        "identify",
         "render",
         "encoders",
         "render_gpu",

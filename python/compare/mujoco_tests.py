@@ -2,8 +2,8 @@
 
     python python/compare/mujoco_tests.py [--only NAME…] [--table validation/results/standin_tests.md]
 
-Needs `mujoco` of the version that the stand-in follows, `absl-py`, `etils[epath]` and this package; MuJoCo's tests of pictures
-need OSMesa or an OpenGL display (`MUJOCO_GL`). Each file of tests runs in a process of its own, on MuJoCo's bindings and on the
+Needs `mujoco` of the version that the stand-in follows, `absl-py`, `etils[epath]`, this package and, for `sysid`, what
+`mujoco[sysid]` installs, and pytest; MuJoCo's tests of pictures need OSMesa or an OpenGL display (`MUJOCO_GL`). Each file of tests runs in a process of its own, on MuJoCo's bindings and on the
 stand-in; tests that fail on MuJoCo's, for want of a display, are not counted.
 """
 
@@ -24,6 +24,9 @@ from pathlib import Path
 FILES = (
     "bindings specs rollout vfs renderer render thread_safety minimize msh2obj viewer gil memory_leak".split()
 )
+#: Files of tests of `sysid`, in the wheel's folder `mujoco/sysid/tests`, which pytest runs.
+SYSID = "parameter timeseries signal model_modifier trajectory integration".split()
+_SYSID = "sysid/"
 #: Letters of a cause that are shown.
 SHOWN = 160
 #: What one file may take [s].
@@ -98,6 +101,45 @@ class Outcomes(unittest.TestResult):
             test._failed_in_part = True  # type: ignore[attr-defined]
 
 
+class Reports:
+    """A plugin of pytest that writes causes of failures by the names of tests; None of those that pass."""
+
+    def __init__(self, out: Path) -> None:
+        self.out = out
+        self.causes: dict[str, str | None] = {}
+
+    def _keep(self, node: str, cause: str | None) -> None:
+        name = node.partition("::")[2].replace("::", ".")
+        self.causes[name] = cause if cause is None or len(cause) <= SHOWN else cause[:SHOWN] + "…"
+        self.out.write_text(json.dumps(self.causes))
+
+    def pytest_runtest_logstart(self, nodeid: str) -> None:
+        """Notes a test that begins: should the process die, it fails."""
+        self._keep(nodeid, "the process ended")
+
+    def pytest_runtest_logreport(self, report: object) -> None:
+        """Notes how a part of a test ended."""
+        node, when, outcome = (str(getattr(report, name)) for name in ("nodeid", "when", "outcome"))
+        if outcome == "failed":
+            crash = getattr(getattr(report, "longrepr", None), "reprcrash", None)
+            text = " ".join(str(getattr(crash, "message", "it fails")).split())
+            self._keep(node, f"line {getattr(crash, 'lineno', '?')}: {text}")
+        elif when == "call" and outcome == "passed":
+            self._keep(node, None)
+
+
+def run_sysid(folder: Path, name: str, out: Path, only: str | None) -> None:
+    """Runs one file's tests of `sysid` by pytest, in this process, from a copy outside of the wheel's packages."""
+    import shutil
+
+    import pytest
+
+    tests = Path(tempfile.mkdtemp()) / "tests"
+    shutil.copytree(folder / "sysid" / "tests", tests, ignore=shutil.ignore_patterns("__init__.py", "__pycache__"))
+    options = ["-q", "-p", "no:cacheprovider", *(["-k", only] if only else []), str(tests / f"test_{name}.py")]
+    pytest.main(options, plugins=[Reports(out)])
+
+
 def run_file(engine: str, name: str, out: Path, only: str | None) -> None:
     """Runs one file's tests in this process."""
     folder = wheel()
@@ -106,6 +148,10 @@ def run_file(engine: str, name: str, out: Path, only: str | None) -> None:
 
         robohive.mujoco.install()
         robohive.mujoco.set_instability("reset")
+    if name.startswith(_SYSID):
+        run_sysid(folder, name.removeprefix(_SYSID), out, only)
+        return
+    if engine == "standin":
         from etils import epath
 
         epath.resource_path = lambda package: epath.Path(str(folder))  # type: ignore[assignment]
@@ -146,6 +192,11 @@ def outcomes(engine: str, name: str, only: str | None) -> dict[str, str | None]:
     return outcomes_of([sys.executable, __file__, *(["--match", only] if only else []), "--run", engine, name], LIMIT)
 
 
+def shown(name: str) -> str:
+    """The file of tests, in the wheel."""
+    return f"sysid/tests/test_{name.removeprefix(_SYSID)}.py" if name.startswith(_SYSID) else f"{name}_test.py"
+
+
 def escaped(cause: str) -> str:
     """A cause as a cell of a table."""
     return cause.replace("|", "\\|").replace("<", "&lt;")
@@ -154,7 +205,8 @@ def escaped(cause: str) -> str:
 def main() -> None:
     """Runs, prints, writes."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--only", nargs="*", default=FILES, help="files of tests, without _test.py")
+    files = [*FILES, *(_SYSID + name for name in SYSID)]
+    parser.add_argument("--only", nargs="*", default=files, help="files of tests, without _test.py; of sysid: sysid/signal")
     parser.add_argument("--match", help="only tests whose name contains this")
     parser.add_argument("--table", type=Path)
     parser.add_argument("--run", nargs=3, help=argparse.SUPPRESS)
@@ -172,7 +224,7 @@ def main() -> None:
         lost = ours.get("(the file)")
         failed += [(name, test, ours.get(test) or lost or "the test did not run") for test in expected if test not in passing]
         total = [total[0] + len(expected), total[1] + len(passing)]
-        print(f"| `{name}_test.py` | {len(expected)} of {len(theirs)} | {len(passing)} of {len(expected)} |", file=out)
+        print(f"| `{shown(name)}` | {len(expected)} of {len(theirs)} | {len(passing)} of {len(expected)} |", file=out)
         print(f"{name}: {len(passing)} of {len(expected)}", file=sys.stderr)
     print(f"| all | {total[0]} | {total[1]}, {100 * total[1] / max(total[0], 1):.1f} % |", file=out)
     print("\n| test | why it fails on the stand-in |\n|---|---|", file=out)

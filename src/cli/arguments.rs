@@ -11,6 +11,7 @@ use crate::models::bench::Bench;
 use crate::models::check::Check;
 use crate::models::compile::Compile;
 use crate::models::convert::Convert;
+use crate::models::identify::Identify;
 use crate::models::inspect::Inspect;
 use crate::models::sim::Sim;
 use crate::models::trace::Trace;
@@ -76,6 +77,8 @@ pub enum Command {
     Convert(Convert),
     /// Simulate a model under the controls of a keyframe, or none
     Sim(Sim),
+    /// Find parameters of a model with which it reads what a log has
+    Identify(Identify),
     /// Step or forward recorded inputs and write the named fields
     Trace(Trace),
     /// Compare a model with what MuJoCo recorded of it

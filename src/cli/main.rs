@@ -40,6 +40,7 @@ fn main() -> ExitCode {
         Command::Compile(a) => models::compile::run(&a),
         Command::Convert(a) => models::convert::run(&a),
         Command::Sim(a) => models::sim::run(&a),
+        Command::Identify(a) => models::identify::run(&a),
         Command::Trace(a) => models::trace::run(&a),
         Command::Check(a) => models::check::run(&a),
         Command::Bench(a) => models::bench::run(&a),

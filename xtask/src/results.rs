@@ -15,13 +15,14 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 19] = [
+const SPEAK_OF: [(&str, &[&str]); 21] = [
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
     ("environments", &["src/physics", "mjcf", "src/robot", "src/env"]),
     ("environments_speed", &["src/physics", "mjcf", "src/robot", "src/env"]),
     ("environments_visual", &["src/physics", "mjcf", "src/robot", "src/env", "src/render"]),
     ("gymnasium", &["src/physics", "mjcf", "src/env"]),
+    ("identify", &["src/physics", "mjcf", "src/identify"]),
     ("items", &["src/physics", "mjcf", "src/render/scene"]),
     ("pictures", &["src/physics", "mjcf", "src/render"]),
     ("pictures_gpu", &["src/physics", "mjcf", "src/render", "src/render_gpu"]),
@@ -33,6 +34,7 @@ const SPEAK_OF: [(&str, &[&str]); 19] = [
     ("standin_dm_control", &["src/physics", "mjcf", "python"]),
     ("standin_myosuite", &["src/physics", "mjcf", "python"]),
     ("standin_suite", &["src/physics", "mjcf", "python"]),
+    ("standin_sysid", &["src/physics", "mjcf", "python"]),
     ("standin_tests", &["src/physics", "mjcf", "python"]),
     ("web", &["src/physics", "mjcf", "src/render", "src/viewer", "web"]),
 ];

@@ -14,6 +14,7 @@ _MODULES = (
     "minimize",
     "msh2obj",
     "rollout",
+    "sysid",
     "viewer",
 )
 #: Those that bring an OpenGL context, of which nothing is needed here.

@@ -5,6 +5,7 @@ pub mod check;
 pub mod compile;
 pub mod convert;
 pub mod fields;
+pub mod identify;
 pub mod inspect;
 pub mod sim;
 pub mod trace;

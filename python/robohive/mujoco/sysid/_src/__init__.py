@@ -1,0 +1,1 @@
+"""Modules by the paths at which MuJoCo has them."""

@@ -1,0 +1,3 @@
+"""Parameters."""
+
+from robohive.mujoco.sysid.parameter import *  # noqa: F403

@@ -1,0 +1,5 @@
+"""Pictures of trajectories."""
+
+from robohive.mujoco.sysid.rendering import render_rollout
+
+__all__ = ["render_rollout"]

@@ -1,0 +1,1 @@
+"""Quantities that are fitted, and their collections."""
