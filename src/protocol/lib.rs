@@ -8,11 +8,13 @@
 //! | module | devices | source |
 //! |---|---|---|
 //! | [`dynamixel`] | Dynamixel servos, protocol 2.0 | ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0" and the control tables of each model |
+//! | [`franka`] | Franka arms (versions 5 and 10) and the Franka Hand | Franka Control Interface documentation, headers of `libfranka-common`, layouts of `franka-rs` |
 //!
 //! Numbers on the wire are little-endian unless a page says otherwise.
 
 pub mod crc;
 pub mod dynamixel;
+pub mod franka;
 mod port;
 
 pub use port::Port;
