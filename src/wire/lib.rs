@@ -38,6 +38,7 @@ mod bench;
 mod device;
 pub mod dynamixel;
 mod faults;
+pub mod franka;
 mod plant;
 #[cfg(unix)]
 mod serve;

@@ -1,6 +1,6 @@
 //! The robot and its surroundings, which the devices of a bench move and measure.
 
-use physics::model::TrnType;
+use physics::model::{ConstraintType, TrnType};
 use physics::{Data, Model, StepError};
 use std::fmt;
 
@@ -25,6 +25,7 @@ type Gains = [f64; 4];
 #[derive(Clone, Copy, Debug)]
 struct Motor {
     control: usize,
+    joint: usize,
     position: usize,
     velocity: usize,
     own: Gains,
@@ -140,6 +141,31 @@ impl Plant {
         self.data.actuation.actuator_force[motor]
     }
 
+    /// Torque or force that gravity and motion ask of a motor's joint to leave its velocity as it is, \[N m, N\].
+    pub fn bias(&self, motor: usize) -> f64 {
+        self.motors[motor].map_or(0.0, |motor| self.data.vel.qfrc_bias[motor.velocity])
+    }
+
+    /// Torque or force that the surroundings exert on a motor's joint by contacts \[N m, N\].
+    pub fn external(&self, motor: usize) -> f64 {
+        let Some(Motor { velocity, joint, .. }) = self.motors[motor] else { return 0.0 };
+        let efc = &self.data.efc;
+        // Friction and the joint's own limit are constraints too, but the joint's own.
+        let own = |row: usize| {
+            let (kind, id) = (efc.efc_type[row], efc.efc_id[row] as usize);
+            if kind == ConstraintType::FrictionDof as i32 && id == velocity {
+                efc.efc_force[row]
+            } else if kind == ConstraintType::LimitJoint as i32 && id == joint {
+                let [low, high] = self.model.jnt_range[joint];
+                let upper = self.position(motor) > (low + high) / 2.0;
+                if upper { -efc.efc_force[row] } else { efc.efc_force[row] }
+            } else {
+                0.0
+            }
+        };
+        self.data.acc.qfrc_constraint[velocity] - (0..efc.nefc).map(own).sum::<f64>()
+    }
+
     /// Seconds that it has moved.
     pub fn time(&self) -> f64 {
         self.begun + self.steps as f64 * self.model.opt.timestep
@@ -187,6 +213,7 @@ fn motor(model: &Model, id: usize) -> Option<Motor> {
     let own = [model.actuator_gainprm[id][0], bias[0], bias[1], bias[2]];
     Some(Motor {
         control: model.actuator_ctrladr[id] as usize,
+        joint,
         position: model.jnt_qposadr[joint] as usize,
         velocity: model.jnt_dofadr[joint] as usize,
         own,
