@@ -188,9 +188,6 @@ fn find_peers(bench: &Bench, ends: &mut [(LinkId, End)]) {
 fn take_all(bench: &Shared, ends: &mut [(LinkId, End)], buffer: &mut [u8]) -> io::Result<()> {
     let lock = || bench.lock().unwrap_or_else(PoisonError::into_inner);
     for (link, end) in ends.iter_mut() {
-        if end.accept()? {
-            lock().set_connected(*link, true);
-        }
         let open = end.open();
         match end.take(buffer) {
             Ok(count) if count > 0 => lock().send(*link, &buffer[..count]),
@@ -206,6 +203,10 @@ fn take_all(bench: &Shared, ends: &mut [(LinkId, End)], buffer: &mut [u8]) -> io
         }
         if open && !end.open() {
             lock().set_connected(*link, false);
+        }
+        // After the end of the connection before, which may have come just now.
+        if end.accept()? {
+            lock().set_connected(*link, true);
         }
         // A device that hung up, or a fault that cut the line.
         if let End::Tcp(_, stream @ Some(_)) = end
