@@ -8,12 +8,14 @@
 //! | module | devices | source |
 //! |---|---|---|
 //! | [`dynamixel`] | Dynamixel servos, protocol 2.0 | ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0" and the control tables of each model |
+//! | [`franka`] | Franka arms (versions 5 and 10) and the Franka Hand | Franka Control Interface documentation, headers of `libfranka-common`, layouts of `franka-rs` |
 //! | [`optitrack`] | OptiTrack trackers: NatNet 3.0 and 4.1, and RoboHive's packet of 36 bytes | NatNet SDK documentation |
 //!
 //! Numbers on the wire are little-endian unless a page says otherwise.
 
 pub mod crc;
 pub mod dynamixel;
+pub mod franka;
 pub mod optitrack;
 mod port;
 

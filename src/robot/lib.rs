@@ -71,6 +71,7 @@ mod remap;
 mod robot;
 mod symmetric;
 
+pub use binding::free_joint;
 pub use compat::{Compat, QUIRKS, Quirk, UnknownCompat};
 pub use config::{
     ActuatorConfig, CameraConfig, Config, ConfigError, DeviceConfig, HardwareId, Interface, SensorConfig,

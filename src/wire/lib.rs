@@ -38,6 +38,8 @@ mod bench;
 mod device;
 pub mod dynamixel;
 mod faults;
+pub mod franka;
+pub mod optitrack;
 mod plant;
 mod rig;
 #[cfg(unix)]
