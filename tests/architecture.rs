@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 27] = [
+const ORDER: [(&str, &[&str]); 28] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -37,6 +37,7 @@ const ORDER: [(&str, &[&str]); 27] = [
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
     ("robohive-agents", &["dataset", "env"]),
     ("robohive-record", &["physics", "dataset", "env"]),
+    ("robohive-teleop", &["physics", "dataset", "robot", "env", "record"]),
     ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",
@@ -83,6 +84,7 @@ const ORDER: [(&str, &[&str]); 27] = [
             "exchange",
             "env",
             "record",
+            "teleop",
             "agents",
             "validation",
         ],
@@ -93,7 +95,7 @@ const ORDER: [(&str, &[&str]); 27] = [
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 16] = [
+const OTHERS: [(&str, &[&str]); 17] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
     ("robohive-dataset", &["zip", "flate2"]),
@@ -112,6 +114,7 @@ const OTHERS: [(&str, &[&str]); 16] = [
     ("robohive-env", &["rayon", "serde", "toml"]),
     ("robohive-agents", &["libm"]),
     ("robohive-record", &[]),
+    ("robohive-teleop", &["rustix", "toml"]),
     ("robohive", &[]),
 ];
 
