@@ -145,6 +145,8 @@ fn crates_depend_on_those_before_them() {
         "store",
         "robot",
         "env",
+        "record",
+        "teleop",
         "validation",
         "video",
         "exchange",

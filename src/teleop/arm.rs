@@ -22,6 +22,8 @@ const SMALL: f64 = 1e-3;
 /// Damping and largest update \[rad\] of a search: near the ends of what an arm reaches it must not wander.
 const DAMPING: f64 = 1e-3;
 const UPDATE: f64 = 0.5;
+/// Parts of a motion that are tried: near the ends of what an arm reaches a little way is a long one for its joints.
+const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// What `quarter` leaves.
 const QUARTER: f64 = 0.25;
 
@@ -182,12 +184,34 @@ impl Arm {
         self.links.iter().zip(&self.command).map(part).fold(1.0, f64::min)
     }
 
+    /// Moves the target by the largest part of a motion that the joints can follow.
     fn pursue(&mut self, model: &Model, data: &Data, motion: &Motion) -> Reached {
-        let wanted = self.moved(motion);
         let mut start = data.clone();
         for (link, command) in self.links.iter().zip(&self.command) {
             start.state.qpos[link.position] = *command;
         }
+        let mut why = Reached::Nowhere;
+        for part in PARTS {
+            let wanted = self.moved(motion, part);
+            match self.joints_at(model, data, &start, wanted) {
+                Ok(joints) => {
+                    (self.command, self.target) = (joints, wanted);
+                    return Reached::Yes;
+                }
+                Err(refused) => why = refused,
+            }
+        }
+        why
+    }
+
+    /// Where the joints go for a target.
+    fn joints_at(
+        &self,
+        model: &Model,
+        now: &Data,
+        start: &Data,
+        target: (Vec3, Quat),
+    ) -> Result<Vec<f64>, Reached> {
         let search = Search {
             tolerance: TOLERANCE,
             max_steps: STEPS,
@@ -196,25 +220,21 @@ impl Arm {
             max_update: UPDATE,
             ..Search::default()
         };
-        let pose = Pose { position: Some(wanted.0), orientation: Some(wanted.1) };
+        let pose = Pose { position: Some(target.0), orientation: Some(target.1) };
         let reach = Reach { joints: &self.joints, rest: Some(&self.rest), pull: self.settings.pull };
-        let found = search.run_within(model, &start, self.site, &pose, &reach);
+        let found = search.run_within(model, start, self.site, &pose, &reach);
         if !found.reached {
-            return Reached::Nowhere;
+            return Err(Reached::Nowhere);
         }
         let joints: Vec<f64> = self.links.iter().map(|link| found.qpos[link.position]).collect();
-        let ahead = |(link, joint): (&Link, &f64)| (joint - data.state.qpos[link.position]).powi(2);
+        let ahead = |(link, joint): (&Link, &f64)| (joint - now.state.qpos[link.position]).powi(2);
         let distance = self.links.iter().zip(&joints).map(ahead).sum::<f64>().sqrt();
-        if distance > self.settings.reach {
-            return Reached::Far;
-        }
-        (self.command, self.target) = (joints, wanted);
-        Reached::Yes
+        if distance > self.settings.reach { Err(Reached::Far) } else { Ok(joints) }
     }
 
-    /// The target after a motion.
-    fn moved(&self, motion: &Motion) -> (Vec3, Quat) {
-        let part = if motion.quarter { QUARTER } else { 1.0 };
+    /// The target after a part of a motion.
+    fn moved(&self, motion: &Motion, part: f64) -> (Vec3, Quat) {
+        let part = if motion.quarter { part * QUARTER } else { part };
         let [x, y, z, roll, pitch, yaw] = motion.along;
         let (mut position, mut turned) = self.target;
         position = add(position, scale([x, y, z], part * self.gains.position));

@@ -279,6 +279,10 @@ impl Session {
         }
         line += &format!("  reward {:.2}", self.reward);
         line += if self.env.verdict().solved { "  solved" } else { "  open" };
+        if let Some(arm) = self.pilot.arm() {
+            let [x, y, z] = self.env.scene().data.kin.site_xpos[arm.site().index()];
+            line += &format!("  hand {x:.3} {y:.3} {z:.3} m");
+        }
         line += &format!("  {good} of {kept} succeeded");
         if self.slow {
             line += "  slow";
