@@ -158,11 +158,11 @@ fn number_after(text: &str, before: &str) -> f64 {
 #[test]
 fn typed_keys_solve_the_task_and_the_recording_loads() {
     let file = scratch("teleop.h5");
-    let mut typed = Typed::start(&[ID, "--record", file.to_str().unwrap(), "--seed", "4"], true);
+    let mut typed = Typed::start(&[ID, "--record", file.to_str().unwrap(), "--seed", "8"], true);
     let single = tcgetattr(&typed.slave).unwrap();
-    reach(&mut typed, target(4));
+    reach(&mut typed, target(8));
     typed.write("\r");
-    typed.wait_for("episode 2  seed 5");
+    typed.wait_for("episode 2  seed 9");
     // A second one, gone back in and given up.
     typed.write("\u{1b}[97;1:1u");
     (0..4).for_each(|_| typed.pause());
@@ -171,7 +171,7 @@ fn typed_keys_solve_the_task_and_the_recording_loads() {
     typed.write("\u{1b}[98;1:3u");
     typed.wait_for("PAUSED");
     typed.write("\u{1b}[127u");
-    typed.wait_for("episode 3  seed 6");
+    typed.wait_for("episode 3  seed 10");
     let slave = typed.slave.try_clone().unwrap();
     typed.write("\u{1b}[27u");
     let (status, said) = typed.end();
@@ -198,7 +198,10 @@ fn typed_keys_solve_the_task_and_the_recording_loads() {
         .collect();
     assert_eq!(judged, [1.0, 0.0]);
     let recorded = Recorded::read(&trace, "Trial0").unwrap();
-    assert_eq!(recorded.seed, Some(4));
+    assert_eq!(recorded.seed, Some(8));
+    let solved =
+        trace.entries("Trial0").unwrap().into_iter().find(|entry| entry.key == "env_infos/solved").unwrap();
+    assert!(trace.read(&solved).unwrap().values.to_f64().contains(&1.0), "the task was solved");
     let out = robohive(&["data", "replay", file.to_str().unwrap()]);
     assert!(out.status.success(), "{}{}", text(&out.stdout), text(&out.stderr));
 }
