@@ -8,7 +8,7 @@ use crate::interrupt::Interrupt;
 use crate::output::{check_place, keep_input};
 use crate::pictures::film::Film;
 use crate::pictures::subject::camera_of;
-use crate::terminal::{complain, note, redraw};
+use crate::terminal::{complain, listed, note, redraw, show};
 use ::teleop::devices::{Opened, Terminal, wait};
 use ::teleop::{Control, Event, Held, Mapping, Plan, Session, TeleopError, Ticked};
 use record::Recording;
@@ -74,19 +74,18 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     redraw("");
     drop(desk.terminal.take());
     desk.report.seconds = desk.began.elapsed().as_secs_f64();
+    // Files first: whoever looked on may be gone.
+    let recorded = desk.recording.take().map(Recording::close).transpose()?;
+    let finished = film.map(Film::finish).transpose()?.flatten();
     desk.report.show(&source.id, desk.session.counts());
-    if let Some(finished) = film.map(Film::finish).transpose()?.flatten() {
-        crate::terminal::show!("video        {finished}");
+    if let Some(finished) = finished {
+        show!("video        {finished}");
     }
-    if let Some(recording) = desk.recording {
-        let (path, episodes, unmapped) = recording.close()?;
+    if let Some((path, episodes, unmapped)) = recorded {
         if !unmapped.is_empty() {
-            note(&format!(
-                "not recorded, for want of a place in the layout: {}",
-                crate::terminal::listed(&unmapped, 8)
-            ));
+            note(&format!("not recorded, for want of a place in the layout: {}", listed(&unmapped, 8)));
         }
-        crate::terminal::show!("recorded     {episodes} episodes in {}", path.display());
+        show!("recorded     {episodes} episodes in {}", path.display());
     }
     outcome?;
     match interrupt.code() {

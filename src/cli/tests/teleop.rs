@@ -223,6 +223,23 @@ fn a_kill_loses_no_finished_episode() {
 }
 
 #[test]
+fn a_terminal_that_goes_leaves_whole_files() {
+    let file = scratch("gone.npz");
+    let mut typed = Typed::start(&[ID, "--record", file.to_str().unwrap(), "--horizon", "2"], true);
+    typed.write("\u{1b}[100;1:1u\u{1b}[100;1:3u");
+    typed.wait_for("hand");
+    typed.write("\u{1b}[100;1:1u");
+    typed.wait_for("episode 2  seed 1");
+    // A window that is closed sends the first signal; what the program then writes, nobody reads.
+    let interrupt = Command::new("kill").args(["-HUP", &typed.child.id().to_string()]).status().unwrap();
+    assert!(interrupt.success());
+    let (status, said) = typed.end();
+    assert_eq!(status.code(), Some(129), "{said}");
+    let trace = TraceReader::open(&file).unwrap();
+    assert!(Recorded::read(&trace, "Trial0").unwrap().actions.row(2).is_some());
+}
+
+#[test]
 fn a_plain_terminal_repeats_keys_and_an_interrupt_ends() {
     let mut typed = Typed::start(&[ID], false);
     let start = typed.hand();

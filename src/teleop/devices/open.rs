@@ -8,6 +8,7 @@ use crate::quest::Quest;
 use crate::space_mouse::SpaceMouse;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{Mode, OFlags};
+use rustix::io::Errno;
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::path::{Path, PathBuf};
 
@@ -107,7 +108,7 @@ impl Opened {
                 }
                 return Ok(());
             }
-            Err(rustix::io::Errno::AGAIN | rustix::io::Errno::INTR) => return Ok(()),
+            Err(Errno::AGAIN | Errno::INTR) => return Ok(()),
             Err(_) => {}
         }
         events.push(Event::Lost(Lost::Device(self.device())));
@@ -139,7 +140,7 @@ pub fn wait(files: &[BorrowedFd<'_>], seconds: f64) -> std::io::Result<Wait> {
     let seconds = seconds.clamp(0.0, 3600.0);
     let timeout = Timespec { tv_sec: seconds as i64, tv_nsec: (seconds.fract() * 1e9) as i64 };
     match poll(&mut polled, Some(&timeout)) {
-        Ok(_) | Err(rustix::io::Errno::INTR) => {}
+        Ok(_) | Err(Errno::INTR) => {}
         Err(error) => return Err(error.into()),
     }
     Ok(polled.iter().map(|polled| !polled.revents().is_empty()).collect())
@@ -164,19 +165,20 @@ fn choose(
 
 fn open(device: &str, found: &Candidate, readers: &str) -> Result<OwnedFd, TeleopError> {
     let flags = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::CLOEXEC;
-    rustix::fs::open(&found.path, flags, Mode::empty()).map_err(|error| {
-        let fix = match error {
-            rustix::io::Errno::ACCESS | rustix::io::Errno::PERM => {
-                format!("it may be read by {readers}: `sudo usermod -aG input $USER`, then log in again")
-            }
-            _ => "name another file by --path".to_owned(),
-        };
-        let message = match error {
-            rustix::io::Errno::ACCESS | rustix::io::Errno::PERM => "you may not read it".to_owned(),
-            error => error.to_string(),
-        };
-        TeleopError::Device { device: device.to_owned(), path: Some(found.path.clone()), message, fix }
-    })
+    rustix::fs::open(&found.path, flags, Mode::empty())
+        .map_err(|error| refusal(device, found, readers, error))
+}
+
+/// Why a device is not opened, and what to do.
+fn refusal(device: &str, found: &Candidate, readers: &str, error: Errno) -> TeleopError {
+    let (message, fix) = match error {
+        Errno::ACCESS | Errno::PERM => (
+            "you may not read it".to_owned(),
+            format!("it may be read by {readers}: `sudo usermod -aG input $USER`, then log in again"),
+        ),
+        error => (error.to_string(), "name another file by --path".to_owned()),
+    };
+    TeleopError::Device { device: device.to_owned(), path: Some(found.path.clone()), message, fix }
 }
 
 /// Six-axis mice that the kernel knows.
@@ -191,4 +193,20 @@ fn hidraw() -> Vec<Candidate> {
         .collect();
     texts.sort();
     space_mice(texts.iter().map(|(name, text)| (&name[..], &text[..])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_refusal_names_device_path_and_group() {
+        let found = Candidate { name: "pad".into(), path: "/dev/input/event17".into() };
+        let said = refusal("gamepad", &found, "the group input", Errno::ACCESS).to_string();
+        for part in ["gamepad", "/dev/input/event17", "you may not read it", "usermod -aG input"] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+        let said = refusal("gamepad", &found, "the group input", Errno::NOENT).to_string();
+        assert!(said.contains("--path") && !said.contains("usermod"), "{said}");
+    }
 }

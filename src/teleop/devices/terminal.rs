@@ -6,7 +6,7 @@ use crate::keyboard::{Answer, Keyboard, QUESTION, TURN_OFF, TURN_ON};
 use rustix::termios::{
     InputModes, LocalModes, OptionalActions, SpecialCodeIndex, Termios, tcgetattr, tcsetattr,
 };
-use std::io::{Stdin, Write, stdin, stdout};
+use std::io::{IsTerminal, Stdin, Write, stdin, stdout};
 use std::os::fd::{AsFd, BorrowedFd};
 
 /// The terminal of standard input, without line editing and echo until this is dropped.
@@ -37,8 +37,14 @@ impl Terminal {
         single.input_modes &= !(InputModes::ICRNL | InputModes::IXON);
         single.special_codes[SpecialCodeIndex::VMIN] = 0;
         single.special_codes[SpecialCodeIndex::VTIME] = 0;
+        if cfg!(target_os = "linux") {
+            // A session that is stopped by Ctrl-Z would leave the shell a terminal that it does not know.
+            single.special_codes[SpecialCodeIndex::VSUSP] = 0;
+        }
         tcsetattr(&input, OptionalActions::Now, &single).map_err(refused)?;
-        say(QUESTION);
+        if stdout().is_terminal() {
+            say(QUESTION);
+        }
         Ok(Terminal { input, before, keyboard: Keyboard::default(), releases: false })
     }
 

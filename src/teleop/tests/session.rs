@@ -197,6 +197,19 @@ fn a_recording_loads_and_replays_to_the_last_bit() {
     assert_eq!(env.observation(), recorded.observations.as_ref().unwrap().last().unwrap());
     assert!(env.verdict().solved);
     file.close().unwrap();
+
+    // By robot, in the layout of RoboSet.
+    let path = scratch("roboset.h5");
+    let mut file = Recording::create(&path, Layout::RoboSet, Precision::Full, &[]).unwrap();
+    file.add(&finished.kept).unwrap();
+    let (_, episodes, unmapped) = file.close().unwrap();
+    assert_eq!(episodes, 1);
+    assert!(
+        unmapped.iter().any(|name| name == JUDGED),
+        "the layout has no place for it, and says so: {unmapped:?}"
+    );
+    let roboset = Recorded::read(&TraceReader::open(&path).unwrap(), "Trial0").unwrap();
+    assert_eq!(roboset.actions.row(0), recorded.actions.row(0));
 }
 
 #[test]
