@@ -49,7 +49,7 @@ fn rustypot_moves_and_reads_an_arm_of_two() {
         let moving = arm.sync_read_moving(&ids).unwrap();
         let there = {
             let bench = bench.lock().unwrap();
-            goals.iter().enumerate().all(|(k, goal)| (bench.plant().position(k) - goal).abs() < 1e-3)
+            goals.iter().enumerate().all(|(k, goal)| (bench.plant().position(k) - goal).abs() < 2e-3)
         };
         if there {
             // A step is 1.5 mrad.
