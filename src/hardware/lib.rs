@@ -7,6 +7,7 @@
 //! | `type` | devices | page |
 //! |---|---|---|
 //! | `dynamixel` | Dynamixel servos with protocol 2.0 on a serial bus | [`dynamixel`] |
+//! | `franka` | Franka arms (Panda, FR3) over the Franka Control Interface, with the Franka Hand | [`franka`] |
 //!
 //! # Safety
 //!
@@ -27,6 +28,7 @@
 
 mod driver;
 pub mod dynamixel;
+pub mod franka;
 mod guard;
 mod parameters;
 mod port;
@@ -39,7 +41,7 @@ mod setup;
 pub use driver::Driver;
 pub use guard::Guarded;
 pub use parameters::Parameters;
-pub use port::{Opener, Serial, serial_ports};
+pub use port::{Network, Opener, Serial, Sockets, serial_ports};
 pub use registry::{device, kinds, registry};
 pub use safety::limits::Limits;
 pub use safety::lock::Lock;

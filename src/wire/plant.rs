@@ -61,6 +61,7 @@ pub struct Plant {
     steps: u64,
     begun: f64,
     fault: Option<StepError>,
+    held: bool,
 }
 
 impl Plant {
@@ -72,7 +73,7 @@ impl Plant {
         let mut data = Data::new(&model);
         physics::forward(&model, &mut data)?;
         let motors = (0..model.nactuator).map(|id| motor(&model, id)).collect();
-        Ok(Plant { model, data, motors, steps: 0, begun: 0.0, fault: None })
+        Ok(Plant { model, data, motors, steps: 0, begun: 0.0, fault: None, held: false })
     }
 
     /// The model; gains of its actuators change with what devices make of them.
@@ -208,9 +209,14 @@ impl Plant {
     /// One time step. Physics that fails stops the plant, see [`Plant::fault`].
     pub fn step(&mut self) {
         self.steps += 1;
-        if self.fault.is_none() {
+        if self.fault.is_none() && !self.held {
             self.fault = physics::step(&self.model, &mut self.data).err();
         }
+    }
+
+    /// Holds everything where it is while time goes on, as people do with what they put in place; or lets go.
+    pub fn set_held(&mut self, held: bool) {
+        self.held = held;
     }
 
     /// Why physics refused to go on.
