@@ -8,6 +8,7 @@
 //! |---|---|---|
 //! | `dynamixel` | Dynamixel servos with protocol 2.0 on a serial bus | [`dynamixel`] |
 //! | `franka` | Franka arms (Panda, FR3) over the Franka Control Interface, with the Franka Hand | [`franka`] |
+//! | `optitrack` | OptiTrack trackers by NatNet, and RoboHive's packet | [`optitrack`] |
 //!
 //! # Safety
 //!
@@ -30,6 +31,7 @@ mod driver;
 pub mod dynamixel;
 pub mod franka;
 mod guard;
+pub mod optitrack;
 mod parameters;
 mod port;
 pub mod recorder;

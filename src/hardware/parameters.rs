@@ -81,6 +81,20 @@ impl Parameters {
         }
     }
 
+    /// A whole number, which RoboHive's configs also write as a text.
+    ///
+    /// # Errors
+    /// The value is something else.
+    pub fn whole(&mut self, key: &'static str, otherwise: i32) -> Result<i32, Fault> {
+        let number = match self.take(key) {
+            None => return Ok(otherwise),
+            Some(Value::Integer(number)) => i32::try_from(number).ok(),
+            Some(Value::Text(text)) => text.trim().parse().ok(),
+            Some(_) => None,
+        };
+        number.ok_or_else(|| refused(key, "is not a whole number"))
+    }
+
     /// A list of numbers.
     ///
     /// # Errors

@@ -24,6 +24,12 @@ pub trait Sockets: Send + Sync {
     /// # Errors
     /// The system has none to give.
     fn datagrams(&self, host: &str, server: u16) -> io::Result<(Box<dyn Port>, u16)>;
+
+    /// A socket at a port of this machine, for datagrams that `host` sends there, or to a multicast group.
+    ///
+    /// # Errors
+    /// The port is taken; the group cannot be joined.
+    fn listen(&self, host: &str, port: u16, group: Option<Ipv4Addr>) -> io::Result<Box<dyn Port>>;
 }
 
 /// The network of this machine.
@@ -52,8 +58,24 @@ impl Sockets for Network {
         let socket = UdpSocket::bind((any, 0))?;
         socket.set_nonblocking(true)?;
         let port = socket.local_addr()?.port();
-        Ok((Box::new(Datagrams { socket, peer, last: None, start: Instant::now() }), port))
+        let last = Some(SocketAddr::new(peer, server));
+        Ok((Box::new(Datagrams { socket, peer, last, start: Instant::now() }), port))
     }
+
+    fn listen(&self, host: &str, port: u16, group: Option<Ipv4Addr>) -> io::Result<Box<dyn Port>> {
+        let peer = resolve(host, port)?.ip();
+        let taken = format!("UDP port {port}");
+        let socket = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, port)).map_err(explain(&taken))?;
+        if let Some(group) = group {
+            socket.join_multicast_v4(&group, &Ipv4Addr::UNSPECIFIED).map_err(explain("joining the group"))?;
+        }
+        socket.set_nonblocking(true)?;
+        Ok(Box::new(Datagrams { socket, peer, last: None, start: Instant::now() }))
+    }
+}
+
+fn explain(what: &str) -> impl Fn(io::Error) -> io::Error + '_ {
+    move |error| io::Error::new(error.kind(), format!("{what}: {error}"))
 }
 
 /// Looks again and again until something is there, it is too late, or nobody is there any more.

@@ -6,6 +6,7 @@ use protocol::franka::{ArmLimits, CYCLE, Setpoint, Version};
 use robohive_hardware::{Services, Setup, Sockets, TendedClock, registry};
 use robot::{Clock, Config, Options, Robot, RobotError};
 use std::io;
+use std::net::Ipv4Addr;
 use std::sync::{Arc, Mutex, PoisonError};
 use wire::franka::{Arm, Hand};
 use wire::{Bench, Carries, LinkId, Plant, Shared, VirtualClock, VirtualPort};
@@ -98,6 +99,10 @@ impl Sockets for Wires {
             return Ok((Box::new(Tap { port, version: self.version, sent: self.sent.clone() }), 40_000));
         }
         Ok((Box::new(port), 40_001))
+    }
+
+    fn listen(&self, _: &str, _: u16, _: Option<Ipv4Addr>) -> io::Result<Box<dyn Port>> {
+        Err(io::ErrorKind::Unsupported.into())
     }
 }
 
