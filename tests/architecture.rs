@@ -47,7 +47,22 @@ const ORDER: [(&str, &[&str]); 31] = [
         &["physics", "mjcf", "dataset", "random", "robot", "render", "render_gpu", "env", "agents"],
     ),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
-    ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
+    (
+        "robohive-library",
+        &[
+            "physics",
+            "mjcf",
+            "store",
+            "robot",
+            "protocol",
+            "wire",
+            "hardware",
+            "encoders",
+            "env",
+            "render",
+            "render_gpu",
+        ],
+    ),
     (
         "robohive-viewer",
         &[
@@ -68,7 +83,10 @@ const ORDER: [(&str, &[&str]); 31] = [
     ("robohive-web-app", &["env", "agents", "viewer", "robohive-web"]),
     (
         "robohive-python",
-        &["physics", "mjcf", "dataset", "random", "library", "render", "video", "viewer", "exchange", "env"],
+        &[
+            "physics", "mjcf", "dataset", "random", "robot", "hardware", "library", "render", "video",
+            "viewer", "exchange", "env",
+        ],
     ),
     (
         "robohive-cli",

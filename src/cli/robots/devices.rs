@@ -3,9 +3,10 @@
 use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::robots::live::Arming;
-use crate::robots::rehearsal::{Rehearsal, simulated};
+use crate::robots::rehearsal::{rehearsal, simulated};
 use ::hardware::{Setup, device};
 use clap::{Args, ValueHint};
+use library::Rehearsal;
 use robot::{Clock, Config, Device, DeviceConfig, Fault, WallClock};
 use std::path::PathBuf;
 
@@ -51,7 +52,7 @@ impl Devices {
     pub fn reach(&self, arming: &Arming) -> Result<Reached, Failure> {
         let config = Config::read(&self.config).map_err(Failure::usage)?;
         let rehearsal = match &self.rehearse {
-            Some(id) => Some(Rehearsal::new(&config, &simulated(id, &self.making)?)?),
+            Some(id) => Some(rehearsal(&config, &simulated(id, &self.making)?)?),
             None => None,
         };
         let setup = arming.setup();
