@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 31] = [
+const ORDER: [(&str, &[&str]); 32] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -41,6 +41,7 @@ const ORDER: [(&str, &[&str]); 31] = [
     ("robohive-agents", &["dataset", "env"]),
     ("robohive-record", &["physics", "dataset", "env"]),
     ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),
+    ("robohive-teleop", &["physics", "dataset", "robot", "env", "record"]),
     ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",
@@ -108,6 +109,7 @@ const ORDER: [(&str, &[&str]); 31] = [
             "env",
             "record",
             "identify",
+            "teleop",
             "agents",
             "validation",
         ],
@@ -118,7 +120,7 @@ const ORDER: [(&str, &[&str]); 31] = [
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 20] = [
+const OTHERS: [(&str, &[&str]); 21] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
     ("robohive-dataset", &["zip", "flate2"]),
@@ -141,6 +143,7 @@ const OTHERS: [(&str, &[&str]); 20] = [
     ("robohive-agents", &["libm"]),
     ("robohive-record", &[]),
     ("robohive-identify", &["rayon"]),
+    ("robohive-teleop", &["rustix", "toml"]),
     ("robohive", &[]),
 ];
 
@@ -174,6 +177,8 @@ fn crates_depend_on_those_before_them() {
         "wire",
         "hardware",
         "env",
+        "record",
+        "teleop",
         "validation",
         "video",
         "exchange",

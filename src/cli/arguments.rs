@@ -23,6 +23,7 @@ use crate::robots::hardware::Hardware;
 use crate::robots::wire::Wire;
 use crate::shell::completions::Completions;
 use crate::shell::man::Man;
+use crate::teleop::Teleop;
 use crate::version::VERSION;
 use crate::view::View;
 use crate::web::Web;
@@ -57,6 +58,8 @@ pub enum Command {
     Info(Info),
     /// Play episodes of an environment
     Run(Run),
+    /// Drive an environment by hand, and record demonstrations
+    Teleop(Box<Teleop>),
     /// Draw a model or an environment
     Render(Render),
     /// Draw many environments on one sheet

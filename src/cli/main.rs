@@ -1,5 +1,5 @@
 //! The `robohive` command: one subcommand a file, in parts that build on those before them: `input` (models and
-//! environments by name), `pictures`, `recordings`, `models`, `robots` (devices), `environments`; `assets`, `view`, `web` and `shell` beside them.
+//! environments by name), `pictures`, `recordings`, `models`, `robots` (devices), `environments`; `assets`, `teleop`, `view`, `web` and `shell` beside them.
 
 // Comments of arguments are what `--help` prints, where brackets are units and defaults.
 #![allow(rustdoc::broken_intra_doc_links)]
@@ -16,6 +16,7 @@ mod pictures;
 mod recordings;
 mod robots;
 mod shell;
+mod teleop;
 mod terminal;
 mod version;
 mod view;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         Command::Run(a) => environments::run::run(&a),
         Command::Render(a) => pictures::render::run(&a),
         Command::Gallery(a) => pictures::gallery::run(&a),
+        Command::Teleop(a) => teleop::run(&a),
         Command::Rollout(a) => environments::rollout::run(&a),
         Command::BenchEnv(a) => environments::bench_env::run(&a),
         Command::BenchRender(a) => pictures::bench_render::run(&a),

@@ -89,6 +89,15 @@ fn leave_if_closed(written: std::io::Result<()>) {
     }
 }
 
+/// Writes a line to standard error over the one that stands there, without beginning another; as much as the terminal has columns.
+#[cfg(unix)]
+pub fn redraw(line: &str) {
+    let columns =
+        terminal_size::terminal_size().map_or(80, |(terminal_size::Width(columns), _)| usize::from(columns));
+    let text: String = printable(line).chars().take(columns.saturating_sub(1)).collect();
+    _ = write!(anstream::stderr().lock(), "\r{text}\x1b[K");
+}
+
 /// There is nobody left to tell when standard error is closed.
 fn write_error(text: &str) {
     _ = writeln!(anstream::stderr().lock(), "{text}");

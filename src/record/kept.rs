@@ -54,6 +54,27 @@ impl Kept {
         Ok(push_row(self, env, action)?)
     }
 
+    /// Forgets all rows but the first few, as if the episode had not gone further.
+    pub fn truncate(&mut self, rows: usize) {
+        for column in self.columns.values_mut() {
+            // Every row of an episode has the same columns.
+            let row = column.bytes.len().checked_div(column.rows).unwrap_or(0);
+            column.rows = column.rows.min(rows);
+            column.bytes.truncate(column.rows * row);
+        }
+        self.rows = self.rows.min(rows);
+        if self.rows == 0 {
+            // The first row brings what was drawn of the look.
+            self.whole.clear();
+        }
+    }
+
+    /// Adds a number about the whole episode, which takes the place of a former one of that name.
+    pub fn note(&mut self, key: &str, number: u8) {
+        self.whole.retain(|(known, _)| known != key);
+        self.whole.push((key.to_owned(), Array { shape: Vec::new(), values: Values::U8(vec![number]) }));
+    }
+
     /// Hands all rows to a trial.
     pub(crate) fn write(&self, trial: &mut Trial<'_>) -> Result<(), TraceError> {
         for (key, array) in &self.whole {

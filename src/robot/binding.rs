@@ -5,7 +5,7 @@ use crate::config::{ActuatorConfig, Config, DeviceConfig, SensorConfig};
 use crate::error::{Part, RobotError};
 use physics::Model;
 use physics::elements::{ActuatorId, Element, SensorId};
-use physics::model::{ObjType, SensorType, Suggestions, TrnType};
+use physics::model::{JointType, ObjType, SensorType, Suggestions, TrnType};
 use std::ops::Range;
 
 /// Name of the one device of a robot without config.
@@ -116,7 +116,11 @@ fn check_names(model: &Model, config: &Config) -> Result<(), RobotError> {
         let actuators = device.actuators.iter().map(|row| (Part::Actuator, row.name.as_str()));
         sensors.chain(actuators).map(move |(part, name)| (device, part, name))
     });
-    let unknown = |(_, part, name): &(&DeviceConfig, Part, &str)| model.id_of(kind(*part), name).is_none();
+    let unknown = |(_, part, name): &(&DeviceConfig, Part, &str)| {
+        // A component of a pose is named after its sensor.
+        let whole = name.split_once('[').filter(|_| *part == Part::Sensor).map_or(*name, |(whole, _)| whole);
+        model.id_of(kind(*part), name).is_none() && model.id_of(kind(*part), whole).is_none()
+    };
     let Some((device, part, name)) = rows.clone().find(|row| unknown(row)) else { return Ok(()) };
     let names = (0..count(model, part)).map(|id| model.name_of(kind(part), id));
     Err(RobotError::UnknownName {
@@ -154,12 +158,43 @@ fn unsupported(device: &DeviceConfig, part: Part, name: &str, reason: String) ->
     RobotError::Unsupported { device: device.name.clone(), part, name: name.to_owned(), reason }
 }
 
+/// Where `qpos` has the free joint of the body that a sensor called `name` of kind `framepos` or `framequat` is on; `None` for
+/// other sensors.
+pub fn free_joint(model: &Model, name: &str) -> Option<usize> {
+    let id = model.sensor(name)?.index();
+    let pose = [SensorType::Framepos, SensorType::Framequat].map(Some);
+    let body = model.sensor_objid[id];
+    let on_body = model.sensor_objtype[id] == ObjType::Xbody as i32 && model.sensor_refid[id] < 0;
+    let body = usize::try_from(body)
+        .ok()
+        .filter(|_| on_body && pose.contains(&SensorType::from_code(model.sensor_type[id])))?;
+    let joint = usize::try_from(model.body_jntadr[body]).ok()?;
+    (model.jnt_type[joint] == JointType::Free as i32).then(|| model.jnt_qposadr[joint] as usize)
+}
+
+/// The component of a pose that `name[k]` names: the sensor's name, its number among its values, and where `qpos` has it.
+fn component(model: &Model, row: &SensorConfig) -> Option<(usize, usize, usize)> {
+    let (name, rest) = row.name.split_once('[')?;
+    let k: usize = rest.strip_suffix(']')?.parse().ok()?;
+    let id = model.sensor(name)?.index();
+    let address = free_joint(model, name)?;
+    let (first, count) = match SensorType::from_code(model.sensor_type[id]) {
+        Some(SensorType::Framepos) => (address, 3),
+        _ => (address + 3, 4),
+    };
+    (k < count).then_some((id, k, first + k))
+}
+
 fn sensor(
     model: &Model,
     device: &DeviceConfig,
     row: &SensorConfig,
     compat: Compat,
 ) -> Result<Sensor, RobotError> {
+    if let Some((id, k, address)) = component(model, row) {
+        let source = model.sensor_adr[id] as usize + k;
+        return Ok(Sensor { config: row.clone(), source, target: Target::Position(address) });
+    }
     let id = id(model, device, Part::Sensor, &row.name)?;
     let joint = model.sensor_objid[id].max(0) as usize;
     let target = match SensorType::from_code(model.sensor_type[id]) {
@@ -167,7 +202,9 @@ fn sensor(
         Some(SensorType::Jointvel) => Target::Velocity(model.jnt_dofadr[joint] as usize),
         other => {
             let found = other.map_or_else(|| "unknown".to_owned(), |kind| format!("{kind:?}").to_lowercase());
-            let reason = format!("is of kind {found}; a robot reads jointpos and jointvel");
+            let reason = format!(
+                "is of kind {found}; a robot reads jointpos, jointvel, and components of framepos and framequat of a body with a free joint, as name[0]"
+            );
             return Err(unsupported(device, Part::Sensor, &row.name, reason));
         }
     };

@@ -68,7 +68,7 @@ pub struct Solution {
 
 impl Search {
     /// Moves `joints`, or all of them, from where `data` has them until `site` is at `pose`. Ranges of joints are not
-    /// respected, as in the original. Of `data`, which stays as it is, the state counts alone. A pose that asks for
+    /// respected, as in the original; [`Search::run_within`] respects them. Of `data`, which stays as it is, the state counts alone. A pose that asks for
     /// nothing is reached.
     ///
     /// ```
@@ -136,14 +136,14 @@ impl Search {
         Solution { qpos: d.state.qpos, error, steps, reached: reached || error < self.tolerance }
     }
 
-    fn error(&self, offset: &[f64; ROWS]) -> f64 {
+    pub(crate) fn error(&self, offset: &[f64; ROWS]) -> f64 {
         let [x, y, z, a, b, c] = *offset;
         norm([x, y, z]) + norm([a, b, c]) * self.rotation_weight
     }
 }
 
 /// Recomputes poses; returns the way and the rotation vector from the site to `pose`, world frame.
-fn place(model: &Model, d: &mut Data, site: SiteId, pose: &Pose) -> [f64; ROWS] {
+pub(crate) fn place(model: &Model, d: &mut Data, site: SiteId, pose: &Pose) -> [f64; ROWS] {
     kinematics(model, &d.state, &mut d.kin);
     com_pos(model, &d.kin, &mut d.com);
     let way = pose.position.map_or([0.0; 3], |position| sub(position, d.kin.site_xpos[site.index()]));
@@ -157,7 +157,7 @@ fn place(model: &Model, d: &mut Data, site: SiteId, pose: &Pose) -> [f64; ROWS] 
 
 /// The update Jᵀ (J Jᵀ + damping I)⁻¹ offset, which is (Jᵀ J + damping I)⁻¹ Jᵀ offset with a smaller matrix. Rows that
 /// nobody asked for are zero, as are columns other than `dofs`.
-fn least_squares(
+pub(crate) fn least_squares(
     rows: [&Vec<f64>; 2],
     asked: [bool; 2],
     dofs: &[usize],

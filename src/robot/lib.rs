@@ -66,11 +66,13 @@ mod links;
 mod memory;
 mod options;
 mod pacer;
+mod reach;
 mod reading;
 mod remap;
 mod robot;
 mod symmetric;
 
+pub use binding::free_joint;
 pub use compat::{Compat, QUIRKS, Quirk, UnknownCompat};
 pub use config::{
     ActuatorConfig, CameraConfig, Config, ConfigError, DeviceConfig, HardwareId, Interface, SensorConfig,
@@ -83,6 +85,7 @@ pub use keeper::{ForeignWords, Keeper};
 pub use memory::Memory;
 pub use options::{ActionMode, Noise, Options, UnknownMode};
 pub use pacer::{Clock, Pacer, WallClock};
+pub use reach::Reach;
 pub use reading::Readings;
 pub use remap::Space;
 pub use robot::Robot;

@@ -5,7 +5,8 @@ use crate::session::Session;
 use physics::Model;
 use render::picture::Channels;
 use render::raster::Shot;
-use render::{Assets, Painter, Picture, Profile, RenderError, Renderer, Scene, Settings};
+use render::scene::SceneOptions;
+use render::{Assets, Painter, Picture, Profile, RenderError, Renderer, Scene, Settings, View};
 
 /// What a session's model is drawn of, and how its present state looks.
 pub struct Scenery {
@@ -36,10 +37,18 @@ impl Scenery {
         let (model, data, options) = (session.model(), session.data(), session.shown());
         self.assets.refresh(model)?;
         self.assets.pose(model, data, &options)?;
-        let view = session.view()?;
-        self.scene.update(model, data, view, &options)?;
+        self.look(session, session.view()?, &options)
+    }
+
+    /// Sees the state that was taken last from `view`, with these options, which show the same surfaces.
+    ///
+    /// # Errors
+    /// An item has no place.
+    pub fn look(&mut self, session: &Session, view: View, options: &SceneOptions) -> Result<(), RenderError> {
+        let (model, data) = (session.model(), session.data());
+        self.scene.update(model, data, view, options)?;
         if let Some(reference) = session.reference() {
-            self.ghost.haunt(&mut self.scene, model, reference.data(), view, &options)?;
+            self.ghost.haunt(&mut self.scene, model, reference.data(), view, options)?;
         }
         self.scene.items.extend_from_slice(session.guests());
         Ok(())

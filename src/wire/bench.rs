@@ -31,11 +31,16 @@ impl Carries {
     pub const AT_ONCE: Carries = Carries::Bytes { each: 0.0 };
 }
 
+/// Times that are no further apart than this are the same \[s\].
+const ROUNDING: f64 = 1e-9;
+
 /// Messages under way, each with the time at which it arrives.
 type Queue = VecDeque<(f64, Vec<u8>)>;
 
 struct Link {
-    device: Box<dyn Device>,
+    /// Its device, and which of that device's links it is.
+    device: usize,
+    channel: usize,
     carries: Carries,
     connected: bool,
     to_device: Queue,
@@ -47,6 +52,7 @@ struct Link {
 pub struct Bench {
     plant: Plant,
     time: f64,
+    devices: Vec<Box<dyn Device>>,
     links: Vec<Link>,
     outbox: Outbox,
     stopped: bool,
@@ -55,21 +61,41 @@ pub struct Bench {
 impl Bench {
     /// A bench without devices, at time 0.
     pub fn new(plant: Plant) -> Bench {
-        Bench { plant, time: 0.0, links: Vec::new(), outbox: Outbox::default(), stopped: false }
+        Bench {
+            plant,
+            time: 0.0,
+            devices: Vec::new(),
+            links: Vec::new(),
+            outbox: Outbox::default(),
+            stopped: false,
+        }
     }
 
     /// Connects a device by a link without faults.
     pub fn connect(&mut self, device: Box<dyn Device>, carries: Carries) -> LinkId {
+        let [link] = self.connect_all(device, [carries]);
+        link
+    }
+
+    /// Connects a device by several links without faults: what it calls channel 0, 1 and so on.
+    pub fn connect_all<const N: usize>(
+        &mut self,
+        device: Box<dyn Device>,
+        carries: [Carries; N],
+    ) -> [LinkId; N] {
         let none = || Injector::new(Rates::default(), 0);
-        self.links.push(Link {
-            device,
+        let (place, first) = (self.devices.len(), self.links.len());
+        self.devices.push(device);
+        self.links.extend(carries.into_iter().enumerate().map(|(channel, carries)| Link {
+            device: place,
+            channel,
             carries,
             connected: true,
             to_device: Queue::new(),
             to_host: Queue::new(),
             faults: [none(), none()],
-        });
-        LinkId(self.links.len() - 1)
+        }));
+        std::array::from_fn(|k| LinkId(first + k))
     }
 
     /// Lets faults strike a link from now on, in both directions.
@@ -101,7 +127,7 @@ impl Bench {
     /// Presses or releases the stop button.
     pub fn stop_button(&mut self, pressed: bool) {
         self.stopped = pressed;
-        self.links.iter_mut().for_each(|link| link.device.stop_button(pressed));
+        self.devices.iter_mut().for_each(|device| device.stop_button(pressed));
     }
 
     /// Whether the stop button is pressed.
@@ -114,16 +140,37 @@ impl Bench {
         self.links[link.0].connected
     }
 
-    /// Connects a link again, or cuts it: what was under way is lost.
+    /// Connects a link again, or cuts it: what was under way is lost, and the device hears of it.
     pub fn set_connected(&mut self, link: LinkId, connected: bool) {
+        let Link { device, channel, .. } = self.links[link.0];
         let link = &mut self.links[link.0];
         link.connected = connected;
         link.to_device.clear();
         link.to_host.clear();
+        self.at_device(device, |device, moment| device.connected(moment, channel, connected));
+    }
+
+    /// Whether a link carries datagrams: these get lost where a connection would end.
+    pub fn carries_datagrams(&self, link: LinkId) -> bool {
+        self.links[link.0].carries == Carries::Datagrams
+    }
+
+    /// Whether two links lead to the same device.
+    pub fn same_device(&self, a: LinkId, b: LinkId) -> bool {
+        self.links[a.0].device == self.links[b.0].device
+    }
+
+    /// The port at which the driver said that it waits for a link's datagrams.
+    pub fn announced(&self, link: LinkId) -> Option<u16> {
+        let Link { device, channel, .. } = self.links[link.0];
+        self.devices[device].announced(channel)
     }
 
     /// Sends what a driver says to its device.
     pub fn send(&mut self, link: LinkId, bytes: &[u8]) {
+        if !self.links[link.0].connected {
+            return;
+        }
         let Link { carries, to_device, faults: [faults, _], .. } = &mut self.links[link.0];
         let due = self.time + carries.duration(bytes.len());
         let accident = faults.pass(due, bytes.to_vec(), |due, bytes| queue(to_device, due, bytes));
@@ -156,56 +203,86 @@ impl Bench {
 
     /// Lets time pass until `end`, or until a message for the driver of `link` arrives.
     pub fn advance_until(&mut self, link: LinkId, end: f64) {
-        while self.time < end && self.due(link).is_none_or(|due| due > self.time) {
+        while self.due(link).is_none_or(|due| due > self.time) {
             let due = self.due(link).unwrap_or(f64::INFINITY);
-            self.advance_to_event(end.min(due));
+            if !self.advance_to_event(end.min(due)) && self.time >= end {
+                return;
+            }
         }
     }
 
-    /// Lets time pass until `end`.
+    /// Lets time pass until `end`, and everything happen that is due then.
     pub fn advance(&mut self, end: f64) {
-        while self.time < end {
-            self.advance_to_event(end);
-        }
+        while self.advance_to_event(end) {}
     }
 
-    /// Lets time pass until the next thing happens, at most until `end`: an arrival at a device or a time step.
-    fn advance_to_event(&mut self, end: f64) {
+    /// Whether a device waits for its driver, see [`Device::expects`].
+    pub fn expects(&self) -> bool {
+        self.devices.iter().any(|device| device.expects())
+    }
+
+    /// When the next thing happens that a step of the plant is not: an arrival at a device, or what a device does by itself.
+    pub fn next_event(&self) -> f64 {
+        let arrivals = self.links.iter().filter_map(|link| link.to_device.front()).map(|(due, _)| *due);
+        arrivals.chain(self.devices.iter().map(|device| device.due())).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Lets time pass until the next thing happens, at most until `end`: an arrival at a device, its own work, or a time
+    /// step. Returns whether anything did.
+    fn advance_to_event(&mut self, end: f64) -> bool {
         let arrivals = self.links.iter().enumerate();
         let arrival = arrivals
             .filter_map(|(at, link)| link.to_device.front().map(|(due, _)| (*due, at)))
             .min_by(|a, b| a.0.total_cmp(&b.0));
+        let works = self.devices.iter().map(|device| device.due()).enumerate();
+        let work = works.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, due)| *due < f64::INFINITY);
         let step = self.plant.next();
-        match arrival {
-            Some((due, at)) if due <= end && due < step => {
+        match (arrival, work) {
+            (Some((due, at)), _)
+                if due <= end && due < step && work.is_none_or(|(_, other)| due <= other) =>
+            {
                 self.time = self.time.max(due);
-                let Some((_, bytes)) = self.links[at].to_device.pop_front() else { return };
-                self.at_device(at, |device, moment| device.receive(moment, &bytes));
+                let Some((_, bytes)) = self.links[at].to_device.pop_front() else { return false };
+                let Link { device, channel, .. } = self.links[at];
+                self.at_device(device, |device, moment| device.receive(moment, channel, &bytes));
             }
-            // A step that ends within rounding of `end` belongs before it.
-            _ if step <= end + 1e-9 => {
-                for at in 0..self.links.len() {
+            // What a device does at the end of a step sees what the step has brought about. Within rounding of `end` it
+            // belongs before it, as a step does.
+            (_, Some((at, due))) if due <= end + ROUNDING && due < step - ROUNDING => {
+                self.time = self.time.max(due.min(end));
+                self.at_device(at, |device, moment| device.work(moment));
+            }
+            _ if step <= end + ROUNDING => {
+                for at in 0..self.devices.len() {
                     self.at_device(at, |device, moment| device.tick(moment));
                 }
                 self.plant.step();
                 self.time = self.time.max(step.min(end));
             }
-            _ => self.time = end,
+            _ => {
+                self.time = self.time.max(end);
+                return false;
+            }
         }
+        true
     }
 
     /// Lets a device act, and passes on what it says.
     fn at_device(&mut self, at: usize, act: impl FnOnce(&mut dyn Device, &mut Moment<'_>)) {
-        let Bench { plant, time, links, outbox, .. } = self;
-        let link = &mut links[at];
-        act(link.device.as_mut(), &mut Moment { time: *time, plant, outbox });
+        let Bench { plant, time, devices, links, outbox, .. } = self;
+        act(devices[at].as_mut(), &mut Moment { time: *time, plant, outbox });
         let mut accident = None;
-        for (due, bytes) in outbox.drain() {
-            let due = due + link.carries.duration(bytes.len());
-            let to_host = &mut link.to_host;
-            accident = accident.or(link.faults[1].pass(due, bytes, |due, bytes| queue(to_host, due, bytes)));
+        for (channel, due, bytes) in outbox.drain() {
+            let place = links.iter().position(|link| (link.device, link.channel) == (at, channel));
+            let Some(place) = place.filter(|place| links[*place].connected) else { continue };
+            let Link { carries, to_host, faults: [_, faults], .. } = &mut links[place];
+            let due = due + carries.duration(bytes.len());
+            let struck = faults.pass(due, bytes, |due, bytes| queue(to_host, due, bytes));
+            accident = accident.or(struck.map(|accident| (place, accident)));
         }
-        self.befall(LinkId(at), accident);
+        if let Some((place, accident)) = accident {
+            self.befall(LinkId(place), Some(accident));
+        }
     }
 
     fn befall(&mut self, link: LinkId, accident: Option<Accident>) {

@@ -38,10 +38,15 @@ mod bench;
 mod device;
 pub mod dynamixel;
 mod faults;
+pub mod feetech;
+pub mod franka;
+pub mod optitrack;
 mod plant;
+mod profile;
 mod rig;
 #[cfg(unix)]
 mod serve;
+mod shaft;
 mod virtual_port;
 
 pub use bench::{Bench, Carries, LinkId};

@@ -1,6 +1,6 @@
 //! The robot and its surroundings, which the devices of a bench move and measure.
 
-use physics::model::TrnType;
+use physics::model::{ConstraintType, SensorType, TrnType};
 use physics::{Data, Model, StepError};
 use std::fmt;
 
@@ -25,6 +25,7 @@ type Gains = [f64; 4];
 #[derive(Clone, Copy, Debug)]
 struct Motor {
     control: usize,
+    joint: usize,
     position: usize,
     velocity: usize,
     own: Gains,
@@ -104,6 +105,28 @@ impl Plant {
         }
     }
 
+    /// Where `qpos` has the hinge or slide whose position a sensor reads.
+    ///
+    /// # Errors
+    /// The model has no sensor of that name, or it reads something else.
+    pub(crate) fn joint_of_sensor(&self, sensor: &str) -> Result<usize, PlantError> {
+        let Some(id) = self.model.sensor(sensor) else {
+            return Err(PlantError(format!("the model has no sensor '{sensor}'")));
+        };
+        if self.model.sensor_type[id] != SensorType::Jointpos as i32 {
+            return Err(PlantError(format!("the sensor '{sensor}' does not read the position of a joint")));
+        }
+        let joint = self.model.sensor_objid[id].max(0) as usize;
+        Ok(self.model.jnt_qposadr[joint] as usize)
+    }
+
+    /// Where `qpos` has the free joint of the body whose position or orientation a sensor reads; a component in brackets may
+    /// follow the sensor's name. `None` for other sensors.
+    pub(crate) fn free_joint(&self, sensor: &str) -> Option<usize> {
+        let name = sensor.split_once('[').map_or(sensor, |(name, _)| name);
+        robot::free_joint(&self.model, name)
+    }
+
     /// Drives a motor, from the next time step on.
     pub fn drive(&mut self, motor: usize, drive: Drive) {
         let Some(Some(state)) = self.motors.get_mut(motor) else { return };
@@ -145,6 +168,31 @@ impl Plant {
     /// Torque or force of a motor in the last time step \[N m, N\].
     pub fn effort(&self, motor: usize) -> f64 {
         self.data.actuation.actuator_force[motor]
+    }
+
+    /// Torque or force that gravity and motion ask of a motor's joint to leave its velocity as it is, \[N m, N\].
+    pub fn bias(&self, motor: usize) -> f64 {
+        self.motors[motor].map_or(0.0, |motor| self.data.vel.qfrc_bias[motor.velocity])
+    }
+
+    /// Torque or force that the surroundings exert on a motor's joint by contacts \[N m, N\].
+    pub fn external(&self, motor: usize) -> f64 {
+        let Some(Motor { velocity, joint, .. }) = self.motors[motor] else { return 0.0 };
+        let efc = &self.data.efc;
+        // Friction and the joint's own limit are constraints too, but the joint's own.
+        let own = |row: usize| {
+            let (kind, id) = (efc.efc_type[row], efc.efc_id[row] as usize);
+            if kind == ConstraintType::FrictionDof as i32 && id == velocity {
+                efc.efc_force[row]
+            } else if kind == ConstraintType::LimitJoint as i32 && id == joint {
+                let [low, high] = self.model.jnt_range[joint];
+                let upper = self.position(motor) > (low + high) / 2.0;
+                if upper { -efc.efc_force[row] } else { efc.efc_force[row] }
+            } else {
+                0.0
+            }
+        };
+        self.data.acc.qfrc_constraint[velocity] - (0..efc.nefc).map(own).sum::<f64>()
     }
 
     /// Seconds that it has moved.
@@ -207,6 +255,7 @@ fn motor(model: &Model, id: usize) -> Option<Motor> {
     let own = [model.actuator_gainprm[id][0], bias[0], bias[1], bias[2]];
     Some(Motor {
         control: model.actuator_ctrladr[id] as usize,
+        joint,
         position: model.jnt_qposadr[joint] as usize,
         velocity: model.jnt_dofadr[joint] as usize,
         own,

@@ -1,6 +1,6 @@
 //! A bench in real time, for programs that open serial ports and sockets.
 
-use crate::bench::LinkId;
+use crate::bench::{Bench, LinkId};
 use crate::virtual_port::Shared;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fd::{AsFd, BorrowedFd, OwnedFd};
@@ -9,7 +9,7 @@ use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
 use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, Read, Write};
-use std::net::{SocketAddr, TcpListener, TcpStream, UdpSocket};
+use std::net::{IpAddr, SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{MutexGuard, PoisonError};
@@ -19,6 +19,10 @@ use std::time::{Duration, Instant};
 const ROOM: usize = 65_536;
 /// Longest sleep, after which a request to stop is seen \[s\].
 const NAP: f64 = 0.05;
+/// Longest time for which the bench's time waits for a driver.
+const PATIENCE: Duration = Duration::from_millis(500);
+/// Least time that is simulated at once, if that much has passed \[s\].
+const SLICE: f64 = 1e-4;
 
 /// A pseudo-terminal: what writes to its path reaches the device, as on a serial port.
 pub struct Terminal {
@@ -57,9 +61,9 @@ impl Terminal {
 pub enum End {
     /// A serial line.
     Terminal(Terminal),
-    /// A server, for one connection at a time.
+    /// A server, for one connection at a time: another is closed at once.
     Tcp(TcpListener, Option<TcpStream>),
-    /// A socket that answers whoever spoke last.
+    /// A socket that answers whoever spoke last, or the port that the device's client has announced.
     Udp(UdpSocket, Option<SocketAddr>),
 }
 
@@ -106,13 +110,7 @@ impl End {
     fn take(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         match self {
             End::Terminal(terminal) => Ok(rustix::io::read(&terminal.master, buffer)?),
-            End::Tcp(listener, stream @ None) => {
-                let (accepted, _) = listener.accept()?;
-                accepted.set_nonblocking(true)?;
-                accepted.set_nodelay(true)?;
-                *stream = Some(accepted);
-                Err(ErrorKind::WouldBlock.into())
-            }
+            End::Tcp(_, None) => Err(ErrorKind::WouldBlock.into()),
             End::Tcp(_, slot) => {
                 let Some(stream) = slot else { return Ok(0) };
                 let read = stream.read(buffer);
@@ -145,32 +143,117 @@ impl End {
     }
 }
 
+impl End {
+    /// Takes a connection; where there is one already, another is closed at once. Returns whether there is a new one.
+    fn accept(&mut self) -> io::Result<bool> {
+        let End::Tcp(listener, stream) = self else { return Ok(false) };
+        let accepted = match listener.accept() {
+            Ok((accepted, _)) => accepted,
+            Err(error) => return ignore_absence(error).map(|()| false),
+        };
+        if stream.is_some() {
+            return Ok(false);
+        }
+        accepted.set_nonblocking(true)?;
+        accepted.set_nodelay(true)?;
+        *stream = Some(accepted);
+        Ok(true)
+    }
+
+    /// Where the client of a server is.
+    fn client(&self) -> Option<IpAddr> {
+        let End::Tcp(_, Some(stream)) = self else { return None };
+        stream.peer_addr().ok().map(|address| address.ip())
+    }
+
+    fn open(&self) -> bool {
+        matches!(self, End::Tcp(_, Some(_)))
+    }
+}
+
+/// Tells every socket for datagrams at which port its device's client waits for them.
+fn find_peers(bench: &Bench, ends: &mut [(LinkId, End)]) {
+    for at in 0..ends.len() {
+        let link = ends[at].0;
+        let Some(port) = bench.announced(link) else { continue };
+        let servers = ends.iter().filter(|(other, _)| bench.same_device(link, *other));
+        let client = servers.filter_map(|(_, end)| end.client()).next();
+        if let (End::Udp(_, peer), Some(client)) = (&mut ends[at].1, client) {
+            *peer = Some(SocketAddr::new(client, port));
+        }
+    }
+}
+
+/// Takes what came for the devices: connections, their ends, and bytes.
+fn take_all(bench: &Shared, ends: &mut [(LinkId, End)], buffer: &mut [u8]) -> io::Result<()> {
+    let lock = || bench.lock().unwrap_or_else(PoisonError::into_inner);
+    for (link, end) in ends.iter_mut() {
+        let open = end.open();
+        match end.take(buffer) {
+            Ok(count) if count > 0 => lock().send(*link, &buffer[..count]),
+            Ok(_) => {}
+            Err(error) => {
+                if error.kind() == ErrorKind::ConnectionReset
+                    && let End::Tcp(_, stream) = end
+                {
+                    *stream = None;
+                }
+                ignore_absence(error)?;
+            }
+        }
+        if open && !end.open() {
+            lock().set_connected(*link, false);
+        }
+        // After the end of the connection before, which may have come just now.
+        if end.accept()? {
+            lock().set_connected(*link, true);
+        }
+        // A device that hung up, or a fault that cut the line.
+        if let End::Tcp(_, stream @ Some(_)) = end
+            && !lock().connected(*link)
+        {
+            *stream = None;
+        }
+    }
+    Ok(())
+}
+
 /// Serves the links of a bench until `stop`, the bench's time passing as the clock's does. A bench that falls behind (physics
 /// that takes longer than what it simulates) does not catch up: its time then passes more slowly.
 ///
 /// # Errors
 /// The system refuses to wait for the links.
 pub fn serve(bench: &Shared, ends: &mut [(LinkId, End)], stop: &AtomicBool) -> io::Result<()> {
-    let lock = || -> MutexGuard<'_, _> { bench.lock().unwrap_or_else(PoisonError::into_inner) };
+    let lock = || -> MutexGuard<'_, Bench> { bench.lock().unwrap_or_else(PoisonError::into_inner) };
     let mut buffer = vec![0; ROOM];
     let (mut start, mut base) = (Instant::now(), lock().time());
+    let mut asked = None;
     while !stop.load(Ordering::Relaxed) {
-        let mut bench = lock();
+        let mut bench_now = lock();
+        if !bench_now.expects() {
+            asked = None;
+        } else if asked.get_or_insert_with(Instant::now).elapsed() < PATIENCE {
+            (start, base) = (Instant::now(), bench_now.time());
+        }
         let now = base + start.elapsed().as_secs_f64();
-        if now - bench.time() > 1.0 {
-            (start, base) = (Instant::now(), bench.time());
+        if now - bench_now.time() > 1.0 {
+            (start, base) = (Instant::now(), bench_now.time());
             continue;
         }
-        bench.advance(now);
+        // One event after the other, so that what a device says goes out before the next is simulated.
+        let next = bench_now.next_event().min(bench_now.plant().next()).max(bench_now.time() + SLICE);
+        let now = now.min(next).max(bench_now.time());
+        bench_now.advance(now);
+        find_peers(&bench_now, ends);
         for (link, end) in ends.iter_mut() {
-            while let Some(bytes) = bench.receive(*link, ROOM) {
+            while let Some(bytes) = bench_now.receive(*link, ROOM) {
                 // A terminal that nobody reads is full: what does not fit is lost, as on a wire.
                 end.give(&bytes).or_else(ignore_absence)?;
             }
         }
-        let due = ends.iter().filter_map(|(link, _)| bench.due(*link)).fold(f64::INFINITY, f64::min);
-        let next = bench.plant().next().min(due);
-        drop(bench);
+        let due = ends.iter().filter_map(|(link, _)| bench_now.due(*link)).fold(f64::INFINITY, f64::min);
+        let next = bench_now.plant().next().min(due).min(bench_now.next_event());
+        drop(bench_now);
         let wait = (next - (base + start.elapsed().as_secs_f64())).clamp(0.0, NAP);
         let mut descriptors: Vec<_> =
             ends.iter().map(|(_, end)| PollFd::from_borrowed_fd(end.descriptor(), PollFlags::IN)).collect();
@@ -180,13 +263,7 @@ pub fn serve(bench: &Shared, ends: &mut [(LinkId, End)], stop: &AtomicBool) -> i
             Err(error) => return Err(error.into()),
         }
         drop(descriptors);
-        for (link, end) in ends.iter_mut() {
-            match end.take(&mut buffer) {
-                Ok(count) if count > 0 => lock().send(*link, &buffer[..count]),
-                Ok(_) => {}
-                Err(error) => ignore_absence(error)?,
-            }
-        }
+        take_all(bench, ends, &mut buffer)?;
     }
     Ok(())
 }

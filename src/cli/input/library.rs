@@ -23,7 +23,7 @@ pub struct Source {
 }
 
 /// How environments are made.
-#[derive(Args)]
+#[derive(Clone, Args)]
 pub struct Making {
     /// Change a setting, e.g. frame_skip=20 or target_xyz_range.low=[0,0,1]; VALUE is TOML, or text
     #[arg(long = "set", value_name = "SETTING=VALUE")]

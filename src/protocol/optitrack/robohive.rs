@@ -26,13 +26,8 @@ pub fn decode(bytes: &[u8]) -> Option<(f64, Body)> {
         *value = f64::from(f32::from_le_bytes(four.try_into().ok()?));
     }
     let [time, id, x, y, z, qw, qx, qy, qz] = values;
-    let body = Body {
-        id: id as i32,
-        position: [x, y, z],
-        orientation: [qw, qx, qy, qz],
-        error: 0.0,
-        tracked: true,
-    };
+    let body =
+        Body { id: id as i32, position: [x, y, z], orientation: [qw, qx, qy, qz], error: 0.0, tracked: true };
     values.iter().all(|value| value.is_finite()).then_some((time, body))
 }
 

@@ -4,6 +4,7 @@
 use eframe::egui::{Context, Pos2, RawInput, Rect, vec2};
 use eframe::egui_wgpu::{RenderState, RendererOptions};
 use pollster::block_on;
+use render::scene::Camera;
 use robohive_viewer::Command;
 use robohive_viewer::window::{App, Painters, Source, setup};
 
@@ -44,9 +45,14 @@ fn psnr(app: &mut App) -> f64 {
     assert_eq!(shown.len(), 4 * width * height);
     let (pixels, _) = shown.as_chunks::<4>();
     assert!(pixels.iter().all(|pixel| pixel[3] == 255), "the picture is opaque");
-    let colours = pixels.iter().flat_map(|pixel| &pixel[..3]);
-    let sum: f64 = colours.zip(&expected.rgb).map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
-    10.0 * (255.0 * 255.0 * expected.rgb.len() as f64 / sum).log10()
+    decibels(&shown, &expected.rgb)
+}
+
+/// Peak signal-to-noise ratio of bytes R, G, B, A beside bytes R, G, B \[dB\].
+fn decibels(shown: &[u8], expected: &[u8]) -> f64 {
+    let colours = shown.as_chunks::<4>().0.iter().flat_map(|pixel| &pixel[..3]);
+    let sum: f64 = colours.zip(expected).map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
+    10.0 * (255.0 * 255.0 * expected.len() as f64 / sum).log10()
 }
 
 #[test]
@@ -86,4 +92,24 @@ fn the_picture_follows_state_camera_and_who_draws() {
     app.use_gpu(true);
     frames(&mut app, &context, 2);
     assert_eq!(app.read_gpu().unwrap().unwrap(), second);
+}
+
+#[test]
+fn small_pictures_look_the_same_by_gpu_and_cpu() {
+    let Some(state) = state() else { return };
+    let context = Context::default();
+    let workbench = Source::own().find(|source| source.title() == "workbench");
+    let mut app = App::drawn_by(painters(&state), workbench);
+    app.show_camera("camera \"overview\"");
+    frames(&mut app, &context, 3);
+    let main = app.read_gpu().unwrap().unwrap();
+    let size = app.inset_size().expect("a small picture");
+    let shown = app.read_gpu_inset().unwrap().expect("the GPU has drawn it");
+    let session = app.opened_mut().unwrap();
+    session.camera = Camera::named(session.model(), "overview").unwrap();
+    let expected = app.drawn_by_cpu(size).unwrap().unwrap();
+    let found = decibels(&shown, &expected.rgb);
+    assert!(found >= PSNR, "{found:.1} dB");
+    println!("small picture of {size:?}: {found:.1} dB");
+    assert_eq!(main.len(), 4 * app.size()[0] * app.size()[1], "the picture keeps its own texture");
 }

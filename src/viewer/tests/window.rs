@@ -1,132 +1,19 @@
 //! The window without a display: keys, clicks on what is named, drags on the picture, dropped files.
 
-use eframe::egui::accesskit::{Node, NodeId, TreeUpdate};
-use eframe::egui::{
-    Context, DroppedFile, Event, Key, Modifiers, PointerButton, Pos2, RawInput, Rect, Shape, pos2, vec2,
-};
+#[path = "window/driver.rs"]
+mod driver;
+#[path = "window/insets.rs"]
+mod insets;
+
+use driver::Window;
+use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
 use physics::model::ObjType;
 use render::picture::Channels;
 use render::scene::Camera;
-use robohive_viewer::window::{App, Making, Recording, Source, States};
+use robohive_viewer::window::{Making, Recording, Source, States};
 use robohive_viewer::{Drawing, Session};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
-/// An app and what a window would tell it.
-struct Window {
-    context: Context,
-    app: App,
-    time: f64,
-    tree: Option<TreeUpdate>,
-    /// Texts of the last frame.
-    texts: Vec<String>,
-}
-
-impl Window {
-    fn of(source: Option<Source>) -> Self {
-        let context = Context::default();
-        context.enable_accesskit();
-        let app = App::new(&context, source);
-        let mut window = Window { context, app, time: 0.0, tree: None, texts: Vec::new() };
-        // Panels take their sizes in the first frames.
-        (0..3).for_each(|_| window.frame(Vec::new()));
-        window
-    }
-
-    fn own(name: &str) -> Self {
-        Self::of(Source::own().find(|source| source.title() == name))
-    }
-
-    fn input(&mut self, input: RawInput) {
-        self.time += 1.0 / 60.0;
-        let screen = Rect::from_min_size(Pos2::ZERO, vec2(900.0, 560.0));
-        let input = RawInput { screen_rect: Some(screen), time: Some(self.time), ..input };
-        let app = &mut self.app;
-        let mut output = self.context.run_ui(input, |ui| app.show(ui));
-        output.textures_delta.clear();
-        self.texts = output
-            .shapes
-            .iter()
-            .filter_map(|shown| match &shown.shape {
-                Shape::Text(text) => Some(text.galley.text().to_owned()),
-                _ => None,
-            })
-            .collect();
-        self.tree = output.platform_output.accesskit_update.or(self.tree.take());
-    }
-
-    fn frame(&mut self, events: Vec<Event>) {
-        self.input(RawInput { events, ..RawInput::default() });
-    }
-
-    fn session(&self) -> &Session {
-        self.app.opened().expect("a model is open")
-    }
-
-    fn press(&mut self, key: Key, modifiers: Modifiers) {
-        let event = |pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
-        self.frame(vec![Event::ModifiersChanged(modifiers), event(true), event(false)]);
-        self.frame(vec![Event::ModifiersChanged(Modifiers::NONE)]);
-    }
-
-    fn button(&mut self, at: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) {
-        let click = Event::PointerButton { pos: at, button, pressed, modifiers };
-        self.frame(vec![Event::ModifiersChanged(modifiers), Event::PointerMoved(at), click]);
-    }
-
-    fn click(&mut self, at: Pos2) {
-        self.button(at, PointerButton::Primary, true, Modifiers::NONE);
-        self.button(at, PointerButton::Primary, false, Modifiers::NONE);
-    }
-
-    fn drag(&mut self, path: &[Pos2], button: PointerButton, modifiers: Modifiers) {
-        self.button(path[0], button, true, modifiers);
-        path.iter().for_each(|at| self.frame(vec![Event::PointerMoved(*at)]));
-        self.button(path[path.len() - 1], button, false, modifiers);
-        self.frame(vec![Event::ModifiersChanged(Modifiers::NONE)]);
-    }
-
-    /// The middle of what has this name, as a screen reader finds it.
-    fn named(&self, name: &str) -> Pos2 {
-        let tree = self.tree.as_ref().expect("a tree of what can be used");
-        let nodes = || tree.nodes.iter().map(|(id, node): &(NodeId, _)| (id, node));
-        let found = nodes().find(|(_, node)| text(node) == Some(name) && node.bounds().is_some());
-        let names: Vec<&str> = nodes().filter_map(|(_, node)| text(node)).collect();
-        let (_, node) = found.unwrap_or_else(|| panic!("nothing is called {name}: {names:?}"));
-        let bounds = node.bounds().unwrap();
-        pos2(((bounds.x0 + bounds.x1) / 2.0) as f32, ((bounds.y0 + bounds.y1) / 2.0) as f32)
-    }
-
-    fn use_named(&mut self, name: &str) {
-        self.click(self.named(name));
-        self.frame(Vec::new());
-    }
-
-    fn drop_file(&mut self, path: &Path) {
-        let file: Arc<dyn DroppedFile + Send + Sync> = Arc::new(Dropped(path.to_owned()));
-        self.input(RawInput { dropped_files: vec![file], ..RawInput::default() });
-        self.frame(Vec::new());
-    }
-}
-
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
-}
-
-/// The name of what can be used, or what is written.
-fn text(node: &Node) -> Option<&str> {
-    node.label().or(node.value())
-}
 
 /// The middle of the picture.
 const MIDDLE: Pos2 = pos2(536.0, 280.0);

@@ -4,6 +4,7 @@ use super::canvas::canvas;
 use super::episodes::{Making, trials_panel};
 use super::exports::EXPORTS;
 use super::film::Film;
+use super::insets::{Insets, cameras_panel};
 use super::keys::Keys;
 use super::opened::Opened;
 use super::overlay::overlay;
@@ -36,6 +37,8 @@ pub struct App {
     pub(super) trouble: Option<String>,
     /// What draws.
     pub(super) painters: Painters,
+    /// What other cameras see, over the picture.
+    pub(super) insets: Insets,
     /// Where screenshots and other files go.
     pub(super) save: Save,
     /// Where the picture was in the last frame \[point\].
@@ -68,6 +71,7 @@ impl App {
             opened: None,
             trouble: None,
             painters,
+            insets: Insets::default(),
             save: Box::new(into_working_folder),
             area: Rect::NOTHING,
             program: None,
@@ -99,6 +103,7 @@ impl App {
             Ok(opened) => {
                 (self.opened, self.trouble) = (Some(opened), None);
                 self.desk.forget();
+                self.insets.forget();
                 self.end_film();
             }
             Err(why) => self.trouble = Some(why),
@@ -111,6 +116,7 @@ impl App {
         }
         if let Some(opened) = &mut self.opened {
             self.trouble = opened.reload().err();
+            self.insets.forget();
             if self.trouble.is_none() {
                 self.end_film();
             }
@@ -388,6 +394,11 @@ impl App {
                         });
                     }
                     section(ui, "View", true, |ui| panels::visual(ui, session, &mut screen.channel));
+                    if session.model().ncam > 0 {
+                        section(ui, "Cameras", false, |ui| {
+                            cameras_panel(ui, session.model(), &mut self.insets);
+                        });
+                    }
                     section(ui, "Groups", false, |ui| panels::groups(ui, session));
                     section(ui, "Appearance", false, |ui| panels::appearance(ui, session));
                     if session.play().is_none() {
@@ -440,6 +451,7 @@ impl App {
                 match canvas(ui, opened, &mut self.painters) {
                     Ok(area) => {
                         self.area = area;
+                        messages.extend(self.insets.show(ui, area, opened, &mut self.painters).err());
                         let frame = f64::from(ui.input(|input| input.stable_dt));
                         overlay(ui.painter(), area, &opened.session, frame, self.shows_info);
                     }

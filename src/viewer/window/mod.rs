@@ -9,6 +9,7 @@
 //! | `screen` | the picture, drawn as finely as time allows |
 //! | `saving` | where screenshots and other files go |
 //! | `canvas` | the picture in the window, and gestures on it |
+//! | `insets` | small pictures over it: what other cameras see |
 //! | `keys` | keys to commands |
 //! | `panels` | what stands beside the picture |
 //! | `program_overlays` | texts, images and figures that a program lays over the picture |
@@ -31,6 +32,7 @@ mod exports;
 mod film;
 mod gamepad;
 mod glfw;
+mod insets;
 mod keys;
 mod opened;
 mod overlay;

@@ -4,7 +4,7 @@ use super::channel::Channel;
 use crate::drawing::Scenery;
 use eframe::egui::{ColorImage, Context, Rect, TextureHandle, TextureId, TextureOptions, pos2};
 use eframe::egui_wgpu::RenderState;
-use render::{Picture, RenderError, Renderer};
+use render::{Picture, RenderError, Renderer, Settings};
 use render_gpu::{Adapter, GpuError, GpuRenderer, Shown, wgpu};
 
 /// A picture that egui can show.
@@ -18,6 +18,13 @@ pub struct Painted {
     pub labelled: bool,
     /// Of depth, the distances \[m\] that have the first and the last colour.
     pub scale: Option<[f32; 2]>,
+}
+
+/// Textures for a small picture beside the picture.
+#[derive(Default)]
+pub(super) struct Sheet {
+    by_cpu: Option<TextureHandle>,
+    by_gpu: Option<Copied>,
 }
 
 /// The painters of a window. Pictures of all its models go to the same textures, one after the other.
@@ -107,6 +114,32 @@ impl Painters {
         self.cpu.paint(context, scenery, channel, size)
     }
 
+    /// Draws what stands in `scenery` on a sheet, by what [`Painters::paint`] draws with.
+    ///
+    /// # Errors
+    /// As [`Painters::paint`].
+    pub(super) fn paint_sheet(
+        &mut self,
+        context: &Context,
+        scenery: &Scenery,
+        channel: Channel,
+        size: [usize; 2],
+        sheet: &mut Sheet,
+    ) -> Result<Painted, RenderError> {
+        if self.prefers_gpu
+            && channel == Channel::Colours
+            && let Some(gpu) = &mut self.gpu
+        {
+            match gpu.paint_sheet(scenery, size, &mut sheet.by_gpu) {
+                Ok(painted) => return Ok(painted),
+                Err(GpuError::Render(error)) => return Err(error),
+                Err(GpuError::Effect { .. }) => {}
+                Err(error) => (self.gpu, self.reason) = (None, error.to_string()),
+            }
+        }
+        self.cpu.paint_to(&mut sheet.by_cpu, context, scenery, channel, size)
+    }
+
     /// The texture of the last picture by the GPU, bytes R, G, B, A from the top: what tests look at.
     ///
     /// # Errors
@@ -114,6 +147,16 @@ impl Painters {
     #[cfg(not(target_arch = "wasm32"))]
     pub fn read_gpu(&mut self, size: [usize; 2]) -> Result<Option<Vec<u8>>, GpuError> {
         let renderer = self.gpu.as_mut().and_then(|gpu| gpu.renderer.as_mut());
+        renderer.map(|renderer| renderer.read_shown(size)).transpose()
+    }
+
+    /// The same of the last sheet.
+    ///
+    /// # Errors
+    /// The GPU failed.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub(super) fn read_gpu_sheet(&mut self, size: [usize; 2]) -> Result<Option<Vec<u8>>, GpuError> {
+        let renderer = self.gpu.as_mut().and_then(|gpu| gpu.aside.as_mut());
         renderer.map(|renderer| renderer.read_shown(size)).transpose()
     }
 }
@@ -134,6 +177,20 @@ impl CpuPainter {
         channel: Channel,
         size: [usize; 2],
     ) -> Result<Painted, RenderError> {
+        let mut texture = self.texture.take();
+        let painted = self.paint_to(&mut texture, context, scenery, channel, size);
+        self.texture = texture;
+        painted
+    }
+
+    fn paint_to(
+        &mut self,
+        texture: &mut Option<TextureHandle>,
+        context: &Context,
+        scenery: &Scenery,
+        channel: Channel,
+        size: [usize; 2],
+    ) -> Result<Painted, RenderError> {
         let renderer = self.renderer.get_or_insert_with(|| Renderer::new(scenery.settings));
         [self.picture.width, self.picture.height] = size;
         let scale = channel.draw(scenery, renderer, &mut self.picture)?;
@@ -141,12 +198,12 @@ impl CpuPainter {
         // Between two objects there is no third.
         let options =
             if channel == Channel::Objects { TextureOptions::NEAREST } else { TextureOptions::LINEAR };
-        let texture = match &mut self.texture {
+        let texture = match texture {
             Some(texture) => {
                 texture.set(image, options);
                 &*texture
             }
-            None => self.texture.insert(context.load_texture("picture", image, options)),
+            None => texture.insert(context.load_texture("picture", image, options)),
         };
         let place = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
         Ok(Painted { texture: texture.id(), place, labelled: channel == Channel::Colours, scale })
@@ -158,6 +215,8 @@ struct GpuPainter {
     state: RenderState,
     adapter: Adapter,
     renderer: Option<GpuRenderer>,
+    /// What draws sheets: the texture of the first renderer is on the screen.
+    aside: Option<GpuRenderer>,
     /// The texture as egui knows it.
     known: Option<(wgpu::TextureView, TextureId)>,
 }
@@ -165,19 +224,13 @@ struct GpuPainter {
 impl GpuPainter {
     fn new(state: &RenderState) -> Result<Self, GpuError> {
         let adapter = GpuRenderer::suits(&state.adapter)?;
-        Ok(GpuPainter { state: state.clone(), adapter, renderer: None, known: None })
+        Ok(GpuPainter { state: state.clone(), adapter, renderer: None, aside: None, known: None })
     }
 
     fn paint(&mut self, scenery: &Scenery, size: [usize; 2]) -> Result<Painted, GpuError> {
         let Scenery { assets, scene, settings, .. } = scenery;
-        let RenderState { adapter, device, queue, .. } = &self.state;
-        let renderer = match &mut self.renderer {
-            Some(renderer) => {
-                renderer.set(settings)?;
-                renderer
-            }
-            None => self.renderer.insert(GpuRenderer::shared(*settings, adapter, device, queue)?),
-        };
+        let device = &self.state.device;
+        let renderer = ready(&mut self.renderer, &self.state, settings)?;
         let Shown { view, taken: [right, top] } = renderer.show(assets, scene, size)?;
         let texture = match &self.known {
             Some((known, texture)) if known == view => *texture,
@@ -191,6 +244,80 @@ impl GpuPainter {
         self.known = Some((view.clone(), texture));
         let place = Rect::from_min_max(pos2(0.0, top), pos2(right, 0.0));
         Ok(Painted { texture, place, labelled: false, scale: None })
+    }
+
+    /// Draws a picture and copies it: the next one on another sheet takes its place.
+    fn paint_sheet(
+        &mut self,
+        scenery: &Scenery,
+        size: [usize; 2],
+        sheet: &mut Option<Copied>,
+    ) -> Result<Painted, GpuError> {
+        let Scenery { assets, scene, settings, .. } = scenery;
+        let RenderState { device, queue, .. } = &self.state;
+        let renderer = ready(&mut self.aside, &self.state, settings)?;
+        let Shown { view, .. } = renderer.show(assets, scene, size)?;
+        let copied = match sheet {
+            Some(copied) if copied.size == size => copied,
+            _ => sheet.insert(Copied::new(&self.state, size)),
+        };
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let (from, to) = (view.texture().as_image_copy(), copied.texture.as_image_copy());
+        encoder.copy_texture_to_texture(from, to, copied.texture.size());
+        queue.submit([encoder.finish()]);
+        let place = Rect::from_min_max(pos2(0.0, 1.0), pos2(1.0, 0.0));
+        Ok(Painted { texture: copied.known, place, labelled: false, scale: None })
+    }
+}
+
+/// A texture that a picture by the GPU was copied to.
+struct Copied {
+    size: [usize; 2],
+    texture: wgpu::Texture,
+    known: TextureId,
+    state: RenderState,
+}
+
+impl Copied {
+    fn new(state: &RenderState, size: [usize; 2]) -> Self {
+        let [width, height] = size.map(|side| side as u32);
+        let texture = state.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("sheet"),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            usage: wgpu::TextureUsages::COPY_SRC
+                | wgpu::TextureUsages::COPY_DST
+                | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        let view = texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let known = state.renderer.write().register_native_texture(&state.device, &view, FILTER);
+        Copied { size, texture, known, state: state.clone() }
+    }
+}
+
+impl Drop for Copied {
+    fn drop(&mut self) {
+        self.state.renderer.write().free_texture(&self.known);
+    }
+}
+
+/// The renderer of a place, with these settings.
+fn ready<'a>(
+    place: &'a mut Option<GpuRenderer>,
+    state: &RenderState,
+    settings: &Settings,
+) -> Result<&'a mut GpuRenderer, GpuError> {
+    let RenderState { adapter, device, queue, .. } = state;
+    match place {
+        Some(renderer) => {
+            renderer.set(settings)?;
+            Ok(renderer)
+        }
+        None => Ok(place.insert(GpuRenderer::shared(*settings, adapter, device, queue)?)),
     }
 }
 

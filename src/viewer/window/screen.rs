@@ -1,14 +1,14 @@
 //! The picture of a session, drawn as finely as time allows.
 
 use super::channel::Channel;
-use super::painters::{Painted, Painters};
+use super::painters::{Painted, Painters, Sheet};
 use crate::drawing::Scenery;
 use crate::session::Session;
 use eframe::egui::Context;
 use physics::Model;
 use render::raster::Projection;
-use render::scene::{Camera, SceneOptions};
-use render::{Picture, RenderError, Renderer};
+use render::scene::{Camera, LabelChoice, SceneOptions};
+use render::{Picture, RenderError, Renderer, Scene};
 use web_time::Instant;
 
 /// What a picture may take while things move \[s\].
@@ -21,11 +21,22 @@ pub struct Screen {
     /// What of the scene it shows.
     pub channel: Channel,
     scenery: Scenery,
+    /// What another camera sees.
+    aside: Scene,
     shown: Option<(Shown, Painted)>,
     /// Pixels of the window that the picture takes.
     size: [usize; 2],
     /// What a pixel takes \[s\].
     cost: f64,
+}
+
+/// What another camera sees, on a sheet of its own.
+#[derive(Default)]
+pub(super) struct Aside {
+    /// Columns and rows of the picture \[pixel\].
+    pub(super) size: [usize; 2],
+    sheet: Sheet,
+    shown: Option<(Shown, Painted)>,
 }
 
 /// What a picture depends on.
@@ -48,6 +59,7 @@ impl Screen {
         Ok(Screen {
             channel: Channel::default(),
             scenery: Scenery::new(model)?,
+            aside: Scene::new(),
             shown: None,
             size: [1; 2],
             cost: 0.0,
@@ -95,6 +107,41 @@ impl Screen {
         // What draws may have changed.
         self.shown = Some((Shown { uses_gpu: uses_gpu && painters.uses_gpu(), ..wanted(chosen) }, painted));
         Ok((painted, chosen != size))
+    }
+
+    /// Draws what another camera sees of the state that [`Screen::draw`] has drawn last, unless that picture is there
+    /// already. It has no labels: they would hide it.
+    ///
+    /// # Errors
+    /// The camera or an item has no place.
+    pub(super) fn draw_aside(
+        &mut self,
+        context: &Context,
+        painters: &mut Painters,
+        session: &Session,
+        (camera, channel): (usize, Channel),
+        to: &mut Aside,
+    ) -> Result<Painted, RenderError> {
+        let camera = Camera::Fixed(camera);
+        let mut options = session.shown();
+        options.label = LabelChoice::None;
+        let size = to.size;
+        let wanted =
+            |uses_gpu| Shown { revision: session.revision(), camera, options, size, uses_gpu, channel };
+        let uses_gpu = painters.uses_gpu() && channel == Channel::Colours;
+        if let Some((_, painted)) = to.shown.as_ref().filter(|(shown, _)| *shown == wanted(uses_gpu)) {
+            return Ok(*painted);
+        }
+        let view = camera.view(session.model(), session.data())?;
+        std::mem::swap(&mut self.aside, &mut self.scenery.scene);
+        let drawn = self.scenery.look(session, view, &options);
+        let painted =
+            drawn.and_then(|()| painters.paint_sheet(context, &self.scenery, channel, size, &mut to.sheet));
+        std::mem::swap(&mut self.aside, &mut self.scenery.scene);
+        let painted = painted?;
+        let shown = wanted(painters.uses_gpu() && channel == Channel::Colours);
+        to.shown = Some((shown, painted));
+        Ok(painted)
     }
 
     /// By how many pixels of the window a pixel of the picture is wide.

@@ -44,6 +44,17 @@ impl App {
         if let Some(opened) = &mut self.opened {
             opened.screen.forget();
         }
+        self.insets.forget();
+    }
+
+    /// Shows what a camera sees over the picture.
+    pub fn show_camera(&mut self, name: &str) {
+        self.insets.choose(name);
+    }
+
+    /// The cameras whose pictures lie over the picture, by name, and where \[point\].
+    pub fn insets(&self) -> impl Iterator<Item = (&str, Rect)> {
+        self.insets.shown()
     }
 
     /// The same, which is then forgotten.
@@ -111,6 +122,22 @@ impl App {
     pub fn read_gpu(&mut self) -> Result<Option<Vec<u8>>, render_gpu::GpuError> {
         let size = self.size();
         self.painters.read_gpu(size)
+    }
+
+    /// Columns and rows of the last small picture \[pixel\].
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn inset_size(&self) -> Option<[usize; 2]> {
+        self.insets.size()
+    }
+
+    /// The small picture that the GPU has drawn last, bytes R, G, B, A of each pixel from the top.
+    ///
+    /// # Errors
+    /// The GPU failed.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub fn read_gpu_inset(&mut self) -> Result<Option<Vec<u8>>, render_gpu::GpuError> {
+        let size = self.inset_size();
+        Ok(size.map(|size| self.painters.read_gpu_sheet(size)).transpose()?.flatten())
     }
 
     /// A sentence on what is shown, for those who do not see it.

@@ -193,17 +193,17 @@ impl Bus {
         for Answer { delay, bytes } in answers {
             due += delay;
             let length = bytes.len() as f64;
-            moment.outbox.send(due, bytes);
+            moment.outbox.send(0, due, bytes);
             due += length * self.byte;
         }
     }
 }
 
 impl Device for Bus {
-    fn receive(&mut self, moment: &mut Moment<'_>, bytes: &[u8]) {
+    fn receive(&mut self, moment: &mut Moment<'_>, _channel: usize, bytes: &[u8]) {
         self.time = moment.time;
         if self.echo {
-            moment.outbox.send(moment.time, bytes.to_vec());
+            moment.outbox.send(0, moment.time, bytes.to_vec());
         }
         let mut decoder = std::mem::take(&mut self.decoder);
         decoder.push(bytes);

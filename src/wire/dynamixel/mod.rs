@@ -2,7 +2,6 @@
 
 mod bus;
 mod memory;
-mod profile;
 mod servo;
 
 pub use bus::Bus;

@@ -1,8 +1,9 @@
 //! One servo: its control table, and what its motor does.
 
 use super::memory::Memory;
-use super::profile::Profile;
 use crate::plant::{Drive, Plant};
+use crate::profile::Profile;
+use crate::shaft::Shaft;
 use protocol::dynamixel::{Mode, Model, address, hardware_error, status_error};
 
 /// How long a servo is silent after a reboot \[s\].
@@ -21,14 +22,6 @@ pub struct Servo {
     heard: f64,
     silent_until: f64,
     powered: bool,
-}
-
-/// Where a servo sits: its angle is the joint's, times scale, plus offset.
-#[derive(Clone, Copy)]
-struct Shaft {
-    motor: usize,
-    scale: f64,
-    offset: f64,
 }
 
 impl Servo {
@@ -224,7 +217,8 @@ impl Servo {
 
     /// What its mode and its goals make of the motor.
     fn drive(&mut self, dt: f64) -> Drive {
-        let Some(Shaft { scale, offset, .. }) = self.shaft else { return Drive::Off };
+        let Some(shaft) = self.shaft else { return Drive::Off };
+        let scale = shaft.scale;
         let get = |address| self.memory.get(address) as f64;
         match self.mode() {
             Mode::Velocity => Drive::Velocity(get(address::GOAL_VELOCITY) * Model::VELOCITY_UNIT / scale),
@@ -242,17 +236,15 @@ impl Servo {
                 let homing = get(address::HOMING_OFFSET);
                 self.profile.advance(goal, fastest, acceleration, dt);
                 let angle = (self.profile.position - homing) * Model::POSITION_UNIT;
-                Drive::Control((angle - offset) / scale)
+                Drive::Control(shaft.joint(angle))
             }
         }
     }
 
     /// Fills the registers that say how it is.
     fn measure(&mut self, plant: &Plant) {
-        let Some(Shaft { motor, scale, offset }) = self.shaft else { return };
-        let angle = plant.position(motor) * scale + offset;
-        let velocity = plant.velocity(motor) * scale;
-        let effort = plant.effort(motor) * scale;
+        let Some(shaft) = self.shaft else { return };
+        let (angle, velocity, effort) = (shaft.angle(plant), shaft.velocity(plant), shaft.effort(plant));
         let position =
             (angle / Model::POSITION_UNIT).round() as i64 + self.memory.get(address::HOMING_OFFSET);
         // A servo that does not count turns shows the angle within one.

@@ -3,7 +3,7 @@
 use super::table;
 use crate::play::{Acting, Play};
 use crate::session::Session;
-use eframe::egui::{Slider, Ui};
+use eframe::egui::{Slider, TextWrapMode, Ui};
 use env::Rows;
 
 /// Most values of a row that are shown.
@@ -13,6 +13,8 @@ const SHOWN: usize = 6;
 pub fn episode(ui: &mut Ui, session: &mut Session) {
     let Some(play) = session.play_mut() else { return };
     ui.horizontal_wrapped(|ui| {
+        // A name that does not fit goes to the next row, whole.
+        ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
         for (name, acting) in [
             ("Zero", Acting::Zero),
             ("Random", Acting::Random),

@@ -2,19 +2,19 @@
 
 /// Where a profile has the servo \[units of position, units a second\].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Profile {
-    pub(super) position: f64,
+pub(crate) struct Profile {
+    pub(crate) position: f64,
     velocity: f64,
 }
 
 impl Profile {
     /// A profile at rest.
-    pub(super) fn at(position: f64) -> Profile {
+    pub(crate) fn at(position: f64) -> Profile {
         Profile { position, velocity: 0.0 }
     }
 
     /// Goes on towards `goal` for `dt` seconds, no faster than `fastest` and with at most `acceleration`; 0 is no limit.
-    pub(super) fn advance(&mut self, goal: f64, fastest: f64, acceleration: f64, dt: f64) {
+    pub(crate) fn advance(&mut self, goal: f64, fastest: f64, acceleration: f64, dt: f64) {
         let left = goal - self.position;
         let fastest = if fastest > 0.0 { fastest } else { f64::INFINITY };
         let acceleration = if acceleration > 0.0 { acceleration } else { f64::INFINITY };
@@ -39,7 +39,7 @@ impl Profile {
     }
 
     /// Whether it has come to rest at `goal`.
-    pub(super) fn done(&self, goal: f64) -> bool {
+    pub(crate) fn done(&self, goal: f64) -> bool {
         self.position == goal && self.velocity == 0.0
     }
 }

@@ -1,0 +1,134 @@
+//! The arguments of `teleop`, and the help that teaches it.
+
+use crate::input::library::{Making, Source};
+use crate::output::recording_file;
+use crate::pictures::film::FilmArguments;
+use crate::recordings::names::{LayoutName, PrecisionName};
+use clap::{Args, ValueEnum, ValueHint};
+use std::path::PathBuf;
+
+/// Drive an environment by hand, and record demonstrations
+#[derive(Args)]
+#[command(
+    after_help = "An episode begins from the reset of its seed, SEED, SEED + 1 and so on, and time stands still until something moves.
+
+Keys (those of RoboHive, and what episodes need):
+  d a  w x  q z      the hand along x, y, z         arrows  , .    turn it: roll, pitch, yaw
+  [ ]                close, open the gripper         v              a quarter of the speed while held
+  Enter              success, next episode           Backspace      failure, next episode
+  Delete             throw away, same reset again    Tab            throw away, next reset
+  Space              pause                           s              slow motion
+  b n                back and forward by one state   PgUp PgDn      by a second
+  Esc                end
+Any motion goes on from the state that is shown: what was gone back over is no part of the episode. With --control joints keys in \
+pairs move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k.
+
+Gamepad: left stick and triggers move, the cross and TL TR turn, WEST EAST close and open, NORTH slows down, SOUTH is success, a \
+press of the left stick throws away, of the right one pauses, SELECT and START end. Six-axis mouse: its six axes; left and right button close and \
+open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end. The keyboard's marks \
+work beside every device.
+
+--mapping FILE changes all of this; --print-mapping prints the mapping that is used without one, to begin from. A target whose joints would be \
+more than 0.5 rad away, or out of range, is not taken. Terminals with the kitty keyboard protocol tell when keys are released; in others a key counts as released 0.15 s after its last \
+repetition. --preview shows the scene in the terminal.
+
+--record writes as `robohive run --record` does, an episode when it is finished, so that a kill loses none of those; teleop/success \
+holds the person's judgement. `robohive data export lerobot FILE FOLDER` makes a LeRobot dataset of it, `robohive view FILE` shows it.
+
+Examples:
+  robohive teleop --print-mapping
+  robohive teleop hive/FrankaReach-v0 --preview --record reach.h5
+  robohive teleop hive/FrankaReach-v0 --device gamepad --record reach.h5 --episodes 20
+  robohive teleop hive/ElbowPose-v0 --control joints --video elbow.mp4"
+)]
+pub struct Teleop {
+    /// The environment
+    #[command(flatten)]
+    pub source: OptionalSource,
+    /// What drives
+    #[arg(long, value_name = "DEVICE", default_value = "keyboard")]
+    pub device: DeviceName,
+    /// File of the device, instead of the first that is found
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub path: Option<PathBuf>,
+    /// What is driven
+    #[arg(long, value_name = "WHAT", default_value = "hand")]
+    pub control: ControlName,
+    /// Site of the model that is the hand [default: the first that there is of those that the mapping names]
+    #[arg(long, value_name = "NAME")]
+    pub site: Option<String>,
+    /// Mapping of keys, buttons and axes (TOML); sections that it lacks are the usual ones
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub mapping: Option<PathBuf>,
+    /// Print the usual mapping and end
+    #[arg(long, exclusive = true)]
+    pub print_mapping: bool,
+    /// Seed of the first reset
+    #[arg(long, value_name = "SEED", default_value_t = 0)]
+    pub seed: u64,
+    /// Episodes to keep, after which the session ends [default: until it is ended]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub episodes: usize,
+    /// Steps after which an episode ends by itself, judged by the task [default: never]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub horizon: usize,
+    /// Steps in a row that must solve the task for an episode to end as a success by itself [default: never]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    pub solved_for: usize,
+    /// Record every finished episode in this file, .h5 or .hdf5 (HDF5), or .npz; replaces it
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = recording_file)]
+    pub record: Option<PathBuf>,
+    /// Names of the recorded rows
+    #[arg(long, default_value = "robohive", requires = "record")]
+    pub layout: LayoutName,
+    /// Precision of the recorded numbers; that of RoboHive's own files is reduced
+    #[arg(long, default_value = "full", requires = "record")]
+    pub precision: PrecisionName,
+    /// Record the images of the visual keys too, which takes their drawing
+    #[arg(long, requires = "record")]
+    pub visual: bool,
+    /// Its video
+    #[command(flatten)]
+    pub film: FilmArguments,
+}
+
+/// An environment, where one is named.
+#[derive(Args)]
+pub struct OptionalSource {
+    /// Id of the environment, as `robohive list` shows them
+    #[arg(value_name = "ID", required_unless_present = "print_mapping")]
+    pub id: Option<String>,
+    /// How it is made
+    #[command(flatten)]
+    pub making: Making,
+}
+
+/// Devices by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DeviceName {
+    /// The keyboard of this terminal
+    Keyboard,
+    /// A gamepad (Linux)
+    Gamepad,
+    /// A six-axis mouse (Linux)
+    Spacemouse,
+    /// Controllers of a Quest: lines of its log, from a pipe that --path names
+    Quest,
+}
+
+/// What can be driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ControlName {
+    /// The hand of an arm, by inverse kinematics
+    Hand,
+    /// Joints one by one
+    Joints,
+}
+
+impl Teleop {
+    /// The environment, which is named wherever the mapping is not printed.
+    pub fn environment(&self) -> Option<Source> {
+        let OptionalSource { id, making } = &self.source;
+        Some(Source { id: id.clone()?, making: making.clone() })
+    }
+}

@@ -1,0 +1,290 @@
+//! Sessions by hand, typed into a terminal of the test's own.
+
+#![cfg(unix)]
+
+mod command;
+
+use command::{command, robohive, scratch, text};
+use dataset::trace::TraceReader;
+use env::{Env, Options, OwnModels};
+use record::Recorded;
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+use rustix::termios::{Winsize, tcgetattr, tcsetwinsize};
+use std::fs::File;
+use std::io::{Read, Write};
+use std::os::fd::OwnedFd;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+const ID: &str = "hive/FrankaReach-v0";
+
+/// A session in a terminal.
+struct Typed {
+    master: File,
+    /// The other end, kept open so that its settings can be looked at.
+    slave: File,
+    child: Child,
+    written: Arc<Mutex<String>>,
+}
+
+impl Typed {
+    /// Starts the command in a terminal that tells releases, or does not.
+    fn start(arguments: &[&str], tells_releases: bool) -> Self {
+        let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).unwrap();
+        grantpt(&master).unwrap();
+        unlockpt(&master).unwrap();
+        let path = ptsname(&master, Vec::new()).unwrap();
+        let slave = File::options().read(true).write(true).open(path.to_str().unwrap()).unwrap();
+        tcsetwinsize(&slave, Winsize { ws_row: 30, ws_col: 200, ws_xpixel: 0, ws_ypixel: 0 }).unwrap();
+        let end = || OwnedFd::from(slave.try_clone().unwrap());
+        let child =
+            command().arg("teleop").args(arguments).stdin(end()).stdout(end()).stderr(end()).spawn().unwrap();
+        let master = File::from(master);
+        let written = Arc::new(Mutex::new(String::new()));
+        let (mut from, to) = (master.try_clone().unwrap(), written.clone());
+        std::thread::spawn(move || {
+            let mut bytes = [0; 4096];
+            while let Ok(count @ 1..) = from.read(&mut bytes) {
+                to.lock().unwrap().push_str(&String::from_utf8_lossy(&bytes[..count]));
+            }
+        });
+        let mut typed = Typed { master, slave, child, written };
+        typed.wait_for("\u{1b}[?u");
+        typed.write(if tells_releases { "\u{1b}[?0u\u{1b}[?62c" } else { "\u{1b}[?62c" });
+        if tells_releases {
+            typed.wait_for("\u{1b}[>11u");
+        }
+        typed.wait_for("episode 1");
+        typed
+    }
+
+    fn write(&mut self, keys: &str) {
+        self.master.write_all(keys.as_bytes()).unwrap();
+    }
+
+    /// All that was written so far.
+    fn all(&self) -> String {
+        self.written.lock().unwrap().clone()
+    }
+
+    fn wait_for(&self, what: &str) {
+        let began = Instant::now();
+        while !self.all().contains(what) {
+            assert!(began.elapsed() < Duration::from_secs(60), "no {what:?}: {:?}", self.tail());
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// The end of it.
+    fn tail(&self) -> String {
+        let all: Vec<char> = self.all().chars().collect();
+        all[all.len().saturating_sub(600)..].iter().collect()
+    }
+
+    /// The last line that says how it goes.
+    fn line(&self) -> String {
+        let all = self.all();
+        all.rsplit('\r').find(|line| line.starts_with("episode ")).unwrap_or_default().to_owned()
+    }
+
+    /// Where the hand is [m].
+    fn hand(&self) -> [f64; 3] {
+        let line = self.line();
+        let (_, after) = line.split_once("hand ").unwrap();
+        let numbers: Vec<f64> = after.split(' ').map_while(|word| word.parse().ok()).collect();
+        numbers[..3].try_into().unwrap()
+    }
+
+    fn end(&mut self) -> (ExitStatus, String) {
+        let began = Instant::now();
+        loop {
+            if let Some(status) = self.child.try_wait().unwrap() {
+                // What is on its way is read.
+                std::thread::sleep(Duration::from_millis(50));
+                return (status, self.all());
+            }
+            assert!(began.elapsed() < Duration::from_secs(60), "it does not end: {:?}", self.tail());
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    fn pause(&self) {
+        std::thread::sleep(Duration::from_millis(120));
+    }
+}
+
+impl Drop for Typed {
+    fn drop(&mut self) {
+        // One that has ended is not there to be ended.
+        _ = self.child.kill();
+        _ = self.child.wait();
+    }
+}
+
+/// Where the target of a seed is [m].
+fn target(seed: u64) -> [f64; 3] {
+    let mut env = Env::make(ID, &OwnModels, &Options::default()).unwrap();
+    env.reset(Some(seed)).unwrap();
+    let scene = env.scene();
+    scene.data.kin.site_xpos[scene.model.site("target").unwrap().index()]
+}
+
+/// Brings the hand to a target as a person does who sees both: strikes of the keys of each axis on which they are apart.
+fn reach(typed: &mut Typed, target: [f64; 3]) {
+    const KEYS: [[char; 2]; 3] = [['a', 'd'], ['x', 'w'], ['z', 'q']];
+    let began = Instant::now();
+    while !typed.line().contains("solved") {
+        assert!(began.elapsed() < Duration::from_secs(60), "{target:?} is not reached: {}", typed.line());
+        let hand = typed.hand();
+        for (axis, [less, more]) in KEYS.into_iter().enumerate() {
+            let way = target[axis] - hand[axis];
+            if way.abs() > 0.015 {
+                let key = u32::from(if way > 0.0 { more } else { less });
+                typed.write(&format!("\u{1b}[{key};1:1u\u{1b}[{key};1:3u"));
+            }
+        }
+        typed.pause();
+    }
+}
+
+fn number_after(text: &str, before: &str) -> f64 {
+    let (_, after) = text.split_once(before).unwrap_or_else(|| panic!("no {before:?} in {text}"));
+    let word: String = after.trim_start().chars().take_while(|c| c.is_ascii_digit() || *c == '.').collect();
+    word.parse().unwrap_or_else(|_| panic!("{before}{after}"))
+}
+
+#[test]
+fn typed_keys_solve_the_task_and_the_recording_loads() {
+    let file = scratch("teleop.h5");
+    let mut typed = Typed::start(&[ID, "--record", file.to_str().unwrap(), "--seed", "8"], true);
+    let single = tcgetattr(&typed.slave).unwrap();
+    reach(&mut typed, target(8));
+    typed.write("\r");
+    typed.wait_for("episode 2  seed 9");
+    // A second one, gone back in and given up.
+    typed.write("\u{1b}[97;1:1u");
+    (0..4).for_each(|_| typed.pause());
+    typed.write("\u{1b}[97;1:3u\u{1b}[98;1:1u");
+    (0..3).for_each(|_| typed.pause());
+    typed.write("\u{1b}[98;1:3u");
+    typed.wait_for("PAUSED");
+    typed.write("\u{1b}[127u");
+    typed.wait_for("episode 3  seed 10");
+    let slave = typed.slave.try_clone().unwrap();
+    typed.write("\u{1b}[27u");
+    let (status, said) = typed.end();
+    assert!(status.success(), "{said}");
+    assert!(said.contains("2 episodes kept, 1 succeeded, 0 thrown away"), "{said}");
+    assert!(said.contains("2 episodes in"), "{said}");
+    let after = tcgetattr(&slave).unwrap();
+    assert!(single.local_modes != after.local_modes, "the terminal edits lines again");
+    assert!(said.contains("\u{1b}[<u"), "and reports keys as before");
+    let (middle, late) = (number_after(&said, "latency "), number_after(&said, "(p50), "));
+    let rate = number_after(&said, &format!("{},", number_after(&said, "ticks ")));
+    println!("latency {middle} ms (p50), {late} ms (p99); {rate} ticks a second");
+    assert!((6.0..13.0).contains(&rate), "ticks last 0.08 s: {said}");
+    assert!(middle <= late && middle > 0.0);
+
+    let trace = TraceReader::open(&file).unwrap();
+    let judged: Vec<f64> = ["Trial0", "Trial1"]
+        .into_iter()
+        .map(|trial| {
+            let entries = trace.entries(trial).unwrap();
+            let entry = entries.into_iter().find(|entry| entry.key == "teleop/success").unwrap();
+            trace.read(&entry).unwrap().values.to_f64()[0]
+        })
+        .collect();
+    assert_eq!(judged, [1.0, 0.0]);
+    let recorded = Recorded::read(&trace, "Trial0").unwrap();
+    assert_eq!(recorded.seed, Some(8));
+    let solved =
+        trace.entries("Trial0").unwrap().into_iter().find(|entry| entry.key == "env_infos/solved").unwrap();
+    assert!(trace.read(&solved).unwrap().values.to_f64().contains(&1.0), "the task was solved");
+    let out = robohive(&["data", "replay", file.to_str().unwrap()]);
+    assert!(out.status.success(), "{}{}", text(&out.stdout), text(&out.stderr));
+}
+
+#[test]
+fn a_kill_loses_no_finished_episode() {
+    let file = scratch("killed.h5");
+    let arguments = [ID, "--record", file.to_str().unwrap(), "--horizon", "3"];
+    let mut typed = Typed::start(&arguments, true);
+    typed.write("\u{1b}[100;1:1u");
+    typed.wait_for("episode 3  seed 2");
+    typed.child.kill().unwrap();
+    typed.child.wait().unwrap();
+    let trace = TraceReader::open(&file).unwrap();
+    for trial in ["Trial0", "Trial1"] {
+        let recorded = Recorded::read(&trace, trial).unwrap();
+        assert!(recorded.actions.row(3).is_some() && recorded.actions.row(4).is_none());
+    }
+}
+
+#[test]
+fn a_terminal_that_goes_leaves_whole_files() {
+    let file = scratch("gone.npz");
+    let mut typed = Typed::start(&[ID, "--record", file.to_str().unwrap(), "--horizon", "2"], true);
+    typed.write("\u{1b}[100;1:1u\u{1b}[100;1:3u");
+    typed.wait_for("hand");
+    typed.write("\u{1b}[100;1:1u");
+    typed.wait_for("episode 2  seed 1");
+    // A window that is closed sends the first signal; what the program then writes, nobody reads.
+    let interrupt = Command::new("kill").args(["-HUP", &typed.child.id().to_string()]).status().unwrap();
+    assert!(interrupt.success());
+    let (status, said) = typed.end();
+    assert_eq!(status.code(), Some(129), "{said}");
+    let trace = TraceReader::open(&file).unwrap();
+    assert!(Recorded::read(&trace, "Trial0").unwrap().actions.row(2).is_some());
+}
+
+#[test]
+fn a_plain_terminal_repeats_keys_and_an_interrupt_ends() {
+    let mut typed = Typed::start(&[ID], false);
+    let start = typed.hand();
+    for _ in 0..20 {
+        typed.write("z");
+        std::thread::sleep(Duration::from_millis(40));
+    }
+    typed.pause();
+    let stopped = typed.hand();
+    assert!(stopped[2] < start[2] - 0.1, "{start:?} {stopped:?}");
+    typed.pause();
+    typed.pause();
+    let after = typed.hand();
+    let way = (0..3).map(|k| (after[k] - stopped[k]).powi(2)).sum::<f64>().sqrt();
+    assert!(way < 0.06, "it stops within two ticks: {stopped:?} {after:?}");
+    // What a terminal makes of Ctrl-C for the program that it belongs to.
+    let interrupt = Command::new("kill").args(["-INT", &typed.child.id().to_string()]).status().unwrap();
+    assert!(interrupt.success());
+    let (status, said) = typed.end();
+    assert!(said.contains("0 episodes kept"), "{said}");
+    assert_eq!(status.code(), Some(130), "{said}");
+}
+
+#[test]
+fn what_cannot_be_opened_is_named_with_what_to_do() {
+    let out = robohive(&["teleop", ID]);
+    assert_eq!(out.status.code(), Some(1));
+    assert!(text(&out.stderr).contains("run the command in a terminal"), "{}", text(&out.stderr));
+    let cases: [(&[&str], &str); 6] = [
+        (&[ID, "--device", "gamepad", "--path", "/nonexistent/event3"], "/nonexistent/event3"),
+        (&[ID, "--device", "quest"], "adb logcat"),
+        (&[ID, "--path", "/dev/null"], "--device"),
+        (&["hive/ElbowPose-v0"], "--site"),
+        (&[ID, "--mapping", "/nonexistent/keys.toml"], "keys.toml"),
+        (&[ID, "--site", "nose"], "nose"),
+    ];
+    for (arguments, says) in cases {
+        let out = robohive(&[&["teleop"], arguments].concat());
+        assert!(!out.status.success());
+        assert!(text(&out.stderr).contains(says), "{arguments:?}: {}", text(&out.stderr));
+    }
+    let printed = robohive(&["teleop", "--print-mapping"]);
+    let file = scratch("keys.toml");
+    std::fs::write(&file, &printed.stdout).unwrap();
+    let out = robohive(&["teleop", ID, "--mapping", file.to_str().unwrap()]);
+    assert!(text(&out.stderr).contains("no terminal"), "what it prints is a mapping: {}", text(&out.stderr));
+    assert!(!Path::new("teleop.h5").exists());
+}

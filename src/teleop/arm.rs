@@ -1,0 +1,305 @@
+//! An arm that is driven by its hand: a target moves, inverse kinematics says where joints go.
+
+use crate::error::TeleopError;
+use crate::mapping::{ArmSettings, Gains};
+use crate::motion::Motion;
+use env::Env;
+use physics::elements::{ActuatorId, Element, JointId, SiteId};
+use physics::math::{Quat, Vec3, add, mat_to_quat, quat_from_axis_angle, quat_mul, quat_normalize, scale};
+use physics::model::TrnType;
+use physics::position::kinematics::kinematics;
+use physics::{Data, Model};
+use robot::{Pose, Reach, Search};
+
+/// Error at which a target counts as reached \[m, rad\].
+const TOLERANCE: f64 = 1e-3;
+/// Most updates of a search, which begins where the last one ended.
+const STEPS: usize = 50;
+/// Most that a command is put ahead of where a joint should be, so that its servo carries the arm's weight \[rad\].
+const DROOP: f64 = 0.2;
+/// A way that needs no time \[rad\].
+const SMALL: f64 = 1e-3;
+/// Damping and largest update \[rad\] of a search: near the ends of what an arm reaches it must not wander.
+const DAMPING: f64 = 1e-3;
+const UPDATE: f64 = 0.5;
+/// Parts of a motion that are tried: near the ends of what an arm reaches a little way is a long one for its joints.
+const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
+/// What `quarter` leaves.
+const QUARTER: f64 = 0.25;
+
+/// A joint of the arm.
+#[derive(Clone, Debug)]
+struct Link {
+    joint: JointId,
+    /// Its places in `qpos` and `qvel`.
+    position: usize,
+    velocity: usize,
+    /// The control of its actuator.
+    control: usize,
+    /// Its torque for each radian by which a joint is behind its command; none where the actuator is no servo.
+    stiffness: Option<f64>,
+}
+
+/// What an arm is made of, and its target. A copy is all that an episode needs to go on from here.
+#[derive(Clone, Debug)]
+pub struct Arm {
+    site: SiteId,
+    links: Vec<Link>,
+    joints: Vec<JointId>,
+    /// Controls of the gripper.
+    gripper: Vec<usize>,
+    settings: ArmSettings,
+    gains: Gains,
+    /// Positions after the reset, which the arm keeps near to.
+    rest: Vec<f64>,
+    /// Commanded positions of the links.
+    command: Vec<f64>,
+    target: (Vec3, Quat),
+    moving: bool,
+    grip: f64,
+}
+
+/// Whether the target of a tick was taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reached {
+    /// The robot follows, or rests.
+    Yes,
+    /// No joints within their ranges bring the hand there.
+    Nowhere,
+    /// They would be further away than a tick may ask for.
+    Far,
+}
+
+impl Arm {
+    /// The arm whose actuators of joints lead to the site that moves; every other actuator is the gripper's.
+    ///
+    /// # Errors
+    /// The model has no such site, or nothing that moves it.
+    pub fn of(env: &Env, settings: &ArmSettings, gains: Gains) -> Result<Self, TeleopError> {
+        let model = &env.scene().model;
+        let Some(site) = settings.sites.iter().find_map(|name| model.site(name)) else {
+            let has: Vec<&str> = model.site_names().map(|(_, name)| name).take(12).collect();
+            return Err(missing(format!(
+                "no site to move: the model has none of {}; name one by --site: {}",
+                settings.sites.join(", "),
+                has.join(", ")
+            )));
+        };
+        let chain = chain(model, model.site_bodyid[site.index()]);
+        let (mut links, mut gripper) = (Vec::new(), Vec::new());
+        for actuator in model.actuators() {
+            let control = usize::try_from(model.actuator_ctrladr[actuator.index()]).ok();
+            let Some(control) = control else { continue };
+            match link(model, actuator, control)
+                .filter(|link| chain.contains(&model.jnt_bodyid[link.joint.index()]))
+            {
+                Some(link) => links.push(link),
+                None => gripper.push(control),
+            }
+        }
+        if links.is_empty() {
+            let name = model.name_of(SiteId::KIND, site.index());
+            return Err(missing(format!(
+                "no actuator of a joint moves the site {name:?}; --control joints drives joints"
+            )));
+        }
+        let joints = links.iter().map(|link| link.joint).collect();
+        let mut arm = Arm {
+            site,
+            joints,
+            gripper,
+            settings: settings.clone(),
+            gains,
+            rest: Vec::new(),
+            command: Vec::new(),
+            target: Default::default(),
+            moving: false,
+            grip: settings.gripper,
+            links,
+        };
+        arm.begin(env);
+        Ok(arm)
+    }
+
+    /// Takes the state after a reset as where to rest, and the hand's pose as its target.
+    pub fn begin(&mut self, env: &Env) {
+        let (model, data) = (&env.scene().model, &env.scene().data);
+        self.rest = data.state.qpos.clone();
+        self.command = self.links.iter().map(|link| data.state.qpos[link.position]).collect();
+        self.target = self.hand(model, data, &self.command);
+        (self.moving, self.grip) = (false, self.settings.gripper);
+    }
+
+    /// Where the hand would be if the joints were there.
+    fn hand(&self, model: &Model, data: &Data, joints: &[f64]) -> (Vec3, Quat) {
+        let mut there = data.clone();
+        for (link, position) in self.links.iter().zip(joints) {
+            there.state.qpos[link.position] = *position;
+        }
+        kinematics(model, &there.state, &mut there.kin);
+        let site = self.site.index();
+        (there.kin.site_xpos[site], mat_to_quat(&there.kin.site_xmat[site]))
+    }
+
+    /// Moves the target and writes the controls that follow. `within` are the least and the largest controls that the robot would
+    /// follow during this tick: an arm whose way is longer goes a part of it, all joints alike, so that the hand keeps its direction.
+    pub fn drive(
+        &mut self,
+        env: &Env,
+        motion: &Motion,
+        within: [&[f64]; 2],
+        controls: &mut [f64],
+    ) -> Reached {
+        let (model, data) = (&env.scene().model, &env.scene().data);
+        if let Some(grip) = motion.gripper {
+            self.grip = grip.clamp(-1.0, 1.0);
+        }
+        let reached = if motion.along.iter().any(|&x| x != 0.0) || motion.hand.is_some() {
+            self.moving = true;
+            self.pursue(model, data, motion)
+        } else {
+            self.rest_at(model, data);
+            Reached::Yes
+        };
+        let part = self.part(data, within);
+        for (link, command) in self.links.iter().zip(&self.command) {
+            let now = data.state.qpos[link.position];
+            controls[link.control] = now + part * (command - now) + link.droop(data);
+        }
+        for &control in &self.gripper {
+            let [low, high] = model.actuator_ctrlrange[control];
+            controls[control] = low + (high - low) * (self.grip + 1.0) / 2.0;
+        }
+        reached
+    }
+
+    /// The part of the way to their commands that all joints can go at once.
+    fn part(&self, data: &Data, [low, high]: [&[f64]; 2]) -> f64 {
+        let part = |(link, command): (&Link, &f64)| {
+            let (now, droop) = (data.state.qpos[link.position], link.droop(data));
+            let way = command - now;
+            let end = if way > 0.0 { high[link.control] } else { low[link.control] };
+            if way.abs() < SMALL { 1.0 } else { ((end - droop - now) / way).clamp(0.0, 1.0) }
+        };
+        self.links.iter().zip(&self.command).map(part).fold(1.0, f64::min)
+    }
+
+    /// Moves the target by the largest part of a motion that the joints can follow.
+    fn pursue(&mut self, model: &Model, data: &Data, motion: &Motion) -> Reached {
+        let mut start = data.clone();
+        for (link, command) in self.links.iter().zip(&self.command) {
+            start.state.qpos[link.position] = *command;
+        }
+        let mut why = Reached::Nowhere;
+        for part in PARTS {
+            let wanted = self.moved(motion, part);
+            match self.joints_at(model, data, &start, wanted) {
+                Ok(joints) => {
+                    (self.command, self.target) = (joints, wanted);
+                    return Reached::Yes;
+                }
+                Err(refused) => why = refused,
+            }
+        }
+        why
+    }
+
+    /// Where the joints go for a target.
+    fn joints_at(
+        &self,
+        model: &Model,
+        now: &Data,
+        start: &Data,
+        target: (Vec3, Quat),
+    ) -> Result<Vec<f64>, Reached> {
+        let search = Search {
+            tolerance: TOLERANCE,
+            max_steps: STEPS,
+            damping: DAMPING,
+            damping_threshold: 0.0,
+            max_update: UPDATE,
+            ..Search::default()
+        };
+        let pose = Pose { position: Some(target.0), orientation: Some(target.1) };
+        let reach = Reach { joints: &self.joints, rest: Some(&self.rest), pull: self.settings.pull };
+        let found = search.run_within(model, start, self.site, &pose, &reach);
+        if !found.reached {
+            return Err(Reached::Nowhere);
+        }
+        let joints: Vec<f64> = self.links.iter().map(|link| found.qpos[link.position]).collect();
+        let ahead = |(link, joint): (&Link, &f64)| (joint - now.state.qpos[link.position]).powi(2);
+        let distance = self.links.iter().zip(&joints).map(ahead).sum::<f64>().sqrt();
+        if distance > self.settings.reach { Err(Reached::Far) } else { Ok(joints) }
+    }
+
+    /// The target after a part of a motion.
+    fn moved(&self, motion: &Motion, part: f64) -> (Vec3, Quat) {
+        let part = if motion.quarter { part * QUARTER } else { part };
+        let [x, y, z, roll, pitch, yaw] = motion.along;
+        let (mut position, mut turned) = self.target;
+        position = add(position, scale([x, y, z], part * self.gains.position));
+        for (axis, angle) in [([1.0, 0.0, 0.0], roll), ([0.0, 1.0, 0.0], pitch), ([0.0, 0.0, 1.0], yaw)] {
+            if angle != 0.0 {
+                turned = quat_mul(quat_from_axis_angle(axis, part * self.gains.rotation * angle), turned);
+            }
+        }
+        if let Some(hand) = motion.hand {
+            position = add(position, scale(hand.way, part));
+            turned = quat_mul(hand.turn, turned);
+        }
+        (position, quat_normalize(turned))
+    }
+
+    /// Stays where the arm is when a motion ends.
+    fn rest_at(&mut self, model: &Model, data: &Data) {
+        if std::mem::take(&mut self.moving) {
+            self.command = self.links.iter().map(|link| data.state.qpos[link.position]).collect();
+            self.target = self.hand(model, data, &self.command);
+        }
+    }
+
+    /// Where the gripper should be, -1 (closed) to 1.
+    pub fn grip(&self) -> f64 {
+        self.grip
+    }
+
+    /// The site that moves.
+    pub fn site(&self) -> SiteId {
+        self.site
+    }
+}
+
+impl Link {
+    /// How far the joint would hang behind a command under the weight that it carries.
+    fn droop(&self, data: &Data) -> f64 {
+        let carried = data.vel.qfrc_bias[self.velocity] - data.passive.qfrc_gravcomp[self.velocity];
+        self.stiffness.map_or(0.0, |stiffness| (carried / stiffness).clamp(-DROOP, DROOP))
+    }
+}
+
+/// The bodies from one to the world.
+fn chain(model: &Model, body: i32) -> Vec<i32> {
+    std::iter::successors(Some(body), |&body| {
+        usize::try_from(body).ok().filter(|&body| body > 0).map(|body| model.body_parentid[body])
+    })
+    .collect()
+}
+
+/// The link of an actuator that drives a joint.
+fn link(model: &Model, actuator: ActuatorId, control: usize) -> Option<Link> {
+    let id = actuator.index();
+    let drives = matches!(TrnType::from_code(model.actuator_trntype[id]), Some(TrnType::Joint));
+    let joint = usize::try_from(model.actuator_trnid[id][0]).ok().filter(|_| drives)?;
+    let joint = model.joints().nth(joint)?;
+    Some(Link {
+        joint,
+        position: model.jnt_qposadr[joint.index()] as usize,
+        velocity: model.jnt_dofadr[joint.index()] as usize,
+        control,
+        stiffness: Some(-model.actuator_biasprm[id][1]).filter(|stiffness| *stiffness > 0.0),
+    })
+}
+
+fn missing(message: String) -> TeleopError {
+    TeleopError::Control { message }
+}

@@ -1,0 +1,90 @@
+//! What can go wrong while a person drives.
+
+use env::EnvError;
+use record::RecordError;
+use robot::RobotError;
+use std::fmt;
+use std::path::PathBuf;
+
+/// What went wrong.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum TeleopError {
+    /// A mapping file says something that nothing is known of.
+    Mapping {
+        /// The file, or what stands for it.
+        file: String,
+        /// What is wrong, and what would be right.
+        message: String,
+    },
+    /// The environment has nothing that can be driven this way.
+    Control {
+        /// What is missing, and what to do.
+        message: String,
+    },
+    /// A device cannot be opened or read.
+    Device {
+        /// The device, for people.
+        device: String,
+        /// Its path, where it has one.
+        path: Option<PathBuf>,
+        /// What happened.
+        message: String,
+        /// What to do.
+        fix: String,
+    },
+    /// The environment refuses.
+    Env(Box<EnvError>),
+    /// The robot refuses.
+    Robot(Box<RobotError>),
+    /// The episode cannot be kept.
+    Record(Box<RecordError>),
+}
+
+impl fmt::Display for TeleopError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            TeleopError::Mapping { file, message } => write!(f, "{file}: {message}"),
+            TeleopError::Control { message } => f.write_str(message),
+            TeleopError::Device { device, path, message, fix } => {
+                write!(f, "{device}")?;
+                if let Some(path) = path {
+                    write!(f, " ({})", path.display())?;
+                }
+                write!(f, ": {message}; {fix}")
+            }
+            TeleopError::Env(error) => write!(f, "{error}"),
+            TeleopError::Robot(error) => write!(f, "{error}"),
+            TeleopError::Record(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for TeleopError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            TeleopError::Env(error) => Some(error),
+            TeleopError::Robot(error) => Some(error),
+            TeleopError::Record(error) => Some(error),
+            _ => None,
+        }
+    }
+}
+
+impl From<EnvError> for TeleopError {
+    fn from(error: EnvError) -> Self {
+        TeleopError::Env(Box::new(error))
+    }
+}
+
+impl From<RobotError> for TeleopError {
+    fn from(error: RobotError) -> Self {
+        TeleopError::Robot(Box::new(error))
+    }
+}
+
+impl From<RecordError> for TeleopError {
+    fn from(error: RecordError) -> Self {
+        TeleopError::Record(Box::new(error))
+    }
+}

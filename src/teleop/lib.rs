@@ -1,0 +1,53 @@
+//! A person drives an environment by hand and records demonstrations.
+//!
+//! | stage | what it does |
+//! |---|---|
+//! | [`Keyboard`], [`Gamepad`], [`SpaceMouse`], [`Quest`] | from the bytes of a device to [`Event`]s; pure, wherever the bytes come from |
+//! | [`Held`] | from events to what is held during a tick; what is not repeated is let go |
+//! | [`Mapping`] | from what is held to an [`Input`]: motions and marks, by a file |
+//! | [`Pilot`] | from motions to actions: an [`Arm`] by inverse kinematics, or joints |
+//! | [`Session`] | episodes: marked, thrown away, gone back in, kept; a tick is a call, so that nothing here has a clock |
+//! | [`devices`] | terminals and devices of this machine, opened and read |
+//!
+//! ```
+//! use robohive_teleop::{Control, Event, Button, Held, Key, Mapping, Plan, Session};
+//!
+//! let env = env::Env::make("hive/FrankaReach-v0", &env::OwnModels, &env::Options::default())?;
+//! let mut mapping = Mapping::default();
+//! let mut session = Session::new(env, Control::Hand, &mapping, Plan::default())?;
+//! let mut held = Held::default();
+//! held.apply(Event::Press(Button::Key(Key::Char('d'))), 0.0);
+//! let ticked = session.tick(&mapping.read(&held.sample(0.01)))?;
+//! assert!(ticked.stepped && ticked.refused.is_none());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod arm;
+pub mod devices;
+mod error;
+mod event;
+mod gamepad;
+mod held;
+mod keyboard;
+mod latency;
+mod mapping;
+mod moments;
+mod motion;
+mod pilot;
+mod quest;
+mod session;
+mod space_mouse;
+
+pub use arm::{Arm, Reached};
+pub use error::TeleopError;
+pub use event::{Axis, Button, Device, Event, HandPose, Key, Lost};
+pub use gamepad::{Ends, Gamepad};
+pub use held::{BELIEF, Held, Sample};
+pub use keyboard::{Answer, Keyboard, QUESTION, TURN_OFF, TURN_ON};
+pub use latency::Latencies;
+pub use mapping::{ArmSettings, DEFAULTS, Gains, Mapping};
+pub use motion::{HandMove, Input, MARKS, Mark, Motion};
+pub use pilot::{Control, Pilot};
+pub use quest::Quest;
+pub use session::{Finished, JUDGED, Plan, Session, Ticked};
+pub use space_mouse::SpaceMouse;

@@ -1,0 +1,131 @@
+//! From what a person wants to the action of an environment.
+
+use crate::arm::{Arm, Reached};
+use crate::error::TeleopError;
+use crate::mapping::Mapping;
+use crate::motion::Motion;
+use env::Env;
+
+/// What a person drives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// The hand of an arm, by inverse kinematics.
+    Hand,
+    /// Joints one by one, or whatever the actuators move.
+    Joints,
+}
+
+/// What turns a person's wishes into actions. A copy is all that an episode needs to go on from here.
+#[derive(Clone, Debug)]
+pub struct Pilot {
+    driven: Driven,
+    action: Vec<f64>,
+}
+
+#[derive(Clone, Debug)]
+enum Driven {
+    Arm(Box<Arm>),
+    /// Parts of the action, and the part of its range that a tick moves one.
+    Joints(Vec<f64>, f64),
+}
+
+impl Pilot {
+    /// A pilot of an environment that was reset.
+    ///
+    /// # Errors
+    /// It has nothing that can be driven this way.
+    pub fn new(env: &Env, control: Control, mapping: &Mapping) -> Result<Self, TeleopError> {
+        let action = vec![0.0; env.action_len()];
+        if action.is_empty() {
+            return Err(TeleopError::Control {
+                message: "the environment has no actuators to drive".to_owned(),
+            });
+        }
+        let driven = match control {
+            Control::Hand => Driven::Arm(Box::new(Arm::of(env, &mapping.arm, mapping.gains)?)),
+            Control::Joints => Driven::Joints(resting(env)?, mapping.gains.joint),
+        };
+        Ok(Pilot { driven, action })
+    }
+
+    /// Begins with an environment that was reset.
+    ///
+    /// # Errors
+    /// The robot refuses.
+    pub fn begin(&mut self, env: &Env) -> Result<(), TeleopError> {
+        match &mut self.driven {
+            Driven::Arm(arm) => arm.begin(env),
+            Driven::Joints(at, _) => *at = resting(env)?,
+        }
+        Ok(())
+    }
+
+    /// The action of the next tick.
+    ///
+    /// # Errors
+    /// The robot refuses.
+    pub fn act(&mut self, env: &mut Env, motion: &Motion) -> Result<(&[f64], Reached), TeleopError> {
+        let normalized = env.settings().normalize_act;
+        let mut reached = Reached::Yes;
+        match &mut self.driven {
+            Driven::Arm(arm) => {
+                let [low, high] = within(env)?;
+                self.action.fill(0.0);
+                reached = arm.drive(env, motion, [&low, &high], &mut self.action);
+                if normalized {
+                    env.robot().normalize(&env.scene().model, &mut self.action)?;
+                }
+            }
+            Driven::Joints(at, gain) => {
+                let part = if motion.quarter { 0.25 } else { 1.0 };
+                for &(joint, along) in &motion.joints {
+                    let Some(place) = at.get_mut(joint) else { continue };
+                    let [low, high] = env.action_bounds(joint);
+                    *place = (*place + part * *gain * along * (high - low)).clamp(low, high);
+                }
+                self.action.clone_from(at);
+            }
+        }
+        Ok((&self.action, reached))
+    }
+
+    /// The arm that is driven, where one is.
+    pub fn arm(&self) -> Option<&Arm> {
+        match &self.driven {
+            Driven::Arm(arm) => Some(arm),
+            Driven::Joints(..) => None,
+        }
+    }
+}
+
+/// The least and the largest controls that the robot would follow during the next period.
+fn within(env: &mut Env) -> Result<[Vec<f64>; 2], TeleopError> {
+    let bounds: Vec<[f64; 2]> = (0..env.action_len()).map(|k| env.action_bounds(k)).collect();
+    let mut end = |end: usize| env.controls_of(&bounds.iter().map(|bound| bound[end]).collect::<Vec<_>>());
+    Ok([end(0)?, end(1)?])
+}
+
+/// The action that keeps what the actuators move where it is: positions of their joints, and the middle for the rest.
+fn resting(env: &Env) -> Result<Vec<f64>, TeleopError> {
+    let (model, data) = (&env.scene().model, &env.scene().data);
+    let mut controls: Vec<f64> = (0..env.action_len())
+        .map(|control| {
+            let [low, high] = model.actuator_ctrlrange[control];
+            (low + high) / 2.0
+        })
+        .collect();
+    for actuator in model.actuators() {
+        let id = actuator.index();
+        let control = usize::try_from(model.actuator_ctrladr[id]).ok();
+        let servo = model.actuator_biasprm[id][1] < 0.0 && model.actuator_gear[id][0] == 1.0;
+        let place = control.filter(|_| servo).and_then(|control| controls.get_mut(control));
+        if let (Some(place), Some(length)) = (place, data.actuator(actuator).length().first()) {
+            *place = *length;
+        }
+    }
+    if env.settings().normalize_act {
+        env.robot().normalize(model, &mut controls)?;
+    }
+    let bounds = (0..env.action_len()).map(|k| env.action_bounds(k));
+    Ok(controls.iter().zip(bounds).map(|(x, [low, high])| x.clamp(low, high)).collect())
+}

@@ -1,0 +1,295 @@
+//! A session: episode after episode that a person drives, tick by tick, without a clock, a terminal or a file.
+
+use crate::arm::Reached;
+use crate::error::TeleopError;
+use crate::mapping::Mapping;
+use crate::moments::{Moment, Moments};
+use crate::motion::{Input, Mark};
+use crate::pilot::{Control, Pilot};
+use env::Env;
+use record::Kept;
+
+/// The dataset of a trial that says how the person judged it: 1 for success, 0 for failure.
+pub const JUDGED: &str = "teleop/success";
+
+/// What a session does by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Plan {
+    /// Seed of the first reset; each episode that is kept or skipped takes the next.
+    pub seed: u64,
+    /// Episodes to keep, after which the session ends; 0 for as many as the person likes.
+    pub episodes: usize,
+    /// Steps after which an episode ends by itself, judged by the task; 0 for never.
+    pub horizon: usize,
+    /// Successive steps that solve the task after which an episode ends as a success; 0 for never.
+    pub solved_for: usize,
+    /// Pictures of the visual keys are kept too.
+    pub images: bool,
+}
+
+/// An episode that is over.
+#[derive(Clone, Debug)]
+pub struct Finished {
+    /// Its rows, ready for [`record::Recording::add`].
+    pub kept: Kept,
+    /// Seed of its reset.
+    pub seed: u64,
+    /// The person, or the task in their place, calls it a success.
+    pub success: bool,
+    /// Its steps.
+    pub steps: usize,
+    /// The sum of its rewards.
+    pub reward: f64,
+}
+
+/// What a tick did.
+#[derive(Debug, Default)]
+#[non_exhaustive]
+pub struct Ticked {
+    /// An episode that ended, which the caller writes.
+    pub finished: Option<Finished>,
+    /// An episode was thrown away.
+    pub discarded: bool,
+    /// Time went on.
+    pub stepped: bool,
+    /// Why the target was not taken.
+    pub refused: Option<Reached>,
+    /// Physics refused the step; the session went back by one state, and time stands still.
+    pub fault: Option<String>,
+    /// The session is over.
+    pub over: bool,
+}
+
+/// Episode after episode that a person drives.
+pub struct Session {
+    env: Env,
+    pilot: Pilot,
+    plan: Plan,
+    seed: u64,
+    kept: Kept,
+    moments: Moments,
+    paused: bool,
+    slow: bool,
+    reward: f64,
+    solved: usize,
+    /// Finished episodes, and those of them that succeeded.
+    counts: (usize, usize),
+}
+
+impl Session {
+    /// Resets the environment for the first episode. Time stands still until something moves.
+    ///
+    /// # Errors
+    /// The reset fails, or there is nothing to drive.
+    pub fn new(mut env: Env, control: Control, mapping: &Mapping, plan: Plan) -> Result<Self, TeleopError> {
+        env.reset(Some(plan.seed))?;
+        let pilot = Pilot::new(&env, control, mapping)?;
+        let kept = Kept::new(plan.seed);
+        let mut session = Session {
+            env,
+            pilot,
+            seed: plan.seed,
+            plan,
+            kept,
+            moments: Moments::default(),
+            paused: true,
+            slow: false,
+            reward: 0.0,
+            solved: 0,
+            counts: (0, 0),
+        };
+        session.begin()?;
+        Ok(session)
+    }
+
+    /// Begins an episode from the reset of the present seed.
+    fn begin(&mut self) -> Result<(), TeleopError> {
+        self.env.reset(Some(self.seed))?;
+        self.pilot.begin(&self.env)?;
+        self.kept = Kept::new(self.seed);
+        (self.reward, self.solved, self.paused) = (0.0, 0, true);
+        self.moments.begin(self.moment());
+        Ok(())
+    }
+
+    fn moment(&self) -> Moment {
+        Moment { env: self.env.state(), pilot: self.pilot.clone(), reward: self.reward, solved: self.solved }
+    }
+
+    /// One tick: marks first, then a step of the environment where time goes on. Any motion lets it go on.
+    ///
+    /// # Errors
+    /// The environment, its robot or its pictures refuse.
+    pub fn tick(&mut self, input: &Input) -> Result<Ticked, TeleopError> {
+        let mut ticked = Ticked::default();
+        for &mark in &input.marks {
+            self.mark(mark, &mut ticked)?;
+            if ticked.over || ticked.finished.is_some() || ticked.discarded {
+                return Ok(ticked);
+            }
+        }
+        let rewinds = input.marks.iter().any(|mark| mark.repeats());
+        if input.motion.moves() && !rewinds && !input.marks.contains(&Mark::Pause) {
+            self.paused = false;
+        }
+        if !self.paused && !rewinds {
+            self.step(input, &mut ticked)?;
+        }
+        Ok(ticked)
+    }
+
+    fn mark(&mut self, mark: Mark, ticked: &mut Ticked) -> Result<(), TeleopError> {
+        let second = (1.0 / self.env.dt()).round().max(1.0) as isize;
+        match mark {
+            Mark::Success => self.finish(true, ticked)?,
+            Mark::Failure => self.finish(false, ticked)?,
+            Mark::Discard => {
+                self.begin()?;
+                ticked.discarded = true;
+            }
+            Mark::Skip => {
+                self.seed = self.seed.wrapping_add(1);
+                self.begin()?;
+                ticked.discarded = true;
+            }
+            Mark::Pause => self.paused = !self.paused,
+            Mark::Slow => self.slow = !self.slow,
+            Mark::Back => self.go(-1)?,
+            Mark::Forward => self.go(1)?,
+            Mark::BackSecond => self.go(-second)?,
+            Mark::ForwardSecond => self.go(second)?,
+            Mark::End => ticked.over = true,
+        }
+        Ok(())
+    }
+
+    /// Shows another state of the episode, with time standing still.
+    fn go(&mut self, by: isize) -> Result<(), TeleopError> {
+        self.paused = true;
+        if let Some(moment) = self.moments.go(by) {
+            self.env.set_state(&moment.env)?;
+            self.pilot = moment.pilot.clone();
+            (self.reward, self.solved) = (moment.reward, moment.solved);
+        }
+        Ok(())
+    }
+
+    fn step(&mut self, input: &Input, ticked: &mut Ticked) -> Result<(), TeleopError> {
+        let (action, reached) = self.pilot.act(&mut self.env, &input.motion)?;
+        let action = action.to_vec();
+        ticked.refused = Some(reached).filter(|reached| *reached != Reached::Yes);
+        // What was gone back over is no part of the episode any more.
+        self.kept.truncate(self.moments.at());
+        if self.plan.images {
+            self.env.exteroception()?;
+        }
+        self.kept.row(&self.env, &action)?;
+        let step = self.env.step(&action)?;
+        if let Some(fault) = step.fault {
+            ticked.fault = Some(fault.to_string());
+            let seed = self.seed;
+            self.env.reset(Some(seed))?;
+            return self.return_to_last();
+        }
+        self.reward += step.reward;
+        self.solved = if self.env.verdict().solved { self.solved + 1 } else { 0 };
+        self.moments.push(self.moment());
+        ticked.stepped = true;
+        let steps = self.moments.at();
+        if self.plan.solved_for > 0 && self.solved >= self.plan.solved_for {
+            return self.finish(true, ticked);
+        }
+        if step.terminated || (self.plan.horizon > 0 && steps >= self.plan.horizon) {
+            return self.finish(self.env.verdict().solved, ticked);
+        }
+        Ok(())
+    }
+
+    /// Takes the state that is shown once more, after a step from it was refused.
+    fn return_to_last(&mut self) -> Result<(), TeleopError> {
+        let back = self.moments.at();
+        self.moments.go(-1);
+        self.go((back - self.moments.at()).cast_signed())?;
+        if back == 0 { self.begin() } else { Ok(()) }
+    }
+
+    /// Completes the episode at the state that is shown, and begins the next. One without a step is none.
+    fn finish(&mut self, success: bool, ticked: &mut Ticked) -> Result<(), TeleopError> {
+        let steps = self.moments.at();
+        if steps == 0 {
+            return Ok(());
+        }
+        self.kept.truncate(steps);
+        if self.plan.images {
+            self.env.exteroception()?;
+        }
+        self.kept.row(&self.env, &vec![f64::NAN; self.env.action_len()])?;
+        let mut kept = std::mem::take(&mut self.kept);
+        kept.note(JUDGED, u8::from(success));
+        ticked.finished = Some(Finished { kept, seed: self.seed, success, steps, reward: self.reward });
+        self.counts.0 += 1;
+        self.counts.1 += usize::from(success);
+        self.seed = self.seed.wrapping_add(1);
+        ticked.over |= self.plan.episodes > 0 && self.counts.0 >= self.plan.episodes;
+        self.begin()
+    }
+
+    /// The environment.
+    pub fn env(&self) -> &Env {
+        &self.env
+    }
+
+    /// What drives it.
+    pub fn pilot(&self) -> &Pilot {
+        &self.pilot
+    }
+
+    /// Time stands still.
+    pub fn is_paused(&self) -> bool {
+        self.paused
+    }
+
+    /// How long a tick should take \[s\].
+    pub fn period(&self) -> f64 {
+        self.env.dt() * if self.slow { 4.0 } else { 1.0 }
+    }
+
+    /// Finished episodes, and those of them that succeeded.
+    pub fn counts(&self) -> (usize, usize) {
+        self.counts
+    }
+
+    /// Seed of the episode.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Steps before the state that is shown, and those after it that were gone back over.
+    pub fn steps(&self) -> (usize, usize) {
+        (self.moments.at(), self.moments.ahead())
+    }
+
+    /// How the episode goes, on one line.
+    pub fn line(&self) -> String {
+        let ((kept, good), (steps, ahead)) = (self.counts, self.steps());
+        let time = steps as f64 * self.env.dt();
+        let mut line = format!("episode {}  seed {}  {time:.1} s", kept + 1, self.seed);
+        if ahead > 0 {
+            line += &format!(" (-{:.1} s)", ahead as f64 * self.env.dt());
+        }
+        line += &format!("  reward {:.2}", self.reward);
+        line += if self.env.verdict().solved { "  solved" } else { "  open" };
+        if let Some(arm) = self.pilot.arm() {
+            let [x, y, z] = self.env.scene().data.kin.site_xpos[arm.site().index()];
+            line += &format!("  hand {x:.3} {y:.3} {z:.3} m");
+        }
+        line += &format!("  {good} of {kept} succeeded");
+        if self.slow {
+            line += "  slow";
+        }
+        if self.paused {
+            line += "  PAUSED";
+        }
+        line
+    }
+}
