@@ -48,7 +48,22 @@ const ORDER: [(&str, &[&str]); 32] = [
         &["physics", "mjcf", "dataset", "random", "robot", "render", "render_gpu", "env", "agents"],
     ),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
-    ("robohive-library", &["mjcf", "store", "encoders", "env", "render", "render_gpu"]),
+    (
+        "robohive-library",
+        &[
+            "physics",
+            "mjcf",
+            "store",
+            "robot",
+            "protocol",
+            "wire",
+            "hardware",
+            "encoders",
+            "env",
+            "render",
+            "render_gpu",
+        ],
+    ),
     (
         "robohive-viewer",
         &[
@@ -69,7 +84,10 @@ const ORDER: [(&str, &[&str]); 32] = [
     ("robohive-web-app", &["env", "agents", "viewer", "robohive-web"]),
     (
         "robohive-python",
-        &["physics", "mjcf", "dataset", "random", "library", "render", "video", "viewer", "exchange", "env"],
+        &[
+            "physics", "mjcf", "dataset", "random", "robot", "hardware", "library", "render", "video",
+            "viewer", "exchange", "env",
+        ],
     ),
     (
         "robohive-cli",

@@ -13,7 +13,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from robohive import _core, on_import
-from robohive.errors import PhysicsError, SettingError
+from robohive.errors import HardwareError, PhysicsError, SettingError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __version__: str = _core.VERSION
 
-__all__ = ["PhysicsError", "SettingError", "ids", "make", "register_env_variant"]
+__all__ = ["HardwareError", "PhysicsError", "SettingError", "ids", "make", "register_env_variant"]
 
 
 def ids(suite: str | None = None) -> list[str]:
@@ -49,6 +49,7 @@ def make(id: str, **kwargs: Any) -> RoboHiveEnv:
         gymnasium.error.NameNotFound: there is no such id; the nearest is named.
         FileNotFoundError: the id's models are not on this machine; the message says how to get them.
         SettingError: a setting is unknown or wrong.
+        HardwareError: with `is_hardware=True`, a device does not answer or refuses; `device` is its name.
     """
     from robohive import registration
 

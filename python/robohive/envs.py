@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from robohive import _core
 from robohive.examine import Policy, examine_policy
 from robohive.guests import with_model
+from robohive.live import Ready, asked
 from robohive.paths import success, truncate
 from robohive.screen import Screen
 from robohive.simulation import Simulation
@@ -53,6 +54,13 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         instability: str = "truncate",
         time_limit: bool = False,
         override_keys: Iterable[str] = (),
+        is_hardware: bool = False,
+        robot_config: str | os.PathLike[str] | None = None,
+        arm: bool = False,
+        dry_run: bool = False,
+        rehearse: bool = False,
+        flight: str | os.PathLike[str] | None = None,
+        ready: Ready | None = None,
         **settings: Any,
     ) -> None:
         """Makes the environment of an id.
@@ -71,7 +79,18 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
                 `fault`; `reset` returns to the reference configuration in the middle of the episode, as MuJoCo does.
             time_limit: Whether episodes end at their length; `gymnasium.make` has a wrapper for that.
             override_keys: Settings of the id that `settings` replaces rather than merges.
+            is_hardware: Whether the devices of the robot's config are driven, and the simulation mirrors what they read.
+            robot_config: The robot's config, a file; RoboHive's `config_path` is taken for it too. Without it, the id's.
+            arm: Lets the devices move. Without it, a reset raises `HardwareError`, and nothing moves.
+            dry_run: Reads the devices, and prints what they would be sent instead of sending it.
+            rehearse: Drives simulated devices in simulated time instead of real ones.
+            flight: Folder that keeps the last minutes of commands, readings and faults of each device.
+            ready: Called in every reset with the joint positions (nq) that the episode begins with, once the robot stands
+                there: it asks a person to put everything in place, or does so itself. Without it, the terminal asks.
             settings: Settings that differ from the id's, by RoboHive's names (`reward_mode`, `obs_keys`, `frame_skip` …).
+
+        Raises:
+            HardwareError: a device does not answer or refuses; `device` is its name.
         """
         if seed is None:
             seed = int(np.random.SeedSequence().generate_state(1, np.uint64)[0])
@@ -86,6 +105,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             "instability": instability,
             "time_limit": time_limit,
             "override_keys": list(override_keys),
+            "hardware": asked(is_hardware, settings, robot_config, arm, dry_run, rehearse, flight, ready),
         }
         self._arguments = (env_id, with_model(env_id, settings), making)
         self._start(_core.Env(*self._arguments), render_mode)
@@ -204,11 +224,15 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
         """Pickles how the environment was made and all that decides its next steps and episodes: it goes on to the last bit,
         in another process too. The models are read there."""
         rest = {key: value for key, value in self.__dict__.items() if key != "_core"} | {"_screen": None}
+        if self._arguments[2]["hardware"] is not None:
+            raise TypeError("an environment whose robot is hardware cannot be pickled: the robot is there only once")
         memory = None if self._core.closed() else self._core.memory()
         return _restored, (type(self), rest, memory)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> RoboHiveEnv:
         """An environment in the same state, which goes on by itself: its steps and draws are those of this one."""
+        if self._arguments[2]["hardware"] is not None:
+            raise TypeError("an environment whose robot is hardware cannot be copied: the robot is there only once")
         other = type(self).__new__(type(self))
         memo[id(self)] = other
         for key, value in self.__dict__.items():

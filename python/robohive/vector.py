@@ -133,7 +133,12 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             "instability": instability,
             "time_limit": time_limit,
             "override_keys": list(override_keys),
+            "hardware": None,
         }
+        if settings.pop("is_hardware", False):
+            raise ValueError(
+                "is_hardware=True: a robot is there only once, and a vector has many; make one environment with robohive.make"
+            )
         first = _seed(_entropy() if seed is None else seed)
         self._single = _core.Env(env_id, with_model(env_id, settings), making)
         self._core = _core.VecEnv(

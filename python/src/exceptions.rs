@@ -1,8 +1,10 @@
 //! Errors of environments as the exceptions that users of Gymnasium and numpy expect.
 
+use crate::live;
 use env::EnvError;
 use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
+use robot::RobotError;
 
 /// The exception for an error of an environment, with its text.
 ///
@@ -11,6 +13,8 @@ use pyo3::prelude::*;
 /// | unknown id | `gymnasium.error.NameNotFound` |
 /// | a step that needs a reset first | `gymnasium.error.ResetNeeded` |
 /// | a setting that is unknown or wrong | `robohive.SettingError`, a `ValueError` and a `TypeError` |
+/// | a device of a robot that is hardware fails, or nothing drives it | `robohive.HardwareError`, a `RuntimeError` |
+/// | the function that prepares an episode raises | what it raises |
 /// | physics refuses a state | `robohive.PhysicsError`, a `RuntimeError` |
 /// | a fault of this program; threads that do not start | `RuntimeError` |
 /// | one of these in one environment of many | as without the others |
@@ -27,6 +31,12 @@ fn with_text(py: Python<'_>, error: &EnvError, text: String) -> PyErr {
         EnvError::UnknownId { .. } => named(py, "gymnasium.error", "NameNotFound", text),
         EnvError::NeedsReset => named(py, "gymnasium.error", "ResetNeeded", text),
         EnvError::Setting { .. } => named(py, "robohive.errors", "SettingError", text),
+        EnvError::Robot(RobotError::Device { device, .. } | RobotError::Interface { device, .. }) => {
+            of_device(py, device, text)
+        }
+        EnvError::NotReady(why) => {
+            live::raised(py, why).unwrap_or_else(|| named(py, "robohive.errors", "HardwareError", text))
+        }
         EnvError::Physics(_) => named(py, "robohive.errors", "PhysicsError", text),
         EnvError::MissingFile { .. } | EnvError::Network { .. } => PyFileNotFoundError::new_err(text),
         _ => PyValueError::new_err(text),
@@ -37,6 +47,14 @@ fn with_text(py: Python<'_>, error: &EnvError, text: String) -> PyErr {
 pub fn closed(py: Python<'_>, call: &str) -> PyErr {
     let text = format!("{call} was called on a closed environment; make another");
     named(py, "gymnasium.error", "ClosedEnvironmentError", text)
+}
+
+/// The exception for a device that failed, which has its name as `device`.
+fn of_device(py: Python<'_>, device: &str, text: String) -> PyErr {
+    let made = py
+        .import("robohive.errors")
+        .and_then(|module| module.getattr("HardwareError")?.call1((&text, device)));
+    made.map_or_else(|_| PyRuntimeError::new_err(text), PyErr::from_value)
 }
 
 /// An exception of a Python module; a `RuntimeError` where Gymnasium is not installed.

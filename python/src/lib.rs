@@ -7,6 +7,7 @@ mod env;
 mod exceptions;
 mod film;
 mod infos;
+mod live;
 mod mujoco;
 mod own_state;
 mod request;

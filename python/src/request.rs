@@ -1,6 +1,7 @@
 //! Which environment is asked for: an id, settings that differ from its own, and how it is made.
 
 use crate::exceptions::exception;
+use crate::live::Asked;
 use crate::settings::arguments;
 use env::{Arguments, Env, EnvError, Options, Registry, RenderMode, Rendering, Spec};
 use library::{Library, NoGpu, Renderer, Weights};
@@ -36,6 +37,8 @@ pub struct Making {
     override_keys: Vec<String>,
     /// Whether the environment ends episodes at their length itself; otherwise a wrapper does.
     time_limit: bool,
+    /// Devices, if the robot is not simulated.
+    hardware: Option<Asked>,
 }
 
 impl Request {
@@ -85,7 +88,8 @@ impl Request {
             .with_networks(networks)
             .with_painters(painters)
             .with_autoreset(autoreset);
-        Ok(Request { spec, horizon, options })
+        let hardware = making.hardware.map(|asked| asked.hardware(py, &spec, &options)).transpose()?;
+        Ok(Request { spec, horizon, options: options.with_hardware(hardware) })
     }
 
     /// Makes the environment, from the models of this machine; the interpreter's lock is released meanwhile.

@@ -1,5 +1,6 @@
 //! What can be wrong with an environment, in whole sentences.
 
+use crate::environment::NotReady;
 use physics::StepError;
 use physics::model::{EditError, Suggestions};
 use random::RandomError;
@@ -72,7 +73,7 @@ pub enum EnvError {
     /// A step after the end of an episode that only a reset can continue.
     NeedsReset,
     /// The surroundings of a robot that is hardware could not be prepared for an episode: why.
-    NotReady(String),
+    NotReady(NotReady),
     /// Physics refuses the state.
     Physics(StepError),
     /// The robot's configuration is malformed.

@@ -27,6 +27,7 @@
 //! A driver sees its device through a [`Port`](protocol::Port), and time through [`Setup`]'s clock. With the ports and the
 //! clock of `robohive-wire` a robot runs against simulated devices in virtual time, to the bit the same every time.
 
+pub mod calibration;
 mod driver;
 pub mod dynamixel;
 pub mod franka;

@@ -1,5 +1,5 @@
-//! What a machine has for environments: imported models, a cache of compiled ones, weights of networks, memory, and
-//! what draws pictures.
+//! What a machine has for environments: imported models, a cache of compiled ones, weights of networks, memory,
+//! what draws pictures, and devices of robots, real or simulated.
 //!
 //! ```no_run
 //! # use env as robohive_env;
@@ -16,9 +16,11 @@
 
 mod cache;
 pub mod memory;
+mod rehearsal;
 mod renderer;
 mod weights;
 
+pub use rehearsal::{Rehearsal, RehearsalError, real_hardware};
 pub use renderer::{NoGpu, Renderer, RendererError};
 pub use weights::Weights;
 

@@ -224,6 +224,19 @@ impl Plant {
         self.fault.as_ref()
     }
 
+    /// Puts joints of motors at these positions, at rest, as a hand that holds them would; all else stays.
+    ///
+    /// # Errors
+    /// The state is one that physics refuses.
+    pub fn hold(&mut self, places: &[(usize, f64)]) -> Result<(), StepError> {
+        for (motor, position) in places {
+            let Some(Some(motor)) = self.motors.get(*motor) else { continue };
+            self.data.state.qpos[motor.position] = *position;
+            self.data.state.qvel[motor.velocity] = 0.0;
+        }
+        physics::forward(&self.model, &mut self.data)
+    }
+
     /// Puts robot and surroundings somewhere else, as a person would between two episodes; controls stay.
     ///
     /// # Errors

@@ -3,11 +3,12 @@
 use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::robots::live::Arming;
-use crate::robots::rehearsal::{Rehearsal, simulated};
+use crate::robots::rehearsal::{rehearsal, simulated};
 use ::hardware::{Setup, device};
 use clap::{Args, ValueHint};
+use library::Rehearsal;
 use robot::{Clock, Config, Device, DeviceConfig, Fault, WallClock};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Devices, and how they are reached.
 #[derive(Args)]
@@ -42,16 +43,22 @@ pub struct Reached {
     pub devices: Vec<Connected>,
     /// Their time.
     pub clock: Box<dyn Clock + Send>,
-    /// Keeps simulated devices.
-    _rehearsal: Option<Rehearsal>,
+    /// Simulated devices.
+    pub rehearsal: Option<Rehearsal>,
 }
 
 impl Devices {
     /// Connects them.
     pub fn reach(&self, arming: &Arming) -> Result<Reached, Failure> {
+        self.reach_mounted(arming, None)
+    }
+
+    /// Connects them; simulated ones are as the config at `mounted` says, if there is any.
+    pub fn reach_mounted(&self, arming: &Arming, mounted: Option<&Path>) -> Result<Reached, Failure> {
         let config = Config::read(&self.config).map_err(Failure::usage)?;
+        let mounted = mounted.map(Config::read).transpose().map_err(Failure::usage)?;
         let rehearsal = match &self.rehearse {
-            Some(id) => Some(Rehearsal::new(&config, &simulated(id, &self.making)?)?),
+            Some(id) => Some(rehearsal(mounted.as_ref().unwrap_or(&config), &simulated(id, &self.making)?)?),
             None => None,
         };
         let setup = arming.setup();
@@ -71,7 +78,7 @@ impl Devices {
             Some(rehearsal) => rehearsal.clock(),
             None => Box::new(WallClock::default()),
         };
-        Ok(Reached { devices, clock, _rehearsal: rehearsal })
+        Ok(Reached { devices, clock, rehearsal })
     }
 
     fn chosen(&self, device: &DeviceConfig) -> bool {

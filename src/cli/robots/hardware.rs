@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
+use crate::robots::calibrate::{self, Calibrate};
 use crate::robots::devices::{Connected, Devices, Reached, failed};
 use crate::robots::live::Arming;
 use crate::terminal::{show, show_json};
@@ -54,6 +55,17 @@ Examples:
 Examples:
   robohive hardware home assets/quadruped/servos.toml --arm --rehearse hive/QuadrupedWalk-v0")]
     Home(Home),
+    /// Find scales and offsets of joints: a person holds the robot in known poses
+    #[command(
+        after_help = "The robot is without torque; the command names a pose, the person moves the joints there by hand and presses \
+Enter. Lower and upper ends of the ranges give offset and direction of each joint. Scales keep their size, which is the device's unit.
+
+Examples:
+  robohive hardware calibrate assets/quadruped/servos.toml --out calibrated.toml --rehearse hive/QuadrupedWalk-v0
+  robohive hardware calibrate assets/quadruped/servos.toml --out knee.toml --rehearse hive/QuadrupedWalk-v0\\
+ --pose front_left_knee=-1 --pose front_left_knee=1"
+    )]
+    Calibrate(Calibrate),
     /// Print a flight recorder's file: the last minutes of a device
     #[command(after_help = "One line a record: number, time, what, values in the device's units.
 
@@ -132,6 +144,7 @@ pub fn run(a: &Hardware) -> Result<(), Failure> {
         Command::Check(a) => check(a),
         Command::Monitor(a) => monitor(a),
         Command::Home(a) => home(a),
+        Command::Calibrate(a) => calibrate::run(a),
         Command::Flight(a) => flight(a),
     }
 }

@@ -2,12 +2,13 @@
 
 use crate::failure::Failure;
 use crate::input::library::Making;
-use crate::robots::rehearsal::{Rehearsal, simulated};
+use crate::robots::rehearsal::{rehearsal, simulated};
 use crate::terminal::note;
-use ::hardware::{Setup, registry};
+use ::hardware::Setup;
 use clap::{Args, ValueHint};
 use env::Hardware;
-use robot::{Config, WallClock};
+use library::real_hardware;
+use robot::Config;
 use std::io::BufRead;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -47,7 +48,7 @@ impl Arming {
             .with_armed(self.arm)
             .with_dry_run(self.dry_run)
             .with_records(self.flight.clone());
-        setup.say = Arc::new(|line| note(line));
+        setup.say = Arc::new(note);
         setup
     }
 }
@@ -64,22 +65,11 @@ impl Live {
             return Ok(None);
         };
         let config = Config::read(path).map_err(Failure::usage)?;
-        if self.rehearse {
-            let rehearsal = Rehearsal::new(&config, &simulated(id, making)?)?;
-            let setup = rehearsal.setup(self.arming.setup());
-            return Ok(Some(Hardware {
-                registry: Arc::new(registry(&setup)),
-                clock: rehearsal.clocks(),
-                ready: rehearsal.person(),
-                config: Some(config),
-            }));
-        }
-        let start = WallClock::default();
-        Ok(Some(Hardware {
-            registry: Arc::new(registry(&self.arming.setup())),
-            clock: Arc::new(move || Box::new(start)),
-            ready: Arc::new(|_| ask()),
-            config: Some(config),
+        let setup = self.arming.setup();
+        Ok(Some(if self.rehearse {
+            rehearsal(&config, &simulated(id, making)?)?.hardware(config, setup, None)
+        } else {
+            real_hardware(Some(config), &setup, Arc::new(|_| ask()))
         }))
     }
 }

@@ -4,6 +4,7 @@
 mod command;
 
 use command::{ROOT, command, robohive, scratch, text};
+use robot::Config;
 use std::io::{BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
@@ -131,7 +132,7 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
         ("\"dynamixel\" => \"dinamixel\"", "nothing drives the interface 'dinamixel'; there are dynamixel"),
         ("/dev/ttyUSB0 => /dev/ttyNONE", "/dev/ttyNONE at 1000000 baud: No such file or directory"),
         ("safe = \"off\" => save = 1", "'save' of its interface is not known; there are name, safe"),
-        ("hdr_id = 12 => hdr_id = 300", "hdr_id 300 of 'front_right_knee_position' is no id of a servo"),
+        ("hdr_id = 12 => hdr_id = 300", "hdr_id 300 of 'front_right_knee' is no id of a servo"),
         ("pos_range = [-0.6, 0.6] => pos_range = 5", "pos_range"),
     ] {
         let path = wrong(change, "wrong.toml");
@@ -148,4 +149,73 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
     assert!(text(&out.stderr).contains("cut.toml:"), "{}", text(&out.stderr));
     let slow = command().args(["wire", "--ids", "300"]).output().unwrap();
     assert!(text(&slow.stderr).contains("no list of ids"), "{}", text(&slow.stderr));
+}
+
+#[test]
+fn calibration_finds_how_the_servos_are_mounted() {
+    let right = std::fs::read_to_string(Path::new(ROOT).join(CONFIG)).unwrap();
+    // The knee counts the other way and from elsewhere, and the hip has slipped; the config does not know it.
+    let knee = "\"front_left_knee\", pos_range = [-1.57, 1.57], vel_range = [-6.0, 6.0], hdr_id = 22, ";
+    let hip = "\"back_right_hip\", pos_range = [-0.6, 0.6], vel_range = [-6.0, 6.0], hdr_id = 40, ";
+    let mounted_text = right
+        .replace(&format!("{knee}offset = 3.141592653589793"), &format!("{knee}scale = -1, offset = 2.8"))
+        .replace(&format!("{hip}offset = 3.141592653589793"), &format!("{hip}offset = 3.4"));
+    assert_ne!(mounted_text, right);
+    let (mounted, out) = (scratch("mounted.toml"), scratch("calibrated.toml"));
+    std::fs::write(&mounted, &mounted_text).unwrap();
+    let calibrate = |more: &[&str]| {
+        let mut calibrate = command();
+        calibrate.args(["hardware", "calibrate", CONFIG, "--rehearse", ID, "--force", "--mounted"]);
+        calibrate.arg(&mounted).arg("--out").arg(&out).args(more).output().unwrap()
+    };
+    let run = calibrate(&[]);
+    let shown = text(&run.stdout);
+    assert!(run.status.success(), "{shown}{}", text(&run.stderr));
+    assert_eq!(shown.matches("it counts the other way").count(), 1, "{shown}");
+    let truth = Config::read(&mounted).unwrap().devices.remove(0);
+    let found = Config::read(&out).unwrap().devices.remove(0);
+    // A servo counts in 1.5 mrad, and the joint falls a little between the hand and the reading.
+    let unit = protocol::dynamixel::Model::POSITION_UNIT;
+    for (found, truth) in found.actuators.iter().zip(&truth.actuators) {
+        assert_eq!(found.scale, truth.scale, "{}", truth.name);
+        assert!((found.offset - truth.offset).abs() < 2.0 * unit, "{} {}", found.offset, truth.name);
+    }
+    for (sensor, actuator) in found.sensors.iter().zip(&found.actuators) {
+        assert_eq!((sensor.scale, sensor.offset), (1.0 / actuator.scale, -actuator.offset / actuator.scale));
+    }
+
+    // One pose alone keeps the direction that the config has, and other joints as they are.
+    let run = calibrate(&["--pose", "back_right_hip=0.25"]);
+    assert!(run.status.success(), "{}", text(&run.stderr));
+    let one = Config::read(&out).unwrap().devices.remove(0);
+    let before = Config::read(Path::new(ROOT).join(CONFIG)).unwrap().devices.remove(0);
+    assert!((one.actuators[9].offset - 3.4).abs() < 2.0 * unit, "{}", one.actuators[9].offset);
+    assert_eq!(one.actuators[..9], before.actuators[..9]);
+}
+
+#[test]
+fn calibration_refuses_poses_that_nobody_held() {
+    let out = scratch("refused.toml");
+    std::fs::remove_file(&out).unwrap_or_default();
+    let calibrate = |more: &[&str]| {
+        let mut calibrate = command();
+        calibrate.args(["hardware", "calibrate", CONFIG, "--rehearse", ID, "--out"]).arg(&out).args(more);
+        text(&calibrate.output().unwrap().stderr)
+    };
+    assert!(
+        calibrate(&["--pose", "front_left_toe=1"])
+            .contains("is named 'front_left_toe'; there are front_right_hip")
+    );
+    assert!(calibrate(&["--pose", "low"]).contains("'low' is no pose"));
+    assert!(calibrate(&["--tolerance", "0.0001"]).contains("hold it still"));
+    assert!(!out.exists());
+    let wire = Wire::new("held_still.toml", &[]);
+    // Somebody presses Enter without moving the robot.
+    let mut still = wire.robohive(&["hardware", "calibrate"], &["--out"]);
+    still.arg(&out).args(["--samples", "5", "--pose", "front_left_knee=-1", "--pose", "front_left_knee=1"]);
+    let mut child = still.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    child.stdin.take().unwrap().write_all(b"\n\n").unwrap();
+    let said = text(&child.wait_with_output().unwrap().stderr);
+    assert!(said.contains("'front_left_knee' of device 'legs': it moved by 0 % of what"), "{said}");
+    assert!(!out.exists());
 }

@@ -313,7 +313,7 @@ impl Env {
         self.scene.forward()?;
         self.robot.reset(&self.scene.model, &self.scene.data, &mut self.rng)?;
         if let Some(live) = &mut self.live {
-            (live.ready)(&self.start.qpos).map_err(|error| EnvError::NotReady(error.to_string()))?;
+            (live.ready)(&self.start.qpos).map_err(EnvError::NotReady)?;
             live.begun = None;
             live.pacer.start();
         }
