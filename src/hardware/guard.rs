@@ -312,6 +312,8 @@ impl Core {
     fn apply(&mut self, commands: &[f64]) -> Result<(), Fault> {
         match &self.phase {
             Phase::Armed => {}
+            // What only measures needs no arming.
+            Phase::Idle if self.commands.is_empty() => return Ok(()),
             Phase::Closed => return Err(Fault::NotConnected),
             Phase::Idle => return Err(self.unarmed()),
             Phase::Stopping(why) | Phase::Safe(why) => return Err(why.clone()),

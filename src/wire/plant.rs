@@ -156,6 +156,25 @@ impl Plant {
         debug_assert!(written.is_ok(), "gains are finite");
     }
 
+    /// Positions in which the joints of these actuators are within their ranges: as they are, or in the middle.
+    ///
+    /// # Errors
+    /// Actuators that the model does not have.
+    pub(crate) fn within<'a>(
+        &self,
+        actuators: impl Iterator<Item = &'a robot::ActuatorConfig>,
+    ) -> Result<Vec<f64>, PlantError> {
+        let mut qpos = self.data.state.qpos.to_vec();
+        for actuator in actuators {
+            let Some(motor) = self.motors[self.motor(&actuator.name)?] else { continue };
+            let [low, high] = actuator.position_range;
+            if !(low..=high).contains(&qpos[motor.position]) {
+                qpos[motor.position] = (low + high) / 2.0;
+            }
+        }
+        Ok(qpos)
+    }
+
     /// Position of a motor's joint \[rad, m\].
     pub fn position(&self, motor: usize) -> f64 {
         self.motors[motor].map_or(0.0, |motor| self.data.state.qpos[motor.position])
