@@ -7,6 +7,7 @@
 //! | `type` | devices | page |
 //! |---|---|---|
 //! | `dynamixel` | Dynamixel servos with protocol 2.0 on a serial bus | [`dynamixel`] |
+//! | `feetech` | Feetech servos of the STS series (arms SO-100, SO-101) on a serial bus | [`feetech`] |
 //! | `franka` | Franka arms (Panda, FR3) over the Franka Control Interface, with the Franka Hand | [`franka`] |
 //! | `optitrack` | OptiTrack trackers by NatNet, and RoboHive's packet | [`optitrack`] |
 //!
@@ -30,6 +31,7 @@
 pub mod calibration;
 mod driver;
 pub mod dynamixel;
+pub mod feetech;
 pub mod franka;
 mod guard;
 pub mod optitrack;
@@ -39,6 +41,7 @@ pub mod recorder;
 mod registry;
 mod safety;
 mod service;
+mod servos;
 mod setup;
 
 pub use driver::Driver;

@@ -2,6 +2,7 @@
 
 use crate::driver::Driver;
 use crate::dynamixel::Dynamixel;
+use crate::feetech::Feetech;
 use crate::franka::Franka;
 use crate::guard::Guarded;
 use crate::optitrack::OptiTrack;
@@ -11,7 +12,8 @@ use robot::{Device, DeviceConfig, Fault, Registry};
 /// Makes the driver of a device.
 type Maker = fn(&DeviceConfig, &Setup) -> Result<Box<dyn Driver>, Fault>;
 
-const MAKERS: [(&str, Maker); 3] = [("dynamixel", dynamixel), ("franka", franka), ("optitrack", optitrack)];
+const MAKERS: [(&str, Maker); 4] =
+    [("dynamixel", dynamixel), ("feetech", feetech), ("franka", franka), ("optitrack", optitrack)];
 
 /// Types of interface that there are drivers for.
 pub fn kinds() -> impl Iterator<Item = &'static str> {
@@ -58,4 +60,8 @@ fn franka(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault
 
 fn optitrack(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
     Ok(Box::new(OptiTrack::new(config, setup.sockets.clone())?))
+}
+
+fn feetech(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
+    Ok(Box::new(Feetech::new(config, setup.serial.clone())?))
 }
