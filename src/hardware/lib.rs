@@ -9,6 +9,7 @@
 //! | `dynamixel` | Dynamixel servos with protocol 2.0 on a serial bus | [`dynamixel`] |
 //! | `feetech` | Feetech servos of the STS series (arms SO-100, SO-101) on a serial bus | [`feetech`] |
 //! | `franka` | Franka arms (Panda, FR3) over the Franka Control Interface, with the Franka Hand | [`franka`] |
+//! | `robotiq` | Robotiq 2F-85 grippers, by Modbus RTU or behind a Universal Robots controller | [`robotiq`] |
 //! | `optitrack` | OptiTrack trackers by NatNet, and RoboHive's packet | [`optitrack`] |
 //!
 //! # Safety
@@ -39,6 +40,7 @@ mod parameters;
 mod port;
 pub mod recorder;
 mod registry;
+pub mod robotiq;
 mod safety;
 mod service;
 mod servos;

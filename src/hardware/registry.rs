@@ -6,14 +6,20 @@ use crate::feetech::Feetech;
 use crate::franka::Franka;
 use crate::guard::Guarded;
 use crate::optitrack::OptiTrack;
+use crate::robotiq::Robotiq;
 use crate::setup::Setup;
 use robot::{Device, DeviceConfig, Fault, Registry};
 
 /// Makes the driver of a device.
 type Maker = fn(&DeviceConfig, &Setup) -> Result<Box<dyn Driver>, Fault>;
 
-const MAKERS: [(&str, Maker); 4] =
-    [("dynamixel", dynamixel), ("feetech", feetech), ("franka", franka), ("optitrack", optitrack)];
+const MAKERS: [(&str, Maker); 5] = [
+    ("dynamixel", dynamixel),
+    ("feetech", feetech),
+    ("franka", franka),
+    ("optitrack", optitrack),
+    ("robotiq", robotiq),
+];
 
 /// Types of interface that there are drivers for.
 pub fn kinds() -> impl Iterator<Item = &'static str> {
@@ -64,4 +70,8 @@ fn optitrack(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fa
 
 fn feetech(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
     Ok(Box::new(Feetech::new(config, setup.serial.clone())?))
+}
+
+fn robotiq(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
+    Ok(Box::new(Robotiq::new(config, setup.serial.clone(), setup.sockets.clone())?))
 }
