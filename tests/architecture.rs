@@ -98,6 +98,7 @@ const ORDER: [(&str, &[&str]); 32] = [
             "random",
             "store",
             "robot",
+            "protocol",
             "wire",
             "hardware",
             "library",

@@ -72,8 +72,8 @@ impl Asked {
             let library = Library::from_environment(None, None).map_err(|error| error.to_string())?;
             Ok::<_, String>(Env::build(spec, &library, options))
         });
-        let simulated = made.map_err(PyValueError::new_err)?.map_err(|error| exception(py, &error))?;
-        let rehearsal = Rehearsal::new(&config, simulated.scene().model.clone())
+        let mut simulated = made.map_err(PyValueError::new_err)?.map_err(|error| exception(py, &error))?;
+        let rehearsal = Rehearsal::new(&config, &mut simulated)
             .map_err(|error| PyValueError::new_err(error.to_string()))?;
         Ok(rehearsal.hardware(config, setup, ready))
     }

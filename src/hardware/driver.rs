@@ -59,6 +59,28 @@ pub trait Driver: Send {
     /// What must not be opened twice: a serial port, an address.
     fn resource(&self) -> String;
 
+    /// How often [`Driver::work`] must be called \[s\], beside the caller: of a device that must be answered more often than
+    /// anybody commands it. `None` where that is never.
+    fn period(&self) -> Option<f64> {
+        None
+    }
+
+    /// Does what is due: takes what the device says, and answers it. It never waits.
+    ///
+    /// # Errors
+    /// The device has fallen silent, or says that it has stopped: why.
+    fn work(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
+    /// What is worth a line in the record and is no fault.
+    fn take_note(&mut self) -> Option<String> {
+        None
+    }
+
+    /// The motion to where an episode begins starts, or ends.
+    fn set_resetting(&mut self, _resetting: bool) {}
+
     /// Whether commands are positions, so that a reset moves the actuators to where an episode begins; otherwise it leaves
     /// them to the person who does that.
     fn resets(&self) -> bool {

@@ -99,21 +99,42 @@ impl Guarded {
         let services = self.core().setup.services.clone();
         if let Some(services) = services {
             let service: Weak<Mutex<Core>> = Arc::downgrade(&self.core);
-            services.add(service);
+            services.add(service, self.core().period());
             return;
         }
         let stop = Arc::new(AtomicBool::new(false));
         let (core, asked) = (self.core.clone(), stop.clone());
+        let period = Duration::from_secs_f64(self.core().period());
         let look = move || {
             while !asked.load(Ordering::Relaxed) {
                 let mut core = core.lock().unwrap_or_else(PoisonError::into_inner);
                 let now = core.clock.now();
                 core.tend(now);
                 drop(core);
-                std::thread::sleep(Duration::from_secs_f64(LOOK));
+                std::thread::sleep(period);
             }
         };
         self.watching = Some((stop, std::thread::spawn(look)));
+    }
+
+    /// Waits while the driver works: in a thread of its own, or here where a clock tends it.
+    fn wait(&self, clock: &mut dyn Clock, seconds: f64) {
+        let (tended, period) = {
+            let core = self.core();
+            (core.setup.services.is_some(), core.period())
+        };
+        if !tended {
+            return clock.wait(seconds);
+        }
+        let end = clock.now() + seconds;
+        loop {
+            let left = end - clock.now();
+            if left <= 0.0 {
+                return;
+            }
+            clock.wait(left.min(period));
+            self.core().work();
+        }
     }
 }
 
@@ -145,15 +166,19 @@ impl Device for Guarded {
         }
         let mut motion = self.core().begin_reset(targets)?;
         let mut clock = (self.core().setup.clocks)();
-        while !motion.done() {
+        self.core().driver.set_resetting(true);
+        let mut outcome = Ok(());
+        while !motion.done() && outcome.is_ok() {
             // The lock is free while the motion waits, so that the watchdog looks.
-            clock.wait(RESET_PERIOD);
+            self.wait(clock.as_mut(), RESET_PERIOD);
             let mut core = self.core();
-            core.go_on(&mut motion)?;
+            outcome = core.go_on(&mut motion);
             core.tend(clock.now());
         }
-        self.core().watchdog.rest();
-        Ok(())
+        let mut core = self.core();
+        core.driver.set_resetting(false);
+        core.watchdog.rest();
+        outcome
     }
 
     fn close(&mut self) -> Result<(), Fault> {
@@ -200,12 +225,33 @@ impl Core {
             self.recorder = recorder.transpose().map_err(|error| Fault::Unreachable(error.to_string()))?;
         }
         self.driver.connect()?;
+        // What a device may do can depend on which it is.
+        self.limiter.set_limits(self.driver.limits());
         let now = self.clock.now();
         self.connected = now;
         self.watchdog = Watchdog::new(self.driver.timeouts(), now);
         self.driver.read(&mut self.values)?;
         self.phase = Phase::Idle;
         Ok(())
+    }
+
+    /// How often the device must be looked after \[s\].
+    fn period(&self) -> f64 {
+        self.driver.period().map_or(LOOK, |period| period.min(LOOK))
+    }
+
+    /// Lets the driver do what is due beside its commands.
+    fn work(&mut self) {
+        if self.phase == Phase::Closed || self.driver.period().is_none() {
+            return;
+        }
+        // A fault stops the device by itself.
+        if let Err(fault) = self.driver.work() {
+            self.stop(fault);
+        }
+        if let Some(note) = self.driver.take_note() {
+            self.record(Event::Note(&note));
+        }
     }
 
     fn record(&mut self, event: Event<'_>) {
@@ -266,6 +312,8 @@ impl Core {
     fn apply(&mut self, commands: &[f64]) -> Result<(), Fault> {
         match &self.phase {
             Phase::Armed => {}
+            // What only measures needs no arming.
+            Phase::Idle if self.commands.is_empty() => return Ok(()),
             Phase::Closed => return Err(Fault::NotConnected),
             Phase::Idle => return Err(self.unarmed()),
             Phase::Stopping(why) | Phase::Safe(why) => return Err(why.clone()),
@@ -400,7 +448,8 @@ impl Core {
         let mut clock = (self.setup.clocks)();
         let end = clock.now() + SAFE_AT_LAST;
         while matches!(self.phase, Phase::Stopping(_)) && clock.now() < end {
-            clock.wait(LOOK);
+            clock.wait(self.period());
+            self.work();
             self.make_safe();
         }
         let summary = format!("closed; limits changed {} commands", self.limiter.limited());
@@ -417,6 +466,7 @@ impl Core {
 
 impl Service for Core {
     fn tend(&mut self, now: f64) {
+        self.work();
         match &self.phase {
             Phase::Closed | Phase::Safe(_) => return,
             Phase::Stopping(_) => return self.make_safe(),

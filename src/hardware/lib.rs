@@ -7,6 +7,8 @@
 //! | `type` | devices | page |
 //! |---|---|---|
 //! | `dynamixel` | Dynamixel servos with protocol 2.0 on a serial bus | [`dynamixel`] |
+//! | `franka` | Franka arms (Panda, FR3) over the Franka Control Interface, with the Franka Hand | [`franka`] |
+//! | `optitrack` | OptiTrack trackers by NatNet, and RoboHive's packet | [`optitrack`] |
 //!
 //! # Safety
 //!
@@ -28,7 +30,9 @@
 pub mod calibration;
 mod driver;
 pub mod dynamixel;
+pub mod franka;
 mod guard;
+pub mod optitrack;
 mod parameters;
 mod port;
 pub mod recorder;
@@ -40,7 +44,7 @@ mod setup;
 pub use driver::Driver;
 pub use guard::Guarded;
 pub use parameters::Parameters;
-pub use port::{Opener, Serial, serial_ports};
+pub use port::{Network, Opener, Serial, Sockets, serial_ports};
 pub use registry::{device, kinds, registry};
 pub use safety::limits::Limits;
 pub use safety::lock::Lock;

@@ -38,6 +38,30 @@ impl Parameters {
         }
     }
 
+    /// Yes or no.
+    ///
+    /// # Errors
+    /// The value is something else.
+    pub fn flag(&mut self, key: &'static str, otherwise: bool) -> Result<bool, Fault> {
+        match self.take(key) {
+            None => Ok(otherwise),
+            Some(Value::Bool(value)) => Ok(value),
+            Some(_) => Err(refused(key, "is not true or false")),
+        }
+    }
+
+    /// One of several words, the first of which is what stands for none; returns its place.
+    ///
+    /// # Errors
+    /// The value is something else.
+    pub fn choice(&mut self, key: &'static str, words: &[&str]) -> Result<usize, Fault> {
+        let Some(word) = self.text(key)? else { return Ok(0) };
+        words
+            .iter()
+            .position(|known| *known == word)
+            .ok_or_else(|| refused(key, &format!("is '{word}'; there are {}", words.join(", "))))
+    }
+
     /// A number within bounds, or `otherwise`.
     ///
     /// # Errors
@@ -55,6 +79,20 @@ impl Parameters {
         } else {
             Err(refused(key, &format!("is {value}; it must be from {low} to {high}")))
         }
+    }
+
+    /// A whole number, which RoboHive's configs also write as a text.
+    ///
+    /// # Errors
+    /// The value is something else.
+    pub fn whole(&mut self, key: &'static str, otherwise: i32) -> Result<i32, Fault> {
+        let number = match self.take(key) {
+            None => return Ok(otherwise),
+            Some(Value::Integer(number)) => i32::try_from(number).ok(),
+            Some(Value::Text(text)) => text.trim().parse().ok(),
+            Some(_) => None,
+        };
+        number.ok_or_else(|| refused(key, "is not a whole number"))
     }
 
     /// A list of numbers.

@@ -2,14 +2,16 @@
 
 use crate::driver::Driver;
 use crate::dynamixel::Dynamixel;
+use crate::franka::Franka;
 use crate::guard::Guarded;
+use crate::optitrack::OptiTrack;
 use crate::setup::Setup;
 use robot::{Device, DeviceConfig, Fault, Registry};
 
 /// Makes the driver of a device.
 type Maker = fn(&DeviceConfig, &Setup) -> Result<Box<dyn Driver>, Fault>;
 
-const MAKERS: [(&str, Maker); 1] = [("dynamixel", dynamixel)];
+const MAKERS: [(&str, Maker); 3] = [("dynamixel", dynamixel), ("franka", franka), ("optitrack", optitrack)];
 
 /// Types of interface that there are drivers for.
 pub fn kinds() -> impl Iterator<Item = &'static str> {
@@ -48,4 +50,12 @@ fn guarded(config: &DeviceConfig, make: Maker, setup: &Setup) -> Result<Box<dyn 
 
 fn dynamixel(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
     Ok(Box::new(Dynamixel::new(config, setup.serial.clone())?))
+}
+
+fn franka(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
+    Ok(Box::new(Franka::new(config, setup.sockets.clone())?))
+}
+
+fn optitrack(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
+    Ok(Box::new(OptiTrack::new(config, setup.sockets.clone())?))
 }

@@ -16,23 +16,28 @@ pub(crate) trait Service: Send {
 #[derive(Clone, Default)]
 pub struct Services(Arc<Mutex<Vec<Listed>>>);
 
-/// A service that ends with its device.
-type Listed = Weak<Mutex<dyn Service>>;
+/// A service that ends with its device, and how often it must be tended \[s\].
+struct Listed {
+    service: Weak<Mutex<dyn Service>>,
+    period: f64,
+}
 
 impl Services {
-    pub(crate) fn add(&self, service: Listed) {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(service);
+    pub(crate) fn add(&self, service: Weak<Mutex<dyn Service>>, period: f64) {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(Listed { service, period });
     }
 
-    /// Lets each do what is due at `now`; those that are gone are forgotten.
-    fn tend(&self, now: f64) {
+    /// Lets each do what is due at `now`; those that are gone are forgotten. Returns after how long the next is due \[s\].
+    fn tend(&self, now: f64) -> f64 {
         let mut services = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        services.retain(|service| service.strong_count() > 0);
-        let due: Vec<_> = services.iter().filter_map(Weak::upgrade).collect();
+        services.retain(|listed| listed.service.strong_count() > 0);
+        let period = services.iter().map(|listed| listed.period).fold(LOOK, f64::min);
+        let due: Vec<_> = services.iter().filter_map(|listed| listed.service.upgrade()).collect();
         drop(services);
         for service in due {
             service.lock().unwrap_or_else(PoisonError::into_inner).tend(now);
         }
+        period
     }
 }
 
@@ -58,13 +63,13 @@ impl<C: Clock> Clock for TendedClock<C> {
         let end = self.clock.now() + seconds;
         loop {
             let now = self.clock.now();
-            self.services.tend(now);
+            let period = self.services.tend(now);
             // Tending takes time too: it may talk to a device.
             let left = end - self.clock.now();
             if left <= 0.0 {
                 return;
             }
-            self.clock.wait(left.min(LOOK));
+            self.clock.wait(left.min(period));
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What drivers run with: what is allowed, and whose time it is.
 
-use crate::port::{Opener, Serial};
+use crate::port::{Network, Opener, Serial, Sockets};
 use crate::service::Services;
 use protocol::Port;
 use robot::{Clock, WallClock};
@@ -23,6 +23,8 @@ pub struct Setup {
     pub records: Option<PathBuf>,
     /// Opens serial ports.
     pub serial: Opener,
+    /// Opens connections and sockets.
+    pub sockets: Arc<dyn Sockets>,
     /// Time.
     pub clocks: Clocks,
     /// What a driver has to say to a person.
@@ -42,6 +44,7 @@ impl Default for Setup {
             dry_run: false,
             records: None,
             serial: Arc::new(open_serial),
+            sockets: Arc::new(Network),
             clocks: Arc::new(move || Box::new(start)),
             say: Arc::new(|line| eprintln!("{line}")),
             services: None,
@@ -63,6 +66,13 @@ impl Setup {
         self.services = Some(services);
         self.serial = serial;
         self.locks = false;
+        self
+    }
+
+    /// How connections and sockets are opened.
+    #[must_use]
+    pub fn with_sockets(mut self, sockets: Arc<dyn Sockets>) -> Self {
+        self.sockets = sockets;
         self
     }
 

@@ -1,14 +1,15 @@
 //! Robots that are hardware, and their rehearsal: the same drivers against simulated devices, in virtual time.
 
-use env::{Hardware, Ready};
-use hardware::{Clocks, Services, Setup, TendedClock, registry};
-use physics::{Model, StepError};
+use env::{Env, EnvError, Hardware, Ready};
+use hardware::{Clocks, Services, Setup, Sockets, TendedClock, registry};
+use physics::StepError;
 use protocol::Port;
 use robot::{Clock, Config, WallClock};
 use std::fmt;
 use std::io;
+use std::net::Ipv4Addr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use wire::{Bench, Plant, PlantError, Rigged, Shared, VirtualClock, VirtualPort};
+use wire::{Bench, Outlet, Plant, PlantError, Rigged, Shared, VirtualClock, VirtualPort};
 
 /// Simulated devices of a robot's config, and what drivers need to find them.
 #[derive(Clone)]
@@ -19,8 +20,10 @@ pub struct Rehearsal {
 }
 
 /// Why there is no rehearsal.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub enum RehearsalError {
+    /// The environment cannot begin an episode.
+    Start(EnvError),
     /// Physics refuses the state of the model.
     Physics(StepError),
     /// The config and the model do not fit, or nothing of the config can be simulated.
@@ -30,6 +33,7 @@ pub enum RehearsalError {
 impl fmt::Display for RehearsalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            RehearsalError::Start(error) => error.fmt(f),
             RehearsalError::Physics(error) => error.fmt(f),
             RehearsalError::Devices(error) => error.fmt(f),
         }
@@ -39,12 +43,16 @@ impl fmt::Display for RehearsalError {
 impl std::error::Error for RehearsalError {}
 
 impl Rehearsal {
-    /// The devices of `config` on a model, which they move.
+    /// The devices of `config` on the model of a simulated environment, which they move from where an episode begins.
     ///
     /// # Errors
-    /// The model's state is one that physics refuses; the config names what the model does not have.
-    pub fn new(config: &Config, model: Model) -> Result<Rehearsal, RehearsalError> {
-        let plant = Plant::new(model).map_err(RehearsalError::Physics)?;
+    /// The environment has no start; the config names what its model does not have.
+    pub fn new(config: &Config, env: &mut Env) -> Result<Rehearsal, RehearsalError> {
+        env.reset(Some(0)).map_err(RehearsalError::Start)?;
+        let scene = env.scene();
+        let mut plant = Plant::new(scene.model.clone()).map_err(RehearsalError::Physics)?;
+        let rest = vec![0.0; scene.data.state.qvel.len()];
+        plant.place(&scene.data.state.qpos, &rest).map_err(RehearsalError::Physics)?;
         let (bench, rigged) = wire::rig(config, plant, false).map_err(RehearsalError::Devices)?;
         Ok(Rehearsal {
             bench: Arc::new(Mutex::new(bench)),
@@ -60,18 +68,12 @@ impl Rehearsal {
 
     /// `setup` with the simulated devices in place of real ones.
     pub fn setup(&self, setup: Setup) -> Setup {
-        let (bench, rigged) = (self.bench.clone(), self.rigged.clone());
-        let open = move |address: &str, _: u32| -> io::Result<Box<dyn Port>> {
-            let found = rigged.iter().find(|device| device.address == address);
-            let device = found.ok_or_else(|| {
-                io::Error::new(io::ErrorKind::NotFound, format!("no simulated device is at {address}"))
-            })?;
-            bench.lock().unwrap_or_else(PoisonError::into_inner).set_connected(device.link, true);
-            Ok(Box::new(VirtualPort::new(bench.clone(), device.link)))
-        };
+        let wires = Wires { bench: self.bench.clone(), rigged: self.rigged.clone() };
+        let serial = wires.clone();
+        let open = move |address: &str, _: u32| serial.open(address, Outlet::Serial);
         let bench = self.bench.clone();
         let clocks: Clocks = Arc::new(move || Box::new(VirtualClock::new(bench.clone())));
-        setup.in_virtual_time(clocks, self.services.clone(), Arc::new(open))
+        setup.in_virtual_time(clocks, self.services.clone(), Arc::new(open)).with_sockets(Arc::new(wires))
     }
 
     /// A clock that lets the simulated time pass.
@@ -101,6 +103,48 @@ impl Rehearsal {
             }),
             config: Some(config),
         }
+    }
+}
+
+/// Ports and network of the simulated devices.
+#[derive(Clone)]
+struct Wires {
+    bench: Shared,
+    rigged: Arc<Vec<Rigged>>,
+}
+
+impl Wires {
+    /// The link of the device at an address; a connection begins anew.
+    fn open(&self, address: &str, outlet: Outlet) -> io::Result<Box<dyn Port>> {
+        let devices = self.rigged.iter().filter(|device| device.address == address);
+        let found = devices.flat_map(|device| &device.links).find(|(place, _)| *place == outlet);
+        let (_, link) = found.ok_or_else(|| {
+            io::Error::new(
+                io::ErrorKind::NotFound,
+                format!("no simulated device is at {address} ({outlet:?})"),
+            )
+        })?;
+        let mut bench = self.bench.lock().unwrap_or_else(PoisonError::into_inner);
+        if matches!(outlet, Outlet::Tcp(_)) {
+            bench.set_connected(*link, false);
+        }
+        bench.set_connected(*link, true);
+        Ok(Box::new(VirtualPort::new(self.bench.clone(), *link)))
+    }
+}
+
+impl Sockets for Wires {
+    fn connect(&self, host: &str, port: u16) -> io::Result<Box<dyn Port>> {
+        self.open(host, Outlet::Tcp(port))
+    }
+
+    fn datagrams(&self, host: &str, server: u16) -> io::Result<(Box<dyn Port>, u16)> {
+        // The port of this machine is a name only: the link is known.
+        Ok((self.open(host, Outlet::Udp(server))?, 40_000))
+    }
+
+    fn listen(&self, host: &str, port: u16, _group: Option<Ipv4Addr>) -> io::Result<Box<dyn Port>> {
+        self.open(host, Outlet::Udp(port))
     }
 }
 

@@ -53,7 +53,7 @@ pub use bench::{Bench, Carries, LinkId};
 pub use device::{Device, Moment, Outbox};
 pub use faults::{Rates, RatesError};
 pub use plant::{Drive, Plant, PlantError};
-pub use rig::{Rigged, kinds, rig};
+pub use rig::{Outlet, Rigged, kinds, rig};
 #[cfg(unix)]
 pub use serve::{End, Terminal, serve};
 pub use virtual_port::{Shared, VirtualClock, VirtualPort};

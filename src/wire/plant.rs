@@ -61,6 +61,7 @@ pub struct Plant {
     steps: u64,
     begun: f64,
     fault: Option<StepError>,
+    held: bool,
 }
 
 impl Plant {
@@ -72,7 +73,7 @@ impl Plant {
         let mut data = Data::new(&model);
         physics::forward(&model, &mut data)?;
         let motors = (0..model.nactuator).map(|id| motor(&model, id)).collect();
-        Ok(Plant { model, data, motors, steps: 0, begun: 0.0, fault: None })
+        Ok(Plant { model, data, motors, steps: 0, begun: 0.0, fault: None, held: false })
     }
 
     /// The model; gains of its actuators change with what devices make of them.
@@ -155,6 +156,25 @@ impl Plant {
         debug_assert!(written.is_ok(), "gains are finite");
     }
 
+    /// Positions in which the joints of these actuators are within their ranges: as they are, or in the middle.
+    ///
+    /// # Errors
+    /// Actuators that the model does not have.
+    pub(crate) fn within<'a>(
+        &self,
+        actuators: impl Iterator<Item = &'a robot::ActuatorConfig>,
+    ) -> Result<Vec<f64>, PlantError> {
+        let mut qpos = self.data.state.qpos.to_vec();
+        for actuator in actuators {
+            let Some(motor) = self.motors[self.motor(&actuator.name)?] else { continue };
+            let [low, high] = actuator.position_range;
+            if !(low..=high).contains(&qpos[motor.position]) {
+                qpos[motor.position] = (low + high) / 2.0;
+            }
+        }
+        Ok(qpos)
+    }
+
     /// Position of a motor's joint \[rad, m\].
     pub fn position(&self, motor: usize) -> f64 {
         self.motors[motor].map_or(0.0, |motor| self.data.state.qpos[motor.position])
@@ -208,9 +228,14 @@ impl Plant {
     /// One time step. Physics that fails stops the plant, see [`Plant::fault`].
     pub fn step(&mut self) {
         self.steps += 1;
-        if self.fault.is_none() {
+        if self.fault.is_none() && !self.held {
             self.fault = physics::step(&self.model, &mut self.data).err();
         }
+    }
+
+    /// Holds everything where it is while time goes on, as people do with what they put in place; or lets go.
+    pub fn set_held(&mut self, held: bool) {
+        self.held = held;
     }
 
     /// Why physics refused to go on.

@@ -1,12 +1,26 @@
 //! The devices of a robot's config, on one plant.
 
 use crate::bench::{Bench, Carries, LinkId};
-use crate::device::Device;
-use crate::dynamixel::{self, Bus};
+use crate::franka::{Arm, Hand};
+use crate::optitrack::Tracker;
 use crate::plant::{Plant, PlantError};
-use robot::{Config, DeviceConfig};
+use crate::{dynamixel, feetech};
+use protocol::franka::Version;
+use protocol::optitrack::natnet;
+use robot::{Config, DeviceConfig, Value};
 
-/// A device of the config that is simulated, and its link.
+/// Where a driver finds a link.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Outlet {
+    /// A serial port.
+    Serial,
+    /// A server for connections, at this port.
+    Tcp(u16),
+    /// Datagrams from or to this port.
+    Udp(u16),
+}
+
+/// A device of the config that is simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rigged {
     /// Its name in the config.
@@ -15,16 +29,25 @@ pub struct Rigged {
     pub kind: String,
     /// The key of the interface that says where it is: of a serial port `name`.
     pub key: &'static str,
-    /// Where the config has it.
+    /// Where the config has it: a serial port, or a host.
     pub address: String,
-    /// Its link.
-    pub link: LinkId,
+    /// Its links.
+    pub links: Vec<(Outlet, LinkId)>,
 }
 
-/// What makes a device of a config on a plant, and the key of its interface that says where it is.
-type Maker = fn(&DeviceConfig, &Plant) -> Result<Box<dyn Device>, PlantError>;
+/// Puts a device of a config on a bench. Links take no time where told so, and as long as real ones otherwise.
+type Maker = fn(&DeviceConfig, &mut Bench, bool) -> Result<Vec<(Outlet, LinkId)>, PlantError>;
 
-const MAKERS: [(&str, &str, Maker); 1] = [("dynamixel", "name", servos)];
+/// Type of interface, the key that says where the device is, and what makes it.
+const MAKERS: [(&str, &str, Maker); 4] = [
+    ("dynamixel", "name", dynamixels),
+    ("feetech", "name", feetechs),
+    ("franka", "ip_address", franka),
+    ("optitrack", "server_name", tracker),
+];
+
+/// Largest width of the Franka Hand \[m\].
+const HAND: f64 = 0.08;
 
 /// Types of interface that can be simulated.
 pub fn kinds() -> impl Iterator<Item = &'static str> {
@@ -32,52 +55,109 @@ pub fn kinds() -> impl Iterator<Item = &'static str> {
 }
 
 /// Puts the devices of `config` that can be simulated on a bench, each moving and measuring what the config says. Links take
-/// no time when `at_once`, and as long as the real ones otherwise.
+/// no time when `at_once`, and as long as the real ones otherwise. Joints that the model has outside the ranges of their
+/// actuators begin in the middle of them.
 ///
 /// # Errors
 /// Devices that name what the plant does not have; a config without any device that can be simulated.
-pub fn rig(config: &Config, plant: Plant, at_once: bool) -> Result<(Bench, Vec<Rigged>), PlantError> {
-    let mut devices = Vec::new();
+pub fn rig(config: &Config, mut plant: Plant, at_once: bool) -> Result<(Bench, Vec<Rigged>), PlantError> {
+    let begin = plant.within(config.devices.iter().flat_map(|device| &device.actuators))?;
+    plant
+        .place(&begin, &vec![0.0; plant.data().state.qvel.len()])
+        .map_err(|error| PlantError::new(error.to_string()))?;
+    let mut bench = Bench::new(plant);
+    let mut rigged = Vec::new();
     for device in &config.devices {
         let found = MAKERS.iter().find(|(kind, _, _)| device.interface.kind.as_deref() == Some(kind));
         let Some((kind, key, make)) = found else { continue };
-        let address = match device.interface.parameters.get(*key) {
-            Some(robot::Value::Text(address)) => address.clone(),
-            _ => device.name.clone(),
-        };
-        let made = make(device, &plant)
+        let address = text(device, key).unwrap_or(&device.name).to_owned();
+        let links = make(device, &mut bench, at_once)
             .map_err(|error| PlantError::new(format!("device '{}': {error}", device.name)))?;
-        devices.push((device, *kind, *key, address, made));
+        rigged.push(Rigged { device: device.name.clone(), kind: (*kind).to_owned(), key, address, links });
     }
-    if devices.is_empty() {
+    if rigged.is_empty() {
         let kinds: Vec<_> = kinds().collect();
         return Err(PlantError::new(format!(
             "no device of the config has an interface that can be simulated; those are {}",
             kinds.join(", ")
         )));
     }
-    let mut bench = Bench::new(plant);
-    let rigged = devices.into_iter().map(|(device, kind, key, address, made)| Rigged {
-        device: device.name.clone(),
-        kind: kind.to_owned(),
-        key,
-        address,
-        link: bench.connect(made, if at_once { Carries::AT_ONCE } else { Carries::serial(baud(device)) }),
-    });
-    let rigged = rigged.collect();
     Ok((bench, rigged))
 }
 
-/// The baud rate that a config gives its bus.
-fn baud(device: &DeviceConfig) -> f64 {
-    match device.interface.parameters.get("baud") {
-        Some(robot::Value::Integer(baud)) => *baud as f64,
-        Some(robot::Value::Number(baud)) => *baud,
-        _ => 1e6,
+fn text<'a>(device: &'a DeviceConfig, key: &str) -> Option<&'a str> {
+    match device.interface.parameters.get(key)? {
+        Value::Text(text) => Some(text),
+        _ => None,
     }
 }
 
-fn servos(device: &DeviceConfig, plant: &Plant) -> Result<Box<dyn Device>, PlantError> {
-    let servos = dynamixel::servos_of(device, plant)?;
-    Ok(Box::new(Bus::new(servos).with_baud(baud(device))))
+fn number(device: &DeviceConfig, key: &str, otherwise: f64) -> f64 {
+    match device.interface.parameters.get(key) {
+        Some(Value::Integer(number)) => *number as f64,
+        Some(Value::Number(number)) => *number,
+        _ => otherwise,
+    }
+}
+
+/// A serial line at the baud rate that a config gives its bus.
+fn line(device: &DeviceConfig, at_once: bool) -> (f64, Carries) {
+    let baud = number(device, "baud", 1e6);
+    (baud, if at_once { Carries::AT_ONCE } else { Carries::serial(baud) })
+}
+
+fn dynamixels(
+    device: &DeviceConfig,
+    bench: &mut Bench,
+    at_once: bool,
+) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
+    let (baud, carries) = line(device, at_once);
+    let servos = dynamixel::servos_of(device, bench.plant())?;
+    let bus = dynamixel::Bus::new(servos).with_baud(baud);
+    Ok(vec![(Outlet::Serial, bench.connect(Box::new(bus), carries))])
+}
+
+fn feetechs(
+    device: &DeviceConfig,
+    bench: &mut Bench,
+    at_once: bool,
+) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
+    let (baud, carries) = line(device, at_once);
+    let servos = feetech::servos_of(device, bench.plant())?;
+    let bus = feetech::Bus::new(servos).with_baud(baud);
+    Ok(vec![(Outlet::Serial, bench.connect(Box::new(bus), carries))])
+}
+
+fn tracker(device: &DeviceConfig, bench: &mut Bench, _: bool) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
+    let tracker = Tracker::of(device, bench.plant())?;
+    let natnet = text(device, "protocol") == Some("natnet");
+    let port = if natnet { natnet::DATA_PORT } else { number(device, "port", 5000.0) as u16 };
+    let [frames, requests] = bench.connect_all(Box::new(tracker), [Carries::Datagrams; 2]);
+    let mut links = vec![(Outlet::Udp(port), frames)];
+    links.extend(natnet.then_some((Outlet::Udp(natnet::COMMAND_PORT), requests)));
+    Ok(links)
+}
+
+/// An arm of version 10, unless the config says 5, with the first seven actuators; the eighth is the hand's finger.
+fn franka(device: &DeviceConfig, bench: &mut Bench, _: bool) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
+    let names: Vec<_> = device.actuators.iter().map(|actuator| actuator.name.as_str()).collect();
+    let Some((joints, rest)) = names.split_first_chunk::<7>() else {
+        return Err(PlantError::new(format!(
+            "an arm has seven joints, and the config {} actuators",
+            names.len()
+        )));
+    };
+    let version = if number(device, "version", 0.0) == 5.0 { Version::V5 } else { Version::V10 };
+    let arm = Arm::new(version, bench.plant(), *joints)?;
+    let hand = rest.first().map(|finger| Hand::new(bench.plant(), finger, HAND)).transpose()?;
+    let mut links = Vec::new();
+    let mut connect = |bench: &mut Bench, made, port| {
+        let [commands, states] = bench.connect_all(made, [Carries::AT_ONCE, Carries::Datagrams]);
+        links.extend([(Outlet::Tcp(port), commands), (Outlet::Udp(port), states)]);
+    };
+    connect(bench, Box::new(arm) as Box<dyn crate::Device>, 1337);
+    if let Some(hand) = hand {
+        connect(bench, Box::new(hand), number(device, "hand_port", 1338.0) as u16);
+    }
+    Ok(links)
 }

@@ -58,7 +58,9 @@ impl Devices {
         let config = Config::read(&self.config).map_err(Failure::usage)?;
         let mounted = mounted.map(Config::read).transpose().map_err(Failure::usage)?;
         let rehearsal = match &self.rehearse {
-            Some(id) => Some(rehearsal(mounted.as_ref().unwrap_or(&config), &simulated(id, &self.making)?)?),
+            Some(id) => {
+                Some(rehearsal(mounted.as_ref().unwrap_or(&config), &mut simulated(id, &self.making)?)?)
+            }
             None => None,
         };
         let setup = arming.setup();

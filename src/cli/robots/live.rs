@@ -67,7 +67,7 @@ impl Live {
         let config = Config::read(path).map_err(Failure::usage)?;
         let setup = self.arming.setup();
         Ok(Some(if self.rehearse {
-            rehearsal(&config, &simulated(id, making)?)?.hardware(config, setup, None)
+            rehearsal(&config, &mut simulated(id, making)?)?.hardware(config, setup, None)
         } else {
             real_hardware(Some(config), &setup, Arc::new(|_| ask()))
         }))

@@ -7,9 +7,9 @@ use library::{Rehearsal, RehearsalError};
 use robot::Config;
 
 /// The simulated devices of `config` on the model of an environment.
-pub fn rehearsal(config: &Config, env: &Env) -> Result<Rehearsal, Failure> {
-    Rehearsal::new(config, env.scene().model.clone()).map_err(|error| match error {
-        RehearsalError::Physics(_) => Failure::new(error),
+pub fn rehearsal(config: &Config, env: &mut Env) -> Result<Rehearsal, Failure> {
+    Rehearsal::new(config, env).map_err(|error| match error {
+        RehearsalError::Start(_) | RehearsalError::Physics(_) => Failure::new(error),
         RehearsalError::Devices(_) => Failure::usage(error),
     })
 }

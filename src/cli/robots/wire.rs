@@ -7,15 +7,18 @@ use crate::robots::rehearsal::simulated;
 use crate::terminal::show;
 use clap::{Args, ValueHint};
 use protocol::dynamixel::MODELS;
+use protocol::optitrack::natnet;
 use robot::{Config, Value};
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 use wire::dynamixel::{Bus, Servo};
-use wire::{Bench, Carries, End, LinkId, Plant, Rates, Terminal, serve};
+use wire::{Bench, Carries, End, LinkId, Outlet, Plant, Rates, Rigged, Terminal, serve};
 
-/// Serve simulated devices on pseudo-terminals, for any program that speaks their protocols
+/// Serve simulated devices on pseudo-terminals and sockets, for any program that speaks their protocols
 #[derive(Args)]
 #[command(
     after_help = "With a robot config and an environment, every device of the config that can be simulated moves and measures that \
@@ -86,28 +89,22 @@ fn model(text: &str) -> Result<&'static str, String> {
     found.map(|model| model.name).ok_or_else(|| format!("there are {}", known()))
 }
 
-/// A device that is served.
-struct Served {
-    name: String,
-    link: LinkId,
-}
-
 /// Runs the command.
 pub fn run(a: &Wire) -> Result<(), Failure> {
-    let (mut bench, mut config, served) = match (&a.config, &a.env) {
-        (Some(path), Some(id)) => rigged(a, path, id)?,
+    let (mut bench, mut config, rigged) = match (&a.config, &a.env) {
+        (Some(path), Some(id)) => devices_of(a, path, id)?,
         _ => stand(a)?,
     };
-    served.iter().for_each(|device| bench.inject(device.link, a.faults, a.seed));
     let mut ends = Vec::new();
-    for Served { name, link } in &served {
-        let terminal = Terminal::open().map_err(Failure::new)?;
-        let path = terminal.path().display().to_string();
-        show!("{name}: {path}");
-        if let Some(device) = config.devices.iter_mut().find(|device| device.name == *name) {
-            device.interface.parameters.insert("name".to_owned(), Value::Text(path));
+    for device in &rigged {
+        for (outlet, link) in &device.links {
+            bench.inject(*link, a.faults, a.seed);
+            let end = end(*outlet).map_err(|error| Failure::new(format!("{}: {error}", device.device)))?;
+            let address = end.address();
+            show!("{}: {}", device.device, described(*outlet, &address));
+            readdress(&mut config, device, *outlet, &address);
+            ends.push((*link, end));
         }
-        ends.push((*link, End::Terminal(terminal)));
     }
     let _linked = a.link.as_deref().map(|path| Linked::new(path, &ends[0].1.address())).transpose()?;
     if let Some(out) = &a.out {
@@ -116,6 +113,49 @@ pub fn run(a: &Wire) -> Result<(), Failure> {
         show!("config: {}", out.display());
     }
     serve_until(a, bench, ends)
+}
+
+/// The outer end of a link, on this machine alone.
+fn end(outlet: Outlet) -> io::Result<End> {
+    let here = |port| SocketAddr::from((Ipv4Addr::LOCALHOST, port));
+    match outlet {
+        Outlet::Serial => Terminal::open().map(End::Terminal),
+        Outlet::Tcp(_) => End::tcp(here(0)),
+        // A server that is asked at a port of its own; frames and states go to a port of the driver.
+        Outlet::Udp(port @ natnet::COMMAND_PORT) => End::udp(here(port), None),
+        Outlet::Udp(port) => End::udp(here(0), Some(here(port))),
+    }
+}
+
+/// What a person does with an end.
+fn described(outlet: Outlet, address: &str) -> String {
+    match outlet {
+        Outlet::Serial => address.to_owned(),
+        Outlet::Tcp(_) => format!("connections at {address}"),
+        Outlet::Udp(natnet::COMMAND_PORT) => format!("requests at {address}"),
+        Outlet::Udp(port) => format!("datagrams from {address}, to port {port} unless announced"),
+    }
+}
+
+/// Writes into the config where a link of a device is now.
+fn readdress(config: &mut Config, device: &Rigged, outlet: Outlet, address: &str) {
+    let found = config.devices.iter_mut().find(|other| other.name == device.device);
+    let Some(parameters) = found.map(|found| &mut found.interface.parameters) else { return };
+    let first = matches!(device.links.first(), Some((first, _)) if *first == outlet);
+    let port = address.rsplit_once(':').and_then(|(_, port)| port.parse().ok());
+    match outlet {
+        Outlet::Serial | Outlet::Tcp(_) if first => {
+            parameters.insert(device.key.to_owned(), Value::Text(address.to_owned()));
+        }
+        // The second server of an arm is its hand's.
+        Outlet::Tcp(_) => {
+            parameters.extend(port.map(|port| ("hand_port".to_owned(), Value::Integer(port))));
+        }
+        Outlet::Udp(_) if first => {
+            parameters.insert(device.key.to_owned(), Value::Text(Ipv4Addr::LOCALHOST.to_string()));
+        }
+        _ => {}
+    }
 }
 
 /// Serves until a signal, or until the time is over.
@@ -143,17 +183,19 @@ fn serve_until(a: &Wire, bench: Bench, mut ends: Vec<(LinkId, End)>) -> Result<(
 }
 
 /// Devices of a config on the model of an environment.
-fn rigged(a: &Wire, path: &Path, id: &str) -> Result<(Bench, Config, Vec<Served>), Failure> {
+fn devices_of(a: &Wire, path: &Path, id: &str) -> Result<(Bench, Config, Vec<Rigged>), Failure> {
     let config = Config::read(path).map_err(Failure::usage)?;
-    let env = simulated(id, &a.making)?;
-    let plant = Plant::new(env.scene().model.clone()).map_err(Failure::new)?;
+    let mut env = simulated(id, &a.making)?;
+    env.reset(Some(0)).map_err(Failure::usage)?;
+    let env::Scene { model, data } = env.scene();
+    let mut plant = Plant::new(model.clone()).map_err(Failure::new)?;
+    plant.place(&data.state.qpos, &vec![0.0; model.nv]).map_err(Failure::new)?;
     let (bench, rigged) = wire::rig(&config, plant, false).map_err(Failure::usage)?;
-    let served = rigged.into_iter().map(|device| Served { name: device.device, link: device.link });
-    Ok((bench, config, served.collect()))
+    Ok((bench, config, rigged))
 }
 
 /// Servos with flywheels.
-fn stand(a: &Wire) -> Result<(Bench, Config, Vec<Served>), Failure> {
+fn stand(a: &Wire) -> Result<(Bench, Config, Vec<Rigged>), Failure> {
     let ids = a.ids.as_ref().map_or(&[][..], |ids| &ids.0);
     let wheel = |id: &u8| {
         format!(
@@ -177,7 +219,14 @@ fn stand(a: &Wire) -> Result<(Bench, Config, Vec<Served>), Failure> {
     let baud = f64::from(a.baud);
     let mut bench = Bench::new(plant);
     let link = bench.connect(Box::new(Bus::new(servos).with_baud(baud)), Carries::serial(baud));
-    Ok((bench, Config::default(), vec![Served { name: "servos".to_owned(), link }]))
+    let rigged = Rigged {
+        device: "servos".to_owned(),
+        kind: "dynamixel".to_owned(),
+        key: "name",
+        address: String::new(),
+        links: vec![(Outlet::Serial, link)],
+    };
+    Ok((bench, Config::default(), vec![rigged]))
 }
 
 /// A link in the file system that goes when the command does.

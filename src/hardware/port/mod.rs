@@ -1,8 +1,10 @@
 //! Real ports, and how drivers come by one.
 
 mod serial;
+mod socket;
 
 pub use serial::{Serial, serial_ports};
+pub use socket::{Network, Sockets};
 
 use protocol::Port;
 use std::io;

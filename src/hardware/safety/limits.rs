@@ -32,9 +32,9 @@ impl Limits {
 
 /// The course of one command: value, rate, acceleration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Course {
-    value: f64,
-    rate: f64,
+pub(crate) struct Course {
+    pub(crate) value: f64,
+    pub(crate) rate: f64,
     acceleration: f64,
 }
 
@@ -55,11 +55,17 @@ impl Limiter {
         Limiter { limits, courses, time: 0.0, limited: 0 }
     }
 
+    /// Other limits from the next beginning on.
+    pub(crate) fn set_limits(&mut self, limits: Vec<Limits>) {
+        self.courses.resize(limits.len(), Course::default());
+        self.limits = limits;
+    }
+
     /// Begins at rest, at `present`.
     pub(crate) fn begin(&mut self, time: f64, present: &[f64]) {
         self.time = time;
         for (course, value) in self.courses.iter_mut().zip(present) {
-            *course = Course { value: *value, ..Course::default() };
+            *course = Course::at(*value);
         }
     }
 
@@ -91,15 +97,20 @@ impl Limiter {
 }
 
 impl Course {
+    /// At rest.
+    pub(crate) fn at(value: f64) -> Course {
+        Course { value, ..Course::default() }
+    }
+
     /// The value nearest to `wanted` that may follow `dt` seconds after the last.
-    fn advance(&mut self, wanted: f64, limits: &Limits, dt: f64) -> f64 {
+    pub(crate) fn advance(&mut self, wanted: f64, limits: &Limits, dt: f64) -> f64 {
         let [low, high] = limits.value;
         let bounded = wanted.max(low).min(high);
         if limits.rate == f64::INFINITY
             && limits.acceleration == f64::INFINITY
             && limits.jerk == f64::INFINITY
         {
-            *self = Course { value: bounded, ..Course::default() };
+            *self = Course::at(bounded);
             return bounded;
         }
         if dt <= 0.0 {
