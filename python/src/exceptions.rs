@@ -1,10 +1,10 @@
 //! Errors of environments as the exceptions that users of Gymnasium and numpy expect.
 
-use crate::live;
-use env::EnvError;
+use env::{EnvError, NotReady};
 use pyo3::exceptions::{PyFileNotFoundError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use robot::RobotError;
+use std::fmt;
 
 /// The exception for an error of an environment, with its text.
 ///
@@ -35,7 +35,7 @@ fn with_text(py: Python<'_>, error: &EnvError, text: String) -> PyErr {
             of_device(py, device, text)
         }
         EnvError::NotReady(why) => {
-            live::raised(py, why).unwrap_or_else(|| named(py, "robohive.errors", "HardwareError", text))
+            raised(py, why).unwrap_or_else(|| named(py, "robohive.errors", "HardwareError", text))
         }
         EnvError::Physics(_) => named(py, "robohive.errors", "PhysicsError", text),
         EnvError::MissingFile { .. } | EnvError::Network { .. } => PyFileNotFoundError::new_err(text),
@@ -47,6 +47,23 @@ fn with_text(py: Python<'_>, error: &EnvError, text: String) -> PyErr {
 pub fn closed(py: Python<'_>, call: &str) -> PyErr {
     let text = format!("{call} was called on a closed environment; make another");
     named(py, "gymnasium.error", "ClosedEnvironmentError", text)
+}
+
+/// An exception of the function that prepares an episode, on its way through an environment.
+#[derive(Debug)]
+pub struct Raised(pub PyErr);
+
+impl fmt::Display for Raised {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl std::error::Error for Raised {}
+
+/// The exception that the function raised which prepares an episode, if that is the error.
+fn raised(py: Python<'_>, error: &NotReady) -> Option<PyErr> {
+    error.downcast_ref::<Raised>().map(|raised| raised.0.clone_ref(py))
 }
 
 /// The exception for a device that failed, which has its name as `device`.

@@ -1,6 +1,6 @@
 //! Robots that are hardware: which devices an environment drives, and how far they may go.
 
-use crate::exceptions::exception;
+use crate::exceptions::{Raised, exception};
 use env::{Env, EnvError, Hardware, NotReady, Options, Ready, Spec};
 use hardware::Setup;
 use library::{Library, Rehearsal, real_hardware};
@@ -8,7 +8,6 @@ use numpy::PyArray1;
 use pyo3::exceptions::{PyFileNotFoundError, PyValueError};
 use pyo3::prelude::*;
 use robot::Config;
-use std::fmt;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -25,23 +24,6 @@ pub struct Asked {
     flight: Option<PathBuf>,
     /// Called with the start pose between episodes.
     ready: Option<Py<PyAny>>,
-}
-
-/// An exception of the function that prepares an episode, on its way through an environment.
-#[derive(Debug)]
-struct Raised(PyErr);
-
-impl fmt::Display for Raised {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0.fmt(f)
-    }
-}
-
-impl std::error::Error for Raised {}
-
-/// The exception that the function raised which prepares an episode, if that is the error.
-pub fn raised(py: Python<'_>, error: &NotReady) -> Option<PyErr> {
-    error.downcast_ref::<Raised>().map(|raised| raised.0.clone_ref(py))
 }
 
 impl Asked {

@@ -19,8 +19,11 @@ use std::path::{Path, PathBuf};
 const LENT: [&str; 4] = ["assets", "examples", "docs", "validation"];
 
 /// Files that test the programs which pages include.
-const TESTED: [(&str, &str); 2] =
-    [("examples/", "tests/examples.rs"), ("python/examples/", "python/tests/test_examples.py")];
+const TESTED: [(&str, &str); 3] = [
+    ("examples/", "tests/examples.rs"),
+    ("python/examples/", "python/tests/test_examples.py"),
+    ("src/hardware/examples/", "src/hardware/tests/examples.rs"),
+];
 
 /// What became of a block.
 #[derive(Debug, PartialEq, Eq)]

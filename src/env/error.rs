@@ -1,12 +1,14 @@
 //! What can be wrong with an environment, in whole sentences.
 
-use crate::environment::NotReady;
 use physics::StepError;
 use physics::model::{EditError, Suggestions};
 use random::RandomError;
 use render::RenderError;
 use robot::{ConfigError, RobotError};
 use std::fmt;
+
+/// What must be done before an episode can begin failed: why.
+pub type NotReady = Box<dyn std::error::Error + Send + Sync>;
 
 /// Why an environment could not be made, reset or stepped.
 #[derive(Debug)]

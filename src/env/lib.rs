@@ -48,10 +48,8 @@ pub use crate::assets::{AssetError, Assets, Folder, OwnModels};
 pub use draws::{Ranges, Rng};
 #[doc(hidden)]
 pub use environment::Injected;
-pub use environment::{
-    Env, EnvMemory, EnvState, Hardware, NotReady, Options, PathReward, Ready, Step, WorldState,
-};
-pub use error::{EnvError, panic_text};
+pub use environment::{Env, EnvMemory, EnvState, Hardware, Options, PathReward, Ready, Step, WorldState};
+pub use error::{EnvError, NotReady, panic_text};
 pub use pictures::eyes::{Exteroception, Image, Pixels};
 pub use pictures::network::{Network, NetworkError, Networks, NoNetworks};
 pub use pictures::rendering::{RenderMode, RenderModeError, Rendering};

@@ -184,6 +184,14 @@ fn find_peers(bench: &Bench, ends: &mut [(LinkId, End)]) {
     }
 }
 
+/// Lets time pass until `now`, where nothing happens before: what has come begins its way on the line then, and not when the
+/// wait for it began.
+fn wake(bench: &mut Bench, now: f64) {
+    if !bench.expects() && now < bench.next_event().min(bench.plant().next()) {
+        bench.advance(now);
+    }
+}
+
 /// Takes what came for the devices: connections, their ends, and bytes.
 fn take_all(bench: &Shared, ends: &mut [(LinkId, End)], buffer: &mut [u8]) -> io::Result<()> {
     let lock = || bench.lock().unwrap_or_else(PoisonError::into_inner);
@@ -263,6 +271,7 @@ pub fn serve(bench: &Shared, ends: &mut [(LinkId, End)], stop: &AtomicBool) -> i
             Err(error) => return Err(error.into()),
         }
         drop(descriptors);
+        wake(&mut lock(), base + start.elapsed().as_secs_f64());
         take_all(bench, ends, &mut buffer)?;
     }
     Ok(())

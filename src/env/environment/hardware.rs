@@ -1,11 +1,9 @@
 //! An environment whose robot is hardware: its state is what the devices say, and time is not ours to choose.
 
+use crate::error::NotReady;
 use robot::{Clock, Config, Pacer, Registry};
 use std::fmt;
 use std::sync::Arc;
-
-/// What must be done before an episode can begin failed: why.
-pub type NotReady = Box<dyn std::error::Error + Send + Sync>;
 
 /// Prepares the surroundings once the robot stands where an episode begins, at these positions: asks a person, or puts
 /// things back.

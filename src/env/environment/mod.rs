@@ -13,7 +13,7 @@ mod paths;
 mod state;
 
 pub use env::{Env, Step};
-pub use hardware::{Hardware, NotReady, Ready};
+pub use hardware::{Hardware, Ready};
 pub use memory::EnvMemory;
 pub use options::Options;
 pub use paths::PathReward;

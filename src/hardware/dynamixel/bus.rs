@@ -17,12 +17,15 @@ pub(super) struct Answer {
     pub(super) alert: bool,
 }
 
-/// The driver's side of a bus. Once its buffers have their size, it allocates nothing.
+/// Most bytes that are taken from the port at once.
+const RECEIVED: usize = 256;
+
+/// The driver's side of a bus. Once it has sent its longest instruction, it allocates nothing.
 pub(super) struct Bus {
     port: Box<dyn Port>,
     decoder: Decoder,
     sent: Vec<u8>,
-    received: [u8; 256],
+    received: [u8; RECEIVED],
     /// Seconds a byte takes.
     byte: f64,
 }
@@ -39,9 +42,9 @@ impl Bus {
     pub(super) fn new(port: Box<dyn Port>, baud: u32) -> Bus {
         Bus {
             port,
-            decoder: Decoder::default(),
+            decoder: Decoder::with_room(RECEIVED),
             sent: Vec::with_capacity(1024),
-            received: [0; 256],
+            received: [0; RECEIVED],
             byte: 10.0 / f64::from(baud),
         }
     }

@@ -119,6 +119,15 @@ pub struct Decoder {
 }
 
 impl Decoder {
+    /// One that never allocates again where at most `most` bytes come at once, whatever they are.
+    pub fn with_room(most: usize) -> Decoder {
+        Decoder {
+            bytes: Vec::with_capacity(PREFIX + MAX_LENGTH + most),
+            used: 0,
+            parameters: Vec::with_capacity(MAX_LENGTH),
+        }
+    }
+
     /// Takes what came.
     pub fn push(&mut self, bytes: &[u8]) {
         self.bytes.drain(..self.used);
