@@ -11,6 +11,7 @@ use dataset::trace::TraceReader;
 use record::Recorded;
 use rustix::termios::{LocalModes, tcgetattr};
 use serving::{CONFIG, ID, Wire};
+use std::time::{Duration, Instant};
 use typing::Typed;
 
 /// Arguments of a session on rehearsed hardware.
@@ -25,6 +26,15 @@ fn seconds(typed: &Typed) -> f64 {
     after.split(' ').next().unwrap().parse().unwrap()
 }
 
+/// Waits until the line shows so many seconds of the episode, or more.
+fn until(typed: &Typed, time: f64) {
+    let began = Instant::now();
+    while seconds(typed) < time {
+        assert!(began.elapsed() < Duration::from_secs(60), "{time} s do not pass: {}", typed.line());
+        typed.pause();
+    }
+}
+
 #[test]
 fn servos_are_driven_paused_and_stopped_and_time_does_not_go_back() {
     let file = scratch("servos.h5");
@@ -34,9 +44,9 @@ fn servos_are_driven_paused_and_stopped_and_time_does_not_go_back() {
     assert!(typed.line().contains("PAUSED"), "{}", typed.line());
     // Joint 2 while its key is held.
     typed.write("\u{1b}[51;1:1u");
-    typed.wait_for("0.5 s");
+    until(&typed, 0.5);
     typed.write("\u{1b}[51;1:3u");
-    typed.wait_for("1.5 s");
+    until(&typed, 1.5);
     typed.write("\u{1b}[98;1:1u\u{1b}[98;1:3u");
     typed.wait_for("hardware cannot go back in time");
     typed.write("\u{1b}[115;1:1u\u{1b}[115;1:3u");
@@ -78,9 +88,9 @@ fn keys_that_are_not_repeated_stop_the_servos() {
     // A terminal that tells no releases, and a connection that ends while the key is down.
     (0..3).for_each(|_| {
         typed.write("3");
-        std::thread::sleep(std::time::Duration::from_millis(40));
+        std::thread::sleep(Duration::from_millis(40));
     });
-    typed.wait_for("1.5 s");
+    until(&typed, 1.5);
     typed.write("\r");
     typed.wait_for("episode 2  seed 1");
     typed.write("\u{1b}");
@@ -127,7 +137,7 @@ fn servos_in_real_time_are_driven_and_rest_when_the_session_ends() {
     let mut typed = Typed::start(&common, true);
     typed.wait_for("the robot stands at the start of an episode");
     typed.write("\u{1b}[51;1:1u");
-    typed.wait_for("0.3 s");
+    until(&typed, 0.3);
     typed.write("\u{1b}[51;1:3u\u{1b}[32;1:1u\u{1b}[32;1:3u");
     typed.wait_for("PAUSED");
     (0..8).for_each(|_| typed.pause());
