@@ -1,6 +1,6 @@
 //! What drivers run with: what is allowed, and whose time it is.
 
-use crate::port::{Network, Opener, Serial, Sockets};
+use crate::port::{Network, NoNetwork, Opener, Serial, Sockets};
 use crate::service::Services;
 use protocol::Port;
 use robot::{Clock, WallClock};
@@ -58,13 +58,15 @@ fn open_serial(path: &str, baud: u32) -> io::Result<Box<dyn Port>> {
 }
 
 impl Setup {
-    /// Devices in the time of `clock`, without threads and without locks: for simulated devices. What moves the time must be
-    /// a [`TendedClock`](crate::TendedClock) over the same [`Services`].
+    /// Devices in the time of `clock`, without threads, without locks and without the network, so that no driver reaches a
+    /// real device by accident: for simulated devices. What moves the time must be a [`TendedClock`](crate::TendedClock) over
+    /// the same [`Services`].
     #[must_use]
     pub fn in_virtual_time(mut self, clocks: Clocks, services: Services, serial: Opener) -> Self {
         self.clocks = clocks;
         self.services = Some(services);
         self.serial = serial;
+        self.sockets = Arc::new(NoNetwork);
         self.locks = false;
         self
     }

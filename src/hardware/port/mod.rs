@@ -4,6 +4,7 @@ mod serial;
 mod socket;
 
 pub use serial::{Serial, serial_ports};
+pub(crate) use socket::NoNetwork;
 pub use socket::{Network, Sockets};
 
 use protocol::Port;

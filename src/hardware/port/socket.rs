@@ -36,6 +36,30 @@ pub trait Sockets: Send + Sync {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Network;
 
+/// Where simulated devices are, but none behind a network.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct NoNetwork;
+
+impl NoNetwork {
+    fn refuse<T>(host: &str) -> io::Result<T> {
+        Err(io::Error::new(ErrorKind::NotFound, format!("no simulated device is at {host}")))
+    }
+}
+
+impl Sockets for NoNetwork {
+    fn connect(&self, host: &str, _port: u16) -> io::Result<Box<dyn Port>> {
+        NoNetwork::refuse(host)
+    }
+
+    fn datagrams(&self, host: &str, _server: u16) -> io::Result<(Box<dyn Port>, u16)> {
+        NoNetwork::refuse(host)
+    }
+
+    fn listen(&self, host: &str, _port: u16, _group: Option<Ipv4Addr>) -> io::Result<Box<dyn Port>> {
+        NoNetwork::refuse(host)
+    }
+}
+
 fn resolve(host: &str, port: u16) -> io::Result<SocketAddr> {
     let mut addresses = (host, port).to_socket_addrs()?;
     addresses.next().ok_or_else(|| io::Error::new(ErrorKind::NotFound, format!("'{host}' has no address")))

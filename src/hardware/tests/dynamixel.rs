@@ -313,3 +313,16 @@ fn a_thousand_seeded_faults_end_in_errors_or_in_motion_within_limits() {
     }
     assert!(errors > 0 && errors < episodes, "{errors} of {episodes}");
 }
+
+#[test]
+fn simulated_devices_have_no_network_to_a_real_one() {
+    let rig = Rig::new(Carries::AT_ONCE, |_| {});
+    let mut config = config("");
+    let interface = &mut config.devices[0].interface;
+    interface.kind = Some("robotiq".to_owned());
+    interface.parameters.clear();
+    interface.parameters.insert("ip_address".to_owned(), robot::Value::Text("127.0.0.1".to_owned()));
+    config.devices[0].actuators.truncate(1);
+    let error = rig.robot(&config).err().unwrap().to_string();
+    assert!(error.contains("no simulated device is at 127.0.0.1"), "{error}");
+}

@@ -5,8 +5,7 @@ use robohive_hardware::{Services, Setup, Sockets, TendedClock, registry};
 use robot::{Clock, Config, Options, Robot, RobotError};
 use std::io;
 use std::sync::{Arc, Mutex};
-use wire::robotiq::{Gateway, Gripper};
-use wire::{Bench, Carries, LinkId, Plant, Rates, Shared, VirtualClock, VirtualPort};
+use wire::{LinkId, Outlet, Plant, Rates, Shared, VirtualClock, VirtualPort};
 
 /// A finger that slides 0.0425 m from closed to open; a post may stand in its way.
 fn model(post: bool) -> physics::Model {
@@ -63,17 +62,11 @@ impl Rig {
         let model = model(post);
         let mut plant = Plant::new(model.clone()).unwrap();
         plant.place(&[0.03], &[0.0]).unwrap();
-        let (bench, link) = if gateway {
-            let gripper = Gripper::new(&plant, "finger", [0.0, 0.0425]).unwrap();
-            let mut bench = Bench::new(plant);
-            let link = bench.connect(Box::new(Gateway::new(gripper)), Carries::AT_ONCE);
-            (bench, link)
-        } else {
-            // As the command makes it of a config.
-            let (bench, rigged) = wire::rig(&config("name = '/dev/ttyUSB0'"), plant, false).unwrap();
-            assert_eq!((rigged[0].kind.as_str(), rigged[0].address.as_str()), ("robotiq", "/dev/ttyUSB0"));
-            (bench, rigged[0].links[0].1)
-        };
+        // As the command makes it of a config.
+        let (_, parameters) = PARAMETERS[usize::from(gateway)];
+        let (bench, rigged) = wire::rig(&config(parameters), plant, false).unwrap();
+        let (outlet, link) = rigged[0].links[0];
+        assert_eq!(outlet, if gateway { Outlet::Tcp(63352) } else { Outlet::Serial });
         let bench: Shared = Arc::new(Mutex::new(bench));
         let (services, clocked, opened) = (Services::default(), bench.clone(), bench.clone());
         let open = move |_: &str, baud: u32| -> io::Result<Box<dyn Port>> {
