@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 32] = [
+const ORDER: [(&str, &[&str]); 33] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -47,6 +47,7 @@ const ORDER: [(&str, &[&str]); 32] = [
         "robohive-validation",
         &["physics", "mjcf", "dataset", "random", "robot", "render", "render_gpu", "env", "agents"],
     ),
+    ("robohive-clients", &["mjcf", "protocol", "robot", "wire"]),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
     (
         "robohive-library",

@@ -2,8 +2,8 @@
 //!
 //! Everything here is pure: nothing is opened, no clock is read, nothing is drawn. Drivers (`robohive-hardware`) and the
 //! simulated devices that they are proven against (`robohive-wire`) share these layouts, so each has one place. That both
-//! sides read a document the same way does not prove that it was read right; the tests of `robohive-wire` therefore let
-//! clients written by other people talk to the simulated devices.
+//! sides read a document the same way does not prove that it was read right; `robohive-clients` therefore lets clients that
+//! other people wrote talk to the simulated devices.
 //!
 //! | module | devices | source |
 //! |---|---|---|

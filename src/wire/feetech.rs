@@ -146,18 +146,23 @@ impl Servo {
     }
 }
 
+/// Silence after which what was heard of an instruction is forgotten \[s\]: a damaged length would wait for bytes for ever.
+const GAP: f64 = 0.01;
+
 /// Servos on one line.
 pub struct Bus {
     servos: Vec<Servo>,
     decoder: Decoder,
     /// Seconds a byte takes, for answers that follow each other.
     byte: f64,
+    /// When bytes last came \[s\].
+    heard: f64,
 }
 
 impl Bus {
     /// Servos whose answers follow each other at once.
     pub fn new(servos: Vec<Servo>) -> Bus {
-        Bus { servos, decoder: Decoder::default(), byte: 0.0 }
+        Bus { servos, decoder: Decoder::default(), byte: 0.0, heard: 0.0 }
     }
 
     /// Lets the answers to a sync read follow each other at this baud rate; the link itself is told separately.
@@ -216,6 +221,10 @@ impl Bus {
 
 impl Device for Bus {
     fn receive(&mut self, moment: &mut Moment<'_>, channel: usize, bytes: &[u8]) {
+        if moment.time - self.heard > GAP {
+            self.decoder.clear();
+        }
+        self.heard = moment.time;
         let mut decoder = std::mem::take(&mut self.decoder);
         decoder.push(bytes);
         while let Some(packet) = decoder.next_packet() {

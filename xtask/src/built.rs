@@ -6,9 +6,9 @@ use std::process::Command;
 /// The profile of all checks, unless they check what is shipped: one compilation serves them.
 pub const PROFILE: &str = "ci";
 
-/// All packages but three that checks of their own build: the renderer that needs a GPU's interface, which takes minutes to
-/// compile (`gpu`), the extension module for Python (`python`), and what makes the documentation site (`site`). Encoders come
-/// with their networks.
+/// All packages but four that checks of their own build: the renderer that needs a GPU's interface, and the clients of devices,
+/// which take minutes to compile (`gpu`, `clients`), the extension module for Python (`python`), and what makes the documentation
+/// site (`site`). Encoders come with their networks.
 pub const EVERYTHING: &[&str] = &[
     "--workspace",
     "--exclude",
@@ -17,6 +17,8 @@ pub const EVERYTHING: &[&str] = &[
     "robohive-python",
     "--exclude",
     "robohive-site",
+    "--exclude",
+    "robohive-clients",
     "--features",
     "robohive-encoders/networks",
 ];

@@ -12,6 +12,7 @@
 mod builds;
 mod built;
 mod check;
+mod clients;
 mod command;
 mod crash_safety;
 mod fuzz;
@@ -46,13 +47,14 @@ const QUICK: [Check; 5] = [
     Check { name: "features", inputs: &[], run: builds::features },
 ];
 
-const LONG: [Check; 11] = [
+const LONG: [Check; 12] = [
     Check { name: "python", inputs: python::INPUTS, run: python::run },
     Check { name: "recorded-bits", inputs: recorded_bits::INPUTS, run: recorded_bits::run },
     Check { name: "builds", inputs: builds::INPUTS, run: builds::run },
     Check { name: "packages", inputs: packages::INPUTS, run: packages::run },
     Check { name: "rust-version", inputs: &[], run: packages::rust_version },
     Check { name: "instructions", inputs: instructions::INPUTS, run: || instructions::run(false) },
+    Check { name: "clients", inputs: clients::INPUTS, run: clients::run },
     Check { name: "gpu", inputs: gpu::INPUTS, run: gpu::run },
     Check { name: "window", inputs: window::INPUTS, run: window::run },
     Check { name: "page", inputs: PAGE_INPUTS, run: page },

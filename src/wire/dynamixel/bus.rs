@@ -5,6 +5,9 @@ use crate::device::{Device, Moment};
 use protocol::crc;
 use protocol::dynamixel::{BROADCAST, Decoder, encode, instruction, status_error};
 
+/// Silence after which what was heard of an instruction is forgotten \[s\]: a damaged length would wait for bytes for ever.
+const GAP: f64 = 0.01;
+
 /// Servos on one line: each hears everything, and one speaks at a time.
 pub struct Bus {
     servos: Vec<Servo>,
@@ -13,6 +16,8 @@ pub struct Bus {
     /// Seconds a byte takes, for answers that follow each other; the link adds the time of the message itself.
     byte: f64,
     time: f64,
+    /// When bytes last came \[s\].
+    heard: f64,
 }
 
 /// An answer under way: who says what, after which delay.
@@ -24,7 +29,7 @@ struct Answer {
 impl Bus {
     /// Servos whose answers follow each other at once.
     pub fn new(servos: Vec<Servo>) -> Bus {
-        Bus { servos, decoder: Decoder::default(), echo: false, byte: 0.0, time: 0.0 }
+        Bus { servos, decoder: Decoder::default(), echo: false, byte: 0.0, time: 0.0, heard: 0.0 }
     }
 
     /// Lets the answers to a sync read follow each other at this baud rate; the link itself is told separately.
@@ -201,6 +206,10 @@ impl Bus {
 
 impl Device for Bus {
     fn receive(&mut self, moment: &mut Moment<'_>, _channel: usize, bytes: &[u8]) {
+        if moment.time - self.heard > GAP {
+            self.decoder.clear();
+        }
+        self.heard = moment.time;
         self.time = moment.time;
         if self.echo {
             moment.outbox.send(0, moment.time, bytes.to_vec());

@@ -1,13 +1,13 @@
 //! rustypot, a client that other people wrote, drives simulated Feetech servos through a pseudo-terminal.
 #![cfg(unix)]
 
-use robohive_wire::feetech::{Bus, Servo};
-use robohive_wire::{Bench, Carries, End, Plant, Terminal, serve};
 use rustypot::servo::feetech::sts3215::Sts3215Controller;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
+use wire::feetech::{Bus, Servo};
+use wire::{Bench, Carries, End, Plant, Terminal, serve};
 
 const ARM: &str = "<mujoco><option gravity='0 0 0'/><worldbody>
     <body><joint name='a' damping='.1' armature='.05'/><geom size='.05'/></body>
@@ -16,7 +16,7 @@ const ARM: &str = "<mujoco><option gravity='0 0 0'/><worldbody>
 
 #[test]
 fn rustypot_moves_and_reads_an_arm_of_two() {
-    let plant = Plant::new(robohive_mjcf::load_str(ARM).unwrap().model).unwrap();
+    let plant = Plant::new(mjcf::load_str(ARM).unwrap().model).unwrap();
     let mut servos = Vec::new();
     for (id, name) in [(1, "a"), (2, "b")] {
         let mut servo = Servo::new(id);

@@ -7,14 +7,14 @@ use franka::{
     Robot, RobotMode, RobotOptions, RobotState, Torques, motion_finished,
 };
 use protocol::franka::Version;
-use robohive_wire::franka::{Arm, Hand};
-use robohive_wire::{Bench, Carries, End, Plant, Shared, serve};
 use std::io::Read;
 use std::net::{SocketAddr, TcpStream};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::Duration;
+use wire::franka::{Arm, Hand};
+use wire::{Bench, Carries, End, Plant, Shared, serve};
 
 const NAMES: [&str; 7] = ["a", "b", "c", "d", "e", "f", "g"];
 const START: [f64; 7] = [0.0, 0.3, 0.0, -2.0, 0.0, 2.2, 0.7];
@@ -36,8 +36,7 @@ fn plant() -> Plant {
              <geom size='.02' mass='.1'/></body></worldbody>
          <actuator>{actuators}<position name='finger' joint='finger' kp='500'/></actuator></mujoco>"
     );
-    let mut plant =
-        Plant::new(robohive_mjcf::load_str(&text).expect("a sound model").model).expect("a sound state");
+    let mut plant = Plant::new(mjcf::load_str(&text).expect("a sound model").model).expect("a sound state");
     let mut qpos = START.to_vec();
     qpos.push(0.02);
     plant.place(&qpos, &[0.0; 8]).expect("a sound state");

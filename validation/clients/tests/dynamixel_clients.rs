@@ -2,14 +2,14 @@
 #![cfg(unix)]
 
 use protocol::dynamixel::{MODELS, address, hardware_error};
-use robohive_wire::dynamixel::{Bus, Servo};
-use robohive_wire::{Bench, Carries, End, Plant, Shared, Terminal, serve};
 use rustypot::DynamixelProtocolHandler;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
+use wire::dynamixel::{Bus, Servo};
+use wire::{Bench, Carries, End, Plant, Shared, Terminal, serve};
 
 /// Three hinges without gravity, each with a servo.
 const ARM: &str = "<mujoco><option gravity='0 0 0'/><worldbody>
@@ -29,8 +29,7 @@ struct Served {
 
 impl Served {
     fn new(prepare: impl FnOnce(&mut [Servo])) -> Served {
-        let plant =
-            Plant::new(robohive_mjcf::load_str(ARM).expect("a sound model").model).expect("a sound state");
+        let plant = Plant::new(mjcf::load_str(ARM).expect("a sound model").model).expect("a sound state");
         let mut servos: Vec<_> = [(10, "a"), (11, "b"), (20, "c")]
             .into_iter()
             .map(|(id, name)| {

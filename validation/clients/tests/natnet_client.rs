@@ -3,13 +3,13 @@
 
 use natnet::net::CommandClient;
 use natnet::{Decoder, Message};
-use robohive_wire::optitrack::Tracker;
-use robohive_wire::{Bench, Carries, End, Plant, serve};
 use robot::Config;
 use std::net::{Ipv4Addr, SocketAddrV4, UdpSocket};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
+use wire::optitrack::Tracker;
+use wire::{Bench, Carries, End, Plant, serve};
 
 const BODY: &str =
     "<mujoco><option gravity='0 0 0'/><worldbody><body name='torso' pos='.5 -.25 1'><freejoint/>
@@ -18,7 +18,7 @@ const BODY: &str =
 
 #[test]
 fn natnet_connects_and_reads_the_pose() {
-    let plant = Plant::new(robohive_mjcf::load_str(BODY).unwrap().model).unwrap();
+    let plant = Plant::new(mjcf::load_str(BODY).unwrap().model).unwrap();
     let config = Config::from_toml(
         "[[device]]
          name = 'torso'
@@ -46,7 +46,7 @@ fn natnet_connects_and_reads_the_pose() {
     };
     let mut client = CommandClient::bind(Ipv4Addr::LOCALHOST, address).unwrap();
     let info = client.connect_handshake(Duration::from_secs(10)).unwrap();
-    let mut decoder = Decoder::new(info.protocol_version).unwrap();
+    let decoder = Decoder::new(info.protocol_version).unwrap();
     let mut buffer = vec![0; 65_536];
     let (mut before, mut seen) = (0, 0);
     while seen < 20 {

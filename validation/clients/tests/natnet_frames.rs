@@ -1,8 +1,8 @@
 //! Frames of NatNet, against the crate natnet: what it writes is read here, what is written here it reads.
 
 use natnet::{Decoder, Message, PlannedBody, SyntheticServer, Version};
-use robohive_protocol::optitrack::Body;
-use robohive_protocol::optitrack::natnet::{Bitstream, Frame, ServerInfo, connect, message, open};
+use protocol::optitrack::Body;
+use protocol::optitrack::natnet::{Bitstream, Frame, ServerInfo, connect, message, open};
 
 const BITSTREAMS: [(Bitstream, Version); 2] =
     [(Bitstream::V3, Version::new(3, 0, 0, 0)), (Bitstream::V41, Version::V4_1)];
@@ -45,8 +45,7 @@ fn another_reader_understands_our_frames() {
             tracked: true,
         };
         let frame = Frame { number: 11, timestamp: 2.25, bodies: vec![body] };
-        let datagram =
-            robohive_protocol::optitrack::natnet::message(message::FRAME, &frame.encode(bitstream));
+        let datagram = protocol::optitrack::natnet::message(message::FRAME, &frame.encode(bitstream));
         let decoded = Decoder::new(version).unwrap().parse(&datagram).unwrap();
         let Message::FrameOfData(read) = decoded.message() else { panic!("a frame") };
         assert_eq!((read.frame_number, read.rigid_bodies.len()), (11, 1));
@@ -64,7 +63,7 @@ fn another_reader_understands_what_our_server_says_of_itself() {
         data_port: 1511,
         group: Some([239, 255, 42, 99]),
     };
-    let datagram = robohive_protocol::optitrack::natnet::message(message::SERVER_INFO, &info.encode());
+    let datagram = protocol::optitrack::natnet::message(message::SERVER_INFO, &info.encode());
     let decoded = Decoder::new(Version::V4_1).unwrap().parse(&datagram).unwrap();
     let Message::ServerInfo(read) = decoded.message() else { panic!("a server's description") };
     assert_eq!(read.protocol_version, Version::V4_1);
