@@ -7,7 +7,9 @@
 //! | `type` | devices | page |
 //! |---|---|---|
 //! | `dynamixel` | Dynamixel servos with protocol 2.0 on a serial bus | [`dynamixel`] |
+//! | `feetech` | Feetech servos of the STS series (arms SO-100, SO-101) on a serial bus | [`feetech`] |
 //! | `franka` | Franka arms (Panda, FR3) over the Franka Control Interface, with the Franka Hand | [`franka`] |
+//! | `robotiq` | Robotiq 2F-85 grippers, by Modbus RTU or behind a Universal Robots controller | [`robotiq`] |
 //! | `optitrack` | OptiTrack trackers by NatNet, and RoboHive's packet | [`optitrack`] |
 //!
 //! # Safety
@@ -30,6 +32,7 @@
 pub mod calibration;
 mod driver;
 pub mod dynamixel;
+pub mod feetech;
 pub mod franka;
 mod guard;
 pub mod optitrack;
@@ -37,8 +40,10 @@ mod parameters;
 mod port;
 pub mod recorder;
 mod registry;
+pub mod robotiq;
 mod safety;
 mod service;
+mod servos;
 mod setup;
 
 pub use driver::Driver;

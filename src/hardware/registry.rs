@@ -2,16 +2,24 @@
 
 use crate::driver::Driver;
 use crate::dynamixel::Dynamixel;
+use crate::feetech::Feetech;
 use crate::franka::Franka;
 use crate::guard::Guarded;
 use crate::optitrack::OptiTrack;
+use crate::robotiq::Robotiq;
 use crate::setup::Setup;
 use robot::{Device, DeviceConfig, Fault, Registry};
 
 /// Makes the driver of a device.
 type Maker = fn(&DeviceConfig, &Setup) -> Result<Box<dyn Driver>, Fault>;
 
-const MAKERS: [(&str, Maker); 3] = [("dynamixel", dynamixel), ("franka", franka), ("optitrack", optitrack)];
+const MAKERS: [(&str, Maker); 5] = [
+    ("dynamixel", dynamixel),
+    ("feetech", feetech),
+    ("franka", franka),
+    ("optitrack", optitrack),
+    ("robotiq", robotiq),
+];
 
 /// Types of interface that there are drivers for.
 pub fn kinds() -> impl Iterator<Item = &'static str> {
@@ -58,4 +66,12 @@ fn franka(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault
 
 fn optitrack(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
     Ok(Box::new(OptiTrack::new(config, setup.sockets.clone())?))
+}
+
+fn feetech(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
+    Ok(Box::new(Feetech::new(config, setup.serial.clone())?))
+}
+
+fn robotiq(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
+    Ok(Box::new(Robotiq::new(config, setup.serial.clone(), setup.sockets.clone())?))
 }

@@ -9,7 +9,7 @@ use std::fmt;
 use std::io;
 use std::net::Ipv4Addr;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use wire::{Bench, Outlet, Plant, PlantError, Rigged, Shared, VirtualClock, VirtualPort};
+use wire::{Bench, Outlet, Plant, PlantError, Rates, Rigged, Shared, VirtualClock, VirtualPort};
 
 /// Simulated devices of a robot's config, and what drivers need to find them.
 #[derive(Clone)]
@@ -64,6 +64,20 @@ impl Rehearsal {
     /// The simulated devices and what they move.
     pub fn bench(&self) -> MutexGuard<'_, Bench> {
         self.bench.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Lets faults strike all links from now on.
+    pub fn inject(&self, rates: Rates, seed: u64) {
+        let mut bench = self.bench();
+        for (k, (_, link)) in self.rigged.iter().flat_map(|device| &device.links).enumerate() {
+            bench.inject(*link, rates, seed.wrapping_mul(64).wrapping_add(k as u64));
+        }
+    }
+
+    /// Faults that struck links since [`Rehearsal::inject`].
+    pub fn struck(&self) -> u64 {
+        let bench = self.bench();
+        self.rigged.iter().flat_map(|device| &device.links).map(|(_, link)| bench.struck(*link)).sum()
     }
 
     /// `setup` with the simulated devices in place of real ones.

@@ -16,3 +16,15 @@ pub fn buypass(crc: u16, bytes: &[u8]) -> u16 {
         )
     })
 }
+
+/// CRC-16 with polynomial 0x8005, least significant bit first, that begins with 0xFFFF: Modbus RTU sends its low byte first.
+///
+/// ```
+/// let read = [0x09, 0x04, 0x07, 0xD0, 0x00, 0x03];
+/// assert_eq!(robohive_protocol::crc::modbus(&read).to_le_bytes(), [0xB1, 0xCE]);
+/// ```
+pub fn modbus(bytes: &[u8]) -> u16 {
+    bytes.iter().fold(0xFFFF, |crc, &byte| {
+        (0..8).fold(crc ^ u16::from(byte), |crc, _| if crc & 1 != 0 { crc >> 1 ^ 0xA001 } else { crc >> 1 })
+    })
+}

@@ -116,6 +116,32 @@ impl Robot {
         Ok(&self.controls)
     }
 
+    /// What [`Robot::control`] would send and return, without sending anything.
+    ///
+    /// # Errors
+    /// Those of the action.
+    pub fn plan(
+        &mut self,
+        model: &Model,
+        data: &Data,
+        action: &[f64],
+        duration: f64,
+    ) -> Result<Vec<f64>, RobotError> {
+        action::check(model, action, duration)?;
+        let mut controls = self.controls.clone();
+        self.actions.control((model, &self.binding), data, (action, duration), &mut controls);
+        Ok(controls)
+    }
+
+    /// Sends the controls of the last [`Robot::control`] once more, so that the watchdog of a device hears a command.
+    ///
+    /// # Errors
+    /// A device that failed, or refuses them.
+    pub fn repeat(&mut self, time: f64) -> Result<(), RobotError> {
+        self.links.last_fault()?;
+        self.links.apply(&self.binding, time, &self.controls)
+    }
+
     /// The controls of the last [`Robot::control`]; zeros before the first.
     pub fn last_control(&self) -> &[f64] {
         &self.controls

@@ -67,6 +67,7 @@ impl Pilot {
     pub fn act(&mut self, env: &mut Env, motion: &Motion) -> Result<(&[f64], Reached), TeleopError> {
         let normalized = env.settings().normalize_act;
         let mut reached = Reached::Yes;
+        let live = env.is_live();
         match &mut self.driven {
             Driven::Arm(arm) => {
                 let [low, high] = within(env)?;
@@ -77,6 +78,13 @@ impl Pilot {
                 }
             }
             Driven::Joints(at, gain) => {
+                if live && env.steps() > 0 {
+                    // What was asked for beyond the limits of the robot is forgotten, so that it stops when nobody asks.
+                    at.copy_from_slice(env.robot().last_control());
+                    if normalized {
+                        env.robot().normalize(&env.scene().model, at)?;
+                    }
+                }
                 let part = if motion.quarter { 0.25 } else { 1.0 };
                 for &(joint, along) in &motion.joints {
                     let Some(place) = at.get_mut(joint) else { continue };

@@ -8,6 +8,7 @@ use crate::motion::{Input, Mark};
 use crate::pilot::{Control, Pilot};
 use env::Env;
 use record::Kept;
+use robot::ActionMode;
 
 /// The dataset of a trial that says how the person judged it: 1 for success, 0 for failure.
 pub const JUDGED: &str = "teleop/success";
@@ -54,8 +55,11 @@ pub struct Ticked {
     pub stepped: bool,
     /// Why the target was not taken.
     pub refused: Option<Reached>,
-    /// Physics refused the step; the session went back by one state, and time stands still.
+    /// Physics refused the step; the session went back by one state, and time stands still. On hardware, where the model could
+    /// not show what the devices read, the episode is thrown away.
     pub fault: Option<String>,
+    /// A mark that hardware does not know: its time neither goes back nor slows down.
+    pub impossible: Option<Mark>,
     /// The session is over.
     pub over: bool,
 }
@@ -77,11 +81,21 @@ pub struct Session {
 }
 
 impl Session {
-    /// Resets the environment for the first episode. Time stands still until something moves.
+    /// Resets the environment for the first episode. Time stands still until something moves. Hardware stands still too: see
+    /// [`Session::tick`].
     ///
     /// # Errors
-    /// The reset fails, or there is nothing to drive.
+    /// The reset fails, or there is nothing to drive; hardware that is driven by anything but positions, which would go on
+    /// moving when nobody says anything.
     pub fn new(mut env: Env, control: Control, mapping: &Mapping, plan: Plan) -> Result<Self, TeleopError> {
+        if env.is_live() && env.robot().options().mode != ActionMode::Position {
+            return Err(TeleopError::Control {
+                message: format!(
+                    "hardware is driven by hand in positions, where silence means rest, and not in '{}': --set act_mode=pos",
+                    env.robot().options().mode
+                ),
+            });
+        }
         env.reset(Some(plan.seed))?;
         let pilot = Pilot::new(&env, control, mapping)?;
         let kept = Kept::new(plan.seed);
@@ -98,7 +112,8 @@ impl Session {
             solved: 0,
             counts: (0, 0),
         };
-        session.begin()?;
+        let first = session.moment();
+        session.moments.begin(first);
         Ok(session)
     }
 
@@ -116,7 +131,9 @@ impl Session {
         Moment { env: self.env.state(), pilot: self.pilot.clone(), reward: self.reward, solved: self.solved }
     }
 
-    /// One tick: marks first, then a step of the environment where time goes on. Any motion lets it go on.
+    /// One tick: marks first, then a step of the environment where time goes on. Any motion lets it go on. Where it stands
+    /// still, hardware is told its last command again ([`Env::hold`]), so that watchdogs know that somebody is there; a
+    /// session that hangs or dies says nothing, and they make the devices safe.
     ///
     /// # Errors
     /// The environment, its robot or its pictures refuse.
@@ -128,12 +145,14 @@ impl Session {
                 return Ok(ticked);
             }
         }
-        let rewinds = input.marks.iter().any(|mark| mark.repeats());
+        let rewinds = !self.env.is_live() && input.marks.iter().any(|mark| mark.repeats());
         if input.motion.moves() && !rewinds && !input.marks.contains(&Mark::Pause) {
             self.paused = false;
         }
         if !self.paused && !rewinds {
             self.step(input, &mut ticked)?;
+        } else {
+            self.env.hold()?;
         }
         Ok(ticked)
     }
@@ -141,6 +160,11 @@ impl Session {
     fn mark(&mut self, mark: Mark, ticked: &mut Ticked) -> Result<(), TeleopError> {
         let second = (1.0 / self.env.dt()).round().max(1.0) as isize;
         match mark {
+            Mark::Slow | Mark::Back | Mark::Forward | Mark::BackSecond | Mark::ForwardSecond
+                if self.env.is_live() =>
+            {
+                ticked.impossible.get_or_insert(mark);
+            }
             Mark::Success => self.finish(true, ticked)?,
             Mark::Failure => self.finish(false, ticked)?,
             Mark::Discard => {
@@ -187,6 +211,10 @@ impl Session {
         let step = self.env.step(&action)?;
         if let Some(fault) = step.fault {
             ticked.fault = Some(fault.to_string());
+            if self.env.is_live() {
+                ticked.discarded = true;
+                return self.begin();
+            }
             let seed = self.seed;
             self.env.reset(Some(seed))?;
             return self.return_to_last();

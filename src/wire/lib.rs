@@ -44,6 +44,7 @@ pub mod optitrack;
 mod plant;
 mod profile;
 mod rig;
+pub mod robotiq;
 #[cfg(unix)]
 mod serve;
 mod shaft;

@@ -4,9 +4,11 @@ use crate::bench::{Bench, Carries, LinkId};
 use crate::franka::{Arm, Hand};
 use crate::optitrack::Tracker;
 use crate::plant::{Plant, PlantError};
+use crate::robotiq::{Gateway, Gripper, Rtu};
 use crate::{dynamixel, feetech};
 use protocol::franka::Version;
 use protocol::optitrack::natnet;
+use protocol::robotiq::{ADDRESS, STROKE};
 use robot::{Config, DeviceConfig, Value};
 
 /// Where a driver finds a link.
@@ -39,12 +41,18 @@ pub struct Rigged {
 type Maker = fn(&DeviceConfig, &mut Bench, bool) -> Result<Vec<(Outlet, LinkId)>, PlantError>;
 
 /// Type of interface, the key that says where the device is, and what makes it.
-const MAKERS: [(&str, &str, Maker); 4] = [
+const MAKERS: [(&str, &str, Maker); 5] = [
     ("dynamixel", "name", dynamixels),
     ("feetech", "name", feetechs),
     ("franka", "ip_address", franka),
     ("optitrack", "server_name", tracker),
+    ("robotiq", "name", gripper),
 ];
+
+/// The key that says where a gripper's gateway is.
+const GATEWAY: &str = "ip_address";
+/// The port of the gateway on the controller of a Universal Robots arm.
+const GATEWAY_PORT: u16 = 63_352;
 
 /// Largest width of the Franka Hand \[m\].
 const HAND: f64 = 0.08;
@@ -70,6 +78,7 @@ pub fn rig(config: &Config, mut plant: Plant, at_once: bool) -> Result<(Bench, V
     for device in &config.devices {
         let found = MAKERS.iter().find(|(kind, _, _)| device.interface.kind.as_deref() == Some(kind));
         let Some((kind, key, make)) = found else { continue };
+        let key = if behind_gateway(device) { GATEWAY } else { key };
         let address = text(device, key).unwrap_or(&device.name).to_owned();
         let links = make(device, &mut bench, at_once)
             .map_err(|error| PlantError::new(format!("device '{}': {error}", device.name)))?;
@@ -100,9 +109,15 @@ fn number(device: &DeviceConfig, key: &str, otherwise: f64) -> f64 {
     }
 }
 
+/// Whether a device is a gripper that the controller of an arm leads to.
+fn behind_gateway(device: &DeviceConfig) -> bool {
+    device.interface.kind.as_deref() == Some("robotiq") && text(device, GATEWAY).is_some()
+}
+
 /// A serial line at the baud rate that a config gives its bus.
 fn line(device: &DeviceConfig, at_once: bool) -> (f64, Carries) {
-    let baud = number(device, "baud", 1e6);
+    let usual = if device.interface.kind.as_deref() == Some("robotiq") { 115_200.0 } else { 1e6 };
+    let baud = number(device, "baud", usual);
     (baud, if at_once { Carries::AT_ONCE } else { Carries::serial(baud) })
 }
 
@@ -160,4 +175,26 @@ fn franka(device: &DeviceConfig, bench: &mut Bench, _: bool) -> Result<Vec<(Outl
         connect(bench, Box::new(hand), number(device, "hand_port", 1338.0) as u16);
     }
     Ok(links)
+}
+
+fn gripper(
+    device: &DeviceConfig,
+    bench: &mut Bench,
+    at_once: bool,
+) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
+    let Some(actuator) = device.actuators.first() else {
+        return Err(PlantError::new("a gripper needs an actuator, that of its fingers"));
+    };
+    if actuator.scale == 0.0 {
+        return Err(PlantError::new(format!("the scale of '{}' is 0", actuator.name)));
+    }
+    let ends = [0.0, STROKE].map(|width| (width - actuator.offset) / actuator.scale);
+    let gripper = Gripper::new(bench.plant(), &actuator.name, ends)?;
+    if behind_gateway(device) {
+        let link = bench.connect(Box::new(Gateway::new(gripper)), Carries::AT_ONCE);
+        return Ok(vec![(Outlet::Tcp(GATEWAY_PORT), link)]);
+    }
+    let slave = number(device, "slave", f64::from(ADDRESS)) as u8;
+    let (_, carries) = line(device, at_once);
+    Ok(vec![(Outlet::Serial, bench.connect(Box::new(Rtu::new(gripper, slave)), carries))])
 }

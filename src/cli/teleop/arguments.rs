@@ -4,6 +4,7 @@ use crate::input::library::{Making, Source};
 use crate::output::recording_file;
 use crate::pictures::film::FilmArguments;
 use crate::recordings::names::{LayoutName, PrecisionName};
+use crate::robots::live::Live;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -35,11 +36,17 @@ repetition. --preview shows the scene in the terminal.
 --record writes as `robohive run --record` does, an episode when it is finished, so that a kill loses none of those; teleop/success \
 holds the person's judgement. `robohive data export lerobot FILE FOLDER` makes a LeRobot dataset of it, `robohive view FILE` shows it.
 
+--hardware CONFIG drives the devices that a robot config names, and nothing moves without --arm; --rehearse puts simulated ones in their \
+place. The robot goes to the start of an episode by itself and rests there until you move it. What a device has not said for 0.15 s is over, \
+and the robot stops where it was last sent. A pause repeats the last command, so that the watchdogs of the devices know that the session lives; when it \
+dies, they make the devices safe. Hardware goes neither back in time nor in slow motion.
+
 Examples:
   robohive teleop --print-mapping
   robohive teleop hive/FrankaReach-v0 --preview --record reach.h5
   robohive teleop hive/FrankaReach-v0 --device gamepad --record reach.h5 --episodes 20
-  robohive teleop hive/ElbowPose-v0 --control joints --video elbow.mp4"
+  robohive teleop hive/ElbowPose-v0 --control joints --video elbow.mp4
+  robohive teleop hive/QuadrupedWalk-v0 --control joints --arm --rehearse --hardware assets/quadruped/servos.toml"
 )]
 pub struct Teleop {
     /// The environment
@@ -90,6 +97,9 @@ pub struct Teleop {
     /// Its video
     #[command(flatten)]
     pub film: FilmArguments,
+    /// Its robot
+    #[command(flatten)]
+    pub live: Live,
 }
 
 /// An environment, where one is named.

@@ -1,6 +1,7 @@
 //! The loop of a session: devices in, ticks in time, files out.
 
 use super::arguments::{ControlName, DeviceName, Teleop};
+use super::ears::{Listening, ListeningClock};
 use super::report::{Report, keys};
 use crate::failure::Failure;
 use crate::input::library::Source;
@@ -9,11 +10,12 @@ use crate::output::{check_place, keep_input};
 use crate::pictures::film::Film;
 use crate::pictures::subject::camera_of;
 use crate::terminal::{complain, listed, note, redraw, show};
-use ::teleop::devices::{Opened, Terminal, wait};
-use ::teleop::{Control, Event, Held, Mapping, Plan, Session, TeleopError, Ticked};
+use ::teleop::devices::{Opened, Terminal};
+use ::teleop::{Control, Mapping, Mark, Plan, Sample, Session, TeleopError, Ticked};
+use env::{Env, Hardware};
 use record::Recording;
-use std::os::fd::{AsFd, BorrowedFd};
-use std::time::Instant;
+use render::Painters;
+use std::sync::Arc;
 
 /// Time between two looks of the line that says how it goes [s].
 const LINE: f64 = 0.1;
@@ -35,7 +37,13 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     }
     a.record.as_deref().map(check_place).transpose()?;
     let painters = a.film.painters(a.visual)?;
-    let env = source.make_with(painters.clone())?;
+    let listening = Listening::new();
+    let env = make(a, source, &listening, painters.clone())?;
+    let live = env.is_live();
+    if live {
+        // What drives is there before anything moves.
+        open(a, &mapping, &listening)?;
+    }
     let control = match a.control {
         ControlName::Hand => Control::Hand,
         ControlName::Joints => Control::Joints,
@@ -49,31 +57,32 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     };
     let session = Session::new(env, control, &mapping, plan)?;
     let interrupt = Interrupt::listen().map_err(Failure::new)?;
-    let (device, terminal) = open(a, &mapping)?;
+    if !live {
+        open(a, &mapping, &listening)?;
+    }
     let env = session.env();
     let mut film = a.film.film(&env.scene().model, &camera_of(env), env.dt(), &*painters)?;
     let recording = a.record.as_ref().map(|_| open_recording(a, source)).transpose()?;
     note(&format!(
         "{} drives {}; {}",
-        device.as_ref().map_or("the keyboard", Opened::name),
+        listening.ears().device.as_ref().map_or("the keyboard", Opened::name),
         source.id,
         keys(a.mapping.is_some())
     ));
     let mut desk = Desk {
         session,
         mapping,
-        held: Held::default(),
-        device,
-        terminal,
+        began: 0.0,
+        listening,
+        paced: live && !a.live.rehearse,
         recording,
         report: Report::default(),
-        began: Instant::now(),
     };
     let outcome = desk.run(&interrupt, film.as_mut());
     // The line ends, and the terminal is as it was, before anything else is said.
     redraw("");
-    drop(desk.terminal.take());
-    desk.report.seconds = desk.began.elapsed().as_secs_f64();
+    desk.report.seconds = desk.now() - desk.began;
+    desk.listening.ears().terminal = None;
     // Files first: whoever looked on may be gone.
     let recorded = desk.recording.take().map(Recording::close).transpose()?;
     let finished = film.map(Film::finish).transpose()?.flatten();
@@ -110,8 +119,29 @@ fn mapping(a: &Teleop) -> Result<Mapping, Failure> {
     Ok(mapping)
 }
 
+/// The environment, whose robot may be hardware: its control periods then pass while the person is heard.
+fn make(
+    a: &Teleop,
+    source: &Source,
+    listening: &Listening,
+    painters: Arc<dyn Painters>,
+) -> Result<Env, Failure> {
+    let mut hardware = a.live.hardware(&source.id, &source.making)?;
+    if let Some(Hardware { clock, ready, .. }) = hardware.as_mut().filter(|_| !a.live.rehearse) {
+        let listening = listening.clone();
+        *clock = Arc::new(move || Box::new(ListeningClock(listening.clone())));
+        *ready = Arc::new(|_| {
+            note(
+                "the robot stands at the start of an episode, and rests until you move it: put everything in place",
+            );
+            Ok(())
+        });
+    }
+    source.make_on(hardware, painters)
+}
+
 /// Opens what drives, and the keyboard beside it where there is a terminal.
-fn open(a: &Teleop, mapping: &Mapping) -> Result<(Option<Opened>, Option<Terminal>), Failure> {
+fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Failure> {
     let path = a.path.as_deref();
     let device = match a.device {
         DeviceName::Keyboard if path.is_some() => {
@@ -119,12 +149,17 @@ fn open(a: &Teleop, mapping: &Mapping) -> Result<(Option<Opened>, Option<Termina
                 "--path names the file of another device than the keyboard: add --device",
             ));
         }
-        DeviceName::Keyboard => return Ok((None, Some(Terminal::open()?))),
+        DeviceName::Keyboard => {
+            listening.ears().terminal = Some(Terminal::open()?);
+            return Ok(());
+        }
         DeviceName::Gamepad => Opened::gamepad(path, &mapping.ends)?,
         DeviceName::Spacemouse => Opened::space_mouse(path)?,
         DeviceName::Quest => Opened::quest(path)?,
     };
-    Ok((Some(device), Terminal::open().ok()))
+    let mut ears = listening.ears();
+    (ears.device, ears.terminal) = (Some(device), Terminal::open().ok());
+    Ok(())
 }
 
 /// Makes the file of `--record`.
@@ -148,31 +183,29 @@ fn open_recording(a: &Teleop, source: &Source) -> Result<Recording, Failure> {
 struct Desk {
     session: Session,
     mapping: Mapping,
-    held: Held,
-    device: Option<Opened>,
-    terminal: Option<Terminal>,
+    listening: Listening,
+    /// A tick lasts as long as the robot says, which listens in the meantime.
+    paced: bool,
     recording: Option<Recording>,
     report: Report,
-    began: Instant,
+    /// When it began, on the clock of the ears [s].
+    began: f64,
 }
 
 impl Desk {
     fn now(&self) -> f64 {
-        self.began.elapsed().as_secs_f64()
+        self.listening.ears().now()
     }
 
     /// Tick after tick, until a person or a signal ends it.
     fn run(&mut self, interrupt: &Interrupt, mut film: Option<&mut Film>) -> Result<(), Failure> {
-        self.began = Instant::now();
-        let (mut due, mut shown, mut filmed) = (self.session.period(), f64::NEG_INFINITY, 0.0);
+        self.began = self.now();
+        let (mut due, mut shown, mut filmed) = (self.began + self.session.period(), f64::NEG_INFINITY, 0.0);
         self.film(&mut film, filmed)?;
         while interrupt.code().is_none() {
-            if !self.listen(due)? {
-                return Ok(());
-            }
+            let Some(sample) = self.listen(due)? else { return Ok(()) };
             let before = self.session.steps();
-            let now = self.now();
-            let input = self.mapping.read(&self.held.sample(now));
+            let input = self.mapping.read(&sample);
             let ticked = self.session.tick(&input)?;
             self.report.applied(self.now(), ticked.stepped);
             self.write(&ticked)?;
@@ -185,49 +218,25 @@ impl Desk {
                 self.film(&mut film, filmed)?;
             }
             let now = self.now();
-            if now - shown >= LINE || ticked.finished.is_some() {
+            if now - shown >= LINE || ticked.finished.is_some() || ticked.impossible.is_some() {
                 redraw(&self.line(&ticked));
                 shown = now;
             }
             if ticked.over {
                 return Ok(());
             }
-            due = self.report.next(due, now, self.session.period());
+            due = if self.paced { now } else { self.report.next(due, now, self.session.period()) };
         }
         Ok(())
     }
 
-    /// Takes what devices say until `due` [s]; false where the last of them is gone.
-    fn listen(&mut self, due: f64) -> Result<bool, Failure> {
-        loop {
-            let files: Vec<BorrowedFd<'_>> =
-                self.terminal.iter().map(AsFd::as_fd).chain(self.device.iter().map(AsFd::as_fd)).collect();
-            let ready = wait(&files, due - self.now()).map_err(Failure::new)?;
-            let (now, mut ready) = (self.now(), ready.into_iter());
-            let mut events: Vec<Event> = Vec::new();
-            if let Some(terminal) = &mut self.terminal {
-                let there = terminal.read(ready.next().unwrap_or(false), now, &mut events);
-                self.held.tells_releases(terminal.tells_releases());
-                if !there && self.device.is_none() {
-                    return Ok(false);
-                }
-                if !there {
-                    self.terminal = None;
-                }
-            }
-            if ready.next().unwrap_or(false)
-                && let Some(device) = &mut self.device
-            {
-                device.read(&mut events)?;
-            }
-            for event in events {
-                self.held.apply(event, now);
-                self.report.came(now);
-            }
-            if now >= due {
-                return Ok(true);
-            }
-        }
+    /// What is held at `due` [s]; nothing where the person is gone.
+    fn listen(&mut self, due: f64) -> Result<Option<Sample>, Failure> {
+        let mut ears = self.listening.ears();
+        ears.listen(due);
+        ears.came().into_iter().for_each(|came| self.report.came(came));
+        let there = ears.outcome()?;
+        Ok(there.then(|| ears.sample()))
     }
 
     /// Writes an episode that is finished.
@@ -235,7 +244,9 @@ impl Desk {
         self.report.discarded += usize::from(ticked.discarded);
         if let Some(fault) = &ticked.fault {
             redraw("");
-            complain(&format!("physics refused the step, and the session went back by it: {fault}"));
+            let then =
+                if ticked.discarded { "the episode was thrown away" } else { "the session went back by it" };
+            complain(&format!("physics refused the step, and {then}: {fault}"));
         }
         if let (Some(finished), Some(recording)) = (&ticked.finished, &mut self.recording) {
             recording.add(&finished.kept)?;
@@ -255,6 +266,11 @@ impl Desk {
             Some(::teleop::Reached::Far) => "  too far ahead",
             _ => "",
         };
-        format!("{}  {} dropped{refused}", self.session.line(), self.report.dropped)
+        let impossible = match ticked.impossible {
+            Some(Mark::Slow) => "  hardware has no slow motion",
+            Some(_) => "  hardware cannot go back in time",
+            None => "",
+        };
+        format!("{}  {} dropped{refused}{impossible}", self.session.line(), self.report.dropped)
     }
 }

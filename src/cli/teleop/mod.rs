@@ -5,6 +5,8 @@ mod arguments;
 #[cfg(unix)]
 mod drive;
 #[cfg(unix)]
+mod ears;
+#[cfg(unix)]
 mod report;
 
 pub use arguments::Teleop;

@@ -2,60 +2,26 @@
 #![cfg(unix)]
 
 mod command;
+mod serving;
 
 use command::{ROOT, command, robohive, scratch, text};
 use robot::Config;
-use std::io::{BufRead, BufReader, Write};
-use std::path::{Path, PathBuf};
-use std::process::{Child, Command, Stdio};
+use serving::{CONFIG, ID, Wire};
+use std::io::Write;
+use std::path::Path;
+use std::process::Stdio;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-const ID: &str = "hive/QuadrupedWalk-v0";
-const CONFIG: &str = "assets/quadruped/servos.toml";
-
-/// `robohive wire` in the background.
-struct Wire {
-    child: Child,
-    config: PathBuf,
-}
-
-impl Wire {
-    fn new(name: &str, more: &[&str]) -> Wire {
-        let config = scratch(name);
-        std::fs::remove_file(&config).unwrap_or_default();
-        let mut wire = command();
-        wire.args(["wire", "--config", CONFIG, "--env", ID, "--out"]).arg(&config).args(more);
-        let mut child = wire.stdout(Stdio::piped()).spawn().unwrap();
-        let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
-        let ready = lines.find(|line| line.as_ref().unwrap().starts_with("config: "));
-        assert!(ready.is_some(), "the config was written");
-        Wire { child, config }
-    }
-
-    fn robohive(&self, before: &[&str], after: &[&str]) -> Command {
-        let mut command = command();
-        command.args(before).arg(&self.config).args(after);
-        command
-    }
-
-    /// What the servos measure now, in the units of the device.
-    fn positions(&self) -> Vec<f64> {
-        let out = self.robohive(&["hardware", "monitor"], &["--seconds", "0.05"]).output().unwrap();
-        let shown = text(&out.stdout);
-        assert!(out.status.success(), "{shown}{}", text(&out.stderr));
-        let lines = shown.lines().filter_map(|line| line.split_once('(')?.1.split_once(' '));
-        let values: Vec<f64> = lines.map(|(value, _)| value.parse().unwrap()).collect();
-        assert!(values.len() >= 12, "{shown}");
-        values[values.len() - 12..].to_vec()
-    }
-}
-
-impl Drop for Wire {
-    fn drop(&mut self) {
-        self.child.kill().unwrap_or_default();
-        self.child.wait().unwrap();
-    }
+/// What the servos measure now, in the units of the device.
+fn positions(wire: &Wire) -> Vec<f64> {
+    let out = wire.robohive(&["hardware", "monitor"], &["--seconds", "0.05"]).output().unwrap();
+    let shown = text(&out.stdout);
+    assert!(out.status.success(), "{shown}{}", text(&out.stderr));
+    let lines = shown.lines().filter_map(|line| line.split_once('(')?.1.split_once(' '));
+    let values: Vec<f64> = lines.map(|(value, _)| value.parse().unwrap()).collect();
+    assert!(values.len() >= 12, "{shown}");
+    values[values.len() - 12..].to_vec()
 }
 
 #[test]
@@ -110,9 +76,9 @@ fn a_killed_run_leaves_the_servos_standing_and_its_last_minutes_on_disk() {
     child.wait().unwrap();
     assert!(commands(&flight) >= 110);
     sleep(Duration::from_millis(500));
-    let before = wire.positions();
+    let before = positions(&wire);
     sleep(Duration::from_millis(500));
-    let after = wire.positions();
+    let after = positions(&wire);
     for (before, after) in before.iter().zip(&after) {
         assert!((before - after).abs() < 0.02, "{before} {after}");
     }

@@ -3,124 +3,26 @@
 #![cfg(unix)]
 
 mod command;
+mod typing;
 
-use command::{command, robohive, scratch, text};
+use command::{robohive, scratch, text};
 use dataset::trace::TraceReader;
 use env::{Env, Options, OwnModels};
 use record::Recorded;
-use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
-use rustix::termios::{Winsize, tcgetattr, tcsetwinsize};
-use std::fs::File;
-use std::io::{Read, Write};
-use std::os::fd::OwnedFd;
+use rustix::termios::tcgetattr;
 use std::path::Path;
-use std::process::{Child, Command, ExitStatus};
-use std::sync::{Arc, Mutex};
+use std::process::Command;
 use std::time::{Duration, Instant};
+use typing::Typed;
 
 const ID: &str = "hive/FrankaReach-v0";
 
-/// A session in a terminal.
-struct Typed {
-    master: File,
-    /// The other end, kept open so that its settings can be looked at.
-    slave: File,
-    child: Child,
-    written: Arc<Mutex<String>>,
-}
-
-impl Typed {
-    /// Starts the command in a terminal that tells releases, or does not.
-    fn start(arguments: &[&str], tells_releases: bool) -> Self {
-        let master = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY | OpenptFlags::CLOEXEC).unwrap();
-        grantpt(&master).unwrap();
-        unlockpt(&master).unwrap();
-        let path = ptsname(&master, Vec::new()).unwrap();
-        let slave = File::options().read(true).write(true).open(path.to_str().unwrap()).unwrap();
-        tcsetwinsize(&slave, Winsize { ws_row: 30, ws_col: 200, ws_xpixel: 0, ws_ypixel: 0 }).unwrap();
-        let end = || OwnedFd::from(slave.try_clone().unwrap());
-        let child =
-            command().arg("teleop").args(arguments).stdin(end()).stdout(end()).stderr(end()).spawn().unwrap();
-        let master = File::from(master);
-        let written = Arc::new(Mutex::new(String::new()));
-        let (mut from, to) = (master.try_clone().unwrap(), written.clone());
-        std::thread::spawn(move || {
-            let mut bytes = [0; 4096];
-            while let Ok(count @ 1..) = from.read(&mut bytes) {
-                to.lock().unwrap().push_str(&String::from_utf8_lossy(&bytes[..count]));
-            }
-        });
-        let mut typed = Typed { master, slave, child, written };
-        typed.wait_for("\u{1b}[?u");
-        typed.write(if tells_releases { "\u{1b}[?0u\u{1b}[?62c" } else { "\u{1b}[?62c" });
-        if tells_releases {
-            typed.wait_for("\u{1b}[>11u");
-        }
-        typed.wait_for("episode 1");
-        typed
-    }
-
-    fn write(&mut self, keys: &str) {
-        self.master.write_all(keys.as_bytes()).unwrap();
-    }
-
-    /// All that was written so far.
-    fn all(&self) -> String {
-        self.written.lock().unwrap().clone()
-    }
-
-    fn wait_for(&self, what: &str) {
-        let began = Instant::now();
-        while !self.all().contains(what) {
-            assert!(began.elapsed() < Duration::from_secs(60), "no {what:?}: {:?}", self.tail());
-            std::thread::sleep(Duration::from_millis(5));
-        }
-    }
-
-    /// The end of it.
-    fn tail(&self) -> String {
-        let all: Vec<char> = self.all().chars().collect();
-        all[all.len().saturating_sub(600)..].iter().collect()
-    }
-
-    /// The last line that says how it goes.
-    fn line(&self) -> String {
-        let all = self.all();
-        all.rsplit('\r').find(|line| line.starts_with("episode ")).unwrap_or_default().to_owned()
-    }
-
-    /// Where the hand is [m].
-    fn hand(&self) -> [f64; 3] {
-        let line = self.line();
-        let (_, after) = line.split_once("hand ").unwrap();
-        let numbers: Vec<f64> = after.split(' ').map_while(|word| word.parse().ok()).collect();
-        numbers[..3].try_into().unwrap()
-    }
-
-    fn end(&mut self) -> (ExitStatus, String) {
-        let began = Instant::now();
-        loop {
-            if let Some(status) = self.child.try_wait().unwrap() {
-                // What is on its way is read.
-                std::thread::sleep(Duration::from_millis(50));
-                return (status, self.all());
-            }
-            assert!(began.elapsed() < Duration::from_secs(60), "it does not end: {:?}", self.tail());
-            std::thread::sleep(Duration::from_millis(5));
-        }
-    }
-
-    fn pause(&self) {
-        std::thread::sleep(Duration::from_millis(120));
-    }
-}
-
-impl Drop for Typed {
-    fn drop(&mut self) {
-        // One that has ended is not there to be ended.
-        _ = self.child.kill();
-        _ = self.child.wait();
-    }
+/// Where the hand is [m].
+fn hand(typed: &Typed) -> [f64; 3] {
+    let line = typed.line();
+    let (_, after) = line.split_once("hand ").unwrap();
+    let numbers: Vec<f64> = after.split(' ').map_while(|word| word.parse().ok()).collect();
+    numbers[..3].try_into().unwrap()
 }
 
 /// Where the target of a seed is [m].
@@ -137,7 +39,7 @@ fn reach(typed: &mut Typed, target: [f64; 3]) {
     let began = Instant::now();
     while !typed.line().contains("solved") {
         assert!(began.elapsed() < Duration::from_secs(60), "{target:?} is not reached: {}", typed.line());
-        let hand = typed.hand();
+        let hand = hand(typed);
         for (axis, [less, more]) in KEYS.into_iter().enumerate() {
             let way = target[axis] - hand[axis];
             if way.abs() > 0.015 {
@@ -242,17 +144,17 @@ fn a_terminal_that_goes_leaves_whole_files() {
 #[test]
 fn a_plain_terminal_repeats_keys_and_an_interrupt_ends() {
     let mut typed = Typed::start(&[ID], false);
-    let start = typed.hand();
+    let start = hand(&typed);
     for _ in 0..20 {
         typed.write("z");
         std::thread::sleep(Duration::from_millis(40));
     }
     typed.pause();
-    let stopped = typed.hand();
+    let stopped = hand(&typed);
     assert!(stopped[2] < start[2] - 0.1, "{start:?} {stopped:?}");
     typed.pause();
     typed.pause();
-    let after = typed.hand();
+    let after = hand(&typed);
     let way = (0..3).map(|k| (after[k] - stopped[k]).powi(2)).sum::<f64>().sqrt();
     assert!(way < 0.06, "it stops within two ticks: {stopped:?} {after:?}");
     // What a terminal makes of Ctrl-C for the program that it belongs to.

@@ -314,7 +314,7 @@ impl Env {
         self.robot.reset(&self.scene.model, &self.scene.data, &mut self.rng)?;
         if let Some(live) = &mut self.live {
             (live.ready)(&self.start.qpos).map_err(EnvError::NotReady)?;
-            live.begun = None;
+            (live.begun, live.commanded) = (None, false);
             live.pacer.start();
         }
         let mut episode = Episode {
@@ -391,6 +391,7 @@ impl Env {
         };
         data.state.ctrl.copy_from_slice(control);
         if let Some(live) = &mut self.live {
+            live.commanded = true;
             live.pacer.finish(dt);
             return Ok(Ok(()));
         }

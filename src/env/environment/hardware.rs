@@ -39,10 +39,17 @@ pub(crate) struct Live {
     pub(crate) ready: Ready,
     /// Time of the episode's first reading \[s\].
     pub(crate) begun: Option<f64>,
+    /// A command was sent in this episode.
+    pub(crate) commanded: bool,
 }
 
 impl Live {
     pub(crate) fn new(hardware: &Hardware) -> Live {
-        Live { pacer: Pacer::new((hardware.clock)()), ready: hardware.ready.clone(), begun: None }
+        Live {
+            pacer: Pacer::new((hardware.clock)()),
+            ready: hardware.ready.clone(),
+            begun: None,
+            commanded: false,
+        }
     }
 }

@@ -5,6 +5,7 @@ mod drawing;
 mod env;
 mod hardware;
 mod images;
+mod live;
 mod look;
 mod memory;
 mod options;

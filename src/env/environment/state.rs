@@ -211,13 +211,13 @@ impl Env {
         }
     }
 
-    /// The controls that an action becomes in the current state, with the limits of the robot.
+    /// The controls that an action becomes in the current state, with the limits of the robot. Devices hear nothing of it.
     ///
     /// # Errors
     /// The robot refuses the action.
     pub fn controls_of(&mut self, action: &[f64]) -> Result<Vec<f64>, EnvError> {
         let dt = self.dt();
-        Ok(self.robot.control(&self.scene.model, &self.scene.data, action, dt)?.to_vec())
+        Ok(self.robot.plan(&self.scene.model, &self.scene.data, action, dt)?)
     }
 
     /// Pushes bodies from outside (`xfrc_applied`, `[nbody]`: force and torque about the centre of mass, in the world's frame

@@ -1,11 +1,12 @@
 //! The driver of a bus of servos.
 
 use super::bus::Bus;
-use super::settings::{Motor, Quantity, Safe, Settings};
+use super::settings::{Motor, Settings};
 use crate::driver::Driver;
 use crate::port::Opener;
 use crate::safety::limits::Limits;
 use crate::safety::watchdog::Timeouts;
+use crate::servos::{Quantity, Safe};
 use protocol::dynamixel::{MODELS, Mode, Model, address, model};
 use robot::{DeviceConfig, Fault};
 

@@ -1,25 +1,9 @@
 //! What a config says of servos.
 
 use crate::parameters::Parameters;
+use crate::servos::{Quantity, Safe, all, id, range, sensors, unique};
 use protocol::dynamixel::Mode;
-use robot::{ActuatorConfig, DeviceConfig, Fault, HardwareId, SensorConfig};
-
-/// What servos do when they are to be safe.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Safe {
-    /// They stay where they are, with torque.
-    Hold,
-    /// They have no torque.
-    Off,
-}
-
-/// What a sensor reads.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Quantity {
-    Position,
-    Velocity,
-    Current,
-}
+use robot::{ActuatorConfig, DeviceConfig, Fault};
 
 /// A servo that is commanded.
 #[derive(Clone, Copy, Debug)]
@@ -84,40 +68,17 @@ impl Settings {
         };
         parameters.skip(&["motor_type", "n"]);
         parameters.finish()?;
-        let mut ids: Vec<_> = settings.motors.iter().map(|motor| motor.id).collect();
-        ids.sort_unstable();
-        if let Some(twice) = ids.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(refused(format!("two of its actuators have the servo {}", twice[0])));
-        }
+        unique(settings.motors.iter().map(|motor| motor.id))?;
         Ok(settings)
     }
 
     /// Ids of all servos, each once, in the order in which the config first names them.
     pub(super) fn ids(&self) -> Vec<u8> {
-        let mut ids = Vec::new();
-        let all = self.motors.iter().map(|motor| motor.id).chain(self.sensors.iter().map(|(id, _)| *id));
-        for id in all {
-            if !ids.contains(&id) {
-                ids.push(id);
-            }
-        }
-        ids
+        all(self.motors.iter().map(|motor| motor.id), &self.sensors)
     }
 }
 
-fn id(name: &str, number: i64) -> Result<u8, Fault> {
-    u8::try_from(number).ok().filter(|id| *id <= 252).ok_or_else(|| {
-        refused(format!("hdr_id {number} of '{name}' is no id of a servo; ids are from 0 to 252"))
-    })
-}
-
 fn motor(config: &ActuatorConfig) -> Result<Motor, Fault> {
-    let HardwareId::Number(number) = &config.hardware else {
-        return Err(refused(format!(
-            "hdr_id of '{}' is a text; an actuator has the id of its servo",
-            config.name
-        )));
-    };
     let mode = match config.mode.as_deref().map(str::to_ascii_lowercase).as_deref() {
         None | Some("position") => Mode::Position,
         Some("extended") => Mode::ExtendedPosition,
@@ -130,37 +91,5 @@ fn motor(config: &ActuatorConfig) -> Result<Motor, Fault> {
             )));
         }
     };
-    let ends = config.position_range.map(|end| end * config.scale + config.offset);
-    Ok(Motor { id: id(&config.name, *number)?, mode, range: [ends[0].min(ends[1]), ends[0].max(ends[1])] })
-}
-
-fn sensors(configs: &[SensorConfig]) -> Result<Vec<(u8, Quantity)>, Fault> {
-    let mut sensors: Vec<(u8, Quantity)> = Vec::new();
-    for config in configs {
-        let sensor = match &config.hardware {
-            HardwareId::Number(number) => {
-                let id = id(&config.name, *number)?;
-                let again = sensors.contains(&(id, Quantity::Position));
-                (id, if again { Quantity::Velocity } else { Quantity::Position })
-            }
-            HardwareId::Name(name) => {
-                let wrong = || {
-                    refused(format!(
-                        "hdr_id '{name}' of '{}' is not of the form id:quantity, as '12:velocity'",
-                        config.name
-                    ))
-                };
-                let (number, quantity) = name.split_once(':').ok_or_else(wrong)?;
-                let quantity = match quantity {
-                    "position" => Quantity::Position,
-                    "velocity" => Quantity::Velocity,
-                    "current" => Quantity::Current,
-                    _ => return Err(wrong()),
-                };
-                (id(&config.name, number.parse().map_err(|_| wrong())?)?, quantity)
-            }
-        };
-        sensors.push(sensor);
-    }
-    Ok(sensors)
+    Ok(Motor { id: id(config)?, mode, range: range(config) })
 }

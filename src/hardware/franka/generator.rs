@@ -4,14 +4,15 @@ use crate::safety::limits::{Course, Limits};
 use protocol::franka::{ArmLimits, CYCLE, JOINTS};
 
 /// Share of the arm's acceleration that is used.
-const ACCELERATION: f64 = 0.9;
+const ACCELERATION: f64 = 0.8;
 /// Share of that which braking towards an end of a joint takes where the arm's limit of velocity falls.
 const APPROACH: f64 = 0.7;
 /// Packets that may be lost while the arm goes on accelerating.
 const LOST: f64 = 3.0;
-/// Commands of the first stage whose mean is sent. Eight of 1 ms: their acceleration differs by at most twice the largest
-/// over 8 ms, which is less than half of the largest jerk.
-const MEAN: usize = 8;
+/// Commands of the first stage whose mean is sent. Sixteen of 1 ms: their accelerations differ by at most twice the largest,
+/// so that the jerk j is at most a fifth of the arm's. Where a packet is lost, the arm goes on with the acceleration that it
+/// has, and makes of the next command an acceleration that is 2 j × 1 ms too large and a jerk of 4 j: both within its limits.
+const MEAN: usize = 16;
 /// Distance that is kept from the ends of a joint \[rad\].
 const MARGIN: f64 = 0.01;
 
@@ -182,8 +183,8 @@ mod tests {
             commands.extend((0..1000).map(|_| generator.step()));
             assert!(generator.at_rest());
             let [v, a, j] = shares(arm, &commands);
-            assert!(v <= 1.0 && a <= 0.9 + 1e-6 && j <= 0.5, "{v} {a} {j}");
-            assert!(v > 0.9 && a > 0.85, "the limits are used: {v} {a}");
+            assert!(v <= 1.0 && a <= 0.8 + 1e-6 && j <= 0.2 + 1e-4, "{v} {a} {j}");
+            assert!(v > 0.9 && a > 0.75, "the limits are used: {v} {a}");
         }
     }
 
@@ -194,8 +195,8 @@ mod tests {
         assert_eq!(generator.step(), start);
         generator.aim(0, 0.5);
         let cycles = (0..).take_while(|_| generator.step()[0] != 0.5).count();
-        // 0.4 rad with 13.5 rad/s² and at most 2.13 rad/s.
-        assert!((330..370).contains(&cycles), "{cycles}");
+        // 0.4 rad with 12 rad/s² and at most 2.13 rad/s, and 16 ms of the mean.
+        assert!((366..400).contains(&cycles), "{cycles}");
         assert!(
             generator.at_rest() || {
                 generator.step();
@@ -223,8 +224,8 @@ mod tests {
             })
             .count();
         let way = generator.commanded()[0] - before;
-        // 2.13 rad/s with 13.5 rad/s²: 0.158 s and 0.168 m of way.
-        assert!(cycles < 175 && (0.16..0.19).contains(&way), "{cycles} {way}");
+        // 2.13 rad/s with 12 rad/s²: 0.178 s and 0.189 rad, and half the mean's 16 ms at full speed.
+        assert!(cycles < 200 && (0.19..0.22).contains(&way), "{cycles} {way}");
         generator.aim(0, -2.0);
         assert_eq!(generator.step()[0], before + way);
         generator.resume();

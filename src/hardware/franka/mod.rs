@@ -25,8 +25,9 @@
 //!
 //! The arm says its state a thousand times a second and stops when twenty answers are missing. The driver's own loop, a thread
 //! that looks four times a millisecond, answers each with the next point of a motion towards the newest target: velocity,
-//! acceleration and jerk of every joint stay within the arm's limits with a margin (a tenth of the acceleration, half of the
-//! jerk, three lost packets of the velocity), also where it turns back half-way. It begins where the arm was last commanded
+//! acceleration and jerk of every joint stay within the arm's limits (at most four fifths of the acceleration and a fifth of
+//! the jerk, and three lost packets less than the velocity), also where it turns back half-way, and where the network loses a
+//! packet. It follows its target by 8 ms. It begins where the arm was last commanded
 //! to be, and ends at rest.
 //!
 //! | silence of the arm | what happens |

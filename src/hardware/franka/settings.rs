@@ -179,7 +179,8 @@ fn sensor(config: &SensorConfig) -> Result<Quantity, Fault> {
         },
         HardwareId::Name(name) if name == "width" => Ok(Quantity::Width),
         HardwareId::Name(name) => {
-            let kinds: [(&str, fn(usize) -> Quantity); 4] = [
+            type Make = fn(usize) -> Quantity;
+            let kinds: [(&str, Make); 4] = [
                 ("tau_ext", Quantity::External),
                 ("tau", Quantity::Torque),
                 ("dq", Quantity::Velocity),

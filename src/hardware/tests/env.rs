@@ -4,7 +4,7 @@ use env::{Env, Hardware, Options, OwnModels};
 use protocol::Port;
 use protocol::dynamixel::MODELS;
 use robohive_hardware::{Services, Setup, TendedClock, registry};
-use robot::Config;
+use robot::{Clock, Config};
 use std::f64::consts::PI;
 use std::fmt::Write;
 use std::io;
@@ -56,6 +56,12 @@ fn config() -> Config {
 
 /// The environment on servos, and their bench.
 fn on_servos(carries: Carries) -> (Env, Shared) {
+    let (env, bench, _) = on_tended_servos(carries);
+    (env, bench)
+}
+
+/// The same with their watchdogs.
+fn on_tended_servos(carries: Carries) -> (Env, Shared, Services) {
     // The model as the environment compiles it.
     let model = Env::make(ID, &OwnModels, &Options::default()).unwrap().scene().model.clone();
     let plant = Plant::new(model).unwrap();
@@ -75,7 +81,7 @@ fn on_servos(carries: Carries) -> (Env, Shared) {
         Ok(Box::new(VirtualPort::new(opened.clone(), link)))
     };
     let setup = Setup::default().in_virtual_time(clocks, services.clone(), Arc::new(open)).with_armed(true);
-    let ticking = bench.clone();
+    let (ticking, watching) = (bench.clone(), services.clone());
     let hardware = Hardware {
         registry: Arc::new(registry(&setup)),
         clock: Arc::new(move || {
@@ -90,7 +96,7 @@ fn on_servos(carries: Carries) -> (Env, Shared) {
         config: Some(config()),
     };
     let options = Options::default().with_seed(3).with_hardware(Some(hardware));
-    (Env::make(ID, &OwnModels, &options).unwrap(), bench)
+    (Env::make(ID, &OwnModels, &options).unwrap(), bench, watching)
 }
 
 /// A policy that leads the arm to a pose above the table, and there waves with its wrist.
@@ -151,4 +157,43 @@ fn the_mirror_shows_what_the_servos_measure_and_a_fault_names_the_device() {
     bench.lock().unwrap().stop_button(true);
     let error = (0..5).find_map(|_| real.step(&[0.3; 8]).err()).expect("the servos are gone").to_string();
     assert!(error.contains("arm") && error.contains("ms old"), "{error}");
+}
+
+#[test]
+fn a_held_episode_keeps_the_watchdogs_quiet_and_silence_does_not() {
+    let (mut real, bench, services) = on_tended_servos(Carries::serial(4e6));
+    assert!(real.is_live());
+    real.reset(Some(1)).unwrap();
+    // Before the first command the servos rest, however long.
+    (0..10).for_each(|_| real.hold().unwrap());
+    for _ in 0..5 {
+        real.step(&[0.2; 8]).unwrap();
+    }
+    let (before, told) = (bench.lock().unwrap().time(), real.robot().last_control().to_vec());
+    for _ in 0..20 {
+        real.hold().unwrap();
+    }
+    let passed = bench.lock().unwrap().time() - before;
+    assert!((passed - 20.0 * real.dt()).abs() < 1e-6, "{passed}");
+    assert_eq!((real.steps(), real.robot().last_control()), (5, &told[..]), "no step, and no other command");
+    // The observation is what is measured now.
+    let away = |real: &Env| {
+        let bench = bench.lock().unwrap();
+        let (here, there) = (&real.scene().data.state.qpos, &bench.plant().data().state.qpos);
+        here.iter().zip(there).take(7).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    };
+    assert!(away(&real) < 5e-3, "{}", away(&real));
+    // What an action would become is told to nobody.
+    let [low, high] = [-1.0, 1.0].map(|end| real.controls_of(&[end; 8]).unwrap());
+    assert!(low.iter().zip(&high).all(|(low, high)| low < high));
+    real.hold().unwrap();
+    assert_eq!(real.robot().last_control(), &told[..]);
+    real.step(&[0.2; 8]).unwrap();
+    // Nobody says anything for longer than the watchdog waits.
+    TendedClock::new(VirtualClock::new(bench.clone()), services).wait(0.4);
+    let error = real.hold().unwrap_err().to_string();
+    assert!(error.contains("its watchdog stopped it: no command came for 0.25 s"), "{error}");
+    assert!(real.step(&[0.2; 8]).is_err());
+    real.reset(Some(1)).unwrap();
+    real.step(&[0.2; 8]).unwrap();
 }

@@ -77,10 +77,13 @@ impl Judge {
             next.ddq[k] = (dq - desired.dq[k]) / CYCLE;
             (next.q[k], next.dq[k]) = (q, dq);
         }
-        if self.lenient && next.q.iter().all(|q| q.is_finite()) {
+        if !next.q.iter().all(|q| q.is_finite()) {
+            return Err(error_bit("joint_motion_generator_position_limits_violation"));
+        }
+        if self.lenient {
             return Ok(next);
         }
-        if !motion.begun && (0..JOINTS).any(|k| !((next.q[k] - desired.q[k]).abs() <= START)) {
+        if !motion.begun && (0..JOINTS).any(|k| (next.q[k] - desired.q[k]).abs() > START) {
             return Err(error_bit("joint_position_motion_generator_start_pose_invalid"));
         }
         match (0..JOINTS).find_map(|k| self.joint(desired, &next, k)) {
@@ -92,13 +95,12 @@ impl Judge {
     /// What is wrong with the course of a joint.
     fn joint(&self, before: &Desired, next: &Desired, k: usize) -> Option<&'static str> {
         let over = |value: f64, limit: f64, derivative: i32| {
-            // Also what is no number.
-            !(value.abs() <= limit * (1.0 + SLACK) + self.rounding / CYCLE.powi(derivative))
+            value.abs() > limit * (1.0 + SLACK) + self.rounding / CYCLE.powi(derivative)
         };
         let [low, high] = self.limits.position[k];
         let [down, up] = self.limits.velocity_at(k, before.q[k]);
         let jerk = (next.ddq[k] - before.ddq[k]) / CYCLE;
-        if !(next.q[k] >= low - 1e-9 && next.q[k] <= high + 1e-9) {
+        if next.q[k] < low - 1e-9 || next.q[k] > high + 1e-9 {
             Some("joint_motion_generator_position_limits_violation")
         } else if over(next.dq[k], if next.dq[k] < 0.0 { -down } else { up }, 1) {
             Some("joint_motion_generator_velocity_limits_violation")
@@ -113,7 +115,7 @@ impl Judge {
         for k in 0..JOINTS {
             let (torque, change) = (setpoint.torque[k], setpoint.torque[k] - desired.torque[k]);
             let rounding = TORQUE[k] * self.rounding;
-            if !(torque.abs() <= TORQUE[k] * (1.0 + SLACK)) {
+            if torque.is_nan() || torque.abs() > TORQUE[k] * (1.0 + SLACK) {
                 return Err(error_bit("tau_j_range_violation"));
             }
             if !self.lenient && change.abs() > TORQUE_RATE * CYCLE * (1.0 + SLACK) + rounding {

@@ -12,7 +12,7 @@ fn action(k: u32) -> Vec<f64> {
     for (joint, place) in action.iter_mut().enumerate().take(7) {
         *place += 0.3 * ((1.0 + 0.2 * joint as f64) * t).sin();
     }
-    action[7] = if k / 40 % 2 == 0 { 0.04 } else { 0.01 };
+    action[7] = if (k / 40).is_multiple_of(2) { 0.04 } else { 0.01 };
     action
 }
 
@@ -172,4 +172,21 @@ fn what_a_config_says_wrongly_is_named() {
     elsewhere.devices[0].interface.parameters.insert("ip_address".to_owned(), address);
     let error = rig.robot(&elsewhere).err().unwrap().to_string();
     assert!(error.contains("only a simulated one at a loopback address"), "{error}");
+}
+
+#[test]
+fn single_packets_that_are_lost_stop_no_motion() {
+    for (seed, control) in [(1, "position"), (2, "position"), (3, "impedance")] {
+        let rig = Rig::new(Version::V5, |arm| arm);
+        let mut robot = rig.robot(&config(&format!("control = '{control}'"))).unwrap();
+        let mut rng = random::Generator::pcg64(1_u64);
+        // Three a second in each direction, for seven seconds.
+        let lossy: Rates = "drop=0.003".parse().unwrap();
+        rig.bench.lock().unwrap().inject(rig.arm[1], lossy, seed);
+        robot.reset(&rig.model, &rig.data(), &mut rng).unwrap();
+        drive(&rig, &mut robot, 150).unwrap_or_else(|error| panic!("seed {seed}: {error}"));
+        assert!(rig.bench.lock().unwrap().struck(rig.arm[1]) > 25);
+        robot.close().unwrap();
+        rig.check_commands();
+    }
 }

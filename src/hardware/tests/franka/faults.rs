@@ -1,4 +1,4 @@
-//! Seeded faults of both links of the arm.
+//! Seeded faults of the links of the arm and of its hand.
 
 use super::rig::{Rig, START, config};
 use protocol::franka::Version;
@@ -23,6 +23,9 @@ fn seeded_faults_end_in_errors_or_in_motion_within_limits() {
         let mut robot = rig.robot(&config(&format!("control = '{control}'"))).unwrap();
         rig.bench.lock().unwrap().inject(rig.arm[0], rare, seed);
         rig.bench.lock().unwrap().inject(rig.arm[1], rates, seed + 1000);
+        for link in rig.hand {
+            rig.bench.lock().unwrap().inject(link, rare, seed + 2000);
+        }
         let mut rng = random::Generator::pcg64(seed);
         let (data, mut clock) = (rig.data(), rig.clock());
         for _ in 0..3 {
@@ -47,7 +50,7 @@ fn seeded_faults_end_in_errors_or_in_motion_within_limits() {
             }
         }
         let hits = |link| rig.bench.lock().unwrap().struck(link);
-        struck += hits(rig.arm[0]) + hits(rig.arm[1]);
+        struck += rig.arm.into_iter().chain(rig.hand).map(hits).sum::<u64>();
         // Whatever happened, 20 cycles and the way that braking takes later the arm stands still, and nothing that was
         // commanded was beyond its limits.
         robot.close().unwrap_or_default();
@@ -57,7 +60,7 @@ fn seeded_faults_end_in_errors_or_in_motion_within_limits() {
         assert_eq!(held, rig.commanded(), "seed {seed}");
         rig.check_commands();
         // Without faults a reset brings it back.
-        for link in rig.arm {
+        for link in rig.arm.into_iter().chain(rig.hand) {
             rig.bench.lock().unwrap().inject(link, Rates::default(), 0);
         }
         rig.bench.lock().unwrap().stop_button(false);

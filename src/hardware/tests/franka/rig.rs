@@ -15,7 +15,7 @@ pub const ID: &str = "hive/FrankaReach-v0";
 pub const JOINTS: [&str; 7] = ["joint1", "joint2", "joint3", "joint4", "joint5", "joint6", "joint7"];
 
 /// Where the environment's episodes begin: high above the table, the fingers half open.
-pub const START: [f64; 9] = [0.0, 0.0, 0.0, -1.5708, 0.0, 1.8675, 0.0, 0.02, 0.02];
+pub const START: [f64; 9] = [0.0, 0.0, 0.0, -1.57, 0.0, 1.8675, 0.0, 0.02, 0.02];
 
 /// The config that people copy, with other parameters of its interface.
 pub fn config(parameters: &str) -> Config {
@@ -110,6 +110,7 @@ pub struct Rig {
     pub model: physics::Model,
     pub bench: Shared,
     pub arm: [LinkId; 2],
+    pub hand: [LinkId; 2],
     pub services: Services,
     pub setup: Setup,
     pub sent: Sent,
@@ -141,7 +142,7 @@ impl Rig {
             .with_sockets(Arc::new(wires))
             .with_armed(true);
         setup.say = Arc::new(|_| {});
-        Rig { model, bench, arm, services, setup, sent, version }
+        Rig { model, bench, arm, hand, services, setup, sent, version }
     }
 
     pub fn robot(&self, config: &Config) -> Result<Robot, RobotError> {

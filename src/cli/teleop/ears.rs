@@ -1,0 +1,135 @@
+//! What listens to the person: the devices and the keyboard beside them, in the time between two ticks.
+
+use crate::failure::Failure;
+use ::teleop::devices::{Opened, Terminal, wait};
+use ::teleop::{Event, Held, Sample, TeleopError};
+use robot::Clock;
+use std::os::fd::{AsFd, BorrowedFd};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// Devices, and what is held on them.
+pub struct Ears {
+    /// What drives, if not the keyboard.
+    pub device: Option<Opened>,
+    /// The keyboard.
+    pub terminal: Option<Terminal>,
+    held: Held,
+    began: Instant,
+    came: Vec<f64>,
+    failed: Option<Failure>,
+    gone: bool,
+}
+
+/// Ears that the loop and the clock of a robot share.
+#[derive(Clone)]
+pub struct Listening(Arc<Mutex<Ears>>);
+
+impl Listening {
+    /// Ears without devices.
+    pub fn new() -> Self {
+        Listening(Arc::new(Mutex::new(Ears {
+            device: None,
+            terminal: None,
+            held: Held::default(),
+            began: Instant::now(),
+            came: Vec::new(),
+            failed: None,
+            gone: false,
+        })))
+    }
+
+    /// The ears, for as long as nobody else needs them.
+    pub fn ears(&self) -> MutexGuard<'_, Ears> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A clock whose waiting listens: a robot's control period passes while the person is heard.
+pub struct ListeningClock(pub Listening);
+
+impl Clock for ListeningClock {
+    fn now(&mut self) -> f64 {
+        self.0.ears().now()
+    }
+
+    fn wait(&mut self, seconds: f64) {
+        let mut ears = self.0.ears();
+        let due = ears.now() + seconds;
+        ears.listen(due);
+    }
+}
+
+impl Ears {
+    /// Seconds since it was made.
+    pub fn now(&self) -> f64 {
+        self.began.elapsed().as_secs_f64()
+    }
+
+    /// What is held now.
+    pub fn sample(&mut self) -> Sample {
+        let now = self.now();
+        self.held.sample(now)
+    }
+
+    /// When the events came that nobody has counted yet.
+    pub fn came(&mut self) -> Vec<f64> {
+        std::mem::take(&mut self.came)
+    }
+
+    /// Whether the person is there still.
+    ///
+    /// # Errors
+    /// A device that is gone.
+    pub fn outcome(&mut self) -> Result<bool, Failure> {
+        self.failed.take().map_or(Ok(!self.gone), Err)
+    }
+
+    /// Takes what devices say until `due` [s], also after one of them has failed: nothing is held on it then.
+    pub fn listen(&mut self, due: f64) {
+        loop {
+            if self.failed.is_some() || self.gone {
+                std::thread::sleep(Duration::try_from_secs_f64(due - self.now()).unwrap_or_default());
+                return;
+            }
+            let mut events = Vec::new();
+            let outcome = self.hear(due, &mut events);
+            let now = self.now();
+            for event in events {
+                self.held.apply(event, now);
+                self.came.push(now);
+            }
+            match outcome {
+                Ok(there) => self.gone = !there,
+                Err(failure) => self.failed = Some(failure),
+            }
+            if now >= due {
+                return;
+            }
+        }
+    }
+
+    /// Waits for devices until `due` [s], and takes what they say; false where the last of them is gone.
+    fn hear(&mut self, due: f64, events: &mut Vec<Event>) -> Result<bool, Failure> {
+        let files: Vec<BorrowedFd<'_>> =
+            self.terminal.iter().map(AsFd::as_fd).chain(self.device.iter().map(AsFd::as_fd)).collect();
+        let ready = wait(&files, due - self.now()).map_err(Failure::new)?;
+        let (now, mut ready) = (self.now(), ready.into_iter());
+        if let Some(terminal) = &mut self.terminal {
+            let there = terminal.read(ready.next().unwrap_or(false), now, events);
+            self.held.tells_releases(terminal.tells_releases());
+            if !there && self.device.is_none() {
+                return Ok(false);
+            }
+            if !there {
+                self.terminal = None;
+            }
+        }
+        if ready.next().unwrap_or(false)
+            && let Some(device) = &mut self.device
+        {
+            device.read(events).map_err(|error: TeleopError| Failure::from(error))?;
+        }
+        Ok(true)
+    }
+}

@@ -1,0 +1,193 @@
+//! A robot over simulated Feetech servos: the same motion as in simulation, errors by name, seeded faults.
+
+use protocol::Port;
+use robohive_hardware::{Services, Setup, TendedClock, registry};
+use robot::{Clock, Config, Options, Robot, RobotError};
+use std::io;
+use std::sync::{Arc, Mutex};
+use wire::{Bench, LinkId, Plant, Rates, Shared, VirtualClock, VirtualPort, rig};
+
+const ARM: &str = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody>
+    <body><joint name='pan' axis='0 0 1' damping='.1' armature='.01'/>
+      <geom type='capsule' fromto='0 0 0 .1 0 0' size='.02' mass='.3'/>
+      <body pos='.1 0 0'><joint name='lift' axis='0 1 0' damping='.1' armature='.01'/>
+        <geom type='capsule' fromto='0 0 0 .2 0 0' size='.02' mass='.2'/></body></body></worldbody>
+  <actuator><position name='pan' joint='pan' kp='20' kv='1'/><position name='lift' joint='lift' kp='20' kv='1'/></actuator>
+  <sensor><jointpos name='pan_angle' joint='pan'/><jointpos name='lift_angle' joint='lift'/>
+    <jointvel name='lift_speed' joint='lift'/></sensor></mujoco>";
+
+fn config(extra: &str) -> Config {
+    let half = std::f64::consts::PI;
+    let text = format!(
+        "[[device]]
+         name = 'so'
+         interface = {{ type = 'feetech', name = 'bus', reset_time = 1, {extra} }}
+         sensor = [{{ name = 'pan_angle', range = [-2, 2], hdr_id = 1, offset = -{half} }},
+                   {{ name = 'lift_angle', range = [-2, 2], hdr_id = 2, scale = -1, offset = {half} }},
+                   {{ name = 'lift_speed', range = [-9, 9], hdr_id = '2:velocity', scale = -1 }}]
+         actuator = [{{ name = 'pan', pos_range = [-1, 1], vel_range = [-2, 2], hdr_id = 1, offset = {half} }},
+                     {{ name = 'lift', pos_range = [-1, 1], vel_range = [-2, 2], hdr_id = 2, scale = -1, offset = {half} }}]"
+    );
+    Config::from_toml(&text, "so.toml").unwrap()
+}
+
+struct Rig {
+    model: physics::Model,
+    bench: Shared,
+    link: LinkId,
+    services: Services,
+    setup: Setup,
+}
+
+impl Rig {
+    fn new(config: &Config, at_once: bool) -> Rig {
+        let model = robohive_mjcf::load_str(ARM).unwrap().model;
+        let (bench, rigged): (Bench, _) = rig(config, Plant::new(model.clone()).unwrap(), at_once).unwrap();
+        let link = rigged[0].links[0].1;
+        let bench: Shared = Arc::new(Mutex::new(bench));
+        let services = Services::default();
+        let (clocked, opened) = (bench.clone(), bench.clone());
+        let open = move |_: &str, _: u32| -> io::Result<Box<dyn Port>> {
+            opened.lock().unwrap().set_connected(link, true);
+            Ok(Box::new(VirtualPort::new(opened.clone(), link)))
+        };
+        let setup = Setup::default()
+            .in_virtual_time(
+                Arc::new(move || Box::new(VirtualClock::new(clocked.clone())) as _),
+                services.clone(),
+                Arc::new(open),
+            )
+            .with_armed(true);
+        Rig { model, bench, link, services, setup }
+    }
+
+    fn robot(&self, config: &Config) -> Result<Robot, RobotError> {
+        let options = Options::default().with_hardware(true).with_normalized(false);
+        Robot::with_devices(&self.model, Some(config), options, &registry(&self.setup))
+    }
+
+    fn clock(&self) -> TendedClock<VirtualClock> {
+        TendedClock::new(VirtualClock::new(self.bench.clone()), self.services.clone())
+    }
+
+    fn positions(&self) -> [f64; 2] {
+        let bench = self.bench.lock().unwrap();
+        [bench.plant().position(0), bench.plant().position(1)]
+    }
+}
+
+fn action(k: u32) -> [f64; 2] {
+    let t = f64::from(k) * 0.1;
+    [0.6 * t.sin(), 0.4 * (1.3 * t).cos() - 0.4]
+}
+
+#[test]
+fn the_same_policy_ends_within_quantisation_of_the_simulation() {
+    let config = config("speed = 0, acceleration = 0");
+    let rig = Rig::new(&config, true);
+    let model = rig.model.clone();
+    let mut rng = random::Generator::pcg64(1_u64);
+    let mut simulated = Robot::new(&model, Some(&config), Options::default().with_normalized(false)).unwrap();
+    let mut truth = physics::Data::new(&model);
+    physics::forward(&model, &mut truth).unwrap();
+    simulated.reset(&model, &truth, &mut rng).unwrap();
+    let mut hardware = rig.robot(&config).unwrap();
+    let mut mirror = truth.clone();
+    hardware.reset(&model, &mirror, &mut rng).unwrap();
+    rig.bench.lock().unwrap().plant_mut().place(&[0.0; 2], &[0.0; 2]).unwrap();
+    hardware.sense(&model, &mirror, &mut rng);
+    hardware.write_readings(&mut mirror);
+    let mut clock = rig.clock();
+    let mut worst = 0.0_f64;
+    for k in 0..100 {
+        let controls = simulated.control(&model, &truth, &action(k), 0.1).unwrap();
+        truth.state.ctrl.copy_from_slice(controls);
+        (0..50).try_for_each(|_| physics::step(&model, &mut truth)).unwrap();
+        physics::forward(&model, &mut truth).unwrap();
+        simulated.sense(&model, &truth, &mut rng);
+        hardware.control(&model, &mirror, &action(k), 0.1).unwrap();
+        clock.wait(0.1);
+        let speed = hardware.sense(&model, &mirror, &mut rng).values[2];
+        hardware.write_readings(&mut mirror);
+        assert!((speed - truth.state.qvel[1]).abs() < 0.02, "{speed} {}", truth.state.qvel[1]);
+        let away = truth.state.qpos.iter().zip(rig.positions()).map(|(a, b)| (a - b).abs());
+        worst = away.fold(worst, f64::max);
+    }
+    hardware.close().unwrap();
+    // A step is 1.5 mrad: half of it for the command, half for the reading that limits the velocity.
+    assert!(worst < 1.6e-3 && worst > 1e-5, "{worst}");
+    assert!(truth.state.qpos[0].abs() > 0.05, "it moved");
+}
+
+#[test]
+fn silence_trouble_and_wrong_configs_are_named() {
+    let sound = config("");
+    let rig = Rig::new(&sound, false);
+    let (model, mut rng) = (rig.model.clone(), random::Generator::pcg64(1_u64));
+    let data = physics::Data::new(&model);
+    let mut robot = rig.robot(&sound).unwrap();
+    robot.reset(&model, &data, &mut rng).unwrap();
+    robot.control(&model, &data, &[0.5, 0.0], 0.5).unwrap();
+    rig.clock().wait(0.3);
+    let error = robot.control(&model, &data, &[0.5, 0.0], 0.1).unwrap_err().to_string();
+    assert!(error.contains("device 'so'") && error.contains("no command came for 0.25 s"), "{error}");
+    robot.reset(&model, &data, &mut rng).unwrap();
+    rig.bench.lock().unwrap().stop_button(true);
+    rig.clock().wait(0.3);
+    assert!(robot.control(&model, &data, &[0.0, 0.0], 0.1).unwrap_err().to_string().contains("ms old"));
+    let error = robot.reset(&model, &data, &mut rng).unwrap_err().to_string();
+    assert!(error.contains("servo 1 does not answer at 1000000 baud on bus"), "{error}");
+    for (extra, part) in [
+        ("accelleration = 1", "'accelleration' of its interface is not known"),
+        ("safe = 'sit'", "there are hold, off"),
+        ("baud = 2000000", "it must be from 19200 to 1000000"),
+    ] {
+        let error = rig.robot(&config(extra)).err().unwrap().to_string();
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+#[test]
+fn seeded_faults_end_in_errors_or_in_motion_within_limits() {
+    let rates: Rates =
+        "drop=0.01,delay=0.01,reorder=0.01,duplicate=0.01,corrupt=0.02,truncate=0.01,stall=0.0005,disconnect=0.0005"
+            .parse()
+            .unwrap();
+    let sound = config("");
+    let (mut struck, mut episodes, mut errors, mut seed) = (0, 0, 0, 0);
+    while struck < 1000 {
+        seed += 1;
+        let rig = Rig::new(&sound, false);
+        let (model, mut rng) = (rig.model.clone(), random::Generator::pcg64(seed));
+        let data = physics::Data::new(&model);
+        let mut robot = rig.robot(&sound).unwrap();
+        rig.bench.lock().unwrap().inject(rig.link, rates, seed);
+        let mut clock = rig.clock();
+        for _ in 0..3 {
+            episodes += 1;
+            if robot.reset(&model, &data, &mut rng).is_err() {
+                errors += 1;
+                continue;
+            }
+            for k in 0..20 {
+                if robot.control(&model, &data, &action(k), 0.1).is_err() {
+                    errors += 1;
+                    break;
+                }
+                clock.wait(0.1);
+                robot.sense(&model, &data, &mut rng);
+                let [pan, lift] = rig.positions();
+                assert!(pan.abs() < 1.3 && lift.abs() < 1.3, "seed {seed}: {pan} {lift}");
+            }
+        }
+        struck += rig.bench.lock().unwrap().struck(rig.link);
+        rig.bench.lock().unwrap().inject(rig.link, Rates::default(), 0);
+        robot.close().unwrap_or_default();
+        // Whatever happened, the arm comes to rest.
+        VirtualClock::new(rig.bench.clone()).wait(10.0);
+        let before = rig.positions();
+        VirtualClock::new(rig.bench.clone()).wait(0.5);
+        assert!((before[1] - rig.positions()[1]).abs() < 0.01, "seed {seed}");
+    }
+    assert!(errors > 0 && errors < episodes, "{errors} of {episodes}");
+}
