@@ -297,14 +297,16 @@ mod measuring {
                 histograms += &format!("| {name} | {} |\n", record.histogram());
                 let late = [0.5, 0.99].map(|share| quantile(&mut record.lateness, share));
                 let (whole, own) = (quantile(&mut record.whole, 0.5), quantile(&mut record.own, 0.5));
+                // While it sleeps the watchdog may make the servos safe, which is not what is counted.
+                let sleeps = record.own.iter().all(|time| *time == 0.0);
+                let heap = if sleeps { "–".to_owned() } else { record.allocations.to_string() };
                 println!(
-                    "| {name} | {} | {} | {:.0} | {:.0} | {whole:.0} | {own:.1} | {} | {} |",
+                    "| {name} | {} | {} | {:.0} | {:.0} | {whole:.0} | {own:.1} | {} | {heap} |",
                     record.lateness.len(),
                     record.missed,
                     late[0],
                     late[1],
-                    record.faults,
-                    record.allocations
+                    record.faults
                 );
             }
         }
