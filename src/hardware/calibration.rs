@@ -82,8 +82,14 @@ impl fmt::Display for CalibrationError {
 
 impl std::error::Error for CalibrationError {}
 
-/// Joints of a device whose actuator is commanded by position and has a sensor of position on the same motor.
+/// Interfaces whose `hdr_id` is a servo, mounted as somebody has mounted it. Arms know where their joints are.
+pub const SERVOS: [&str; 2] = ["dynamixel", "feetech"];
+
+/// Joints of a device of servos whose actuator is commanded by position and has a sensor of position on the same servo.
 pub fn joints(device: &DeviceConfig) -> Vec<Joint> {
+    if !device.interface.kind.as_deref().is_some_and(|kind| SERVOS.contains(&kind)) {
+        return Vec::new();
+    }
     let joint = |(actuator, config): (usize, &ActuatorConfig)| {
         let mode = config.mode.as_deref().map(str::to_ascii_lowercase);
         if !matches!(mode.as_deref(), None | Some("position" | "extended")) {
@@ -194,6 +200,7 @@ mod tests {
     fn velocity_turns_with_its_position_and_motors_without_one_are_left_out() {
         let text = "[[device]]
             name = 'arm'
+            interface = { type = 'feetech' }
             sensor = [{ name = 'speed', range = [-9, 9], hdr_id = '7:velocity', scale = 2 },
                       { name = 'angle', range = [-2, 2], hdr_id = '7:position' },
                       { name = 'else', range = [-2, 2], hdr_id = '8:current' }]
@@ -208,5 +215,8 @@ mod tests {
         assert_eq!((device.actuators[2].scale, device.actuators[2].offset), (-1.0, 3.0));
         assert_eq!((device.sensors[1].scale, device.sensors[1].offset), (-1.0, 3.0));
         assert_eq!((device.sensors[0].scale, device.sensors[2].scale), (-2.0, 1.0));
+        // Joint 7 of an arm is not what its sensor 7 reads.
+        device.interface.kind = Some("franka".to_owned());
+        assert_eq!(joints(&device), []);
     }
 }

@@ -5,7 +5,7 @@ use crate::output::{check_place, keep_existing, keep_input};
 use crate::robots::devices::{Connected, Devices, Reached, failed};
 use crate::robots::live::Arming;
 use crate::terminal::{note, show};
-use ::hardware::calibration::{Fit, Joint, Measured, adopt, fit, joints};
+use ::hardware::calibration::{Fit, Joint, Measured, SERVOS, adopt, fit, joints};
 use clap::{Args, ValueHint};
 use library::Rehearsal;
 use robot::{Clock, Config};
@@ -141,7 +141,10 @@ fn all_joints(devices: &[Connected]) -> Vec<Held> {
 /// Poses may name joints alone that there are, and zero must be within the ranges.
 fn check_names(poses: &[Pose], held: &[Held]) -> Result<(), Failure> {
     if held.is_empty() {
-        return Err(Failure::usage("no actuator is commanded by position and has a sensor that reads it"));
+        return Err(Failure::usage(format!(
+            "no servo ({}) is commanded by position and has a sensor that reads it",
+            SERVOS.join(", ")
+        )));
     }
     let names = || held.iter().map(|joint| joint.name.as_str()).collect::<Vec<_>>().join(", ");
     for pose in poses {

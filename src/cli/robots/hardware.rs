@@ -61,9 +61,10 @@ Examples:
 Enter. Lower and upper ends of the ranges give offset and direction of each joint. Scales keep their size, which is the device's unit.
 
 Examples:
-  robohive hardware calibrate assets/quadruped/servos.toml --out calibrated.toml --rehearse hive/QuadrupedWalk-v0
-  robohive hardware calibrate assets/quadruped/servos.toml --out knee.toml --rehearse hive/QuadrupedWalk-v0\\
- --pose front_left_knee=-1 --pose front_left_knee=1"
+  robohive hardware calibrate assets/quadruped/servos.toml --out calibrated.toml\\
+ --rehearse hive/QuadrupedWalk-v0
+  robohive hardware calibrate assets/quadruped/servos.toml --out knee.toml\\
+ --rehearse hive/QuadrupedWalk-v0 --pose front_left_knee=-1 --pose front_left_knee=1"
     )]
     Calibrate(Calibrate),
     /// Print a flight recorder's file: the last minutes of a device

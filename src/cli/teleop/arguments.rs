@@ -46,7 +46,8 @@ Examples:
   robohive teleop hive/FrankaReach-v0 --preview --record reach.h5
   robohive teleop hive/FrankaReach-v0 --device gamepad --record reach.h5 --episodes 20
   robohive teleop hive/ElbowPose-v0 --control joints --video elbow.mp4
-  robohive teleop hive/QuadrupedWalk-v0 --control joints --arm --rehearse --hardware assets/quadruped/servos.toml"
+  robohive teleop hive/QuadrupedWalk-v0 --control joints --arm --rehearse\\
+ --hardware assets/quadruped/servos.toml"
 )]
 pub struct Teleop {
     /// The environment

@@ -77,7 +77,7 @@ mod measuring {
     use super::BAUD;
     use protocol::Port;
     use robohive_hardware::{Serial, Setup, device};
-    use robot::{Config, Device};
+    use robot::{Config, Device, Fault};
     use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
     use std::alloc::System;
     use std::error::Error;
@@ -142,7 +142,9 @@ mod measuring {
         own: Vec<f64>,
         /// Time of each tick \[µs\].
         whole: Vec<f64>,
+        /// Turns that a fault of the device ended.
         faults: u64,
+        /// In turns without a fault.
         allocations: usize,
     }
 
@@ -153,7 +155,7 @@ mod measuring {
             Record { lateness, missed: 0, own, whole, faults: 0, allocations: 0 }
         }
 
-        /// Runs a loop for a turn. `work` returns how long it took beside the port.
+        /// Runs a loop for a turn, or until a fault. `work` returns how long it took beside the port.
         fn run(&mut self, period: f64, mut work: impl FnMut() -> Option<Duration>) {
             let region = Region::new(HEAP);
             let (start, ticks) = (Instant::now(), (TURN / period) as u64);
@@ -163,10 +165,12 @@ mod measuring {
                 std::thread::sleep(due.saturating_duration_since(Instant::now()));
                 let begun = Instant::now();
                 self.lateness.push(micros(begun.saturating_duration_since(due)));
-                match work() {
-                    Some(own) => self.own.push(micros(own)),
-                    None => self.faults += 1,
-                }
+                let Some(own) = work() else {
+                    // The device is in its safe state; the next turn arms it again.
+                    self.faults += 1;
+                    return;
+                };
+                self.own.push(micros(own));
                 self.whole.push(micros(begun.elapsed()));
                 k += 1;
                 while k <= ticks && start.elapsed().as_secs_f64() > (k + 1) as f64 * period {
@@ -230,6 +234,18 @@ mod measuring {
         Ok(Config::from_toml(&text, "servos.toml")?)
     }
 
+    /// Makes sure that the device follows commands: it may have been made safe since it last did.
+    fn arm(device: &mut dyn Device, values: &mut [f64], targets: &[f64]) -> Result<(), Fault> {
+        let mut outcome = device.read(values).and_then(|time| device.apply(time, targets));
+        for _ in 0..5 {
+            if outcome.is_ok() {
+                break;
+            }
+            outcome = device.reset(targets);
+        }
+        outcome
+    }
+
     /// Runs both loops at this rate for so long.
     fn loops(rate: f64, count: u8, seconds: f64) -> Result<[Record; 2], Box<dyn Error>> {
         let (_servos, path) = servos(count)?;
@@ -246,20 +262,22 @@ mod measuring {
         device.reset(&commands)?;
         let mut bare = Record::new((seconds * rate) as usize + 1);
         let mut driven = Record::new((seconds * rate) as usize + 1);
-        let mut tick = 0_u32;
-        let mut work = || {
-            let (begun, before) = (Instant::now(), spent.load(Ordering::Relaxed));
-            tick = tick.wrapping_add(1);
-            commands.fill(std::f64::consts::PI + 0.3 * (0.01 * f64::from(tick)).sin());
-            let outcome = device.read(&mut values).and_then(|time| device.apply(time, &commands));
-            let port = Duration::from_nanos(spent.load(Ordering::Relaxed) - before);
-            outcome.ok().map(|()| begun.elapsed().saturating_sub(port))
-        };
-        // The first tick gives buffers their size.
-        work();
-        for _ in 0..(seconds / TURN).ceil().max(1.0) as u64 {
+        let targets = commands.clone();
+        for turn in 0..(seconds / TURN).ceil().max(1.0) as u32 {
             bare.run(1.0 / rate, || Some(Duration::ZERO));
-            driven.run(1.0 / rate, &mut work);
+            arm(device.as_mut(), &mut values, &targets)?;
+            let mut tick = 0_u32;
+            driven.run(1.0 / rate, || {
+                let (begun, before) = (Instant::now(), spent.load(Ordering::Relaxed));
+                tick += 1;
+                commands.fill(std::f64::consts::PI + 0.3 * (0.01 * f64::from(tick)).sin());
+                let outcome = device.read(&mut values).and_then(|time| device.apply(time, &commands));
+                let port = Duration::from_nanos(spent.load(Ordering::Relaxed) - before);
+                if let Err(fault) = &outcome {
+                    eprintln!("turn {turn}, tick {tick}: {fault}");
+                }
+                outcome.ok().map(|()| begun.elapsed().saturating_sub(port))
+            });
         }
         device.close()?;
         Ok([bare, driven])
@@ -269,7 +287,7 @@ mod measuring {
     pub fn measure(seconds: f64) -> Result<(), Box<dyn Error>> {
         let mut histograms = String::new();
         println!(
-            "| loop | ticks | missed | lateness at the median [µs] | at 99 % | a tick at the median [µs] | of that the driver | faults | allocations |"
+            "| loop | ticks | missed | lateness at the median [µs] | at 99 % | a tick at the median [µs] | of that the driver | turns ended by a fault | allocations |"
         );
         println!("|---|---|---|---|---|---|---|---|---|");
         for (rate, count) in [(1000.0, 6), (500.0, 12)] {
@@ -279,14 +297,16 @@ mod measuring {
                 histograms += &format!("| {name} | {} |\n", record.histogram());
                 let late = [0.5, 0.99].map(|share| quantile(&mut record.lateness, share));
                 let (whole, own) = (quantile(&mut record.whole, 0.5), quantile(&mut record.own, 0.5));
+                // While it sleeps the watchdog may make the servos safe, which is not what is counted.
+                let sleeps = record.own.iter().all(|time| *time == 0.0);
+                let heap = if sleeps { "–".to_owned() } else { record.allocations.to_string() };
                 println!(
-                    "| {name} | {} | {} | {:.0} | {:.0} | {whole:.0} | {own:.1} | {} | {} |",
+                    "| {name} | {} | {} | {:.0} | {:.0} | {whole:.0} | {own:.1} | {} | {heap} |",
                     record.lateness.len(),
                     record.missed,
                     late[0],
                     late[1],
-                    record.faults,
-                    record.allocations
+                    record.faults
                 );
             }
         }
