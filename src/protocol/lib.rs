@@ -7,6 +7,8 @@
 //!
 //! | module | devices | source |
 //! |---|---|---|
+//! | [`adb`] | the adb server, which leads to the log of a headset | `OVERVIEW.TXT`, `SERVICES.TXT` of the Android Open Source Project |
+//! | [`cyberglove`] | CyberGloves with 18 and 22 sensors | the CyberGlove's documentation, RoboHive's program Puppet |
 //! | [`dynamixel`] | Dynamixel servos, protocol 2.0 | ROBOTIS e-Manual, "DYNAMIXEL Protocol 2.0" and the control tables of each model |
 //! | [`feetech`] | Feetech servos of the STS series (arms SO-100, SO-101) | Feetech's protocol document and memory table |
 //! | [`franka`] | Franka arms (versions 5 and 10) and the Franka Hand | Franka Control Interface documentation, headers of `libfranka-common`, layouts of `franka-rs` |
@@ -16,7 +18,9 @@
 //!
 //! Numbers on the wire are little-endian unless a page says otherwise.
 
+pub mod adb;
 pub mod crc;
+pub mod cyberglove;
 pub mod dynamixel;
 pub mod feetech;
 pub mod franka;

@@ -86,6 +86,8 @@ pub enum Device {
     SpaceMouse,
     /// The controllers of a headset.
     Quest,
+    /// A glove with a sensor for each joint of a hand.
+    Glove,
 }
 
 /// What can be pressed.

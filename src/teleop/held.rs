@@ -82,7 +82,7 @@ impl Held {
             axes: self
                 .axes
                 .iter()
-                .filter(|(_, (place, _))| *place != 0.0)
+                .filter(|(axis, (place, _))| *place != 0.0 || axis.0 == Device::Glove)
                 .map(|(axis, (place, _))| (*axis, *place))
                 .collect(),
             hands: self.hands.map(hand),

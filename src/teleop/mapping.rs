@@ -3,6 +3,7 @@
 use crate::error::TeleopError;
 use crate::event::{Axis, Button, Device, HandPose, Key};
 use crate::gamepad::{self, Ends};
+use crate::glove::Calibration;
 use crate::held::Sample;
 use crate::motion::{HandMove, Input, MARKS, Mark, Motion};
 use crate::{quest, space_mouse};
@@ -69,6 +70,8 @@ pub struct Mapping {
     pub arm: ArmSettings,
     /// Ends of the axes of a gamepad that does not speak xpad's language.
     pub ends: Vec<(u16, Ends)>,
+    /// What a glove says of the joints of a hand, where one drives.
+    pub glove: Option<Calibration>,
     buttons: Vec<(BTreeSet<Button>, Effect)>,
     axes: Vec<(Axis, Effect)>,
     faces: bool,
@@ -117,6 +120,7 @@ impl Mapping {
             gains: gains(&section("gains"), file)?,
             arm: arm(&section("arm"), file)?,
             ends: Vec::new(),
+            glove: None,
             buttons: Vec::new(),
             axes: Vec::new(),
             faces: false,
@@ -213,6 +217,7 @@ impl Mapping {
                 effect => apply(*effect, 1.0, &mut input.motion),
             }
         }
+        input.motion.fingers = self.glove.as_ref().and_then(|glove| glove.read(sample));
         for (axis, effect) in &self.axes {
             let Some(&place) = sample.axes.get(axis) else { continue };
             match effect {

@@ -34,7 +34,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod adb;
 mod bench;
+pub mod cyberglove;
 mod device;
 pub mod dynamixel;
 mod faults;

@@ -1,5 +1,6 @@
 //! The arguments of `teleop`, and the help that teaches it.
 
+use super::device::DeviceChoice;
 use crate::input::library::{Making, Source};
 use crate::output::recording_file;
 use crate::pictures::film::FilmArguments;
@@ -26,7 +27,7 @@ pairs move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k.
 
 Gamepad: left stick and triggers move, the cross and TL TR turn, WEST EAST close and open, NORTH slows down, SOUTH is success, a \
 press of the left stick throws away, of the right one pauses, SELECT and START end. Six-axis mouse: its six axes; left and right button close and \
-open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end. The keyboard's marks \
+open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. The keyboard's marks \
 work beside every device.
 
 --mapping FILE changes all of this; --print-mapping prints the mapping that is used without one, to begin from. A target whose joints would be \
@@ -45,6 +46,7 @@ Examples:
   robohive teleop --print-mapping
   robohive teleop hive/FrankaReach-v0 --preview --record reach.h5
   robohive teleop hive/FrankaReach-v0 --device gamepad --record reach.h5 --episodes 20
+  robohive teleop hive/FrankaReach-v0 --device quest --record reach.h5
   robohive teleop hive/ElbowPose-v0 --control joints --video elbow.mp4
   robohive teleop hive/QuadrupedWalk-v0 --control joints --arm --rehearse\\
  --hardware assets/quadruped/servos.toml"
@@ -53,13 +55,16 @@ pub struct Teleop {
     /// The environment
     #[command(flatten)]
     pub source: OptionalSource,
-    /// What drives
-    #[arg(long, value_name = "DEVICE", default_value = "keyboard")]
-    pub device: DeviceName,
-    /// File of the device, instead of the first that is found
+    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port)
+    #[arg(long, value_name = "DEVICE", default_value = "keyboard", value_parser = DeviceChoice::read)]
+    pub device: DeviceChoice,
+    /// File of the device, instead of the first that is found; of a quest a pipe with lines of its log
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub path: Option<PathBuf>,
-    /// What is driven
+    /// What a glove's sensors say of the joints of a hand (TOML); needed for gloves
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub calibration: Option<PathBuf>,
+    /// What is driven; by a glove always joints
     #[arg(long, value_name = "WHAT", default_value = "hand")]
     pub control: ControlName,
     /// Site of the model that is the hand [default: the first that there is of those that the mapping names]
@@ -112,19 +117,6 @@ pub struct OptionalSource {
     /// How it is made
     #[command(flatten)]
     pub making: Making,
-}
-
-/// Devices by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum DeviceName {
-    /// The keyboard of this terminal
-    Keyboard,
-    /// A gamepad (Linux)
-    Gamepad,
-    /// A six-axis mouse (Linux)
-    Spacemouse,
-    /// Controllers of a Quest: lines of its log, from a pipe that --path names
-    Quest,
 }
 
 /// What can be driven.

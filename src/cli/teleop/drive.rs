@@ -1,6 +1,7 @@
 //! The loop of a session: devices in, ticks in time, files out.
 
-use super::arguments::{ControlName, DeviceName, Teleop};
+use super::arguments::{ControlName, Teleop};
+use super::device::DeviceChoice;
 use super::ears::{Listening, ListeningClock};
 use super::report::{Report, keys};
 use crate::failure::Failure;
@@ -11,10 +12,12 @@ use crate::pictures::film::Film;
 use crate::pictures::subject::camera_of;
 use crate::terminal::{complain, listed, note, redraw, show};
 use ::teleop::devices::{Opened, Terminal};
-use ::teleop::{Control, Mapping, Mark, Plan, Sample, Session, TeleopError, Ticked};
+use ::teleop::{Calibration, Control, Mapping, Mark, Plan, Sample, Session, TeleopError, Ticked};
 use env::{Env, Hardware};
+use protocol::adb;
 use record::Recording;
 use render::Painters;
+use std::path::Path;
 use std::sync::Arc;
 
 /// Time between two looks of the line that says how it goes [s].
@@ -45,8 +48,8 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         open(a, &mapping, &listening)?;
     }
     let control = match a.control {
-        ControlName::Hand => Control::Hand,
-        ControlName::Joints => Control::Joints,
+        ControlName::Hand if mapping.glove.is_none() => Control::Hand,
+        ControlName::Hand | ControlName::Joints => Control::Joints,
     };
     let plan = Plan {
         seed: a.seed,
@@ -113,10 +116,24 @@ fn mapping(a: &Teleop) -> Result<Mapping, Failure> {
             Mapping::from_toml(&text, &named)?
         }
     };
+    mapping.glove = match (&a.device, &a.calibration) {
+        (DeviceChoice::Glove(_), Some(path)) => Some(calibration(path)?),
+        (DeviceChoice::Glove(_), None) => {
+            return Err(Failure::usage("a glove needs --calibration FILE, which says what its sensors mean"));
+        }
+        (_, Some(_)) => return Err(Failure::usage("--calibration is about gloves: add --device glove:PORT")),
+        (_, None) => None,
+    };
     if let Some(site) = &a.site {
         mapping.arm.sites = vec![site.clone()];
     }
     Ok(mapping)
+}
+
+fn calibration(path: &Path) -> Result<Calibration, Failure> {
+    let named = path.display().to_string();
+    let text = std::fs::read_to_string(path).map_err(|error| Failure::usage(format!("{named}: {error}")))?;
+    Ok(Calibration::from_toml(&text, &named)?)
 }
 
 /// The environment, whose robot may be hardware: its control periods then pass while the person is heard.
@@ -143,19 +160,34 @@ fn make(
 /// Opens what drives, and the keyboard beside it where there is a terminal.
 fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Failure> {
     let path = a.path.as_deref();
-    let device = match a.device {
-        DeviceName::Keyboard if path.is_some() => {
+    let device = match &a.device {
+        DeviceChoice::Keyboard if path.is_some() => {
             return Err(Failure::usage(
                 "--path names the file of another device than the keyboard: add --device",
             ));
         }
-        DeviceName::Keyboard => {
+        DeviceChoice::Keyboard => {
             listening.ears().terminal = Some(Terminal::open()?);
             return Ok(());
         }
-        DeviceName::Gamepad => Opened::gamepad(path, &mapping.ends)?,
-        DeviceName::Spacemouse => Opened::space_mouse(path)?,
-        DeviceName::Quest => Opened::quest(path)?,
+        DeviceChoice::Glove(_) if path.is_some() => {
+            return Err(Failure::usage(
+                "the serial port of a glove stands in --device glove:PORT, without --path",
+            ));
+        }
+        DeviceChoice::Glove(port) => Opened::glove(port)?,
+        DeviceChoice::Gamepad => Opened::gamepad(path, &mapping.ends)?,
+        DeviceChoice::SpaceMouse => Opened::space_mouse(path)?,
+        DeviceChoice::Quest(None) if path.is_some() => Opened::quest(path)?,
+        DeviceChoice::Quest(_) if path.is_some() => {
+            return Err(Failure::usage("--path is a pipe, and quest:HOST:PORT a server: give one of them"));
+        }
+        DeviceChoice::Quest(address) => {
+            let local = || format!("127.0.0.1:{}", adb::PORT);
+            // As adb itself: which of several headsets.
+            let serial = std::env::var("ANDROID_SERIAL").ok();
+            Opened::quest_at(&address.clone().unwrap_or_else(local), serial.as_deref())?
+        }
     };
     let mut ears = listening.ears();
     (ears.device, ears.terminal) = (Some(device), Terminal::open().ok());
@@ -167,7 +199,7 @@ fn open_recording(a: &Teleop, source: &Source) -> Result<Recording, Failure> {
     let path = a.record.as_deref().ok_or_else(|| Failure::usage("--record is needed"))?;
     let settings = source.making.changes()?.to_string();
     let (compat, seed) = (source.making.compat.to_string(), a.seed.to_string());
-    let device = format!("{:?}", a.device).to_lowercase();
+    let device = a.device.to_string();
     let attributes = [
         (record::ID, &source.id[..]),
         (record::COMPAT, &compat),

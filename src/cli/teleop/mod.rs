@@ -2,6 +2,8 @@
 
 #[cfg_attr(not(unix), allow(dead_code))]
 mod arguments;
+#[cfg_attr(not(unix), allow(dead_code))]
+mod device;
 #[cfg(unix)]
 mod drive;
 #[cfg(unix)]

@@ -12,8 +12,12 @@ use record::Recorded;
 use rustix::termios::tcgetattr;
 use std::path::Path;
 use std::process::Command;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use typing::Typed;
+use wire::adb::{Server, Shown};
+use wire::{Bench, Carries, End, Plant, serve};
 
 const ID: &str = "hive/FrankaReach-v0";
 
@@ -149,14 +153,16 @@ fn a_plain_terminal_repeats_keys_and_an_interrupt_ends() {
         typed.write("z");
         std::thread::sleep(Duration::from_millis(40));
     }
-    typed.pause();
-    let stopped = hand(&typed);
+    let way = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
+    // Nothing tells that the key is up, and the hand comes to rest all the same.
+    let mut places = vec![hand(&typed)];
+    while places.len() < 5 || way(places[places.len() - 1], places[places.len() - 4]) > 0.01 {
+        assert!(places.len() < 100, "it does not stop: {places:?}");
+        typed.pause();
+        places.push(hand(&typed));
+    }
+    let stopped = places[places.len() - 1];
     assert!(stopped[2] < start[2] - 0.1, "{start:?} {stopped:?}");
-    typed.pause();
-    typed.pause();
-    let after = hand(&typed);
-    let way = (0..3).map(|k| (after[k] - stopped[k]).powi(2)).sum::<f64>().sqrt();
-    assert!(way < 0.06, "it stops within two ticks: {stopped:?} {after:?}");
     // What a terminal makes of Ctrl-C for the program that it belongs to.
     let interrupt = Command::new("kill").args(["-INT", &typed.child.id().to_string()]).status().unwrap();
     assert!(interrupt.success());
@@ -170,9 +176,15 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
     let out = robohive(&["teleop", ID]);
     assert_eq!(out.status.code(), Some(1));
     assert!(text(&out.stderr).contains("run the command in a terminal"), "{}", text(&out.stderr));
-    let cases: [(&[&str], &str); 6] = [
+    let cases: [(&[&str], &str); 12] = [
         (&[ID, "--device", "gamepad", "--path", "/nonexistent/event3"], "/nonexistent/event3"),
-        (&[ID, "--device", "quest"], "adb logcat"),
+        (&[ID, "--device", "quest:127.0.0.1:1"], "adb start-server"),
+        (&[ID, "--device", "quest:headset"], "is no address"),
+        (&[ID, "--device", "quest:127.0.0.1:1", "--path", "/dev/null"], "give one of them"),
+        (&[ID, "--device", "glove:/dev/null"], "--calibration FILE"),
+        (&[ID, "--calibration", "/dev/null"], "--device glove:PORT"),
+        (&[ID, "--device", "glove:/dev/null", "--calibration", "/nonexistent/glove.toml"], "glove.toml"),
+        (&[ID, "--device", "glove:/dev/null", "--calibration", "Cargo.toml"], "it lacks the list"),
         (&[ID, "--path", "/dev/null"], "--device"),
         (&["hive/ElbowPose-v0"], "--site"),
         (&[ID, "--mapping", "/nonexistent/keys.toml"], "keys.toml"),
@@ -189,4 +201,36 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
     let out = robohive(&["teleop", ID, "--mapping", file.to_str().unwrap()]);
     assert!(text(&out.stderr).contains("no terminal"), "what it prints is a mapping: {}", text(&out.stderr));
     assert!(!Path::new("teleop.h5").exists());
+}
+
+#[test]
+fn a_headset_drives_by_an_adb_server() {
+    const SQUARE: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+    // A hand that goes down by a metre in four seconds while it grips; then it lets go, and presses A.
+    let frame = |k: u32, buttons: &str| {
+        let time = f64::from(k) / 72.0;
+        let at = [0.0, -(time / 4.0), 0.0];
+        Shown { time, hands: [None, Some((at, SQUARE))], buttons: buttons.to_owned() }
+    };
+    let script: Vec<Shown> =
+        (0..72).map(|k| frame(k, "R,RG")).chain([frame(90, "R,A"), frame(91, "R")]).collect();
+    let env = Env::make(ID, &OwnModels, &Options::default()).unwrap();
+    let mut bench = Bench::new(Plant::new(env.scene().model.clone()).unwrap());
+    let link = bench.connect(Box::new(Server::new("1WMHH", script)), Carries::AT_ONCE);
+    let mut ends = [(link, End::tcp("127.0.0.1:0".parse().unwrap()).unwrap())];
+    let device = format!("quest:{}", ends[0].1.address());
+    let (bench, stop) = (Mutex::new(bench).into(), AtomicBool::new(false));
+    let file = scratch("headset.h5");
+    std::thread::scope(|scope| {
+        scope.spawn(|| serve(&bench, &mut ends, &stop).unwrap());
+        let mut typed = Typed::start(&[ID, "--device", &device, "--record", file.to_str().unwrap()], true);
+        typed.wait_for("episode 2  seed 1");
+        typed.write("\u{1b}[27u");
+        let (status, said) = typed.end();
+        stop.store(true, Ordering::Relaxed);
+        assert!(status.success() && said.contains("1 episodes kept, 1 succeeded"), "{said}");
+    });
+    let trace = TraceReader::open(&file).unwrap();
+    let recorded = Recorded::read(&trace, "Trial0").unwrap();
+    assert!(recorded.actions.row(8).is_some(), "a second of ticks of 0.08 s");
 }

@@ -1,8 +1,12 @@
 //! Terminals and devices of this machine: found, opened, read without waiting.
 
+#[cfg(unix)]
+mod adb;
 mod found;
 #[cfg(unix)]
 mod open;
+#[cfg(unix)]
+mod serial;
 #[cfg(unix)]
 mod terminal;
 

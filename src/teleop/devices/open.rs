@@ -4,6 +4,7 @@ use super::found::{Candidate, gamepads, space_mice};
 use crate::error::TeleopError;
 use crate::event::{Device, Event, Lost};
 use crate::gamepad::{Ends, Gamepad};
+use crate::glove::Glove;
 use crate::quest::Quest;
 use crate::space_mouse::SpaceMouse;
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
@@ -16,10 +17,11 @@ use std::path::{Path, PathBuf};
 const MOST: usize = 4096;
 
 /// What decodes the bytes of a device.
-enum Decoder {
+pub(super) enum Decoder {
     Gamepad(Gamepad),
     SpaceMouse(SpaceMouse),
     Quest(Quest),
+    Glove(Glove),
 }
 
 /// A device that is open.
@@ -75,6 +77,7 @@ impl Opened {
             Device::Gamepad => (Decoder::Gamepad(Gamepad::default()), "gamepad"),
             Device::SpaceMouse => (Decoder::SpaceMouse(SpaceMouse::default()), "six-axis mouse"),
             Device::Quest => (Decoder::Quest(Quest::default()), "Quest"),
+            Device::Glove => (Decoder::Glove(Glove::default()), "glove"),
         };
         Opened { file, decoder, name: name.to_owned() }
     }
@@ -84,11 +87,17 @@ impl Opened {
         &self.name
     }
 
+    /// What decodes its bytes.
+    pub(super) fn decoder(&mut self) -> &mut Decoder {
+        &mut self.decoder
+    }
+
     fn device(&self) -> Device {
         match self.decoder {
             Decoder::Gamepad(_) => Device::Gamepad,
             Decoder::SpaceMouse(_) => Device::SpaceMouse,
             Decoder::Quest(_) => Device::Quest,
+            Decoder::Glove(_) => Device::Glove,
         }
     }
 
@@ -105,6 +114,17 @@ impl Opened {
                     Decoder::Gamepad(gamepad) => gamepad.feed(&bytes[..count], events),
                     Decoder::SpaceMouse(mouse) => mouse.report(&bytes[..count], events),
                     Decoder::Quest(quest) => quest.feed(&bytes[..count], events),
+                    Decoder::Glove(glove) => {
+                        glove.feed(&bytes[..count], events);
+                        if let Some(trouble) = glove.trouble() {
+                            return Err(TeleopError::Device {
+                                device: self.name.clone(),
+                                path: None,
+                                message: trouble.to_string(),
+                                fix: "plug it in and start again; finished episodes are kept".to_owned(),
+                            });
+                        }
+                    }
                 }
                 return Ok(());
             }

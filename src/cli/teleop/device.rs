@@ -1,0 +1,77 @@
+//! What drives, by name.
+
+use protocol::adb;
+use std::fmt;
+use std::path::PathBuf;
+
+/// What drives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum DeviceChoice {
+    /// The keyboard of this terminal.
+    Keyboard,
+    /// A gamepad.
+    Gamepad,
+    /// A six-axis mouse.
+    SpaceMouse,
+    /// Controllers of a Quest, by the adb server at this address.
+    Quest(Option<String>),
+    /// A CyberGlove on this serial port.
+    Glove(PathBuf),
+}
+
+impl DeviceChoice {
+    /// Reads the argument.
+    pub fn read(text: &str) -> Result<Self, String> {
+        let (name, place) = text.split_once(':').map_or((text, None), |(name, place)| (name, Some(place)));
+        match (name, place) {
+            ("keyboard", None) => Ok(DeviceChoice::Keyboard),
+            ("gamepad", None) => Ok(DeviceChoice::Gamepad),
+            ("spacemouse", None) => Ok(DeviceChoice::SpaceMouse),
+            ("quest", None) => Ok(DeviceChoice::Quest(None)),
+            ("quest", Some(place)) => {
+                let port = place.rsplit_once(':').and_then(|(_, port)| port.parse::<u16>().ok());
+                let address = port.map(|_| DeviceChoice::Quest(Some(place.to_owned())));
+                address.ok_or_else(|| {
+                    format!("'{place}' is no address of an adb server, as 127.0.0.1:{}", adb::PORT)
+                })
+            }
+            ("glove", Some(port)) if !port.is_empty() => Ok(DeviceChoice::Glove(port.into())),
+            _ => {
+                Err("there are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT".to_owned())
+            }
+        }
+    }
+}
+
+/// Its name, without its address.
+impl fmt::Display for DeviceChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            DeviceChoice::Keyboard => "keyboard",
+            DeviceChoice::Gamepad => "gamepad",
+            DeviceChoice::SpaceMouse => "spacemouse",
+            DeviceChoice::Quest(_) => "quest",
+            DeviceChoice::Glove(_) => "glove",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn devices_are_read_with_their_addresses() {
+        assert_eq!(DeviceChoice::read("quest"), Ok(DeviceChoice::Quest(None)));
+        let address = DeviceChoice::Quest(Some("headset.local:5037".to_owned()));
+        assert_eq!(DeviceChoice::read("quest:headset.local:5037"), Ok(address));
+        assert_eq!(DeviceChoice::read("glove:/dev/ttyS0"), Ok(DeviceChoice::Glove("/dev/ttyS0".into())));
+        for wrong in ["quest:headset", "quest:host:70000", "gamepad:3", "mouse", "glove", "glove:", ""] {
+            assert!(DeviceChoice::read(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(
+            DeviceChoice::read("spacemouse").map(|device| device.to_string()),
+            Ok("spacemouse".into())
+        );
+    }
+}
