@@ -210,7 +210,7 @@ mod tests {
         let short = [&line[..9], &line[10..]].concat();
         let long = [&line[..9], &line[8..]].concat();
         let whole = Message::Sample(good);
-        assert_eq!(decoded(&[&short, &line]), [whole.clone()]);
+        assert_eq!(decoded(&[&short, &line]), std::slice::from_ref(&whole));
         assert_eq!(decoded(&[&long, &line, &line]).last(), Some(&whole));
         // The end of a sample that had begun before anybody listened.
         assert_eq!(decoded(&[&line[5..], &line]), [whole]);

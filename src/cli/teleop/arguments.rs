@@ -55,7 +55,7 @@ pub struct Teleop {
     /// The environment
     #[command(flatten)]
     pub source: OptionalSource,
-    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port)
+    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), phone[:PORT] (a page for phones and headsets)
     #[arg(long, value_name = "DEVICE", default_value = "keyboard", value_parser = DeviceChoice::read)]
     pub device: DeviceChoice,
     /// File of the device, instead of the first that is found; of a quest a pipe with lines of its log

@@ -3,6 +3,7 @@
 use super::arguments::{ControlName, Teleop};
 use super::device::DeviceChoice;
 use super::ears::{Listening, ListeningClock};
+use super::phone;
 use super::report::{Report, keys};
 use crate::failure::Failure;
 use crate::input::library::Source;
@@ -174,6 +175,14 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
             return Err(Failure::usage(
                 "the serial port of a glove stands in --device glove:PORT, without --path",
             ));
+        }
+        DeviceChoice::Phone(_) if path.is_some() => {
+            return Err(Failure::usage("a phone has no file: leave --path out"));
+        }
+        DeviceChoice::Phone(port) => {
+            let (lines, address) = phone::serve(*port)?;
+            note(&format!("open {address} on the phone or headset, after `adb reverse` of its port"));
+            Opened::of(::teleop::Device::Quest, lines)
         }
         DeviceChoice::Glove(port) => Opened::glove(port)?,
         DeviceChoice::Gamepad => Opened::gamepad(path, &mapping.ends)?,

@@ -1,6 +1,6 @@
 //! `web`: the page, served to browsers of this machine.
 
-mod http;
+pub mod http;
 mod model;
 mod server;
 mod site;

@@ -224,7 +224,8 @@ fn configs_of_another_robot_are_refused_by_name() {
     );
     assert_eq!(
         refused(&CONFIG.replace("'q2'", "'gyro'")),
-        "device 'arm': sensor 'gyro' is of kind gyro; a robot reads jointpos and jointvel"
+        "device 'arm': sensor 'gyro' is of kind gyro; a robot reads jointpos, jointvel, and components of framepos and \
+         framequat of a body with a free joint, as name[0]"
     );
     let tendon = ARM.replace("joint='elbow' gear='4'", "site='s' gear='4 0 0 0 0 0'");
     let model = robohive_mjcf::load_str(&tendon).unwrap().model;

@@ -11,7 +11,7 @@ use robohive_teleop::{
 };
 use std::fmt::Write;
 use std::os::fd::AsFd;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 use wire::cyberglove::{Glove as Worn, Worn as Script};
 use wire::{Bench, Carries, End, Plant, Terminal, VirtualPort, serve};
@@ -62,7 +62,10 @@ fn calibration() -> String {
 }
 
 fn hand() -> Env {
-    let path = std::env::temp_dir().join(format!("robohive-glove-{}.xml", std::process::id()));
+    // Tests run side by side, each with a file of its own.
+    static HANDS: AtomicUsize = AtomicUsize::new(0);
+    let (process, number) = (std::process::id(), HANDS.fetch_add(1, Ordering::Relaxed));
+    let path = std::env::temp_dir().join(format!("robohive-glove-{process}-{number}.xml"));
     std::fs::write(&path, HAND).unwrap();
     let mut registry = Registry::default();
     let table = format!(
@@ -103,9 +106,9 @@ fn a_calibration_is_applied_as_robohive_does() {
         "the middle finger is straight, and the thumb in its middle"
     );
     // Beyond what the person can do counts as the end.
-    let far = calibration.joints(&vec![255.0; 22]);
+    let far = calibration.joints(&[255.0; 22]);
     assert_eq!((far[0], far[4]), (1.6, 0.25));
-    assert_eq!(calibration.joints(&vec![1.0; 22])[4], -0.25);
+    assert_eq!(calibration.joints(&[1.0; 22])[4], -0.25);
 }
 
 #[test]

@@ -1,0 +1,100 @@
+//! What the page says, as lines of a headset's log, which sessions understand.
+
+use serde_json::Value;
+
+/// Longest that a message may be under way, beyond the shortest of the session [s].
+const LATE: f64 = 0.15;
+/// Most names of a message.
+const BUTTONS: usize = 16;
+
+/// Messages of one page, one after the other.
+#[derive(Default)]
+pub struct Messages {
+    /// Number of the last one.
+    last: Option<u64>,
+    /// The least difference of our clock to the page's [s].
+    offset: Option<f64>,
+}
+
+impl Messages {
+    /// The line of a message that came at `now` [s]; nothing where it is damaged, or older than one before it. A pose that is not
+    /// tracked, or was under way for too long, is left out: nothing follows it.
+    pub fn line(&mut self, text: &str, now: f64) -> Option<String> {
+        let message: Value = serde_json::from_str(text).ok()?;
+        let number = message["seq"].as_u64().filter(|number| self.last.is_none_or(|last| *number > last))?;
+        let time = message["time"].as_f64().filter(|time| time.is_finite())?;
+        self.last = Some(number);
+        let difference = now - time;
+        let offset = self.offset.map_or(difference, |offset| offset.min(difference));
+        self.offset = Some(offset);
+        if difference - offset > LATE {
+            return Some("wE9ryARX: &\n".to_owned());
+        }
+        let names = message["buttons"].as_array()?.iter().filter_map(Value::as_str).take(BUTTONS);
+        let plain =
+            |name: &&str| name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b" ._-".contains(&byte));
+        let buttons: Vec<&str> = names.filter(plain).collect();
+        let tracked = message["tracked"].as_bool()?;
+        let pose = tracked.then(|| pose(&message["pose"])).flatten().unwrap_or_default();
+        Some(format!("wE9ryARX: {pose}&{}\n", buttons.join(",")))
+    }
+}
+
+/// Position and quaternion x, y, z, w as the rows of a rigid motion.
+fn pose(value: &Value) -> Option<String> {
+    let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(Value::as_f64).collect();
+    let [px, py, pz, x, y, z, w]: [f64; 7] = numbers?.try_into().ok()?;
+    let norm = (x * x + y * y + z * z + w * w).sqrt();
+    if !(0.5..2.0).contains(&norm) {
+        return None;
+    }
+    let [x, y, z, w] = [x, y, z, w].map(|part| part / norm);
+    let rows = [
+        [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y), px],
+        [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x), py],
+        [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y), pz],
+    ];
+    let numbers: Vec<String> = rows.as_flattened().iter().map(f64::to_string).collect();
+    Some(format!("r:{} 0 0 0 1", numbers.join(" ")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn message(seq: u64, time: f64, tracked: bool) -> String {
+        format!(
+            r#"{{"seq":{seq},"time":{time},"pose":[0.25,1,-0.5,0,0,0,1],"tracked":{tracked},"buttons":["RG","rightTrig 0.5"]}}"#
+        )
+    }
+
+    #[test]
+    fn messages_become_lines() {
+        let mut messages = Messages::default();
+        let line = messages.line(&message(1, 0.0, true), 100.0).unwrap();
+        assert_eq!(line, "wE9ryARX: r:1 0 0 0.25 0 1 0 1 0 0 1 -0.5 0 0 0 1&RG,rightTrig 0.5\n");
+        let lost = messages.line(&message(2, 0.02, false), 100.02).unwrap();
+        assert_eq!(lost, "wE9ryARX: &RG,rightTrig 0.5\n", "what is not tracked has no pose");
+        let quarter = message(3, 0.04, true).replace("0,0,0,1]", "1,0,0,1]");
+        let turned = messages.line(&quarter, 100.04).unwrap();
+        assert!(turned.contains("0.25 0 ") && turned.contains(" -1"), "{turned}");
+    }
+
+    #[test]
+    fn what_is_old_late_or_damaged_moves_nothing() {
+        let mut messages = Messages::default();
+        messages.line(&message(5, 1.0, true), 101.0).unwrap();
+        assert_eq!(messages.line(&message(5, 1.1, true), 101.1), None);
+        assert_eq!(messages.line(&message(4, 1.1, true), 101.1), None);
+        // Under way for 0.2 s longer than the first: what it says was let go.
+        assert_eq!(messages.line(&message(6, 1.1, true), 101.3).as_deref(), Some("wE9ryARX: &\n"));
+        assert!(messages.line(&message(7, 1.3, true), 101.4).unwrap().contains("r:"));
+        for wrong in ["", "{}", "[1]", r#"{"seq":9,"time":1.4,"buttons":[]}"#, r#"{"seq":-1,"time":0}"#] {
+            assert_eq!(messages.line(wrong, 101.4), None, "{wrong}");
+        }
+        let flat = message(20, 1.5, true).replace("0,0,0,1]", "0,0,0,0]");
+        assert!(!messages.line(&flat, 101.5).unwrap().contains("r:"));
+        let line = messages.line(&message(21, 1.5, true).replace("\"RG\"", "\"RG\\nwE9ryARX: &A\""), 101.5);
+        assert_eq!(line.unwrap().lines().count(), 1, "a name cannot be a line of its own");
+    }
+}
