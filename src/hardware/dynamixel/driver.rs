@@ -12,8 +12,10 @@ use robot::{DeviceConfig, Fault};
 
 /// Bus watchdog of the servos, in units of 20 ms.
 const BUS_WATCHDOG: i64 = 5;
-/// Without a reading for this long the servos are made safe \[s\].
-const READING: f64 = 0.06;
+/// Without a reading for this long the servos are made safe \[s\]: three lost answers, each with the wait for it.
+const READING: f64 = 0.09;
+/// Time between two readings of servos that nobody else reads \[s\].
+const HEARTBEAT: f64 = 0.02;
 /// Seconds of silence after a reboot, with some to spare.
 const REBOOT: f64 = 0.4;
 /// First register of what is read in every period: current, velocity, position.
@@ -281,7 +283,7 @@ impl Driver for Dynamixel {
     }
 
     fn timeouts(&self) -> Timeouts {
-        Timeouts { command: self.settings.watchdog, reading: READING, heartbeat: READING / 3.0 }
+        Timeouts { command: self.settings.watchdog, reading: READING, heartbeat: HEARTBEAT }
     }
 
     fn resource(&self) -> String {

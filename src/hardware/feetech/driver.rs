@@ -10,8 +10,10 @@ use crate::servos::{self, Quantity, Safe};
 use protocol::feetech::{ACCELERATION_UNIT, CURRENT_UNIT, STEP, STS3215, address, signed, trouble, unsigned};
 use robot::{ActuatorConfig, DeviceConfig, Fault};
 
-/// Without a reading for this long the servos are made safe \[s\].
-const READING: f64 = 0.06;
+/// Without a reading for this long the servos are made safe \[s\]: three lost answers, each with the wait for it.
+const READING: f64 = 0.09;
+/// Time between two readings of servos that nobody else reads \[s\].
+const HEARTBEAT: f64 = 0.02;
 /// Bytes from the present position to the present current.
 const PRESENT: usize = 15;
 
@@ -255,7 +257,7 @@ impl Driver for Feetech {
     }
 
     fn timeouts(&self) -> Timeouts {
-        Timeouts { command: self.watchdog, reading: READING, heartbeat: READING / 3.0 }
+        Timeouts { command: self.watchdog, reading: READING, heartbeat: HEARTBEAT }
     }
 
     fn resource(&self) -> String {

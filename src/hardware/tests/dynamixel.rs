@@ -244,7 +244,7 @@ fn bad_commands_and_failing_hardware_are_named() {
     rig.bench.lock().unwrap().stop_button(true);
     rig.clock().wait(0.3);
     let error = robot.control(&model, &data, &[0.0, 0.0], 0.1).unwrap_err();
-    assert!(matches!(error, RobotError::Device { fault: Fault::Stale(60..=90), .. }), "{error:?}");
+    assert!(matches!(error, RobotError::Device { fault: Fault::Stale(90..=130), .. }), "{error:?}");
     let error = robot.reset(&model, &data, &mut rng).unwrap_err().to_string();
     assert!(error.contains("servo 10 does not answer at 1000000 baud on bus0"), "{error}");
     rig.bench.lock().unwrap().stop_button(false);
