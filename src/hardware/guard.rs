@@ -4,6 +4,7 @@ use crate::driver::Driver;
 use crate::recorder::{Event, Recorder};
 use crate::safety::limits::Limiter;
 use crate::safety::lock::Lock;
+use crate::safety::motion::Motion;
 use crate::safety::watchdog::{Silence, Watchdog};
 use crate::service::{LOOK, Service};
 use crate::setup::Setup;
@@ -200,21 +201,6 @@ impl Drop for Guarded {
     }
 }
 
-/// A minimum-jerk motion under way.
-struct Motion {
-    from: Vec<f64>,
-    to: Vec<f64>,
-    begun: f64,
-    duration: f64,
-    progress: f64,
-}
-
-impl Motion {
-    fn done(&self) -> bool {
-        self.progress >= 1.0
-    }
-}
-
 impl Core {
     fn connect(&mut self) -> Result<(), Fault> {
         if self.setup.records.is_some() && self.recorder.is_none() {
@@ -394,22 +380,17 @@ impl Core {
         self.limiter.begin(now, &self.present);
         self.watchdog.commanded(now);
         self.watchdog.has_read(now);
-        Ok(Motion {
-            from: self.present.clone(),
-            to: targets.to_vec(),
-            begun: now,
-            duration: self.driver.reset_duration(),
-            progress: if self.driver.resets() { 0.0 } else { 1.0 },
+        Ok(if self.driver.resets() {
+            Motion::new(&self.present, targets, now, self.driver.reset_duration())
+        } else {
+            Motion::none(&self.present)
         })
     }
 
     /// Commands where a motion is now.
     fn go_on(&mut self, motion: &mut Motion) -> Result<(), Fault> {
         let now = self.clock.now();
-        motion.progress = ((now - motion.begun) / motion.duration).min(1.0);
-        let t = motion.progress;
-        let share = t * t * t * (10.0 - t * (15.0 - 6.0 * t));
-        let commands: Vec<_> = motion.from.iter().zip(&motion.to).map(|(a, b)| a + (b - a) * share).collect();
+        let commands = motion.command(now);
         self.apply(&commands)
     }
 

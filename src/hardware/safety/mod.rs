@@ -2,4 +2,5 @@
 
 pub(crate) mod limits;
 pub(crate) mod lock;
+pub(crate) mod motion;
 pub(crate) mod watchdog;
