@@ -77,7 +77,13 @@ mod tests {
         assert_eq!(lost, "wE9ryARX: &RG,rightTrig 0.5\n", "what is not tracked has no pose");
         let quarter = message(3, 0.04, true).replace("0,0,0,1]", "1,0,0,1]");
         let turned = messages.line(&quarter, 100.04).unwrap();
-        assert!(turned.contains("0.25 0 ") && turned.contains(" -1"), "{turned}");
+        let (_, pose) = turned.split_once("r:").unwrap();
+        let (pose, _) = pose.split_once('&').unwrap();
+        let numbers: Vec<f64> = pose.split(' ').map(|number| number.parse().unwrap()).collect();
+        // A quarter turn about x: y becomes z, and z becomes -y.
+        let wanted = [1.0, 0.0, 0.0, 0.25, 0.0, 0.0, -1.0, 1.0, 0.0, 1.0, 0.0, -0.5, 0.0, 0.0, 0.0, 1.0];
+        assert!(numbers.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{numbers:?}");
+        assert_eq!(numbers.len(), 16);
     }
 
     #[test]
