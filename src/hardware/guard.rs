@@ -41,6 +41,8 @@ struct Core {
     setup: Setup,
     clock: Box<dyn Clock + Send>,
     phase: Phase,
+    /// Why the device could not be made safe when that was last tried.
+    obstacle: Option<Fault>,
     limiter: Limiter,
     watchdog: Watchdog,
     recorder: Option<Recorder>,
@@ -79,6 +81,7 @@ impl Guarded {
             driver,
             clock,
             phase: Phase::Closed,
+            obstacle: None,
             limiter,
             watchdog,
             recorder: None,
@@ -158,6 +161,11 @@ impl Device for Guarded {
     }
 
     fn apply(&mut self, _time: f64, commands: &[f64]) -> Result<(), Fault> {
+        if self.watching.as_ref().is_some_and(|(_, thread)| thread.is_finished()) {
+            let fault = Fault::Refused("its watchdog has ended; connect the robot again".to_owned());
+            self.core().stop(fault.clone());
+            return Err(fault);
+        }
         self.core().apply(commands)
     }
 
@@ -400,6 +408,11 @@ impl Core {
             return;
         }
         self.record(Event::Fault(&why));
+        self.begin_to_stop(why);
+    }
+
+    /// The same without a fault that is worth a record.
+    fn begin_to_stop(&mut self, why: Fault) {
         let moved = self.phase == Phase::Armed && !self.setup.dry_run;
         self.phase = Phase::Safe(why.clone());
         if moved {
@@ -412,20 +425,23 @@ impl Core {
     fn make_safe(&mut self) {
         let Phase::Stopping(why) = self.phase.clone() else { return };
         // A device that cannot be reached has a watchdog of its own; it is tried again all the same.
-        if self.driver.make_safe().unwrap_or(false) {
-            let event = format!("safe: {why}");
-            self.phase = Phase::Safe(why);
-            self.record(Event::Note(&event));
+        match self.driver.make_safe() {
+            Ok(true) => {
+                self.obstacle = None;
+                self.phase = Phase::Safe(why);
+                self.record(Event::Note("safe"));
+            }
+            Ok(false) => {}
+            Err(fault) => self.obstacle = Some(fault),
         }
     }
 
     fn close(&mut self) -> Result<(), Fault> {
-        let fault = match &self.phase {
+        match self.phase {
             Phase::Closed => return Ok(()),
-            Phase::Idle | Phase::Armed => None,
-            Phase::Stopping(why) | Phase::Safe(why) => Some(why.clone()),
-        };
-        self.stop(Fault::Refused("it was closed".to_owned()));
+            Phase::Idle | Phase::Armed => self.begin_to_stop(Fault::NotConnected),
+            Phase::Stopping(_) | Phase::Safe(_) => {}
+        }
         let mut clock = (self.setup.clocks)();
         let end = clock.now() + SAFE_AT_LAST;
         while matches!(self.phase, Phase::Stopping(_)) && clock.now() < end {
@@ -435,13 +451,17 @@ impl Core {
         }
         let summary = format!("closed; limits changed {} commands", self.limiter.limited());
         self.record(Event::Note(&summary));
-        let unsafe_still = matches!(self.phase, Phase::Stopping(_));
+        let stopping = matches!(self.phase, Phase::Stopping(_));
         self.driver.disconnect();
         self.phase = Phase::Closed;
-        match fault {
-            Some(fault) if unsafe_still => Err(fault),
-            _ => Ok(()),
+        if !stopping {
+            return Ok(());
         }
+        // Whoever drops a robot does not look at what this returns.
+        let why =
+            self.obstacle.take().unwrap_or(Fault::Refused("it did not come to rest in time".to_owned()));
+        (self.setup.say)(&format!("{}: it may not be in its safe state: {why}", self.name));
+        Err(why)
     }
 }
 

@@ -42,6 +42,7 @@ pub mod recorder;
 mod registry;
 pub mod robotiq;
 mod safety;
+mod serial_line;
 mod service;
 mod servos;
 mod setup;

@@ -1,12 +1,10 @@
 //! Instructions to servos, and their answers.
 
+use crate::serial_line::{RECEIVED, SerialLine};
 use protocol::Port;
 use protocol::dynamixel::{BROADCAST, Decoder, encode, hardware_error, instruction, status_error};
 use robot::Fault;
-use std::io::ErrorKind;
 
-/// Longest wait for an answer \[s\], beyond the time of its bytes.
-const PATIENCE: f64 = 0.02;
 /// Tries of an instruction to one servo that may be repeated.
 const TRIES: usize = 3;
 
@@ -17,44 +15,21 @@ pub(super) struct Answer {
     pub(super) alert: bool,
 }
 
-/// Most bytes that are taken from the port at once.
-const RECEIVED: usize = 256;
-
 /// The driver's side of a bus. Once it has sent its longest instruction, it allocates nothing.
 pub(super) struct Bus {
-    port: Box<dyn Port>,
+    line: SerialLine,
     decoder: Decoder,
-    sent: Vec<u8>,
-    received: [u8; RECEIVED],
-    /// Seconds a byte takes.
-    byte: f64,
-}
-
-/// An error of the port: the device is gone, or could not be asked.
-fn broken(error: &std::io::Error) -> Fault {
-    match error.kind() {
-        ErrorKind::UnexpectedEof => Fault::Unreachable(format!("the connection is lost: {error}")),
-        _ => Fault::Unreachable(error.to_string()),
-    }
 }
 
 impl Bus {
     pub(super) fn new(port: Box<dyn Port>, baud: u32) -> Bus {
-        Bus {
-            port,
-            decoder: Decoder::with_room(RECEIVED),
-            sent: Vec::with_capacity(1024),
-            received: [0; RECEIVED],
-            byte: 10.0 / f64::from(baud),
-        }
+        Bus { line: SerialLine::new(port, baud), decoder: Decoder::with_room(RECEIVED) }
     }
 
     /// Sends an instruction. What an earlier one left behind is dropped.
     fn send(&mut self, id: u8, instruction: u8, parameters: &[&[u8]]) -> Result<(), Fault> {
-        self.sent.clear();
-        encode(&mut self.sent, id, instruction, parameters);
         self.decoder.clear();
-        self.port.discard().and_then(|()| self.port.send(&self.sent)).map_err(|error| broken(&error))
+        self.line.send(|out| encode(out, id, instruction, parameters))
     }
 
     /// Waits for the next status packet, and gives it to `take` with its id, its error byte and its data.
@@ -63,29 +38,24 @@ impl Bus {
         bytes: usize,
         mut take: impl FnMut(u8, u8, &[u8]) -> Option<R>,
     ) -> Result<R, Fault> {
-        let begun = self.port.now();
-        // Instruction and answer, each with its bytes on the line.
-        let end = begun + PATIENCE + (self.sent.len() + bytes + 16) as f64 * self.byte;
-        loop {
-            while let Some(packet) = self.decoder.next_packet() {
-                // A damaged packet, and the echo of our own instruction, are passed over.
+        let Bus { line, decoder } = self;
+        // Around its data an answer has eleven bytes, and more where these are stuffed.
+        line.answer(bytes + 16, |_, came| {
+            decoder.push(came);
+            while let Some(packet) = decoder.next_packet() {
+                // Damaged packets, and the echo of our own instruction, are skipped.
                 let Ok(packet) = packet else { continue };
                 if packet.instruction != instruction::STATUS {
                     continue;
                 }
-                if let Some((error, data)) = packet.parameters.split_first()
-                    && let Some(taken) = take(packet.id, *error, data)
-                {
-                    return Ok(taken);
+                let taken =
+                    packet.parameters.split_first().and_then(|(error, data)| take(packet.id, *error, data));
+                if taken.is_some() {
+                    return taken;
                 }
             }
-            let now = self.port.now();
-            if now >= end {
-                return Err(Fault::Stale(((now - begun) * 1e3).ceil() as u64));
-            }
-            let count = self.port.receive(&mut self.received, end - now).map_err(|error| broken(&error))?;
-            self.decoder.push(&self.received[..count]);
-        }
+            None
+        })
     }
 
     /// Asks one servo until it answers, a few times.
@@ -218,6 +188,6 @@ impl Bus {
 
     /// Lets the bus rest.
     pub(super) fn wait(&mut self, seconds: f64) {
-        self.port.wait(seconds);
+        self.line.wait(seconds);
     }
 }

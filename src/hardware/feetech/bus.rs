@@ -1,47 +1,30 @@
 //! Instructions to servos, and their answers.
 
+use crate::serial_line::SerialLine;
 use protocol::Port;
 use protocol::feetech::{BROADCAST, Decoder, encode, instruction};
 use robot::Fault;
 
-/// Longest wait for an answer \[s\], beyond the time of its bytes.
-const PATIENCE: f64 = 0.02;
 /// Tries of an instruction to one servo that may be repeated.
 const TRIES: usize = 3;
 /// Bytes of an answer around its data.
 const FRAME: usize = 6;
 
-/// The driver's side of a bus. Once its buffers have their size, it allocates nothing.
+/// The driver's side of a bus.
 pub(super) struct Bus {
-    port: Box<dyn Port>,
+    line: SerialLine,
     decoder: Decoder,
-    sent: Vec<u8>,
-    received: [u8; 256],
-    /// Seconds a byte takes.
-    byte: f64,
-}
-
-fn broken(error: &std::io::Error) -> Fault {
-    Fault::Unreachable(format!("the connection is lost: {error}"))
 }
 
 impl Bus {
     pub(super) fn new(port: Box<dyn Port>, baud: u32) -> Bus {
-        Bus {
-            port,
-            decoder: Decoder::default(),
-            sent: Vec::with_capacity(512),
-            received: [0; 256],
-            byte: 10.0 / f64::from(baud),
-        }
+        Bus { line: SerialLine::new(port, baud), decoder: Decoder::default() }
     }
 
     /// Sends an instruction. What an earlier one left behind is dropped.
     fn send(&mut self, id: u8, code: u8, parameters: &[&[u8]]) -> Result<(), Fault> {
-        self.sent.clear();
-        encode(&mut self.sent, id, code, parameters);
         self.decoder.clear();
-        self.port.discard().and_then(|()| self.port.send(&self.sent)).map_err(|error| broken(&error))
+        self.line.send(|out| encode(out, id, code, parameters))
     }
 
     /// Waits for an answer that `take` accepts: it gets the id, the error byte and the data of each.
@@ -50,25 +33,21 @@ impl Bus {
         bytes: usize,
         mut take: impl FnMut(u8, u8, &[u8]) -> Option<R>,
     ) -> Result<R, Fault> {
-        let begun = self.port.now();
-        let end = begun + PATIENCE + (self.sent.len() + bytes) as f64 * self.byte;
-        // A converter that does not switch its receiver off returns what was sent.
-        let echo = self.sent.get(2..5).map(|sent| [sent[0], sent[2]]);
-        loop {
-            while let Some(packet) = self.decoder.next_packet() {
-                let echoed = echo == Some([packet.id, packet.code])
-                    && packet.parameters.len() + FRAME == self.sent.len();
-                if !echoed && let Some(taken) = take(packet.id, packet.code, packet.parameters) {
-                    return Ok(taken);
+        let Bus { line, decoder } = self;
+        line.answer(bytes, |sent, came| {
+            decoder.push(came);
+            while let Some(packet) = decoder.next_packet() {
+                // A converter that does not switch its receiver off returns what was sent.
+                let echoed = sent.get(2) == Some(&packet.id)
+                    && sent.get(4) == Some(&packet.code)
+                    && packet.parameters.len() + FRAME == sent.len();
+                let taken = if echoed { None } else { take(packet.id, packet.code, packet.parameters) };
+                if taken.is_some() {
+                    return taken;
                 }
             }
-            let now = self.port.now();
-            if now >= end {
-                return Err(Fault::Stale(((now - begun) * 1e3).ceil() as u64));
-            }
-            let count = self.port.receive(&mut self.received, end - now).map_err(|error| broken(&error))?;
-            self.decoder.push(&self.received[..count]);
-        }
+            None
+        })
     }
 
     /// Asks one servo until it answers, a few times; returns its error byte.

@@ -8,8 +8,17 @@ pub(crate) use socket::NoNetwork;
 pub use socket::{Network, Sockets};
 
 use protocol::Port;
+use robot::Fault;
 use std::io;
 use std::sync::Arc;
 
 /// Opens the port of a device by its name and speed; again when the connection was lost.
 pub type Opener = Arc<dyn Fn(&str, u32) -> io::Result<Box<dyn Port>> + Send + Sync>;
+
+/// An error of a port as a fault: the device is gone, or could not be asked.
+pub(crate) fn broken(error: &io::Error) -> Fault {
+    match error.kind() {
+        io::ErrorKind::UnexpectedEof => Fault::Unreachable(format!("the connection is lost: {error}")),
+        _ => Fault::Unreachable(error.to_string()),
+    }
+}

@@ -1,10 +1,10 @@
 //! What is said to a gripper, on either line.
 
+use crate::port::broken;
 use protocol::Port;
 use protocol::modbus::{Request, describe_exception, function};
 use protocol::robotiq::{Action, INPUT, OUTPUT, Object, Stage, Status};
 use robot::Fault;
-use std::io::ErrorKind;
 
 /// Longest wait for a reply \[s\].
 const PATIENCE: f64 = 0.03;
@@ -21,13 +21,6 @@ pub(super) struct Line {
     /// When the last reply ended, or should have \[s\].
     last: f64,
     received: Vec<u8>,
-}
-
-fn broken(error: &std::io::Error) -> Fault {
-    match error.kind() {
-        ErrorKind::UnexpectedEof => Fault::Unreachable(format!("the connection is lost: {error}")),
-        _ => Fault::Unreachable(error.to_string()),
-    }
 }
 
 impl Line {

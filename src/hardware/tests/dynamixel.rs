@@ -232,6 +232,23 @@ fn the_servos_stop_by_themselves_when_the_process_is_killed() {
 }
 
 #[test]
+fn a_robot_that_cannot_be_made_safe_when_it_is_closed_says_so() {
+    let rig = Rig::new(Carries::serial(1e6), |_| {});
+    let (config, model) = (config(""), rig.model.clone());
+    let mut rng = random::Generator::pcg64(1_u64);
+    let mut robot = rig.robot(&config).unwrap();
+    robot.reset(&model, &physics::Data::new(&model), &mut rng).unwrap();
+    rig.bench.lock().unwrap().set_connected(rig.link, false);
+    let error = robot.close().unwrap_err().to_string();
+    assert!(error.contains("device 'arm'") && error.contains("the connection is lost"), "{error}");
+    let said = rig.said.lock().unwrap();
+    assert!(
+        said.last().is_some_and(|said| said.contains("arm: it may not be in its safe state")),
+        "{said:?}"
+    );
+}
+
+#[test]
 fn bad_commands_and_failing_hardware_are_named() {
     let rig = Rig::new(Carries::serial(1e6), |_| {});
     let (config, model) = (config(""), rig.model.clone());

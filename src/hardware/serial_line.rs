@@ -1,0 +1,67 @@
+//! A serial line that one side uses at a time: an instruction goes out, and answers come until it is too late.
+
+use crate::port::broken;
+use protocol::Port;
+use robot::Fault;
+
+/// Longest wait for an answer \[s\], beyond the time of its bytes.
+const PATIENCE: f64 = 0.02;
+/// Most bytes that are taken from the port at once.
+pub(crate) const RECEIVED: usize = 256;
+/// Longest instruction that fits without allocation.
+const SENT: usize = 1024;
+
+/// The driver's end of a line.
+pub(crate) struct SerialLine {
+    port: Box<dyn Port>,
+    sent: Vec<u8>,
+    received: [u8; RECEIVED],
+    /// Seconds a byte takes.
+    byte: f64,
+}
+
+impl SerialLine {
+    pub(crate) fn new(port: Box<dyn Port>, baud: u32) -> SerialLine {
+        SerialLine {
+            port,
+            sent: Vec::with_capacity(SENT),
+            received: [0; RECEIVED],
+            byte: 10.0 / f64::from(baud),
+        }
+    }
+
+    /// Sends what `encode` appends, and drops what has arrived before.
+    pub(crate) fn send(&mut self, encode: impl FnOnce(&mut Vec<u8>)) -> Result<(), Fault> {
+        self.sent.clear();
+        encode(&mut self.sent);
+        self.port.discard().and_then(|()| self.port.send(&self.sent)).map_err(|error| broken(&error))
+    }
+
+    /// Waits for an answer of `bytes` bytes: `take` gets what was sent and what has come since its last call, at first
+    /// nothing, until it finds one.
+    pub(crate) fn answer<R>(
+        &mut self,
+        bytes: usize,
+        mut take: impl FnMut(&[u8], &[u8]) -> Option<R>,
+    ) -> Result<R, Fault> {
+        let begun = self.port.now();
+        // The instruction is still going out.
+        let end = begun + PATIENCE + (self.sent.len() + bytes) as f64 * self.byte;
+        let mut count = 0;
+        loop {
+            if let Some(taken) = take(&self.sent, &self.received[..count]) {
+                return Ok(taken);
+            }
+            let now = self.port.now();
+            if now >= end {
+                return Err(Fault::Stale(((now - begun) * 1e3).ceil() as u64));
+            }
+            count = self.port.receive(&mut self.received, end - now).map_err(|error| broken(&error))?;
+        }
+    }
+
+    /// Lets the line rest.
+    pub(crate) fn wait(&mut self, seconds: f64) {
+        self.port.wait(seconds);
+    }
+}
