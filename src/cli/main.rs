@@ -1,5 +1,6 @@
 //! The `robohive` command: one subcommand a file, in parts that build on those before them: `input` (models and
-//! environments by name), `pictures`, `recordings`, `models`, `robots` (devices), `environments`; `assets`, `teleop`, `view`, `web` and `shell` beside them.
+//! environments by name), `pictures`, `recordings`, `models`, `robots` (devices), `environments`; `assets`, `teleop`, `view`,
+//! `web` and `shell` beside them.
 
 // Comments of arguments are what `--help` prints, where brackets are units and defaults.
 #![allow(rustdoc::broken_intra_doc_links)]

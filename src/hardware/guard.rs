@@ -57,7 +57,7 @@ struct Core {
 /// A device of a robot: a driver, with what makes it safe to use around it.
 ///
 /// Readings have the time since the connection began. A fault of the link or the hardware, and silence, bring the device into
-/// its safe state; [`Device::reset`] connects again where that is needed and arms it anew.
+/// its safe state; [`Device::reset`] reconnects where needed and arms it again.
 pub struct Guarded {
     core: Arc<Mutex<Core>>,
     watching: Option<(Arc<AtomicBool>, JoinHandle<()>)>,

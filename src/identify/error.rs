@@ -65,7 +65,7 @@ impl fmt::Display for IdentifyError {
             IdentifyError::Step { log, time, error } => write!(
                 f,
                 "{log}: the simulation fails at {time:.4} s, before anything is fitted: {error}; begin with values nearer to the \
-                 robot's, or start it anew from recorded states by shorter windows"
+                 robot's, or restart it from recorded states by shorter windows"
             ),
             IdentifyError::Description(diagnostics) => write!(f, "{diagnostics}"),
         }

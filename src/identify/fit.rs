@@ -20,7 +20,7 @@ const LEAST_NOISE: f64 = 1e-6;
 pub struct Options {
     /// Iterations of each round, at most.
     pub iterations: usize,
-    /// Simulations are begun anew from recorded states after this time, where logs have states in every row \[s\].
+    /// Simulations restart from recorded states after this time, where logs have states in every row \[s\].
     pub window: f64,
 }
 
@@ -38,7 +38,7 @@ impl Options {
         self
     }
 
-    /// Simulations are begun anew from recorded states after this time \[s\].
+    /// Simulations restart from recorded states after this time \[s\].
     #[must_use]
     pub fn with_window(mut self, seconds: f64) -> Self {
         self.window = seconds;
@@ -135,7 +135,7 @@ pub fn identify(
     let Some((minimum, weights)) = last else {
         return Err(IdentifyError::Choice("a fit has one round at least".into()));
     };
-    // The last noise is that of the last fit: derivatives are weighted anew.
+    // The last noise is that of the last fit: derivatives are weighted again.
     let jacobian: Vec<Vec<f64>> = minimum
         .jacobian
         .iter()

@@ -10,7 +10,7 @@ use std::fmt;
 pub const BAUD: u32 = 115_200;
 /// Ends a stream of samples.
 pub const STOP: u8 = 0x03;
-/// Begins anew, as when the glove is switched on.
+/// Resets the glove, as a power cycle does.
 pub const RESET: u8 = 0x12;
 /// Asks for one sample.
 pub const SAMPLE: u8 = b'G';
@@ -94,7 +94,7 @@ impl fmt::Display for GloveError {
 
 impl std::error::Error for GloveError {}
 
-/// The command for so many samples a second: 115 200 over the rate, and how often that is waited for.
+/// The command that sets the sample rate \[Hz\]: 115 200 over the rate, and how often that is waited for.
 ///
 /// ```
 /// assert_eq!(robohive_protocol::cyberglove::rate(80.0), [b'T', 0x05, 0xA0, 0, 1]);

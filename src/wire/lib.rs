@@ -2,7 +2,7 @@
 //!
 //! A [`Bench`] has a [`Plant`] (a model in motion) and devices on it, each behind a link. In virtual time a driver reaches
 //! them through a [`VirtualPort`], so that a run is the same every time and takes no longer than its computation; in real
-//! time [`serve`] offers them on a pseudo-terminal, where any program can open them. Either way a seeded injector makes of
+//! time [`serve`] offers them on pseudo-terminals and sockets, where any program can open them. Either way a seeded injector makes of
 //! the link what cables and networks do: see [`Rates`].
 //!
 //! ```

@@ -60,7 +60,7 @@ pub struct Identify {
     /// Compare these columns only, by names with *, separated by commas
     #[arg(long, value_name = "COLUMNS")]
     pub columns: Option<String>,
-    /// Begin anew from recorded states after this time, where every row has qpos and qvel [s]
+    /// Restart from recorded states after this time, where every row has qpos and qvel [s]
     #[arg(long, value_name = "SECONDS")]
     pub window: Option<f64>,
     /// Iterations of each of three rounds, at most

@@ -10,7 +10,7 @@ use ::hardware::recorder::{What, read};
 use ::hardware::{kinds, serial_ports};
 use clap::{Args, Subcommand, ValueHint};
 use serde_json::json;
-use std::io::{IsTerminal, Write};
+use std::io::IsTerminal;
 use std::path::PathBuf;
 
 /// Look at a robot's devices: which there are, how they answer, what they measure
@@ -256,7 +256,6 @@ fn monitor(a: &Monitor) -> Result<(), Failure> {
             }
             lines += 1 + device.config.sensors.len();
         }
-        std::io::stdout().flush().unwrap_or_default();
         clock.wait(1.0 / a.rate);
     }
     devices

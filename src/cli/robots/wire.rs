@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::interrupt::Interrupt;
 use crate::robots::rehearsal::simulated;
-use crate::terminal::show;
+use crate::terminal::{note, show};
 use clap::{Args, ValueHint};
 use protocol::dynamixel::MODELS;
 use protocol::optitrack::natnet;
@@ -95,10 +95,11 @@ pub fn run(a: &Wire) -> Result<(), Failure> {
         (Some(path), Some(id)) => devices_of(a, path, id)?,
         _ => stand(a)?,
     };
-    let mut ends = Vec::new();
+    let mut ends: Vec<(LinkId, End)> = Vec::new();
     for device in &rigged {
         for (outlet, link) in &device.links {
-            bench.inject(*link, a.faults, a.seed);
+            // Links of one seed would be struck at the same messages.
+            bench.inject(*link, a.faults, a.seed.wrapping_add(ends.len() as u64));
             let end = end(*outlet).map_err(|error| Failure::new(format!("{}: {error}", device.device)))?;
             let address = end.address();
             show!("{}: {}", device.device, described(*outlet, &address));
@@ -154,7 +155,8 @@ fn readdress(config: &mut Config, device: &Rigged, outlet: Outlet, address: &str
         Outlet::Udp(_) if first => {
             parameters.insert(device.key.to_owned(), Value::Text(Ipv4Addr::LOCALHOST.to_string()));
         }
-        _ => {}
+        // Drivers announce where states go, and requests have one port everywhere.
+        Outlet::Serial | Outlet::Udp(_) => {}
     }
 }
 
@@ -244,6 +246,8 @@ impl Linked {
 
 impl Drop for Linked {
     fn drop(&mut self) {
-        std::fs::remove_file(&self.0).unwrap_or_default();
+        if let Err(error) = std::fs::remove_file(&self.0) {
+            note(&format!("the link {} is left: {error}", self.0.display()));
+        }
     }
 }

@@ -18,6 +18,7 @@ use env::{Env, Hardware};
 use protocol::adb;
 use record::Recording;
 use render::Painters;
+use std::env::VarError;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -194,7 +195,11 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
         DeviceChoice::Quest(address) => {
             let local = || format!("127.0.0.1:{}", adb::PORT);
             // As adb itself: which of several headsets.
-            let serial = std::env::var("ANDROID_SERIAL").ok();
+            let serial = match std::env::var("ANDROID_SERIAL") {
+                Ok(serial) => Some(serial),
+                Err(VarError::NotPresent) => None,
+                Err(error) => return Err(Failure::usage(format!("ANDROID_SERIAL: {error}"))),
+            };
             Opened::quest_at(&address.clone().unwrap_or_else(local), serial.as_deref())?
         }
     };

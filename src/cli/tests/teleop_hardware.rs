@@ -26,7 +26,7 @@ fn seconds(typed: &Typed) -> f64 {
     after.split(' ').next().unwrap().parse().unwrap()
 }
 
-/// Waits until the line shows so many seconds of the episode, or more.
+/// Waits until the status line shows at least this episode time.
 fn until(typed: &Typed, time: f64) {
     let began = Instant::now();
     while seconds(typed) < time {

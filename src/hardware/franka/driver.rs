@@ -149,7 +149,7 @@ impl Franka {
         self.respond(1)
     }
 
-    /// Answers the newest state, which is so many after the one that was answered before.
+    /// Answers the newest state; `steps` states came since the last answered one.
     fn respond(&mut self, steps: u64) -> Result<(), Fault> {
         let gain = if self.resetting { self.settings.reset_gain_scale } else { self.settings.gain_scale };
         let (Some(link), Some(motion)) = (&mut self.link, &mut self.motion) else { return Ok(()) };

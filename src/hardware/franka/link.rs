@@ -193,7 +193,7 @@ impl Link {
             if bytes.is_empty() {
                 break;
             }
-            // Damaged datagrams, and those that were overtaken, are passed over.
+            // Damaged and outdated datagrams are skipped.
             let Some(state) = State::decode(bytes, self.version) else { continue };
             let latest = newest.as_ref().map_or(before, |newest| newest.message);
             let plausible = self.received.is_none() || state.message < before + MOST_AHEAD;

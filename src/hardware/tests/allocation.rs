@@ -115,7 +115,7 @@ fn reading_and_commanding_servos_allocates_nothing() {
     }
     let change = region.change();
     repeats.store(false, Ordering::Relaxed);
-    // The readings are those of the servos where they stood: the answers are decoded, and not passed over.
+    // The readings are those of the servos where they stood: the answers are decoded, not skipped.
     for (motor, value) in values.iter().enumerate() {
         let angle = seen.lock().unwrap().plant().position(motor) + std::f64::consts::PI;
         assert!((value - angle).abs() < protocol::dynamixel::Model::POSITION_UNIT, "{value} {angle}");

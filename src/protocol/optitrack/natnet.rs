@@ -282,7 +282,7 @@ impl Reader<'_> {
         self.bytes().map(|bytes| f64::from(f32::from_le_bytes(bytes)))
     }
 
-    /// How many elements a section has, no more than there can be bytes for; the size that it says is passed over.
+    /// How many elements a section has, no more than there can be bytes for; its stated size is skipped.
     fn count(&mut self, least: usize, sized: bool) -> Option<usize> {
         let count = usize::try_from(self.i32()?).ok()?;
         if sized {

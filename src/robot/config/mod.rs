@@ -17,7 +17,7 @@
 //!
 //! | key | of | meaning | when missing |
 //! |---|---|---|---|
-//! | `name` | all | name in the model; of devices, name in messages | error |
+//! | `name` | all | name in the model; of devices, name in messages; of a sensor also `name[k]`, a component of the pose (`framepos`, `framequat`) of a body with a free joint | error |
 //! | `interface` | device | `type` names the driver of the hardware, the rest are its parameters | none |
 //! | `sensor`, `actuator`, `cam` | device | lists | empty |
 //! | `range` | sensor, camera | readings are clipped to it | error |
