@@ -1,13 +1,12 @@
 //! A robot over simulated Dynamixel servos: the same motion as in simulation, and what its safety does.
 
-use protocol::Port;
+mod rig;
+
 use protocol::dynamixel::{MODELS, address, hardware_error};
-use robohive_hardware::{Services, Setup, TendedClock, registry};
+use rig::Rig;
 use robot::{Clock, Config, Fault, Options, Robot, RobotError};
-use std::io;
-use std::sync::{Arc, Mutex};
 use wire::dynamixel::{Bus, Servo};
-use wire::{Bench, Carries, LinkId, Plant, Rates, Shared, VirtualClock, VirtualPort};
+use wire::{Bench, Carries, Plant, Rates, VirtualClock};
 
 const ARM: &str = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody>
     <body><joint name='shoulder' axis='0 1 0' damping='.1' armature='.01'/>
@@ -33,62 +32,19 @@ fn config(extra: &str) -> Config {
     Config::from_toml(&text, "arm.toml").expect("a sound config")
 }
 
-struct Rig {
-    model: physics::Model,
-    bench: Shared,
-    link: LinkId,
-    services: Services,
-    setup: Setup,
-    said: Arc<Mutex<Vec<String>>>,
-}
-
-impl Rig {
-    fn new(carries: Carries, prepare: impl FnOnce(&mut [Servo])) -> Rig {
-        let model = robohive_mjcf::load_str(ARM).expect("a sound model").model;
-        let plant = Plant::new(model.clone()).expect("a sound state");
-        let mut servos = Vec::new();
-        for (id, name, scale) in [(10, "shoulder", 1.0), (11, "elbow", -1.0)] {
-            let mut servo = Servo::new(&MODELS[0], id);
-            servo.mount(plant.motor(name).expect("an actuator"), scale, std::f64::consts::PI);
-            servos.push(servo);
-        }
-        prepare(&mut servos);
-        let mut bench = Bench::new(plant);
-        let link = bench.connect(Box::new(Bus::new(servos)), carries);
-        let bench = Arc::new(Mutex::new(bench));
-        let services = Services::default();
-        let (clocked, opened) = (bench.clone(), bench.clone());
-        let open = move |path: &str, _: u32| -> io::Result<Box<dyn Port>> {
-            if path != "bus0" {
-                return Err(io::Error::new(io::ErrorKind::NotFound, format!("there is no {path}")));
-            }
-            opened.lock().unwrap().set_connected(link, true);
-            Ok(Box::new(VirtualPort::new(opened.clone(), link)))
-        };
-        let said = Arc::new(Mutex::new(Vec::new()));
-        let heard = said.clone();
-        let mut setup = Setup::default().in_virtual_time(
-            Arc::new(move || Box::new(VirtualClock::new(clocked.clone()))),
-            services.clone(),
-            Arc::new(open),
-        );
-        setup.say = Arc::new(move |line| heard.lock().unwrap().push(line.to_owned()));
-        Rig { model, bench, link, services, setup: setup.with_armed(true), said }
+fn on_bus(carries: Carries, prepare: impl FnOnce(&mut [Servo])) -> Rig {
+    let model = robohive_mjcf::load_str(ARM).expect("a sound model").model;
+    let plant = Plant::new(model.clone()).expect("a sound state");
+    let mut servos = Vec::new();
+    for (id, name, scale) in [(10, "shoulder", 1.0), (11, "elbow", -1.0)] {
+        let mut servo = Servo::new(&MODELS[0], id);
+        servo.mount(plant.motor(name).expect("an actuator"), scale, std::f64::consts::PI);
+        servos.push(servo);
     }
-
-    fn robot(&self, config: &Config) -> Result<Robot, RobotError> {
-        let options = Options::default().with_hardware(true).with_normalized(false);
-        Robot::with_devices(&self.model, Some(config), options, &registry(&self.setup))
-    }
-
-    fn clock(&self) -> TendedClock<VirtualClock> {
-        TendedClock::new(VirtualClock::new(self.bench.clone()), self.services.clone())
-    }
-
-    fn positions(&self) -> [f64; 2] {
-        let bench = self.bench.lock().unwrap();
-        [bench.plant().position(0), bench.plant().position(1)]
-    }
+    prepare(&mut servos);
+    let mut bench = Bench::new(plant);
+    let link = bench.connect(Box::new(Bus::new(servos)), carries);
+    Rig::new(model, bench, link)
 }
 
 /// What a policy might do: two sines.
@@ -99,7 +55,7 @@ fn action(k: u32) -> [f64; 2] {
 
 #[test]
 fn the_same_policy_ends_within_quantisation_of_the_simulation() {
-    let rig = Rig::new(Carries::AT_ONCE, |_| {});
+    let rig = on_bus(Carries::AT_ONCE, |_| {});
     let config = config("profile_velocity = 0");
     let model = rig.model.clone();
     let mut rng = random::Generator::pcg64(1_u64);
@@ -143,7 +99,7 @@ fn the_same_policy_ends_within_quantisation_of_the_simulation() {
 
 #[test]
 fn nothing_moves_before_it_is_armed_and_a_dry_run_says_what_it_would_send() {
-    let mut rig = Rig::new(Carries::serial(1e6), |servos| {
+    let mut rig = on_bus(Carries::serial(1e6), |servos| {
         // An earlier user left a goal far away.
         servos[0].set_register(address::GOAL_POSITION, 3000);
     });
@@ -175,7 +131,7 @@ fn nothing_moves_before_it_is_armed_and_a_dry_run_says_what_it_would_send() {
 
 #[test]
 fn an_old_goal_does_not_make_it_leap() {
-    let rig = Rig::new(Carries::serial(1e6), |servos| {
+    let rig = on_bus(Carries::serial(1e6), |servos| {
         servos.iter_mut().for_each(|servo| servo.set_register(address::GOAL_POSITION, 4000));
     });
     let (config, model) = (config(""), rig.model.clone());
@@ -190,7 +146,7 @@ fn an_old_goal_does_not_make_it_leap() {
 
 #[test]
 fn silence_stops_it_and_a_reset_goes_on() {
-    let rig = Rig::new(Carries::serial(1e6), |_| {});
+    let rig = on_bus(Carries::serial(1e6), |_| {});
     let (config, model) = (config(""), rig.model.clone());
     let mut rng = random::Generator::pcg64(1_u64);
     let mut robot = rig.robot(&config).unwrap();
@@ -215,7 +171,7 @@ fn silence_stops_it_and_a_reset_goes_on() {
 
 #[test]
 fn the_servos_stop_by_themselves_when_the_process_is_killed() {
-    let rig = Rig::new(Carries::serial(1e6), |_| {});
+    let rig = on_bus(Carries::serial(1e6), |_| {});
     let (config, model) = (config(""), rig.model.clone());
     let mut rng = random::Generator::pcg64(1_u64);
     let mut robot = rig.robot(&config).unwrap();
@@ -233,7 +189,7 @@ fn the_servos_stop_by_themselves_when_the_process_is_killed() {
 
 #[test]
 fn a_robot_that_cannot_be_made_safe_when_it_is_closed_says_so() {
-    let rig = Rig::new(Carries::serial(1e6), |_| {});
+    let rig = on_bus(Carries::serial(1e6), |_| {});
     let (config, model) = (config(""), rig.model.clone());
     let mut rng = random::Generator::pcg64(1_u64);
     let mut robot = rig.robot(&config).unwrap();
@@ -250,7 +206,7 @@ fn a_robot_that_cannot_be_made_safe_when_it_is_closed_says_so() {
 
 #[test]
 fn bad_commands_and_failing_hardware_are_named() {
-    let rig = Rig::new(Carries::serial(1e6), |_| {});
+    let rig = on_bus(Carries::serial(1e6), |_| {});
     let (config, model) = (config(""), rig.model.clone());
     let mut rng = random::Generator::pcg64(1_u64);
     let mut robot = rig.robot(&config).unwrap();
@@ -268,7 +224,7 @@ fn bad_commands_and_failing_hardware_are_named() {
     robot.reset(&model, &data, &mut rng).unwrap();
     robot.close().unwrap();
 
-    let wrong = Rig::new(Carries::AT_ONCE, |servos| {
+    let wrong = on_bus(Carries::AT_ONCE, |servos| {
         servos[1].set_register(address::SHUTDOWN, 0x3F);
         servos[1].break_down(hardware_error::OVERLOAD);
         servos[1].set_register(address::ID, 12);
@@ -294,7 +250,7 @@ fn a_thousand_seeded_faults_end_in_errors_or_in_motion_within_limits() {
     let (mut struck, mut episodes, mut errors, mut seed) = (0, 0, 0, 0);
     while struck < 1000 {
         seed += 1;
-        let rig = Rig::new(Carries::serial(1e6), |_| {});
+        let rig = on_bus(Carries::serial(1e6), |_| {});
         let (config, model) = (config(""), rig.model.clone());
         let mut rng = random::Generator::pcg64(seed);
         let mut robot = rig.robot(&config).unwrap();
@@ -333,7 +289,7 @@ fn a_thousand_seeded_faults_end_in_errors_or_in_motion_within_limits() {
 
 #[test]
 fn simulated_devices_have_no_network_to_a_real_one() {
-    let rig = Rig::new(Carries::AT_ONCE, |_| {});
+    let rig = on_bus(Carries::AT_ONCE, |_| {});
     let mut config = config("");
     let interface = &mut config.devices[0].interface;
     interface.kind = Some("robotiq".to_owned());

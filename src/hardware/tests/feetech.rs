@@ -1,11 +1,10 @@
 //! A robot over simulated Feetech servos: the same motion as in simulation, errors by name, seeded faults.
 
-use protocol::Port;
-use robohive_hardware::{Services, Setup, TendedClock, registry};
-use robot::{Clock, Config, Options, Robot, RobotError};
-use std::io;
-use std::sync::{Arc, Mutex};
-use wire::{Bench, LinkId, Plant, Rates, Shared, VirtualClock, VirtualPort, rig};
+mod rig;
+
+use rig::Rig;
+use robot::{Clock, Config, Options, Robot};
+use wire::{Plant, Rates, VirtualClock};
 
 const ARM: &str = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody>
     <body><joint name='pan' axis='0 0 1' damping='.1' armature='.01'/>
@@ -31,49 +30,10 @@ fn config(extra: &str) -> Config {
     Config::from_toml(&text, "so.toml").unwrap()
 }
 
-struct Rig {
-    model: physics::Model,
-    bench: Shared,
-    link: LinkId,
-    services: Services,
-    setup: Setup,
-}
-
-impl Rig {
-    fn new(config: &Config, at_once: bool) -> Rig {
-        let model = robohive_mjcf::load_str(ARM).unwrap().model;
-        let (bench, rigged): (Bench, _) = rig(config, Plant::new(model.clone()).unwrap(), at_once).unwrap();
-        let link = rigged[0].links[0].1;
-        let bench: Shared = Arc::new(Mutex::new(bench));
-        let services = Services::default();
-        let (clocked, opened) = (bench.clone(), bench.clone());
-        let open = move |_: &str, _: u32| -> io::Result<Box<dyn Port>> {
-            opened.lock().unwrap().set_connected(link, true);
-            Ok(Box::new(VirtualPort::new(opened.clone(), link)))
-        };
-        let setup = Setup::default()
-            .in_virtual_time(
-                Arc::new(move || Box::new(VirtualClock::new(clocked.clone())) as _),
-                services.clone(),
-                Arc::new(open),
-            )
-            .with_armed(true);
-        Rig { model, bench, link, services, setup }
-    }
-
-    fn robot(&self, config: &Config) -> Result<Robot, RobotError> {
-        let options = Options::default().with_hardware(true).with_normalized(false);
-        Robot::with_devices(&self.model, Some(config), options, &registry(&self.setup))
-    }
-
-    fn clock(&self) -> TendedClock<VirtualClock> {
-        TendedClock::new(VirtualClock::new(self.bench.clone()), self.services.clone())
-    }
-
-    fn positions(&self) -> [f64; 2] {
-        let bench = self.bench.lock().unwrap();
-        [bench.plant().position(0), bench.plant().position(1)]
-    }
+fn on_bus(config: &Config, at_once: bool) -> Rig {
+    let model = robohive_mjcf::load_str(ARM).unwrap().model;
+    let (bench, rigged) = wire::rig(config, Plant::new(model.clone()).unwrap(), at_once).unwrap();
+    Rig::new(model, bench, rigged[0].links[0].1)
 }
 
 fn action(k: u32) -> [f64; 2] {
@@ -84,7 +44,7 @@ fn action(k: u32) -> [f64; 2] {
 #[test]
 fn the_same_policy_ends_within_quantisation_of_the_simulation() {
     let config = config("speed = 0, acceleration = 0");
-    let rig = Rig::new(&config, true);
+    let rig = on_bus(&config, true);
     let model = rig.model.clone();
     let mut rng = random::Generator::pcg64(1_u64);
     let mut simulated = Robot::new(&model, Some(&config), Options::default().with_normalized(false)).unwrap();
@@ -114,6 +74,7 @@ fn the_same_policy_ends_within_quantisation_of_the_simulation() {
         worst = away.fold(worst, f64::max);
     }
     hardware.close().unwrap();
+    assert!(rig.said.lock().unwrap().is_empty(), "all went well");
     // A step is 1.5 mrad: half of it for the command, half for the reading that limits the velocity.
     assert!(worst < 1.6e-3 && worst > 1e-5, "{worst}");
     assert!(truth.state.qpos[0].abs() > 0.05, "it moved");
@@ -122,7 +83,7 @@ fn the_same_policy_ends_within_quantisation_of_the_simulation() {
 #[test]
 fn silence_trouble_and_wrong_configs_are_named() {
     let sound = config("");
-    let rig = Rig::new(&sound, false);
+    let rig = on_bus(&sound, false);
     let (model, mut rng) = (rig.model.clone(), random::Generator::pcg64(1_u64));
     let data = physics::Data::new(&model);
     let mut robot = rig.robot(&sound).unwrap();
@@ -157,7 +118,7 @@ fn seeded_faults_end_in_errors_or_in_motion_within_limits() {
     let (mut struck, mut episodes, mut errors, mut seed) = (0, 0, 0, 0);
     while struck < 1000 {
         seed += 1;
-        let rig = Rig::new(&sound, false);
+        let rig = on_bus(&sound, false);
         let (model, mut rng) = (rig.model.clone(), random::Generator::pcg64(seed));
         let data = physics::Data::new(&model);
         let mut robot = rig.robot(&sound).unwrap();
