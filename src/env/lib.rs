@@ -48,8 +48,11 @@ pub use crate::assets::{AssetError, Assets, Folder, OwnModels};
 pub use draws::{Ranges, Rng};
 #[doc(hidden)]
 pub use environment::Injected;
-pub use environment::{Env, EnvMemory, EnvState, Hardware, Options, PathReward, Ready, Step, WorldState};
+pub use environment::{
+    Env, EnvMemory, EnvState, Hardware, OpenCameras, Options, PathReward, Ready, Step, WorldState,
+};
 pub use error::{EnvError, NotReady, panic_text};
+pub use pictures::cameras::{CameraError, Cameras};
 pub use pictures::eyes::{Exteroception, Image, Pixels};
 pub use pictures::network::{Network, NetworkError, Networks, NoNetworks};
 pub use pictures::rendering::{RenderMode, RenderModeError, Rendering};

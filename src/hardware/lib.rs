@@ -11,6 +11,7 @@
 //! | `franka` | Franka arms (Panda, FR3) over the Franka Control Interface, with the Franka Hand | [`franka`] |
 //! | `robotiq` | Robotiq 2F-85 grippers, by Modbus RTU or behind a Universal Robots controller | [`robotiq`] |
 //! | `optitrack` | OptiTrack trackers by NatNet, and RoboHive's packet | [`optitrack`] |
+//! | `camera`, `realsense` | cameras, which are no [`Driver`]s: they move nothing, and show pictures instead of values | [`camera`] |
 //!
 //! # Safety
 //!
@@ -30,6 +31,7 @@
 //! clock of `robohive-wire` a robot runs against simulated devices in virtual time, to the bit the same every time.
 
 pub mod calibration;
+pub mod camera;
 mod driver;
 pub mod dynamixel;
 pub mod feetech;

@@ -1,5 +1,6 @@
 //! What drivers run with: what is allowed, and whose time it is.
 
+use crate::camera::{Captures, NoCaptures, System};
 use crate::port::{Network, NoNetwork, Opener, Serial, Sockets};
 use crate::service::Services;
 use protocol::Port;
@@ -25,6 +26,8 @@ pub struct Setup {
     pub serial: Opener,
     /// Opens connections and sockets.
     pub sockets: Arc<dyn Sockets>,
+    /// Opens cameras.
+    pub captures: Arc<dyn Captures>,
     /// Time.
     pub clocks: Clocks,
     /// What a driver has to say to a person.
@@ -45,6 +48,7 @@ impl Default for Setup {
             records: None,
             serial: Arc::new(open_serial),
             sockets: Arc::new(Network),
+            captures: Arc::new(System),
             clocks: Arc::new(move || Box::new(start)),
             say: Arc::new(|line| eprintln!("{line}")),
             services: None,
@@ -58,8 +62,8 @@ fn open_serial(path: &str, baud: u32) -> io::Result<Box<dyn Port>> {
 }
 
 impl Setup {
-    /// Devices in the time of `clock`, without threads, without locks and without the network, so that no driver reaches a
-    /// real device by accident: for simulated devices. What moves the time must be a [`TendedClock`](crate::TendedClock) over
+    /// Devices in the time of `clock`, without threads, without locks, without the network and without cameras, so that no
+    /// driver reaches a real device by accident: for simulated devices. What moves the time must be a [`TendedClock`](crate::TendedClock) over
     /// the same [`Services`].
     #[must_use]
     pub fn in_virtual_time(mut self, clocks: Clocks, services: Services, serial: Opener) -> Self {
@@ -67,6 +71,7 @@ impl Setup {
         self.services = Some(services);
         self.serial = serial;
         self.sockets = Arc::new(NoNetwork);
+        self.captures = Arc::new(NoCaptures);
         self.locks = false;
         self
     }
@@ -75,6 +80,13 @@ impl Setup {
     #[must_use]
     pub fn with_sockets(mut self, sockets: Arc<dyn Sockets>) -> Self {
         self.sockets = sockets;
+        self
+    }
+
+    /// How cameras are opened.
+    #[must_use]
+    pub fn with_captures(mut self, captures: Arc<dyn Captures>) -> Self {
+        self.captures = captures;
         self
     }
 

@@ -15,6 +15,7 @@
 //! ```
 
 mod cache;
+mod cameras;
 pub mod memory;
 mod rehearsal;
 mod renderer;

@@ -1,5 +1,6 @@
 //! Robots that are hardware, and their rehearsal: the same drivers against simulated devices, in virtual time.
 
+use crate::cameras::{Onlookers, opener};
 use env::{Env, EnvError, Hardware, Ready};
 use hardware::{Clocks, Services, Setup, Sockets, TendedClock, registry};
 use physics::StepError;
@@ -87,7 +88,10 @@ impl Rehearsal {
         let open = move |address: &str, _: u32| serial.open(address, Outlet::Serial);
         let bench = self.bench.clone();
         let clocks: Clocks = Arc::new(move || Box::new(VirtualClock::new(bench.clone())));
-        setup.in_virtual_time(clocks, self.services.clone(), Arc::new(open)).with_sockets(Arc::new(wires))
+        setup
+            .in_virtual_time(clocks, self.services.clone(), Arc::new(open))
+            .with_sockets(Arc::new(wires))
+            .with_captures(Arc::new(Onlookers(self.bench.clone())))
     }
 
     /// A clock that lets the simulated time pass.
@@ -108,8 +112,10 @@ impl Rehearsal {
     /// What an environment drives in a rehearsal. `ready` is called besides the simulated person, after it.
     pub fn hardware(&self, config: Config, setup: Setup, ready: Option<Ready>) -> Hardware {
         let (rehearsal, person) = (self.clone(), self.person());
+        let setup = self.setup(setup);
         Hardware {
-            registry: Arc::new(registry(&self.setup(setup))),
+            registry: Arc::new(registry(&setup)),
+            cameras: Some(opener(setup)),
             clock: Arc::new(move || rehearsal.clock()),
             ready: Arc::new(move |qpos| {
                 person(qpos)?;
@@ -165,5 +171,11 @@ impl Sockets for Wires {
 /// What an environment drives in earnest, in the time of the wall. Without a config its own is used.
 pub fn real_hardware(config: Option<Config>, setup: &Setup, ready: Ready) -> Hardware {
     let start = WallClock::default();
-    Hardware { registry: Arc::new(registry(setup)), clock: Arc::new(move || Box::new(start)), ready, config }
+    Hardware {
+        registry: Arc::new(registry(setup)),
+        cameras: Some(opener(setup.clone())),
+        clock: Arc::new(move || Box::new(start)),
+        ready,
+        config,
+    }
 }

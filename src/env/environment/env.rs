@@ -159,6 +159,7 @@ impl Env {
             .map(|config| Look::new(config, &scene.model, options.seed))
             .transpose()
             .map_err(|message| spec.wrong(message))?;
+        let live = hardware.map(|hardware| Live::new(hardware, config.as_ref(), &visual_keys)).transpose()?;
         // A name that is wrong fails here rather than at the first picture.
         Camera::named(&scene.model, &options.rendering.camera)?;
         let nu = scene.model.nu;
@@ -178,7 +179,7 @@ impl Env {
             compat: options.compat,
             task,
             robot,
-            live: hardware.map(Live::new),
+            live,
             rng,
             start: initial.clone(),
             initial,

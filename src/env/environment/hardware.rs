@@ -1,6 +1,8 @@
 //! An environment whose robot is hardware: its state is what the devices say, and time is not ours to choose.
 
-use crate::error::NotReady;
+use crate::error::{EnvError, NotReady};
+use crate::pictures::cameras::{CameraError, Cameras};
+use crate::pictures::visual::VisualKey;
 use robot::{Clock, Config, Pacer, Registry};
 use std::fmt;
 use std::sync::Arc;
@@ -8,6 +10,9 @@ use std::sync::Arc;
 /// Prepares the surroundings once the robot stands where an episode begins, at these positions: asks a person, or puts
 /// things back.
 pub type Ready = Arc<dyn Fn(&[f64]) -> Result<(), NotReady> + Send + Sync>;
+
+/// Opens the cameras of a robot's config.
+pub type OpenCameras = Arc<dyn Fn(&Config) -> Result<Box<dyn Cameras>, CameraError> + Send + Sync>;
 
 /// Devices in the place of a simulation.
 ///
@@ -23,6 +28,8 @@ pub struct Hardware {
     pub ready: Ready,
     /// The robot's config, if not the environment's own.
     pub config: Option<Config>,
+    /// Opens what visual keys see, if there are any. Without it they see drawings of the state that mirrors the devices.
+    pub cameras: Option<OpenCameras>,
 }
 
 impl fmt::Debug for Hardware {
@@ -41,15 +48,38 @@ pub(crate) struct Live {
     pub(crate) begun: Option<f64>,
     /// A command was sent in this episode.
     pub(crate) commanded: bool,
+    /// What visual keys see.
+    pub(crate) cameras: Option<Box<dyn Cameras>>,
 }
 
 impl Live {
-    pub(crate) fn new(hardware: &Hardware) -> Live {
-        Live {
+    /// Opens the cameras, if there are visual keys.
+    pub(crate) fn new(
+        hardware: &Hardware,
+        config: Option<&Config>,
+        keys: &[VisualKey],
+    ) -> Result<Live, EnvError> {
+        let open = hardware.cameras.as_ref().filter(|_| !keys.is_empty());
+        let cameras = open.map(|open| open(config.unwrap_or(&Config::default()))).transpose();
+        let cameras = cameras.map_err(EnvError::Camera)?;
+        let names = cameras.as_ref().map_or_else(Vec::new, |cameras| cameras.names());
+        if let Some(key) = keys.iter().find(|key| cameras.is_some() && !names.contains(&key.camera)) {
+            let there = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            return Err(EnvError::Camera(
+                format!(
+                    "the visual key {key} needs a camera '{}', and the robot's config has no such device with the interface \
+                     'camera' or 'realsense'; cameras of it: {there}. Add it, or set visual_keys to what there is",
+                    key.camera
+                )
+                .into(),
+            ));
+        }
+        Ok(Live {
             pacer: Pacer::new((hardware.clock)()),
             ready: hardware.ready.clone(),
             begun: None,
             commanded: false,
-        }
+            cameras,
+        })
     }
 }

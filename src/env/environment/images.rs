@@ -13,18 +13,22 @@ impl Env {
     /// again in the same state they are not drawn again.
     ///
     /// An environment without visual keys has no images. Depth is in metres, of shape 1 x H x W as in the original. A `d:`
-    /// key is drawn whether or not its colours are asked for too; the original leaves it out without them.
+    /// key is drawn whether or not its colours are asked for too; the original leaves it out without them. Where the robot is
+    /// hardware the images are the newest frames of its cameras.
     ///
     /// # Errors
-    /// The model or a camera cannot be drawn; a network is missing, with the file that has its weights.
+    /// The model or a camera cannot be drawn; a camera of the hardware shows nothing; a network is missing, with the file that has its weights.
     pub fn exteroception(&mut self) -> Result<&Exteroception, EnvError> {
         if self.eyes.open() {
             return Ok(self.eyes.seen());
         }
         let network = self.network()?;
         let data = if self.differs { &self.observed } else { &self.scene.data };
-        let shots = self.eyes.shots();
-        self.sight.draw(&self.scene.model, data, shots)?;
+        if let Some(cameras) = self.live.as_mut().and_then(|live| live.cameras.as_mut()) {
+            self.eyes.look_through(&mut **cameras)?;
+        } else {
+            self.sight.draw(&self.scene.model, data, self.eyes.shots())?;
+        }
         self.eyes.finish(self.scene.data.time(), network.as_deref())
     }
 

@@ -14,7 +14,7 @@ mod paths;
 mod state;
 
 pub use env::{Env, Step};
-pub use hardware::{Hardware, Ready};
+pub use hardware::{Hardware, OpenCameras, Ready};
 pub use memory::EnvMemory;
 pub use options::Options;
 pub use paths::PathReward;

@@ -1,6 +1,7 @@
 //! Visual observations: what the visual keys of an environment show.
 
 use crate::error::EnvError;
+use crate::pictures::cameras::Cameras;
 use crate::pictures::network::{Network, NetworkError, Networks};
 use crate::pictures::sight::Shot;
 use crate::pictures::visual::{Channel, VisualKey};
@@ -110,6 +111,8 @@ struct Loaded {
 #[derive(Clone)]
 struct Take {
     camera: Camera,
+    /// Its name.
+    name: String,
     channels: Channels,
     picture: Picture,
     rgb: Option<usize>,
@@ -134,7 +137,8 @@ impl Eyes {
                 None => {
                     let channels = Channels { rgb: false, depth: false, segmentation: false };
                     let picture = Picture::new(key.width, key.height);
-                    takes.push(Take { camera, channels, picture, rgb: None, depth: None });
+                    let name = key.camera.clone();
+                    takes.push(Take { camera, name, channels, picture, rgb: None, depth: None });
                     takes.last_mut().expect("one was pushed")
                 }
             };
@@ -188,6 +192,12 @@ impl Eyes {
             channels: take.channels,
             picture: &mut take.picture,
         })
+    }
+
+    /// Fills the drawings with frames of cameras that are there; [`Eyes::finish`] follows.
+    pub(crate) fn look_through(&mut self, cameras: &mut dyn Cameras) -> Result<(), EnvError> {
+        let mut fill = |take: &mut Take| cameras.take(&take.name, take.channels, &mut take.picture);
+        self.takes.iter_mut().try_for_each(&mut fill).map_err(EnvError::Camera)
     }
 
     /// The cameras of the drawings, and where what they show is listed.

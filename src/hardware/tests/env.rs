@@ -83,6 +83,7 @@ fn on_tended_servos(carries: Carries) -> (Env, Shared, Services) {
     let setup = Setup::default().in_virtual_time(clocks, services.clone(), Arc::new(open)).with_armed(true);
     let (ticking, watching) = (bench.clone(), services.clone());
     let hardware = Hardware {
+        cameras: None,
         registry: Arc::new(registry(&setup)),
         clock: Arc::new(move || {
             Box::new(TendedClock::new(VirtualClock::new(ticking.clone()), services.clone())) as _

@@ -185,6 +185,7 @@ impl Rig {
         let (placed, ticking, services) = (self.bench.clone(), self.bench.clone(), self.services.clone());
         let held = services.clone();
         let hardware = Hardware {
+            cameras: None,
             registry: Arc::new(registry(&self.setup)),
             clock: Arc::new(move || {
                 Box::new(TendedClock::new(VirtualClock::new(ticking.clone()), services.clone())) as _
