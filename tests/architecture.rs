@@ -138,7 +138,7 @@ const OTHERS: [(&str, &[&str]); 21] = [
     ("robohive-robot", &["toml"]),
     ("robohive-protocol", &[]),
     ("robohive-wire", &["rustix"]),
-    ("robohive-hardware", &["serial2"]),
+    ("robohive-hardware", &["moq-v4l", "serial2", "zune-jpeg"]),
     ("robohive-render", &["font8x8", "rayon", "wide"]),
     ("robohive-render-gpu", &["bytemuck", "pollster", "wgpu"]),
     ("robohive-env", &["rayon", "serde", "toml"]),

@@ -37,6 +37,7 @@ fn with_text(py: Python<'_>, error: &EnvError, text: String) -> PyErr {
         EnvError::NotReady(why) => {
             raised(py, why).unwrap_or_else(|| named(py, "robohive.errors", "HardwareError", text))
         }
+        EnvError::Camera { .. } => named(py, "robohive.errors", "HardwareError", text),
         EnvError::Physics(_) => named(py, "robohive.errors", "PhysicsError", text),
         EnvError::MissingFile { .. } | EnvError::Network { .. } => PyFileNotFoundError::new_err(text),
         _ => PyValueError::new_err(text),

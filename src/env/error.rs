@@ -1,6 +1,5 @@
 //! What can be wrong with an environment, in whole sentences.
 
-use crate::pictures::cameras::CameraError;
 use physics::StepError;
 use physics::model::{EditError, Suggestions};
 use random::RandomError;
@@ -117,7 +116,10 @@ pub enum EnvError {
         message: String,
     },
     /// A camera of a robot that is hardware is missing, or shows nothing: why.
-    Camera(CameraError),
+    Camera {
+        /// Which, and why.
+        message: String,
+    },
     /// A visual key needs a network that is not there.
     Network {
         /// The visual key.
@@ -166,7 +168,7 @@ impl fmt::Display for EnvError {
                 write!(f, "physics refused the last step, which ended the episode: reset first")
             }
             EnvError::NotReady(why) => write!(f, "the episode cannot begin: {why}"),
-            EnvError::Camera(why) => write!(f, "{why}"),
+            EnvError::Camera { message } => f.write_str(message),
             EnvError::Physics(error) => write!(f, "{error}"),
             EnvError::Config(error) => write!(f, "{error}"),
             EnvError::Edit(error) => write!(f, "{error}"),

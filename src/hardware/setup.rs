@@ -1,7 +1,6 @@
 //! What drivers run with: what is allowed, and whose time it is.
 
-use crate::camera::{Captures, NoCaptures, System};
-use crate::port::{Network, NoNetwork, Opener, Serial, Sockets};
+use crate::port::{Captures, Network, NoCaptures, NoNetwork, Opener, Serial, Sockets, System};
 use crate::service::Services;
 use protocol::Port;
 use robot::{Clock, WallClock};

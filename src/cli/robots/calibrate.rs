@@ -98,7 +98,7 @@ pub fn run(a: &Calibrate) -> Result<(), Failure> {
     check_place(&a.out)?;
     keep_existing(&a.out, a.force)?;
     let reading = Arming { arm: false, dry_run: false, flight: None };
-    let Reached { mut devices, mut clock, rehearsal } =
+    let Reached { mut devices, mut clock, rehearsal, .. } =
         a.devices.reach_mounted(&reading, a.mounted.as_deref())?;
     let mut held = all_joints(&devices);
     let ends = [Pose::Lower, Pose::Upper];

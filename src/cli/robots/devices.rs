@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::robots::live::Arming;
 use crate::robots::rehearsal::{rehearsal, simulated};
+use ::hardware::camera::{Cameras, is_camera};
 use ::hardware::{Setup, device};
 use clap::{Args, ValueHint};
 use library::Rehearsal;
@@ -45,6 +46,16 @@ pub struct Reached {
     pub clock: Box<dyn Clock + Send>,
     /// Simulated devices.
     pub rehearsal: Option<Rehearsal>,
+    /// The cameras of the config, which are not opened yet.
+    cameras: Config,
+    setup: Setup,
+}
+
+impl Reached {
+    /// Opens the cameras.
+    pub fn cameras(&self) -> Result<Cameras, Failure> {
+        Cameras::connect(&self.cameras, &self.setup).map_err(Failure::new)
+    }
 }
 
 impl Devices {
@@ -67,7 +78,8 @@ impl Devices {
         let setup =
             rehearsal.as_ref().map_or_else(|| setup.clone(), |rehearsal| rehearsal.setup(setup.clone()));
         let chosen: Vec<_> = config.devices.iter().filter(|device| self.chosen(device)).collect();
-        if chosen.is_empty() {
+        let (cameras, chosen): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|device| sees(device));
+        if cameras.is_empty() && chosen.is_empty() {
             let names: Vec<_> = config.devices.iter().map(|device| device.name.as_str()).collect();
             return Err(Failure::usage(format!(
                 "{} has no such device with an interface; it has {}",
@@ -75,19 +87,25 @@ impl Devices {
                 names.join(", ")
             )));
         }
+        let cameras = Config { devices: cameras.into_iter().cloned().collect() };
         let devices = chosen.into_iter().map(|device| connect(device, &setup)).collect::<Result<_, _>>()?;
         let clock = match &rehearsal {
             Some(rehearsal) => rehearsal.clock(),
             None => Box::new(WallClock::default()),
         };
-        Ok(Reached { devices, clock, rehearsal })
+        Ok(Reached { devices, clock, rehearsal, cameras, setup })
     }
 
     fn chosen(&self, device: &DeviceConfig) -> bool {
         device.interface.kind.is_some()
-            && !(device.sensors.is_empty() && device.actuators.is_empty())
+            && !(device.sensors.is_empty() && device.actuators.is_empty() && !sees(device))
             && self.device.as_ref().is_none_or(|name| *name == device.name)
     }
+}
+
+/// Whether a device is a camera.
+fn sees(device: &DeviceConfig) -> bool {
+    device.interface.kind.as_deref().is_some_and(is_camera)
 }
 
 /// A failure of a device.

@@ -6,9 +6,11 @@ use crate::robots::calibrate::{self, Calibrate};
 use crate::robots::devices::{Connected, Devices, Reached, failed};
 use crate::robots::live::Arming;
 use crate::terminal::{show, show_json};
+use ::hardware::camera::{Cameras, Streamed, Wanted, video_devices};
 use ::hardware::recorder::{What, read};
 use ::hardware::{kinds, serial_ports};
 use clap::{Args, Subcommand, ValueHint};
+use robot::Clock;
 use serde_json::json;
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -33,7 +35,7 @@ pub struct Hardware {
 /// What to do with devices.
 #[derive(Subcommand)]
 enum Command {
-    /// List drivers, and serial ports of this machine
+    /// List drivers, and serial ports and video devices of this machine
     #[command(after_help = "Examples:\n  robohive hardware list")]
     List(List),
     /// Connect the devices, and measure how fast and how regularly they answer
@@ -151,15 +153,25 @@ pub fn run(a: &Hardware) -> Result<(), Failure> {
 }
 
 fn list(a: &List) -> Result<(), Failure> {
-    let (kinds, ports): (Vec<_>, _) = (kinds().collect(), serial_ports());
+    let (kinds, ports, videos): (Vec<_>, _, _) = (kinds().collect(), serial_ports(), video_devices());
     if a.json {
         show_json(
-            &json!({"drivers": kinds, "simulated": wire::kinds().collect::<Vec<_>>(), "serial_ports": ports}),
+            &json!({"drivers": kinds, "simulated": wire::kinds().collect::<Vec<_>>(), "serial_ports": ports,
+                "video_devices": videos.iter().map(|found| json!({"path": found.path, "name": found.name, "usb": found.usb,
+                    "serial": found.serial})).collect::<Vec<_>>()}),
         );
         return Ok(());
     }
     show!("drivers       {}", kinds.join(", "));
+    show!("cameras       camera, realsense");
     show!("serial ports  {}", if ports.is_empty() { "none".to_owned() } else { ports.join(", ") });
+    if videos.is_empty() {
+        show!("video devices none");
+    }
+    for found in videos {
+        let serial = found.serial.map_or_else(String::new, |serial| format!(", serial number {serial}"));
+        show!("video device  {} {}{serial}", found.path, found.name);
+    }
     Ok(())
 }
 
@@ -181,7 +193,9 @@ impl Answers {
 }
 
 fn check(a: &Check) -> Result<(), Failure> {
-    let Reached { mut devices, mut clock, .. } = a.devices.reach(&READING)?;
+    let reached = a.devices.reach(&READING)?;
+    let mut cameras = reached.cameras()?;
+    let Reached { mut devices, mut clock, .. } = reached;
     let period = 1.0 / a.rate;
     let interrupt = Interrupt::listen().map_err(Failure::new)?;
     for device in &mut devices {
@@ -206,7 +220,61 @@ fn check(a: &Check) -> Result<(), Failure> {
         report(a, device, &answers);
         device.device.close().map_err(|fault| failed(&device.config.name, &fault))?;
     }
+    look(a, &mut cameras, &mut *clock, &interrupt)?;
     interrupt.code().map_or(Ok(()), |code| Err(Failure::silent(code)))
+}
+
+/// Looks through every camera for as long as a device is read, and says what became of the frames.
+fn look(
+    a: &Check,
+    cameras: &mut Cameras,
+    clock: &mut dyn Clock,
+    interrupt: &Interrupt,
+) -> Result<(), Failure> {
+    let before: Vec<_> = cameras.streams().map(|stream| stream.counts).collect();
+    let begun = clock.now();
+    let (mut rgb, mut depth) = (Vec::new(), Vec::new());
+    let streams: Vec<_> = cameras
+        .streams()
+        .map(|Streamed { camera, which, format, .. }| (camera.to_owned(), which, format))
+        .collect();
+    let mut faults = vec![0; streams.len()];
+    for _ in 0..if streams.is_empty() { 0 } else { a.samples } {
+        if interrupt.code().is_some() {
+            break;
+        }
+        for ((camera, which, format), faults) in streams.iter().zip(&mut faults) {
+            let colours = *which == "rgb";
+            let wanted = Wanted { rgb: colours.then_some(&mut rgb), depth: (!colours).then_some(&mut depth) };
+            *faults += u32::from(cameras.take(camera, [format.height, format.width], wanted).is_err());
+        }
+        clock.wait(1.0 / a.rate);
+    }
+    let seconds = clock.now() - begun;
+    for ((stream, before), faults) in cameras.streams().zip(before).zip(faults) {
+        let (frames, dropped) =
+            (stream.counts.frames - before.frames, stream.counts.dropped - before.dropped);
+        let damaged = stream.counts.damaged - before.damaged;
+        let Streamed { camera, which, format, .. } = stream;
+        if a.json {
+            show_json(&json!({
+                "camera": camera, "stream": which, "encoding": format.encoding.to_string(), "width": format.width,
+                "height": format.height, "rate": format.rate, "seconds": seconds, "frames": frames, "dropped": dropped,
+                "damaged": damaged, "faults": faults,
+            }));
+            continue;
+        }
+        show!(
+            "{camera} ({which}): {} {} x {} at {} Hz",
+            format.encoding,
+            format.width,
+            format.height,
+            format.rate
+        );
+        show!("  frames      {frames} in {seconds:.2} s, {dropped} dropped, {damaged} damaged");
+        show!("  looks       {} of {} without a frame", faults, a.samples);
+    }
+    Ok(())
 }
 
 fn report(a: &Check, device: &Connected, answers: &Answers) {

@@ -159,7 +159,6 @@ impl Env {
             .map(|config| Look::new(config, &scene.model, options.seed))
             .transpose()
             .map_err(|message| spec.wrong(message))?;
-        let live = hardware.map(|hardware| Live::new(hardware, config.as_ref(), &visual_keys)).transpose()?;
         // A name that is wrong fails here rather than at the first picture.
         Camera::named(&scene.model, &options.rendering.camera)?;
         let nu = scene.model.nu;
@@ -171,6 +170,7 @@ impl Env {
             look,
             rendering: options.rendering.clone(),
             rendered: Picture::default(),
+            live: hardware.map(|it| Live::new(it, config.as_ref(), &visual_keys)).transpose()?,
             visual_keys: visual_keys.into(),
             spec: Arc::new(spec),
             settings: Arc::new(settings),
@@ -179,7 +179,6 @@ impl Env {
             compat: options.compat,
             task,
             robot,
-            live,
             rng,
             start: initial.clone(),
             initial,

@@ -61,18 +61,17 @@ impl Live {
     ) -> Result<Live, EnvError> {
         let open = hardware.cameras.as_ref().filter(|_| !keys.is_empty());
         let cameras = open.map(|open| open(config.unwrap_or(&Config::default()))).transpose();
-        let cameras = cameras.map_err(EnvError::Camera)?;
+        let cameras = cameras.map_err(|error| EnvError::Camera { message: error.into() })?;
         let names = cameras.as_ref().map_or_else(Vec::new, |cameras| cameras.names());
         if let Some(key) = keys.iter().find(|key| cameras.is_some() && !names.contains(&key.camera)) {
             let there = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
-            return Err(EnvError::Camera(
-                format!(
+            return Err(EnvError::Camera {
+                message: format!(
                     "the visual key {key} needs a camera '{}', and the robot's config has no such device with the interface \
                      'camera' or 'realsense'; cameras of it: {there}. Add it, or set visual_keys to what there is",
                     key.camera
-                )
-                .into(),
-            ));
+                ),
+            });
         }
         Ok(Live {
             pacer: Pacer::new((hardware.clock)()),

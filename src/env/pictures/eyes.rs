@@ -197,7 +197,10 @@ impl Eyes {
     /// Fills the drawings with frames of cameras that are there; [`Eyes::finish`] follows.
     pub(crate) fn look_through(&mut self, cameras: &mut dyn Cameras) -> Result<(), EnvError> {
         let mut fill = |take: &mut Take| cameras.take(&take.name, take.channels, &mut take.picture);
-        self.takes.iter_mut().try_for_each(&mut fill).map_err(EnvError::Camera)
+        self.takes
+            .iter_mut()
+            .try_for_each(&mut fill)
+            .map_err(|error| EnvError::Camera { message: error.into() })
     }
 
     /// The cameras of the drawings, and where what they show is listed.

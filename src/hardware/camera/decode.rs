@@ -1,6 +1,6 @@
 //! Bytes of frames to colours and depths, and back for cameras that are simulated.
 
-use super::capture::{Encoding, Format};
+use crate::port::{Encoding, Format};
 use std::io::Cursor;
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;

@@ -29,24 +29,16 @@
 //! A thread takes every frame from the camera and keeps the newest; [`Cameras::take`] decodes it, so that pictures that
 //! nobody asks for cost a copy. Frames that the camera numbers and nobody gets are counted ([`Counts`]).
 
-mod capture;
 mod decode;
 mod fit;
-mod found;
 mod registration;
 mod settings;
 mod stream;
-#[cfg(target_os = "linux")]
-mod v4l2;
 
-pub use capture::{Capture, Captures, Encoding, Format, Frame, Request, Source};
+pub use crate::port::{Capture, Captures, Encoding, Format, Found, Frame, Request, Source, video_devices};
 pub use decode::{depth_to_z16, rgb_to_yuyv};
-pub use found::{Found, video_devices};
 pub use registration::{Intrinsics, Registration};
 pub use stream::Counts;
-
-pub(crate) use capture::NoCaptures;
-pub(crate) use found::System;
 
 use crate::setup::Setup;
 use decode::Decoder;
@@ -83,6 +75,19 @@ impl fmt::Display for CameraError {
 }
 
 impl std::error::Error for CameraError {}
+
+/// One stream of a camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Streamed<'a> {
+    /// The camera.
+    pub camera: &'a str,
+    /// `rgb` or `d`.
+    pub which: &'static str,
+    /// What its frames are.
+    pub format: Format,
+    /// What became of them.
+    pub counts: Counts,
+}
 
 /// Where the pictures go that are taken at one time: those that are wanted.
 #[derive(Debug, Default)]
@@ -145,12 +150,18 @@ impl Cameras {
         self.cameras[place].take(size, wanted, &mut *self.clock).map_err(error)
     }
 
-    /// What became of the frames of each camera: name, `rgb` or `d`, counts.
-    pub fn counts(&self) -> impl Iterator<Item = (&str, &'static str, Counts)> {
+    /// Their streams, and what became of the frames so far.
+    pub fn streams(&self) -> impl Iterator<Item = Streamed<'_>> {
         self.cameras.iter().flat_map(|camera| {
-            let rgb = camera.rgb.as_ref().map(|stream| ("rgb", stream.counts()));
-            let depth = camera.depth.as_ref().map(|(stream, _)| ("d", stream.counts()));
-            rgb.into_iter().chain(depth).map(|(which, counts)| (camera.name.as_str(), which, counts))
+            let rgb = camera.rgb.as_ref().map(|stream| ("rgb", stream));
+            let depth = camera.depth.as_ref().map(|(stream, _)| ("d", stream));
+            let streamed = |(which, stream): (&'static str, &Stream)| Streamed {
+                camera: &camera.name,
+                which,
+                format: stream.format(),
+                counts: stream.counts(),
+            };
+            rgb.into_iter().chain(depth).map(streamed)
         })
     }
 }

@@ -1,8 +1,8 @@
 //! What a config says of a camera.
 
-use super::capture::{Encoding, Request, Source};
 use super::registration::{Intrinsics, Registration};
 use crate::parameters::Parameters;
+use crate::port::{Encoding, Request, Source};
 use robot::{CameraConfig, DeviceConfig, Fault, HardwareId};
 
 /// Most pixels along a side, and frames a second.

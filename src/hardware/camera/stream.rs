@@ -1,6 +1,6 @@
 //! The newest frame of a stream.
 
-use super::capture::{Capture, Captures, Format, Frame, Request};
+use crate::port::{Capture, Captures, Format, Frame, Request};
 use crate::setup::Setup;
 use robot::{Clock, Fault};
 use std::io;

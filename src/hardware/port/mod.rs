@@ -1,8 +1,16 @@
 //! Real ports, and how drivers come by one.
 
+mod cameras;
+mod capture;
 mod serial;
 mod socket;
+#[cfg(target_os = "linux")]
+mod video;
 
+pub(crate) use cameras::System;
+pub use cameras::{Found, video_devices};
+pub(crate) use capture::NoCaptures;
+pub use capture::{Capture, Captures, Encoding, Format, Frame, Request, Source};
 pub use serial::{Serial, serial_ports};
 pub(crate) use socket::NoNetwork;
 pub use socket::{Network, Sockets};

@@ -1,8 +1,8 @@
 //! Cameras: decoding, alignment, the newest frame, and what goes wrong.
 
 use robohive_hardware::camera::{
-    Cameras, Capture, Captures, Encoding, Format, Frame, Intrinsics, Registration, Request, Source, Wanted,
-    depth_to_z16, rgb_to_yuyv,
+    Cameras, Capture, Captures, Counts, Encoding, Format, Frame, Intrinsics, Registration, Request, Source,
+    Streamed, Wanted, depth_to_z16, rgb_to_yuyv,
 };
 use robohive_hardware::{Services, Setup};
 use robot::{Clock, Config, Fault};
@@ -249,8 +249,9 @@ fn the_newest_frame_counts_and_old_ones_are_none() {
     *script.entries.lock().unwrap() =
         vec![frame(9, grey(235)), frame(13, grey(16)), frame(14, grey(126)), damaged];
     assert_eq!(rgb(&mut cameras, [1, 1]).unwrap(), [128; 3]);
-    let (name, which, counts) = cameras.counts().next().unwrap();
-    assert_eq!((name, which, counts.frames, counts.dropped, counts.damaged), ("front", "rgb", 6, 3, 1));
+    let Streamed { camera, which, format, counts } = cameras.streams().next().unwrap();
+    assert_eq!((camera, which, format.width, format.rate), ("front", "rgb", 16, 20.0));
+    assert_eq!(counts, Counts { frames: 6, dropped: 3, damaged: 1, reopened: 0 });
     // Three periods later it is no observation any more.
     hands.wait(0.14);
     assert_eq!(rgb(&mut cameras, [1, 1]).unwrap(), [128; 3]);
@@ -271,7 +272,7 @@ fn the_newest_frame_counts_and_old_ones_are_none() {
     hands.wait(1.1);
     assert!(rgb(&mut cameras, [1, 1]).is_err());
     assert_eq!(rgb(&mut cameras, [1, 1]).unwrap(), [255; 3]);
-    assert_eq!(cameras.counts().next().unwrap().2.reopened, 1);
+    assert_eq!(cameras.streams().next().unwrap().counts.reopened, 1);
 
     // A frame with bytes missing is an error, and no other camera has the name.
     *script.entries.lock().unwrap() = vec![frame(1, vec![0; 100])];

@@ -12,7 +12,8 @@ const ID: &str = "hive/FrankaReach_v2d-v0";
 
 /// The arm's config with a camera of this interface, or without one.
 fn config(interface: Option<&str>) -> Config {
-    let arm = include_str!("../../../assets/franka/tasks/hardware.toml");
+    let robot = include_str!("../../../assets/franka/tasks/hardware.toml");
+    let (arm, _) = robot.split_once("[[device]]\nname = \"front\"").unwrap();
     let camera = interface.map_or_else(String::new, |interface| {
         format!(
             "\n[[device]]\nname = 'front'\ninterface = {{ {interface}, width = 224, height = 224 }}\n\

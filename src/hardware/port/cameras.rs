@@ -61,7 +61,7 @@ impl Captures for System {
     #[cfg(target_os = "linux")]
     fn open(&self, _: &str, request: &Request) -> Result<Box<dyn Capture>, Fault> {
         use super::capture::Source;
-        use super::v4l2::Video;
+        use super::video::Video;
         let serial = match &request.source {
             Source::Node(path) => return Ok(Box::new(Video::open(path, request)?)),
             Source::RealSense(serial) => serial.as_deref(),
@@ -148,7 +148,9 @@ mod tests {
             std::os::unix::fs::symlink(usb.join("interface"), entry.join("device")).unwrap();
             std::fs::write(entry.join("name"), format!("Camera {number}\n")).unwrap();
             let facts = [("idVendor", "8086\n"), ("idProduct", "0b07\n"), ("serial", "12345\n")];
-            facts.map(|(file, text)| std::fs::write(usb.join(file), text).unwrap());
+            for (file, text) in facts {
+                std::fs::write(usb.join(file), text).unwrap();
+            }
         }
         let devices = listed(&root.join("class"));
         std::fs::remove_dir_all(&root).unwrap();
