@@ -144,7 +144,7 @@ const OTHERS: [(&str, &[&str]); 21] = [
     ("robohive-env", &["rayon", "serde", "toml"]),
     ("robohive-agents", &["libm"]),
     ("robohive-record", &[]),
-    ("robohive-identify", &["rayon"]),
+    ("robohive-identify", &["nalgebra", "rayon"]),
     ("robohive-teleop", &["rustix", "toml"]),
     ("robohive", &[]),
 ];

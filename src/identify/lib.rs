@@ -35,7 +35,6 @@
 
 mod choose;
 mod command;
-mod eigen;
 mod error;
 mod fit;
 mod log;

@@ -3,9 +3,9 @@
 //! Values at a bound that the gradient pushes out of it are held there for a step (projected: Kanzow, Yamashita and Fukushima,
 //! 2004); others are cut off at their bounds.
 
-use crate::eigen::solve;
 use crate::error::IdentifyError;
 use crate::problem::Problem;
+use nalgebra::{Cholesky, DMatrix, DVector};
 
 /// Ends: a step's share of the values, of the objective, the gradient's share of the first one.
 const SMALL_STEP: f64 = 1e-9;
@@ -37,8 +37,8 @@ pub(crate) struct Minimum {
 
 /// The quadratic model at a point, in values over scales.
 struct Local {
-    hessian: Vec<f64>,
-    gradient: Vec<f64>,
+    hessian: DMatrix<f64>,
+    gradient: DVector<f64>,
 }
 
 /// Minimises from a point.
@@ -59,7 +59,7 @@ pub(crate) fn minimise(
     let mut jacobian = problem.jacobian(&values, measured)?;
     for _ in 0..iterations {
         let local = local(problem, &values, &jacobian, &residual);
-        let held = held(problem, &values, &local.gradient);
+        let held = held(problem, &values, local.gradient.as_slice());
         let slope = local
             .gradient
             .iter()
@@ -106,23 +106,22 @@ fn half_square(residual: &[f64]) -> f64 {
     0.5 * residual.iter().map(|r| r * r).sum::<f64>()
 }
 
-/// `J'J`, row by row.
-pub(crate) fn normal(jacobian: &[Vec<f64>]) -> Vec<f64> {
+/// `J'J`.
+pub(crate) fn normal(jacobian: &[Vec<f64>]) -> DMatrix<f64> {
     let n = jacobian.len();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-    (0..n * n).map(|i| dot(&jacobian[i / n], &jacobian[i % n])).collect()
+    DMatrix::from_fn(n, n, |r, c| dot(&jacobian[r], &jacobian[c]))
 }
 
 /// Gradient and Gauss and Newton's Hessian, priors included.
 fn local(problem: &Problem<'_>, values: &[f64], jacobian: &[Vec<f64>], residual: &[f64]) -> Local {
-    let n = values.len();
     let mut hessian = normal(jacobian);
-    let mut gradient: Vec<f64> =
-        jacobian.iter().map(|column| column.iter().zip(residual).map(|(j, r)| j * r).sum()).collect();
+    let slope = |column: &Vec<f64>| column.iter().zip(residual).map(|(j, r)| j * r).sum();
+    let mut gradient = DVector::from_iterator(values.len(), jacobian.iter().map(slope));
     for (i, p) in problem.parameters.iter().enumerate() {
         if let Some(prior) = p.prior {
             let slope = p.scale / prior.deviation;
-            hessian[i * n + i] += slope * slope;
+            hessian[(i, i)] += slope * slope;
             gradient[i] += slope * (values[i] - prior.mean) / prior.deviation;
         }
     }
@@ -144,22 +143,22 @@ fn step(
     damping: f64,
 ) -> Option<(Vec<f64>, f64, f64)> {
     let n = values.len();
-    let most = (0..n).map(|i| local.hessian[i * n + i]).fold(f64::MIN_POSITIVE, f64::max);
+    let most = local.hessian.diagonal().iter().copied().fold(f64::MIN_POSITIVE, f64::max);
     let mut matrix = local.hessian.clone();
-    let mut right: Vec<f64> = local.gradient.iter().map(|g| -g).collect();
-    let mut diagonal: Vec<f64> =
-        (0..n).map(|i| damping * local.hessian[i * n + i].max(1e-9 * most)).collect();
-    for i in (0..n).filter(|&i| held[i]) {
-        (0..n).for_each(|k| (matrix[i * n + k], matrix[k * n + i]) = (0.0, 0.0));
-        (right[i], diagonal[i]) = (0.0, 1.0);
+    let mut change = -&local.gradient;
+    for i in 0..n {
+        matrix[(i, i)] += damping * local.hessian[(i, i)].max(1e-9 * most);
     }
-    let change = solve(&matrix, &diagonal, &right)?;
+    for i in (0..n).filter(|&i| held[i]) {
+        matrix.fill_row(i, 0.0);
+        matrix.fill_column(i, 0.0);
+        (matrix[(i, i)], change[i]) = (1.0, 0.0);
+    }
+    Cholesky::new(matrix)?.solve_mut(&mut change);
     let all = problem.parameters.iter().zip(values).zip(&change);
     let point: Vec<f64> = all.map(|((p, &x), &dz)| (x + p.scale * dz).clamp(p.lower, p.upper)).collect();
-    let taken: Vec<f64> =
-        problem.parameters.iter().zip(values).zip(&point).map(|((p, x), y)| (y - x) / p.scale).collect();
-    let linear: f64 = local.gradient.iter().zip(&taken).map(|(g, d)| g * d).sum();
-    let square: f64 = (0..n * n).map(|i| taken[i / n] * local.hessian[i] * taken[i % n]).sum();
-    let length = taken.iter().map(|d| d * d).sum::<f64>().sqrt();
-    Some((point, -linear - 0.5 * square, length))
+    let all = problem.parameters.iter().zip(values).zip(&point);
+    let taken = DVector::from_iterator(n, all.map(|((p, x), y)| (y - x) / p.scale));
+    let promised = -local.gradient.dot(&taken) - 0.5 * taken.dot(&(&local.hessian * &taken));
+    Some((point, promised, taken.norm()))
 }

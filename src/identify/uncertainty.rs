@@ -1,8 +1,8 @@
 //! How certain values are, and what a log cannot tell.
 
-use crate::eigen::eigen;
 use crate::minimise::normal;
 use crate::parameter::Parameter;
+use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
 /// A direction whose standard deviation is larger than this share of the parameters' own scales cannot be told.
 const UNKNOWN: f64 = 0.5;
@@ -34,12 +34,14 @@ pub(crate) struct Uncertainty {
 pub(crate) fn uncertainty(parameters: &[Parameter], jacobian: &[Vec<f64>]) -> Uncertainty {
     let n = parameters.len();
     let information = normal(jacobian);
-    let pairs = eigen(&information, n);
-    let most = pairs.last().map_or(0.0, |pair| pair.0);
+    let SymmetricEigen { eigenvalues, eigenvectors } = spectrum(&information);
+    let most = eigenvalues.max();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&a, &b| eigenvalues[a].total_cmp(&eigenvalues[b]));
     let mut unknown = Vec::new();
     let mut unsure = vec![false; n];
-    for (value, vector) in &pairs {
-        let deviation = if *value > ROUNDING * most { 1.0 / value.sqrt() } else { f64::INFINITY };
+    for (value, vector) in order.into_iter().map(|k| (eigenvalues[k], eigenvectors.column(k))) {
+        let deviation = if value > ROUNDING * most { 1.0 / value.sqrt() } else { f64::INFINITY };
         if deviation <= UNKNOWN {
             continue;
         }
@@ -53,7 +55,7 @@ pub(crate) fn uncertainty(parameters: &[Parameter], jacobian: &[Vec<f64>]) -> Un
     }
     let mut whole = information;
     for (i, p) in parameters.iter().enumerate() {
-        whole[i * n + i] += p.prior.map_or(0.0, |prior| (p.scale / prior.deviation).powi(2));
+        whole[(i, i)] += p.prior.map_or(0.0, |prior| (p.scale / prior.deviation).powi(2));
     }
     let covariance = inverse(&whole, parameters);
     let deviations =
@@ -62,14 +64,19 @@ pub(crate) fn uncertainty(parameters: &[Parameter], jacobian: &[Vec<f64>]) -> Un
 }
 
 /// The inverse of the information, in the units of values; directions without any are left out.
-fn inverse(information: &[f64], parameters: &[Parameter]) -> Vec<f64> {
+fn inverse(information: &DMatrix<f64>, parameters: &[Parameter]) -> Vec<f64> {
     let n = parameters.len();
-    let pairs = eigen(information, n);
-    let most = pairs.last().map_or(0.0, |pair| pair.0);
+    let SymmetricEigen { eigenvalues, eigenvectors } = spectrum(information);
+    let most = eigenvalues.max();
     let entry = |r: usize, c: usize| {
-        let kept = pairs.iter().filter(|(value, _)| *value > ROUNDING * most);
-        let sum: f64 = kept.map(|(value, v)| v[r] * v[c] / value).sum();
+        let kept = (0..n).filter(|&k| eigenvalues[k] > ROUNDING * most);
+        let sum: f64 = kept.map(|k| eigenvectors[(r, k)] * eigenvectors[(c, k)] / eigenvalues[k]).sum();
         sum * parameters[r].scale * parameters[c].scale
     };
     (0..n * n).map(|i| entry(i / n, i % n)).collect()
+}
+
+/// Eigenvalues with their eigenvectors. A derivative that is no finite number tells nothing.
+fn spectrum(information: &DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
+    SymmetricEigen::new(information.map(|entry| if entry.is_finite() { entry } else { 0.0 }))
 }
