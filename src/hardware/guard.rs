@@ -74,7 +74,7 @@ impl Guarded {
         setup: &Setup,
     ) -> Guarded {
         let limiter = Limiter::new(driver.limits());
-        let mut clock = (setup.clocks)();
+        let mut clock = setup.clock();
         let watchdog = Watchdog::new(driver.timeouts(), clock.now());
         let core = Core {
             name: name.to_owned(),
@@ -120,26 +120,6 @@ impl Guarded {
         };
         self.watching = Some((stop, std::thread::spawn(look)));
     }
-
-    /// Waits while the driver works: in a thread of its own, or here where a clock tends it.
-    fn wait(&self, clock: &mut dyn Clock, seconds: f64) {
-        let (tended, period) = {
-            let core = self.core();
-            (core.setup.services.is_some(), core.period())
-        };
-        if !tended {
-            return clock.wait(seconds);
-        }
-        let end = clock.now() + seconds;
-        loop {
-            let left = end - clock.now();
-            if left <= 0.0 {
-                return;
-            }
-            clock.wait(left.min(period));
-            self.core().work();
-        }
-    }
 }
 
 impl Device for Guarded {
@@ -174,12 +154,12 @@ impl Device for Guarded {
             return self.core().reconnect();
         }
         let mut motion = self.core().begin_reset(targets)?;
-        let mut clock = (self.core().setup.clocks)();
+        let mut clock = self.core().setup.clock();
         self.core().driver.set_resetting(true);
         let mut outcome = Ok(());
         while !motion.done() && outcome.is_ok() {
             // The lock is free while the motion waits, so that the watchdog looks.
-            self.wait(clock.as_mut(), RESET_PERIOD);
+            clock.wait(RESET_PERIOD);
             let mut core = self.core();
             outcome = core.go_on(&mut motion);
             core.tend(clock.now());
@@ -442,7 +422,7 @@ impl Core {
             Phase::Idle | Phase::Armed => self.begin_to_stop(Fault::NotConnected),
             Phase::Stopping(_) | Phase::Safe(_) => {}
         }
-        let mut clock = (self.setup.clocks)();
+        let mut clock = self.setup.clock();
         let end = clock.now() + SAFE_AT_LAST;
         while matches!(self.phase, Phase::Stopping(_)) && clock.now() < end {
             clock.wait(self.period());

@@ -57,5 +57,5 @@ pub use registry::{device, kinds, registry};
 pub use safety::limits::Limits;
 pub use safety::lock::Lock;
 pub use safety::watchdog::Timeouts;
-pub use service::{Services, TendedClock};
+pub use service::{Services, TendedClock, TendedPort};
 pub use setup::{Clocks, Setup};

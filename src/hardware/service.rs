@@ -1,7 +1,9 @@
 //! Work beside the caller's: watchdogs and control loops, in threads or on a clock.
 
+use protocol::Port;
 use robot::Clock;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::io;
+use std::sync::{Arc, Mutex, PoisonError, TryLockError, Weak};
 
 /// How often a watchdog looks, in a thread or on a tended clock \[s\].
 pub(crate) const LOOK: f64 = 0.005;
@@ -27,7 +29,8 @@ impl Services {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(Listed { service, period });
     }
 
-    /// Lets each do what is due at `now`; those that are gone are forgotten. Returns after how long the next is due \[s\].
+    /// Lets each do what is due at `now`, but for those that are in use: it is one of them that waits. Those that are gone are
+    /// forgotten. Returns after how long the next is due \[s\].
     fn tend(&self, now: f64) -> f64 {
         let mut services = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         services.retain(|listed| listed.service.strong_count() > 0);
@@ -35,7 +38,11 @@ impl Services {
         let due: Vec<_> = services.iter().filter_map(|listed| listed.service.upgrade()).collect();
         drop(services);
         for service in due {
-            service.lock().unwrap_or_else(PoisonError::into_inner).tend(now);
+            match service.try_lock() {
+                Ok(mut service) => service.tend(now),
+                Err(TryLockError::Poisoned(service)) => service.into_inner().tend(now),
+                Err(TryLockError::WouldBlock) => {}
+            }
         }
         period
     }
@@ -70,6 +77,59 @@ impl<C: Clock> Clock for TendedClock<C> {
                 return;
             }
             self.clock.wait(left.min(period));
+        }
+    }
+}
+
+/// A port of one device in virtual time, whose waiting tends the [`Services`] of the others, as their threads would.
+pub struct TendedPort<P> {
+    port: P,
+    services: Services,
+}
+
+impl<P: Port> TendedPort<P> {
+    /// Runs `services` while `port` is waited for.
+    pub fn new(port: P, services: Services) -> Self {
+        TendedPort { port, services }
+    }
+}
+
+impl<P: Port> Port for TendedPort<P> {
+    fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.port.send(bytes)
+    }
+
+    fn receive(&mut self, buffer: &mut [u8], timeout: f64) -> io::Result<usize> {
+        let end = self.port.now() + timeout;
+        let mut left = timeout;
+        loop {
+            // Who does not wait tends nobody.
+            let period = if left > 0.0 { self.services.tend(self.port.now()) } else { 0.0 };
+            let count = self.port.receive(buffer, left.min(period))?;
+            left = end - self.port.now();
+            if count > 0 || left <= 0.0 {
+                return Ok(count);
+            }
+        }
+    }
+
+    fn discard(&mut self) -> io::Result<()> {
+        self.port.discard()
+    }
+
+    fn now(&self) -> f64 {
+        self.port.now()
+    }
+
+    fn wait(&mut self, seconds: f64) {
+        let end = self.port.now() + seconds;
+        loop {
+            let period = self.services.tend(self.port.now());
+            let left = end - self.port.now();
+            if left <= 0.0 {
+                return;
+            }
+            self.port.wait(left.min(period));
         }
     }
 }

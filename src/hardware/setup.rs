@@ -1,7 +1,7 @@
 //! What drivers run with: what is allowed, and whose time it is.
 
 use crate::port::{Captures, Network, NoCaptures, NoNetwork, Opener, Serial, Sockets, System};
-use crate::service::Services;
+use crate::service::{Services, TendedClock};
 use protocol::Port;
 use robot::{Clock, WallClock};
 use std::io;
@@ -61,6 +61,15 @@ fn open_serial(path: &str, baud: u32) -> io::Result<Box<dyn Port>> {
 }
 
 impl Setup {
+    /// A clock to wait with: where no threads tend the services, it does.
+    pub(crate) fn clock(&self) -> Box<dyn Clock + Send> {
+        let clock = (self.clocks)();
+        match &self.services {
+            Some(services) => Box::new(TendedClock::new(clock, services.clone())),
+            None => clock,
+        }
+    }
+
     /// Devices in the time of `clock`, without threads, without locks, without the network and without cameras, so that no
     /// driver reaches a real device by accident: for simulated devices. What moves the time must be a [`TendedClock`](crate::TendedClock) over
     /// the same [`Services`].

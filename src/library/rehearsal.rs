@@ -2,7 +2,7 @@
 
 use crate::cameras::{Onlookers, opener};
 use env::{Env, EnvError, Hardware, Ready};
-use hardware::{Clocks, Services, Setup, Sockets, TendedClock, registry};
+use hardware::{Clocks, Services, Setup, Sockets, TendedClock, TendedPort, registry};
 use physics::StepError;
 use protocol::Port;
 use robot::{Clock, Config, WallClock};
@@ -83,7 +83,8 @@ impl Rehearsal {
 
     /// `setup` with the simulated devices in place of real ones.
     pub fn setup(&self, setup: Setup) -> Setup {
-        let wires = Wires { bench: self.bench.clone(), rigged: self.rigged.clone() };
+        let wires =
+            Wires { bench: self.bench.clone(), services: self.services.clone(), rigged: self.rigged.clone() };
         let serial = wires.clone();
         let open = move |address: &str, _: u32| serial.open(address, Outlet::Serial);
         let bench = self.bench.clone();
@@ -130,6 +131,7 @@ impl Rehearsal {
 #[derive(Clone)]
 struct Wires {
     bench: Shared,
+    services: Services,
     rigged: Arc<Vec<Rigged>>,
 }
 
@@ -149,7 +151,8 @@ impl Wires {
             bench.set_connected(*link, false);
         }
         bench.set_connected(*link, true);
-        Ok(Box::new(VirtualPort::new(self.bench.clone(), *link)))
+        let port = VirtualPort::new(self.bench.clone(), *link);
+        Ok(Box::new(TendedPort::new(port, self.services.clone())))
     }
 }
 

@@ -116,7 +116,7 @@ impl Cameras {
     /// # Errors
     /// A camera that is not there or cannot do what the config says: which, and what to do about it.
     pub fn connect(config: &Config, setup: &Setup) -> Result<Cameras, CameraError> {
-        let mut clock = (setup.clocks)();
+        let mut clock = setup.clock();
         let chosen =
             config.devices.iter().filter(|device| device.interface.kind.as_deref().is_some_and(is_camera));
         let mut cameras = Vec::new();

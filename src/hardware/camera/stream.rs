@@ -77,7 +77,7 @@ impl Stream {
             captures: setup.captures.clone(),
             capture: Some(capture),
             format,
-            clock: (setup.clocks)(),
+            clock: setup.clock(),
             lost: 0.0,
         };
         let newest = Arc::new(Mutex::new(Newest::default()));

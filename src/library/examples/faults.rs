@@ -62,7 +62,23 @@ fn cases() -> Result<Vec<Case>, Box<dyn Error>> {
         Case { name: "dynamixel", id: walk, config: Config::from_toml(&servos, "servos.toml")?, rates: LINE },
         Case { name: "feetech", id: walk, config: Config::from_toml(&feetech, "servos.toml")?, rates: LINE },
         Case { name: "franka", id: reach, config: Config::from_toml(&arm, "hardware.toml")?, rates: NETWORK },
+        Case { name: "franka, robotiq", id: reach, config: with_robotiq(&arm)?, rates: NETWORK },
     ])
+}
+
+/// The arm with a Robotiq gripper on a serial line instead of its own hand: the model's fingers are closed at its width 0 and
+/// open at 85 mm.
+fn with_robotiq(arm: &str) -> Result<Config, Box<dyn Error>> {
+    let gripper = "
+        [[device]]
+        name = 'robotiq'
+        interface = { type = 'robotiq', name = '/dev/ttyUSB0' }
+        sensor = [{ name = 'gripper_position', range = [0.0, 0.05], hdr_id = 0, scale = 0.470588 }]
+        actuator = [{ name = 'gripper', pos_range = [0.0, 0.04], vel_range = [-0.1, 0.1], hdr_id = 0, scale = 2.125 }]";
+    let mut config = Config::from_toml(&(arm.replace("hand = true, ", "") + gripper), "robotiq.toml")?;
+    config.devices[0].sensors.retain(|sensor| sensor.name != "gripper_position");
+    config.devices[0].actuators.retain(|actuator| actuator.name != "gripper");
+    Ok(config)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -114,7 +130,7 @@ fn strike(case: &Case, seed: u64, tally: &mut Tally) -> Result<(), Box<dyn Error
         if failed.is_some() {
             break;
         }
-        let action: Vec<f64> = (0..model.nu).map(|j| 0.3 * (0.2 * f64::from(k) + j as f64).sin()).collect();
+        let action: Vec<f64> = (0..model.nu).map(|j| 0.15 * (0.2 * f64::from(k) + j as f64).sin()).collect();
         failed = robot.control(&model, &mirror, &action, 0.05).err();
         clock.wait(0.05);
         robot.sense(&model, &mirror, &mut rng);
