@@ -99,6 +99,10 @@ impl Capture for Onlooker {
         self.format
     }
 
+    fn settles(&self) -> bool {
+        false
+    }
+
     fn next(&mut self, _: Duration) -> io::Result<Option<Frame<'_>>> {
         let bench = self.bench.clone();
         let bench = lock(&bench);

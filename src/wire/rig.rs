@@ -163,7 +163,14 @@ fn franka(device: &DeviceConfig, bench: &mut Bench, _: bool) -> Result<Vec<(Outl
         )));
     };
     let version = if number(device, "version", 0.0) == 5.0 { Version::V5 } else { Version::V10 };
-    let arm = Arm::new(version, bench.plant(), *joints)?;
+    let mounts = std::array::from_fn(|k| [device.actuators[k].scale, device.actuators[k].offset]);
+    if let Some(place) = mounts.iter().position(|[scale, _]: &[f64; 2]| scale.abs() != 1.0) {
+        let name = joints[place];
+        return Err(PlantError::new(format!(
+            "the scale of '{name}' is neither 1 nor -1; an arm's joints turn as far as the model's"
+        )));
+    }
+    let arm = Arm::new(version, bench.plant(), *joints)?.mounted(bench.plant(), mounts);
     let hand = rest.first().map(|finger| Hand::new(bench.plant(), finger, HAND)).transpose()?;
     let mut links = Vec::new();
     let mut connect = |bench: &mut Bench, made, port| {

@@ -32,6 +32,8 @@ pub struct Counts {
 /// A stream, of which the newest frame is kept.
 pub(super) struct Stream {
     format: Format,
+    /// Whether its first frames are to be thrown away.
+    settles: bool,
     stale: f64,
     newest: Arc<Mutex<Newest>>,
     intake: Intake,
@@ -70,7 +72,7 @@ struct Source {
 impl Stream {
     pub(super) fn open(name: &str, request: &Request, stale: f64, setup: &Setup) -> Result<Stream, Fault> {
         let capture = setup.captures.open(name, request)?;
-        let format = capture.format();
+        let (format, settles) = (capture.format(), capture.settles());
         let mut source = Source {
             name: name.to_owned(),
             request: request.clone(),
@@ -96,7 +98,7 @@ impl Stream {
                 thread.map_err(|error| Fault::Unreachable(format!("no thread can be started: {error}")))?;
             Intake::Thread { wanted, thread: Some(thread) }
         };
-        Ok(Stream { format, stale, newest, intake })
+        Ok(Stream { format, settles, stale, newest, intake })
     }
 
     pub(super) fn format(&self) -> Format {
@@ -107,8 +109,9 @@ impl Stream {
         lock(&self.newest).counts
     }
 
-    /// Returns when so many frames have come and one more.
+    /// Returns when so many frames have come and one more; of a camera that need not settle, when one has.
     pub(super) fn warm_up(&mut self, frames: u32, clock: &mut dyn Clock) -> Result<(), Fault> {
+        let frames = if self.settles { frames } else { 0 };
         let end = clock.now() + FIRST + f64::from(frames) / self.format.rate;
         loop {
             self.take_in();

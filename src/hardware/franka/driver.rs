@@ -141,7 +141,14 @@ impl Franka {
             other => return Err(Fault::Refused(format!("its motion {}", other.describe()))),
         }
         let begun = commanded.number() as u8 + 1;
-        link.wait_until("moves", |link| link.state.mode == Mode::Move && link.state.generator == begun)?;
+        link.wait_until("moves", |link| match link.state.mode {
+            Mode::Move => link.state.generator == begun,
+            Mode::Reflex | Mode::UserStopped => true,
+            _ => false,
+        })?;
+        if link.state.mode != Mode::Move {
+            return Err(Franka::trouble(&link.state));
+        }
         let q = link.state.get(field::Q_D);
         let generator = Generator::at(ArmLimits::of(version), q, direct);
         self.motion = Some(Motion { id, generator, torque: [0.0; JOINTS], finished: false });

@@ -114,6 +114,11 @@ pub trait Capture: Send {
     /// What the frames are.
     fn format(&self) -> Format;
 
+    /// Whether the first frames are too dark or too light, until exposure has settled.
+    fn settles(&self) -> bool {
+        true
+    }
+
     /// The next frame, in their order; waits for it this long. `None` if it does not come.
     ///
     /// # Errors

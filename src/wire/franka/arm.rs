@@ -3,6 +3,7 @@
 use super::motion::{Desired, Judge, Motion};
 use crate::device::{Device, Moment};
 use crate::plant::{Drive, Plant, PlantError};
+use crate::shaft::Shaft;
 use protocol::franka::{
     CYCLE, Command, Decoder, JOINTS, MISSED_CYCLES, Mode, MoveEnd, Setpoint, State, Version, error_bit,
     field, flange, identity,
@@ -24,7 +25,7 @@ pub(super) struct Recovery {
 /// An arm with seven joints, see [the module](super).
 pub struct Arm {
     pub(super) version: Version,
-    motors: [usize; JOINTS],
+    shafts: [Shaft; JOINTS],
     judge: Judge,
     decoder: Decoder,
     /// Port of the client that has connected.
@@ -56,18 +57,18 @@ impl Arm {
     /// # Errors
     /// The plant has no such actuator, or it moves no single joint.
     pub fn new(version: Version, plant: &Plant, actuators: [&str; JOINTS]) -> Result<Arm, PlantError> {
-        let mut motors = [0; JOINTS];
-        for (motor, name) in motors.iter_mut().zip(actuators) {
-            *motor = plant.motor(name)?;
+        let mut shafts = [Shaft { motor: 0, scale: 1.0, offset: 0.0 }; JOINTS];
+        for (shaft, name) in shafts.iter_mut().zip(actuators) {
+            shaft.motor = plant.motor(name)?;
         }
         let mut state = State::default();
         for pose in [field::F_T_EE, field::F_T_NE, field::NE_T_EE, field::EE_T_K] {
             state.set(pose, identity());
         }
-        let q = motors.map(|motor| plant.position(motor));
+        let q = shafts.map(|shaft| shaft.angle(plant));
         Ok(Arm {
             version,
-            motors,
+            shafts,
             judge: Judge::new(version),
             decoder: Decoder::arm(),
             client: None,
@@ -83,6 +84,17 @@ impl Arm {
             arrived: 0,
             state,
         })
+    }
+
+    /// The same arm on joints that count their angles otherwise: the arm's angle \[rad\] is joint × scale + offset, with a
+    /// scale of 1 or -1.
+    #[must_use]
+    pub fn mounted(mut self, plant: &Plant, mounts: [[f64; 2]; JOINTS]) -> Arm {
+        for (shaft, [scale, offset]) in self.shafts.iter_mut().zip(mounts) {
+            (shaft.scale, shaft.offset) = (scale, offset);
+        }
+        self.desired.q = self.shafts.map(|shaft| shaft.angle(plant));
+        self
     }
 
     /// Takes every command that is a number, as no arm of steel would: for comparison with a simulation whose targets leap.
@@ -174,8 +186,8 @@ impl Arm {
             motion.answered = false;
             if motion.external() {
                 let plant = &moment.plant;
-                self.desired.q = self.motors.map(|motor| plant.position(motor));
-                self.desired.dq = self.motors.map(|motor| plant.velocity(motor));
+                self.desired.q = self.shafts.map(|shaft| shaft.angle(plant));
+                self.desired.dq = self.shafts.map(|shaft| shaft.velocity(plant));
             }
             self.watch(moment);
         }
@@ -187,16 +199,16 @@ impl Arm {
             return;
         }
         let mut errors = 0;
-        for (k, motor) in self.motors.into_iter().enumerate() {
+        for (k, shaft) in self.shafts.into_iter().enumerate() {
             let [low, high] = self.judge.limits.position[k];
-            let q = moment.plant.position(motor);
+            let q = shaft.angle(moment.plant);
             if q < low - OVERTRAVEL || q > high + OVERTRAVEL {
                 errors |= error_bit("joint_position_limits_violation");
             }
-            if moment.plant.velocity(motor).abs() > self.judge.limits.velocity[k] * (1.0 + OVERSPEED) {
+            if shaft.velocity(moment.plant).abs() > self.judge.limits.velocity[k] * (1.0 + OVERSPEED) {
                 errors |= error_bit("joint_velocity_violation");
             }
-            if moment.plant.external(motor).abs() > self.collision[k] {
+            if shaft.external(moment.plant).abs() > self.collision[k] {
                 errors |= error_bit("joint_reflex");
             }
         }
@@ -207,9 +219,9 @@ impl Arm {
 
     /// Fills in what it measures.
     fn measure(&mut self, plant: &Plant) {
-        let all = |read: &dyn Fn(usize) -> f64| self.motors.map(read);
-        let (q, dq) = (all(&|motor| plant.position(motor)), all(&|motor| plant.velocity(motor)));
-        let (effort, external) = (all(&|motor| plant.effort(motor)), all(&|motor| plant.external(motor)));
+        let all = |read: fn(&Shaft, &Plant) -> f64| self.shafts.map(|shaft| read(&shaft, plant));
+        let (q, dq) = (all(Shaft::angle), all(Shaft::velocity));
+        let (effort, external) = (all(Shaft::effort), all(Shaft::external));
         let (mode, desired, state) = (self.mode(), self.desired, &mut self.state);
         state.message = self.cycle;
         (state.mode, state.errors, state.reflex) = (mode, self.errors, self.reflex);
@@ -267,13 +279,13 @@ impl Device for Arm {
 
     fn tick(&mut self, moment: &mut Moment<'_>) {
         let external = self.motion.is_some_and(|motion| motion.external());
-        for (k, motor) in self.motors.into_iter().enumerate() {
+        for (k, shaft) in self.shafts.into_iter().enumerate() {
             let drive = if external {
-                Drive::Effort(self.desired.torque[k] + moment.plant.bias(motor))
+                shaft.torque(moment.plant, self.desired.torque[k])
             } else {
-                Drive::Control(self.desired.q[k])
+                Drive::Control(shaft.joint(self.desired.q[k]))
             };
-            moment.plant.drive(motor, drive);
+            moment.plant.drive(shaft.motor, drive);
         }
     }
 
