@@ -47,6 +47,14 @@ pub trait Driver: Send {
     /// What could not be reached.
     fn make_safe(&mut self) -> Result<bool, Fault>;
 
+    /// What it measures was put elsewhere by hand; returns when it measures anew.
+    ///
+    /// # Errors
+    /// As [`Driver::read`].
+    fn moved(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
     /// Ends the connection. The device is in its safe state.
     fn disconnect(&mut self);
 

@@ -170,6 +170,14 @@ impl Device for Guarded {
         outcome
     }
 
+    fn moved(&mut self) -> Result<(), Fault> {
+        let mut core = self.core();
+        match core.phase {
+            Phase::Closed => Err(Fault::NotConnected),
+            _ => core.driver.moved(),
+        }
+    }
+
     fn close(&mut self) -> Result<(), Fault> {
         if let Some((stop, thread)) = self.watching.take() {
             stop.store(true, Ordering::Relaxed);

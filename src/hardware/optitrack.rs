@@ -12,7 +12,7 @@
 //! | `multicast` | NatNet frames come to the group that the server names, instead of to this machine alone | false |
 //!
 //! A frame that is more than 0.2 m or 0.5 rad from the one before it is refused; after the body was lost, ten good frames must
-//! follow each other. Without a frame for 50 ms the reading is stale. RoboHive's keys `client_name`, `packet_size` and
+//! follow each other. After a reset, when a person has put the body elsewhere, the next frame counts. Without a frame for 50 ms the reading is stale. RoboHive's keys `client_name`, `packet_size` and
 //! `data_type` are accepted and not needed.
 //!
 //! Source: NatNet SDK documentation; RoboHive 0.7, `hardware_optitrack.py`. Proven against the simulated tracker of
@@ -225,6 +225,31 @@ impl OptiTrack {
         sent.map_err(|error| self.unreachable(&error))
     }
 
+    /// Takes the next frame of the body, wherever it was before.
+    fn first_frame(&mut self) -> Result<(), Fault> {
+        (self.seen, self.good, self.other) = (None, GOOD, None);
+        let end = self.links.as_ref().map_or(0.0, |links| links.frames.now()) + PATIENCE;
+        loop {
+            self.take()?;
+            let Some(links) = &mut self.links else { return Err(Fault::NotConnected) };
+            if self.seen.is_some() {
+                return Ok(());
+            }
+            if links.frames.now() >= end {
+                break;
+            }
+            links.frames.wait(STALE / 5.0);
+        }
+        let (id, server) = (self.id, &self.server);
+        Err(Fault::Unreachable(match self.other {
+            Some(other) => format!("{server} sends the rigid body {other}, and none with the id {id}"),
+            None => format!(
+                "no frame of the rigid body {id} came from {server} in {PATIENCE} s; check that it is streamed, and that \
+                 no firewall stops it"
+            ),
+        }))
+    }
+
     /// Takes a frame's pose, unless the body is not in it, or has leapt.
     fn see(&mut self, now: f64, body: Body) {
         let finite = body.position.iter().chain(&body.orientation).all(|value| value.is_finite());
@@ -256,27 +281,14 @@ fn leapt(before: &Body, after: &Body) -> bool {
 impl Driver for OptiTrack {
     fn connect(&mut self) -> Result<(), Fault> {
         self.links = Some(self.open()?);
-        (self.seen, self.good, self.other) = (None, GOOD, None);
-        let end = self.links.as_ref().map_or(0.0, |links| links.frames.now()) + PATIENCE;
-        loop {
-            self.take()?;
-            let Some(links) = &mut self.links else { return Err(Fault::NotConnected) };
-            if self.seen.is_some() {
-                return Ok(());
-            }
-            if links.frames.now() >= end {
-                break;
-            }
-            links.frames.wait(STALE / 5.0);
-        }
-        let (id, server) = (self.id, &self.server);
-        Err(Fault::Unreachable(match self.other {
-            Some(other) => format!("{server} sends the rigid body {other}, and none with the id {id}"),
-            None => format!(
-                "no frame of the rigid body {id} came from {server} in {PATIENCE} s; check that it is streamed, and that \
-                 no firewall stops it"
-            ),
-        }))
+        self.first_frame()
+    }
+
+    fn moved(&mut self) -> Result<(), Fault> {
+        let Some(links) = &mut self.links else { return Err(Fault::NotConnected) };
+        let discarded = links.frames.discard();
+        discarded.map_err(|error| self.unreachable(&error))?;
+        self.first_frame()
     }
 
     fn read(&mut self, values: &mut [f64]) -> Result<(), Fault> {

@@ -27,6 +27,8 @@ pub(crate) struct Sensor {
     /// Where `sensordata` has its value.
     pub(crate) source: usize,
     pub(crate) target: Target,
+    /// Whether the hardware has it.
+    pub(crate) on_hardware: bool,
 }
 
 /// An actuator of the config in a model.
@@ -191,9 +193,11 @@ fn sensor(
     row: &SensorConfig,
     compat: Compat,
 ) -> Result<Sensor, RobotError> {
+    let on_hardware = device.has(&row.hardware);
     if let Some((id, k, address)) = component(model, row) {
         let source = model.sensor_adr[id] as usize + k;
-        return Ok(Sensor { config: row.clone(), source, target: Target::Position(address) });
+        let target = Target::Position(address);
+        return Ok(Sensor { config: row.clone(), source, target, on_hardware });
     }
     let id = id(model, device, Part::Sensor, &row.name)?;
     let joint = model.sensor_objid[id].max(0) as usize;
@@ -213,7 +217,7 @@ fn sensor(
         // Sensors have at least one value each, so that there is one at this place.
         Compat::RoboHive07 => id,
     };
-    Ok(Sensor { config: row.clone(), source, target })
+    Ok(Sensor { config: row.clone(), source, target, on_hardware })
 }
 
 fn actuator(

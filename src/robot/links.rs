@@ -1,7 +1,7 @@
 //! The robot's connections to its devices.
 
 use crate::binding::{Binding, Group};
-use crate::config::{Config, DeviceConfig};
+use crate::config::{Config, DeviceConfig, HardwareId};
 use crate::device::{Device, Fault, Registry, Simulated, Units};
 use crate::error::RobotError;
 use crate::options::Options;
@@ -10,11 +10,41 @@ use physics::model::Suggestions;
 
 /// One device for each of the config's, connected; `None` for those without sensors and actuators.
 pub(crate) struct Links {
-    devices: Vec<Option<Box<dyn Device>>>,
+    devices: Vec<Option<Link>>,
     hardware: bool,
     /// Commands or sensor values of one device, in its units.
     buffer: Vec<f64>,
     fault: Option<RobotError>,
+}
+
+/// A device, and which entries of its group it has: all in simulation, on hardware those that exist there.
+struct Link {
+    device: Box<dyn Device>,
+    sensors: Vec<usize>,
+    actuators: Vec<usize>,
+}
+
+impl Link {
+    fn whole(device: Box<dyn Device>, group: &Group) -> Link {
+        Link {
+            device,
+            sensors: (0..group.sensors.len()).collect(),
+            actuators: (0..group.actuators.len()).collect(),
+        }
+    }
+
+    /// `None` where the hardware has nothing of the device.
+    fn driven(config: &DeviceConfig, registry: &Registry) -> Result<Option<Link>, RobotError> {
+        let there = |ids: Vec<&HardwareId>| -> Vec<usize> {
+            (0..ids.len()).filter(|place| config.has(ids[*place])).collect()
+        };
+        let sensors = there(config.sensors.iter().map(|sensor| &sensor.hardware).collect());
+        let actuators = there(config.actuators.iter().map(|actuator| &actuator.hardware).collect());
+        if sensors.is_empty() && actuators.is_empty() {
+            return Ok(None);
+        }
+        Ok(Some(Link { device: driven(&config.on_hardware(), registry)?, sensors, actuators }))
+    }
 }
 
 impl Links {
@@ -31,27 +61,26 @@ impl Links {
         let mut links = Links { devices: Vec::new(), hardware: options.hardware, buffer, fault: None };
         for (place, group) in binding.devices.iter().enumerate() {
             let used = !(group.sensors.is_empty() && group.actuators.is_empty());
-            let mut device: Box<dyn Device> = match (config, options.hardware) {
-                _ if !used => {
-                    links.devices.push(None);
-                    continue;
-                }
-                (_, false) => Box::new(Simulated::new(group.sensors.len())),
-                (Some(config), true) => driven(&config.devices[place], registry)?,
+            let mut link = match (config, options.hardware) {
+                _ if !used => None,
+                (_, false) => Some(Link::whole(Box::new(Simulated::new(group.sensors.len())), group)),
+                (Some(config), true) => Link::driven(&config.devices[place], registry)?,
                 (None, true) => return Err(undriven(&group.name, None, registry)),
             };
-            device.connect().map_err(|fault| failed(group, fault))?;
-            links.devices.push(Some(device));
+            if let Some(link) = &mut link {
+                link.device.connect().map_err(|fault| failed(group, fault))?;
+            }
+            links.devices.push(link);
         }
         Ok(links)
     }
 
     /// Simulated devices for all of `binding`, which together read `width` values.
     pub(crate) fn simulated(binding: &Binding, width: usize) -> Links {
-        let device = |group: &Group| -> Option<Box<dyn Device>> {
+        let device = |group: &Group| -> Option<Link> {
             let used = !(group.sensors.is_empty() && group.actuators.is_empty());
             let mut device = Simulated::new(group.sensors.len());
-            (used && device.connect().is_ok()).then(|| Box::new(device) as Box<dyn Device>)
+            (used && device.connect().is_ok()).then(|| Link::whole(Box::new(device), group))
         };
         let buffer = vec![0.0; width.max(binding.actuators.len())];
         Links { devices: binding.devices.iter().map(device).collect(), hardware: false, buffer, fault: None }
@@ -62,14 +91,14 @@ impl Links {
     pub(crate) fn read(&mut self, binding: &Binding, time: f64, readings: &mut Readings) {
         readings.time = f64::NEG_INFINITY;
         for (place, group) in binding.devices.iter().enumerate() {
-            let Some(device) = &mut self.devices[place] else {
+            let Some(Link { device, sensors, .. }) = &mut self.devices[place] else {
                 continue;
             };
             let values = &mut readings.values[group.sensors.clone()];
             if !self.hardware {
                 device.observe_simulation(time, values);
             }
-            let read = &mut self.buffer[..values.len()];
+            let read = &mut self.buffer[..sensors.len()];
             let outcome =
                 device.read(read).and_then(|stamp| match read.iter().position(|v| !v.is_finite()) {
                     Some(bad) if self.hardware => Err(Fault::BadValue(bad)),
@@ -78,12 +107,13 @@ impl Links {
             match outcome {
                 Ok(stamp) => {
                     readings.stamps[place] = stamp;
-                    values.copy_from_slice(read);
-                    if device.units() == Units::Hardware {
-                        for (value, sensor) in values.iter_mut().zip(&binding.sensors[group.sensors.clone()])
-                        {
-                            *value = *value * sensor.config.scale + sensor.config.offset;
-                        }
+                    let hardware = device.units() == Units::Hardware;
+                    for (place, value) in sensors.iter().zip(&*read) {
+                        // A robot without config has readings and no sensors.
+                        values[*place] = match binding.sensors.get(group.sensors.start + place) {
+                            Some(sensor) if hardware => *value * sensor.config.scale + sensor.config.offset,
+                            _ => *value,
+                        };
                     }
                 }
                 Err(fault) => {
@@ -111,6 +141,14 @@ impl Links {
         self.command(binding, |actuator| qpos[actuator.position], |device, targets| device.reset(targets))
     }
 
+    /// Tells every device that things were moved by hand.
+    pub(crate) fn moved(&mut self, binding: &Binding) -> Result<(), RobotError> {
+        let links = self.devices.iter_mut().zip(&binding.devices);
+        links
+            .filter_map(|(link, group)| Some((link.as_mut()?, group)))
+            .try_for_each(|(link, group)| link.device.moved().map_err(|fault| failed(group, fault)))
+    }
+
     fn command(
         &mut self,
         binding: &Binding,
@@ -118,10 +156,11 @@ impl Links {
         send: impl Fn(&mut dyn Device, &[f64]) -> Result<(), Fault>,
     ) -> Result<(), RobotError> {
         for (device, group) in self.devices.iter_mut().zip(&binding.devices) {
-            let Some(device) = device else { continue };
-            let commands = &mut self.buffer[..group.actuators.len()];
+            let Some(Link { device, actuators, .. }) = device else { continue };
+            let commands = &mut self.buffer[..actuators.len()];
             let hardware = device.units() == Units::Hardware;
-            for (command, actuator) in commands.iter_mut().zip(&binding.actuators[group.actuators.clone()]) {
+            for (command, place) in commands.iter_mut().zip(&*actuators) {
+                let actuator = &binding.actuators[group.actuators.start + place];
                 let value = wanted(actuator);
                 let converted = value * actuator.config.scale + actuator.config.offset;
                 *command = if hardware { converted } else { value };
@@ -135,8 +174,8 @@ impl Links {
     pub(crate) fn close(&mut self, binding: &Binding) -> Result<(), RobotError> {
         let mut first = Ok(());
         for (device, group) in self.devices.iter_mut().zip(&binding.devices) {
-            if let Some(mut device) = device.take() {
-                first = first.and(device.close().map_err(|fault| failed(group, fault)));
+            if let Some(mut link) = device.take() {
+                first = first.and(link.device.close().map_err(|fault| failed(group, fault)));
             }
         }
         first
@@ -160,9 +199,9 @@ impl Links {
 
 impl Drop for Links {
     fn drop(&mut self) {
-        for device in self.devices.iter_mut().flatten() {
+        for link in self.devices.iter_mut().flatten() {
             // Nobody is left to hear of a failure.
-            device.close().unwrap_or_default();
+            link.device.close().unwrap_or_default();
         }
     }
 }

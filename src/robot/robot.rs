@@ -1,7 +1,7 @@
 //! A robot: actions in, controls out; sensors in, readings out.
 
 use crate::action::{self, Actions};
-use crate::binding::{Binding, Group, Target};
+use crate::binding::{Binding, Group, Sensor, Target};
 use crate::config::Config;
 use crate::delay::Delay;
 use crate::device::Registry;
@@ -226,6 +226,14 @@ impl Robot {
         Ok(self.history.newest())
     }
 
+    /// Tells the devices that a person has moved what they measure, after a reset.
+    ///
+    /// # Errors
+    /// Devices that fail.
+    pub fn moved(&mut self) -> Result<(), RobotError> {
+        self.links.moved(&self.binding)
+    }
+
     /// The newest readings.
     pub fn readings(&self) -> &Readings {
         self.history.newest()
@@ -301,8 +309,11 @@ impl Robot {
         if self.default {
             let state = truth.state.qpos.iter().chain(&truth.state.qvel).chain(&truth.state.act);
             values.iter_mut().zip(state).for_each(|(value, state)| *value = *state);
-        } else if !self.options.hardware {
-            for (value, sensor) in values.iter_mut().zip(&self.binding.sensors) {
+        } else {
+            // What the hardware does not have, the mirror does.
+            let simulated = |sensor: &Sensor| !self.options.hardware || !sensor.on_hardware;
+            let all = values.iter_mut().zip(&self.binding.sensors);
+            for (value, sensor) in all.filter(|(_, sensor)| simulated(sensor)) {
                 *value = truth.sensor.sensordata[sensor.source];
             }
         }

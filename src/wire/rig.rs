@@ -75,9 +75,13 @@ pub fn rig(config: &Config, mut plant: Plant, at_once: bool) -> Result<(Bench, V
         .map_err(|error| PlantError::new(error.to_string()))?;
     let mut bench = Bench::new(plant);
     let mut rigged = Vec::new();
-    for device in &config.devices {
+    for device in config.devices.iter().map(robot::DeviceConfig::on_hardware) {
+        let device = &device;
         let found = MAKERS.iter().find(|(kind, _, _)| device.interface.kind.as_deref() == Some(kind));
         let Some((kind, key, make)) = found else { continue };
+        if device.sensors.is_empty() && device.actuators.is_empty() {
+            continue;
+        }
         let key = if behind_gateway(device) { GATEWAY } else { key };
         let address = text(device, key).unwrap_or(&device.name).to_owned();
         let links = make(device, &mut bench, at_once)

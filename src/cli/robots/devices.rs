@@ -114,6 +114,7 @@ pub fn failed(name: &str, fault: &Fault) -> Failure {
 }
 
 fn connect(config: &DeviceConfig, setup: &Setup) -> Result<Connected, Failure> {
+    let config = &config.on_hardware();
     let mut device = device(config, setup).map_err(|fault| failed(&config.name, &fault))?;
     device.connect().map_err(|fault| failed(&config.name, &fault))?;
     Ok(Connected { config: config.clone(), device, values: vec![0.0; config.sensors.len()] })

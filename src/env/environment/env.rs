@@ -314,6 +314,7 @@ impl Env {
         self.robot.reset(&self.scene.model, &self.scene.data, &mut self.rng)?;
         if let Some(live) = &mut self.live {
             (live.ready)(&self.start.qpos).map_err(EnvError::NotReady)?;
+            self.robot.moved()?;
             (live.begun, live.commanded) = (None, false);
             live.pacer.start();
         }

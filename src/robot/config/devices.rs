@@ -25,6 +25,23 @@ pub struct DeviceConfig {
     pub cameras: Vec<CameraConfig>,
 }
 
+impl DeviceConfig {
+    /// Whether the hardware has one of its sensors or actuators: not those whose number is negative, and none of a device
+    /// without interface that moves nothing, such as an object that only the simulation observes.
+    pub fn has(&self, id: &HardwareId) -> bool {
+        let exists = !matches!(id, HardwareId::Number(number) if *number < 0);
+        exists && (self.interface.kind.is_some() || !self.actuators.is_empty())
+    }
+
+    /// What of it the hardware has.
+    pub fn on_hardware(&self) -> DeviceConfig {
+        let mut present = self.clone();
+        present.sensors.retain(|sensor| self.has(&sensor.hardware));
+        present.actuators.retain(|actuator| self.has(&actuator.hardware));
+        present
+    }
+}
+
 /// How the hardware of a device is reached.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Interface {

@@ -89,6 +89,15 @@ pub trait Device: Send {
     /// Devices that do not answer or refuse.
     fn reset(&mut self, targets: &[f64]) -> Result<(), Fault>;
 
+    /// What it measures was put elsewhere by hand: returns when it measures anew. Devices that take every reading as it comes
+    /// have nothing to do.
+    ///
+    /// # Errors
+    /// Devices that do not answer.
+    fn moved(&mut self) -> Result<(), Fault> {
+        Ok(())
+    }
+
     /// Ends the connection; the actuators are left safe.
     ///
     /// # Errors

@@ -285,3 +285,28 @@ fn devices_that_are_not_connected_say_so() {
         }
     }
 }
+
+#[test]
+fn what_the_hardware_does_not_have_stays_as_the_mirror_has_it() {
+    let (model, mut data, _) = arm();
+    // The velocity has no place on the hardware, nor has an object that only the simulation observes.
+    let text = CONFIG
+        .replace("{ name = 'v', range = [-1, 1] }", "{ name = 'v', range = [-1, 1], hdr_id = -1 }")
+        + "
+    [[device]]
+    name = 'object'
+    sensor = [{ name = 'q', range = [-1, 1] }]";
+    let config = Config::from_toml(&text, "arm.toml").unwrap();
+    let mut registry = Registry::default();
+    registry.register("log", |device: &DeviceConfig| {
+        assert_eq!((device.sensors.len(), device.actuators.len()), (1, 1));
+        let records = vec![Record { time: 0.0, values: vec![0.25] }];
+        Ok(Box::new(Replay::new(records, Units::Hardware)) as Box<dyn Device>)
+    });
+    data.state.qpos[0] = 0.75;
+    data.state.qvel[0] = 0.5;
+    forward(&model, &mut data).unwrap();
+    let mut robot = Robot::with_devices(&model, Some(&config), hardware(), &registry).unwrap();
+    let readings = robot.reset(&model, &data, &mut Generator::pcg64(1_u64)).unwrap();
+    assert_eq!(readings.values, [0.0, 0.5, 0.75]);
+}
