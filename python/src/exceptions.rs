@@ -31,9 +31,8 @@ fn with_text(py: Python<'_>, error: &EnvError, text: String) -> PyErr {
         EnvError::UnknownId { .. } => named(py, "gymnasium.error", "NameNotFound", text),
         EnvError::NeedsReset => named(py, "gymnasium.error", "ResetNeeded", text),
         EnvError::Setting { .. } => named(py, "robohive.errors", "SettingError", text),
-        EnvError::Robot(RobotError::Device { device, .. } | RobotError::Interface { device, .. }) => {
-            of_device(py, device, text)
-        }
+        EnvError::Robot(RobotError::Device { device, fault }) => of_device(py, device, fault.kind(), text),
+        EnvError::Robot(RobotError::Interface { device, .. }) => of_device(py, device, "", text),
         EnvError::NotReady(why) => {
             raised(py, why).unwrap_or_else(|| named(py, "robohive.errors", "HardwareError", text))
         }
@@ -67,11 +66,11 @@ fn raised(py: Python<'_>, error: &NotReady) -> Option<PyErr> {
     error.downcast_ref::<Raised>().map(|raised| raised.0.clone_ref(py))
 }
 
-/// The exception for a device that failed, which has its name as `device`.
-fn of_device(py: Python<'_>, device: &str, text: String) -> PyErr {
+/// The exception for a device that failed, which has its name as `device` and what failed as `kind`.
+fn of_device(py: Python<'_>, device: &str, kind: &str, text: String) -> PyErr {
     let made = py
         .import("robohive.errors")
-        .and_then(|module| module.getattr("HardwareError")?.call1((&text, device)));
+        .and_then(|module| module.getattr("HardwareError")?.call1((&text, device, kind)));
     made.map_or_else(|_| PyRuntimeError::new_err(text), PyErr::from_value)
 }
 

@@ -50,9 +50,9 @@ def test_nothing_moves_unarmed_and_the_error_names_the_device():
     env = robohive.make(ID, **REHEARSED)
     with pytest.raises(robohive.HardwareError, match="nothing moves before it is armed") as raised:
         env.reset(seed=1)
-    assert raised.value.device == "legs"
+    assert (raised.value.device, raised.value.kind) == ("legs", "refusal")
     restored = pickle.loads(pickle.dumps(raised.value))
-    assert (str(restored), restored.device) == (str(raised.value), "legs")
+    assert (str(restored), restored.device, restored.kind) == (str(raised.value), "legs", "refusal")
     assert isinstance(raised.value, RuntimeError)
 
 
@@ -97,11 +97,11 @@ def test_a_port_that_is_not_there_is_named(tmp_path):
     config.write_text(CONFIG.read_text().replace("/dev/ttyUSB0", "/dev/ttyNONE"))
     with pytest.raises(robohive.HardwareError, match="/dev/ttyNONE") as raised:
         robohive.make(ID, is_hardware=True, robot_config=config, arm=True)
-    assert raised.value.device == "legs"
+    assert (raised.value.device, raised.value.kind) == ("legs", "connection")
     config.write_text(CONFIG.read_text().replace('"dynamixel"', '"dinamixel"'))
     with pytest.raises(robohive.HardwareError, match="did you mean 'dynamixel'") as raised:
         robohive.make(ID, is_hardware=True, robot_config=config)
-    assert raised.value.device == "legs"
+    assert (raised.value.device, raised.value.kind) == ("legs", "")
 
 
 @pytest.mark.parametrize(

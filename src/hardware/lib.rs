@@ -6,7 +6,7 @@
 //!
 //! | `type` | devices | page |
 //! |---|---|---|
-//! | `dynamixel` | Dynamixel servos with protocol 2.0 on a serial bus | [`dynamixel`] |
+//! | `dynamixel` | Dynamixel servos with protocol 2.0 or 1.0 on a serial bus | [`dynamixel`] |
 //! | `feetech` | Feetech servos of the STS series (arms SO-100, SO-101) on a serial bus | [`feetech`] |
 //! | `franka` | Franka arms (Panda, FR3) over the Franka Control Interface, with the Franka Hand | [`franka`] |
 //! | `robotiq` | Robotiq 2F-85 grippers, by Modbus RTU or behind a Universal Robots controller | [`robotiq`] |
@@ -58,4 +58,5 @@ pub use safety::limits::Limits;
 pub use safety::lock::Lock;
 pub use safety::watchdog::Timeouts;
 pub use service::{Services, TendedClock, TendedPort};
+pub use servos::Servos;
 pub use setup::{Clocks, Setup};

@@ -1,21 +1,20 @@
 //! Drivers by the type of interface that a config names.
 
 use crate::driver::Driver;
-use crate::dynamixel::Dynamixel;
-use crate::feetech::Feetech;
 use crate::franka::Franka;
 use crate::guard::Guarded;
 use crate::optitrack::OptiTrack;
 use crate::robotiq::Robotiq;
 use crate::setup::Setup;
+use crate::{dynamixel, feetech};
 use robot::{Device, DeviceConfig, Fault, Registry};
 
 /// Makes the driver of a device.
 type Maker = fn(&DeviceConfig, &Setup) -> Result<Box<dyn Driver>, Fault>;
 
 const MAKERS: [(&str, Maker); 5] = [
-    ("dynamixel", dynamixel),
-    ("feetech", feetech),
+    ("dynamixel", |config, setup| Ok(Box::new(dynamixel::driver(config, setup.serial.clone())?))),
+    ("feetech", |config, setup| Ok(Box::new(feetech::driver(config, setup.serial.clone())?))),
     ("franka", franka),
     ("optitrack", optitrack),
     ("robotiq", robotiq),
@@ -56,20 +55,12 @@ fn guarded(config: &DeviceConfig, make: Maker, setup: &Setup) -> Result<Box<dyn 
     Ok(Box::new(Guarded::new(&config.name, driver, sensors, actuators, setup)))
 }
 
-fn dynamixel(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
-    Ok(Box::new(Dynamixel::new(config, setup.serial.clone())?))
-}
-
 fn franka(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
     Ok(Box::new(Franka::new(config, setup.sockets.clone())?))
 }
 
 fn optitrack(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
     Ok(Box::new(OptiTrack::new(config, setup.sockets.clone())?))
-}
-
-fn feetech(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {
-    Ok(Box::new(Feetech::new(config, setup.serial.clone())?))
 }
 
 fn robotiq(config: &DeviceConfig, setup: &Setup) -> Result<Box<dyn Driver>, Fault> {

@@ -3,11 +3,12 @@
 use crate::port::broken;
 use protocol::Port;
 use robot::Fault;
+use std::ops::ControlFlow;
 
 /// Longest wait for an answer \[s\], beyond the time of its bytes.
 const PATIENCE: f64 = 0.02;
 /// Most bytes that are taken from the port at once.
-pub(crate) const RECEIVED: usize = 256;
+const RECEIVED: usize = 256;
 /// Longest instruction that fits without allocation.
 const SENT: usize = 1024;
 
@@ -37,22 +38,26 @@ impl SerialLine {
         self.port.discard().and_then(|()| self.port.send(&self.sent)).map_err(|error| broken(&error))
     }
 
-    /// Waits for an answer of `bytes` bytes: `take` gets what was sent and what has come since its last call, at first
-    /// nothing, until it finds one.
-    pub(crate) fn answer<R>(
+    /// Waits for answers of so many `bytes`: `take` gets what was sent and what has come since its last call, at first nothing, until
+    /// it has all that it waits for. Where it has found a part of that, it returns the bytes that are still to come, and the wait
+    /// for these begins then.
+    pub(crate) fn answers<R>(
         &mut self,
         bytes: usize,
-        mut take: impl FnMut(&[u8], &[u8]) -> Option<R>,
+        mut take: impl FnMut(&[u8], &[u8]) -> ControlFlow<R, Option<usize>>,
     ) -> Result<R, Fault> {
         let begun = self.port.now();
         // The instruction is still going out.
-        let end = begun + PATIENCE + (self.sent.len() + bytes) as f64 * self.byte;
+        let mut end = begun + PATIENCE + (self.sent.len() + bytes) as f64 * self.byte;
         let mut count = 0;
         loop {
-            if let Some(taken) = take(&self.sent, &self.received[..count]) {
-                return Ok(taken);
-            }
+            let taken = take(&self.sent, &self.received[..count]);
             let now = self.port.now();
+            match taken {
+                ControlFlow::Break(all) => return Ok(all),
+                ControlFlow::Continue(Some(bytes)) => end = now + PATIENCE + bytes as f64 * self.byte,
+                ControlFlow::Continue(None) => {}
+            }
             if now >= end {
                 return Err(Fault::Stale(((now - begun) * 1e3).ceil() as u64));
             }

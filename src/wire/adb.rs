@@ -56,6 +56,8 @@ enum Phase {
 pub struct Server {
     serial: String,
     script: Vec<Shown>,
+    /// Time after which the script begins again \[s\].
+    period: Option<f64>,
     heard: Vec<u8>,
     phase: Phase,
 }
@@ -65,7 +67,14 @@ impl Server {
     /// its log.
     pub fn new(serial: &str, mut script: Vec<Shown>) -> Self {
         script.sort_by(|a, b| a.time.total_cmp(&b.time));
-        Server { serial: serial.to_owned(), script, heard: Vec::new(), phase: Phase::Server }
+        Server { serial: serial.to_owned(), script, period: None, heard: Vec::new(), phase: Phase::Server }
+    }
+
+    /// Shows the script again and again, every so many seconds.
+    #[must_use]
+    pub fn with_period(mut self, seconds: f64) -> Self {
+        self.period = Some(seconds);
+        self
     }
 
     /// Answers a request.
@@ -133,7 +142,10 @@ impl Device for Server {
         let Phase::Log(begun, next) = self.phase else { return };
         let Some(shown) = self.script.get(next) else { return };
         moment.outbox.send(0, moment.time, shown.line().into_bytes());
-        self.phase = Phase::Log(begun, next + 1);
+        self.phase = match self.period {
+            Some(period) if next + 1 == self.script.len() => Phase::Log(begun + period, 0),
+            _ => Phase::Log(begun, next + 1),
+        };
     }
 
     fn connected(&mut self, _: &mut Moment<'_>, _: usize, _: bool) {

@@ -36,6 +36,7 @@
 
 pub mod adb;
 mod bench;
+mod chain;
 pub mod cyberglove;
 mod device;
 pub mod dynamixel;
@@ -56,7 +57,7 @@ pub use bench::{Bench, Carries, LinkId};
 pub use device::{Device, Moment, Outbox};
 pub use faults::{Rates, RatesError};
 pub use plant::{Drive, Plant, PlantError};
-pub use rig::{Outlet, Rigged, kinds, rig};
+pub use rig::{Outlet, Rigged, connect, kinds, rig};
 #[cfg(unix)]
 pub use serve::{End, Terminal, serve};
 pub use virtual_port::{Shared, VirtualClock, VirtualPort};

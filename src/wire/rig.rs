@@ -1,11 +1,13 @@
 //! The devices of a robot's config, on one plant.
 
 use crate::bench::{Bench, Carries, LinkId};
+use crate::chain::{Bus, Member, servos_of};
 use crate::franka::{Arm, Hand};
 use crate::optitrack::Tracker;
 use crate::plant::{Plant, PlantError};
 use crate::robotiq::{Gateway, Gripper, Rtu};
 use crate::{dynamixel, feetech};
+use protocol::dynamixel::v1;
 use protocol::franka::Version;
 use protocol::optitrack::natnet;
 use protocol::robotiq::{ADDRESS, STROKE};
@@ -77,15 +79,13 @@ pub fn rig(config: &Config, mut plant: Plant, at_once: bool) -> Result<(Bench, V
     let mut rigged = Vec::new();
     for device in config.devices.iter().map(robot::DeviceConfig::on_hardware) {
         let device = &device;
-        let found = MAKERS.iter().find(|(kind, _, _)| device.interface.kind.as_deref() == Some(kind));
-        let Some((kind, key, make)) = found else { continue };
+        let Some((kind, key, _)) = maker(device) else { continue };
         if device.sensors.is_empty() && device.actuators.is_empty() {
             continue;
         }
         let key = if behind_gateway(device) { GATEWAY } else { key };
         let address = text(device, key).unwrap_or(&device.name).to_owned();
-        let links = make(device, &mut bench, at_once)
-            .map_err(|error| PlantError::new(format!("device '{}': {error}", device.name)))?;
+        let links = connect(device, &mut bench, at_once)?;
         rigged.push(Rigged { device: device.name.clone(), kind: (*kind).to_owned(), key, address, links });
     }
     if rigged.is_empty() {
@@ -96,6 +96,27 @@ pub fn rig(config: &Config, mut plant: Plant, at_once: bool) -> Result<(Bench, V
         )));
     }
     Ok((bench, rigged))
+}
+
+fn maker(device: &DeviceConfig) -> Option<&'static (&'static str, &'static str, Maker)> {
+    MAKERS.iter().find(|(kind, _, _)| device.interface.kind.as_deref() == Some(kind))
+}
+
+/// Puts one device on a bench; returns its links, as [`rig`] does.
+///
+/// # Errors
+/// A device that cannot be simulated, or names what the plant does not have.
+pub fn connect(
+    device: &DeviceConfig,
+    bench: &mut Bench,
+    at_once: bool,
+) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
+    let wrong = |why: String| PlantError::new(format!("device '{}': {why}", device.name));
+    let Some((_, _, make)) = maker(device) else {
+        let kinds: Vec<_> = kinds().collect();
+        return Err(wrong(format!("only these interfaces can be simulated: {}", kinds.join(", "))));
+    };
+    make(device, bench, at_once).map_err(|error| wrong(error.to_string()))
 }
 
 fn text<'a>(device: &'a DeviceConfig, key: &str) -> Option<&'a str> {
@@ -130,10 +151,25 @@ fn dynamixels(
     bench: &mut Bench,
     at_once: bool,
 ) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
-    let (baud, carries) = line(device, at_once);
-    let servos = dynamixel::servos_of(device, bench.plant())?;
-    let bus = dynamixel::Bus::new(servos).with_baud(baud);
-    Ok(vec![(Outlet::Serial, bench.connect(Box::new(bus), carries))])
+    let name = text(device, "model");
+    if let Some(model) = first_model(device, name) {
+        return chain(device, bench, at_once, |id| dynamixel::v1::Servo::new(model, id));
+    }
+    let model = match name {
+        Some(name) => protocol::dynamixel::model(name)
+            .ok_or_else(|| PlantError::new(format!("there is no model of servo '{name}'")))?,
+        None => &protocol::dynamixel::MODELS[0],
+    };
+    chain(device, bench, at_once, |id| dynamixel::Servo::new(model, id))
+}
+
+/// The model of servos with protocol 1.0, where the config names one, or the protocol.
+fn first_model(device: &DeviceConfig, name: Option<&str>) -> Option<&'static v1::Model> {
+    match name {
+        Some(name) => v1::model(name),
+        None if number(device, "protocol", 2.0) == 1.0 => v1::model(v1::MODELS[0].kind.name),
+        None => None,
+    }
 }
 
 fn feetechs(
@@ -141,9 +177,18 @@ fn feetechs(
     bench: &mut Bench,
     at_once: bool,
 ) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
+    chain(device, bench, at_once, feetech::Servo::new)
+}
+
+/// Servos that share a line.
+fn chain<S: Member + 'static>(
+    device: &DeviceConfig,
+    bench: &mut Bench,
+    at_once: bool,
+    make: impl Fn(u8) -> S,
+) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
     let (baud, carries) = line(device, at_once);
-    let servos = feetech::servos_of(device, bench.plant())?;
-    let bus = feetech::Bus::new(servos).with_baud(baud);
+    let bus = Bus::new(servos_of(device, bench.plant(), make)?).with_baud(baud);
     Ok(vec![(Outlet::Serial, bench.connect(Box::new(bus), carries))])
 }
 

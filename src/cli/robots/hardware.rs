@@ -10,7 +10,7 @@ use ::hardware::camera::{Cameras, Streamed, Wanted, video_devices};
 use ::hardware::recorder::{What, read};
 use ::hardware::{kinds, serial_ports};
 use clap::{Args, Subcommand, ValueHint};
-use robot::Clock;
+use robot::{Clock, Fault};
 use serde_json::json;
 use std::io::IsTerminal;
 use std::path::PathBuf;
@@ -181,6 +181,8 @@ struct Answers {
     /// Time of each reading [s].
     latencies: Vec<f64>,
     faults: u32,
+    /// What the last of them was.
+    fault: Option<Fault>,
     missed: u32,
 }
 
@@ -207,7 +209,10 @@ fn check(a: &Check) -> Result<(), Failure> {
             let begun = clock.now();
             match device.read() {
                 Ok(_) => answers.latencies.push(clock.now() - begun),
-                Err(_) => answers.faults += 1,
+                Err(fault) => {
+                    answers.faults += 1;
+                    answers.fault = Some(fault);
+                }
             }
             let left = begun + period - clock.now();
             if left > 0.0 {
@@ -284,13 +289,15 @@ fn report(a: &Check, device: &Connected, answers: &Answers) {
     if a.json {
         show_json(&json!({
             "device": name, "kind": kind, "sensors": sensors, "actuators": actuators, "readings": answers.latencies.len(),
-            "faults": answers.faults, "missed_ticks": answers.missed, "latencies_ms":
+            "faults": answers.faults, "fault": answers.fault.as_ref().map(|fault| json!({"kind": fault.kind(), "text": fault.to_string()})),
+            "missed_ticks": answers.missed, "latencies_ms":
             answers.latencies.iter().map(|latency| latency * 1e3).collect::<Vec<_>>(),
         }));
         return;
     }
     show!("{name} ({kind}): {sensors} sensors, {actuators} actuators");
-    show!("  readings    {} of {}, {} faults", answers.latencies.len(), a.samples, answers.faults);
+    let fault = answers.fault.as_ref().map_or_else(String::new, |fault| format!(", the last: {fault}"));
+    show!("  readings    {} of {}, {} faults{fault}", answers.latencies.len(), a.samples, answers.faults);
     show!("  latency     {p50:.2} ms at the median, {p99:.2} ms at 99 %, {most:.2} ms at most");
     show!("  ticks       {} missed at {} Hz", answers.missed, a.rate);
 }

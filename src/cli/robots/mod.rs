@@ -6,3 +6,4 @@ pub mod hardware;
 pub mod live;
 pub mod rehearsal;
 pub mod wire;
+pub mod worn;

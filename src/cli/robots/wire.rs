@@ -4,10 +4,13 @@ use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::interrupt::Interrupt;
 use crate::robots::rehearsal::simulated;
+use crate::robots::worn;
 use crate::terminal::{note, show};
 use clap::{Args, ValueHint};
-use protocol::dynamixel::MODELS;
+use protocol::dynamixel::{self, MODELS, v1};
 use protocol::optitrack::natnet;
+use protocol::servo::Kind;
+use protocol::{adb, cyberglove, feetech};
 use robot::{Config, Value};
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -15,7 +18,6 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use wire::dynamixel::{Bus, Servo};
 use wire::{Bench, Carries, End, LinkId, Outlet, Plant, Rates, Rigged, Terminal, serve};
 
 /// Serve simulated devices on pseudo-terminals and sockets, for any program that speaks their protocols
@@ -25,16 +27,21 @@ use wire::{Bench, Carries, End, LinkId, Outlet, Plant, Rates, Rigged, Terminal, 
 environment's model: `robohive run ID --hardware OUT` then drives it through the real drivers, in real time. With --ids alone, servos \
 stand on a bench, each with a flywheel.
 
+A headset and a glove are worn by nobody: the right controller is gripped and goes round a circle of 0.1 m in front of the head, the \
+fingers close and open, every four seconds. `robohive teleop ID --device quest:ADDRESS` and `--device glove:PATH` read them.
+
 --faults takes probabilities a message: drop, delay, reorder, duplicate, corrupt, truncate, stall, disconnect, stop. The same seed \
 strikes the same messages.
 
 Examples:
   robohive wire --ids 1-6 --model XL330-M288 --faults drop=0.001,corrupt=0.001 --seconds 0.2
-  robohive wire --config assets/quadruped/servos.toml --env hive/QuadrupedWalk-v0 --seconds 0.2"
+  robohive wire --ids 1,2 --model AX-12A --seconds 0.2
+  robohive wire --config assets/quadruped/servos.toml --env hive/QuadrupedWalk-v0 --seconds 0.2
+  robohive wire --quest 1WMHH8000X --glove 22 --seconds 0.2"
 )]
 pub struct Wire {
     /// Robot config whose devices are simulated
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "env", required_unless_present = "ids")]
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "env", required_unless_present_any = ["ids", "quest", "glove"])]
     config: Option<PathBuf>,
     /// Environment whose model they move
     #[arg(long, value_name = "ID", requires = "config")]
@@ -42,12 +49,18 @@ pub struct Wire {
     /// Write the config with the addresses of the simulated devices to this file (TOML)
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, requires = "config")]
     out: Option<PathBuf>,
-    /// Dynamixel servos with these ids on one bus, as 1-6 or 10,11,20
+    /// Servos with these ids on one bus, as 1-6 or 10,11,20
     #[arg(long, value_name = "IDS", value_parser = ids, conflicts_with = "config")]
     ids: Option<Ids>,
-    /// Model of the servos
-    #[arg(long, value_name = "MODEL", default_value = MODELS[0].name, value_parser = model)]
-    model: &'static str,
+    /// Model of the servos: Dynamixel's, which decides their protocol, or Feetech's STS3215
+    #[arg(long, value_name = "MODEL", default_value = MODELS[0].kind.name, value_parser = model)]
+    model: &'static Kind,
+    /// A Quest with this serial number, at an adb server
+    #[arg(long, value_name = "SERIAL", conflicts_with = "config")]
+    quest: Option<String>,
+    /// A CyberGlove with 18 or 22 sensors
+    #[arg(long, value_name = "SENSORS", conflicts_with = "config", value_parser = ["18", "22"])]
+    glove: Option<String>,
     /// Baud rate of their bus, which decides how long answers take
     #[arg(long, value_name = "BAUD", default_value_t = 1_000_000, value_parser = clap::value_parser!(u32).range(9600..=4_500_000))]
     baud: u32,
@@ -83,10 +96,12 @@ fn ids(text: &str) -> Result<Ids, String> {
     Ok(Ids(ids))
 }
 
-fn model(text: &str) -> Result<&'static str, String> {
-    let known = || MODELS.iter().map(|model| model.name).collect::<Vec<_>>().join(", ");
-    let found = MODELS.iter().find(|model| model.name == text);
-    found.map(|model| model.name).ok_or_else(|| format!("there are {}", known()))
+fn model(text: &str) -> Result<&'static Kind, String> {
+    let kinds = || dynamixel::KINDS.iter().chain(&v1::KINDS).chain(&feetech::KINDS);
+    kinds().find(|kind| kind.name == text).ok_or_else(|| {
+        let names: Vec<_> = kinds().map(|kind| kind.name).collect();
+        format!("there are {}", names.join(", "))
+    })
 }
 
 /// Runs the command.
@@ -107,7 +122,7 @@ pub fn run(a: &Wire) -> Result<(), Failure> {
             ends.push((*link, end));
         }
     }
-    let _linked = a.link.as_deref().map(|path| Linked::new(path, &ends[0].1.address())).transpose()?;
+    let _linked = a.link.as_deref().map(|path| Linked::new(path, &ends)).transpose()?;
     if let Some(out) = &a.out {
         std::fs::write(out, config.to_toml())
             .map_err(|error| Failure::new(format!("{}: {error}", out.display())))?;
@@ -196,9 +211,38 @@ fn devices_of(a: &Wire, path: &Path, id: &str) -> Result<(Bench, Config, Vec<Rig
     Ok((bench, config, rigged))
 }
 
-/// Servos with flywheels.
+/// Devices without a robot.
 fn stand(a: &Wire) -> Result<(Bench, Config, Vec<Rigged>), Failure> {
     let ids = a.ids.as_ref().map_or(&[][..], |ids| &ids.0);
+    let mut bench = Bench::new(Plant::new(flywheels(ids)?).map_err(Failure::new)?);
+    let mut rigged = Vec::new();
+    let mut add = |device: &str, kind: &str, outlet, link| {
+        rigged.push(Rigged {
+            device: device.to_owned(),
+            kind: kind.to_owned(),
+            key: "name",
+            address: String::new(),
+            links: vec![(outlet, link)],
+        });
+    };
+    if !ids.is_empty() {
+        let (kind, link) = servos(a, ids, &mut bench)?;
+        add("servos", kind, Outlet::Serial, link);
+    }
+    if let Some(serial) = &a.quest {
+        let link = bench.connect(Box::new(worn::headset(serial)), Carries::AT_ONCE);
+        add("quest", "adb", Outlet::Tcp(adb::PORT), link);
+    }
+    if let Some(sensors) = &a.glove {
+        let glove = worn::glove(if sensors == "18" { 18 } else { 22 });
+        let link = bench.connect(Box::new(glove), Carries::serial(cyberglove::BAUD.into()));
+        add("glove", "cyberglove", Outlet::Serial, link);
+    }
+    Ok((bench, Config::default(), rigged))
+}
+
+/// A flywheel for each servo.
+fn flywheels(ids: &[u8]) -> Result<physics::Model, Failure> {
     let wheel = |id: &u8| {
         format!(
             "<body pos='{id} 0 0'><joint name='{id}' axis='0 1 0' damping='.05' armature='.01'/><geom type='cylinder' size='.05 .01' mass='.1'/></body>"
@@ -210,32 +254,37 @@ fn stand(a: &Wire) -> Result<(Bench, Config, Vec<Rigged>), Failure> {
         ids.iter().map(wheel).collect::<String>(),
         ids.iter().map(motor).collect::<String>()
     );
-    let plant = Plant::new(mjcf::load_str(&text).map_err(Failure::usage)?.model).map_err(Failure::new)?;
-    let kind = MODELS.iter().find(|model| model.name == a.model).unwrap_or(&MODELS[0]);
-    let mut servos = Vec::new();
+    Ok(mjcf::load_str(&text).map_err(Failure::usage)?.model)
+}
+
+/// Servos with flywheels on one line; the type of interface that drives them.
+fn servos(a: &Wire, ids: &[u8], bench: &mut Bench) -> Result<(&'static str, LinkId), Failure> {
+    let kind =
+        if feetech::KINDS.iter().any(|kind| kind.name == a.model.name) { "feetech" } else { "dynamixel" };
+    let mut text =
+        format!("[[device]]\nname = 'servos'\ninterface = {{ type = '{kind}', baud = {}, ", a.baud);
+    text += &format!("model = '{}' }}\nactuator = [", a.model.name);
     for id in ids {
-        let mut servo = Servo::new(kind, *id);
-        servo.mount(plant.motor(&id.to_string()).map_err(Failure::new)?, 1.0, std::f64::consts::PI);
-        servos.push(servo);
+        let middle = f64::midpoint(0.0, (a.model.last + 1) as f64) * a.model.position;
+        text += &format!(
+            "{{ name = '{id}', pos_range = [-1, 1], vel_range = [-1, 1], hdr_id = {id}, offset = {middle} }},"
+        );
     }
-    let baud = f64::from(a.baud);
-    let mut bench = Bench::new(plant);
-    let link = bench.connect(Box::new(Bus::new(servos).with_baud(baud)), Carries::serial(baud));
-    let rigged = Rigged {
-        device: "servos".to_owned(),
-        kind: "dynamixel".to_owned(),
-        key: "name",
-        address: String::new(),
-        links: vec![(Outlet::Serial, link)],
-    };
-    Ok((bench, Config::default(), vec![rigged]))
+    let config = Config::from_toml(&(text + "]"), "servos").map_err(Failure::new)?;
+    let links = wire::connect(&config.devices[0], bench, false).map_err(Failure::usage)?;
+    Ok((kind, links[0].1))
 }
 
 /// A link in the file system that goes when the command does.
 struct Linked(PathBuf);
 
 impl Linked {
-    fn new(path: &Path, to: &str) -> Result<Linked, Failure> {
+    fn new(path: &Path, ends: &[(LinkId, End)]) -> Result<Linked, Failure> {
+        let terminal = ends.iter().find(|(_, end)| matches!(end, End::Terminal(_)));
+        let (_, terminal) = terminal.ok_or_else(|| {
+            Failure::usage("--link is about pseudo-terminals, and no device here has one: leave it out")
+        })?;
+        let to = terminal.address();
         std::os::unix::fs::symlink(to, path).map_err(|error| {
             Failure::usage(format!("--link {}: {error}; choose a path that does not exist", path.display()))
         })?;

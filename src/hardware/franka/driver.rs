@@ -81,7 +81,7 @@ impl Franka {
 
     /// Why the arm does not do what it was asked for, as its state says.
     fn trouble(state: &State) -> Fault {
-        Fault::Refused(match state.mode {
+        Fault::Hardware(match state.mode {
             Mode::UserStopped => "its stop button is pressed; release it and reset".to_owned(),
             Mode::Reflex => format!(
                 "a reflex stopped it: {}; a reset recovers from it",
@@ -104,7 +104,7 @@ impl Franka {
             match Outcome::of_recovery(answer, link.version) {
                 Outcome::Done => {}
                 other => {
-                    return Err(Fault::Refused(format!(
+                    return Err(Fault::Hardware(format!(
                         "its recovery from an error failed: it {}",
                         other.describe()
                     )));

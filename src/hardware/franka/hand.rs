@@ -93,7 +93,7 @@ impl Hand {
             match self.channel.reply(id).and_then(|payload| payload.first().copied()).map(u16::from) {
                 Some(status::SUCCESS) => break,
                 Some(_) => {
-                    return Err(Fault::Refused("the hand could not find its largest width".to_owned()));
+                    return Err(Fault::Hardware("the hand could not find its largest width".to_owned()));
                 }
                 None if self.channel.now() > end => {
                     return Err(Fault::Unreachable("the hand does not end its homing".to_owned()));
@@ -125,7 +125,7 @@ impl Hand {
         let now = self.channel.now();
         let silence = now - self.received.unwrap_or(now);
         if silence > SILENCE {
-            return Err(Fault::Refused(format!("the hand has not said its state for {:.1} s", silence)));
+            return Err(Fault::Unreachable(format!("the hand has not said its state for {:.1} s", silence)));
         }
         let mut failed = false;
         let channel = &mut self.channel;
@@ -137,7 +137,7 @@ impl Hand {
             }
         });
         if failed {
-            return Err(Fault::Refused("the hand could not carry out a command".to_owned()));
+            return Err(Fault::Hardware("the hand could not carry out a command".to_owned()));
         }
         let changed = self.told.is_none_or(|told| (told - self.wanted).abs() > SAME);
         if !changed || now - self.sent < PERIOD {

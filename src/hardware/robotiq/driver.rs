@@ -45,10 +45,10 @@ impl Robotiq {
     fn trouble(status: Status) -> Fault {
         let Status { fault, stage, .. } = status;
         match fault {
-            0 => Fault::Refused(format!(
+            0 => Fault::Hardware(format!(
                 "the gripper is in stage {stage:?} of its activation; a reset activates it"
             )),
-            _ => Fault::Refused(format!("the gripper reports {} (fault {fault})", describe_fault(fault))),
+            _ => Fault::Hardware(format!("{} (fault {fault})", describe_fault(fault))),
         }
     }
 
@@ -74,7 +74,7 @@ impl Robotiq {
             }
             if line.now() > end {
                 let text = format!("the gripper has not ended its activation for {ACTIVATION} s");
-                return Err(Fault::Refused(text));
+                return Err(Fault::Hardware(text));
             }
         }
     }

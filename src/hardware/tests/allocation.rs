@@ -15,7 +15,7 @@ use wire::{Bench, Carries, Plant, VirtualClock, VirtualPort};
 #[global_allocator]
 static HEAP: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// A port that repeats the last answer to a sync read, so that nothing but the driver runs while allocations are counted.
+/// A port that repeats the last answer to a fast sync read, so that nothing but the driver runs while allocations are counted.
 struct Repeating {
     port: VirtualPort,
     repeats: Arc<AtomicBool>,
@@ -26,7 +26,7 @@ struct Repeating {
 
 impl Port for Repeating {
     fn send(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.sync_read = bytes[7] == instruction::SYNC_READ;
+        self.sync_read = bytes[7] == instruction::FAST_SYNC_READ;
         if self.repeats.load(Ordering::Relaxed) {
             self.given = if self.sync_read { 0 } else { self.kept.len() };
             return Ok(());

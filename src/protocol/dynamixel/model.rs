@@ -1,6 +1,7 @@
 //! What models of servos have in common, and in what they differ.
 
 use super::registers::{Register, TABLE, address};
+use crate::servo::{self, Cell, Kind, Setting};
 
 /// Positions of one turn of the output shaft.
 pub const POSITION_PER_TURN: f64 = 4096.0;
@@ -26,8 +27,7 @@ pub mod hardware_error {
 
     /// The bits in words.
     pub fn describe(bits: u8) -> String {
-        let words: Vec<_> = NAMES.iter().filter(|(bit, _)| bits & bit != 0).map(|(_, word)| *word).collect();
-        if words.is_empty() { format!("unknown ({bits:#04x})") } else { words.join(", ") }
+        crate::servo::words(&NAMES, bits)
     }
 }
 
@@ -68,14 +68,10 @@ impl Mode {
 /// A model of servo with protocol 2.0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model {
-    /// Name.
-    pub name: &'static str,
-    /// What the register "Model Number" says.
-    pub number: u16,
+    /// What drivers need. One unit of current is `None` where the servo measures load (0.1 % of the largest torque) instead.
+    pub kind: Kind,
     /// Modes.
     pub modes: &'static [Mode],
-    /// One unit of current \[A\]; `None` where the servo measures load (0.1 % of the largest torque) instead.
-    pub current_unit: Option<f64>,
     /// Torque \[N m\] and current \[A\] when it is held fast at its nominal voltage.
     pub stall: [f64; 2],
     /// Registers whose value after a factory reset is not the XM430-W350's.
@@ -92,71 +88,71 @@ const ALL_MODES: &[Mode] = &[
 ];
 const WITHOUT_CURRENT: &[Mode] = &[Mode::Velocity, Mode::Position, Mode::ExtendedPosition, Mode::Pwm];
 
+const fn mode(mode: Mode) -> [Setting; 1] {
+    [Setting::exactly(Cell::new(address::OPERATING_MODE, 1), mode as i64)]
+}
+
+const POSITION: (servo::Mode, &[Setting]) = (servo::Mode::Position, &mode(Mode::Position));
+const TURNS: (servo::Mode, &[Setting]) = (servo::Mode::Turns, &mode(Mode::ExtendedPosition));
+const VELOCITY: (servo::Mode, &[Setting]) = (servo::Mode::Velocity, &mode(Mode::Velocity));
+const CURRENT: (servo::Mode, &[Setting]) = (servo::Mode::Current, &mode(Mode::Current));
+
+/// A model by its name, its number, its unit of current, torque and current at stall, and the firmware that knows the fast sync
+/// read.
+const fn servo(
+    name: &'static str,
+    number: u16,
+    current: Option<f64>,
+    stall: [f64; 2],
+    fast_sync_read: Option<i64>,
+) -> Model {
+    let (modes, commanded): (&[Mode], &[(servo::Mode, &[Setting])]) = match current {
+        Some(_) => (ALL_MODES, &[POSITION, TURNS, VELOCITY, CURRENT]),
+        None => (WITHOUT_CURRENT, &[POSITION, TURNS, VELOCITY]),
+    };
+    let kind = Kind {
+        name,
+        number,
+        position: Model::POSITION_UNIT,
+        last: 4095,
+        velocity: Model::VELOCITY_UNIT,
+        acceleration: Model::ACCELERATION_UNIT,
+        current,
+        modes: commanded,
+        fast_sync_read,
+    };
+    Model { kind, modes, stall, initial: &[] }
+}
+
 /// Models that are known; the e-Manual's page of each is the source.
 pub const MODELS: [Model; 7] = [
-    Model {
-        name: "XM430-W350",
-        number: 1020,
-        modes: ALL_MODES,
-        current_unit: Some(2.69e-3),
-        stall: [4.1, 2.3],
-        initial: &[],
-    },
-    Model {
-        name: "XL430-W250",
-        number: 1060,
-        modes: WITHOUT_CURRENT,
-        current_unit: None,
-        stall: [1.5, 1.4],
-        initial: &[
-            (34, 65),
-            (32, 120),
-            (address::TEMPERATURE_LIMIT, 72),
-            (address::VELOCITY_LIMIT, 265),
-            (84, 640),
-            (80, 4000),
-        ],
-    },
-    Model {
-        name: "XL330-M288",
-        number: 1200,
-        modes: ALL_MODES,
-        current_unit: Some(1e-3),
-        stall: [0.52, 1.47],
-        initial: XL330,
-    },
-    Model {
-        name: "XL330-M077",
-        number: 1190,
-        modes: ALL_MODES,
-        current_unit: Some(1e-3),
-        stall: [0.215, 1.47],
-        initial: XL330,
-    },
-    Model {
-        name: "MX-28(2.0)",
-        number: 30,
-        modes: WITHOUT_CURRENT,
-        current_unit: None,
-        stall: [2.5, 1.4],
-        initial: &[],
-    },
-    Model {
-        name: "MX-64(2.0)",
-        number: 311,
-        modes: ALL_MODES,
-        current_unit: Some(3.36e-3),
-        stall: [6.0, 4.1],
-        initial: &[],
-    },
-    Model {
-        name: "MX-106(2.0)",
-        number: 321,
-        modes: ALL_MODES,
-        current_unit: Some(3.36e-3),
-        stall: [8.4, 5.2],
-        initial: &[],
-    },
+    servo("XM430-W350", 1020, Some(2.69e-3), [4.1, 2.3], Some(45)),
+    Model { initial: XL430, ..servo("XL430-W250", 1060, None, [1.5, 1.4], Some(45)) },
+    Model { initial: XL330, ..servo("XL330-M288", 1200, Some(1e-3), [0.52, 1.47], Some(46)) },
+    Model { initial: XL330, ..servo("XL330-M077", 1190, Some(1e-3), [0.215, 1.47], Some(46)) },
+    servo("MX-28(2.0)", 30, None, [2.5, 1.4], None),
+    servo("MX-64(2.0)", 311, Some(3.36e-3), [6.0, 4.1], None),
+    servo("MX-106(2.0)", 321, Some(3.36e-3), [8.4, 5.2], None),
+];
+
+/// What drivers need of them.
+pub static KINDS: [Kind; MODELS.len()] = {
+    let mut kinds = [MODELS[0].kind; MODELS.len()];
+    let mut at = 0;
+    while at < MODELS.len() {
+        kinds[at] = MODELS[at].kind;
+        at += 1;
+    }
+    kinds
+};
+
+const XL430: &[(u16, i64)] = &[
+    (34, 65),
+    (32, 120),
+    (address::TEMPERATURE_LIMIT, 72),
+    (address::VELOCITY_LIMIT, 265),
+    (84, 640),
+    (80, 4000),
 ];
 
 const XL330: &[(u16, i64)] = &[
@@ -170,9 +166,10 @@ const XL330: &[(u16, i64)] = &[
     (address::PRESENT_VOLTAGE, 50),
 ];
 
-/// The model of this number.
-pub fn model(number: u16) -> Option<&'static Model> {
-    MODELS.iter().find(|model| model.number == number)
+/// The model of this name.
+pub fn model(name: &str) -> Option<&'static Model> {
+    static ALL: [Model; MODELS.len()] = MODELS;
+    ALL.iter().find(|model| model.kind.name == name)
 }
 
 impl Model {
@@ -197,7 +194,7 @@ impl Model {
         TABLE.into_iter().map(|register| {
             let own = self.initial.iter().find(|(address, _)| *address == register.address);
             let initial = match register.address {
-                address::MODEL_NUMBER => i64::from(self.number),
+                address::MODEL_NUMBER => i64::from(self.kind.number),
                 _ => own.map_or(register.initial, |(_, value)| *value),
             };
             Register { initial, ..register }
@@ -219,10 +216,10 @@ mod tests {
         for model in MODELS {
             let mut end = 0;
             for register in model.registers() {
-                assert!(register.address >= end, "{} of {}", register.name, model.name);
+                assert!(register.address >= end, "{} of {}", register.name, model.kind.name);
                 end = register.address + register.size;
                 let [low, high] = register.range;
-                assert!((low..=high).contains(&register.initial), "{} of {}", register.name, model.name);
+                assert!((low..=high).contains(&register.initial), "{} of {}", register.name, model.kind.name);
             }
             assert!(end <= address::INDIRECT_ADDRESS);
             assert!(

@@ -163,7 +163,13 @@ impl Decoder {
             return Some(Err(Corrupt { id }));
         }
         let instruction = packet[PREFIX];
-        unstuff(&covered[PREFIX..], &mut self.parameters);
+        if id == BROADCAST && packet[PREFIX] == instruction::STATUS {
+            // Servos that answer a fast sync read together put nothing in between.
+            self.parameters.clear();
+            self.parameters.extend_from_slice(&covered[PREFIX..]);
+        } else {
+            unstuff(&covered[PREFIX..], &mut self.parameters);
+        }
         self.used += end;
         Some(Ok(Packet { id, instruction, parameters: &self.parameters[1..] }))
     }

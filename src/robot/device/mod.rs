@@ -31,8 +31,10 @@ pub enum Fault {
     BadValue(usize),
     /// A recorded device has nothing more to say.
     Exhausted,
-    /// It refused a command.
+    /// It refused a command, or its config asks for what there is not.
     Refused(String),
+    /// Its hardware says that something is wrong: an overload, a reflex, a pressed stop button.
+    Hardware(String),
 }
 
 impl fmt::Display for Fault {
@@ -45,11 +47,26 @@ impl fmt::Display for Fault {
             Fault::BadValue(index) => write!(f, "its value {index} is no finite number"),
             Fault::Exhausted => f.write_str("its record has ended"),
             Fault::Refused(why) => write!(f, "it refused: {why}"),
+            Fault::Hardware(what) => write!(f, "it reports: {what}"),
         }
     }
 }
 
 impl std::error::Error for Fault {}
+
+impl Fault {
+    /// What failed, in a word for programs: `connection`, `silence`, `values`, `end`, `refusal` or `hardware`.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Fault::NotConnected | Fault::Unreachable(_) => "connection",
+            Fault::Stale(_) => "silence",
+            Fault::Length { .. } | Fault::BadValue(_) => "values",
+            Fault::Exhausted => "end",
+            Fault::Refused(_) => "refusal",
+            Fault::Hardware(_) => "hardware",
+        }
+    }
+}
 
 /// Units that a device's numbers have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

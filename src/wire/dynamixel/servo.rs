@@ -1,10 +1,12 @@
 //! One servo: its control table, and what its motor does.
 
+use super::instructions::{asked, together};
 use super::memory::Memory;
+use crate::chain::{Answer, Bus, Instruction, Member};
 use crate::plant::{Drive, Plant};
 use crate::profile::Profile;
 use crate::shaft::Shaft;
-use protocol::dynamixel::{Mode, Model, address, hardware_error, status_error};
+use protocol::dynamixel::{Decoder, Mode, Model, address, encode, hardware_error, instruction, status_error};
 
 /// How long a servo is silent after a reboot \[s\].
 const REBOOT: f64 = 0.25;
@@ -46,11 +48,6 @@ impl Servo {
         self.shaft = Some(Shaft { motor, scale, offset });
     }
 
-    /// Its id.
-    pub fn id(&self) -> u8 {
-        self.memory.get(address::ID) as u8
-    }
-
     /// Sets a register by hand, whatever its access: as an earlier user left it, or as a fault makes it.
     pub fn set_register(&mut self, address: u16, value: i64) {
         self.memory.set(address, value);
@@ -70,128 +67,9 @@ impl Servo {
         }
     }
 
-    pub(super) fn set_powered(&mut self, powered: bool) {
-        if powered && !self.powered {
-            self.memory.reboot();
-        }
-        self.powered = powered;
-    }
-
-    /// Whether it hears and speaks now.
-    pub(super) fn listens(&self, now: f64) -> bool {
-        self.powered && now >= self.silent_until
-    }
-
-    pub(super) fn hear(&mut self, now: f64) {
-        self.heard = now;
-    }
-
-    /// Seconds between an instruction and its answer.
-    pub(super) fn return_delay(&self) -> f64 {
-        self.memory.get(address::RETURN_DELAY) as f64 * Model::DELAY_UNIT
-    }
-
-    /// Whether it answers: everything, reads, or pings alone.
-    pub(super) fn answers(&self, level: i64) -> bool {
-        self.memory.get(address::STATUS_RETURN) >= level
-    }
-
-    /// Bit 7 of the error byte, while the hardware has an error.
-    pub(super) fn alert(&self) -> u8 {
-        if self.memory.get(address::HARDWARE_ERROR) != 0 { status_error::ALERT } else { 0 }
-    }
-
-    /// Model number and firmware.
-    pub(super) fn identity(&self) -> [u8; 3] {
-        let [low, high] = self.model.number.to_le_bytes();
-        [low, high, self.memory.get(address::FIRMWARE) as u8]
-    }
-
-    pub(super) fn read(
-        &mut self,
-        plant: &Plant,
-        from: u16,
-        length: u16,
-        out: &mut Vec<u8>,
-    ) -> Result<(), u8> {
-        self.measure(plant);
-        self.memory.read(from, length, out)
-    }
-
-    pub(super) fn write(&mut self, plant: &Plant, from: u16, data: &[u8]) -> Result<(), u8> {
-        let writes = |register: u16, size: u16| {
-            from < register + size && register < from.saturating_add(data.len() as u16)
-        };
-        let torque = self.memory.get(address::TORQUE_ENABLE) != 0;
-        if self.tripped() && writes(address::GOAL_PWM, address::GOAL_POSITION + 4 - address::GOAL_PWM) {
-            return Err(status_error::ACCESS);
-        }
-        self.memory.write(from, data, torque)?;
-        if self.model.modes.iter().all(|mode| *mode as i64 != self.memory.get(address::OPERATING_MODE)) {
-            self.memory.set(address::OPERATING_MODE, Mode::Position as i64);
-            return Err(status_error::DATA_RANGE);
-        }
-        let errors = self.memory.get(address::HARDWARE_ERROR) & self.memory.get(address::SHUTDOWN);
-        if errors != 0 && self.memory.get(address::TORQUE_ENABLE) != 0 {
-            self.memory.set(address::TORQUE_ENABLE, 0);
-            return Err(status_error::ACCESS);
-        }
-        if !torque && self.memory.get(address::TORQUE_ENABLE) != 0 {
-            self.measure(plant);
-            self.profile = Profile::at(self.memory.get(address::PRESENT_POSITION) as f64);
-        }
-        Ok(())
-    }
-
-    pub(super) fn register_write(&mut self, from: u16, data: &[u8]) {
-        self.registered = Some((from, data.to_vec()));
-        self.memory.set(address::REGISTERED, 1);
-    }
-
-    pub(super) fn action(&mut self, plant: &Plant) -> Result<(), u8> {
-        self.memory.set(address::REGISTERED, 0);
-        let (from, data) = self.registered.take().ok_or(status_error::INSTRUCTION)?;
-        self.write(plant, from, &data)
-    }
-
-    pub(super) fn reboot(&mut self, now: f64) {
-        self.memory.reboot();
-        self.silent_until = now + REBOOT;
-    }
-
-    /// A factory reset: of everything, of all but the id, or of all but id and baud rate.
-    pub(super) fn factory_reset(&mut self, how: u8, now: f64) -> Result<(), u8> {
-        match how {
-            0xFF => self.memory.reset(false, false),
-            0x01 => self.memory.reset(true, false),
-            0x02 => self.memory.reset(true, true),
-            _ => return Err(status_error::DATA_RANGE),
-        }
-        self.silent_until = now + REBOOT;
-        Ok(())
-    }
-
     /// The bus watchdog has found the bus silent.
     fn tripped(&self) -> bool {
         self.memory.get(address::BUS_WATCHDOG) == 255
-    }
-
-    /// Drives the motor for the time step to come, which takes `dt` seconds.
-    pub(super) fn tick(&mut self, plant: &mut Plant, now: f64, dt: f64) {
-        let watchdog = self.memory.get(address::BUS_WATCHDOG);
-        let on = self.powered && self.memory.get(address::TORQUE_ENABLE) != 0;
-        if on && (1..128).contains(&watchdog) && now - self.heard > watchdog as f64 * Model::WATCHDOG_UNIT {
-            self.trip(plant);
-        }
-        let ticks = (self.memory.get(address::REALTIME_TICK) as f64 + dt * 1e3) as i64;
-        self.memory.set(address::REALTIME_TICK, ticks % 32_768);
-        let drive = if on { self.drive(dt) } else { Drive::Off };
-        let goal = self.memory.get(address::GOAL_POSITION) as f64;
-        let moving = on && self.positions() && !self.profile.done(goal);
-        self.memory.set(address::MOVING, i64::from(moving));
-        if let Some(shaft) = self.shaft {
-            plant.drive(shaft.motor, drive);
-        }
     }
 
     /// Stops where it is: the goal is where it stands, and stays so until the watchdog is cleared.
@@ -223,7 +101,7 @@ impl Servo {
         match self.mode() {
             Mode::Velocity => Drive::Velocity(get(address::GOAL_VELOCITY) * Model::VELOCITY_UNIT / scale),
             Mode::Current => {
-                let current = get(address::GOAL_CURRENT) * self.model.current_unit.unwrap_or(0.0);
+                let current = get(address::GOAL_CURRENT) * self.model.kind.current.unwrap_or(0.0);
                 Drive::Effort(current * self.model.torque_constant() * scale)
             }
             Mode::Pwm => Drive::Effort(get(address::GOAL_PWM) / FULL_PWM * self.model.stall[0] * scale),
@@ -249,7 +127,7 @@ impl Servo {
             (angle / Model::POSITION_UNIT).round() as i64 + self.memory.get(address::HOMING_OFFSET);
         // A servo that does not count turns shows the angle within one.
         let position = if self.mode() == Mode::Position { position.rem_euclid(4096) } else { position };
-        let current = match self.model.current_unit {
+        let current = match self.model.kind.current {
             Some(unit) => effort / self.model.torque_constant() / unit,
             None => effort / self.model.stall[0] * 1000.0,
         };
@@ -263,6 +141,145 @@ impl Servo {
         self.memory.set(address::PRESENT_TEMPERATURE, i64::from(celsius));
         if i64::from(celsius) > self.memory.get(address::TEMPERATURE_LIMIT) {
             self.break_down(hardware_error::HEAT);
+        }
+    }
+}
+
+impl Member for Servo {
+    type Decoder = Decoder;
+    const LARGEST_ID: u8 = 252;
+    const UNKNOWN: Option<u8> = Some(status_error::INSTRUCTION);
+
+    fn instructions(decoder: &mut Decoder, bytes: &[u8]) -> Vec<Instruction> {
+        decoder.push(bytes);
+        let mut all = Vec::new();
+        while let Some(packet) = decoder.next_packet() {
+            // Of a packet with a wrong checksum nobody can say to whom it was; servos stay silent.
+            let Ok(packet) = packet else { continue };
+            // What other servos say is not for these.
+            if packet.instruction != instruction::STATUS {
+                let asked = asked(packet.instruction, packet.parameters);
+                all.push(Instruction { id: packet.id, asked });
+            }
+        }
+        all
+    }
+
+    fn encode(out: &mut Vec<u8>, id: u8, error: u8, data: &[u8]) {
+        encode(out, id, instruction::STATUS, &[&[error], data]);
+    }
+
+    fn together(bus: &mut Bus<Servo>, plant: &Plant, from: u16, length: u16, ids: &[u8]) -> Vec<Answer> {
+        together(bus, plant, from, length, ids)
+    }
+
+    fn id(&self) -> u8 {
+        self.memory.get(address::ID) as u8
+    }
+
+    fn mount(&mut self, motor: usize, scale: f64, offset: f64) {
+        self.mount(motor, scale, offset);
+    }
+
+    fn set_powered(&mut self, powered: bool) {
+        if powered && !self.powered {
+            self.memory.reboot();
+        }
+        self.powered = powered;
+    }
+
+    fn listens(&self, now: f64) -> bool {
+        self.powered && now >= self.silent_until
+    }
+
+    fn hear(&mut self, now: f64) {
+        self.heard = now;
+    }
+
+    fn return_delay(&self) -> f64 {
+        self.memory.get(address::RETURN_DELAY) as f64 * Model::DELAY_UNIT
+    }
+
+    fn answers(&self, level: i64) -> bool {
+        self.memory.get(address::STATUS_RETURN) >= level
+    }
+
+    fn alarm(&self) -> u8 {
+        if self.memory.get(address::HARDWARE_ERROR) != 0 { status_error::ALERT } else { 0 }
+    }
+
+    fn identity(&self) -> Vec<u8> {
+        let [low, high] = self.model.kind.number.to_le_bytes();
+        vec![low, high, self.memory.get(address::FIRMWARE) as u8]
+    }
+
+    fn read(&mut self, plant: &Plant, from: u16, length: u16, out: &mut Vec<u8>) -> Result<(), u8> {
+        self.measure(plant);
+        self.memory.read(from, length, out)
+    }
+
+    fn write(&mut self, plant: &Plant, from: u16, data: &[u8]) -> Result<(), u8> {
+        let writes = |register: u16, size: u16| {
+            from < register + size && register < from.saturating_add(data.len() as u16)
+        };
+        let torque = self.memory.get(address::TORQUE_ENABLE) != 0;
+        if self.tripped() && writes(address::GOAL_PWM, address::GOAL_POSITION + 4 - address::GOAL_PWM) {
+            return Err(status_error::ACCESS);
+        }
+        self.memory.write(from, data, torque)?;
+        if self.model.modes.iter().all(|mode| *mode as i64 != self.memory.get(address::OPERATING_MODE)) {
+            self.memory.set(address::OPERATING_MODE, Mode::Position as i64);
+            return Err(status_error::DATA_RANGE);
+        }
+        let errors = self.memory.get(address::HARDWARE_ERROR) & self.memory.get(address::SHUTDOWN);
+        if errors != 0 && self.memory.get(address::TORQUE_ENABLE) != 0 {
+            self.memory.set(address::TORQUE_ENABLE, 0);
+            return Err(status_error::ACCESS);
+        }
+        if !torque && self.memory.get(address::TORQUE_ENABLE) != 0 {
+            self.measure(plant);
+            self.profile = Profile::at(self.memory.get(address::PRESENT_POSITION) as f64);
+        }
+        Ok(())
+    }
+
+    fn keep(&mut self, write: Option<(u16, Vec<u8>)>) -> Option<(u16, Vec<u8>)> {
+        self.memory.set(address::REGISTERED, i64::from(write.is_some()));
+        std::mem::replace(&mut self.registered, write)
+    }
+
+    fn reboot(&mut self, now: f64) -> Result<(), u8> {
+        self.memory.reboot();
+        self.silent_until = now + REBOOT;
+        Ok(())
+    }
+
+    /// A factory reset: of everything, of all but the id, or of all but id and baud rate.
+    fn factory_reset(&mut self, how: u8, now: f64) -> Result<(), u8> {
+        match how {
+            0xFF => self.memory.reset(false, false),
+            0x01 => self.memory.reset(true, false),
+            0x02 => self.memory.reset(true, true),
+            _ => return Err(status_error::DATA_RANGE),
+        }
+        self.silent_until = now + REBOOT;
+        Ok(())
+    }
+
+    fn tick(&mut self, plant: &mut Plant, now: f64, dt: f64) {
+        let watchdog = self.memory.get(address::BUS_WATCHDOG);
+        let on = self.powered && self.memory.get(address::TORQUE_ENABLE) != 0;
+        if on && (1..128).contains(&watchdog) && now - self.heard > watchdog as f64 * Model::WATCHDOG_UNIT {
+            self.trip(plant);
+        }
+        let ticks = (self.memory.get(address::REALTIME_TICK) as f64 + dt * 1e3) as i64;
+        self.memory.set(address::REALTIME_TICK, ticks % 32_768);
+        let drive = if on { self.drive(dt) } else { Drive::Off };
+        let goal = self.memory.get(address::GOAL_POSITION) as f64;
+        let moving = on && self.positions() && !self.profile.done(goal);
+        self.memory.set(address::MOVING, i64::from(moving));
+        if let Some(shaft) = self.shaft {
+            plant.drive(shaft.motor, drive);
         }
     }
 }

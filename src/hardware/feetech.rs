@@ -19,7 +19,25 @@
 //! Source: Feetech's protocol document and memory table, see [`protocol::feetech`]. Proven against the simulated servos of
 //! `robohive-wire`, and those against the crate `rustypot`; never tried on a physical servo.
 
-mod bus;
-mod driver;
+use crate::port::Opener;
+use crate::servos::{Make, Servos};
+use protocol::feetech::FAMILY;
+use robot::{DeviceConfig, Fault};
 
-pub use driver::Feetech;
+/// The driver of a device; nothing is opened yet.
+///
+/// # Errors
+/// What the config lacks or says wrongly.
+pub fn driver(config: &DeviceConfig, opener: Opener) -> Result<Servos, Fault> {
+    Servos::new(config, opener, |parameters| {
+        Ok(Make {
+            family: &FAMILY,
+            model: None,
+            speed: Some(parameters.number("speed", 3.0, [0.0, 20.0])?),
+            acceleration: parameters.number("acceleration", 20.0, [0.0, 39.0])?,
+            return_delay: 0.0,
+            fast_sync_read: false,
+            bauds: [19_200.0, 1e6],
+        })
+    })
+}

@@ -1,0 +1,367 @@
+//! The driver of a bus of servos.
+
+use super::bus::{Bus, Reading};
+use super::settings::{Make, Motor, Quantity, Safe, Settings};
+use crate::driver::Driver;
+use crate::parameters::Parameters;
+use crate::port::Opener;
+use crate::safety::limits::Limits;
+use crate::safety::watchdog::Timeouts;
+use protocol::servo::{Kind, Layout, Mode, Setting};
+use robot::{DeviceConfig, Fault};
+
+/// Watchdog of the bus in the servos, in units of 20 ms.
+const BUS_WATCHDOG: i64 = 5;
+/// Without a reading for this long the servos are made safe \[s\]: three lost answers, each with the wait for it.
+const READING: f64 = 0.09;
+/// Time between two readings of servos that nobody else reads \[s\].
+const HEARTBEAT: f64 = 0.02;
+/// Seconds of silence after a restart, with some to spare.
+const REBOOT: f64 = 0.4;
+
+/// A servo that was found.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    kind: &'static Kind,
+    /// Goal positions that it takes.
+    limits: [i64; 2],
+    /// What it last said: position, velocity, current, in its units.
+    present: [i64; 3],
+}
+
+/// Servos on a serial bus, see [`dynamixel`](crate::dynamixel) and [`feetech`](crate::feetech).
+pub struct Servos {
+    settings: Settings,
+    layout: &'static Layout,
+    opener: Opener,
+    bus: Option<Bus>,
+    reading: Reading,
+    ids: Vec<u8>,
+    found: Vec<Found>,
+}
+
+impl Servos {
+    /// The driver of a device, whose make reads parameters of its own; nothing is opened yet.
+    pub(crate) fn new(
+        config: &DeviceConfig,
+        opener: Opener,
+        make: impl FnOnce(&mut Parameters) -> Result<Make, Fault>,
+    ) -> Result<Servos, Fault> {
+        let settings = Settings::new(config, make)?;
+        let family = settings.make.family;
+        let kind = &family.kinds[0];
+        let (ids, nothing) = (settings.ids(), Found { kind, limits: [0, kind.last], present: [0; 3] });
+        Ok(Servos {
+            layout: family.layout,
+            opener,
+            bus: None,
+            reading: Reading::Each,
+            found: vec![nothing; ids.len()],
+            ids,
+            settings,
+        })
+    }
+
+    fn bus(&mut self) -> Result<&mut Bus, Fault> {
+        self.bus.as_mut().ok_or(Fault::NotConnected)
+    }
+
+    fn place(&self, id: u8) -> usize {
+        self.ids.iter().position(|other| *other == id).unwrap_or(0)
+    }
+
+    fn kind(&self, motor: &Motor) -> &'static Kind {
+        self.found[self.place(motor.id)].kind
+    }
+
+    /// Finds a servo, and restarts it where that clears an error of its hardware.
+    fn find(&mut self, id: u8) -> Result<Found, Fault> {
+        let Settings { port, baud, make, .. } = &self.settings;
+        let (family, layout) = (make.family, self.layout);
+        let missing = format!(
+            "servo {id} does not answer at {baud} baud on {port}; check its power, its id, its baud rate and its protocol"
+        );
+        let wanted = make.model;
+        let bus = self.bus()?;
+        let missing = |fault| if let Fault::Stale(_) = fault { Fault::Unreachable(missing) } else { fault };
+        let (number, mut error) = bus.look(id, layout.model).map_err(missing)?;
+        if family.reboots && bus.trouble(id, error)?.is_some() {
+            bus.reboot(id)?;
+            bus.wait(REBOOT);
+            error = bus.look(id, layout.model)?.1;
+        }
+        if let Some(trouble) = bus.trouble(id, error)? {
+            let again = if family.reboots { ", also after a reboot" } else { "" };
+            return Err(Fault::Hardware(format!("servo {id}: {trouble}{again}")));
+        }
+        let kind = family.kinds.iter().find(|kind| i64::from(kind.number) == number).ok_or_else(|| {
+            let known: Vec<_> = family.kinds.iter().map(|kind| kind.name).collect();
+            Fault::Refused(format!("servo {id} is of model {number}; known are {}", known.join(", ")))
+        })?;
+        if let Some(model) = wanted.filter(|model| *model != kind.name) {
+            let name = kind.name;
+            return Err(Fault::Refused(format!("servo {id} is an {name}, and its config says {model}")));
+        }
+        let [low, high] = layout.limits;
+        let limits = [bus.read_twice(id, low)?, bus.read_twice(id, high)?];
+        Ok(Found { kind, limits, present: [0; 3] })
+    }
+
+    /// What single servos cannot do.
+    fn check(&self) -> Result<(), Fault> {
+        for motor in &self.settings.motors {
+            let kind = self.kind(motor);
+            if kind.modes.iter().all(|(mode, _)| *mode != motor.mode) {
+                let (id, name, mode) = (motor.id, kind.name, motor.mode);
+                return Err(Fault::Refused(format!("servo {id}, an {name}, has no mode '{mode:?}'")));
+            }
+        }
+        for (id, _) in self.settings.sensors.iter().filter(|(_, quantity)| *quantity == Quantity::Current) {
+            let kind = self.found[self.place(*id)].kind;
+            if kind.current.is_none() {
+                return Err(Fault::Refused(format!("servo {id}, an {}, measures no current", kind.name)));
+            }
+        }
+        Ok(())
+    }
+
+    /// How all are read: by one packet where every servo's firmware can.
+    fn choose_reading(&mut self) -> Result<Reading, Fault> {
+        let make = &self.settings.make;
+        let Some(firmware) = self.layout.firmware.filter(|_| make.fast_sync_read) else {
+            return Ok(if make.family.sync_read { Reading::Sync } else { Reading::Each });
+        };
+        for place in 0..self.ids.len() {
+            let (id, first) = (self.ids[place], self.found[place].kind.fast_sync_read);
+            let version = self.bus()?.read_twice(id, firmware)?;
+            if first.is_none_or(|first| version < first) {
+                return Ok(Reading::Sync);
+            }
+        }
+        Ok(Reading::Fast)
+    }
+
+    /// Sets what a servo needs before it gets torque: mode, answers, motion to a goal.
+    fn prepare(&mut self, motor: Motor) -> Result<(), Fault> {
+        let (id, kind, layout) = (motor.id, self.kind(&motor), self.layout);
+        let Make { speed, acceleration, return_delay, .. } = self.settings.make;
+        let bus = self.bus()?;
+        if let Some(watchdog) = layout.watchdog {
+            bus.write(id, watchdog, 0)?;
+        }
+        let delay =
+            layout.return_delay.map(|(cell, unit)| Setting::exactly(cell, (return_delay / unit) as i64));
+        let mode =
+            kind.modes.iter().find(|(mode, _)| *mode == motor.mode).map_or(&[][..], |(_, needs)| needs);
+        // These outlive a restart in memory that wears, and take the torque away: written only where they differ.
+        for Setting { cell, allowed: [low, high], otherwise } in delay.iter().chain(mode) {
+            if (*low..=*high).contains(&bus.read_twice(id, *cell)?) {
+                continue;
+            }
+            bus.write(id, layout.torque, 0)?;
+            if let Some(lock) = layout.lock {
+                bus.write(id, lock, 0)?;
+            }
+            bus.write_surely(id, *cell, *otherwise)?;
+            if let Some(lock) = layout.lock {
+                bus.write(id, lock, 1)?;
+            }
+        }
+        if let Some([limit, whole]) = layout.torque_limit
+            && bus.read(id, limit)? == 0
+        {
+            let whole = bus.read_twice(id, whole)?;
+            bus.write(id, limit, whole)?;
+        }
+        if let Some(cell) = layout.acceleration {
+            bus.write(id, cell, (acceleration / kind.acceleration).round() as i64)?;
+        }
+        // Where one register is both, the speed of a wheel is its goal.
+        if layout.goal(motor.mode) == Some(layout.speed) {
+            return Ok(());
+        }
+        let speed = match (speed, layout.velocity_limit) {
+            // The least unit stands for less: 0 would be no limit.
+            (Some(speed), _) if speed > 0.0 => ((speed / kind.velocity).round() as i64).max(1),
+            (None, Some(limit)) => bus.read(id, limit)?,
+            _ => 0,
+        };
+        bus.write(id, layout.speed, speed)
+    }
+
+    /// Writes goals of all motors of each mode.
+    fn write_goals(&mut self, commands: &[f64]) -> Result<(), Fault> {
+        let Servos { settings, bus, found, ids, layout, .. } = self;
+        let bus = bus.as_mut().ok_or(Fault::NotConnected)?;
+        let kind = |id: u8| found[ids.iter().position(|other| *other == id).unwrap_or(0)].kind;
+        for cell in
+            [Mode::Position, Mode::Velocity, Mode::Current].into_iter().filter_map(|mode| layout.goal(mode))
+        {
+            let motors = settings.motors.iter().zip(commands);
+            let motors = motors.filter(|(motor, _)| layout.goal(motor.mode) == Some(cell));
+            bus.write_all(cell, motors.map(|(m, command)| (m.id, goal(kind(m.id), m.mode, *command))))?;
+        }
+        Ok(())
+    }
+
+    /// Stops a servo where it is, with torque; clears a watchdog of the bus that tripped, so that the goal can be written.
+    fn hold(&mut self, motor: Motor) -> Result<(), Fault> {
+        let layout = self.layout;
+        let bus = self.bus()?;
+        if let Some(watchdog) = layout.watchdog {
+            bus.write(motor.id, watchdog, 0)?;
+        }
+        let here = match motor.mode {
+            Mode::Position | Mode::Turns => bus.read(motor.id, layout.position)?,
+            Mode::Velocity | Mode::Current => 0,
+        };
+        layout.goal(motor.mode).map_or(Ok(()), |goal| bus.write(motor.id, goal, here))
+    }
+}
+
+/// A command as the register that takes it.
+fn goal(kind: &Kind, mode: Mode, command: f64) -> i64 {
+    match mode {
+        Mode::Position => ((command / kind.position).round() as i64).clamp(0, kind.last),
+        Mode::Turns => (command / kind.position).round() as i64,
+        Mode::Velocity => (command / kind.velocity).round() as i64,
+        Mode::Current => kind.current.map_or(0, |unit| (command / unit).round() as i64),
+    }
+}
+
+impl Driver for Servos {
+    fn connect(&mut self) -> Result<(), Fault> {
+        let Settings { port, baud, make, .. } = &self.settings;
+        let opened = (self.opener)(port, *baud).map_err(|error| Fault::Unreachable(error.to_string()))?;
+        self.bus = Some(Bus::new(opened, *baud, make.family));
+        for place in 0..self.ids.len() {
+            self.found[place] = self.find(self.ids[place])?;
+        }
+        self.check()?;
+        self.reading = self.choose_reading()?;
+        Ok(())
+    }
+
+    fn read(&mut self, values: &mut [f64]) -> Result<(), Fault> {
+        let Servos { bus, ids, found, settings, layout, reading, .. } = self;
+        let bus = bus.as_mut().ok_or(Fault::NotConnected)?;
+        let mut broken = None;
+        let (from, size) = layout.present();
+        let all = bus.read_all(*reading, (from, size), ids, |place, error, data| {
+            if error != 0 {
+                broken.get_or_insert((ids[place], error));
+            }
+            let cells = [Some(layout.position), Some(layout.velocity), layout.current];
+            found[place].present = cells.map(|cell| {
+                cell.map_or(0, |cell| {
+                    let at = usize::from(cell.address - from);
+                    cell.decode(&data[at..at + usize::from(cell.size)])
+                })
+            });
+        })?;
+        if let Some((id, error)) = broken
+            && let Some(trouble) = bus.trouble(id, error)?
+        {
+            return Err(Fault::Hardware(format!("servo {id}: {trouble}")));
+        }
+        if !all {
+            return Err(Fault::Stale(0));
+        }
+        for (value, (id, quantity)) in values.iter_mut().zip(&settings.sensors) {
+            let Found { kind, present: [position, velocity, current], .. } =
+                found[ids.iter().position(|other| other == id).unwrap_or(0)];
+            *value = match quantity {
+                Quantity::Position => position as f64 * kind.position,
+                Quantity::Velocity => velocity as f64 * kind.velocity,
+                Quantity::Current => current as f64 * kind.current.unwrap_or(f64::NAN),
+            };
+        }
+        Ok(())
+    }
+
+    fn present(&mut self, commands: &mut [f64]) -> Result<(), Fault> {
+        for (command, motor) in commands.iter_mut().zip(self.settings.motors.clone()) {
+            let (unit, cell) = (self.kind(&motor).position, self.layout.position);
+            *command = match motor.mode {
+                Mode::Position | Mode::Turns => self.bus()?.read(motor.id, cell)? as f64 * unit,
+                Mode::Velocity | Mode::Current => 0.0,
+            };
+        }
+        Ok(())
+    }
+
+    fn arm(&mut self, present: &[f64]) -> Result<(), Fault> {
+        let layout = self.layout;
+        for motor in self.settings.motors.clone() {
+            self.prepare(motor)?;
+        }
+        for (motor, command) in self.settings.motors.clone().iter().zip(present) {
+            let wanted = goal(self.kind(motor), motor.mode, *command);
+            let bus = self.bus()?;
+            if let Some(cell) = layout.goal(motor.mode) {
+                // A goal that was lost on the way would let the servo leap to an old one.
+                bus.write_surely(motor.id, cell, wanted)?;
+            }
+            bus.write(motor.id, layout.torque, 1)?;
+            if let Some(watchdog) = layout.watchdog {
+                bus.write(motor.id, watchdog, BUS_WATCHDOG)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn command(&mut self, commands: &[f64]) -> Result<(), Fault> {
+        self.write_goals(commands)
+    }
+
+    fn make_safe(&mut self) -> Result<bool, Fault> {
+        let (safe, torque) = (self.settings.safe, self.layout.torque);
+        let mut first = Ok(true);
+        for motor in self.settings.motors.clone() {
+            // Each servo is tried, whatever became of the one before.
+            let outcome = match safe {
+                Safe::Off => self.bus()?.write(motor.id, torque, 0),
+                Safe::Hold => self.hold(motor),
+            };
+            first = first.and(outcome.map(|()| true));
+        }
+        first
+    }
+
+    fn disconnect(&mut self) {
+        self.bus = None;
+    }
+
+    fn limits(&self) -> Vec<Limits> {
+        let limits = |motor: &Motor| {
+            let Found { kind, limits: [low, high], .. } = self.found[self.place(motor.id)];
+            let [least, most] = [low.max(0), high.min(kind.last)].map(|end| end as f64 * kind.position);
+            match motor.mode {
+                // A wheel has both limits at 0: they are set when it is armed.
+                Mode::Position if least < most => {
+                    Limits::of_value([motor.range[0].max(least), motor.range[1].min(most)])
+                }
+                Mode::Position | Mode::Turns => Limits::of_value(motor.range),
+                Mode::Velocity | Mode::Current => Limits::NONE,
+            }
+        };
+        self.settings.motors.iter().map(limits).collect()
+    }
+
+    fn timeouts(&self) -> Timeouts {
+        Timeouts { command: self.settings.watchdog, reading: READING, heartbeat: HEARTBEAT }
+    }
+
+    fn resource(&self) -> String {
+        self.settings.port.clone()
+    }
+
+    fn reset_duration(&self) -> f64 {
+        self.settings.reset_time
+    }
+
+    fn resets(&self) -> bool {
+        let positions = |motor: &Motor| matches!(motor.mode, Mode::Position | Mode::Turns);
+        self.settings.motors.iter().all(positions)
+    }
+}

@@ -1,0 +1,9 @@
+//! Protocol 1.0: servos of the series AX, RX, DX and EX, and MX with their first firmware.
+//!
+//! Source: ROBOTIS e-Manual, page "DYNAMIXEL Protocol 1.0" and the control table of each model.
+
+mod packet;
+mod table;
+
+pub use packet::{BROADCAST, Decoder, First, Packet, encode, error, instruction};
+pub use table::{FAMILY, KINDS, MODELS, Model, TABLE, address, model};

@@ -1,0 +1,354 @@
+//! Servos that share one line, whatever they speak.
+
+use crate::device::{Device, Moment};
+use crate::plant::{Plant, PlantError};
+use robot::{DeviceConfig, HardwareId};
+
+/// Silence after which what was heard of an instruction is forgotten \[s\]: a damaged length would wait for bytes for ever.
+const GAP: f64 = 0.01;
+
+/// Whom an instruction asks for what: addresses of bytes, and how many.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Asked {
+    /// Whether it is there.
+    Ping,
+    /// Bytes.
+    Read(u16, u16),
+    /// To take bytes.
+    Write(u16, Vec<u8>),
+    /// To take bytes later.
+    Register(u16, Vec<u8>),
+    /// To take them now.
+    Action,
+    /// To restart.
+    Reboot,
+    /// To forget what it was told; how much of it.
+    FactoryReset(u8),
+    /// What it follows by doing nothing.
+    Nothing,
+    /// Bytes of several: of each its id, the address and the count.
+    ReadEach(Vec<(u8, u16, u16)>),
+    /// The same bytes of several in one packet.
+    ReadTogether(u16, u16, Vec<u8>),
+    /// Bytes for several: for each its id, the address and the bytes.
+    WriteEach(Vec<(u8, u16, Vec<u8>)>),
+    /// Something that it does not know.
+    Unknown,
+}
+
+/// Who is asked for what.
+pub struct Instruction {
+    /// An id, or the one that all listen to.
+    pub id: u8,
+    /// What.
+    pub asked: Asked,
+}
+
+/// An answer under way: what is said, after which delay.
+pub struct Answer {
+    /// Seconds after what was said before it.
+    pub delay: f64,
+    /// What.
+    pub bytes: Vec<u8>,
+}
+
+/// A servo on a line.
+pub trait Member: Send + Sized {
+    /// Finds packets among bytes.
+    type Decoder: Default + Send;
+    /// The id that all listen to.
+    const BROADCAST: u8 = 0xFE;
+    /// The largest id that one can have.
+    const LARGEST_ID: u8;
+    /// What it says of an instruction that it does not know; `None` if it is silent.
+    const UNKNOWN: Option<u8>;
+
+    /// Takes bytes, and returns the instructions that are whole by now.
+    fn instructions(decoder: &mut Self::Decoder, bytes: &[u8]) -> Vec<Instruction>;
+    /// Appends an answer to `out`.
+    fn encode(out: &mut Vec<u8>, id: u8, error: u8, data: &[u8]);
+
+    /// Its id.
+    fn id(&self) -> u8;
+    /// Puts it on the shaft of a motor of the plant.
+    fn mount(&mut self, motor: usize, scale: f64, offset: f64);
+    /// Whether it hears and speaks now.
+    fn listens(&self, now: f64) -> bool;
+    /// An instruction has come to anybody on the line.
+    fn hear(&mut self, _now: f64) {}
+    /// Seconds between an instruction and its answer.
+    fn return_delay(&self) -> f64 {
+        0.0
+    }
+    /// Whether it answers: everything (2), reads (1), or pings alone (0).
+    fn answers(&self, _level: i64) -> bool {
+        true
+    }
+    /// Whether it answers an instruction that reads several servos.
+    fn reads_in_bulk(&self) -> bool {
+        true
+    }
+    /// What its hardware adds to the error byte.
+    fn alarm(&self) -> u8;
+    /// What it says of itself when it is asked whether it is there.
+    fn identity(&self) -> Vec<u8> {
+        Vec::new()
+    }
+    /// Appends bytes of its table.
+    fn read(&mut self, plant: &Plant, from: u16, length: u16, out: &mut Vec<u8>) -> Result<(), u8>;
+    /// Takes bytes into its table.
+    fn write(&mut self, plant: &Plant, from: u16, data: &[u8]) -> Result<(), u8>;
+    /// Keeps bytes to be written later, or none; returns those that it kept.
+    fn keep(&mut self, write: Option<(u16, Vec<u8>)>) -> Option<(u16, Vec<u8>)>;
+    /// Restarts.
+    fn reboot(&mut self, _now: f64) -> Result<(), u8> {
+        Self::UNKNOWN.map_or(Ok(()), Err)
+    }
+    /// Forgets what it was told.
+    fn factory_reset(&mut self, _how: u8, _now: f64) -> Result<(), u8> {
+        Self::UNKNOWN.map_or(Ok(()), Err)
+    }
+    /// Answers of all servos in one packet.
+    fn together(_: &mut Bus<Self>, _: &Plant, _from: u16, _length: u16, _ids: &[u8]) -> Vec<Answer> {
+        Vec::new()
+    }
+    /// Drives the motor for the time step to come, which takes `dt` seconds.
+    fn tick(&mut self, plant: &mut Plant, now: f64, dt: f64);
+    /// Cuts its power, or gives it back.
+    fn set_powered(&mut self, powered: bool);
+}
+
+/// Servos on one line: each hears everything, and one speaks at a time.
+pub struct Bus<S: Member> {
+    servos: Vec<S>,
+    decoder: S::Decoder,
+    echo: bool,
+    /// Seconds a byte takes, for answers that follow each other; the link adds the time of the message itself.
+    byte: f64,
+    time: f64,
+    /// When bytes last came \[s\].
+    heard: f64,
+}
+
+impl<S: Member> Bus<S> {
+    /// Servos whose answers follow each other at once.
+    pub fn new(servos: Vec<S>) -> Bus<S> {
+        Bus { servos, decoder: S::Decoder::default(), echo: false, byte: 0.0, time: 0.0, heard: 0.0 }
+    }
+
+    /// Lets the answers to a sync read follow each other at this baud rate; the link itself is told separately.
+    #[must_use]
+    pub fn with_baud(mut self, baud: f64) -> Bus<S> {
+        self.byte = 10.0 / baud;
+        self
+    }
+
+    /// Returns to the driver what it sends, as converters to two wires do that do not switch their receiver off.
+    #[must_use]
+    pub fn with_echo(mut self, echo: bool) -> Bus<S> {
+        self.echo = echo;
+        self
+    }
+
+    /// The servos.
+    pub fn servos_mut(&mut self) -> &mut [S] {
+        &mut self.servos
+    }
+
+    /// Servos that listen, in order of their ids.
+    pub(crate) fn listening(&mut self, id: u8) -> Vec<&mut S> {
+        let now = self.time;
+        let all = id == S::BROADCAST;
+        let servos = self.servos.iter_mut();
+        let mut found: Vec<_> =
+            servos.filter(|servo| servo.listens(now) && (all || servo.id() == id)).collect();
+        found.sort_by_key(|servo| servo.id());
+        found
+    }
+
+    /// Lets every servo of `id` do something and answer: two with one id talk at the same time.
+    fn each(
+        &mut self,
+        id: u8,
+        level: i64,
+        mut act: impl FnMut(&mut S, &mut Vec<u8>) -> Result<(), u8>,
+    ) -> Vec<Answer> {
+        let mut answers = Vec::new();
+        for servo in self.listening(id) {
+            let mut data = Vec::new();
+            let error = act(servo, &mut data).err().unwrap_or(0);
+            if error != 0 {
+                data.clear();
+            }
+            if servo.answers(level) {
+                let mut bytes = Vec::new();
+                S::encode(&mut bytes, servo.id(), error | servo.alarm(), &data);
+                answers.push(Answer { delay: servo.return_delay(), bytes });
+            }
+        }
+        if id != S::BROADCAST {
+            collide(&mut answers);
+        }
+        answers
+    }
+
+    /// Does what an instruction asks for.
+    fn follow(&mut self, plant: &Plant, instruction: &Instruction) -> Vec<Answer> {
+        let (id, now) = (instruction.id, self.time);
+        let answers = match &instruction.asked {
+            Asked::Ping => {
+                return self.each(id, 0, |servo, out| {
+                    out.extend(servo.identity());
+                    Ok(())
+                });
+            }
+            Asked::ReadEach(reads) => {
+                let read = |&(id, from, length): &(u8, u16, u16)| {
+                    let known = self.listening(id).iter().all(|servo| servo.reads_in_bulk());
+                    if known {
+                        self.each(id, 1, |servo, out| servo.read(plant, from, length, out))
+                    } else {
+                        Vec::new()
+                    }
+                };
+                return reads.iter().flat_map(read).collect();
+            }
+            Asked::ReadTogether(from, length, ids) => return S::together(self, plant, *from, *length, ids),
+            Asked::WriteEach(writes) => {
+                for (id, from, data) in writes {
+                    self.each(*id, 2, |servo, _| servo.write(plant, *from, data));
+                }
+                return Vec::new();
+            }
+            Asked::Read(from, length) => {
+                self.each(id, 1, |servo, out| servo.read(plant, *from, *length, out))
+            }
+            Asked::Write(from, data) => self.each(id, 2, |servo, _| servo.write(plant, *from, data)),
+            Asked::Register(from, data) => self.each(id, 2, |servo, _| {
+                servo.keep(Some((*from, data.clone())));
+                Ok(())
+            }),
+            Asked::Action => self.each(id, 2, |servo, _| match servo.keep(None) {
+                Some((from, data)) => servo.write(plant, from, &data),
+                None => S::UNKNOWN.map_or(Ok(()), Err),
+            }),
+            Asked::Reboot => self.each(id, 2, |servo, _| servo.reboot(now)),
+            Asked::FactoryReset(how) => self.each(id, 2, |servo, _| servo.factory_reset(*how, now)),
+            Asked::Nothing => self.each(id, 2, |_, _| Ok(())),
+            Asked::Unknown => match S::UNKNOWN {
+                Some(error) => self.each(id, 2, |_, _| Err(error)),
+                None => Vec::new(),
+            },
+        };
+        if id == S::BROADCAST { Vec::new() } else { answers }
+    }
+}
+
+impl<S: Member> Device for Bus<S> {
+    fn receive(&mut self, moment: &mut Moment<'_>, channel: usize, bytes: &[u8]) {
+        if moment.time - self.heard > GAP {
+            self.decoder = S::Decoder::default();
+        }
+        (self.heard, self.time) = (moment.time, moment.time);
+        if self.echo {
+            moment.outbox.send(channel, moment.time, bytes.to_vec());
+        }
+        for instruction in S::instructions(&mut self.decoder, bytes) {
+            self.servos.iter_mut().for_each(|servo| servo.hear(moment.time));
+            let mut due = moment.time;
+            for Answer { delay, bytes } in self.follow(moment.plant, &instruction) {
+                due += delay;
+                let length = bytes.len() as f64;
+                moment.outbox.send(channel, due, bytes);
+                due += length * self.byte;
+            }
+        }
+    }
+
+    fn tick(&mut self, moment: &mut Moment<'_>) {
+        self.time = moment.time;
+        let dt = moment.plant.model().opt.timestep;
+        self.servos.iter_mut().for_each(|servo| servo.tick(moment.plant, moment.time, dt));
+    }
+
+    fn stop_button(&mut self, pressed: bool) {
+        // Servos have no stop button of their own: it cuts their power.
+        self.servos.iter_mut().for_each(|servo| servo.set_powered(!pressed));
+    }
+}
+
+/// Two that speak at once pull the line low wherever either does.
+fn collide(answers: &mut Vec<Answer>) {
+    while answers.len() > 1 {
+        let Some(other) = answers.pop() else { return };
+        answers[0].bytes.iter_mut().zip(other.bytes).for_each(|(a, b)| *a &= b);
+        answers[0].delay = answers[0].delay.max(other.delay);
+    }
+}
+
+/// A servo for every actuator of a device, on the motor that it names, with the angle that its scale and offset make.
+///
+/// # Errors
+/// Actuators that the plant does not have, and ids that no servo can have.
+pub(crate) fn servos_of<S: Member>(
+    device: &DeviceConfig,
+    plant: &Plant,
+    make: impl Fn(u8) -> S,
+) -> Result<Vec<S>, PlantError> {
+    let servo = |actuator: &robot::ActuatorConfig| {
+        let id = match actuator.hardware {
+            HardwareId::Number(number) => u8::try_from(number).ok().filter(|id| *id <= S::LARGEST_ID),
+            HardwareId::Name(_) => None,
+        };
+        let id = id.ok_or_else(|| {
+            let (name, largest) = (&actuator.name, S::LARGEST_ID);
+            PlantError::new(format!("the hdr_id of '{name}' is no id of a servo: 0 to {largest}"))
+        })?;
+        let mut servo = make(id);
+        servo.mount(plant.motor(&actuator.name)?, actuator.scale, actuator.offset);
+        Ok(servo)
+    };
+    device.actuators.iter().map(servo).collect()
+}
+
+/// What protocol 1.0 asks, which several makes speak.
+pub(crate) mod first {
+    use super::{Asked, Instruction};
+    use protocol::dynamixel::v1::{Decoder, instruction};
+
+    /// Takes bytes, and returns the instructions that are whole by now, to servos that know the sync read or the bulk read.
+    pub(crate) fn instructions(
+        decoder: &mut Decoder,
+        bytes: &[u8],
+        sync: bool,
+        bulk: bool,
+    ) -> Vec<Instruction> {
+        decoder.push(bytes);
+        let mut all = Vec::new();
+        while let Some(packet) = decoder.next_packet() {
+            let asked = match (packet.code, packet.parameters) {
+                (instruction::PING, _) => Asked::Ping,
+                (instruction::READ, [from, count]) => Asked::Read((*from).into(), (*count).into()),
+                (instruction::WRITE, [from, data @ ..]) => Asked::Write((*from).into(), data.to_vec()),
+                (instruction::REG_WRITE, [from, data @ ..]) => Asked::Register((*from).into(), data.to_vec()),
+                (instruction::ACTION, _) => Asked::Action,
+                (instruction::FACTORY_RESET, []) => Asked::FactoryReset(0xFF),
+                (instruction::SYNC_READ, [from, count, ids @ ..]) if sync => {
+                    let read = |id: &u8| (*id, (*from).into(), (*count).into());
+                    Asked::ReadEach(ids.iter().map(read).collect())
+                }
+                (instruction::BULK_READ, [0, entries @ ..]) if bulk => {
+                    let read = |entry: &[u8]| (entry[1], entry[2].into(), entry[0].into());
+                    Asked::ReadEach(entries.chunks_exact(3).map(read).collect())
+                }
+                (instruction::SYNC_WRITE, [from, count, data @ ..]) => {
+                    let write = |entry: &[u8]| (entry[0], (*from).into(), entry[1..].to_vec());
+                    Asked::WriteEach(data.chunks_exact(usize::from(*count) + 1).map(write).collect())
+                }
+                _ => Asked::Unknown,
+            };
+            all.push(Instruction { id: packet.id, asked });
+        }
+        all
+    }
+}
