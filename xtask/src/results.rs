@@ -15,7 +15,8 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 21] = [
+const SPEAK_OF: [(&str, &[&str]); 22] = [
+    ("bus_time", &["src/protocol", "src/wire", "src/hardware"]),
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
     ("environments", &["src/physics", "mjcf", "src/robot", "src/env"]),

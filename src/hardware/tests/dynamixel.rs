@@ -43,7 +43,8 @@ fn on_bus(carries: Carries, prepare: impl FnOnce(&mut [Servo])) -> Rig {
     }
     prepare(&mut servos);
     let mut bench = Bench::new(plant);
-    let link = bench.connect(Box::new(Bus::new(servos)), carries);
+    let Carries::Bytes { each } = carries else { panic!("a serial line carries bytes") };
+    let link = bench.connect(Box::new(Bus::new(servos).with_baud(10.0 / each)), carries);
     Rig::new(model, bench, link)
 }
 
@@ -285,6 +286,25 @@ fn a_thousand_seeded_faults_end_in_errors_or_in_motion_within_limits() {
         struck += hits;
     }
     assert!(errors > 0 && errors < episodes, "{errors} of {episodes}");
+}
+
+#[test]
+fn all_are_read_by_one_packet_where_every_firmware_can() {
+    let time = |extra, firmware| {
+        let rig = on_bus(Carries::serial(1e6), |servos| servos[1].set_register(address::FIRMWARE, firmware));
+        let mut device = robohive_hardware::device(&config(extra).devices[0], &rig.setup).unwrap();
+        device.connect().unwrap();
+        device.reset(&[3.1, 3.1]).unwrap();
+        let begun = rig.clock().now();
+        device.read(&mut [0.0; 3]).unwrap();
+        let taken = rig.clock().now() - begun;
+        device.close().unwrap();
+        (taken * 1e6).round()
+    };
+    // Of 10 µs each: 16 bytes there, 8 and two times 14 back; or two times 21.
+    assert_eq!(time("", 45), 520.0);
+    assert_eq!(time("", 44), 580.0);
+    assert_eq!(time("fast_sync_read = false", 45), 580.0);
 }
 
 #[test]
