@@ -3,7 +3,8 @@
 //!
 //! | client | devices | tests |
 //! |---|---|---|
-//! | dynamixel2, rustypot | Dynamixel servos | `dynamixel_clients.rs` |
+//! | dynamixel2, rustypot | Dynamixel servos with protocol 2.0 | `dynamixel_clients.rs` |
+//! | rustypot | Dynamixel servos with protocol 1.0 | `dynamixel_v1_client.rs` |
 //! | rustypot | Feetech servos | `feetech_client.rs` |
 //! | franka-rs | Franka arms and hands | `franka_client.rs` |
 //! | natnet | OptiTrack trackers | `natnet_client.rs`, `natnet_frames.rs` |

@@ -1,84 +1,29 @@
 //! Clients that other people wrote (dynamixel2, rustypot) drive simulated servos through a pseudo-terminal.
 #![cfg(unix)]
 
+mod served;
+
 use protocol::dynamixel::{MODELS, address, hardware_error};
 use rustypot::DynamixelProtocolHandler;
-use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
-use std::thread::JoinHandle;
+use served::{MOTORS, Served};
 use std::time::{Duration, Instant};
 use wire::dynamixel::{Bus, Servo};
-use wire::{Bench, Carries, End, Plant, Shared, Terminal, serve};
 
-/// Three hinges without gravity, each with a servo.
-const ARM: &str = "<mujoco><option gravity='0 0 0'/><worldbody>
-    <body pos='0 0 0'><joint name='a' damping='.1' armature='.05'/><geom size='.05'/></body>
-    <body pos='1 0 0'><joint name='b' damping='.1' armature='.05'/><geom size='.05'/></body>
-    <body pos='2 0 0'><joint name='c' damping='.1' armature='.05'/><geom size='.05'/></body></worldbody>
-  <actuator><position name='a' joint='a' kp='20' kv='1'/><position name='b' joint='b' kp='20' kv='1'/>
-    <position name='c' joint='c' kp='20' kv='1'/></actuator></mujoco>";
-
-/// Servos that are served until this is dropped.
-struct Served {
-    path: PathBuf,
-    bench: Shared,
-    stop: Arc<AtomicBool>,
-    thread: Option<JoinHandle<std::io::Result<()>>>,
-}
-
-impl Served {
-    fn new(prepare: impl FnOnce(&mut [Servo])) -> Served {
-        let plant = Plant::new(mjcf::load_str(ARM).expect("a sound model").model).expect("a sound state");
-        let mut servos: Vec<_> = [(10, "a"), (11, "b"), (20, "c")]
-            .into_iter()
-            .map(|(id, name)| {
-                let mut servo = Servo::new(&MODELS[0], id);
-                servo.mount(plant.motor(name).expect("an actuator"), 1.0, std::f64::consts::PI);
-                servo
-            })
-            .collect();
+/// Three servos, prepared.
+fn served(prepare: impl FnOnce(&mut [Servo])) -> Served {
+    Served::new(|plant| {
+        let mut servos = [10, 11, 20].map(|id| Servo::new(&MODELS[0], id));
+        for (servo, motor) in servos.iter_mut().zip(MOTORS) {
+            servo.mount(plant.motor(motor).expect("an actuator"), 1.0, std::f64::consts::PI);
+        }
         prepare(&mut servos);
-        let mut bench = Bench::new(plant);
-        let link = bench.connect(Box::new(Bus::new(servos).with_baud(1e6)), Carries::serial(1e6));
-        let bench = Arc::new(Mutex::new(bench));
-        let terminal = Terminal::open().expect("a pseudo-terminal");
-        let path = terminal.path().to_owned();
-        let stop = Arc::new(AtomicBool::new(false));
-        let thread = {
-            let (bench, stop) = (bench.clone(), stop.clone());
-            std::thread::spawn(move || serve(&bench, &mut [(link, End::Terminal(terminal))], &stop))
-        };
-        Served { path, bench, stop, thread: Some(thread) }
-    }
-
-    /// Waits until the motors stand where they should; tells whether they do.
-    fn settles(&self, wanted: [f64; 3]) -> bool {
-        let end = Instant::now() + Duration::from_secs(20);
-        while Instant::now() < end {
-            let bench = self.bench.lock().unwrap();
-            if (0..3).all(|k| (bench.plant().position(k) - wanted[k]).abs() < 5e-4) {
-                return true;
-            }
-            drop(bench);
-            std::thread::sleep(Duration::from_millis(10));
-        }
-        false
-    }
-}
-
-impl Drop for Served {
-    fn drop(&mut self) {
-        self.stop.store(true, Ordering::Relaxed);
-        if let Some(thread) = self.thread.take() {
-            thread.join().expect("no panic").expect("no failure of the system");
-        }
-    }
+        Box::new(Bus::new(servos.into()).with_baud(1e6))
+    })
 }
 
 #[test]
 fn dynamixel2_reads_writes_and_hears_alerts() {
-    let served = Served::new(|servos| servos[2].break_down(hardware_error::OVERLOAD));
+    let served = served(|servos| servos[2].break_down(hardware_error::OVERLOAD));
     let mut bus = dynamixel2::Bus::open(&served.path, 57_600).unwrap();
     let found: Vec<_> = bus.scan().unwrap().into_iter().map(|ping| ping.unwrap()).collect();
     assert_eq!(found.iter().map(|ping| ping.motor_id).collect::<Vec<_>>(), [10, 11, 20]);
@@ -97,7 +42,7 @@ fn dynamixel2_reads_writes_and_hears_alerts() {
     let goals = goals.map(|(motor_id, data)| dynamixel2::instructions::SyncWriteData { motor_id, data });
     bus.sync_write_u32(address::GOAL_POSITION, &goals).unwrap();
     let eighth = std::f64::consts::FRAC_PI_4;
-    assert!(served.settles([eighth, -eighth, 0.0]));
+    assert!(served.settles(&[eighth, -eighth, 0.0], 5e-4));
     let read = bus.sync_read_u32(&[10, 11, 20], address::PRESENT_POSITION).unwrap();
     for (response, wanted) in read.iter().zip([2560_i64, 1536, 2048]) {
         assert!((i64::from(response.data) - wanted).abs() <= 1, "{response:?}");
@@ -120,7 +65,7 @@ fn dynamixel2_reads_writes_and_hears_alerts() {
 
 #[test]
 fn rustypot_reads_all_at_once() {
-    let served = Served::new(|_| {});
+    let served = served(|_| {});
     let path = served.path.to_string_lossy().into_owned();
     let port = serialport::new(path, 57_600).timeout(Duration::from_secs(2));
     let mut port = port.open().unwrap();
@@ -136,7 +81,7 @@ fn rustypot_reads_all_at_once() {
     let goals = [2048, 2304, 1792].map(command);
     handler.sync_write(port.as_mut(), &ids, address::PROFILE_ACCELERATION as u8, &goals).unwrap();
     let sixteenth = std::f64::consts::FRAC_PI_8;
-    assert!(served.settles([0.0, sixteenth, -sixteenth]));
+    assert!(served.settles(&[0.0, sixteenth, -sixteenth], 5e-4));
     // Current, velocity, position: 10 bytes of each.
     let from = address::PRESENT_CURRENT as u8;
     let slow = handler.sync_read(port.as_mut(), &ids, from, 10).unwrap();
