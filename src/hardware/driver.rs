@@ -34,6 +34,14 @@ pub trait Driver: Send {
     /// A device that refuses, and why.
     fn arm(&mut self, present: &[f64]) -> Result<(), Fault>;
 
+    /// Refuses commands that are within the limits of each and may not be given together. It tells the device nothing.
+    ///
+    /// # Errors
+    /// What would become of them.
+    fn check(&self, _commands: &[f64]) -> Result<(), Fault> {
+        Ok(())
+    }
+
     /// Commands every actuator.
     ///
     /// # Errors

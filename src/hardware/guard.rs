@@ -327,6 +327,7 @@ impl Core {
 
     /// Sends commands that are within limits, or says them.
     fn send(&mut self, commands: &[f64]) -> Result<(), Fault> {
+        self.driver.check(commands)?;
         if self.setup.dry_run {
             (self.setup.say)(&format!("{}: would be sent {commands:.4?}", self.name));
         } else {

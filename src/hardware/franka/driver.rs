@@ -37,6 +37,26 @@ struct Motion {
     torque: [f64; JOINTS],
     /// The arm has been told that the motion is at its end.
     finished: bool,
+    /// Least distance outside of the box since it began, along each axis \[m\].
+    outside: [f64; 3],
+}
+
+impl Motion {
+    /// Halts where the next cycle would have it come to rest outside of the box. Where it would come to rest now was looked at a
+    /// cycle ago.
+    fn keep_inside(&mut self, settings: &Settings) -> Result<(), Fault> {
+        let Some(workspace) = settings.workspace.filter(|_| !settings.direct) else { return Ok(()) };
+        let here = workspace.beyond(&self.generator.commanded());
+        self.outside = std::array::from_fn(|axis| self.outside[axis].min(here[axis]));
+        let mut next = self.generator.clone();
+        next.step();
+        let rest = next.rest();
+        if workspace.allows(&self.outside, &rest) {
+            return Ok(());
+        }
+        self.generator.halt();
+        Err(workspace.refusal("the way to where it is commanded would have", &rest))
+    }
 }
 
 /// An arm, with its hand if it has one, see [the module](super).
@@ -151,7 +171,8 @@ impl Franka {
         }
         let q = link.state.get(field::Q_D);
         let generator = Generator::at(ArmLimits::of(version), q, direct);
-        self.motion = Some(Motion { id, generator, torque: [0.0; JOINTS], finished: false });
+        let outside = self.settings.workspace.map_or([0.0; 3], |workspace| workspace.beyond(&q));
+        self.motion = Some(Motion { id, generator, torque: [0.0; JOINTS], finished: false, outside });
         // The first command answers the state that has just come.
         self.respond(1)
     }
@@ -160,8 +181,10 @@ impl Franka {
     fn respond(&mut self, steps: u64) -> Result<(), Fault> {
         let gain = if self.resetting { self.settings.reset_gain_scale } else { self.settings.gain_scale };
         let (Some(link), Some(motion)) = (&mut self.link, &mut self.motion) else { return Ok(()) };
+        let mut refusal = Ok(());
         // What was missed the arm has gone on with by itself.
         for _ in 0..steps.min(MISSED_CYCLES) {
+            refusal = refusal.and(motion.keep_inside(&self.settings));
             motion.generator.step();
         }
         let mut setpoint =
@@ -177,7 +200,8 @@ impl Franka {
             setpoint.torque = motion.torque;
             setpoint.torque_finished = motion.finished;
         }
-        link.answer(&setpoint)
+        link.answer(&setpoint)?;
+        refusal
     }
 
     /// Takes what the arm says, and answers it.
@@ -303,6 +327,25 @@ impl Driver for Franka {
         }
         self.recover()?;
         self.begin()
+    }
+
+    fn check(&self, commands: &[f64]) -> Result<(), Fault> {
+        let Some(workspace) = self.settings.workspace else { return Ok(()) };
+        let link = self.link.as_ref().ok_or(Fault::NotConnected)?;
+        let (outside, mut wanted) = match &self.motion {
+            Some(motion) => (motion.outside, motion.generator.targets()),
+            None => {
+                let here = link.state.get(field::Q_D);
+                (workspace.beyond(&here), here)
+            }
+        };
+        for (command, target) in commands.iter().zip(&self.settings.targets) {
+            if let Target::Joint(joint) = target {
+                wanted[*joint] = *command;
+            }
+        }
+        let allowed = workspace.allows(&outside, &wanted);
+        if allowed { Ok(()) } else { Err(workspace.refusal("it was commanded to have", &wanted)) }
     }
 
     fn command(&mut self, commands: &[f64]) -> Result<(), Fault> {

@@ -67,14 +67,25 @@ impl Generator {
         if std::mem::replace(&mut self.halted, true) {
             return;
         }
-        for k in 0..JOINTS {
+        let rest = self.rest();
+        self.joints.iter_mut().zip(rest).for_each(|(joint, rest)| joint.target = rest);
+    }
+
+    /// Where it would come to rest if it halted now.
+    pub(super) fn rest(&self) -> [f64; JOINTS] {
+        std::array::from_fn(|k| {
             let rate = self.joints[k].course.rate;
             let way = rate * rate.abs() / (2.0 * ACCELERATION * self.arm.acceleration[k]) + rate * CYCLE;
             let [low, high] = Generator::range(self.arm, k);
             let here = if self.direct { self.commanded[k] } else { self.joints[k].course.value };
             // A joint may stand beyond the range that targets have.
-            self.joints[k].target = (here + way).clamp(low.min(here), high.max(here));
-        }
+            (here + way).clamp(low.min(here), high.max(here))
+        })
+    }
+
+    /// Where it goes.
+    pub(super) fn targets(&self) -> [f64; JOINTS] {
+        self.joints.map(|joint| joint.target)
     }
 
     /// Goes on after a halt, with the next target.

@@ -15,11 +15,20 @@
 //! | `interpolation` | `smooth`: targets become a motion within the arm's limits; `none`: targets leap, which only an arm at a loopback address is sent | `smooth` |
 //! | `version` | of the interface, 5 or 10; 0 finds out | 0 |
 //! | `collision_torque`, `collision_force` | contacts that stop the arm \[N m, N\] | 40, 40 |
+//! | `box` | `[x low, x high, y low, y high, z low, z high]` of the end effector, in the frame of the arm's base \[m\] | none |
+//! | `tool` | from the flange to the point that the box is for, along the flange's axis \[m\] | 0.1034 with `hand`, else 0 |
 //! | `watchdog` | longest time without a command \[s\] | 0.25 |
 //! | `reset_time` | duration of a reset \[s\] | 5 |
 //! | `hand` | there is a Franka Hand | false |
 //! | `hand_port` | of the hand's server | 1338 |
 //! | `hand_speed`, `hand_force` | of the fingers, and when they close on something (to 5 mm or less) \[m/s, N\] | 0.1, 20 |
+//!
+//! # The box
+//!
+//! A command whose end effector would be outside of the `box` is refused before anything reaches the wire, with where it would
+//! be; so is a motion on whose way it would come to rest outside, as joints that turn between two places inside may pass
+//! outside. Either way the arm comes to rest, and the next reset goes on. An arm that begins outside may come nearer to the
+//! box.
 //!
 //! # The loop
 //!
@@ -48,5 +57,6 @@ mod generator;
 mod hand;
 mod link;
 mod settings;
+mod workspace;
 
 pub use driver::Franka;

@@ -1,5 +1,6 @@
 //! What a config says of an arm.
 
+use super::workspace::Workspace;
 use crate::parameters::Parameters;
 use protocol::franka::{HAND_PORT, JOINTS, PORT, Version};
 use robot::{ActuatorConfig, DeviceConfig, Fault, HardwareId, SensorConfig};
@@ -7,6 +8,9 @@ use std::net::IpAddr;
 
 /// Number of the hand among actuators.
 const HAND: usize = JOINTS;
+
+/// From the flange of an arm to the tips of a Franka Hand's fingers \[m\].
+const FINGERTIPS: f64 = 0.1034;
 
 /// What a sensor reads, of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +42,8 @@ pub(super) struct Settings {
     /// Targets leap.
     pub(super) direct: bool,
     pub(super) collision: [f64; 2],
+    /// Where the end effector may be.
+    pub(super) workspace: Option<Workspace>,
     pub(super) watchdog: f64,
     pub(super) reset_time: f64,
     pub(super) hand: bool,
@@ -95,6 +101,9 @@ impl Settings {
                 ))
             })?),
         };
+        let hand = parameters.flag("hand", false)?;
+        let tool = parameters.number("tool", if hand { FINGERTIPS } else { 0.0 }, [-1.0, 1.0])?;
+        let numbers = parameters.numbers("box")?;
         let settings = Settings {
             host,
             port,
@@ -109,7 +118,8 @@ impl Settings {
             ],
             watchdog: parameters.number("watchdog", 0.25, [0.02, 10.0])?,
             reset_time: parameters.number("reset_time", 5.0, [0.1, 60.0])?,
-            hand: parameters.flag("hand", false)?,
+            workspace: numbers.map(|numbers| Workspace::new(&numbers, tool)).transpose()?,
+            hand,
             hand_port: parameters.number("hand_port", f64::from(HAND_PORT), [1.0, 65_535.0])? as u16,
             hand_speed: parameters.number("hand_speed", 0.1, [0.001, 0.2])?,
             hand_force: parameters.number("hand_force", 20.0, [0.0, 70.0])?,

@@ -3,11 +3,12 @@
 //! `cargo run --release -p robohive-library --example faults -- 10000`
 //!
 //! Each episode arms the devices, moves them and is struck by faults of all kinds. It must end in a typed error that names the
-//! device, or well; what motors are told stays within the ranges of the config; and when the faults have ended the motors are told to
+//! device, or well; what motors are told stays within the ranges of the config, and the end effector of an arm in its box; and when the faults have ended the motors are told to
 //! stay where they are within a second of the error, and the next reset works.
 
 use env::{Env, Options, OwnModels};
 use hardware::{Setup, registry};
+use protocol::franka::flange;
 use robohive_library::Rehearsal;
 use robot::{Config, Robot};
 use std::error::Error;
@@ -20,6 +21,9 @@ const LINE: &str = "drop=0.002,delay=0.0005,reorder=0.0005,duplicate=0.002,corru
 /// Faults of an arm's network, which carries two thousand.
 const NETWORK: &str = "drop=0.002,delay=0.001,reorder=0.001,duplicate=0.002,corrupt=0.001,truncate=0.001,stall=0.00002,\
                        disconnect=0.00002,stop=0.00001";
+/// The box of the arm's fingertips \[m\], and how far they are from its flange.
+const BOX: [[f64; 2]; 3] = [[0.3, 0.75], [-0.25, 0.25], [0.3, 0.8]];
+const FINGERTIPS: f64 = 0.1034;
 /// Control periods of an episode.
 const STEPS: u32 = 30;
 /// How long after an error motors may still be told to move \[s\].
@@ -37,6 +41,8 @@ struct Tally {
     nameless: u32,
     /// Largest distance of a command that reached a motor from its range \[rad\].
     beyond: f64,
+    /// Largest distance of what an arm was commanded from its box \[m\].
+    outside: f64,
     /// Times that motors were told to move on after an error.
     restless: u32,
     /// Resets that failed although the faults had ended.
@@ -54,12 +60,19 @@ struct Case {
 fn cases() -> Result<Vec<Case>, Box<dyn Error>> {
     let servos = include_str!("../../../assets/quadruped/servos.toml").replace("\"off\"", "\"hold\"");
     let arm = include_str!("../../../assets/franka/tasks/hardware.toml")
-        .replace("hand = true", "hand = true, reset_time = 2.0")
+        .replace("hand = true", &format!("hand = true, reset_time = 2.0, box = {:?}", BOX.as_flattened()))
         .replace("\"impedance\"", "\"position\"");
+    let first = servos.replace("\"dynamixel\"", "\"dynamixel\", model = \"MX-28\"");
     let feetech = servos.replace("\"dynamixel\"", "\"feetech\"");
     let (walk, reach) = ("hive/QuadrupedWalk-v0", "hive/FrankaReach-v0");
     Ok(vec![
         Case { name: "dynamixel", id: walk, config: Config::from_toml(&servos, "servos.toml")?, rates: LINE },
+        Case {
+            name: "dynamixel, protocol 1.0",
+            id: walk,
+            config: Config::from_toml(&first, "servos.toml")?,
+            rates: LINE,
+        },
         Case { name: "feetech", id: walk, config: Config::from_toml(&feetech, "servos.toml")?, rates: LINE },
         Case { name: "franka", id: reach, config: Config::from_toml(&arm, "hardware.toml")?, rates: NETWORK },
         Case { name: "franka, robotiq", id: reach, config: with_robotiq(&arm)?, rates: NETWORK },
@@ -86,9 +99,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let cases = cases()?;
     let share = wanted.div_ceil(cases.len() as u64);
     println!(
-        "| driver | faults | episodes | ended by an error | without the device's name | commands beyond their range | not stopped | lost |"
+        "| driver | faults | episodes | ended by an error | without the device's name | commands beyond their range | outside the box | not stopped | lost |"
     );
-    println!("|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|");
     let mut sound = true;
     for case in &cases {
         let mut tally = Tally::default();
@@ -100,12 +113,12 @@ fn main() -> Result<(), Box<dyn Error>> {
             }
             strike(case, seed, &mut tally)?;
         }
-        let Tally { faults, episodes, errors, nameless, beyond, restless, lost } = tally;
+        let Tally { faults, episodes, errors, nameless, beyond, outside, restless, lost } = tally;
         println!(
-            "| {} | {faults} | {episodes} | {errors} | {nameless} | {beyond:.4} rad | {restless} | {lost} |",
+            "| {} | {faults} | {episodes} | {errors} | {nameless} | {beyond:.4} rad | {outside:.4} m | {restless} | {lost} |",
             case.name
         );
-        sound &= nameless == 0 && beyond < 2e-3 && restless == 0 && lost == 0;
+        sound &= nameless == 0 && beyond < 2e-3 && outside == 0.0 && restless == 0 && lost == 0;
     }
     if sound { Ok(()) } else { Err("a driver did what it must not do".into()) }
 }
@@ -136,6 +149,9 @@ fn strike(case: &Case, seed: u64, tally: &mut Tally) -> Result<(), Box<dyn Error
         robot.sense(&model, &mirror, &mut rng);
         robot.write_readings(&mut mirror);
         tally.beyond = tally.beyond.max(beyond(case, &rehearsal));
+        if case.name == "franka" {
+            tally.outside = tally.outside.max(outside(&rehearsal));
+        }
     }
     tally.faults += rehearsal.struck();
     rehearsal.inject(Rates::default(), 0);
@@ -171,6 +187,18 @@ fn beyond(case: &Case, rehearsal: &Rehearsal) -> f64 {
         Some((low - told).max(told - high))
     });
     distance.fold(0.0, f64::max)
+}
+
+/// How far from its box the fingertips are where the arm is commanded to be.
+fn outside(rehearsal: &Rehearsal) -> f64 {
+    let told = commands(rehearsal);
+    let Some(q) = told.first_chunk::<7>() else { return f64::INFINITY };
+    let pose = flange(q);
+    let axis = |k: usize| {
+        let (place, [low, high]) = (pose[12 + k] + FINGERTIPS * pose[8 + k], BOX[k]);
+        (low - place).max(place - high)
+    };
+    (0..3).map(axis).fold(0.0, f64::max)
 }
 
 /// What the motors are told.

@@ -6,3 +6,4 @@ mod faults;
 #[cfg(unix)]
 mod network;
 mod rig;
+mod workspace;
