@@ -41,7 +41,7 @@ const ORDER: [(&str, &[&str]); 33] = [
     ("robohive-agents", &["dataset", "env"]),
     ("robohive-record", &["physics", "dataset", "env"]),
     ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),
-    ("robohive-teleop", &["physics", "dataset", "protocol", "robot", "env", "record"]),
+    ("robohive-teleop", &["physics", "dataset", "protocol", "robot", "env", "agents", "record"]),
     ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",
@@ -180,6 +180,7 @@ fn crates_depend_on_those_before_them() {
         "hardware",
         "env",
         "record",
+        "agents",
         "teleop",
         "validation",
         "video",

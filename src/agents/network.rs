@@ -1,6 +1,7 @@
 //! Feed-forward networks in double precision.
 
 use crate::error::PolicyError;
+use std::sync::Arc;
 
 /// Keeps scales of zero from dividing, as mjrl does.
 const SCALE_FLOOR: f64 = 1e-8;
@@ -17,7 +18,8 @@ pub struct Layer {
 /// `x ↦ shift + scale · f((x - shift') / scale')`, where `f` is affine layers with tanh between them.
 #[derive(Clone, Debug)]
 pub struct Network {
-    layers: Vec<Layer>,
+    /// Shared by copies.
+    layers: Arc<[Layer]>,
     in_shift: Vec<f64>,
     in_scale: Vec<f64>,
     out_shift: Vec<f64>,
@@ -65,7 +67,7 @@ impl Network {
             in_scale: filled(before.scale, inputs, 1.0, "the input's scale")?,
             out_shift: filled(after.shift, width, 0.0, "the output's shift")?,
             out_scale: filled(after.scale, width, 1.0, "the output's scale")?,
-            layers,
+            layers: layers.into(),
             values: [Vec::new(), Vec::new()],
         };
         let vectors = [&network.in_shift, &network.in_scale, &network.out_shift, &network.out_scale];

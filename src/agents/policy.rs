@@ -69,6 +69,15 @@ impl Policy {
         Ok(Self::mean(mjrl::read(bytes)?))
     }
 
+    /// The policy at the start of an episode: random actions are those of its seed.
+    #[must_use]
+    pub fn for_episode(&self, seed: u64) -> Self {
+        match self {
+            Policy::Random(_) => Policy::random(seed),
+            other => other.clone(),
+        }
+    }
+
     /// Chooses an action for the present state of an environment.
     ///
     /// # Errors

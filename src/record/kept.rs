@@ -54,6 +54,14 @@ impl Kept {
         Ok(push_row(self, env, action)?)
     }
 
+    /// Adds what is true or false of the row that was added last.
+    ///
+    /// # Errors
+    /// The name has rows of another kind.
+    pub fn flag(&mut self, key: &str, flag: bool) -> Result<(), RecordError> {
+        Ok(self.push(key, &[], &[flag])?)
+    }
+
     /// Forgets all rows but the first few, as if the episode had not gone further.
     pub fn truncate(&mut self, rows: usize) {
         for column in self.columns.values_mut() {

@@ -130,6 +130,17 @@ impl Arm {
         (self.moving, self.grip) = (false, self.settings.gripper);
     }
 
+    /// Takes the state that something else has brought the arm to as its target, and the gripper as that has left it.
+    pub fn take_over(&mut self, env: &Env) {
+        let (model, data) = (&env.scene().model, &env.scene().data);
+        self.stay(model, data);
+        if let Some(&control) = self.gripper.first() {
+            let [low, high] = model.actuator_ctrlrange[control];
+            let part = (env.robot().last_control()[control] - low) / (high - low);
+            self.grip = if part.is_finite() { (2.0 * part - 1.0).clamp(-1.0, 1.0) } else { self.grip };
+        }
+    }
+
     /// Where the hand would be if the joints were there.
     fn hand(&self, model: &Model, data: &Data, joints: &[f64]) -> (Vec3, Quat) {
         let mut there = data.clone();
@@ -253,9 +264,14 @@ impl Arm {
     /// Stays where the arm is when a motion ends.
     fn rest_at(&mut self, model: &Model, data: &Data) {
         if std::mem::take(&mut self.moving) {
-            self.command = self.links.iter().map(|link| data.state.qpos[link.position]).collect();
-            self.target = self.hand(model, data, &self.command);
+            self.stay(model, data);
         }
+    }
+
+    /// Takes where the arm is as its target.
+    fn stay(&mut self, model: &Model, data: &Data) {
+        self.command = self.links.iter().map(|link| data.state.qpos[link.position]).collect();
+        self.target = self.hand(model, data, &self.command);
     }
 
     /// Where the gripper should be, -1 (closed) to 1.

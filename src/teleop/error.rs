@@ -1,5 +1,6 @@
 //! What can go wrong while a person drives.
 
+use agents::PolicyError;
 use env::EnvError;
 use record::RecordError;
 use robot::RobotError;
@@ -37,6 +38,8 @@ pub enum TeleopError {
     Env(Box<EnvError>),
     /// The robot refuses.
     Robot(Box<RobotError>),
+    /// The policy refuses.
+    Policy(Box<PolicyError>),
     /// The episode cannot be kept.
     Record(Box<RecordError>),
 }
@@ -55,6 +58,7 @@ impl fmt::Display for TeleopError {
             }
             TeleopError::Env(error) => write!(f, "{error}"),
             TeleopError::Robot(error) => write!(f, "{error}"),
+            TeleopError::Policy(error) => write!(f, "{error}"),
             TeleopError::Record(error) => write!(f, "{error}"),
         }
     }
@@ -65,6 +69,7 @@ impl std::error::Error for TeleopError {
         match self {
             TeleopError::Env(error) => Some(error),
             TeleopError::Robot(error) => Some(error),
+            TeleopError::Policy(error) => Some(error),
             TeleopError::Record(error) => Some(error),
             _ => None,
         }
@@ -80,6 +85,12 @@ impl From<EnvError> for TeleopError {
 impl From<RobotError> for TeleopError {
     fn from(error: RobotError) -> Self {
         TeleopError::Robot(Box::new(error))
+    }
+}
+
+impl From<PolicyError> for TeleopError {
+    fn from(error: PolicyError) -> Self {
+        TeleopError::Policy(Box::new(error))
     }
 }
 

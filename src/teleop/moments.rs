@@ -1,5 +1,6 @@
 //! States of an episode that a person can go back to.
 
+use crate::handover::Handover;
 use crate::pilot::Pilot;
 use env::EnvState;
 
@@ -10,6 +11,8 @@ pub struct Moment {
     pub env: EnvState,
     /// What drives it.
     pub pilot: Pilot,
+    /// What acts beside the person.
+    pub handover: Option<Handover>,
     /// The return so far.
     pub reward: f64,
     /// Steps so far that solved the task.

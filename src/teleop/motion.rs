@@ -61,12 +61,14 @@ pub enum Mark {
     BackSecond,
     /// A second forward.
     ForwardSecond,
+    /// The policy hands control to the person, or the person to the policy.
+    Policy,
     /// The session ends.
     End,
 }
 
 /// Marks by the names of mapping files.
-pub const MARKS: [(&str, Mark); 11] = [
+pub const MARKS: [(&str, Mark); 12] = [
     ("success", Mark::Success),
     ("failure", Mark::Failure),
     ("discard", Mark::Discard),
@@ -77,6 +79,7 @@ pub const MARKS: [(&str, Mark); 11] = [
     ("forward", Mark::Forward),
     ("back_second", Mark::BackSecond),
     ("forward_second", Mark::ForwardSecond),
+    ("policy", Mark::Policy),
     ("end", Mark::End),
 ];
 

@@ -64,6 +64,18 @@ impl Pilot {
         Ok(())
     }
 
+    /// Goes on from where something else has brought the robot, so that nothing jumps.
+    ///
+    /// # Errors
+    /// The robot refuses.
+    pub fn take_over(&mut self, env: &Env) -> Result<(), TeleopError> {
+        match &mut self.driven {
+            Driven::Arm(arm) => arm.take_over(env),
+            Driven::Joints(at, ..) => *at = last_action(env)?,
+        }
+        Ok(())
+    }
+
     /// The action of the next tick.
     ///
     /// # Errors
@@ -84,10 +96,7 @@ impl Pilot {
             Driven::Joints(at, gain, gloved) => {
                 if live && env.steps() > 0 {
                     // What was asked for beyond the limits of the robot is forgotten, so that it stops when nobody asks.
-                    at.copy_from_slice(env.robot().last_control());
-                    if normalized {
-                        env.robot().normalize(&env.scene().model, at)?;
-                    }
+                    *at = last_action(env)?;
                 }
                 let part = if motion.quarter { 0.25 } else { 1.0 };
                 for &(joint, along) in &motion.joints {
@@ -165,6 +174,16 @@ fn within(env: &mut Env) -> Result<[Vec<f64>; 2], TeleopError> {
     let bounds: Vec<[f64; 2]> = (0..env.action_len()).map(|k| env.action_bounds(k)).collect();
     let mut end = |end: usize| env.controls_of(&bounds.iter().map(|bound| bound[end]).collect::<Vec<_>>());
     Ok([end(0)?, end(1)?])
+}
+
+/// The action whose controls the robot follows.
+fn last_action(env: &Env) -> Result<Vec<f64>, TeleopError> {
+    let mut action = env.robot().last_control().to_vec();
+    if env.settings().normalize_act {
+        env.robot().normalize(&env.scene().model, &mut action)?;
+    }
+    let bounds = (0..env.action_len()).map(|k| env.action_bounds(k));
+    Ok(action.iter().zip(bounds).map(|(x, [low, high])| x.clamp(low, high)).collect())
 }
 
 /// The action that keeps what the actuators move where it is: positions of their joints, and the middle for the rest.

@@ -2,10 +2,12 @@
 
 use crate::arm::Reached;
 use crate::error::TeleopError;
+use crate::handover::{Handover, INTERVENTION};
 use crate::mapping::Mapping;
 use crate::moments::{Moment, Moments};
 use crate::motion::{Input, Mark};
 use crate::pilot::{Control, Pilot};
+use agents::Policy;
 use env::Env;
 use record::Kept;
 use robot::ActionMode;
@@ -53,12 +55,15 @@ pub struct Ticked {
     pub discarded: bool,
     /// Time went on.
     pub stepped: bool,
+    /// Whether the person made the step, where a policy shares control.
+    pub by_hand: Option<bool>,
     /// Why the target was not taken.
     pub refused: Option<Reached>,
     /// Physics refused the step; the session went back by one state, and time stands still. On hardware, where the model could
     /// not show what the devices read, the episode is thrown away.
     pub fault: Option<String>,
-    /// A mark that hardware does not know: its time neither goes back nor slows down.
+    /// A mark that means nothing here: the time of hardware neither goes back nor slows down, and without a policy none is
+    /// given control.
     pub impossible: Option<Mark>,
     /// The session is over.
     pub over: bool,
@@ -68,6 +73,7 @@ pub struct Ticked {
 pub struct Session {
     env: Env,
     pilot: Pilot,
+    handover: Option<Handover>,
     plan: Plan,
     seed: u64,
     kept: Kept,
@@ -102,6 +108,7 @@ impl Session {
         let mut session = Session {
             env,
             pilot,
+            handover: None,
             seed: plan.seed,
             plan,
             kept,
@@ -117,10 +124,24 @@ impl Session {
         Ok(session)
     }
 
+    /// Shares control with a policy, which acts first: any motion of the person, or [`Mark::Policy`], takes over, and this mark gives
+    /// back. Rows then say who acted, see [`INTERVENTION`]; random actions are those of the seed of each episode.
+    ///
+    /// # Errors
+    /// The reset fails.
+    pub fn with_policy(mut self, policy: &Policy) -> Result<Self, TeleopError> {
+        self.handover = Some(Handover::new(policy, self.seed));
+        self.moments.begin(self.moment());
+        Ok(self)
+    }
+
     /// Begins an episode from the reset of the present seed.
     fn begin(&mut self) -> Result<(), TeleopError> {
         self.env.reset(Some(self.seed))?;
         self.pilot.begin(&self.env)?;
+        if let Some(handover) = &mut self.handover {
+            handover.begin(self.seed);
+        }
         self.kept = Kept::new(self.seed);
         (self.reward, self.solved, self.paused) = (0.0, 0, true);
         self.moments.begin(self.moment());
@@ -128,7 +149,13 @@ impl Session {
     }
 
     fn moment(&self) -> Moment {
-        Moment { env: self.env.state(), pilot: self.pilot.clone(), reward: self.reward, solved: self.solved }
+        Moment {
+            env: self.env.state(),
+            pilot: self.pilot.clone(),
+            handover: self.handover.clone(),
+            reward: self.reward,
+            solved: self.solved,
+        }
     }
 
     /// One tick: marks first, then a step of the environment where time goes on. Any motion lets it go on. Where it stands
@@ -148,6 +175,9 @@ impl Session {
         let rewinds = !self.env.is_live() && input.marks.iter().any(|mark| mark.repeats());
         if input.motion.moves() && !rewinds && !input.marks.contains(&Mark::Pause) {
             self.paused = false;
+        }
+        if !rewinds && self.handover.as_mut().is_some_and(|handover| handover.takes_over(&input.motion)) {
+            self.pilot.take_over(&self.env)?;
         }
         if !self.paused && !rewinds {
             self.step(input, &mut ticked)?;
@@ -182,6 +212,11 @@ impl Session {
             Mark::Forward => self.go(1)?,
             Mark::BackSecond => self.go(-second)?,
             Mark::ForwardSecond => self.go(second)?,
+            Mark::Policy => match self.handover.as_mut().map(Handover::hand_over) {
+                Some(true) => self.pilot.take_over(&self.env)?,
+                Some(false) => {}
+                None => ticked.impossible = Some(mark),
+            },
             Mark::End => ticked.over = true,
         }
         Ok(())
@@ -192,14 +227,18 @@ impl Session {
         self.paused = true;
         if let Some(moment) = self.moments.go(by) {
             self.env.set_state(&moment.env)?;
-            self.pilot = moment.pilot.clone();
+            (self.pilot, self.handover) = (moment.pilot.clone(), moment.handover.clone());
             (self.reward, self.solved) = (moment.reward, moment.solved);
         }
         Ok(())
     }
 
     fn step(&mut self, input: &Input, ticked: &mut Ticked) -> Result<(), TeleopError> {
-        let (action, reached) = self.pilot.act(&mut self.env, &input.motion)?;
+        let policy = self.handover.as_mut().map(|handover| handover.action(&self.env)).transpose()?.flatten();
+        let (action, reached) = match policy {
+            Some(action) => (action, Reached::Yes),
+            None => self.pilot.act(&mut self.env, &input.motion)?,
+        };
         let action = action.to_vec();
         ticked.refused = Some(reached).filter(|reached| *reached != Reached::Yes);
         // What was gone back over is no part of the episode any more.
@@ -207,7 +246,7 @@ impl Session {
         if self.plan.images {
             self.env.exteroception()?;
         }
-        self.kept.row(&self.env, &action)?;
+        self.keep(&action, self.by_hand() == Some(true))?;
         let step = self.env.step(&action)?;
         if let Some(fault) = step.fault {
             ticked.fault = Some(fault.to_string());
@@ -219,16 +258,25 @@ impl Session {
             self.env.reset(Some(seed))?;
             return self.return_to_last();
         }
+        (ticked.stepped, ticked.by_hand) = (true, self.by_hand());
         self.reward += step.reward;
         self.solved = if self.env.verdict().solved { self.solved + 1 } else { 0 };
         self.moments.push(self.moment());
-        ticked.stepped = true;
         let steps = self.moments.at();
         if self.plan.solved_for > 0 && self.solved >= self.plan.solved_for {
             return self.finish(true, ticked);
         }
         if step.terminated || (self.plan.horizon > 0 && steps >= self.plan.horizon) {
             return self.finish(self.env.verdict().solved, ticked);
+        }
+        Ok(())
+    }
+
+    /// Keeps the row of the present state.
+    fn keep(&mut self, action: &[f64], by_hand: bool) -> Result<(), TeleopError> {
+        self.kept.row(&self.env, action)?;
+        if self.handover.is_some() {
+            self.kept.flag(INTERVENTION, by_hand)?;
         }
         Ok(())
     }
@@ -251,7 +299,7 @@ impl Session {
         if self.plan.images {
             self.env.exteroception()?;
         }
-        self.kept.row(&self.env, &vec![f64::NAN; self.env.action_len()])?;
+        self.keep(&vec![f64::NAN; self.env.action_len()], false)?;
         let mut kept = std::mem::take(&mut self.kept);
         kept.note(JUDGED, u8::from(success));
         ticked.finished = Some(Finished { kept, seed: self.seed, success, steps, reward: self.reward });
@@ -270,6 +318,11 @@ impl Session {
     /// What drives it.
     pub fn pilot(&self) -> &Pilot {
         &self.pilot
+    }
+
+    /// Whether the person acts, where a policy shares control.
+    pub fn by_hand(&self) -> Option<bool> {
+        self.handover.as_ref().map(Handover::by_hand)
     }
 
     /// Time stands still.
@@ -312,6 +365,11 @@ impl Session {
             line += &format!("  hand {x:.3} {y:.3} {z:.3} m");
         }
         line += &format!("  {good} of {kept} succeeded");
+        match self.by_hand() {
+            Some(true) => line += "  BY HAND",
+            Some(false) => line += "  policy acts",
+            None => {}
+        }
         if self.slow {
             line += "  slow";
         }

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::library::Source;
+use crate::input::policy::policy;
 use crate::interrupt::Interrupt;
 use crate::output::{check_place, keep_input, recording_file};
 use crate::pictures::film::{Film, FilmArguments};
@@ -91,32 +92,13 @@ pub struct Run {
     live: Live,
 }
 
-/// What acts in an episode of this seed.
-fn policy(name: &str, seed: u64, read: Option<&Policy>) -> Policy {
-    match (name, read) {
-        (_, Some(policy)) => policy.clone(),
-        ("zero", None) => Policy::Zero,
-        _ => Policy::random(seed),
-    }
-}
-
-/// Reads the file that `--policy` names, if it is one.
-fn read_policy(name: &str) -> Result<Option<Policy>, Failure> {
-    match name {
-        "random" | "zero" => Ok(None),
-        path => Policy::open(path).map(Some).map_err(|error| {
-            Failure::usage(format!("--policy is random, zero or a file with a policy: {error}"))
-        }),
-    }
-}
-
 /// Runs the command.
 pub fn run(a: &Run) -> Result<(), Failure> {
     if let Some(record) = &a.record {
         check_place(record)?;
         keep_input(Path::new(&a.policy), record)?;
     }
-    let read = read_policy(&a.policy)?;
+    let policy = policy(&a.policy)?;
     let painters = a.film.painters(a.visual)?;
     let hardware = a.live.hardware(&a.source.id, &a.source.making)?;
     let mut env = a.source.make_on(hardware, painters.clone())?;
@@ -129,9 +111,10 @@ pub fn run(a: &Run) -> Result<(), Failure> {
     let began = Instant::now();
     for index in 0..a.episodes {
         let seed = a.seed.wrapping_add(u64::from(index));
-        let acting = policy(&a.policy, seed, read.as_ref());
         let witnesses = Witnesses { recording: recording.as_mut(), film: film.as_mut() };
-        let Some(episode) = play(&mut env, acting, seed, witnesses, &interrupt)? else { break };
+        let Some(episode) = play(&mut env, policy.for_episode(seed), seed, witnesses, &interrupt)? else {
+            break;
+        };
         bar.set_message(format!("return {:.2}, {} solved", episode.reward, episode.solved));
         bar.inc(1);
         if a.each {

@@ -2,4 +2,5 @@
 
 pub mod library;
 pub mod loading;
+pub mod policy;
 pub mod source;

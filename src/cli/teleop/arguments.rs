@@ -21,7 +21,7 @@ Keys (those of RoboHive, and what episodes need):
   Delete             throw away, same reset again    Tab            throw away, next reset
   Space              pause                           s              slow motion
   b n                back and forward by one state   PgUp PgDn      by a second
-  Esc                end
+  p                  with --policy: take over, give back  Esc       end
 Any motion goes on from the state that is shown: what was gone back over is no part of the episode. With --control joints keys in \
 pairs move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k.
 
@@ -29,6 +29,8 @@ Gamepad: left stick and triggers move, the cross and TL TR turn, WEST EAST close
 press of the left stick throws away, of the right one pauses, SELECT and START end. Six-axis mouse: its six axes; left and right button close and \
 open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. The keyboard's marks \
 work beside every device.
+
+With --policy POLICY the policy acts once time goes on (Space), and any motion of yours takes over from where the robot is; p gives back. The line says who acts, and env_infos/intervention of a recording holds it for every step: 1 where you did.
 
 --mapping FILE changes all of this; --print-mapping prints the mapping that is used without one, to begin from. A target whose joints would be \
 more than 0.5 rad away, or out of range, is not taken. Terminals with the kitty keyboard protocol tell when keys are released; in others a key counts as released 0.15 s after its last \
@@ -47,6 +49,7 @@ Examples:
   robohive teleop hive/FrankaReach-v0 --preview --record reach.h5
   robohive teleop hive/FrankaReach-v0 --device gamepad --record reach.h5 --episodes 20
   robohive teleop hive/FrankaReach-v0 --device quest --record reach.h5
+  robohive teleop hive/FrankaReach-v0 --policy random --record corrected.h5
   robohive teleop hive/ElbowPose-v0 --control joints --video elbow.mp4
   robohive teleop hive/QuadrupedWalk-v0 --control joints --arm --rehearse\\
  --hardware assets/quadruped/servos.toml"
@@ -64,6 +67,9 @@ pub struct Teleop {
     /// What a glove's sensors say of the joints of a hand (TOML); needed for gloves
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub calibration: Option<PathBuf>,
+    /// What acts until you take over, by any motion or by p: random, zero, or a file with a policy, as for `robohive run`
+    #[arg(long, value_name = "POLICY")]
+    pub policy: Option<String>,
     /// What is driven; by a glove always joints
     #[arg(long, value_name = "WHAT", default_value = "hand")]
     pub control: ControlName,

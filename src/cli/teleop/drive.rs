@@ -7,6 +7,7 @@ use super::phone;
 use super::report::{Report, keys};
 use crate::failure::Failure;
 use crate::input::library::Source;
+use crate::input::policy::policy;
 use crate::interrupt::Interrupt;
 use crate::output::{check_place, keep_input};
 use crate::pictures::film::Film;
@@ -28,7 +29,9 @@ const LINE: f64 = 0.1;
 impl From<TeleopError> for Failure {
     fn from(error: TeleopError) -> Self {
         match error {
-            TeleopError::Mapping { .. } | TeleopError::Control { .. } => Failure::usage(error),
+            TeleopError::Mapping { .. } | TeleopError::Control { .. } | TeleopError::Policy(_) => {
+                Failure::usage(error)
+            }
             error => Failure::new(error),
         }
     }
@@ -41,6 +44,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         keep_input(input, out)?;
     }
     a.record.as_deref().map(check_place).transpose()?;
+    let policy = a.policy.as_deref().map(policy).transpose()?;
     let painters = a.film.painters(a.visual)?;
     let listening = Listening::new();
     let env = make(a, source, &listening, painters.clone())?;
@@ -60,7 +64,10 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         solved_for: a.solved_for,
         images: a.visual,
     };
-    let session = Session::new(env, control, &mapping, plan)?;
+    let mut session = Session::new(env, control, &mapping, plan)?;
+    if let Some(policy) = &policy {
+        session = session.with_policy(policy)?;
+    }
     let interrupt = Interrupt::listen().map_err(Failure::new)?;
     if !live {
         open(a, &mapping, &listening)?;
@@ -218,7 +225,7 @@ fn open_recording(a: &Teleop, source: &Source) -> Result<Recording, Failure> {
         (record::ID, &source.id[..]),
         (record::COMPAT, &compat),
         (record::SETTINGS, settings.trim_end()),
-        ("policy", "teleop"),
+        ("policy", a.policy.as_deref().unwrap_or("teleop")),
         ("device", &device),
         ("seed", &seed),
     ];
@@ -254,6 +261,7 @@ impl Desk {
             let input = self.mapping.read(&sample);
             let ticked = self.session.tick(&input)?;
             self.report.applied(self.now(), ticked.stepped);
+            self.report.acted(ticked.by_hand);
             self.write(&ticked)?;
             if ticked.stepped
                 || ticked.discarded
@@ -313,6 +321,7 @@ impl Desk {
             _ => "",
         };
         let impossible = match ticked.impossible {
+            Some(Mark::Policy) => "  no policy to give back to: start with --policy",
             Some(Mark::Slow) => "  hardware has no slow motion",
             Some(_) => "  hardware cannot go back in time",
             None => "",

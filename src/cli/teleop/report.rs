@@ -9,6 +9,8 @@ pub struct Report {
     latencies: Latencies,
     ticks: u64,
     steps: u64,
+    /// Steps of the person, and of the policy that shares control.
+    acted: [u64; 2],
     /// Ticks that were left out, since one before took too long.
     pub dropped: u64,
     /// Episodes that were thrown away.
@@ -30,6 +32,13 @@ impl Report {
         self.steps += u64::from(stepped);
     }
 
+    /// A step was the person's, or the policy's, where one shares control.
+    pub fn acted(&mut self, by_hand: Option<bool>) {
+        if let Some(by_hand) = by_hand {
+            self.acted[usize::from(!by_hand)] += 1;
+        }
+    }
+
     /// When the next tick is due; whole ticks that are late are dropped.
     pub fn next(&mut self, due: f64, now: f64, period: f64) -> f64 {
         let late = ((now - due) / period).floor().max(0.0);
@@ -47,6 +56,10 @@ impl Report {
             self.dropped,
             self.steps
         );
+        let [hand, policy] = self.acted;
+        if hand + policy > 0 {
+            show!("acted        {hand} steps by hand, {policy} by the policy");
+        }
         let ms = |share| self.latencies.quantile(share).map_or(f64::NAN, |seconds| 1e3 * seconds);
         if self.latencies.count() > 0 {
             show!(

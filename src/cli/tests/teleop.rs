@@ -113,6 +113,38 @@ fn typed_keys_solve_the_task_and_the_recording_loads() {
 }
 
 #[test]
+fn a_person_takes_over_from_a_policy_and_gives_back() {
+    let file = scratch("shared.h5");
+    let mut typed = Typed::start(&[ID, "--policy", "random", "--record", file.to_str().unwrap()], true);
+    assert!(typed.line().contains("policy acts") && typed.line().contains("PAUSED"), "{}", typed.line());
+    typed.write(" ");
+    (0..4).for_each(|_| typed.pause());
+    assert!(typed.line().contains("policy acts") && !typed.line().contains("PAUSED"), "{}", typed.line());
+    typed.write("\u{1b}[119;1:1u\u{1b}[119;1:3u");
+    typed.wait_for("BY HAND");
+    (0..3).for_each(|_| typed.pause());
+    typed.write("p");
+    (0..4).for_each(|_| typed.pause());
+    assert!(typed.line().contains("policy acts"), "{}", typed.line());
+    typed.write("\r");
+    typed.wait_for("episode 2");
+    typed.write("\u{1b}[27u");
+    let (status, said) = typed.end();
+    assert!(status.success(), "{said}");
+    let trace = TraceReader::open(&file).unwrap();
+    let find = |key: &str| trace.entries("Trial0").unwrap().into_iter().find(|entry| entry.key == key);
+    let by_hand = trace.read(&find("env_infos/intervention").unwrap()).unwrap().values.to_f64();
+    let steps = by_hand.len() - 1;
+    let hand = by_hand.iter().filter(|x| **x != 0.0).count();
+    let acted = format!("{hand} steps by hand, {} by the policy", steps - hand);
+    assert!(hand >= 2 && by_hand[0] == 0.0 && by_hand[steps - 1] == 0.0, "{by_hand:?}");
+    assert!(said.contains(&acted), "{acted}: {said}");
+    let out = robohive(&["teleop", ID, "--policy", "/nonexistent/policy.pickle"]);
+    assert_eq!(out.status.code(), Some(2));
+    assert!(text(&out.stderr).contains("/nonexistent/policy.pickle"), "{}", text(&out.stderr));
+}
+
+#[test]
 fn a_kill_loses_no_finished_episode() {
     let file = scratch("killed.h5");
     let arguments = [ID, "--record", file.to_str().unwrap(), "--horizon", "3"];

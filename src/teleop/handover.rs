@@ -1,0 +1,61 @@
+//! Control that a policy and a person share: the policy acts until the person takes over, and again once it is given back.
+
+use crate::error::TeleopError;
+use crate::motion::Motion;
+use agents::Policy;
+use env::Env;
+
+/// The rows of a trial that say who acted in a state: true for the person, false for the policy and in the last state.
+pub const INTERVENTION: &str = "env_infos/intervention";
+
+/// A policy, and who acts. A copy is all that an episode needs to go on from here.
+#[derive(Clone)]
+pub struct Handover {
+    policy: Policy,
+    by_hand: bool,
+    action: Vec<f64>,
+}
+
+impl Handover {
+    /// A policy that acts first.
+    pub fn new(policy: &Policy, seed: u64) -> Self {
+        Handover { policy: policy.for_episode(seed), by_hand: false, action: Vec::new() }
+    }
+
+    /// Begins an episode from the reset of a seed: the policy acts.
+    pub fn begin(&mut self, seed: u64) {
+        *self = Handover::new(&self.policy, seed);
+    }
+
+    /// The person acts.
+    pub fn by_hand(&self) -> bool {
+        self.by_hand
+    }
+
+    /// Hands control to the other one; whether the person has it now.
+    pub fn hand_over(&mut self) -> bool {
+        self.by_hand = !self.by_hand;
+        self.by_hand
+    }
+
+    /// Whether the person takes over by touching a device. A hand in a glove never rests: it takes over by the mark alone.
+    pub fn takes_over(&mut self, motion: &Motion) -> bool {
+        let touched = motion.moves() || motion.gripper.is_some();
+        let takes = touched && !self.by_hand;
+        self.by_hand |= takes;
+        takes
+    }
+
+    /// What the policy does in this state; nothing where the person acts.
+    ///
+    /// # Errors
+    /// The policy is one for another environment.
+    pub fn action(&mut self, env: &Env) -> Result<Option<&[f64]>, TeleopError> {
+        if self.by_hand {
+            return Ok(None);
+        }
+        self.action.resize(env.action_len(), 0.0);
+        self.policy.action(env, &mut self.action)?;
+        Ok(Some(&self.action))
+    }
+}
