@@ -1,10 +1,16 @@
 //! A trial of a recording as the transitions that learning programs expect.
 
-use dataset::trace::{Entry, EntryType, Layout, TraceError, TraceReader};
+use dataset::trace::{EntryType, Layout, TraceError, TraceReader};
 use dataset::{Array, Values};
 
 /// The folder of a trial that holds everything but observations, actions, rewards and done.
 const INFOS: &str = "env_infos/";
+/// The dataset that holds how the person who drove judged the episode.
+const JUDGED: &str = "teleop/success";
+/// The datasets that become an episode, apart from infos.
+const OWN: [&str; 7] = ["observations", "actions", "rewards", "done", "time", "seed", JUDGED];
+/// Why other datasets are no part of it.
+const OF_NO_STEP: &str = "it belongs to no step";
 
 /// An episode of `n` steps.
 ///
@@ -30,6 +36,8 @@ pub struct Episode {
     pub times: Vec<f64>,
     /// Seed of the reset, if it was recorded.
     pub seed: Option<i64>,
+    /// Whether the person who drove called it a success, if one did.
+    pub judged: Option<bool>,
     /// Names of what is not in here, and why.
     pub dropped: Vec<(String, String)>,
 }
@@ -54,66 +62,76 @@ impl Episode {
             let message = "not in RoboHive's layout: `robohive data convert --layout robohive` makes a recording that is";
             return Err(fail("", message.into()));
         }
-        let entries = trace.entries(name)?;
-        let find = |key: &str| entries.iter().find(|entry| entry.key == key);
-        let require = |key: &str| {
-            let entry = find(key).ok_or_else(|| fail(key, "the trial has no such dataset".into()))?;
-            trace.read(entry)
-        };
+        let (mut arrays, mut dropped) = (Vec::new(), Vec::new());
+        for entry in trace.entries(name)? {
+            let info = entry.key.starts_with(INFOS);
+            match &entry.kind {
+                _ if !info && !OWN.contains(&&entry.key[..]) => dropped.push((entry.key, OF_NO_STEP.into())),
+                EntryType::Number(_) => {
+                    let array = trace.read(&entry)?;
+                    arrays.push((entry.key, array));
+                }
+                kind if info => {
+                    let why = format!("its elements are {}", kind.name());
+                    dropped.push((entry.key, why));
+                }
+                // Reading says what is wrong.
+                _ => drop(trace.read(&entry)?),
+            }
+        }
+        let mut episode = Episode::of_arrays(name, arrays).map_err(|(key, message)| fail(&key, message))?;
+        episode.dropped.extend(dropped);
+        Ok(episode)
+    }
+
+    /// The transitions of rows under the names of RoboHive's layout.
+    ///
+    /// # Errors
+    /// The name of the rows that are missing, have another length, or are no step, and what is wrong with them.
+    pub fn of_arrays(name: &str, arrays: Vec<(String, Array)>) -> Result<Self, (String, String)> {
+        let find = |key: &str| arrays.iter().find(|(known, _)| known == key).map(|(_, array)| array);
+        let fail = |key: &str, message: String| (key.to_owned(), message);
+        let require = |key: &str| find(key).ok_or_else(|| fail(key, "the trial has no such dataset".into()));
         let observations = require("observations")?;
         let rows = observations.rows();
         if observations.shape.is_empty() || rows < 2 {
             return Err(fail("observations", format!("{rows} rows are no step: two are the least")));
         }
-        let checked = |key: &str| -> Result<Array, TraceError> {
+        let checked = |key: &str| {
             let array = require(key)?;
             if array.shape.first() != Some(&rows) {
                 return Err(fail(key, format!("{} rows, where \"observations\" has {rows}", array.rows())));
             }
             Ok(array)
         };
-        let rewards = scalars(&checked("rewards")?).map_err(|message| fail("rewards", message))?;
-        let done = scalars(&checked("done")?).map_err(|message| fail("done", message))?;
-        let actions = checked("actions")?;
+        let rewards = scalars(checked("rewards")?).map_err(|message| fail("rewards", message))?;
+        let done = scalars(checked("done")?).map_err(|message| fail("done", message))?;
         let ended = done[1..].iter().map(|&x| x != 0.0);
         let mut truncations = vec![false; rows - 1];
         truncations[rows - 2] = done[rows - 1] == 0.0;
         let times = if find("time").is_some() { checked("time")?.values.to_f64() } else { Vec::new() };
-        let seed = find("seed").map(|entry| trace.read(entry)).transpose()?;
         let mut out = Episode {
             name: name.to_owned(),
-            actions: first_rows(actions, rows - 1),
+            observations: observations.clone(),
+            actions: first_rows(checked("actions")?.clone(), rows - 1),
             rewards: Array::f64(vec![rows - 1], rewards[1..].to_vec()),
             terminations: Array { shape: vec![rows - 1], values: Values::Bool(ended.collect()) },
             truncations: Array { shape: vec![rows - 1], values: Values::Bool(truncations) },
             infos: Vec::new(),
             times,
-            seed: seed.and_then(|seed| seed_of(&seed)),
+            seed: find("seed").and_then(seed_of),
+            judged: find(JUDGED).and_then(|array| array.values.to_f64().first().map(|&x| x != 0.0)),
             dropped: Vec::new(),
-            observations,
         };
-        entries.iter().try_for_each(|entry| out.take_info(trace, entry, rows))?;
-        Ok(out)
-    }
-
-    /// Adds a dataset to the infos, or says why it is none.
-    fn take_info(&mut self, trace: &TraceReader, entry: &Entry, rows: usize) -> Result<(), TraceError> {
-        let Some(key) = entry.key.strip_prefix(INFOS) else {
-            if !["observations", "actions", "rewards", "done", "time", "seed"].contains(&&entry.key[..]) {
-                self.dropped.push((entry.key.clone(), "it belongs to no step".into()));
+        for (key, array) in arrays {
+            match key.strip_prefix(INFOS) {
+                Some(info) if array.shape.first() == Some(&rows) => out.infos.push((info.to_owned(), array)),
+                Some(_) => out.dropped.push((key, format!("it has no {rows} rows"))),
+                None if OWN.contains(&&key[..]) => {}
+                None => out.dropped.push((key, OF_NO_STEP.into())),
             }
-            return Ok(());
-        };
-        match &entry.kind {
-            EntryType::Number(_) if entry.shape.first() == Some(&rows) => {
-                self.infos.push((key.to_owned(), trace.read(entry)?));
-            }
-            EntryType::Number(_) => {
-                self.dropped.push((entry.key.clone(), format!("it has no {rows} rows")));
-            }
-            kind => self.dropped.push((entry.key.clone(), format!("its elements are {}", kind.name()))),
         }
-        Ok(())
+        Ok(out)
     }
 }
 

@@ -6,7 +6,7 @@
 //! | [`lerobot`] | Parquet, JSON and MP4 in a folder, version 3.0 | `LeRobotDataset(ID, root=FOLDER)` |
 //!
 //! Both are written episode by episode. A Minari dataset is complete after every episode; a LeRobot dataset appears under its name
-//! when it is finished.
+//! when it is finished, or with its first episode and is complete after every other ([`lerobot::LeRobotWriter::grow`]).
 
 pub mod lerobot;
 pub mod minari;

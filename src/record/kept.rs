@@ -1,5 +1,6 @@
 //! An episode in memory, until it is over and a file takes it.
 
+use crate::SEED;
 use crate::error::RecordError;
 use crate::row::{Sink, push_row, set_look};
 use dataset::trace::{TraceError, Trial};
@@ -83,17 +84,29 @@ impl Kept {
         self.whole.push((key.to_owned(), Array { shape: Vec::new(), values: Values::U8(vec![number]) }));
     }
 
+    /// All that a trial of it would hold: names, and arrays whose first axis counts rows, or numbers about the whole episode.
+    pub fn arrays(&self) -> Vec<(String, Array)> {
+        let seed = (SEED.to_owned(), Array { shape: Vec::new(), values: Values::U64(vec![self.seed]) });
+        let columns = self.columns.iter().map(|(key, column)| (key.clone(), column.array()));
+        columns.chain(self.whole.iter().cloned()).chain([seed]).collect()
+    }
+
     /// Hands all rows to a trial.
     pub(crate) fn write(&self, trial: &mut Trial<'_>) -> Result<(), TraceError> {
         for (key, array) in &self.whole {
             trial.set(key, array)?;
         }
         for (key, column) in &self.columns {
-            let shape = [&[column.rows][..], &column.shape].concat();
-            trial
-                .push_rows(key, &Array { shape, values: Values::from_bytes(column.dtype, &column.bytes) })?;
+            trial.push_rows(key, &column.array())?;
         }
         Ok(())
+    }
+}
+
+impl Column {
+    fn array(&self) -> Array {
+        let shape = [&[self.rows][..], &self.shape].concat();
+        Array { shape, values: Values::from_bytes(self.dtype, &self.bytes) }
     }
 }
 

@@ -243,9 +243,6 @@ impl Session {
         ticked.refused = Some(reached).filter(|reached| *reached != Reached::Yes);
         // What was gone back over is no part of the episode any more.
         self.kept.truncate(self.moments.at());
-        if self.plan.images {
-            self.env.exteroception()?;
-        }
         self.keep(&action, self.by_hand() == Some(true))?;
         let step = self.env.step(&action)?;
         if let Some(fault) = step.fault {
@@ -274,11 +271,27 @@ impl Session {
 
     /// Keeps the row of the present state.
     fn keep(&mut self, action: &[f64], by_hand: bool) -> Result<(), TeleopError> {
+        if self.plan.images {
+            self.env.exteroception()?;
+        }
         self.kept.row(&self.env, action)?;
         if self.handover.is_some() {
             self.kept.flag(INTERVENTION, by_hand)?;
         }
         Ok(())
+    }
+
+    /// An episode of one step that stays where the reset has brought the robot, to see what episodes consist of.
+    ///
+    /// # Errors
+    /// A picture cannot be drawn.
+    pub fn example(&mut self) -> Result<Kept, TeleopError> {
+        let (rest, kept) = (vec![0.0; self.env.action_len()], self.kept.clone());
+        self.keep(&rest, false)?;
+        self.keep(&rest, false)?;
+        let mut example = std::mem::replace(&mut self.kept, kept);
+        example.note(JUDGED, 0);
+        Ok(example)
     }
 
     /// Takes the state that is shown once more, after a step from it was refused.
@@ -296,9 +309,6 @@ impl Session {
             return Ok(());
         }
         self.kept.truncate(steps);
-        if self.plan.images {
-            self.env.exteroception()?;
-        }
         self.keep(&vec![f64::NAN; self.env.action_len()], false)?;
         let mut kept = std::mem::take(&mut self.kept);
         kept.note(JUDGED, u8::from(success));

@@ -1,13 +1,14 @@
 //! `data export`: recordings as datasets of Minari and LeRobot.
 
 use crate::failure::Failure;
+use crate::recordings::names::PictureForm;
 use crate::recordings::open::open;
 use crate::terminal::{note, show};
-use clap::{Args, Subcommand, ValueEnum, ValueHint};
+use clap::{Args, Subcommand, ValueHint};
 use dataset::trace::{TraceError, TraceReader};
 use env::Registry;
 use exchange::Exported;
-use exchange::lerobot::{self, Pictures};
+use exchange::lerobot;
 use exchange::minari::{self, DatasetId, env_spec};
 use record::ID;
 use std::path::{Path, PathBuf};
@@ -58,15 +59,6 @@ struct ToMinari {
     /// Keep observations, actions and rewards alone
     #[arg(long)]
     no_infos: bool,
-}
-
-/// How pictures are kept.
-#[derive(Clone, Copy, ValueEnum)]
-enum PictureForm {
-    /// H.264 in MP4 files, which lose little
-    Video,
-    /// PNG in the tables, without loss
-    Png,
 }
 
 /// A dataset for LeRobotDataset, version 3.0
@@ -136,10 +128,7 @@ fn to_lerobot(a: &ToLeRobot) -> Result<(), Failure> {
         task: a.task.clone(),
         robot: a.robot.clone(),
         frames_per_second: a.fps,
-        pictures: match a.pictures {
-            PictureForm::Video => Pictures::Video,
-            PictureForm::Png => Pictures::Png,
-        },
+        pictures: a.pictures.into(),
     };
     tell(&trace, &a.out, lerobot::export(&trace, &target, &mut |_, _| true))
 }

@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 use dataset::trace::{Layout, Precision};
+use exchange::lerobot::Pictures;
 
 /// Names of rows in the files.
 #[derive(Clone, Copy, ValueEnum)]
@@ -17,6 +18,24 @@ impl From<LayoutName> for Layout {
         match name {
             LayoutName::Robohive => Layout::RoboHive,
             LayoutName::Roboset => Layout::RoboSet,
+        }
+    }
+}
+
+/// How a dataset of LeRobot keeps pictures.
+#[derive(Clone, Copy, ValueEnum)]
+pub enum PictureForm {
+    /// H.264 in MP4 files, which lose little
+    Video,
+    /// PNG in the tables, without loss
+    Png,
+}
+
+impl From<PictureForm> for Pictures {
+    fn from(form: PictureForm) -> Self {
+        match form {
+            PictureForm::Video => Pictures::Video,
+            PictureForm::Png => Pictures::Png,
         }
     }
 }

@@ -2,9 +2,8 @@
 
 use super::device::DeviceChoice;
 use crate::input::library::{Making, Source};
-use crate::output::recording_file;
 use crate::pictures::film::FilmArguments;
-use crate::recordings::names::{LayoutName, PrecisionName};
+use crate::recordings::names::{PictureForm, PrecisionName};
 use crate::robots::live::Live;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
@@ -37,7 +36,8 @@ more than 0.5 rad away, or out of range, is not taken. Terminals with the kitty 
 repetition. --preview shows the scene in the terminal.
 
 --record writes as `robohive run --record` does, an episode when it is finished, so that a kill loses none of those; teleop/success \
-holds the person's judgement. `robohive data export lerobot FILE FOLDER` makes a LeRobot dataset of it, `robohive view FILE` shows it.
+holds the person's judgement. `robohive view FILE` shows it. --layout lerobot writes a dataset of LeRobot instead, complete after every episode; one \
+that is there goes on if its features and its frames a second are those of the session. Frames also have judged_success, and intervention with --policy.
 
 --hardware CONFIG drives the devices that a robot config names, and nothing moves without --arm; --rehearse puts simulated ones in their \
 place. The robot goes to the start of an episode by itself and rests there until you move it. What a device has not said for 0.15 s is over, \
@@ -50,6 +50,7 @@ Examples:
   robohive teleop hive/FrankaReach-v0 --device gamepad --record reach.h5 --episodes 20
   robohive teleop hive/FrankaReach-v0 --device quest --record reach.h5
   robohive teleop hive/FrankaReach-v0 --policy random --record corrected.h5
+  robohive teleop hive/FrankaReach-v0 --record reach --layout lerobot --task reach
   robohive teleop hive/ElbowPose-v0 --control joints --video elbow.mp4
   robohive teleop hive/QuadrupedWalk-v0 --control joints --arm --rehearse\\
  --hardware assets/quadruped/servos.toml"
@@ -94,12 +95,18 @@ pub struct Teleop {
     /// Steps in a row that must solve the task for an episode to end as a success by itself [default: never]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     pub solved_for: usize,
-    /// Record every finished episode in this file, .h5 or .hdf5 (HDF5), or .npz; replaces it
-    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, value_parser = recording_file)]
+    /// Record every finished episode in this file, .h5 or .hdf5 (HDF5), or .npz, and replace it; a folder with --layout lerobot, which goes on
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub record: Option<PathBuf>,
-    /// Names of the recorded rows
+    /// What is recorded
     #[arg(long, default_value = "robohive", requires = "record")]
     pub layout: LayoutName,
+    /// What the episodes of --layout lerobot are attempts at, in words [default: the id]
+    #[arg(long, value_name = "TEXT", requires = "record")]
+    pub task: Option<String>,
+    /// Where --layout lerobot keeps the images of --visual
+    #[arg(long, default_value = "video", requires = "visual")]
+    pub pictures: PictureForm,
     /// Precision of the recorded numbers; that of RoboHive's own files is reduced
     #[arg(long, default_value = "full", requires = "record")]
     pub precision: PrecisionName,
@@ -123,6 +130,17 @@ pub struct OptionalSource {
     /// How it is made
     #[command(flatten)]
     pub making: Making,
+}
+
+/// What is recorded, and where.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum LayoutName {
+    /// A file, rows by environment: time, observations, actions, rewards, done, env_infos/...
+    Robohive,
+    /// A file, rows by robot: data/..., derived/..., config/...
+    Roboset,
+    /// A folder, a dataset of LeRobot (version 3.0): frames with observation.state, action, next.reward...
+    Lerobot,
 }
 
 /// What can be driven.

@@ -3,21 +3,21 @@
 use super::arguments::{ControlName, Teleop};
 use super::device::DeviceChoice;
 use super::ears::{Listening, ListeningClock};
+use super::files::{self, Files};
 use super::phone;
 use super::report::{Report, keys};
 use crate::failure::Failure;
 use crate::input::library::Source;
 use crate::input::policy::policy;
 use crate::interrupt::Interrupt;
-use crate::output::{check_place, keep_input};
+use crate::output::keep_input;
 use crate::pictures::film::Film;
 use crate::pictures::subject::camera_of;
-use crate::terminal::{complain, listed, note, redraw, show};
+use crate::terminal::{complain, note, redraw, show};
 use ::teleop::devices::{Opened, Terminal};
 use ::teleop::{Calibration, Control, Mapping, Mark, Plan, Sample, Session, TeleopError, Ticked};
 use env::{Env, Hardware};
 use protocol::adb;
-use record::Recording;
 use render::Painters;
 use std::env::VarError;
 use std::path::Path;
@@ -43,7 +43,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     for (out, input) in a.record.iter().zip(a.mapping.as_ref()) {
         keep_input(input, out)?;
     }
-    a.record.as_deref().map(check_place).transpose()?;
+    files::check(a)?;
     let policy = a.policy.as_deref().map(policy).transpose()?;
     let painters = a.film.painters(a.visual)?;
     let listening = Listening::new();
@@ -72,9 +72,9 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     if !live {
         open(a, &mapping, &listening)?;
     }
+    let files = Files::open(a, source, &mut session)?;
     let env = session.env();
     let mut film = a.film.film(&env.scene().model, &camera_of(env), env.dt(), &*painters)?;
-    let recording = a.record.as_ref().map(|_| open_recording(a, source)).transpose()?;
     note(&format!(
         "{} drives {}; {}",
         listening.ears().device.as_ref().map_or("the keyboard", Opened::name),
@@ -87,7 +87,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         began: 0.0,
         listening,
         paced: live && !a.live.rehearse,
-        recording,
+        files,
         report: Report::default(),
     };
     let outcome = desk.run(&interrupt, film.as_mut());
@@ -96,17 +96,14 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     desk.report.seconds = desk.now() - desk.began;
     desk.listening.ears().terminal = None;
     // Files first: whoever looked on may be gone.
-    let recorded = desk.recording.take().map(Recording::close).transpose()?;
+    let recorded = desk.files.take().map(Files::close).transpose()?;
     let finished = film.map(Film::finish).transpose()?.flatten();
     desk.report.show(&source.id, desk.session.counts());
     if let Some(finished) = finished {
         show!("video        {finished}");
     }
-    if let Some((path, episodes, unmapped)) = recorded {
-        if !unmapped.is_empty() {
-            note(&format!("not recorded, for want of a place in the layout: {}", listed(&unmapped, 8)));
-        }
-        show!("recorded     {episodes} episodes in {}", path.display());
+    if let Some(closed) = recorded {
+        closed.show();
     }
     outcome?;
     match interrupt.code() {
@@ -215,23 +212,6 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
     Ok(())
 }
 
-/// Makes the file of `--record`.
-fn open_recording(a: &Teleop, source: &Source) -> Result<Recording, Failure> {
-    let path = a.record.as_deref().ok_or_else(|| Failure::usage("--record is needed"))?;
-    let settings = source.making.changes()?.to_string();
-    let (compat, seed) = (source.making.compat.to_string(), a.seed.to_string());
-    let device = a.device.to_string();
-    let attributes = [
-        (record::ID, &source.id[..]),
-        (record::COMPAT, &compat),
-        (record::SETTINGS, settings.trim_end()),
-        ("policy", a.policy.as_deref().unwrap_or("teleop")),
-        ("device", &device),
-        ("seed", &seed),
-    ];
-    Ok(Recording::create(path, a.layout.into(), a.precision.into(), &attributes)?)
-}
-
 /// All that takes part in a session.
 struct Desk {
     session: Session,
@@ -239,7 +219,7 @@ struct Desk {
     listening: Listening,
     /// A tick lasts as long as the robot says, which listens in the meantime.
     paced: bool,
-    recording: Option<Recording>,
+    files: Option<Files>,
     report: Report,
     /// When it began, on the clock of the ears [s].
     began: f64,
@@ -302,8 +282,8 @@ impl Desk {
                 if ticked.discarded { "the episode was thrown away" } else { "the session went back by it" };
             complain(&format!("physics refused the step, and {then}: {fault}"));
         }
-        if let (Some(finished), Some(recording)) = (&ticked.finished, &mut self.recording) {
-            recording.add(&finished.kept)?;
+        if let (Some(finished), Some(files)) = (&ticked.finished, &mut self.files) {
+            files.add(&finished.kept)?;
         }
         Ok(())
     }

@@ -9,6 +9,8 @@ mod drive;
 #[cfg(unix)]
 mod ears;
 #[cfg(unix)]
+mod files;
+#[cfg(unix)]
 mod phone;
 #[cfg(unix)]
 mod report;

@@ -8,6 +8,7 @@ mod typing;
 use command::{robohive, scratch, text};
 use dataset::trace::TraceReader;
 use env::{Env, Options, OwnModels};
+use exchange::lerobot::LeRobotReader;
 use record::Recorded;
 use rustix::termios::tcgetattr;
 use std::path::Path;
@@ -158,6 +159,69 @@ fn a_kill_loses_no_finished_episode() {
         let recorded = Recorded::read(&trace, trial).unwrap();
         assert!(recorded.actions.row(3).is_some() && recorded.actions.row(4).is_none());
     }
+}
+
+#[test]
+fn a_kill_loses_no_finished_episode_of_a_dataset_which_then_goes_on() {
+    let root = scratch("killed_dataset");
+    _ = std::fs::remove_dir_all(&root);
+    let path = root.to_str().unwrap();
+    let arguments = [ID, "--record", path, "--layout", "lerobot", "--task", "reach", "--horizon", "3"];
+    let mut typed = Typed::start(&arguments, true);
+    typed.write("\u{1b}[100;1:1u");
+    typed.wait_for("episode 3  seed 2");
+    typed.child.kill().unwrap();
+    typed.child.wait().unwrap();
+    let killed = LeRobotReader::open(&root).unwrap();
+    let kept = killed.episodes();
+    assert!(kept >= 2, "{kept}");
+    // Another session goes on.
+    let mut typed = Typed::start(&[&arguments[..], &["--episodes", "2", "--seed", "40"]].concat(), true);
+    typed.write("\u{1b}[100;1:1u");
+    let (status, said) = typed.end();
+    assert!(
+        status.success() && said.contains(&format!("2 episodes in {path}, which has {}", kept + 2)),
+        "{said}"
+    );
+    let reader = LeRobotReader::open(&root).unwrap();
+    assert_eq!((reader.episodes(), reader.task(0), reader.task(1)), (kept + 2, Some("reach"), None));
+    let length = |columns: &[exchange::lerobot::Column]| {
+        columns.iter().find(|column| column.name == "judged_success").unwrap().cells.len()
+    };
+    for episode in 0..kept {
+        let columns = reader.read(episode).unwrap();
+        assert_eq!((&columns, length(&columns)), (&killed.read(episode).unwrap(), 3));
+    }
+    assert_eq!(length(&reader.read(kept + 1).unwrap()), 3);
+    // What does not fit is refused before anybody drives.
+    let refused = |arguments: &[&str]| {
+        let out = robohive(&[&["teleop"], arguments].concat());
+        assert!(!out.status.success());
+        text(&out.stderr)
+    };
+    let other = [ID, "--set", "obs_keys=[\"time\"]", "--record", path, "--layout", "lerobot"];
+    let (status, said) = Typed::open(&other).end();
+    assert!(
+        !status.success() && said.contains("observation.state") && said.contains("in the first episode"),
+        "{said}"
+    );
+    // Cameras are videos of it.
+    let root = scratch("filmed_dataset");
+    _ = std::fs::remove_dir_all(&root);
+    let arguments =
+        ["hive/FrankaReach_v2d-v0", "--layout", "lerobot", "--visual", "--horizon", "2", "--episodes", "1"];
+    let mut typed = Typed::start(&[&arguments[..], &["--record", root.to_str().unwrap()]].concat(), true);
+    typed.write("\u{1b}[100;1:1u");
+    let (status, said) = typed.end();
+    assert!(status.success(), "{said}");
+    let reader = LeRobotReader::open(&root).unwrap();
+    let films = reader.features().iter().find(|feature| feature.name == "observation.images.front").unwrap();
+    assert_eq!((films.kind.name(), &films.shape[..]), ("video", &[224, 224, 3][..]));
+    assert!(root.join("videos/observation.images.front/chunk-000/file-000.mp4").is_file());
+    let said = refused(&[ID, "--record", "reach.h5", "--layout", "lerobot"]);
+    assert!(said.contains("is a folder: leave the ending out"), "{said}");
+    let said = refused(&[ID, "--record", path]);
+    assert!(said.contains("--layout lerobot writes a folder"), "{said}");
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Making a dataset of a recording.
 
 use super::frames::{Frames, Pictures};
-use super::writer::{LeRobotWriter, Settings};
+use super::writer::{LeRobotWriter, Settings, whole_rate};
 use crate::episode::Episode;
 use crate::exported::{Exported, in_trial};
 use crate::progress::{Progress, STOPPED};
@@ -81,12 +81,13 @@ fn rate(episode: &Episode) -> Result<f64, String> {
         return Err("its steps differ: say how many frames a second there are".into());
     }
     // Rounding of times in the recording is no part of the rate.
-    let whole = rate.round();
-    Ok(if (rate - whole).abs() < 1e-6 * rate { whole } else { (rate * 1e6).round() / 1e6 })
+    Ok(whole_rate(rate))
 }
 
-/// The frames of an episode, and what has no place in them.
-fn frames(episode: Episode, task: &str) -> (Frames, Vec<(String, String)>) {
+/// The frames of an episode, and what has no place in them with the reason: `observation.state`, `observation.images.CAMERA`,
+/// `action`, `next.reward`, `next.done`, `next.success` where the task says it; of an episode by hand also `intervention` (the person
+/// acted) and `judged_success` (the same in all frames).
+pub fn frames(episode: Episode, task: &str) -> (Frames, Vec<(String, String)>) {
     let steps = episode.steps();
     let mut features = vec![
         ("observation.state".to_owned(), single(&episode.observations, 0, steps)),
@@ -102,8 +103,9 @@ fn frames(episode: Episode, task: &str) -> (Frames, Vec<(String, String)>) {
             let camera = visual.split(':').nth(1).unwrap_or(visual).replace('/', ".");
             features.push((format!("observation.images.{camera}"), rows(array, 0, steps)));
         } else if key == "solved" {
-            let solved: Vec<bool> = array.values.to_f64()[1..].iter().map(|&x| x != 0.0).collect();
-            success = Some(Array { shape: vec![steps], values: Values::Bool(solved) });
+            success = Some(flags(&array.values.to_f64()[1..]));
+        } else if key == "intervention" {
+            features.push((key.clone(), flags(&array.values.to_f64()[..steps])));
         } else {
             dropped.push((format!("env_infos/{key}"), "no feature of a frame".to_owned()));
         }
@@ -111,7 +113,15 @@ fn frames(episode: Episode, task: &str) -> (Frames, Vec<(String, String)>) {
     features.push(("next.reward".to_owned(), single(&episode.rewards, 0, steps)));
     features.push(("next.done".to_owned(), episode.terminations));
     features.extend(success.map(|array| ("next.success".to_owned(), array)));
+    let judged = episode.judged.map(|success| flags(&vec![f64::from(u8::from(success)); steps]));
+    features.extend(judged.map(|array| ("judged_success".to_owned(), array)));
     (Frames { features, task: task.to_owned() }, dropped)
+}
+
+/// What is true or false of frames.
+fn flags(values: &[f64]) -> Array {
+    let flags = values.iter().map(|&x| x != 0.0).collect();
+    Array { shape: vec![values.len()], values: Values::Bool(flags) }
 }
 
 /// Rows of an array.

@@ -18,13 +18,14 @@
 mod export;
 mod features;
 mod frames;
+mod growing;
 mod reader;
 mod series;
 mod stats;
 mod table;
 mod writer;
 
-pub use export::{Target, export};
+pub use export::{Target, export, frames};
 pub use features::{Feature, FeatureKind};
 pub use frames::{Frames, Pictures};
 pub use reader::LeRobotReader;

@@ -1,7 +1,7 @@
 //! Reading datasets: numbers, texts of tasks, and pictures that are in the Parquet files.
 
 use super::features::{Feature, FeatureKind};
-use super::series::file_name;
+use super::series::{CHUNK_FILES, file_name};
 use super::table::{Cells, Column};
 use crate::json;
 use dataset::trace::TraceError;
@@ -22,6 +22,8 @@ pub struct LeRobotReader {
     features: Vec<Feature>,
     tasks: Vec<(i64, String)>,
     episodes: Vec<Place>,
+    /// Files of the table of episodes.
+    tables: usize,
 }
 
 /// Where the frames of an episode are.
@@ -52,8 +54,14 @@ impl LeRobotReader {
             return Err(fail("the file has no features".into()));
         };
         let features = entries.iter().filter_map(|(name, entry)| Feature::from_json(name, entry)).collect();
-        let mut out =
-            LeRobotReader { root: root.to_owned(), info, features, tasks: Vec::new(), episodes: Vec::new() };
+        let mut out = LeRobotReader {
+            root: root.to_owned(),
+            info,
+            features,
+            tasks: Vec::new(),
+            episodes: Vec::new(),
+            tables: 0,
+        };
         out.read_tasks()?;
         out.read_episodes()?;
         Ok(out)
@@ -72,6 +80,21 @@ impl LeRobotReader {
     /// Number of episodes.
     pub fn episodes(&self) -> usize {
         self.episodes.len()
+    }
+
+    /// Texts of the tasks, in the order of their numbers.
+    pub(super) fn tasks(&self) -> Vec<String> {
+        let mut tasks = self.tasks.clone();
+        tasks.sort_by_key(|(index, _)| *index);
+        tasks.into_iter().map(|(_, text)| text).collect()
+    }
+
+    /// Frames of all episodes, and the numbers of the files that come next: of frames and of the table of episodes.
+    pub(super) fn end(&self) -> (usize, usize, usize) {
+        let frames = self.episodes.iter().map(|place| place.frames).sum();
+        let number = |place: &Place| place.chunk * CHUNK_FILES as i64 + place.file + 1;
+        let next = self.episodes.iter().map(number).max().and_then(|next| usize::try_from(next).ok());
+        (frames, next.unwrap_or(0), self.tables)
     }
 
     /// The text of a task.
@@ -134,6 +157,7 @@ impl LeRobotReader {
             }
             number += 1;
         }
+        self.tables = number;
         Ok(())
     }
 }

@@ -33,9 +33,14 @@ pub struct Series {
 }
 
 impl Series {
-    /// One without rows.
-    pub fn new(folder: PathBuf) -> Self {
-        Series { folder, number: 0, table: None, held: Vec::new() }
+    /// One whose next rows go to the file of a number.
+    pub fn new(folder: PathBuf, number: usize) -> Self {
+        Series { folder, number, table: None, held: Vec::new() }
+    }
+
+    /// Number of the current file.
+    pub fn number(&self) -> usize {
+        self.number
     }
 
     /// Number of the file that the next rows go to; a full one is completed first.

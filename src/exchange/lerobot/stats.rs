@@ -119,6 +119,19 @@ impl Stats {
         Value::Object(out)
     }
 
+    /// From an entry of `stats.json`; `None` where a part is missing.
+    pub fn from_json(entry: &Value) -> Option<Self> {
+        let part = |name: &str| entry.get(name).map(numbers).filter(|part| !part.is_empty());
+        let count = entry.get("count")?.get(0)?.as_u64()?;
+        let mut out = Stats::empty(shape(entry.get("min")?), usize::try_from(count).ok()?);
+        (out.min, out.max, out.mean, out.std) = (part("min")?, part("max")?, part("mean")?, part("std")?);
+        for (quantile, (name, _)) in out.quantiles.iter_mut().zip(QUANTILES) {
+            *quantile = part(name)?;
+        }
+        let width = out.min.len();
+        out.parts().iter().all(|(_, values)| values.len() == width).then_some(out)
+    }
+
     /// As columns of the table of episodes.
     pub fn columns(&self, feature: &str) -> Vec<Column> {
         let row = if self.shape.is_empty() { vec![1] } else { self.shape.clone() };
@@ -143,6 +156,21 @@ fn nest(values: &[f64], shape: &[usize]) -> Value {
             values.chunks(width.max(1)).map(|part| nest(part, inner)).collect()
         }
     }
+}
+
+/// All numbers of arrays of arrays.
+fn numbers(value: &Value) -> Vec<f64> {
+    match value.as_array() {
+        Some(parts) => parts.iter().flat_map(numbers).collect(),
+        None => value.as_f64().into_iter().collect(),
+    }
+}
+
+/// Lengths of arrays of arrays, the outermost first.
+fn shape(value: &Value) -> Vec<usize> {
+    let parts = value.as_array();
+    let inner = parts.and_then(|parts| parts.first()).map(shape).unwrap_or_default();
+    parts.map(|parts| parts.len()).into_iter().chain(inner).collect()
 }
 
 /// The value below which a share of all values is, on the line between two of them.

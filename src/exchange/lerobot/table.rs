@@ -9,7 +9,7 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::{Type, TypePtr};
 use std::fs::File;
 use std::io::BufWriter;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Scalars of a column, row-major.
@@ -129,8 +129,9 @@ fn group(
     builder.with_logical_type(logical).with_fields(fields).build()
 }
 
-/// A Parquet file that is being written.
+/// A Parquet file that is being written, under another name until it is complete.
 pub struct Table {
+    path: PathBuf,
     writer: SerializedFileWriter<BufWriter<File>>,
 }
 
@@ -149,9 +150,9 @@ impl Table {
             .set_key_value_metadata(Some(texts))
             .set_created_by(concat!("robohive ", env!("CARGO_PKG_VERSION")).to_owned())
             .build();
-        let file = BufWriter::new(File::create(path)?);
+        let file = BufWriter::new(File::create(unfinished(path))?);
         let writer = SerializedFileWriter::new(file, Arc::new(schema), Arc::new(properties))?;
-        Ok(Table { writer })
+        Ok(Table { path: path.to_owned(), writer })
     }
 
     /// Adds rows, as one row group. The columns have the forms and the order of those that the file was made for.
@@ -193,8 +194,14 @@ impl Table {
     /// # Errors
     /// Writing fails.
     pub fn close(self) -> Result<()> {
-        self.writer.close().map(|_| ())
+        self.writer.close()?;
+        Ok(std::fs::rename(unfinished(&self.path), &self.path)?)
     }
+}
+
+/// The name of a file until it is complete, which nobody takes for a table.
+fn unfinished(path: &Path) -> PathBuf {
+    path.with_extension("parquet.new")
 }
 
 /// Writes the scalars of a column without missing values.

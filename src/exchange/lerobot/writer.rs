@@ -30,6 +30,11 @@ impl Settings {
         Settings { frames_per_second, robot: None, pictures: Pictures::default() }
     }
 
+    /// A dataset whose frames are this far apart \[s\].
+    pub fn of_period(seconds: f64) -> Self {
+        Settings::new(whole_rate(1.0 / seconds))
+    }
+
     /// The robot, in a word.
     #[must_use]
     pub fn with_robot(mut self, robot: Option<String>) -> Self {
@@ -45,21 +50,29 @@ impl Settings {
     }
 }
 
-/// A dataset that is being written, in a hidden folder beside the one that it is for; that appears with
-/// [`LeRobotWriter::finish`].
+/// Frames a second, without what rounding has left of them.
+pub(super) fn whole_rate(rate: f64) -> f64 {
+    let whole = rate.round();
+    if (rate - whole).abs() < 1e-6 * rate { whole } else { (rate * 1e6).round() / 1e6 }
+}
+
+/// A dataset that is being written, in a hidden folder beside the one that it is for. That appears with
+/// [`LeRobotWriter::finish`], or with its first episode where it grows ([`LeRobotWriter::grow`]).
 pub struct LeRobotWriter {
-    root: PathBuf,
+    pub(super) root: PathBuf,
     /// Where the files are until then.
-    folder: PathBuf,
-    settings: Settings,
+    pub(super) folder: PathBuf,
+    pub(super) settings: Settings,
+    /// It is complete after every episode.
+    pub(super) grows: bool,
     /// Those of the first episode.
-    features: Vec<Feature>,
-    tasks: Vec<String>,
-    stats: Vec<(String, Stats)>,
-    data: Series,
-    table: Series,
-    episodes: usize,
-    frames: usize,
+    pub(super) features: Vec<Feature>,
+    pub(super) tasks: Vec<String>,
+    pub(super) stats: Vec<(String, Stats)>,
+    pub(super) data: Series,
+    pub(super) table: Series,
+    pub(super) episodes: usize,
+    pub(super) frames: usize,
 }
 
 /// A feature of an episode, ready for the files.
@@ -92,8 +105,9 @@ impl LeRobotWriter {
         std::fs::create_dir_all(folder.join("meta")).map_err(io)?;
         Ok(LeRobotWriter {
             root: root.to_owned(),
-            data: Series::new(folder.join("data")),
-            table: Series::new(folder.join("meta/episodes")),
+            data: Series::new(folder.join("data"), 0),
+            table: Series::new(folder.join("meta/episodes"), 0),
+            grows: false,
             folder,
             settings,
             features: Vec::new(),
@@ -114,18 +128,14 @@ impl LeRobotWriter {
     /// # Errors
     /// It has no frames, its features differ from the first episode's, or writing fails.
     pub fn add(&mut self, frames: &Frames) -> Result<(), TraceError> {
-        let count = frames.count().map_err(|(feature, message)| self.fail(&feature, message))?;
-        let forms = frames.forms(self.settings.pictures);
+        let count = self.check(frames)?;
         if self.episodes == 0 {
-            self.features = forms;
-        } else {
-            self.compare(&forms)?;
+            self.features = frames.forms(self.settings.pictures);
         }
         let (mut columns, mut described) = (Vec::new(), Vec::new());
         for feature in &self.features {
-            let Some((_, array)) = frames.features.iter().find(|(name, _)| *name == feature.name) else {
-                return Err(self.fail(&feature.name, "missing, but the first episode has it"));
-            };
+            let given = frames.features.iter().find(|(name, _)| *name == feature.name);
+            let Some((_, array)) = given else { continue };
             let part = self.part(feature, array)?;
             columns.extend(part.column);
             described.push((feature.name.clone(), part.stats));
@@ -144,27 +154,51 @@ impl LeRobotWriter {
         written.map_err(|e| self.fail("", e))?;
         self.episodes += 1;
         self.frames += count;
-        Ok(())
+        if self.grows { self.publish() } else { Ok(()) }
     }
 
-    /// Completes the dataset and gives it its name.
+    /// How many frames an episode has; refuses those that do not fit the dataset, before anything is written.
+    ///
+    /// # Errors
+    /// It has no frames, or its features differ from the first episode's.
+    pub fn check(&self, frames: &Frames) -> Result<usize, TraceError> {
+        let count = frames.count().map_err(|(feature, message)| self.fail(&feature, message))?;
+        if self.episodes > 0 {
+            self.compare(&frames.forms(self.settings.pictures))?;
+        }
+        Ok(count)
+    }
+
+    /// Completes the dataset and gives it its name; one that grows is complete.
     ///
     /// # Errors
     /// It has no episodes, or writing fails.
     pub fn finish(mut self) -> Result<(), TraceError> {
-        if self.episodes == 0 {
-            return Err(self.fail("", "a dataset has an episode at least"));
+        match (self.grows, self.episodes) {
+            (true, _) => Ok(()),
+            (false, 0) => Err(self.fail("", "a dataset has an episode at least")),
+            (false, _) => self.publish(),
         }
+    }
+
+    /// Completes all files; what counts the episodes comes last. Then the dataset has its name.
+    fn publish(&mut self) -> Result<(), TraceError> {
         let completed = self.data.complete().and_then(|()| self.table.complete());
         completed.and_then(|()| self.write_tasks()).map_err(|e| self.fail("", e))?;
         let stats: Map<String, Value> =
             self.stats.iter().map(|(name, stats)| (name.clone(), stats.to_json())).collect();
         json::write(&self.folder.join("meta/stats.json"), &Value::Object(stats))?;
         json::write(&self.folder.join("meta/info.json"), &self.info())?;
-        std::fs::rename(&self.folder, &self.root).map_err(|e| self.fail("", e))
+        if self.folder != self.root {
+            std::fs::rename(&self.folder, &self.root).map_err(|e| self.fail("", e))?;
+            self.folder.clone_from(&self.root);
+        }
+        self.data = Series::new(self.folder.join("data"), self.data.number() + 1);
+        self.table = Series::new(self.folder.join("meta/episodes"), self.table.number() + 1);
+        Ok(())
     }
 
-    fn fail(&self, feature: &str, message: impl ToString) -> TraceError {
+    pub(super) fn fail(&self, feature: &str, message: impl ToString) -> TraceError {
         let episode = format!("episode {}", self.episodes);
         let object = if feature.is_empty() { episode } else { format!("{episode}, {feature}") };
         TraceError::new(&self.root, object, message.to_string())
@@ -181,7 +215,11 @@ impl LeRobotWriter {
                 return Err(self.fail(&form.name, message));
             }
         }
-        Ok(())
+        let lacking = |feature: &&Feature| forms.iter().all(|form| form.name != feature.name);
+        match self.features.iter().find(lacking) {
+            Some(feature) => Err(self.fail(&feature.name, "missing, but the first episode has it")),
+            None => Ok(()),
+        }
     }
 
     /// A feature's column and statistics; a video is written.
@@ -344,8 +382,9 @@ impl LeRobotWriter {
 
 impl Drop for LeRobotWriter {
     fn drop(&mut self) {
-        // After `finish` there is no such folder any more.
-        _ = std::fs::remove_dir_all(&self.folder);
+        if self.folder != self.root {
+            _ = std::fs::remove_dir_all(&self.folder);
+        }
     }
 }
 

@@ -1,0 +1,106 @@
+//! Datasets that are complete after every episode, and those that more episodes are added to.
+
+use super::features::{Feature, NUMBERING};
+use super::reader::LeRobotReader;
+use super::series::{CHUNK_FILES, Series, file_name};
+use super::stats::Stats;
+use super::writer::{LeRobotWriter, Settings};
+use crate::json;
+use dataset::trace::TraceError;
+use serde_json::Value;
+use std::path::Path;
+
+impl LeRobotWriter {
+    /// Begins a dataset that is complete after every episode, so that whatever ends the process takes none that was added; of one
+    /// that is there, goes on with the next episode. An episode then has files of its own.
+    ///
+    /// # Errors
+    /// The folder holds something else, or a dataset with another number of frames a second, or one that cannot be read; it
+    /// cannot be written. Episodes with other features are refused when they are checked or added.
+    pub fn grow(root: &Path, settings: Settings) -> Result<Self, TraceError> {
+        if !root.exists() {
+            let mut writer = LeRobotWriter::create(root, settings)?;
+            writer.grows = true;
+            return Ok(writer);
+        }
+        if !root.join("meta/info.json").is_file() {
+            let message = "the folder exists and is no dataset of LeRobot: choose another one";
+            return Err(TraceError::new(root, "", message));
+        }
+        let reader = LeRobotReader::open(root)?;
+        let (frames, data, table) = reader.end();
+        let writer = LeRobotWriter {
+            root: root.to_owned(),
+            folder: root.to_owned(),
+            grows: true,
+            features: features(root, &reader, &settings)?,
+            settings,
+            tasks: reader.tasks(),
+            stats: stats(root, &reader)?,
+            data: Series::new(root.join("data"), data),
+            table: Series::new(root.join("meta/episodes"), table),
+            episodes: reader.episodes(),
+            frames,
+        };
+        writer.drop_torn(data, table)?;
+        Ok(writer)
+    }
+
+    /// Removes the tables of an episode that a killed process has not counted.
+    fn drop_torn(&self, data: usize, table: usize) -> Result<(), TraceError> {
+        for (folder, number) in [("data", data), ("meta/episodes", table)] {
+            for ending in ["parquet", "parquet.new"] {
+                let path = self.root.join(folder).join(file_name(number)).with_extension(ending);
+                if path.exists() {
+                    std::fs::remove_file(&path).map_err(|e| TraceError::new(&path, "", e))?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The features of a dataset that goes on as the settings say, without those that number its frames.
+fn features(root: &Path, reader: &LeRobotReader, settings: &Settings) -> Result<Vec<Feature>, TraceError> {
+    let fail = |object: &str, message: String| TraceError::new(root, object, message);
+    let number = |name: &str| reader.info().get(name).and_then(Value::as_f64);
+    let rate = number("fps").unwrap_or(f64::NAN);
+    if rate != settings.frames_per_second {
+        let message = format!(
+            "{rate} frames a second, and the new episodes have {}: choose another folder",
+            settings.frames_per_second
+        );
+        return Err(fail("fps", message));
+    }
+    if number("chunks_size") != Some(CHUNK_FILES as f64) {
+        return Err(fail("chunks_size", format!("a dataset grows in chunks of {CHUNK_FILES} files")));
+    }
+    let names = reader.info().get("features").and_then(Value::as_object);
+    let unknown = names.into_iter().flatten().find(|(name, _)| {
+        let known = |feature: &Feature| feature.name == **name;
+        !reader.features().iter().any(known)
+    });
+    if let Some((name, entry)) = unknown {
+        return Err(fail(name, format!("features of type {} are not written", entry["dtype"])));
+    }
+    let numbers = |feature: &&Feature| NUMBERING.iter().all(|(name, _)| *name != feature.name);
+    Ok(reader.features().iter().filter(numbers).cloned().collect())
+}
+
+/// The statistics of a dataset so far.
+fn stats(root: &Path, reader: &LeRobotReader) -> Result<Vec<(String, Stats)>, TraceError> {
+    let path = root.join("meta/stats.json");
+    let all = json::read(&path)?;
+    let of = |feature: &Feature| {
+        let stats = all.get(&feature.name).and_then(Stats::from_json);
+        let stats = stats.ok_or_else(|| {
+            TraceError::new(
+                &path,
+                &feature.name[..],
+                "no statistics, or without quantiles: they cannot be continued",
+            )
+        })?;
+        Ok((feature.name.clone(), stats))
+    };
+    reader.features().iter().map(of).collect()
+}
