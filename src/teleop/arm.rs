@@ -3,6 +3,7 @@
 use crate::error::TeleopError;
 use crate::mapping::{ArmSettings, Gains};
 use crate::motion::Motion;
+use crate::reached::Reached;
 use env::Env;
 use physics::elements::{ActuatorId, Element, JointId, SiteId};
 use physics::math::{Quat, Vec3, add, mat_to_quat, quat_from_axis_angle, quat_mul, quat_normalize, scale};
@@ -57,17 +58,6 @@ pub struct Arm {
     target: (Vec3, Quat),
     moving: bool,
     grip: f64,
-}
-
-/// Whether the target of a tick was taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reached {
-    /// The robot follows, or rests.
-    Yes,
-    /// No joints within their ranges bring the hand there.
-    Nowhere,
-    /// They would be further away than a tick may ask for.
-    Far,
 }
 
 impl Arm {

@@ -121,8 +121,10 @@ pub enum Event {
     Press(Button),
     /// A button went up.
     Release(Button),
-    /// An axis went somewhere, -1 to 1, or 0 to 1 where it rests at an end.
+    /// An axis went somewhere, -1 to 1, or 0 to 1 where it rests at an end
     Move(Axis, f64),
+    /// A joint of a leader arm is there \[rad\]; its place among those that lead.
+    Lead(u16, f64),
     /// A hand is somewhere.
     Hand(HandPose),
     /// Nothing more is known of what is held: everything is released.

@@ -15,6 +15,8 @@ pub struct Held {
     struck: BTreeSet<Button>,
     axes: BTreeMap<Axis, (f64, f64)>,
     hands: [Option<(HandPose, f64)>; 2],
+    /// Joints of a leader arm.
+    leader: BTreeMap<u16, (f64, f64)>,
     /// The keyboard tells releases.
     tells_releases: bool,
 }
@@ -30,6 +32,8 @@ pub struct Sample {
     pub axes: BTreeMap<Axis, f64>,
     /// The left and the right hand.
     pub hands: [Option<HandPose>; 2],
+    /// Joints of a leader arm \[rad\].
+    pub leader: BTreeMap<u16, f64>,
 }
 
 impl Held {
@@ -50,6 +54,7 @@ impl Held {
             }
             Event::Release(button) => drop(self.down.remove(&button)),
             Event::Move(axis, place) => drop(self.axes.insert(axis, (place, now))),
+            Event::Lead(joint, place) => drop(self.leader.insert(joint, (place, now))),
             Event::Hand(hand) => self.hands[usize::from(hand.right)] = Some((hand, now)),
             Event::Lost(Lost::Keyboard) => self.down.retain(|button, _| !matches!(button, Button::Key(_))),
             Event::Lost(Lost::Device(device)) => {
@@ -72,6 +77,7 @@ impl Held {
             .collect();
         self.down.retain(|button, _| !over.contains(button));
         self.axes.retain(|axis, (_, then)| axis.0 == Device::Gamepad || now - *then <= BELIEF);
+        self.leader.retain(|_, (_, then)| now - *then <= BELIEF);
         let hand = |hand: Option<(HandPose, f64)>| {
             hand.filter(|(_, then)| now - then <= BELIEF).map(|(hand, _)| hand)
         };
@@ -86,6 +92,7 @@ impl Held {
                 .map(|(axis, (place, _))| (*axis, *place))
                 .collect(),
             hands: self.hands.map(hand),
+            leader: self.leader.iter().map(|(joint, (place, _))| (*joint, *place)).collect(),
         }
     }
 

@@ -3,6 +3,7 @@
 //! | stage | what it does |
 //! |---|---|
 //! | [`Keyboard`], [`Gamepad`], [`SpaceMouse`], [`Quest`] | from the bytes of a device to [`Event`]s; pure, wherever the bytes come from |
+//! | [`LeaderArm`] | the servos of an arm that is led by hand, which may carry its weight |
 //! | [`Held`] | from events to what is held during a tick; what is not repeated is let go |
 //! | [`Mapping`] | from what is held to an [`Input`]: motions and marks, by a file |
 //! | [`Pilot`] | from motions to actions: an [`Arm`] by inverse kinematics, or joints |
@@ -32,15 +33,18 @@ mod handover;
 mod held;
 mod keyboard;
 mod latency;
+mod lead;
+mod leader;
 mod mapping;
 mod moments;
 mod motion;
 mod pilot;
 mod quest;
+mod reached;
 mod session;
 mod space_mouse;
 
-pub use arm::{Arm, Reached};
+pub use arm::Arm;
 pub use error::TeleopError;
 pub use event::{Axis, Button, Device, Event, HandPose, Key, Lost};
 pub use gamepad::{Ends, Gamepad};
@@ -49,9 +53,12 @@ pub use handover::INTERVENTION;
 pub use held::{BELIEF, Held, Sample};
 pub use keyboard::{Answer, Keyboard, QUESTION, TURN_OFF, TURN_ON};
 pub use latency::Latencies;
+pub use lead::Leading;
+pub use leader::{CatchUp, Gravity, GravitySettings, LeaderArm, LeaderConfig, LedJoint};
 pub use mapping::{ArmSettings, DEFAULTS, Gains, Mapping};
 pub use motion::{HandMove, Input, MARKS, Mark, Motion};
 pub use pilot::{Control, Pilot};
 pub use quest::Quest;
+pub use reached::Reached;
 pub use session::{Finished, JUDGED, Plan, Session, Ticked};
 pub use space_mouse::SpaceMouse;

@@ -3,8 +3,8 @@
 use crate::error::TeleopError;
 use crate::event::{Axis, Button, Device, HandPose, Key};
 use crate::gamepad::{self, Ends};
-use crate::glove::Calibration;
 use crate::held::Sample;
+use crate::lead::Leading;
 use crate::motion::{HandMove, Input, MARKS, Mark, Motion};
 use crate::{quest, space_mouse};
 use physics::math::{Quat, Vec3, quat_conj, quat_mul, quat_normalize, sub};
@@ -70,8 +70,8 @@ pub struct Mapping {
     pub arm: ArmSettings,
     /// Ends of the axes of a gamepad that does not speak xpad's language.
     pub ends: Vec<(u16, Ends)>,
-    /// What a glove says of the joints of a hand, where one drives.
-    pub glove: Option<Calibration>,
+    /// What leads joints, where something does.
+    pub led: Option<Leading>,
     buttons: Vec<(BTreeSet<Button>, Effect)>,
     axes: Vec<(Axis, Effect)>,
     faces: bool,
@@ -120,7 +120,7 @@ impl Mapping {
             gains: gains(&section("gains"), file)?,
             arm: arm(&section("arm"), file)?,
             ends: Vec::new(),
-            glove: None,
+            led: None,
             buttons: Vec::new(),
             axes: Vec::new(),
             faces: false,
@@ -217,7 +217,7 @@ impl Mapping {
                 effect => apply(*effect, 1.0, &mut input.motion),
             }
         }
-        input.motion.fingers = self.glove.as_ref().and_then(|glove| glove.read(sample));
+        input.motion.led = self.led.as_ref().and_then(|led| led.read(sample));
         for (axis, effect) in &self.axes {
             let Some(&place) = sample.axes.get(axis) else { continue };
             match effect {

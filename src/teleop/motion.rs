@@ -22,14 +22,14 @@ pub struct Motion {
     pub gripper: Option<f64>,
     /// Numbers of joints, and the parts of what a tick moves them, -1 to 1.
     pub joints: Vec<(usize, f64)>,
-    /// Where the joints of a hand should be \[rad\], in the order of the calibration of a glove.
-    pub fingers: Option<Vec<f64>>,
+    /// Where a glove or a leader arm has controls, in their units and in the order of the calibration or the config.
+    pub led: Option<Vec<f64>>,
     /// Everything moves at a quarter.
     pub quarter: bool,
 }
 
 impl Motion {
-    /// Whether anything should move that rests otherwise. A hand in a glove never rests: it moves nothing while time stands
+    /// Whether anything should move that rests otherwise. A hand in a glove or at an arm never rests: it moves nothing while time stands
     /// still, which a pause that is ended lets go on.
     pub fn moves(&self) -> bool {
         self.along.iter().any(|&x| x != 0.0)

@@ -1,14 +1,12 @@
 //! From what a person wants to the action of an environment.
 
-use crate::arm::{Arm, Reached};
+use crate::arm::Arm;
 use crate::error::TeleopError;
-use crate::glove::Calibration;
+use crate::lead::Lead;
 use crate::mapping::Mapping;
 use crate::motion::Motion;
+use crate::reached::Reached;
 use env::Env;
-
-/// Most that a tick moves a joint to where a glove has it, in parts of its range: a hand that begins elsewhere is not thrown.
-const FINGER: f64 = 0.1;
 
 /// What a person drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,8 +27,8 @@ pub struct Pilot {
 #[derive(Clone, Debug)]
 enum Driven {
     Arm(Box<Arm>),
-    /// Parts of the action, the part of its range that a tick moves one, and the controls of the joints of a glove.
-    Joints(Vec<f64>, f64, Vec<Option<usize>>),
+    /// Parts of the action, the part of its range that a tick moves one, and what a device leads.
+    Joints(Vec<f64>, f64, Lead),
 }
 
 impl Pilot {
@@ -47,7 +45,9 @@ impl Pilot {
         }
         let driven = match control {
             Control::Hand => Driven::Arm(Box::new(Arm::of(env, &mapping.arm, mapping.gains)?)),
-            Control::Joints => Driven::Joints(resting(env)?, mapping.gains.joint, gloved(env, mapping)?),
+            Control::Joints => {
+                Driven::Joints(resting(env)?, mapping.gains.joint, Lead::of(env, mapping.led.as_ref())?)
+            }
         };
         Ok(Pilot { driven, action })
     }
@@ -61,7 +61,15 @@ impl Pilot {
             Driven::Arm(arm) => arm.begin(env),
             Driven::Joints(at, ..) => *at = resting(env)?,
         }
+        self.let_go();
         Ok(())
+    }
+
+    /// Follows nothing for a while: what leads is caught up with before it is followed again.
+    pub fn let_go(&mut self) {
+        if let Driven::Joints(_, _, lead) = &mut self.driven {
+            lead.let_go();
+        }
     }
 
     /// Goes on from where something else has brought the robot, so that nothing jumps.
@@ -73,6 +81,7 @@ impl Pilot {
             Driven::Arm(arm) => arm.take_over(env),
             Driven::Joints(at, ..) => *at = last_action(env)?,
         }
+        self.let_go();
         Ok(())
     }
 
@@ -93,7 +102,7 @@ impl Pilot {
                     env.robot().normalize(&env.scene().model, &mut self.action)?;
                 }
             }
-            Driven::Joints(at, gain, gloved) => {
+            Driven::Joints(at, gain, lead) => {
                 if live && env.steps() > 0 {
                     // What was asked for beyond the limits of the robot is forgotten, so that it stops when nobody asks.
                     *at = last_action(env)?;
@@ -104,8 +113,8 @@ impl Pilot {
                     let [low, high] = env.action_bounds(joint);
                     *place = (*place + part * *gain * along * (high - low)).clamp(low, high);
                 }
-                if let Some(fingers) = &motion.fingers {
-                    point(env, at, gloved, fingers, part)?;
+                if let Some(led) = &motion.led {
+                    reached = lead.follow(env, at, led, part)?;
                 }
                 self.action.clone_from(at);
             }
@@ -120,53 +129,6 @@ impl Pilot {
             Driven::Joints(..) => None,
         }
     }
-}
-
-/// The controls of the joints of a glove; none for those that the hand lacks.
-fn gloved(env: &Env, mapping: &Mapping) -> Result<Vec<Option<usize>>, TeleopError> {
-    let model = &env.scene().model;
-    let control = |name: &String| {
-        if name.is_empty() {
-            return Ok(None);
-        }
-        let found = model.actuator(name).map(|actuator| model.actuator_ctrladr[actuator.index()]);
-        let control = found.and_then(|control| usize::try_from(control).ok());
-        control.map(Some).ok_or_else(|| TeleopError::Control {
-            message: format!(
-                "the model has no actuator {name:?}, which the calibration of the glove names; \"\" leaves a joint out"
-            ),
-        })
-    };
-    mapping.glove.iter().flat_map(Calibration::actuators).map(control).collect()
-}
-
-/// Leads parts of the action to where a glove has the joints, by no more than [`FINGER`] of their ranges a tick.
-fn point(
-    env: &Env,
-    at: &mut [f64],
-    gloved: &[Option<usize>],
-    fingers: &[f64],
-    part: f64,
-) -> Result<(), TeleopError> {
-    let mut wanted = at.to_vec();
-    if env.settings().normalize_act {
-        env.robot().unnormalize(&env.scene().model, &mut wanted)?;
-    }
-    for (control, finger) in gloved.iter().zip(fingers) {
-        if let Some(place) = control.and_then(|control| wanted.get_mut(control)) {
-            *place = *finger;
-        }
-    }
-    if env.settings().normalize_act {
-        env.robot().normalize(&env.scene().model, &mut wanted)?;
-    }
-    for control in gloved.iter().flatten() {
-        let [low, high] = env.action_bounds(*control);
-        let most = part * FINGER * (high - low);
-        let (Some(place), Some(wanted)) = (at.get_mut(*control), wanted.get(*control)) else { continue };
-        *place = (*place + (wanted - *place).clamp(-most, most)).clamp(low, high);
-    }
-    Ok(())
 }
 
 /// The least and the largest controls that the robot would follow during the next period.

@@ -1,12 +1,12 @@
 //! A session: episode after episode that a person drives, tick by tick, without a clock, a terminal or a file.
 
-use crate::arm::Reached;
 use crate::error::TeleopError;
 use crate::handover::{Handover, INTERVENTION};
 use crate::mapping::Mapping;
 use crate::moments::{Moment, Moments};
 use crate::motion::{Input, Mark};
 use crate::pilot::{Control, Pilot};
+use crate::reached::Reached;
 use agents::Policy;
 use env::Env;
 use record::Kept;
@@ -182,6 +182,7 @@ impl Session {
         if !self.paused && !rewinds {
             self.step(input, &mut ticked)?;
         } else {
+            self.pilot.let_go();
             self.env.hold()?;
         }
         Ok(ticked)

@@ -26,7 +26,8 @@ pairs move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k.
 
 Gamepad: left stick and triggers move, the cross and TL TR turn, WEST EAST close and open, NORTH slows down, SOUTH is success, a \
 press of the left stick throws away, of the right one pauses, SELECT and START end. Six-axis mouse: its six axes; left and right button close and \
-open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. The keyboard's marks \
+open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. So it is with a leader arm: the robot comes to where it is, slowly, and then follows it joint by joint; with --arm its servos carry its weight where \
+its config says how. The keyboard's marks \
 work beside every device.
 
 With --policy POLICY the policy acts once time goes on (Space), and any motion of yours takes over from where the robot is; p gives back. The line says who acts, and env_infos/intervention of a recording holds it for every step: 1 where you did.
@@ -59,7 +60,7 @@ pub struct Teleop {
     /// The environment
     #[command(flatten)]
     pub source: OptionalSource,
-    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), phone[:PORT] (a page for phones and headsets)
+    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), leader:FILE (an arm that is led by hand, by its config), phone[:PORT] (a page for phones and headsets)
     #[arg(long, value_name = "DEVICE", default_value = "keyboard", value_parser = DeviceChoice::read)]
     pub device: DeviceChoice,
     /// File of the device, instead of the first that is found; of a quest a pipe with lines of its log
@@ -71,7 +72,7 @@ pub struct Teleop {
     /// What acts until you take over, by any motion or by p: random, zero, or a file with a policy, as for `robohive run`
     #[arg(long, value_name = "POLICY")]
     pub policy: Option<String>,
-    /// What is driven; by a glove always joints
+    /// What is driven; by a glove or a leader arm always joints
     #[arg(long, value_name = "WHAT", default_value = "hand")]
     pub control: ControlName,
     /// Site of the model that is the hand [default: the first that there is of those that the mapping names]

@@ -17,6 +17,8 @@ pub enum DeviceChoice {
     Quest(Option<String>),
     /// A CyberGlove on this serial port.
     Glove(PathBuf),
+    /// An arm that is led by hand, by this config.
+    Leader(PathBuf),
     /// A phone or a headset, by a page on this port.
     Phone(u16),
 }
@@ -41,12 +43,13 @@ impl DeviceChoice {
                 })
             }
             ("glove", Some(port)) if !port.is_empty() => Ok(DeviceChoice::Glove(port.into())),
+            ("leader", Some(file)) if !file.is_empty() => Ok(DeviceChoice::Leader(file.into())),
             ("phone", None) => Ok(DeviceChoice::Phone(PAGE)),
             ("phone", Some(port)) => {
                 port.parse().map(DeviceChoice::Phone).map_err(|_| format!("'{port}' is no port, as {PAGE}"))
             }
             _ => {
-                Err("there are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT, phone, phone:PORT".to_owned())
+                Err("there are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT, leader:FILE, phone, phone:PORT".to_owned())
             }
         }
     }
@@ -61,6 +64,7 @@ impl fmt::Display for DeviceChoice {
             DeviceChoice::SpaceMouse => "spacemouse",
             DeviceChoice::Quest(_) => "quest",
             DeviceChoice::Glove(_) => "glove",
+            DeviceChoice::Leader(_) => "leader",
             DeviceChoice::Phone(_) => "phone",
         })
     }
@@ -76,9 +80,17 @@ mod tests {
         let address = DeviceChoice::Quest(Some("headset.local:5037".to_owned()));
         assert_eq!(DeviceChoice::read("quest:headset.local:5037"), Ok(address));
         assert_eq!(DeviceChoice::read("glove:/dev/ttyS0"), Ok(DeviceChoice::Glove("/dev/ttyS0".into())));
-        for wrong in
-            ["quest:headset", "quest:host:70000", "gamepad:3", "mouse", "glove", "glove:", "phone:x", ""]
-        {
+        for wrong in [
+            "quest:headset",
+            "quest:host:70000",
+            "gamepad:3",
+            "mouse",
+            "glove",
+            "glove:",
+            "leader",
+            "phone:x",
+            "",
+        ] {
             assert!(DeviceChoice::read(wrong).is_err(), "{wrong}");
         }
         assert_eq!(

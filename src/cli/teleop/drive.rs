@@ -4,6 +4,7 @@ use super::arguments::{ControlName, Teleop};
 use super::device::DeviceChoice;
 use super::ears::{Listening, ListeningClock};
 use super::files::{self, Files};
+use super::leading::{connect, leading};
 use super::phone;
 use super::report::{Report, keys};
 use crate::failure::Failure;
@@ -15,12 +16,11 @@ use crate::pictures::film::Film;
 use crate::pictures::subject::camera_of;
 use crate::terminal::{complain, note, redraw, show};
 use ::teleop::devices::{Opened, Terminal};
-use ::teleop::{Calibration, Control, Mapping, Mark, Plan, Sample, Session, TeleopError, Ticked};
+use ::teleop::{Control, Leading, Mapping, Mark, Plan, Sample, Session, TeleopError, Ticked};
 use env::{Env, Hardware};
 use protocol::adb;
 use render::Painters;
 use std::env::VarError;
-use std::path::Path;
 use std::sync::Arc;
 
 /// Time between two looks of the line that says how it goes [s].
@@ -54,7 +54,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         open(a, &mapping, &listening)?;
     }
     let control = match a.control {
-        ControlName::Hand if mapping.glove.is_none() => Control::Hand,
+        ControlName::Hand if mapping.led.is_none() => Control::Hand,
         ControlName::Hand | ControlName::Joints => Control::Joints,
     };
     let plan = Plan {
@@ -75,12 +75,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     let files = Files::open(a, source, &mut session)?;
     let env = session.env();
     let mut film = a.film.film(&env.scene().model, &camera_of(env), env.dt(), &*painters)?;
-    note(&format!(
-        "{} drives {}; {}",
-        listening.ears().device.as_ref().map_or("the keyboard", Opened::name),
-        source.id,
-        keys(a.mapping.is_some())
-    ));
+    note(&format!("{} drives {}; {}", listening.ears().name(), source.id, keys(a.mapping.is_some())));
     let mut desk = Desk {
         session,
         mapping,
@@ -94,7 +89,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     // The line ends, and the terminal is as it was, before anything else is said.
     redraw("");
     desk.report.seconds = desk.now() - desk.began;
-    desk.listening.ears().terminal = None;
+    let let_go = desk.listening.ears().close();
     // Files first: whoever looked on may be gone.
     let recorded = desk.files.take().map(Files::close).transpose()?;
     let finished = film.map(Film::finish).transpose()?.flatten();
@@ -106,6 +101,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         closed.show();
     }
     outcome?;
+    let_go?;
     match interrupt.code() {
         None => Ok(()),
         Some(code) => Err(Failure { code, ..Failure::new("interrupted; finished episodes are kept") }),
@@ -122,24 +118,11 @@ fn mapping(a: &Teleop) -> Result<Mapping, Failure> {
             Mapping::from_toml(&text, &named)?
         }
     };
-    mapping.glove = match (&a.device, &a.calibration) {
-        (DeviceChoice::Glove(_), Some(path)) => Some(calibration(path)?),
-        (DeviceChoice::Glove(_), None) => {
-            return Err(Failure::usage("a glove needs --calibration FILE, which says what its sensors mean"));
-        }
-        (_, Some(_)) => return Err(Failure::usage("--calibration is about gloves: add --device glove:PORT")),
-        (_, None) => None,
-    };
+    mapping.led = leading(a)?;
     if let Some(site) = &a.site {
         mapping.arm.sites = vec![site.clone()];
     }
     Ok(mapping)
-}
-
-fn calibration(path: &Path) -> Result<Calibration, Failure> {
-    let named = path.display().to_string();
-    let text = std::fs::read_to_string(path).map_err(|error| Failure::usage(format!("{named}: {error}")))?;
-    Ok(Calibration::from_toml(&text, &named)?)
 }
 
 /// The environment, whose robot may be hardware: its control periods then pass while the person is heard.
@@ -149,7 +132,9 @@ fn make(
     listening: &Listening,
     painters: Arc<dyn Painters>,
 ) -> Result<Env, Failure> {
-    let mut hardware = a.live.hardware(&source.id, &source.making)?;
+    // Arming is about the leader where the robot is simulated.
+    let led = matches!(a.device, DeviceChoice::Leader(_)) && a.live.hardware.is_none();
+    let mut hardware = if led { None } else { a.live.hardware(&source.id, &source.making)? };
     if let Some(Hardware { clock, ready, .. }) = hardware.as_mut().filter(|_| !a.live.rehearse) {
         let listening = listening.clone();
         *clock = Arc::new(move || Box::new(ListeningClock(listening.clone())));
@@ -174,6 +159,18 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
         }
         DeviceChoice::Keyboard => {
             listening.ears().terminal = Some(Terminal::open()?);
+            return Ok(());
+        }
+        DeviceChoice::Leader(_) if path.is_some() => {
+            return Err(Failure::usage(
+                "the config of a leader arm stands in --device leader:FILE, without --path",
+            ));
+        }
+        DeviceChoice::Leader(file) => {
+            let Some(Leading::Arm(config)) = &mapping.led else { return Ok(()) };
+            let arm = connect(a, config, file)?;
+            let mut ears = listening.ears();
+            (ears.leader, ears.terminal) = (Some(arm), Some(Terminal::open()?));
             return Ok(());
         }
         DeviceChoice::Glove(_) if path.is_some() => {
@@ -298,6 +295,7 @@ impl Desk {
         let refused = match ticked.refused {
             Some(::teleop::Reached::Nowhere) => "  out of reach",
             Some(::teleop::Reached::Far) => "  too far ahead",
+            Some(::teleop::Reached::Apart) => "  the leader is too far away: bring it nearer",
             _ => "",
         };
         let impossible = match ticked.impossible {

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use ::teleop::devices::{Opened, Terminal, wait};
-use ::teleop::{Event, Held, Sample, TeleopError};
+use ::teleop::{Event, Held, LeaderArm, Sample, TeleopError};
 use robot::Clock;
 use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -12,6 +12,8 @@ use std::time::{Duration, Instant};
 pub struct Ears {
     /// What drives, if not the keyboard.
     pub device: Option<Opened>,
+    /// An arm that is led by hand.
+    pub leader: Option<LeaderArm>,
     /// The keyboard.
     pub terminal: Option<Terminal>,
     held: Held,
@@ -30,6 +32,7 @@ impl Listening {
     pub fn new() -> Self {
         Listening(Arc::new(Mutex::new(Ears {
             device: None,
+            leader: None,
             terminal: None,
             held: Held::default(),
             began: Instant::now(),
@@ -66,6 +69,24 @@ impl Ears {
         self.began.elapsed().as_secs_f64()
     }
 
+    /// What drives, for people.
+    pub fn name(&self) -> &str {
+        match (&self.device, &self.leader) {
+            (Some(device), _) => device.name(),
+            (None, Some(_)) => "the leader arm",
+            (None, None) => "the keyboard",
+        }
+    }
+
+    /// Lets go of the terminal, which is then as it was, and of a leader arm.
+    ///
+    /// # Errors
+    /// The arm's servos may carry it still.
+    pub fn close(&mut self) -> Result<(), Failure> {
+        self.terminal = None;
+        self.leader.take().map_or(Ok(()), |leader| Ok(leader.close()?))
+    }
+
     /// What is held now.
     pub fn sample(&mut self) -> Sample {
         let now = self.now();
@@ -97,7 +118,8 @@ impl Ears {
             let now = self.now();
             for event in events {
                 self.held.apply(event, now);
-                self.came.push(now);
+                // An arm says where it is all the time: nobody waits for that.
+                self.came.extend((!matches!(event, Event::Lead(..))).then_some(now));
             }
             match outcome {
                 Ok(there) => self.gone = !there,
@@ -113,7 +135,8 @@ impl Ears {
     fn hear(&mut self, due: f64, events: &mut Vec<Event>) -> Result<bool, Failure> {
         let files: Vec<BorrowedFd<'_>> =
             self.terminal.iter().map(AsFd::as_fd).chain(self.device.iter().map(AsFd::as_fd)).collect();
-        let ready = wait(&files, due - self.now()).map_err(Failure::new)?;
+        let until = self.leader.as_ref().map_or(due, |leader| leader.due().min(due));
+        let ready = wait(&files, until - self.now()).map_err(Failure::new)?;
         let (now, mut ready) = (self.now(), ready.into_iter());
         if let Some(terminal) = &mut self.terminal {
             let there = terminal.read(ready.next().unwrap_or(false), now, events);
@@ -129,6 +152,9 @@ impl Ears {
             && let Some(device) = &mut self.device
         {
             device.read(events).map_err(|error: TeleopError| Failure::from(error))?;
+        }
+        if let Some(leader) = self.leader.as_mut().filter(|leader| now >= leader.due()) {
+            leader.tend(now, events)?;
         }
         Ok(true)
     }

@@ -11,6 +11,8 @@ mod ears;
 #[cfg(unix)]
 mod files;
 #[cfg(unix)]
+mod leading;
+#[cfg(unix)]
 mod phone;
 #[cfg(unix)]
 mod report;

@@ -7,7 +7,7 @@ use protocol::Port;
 use protocol::cyberglove::{COUNT, STREAM, rate};
 use robohive_teleop::devices::{Opened, wait};
 use robohive_teleop::{
-    Axis, Calibration, Control, Device, Event, Glove, Held, Input, Mapping, Mark, Plan, Session,
+    Axis, Calibration, Control, Device, Event, Glove, Held, Input, Leading, Mapping, Mark, Plan, Session,
 };
 use std::fmt::Write;
 use std::os::fd::AsFd;
@@ -129,7 +129,8 @@ fn calibrations_that_do_not_fit_together_are_refused() {
         assert!(error.starts_with("glove.toml: ") && error.contains(says), "{from}: {error}");
     }
     let mut mapping = Mapping::default();
-    mapping.glove = Some(Calibration::from_toml(&whole.replace("'M2'", "'M3'"), "glove.toml").unwrap());
+    mapping.led =
+        Some(Leading::Glove(Calibration::from_toml(&whole.replace("'M2'", "'M3'"), "glove.toml").unwrap()));
     let error = Session::new(hand(), Control::Joints, &mapping, Plan::default()).err().unwrap().to_string();
     assert!(error.contains("no actuator \"M3\""), "{error}");
 }
@@ -141,7 +142,7 @@ fn a_hand_in_a_glove_closes_the_finger_of_the_robot_and_one_that_is_unplugged_st
     let mut port = VirtualPort::new(bench.clone(), link);
     port.send(&[&COUNT[..], &rate(80.0), &[STREAM]].concat()).unwrap();
     let (mut glove, mut held, mut mapping) = (Glove::default(), Held::default(), Mapping::default());
-    mapping.glove = Some(Calibration::from_toml(&calibration(), "glove.toml").unwrap());
+    mapping.led = Some(Leading::Glove(Calibration::from_toml(&calibration(), "glove.toml").unwrap()));
     let mut session = Session::new(hand(), Control::Joints, &mapping, Plan::default()).unwrap();
     let mut bytes = [0; 256];
     let mut tick = |session: &mut Session, marks: Vec<Mark>| -> Input {
@@ -161,7 +162,7 @@ fn a_hand_in_a_glove_closes_the_finger_of_the_robot_and_one_that_is_unplugged_st
     // A glove alone begins nothing.
     tick(&mut session, Vec::new());
     let input = tick(&mut session, Vec::new());
-    assert!(input.motion.fingers.is_some() && session.is_paused() && session.steps().0 == 0);
+    assert!(input.motion.led.is_some() && session.is_paused() && session.steps().0 == 0);
     tick(&mut session, vec![Mark::Pause]);
     let mut largest: f64 = 0.0;
     for _ in 0..45 {
@@ -178,7 +179,7 @@ fn a_hand_in_a_glove_closes_the_finger_of_the_robot_and_one_that_is_unplugged_st
     bench.lock().unwrap().stop_button(true);
     (0..5).for_each(|_| drop(tick(&mut session, Vec::new())));
     let input = tick(&mut session, Vec::new());
-    assert!(input.motion.fingers.is_none());
+    assert!(input.motion.led.is_none());
     assert!((index(&session) - 1.6).abs() < 0.05);
 }
 
