@@ -2,7 +2,7 @@
 
 use crate::error::TeleopError;
 use crate::mapping::{ArmSettings, Gains};
-use crate::motion::Motion;
+use crate::motion::ArmMotion;
 use crate::reached::Reached;
 use env::Env;
 use physics::elements::{ActuatorId, Element, JointId, SiteId};
@@ -66,12 +66,43 @@ impl Arm {
     /// # Errors
     /// The model has no such site, or nothing that moves it.
     pub fn of(env: &Env, settings: &ArmSettings, gains: Gains) -> Result<Self, TeleopError> {
+        Arm::at(env, &settings.sites, settings, gains)
+    }
+
+    /// The first arm, and the left one where the settings name its site. Each has the grippers that hang on it, the first all that
+    /// hang on neither.
+    ///
+    /// # Errors
+    /// As [`Arm::of`]; an actuator that would move both.
+    pub fn all_of(env: &Env, settings: &ArmSettings, gains: Gains) -> Result<Vec<Self>, TeleopError> {
+        let mut first = Arm::of(env, settings, gains)?;
+        if settings.left_sites.is_empty() {
+            return Ok(vec![first]);
+        }
+        let mut left = Arm::at(env, &settings.left_sites, settings, gains)?;
         let model = &env.scene().model;
-        let Some(site) = settings.sites.iter().find_map(|name| model.site(name)) else {
+        let chains = [first.site, left.site].map(|site| chain(model, model.site_bodyid[site.index()]));
+        let shared =
+            first.links.iter().find(|link| left.links.iter().any(|other| other.control == link.control));
+        if let Some(link) = shared {
+            let name = model.name_of(JointId::KIND, link.joint.index());
+            return Err(missing(format!("the joint {name:?} moves both arms, which are driven apart")));
+        }
+        let links = |arm: &Arm, control: usize| arm.links.iter().any(|link| link.control == control);
+        let hangs = |control: usize, chain: &[i32]| hangs(model, control, chain);
+        first.gripper.retain(|&k| !links(&left, k) && hangs(k, &chains[0]) >= hangs(k, &chains[1]));
+        left.gripper.retain(|&k| !links(&first, k) && hangs(k, &chains[1]) > hangs(k, &chains[0]));
+        Ok(vec![first, left])
+    }
+
+    /// The arm that moves the first of these sites.
+    fn at(env: &Env, sites: &[String], settings: &ArmSettings, gains: Gains) -> Result<Self, TeleopError> {
+        let model = &env.scene().model;
+        let Some(site) = sites.iter().find_map(|name| model.site(name)) else {
             let has: Vec<&str> = model.site_names().map(|(_, name)| name).take(12).collect();
             return Err(missing(format!(
                 "no site to move: the model has none of {}; name one by --site: {}",
-                settings.sites.join(", "),
+                sites.join(", "),
                 has.join(", ")
             )));
         };
@@ -147,7 +178,7 @@ impl Arm {
     pub fn drive(
         &mut self,
         env: &Env,
-        motion: &Motion,
+        (motion, quarter): (&ArmMotion, bool),
         within: [&[f64]; 2],
         controls: &mut [f64],
     ) -> Reached {
@@ -155,9 +186,9 @@ impl Arm {
         if let Some(grip) = motion.gripper {
             self.grip = grip.clamp(-1.0, 1.0);
         }
-        let reached = if motion.along.iter().any(|&x| x != 0.0) || motion.hand.is_some() {
+        let reached = if motion.moves() {
             self.moving = true;
-            self.pursue(model, data, motion)
+            self.pursue(model, data, motion, if quarter { QUARTER } else { 1.0 })
         } else {
             self.rest_at(model, data);
             Reached::Yes
@@ -186,14 +217,14 @@ impl Arm {
     }
 
     /// Moves the target by the largest part of a motion that the joints can follow.
-    fn pursue(&mut self, model: &Model, data: &Data, motion: &Motion) -> Reached {
+    fn pursue(&mut self, model: &Model, data: &Data, motion: &ArmMotion, most: f64) -> Reached {
         let mut start = data.clone();
         for (link, command) in self.links.iter().zip(&self.command) {
             start.state.qpos[link.position] = *command;
         }
         let mut why = Reached::Nowhere;
         for part in PARTS {
-            let wanted = self.moved(motion, part);
+            let wanted = self.moved(motion, most * part);
             match self.joints_at(model, data, &start, wanted) {
                 Ok(joints) => {
                     (self.command, self.target) = (joints, wanted);
@@ -234,8 +265,7 @@ impl Arm {
     }
 
     /// The target after a part of a motion.
-    fn moved(&self, motion: &Motion, part: f64) -> (Vec3, Quat) {
-        let part = if motion.quarter { part * QUARTER } else { part };
+    fn moved(&self, motion: &ArmMotion, part: f64) -> (Vec3, Quat) {
         let [x, y, z, roll, pitch, yaw] = motion.along;
         let (mut position, mut turned) = self.target;
         position = add(position, scale([x, y, z], part * self.gains.position));
@@ -289,6 +319,15 @@ fn chain(model: &Model, body: i32) -> Vec<i32> {
         usize::try_from(body).ok().filter(|&body| body > 0).map(|body| model.body_parentid[body])
     })
     .collect()
+}
+
+/// How many bodies of a chain carry what the actuator of a control drives; none where it drives no joint.
+fn hangs(model: &Model, control: usize, chain: &[i32]) -> usize {
+    let drives = |actuator: &ActuatorId| model.actuator_ctrladr[actuator.index()] == control as i32;
+    let link = model.actuators().find(drives).and_then(|actuator| link(model, actuator, control));
+    let bodies =
+        link.map(|link| self::chain(model, model.jnt_bodyid[link.joint.index()])).unwrap_or_default();
+    bodies.iter().filter(|body| chain.contains(body)).count()
 }
 
 /// The link of an actuator that drives a joint.

@@ -40,8 +40,7 @@ impl Handover {
 
     /// Whether the person takes over by touching a device. A hand in a glove never rests: it takes over by the mark alone.
     pub fn takes_over(&mut self, motion: &Motion) -> bool {
-        let touched = motion.moves() || motion.gripper.is_some();
-        let takes = touched && !self.by_hand;
+        let takes = motion.touches() && !self.by_hand;
         self.by_hand |= takes;
         takes
     }

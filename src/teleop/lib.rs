@@ -56,7 +56,7 @@ pub use latency::Latencies;
 pub use lead::Leading;
 pub use leader::{CatchUp, Gravity, GravitySettings, LeaderArm, LeaderConfig, LedJoint};
 pub use mapping::{ArmSettings, DEFAULTS, Gains, Mapping};
-pub use motion::{HandMove, Input, MARKS, Mark, Motion};
+pub use motion::{ARMS, ArmMotion, HandMove, Input, MARKS, Mark, Motion};
 pub use pilot::{Control, Pilot};
 pub use quest::Quest;
 pub use reached::Reached;

@@ -5,7 +5,7 @@ use crate::event::{Axis, Button, Device, HandPose, Key};
 use crate::gamepad::{self, Ends};
 use crate::held::Sample;
 use crate::lead::Leading;
-use crate::motion::{HandMove, Input, MARKS, Mark, Motion};
+use crate::motion::{ARMS, ArmMotion, HandMove, Input, MARKS, Mark, Motion};
 use crate::{quest, space_mouse};
 use physics::math::{Quat, Vec3, quat_conj, quat_mul, quat_normalize, sub};
 use std::collections::BTreeSet;
@@ -22,14 +22,21 @@ const JOINTS: usize = 64;
 /// What something does while it is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Effect {
-    Along(usize, f64),
+    /// To the arm of a number.
+    Arm(usize, ArmEffect),
     Joint(usize, f64),
+    Quarter,
+    Mark(Mark),
+}
+
+/// What something does to an arm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum ArmEffect {
+    Along(usize, f64),
     Gripper(f64),
     /// An axis from open to closed.
     Grip,
-    Quarter,
     Clutch,
-    Mark(Mark),
 }
 
 /// How far a tick moves.
@@ -50,6 +57,8 @@ pub struct Gains {
 pub struct ArmSettings {
     /// Names of sites that can be moved; the first that a model has is.
     pub sites: Vec<String>,
+    /// The same of a left arm that is driven beside it; none for one arm.
+    pub left_sites: Vec<String>,
     /// Largest distance of the joints that are asked for from where they are \[rad\].
     pub reach: f64,
     /// See [`robot::Reach::pull`].
@@ -75,8 +84,8 @@ pub struct Mapping {
     buttons: Vec<(BTreeSet<Button>, Effect)>,
     axes: Vec<(Axis, Effect)>,
     faces: bool,
-    /// The hand in the last tick in which the clutch was held.
-    clutched: Option<HandPose>,
+    /// The hand of each arm in the last tick in which its clutch was held.
+    clutched: [Option<HandPose>; ARMS],
 }
 
 impl Default for Mapping {
@@ -124,7 +133,7 @@ impl Mapping {
             buttons: Vec::new(),
             axes: Vec::new(),
             faces: false,
-            clutched: None,
+            clutched: [None; ARMS],
         };
         mapping.bind_keys(&section("keyboard"), file)?;
         for (name, device, buttons, axes) in [
@@ -199,7 +208,7 @@ impl Mapping {
     /// What a person wants who holds this.
     pub fn read(&mut self, sample: &Sample) -> Input {
         let mut input = Input::default();
-        let mut clutch = false;
+        let mut clutches = [false; ARMS];
         let held: Vec<_> = self.buttons.iter().filter(|(chord, _)| chord.is_subset(&sample.down)).collect();
         // Of buttons that are held together, the chord counts alone.
         let alone = |chord: &BTreeSet<Button>| {
@@ -213,7 +222,7 @@ impl Mapping {
                         input.marks.push(*mark);
                     }
                 }
-                Effect::Clutch => clutch = true,
+                Effect::Arm(arm, ArmEffect::Clutch) => clutches[*arm] = true,
                 effect => apply(*effect, 1.0, &mut input.motion),
             }
         }
@@ -221,18 +230,24 @@ impl Mapping {
         for (axis, effect) in &self.axes {
             let Some(&place) = sample.axes.get(axis) else { continue };
             match effect {
-                Effect::Grip => input.motion.gripper = Some(1.0 - 2.0 * place),
+                Effect::Arm(arm, ArmEffect::Grip) => {
+                    input.motion.arms[*arm].gripper = Some(1.0 - 2.0 * place);
+                }
                 effect => apply(*effect, place, &mut input.motion),
             }
         }
-        input.motion.along.iter_mut().for_each(|x| *x = x.clamp(-1.0, 1.0));
-        self.follow(clutch.then_some(sample.hands[1]).flatten(), &mut input.motion);
+        for (arm, motion) in input.motion.arms.iter_mut().enumerate() {
+            motion.along.iter_mut().for_each(|x| *x = x.clamp(-1.0, 1.0));
+            // The right hand leads the first arm.
+            let hand = sample.hands[1 - arm].filter(|_| clutches[arm]);
+            self.follow(arm, hand, motion);
+        }
         input
     }
 
     /// Follows a hand while the clutch is held; where it was when the clutch was taken counts as the middle.
-    fn follow(&mut self, hand: Option<HandPose>, motion: &mut Motion) {
-        let before = std::mem::replace(&mut self.clutched, hand);
+    fn follow(&mut self, arm: usize, hand: Option<HandPose>, motion: &mut ArmMotion) {
+        let before = std::mem::replace(&mut self.clutched[arm], hand);
         let (Some(before), Some(now)) = (before, hand) else { return };
         let way = self.to_world(sub(now.position, before.position)).map(|x| self.gains.hand * x);
         let [w, x, y, z] = quat_normalize(quat_mul(now.orientation, quat_conj(before.orientation)));
@@ -249,11 +264,11 @@ impl Mapping {
 
 fn apply(effect: Effect, place: f64, motion: &mut Motion) {
     match effect {
-        Effect::Along(axis, sign) => motion.along[axis] += sign * place,
+        Effect::Arm(arm, ArmEffect::Along(axis, sign)) => motion.arms[arm].along[axis] += sign * place,
+        Effect::Arm(arm, ArmEffect::Gripper(to)) => motion.arms[arm].gripper = Some(to),
         Effect::Joint(joint, sign) => motion.joints.push((joint, sign * place)),
-        Effect::Gripper(to) => motion.gripper = Some(to),
         Effect::Quarter => motion.quarter = true,
-        Effect::Grip | Effect::Clutch | Effect::Mark(_) => {}
+        Effect::Arm(_, ArmEffect::Grip | ArmEffect::Clutch) | Effect::Mark(_) => {}
     }
 }
 
@@ -262,24 +277,37 @@ fn effect(value: &Value) -> Option<Effect> {
     if let Some((_, mark)) = MARKS.iter().find(|(name, _)| *name == text) {
         return Some(Effect::Mark(*mark));
     }
-    match text {
-        "close" => return Some(Effect::Gripper(-1.0)),
-        "open" => return Some(Effect::Gripper(1.0)),
-        "grip" => return Some(Effect::Grip),
-        "quarter" => return Some(Effect::Quarter),
-        "clutch" => return Some(Effect::Clutch),
-        _ => {}
+    let (arm, of_arm) = text.strip_prefix("left.").map_or((0, text), |left| (1, left));
+    if let Some(effect) = arm_effect(of_arm) {
+        return Some(Effect::Arm(arm, effect));
     }
-    let (sign, name) = match text.split_at_checked(1)? {
-        ("+", name) => (1.0, name),
-        ("-", name) => (-1.0, name),
-        _ => return None,
-    };
-    if let Some(axis) = ALONG.iter().position(|known| *known == name) {
-        return Some(Effect::Along(axis, sign));
+    if text == "quarter" {
+        return Some(Effect::Quarter);
     }
+    let (sign, name) = signed(text)?;
     let joint: usize = name.parse().ok().filter(|joint| (1..=JOINTS).contains(joint))?;
     Some(Effect::Joint(joint - 1, sign))
+}
+
+fn arm_effect(text: &str) -> Option<ArmEffect> {
+    match text {
+        "close" => return Some(ArmEffect::Gripper(-1.0)),
+        "open" => return Some(ArmEffect::Gripper(1.0)),
+        "grip" => return Some(ArmEffect::Grip),
+        "clutch" => return Some(ArmEffect::Clutch),
+        _ => {}
+    }
+    let (sign, name) = signed(text)?;
+    let axis = ALONG.iter().position(|known| *known == name)?;
+    Some(ArmEffect::Along(axis, sign))
+}
+
+fn signed(text: &str) -> Option<(f64, &str)> {
+    match text.split_at_checked(1)? {
+        ("+", name) => Some((1.0, name)),
+        ("-", name) => Some((-1.0, name)),
+        _ => None,
+    }
 }
 
 fn ends_of(axis: &str, pair: &Value) -> Option<Ends> {
@@ -310,13 +338,12 @@ fn gains(section: &Table, file: &str) -> Result<Gains, TeleopError> {
 }
 
 fn arm(section: &Table, file: &str) -> Result<ArmSettings, TeleopError> {
-    let mut arm = ArmSettings { sites: Vec::new(), reach: 0.0, pull: 0.0, gripper: 0.0 };
+    let mut arm =
+        ArmSettings { sites: Vec::new(), left_sites: Vec::new(), reach: 0.0, pull: 0.0, gripper: 0.0 };
     for (name, value) in section {
         match &name[..] {
-            "sites" => {
-                let names = value.as_array().into_iter().flatten().filter_map(Value::as_str);
-                arm.sites = names.map(str::to_owned).collect();
-            }
+            "sites" => arm.sites = names(value),
+            "left_sites" => arm.left_sites = names(value),
             "reach" => arm.reach = positive(file, "arm", name, value)?,
             "pull" => {
                 arm.pull = number(value)
@@ -328,10 +355,19 @@ fn arm(section: &Table, file: &str) -> Result<ArmSettings, TeleopError> {
                     .filter(|place| (-1.0..=1.0).contains(place))
                     .ok_or_else(|| wrong(file, "[arm] gripper is -1 (closed) to 1".to_owned()))?
             }
-            _ => return Err(wrong(file, format!("[arm] {name}: there are sites, reach, pull, gripper"))),
+            _ => {
+                return Err(wrong(
+                    file,
+                    format!("[arm] {name}: there are sites, left_sites, reach, pull, gripper"),
+                ));
+            }
         }
     }
     Ok(arm)
+}
+
+fn names(value: &Value) -> Vec<String> {
+    value.as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect()
 }
 
 fn number(value: &Value) -> Option<f64> {
@@ -352,7 +388,7 @@ fn unknown(file: &str, section: &str, name: &str, does: &Value) -> TeleopError {
     wrong(
         file,
         format!(
-            "[{section}] {name} = {does}: there are +x to -yaw, +1 to -{JOINTS}, open, close, grip, quarter, clutch, {}",
+            "[{section}] {name} = {does}: there are +x to -yaw, open, close, grip, clutch, each also as left.+x, +1 to -{JOINTS}, quarter, {}",
             marks.join(", ")
         ),
     )

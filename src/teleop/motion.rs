@@ -11,15 +11,32 @@ pub struct HandMove {
     pub turn: Quat,
 }
 
-/// How a person wants the robot to move during a tick.
+/// Arms that a person can drive at once: the first, and the left one beside it.
+pub const ARMS: usize = 2;
+
+/// How a person wants an arm to move during a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Motion {
+pub struct ArmMotion {
     /// Along x, y, z, and about them: parts of what a tick moves, -1 to 1.
     pub along: [f64; 6],
     /// A hand that is followed.
     pub hand: Option<HandMove>,
     /// Where the gripper should be, -1 (closed) to 1; `None` leaves it.
     pub gripper: Option<f64>,
+}
+
+impl ArmMotion {
+    /// Whether the hand should move.
+    pub fn moves(&self) -> bool {
+        self.along.iter().any(|&x| x != 0.0) || self.hand.is_some()
+    }
+}
+
+/// How a person wants the robot to move during a tick.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Motion {
+    /// Its arms: the first, and the left one.
+    pub arms: [ArmMotion; ARMS],
     /// Numbers of joints, and the parts of what a tick moves them, -1 to 1.
     pub joints: Vec<(usize, f64)>,
     /// Where a glove or a leader arm has controls, in their units and in the order of the calibration or the config.
@@ -32,9 +49,12 @@ impl Motion {
     /// Whether anything should move that rests otherwise. A hand in a glove or at an arm never rests: it moves nothing while time stands
     /// still, which a pause that is ended lets go on.
     pub fn moves(&self) -> bool {
-        self.along.iter().any(|&x| x != 0.0)
-            || self.hand.is_some()
-            || self.joints.iter().any(|&(_, x)| x != 0.0)
+        self.arms.iter().any(ArmMotion::moves) || self.joints.iter().any(|&(_, x)| x != 0.0)
+    }
+
+    /// Whether a person touches anything: something should move, or a gripper.
+    pub fn touches(&self) -> bool {
+        self.moves() || self.arms.iter().any(|arm| arm.gripper.is_some())
     }
 }
 

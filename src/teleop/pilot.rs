@@ -26,7 +26,7 @@ pub struct Pilot {
 
 #[derive(Clone, Debug)]
 enum Driven {
-    Arm(Box<Arm>),
+    Arms(Vec<Arm>),
     /// Parts of the action, the part of its range that a tick moves one, and what a device leads.
     Joints(Vec<f64>, f64, Lead),
 }
@@ -44,7 +44,7 @@ impl Pilot {
             });
         }
         let driven = match control {
-            Control::Hand => Driven::Arm(Box::new(Arm::of(env, &mapping.arm, mapping.gains)?)),
+            Control::Hand => Driven::Arms(Arm::all_of(env, &mapping.arm, mapping.gains)?),
             Control::Joints => {
                 Driven::Joints(resting(env)?, mapping.gains.joint, Lead::of(env, mapping.led.as_ref())?)
             }
@@ -58,7 +58,7 @@ impl Pilot {
     /// The robot refuses.
     pub fn begin(&mut self, env: &Env) -> Result<(), TeleopError> {
         match &mut self.driven {
-            Driven::Arm(arm) => arm.begin(env),
+            Driven::Arms(arms) => arms.iter_mut().for_each(|arm| arm.begin(env)),
             Driven::Joints(at, ..) => *at = resting(env)?,
         }
         self.let_go();
@@ -78,7 +78,7 @@ impl Pilot {
     /// The robot refuses.
     pub fn take_over(&mut self, env: &Env) -> Result<(), TeleopError> {
         match &mut self.driven {
-            Driven::Arm(arm) => arm.take_over(env),
+            Driven::Arms(arms) => arms.iter_mut().for_each(|arm| arm.take_over(env)),
             Driven::Joints(at, ..) => *at = last_action(env)?,
         }
         self.let_go();
@@ -94,10 +94,13 @@ impl Pilot {
         let mut reached = Reached::Yes;
         let live = env.is_live();
         match &mut self.driven {
-            Driven::Arm(arm) => {
+            Driven::Arms(arms) => {
                 let [low, high] = within(env)?;
                 self.action.fill(0.0);
-                reached = arm.drive(env, motion, [&low, &high], &mut self.action);
+                for (arm, own) in arms.iter_mut().zip(&motion.arms) {
+                    let outcome = arm.drive(env, (own, motion.quarter), [&low, &high], &mut self.action);
+                    reached = if reached == Reached::Yes { outcome } else { reached };
+                }
                 if normalized {
                     env.robot().normalize(&env.scene().model, &mut self.action)?;
                 }
@@ -122,11 +125,11 @@ impl Pilot {
         Ok((&self.action, reached))
     }
 
-    /// The arm that is driven, where one is.
-    pub fn arm(&self) -> Option<&Arm> {
+    /// The arms that are driven: none, one, or the first and the left one.
+    pub fn arms(&self) -> &[Arm] {
         match &self.driven {
-            Driven::Arm(arm) => Some(arm),
-            Driven::Joints(..) => None,
+            Driven::Arms(arms) => arms,
+            Driven::Joints(..) => &[],
         }
     }
 }

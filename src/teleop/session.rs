@@ -371,9 +371,9 @@ impl Session {
         }
         line += &format!("  reward {:.2}", self.reward);
         line += if self.env.verdict().solved { "  solved" } else { "  open" };
-        if let Some(arm) = self.pilot.arm() {
+        for (arm, hand) in self.pilot.arms().iter().zip(["hand", "left"]) {
             let [x, y, z] = self.env.scene().data.kin.site_xpos[arm.site().index()];
-            line += &format!("  hand {x:.3} {y:.3} {z:.3} m");
+            line += &format!("  {hand} {x:.3} {y:.3} {z:.3} m");
         }
         line += &format!("  {good} of {kept} succeeded");
         match self.by_hand() {

@@ -26,7 +26,7 @@ pairs move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k.
 
 Gamepad: left stick and triggers move, the cross and TL TR turn, WEST EAST close and open, NORTH slows down, SOUTH is success, a \
 press of the left stick throws away, of the right one pauses, SELECT and START end. Six-axis mouse: its six axes; left and right button close and \
-open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. So it is with a leader arm: the robot comes to where it is, slowly, and then follows it joint by joint; with --arm its servos carry its weight where \
+open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end; with --left-site the left hand leads a second arm by LG and leftTrig. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. So it is with a leader arm: the robot comes to where it is, slowly, and then follows it joint by joint; with --arm its servos carry its weight where \
 its config says how. The keyboard's marks \
 work beside every device.
 
@@ -78,6 +78,9 @@ pub struct Teleop {
     /// Site of the model that is the hand [default: the first that there is of those that the mapping names]
     #[arg(long, value_name = "NAME")]
     pub site: Option<String>,
+    /// Site of a left arm that is driven beside it: by the left controller of a headset, or as a mapping says
+    #[arg(long, value_name = "NAME")]
+    pub left_site: Option<String>,
     /// Mapping of keys, buttons and axes (TOML); sections that it lacks are the usual ones
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub mapping: Option<PathBuf>,

@@ -122,6 +122,9 @@ fn mapping(a: &Teleop) -> Result<Mapping, Failure> {
     if let Some(site) = &a.site {
         mapping.arm.sites = vec![site.clone()];
     }
+    if let Some(site) = &a.left_site {
+        mapping.arm.left_sites = vec![site.clone()];
+    }
     Ok(mapping)
 }
 

@@ -272,7 +272,7 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
     let out = robohive(&["teleop", ID]);
     assert_eq!(out.status.code(), Some(1));
     assert!(text(&out.stderr).contains("run the command in a terminal"), "{}", text(&out.stderr));
-    let cases: [(&[&str], &str); 12] = [
+    let cases: [(&[&str], &str); 13] = [
         (&[ID, "--device", "gamepad", "--path", "/nonexistent/event3"], "/nonexistent/event3"),
         (&[ID, "--device", "quest:127.0.0.1:1"], "adb start-server"),
         (&[ID, "--device", "quest:headset"], "is no address"),
@@ -285,6 +285,7 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
         (&["hive/ElbowPose-v0"], "--site"),
         (&[ID, "--mapping", "/nonexistent/keys.toml"], "keys.toml"),
         (&[ID, "--site", "nose"], "nose"),
+        (&[ID, "--left-site", "ear"], "ear"),
     ];
     for (arguments, says) in cases {
         let out = robohive(&[&["teleop"], arguments].concat());

@@ -62,7 +62,7 @@ fn decoders_take_any_bytes() {
             events.iter().for_each(|event| held.apply(*event, now));
         }
         let motion = mapping.read(&held.sample(now)).motion;
-        assert!(motion.along.iter().all(|x| (-1.0..=1.0).contains(x)), "{motion:?}");
+        assert!(motion.arms[0].along.iter().all(|x| (-1.0..=1.0).contains(x)), "{motion:?}");
     }
     assert!(told.iter().all(|&told| told > 100), "{told:?}");
 }

@@ -35,7 +35,7 @@ fn a_gamepad_is_read_and_one_that_is_gone_releases_everything() {
     kernel.write_all(rest).unwrap();
     read(&mut gamepad).into_iter().for_each(|event| held.apply(event, 0.0));
     let motion = mapping.read(&held.sample(0.0)).motion;
-    assert_eq!((motion.along[0], motion.gripper), (1.0, Some(-1.0)));
+    assert_eq!((motion.arms[0].along[0], motion.arms[0].gripper), (1.0, Some(-1.0)));
     drop(kernel);
     let mut events = Vec::new();
     let error = gamepad.read(&mut events).unwrap_err();
@@ -53,7 +53,7 @@ fn reports_of_a_six_axis_mouse_are_datagrams() {
     kernel.send(&[1, 0x5e, 1, 0, 0, 0, 0]).unwrap();
     kernel.send(&[2, 0, 0, 0, 0, 0x5e, 1]).unwrap();
     (0..2).flat_map(|_| read(&mut mouse)).for_each(|event| held.apply(event, 0.0));
-    assert_eq!(mapping.read(&held.sample(0.05)).motion.along, [1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
+    assert_eq!(mapping.read(&held.sample(0.05)).motion.arms[0].along, [1.0, 0.0, 0.0, 0.0, 0.0, 1.0]);
     // No report comes while the cap is at rest; one that was lost must not move the robot on.
     assert!(!mapping.read(&held.sample(0.2)).motion.moves());
 }
@@ -71,8 +71,8 @@ fn lines_of_a_headset_come_over_a_pipe() {
         log.write_all(line(-0.01 * f64::from(tick)).as_bytes()).unwrap();
         read(&mut quest).into_iter().for_each(|event| held.apply(event, now));
         let motion = mapping.read(&held.sample(now)).motion;
-        assert_eq!(motion.gripper, Some(-1.0));
-        ways.extend(motion.hand.map(|hand| hand.way[0]));
+        assert_eq!(motion.arms[0].gripper, Some(-1.0));
+        ways.extend(motion.arms[0].hand.map(|hand| hand.way[0]));
     }
     // Forward in front of the head is forward from the robot.
     assert!(ways.len() == 3 && ways.iter().all(|way| (way - 0.01).abs() < 1e-12), "{ways:?}");

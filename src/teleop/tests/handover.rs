@@ -4,7 +4,7 @@ use agents::Policy;
 use dataset::trace::{Layout, Precision, TraceReader};
 use env::{Env, Options, OwnModels};
 use record::Recording;
-use robohive_teleop::{Control, INTERVENTION, Input, Mapping, Mark, Motion, Plan, Session};
+use robohive_teleop::{Control, INTERVENTION, Input, Mapping, Mark, Plan, Session};
 
 const ID: &str = "hive/FrankaReach-v0";
 
@@ -19,7 +19,9 @@ fn mark(mark: Mark) -> Input {
 }
 
 fn up() -> Input {
-    Input { motion: Motion { along: [0.0, 0.0, 1.0, 0.0, 0.0, 0.0], ..Motion::default() }, marks: Vec::new() }
+    let mut input = Input::default();
+    input.motion.arms[0].along[2] = 1.0;
+    input
 }
 
 fn hand(session: &Session) -> [f64; 3] {

@@ -35,16 +35,19 @@ fn the_defaults_are_a_mapping_and_robohives() {
         ('.', 5, 1.0),
     ];
     for (c, axis, sign) in expected {
-        let along = read(&mut mapping, &[key(c)], 0.0).motion.along;
+        let along = read(&mut mapping, &[key(c)], 0.0).motion.arms[0].along;
         assert_eq!(along[axis], sign, "{c}");
         assert_eq!(along.iter().filter(|&&x| x != 0.0).count(), 1, "{c}");
     }
     for (arrow, axis, sign) in
         [(Key::Up, 3, -1.0), (Key::Down, 3, 1.0), (Key::Left, 4, -1.0), (Key::Right, 4, 1.0)]
     {
-        assert_eq!(read(&mut mapping, &[Event::Press(Button::Key(arrow))], 0.0).motion.along[axis], sign);
+        assert_eq!(
+            read(&mut mapping, &[Event::Press(Button::Key(arrow))], 0.0).motion.arms[0].along[axis],
+            sign
+        );
     }
-    assert_eq!(read(&mut mapping, &[key('[')], 0.0).motion.gripper, Some(-1.0));
+    assert_eq!(read(&mut mapping, &[key('[')], 0.0).motion.arms[0].gripper, Some(-1.0));
     assert_eq!(read(&mut mapping, &[Event::Press(Button::Key(Key::Escape))], 0.0).marks, [Mark::End]);
     // Both ways at once is no way.
     assert!(!read(&mut mapping, &[key('d'), key('a')], 0.0).motion.moves());
@@ -56,15 +59,15 @@ fn gamepads_move_by_sticks_and_end_by_two_buttons() {
     let axis = |code, place| Event::Move(Axis(Device::Gamepad, code), place);
     let input =
         read(&mut mapping, &[axis(1, 0.5), axis(0, -1.0), axis(2, 1.0), axis(5, 0.25), pad(307)], 0.0);
-    assert_eq!(input.motion.along, [0.5, -1.0, 0.75, 0.0, 0.0, 0.0]);
+    assert_eq!(input.motion.arms[0].along, [0.5, -1.0, 0.75, 0.0, 0.0, 0.0]);
     assert!(input.motion.quarter);
     assert!(read(&mut mapping, &[pad(314)], 0.0).marks.is_empty());
     assert_eq!(read(&mut mapping, &[pad(314), pad(315)], 0.0).marks, [Mark::End]);
     let mouse = |bit| Event::Press(Button::Of(Device::SpaceMouse, bit));
-    assert_eq!(read(&mut mapping, &[mouse(1)], 0.0).motion.gripper, Some(1.0));
+    assert_eq!(read(&mut mapping, &[mouse(1)], 0.0).motion.arms[0].gripper, Some(1.0));
     // A chord counts alone.
     let both = read(&mut mapping, &[mouse(0), mouse(1)], 0.0);
-    assert_eq!((both.motion.gripper, both.marks), (None, vec![Mark::End]));
+    assert_eq!((both.motion.arms[0].gripper, both.marks), (None, vec![Mark::End]));
 }
 
 #[test]
@@ -73,18 +76,21 @@ fn a_hand_is_followed_while_the_clutch_is_held() {
     let at = |x: f64| HandPose { right: true, position: [0.1, x, -0.3], orientation: [1.0, 0.0, 0.0, 0.0] };
     let clutch = Event::Press(Button::Of(Device::Quest, 4));
     let hand = |x| Event::Hand(at(x));
-    assert!(read(&mut mapping, &[hand(0.0)], 0.0).motion.hand.is_none());
-    assert!(read(&mut mapping, &[hand(0.2), clutch], 0.1).motion.hand.is_none(), "it begins where it is");
-    let moved = read(&mut mapping, &[hand(0.25), clutch], 0.2).motion.hand.unwrap();
+    assert!(read(&mut mapping, &[hand(0.0)], 0.0).motion.arms[0].hand.is_none());
+    assert!(
+        read(&mut mapping, &[hand(0.2), clutch], 0.1).motion.arms[0].hand.is_none(),
+        "it begins where it is"
+    );
+    let moved = read(&mut mapping, &[hand(0.25), clutch], 0.2).motion.arms[0].hand.unwrap();
     // Up in the frame of the headset is up in the world.
     assert!((moved.way[2] - 0.05).abs() < 1e-12 && moved.way[0] == 0.0, "{moved:?}");
-    assert!(read(&mut mapping, &[hand(0.9)], 0.3).motion.hand.is_none());
+    assert!(read(&mut mapping, &[hand(0.9)], 0.3).motion.arms[0].hand.is_none());
     assert!(
-        read(&mut mapping, &[hand(0.1), clutch], 0.4).motion.hand.is_none(),
+        read(&mut mapping, &[hand(0.1), clutch], 0.4).motion.arms[0].hand.is_none(),
         "taken again, it begins again"
     );
     let grip = Event::Move(Axis(Device::Quest, 0), 0.75);
-    assert_eq!(read(&mut mapping, &[grip], 0.5).motion.gripper, Some(-0.5));
+    assert_eq!(read(&mut mapping, &[grip], 0.5).motion.arms[0].gripper, Some(-0.5));
 }
 
 #[test]
@@ -92,7 +98,7 @@ fn files_replace_sections_and_errors_name_what_is_wrong() {
     let text = "[gains]\nposition = 0.01\n[keyboard]\nm = \"+x\"\nspace = \"success\"\n[gamepad]\nx = \"-y\"\n\"tl+tr\" = \"discard\"\nends = { x = [0, 255] }\n";
     let mut mapping = Mapping::from_toml(text, "mine.toml").unwrap();
     assert_eq!((mapping.gains.position, mapping.gains.rotation), (0.01, 0.1));
-    assert_eq!(read(&mut mapping, &[key('m')], 0.0).motion.along[0], 1.0);
+    assert_eq!(read(&mut mapping, &[key('m')], 0.0).motion.arms[0].along[0], 1.0);
     assert!(!read(&mut mapping, &[key('d')], 0.0).motion.moves(), "the section is replaced");
     assert_eq!(read(&mut mapping, &[key(' ')], 0.0).marks, [Mark::Success]);
     assert_eq!(read(&mut mapping, &[pad(310), pad(311)], 0.0).marks, [Mark::Discard]);

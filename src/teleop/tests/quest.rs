@@ -90,7 +90,7 @@ fn drive(session: &mut Session, port: &mut VirtualPort, seconds: f64) -> (Vec<Ti
             events.into_iter().for_each(|event| held.apply(event, port.now()));
         }
         let input = mapping.read(&held.sample(port.now()));
-        let followed = input.motion.hand.is_some();
+        let followed = input.motion.arms[0].hand.is_some();
         let ticked = session.tick(&input).unwrap();
         let solved = session.env().verdict().solved;
         let hand = site(session.env(), "grasp");

@@ -17,7 +17,7 @@ fn session(plan: Plan) -> Session {
 
 fn along(axis: usize, sign: f64) -> Input {
     let mut motion = Motion::default();
-    motion.along[axis] = sign;
+    motion.arms[0].along[axis] = sign;
     Input { motion, marks: Vec::new() }
 }
 
@@ -37,7 +37,7 @@ fn towards(session: &Session) -> Input {
     for k in 0..3 {
         let way = target[k] - hand[k];
         if way.abs() > 0.02 {
-            motion.along[k] = (way / 0.1).clamp(-1.0, 1.0);
+            motion.arms[0].along[k] = (way / 0.1).clamp(-1.0, 1.0);
         }
     }
     Input { motion, marks: Vec::new() }
@@ -91,7 +91,7 @@ fn the_hand_follows_keys_and_stops_with_them() {
     assert!(largest < 0.05 && ways[39] < 0.02, "{ways:?}");
     // Turning moves the hand little, and turns it.
     let scene = |session: &Session| {
-        session.env().scene().data.kin.site_xmat[session.pilot().arm().unwrap().site().index()]
+        session.env().scene().data.kin.site_xmat[session.pilot().arms()[0].site().index()]
     };
     let before = scene(&session);
     (0..5).for_each(|_| drop(session.tick(&along(5, 1.0)).unwrap()));
@@ -291,7 +291,7 @@ fn keys_become_motions_on_a_virtual_clock() {
         stepped_after += usize::from(input.motion.moves() && now > 0.8 + 0.2);
         session.tick(&input).unwrap();
         if tick == 0 {
-            assert_eq!(input.motion.along[2], -1.0);
+            assert_eq!(input.motion.arms[0].along[2], -1.0);
         }
     }
     assert_eq!(stepped_after, 0, "a key that is not repeated is released within 0.2 s");
