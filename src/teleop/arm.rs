@@ -1,13 +1,13 @@
 //! An arm that is driven by its hand: a target moves, inverse kinematics says where joints go.
 
 use crate::error::TeleopError;
-use crate::mapping::{ArmSettings, Gains};
+use crate::link::{Link, link};
 use crate::motion::ArmMotion;
 use crate::reached::Reached;
+use crate::settings::{ArmSettings, Gains};
 use env::Env;
 use physics::elements::{ActuatorId, Element, JointId, SiteId};
 use physics::math::{Quat, Vec3, add, mat_to_quat, quat_from_axis_angle, quat_mul, quat_normalize, scale};
-use physics::model::TrnType;
 use physics::position::kinematics::kinematics;
 use physics::{Data, Model};
 use robot::{Pose, Reach, Search};
@@ -16,8 +16,6 @@ use robot::{Pose, Reach, Search};
 const TOLERANCE: f64 = 1e-3;
 /// Most updates of a search, which begins where the last one ended.
 const STEPS: usize = 50;
-/// Most that a command is put ahead of where a joint should be, so that its servo carries the arm's weight \[rad\].
-const DROOP: f64 = 0.2;
 /// A way that needs no time \[rad\].
 const SMALL: f64 = 1e-3;
 /// Damping and largest update \[rad\] of a search: near the ends of what an arm reaches it must not wander.
@@ -27,19 +25,6 @@ const UPDATE: f64 = 0.5;
 const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// What `quarter` leaves.
 const QUARTER: f64 = 0.25;
-
-/// A joint of the arm.
-#[derive(Clone, Debug)]
-struct Link {
-    joint: JointId,
-    /// Its places in `qpos` and `qvel`.
-    position: usize,
-    velocity: usize,
-    /// The control of its actuator.
-    control: usize,
-    /// Its torque for each radian by which a joint is behind its command; none where the actuator is no servo.
-    stiffness: Option<f64>,
-}
 
 /// What an arm is made of, and its target. A copy is all that an episode needs to go on from here.
 #[derive(Clone, Debug)]
@@ -305,14 +290,6 @@ impl Arm {
     }
 }
 
-impl Link {
-    /// How far the joint would hang behind a command under the weight that it carries.
-    fn droop(&self, data: &Data) -> f64 {
-        let carried = data.vel.qfrc_bias[self.velocity] - data.passive.qfrc_gravcomp[self.velocity];
-        self.stiffness.map_or(0.0, |stiffness| (carried / stiffness).clamp(-DROOP, DROOP))
-    }
-}
-
 /// The bodies from one to the world.
 fn chain(model: &Model, body: i32) -> Vec<i32> {
     std::iter::successors(Some(body), |&body| {
@@ -328,21 +305,6 @@ fn hangs(model: &Model, control: usize, chain: &[i32]) -> usize {
     let bodies =
         link.map(|link| self::chain(model, model.jnt_bodyid[link.joint.index()])).unwrap_or_default();
     bodies.iter().filter(|body| chain.contains(body)).count()
-}
-
-/// The link of an actuator that drives a joint.
-fn link(model: &Model, actuator: ActuatorId, control: usize) -> Option<Link> {
-    let id = actuator.index();
-    let drives = matches!(TrnType::from_code(model.actuator_trntype[id]), Some(TrnType::Joint));
-    let joint = usize::try_from(model.actuator_trnid[id][0]).ok().filter(|_| drives)?;
-    let joint = model.joints().nth(joint)?;
-    Some(Link {
-        joint,
-        position: model.jnt_qposadr[joint.index()] as usize,
-        velocity: model.jnt_dofadr[joint.index()] as usize,
-        control,
-        stiffness: Some(-model.actuator_biasprm[id][1]).filter(|stiffness| *stiffness > 0.0),
-    })
 }
 
 fn missing(message: String) -> TeleopError {

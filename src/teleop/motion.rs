@@ -37,6 +37,8 @@ impl ArmMotion {
 pub struct Motion {
     /// Its arms: the first, and the left one.
     pub arms: [ArmMotion; ARMS],
+    /// Velocity of a base, in parts of the largest, -1 to 1: forward, to the left, counterclockwise.
+    pub base: [f64; 3],
     /// Numbers of joints, and the parts of what a tick moves them, -1 to 1.
     pub joints: Vec<(usize, f64)>,
     /// Where a glove or a leader arm has controls, in their units and in the order of the calibration or the config.
@@ -49,7 +51,9 @@ impl Motion {
     /// Whether anything should move that rests otherwise. A hand in a glove or at an arm never rests: it moves nothing while time stands
     /// still, which a pause that is ended lets go on.
     pub fn moves(&self) -> bool {
-        self.arms.iter().any(ArmMotion::moves) || self.joints.iter().any(|&(_, x)| x != 0.0)
+        self.arms.iter().any(ArmMotion::moves)
+            || self.base.iter().any(|&x| x != 0.0)
+            || self.joints.iter().any(|&(_, x)| x != 0.0)
     }
 
     /// Whether a person touches anything: something should move, or a gripper.

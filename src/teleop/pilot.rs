@@ -6,6 +6,7 @@ use crate::lead::Lead;
 use crate::mapping::Mapping;
 use crate::motion::Motion;
 use crate::reached::Reached;
+use crate::trot::Trot;
 use env::Env;
 
 /// What a person drives.
@@ -15,6 +16,8 @@ pub enum Control {
     Hand,
     /// Joints one by one, or whatever the actuators move.
     Joints,
+    /// The torso of a robot on legs, by a velocity.
+    Base,
 }
 
 /// What turns a person's wishes into actions. A copy is all that an episode needs to go on from here.
@@ -27,6 +30,7 @@ pub struct Pilot {
 #[derive(Clone, Debug)]
 enum Driven {
     Arms(Vec<Arm>),
+    Base(Box<Trot>),
     /// Parts of the action, the part of its range that a tick moves one, and what a device leads.
     Joints(Vec<f64>, f64, Lead),
 }
@@ -45,6 +49,7 @@ impl Pilot {
         }
         let driven = match control {
             Control::Hand => Driven::Arms(Arm::all_of(env, &mapping.arm, mapping.gains)?),
+            Control::Base => Driven::Base(Box::new(Trot::of(env, mapping.base)?)),
             Control::Joints => {
                 Driven::Joints(resting(env)?, mapping.gains.joint, Lead::of(env, mapping.led.as_ref())?)
             }
@@ -59,6 +64,7 @@ impl Pilot {
     pub fn begin(&mut self, env: &Env) -> Result<(), TeleopError> {
         match &mut self.driven {
             Driven::Arms(arms) => arms.iter_mut().for_each(|arm| arm.begin(env)),
+            Driven::Base(trot) => trot.stop(),
             Driven::Joints(at, ..) => *at = resting(env)?,
         }
         self.let_go();
@@ -79,6 +85,7 @@ impl Pilot {
     pub fn take_over(&mut self, env: &Env) -> Result<(), TeleopError> {
         match &mut self.driven {
             Driven::Arms(arms) => arms.iter_mut().for_each(|arm| arm.take_over(env)),
+            Driven::Base(trot) => trot.stop(),
             Driven::Joints(at, ..) => *at = last_action(env)?,
         }
         self.let_go();
@@ -101,6 +108,13 @@ impl Pilot {
                     let outcome = arm.drive(env, (own, motion.quarter), [&low, &high], &mut self.action);
                     reached = if reached == Reached::Yes { outcome } else { reached };
                 }
+                if normalized {
+                    env.robot().normalize(&env.scene().model, &mut self.action)?;
+                }
+            }
+            Driven::Base(trot) => {
+                let part = if motion.quarter { 0.25 } else { 1.0 };
+                trot.step(env, motion.base.map(|x| part * x), env.dt(), &mut self.action);
                 if normalized {
                     env.robot().normalize(&env.scene().model, &mut self.action)?;
                 }
@@ -129,7 +143,7 @@ impl Pilot {
     pub fn arms(&self) -> &[Arm] {
         match &self.driven {
             Driven::Arms(arms) => arms,
-            Driven::Joints(..) => &[],
+            Driven::Base(_) | Driven::Joints(..) => &[],
         }
     }
 }

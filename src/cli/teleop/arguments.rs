@@ -22,7 +22,8 @@ Keys (those of RoboHive, and what episodes need):
   b n                back and forward by one state   PgUp PgDn      by a second
   p                  with --policy: take over, give back  Esc       end
 Any motion goes on from the state that is shown: what was gone back over is no part of the episode. With --control joints keys in \
-pairs move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k.
+pairs move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k. With --control base w and x walk forward and back, a and d sideways, left and right \
+turn; on a pad the left stick walks and the right one turns.
 
 Gamepad: left stick and triggers move, the cross and TL TR turn, WEST EAST close and open, NORTH slows down, SOUTH is success, a \
 press of the left stick throws away, of the right one pauses, SELECT and START end. Six-axis mouse: its six axes; left and right button close and \
@@ -53,6 +54,7 @@ Examples:
   robohive teleop hive/FrankaReach-v0 --policy random --record corrected.h5
   robohive teleop hive/FrankaReach-v0 --record reach --layout lerobot --task reach
   robohive teleop hive/ElbowPose-v0 --control joints --video elbow.mp4
+  robohive teleop hive/QuadrupedWalk-v0 --control base --record walk.h5
   robohive teleop hive/QuadrupedWalk-v0 --control joints --arm --rehearse\\
  --hardware assets/quadruped/servos.toml"
 )]
@@ -154,6 +156,8 @@ pub enum ControlName {
     Hand,
     /// Joints one by one
     Joints,
+    /// A robot on four legs, by its velocity
+    Base,
 }
 
 impl Teleop {

@@ -55,7 +55,8 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     }
     let control = match a.control {
         ControlName::Hand if mapping.led.is_none() => Control::Hand,
-        ControlName::Hand | ControlName::Joints => Control::Joints,
+        ControlName::Base if mapping.led.is_none() => Control::Base,
+        _ => Control::Joints,
     };
     let plan = Plan {
         seed: a.seed,

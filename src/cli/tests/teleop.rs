@@ -114,6 +114,24 @@ fn typed_keys_solve_the_task_and_the_recording_loads() {
 }
 
 #[test]
+fn typed_keys_walk_a_quadruped() {
+    let file = scratch("walk.h5");
+    let arguments = ["hive/QuadrupedWalk-v0", "--control", "base", "--horizon", "30"];
+    let mut typed = Typed::start(&[&arguments[..], &["--record", file.to_str().unwrap()]].concat(), true);
+    typed.write("\u{1b}[119;1:1u");
+    typed.wait_for("episode 2  seed 1");
+    typed.write("\u{1b}[119;1:3u\u{1b}[27u");
+    let (status, said) = typed.end();
+    assert!(status.success(), "{said}");
+    let trace = TraceReader::open(&file).unwrap();
+    let recorded = Recorded::read(&trace, "Trial0").unwrap();
+    let qpos = recorded.part("qpos").unwrap();
+    let ahead = qpos.last().unwrap()[1] - qpos.row(0).unwrap()[1];
+    println!("three seconds of w: {ahead:.3} m ahead");
+    assert!((0.3..0.7).contains(&ahead), "0.2 m/s for three seconds: {ahead} m");
+}
+
+#[test]
 fn a_person_takes_over_from_a_policy_and_gives_back() {
     let file = scratch("shared.h5");
     let mut typed = Typed::start(&[ID, "--policy", "random", "--record", file.to_str().unwrap()], true);
@@ -272,7 +290,7 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
     let out = robohive(&["teleop", ID]);
     assert_eq!(out.status.code(), Some(1));
     assert!(text(&out.stderr).contains("run the command in a terminal"), "{}", text(&out.stderr));
-    let cases: [(&[&str], &str); 13] = [
+    let cases: [(&[&str], &str); 14] = [
         (&[ID, "--device", "gamepad", "--path", "/nonexistent/event3"], "/nonexistent/event3"),
         (&[ID, "--device", "quest:127.0.0.1:1"], "adb start-server"),
         (&[ID, "--device", "quest:headset"], "is no address"),
@@ -286,6 +304,7 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
         (&[ID, "--mapping", "/nonexistent/keys.toml"], "keys.toml"),
         (&[ID, "--site", "nose"], "nose"),
         (&[ID, "--left-site", "ear"], "ear"),
+        (&[ID, "--control", "base"], "floats freely"),
     ];
     for (arguments, says) in cases {
         let out = robohive(&[&["teleop"], arguments].concat());

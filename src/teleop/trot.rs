@@ -1,0 +1,169 @@
+//! A trot that follows a velocity: diagonal legs step in turn, and inverse kinematics says where their joints go. It feels neither
+//! contacts nor falls.
+
+use crate::error::TeleopError;
+use crate::link::{Link, link};
+use crate::settings::BaseSettings;
+use env::Env;
+use physics::elements::{Element, JointId, SiteId};
+use physics::math::{Vec3, add};
+use physics::model::JointType;
+use physics::position::kinematics::kinematics;
+use physics::{Data, Model};
+use robot::{Pose, Reach, Search};
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+/// Joints that place a foot anywhere.
+const LEG: usize = 3;
+/// Numbers of a free joint in `qpos`, and where they are without way and turn.
+const ORIGIN: [f64; 7] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
+/// Error at which a foot is where it should be \[m\].
+const TOLERANCE: f64 = 1e-4;
+/// Most updates of the search for it, which begins where the last one ended.
+const STEPS: usize = 30;
+/// A velocity at which the robot stands, in parts of the largest.
+const SLOW: f64 = 1e-3;
+/// Velocity from which on feet are lifted in full, in parts of the largest.
+const FULL: f64 = 0.2;
+
+/// A leg.
+#[derive(Clone, Debug)]
+struct Leg {
+    joints: Vec<JointId>,
+    /// Places of the joints in `qpos`, and their controls.
+    places: Vec<(usize, usize)>,
+    site: SiteId,
+    /// Where the foot stands, in the frame of the torso \[m\].
+    foot: Vec3,
+    /// Part of a period by which it steps later than the first pair.
+    late: f64,
+}
+
+/// A robot of four legs that trots. A copy is all that an episode needs to go on from here.
+#[derive(Clone, Debug)]
+pub struct Trot {
+    legs: Vec<Leg>,
+    settings: BaseSettings,
+    /// Positions in which the robot stands, its torso at the origin; the legs' go on from there.
+    pose: Vec<f64>,
+    /// Velocity now, in parts of the largest: forward, to the left, counterclockwise.
+    velocity: [f64; 3],
+    phase: f64,
+}
+
+impl Trot {
+    /// The legs of a model: three servos each, between its floating torso and a site at a foot. They stand as the first key frame has
+    /// them, or as they are where there is none.
+    ///
+    /// # Errors
+    /// The model has no such torso, or no such legs.
+    pub fn of(env: &Env, settings: BaseSettings) -> Result<Self, TeleopError> {
+        let (model, data) = (&env.scene().model, &env.scene().data);
+        let root = model.joints().next().filter(|joint| model.joint(*joint).kind() == Some(JointType::Free));
+        let Some(root) = root else { return Err(missing("the model has no torso that floats freely")) };
+        let torso = model.jnt_bodyid[root.index()];
+        let mut pose = model.key_qpos.get(..model.nq).unwrap_or(&data.state.qpos).to_vec();
+        pose[..ORIGIN.len()].copy_from_slice(&ORIGIN);
+        let mut there = data.clone();
+        there.state.qpos.copy_from_slice(&pose);
+        kinematics(model, &there.state, &mut there.kin);
+        let legs: Option<Vec<Leg>> =
+            branches(model, torso).into_values().map(|links| leg(model, &there, &links)).collect();
+        let legs = legs.filter(|legs| legs.len() == 4).ok_or_else(|| {
+            missing(
+                "a trot needs four legs of three servos each, with a site on the last body of each, its foot",
+            )
+        })?;
+        Ok(Trot { legs, settings, pose, velocity: [0.0; 3], phase: 0.0 })
+    }
+
+    /// Stands still.
+    pub fn stop(&mut self) {
+        (self.velocity, self.phase) = ([0.0; 3], 0.0);
+    }
+
+    /// Writes the controls of the next `dt` seconds, on the way to the velocity that is wanted: parts of the largest, -1 to 1.
+    pub fn step(&mut self, env: &Env, wanted: [f64; 3], dt: f64, controls: &mut [f64]) {
+        let most = dt / self.settings.ramp;
+        for (now, wanted) in self.velocity.iter_mut().zip(wanted) {
+            *now += (wanted.clamp(-1.0, 1.0) - *now).clamp(-most, most);
+        }
+        let pace = self.velocity.iter().fold(0.0_f64, |pace, part| pace.max(part.abs()));
+        self.phase = if pace < SLOW { 0.0 } else { (self.phase + dt / self.settings.period).fract() };
+        let model = &env.scene().model;
+        let mut start = env.scene().data.clone();
+        start.state.qpos.copy_from_slice(&self.pose);
+        for leg in &self.legs {
+            let pose = Pose { position: Some(self.target(leg, pace)), ..Pose::default() };
+            let search = Search { tolerance: TOLERANCE, max_steps: STEPS, ..Search::default() };
+            let reach = Reach { joints: &leg.joints, rest: None, pull: 0.0 };
+            // A foot that cannot be there goes as near as it gets.
+            let found = search.run_within(model, &start, leg.site, &pose, &reach);
+            for &(place, control) in &leg.places {
+                self.pose[place] = found.qpos[place];
+                controls[control] = found.qpos[place];
+            }
+        }
+    }
+
+    /// Where a foot should be, in the frame of the torso.
+    fn target(&self, leg: &Leg, pace: f64) -> Vec3 {
+        let BaseSettings { forward, left, turn, period, lift, heading, .. } = self.settings;
+        let [ahead, aside, round] = self.velocity;
+        let (sin, cos) = heading.sin_cos();
+        let [ahead, aside, round] = [ahead * forward, aside * left, round * turn];
+        let [x, y, _] = leg.foot;
+        // What the torso does over a foot that stands.
+        let over = [ahead * cos - aside * sin - round * y, ahead * sin + aside * cos + round * x];
+        let phase = (self.phase + leg.late).fract();
+        let half = period / 2.0;
+        let (way, height) = if phase < 0.5 {
+            (half * (0.5 - 2.0 * phase), 0.0)
+        } else {
+            let swing = 2.0 * phase - 1.0;
+            // It goes and comes without a jolt.
+            let part = swing - (2.0 * PI * swing).sin() / (2.0 * PI);
+            (half * (part - 0.5), lift * (PI * swing).sin() * (pace / FULL).min(1.0))
+        };
+        add(leg.foot, [over[0] * way, over[1] * way, height])
+    }
+}
+
+/// The servos of each branch of bodies below the torso.
+fn branches(model: &Model, torso: i32) -> BTreeMap<i32, Vec<Link>> {
+    let mut out: BTreeMap<i32, Vec<Link>> = BTreeMap::new();
+    for actuator in model.actuators() {
+        let control = usize::try_from(model.actuator_ctrladr[actuator.index()]).ok();
+        let link = control.and_then(|control| link(model, actuator, control)).filter(Link::is_servo);
+        let Some(link) = link else { continue };
+        let mut body = model.jnt_bodyid[link.joint.index()];
+        while body > 0 && model.body_parentid[body as usize] != torso {
+            body = model.body_parentid[body as usize];
+        }
+        if body > 0 {
+            out.entry(body).or_default().push(link);
+        }
+    }
+    out
+}
+
+/// The leg of three servos whose foot is a site of the last body.
+fn leg(model: &Model, stand: &Data, links: &[Link]) -> Option<Leg> {
+    let last = links.last().filter(|_| links.len() == LEG)?;
+    let body = model.jnt_bodyid[last.joint.index()];
+    let site = (0..model.nsite).find(|site| model.site_bodyid[*site] == body)?;
+    let foot = stand.kin.site_xpos[site];
+    Some(Leg {
+        joints: links.iter().map(|link| link.joint).collect(),
+        places: links.iter().map(|link| (link.position, link.control)).collect(),
+        site: SiteId::at(model, site)?,
+        foot,
+        // Feet of one diagonal are on the same side of both axes, or on the other one of both.
+        late: if foot[0] * foot[1] > 0.0 { 0.0 } else { 0.5 },
+    })
+}
+
+fn missing(message: &str) -> TeleopError {
+    TeleopError::Control { message: message.to_owned() }
+}
