@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 33] = [
+const ORDER: [(&str, &[&str]); 34] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &[]),
     ("robohive-dataset", &[]),
@@ -31,6 +31,7 @@ const ORDER: [(&str, &[&str]); 33] = [
     ("robohive-exchange", &["dataset", "video"]),
     ("robohive-encoders", &["dataset"]),
     ("robohive-mjcf", &["physics"]),
+    ("robohive-rapier", &["physics"]),
     ("robohive-robot", &["physics", "random"]),
     ("robohive-protocol", &[]),
     ("robohive-wire", &["physics", "protocol", "random", "robot"]),
@@ -122,7 +123,7 @@ const ORDER: [(&str, &[&str]); 33] = [
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 21] = [
+const OTHERS: [(&str, &[&str]); 22] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
     ("robohive-dataset", &["zip", "flate2"]),
@@ -135,6 +136,7 @@ const OTHERS: [(&str, &[&str]); 21] = [
     ("robohive-exchange", &["parquet", "serde_json"]),
     ("robohive-encoders", &["libm", "ndarray", "rayon", "serde", "serde_json", "zip"]),
     ("robohive-mjcf", &["roxmltree", "fdeflate"]),
+    ("robohive-rapier", &["rapier3d-f64", "parry3d-f64"]),
     ("robohive-robot", &["toml"]),
     ("robohive-protocol", &[]),
     ("robohive-wire", &["rustix"]),
@@ -170,6 +172,7 @@ fn crates_depend_on_those_before_them() {
     let ours: BTreeSet<_> = [
         "assets",
         "physics",
+        "rapier",
         "mjcf",
         "dataset",
         "random",

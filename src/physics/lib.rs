@@ -78,3 +78,4 @@ pub use pipeline::forward::{forward, forward_after_step1};
 pub use pipeline::inverse::inverse;
 pub use pipeline::on_demand::{derive_body_forces, derive_on_demand};
 pub use pipeline::step::{step, step_watched, step1, step2};
+pub use pipeline::stepper::{Engine, Memory, Mover, Stepper};

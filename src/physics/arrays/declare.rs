@@ -217,6 +217,11 @@ macro_rules! model {
                 })*
             }
 
+            /// True when every array is shared with `other`: nothing but settings, options and the name can then differ.
+            pub fn shares(&self, other: &Arrays) -> bool {
+                $(std::ptr::eq(&*self.$field, &*other.$field))&&*
+            }
+
             /// Calls `f(name, value)` for every size.
             pub fn visit_sizes(&self, f: &mut dyn FnMut(&'static str, usize)) {
                 $(f(stringify!($size), self.$size);)*

@@ -167,7 +167,7 @@ pub fn types_match(contype1: i32, conaffinity1: i32, contype2: i32, conaffinity2
 
 /// Two bodies may touch: not welded together, not both immobile, not parent and child, of matching types; neither do both
 /// sleep, nor one where the other is fixed to the world.
-fn bodies_match(m: &Model, awake: Awake, b1: usize, b2: usize) -> bool {
+pub(crate) fn bodies_match(m: &Model, awake: Awake, b1: usize, b2: usize) -> bool {
     let weld = [m.body_weldid[b1], m.body_weldid[b2]];
     let [w1, w2] = weld.map(|w| w as usize);
     if w1 == w2 || (m.body_dofnum[w1] == 0 && m.body_dofnum[w2] == 0) {

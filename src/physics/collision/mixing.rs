@@ -115,6 +115,16 @@ impl Mixture {
         }
     }
 
+    /// Dimension of the contact space: 1, 3, 4 or 6.
+    pub fn dim(&self) -> i32 {
+        self.dim
+    }
+
+    /// Friction coefficients: two tangential, torsional, two rolling.
+    pub fn friction(&self) -> [f64; 5] {
+        self.friction
+    }
+
     /// Without friction, in touch at distance zero.
     pub fn frictionless(self) -> Self {
         Mixture { dim: 1, margin: 0.0, ..self }

@@ -22,7 +22,7 @@
 
 use crate::math::{LowerRows, add_scaled_slice, mul_inertia, spatial_dot};
 use crate::model::Model;
-use crate::model::reflected_load::Driven;
+use crate::model::reflected_load::{Driven, dof_armature};
 use crate::position::tendon;
 use crate::sleep::{Awake, Subset, object, over};
 use crate::stages::{Com, Inertia, Tendons};
@@ -59,7 +59,7 @@ fn inertia_rows(m: &Model, com: &Com, inertia: &mut Inertia, dofs: impl Iterator
         for (value, &ancestor) in inertia.M[at.clone()].iter_mut().zip(&m.M_colind[at.clone()]) {
             *value = spatial_dot(&com.cdof[ancestor as usize], &force);
         }
-        inertia.M[at.end - 1] += m.dof_armature[dof] + Driven::Joint(m.dof_jntid[dof] as usize).armature(m);
+        inertia.M[at.end - 1] += dof_armature(m, dof);
     }
 }
 

@@ -41,6 +41,8 @@ pub use distance_field::Field;
 pub use not_simulated::NotSimulated;
 pub use plugin_config::{AttributeError, Config};
 pub use plugin_error::{PluginError, RegistryError};
+#[doc(hidden)]
+pub use reflected_load::dof_armature;
 pub use suggestion::Suggestions;
 pub use with_plugins::{
     ActuatorInputs, AppearanceInputs, Capability, Instance, Model, PassiveInputs, Plugin, Registry,

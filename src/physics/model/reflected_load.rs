@@ -75,6 +75,12 @@ impl Driven {
     }
 }
 
+/// Armature of degree of freedom `dof`, actuators included.
+#[inline(always)]
+pub fn dof_armature(m: &Arrays, dof: usize) -> f64 {
+    m.dof_armature[dof] + Driven::Joint(m.dof_jntid[dof] as usize).armature(m)
+}
+
 /// Damping law of degree of freedom `dof`, actuators included.
 pub fn dof_damping(m: &Model, dof: usize) -> Polynomial {
     let law = Polynomial { linear: m.dof_damping[dof], poly: m.dof_dampingpoly[dof] };

@@ -29,6 +29,7 @@ pub mod on_demand;
 mod reset;
 mod rest;
 pub mod step;
+pub mod stepper;
 pub mod transition;
 #[doc(hidden)]
 pub mod validity;

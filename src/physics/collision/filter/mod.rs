@@ -14,6 +14,8 @@
 
 mod pairs;
 mod sleeping;
+mod touching;
 
 pub use pairs::{ByType, Decided, PairFilter};
 pub(crate) use sleeping::SleepFilter;
+pub use touching::{Touching, touching};

@@ -1,0 +1,129 @@
+//! Bodies of a model as rapier's rigid bodies: those welded together are one.
+
+use crate::convert::{array, pose, rotation, vector};
+use physics::Model;
+use physics::model::JointType;
+use rapier3d_f64::math::{Matrix, Pose, Vector};
+use rapier3d_f64::prelude::MassProperties;
+
+/// What moves a group of welded bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Motion {
+    /// A free joint, and nothing hangs on it: a rigid body alone.
+    Alone,
+    /// A free joint, and other joints below it: the root of a multibody.
+    Floating,
+    /// Joints: a link of a multibody.
+    Jointed,
+    /// The program.
+    Mocap,
+}
+
+/// Bodies that are welded together and move.
+#[derive(Clone, Debug)]
+pub(crate) struct Group {
+    /// The topmost body.
+    pub body: usize,
+    /// Group that this one hangs on; `None` for the world.
+    pub parent: Option<usize>,
+    pub motion: Motion,
+    /// Centre of mass in the frame of `body`.
+    pub com: Vector,
+    /// Origin of rapier's rigid body in the frame of `body`; axes are the same. Rapier takes the velocity of a floating root for
+    /// that of its origin in one place and of its centre of mass in another, so there the two must coincide.
+    pub origin: Vector,
+    pub mass: MassProperties,
+}
+
+/// Groups of a model, parents first, and where each body is.
+#[derive(Clone, Debug)]
+pub(crate) struct Groups {
+    pub all: Vec<Group>,
+    /// Group of each body; `None` where it stands still.
+    pub of_body: Vec<Option<usize>>,
+    /// Pose of each body in the frame of the topmost one of its group, or of the world.
+    pub within: Vec<Pose>,
+}
+
+impl Groups {
+    pub fn new(m: &Model) -> Self {
+        let mut groups =
+            Groups { all: Vec::new(), of_body: vec![None; m.nbody], within: vec![Pose::IDENTITY; m.nbody] };
+        for b in 1..m.nbody {
+            let parent = m.body_parentid[b] as usize;
+            if m.body_weldid[b] as usize == b {
+                groups.of_body[b] = Some(groups.all.len());
+                groups.all.push(Group::of(m, b, groups.of_body[parent]));
+            } else {
+                groups.of_body[b] = groups.of_body[parent];
+                groups.within[b] = groups.within[parent] * pose(m.body_pos[b], m.body_quat[b]);
+            }
+        }
+        for k in 0..groups.all.len() {
+            if groups.all[k].motion == Motion::Floating && !groups.all.iter().any(|g| g.parent == Some(k)) {
+                groups.all[k].motion = Motion::Alone;
+            }
+        }
+        groups.weigh(m);
+        groups
+    }
+
+    /// Composite inertia of each group.
+    fn weigh(&mut self, m: &Model) {
+        let mut mass = vec![0.0; self.all.len()];
+        let mut moment = vec![Vector::ZERO; self.all.len()];
+        let com_of = |b: usize| self.within[b] * vector(m.body_ipos[b]);
+        for b in 1..m.nbody {
+            if let Some(k) = self.of_body[b] {
+                mass[k] += m.body_mass[b];
+                moment[k] += m.body_mass[b] * com_of(b);
+            }
+        }
+        let mut inertia = vec![Matrix::ZERO; self.all.len()];
+        let com: Vec<_> =
+            (0..mass.len()).map(|k| if mass[k] > 0.0 { moment[k] / mass[k] } else { moment[k] }).collect();
+        for b in 1..m.nbody {
+            if let Some(k) = self.of_body[b] {
+                let axes = Matrix::from_quat(self.within[b].rotation * rotation(m.body_iquat[b]));
+                let own = axes * Matrix::from_diagonal(vector(m.body_inertia[b])) * axes.transpose();
+                let r = com_of(b) - com[k];
+                let [x, y, z] = array(r);
+                let outer = Matrix::from_cols(r * x, r * y, r * z);
+                inertia[k] += own + m.body_mass[b] * (Matrix::IDENTITY * r.length_squared() - outer);
+            }
+        }
+        for (k, group) in self.all.iter_mut().enumerate() {
+            group.com = com[k];
+            group.origin =
+                if matches!(group.motion, Motion::Alone | Motion::Floating) { com[k] } else { Vector::ZERO };
+            group.mass = MassProperties::with_inertia_matrix(com[k] - group.origin, mass[k], inertia[k]);
+        }
+    }
+
+    /// Pose of a body in the frame of rapier's rigid body, or of the world.
+    pub fn in_rigid_body(&self, b: usize) -> Pose {
+        let origin = self.of_body[b].map_or(Vector::ZERO, |k| self.all[k].origin);
+        Pose::from_translation(-origin) * self.within[b]
+    }
+}
+
+impl Group {
+    fn of(m: &Model, body: usize, parent: Option<usize>) -> Self {
+        let free = |j: usize| JointType::from_code(m.jnt_type[j]) == Some(JointType::Free);
+        let motion = match joints(m, body) {
+            joints if joints.is_empty() => Motion::Mocap,
+            joints if free(joints.start) => Motion::Floating,
+            _ => Motion::Jointed,
+        };
+        let mass = MassProperties::default();
+        Group { body, parent, motion, com: Vector::ZERO, origin: Vector::ZERO, mass }
+    }
+}
+
+/// Joints of a body.
+pub(crate) fn joints(m: &Model, body: usize) -> std::ops::Range<usize> {
+    match usize::try_from(m.body_jntadr[body]) {
+        Ok(first) => first..first + m.body_jntnum[body] as usize,
+        Err(_) => 0..0,
+    }
+}

@@ -1,0 +1,104 @@
+//! Models of MJCF under [rapier](https://rapier.rs): with tendons, muscles, actuators, sensors and MuJoCo's rules of contact.
+//!
+//! Rapier does not follow MuJoCo, so this project's own pipeline stays the default. This crate is for programs that simulate with
+//! rapier already and want a robot out of MJCF among their bodies, for those that want parry's shapes of a
+//! model ([`shapes_of`]), and for whoever wants rapier's solver under a whole environment ([`engine`]). No C, and not built by
+//! default.
+//!
+//! ```
+//! use physics::Data;
+//! use robohive_rapier::{Options, engine};
+//!
+//! let text = "<mujoco><worldbody><geom type='plane' size='1 1 1'/>
+//!     <body pos='0 0 .3'><freejoint/><geom type='box' size='.1 .1 .1'/></body></worldbody></mujoco>";
+//! let model = mjcf::load_str(text)?.model;
+//! let mut mover = engine(Options::default()).start(&model)?;
+//! let mut data = Data::new(&model);
+//! (0..500).try_for_each(|_| mover.step(&model, &mut data))?;
+//! assert!((data.state.qpos[2] - 0.1).abs() < 1e-3);
+//! assert_eq!(data.con.contact.len(), 4);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Who computes what
+//! In each substep our own stages compute all forces but those of contacts from rapier's positions and velocities: weight,
+//! Coriolis and fluid forces, springs and dampers, tendons with their wrapping, muscles with their activation, every actuator,
+//! gravity compensation; and with our own solver limits, dry friction and equality constraints. Rapier has no input for
+//! generalised forces, so it is given their sum in two parts that its public interface has:
+//!
+//! 1. the generalised velocities of its multibodies are set to those that these forces make by the end of the step;
+//! 2. wrenches on its bodies hold them: they are exactly rapier's own gyroscopic and Coriolis terms at those velocities, which
+//!    our side has counted. A joint's force is a torque, or a force through the moved centre of mass, on the body that it moves
+//!    and the opposite on the one before.
+//!
+//! What is left to rapier is what it is for: detection of collisions, contacts with friction, and the motion that follows. So
+//! motion without contacts is our pipeline's to rounding, for whatever joints, and rapier's integration (implicit in
+//! Coriolis forces and springs), its damping, armature and limits are not in play. Where equality constraints are active and
+//! contacts push, the step is taken once more with the contacts' forces as given ones, as rapier would push against joints that
+//! it does not know.
+//!
+//! After a step a [`Data`](physics::Data) holds what it holds after our own: the new state, and poses, contacts, forces and sensor
+//! readings of the state before.
+//!
+//! # Where rapier had to be told
+//! | stock rapier 0.36.1 | here |
+//! |---|---|
+//! | 0.1 N m s of damping on every rotation of a multibody | none |
+//! | a floating root whose centre of mass is not its origin breaks the conservation of momentum | its origin is put there |
+//! | velocity of a floating body is that of its centre of mass, in the world | translated from and to MuJoCo's, exactly over a step |
+//! | bodies that stand alone turn by a linearised rotation, `2 atan(h w / 2)` for `h w` | the velocity is scaled, and scaled back |
+//! | bodies that stand alone get gyroscopic torques of their own | switched off: they are in our forces |
+//! | 45 degrees and 400 m/s at most a step | no bound |
+//! | looks 2 cm ahead, solves four parts of a step | 2 mm; one part where joints are, four for free bodies ([`Options`]) |
+//! | bodies fall asleep; contacts are kept while bodies move less than 5 cm; fast bodies stop at obstacles | off |
+//!
+//! # Choices
+//! | MuJoCo | here |
+//! |---|---|
+//! | contact types and affinities, excluded and predefined pairs, welded bodies, parents | the same |
+//! | friction: maximum, or by priority, or the pair's | the same; of a pair's two coefficients the first |
+//! | `condim` 1 | no friction |
+//! | `condim` 4 and 6 | as 3: rapier has no torsional or rolling friction |
+//! | `solref`, `solimp`, `solmix`, `margin` and `gap` of contacts | rapier's one softness ([`World::parameters_mut`]) |
+//! | those of limits, dry friction and equality constraints | the same |
+//! | pyramidal or elliptic cone | rapier's disc; forces are written in the model's form |
+//! | integrator `RK4` | Euler's method. The others are the model's own |
+//! | mocap bodies | moved where the program says, without a velocity |
+//! | trees that sleep | none |
+//! | shapes | [`shapes_of`] says which are exact |
+//! | height fields | a surface without its base |
+//!
+//! Refused, by the name of the element: flexes, signed distance fields and meshes without volume that touch something, adhesion,
+//! moving surfaces, joints below a mocap body.
+//!
+//! # What cannot be helped from outside
+//! Rapier solves contacts by its own softness for the whole world, with a frozen Jacobian and a single sweep: resting depths and
+//! the course of an impact differ from MuJoCo's (`validation/results/rapier.md` has by how much). Contacts do not see joint limits
+//! in the same sweep, as limits are ours: a finger that is pushed against its limit gives by a step. Links of little inertia
+//! with many overlapping contacts become unstable; of RoboHive's 56 models one does. Each step costs two dense factorisations of
+//! the joint-space inertia.
+
+pub use parry3d_f64 as parry;
+pub use rapier3d_f64 as rapier;
+
+mod body;
+mod convert;
+mod floating;
+mod groups;
+mod links;
+mod refuse;
+mod rules;
+mod shapes;
+mod stepper;
+mod touch;
+mod world;
+
+pub use refuse::check;
+pub use shapes::{GeomShape, shape_of, shapes_of};
+pub use stepper::Rapier;
+pub use world::{Options, World};
+
+/// Rapier as an engine, by its name.
+pub fn engine(options: Options) -> physics::Engine {
+    physics::Engine::new("rapier", move |m| Ok(Box::new(Rapier::new(m, options)?)))
+}

@@ -1,0 +1,87 @@
+//! Which geoms touch, and with what friction: MuJoCo's rules as hooks of rapier's narrow phase.
+
+use physics::Model;
+use physics::collision::filter::{Touching, touching};
+use physics::collision::mixing::Mixture;
+use rapier3d_f64::prelude::{
+    ActiveHooks, CoefficientCombineRule, Collider, ColliderHandle, ColliderSet, ContactModificationContext,
+    Group, InteractionGroups, InteractionTestMode, PairFilterContext, PhysicsHooks, SolverFlags,
+};
+
+/// Contact parameters of two geoms; `None` where they never touch.
+pub(crate) fn mixture(m: &Model, g1: usize, g2: usize) -> Option<Mixture> {
+    match touching(m, g1, g2) {
+        Touching::Never => None,
+        Touching::Mixed => Some(Mixture::new(m, g1, g2, None)),
+        Touching::Named(pair) => Some(Mixture::new(m, g1, g2, Some(pair))),
+    }
+}
+
+/// Sliding friction, which rapier has alone; none without tangents. Of a predefined pair's two coefficients the first counts.
+fn friction(mixture: &Mixture) -> f64 {
+    if mixture.dim() == 1 { 0.0 } else { mixture.friction()[0] }
+}
+
+/// Whether all geoms that collide mix friction in the one way that rapier knows by itself: the larger.
+pub(crate) fn mixes_plainly(m: &Model) -> bool {
+    let mut first = None;
+    m.npair == 0
+        && !m.opt.enableflags.contains(physics::model::Enable::OVERRIDE)
+        && (0..m.ngeom)
+            .filter(|&g| m.geom_contype[g] | m.geom_conaffinity[g] != 0)
+            .all(|g| *first.get_or_insert(m.geom_priority[g]) == m.geom_priority[g] && m.geom_condim[g] > 1)
+}
+
+/// Gives a collider what rapier decides by itself, and asks for hooks where it cannot. `decides`: contact types say all that is
+/// to be said of which geoms it touches.
+pub(crate) fn prepare(m: &Model, g: usize, decides: bool, plainly: bool, collider: &mut Collider) {
+    collider.set_friction(m.geom_friction[g][0]);
+    collider.set_friction_combine_rule(CoefficientCombineRule::Max);
+    collider.set_restitution(0.0);
+    let mut hooks = ActiveHooks::empty();
+    let mut types = [Group::ALL; 2];
+    if decides {
+        types = [m.geom_contype[g], m.geom_conaffinity[g]].map(|bits| Group::from_bits_truncate(bits as u32));
+    } else {
+        hooks |= ActiveHooks::FILTER_CONTACT_PAIRS;
+    }
+    let [memberships, filter] = types;
+    let test_mode = InteractionTestMode::Or;
+    collider.set_collision_groups(InteractionGroups { memberships, filter, test_mode });
+    if !plainly {
+        hooks |= ActiveHooks::MODIFY_SOLVER_CONTACTS;
+    }
+    collider.set_active_hooks(hooks);
+}
+
+/// The geom of a collider.
+pub(crate) type GeomOf<'a> = &'a (dyn Fn(ColliderHandle, &ColliderSet) -> Option<usize> + Sync);
+
+/// MuJoCo's rules for the colliders of one model. Pairs with colliders of other origin are left to rapier.
+pub(crate) struct Rules<'a> {
+    pub m: &'a Model,
+    pub geom_of: GeomOf<'a>,
+}
+
+impl Rules<'_> {
+    fn geoms(&self, pair: [ColliderHandle; 2], colliders: &ColliderSet) -> Option<[usize; 2]> {
+        Some([(self.geom_of)(pair[0], colliders)?, (self.geom_of)(pair[1], colliders)?])
+    }
+}
+
+impl PhysicsHooks for Rules<'_> {
+    fn filter_contact_pair(&self, at: &PairFilterContext) -> Option<SolverFlags> {
+        match self.geoms([at.collider1, at.collider2], at.colliders) {
+            Some([g1, g2]) if touching(self.m, g1, g2) == Touching::Never => None,
+            Some(_) | None => Some(SolverFlags::COMPUTE_RIGID_IMPULSES),
+        }
+    }
+
+    fn modify_solver_contacts(&self, at: &mut ContactModificationContext) {
+        let geoms = self.geoms([at.collider1, at.collider2], at.colliders);
+        let mixture = geoms.and_then(|[g1, g2]| mixture(self.m, g1, g2));
+        if let (Some(mixture), Some(rigid)) = (mixture, at.rigid_mut()) {
+            *rigid.friction = friction(&mixture);
+        }
+    }
+}
