@@ -95,6 +95,7 @@ const ORDER: [(&str, &[&str]); 34] = [
         "robohive-cli",
         &[
             "physics",
+            "rapier",
             "mjcf",
             "dataset",
             "random",

@@ -126,6 +126,7 @@ impl View {
             compat: self.compat.unwrap_or(Compat::Fixed),
             assets: self.assets.clone(),
             cache: self.cache.clone(),
+            solver: Default::default(),
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::error::EnvError;
 use physics::elements::{ActuatorId, BodyId, GeomId, JointId, SensorId, SiteId};
 use physics::model::Draft;
-use physics::{Data, Model, StepError};
+use physics::{Data, Engine, Model, Mover, StepError};
 use robot::Compat;
 
 /// A model and its state, owned by one environment.
@@ -13,6 +13,8 @@ pub struct Scene {
     pub model: Model,
     /// Its state and what follows from it.
     pub data: Data,
+    /// What moves it.
+    pub mover: Mover,
 }
 
 impl Scene {
@@ -21,10 +23,25 @@ impl Scene {
     /// # Errors
     /// The model has no state that physics accepts there.
     pub fn new(model: Model) -> Result<Self, EnvError> {
+        Self::under(model, &Engine::default())
+    }
+
+    /// The same under another engine.
+    ///
+    /// # Errors
+    /// As [`Scene::new`], and the first element that the engine does not simulate.
+    pub fn under(model: Model, engine: &Engine) -> Result<Self, EnvError> {
+        let mover = engine.start(&model).map_err(StepError::from)?;
         let data = Data::new(&model);
-        let mut scene = Scene { model, data };
+        let mut scene = Scene { model, data, mover };
         scene.forward()?;
         Ok(scene)
+    }
+
+    /// Returns the state to the model's reference configuration; whatever moves it forgets what it did.
+    pub fn reset(&mut self) {
+        self.data.reset(&self.model);
+        self.mover.reset();
     }
 
     /// Recomputes all that follows from the state, after it or the model was written.
@@ -36,19 +53,27 @@ impl Scene {
     }
 
     /// Advances by `count` time steps in the order of RoboHive's simulation: the second half of the current step, whole
-    /// steps, the first half of the next one. Positions and velocities then belong to the new state, forces to the state
+    /// steps, the first half of the next one; under another engine whole steps and that half. Positions and velocities then belong to the new state, forces to the state
     /// before it. `each` sees the state after every time step.
     ///
     /// # Errors
     /// Physics refuses a step; the state is the one that it refused.
     pub fn advance(&mut self, count: usize, mut each: impl FnMut(&Data)) -> Result<(), StepError> {
-        physics::step2(&self.model, &mut self.data)?;
-        each(&self.data);
-        for _ in 1..count {
-            physics::step(&self.model, &mut self.data)?;
-            each(&self.data);
+        let Scene { model, data, mover } = self;
+        if let Some(stepper) = mover.foreign() {
+            for _ in 0..count {
+                stepper.step(model, data)?;
+                each(data);
+            }
+            return physics::step1(model, data);
         }
-        physics::step1(&self.model, &mut self.data)
+        physics::step2(model, data)?;
+        each(data);
+        for _ in 1..count {
+            physics::step(model, data)?;
+            each(data);
+        }
+        physics::step1(model, data)
     }
 
     /// Advances by `count` whole time steps, and computes accelerations and forces of bodies from the last one.
@@ -57,7 +82,7 @@ impl Scene {
     /// Physics refuses a step; the state is the one that it refused.
     pub fn advance_plainly(&mut self, count: usize, mut each: impl FnMut(&Data)) -> Result<(), StepError> {
         for _ in 0..count {
-            physics::step(&self.model, &mut self.data)?;
+            self.mover.step(&self.model, &mut self.data)?;
             each(&self.data);
         }
         physics::derive_body_forces(&self.model, &mut self.data);

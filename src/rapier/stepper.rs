@@ -12,6 +12,7 @@ use physics::velocity::bias::{RneScratch, rne};
 use physics::velocity::com_vel::com_vel;
 use physics::{Data, Memory, Model, Stepper};
 use rapier3d_f64::prelude::{ColliderHandle, ColliderSet};
+use std::sync::Arc;
 
 /// A model under rapier. See the [crate](crate) for who computes what.
 #[derive(Clone, Debug)]
@@ -23,6 +24,8 @@ pub struct Rapier {
     /// That without weight: what is left of the bias force is what rapier computes of it.
     weightless: Model,
     world: World,
+    /// The world as it was built.
+    fresh: Arc<World>,
     velocity: Velocity,
     scratch: RneScratch,
     bias: Vec<f64>,
@@ -44,6 +47,7 @@ impl Rapier {
             model: m.clone(),
             free,
             weightless,
+            fresh: Arc::new(world.clone()),
             world,
             scratch: RneScratch::default(),
             bias: Vec::new(),
@@ -70,6 +74,7 @@ impl Rapier {
         }
         if !same_world(m, &self.model) {
             self.world = World::new(m, self.world.options())?;
+            self.fresh = Arc::new(self.world.clone());
         }
         self.model = m.clone();
         (self.free, self.weightless) = reduced(m, self.world.options());
@@ -170,9 +175,7 @@ impl Rapier {
 
 impl Stepper for Rapier {
     fn reset(&mut self) {
-        if let Ok(world) = World::new(&self.model, self.world.options()) {
-            self.world = world;
-        }
+        self.world = (*self.fresh).clone();
     }
 
     fn step(&mut self, m: &Model, d: &mut Data) -> Result<(), StepError> {
@@ -181,15 +184,16 @@ impl Stepper for Rapier {
     }
 
     fn save(&self) -> Memory {
-        Memory::of(self.world.clone())
+        Memory::of((self.model.clone(), self.world.clone()))
     }
 
     fn restore(&mut self, memory: &Memory) -> Result<(), ForeignSnapshot> {
-        let world: &World = memory.get().ok_or(ForeignSnapshot)?;
+        let (model, world): &(Model, World) = memory.get().ok_or(ForeignSnapshot)?;
         if !world.body.fits(&self.model) {
             return Err(ForeignSnapshot);
         }
-        self.world = world.clone();
+        (self.model, self.world) = (model.clone(), world.clone());
+        (self.free, self.weightless) = reduced(model, world.options());
         Ok(())
     }
 

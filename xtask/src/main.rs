@@ -23,6 +23,7 @@ mod outcome;
 mod packages;
 mod passed;
 mod python;
+mod rapier;
 mod recorded_bits;
 mod results;
 mod site;
@@ -47,7 +48,7 @@ const QUICK: [Check; 5] = [
     Check { name: "features", inputs: &[], run: builds::features },
 ];
 
-const LONG: [Check; 12] = [
+const LONG: [Check; 13] = [
     Check { name: "python", inputs: python::INPUTS, run: python::run },
     Check { name: "recorded-bits", inputs: recorded_bits::INPUTS, run: recorded_bits::run },
     Check { name: "builds", inputs: builds::INPUTS, run: builds::run },
@@ -55,6 +56,7 @@ const LONG: [Check; 12] = [
     Check { name: "rust-version", inputs: &[], run: packages::rust_version },
     Check { name: "instructions", inputs: instructions::INPUTS, run: || instructions::run(false) },
     Check { name: "clients", inputs: clients::INPUTS, run: clients::run },
+    Check { name: "rapier", inputs: rapier::INPUTS, run: rapier::run },
     Check { name: "gpu", inputs: gpu::INPUTS, run: gpu::run },
     Check { name: "window", inputs: window::INPUTS, run: window::run },
     Check { name: "page", inputs: PAGE_INPUTS, run: page },

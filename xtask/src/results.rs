@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 22] = [
+const SPEAK_OF: [(&str, &[&str]); 24] = [
     ("bus_time", &["src/protocol", "src/wire", "src/hardware"]),
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
@@ -31,6 +31,8 @@ const SPEAK_OF: [(&str, &[&str]); 22] = [
     ("python_ray", &["src/env", "python"]),
     ("python_speed", &["src/physics", "src/env", "python"]),
     ("quirks", &["src/robot", "src/env/suite"]),
+    ("rapier", &["src/physics", "mjcf", "src/rapier"]),
+    ("robot_configs", &["src/physics", "src/env", "src/robot", "src/wire", "src/hardware"]),
     ("standin", &["src/physics", "mjcf", "python"]),
     ("standin_dm_control", &["src/physics", "mjcf", "python"]),
     ("standin_myosuite", &["src/physics", "mjcf", "python"]),

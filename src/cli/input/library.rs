@@ -1,6 +1,7 @@
 //! From the arguments to an environment.
 
 use crate::failure::Failure;
+use crate::input::solver::SolverArgument;
 use crate::terminal::note;
 use ::library::{Library, Weights};
 use clap::{Args, ValueHint};
@@ -37,6 +38,9 @@ pub struct Making {
     /// Keep compiled models in this folder [default: the environment variable ROBOHIVE_CACHE, else the user's cache folder]
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     pub cache: Option<PathBuf>,
+    /// What moves them
+    #[command(flatten)]
+    pub solver: SolverArgument,
 }
 
 impl Source {
@@ -84,7 +88,11 @@ impl Making {
     /// How they are made.
     pub fn options(&self) -> Result<Options, Failure> {
         let networks = Arc::new(Weights::from_environment());
-        Ok(Options::default().with_compat(self.compat).with_changes(self.changes()?).with_networks(networks))
+        Ok(Options::default()
+            .with_compat(self.compat)
+            .with_changes(self.changes()?)
+            .with_networks(networks)
+            .with_engine(self.solver.engine()?))
     }
 
     /// The settings that differ.

@@ -3,4 +3,5 @@
 pub mod library;
 pub mod loading;
 pub mod policy;
+pub mod solver;
 pub mod source;

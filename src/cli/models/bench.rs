@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::loading::{STANDARD_INPUT, load, start};
+use crate::input::solver::SolverArgument;
 use crate::input::source::Reading;
 use crate::models::MAX_STEPS;
 use crate::terminal::{show, show_json};
@@ -9,7 +10,7 @@ use clap::{Args, ValueHint, value_parser};
 use dataset::NpzReader;
 use library::memory::{check_room, resident_bytes};
 use physics::pipeline::watch::{Stage, Watch};
-use physics::{Batch, Data, Model, step, step_watched};
+use physics::{Batch, Data, Engine, Model, step_watched};
 use serde_json::{Map, Value, json};
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
@@ -61,6 +62,9 @@ pub struct Bench {
     /// Quantiles of the time of single steps
     #[arg(long, conflicts_with_all = ["threads", "batch", "stages"])]
     pub jitter: bool,
+    /// What moves them; others than our own step one environment on one thread
+    #[command(flatten)]
+    pub solver: SolverArgument,
     /// Measure what standard input asks for, lines "rate N", "stages N" or "jitter N", for one model
     #[arg(long, conflicts_with_all = ["stages", "jitter"])]
     pub requests: bool,
@@ -84,6 +88,11 @@ pub fn run(a: &Bench) -> Result<(), Failure> {
     }
     for path in &a.models {
         let workload = Workload::new(a, path)?;
+        if !a.solver.is_own() && (a.stages || a.requests || a.batch.is_some() || a.threads > 1) {
+            return Err(Failure::usage(
+                "--solver rapier steps one environment: without --batch, --threads, --stages and --requests",
+            ));
+        }
         if a.requests {
             answer(&workload)?;
             continue;
@@ -151,6 +160,7 @@ struct Workload {
     environments: usize,
     threads: usize,
     load_seconds: f64,
+    engine: Engine,
 }
 
 impl Workload {
@@ -178,6 +188,7 @@ impl Workload {
             environments,
             threads: a.threads as usize,
             load_seconds,
+            engine: a.solver.engine()?,
         })
     }
 
@@ -208,6 +219,9 @@ impl Workload {
 
     /// Steps per second of all environments together, and the memory of the process.
     fn rate(&self, steps: usize) -> Result<Map<String, Value>, Failure> {
+        if self.engine.name() != Engine::OWN {
+            return self.rate_of_one(steps);
+        }
         let mut batch = Batch::new(self.m.clone(), self.environments, self.threads).map_err(Failure::new)?;
         batch.data_mut().iter_mut().for_each(|d| d.clone_from(&self.start));
         let began = Instant::now();
@@ -215,7 +229,22 @@ impl Workload {
             batch.data_mut().iter_mut().for_each(|d| self.set_controls(done, d));
             batch.step(self.hold.min(steps - done)).map_err(|e| self.failed(e))?;
         }
-        let seconds = began.elapsed().as_secs_f64();
+        Ok(self.found(steps, began.elapsed().as_secs_f64(), &batch.data()[0]))
+    }
+
+    /// The same of one environment, which another engine moves.
+    fn rate_of_one(&self, steps: usize) -> Result<Map<String, Value>, Failure> {
+        let mut mover = self.engine.start(&self.m).map_err(|e| self.failed(e))?;
+        let mut d = self.start.clone();
+        let began = Instant::now();
+        for done in 0..steps {
+            self.set_controls(done, &mut d);
+            mover.step(&self.m, &mut d).map_err(|e| self.failed(e))?;
+        }
+        Ok(self.found(steps, began.elapsed().as_secs_f64(), &d))
+    }
+
+    fn found(&self, steps: usize, seconds: f64, first: &Data) -> Map<String, Value> {
         let mut found = Map::new();
         found.insert("steps".into(), json!(steps));
         found.insert("environments".into(), json!(self.environments));
@@ -223,8 +252,8 @@ impl Workload {
         found.insert("steps_per_second".into(), json!((steps * self.environments) as f64 / seconds));
         found.insert("load_seconds".into(), json!(self.load_seconds));
         found.insert("resident_bytes".into(), json!(resident_bytes()));
-        found.insert("qpos".into(), json!(batch.data()[0].state.qpos));
-        Ok(found)
+        found.insert("qpos".into(), json!(first.state.qpos));
+        found
     }
 
     /// Seconds of each stage of a step, means.
@@ -250,11 +279,12 @@ impl Workload {
             )));
         }
         let mut d = self.start.clone();
+        let mut mover = self.engine.start(&self.m).map_err(|e| self.failed(e))?;
         let mut seconds = Vec::with_capacity(steps);
         for done in 0..steps {
             self.set_controls(done, &mut d);
             let began = Instant::now();
-            step(&self.m, &mut d).map_err(|e| self.failed(e))?;
+            mover.step(&self.m, &mut d).map_err(|e| self.failed(e))?;
             seconds.push(began.elapsed().as_secs_f64());
         }
         let mut found = quantiles(&mut seconds.clone(), "");

@@ -2,6 +2,7 @@
 
 use crate::failure::{Failure, unwritable};
 use crate::input::loading::{load, start};
+use crate::input::solver::SolverArgument;
 use crate::input::source::ModelSource;
 use crate::interrupt::Interrupt;
 use crate::models::MAX_STEPS;
@@ -13,7 +14,7 @@ use clap::{Args, ValueHint};
 use indicatif::{ProgressBar, ProgressStyle};
 use physics::math::Legible;
 use physics::model::Enable;
-use physics::{Data, Model, StepError, forward, step};
+use physics::{Data, Model, Mover, StepError, forward};
 use record::StateRecording;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -49,6 +50,9 @@ pub struct Sim {
     /// this numpy archive
     #[arg(long, value_name = "FILE.npz", value_hint = ValueHint::FilePath, value_parser = archive_file)]
     pub out: Option<PathBuf>,
+    /// What moves it
+    #[command(flatten)]
+    pub solver: SolverArgument,
     /// No progress on standard error
     #[arg(long, short)]
     pub quiet: bool,
@@ -65,11 +69,12 @@ pub fn run(a: &Sim) -> Result<(), Failure> {
     // Every step then computes the energy of the state that it starts from.
     m.options_mut().enableflags.set(Enable::ENERGY, true);
     let mut d = start(&m, a.keyframe.as_deref())?;
+    let mut mover = a.solver.engine()?.start(&m).map_err(Failure::usage)?;
     let steps = number_of_steps(a.seconds, m.opt.timestep)?;
     let mut recording = a.out.as_deref().map(|path| Recording::create(path, &d)).transpose()?;
     let mut pictures = a.film.film(&m, FREE, m.opt.timestep, &*painters)?.map(|film| Pictures::new(film, &d));
     let bar = if a.quiet || a.film.previews() { ProgressBar::hidden() } else { progress(steps) };
-    let run = advance(&m, &mut d, steps, (recording.as_mut(), pictures.as_mut()), &bar)?;
+    let run = advance((&m, &mut mover), &mut d, steps, (recording.as_mut(), pictures.as_mut()), &bar)?;
     bar.finish_and_clear();
     show_summary(&m, &d, &run);
     let finished = pictures.map(|pictures| pictures.film.finish()).transpose()?.flatten();
@@ -128,7 +133,7 @@ enum End {
 
 /// Takes the steps until a signal comes, and one more aside, which checks and measures the last state.
 fn advance(
-    m: &Model,
+    (m, mover): (&Model, &mut Mover),
     d: &mut Data,
     steps: u64,
     (mut recording, mut pictures): (Option<&mut Recording<'_>>, Option<&mut Pictures>),
@@ -154,7 +159,7 @@ fn advance(
         if let Some(pictures) = &mut pictures {
             pictures.state(m, stepped)?;
         }
-        let outcome = step(m, stepped);
+        let outcome = mover.step(m, stepped);
         if let Some(recording) = &mut recording {
             recording.measurements(stepped, outcome.is_ok())?;
         }

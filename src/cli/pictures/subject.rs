@@ -139,6 +139,7 @@ impl SubjectArguments {
                 compat: self.compat.unwrap_or(Compat::Fixed),
                 assets: self.assets.clone(),
                 cache: self.cache.clone(),
+                solver: Default::default(),
             },
         };
         let mut env = source.make()?;

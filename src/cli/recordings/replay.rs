@@ -117,7 +117,13 @@ fn check_trials(a: &Replay, trace: &TraceReader) -> Result<(), Failure> {
 fn make(a: &Replay, trace: &TraceReader) -> Result<(String, Env), Failure> {
     let described = Description::of(trace, a.id.as_deref()).map_err(Failure::usage)?;
     let compat = a.compat.unwrap_or(described.compat);
-    let making = Making { settings: a.settings.clone(), compat, assets: a.assets.clone(), cache: None };
+    let making = Making {
+        settings: a.settings.clone(),
+        compat,
+        assets: a.assets.clone(),
+        cache: None,
+        solver: Default::default(),
+    };
     let mut changes = described.settings;
     changes.extend(making.changes()?);
     let options = Options::default().with_compat(compat).with_changes(changes);

@@ -204,7 +204,7 @@ fn devices_of(a: &Wire, path: &Path, id: &str) -> Result<(Bench, Config, Vec<Rig
     let config = Config::read(path).map_err(Failure::usage)?;
     let mut env = simulated(id, &a.making)?;
     env.reset(Some(0)).map_err(Failure::usage)?;
-    let env::Scene { model, data } = env.scene();
+    let env::Scene { model, data, .. } = env.scene();
     let mut plant = Plant::new(model.clone()).map_err(Failure::new)?;
     plant.place(&data.state.qpos, &vec![0.0; model.nv]).map_err(Failure::new)?;
     let (bench, rigged) = wire::rig(&config, plant, false).map_err(Failure::usage)?;

@@ -129,7 +129,7 @@ impl Env {
         let spec = spec.with(&options.changes)?;
         let (settings, own) = spec.settings()?;
         let loaded = load(&spec, &settings, assets)?;
-        let mut scene = Scene::new(loaded.model)?;
+        let mut scene = Scene::under(loaded.model, &options.engine)?;
         scene.data.autoreset = options.autoreset;
         let mut rng = Rng::pcg64(options.seed);
         let hardware = options.hardware.as_ref();
@@ -307,7 +307,7 @@ impl Env {
             look.draw(&mut self.scene)?;
         }
         self.robot.clip_reset(&mut self.start.qpos, &mut self.start.qvel);
-        self.scene.data.reset(&self.scene.model);
+        self.scene.reset();
         self.scene.data.state.qpos.copy_from_slice(&self.start.qpos);
         self.scene.data.state.qvel.copy_from_slice(&self.start.qvel);
         self.scene.forward()?;
@@ -384,7 +384,7 @@ impl Env {
         };
         self.task.act(&mut turn)?;
         let raw = turn.raw;
-        let Scene { model, data } = &mut self.scene;
+        let Scene { model, data, .. } = &mut self.scene;
         let control = if raw {
             self.robot.set_control(&self.action)?
         } else {
@@ -411,7 +411,7 @@ impl Env {
 
     /// Reads the sensors, and writes the observation dictionary of the state that they show.
     pub(crate) fn perceive(&mut self, past: Past) -> Result<(), StepError> {
-        let Scene { model, data } = &mut self.scene;
+        let Scene { model, data, .. } = &mut self.scene;
         self.robot.sense(model, data, &mut self.rng);
         // The original writes what it read into the simulation itself; hardware is all that there is to know.
         let mirrors = self.compat == Compat::RoboHive07 || self.live.is_some();

@@ -13,7 +13,8 @@ type Edits = Vec<(String, Vec<f64>)>;
 
 /// All that decides the rest of an episode and the ones after it, beside how the environment was made.
 ///
-/// [`EnvState`](crate::EnvState) is the same within a process, cheaper.
+/// [`EnvState`](crate::EnvState) is the same within a process, cheaper. What another engine than our own keeps beside the state,
+/// such as the impulses that start its next solution, is not in it: that engine then begins afresh.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EnvMemory {
     /// Arrays of the model that differ from a newly made environment's.
@@ -65,6 +66,7 @@ impl Env {
         let mut snapshot = Snapshot::default();
         self.scene.data.save(&mut snapshot);
         self.scene.forward()?;
+        self.scene.mover.reset();
         // The pass above moved the solver's start.
         self.scene.data.restore(&snapshot).map_err(|error| foreign(error.to_string()))?;
         self.observe_readings()?;
@@ -105,7 +107,7 @@ fn numbers(scene: &Scene) -> Edits {
 }
 
 fn keep_state(scene: &mut Scene, keeper: &mut Keeper) {
-    let Scene { model, data } = scene;
+    let Scene { model, data, .. } = scene;
     keeper.number(&mut data.state.time);
     let mut parts: Vec<(&'static str, Vec<f64>)> = Vec::new();
     let mut take = |name, _, values: Slice<'_>| parts.push((name, values.to_f64()));

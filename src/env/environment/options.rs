@@ -4,6 +4,7 @@ use super::hardware::Hardware;
 use crate::arguments::Arguments;
 use crate::pictures::network::{Networks, NoNetworks};
 use crate::pictures::rendering::Rendering;
+use physics::Engine;
 use render::painter::{Cpu, Painters};
 use robot::Compat;
 use std::sync::Arc;
@@ -27,6 +28,8 @@ pub struct Options {
     /// A bad number in the physics resets it as MuJoCo does, in the middle of the episode, instead of ending that
     /// (`Data::autoreset`).
     pub autoreset: bool,
+    /// What moves the simulation: by default our own pipeline.
+    pub engine: Engine,
     /// The robot's devices, if it is not simulated.
     pub hardware: Option<Hardware>,
 }
@@ -41,6 +44,7 @@ impl Default for Options {
             networks: Arc::new(NoNetworks),
             painters: Arc::new(Cpu),
             autoreset: false,
+            engine: Engine::default(),
             hardware: None,
         }
     }
@@ -93,6 +97,13 @@ impl Options {
     #[must_use]
     pub fn with_painters(mut self, painters: Arc<dyn Painters>) -> Self {
         self.painters = painters;
+        self
+    }
+
+    /// What moves the simulation.
+    #[must_use]
+    pub fn with_engine(mut self, engine: Engine) -> Self {
+        self.engine = engine;
         self
     }
 

@@ -17,6 +17,7 @@ use robot::Memory;
 pub struct EnvState {
     pub(crate) model: Model,
     pub(crate) snapshot: Snapshot,
+    pub(crate) mover: physics::Memory,
     pub(crate) task: Box<dyn Task>,
     pub(crate) robot: Memory,
     pub(crate) rng: Rng,
@@ -149,6 +150,7 @@ impl Env {
         EnvState {
             model: self.scene.model.clone(),
             snapshot,
+            mover: self.scene.mover.save(),
             task: self.task.clone(),
             robot: self.robot.memory(),
             rng: self.rng.clone(),
@@ -168,9 +170,10 @@ impl Env {
     /// The state is one of another environment.
     pub fn set_state(&mut self, state: &EnvState) -> Result<(), EnvError> {
         let foreign = |_| EnvError::ForeignState {
-            message: "it was saved by an environment with another model".into(),
+            message: "it was saved by an environment with another model or engine".into(),
         };
         self.scene.data.restore(&state.snapshot).map_err(foreign)?;
+        self.scene.mover.restore(&state.mover).map_err(foreign)?;
         self.scene.model = state.model.clone();
         self.scene.forward()?;
         // The pass above moved the solver's start.

@@ -1,0 +1,53 @@
+//! What moves models: our own pipeline, or another engine in builds that have one.
+
+use crate::failure::Failure;
+use clap::{Args, ValueEnum};
+use physics::Engine;
+
+/// What moves models.
+#[derive(Clone, Copy, Default, Args)]
+pub struct SolverArgument {
+    /// What moves the model: our own pipeline, or rapier in builds that have it
+    #[arg(long, value_name = "own|rapier", default_value = "own", hide_possible_values = true)]
+    solver: Solver,
+}
+
+/// An engine by name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Solver {
+    /// Our own pipeline
+    #[default]
+    Own,
+    /// Rapier
+    Rapier,
+}
+
+impl SolverArgument {
+    /// Whether our own pipeline is asked for.
+    pub fn is_own(self) -> bool {
+        self.solver == Solver::Own
+    }
+
+    /// The engine.
+    ///
+    /// # Errors
+    /// This build does not have it.
+    pub fn engine(self) -> Result<Engine, Failure> {
+        match self.solver {
+            Solver::Own => Ok(Engine::default()),
+            Solver::Rapier => rapier(),
+        }
+    }
+}
+
+#[cfg(feature = "rapier")]
+fn rapier() -> Result<Engine, Failure> {
+    Ok(rapier::engine(rapier::Options::default()))
+}
+
+#[cfg(not(feature = "rapier"))]
+fn rapier() -> Result<Engine, Failure> {
+    Err(Failure::usage(
+        "this build has no rapier; `cargo install --path src/cli --features rapier` installs one that has",
+    ))
+}
