@@ -87,8 +87,8 @@ const ORDER: [(&str, &[&str]); 34] = [
     (
         "robohive-python",
         &[
-            "physics", "mjcf", "dataset", "random", "robot", "hardware", "library", "render", "video",
-            "viewer", "exchange", "env",
+            "physics", "rapier", "mjcf", "dataset", "random", "robot", "hardware", "library", "render",
+            "video", "viewer", "exchange", "env",
         ],
     ),
     (

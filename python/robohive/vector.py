@@ -77,6 +77,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
         height: int | None = None,
         renderer: str = "cpu",
         instability: str = "truncate",
+        solver: str = "own",
         time_limit: bool = True,
         override_keys: Iterable[str] = (),
         **settings: Any,
@@ -104,6 +105,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
                 NAME. Where there is no such GPU, the CPU draws, and a line on the standard error stream says so.
             instability: What a state does that physics refuses: `truncate` ends the episode, with the reason in the infos as
                 `fault`; `reset` returns to the reference configuration in the middle of the episode, as MuJoCo does.
+            solver: What moves the simulation: `own`; or, in wheels built with the feature `rapier`, `rapier`.
             time_limit: Whether episodes end at their length.
             override_keys: Settings of the id that `settings` replaces rather than merges.
             settings: Settings that differ from the id's, by RoboHive's names.
@@ -131,6 +133,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
             "height": None if height is None else whole("height", height, 1),
             "renderer": renderer,
             "instability": instability,
+            "solver": solver,
             "time_limit": time_limit,
             "override_keys": list(override_keys),
             "hardware": None,

@@ -5,6 +5,7 @@ use crate::live::Asked;
 use crate::settings::arguments;
 use env::{Arguments, Env, EnvError, Options, Registry, RenderMode, Rendering, Spec};
 use library::{Library, NoGpu, Renderer, Weights};
+use physics::Engine;
 use pyo3::exceptions::{PyNotImplementedError, PyOSError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -34,6 +35,8 @@ pub struct Making {
     height: Option<usize>,
     renderer: String,
     instability: String,
+    #[pyo3(default)]
+    solver: Option<String>,
     override_keys: Vec<String>,
     /// Whether the environment ends episodes at their length itself; otherwise a wrapper does.
     time_limit: bool,
@@ -73,6 +76,7 @@ impl Request {
             "reset" => true,
             other => return Err(wrong(format!("instability is truncate or reset, not {other}"))),
         };
+        let engine = engine(making.solver.as_deref().unwrap_or(Engine::OWN))?;
         let networks = Arc::new(Weights::from_environment());
         let seed = making.seed.unwrap_or(Options::default().seed);
         let horizon = spec.with(&changes).map_err(|error| exception(py, &error))?.max_episode_steps;
@@ -87,7 +91,8 @@ impl Request {
             .with_rendering(rendering)
             .with_networks(networks)
             .with_painters(painters)
-            .with_autoreset(autoreset);
+            .with_autoreset(autoreset)
+            .with_engine(engine);
         let hardware = making.hardware.map(|asked| asked.hardware(py, &spec, &options)).transpose()?;
         Ok(Request { spec, horizon, options: options.with_hardware(hardware) })
     }
@@ -103,6 +108,27 @@ impl Request {
         });
         made.map_err(PyOSError::new_err)?.map_err(|error| exception(py, &error))
     }
+}
+
+/// What moves the simulation.
+fn engine(solver: &str) -> PyResult<Engine> {
+    match solver {
+        Engine::OWN => Ok(Engine::default()),
+        "rapier" => rapier(),
+        other => Err(PyValueError::new_err(format!("solver is own or rapier, not {other:?}"))),
+    }
+}
+
+#[cfg(feature = "rapier")]
+fn rapier() -> PyResult<Engine> {
+    Ok(rapier::engine(rapier::Options::default()))
+}
+
+#[cfg(not(feature = "rapier"))]
+fn rapier() -> PyResult<Engine> {
+    Err(PyNotImplementedError::new_err(
+        "this wheel has no rapier; `maturin build --profile dist --features rapier` builds one that has",
+    ))
 }
 
 /// What draws pictures.

@@ -93,6 +93,8 @@ def test_unknown_ids_name_the_nearest():
         ({"render_mode": "ansi"}, ValueError, "rgb_array"),
         ({"renderer": "opengl"}, ValueError, "gpu:NAME .*, not 'opengl'|gpu:NAME .*, not \"opengl\""),
         ({"instability": "ignore"}, ValueError, "truncate or reset, not ignore"),
+        ({"solver": "bullet"}, ValueError, "own or rapier, not \"bullet\""),
+        ({"solver": "rapier"}, NotImplementedError, "--features rapier"),
         ({"seed": -1}, gymnasium.error.Error, "2\\*\\*64"),
         ({"max_episode_steps": 0}, ValueError, "1 or more"),
         ({"override_keys": ["nothing"]}, ValueError, "no setting nothing"),

@@ -4,7 +4,7 @@ use crate::convert::{array, pose, quaternion, rotation, vector};
 use crate::floating::{Floating, Pace};
 use crate::groups::{Groups, Motion};
 use crate::links::{Link, Links, Tree};
-use crate::rules;
+use crate::rules::{self, Geoms};
 use crate::shapes::shape_of;
 use physics::Model;
 use physics::data::State;
@@ -14,6 +14,7 @@ use rapier3d_f64::math::{Pose, Rotation, Vector};
 use rapier3d_f64::prelude::{
     ColliderBuilder, ColliderHandle, ColliderSet, MultibodyJoint, MultibodyJointSet, RigidBody, RigidBodySet,
 };
+use std::sync::Arc;
 
 /// A model's bodies among rapier's.
 #[derive(Clone, Debug)]
@@ -22,6 +23,8 @@ pub(crate) struct Body {
     pub links: Links,
     /// Collider of each geom; `None` where the geom touches nothing.
     pub colliders: Vec<Option<ColliderHandle>>,
+    /// Geom of each collider.
+    pub geoms: Arc<Geoms>,
     /// Floating groups at the start of the step under way.
     start: Vec<Option<Floating>>,
 }
@@ -34,11 +37,11 @@ pub(crate) struct Sets<'a> {
 }
 
 impl Body {
-    /// Inserts a model at its reference configuration. `tag` marks its colliders, which keep their geom in the low bits.
+    /// Inserts a model at its reference configuration.
     ///
     /// # Errors
     /// The first element that is not simulated.
-    pub fn insert(m: &Model, tag: u128, sets: &mut Sets<'_>) -> Result<Self, NotSimulated> {
+    pub fn insert(m: &Model, sets: &mut Sets<'_>) -> Result<Self, NotSimulated> {
         crate::refuse::check(m)?;
         let groups = Groups::new(m);
         let shapes: Vec<_> = (0..m.ngeom)
@@ -51,7 +54,6 @@ impl Body {
             let mut collider = ColliderBuilder::new(shape.shape)
                 .density(0.0)
                 .position(groups.in_rigid_body(shape.body) * shape.pose)
-                .user_data(tag | shape.geom as u128)
                 .build();
             let decides = m.npair == 0 && m.nexclude == 0 && !has_relatives(&groups, shape.body);
             rules::prepare(m, shape.geom, decides, plainly, &mut collider);
@@ -60,9 +62,10 @@ impl Body {
                 None => sets.colliders.insert(collider),
             })
         });
-        let colliders = colliders.collect();
+        let colliders: Vec<Option<ColliderHandle>> = colliders.collect();
+        let geoms = colliders.iter().enumerate().filter_map(|(g, handle)| Some(((*handle)?, g))).collect();
         let start = vec![None; groups.all.len()];
-        let mut body = Body { groups, links, colliders, start };
+        let mut body = Body { groups, links, colliders, geoms: Arc::new(geoms), start };
         // Masses of rigid bodies follow from what was given to them, not from their colliders.
         for &handle in &body.links.handles {
             if let Some(rigid) = sets.bodies.get_mut(handle) {

@@ -1,7 +1,7 @@
 //! Models of MJCF under [rapier](https://rapier.rs): with tendons, muscles, actuators, sensors and MuJoCo's rules of contact.
 //!
 //! Rapier does not follow MuJoCo, so this project's own pipeline stays the default. This crate is for programs that simulate with
-//! rapier already and want a robot out of MJCF among their bodies, for those that want parry's shapes of a
+//! rapier already and want a robot out of MJCF among their bodies ([`Robot`]), for those that want parry's shapes of a
 //! model ([`shapes_of`]), and for whoever wants rapier's solver under a whole environment ([`engine`]). No C, and not built by
 //! default.
 //!
@@ -32,7 +32,7 @@
 //!    and the opposite on the one before.
 //!
 //! What is left to rapier is what it is for: detection of collisions, contacts with friction, and the motion that follows. So
-//! motion without contacts is our pipeline's to rounding, for whatever joints, and rapier's integration (implicit in
+//! motion without contacts is our pipeline's to rounding (of poses, over the length of a step), for whatever joints, and rapier's integration (implicit in
 //! Coriolis forces and springs), its damping, armature and limits are not in play. Where equality constraints are active and
 //! contacts push, the step is taken once more with the contacts' forces as given ones, as rapier would push against joints that
 //! it does not know.
@@ -84,16 +84,21 @@ pub use rapier3d_f64 as rapier;
 mod body;
 mod convert;
 mod floating;
+mod forces;
 mod groups;
 mod links;
+mod measure;
 mod refuse;
+mod robot;
 mod rules;
 mod shapes;
 mod stepper;
 mod touch;
 mod world;
 
+pub use measure::Measures;
 pub use refuse::check;
+pub use robot::{Hooks, Robot};
 pub use shapes::{GeomShape, shape_of, shapes_of};
 pub use stepper::Rapier;
 pub use world::{Options, World};

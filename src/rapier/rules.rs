@@ -4,9 +4,10 @@ use physics::Model;
 use physics::collision::filter::{Touching, touching};
 use physics::collision::mixing::Mixture;
 use rapier3d_f64::prelude::{
-    ActiveHooks, CoefficientCombineRule, Collider, ColliderHandle, ColliderSet, ContactModificationContext,
-    Group, InteractionGroups, InteractionTestMode, PairFilterContext, PhysicsHooks, SolverFlags,
+    ActiveHooks, CoefficientCombineRule, Collider, ColliderHandle, ContactModificationContext, Group,
+    InteractionGroups, InteractionTestMode, PairFilterContext, PhysicsHooks, SolverFlags,
 };
+use std::collections::HashMap;
 
 /// Contact parameters of two geoms; `None` where they never touch.
 pub(crate) fn mixture(m: &Model, g1: usize, g2: usize) -> Option<Mixture> {
@@ -54,31 +55,31 @@ pub(crate) fn prepare(m: &Model, g: usize, decides: bool, plainly: bool, collide
     collider.set_active_hooks(hooks);
 }
 
-/// The geom of a collider.
-pub(crate) type GeomOf<'a> = &'a (dyn Fn(ColliderHandle, &ColliderSet) -> Option<usize> + Sync);
+/// The geom of each collider of a model.
+pub(crate) type Geoms = HashMap<ColliderHandle, usize>;
 
 /// MuJoCo's rules for the colliders of one model. Pairs with colliders of other origin are left to rapier.
 pub(crate) struct Rules<'a> {
     pub m: &'a Model,
-    pub geom_of: GeomOf<'a>,
+    pub geoms: &'a Geoms,
 }
 
 impl Rules<'_> {
-    fn geoms(&self, pair: [ColliderHandle; 2], colliders: &ColliderSet) -> Option<[usize; 2]> {
-        Some([(self.geom_of)(pair[0], colliders)?, (self.geom_of)(pair[1], colliders)?])
+    fn geoms(&self, pair: [ColliderHandle; 2]) -> Option<[usize; 2]> {
+        Some([*self.geoms.get(&pair[0])?, *self.geoms.get(&pair[1])?])
     }
 }
 
 impl PhysicsHooks for Rules<'_> {
     fn filter_contact_pair(&self, at: &PairFilterContext) -> Option<SolverFlags> {
-        match self.geoms([at.collider1, at.collider2], at.colliders) {
+        match self.geoms([at.collider1, at.collider2]) {
             Some([g1, g2]) if touching(self.m, g1, g2) == Touching::Never => None,
             Some(_) | None => Some(SolverFlags::COMPUTE_RIGID_IMPULSES),
         }
     }
 
     fn modify_solver_contacts(&self, at: &mut ContactModificationContext) {
-        let geoms = self.geoms([at.collider1, at.collider2], at.colliders);
+        let geoms = self.geoms([at.collider1, at.collider2]);
         let mixture = geoms.and_then(|[g1, g2]| mixture(self.m, g1, g2));
         if let (Some(mixture), Some(rigid)) = (mixture, at.rigid_mut()) {
             *rigid.friction = friction(&mixture);

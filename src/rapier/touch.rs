@@ -1,26 +1,29 @@
 //! Contacts that rapier solved, as contacts and constraint rows of a `Data`, for sensors and observations.
 
 use crate::convert::array;
-use crate::rules::mixture;
-use physics::Model;
+use crate::rules::{Geoms, mixture};
 use physics::collision::PreContact;
-use physics::data::{Constraints, Contact, Contacts};
+use physics::data::{Constraints, Contact};
 use physics::math::{Vec3, dot, row, scale};
 use physics::model::{Cone, ConstraintState, ConstraintType};
-use rapier3d_f64::prelude::{ColliderHandle, ColliderSet, ContactManifold, PhysicsWorld};
+use physics::{Data, Model};
+use rapier3d_f64::prelude::{ContactManifold, NarrowPhase, RigidBodySet};
 
-/// Writes the contacts of the last step of `dt` seconds into `con`, and their forces as rows after those in `efc`.
-pub(crate) fn write(
-    m: &Model,
-    world: &PhysicsWorld,
-    geom_of: impl Fn(ColliderHandle, &ColliderSet) -> Option<usize>,
-    dt: f64,
-    con: &mut Contacts,
-    efc: &mut Constraints,
-) {
+/// Where rapier has contacts and what they are between.
+#[derive(Clone, Copy)]
+pub(crate) struct Found<'a> {
+    pub narrow_phase: &'a NarrowPhase,
+    pub bodies: &'a RigidBodySet,
+    pub geoms: &'a Geoms,
+}
+
+/// Writes the contacts of the last step of `dt` seconds between geoms of a model, and their forces as rows after those of other
+/// constraints.
+pub(crate) fn write(m: &Model, found: Found<'_>, dt: f64, d: &mut Data) {
+    let Data { con, efc, .. } = d;
     con.contact.clear();
-    for pair in world.narrow_phase.contact_pairs() {
-        let geoms = [pair.collider1, pair.collider2].map(|handle| geom_of(handle, &world.colliders));
+    for pair in found.narrow_phase.contact_pairs() {
+        let geoms = [pair.collider1, pair.collider2].map(|handle| found.geoms.get(&handle).copied());
         let [Some(g1), Some(g2)] = geoms else { continue };
         let Some(mixture) = mixture(m, g1, g2) else { continue };
         // MuJoCo's contacts begin at the geom of the lower type.
@@ -28,7 +31,7 @@ pub(crate) fn write(
         let (ids, sign) = if swapped { ([g2, g1], -1.0) } else { ([g1, g2], 1.0) };
         for manifold in pair.solver_manifolds() {
             let normal = scale(array(manifold.data.normal), sign);
-            for touch in points(world, manifold) {
+            for touch in points(found.bodies, manifold) {
                 let point = PreContact { dist: touch.dist, pos: touch.pos, normal, tangent: [0.0; 3] };
                 let mut contact = mixture.contact(ids, &point);
                 // Rapier looks ahead; what neither touches nor was held off is no contact of MuJoCo's.
@@ -55,11 +58,11 @@ struct Touch {
     friction: Vec3,
 }
 
-fn points<'a>(world: &'a PhysicsWorld, manifold: &'a ContactManifold) -> impl Iterator<Item = Touch> + 'a {
+fn points<'a>(bodies: &'a RigidBodySet, manifold: &'a ContactManifold) -> impl Iterator<Item = Touch> + 'a {
     manifold.data.solver_contacts.iter().filter_map(move |contact| {
         let [id] = contact.contact_indices();
         let data = &manifold.points.get(id as usize)?.data;
-        let (p1, p2) = manifold.data.solver_contact_world_points(contact, &world.bodies);
+        let (p1, p2) = manifold.data.solver_contact_world_points(contact, bodies);
         // Rapier keeps friction in the world for the last of its iterations alone, and its size for the whole step.
         let size = data.tangent_impulse.norm();
         let direction = data.warmstart_tangent_world.normalize_or_zero();

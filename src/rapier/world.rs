@@ -3,12 +3,13 @@
 use crate::body::{Body, Sets};
 use crate::floating::Pace;
 use crate::rules::Rules;
+use crate::touch::Found;
 use physics::Model;
 use physics::data::State;
 use physics::model::NotSimulated;
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{
-    ColliderHandle, ColliderSet, FrictionModel, IntegrationParameters, PhysicsPipeline, PhysicsWorld,
+    ColliderHandle, FrictionModel, IntegrationParameters, PhysicsPipeline, PhysicsWorld,
 };
 use std::fmt;
 
@@ -96,7 +97,7 @@ impl World {
             colliders: &mut physics.colliders,
             multibodies: &mut physics.multibody_joints,
         };
-        let body = Body::insert(m, 0, &mut sets)?;
+        let body = Body::insert(m, &mut sets)?;
         Ok(World { physics, body, placed: Vec::new(), mocap: Vec::new(), options })
     }
 
@@ -147,8 +148,13 @@ impl World {
     pub(crate) fn advance(&mut self, m: &Model, pace: Pace) {
         self.physics.integration_parameters.dt = pace.dt;
         self.physics.integration_parameters.num_solver_iterations = pace.iterations;
-        let geom_of = |handle: ColliderHandle, set: &ColliderSet| Some(set.get(handle)?.user_data as usize);
-        self.physics.step_with_events(&Rules { m, geom_of: &geom_of }, &());
+        self.physics.step_with_events(&Rules { m, geoms: &self.body.geoms }, &());
+    }
+
+    /// Its contacts.
+    pub(crate) fn found(&self) -> Found<'_> {
+        let PhysicsWorld { narrow_phase, bodies, .. } = &self.physics;
+        Found { narrow_phase, bodies, geoms: &self.body.geoms }
     }
 
     /// Reads the state back.

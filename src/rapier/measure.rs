@@ -1,0 +1,88 @@
+//! How close a world is to the model that it was made from.
+
+use crate::convert::array;
+use crate::world::World;
+use physics::inertia::full_inertia;
+use physics::model::JointType;
+use physics::{Data, Model};
+use rapier3d_f64::math::Vector;
+use rapier3d_f64::utils::AngularInertiaOps;
+
+/// What a world has of its model, at the reference configuration.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Measures {
+    /// Positions and degrees of freedom.
+    pub nq: usize,
+    /// Degrees of freedom.
+    pub nv: usize,
+    /// Mass of all bodies that move \[kg\].
+    pub mass: f64,
+    /// Axis of each joint in the world; zero for those without one.
+    pub axes: Vec<[f64; 3]>,
+    /// Largest difference between the inertia of rapier's multibodies and the model's, relative to the largest entry.
+    pub inertia: f64,
+}
+
+impl World {
+    /// Reads back what rapier's bodies and joints are.
+    pub fn measure(&self, m: &Model) -> Measures {
+        let (mut nq, mut nv) = (0, 0);
+        let mut axes = vec![[0.0; 3]; m.njnt];
+        for tree in &self.body.links.trees {
+            let Some(multibody) = tree.multibody(&self.physics.multibody_joints) else { continue };
+            nv += multibody.ndofs();
+            nq += multibody.ndofs() + usize::from(tree.root.is_some());
+            for link in &tree.links {
+                nq += usize::from(link.kind == JointType::Ball);
+                let before = &self.physics.bodies[link.before];
+                if let (JointType::Hinge | JointType::Slide, Some(place)) =
+                    (link.kind, multibody.link(link.id))
+                {
+                    let frame = before.position().rotation * place.joint.data.local_frame1.rotation;
+                    axes[link.joint] = array(frame * Vector::X);
+                }
+            }
+        }
+        let moving = self.body.groups.all.iter().zip(&self.body.links.handles);
+        let bodies = moving.map(|(group, &handle)| (group, &self.physics.bodies[handle]));
+        let alone = bodies.clone().filter(|(group, _)| group.motion == crate::groups::Motion::Alone).count();
+        let mass = bodies.map(|(_, rigid)| rigid.mass()).sum();
+        Measures { nq: nq + 7 * alone, nv: nv + 6 * alone, mass, axes, inertia: self.inertia_off(m) }
+    }
+
+    /// Largest relative difference of the inertia of trees without floating roots, whose coordinates are the model's.
+    fn inertia_off(&self, m: &Model) -> f64 {
+        let mut d = Data::new(m);
+        if physics::forward(m, &mut d).is_err() {
+            return f64::NAN;
+        }
+        let ours = full_inertia(m, &d.inertia.M);
+        let mut off = 0.0_f64;
+        for tree in self.body.links.trees.iter().filter(|tree| tree.root.is_none()) {
+            let Some(multibody) = tree.multibody(&self.physics.multibody_joints) else { continue };
+            let n = multibody.ndofs();
+            let mut theirs = vec![0.0; n * n];
+            for (i, armature) in multibody.armature().iter().enumerate() {
+                theirs[i * n + i] = *armature;
+            }
+            for (id, link) in multibody.links().enumerate() {
+                let rigid = &self.physics.bodies[link.rigid_body_handle()];
+                let inertia = rigid.mass_properties().effective_angular_inertia().into_matrix();
+                let jacobian = multibody.body_jacobian(id);
+                for (i, a) in jacobian.column_iter().enumerate() {
+                    let turn = inertia * Vector::new(a[3], a[4], a[5]);
+                    for (j, b) in jacobian.column_iter().enumerate() {
+                        let linear = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+                        theirs[i * n + j] += rigid.mass() * linear + turn.dot(Vector::new(b[3], b[4], b[5]));
+                    }
+                }
+            }
+            let own = |i: usize, j: usize| ours[(tree.dofs.start + i) * m.nv + tree.dofs.start + j];
+            let all = || (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
+            let largest = all().map(|(i, j)| own(i, j).abs()).fold(f64::MIN_POSITIVE, f64::max);
+            off = all().map(|(i, j)| (theirs[i * n + j] - own(i, j)).abs() / largest).fold(off, f64::max);
+        }
+        off
+    }
+}
