@@ -21,8 +21,10 @@ const LINE: &str = "drop=0.002,delay=0.0005,reorder=0.0005,duplicate=0.002,corru
 /// Faults of an arm's network, which carries two thousand.
 const NETWORK: &str = "drop=0.002,delay=0.001,reorder=0.001,duplicate=0.002,corrupt=0.001,truncate=0.001,stall=0.00002,\
                        disconnect=0.00002,stop=0.00001";
-/// The box of the arm's fingertips \[m\], and how far they are from its flange.
-const BOX: [[f64; 2]; 3] = [[0.3, 0.75], [-0.25, 0.25], [0.3, 0.8]];
+/// A box of the arm's fingertips that the motion stays in, and one that it is commanded out of \[m\].
+const WIDE: Bounds = [[0.3, 0.8], [-0.4, 0.4], [0.1, 1.0]];
+const TIGHT: Bounds = [[0.3, 0.75], [-0.25, 0.25], [0.3, 0.8]];
+/// How far the fingertips are from the flange \[m\].
 const FINGERTIPS: f64 = 0.1034;
 /// Control periods of an episode.
 const STEPS: u32 = 30;
@@ -30,6 +32,9 @@ const STEPS: u32 = 30;
 const SAFE: f64 = 1.0;
 /// For how long they must then be told the same \[s\].
 const STILL: f64 = 0.2;
+
+/// Smallest and largest coordinate along each axis \[m\].
+type Bounds = [[f64; 2]; 3];
 
 /// What happened to one driver.
 #[derive(Default)]
@@ -55,43 +60,50 @@ struct Case {
     id: &'static str,
     config: Config,
     rates: &'static str,
+    bounds: Option<Bounds>,
 }
 
 fn cases() -> Result<Vec<Case>, Box<dyn Error>> {
     let servos = include_str!("../../../assets/quadruped/servos.toml").replace("\"off\"", "\"hold\"");
-    let arm = include_str!("../../../assets/franka/tasks/hardware.toml")
-        .replace("hand = true", &format!("hand = true, reset_time = 2.0, box = {:?}", BOX.as_flattened()))
-        .replace("\"impedance\"", "\"position\"");
-    let first = servos.replace("\"dynamixel\"", "\"dynamixel\", model = \"MX-28\"");
-    let feetech = servos.replace("\"dynamixel\"", "\"feetech\"");
-    let (walk, reach) = ("hive/QuadrupedWalk-v0", "hive/FrankaReach-v0");
+    let legs = |name, interface| -> Result<Case, Box<dyn Error>> {
+        let config = Config::from_toml(&servos.replace("\"dynamixel\"", interface), "servos.toml")?;
+        Ok(Case { name, id: "hive/QuadrupedWalk-v0", config, rates: LINE, bounds: None })
+    };
+    let arm = |name, bounds: Bounds| -> Result<Case, Box<dyn Error>> {
+        let text = include_str!("../../../assets/franka/tasks/hardware.toml")
+            .replace(
+                "hand = true",
+                &format!("hand = true, reset_time = 2.0, box = {:?}", bounds.as_flattened()),
+            )
+            .replace("\"impedance\"", "\"position\"");
+        let config = Config::from_toml(&text, "hardware.toml")?;
+        Ok(Case { name, id: "hive/FrankaReach-v0", config, rates: NETWORK, bounds: Some(bounds) })
+    };
     Ok(vec![
-        Case { name: "dynamixel", id: walk, config: Config::from_toml(&servos, "servos.toml")?, rates: LINE },
-        Case {
-            name: "dynamixel, protocol 1.0",
-            id: walk,
-            config: Config::from_toml(&first, "servos.toml")?,
-            rates: LINE,
-        },
-        Case { name: "feetech", id: walk, config: Config::from_toml(&feetech, "servos.toml")?, rates: LINE },
-        Case { name: "franka", id: reach, config: Config::from_toml(&arm, "hardware.toml")?, rates: NETWORK },
-        Case { name: "franka, robotiq", id: reach, config: with_robotiq(&arm)?, rates: NETWORK },
+        legs("dynamixel", "\"dynamixel\"")?,
+        legs("dynamixel, protocol 1.0", "\"dynamixel\", model = \"MX-28\"")?,
+        legs("feetech", "\"feetech\"")?,
+        arm("franka", WIDE)?,
+        arm("franka, in a tight box", TIGHT)?,
+        with_robotiq(arm("franka, robotiq", WIDE)?)?,
     ])
 }
 
-/// The arm with a Robotiq gripper on a serial line instead of its own hand: the model's fingers are closed at its width 0 and
+/// An arm with a Robotiq gripper on a serial line instead of its own hand: the model's fingers are closed at its width 0 and
 /// open at 85 mm.
-fn with_robotiq(arm: &str) -> Result<Config, Box<dyn Error>> {
+fn with_robotiq(mut case: Case) -> Result<Case, Box<dyn Error>> {
     let gripper = "
         [[device]]
         name = 'robotiq'
         interface = { type = 'robotiq', name = '/dev/ttyUSB0' }
         sensor = [{ name = 'gripper_position', range = [0.0, 0.05], hdr_id = 0, scale = 0.470588 }]
         actuator = [{ name = 'gripper', pos_range = [0.0, 0.04], vel_range = [-0.1, 0.1], hdr_id = 0, scale = 2.125 }]";
-    let mut config = Config::from_toml(&(arm.replace("hand = true, ", "") + gripper), "robotiq.toml")?;
-    config.devices[0].sensors.retain(|sensor| sensor.name != "gripper_position");
-    config.devices[0].actuators.retain(|actuator| actuator.name != "gripper");
-    Ok(config)
+    let arm = &mut case.config.devices[0];
+    arm.interface.parameters.remove("hand");
+    arm.sensors.retain(|sensor| sensor.name != "gripper_position");
+    arm.actuators.retain(|actuator| actuator.name != "gripper");
+    case.config.devices.extend(Config::from_toml(gripper, "robotiq.toml")?.devices);
+    Ok(case)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -149,8 +161,8 @@ fn strike(case: &Case, seed: u64, tally: &mut Tally) -> Result<(), Box<dyn Error
         robot.sense(&model, &mirror, &mut rng);
         robot.write_readings(&mut mirror);
         tally.beyond = tally.beyond.max(beyond(case, &rehearsal));
-        if case.name == "franka" {
-            tally.outside = tally.outside.max(outside(&rehearsal));
+        if let Some(bounds) = &case.bounds {
+            tally.outside = tally.outside.max(outside(bounds, &rehearsal));
         }
     }
     tally.faults += rehearsal.struck();
@@ -190,12 +202,12 @@ fn beyond(case: &Case, rehearsal: &Rehearsal) -> f64 {
 }
 
 /// How far from its box the fingertips are where the arm is commanded to be.
-fn outside(rehearsal: &Rehearsal) -> f64 {
+fn outside(bounds: &Bounds, rehearsal: &Rehearsal) -> f64 {
     let told = commands(rehearsal);
     let Some(q) = told.first_chunk::<7>() else { return f64::INFINITY };
     let pose = flange(q);
     let axis = |k: usize| {
-        let (place, [low, high]) = (pose[12 + k] + FINGERTIPS * pose[8 + k], BOX[k]);
+        let (place, [low, high]) = (pose[12 + k] + FINGERTIPS * pose[8 + k], bounds[k]);
         (low - place).max(place - high)
     };
     (0..3).map(axis).fold(0.0, f64::max)

@@ -3,6 +3,7 @@
 use robohive_protocol::franka::{Decoder, Field, Move, Request as Greeting, Setpoint, State, Version, hand};
 use robohive_protocol::modbus::{Request, function};
 use robohive_protocol::robotiq::{Action, Status};
+use robohive_protocol::{dynamixel, feetech, servo};
 
 /// A generator of numbers, the same every time.
 struct Noise(u64);
@@ -98,4 +99,38 @@ fn noise_is_no_request_and_no_reply_of_modbus() {
     }
     // A checksum of 16 bits lets one in 65 536 through.
     assert!(taken < 10, "{taken}");
+}
+
+#[test]
+fn noise_is_no_answer_of_a_servo() {
+    let mut noise = Noise(4);
+    for family in [&dynamixel::FAMILY, &dynamixel::v1::FAMILY, &feetech::FAMILY] {
+        let mut packets = (family.packets)();
+        let mut taken = 0;
+        for round in 0..20_000 {
+            let (mut sent, size) = (Vec::new(), (noise.next() % 12) as u16);
+            packets.encode(&mut sent, 1, servo::Request::FastSyncRead(100, size, &[1, 2, 3]));
+            let count = noise.next() as usize % 80;
+            let mut bytes = noise.bytes(count);
+            // Headers, lengths and ids that are possible are rare among random ones.
+            let possible: &[u8] = if round % 2 == 0 {
+                &[0xFF, 0xFF, 0xFD, 0, 0xFE, 33, 0, 0x55]
+            } else {
+                &[0xFF, 0xFF, 1, 9, 0]
+            };
+            let length = possible.len().min(bytes.len());
+            bytes[..length].copy_from_slice(&possible[..length]);
+            packets.answers(&sent, &bytes, &mut |answer| {
+                taken += usize::from(answer.data.len() == usize::from(size));
+                false
+            });
+            let verdict = packets.verdict(noise.next() as u8);
+            assert!(verdict.refusal.is_none_or(|why| !why.is_empty()));
+            if round % 7 == 0 {
+                packets.clear();
+            }
+        }
+        // A checksum of eight bits lets one in 256 through, and few of these have the right length.
+        assert!(taken < 100, "{taken}");
+    }
 }
