@@ -1,6 +1,6 @@
 //! Seeded faults on the links of every driver, in virtual time: what becomes of the commands, and of the robot.
 //!
-//! `cargo run --release -p robohive-library --example faults -- 10000`
+//! `cargo run --profile ci -p robohive-library --example faults -- 10000`
 //!
 //! Each episode arms the devices, moves them and is struck by faults of all kinds. It must end in a typed error that names the
 //! device, or well; what motors are told stays within the ranges of the config, and the end effector of an arm in its box; and when the faults have ended the motors are told to
