@@ -383,6 +383,28 @@ mod tests {
     }
 
     #[test]
+    fn it_goes_to_its_goal_at_its_moving_speed() {
+        let mut port = line(|servos| servos[0].set_register(address::RETURN_DELAY, 0));
+        // 100 units are 11.1 turns a minute, which are 227 positions a second.
+        for (register, value) in [(30, 1000_u16), (32, 100)] {
+            let [low, high] = value.to_le_bytes();
+            ask(&mut port, 1, instruction::WRITE, &[register, low, high]);
+        }
+        ask(&mut port, 1, instruction::WRITE, &[24, 1]);
+        let mut position = |wait: f64| {
+            port.wait(wait);
+            let [(_, 0, data)] = &ask(&mut port, 1, instruction::READ, &[36, 2])[..] else {
+                panic!("an answer")
+            };
+            (port.now(), f64::from(u16::from_le_bytes([data[0], data[1]])))
+        };
+        let ((begun, from), (ended, to)) = (position(0.5), position(1.0));
+        let speed = (to - from) / (ended - begun);
+        assert!((speed - 227.3).abs() < 2.0, "{speed}");
+        assert_eq!(position(3.0).1, 1000.0);
+    }
+
+    #[test]
     fn it_answers_as_late_and_as_seldom_as_it_is_told() {
         let mut port = line(|servos| servos[1].set_register(address::STATUS_RETURN, 1));
         let mut bytes = Vec::new();

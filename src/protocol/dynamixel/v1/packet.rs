@@ -176,7 +176,7 @@ impl Packets for First {
             // A converter that does not switch its receiver off returns what was sent.
             let echoed = sent.get(2) == Some(&id)
                 && sent.get(4) == Some(&code)
-                && parameters.len() + FRAME == sent.len();
+                && sent.get(5..sent.len() - 1) == Some(parameters);
             if !echoed && take(Answer { id, error: code, data: parameters }) {
                 return true;
             }
@@ -249,6 +249,22 @@ mod tests {
         assert_eq!(both.refusal.as_deref(), Some("the goal is beyond its angle limits"));
         assert_eq!(both.trouble.as_deref(), Some("overheating, overload"));
         assert!(!both.damaged && error::verdict(error::CHECKSUM).damaged);
+    }
+
+    #[test]
+    fn an_echo_is_told_from_an_answer_of_its_length() {
+        let mut first = First::new(error::verdict);
+        let mut sent = Vec::new();
+        first.encode(&mut sent, 1, Request::Read(36, 2));
+        let mut answer = Vec::new();
+        encode(&mut answer, 1, error::ANGLE, &[&[0x20, 0x02]]);
+        assert_eq!(sent.len(), answer.len());
+        let mut heard = Vec::new();
+        first.answers(&sent, &[&sent[..], &answer].concat(), &mut |answer| {
+            heard.push((answer.error, answer.data.to_vec()));
+            false
+        });
+        assert_eq!(heard, [(error::ANGLE, vec![0x20, 0x02])]);
     }
 
     #[test]
