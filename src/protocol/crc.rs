@@ -7,15 +7,25 @@
 /// assert_eq!(robohive_protocol::crc::buypass(0, &ping), 0x4E19);
 /// ```
 pub fn buypass(crc: u16, bytes: &[u8]) -> u16 {
-    bytes.iter().fold(crc, |crc, &byte| {
-        (0..8).fold(
-            crc ^ u16::from(byte) << 8,
-            |crc, _| {
-                if crc & 0x8000 != 0 { crc << 1 ^ 0x8005 } else { crc << 1 }
-            },
-        )
-    })
+    bytes.iter().fold(crc, |crc, &byte| crc << 8 ^ REMAINDERS[usize::from((crc >> 8) as u8 ^ byte)])
 }
+
+/// What is left of each byte, most significant bit first.
+const REMAINDERS: [u16; 256] = {
+    let mut table = [0; 256];
+    let mut byte = 0;
+    while byte < 256 {
+        let mut rest = (byte as u16) << 8;
+        let mut bit = 0;
+        while bit < 8 {
+            rest = if rest & 0x8000 != 0 { rest << 1 ^ 0x8005 } else { rest << 1 };
+            bit += 1;
+        }
+        table[byte] = rest;
+        byte += 1;
+    }
+    table
+};
 
 /// CRC-16 with polynomial 0x8005, least significant bit first, that begins with 0xFFFF: Modbus RTU sends its low byte first.
 ///
