@@ -87,6 +87,21 @@ pub enum Mode {
     Current,
 }
 
+impl Mode {
+    /// All of them.
+    pub const ALL: [Mode; 4] = [Mode::Position, Mode::Turns, Mode::Velocity, Mode::Current];
+
+    /// What configs call it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Mode::Position => "position",
+            Mode::Turns => "extended",
+            Mode::Velocity => "velocity",
+            Mode::Current => "current",
+        }
+    }
+}
+
 /// A register that must hold one of some numbers before a servo is commanded in a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {

@@ -107,13 +107,13 @@ impl Servos {
         Ok(Found { kind, limits, present: [0; 3] })
     }
 
-    /// What single servos cannot do.
-    fn check(&self) -> Result<(), Fault> {
+    /// Whether every servo can do what the config asks of it.
+    fn check_abilities(&self) -> Result<(), Fault> {
         for motor in &self.settings.motors {
             let kind = self.kind(motor);
             if kind.modes.iter().all(|(mode, _)| *mode != motor.mode) {
-                let (id, name, mode) = (motor.id, kind.name, motor.mode);
-                return Err(Fault::Refused(format!("servo {id}, an {name}, has no mode '{mode:?}'")));
+                let (id, name, mode) = (motor.id, kind.name, motor.mode.name());
+                return Err(Fault::Refused(format!("servo {id}, an {name}, has no mode '{mode}'")));
             }
         }
         for (id, _) in self.settings.sensors.iter().filter(|(_, quantity)| *quantity == Quantity::Current) {
@@ -149,8 +149,9 @@ impl Servos {
         if let Some(watchdog) = layout.watchdog {
             bus.write(id, watchdog, 0)?;
         }
-        let delay =
-            layout.return_delay.map(|(cell, unit)| Setting::exactly(cell, (return_delay / unit) as i64));
+        let delay = layout
+            .return_delay
+            .map(|(cell, unit)| Setting::exactly(cell, (return_delay / unit).round() as i64));
         let mode =
             kind.modes.iter().find(|(mode, _)| *mode == motor.mode).map_or(&[][..], |(_, needs)| needs);
         // These outlive a restart in memory that wears, and take the torque away: written only where they differ.
@@ -237,7 +238,7 @@ impl Driver for Servos {
         for place in 0..self.ids.len() {
             self.found[place] = self.find(self.ids[place])?;
         }
-        self.check()?;
+        self.check_abilities()?;
         self.reading = self.choose_reading()?;
         Ok(())
     }

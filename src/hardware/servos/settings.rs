@@ -105,17 +105,16 @@ impl Settings {
 
 fn motor(config: &ActuatorConfig) -> Result<Motor, Fault> {
     let name = &config.name;
-    let mode = match config.mode.as_deref().map(str::to_ascii_lowercase).as_deref() {
-        None | Some("position") => Mode::Position,
-        Some("extended") => Mode::Turns,
-        Some("velocity") => Mode::Velocity,
-        Some("current" | "torque") => Mode::Current,
-        Some(other) => {
-            return Err(refused(format!(
-                "'{name}' has mode '{other}'; there are position, extended, velocity, current"
-            )));
-        }
+    let word = config.mode.as_deref().map(str::to_ascii_lowercase);
+    let word = match word.as_deref() {
+        None => Mode::Position.name(),
+        Some("torque") => Mode::Current.name(),
+        Some(word) => word,
     };
+    let mode = Mode::ALL.into_iter().find(|mode| mode.name() == word).ok_or_else(|| {
+        let known = Mode::ALL.map(Mode::name).join(", ");
+        refused(format!("'{name}' has mode '{word}'; there are {known}"))
+    })?;
     let HardwareId::Number(number) = &config.hardware else {
         return Err(refused(format!("hdr_id of '{name}' is a text; an actuator has the id of its servo")));
     };

@@ -108,24 +108,25 @@ fn reading_and_commanding_servos_allocates_nothing() {
     let time = pair.read(&mut values).unwrap();
     pair.apply(time, &[3.0, 3.2]).unwrap();
     repeats.store(true, Ordering::Relaxed);
-    // The thread that started this one may still allocate in the first of several rounds.
-    let mut changes = (0..5).map(|_| {
-        let region = Region::new(HEAP);
-        for k in 0..1000 {
-            let time = pair.read(&mut values).unwrap();
-            pair.apply(time, &[3.0 + 1e-4 * f64::from(k), 3.2]).unwrap();
-        }
-        let change = region.change();
-        (change.allocations, change.reallocations, change.deallocations)
-    });
-    let quiet = changes.any(|change| change == (0, 0, 0));
+    // The thread of the test's harness may allocate meanwhile, but not in three rounds.
+    let rounds: Vec<_> = (0..3)
+        .map(|_| {
+            let region = Region::new(HEAP);
+            for k in 0..1000 {
+                let time = pair.read(&mut values).unwrap();
+                pair.apply(time, &[3.0 + 1e-4 * f64::from(k), 3.2]).unwrap();
+            }
+            let change = region.change();
+            [change.allocations, change.reallocations, change.deallocations]
+        })
+        .collect();
     repeats.store(false, Ordering::Relaxed);
     // The readings are those of the servos where they stood: the answers are decoded, not skipped.
     for (motor, value) in values.iter().enumerate() {
         let angle = seen.lock().unwrap().plant().position(motor) + std::f64::consts::PI;
         assert!((value - angle).abs() < protocol::dynamixel::Model::POSITION_UNIT, "{value} {angle}");
     }
-    assert!(quiet, "no round of a thousand readings and commands was without allocations");
+    assert!(rounds.contains(&[0; 3]), "{rounds:?}");
     pair.close().unwrap();
     std::fs::remove_dir_all(folder).unwrap();
 }

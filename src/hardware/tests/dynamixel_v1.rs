@@ -158,7 +158,7 @@ fn what_these_servos_cannot_do_is_named() {
             "",
             "servo 10 does not answer at 1000000 baud on bus; check its power, its id, its baud rate and its protocol",
         ),
-        ("protocol = 1", "mode = 'velocity'", "servo 11, an AX-12A, has no mode 'Velocity'"),
+        ("protocol = 1", "mode = 'velocity'", "servo 11, an AX-12A, has no mode 'velocity'"),
         ("protocol = 1, profile_acceleration = 2", "", "servos with protocol 1 do not keep"),
         ("protocol = 1, model = 'XM430-W350'", "", "which servos of the model 'XM430-W350' do not speak"),
         ("model = 'MX-28'", "", "servo 10 is an AX-12A, and its config says MX-28"),
