@@ -7,7 +7,9 @@ use crate::reached::Reached;
 use crate::settings::{ArmSettings, Gains};
 use env::Env;
 use physics::elements::{ActuatorId, Element, JointId, SiteId};
-use physics::math::{Quat, Vec3, add, mat_to_quat, quat_from_axis_angle, quat_mul, quat_normalize, scale};
+use physics::math::{
+    Quat, Vec3, add, dot, mat_to_quat, normalize, quat_from_axis_angle, quat_mul, quat_normalize, scale, sub,
+};
 use physics::position::kinematics::kinematics;
 use physics::{Data, Model};
 use robot::{Pose, Reach, Search};
@@ -41,7 +43,11 @@ pub struct Arm {
     /// Commanded positions of the links.
     command: Vec<f64>,
     target: (Vec3, Quat),
+    /// The hand moves, and is turned while it does.
     moving: bool,
+    turning: bool,
+    /// Its way in the last tick.
+    way: Vec3,
     grip: f64,
 }
 
@@ -120,6 +126,8 @@ impl Arm {
             command: Vec::new(),
             target: Default::default(),
             moving: false,
+            turning: false,
+            way: [0.0; 3],
             grip: settings.gripper,
             links,
         };
@@ -133,7 +141,7 @@ impl Arm {
         self.rest = data.state.qpos.clone();
         self.command = self.links.iter().map(|link| data.state.qpos[link.position]).collect();
         self.target = self.hand(model, data, &self.command);
-        (self.moving, self.grip) = (false, self.settings.gripper);
+        (self.moving, self.turning, self.grip) = (false, false, self.settings.gripper);
     }
 
     /// Takes the state that something else has brought the arm to as its target, and the gripper as that has left it.
@@ -172,8 +180,17 @@ impl Arm {
             self.grip = grip.clamp(-1.0, 1.0);
         }
         let reached = if motion.moves() {
-            self.moving = true;
-            self.pursue(model, data, motion, if quarter { QUARTER } else { 1.0 })
+            let most = if quarter { QUARTER } else { 1.0 };
+            let begins = !std::mem::replace(&mut self.moving, true);
+            self.turning |= motion.turns();
+            self.way = motion.way();
+            let mut reached = self.pursue(model, data, motion, most);
+            if begins && reached != Reached::Yes {
+                // What was meant cannot be had from here: it goes on from what is.
+                self.stay(model, data);
+                reached = self.pursue(model, data, motion, most);
+            }
+            reached
         } else {
             self.rest_at(model, data);
             Reached::Yes
@@ -266,10 +283,18 @@ impl Arm {
         (position, quat_normalize(turned))
     }
 
-    /// Stays where the arm is when a motion ends.
+    /// Stays where the arm is when a motion ends. Across its way, and unless it was turned, the hand is meant to be where its target was:
+    /// otherwise every stop would add what it is off.
     fn rest_at(&mut self, model: &Model, data: &Data) {
         if std::mem::take(&mut self.moving) {
+            let (place, direction) = self.target;
             self.stay(model, data);
+            if !std::mem::take(&mut self.turning) {
+                self.target.1 = direction;
+            }
+            let (along, length) = normalize(self.way);
+            let stopped = if length > 0.0 { dot(sub(self.target.0, place), along) } else { 0.0 };
+            self.target.0 = add(place, scale(along, stopped));
         }
     }
 

@@ -30,6 +30,17 @@ impl ArmMotion {
     pub fn moves(&self) -> bool {
         self.along.iter().any(|&x| x != 0.0) || self.hand.is_some()
     }
+
+    /// The direction in which the hand goes, of any length.
+    pub fn way(&self) -> Vec3 {
+        let [x, y, z, ..] = self.along;
+        self.hand.map_or([x, y, z], |hand| hand.way)
+    }
+
+    /// Whether the hand should turn.
+    pub fn turns(&self) -> bool {
+        self.along[3..].iter().any(|&x| x != 0.0) || self.hand.is_some()
+    }
 }
 
 /// How a person wants the robot to move during a tick.

@@ -297,3 +297,24 @@ fn keys_become_motions_on_a_virtual_clock() {
     assert_eq!(stepped_after, 0, "a key that is not repeated is released within 0.2 s");
     assert!(site(&session, "grasp")[2] < start[2] - 0.1);
 }
+
+#[test]
+fn stops_add_up_to_nothing() {
+    let mut session = session(Plan::default());
+    let (start, index) = (site(&session, "grasp"), session.pilot().arms()[0].site().index());
+    let pose = |session: &Session| session.env().scene().data.kin.site_xmat[index];
+    let upright = pose(&session);
+    // Short presses to and fro: the arm is behind its target at every release.
+    for k in 0..120 {
+        let sign = if (k / 20) % 2 == 0 { 1.0 } else { -1.0 };
+        session.tick(&if k % 3 == 0 { along(1, sign) } else { Input::default() }).unwrap();
+    }
+    (0..6).for_each(|_| drop(session.tick(&along(1, -0.1)).unwrap()));
+    (0..10).for_each(|_| drop(session.tick(&Input::default()).unwrap()));
+    let (end, now) = (site(&session, "grasp"), pose(&session));
+    let trace: f64 = (0..9).map(|k| upright[k] * now[k]).sum();
+    let turn = ((trace - 1.0) / 2.0).clamp(-1.0, 1.0).acos();
+    let aside = (end[0] - start[0]).hypot(end[2] - start[2]);
+    println!("forty presses along y move the hand by {aside:.3} m across, and turn it by {turn:.3} rad");
+    assert!(turn < 0.1 && aside < 0.03, "{turn} rad, {aside} m");
+}
