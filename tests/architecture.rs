@@ -137,7 +137,7 @@ const OTHERS: [(&str, &[&str]); 22] = [
     ("robohive-exchange", &["parquet", "serde_json"]),
     ("robohive-encoders", &["libm", "ndarray", "rayon", "serde", "serde_json", "zip"]),
     ("robohive-mjcf", &["roxmltree", "fdeflate"]),
-    ("robohive-rapier", &["rapier3d-f64", "parry3d-f64"]),
+    ("robohive-rapier", &["rapier3d-f64", "parry3d-f64", "rapier3d", "rapier3d-mjcf"]),
     ("robohive-robot", &["toml"]),
     ("robohive-protocol", &[]),
     ("robohive-wire", &["rustix"]),

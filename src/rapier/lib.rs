@@ -74,8 +74,9 @@
 //! # What cannot be helped from outside
 //! Rapier solves contacts by its own softness for the whole world, with a frozen Jacobian and a single sweep: resting depths and
 //! the course of an impact differ from MuJoCo's (`validation/results/rapier.md` has by how much). Contacts do not see joint limits
-//! in the same sweep, as limits are ours: a finger that is pushed against its limit gives by a step. Links of little inertia
-//! with many overlapping contacts become unstable; of RoboHive's 56 models one does. Each step costs two dense factorisations of
+//! in the same sweep, as limits are ours: a finger that is pushed against its limit gives by a step. A contact row in a direction
+//! that the joints hardly move in is not regularised, and makes impulses without bound: RoboHive's `franka_robotiq.xml`, whose
+//! gripper begins 12 cm inside a table, is unstable. Each step costs two dense factorisations of
 //! the joint-space inertia.
 
 pub use parry3d_f64 as parry;

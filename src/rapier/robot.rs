@@ -131,7 +131,7 @@ impl Robot {
         placed.clone_from(&data.state.qpos);
         forces.find_contact_force(data)?;
         let found = Found { narrow_phase, bodies, geoms: &body.geoms };
-        touch::write(&forces.model, found, pace.dt, data);
+        touch::write(&forces.model, found, pace, data);
         forces.account(data);
         Ok(())
     }

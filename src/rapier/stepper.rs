@@ -73,7 +73,7 @@ impl Rapier {
         }
         world.read(&forces.model, pace, &mut d.state);
         forces.find_contact_force(d)?;
-        touch::write(&forces.model, world.found(), pace.dt, d);
+        touch::write(&forces.model, world.found(), pace, d);
         forces.account(d);
         Ok(())
     }

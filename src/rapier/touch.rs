@@ -1,13 +1,15 @@
 //! Contacts that rapier solved, as contacts and constraint rows of a `Data`, for sensors and observations.
 
 use crate::convert::array;
+use crate::floating::Pace;
 use crate::rules::{Geoms, mixture};
 use physics::collision::PreContact;
 use physics::data::{Constraints, Contact};
 use physics::math::{Vec3, dot, row, scale};
 use physics::model::{Cone, ConstraintState, ConstraintType};
 use physics::{Data, Model};
-use rapier3d_f64::prelude::{ContactManifold, NarrowPhase, RigidBodySet};
+use rapier3d_f64::math::Vector;
+use rapier3d_f64::prelude::{ContactManifold, NarrowPhase, RigidBodyHandle, RigidBodySet};
 
 /// Where rapier has contacts and what they are between.
 #[derive(Clone, Copy)]
@@ -17,9 +19,9 @@ pub(crate) struct Found<'a> {
     pub geoms: &'a Geoms,
 }
 
-/// Writes the contacts of the last step of `dt` seconds between geoms of a model, and their forces as rows after those of other
+/// Writes the contacts of the last step between geoms of a model, and their forces as rows after those of other
 /// constraints.
-pub(crate) fn write(m: &Model, found: Found<'_>, dt: f64, d: &mut Data) {
+pub(crate) fn write(m: &Model, found: Found<'_>, pace: Pace, d: &mut Data) {
     let Data { con, efc, .. } = d;
     con.contact.clear();
     for pair in found.narrow_phase.contact_pairs() {
@@ -31,7 +33,7 @@ pub(crate) fn write(m: &Model, found: Found<'_>, dt: f64, d: &mut Data) {
         let (ids, sign) = if swapped { ([g2, g1], -1.0) } else { ([g1, g2], 1.0) };
         for manifold in pair.solver_manifolds() {
             let normal = scale(array(manifold.data.normal), sign);
-            for touch in points(found.bodies, manifold) {
+            for touch in points(found.bodies, manifold, pace) {
                 let point = PreContact { dist: touch.dist, pos: touch.pos, normal, tangent: [0.0; 3] };
                 let mut contact = mixture.contact(ids, &point);
                 // Rapier looks ahead; what neither touches nor was held off is no contact of MuJoCo's.
@@ -39,14 +41,17 @@ pub(crate) fn write(m: &Model, found: Found<'_>, dt: f64, d: &mut Data) {
                     continue;
                 }
                 if touch.normal > 0.0 {
-                    let friction = scale(touch.friction, sign / dt);
-                    push_rows(m, &mut contact, con.contact.len(), (touch.normal / dt, friction), efc);
+                    let friction = scale(touch.friction, sign / pace.dt);
+                    push_rows(m, &mut contact, con.contact.len(), (touch.normal / pace.dt, friction), efc);
                 }
                 con.contact.push(contact);
             }
         }
     }
 }
+
+/// Speed of points that slide rather than stick \[m/s\].
+const SLIDING: f64 = 1e-3;
 
 /// One point of contact.
 struct Touch {
@@ -58,21 +63,43 @@ struct Touch {
     friction: Vec3,
 }
 
-fn points<'a>(bodies: &'a RigidBodySet, manifold: &'a ContactManifold) -> impl Iterator<Item = Touch> + 'a {
+fn points<'a>(
+    bodies: &'a RigidBodySet,
+    manifold: &'a ContactManifold,
+    pace: Pace,
+) -> impl Iterator<Item = Touch> + 'a {
+    let pressed: f64 = manifold.points.iter().map(|point| point.data.impulse).sum();
     manifold.data.solver_contacts.iter().filter_map(move |contact| {
         let [id] = contact.contact_indices();
         let data = &manifold.points.get(id as usize)?.data;
         let (p1, p2) = manifold.data.solver_contact_world_points(contact, bodies);
-        // Rapier keeps friction in the world for the last of its iterations alone, and its size for the whole step.
-        let size = data.tangent_impulse.norm();
-        let direction = data.warmstart_tangent_world.normalize_or_zero();
-        Some(Touch {
-            pos: array((p1 + p2) / 2.0),
-            dist: contact.dist,
-            normal: data.impulse,
-            friction: array(direction * size),
-        })
+        let pos = (p1 + p2) / 2.0;
+        let friction = match data.tangent_impulse.norm() {
+            // Rapier's friction is that on the first body. For multibodies it keeps the size over the whole step, and the direction in the world of the last iteration.
+            size if size > 0.0 => -data.warmstart_tangent_world.normalize_or_zero() * size,
+            // For bodies alone, that of the last iteration for all points together. Where they slide it is nothing at times, but
+            // then friction is known.
+            _ if pressed > 0.0 => {
+                let slip = slip(bodies, manifold, pos);
+                if slip.length() > SLIDING {
+                    -slip.normalize() * manifold.data.friction * data.impulse
+                } else {
+                    -data.warmstart_tangent_world * pace.iterations as f64 * (data.impulse / pressed)
+                }
+            }
+            _ => Vector::ZERO,
+        };
+        Some(Touch { pos: array(pos), dist: contact.dist, normal: data.impulse, friction: array(friction) })
     })
+}
+
+/// Velocity of the second body against the first along the surface, at a point.
+fn slip(bodies: &RigidBodySet, manifold: &ContactManifold, at: Vector) -> Vector {
+    let velocity = |handle: Option<RigidBodyHandle>| {
+        handle.and_then(|handle| bodies.get(handle)).map_or(Vector::ZERO, |body| body.velocity_at_point(at))
+    };
+    let relative = velocity(manifold.data.rigid_body2) - velocity(manifold.data.rigid_body1);
+    relative - manifold.data.normal * relative.dot(manifold.data.normal)
 }
 
 /// Rows whose forces add up to these in MuJoCo's cone: an elliptic one has a row for each direction, a pyramid two for each

@@ -8,9 +8,7 @@ use physics::Model;
 use physics::data::State;
 use physics::model::NotSimulated;
 use rapier3d_f64::math::Vector;
-use rapier3d_f64::prelude::{
-    ColliderHandle, FrictionModel, IntegrationParameters, PhysicsPipeline, PhysicsWorld,
-};
+use rapier3d_f64::prelude::{ColliderHandle, IntegrationParameters, PhysicsPipeline, PhysicsWorld};
 use std::fmt;
 
 /// How rapier is asked to solve.
@@ -91,7 +89,6 @@ impl World {
         parameters.contact_clustering = false;
         // MuJoCo's contacts begin at zero distance; rapier has to see them a step ahead.
         parameters.normalized_prediction_distance = 0.002;
-        parameters.friction_model = FrictionModel::Coulomb;
         let mut sets = Sets {
             bodies: &mut physics.bodies,
             colliders: &mut physics.colliders,

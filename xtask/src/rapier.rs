@@ -16,6 +16,7 @@ pub fn run() -> Outcome {
         cargo(&[&["clippy"][..], packages, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     }
     cargo(&[&["test"][..], &package].concat())?;
+    cargo(&[&["run"][..], &package, &["--example", "muscle_arm"]].concat())?;
     cargo(&[&["test"][..], &command, &["--test", "solver"]].concat())?;
     cargo(&[&["check"][..], &package, &["--target", "wasm32-unknown-unknown"]].concat())?;
     let mut doc = Command::new("cargo");

@@ -1,0 +1,153 @@
+//! How far motions drift apart: rapier here, and rapier as its own loader sets it up, from our own solver, which follows MuJoCo
+//! (`validation/results/steps.md`, `robohive.md`).
+
+use crate::Subject;
+use crate::scenes::SCENES;
+use physics::{Data, Engine, Model};
+use robohive_rapier::{Options, engine};
+
+/// RoboHive's models whose motion is compared.
+const ROBOHIVE: [&str; 12] = [
+    "fetch_reach_v0",
+    "franka_busbin",
+    "franka_ycb",
+    "trifinger_reorient",
+    "DAPG_door",
+    "DAPG_relocate",
+    "franka_desk",
+    "franka_kitchen",
+    "myoelbow_1dof6muscles.xml",
+    "myohand_pose",
+    "myolegs.xml",
+    "dkitty_walk_v0",
+];
+
+/// Positions of bodies by name, at every step of a second.
+pub type Motion = Vec<Vec<[f64; 3]>>;
+
+/// Controls at a time: sines of half the range, or half of nothing bounded, each with a phase of its own.
+pub fn controls(m: &Model, time: f64, out: &mut [f64]) {
+    for (i, control) in out.iter_mut().enumerate() {
+        let [low, high] = if m.actuator_ctrllimited[i] { m.actuator_ctrlrange[i] } else { [-0.5, 0.5] };
+        let wave = (3.0 * time + i as f64).sin() - (i as f64).sin();
+        *control = 0.5 * (low + high) + 0.25 * (high - low) * wave;
+    }
+}
+
+/// Names of the bodies that move, with their numbers.
+pub fn bodies(m: &Model) -> Vec<(String, usize)> {
+    let named = m.body_names().map(|(id, name)| (name.to_owned(), m.body(name).map_or(0, |_| id.index())));
+    named.filter(|(name, b)| !name.is_empty() && m.body_weldid[*b] != 0).collect()
+}
+
+fn start(m: &Model) -> Data {
+    let mut d = Data::new(m);
+    if m.nkey > 0 {
+        let _ = d.reset_to_key(m, 0);
+    }
+    d
+}
+
+fn steps(m: &Model) -> usize {
+    (1.0 / m.opt.timestep).round() as usize
+}
+
+/// A second of motion, or as much of it as an engine takes.
+fn simulate(m: &Model, engine: &Engine) -> Result<Motion, String> {
+    let mut mover = engine.start(m).map_err(|refusal| refusal.to_string())?;
+    let (mut d, names) = (start(m), bodies(m));
+    let mut motion = Motion::new();
+    for _ in 0..steps(m) {
+        let time = d.time();
+        controls(m, time, &mut d.state.ctrl);
+        if mover.step(m, &mut d).is_err() {
+            break;
+        }
+        let mut now = d.clone();
+        if physics::forward(m, &mut now).is_err() {
+            break;
+        }
+        motion.push(names.iter().map(|(_, b)| now.kin.xpos[*b]).collect());
+    }
+    Ok(motion)
+}
+
+/// Root mean square distance after a tenth of a second and after one \[m\], and when any body is first off by 0.01 m \[s\].
+fn drift(own: &Motion, other: &Motion, dt: f64) -> String {
+    let distance = |a: &[f64; 3], b: &[f64; 3]| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>();
+    let at = |time: f64| {
+        let step = ((time / dt).round() as usize).clamp(1, own.len().max(1)) - 1;
+        let (Some(a), Some(b)) = (own.get(step), other.get(step)) else { return "failed".to_owned() };
+        let mean = a.iter().zip(b).map(|(a, b)| distance(a, b)).sum::<f64>() / a.len().max(1) as f64;
+        format!("{:.0e}", mean.sqrt())
+    };
+    let off = |(a, b): (&Vec<[f64; 3]>, &Vec<[f64; 3]>)| a.iter().zip(b).any(|(a, b)| distance(a, b) > 1e-4);
+    let first = own.iter().zip(other).position(off);
+    let first = first.map_or("-".to_owned(), |step| format!("{:.3}", (step + 1) as f64 * dt));
+    format!("{} | {} | {first}", at(0.1), at(1.0))
+}
+
+/// Prints a row for each scene and model.
+pub fn table(all: &[Subject]) {
+    println!(
+        "| model | here: 0.1 s | 1 s | off by 0.01 m at | stock: 0.1 s | 1 s | off at |\n|---|---|---|---|---|---|---|"
+    );
+    let folder = std::env::temp_dir();
+    for (name, text) in SCENES {
+        let path = folder.join(format!("{}.xml", name.replace([' ', ','], "_")));
+        if std::fs::write(&path, text).is_ok() {
+            row(&Subject::read(name, path));
+        }
+    }
+    let wanted =
+        |s: &&Subject| s.name.starts_with("own ") || ROBOHIVE.iter().any(|name| s.name.contains(name));
+    all.iter().filter(wanted).for_each(row);
+}
+
+fn row(subject: &Subject) {
+    let Ok(m) = &subject.model else { return };
+    let own = simulate(m, &Engine::default());
+    let (Ok(own), Ok(other)) = (own, simulate(m, &engine(Options::default()))) else {
+        println!("| {} | refused | | | | | |", subject.name);
+        return;
+    };
+    let stock = stock(subject, m, &own);
+    println!("| {} | {} | {stock} |", subject.name, drift(&own, &other, m.opt.timestep));
+}
+
+#[cfg(feature = "stock")]
+fn stock(subject: &Subject, m: &Model, own: &Motion) -> String {
+    match crate::stock::simulate(&subject.path, m, &bodies(m), steps(m)) {
+        Ok(motion) => drift(own, &motion, m.opt.timestep),
+        Err(error) => format!("{error} | |"),
+    }
+}
+
+#[cfg(not(feature = "stock"))]
+fn stock(_: &Subject, _: &Model, _: &Motion) -> String {
+    "not asked | |".into()
+}
+
+/// Prints a digest of the state after a second of every scene: the same on every machine, if rapier keeps its promise.
+pub fn bits() {
+    for (name, text) in SCENES {
+        let Ok(loaded) = mjcf::load_str(text) else { continue };
+        let m = loaded.model;
+        let Ok(mut mover) = engine(Options::default()).start(&m) else { continue };
+        let mut d = start(&m);
+        for _ in 0..steps(&m) {
+            let time = d.time();
+            controls(&m, time, &mut d.state.ctrl);
+            if mover.step(&m, &mut d).is_err() {
+                break;
+            }
+        }
+        let mut digest: u64 = 0xcbf2_9ce4_8422_2325;
+        for x in d.state.qpos.iter().chain(&d.state.qvel) {
+            for byte in x.to_bits().to_le_bytes() {
+                digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        }
+        println!("| {name} | {digest:016x} |");
+    }
+}
