@@ -2,8 +2,9 @@
 
 use crate::convert::{array, pose, rotation, vector};
 use physics::Model;
+use physics::math::diagonalize;
 use physics::model::JointType;
-use rapier3d_f64::math::{Matrix, Pose, Vector};
+use rapier3d_f64::math::{Matrix, Pose, Rotation, Vector};
 use rapier3d_f64::prelude::MassProperties;
 
 /// What moves a group of welded bodies.
@@ -96,7 +97,7 @@ impl Groups {
             group.com = com[k];
             group.origin =
                 if matches!(group.motion, Motion::Alone | Motion::Floating) { com[k] } else { Vector::ZERO };
-            group.mass = MassProperties::with_inertia_matrix(com[k] - group.origin, mass[k], inertia[k]);
+            group.mass = mass_properties(com[k] - group.origin, mass[k], inertia[k]);
         }
     }
 
@@ -118,6 +119,20 @@ impl Group {
         let mass = MassProperties::default();
         Group { body, parent, motion, com: Vector::ZERO, origin: Vector::ZERO, mass }
     }
+}
+
+/// Mass properties with principal axes from our own decomposition: parry's is exact to seven digits where moments are nearly equal.
+fn mass_properties(com: Vector, mass: f64, inertia: Matrix) -> MassProperties {
+    let mut moments = inertia.to_cols_array();
+    let size = (moments[0] + moments[4] + moments[8]).max(f64::MIN_POSITIVE);
+    moments.iter_mut().for_each(|entry| *entry /= size);
+    let mut columns = [0.0; 9];
+    diagonalize(&mut moments, &mut columns, 3, 1e-16);
+    // Eigenvectors are columns of the row-major matrix, and may mirror.
+    let axis = |k: usize| Vector::new(columns[k], columns[3 + k], columns[6 + k]);
+    let axes = Matrix::from_cols(axis(0), axis(1), axis(0).cross(axis(1)));
+    let moments = Vector::new(moments[0], moments[4], moments[8]) * size;
+    MassProperties::with_principal_inertia_frame(com, mass, moments, Rotation::from_mat3(&axes).normalize())
 }
 
 /// Joints of a body.

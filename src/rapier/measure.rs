@@ -16,7 +16,7 @@ pub struct Measures {
     pub nq: usize,
     /// Degrees of freedom.
     pub nv: usize,
-    /// Mass of all bodies that move \[kg\].
+    /// Mass of all bodies that joints move \[kg\].
     pub mass: f64,
     /// Axis of each joint in the world; zero for those without one.
     pub axes: Vec<[f64; 3]>,

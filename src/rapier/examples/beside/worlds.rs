@@ -20,7 +20,7 @@ pub fn table(all: &[Subject]) {
                     built += 1;
                     let found = world.measure(m);
                     let moving: f64 =
-                        (1..m.nbody).filter(|&b| m.body_weldid[b] != 0).map(|b| m.body_mass[b]).sum();
+                        (1..m.nbody).filter(|&b| m.body_treeid[b] >= 0).map(|b| m.body_mass[b]).sum();
                     let mass = if moving > 0.0 { (found.mass / moving - 1.0).abs() } else { found.mass };
                     let axes = axes_off(m, &found.axes);
                     let same = (found.nq, found.nv) == (m.nq, m.nv);
