@@ -18,8 +18,13 @@ pub const STATIC_TARGET: &str = "x86_64-unknown-linux-gnu";
 const STATIC_FLAGS: &str = "-C target-feature=+avx,+crt-static";
 const WEB_TARGET: &str = "wasm32-unknown-unknown";
 
-/// The library without its default features, here and for WebAssembly where the target is installed.
+/// The command with TLS, and the library without its default features, here and for WebAssembly where the target is installed.
 pub fn features() -> Outcome {
+    let tls = ["-p", "robohive-cli", "--features", "robohive-cli/tls"];
+    cargo(
+        &[&["clippy", "--profile", PROFILE, "--all-targets"], &tls[..], &["--", "-D", "warnings"]].concat(),
+    )?;
+    cargo(&[&["test", "--profile", PROFILE], &tls[..], &["--test", "phone_tls"]].concat())?;
     let bare = ["check", "--profile", PROFILE, "--no-default-features"];
     for package in ["robohive", "robohive-physics", "robohive-render", "robohive-encoders", "robohive-digest"]
     {

@@ -62,7 +62,7 @@ pub struct Teleop {
     /// The environment
     #[command(flatten)]
     pub source: OptionalSource,
-    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), leader:FILE (an arm that is led by hand, by its config), phone[:PORT] (a page for phones and headsets)
+    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), leader:FILE (an arm that is led by hand, by its config), phone[:PORT] (a page for phones and headsets), phone-lan[:PORT] (the same on the local network behind TLS; builds with --features tls)
     #[arg(long, value_name = "DEVICE", default_value = "keyboard", value_parser = DeviceChoice::read)]
     pub device: DeviceChoice,
     /// File of the device, instead of the first that is found; of a quest a pipe with lines of its log

@@ -1,5 +1,6 @@
 //! What drives, by name.
 
+use super::reach::Reach;
 use protocol::adb;
 use std::fmt;
 use std::path::PathBuf;
@@ -19,8 +20,8 @@ pub enum DeviceChoice {
     Glove(PathBuf),
     /// An arm that is led by hand, by this config.
     Leader(PathBuf),
-    /// A phone or a headset, by a page on this port.
-    Phone(u16),
+    /// A phone or a headset, by a page.
+    Phone(Reach),
 }
 
 /// Port of the page of phones.
@@ -44,12 +45,20 @@ impl DeviceChoice {
             }
             ("glove", Some(port)) if !port.is_empty() => Ok(DeviceChoice::Glove(port.into())),
             ("leader", Some(file)) if !file.is_empty() => Ok(DeviceChoice::Leader(file.into())),
-            ("phone", None) => Ok(DeviceChoice::Phone(PAGE)),
+            ("phone", None) => Ok(DeviceChoice::Phone(Reach::Loopback(PAGE))),
+            ("phone-lan", None) => Ok(DeviceChoice::Phone(Reach::Network(PAGE))),
+            ("phone-lan", Some(place)) => {
+                let port = place.parse().map(Reach::Network);
+                let reach = port.or_else(|_| place.parse().map(Reach::Address));
+                reach.map(DeviceChoice::Phone).map_err(|_| {
+                    format!("'{place}' is no port, as {PAGE}, and no address of this machine with one, as 192.168.0.7:{PAGE}")
+                })
+            }
             ("phone", Some(port)) => {
-                port.parse().map(DeviceChoice::Phone).map_err(|_| format!("'{port}' is no port, as {PAGE}"))
+                port.parse().map(|port| DeviceChoice::Phone(Reach::Loopback(port))).map_err(|_| format!("'{port}' is no port, as {PAGE}"))
             }
             _ => {
-                Err("there are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT, leader:FILE, phone, phone:PORT".to_owned())
+                Err("there are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT, leader:FILE, phone, phone:PORT, phone-lan, phone-lan:PORT".to_owned())
             }
         }
     }
@@ -89,6 +98,7 @@ mod tests {
             "glove:",
             "leader",
             "phone:x",
+            "phone-lan:x",
             "",
         ] {
             assert!(DeviceChoice::read(wrong).is_err(), "{wrong}");

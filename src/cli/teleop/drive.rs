@@ -185,10 +185,16 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
         DeviceChoice::Phone(_) if path.is_some() => {
             return Err(Failure::usage("a phone has no file: leave --path out"));
         }
-        DeviceChoice::Phone(port) => {
-            let (lines, address) = phone::serve(*port)?;
-            note(&format!("open {address} on the phone or headset, after `adb reverse` of its port"));
-            Opened::of(::teleop::Device::Quest, lines)
+        DeviceChoice::Phone(reach) => {
+            let page = phone::serve(*reach)?;
+            let then = match &page.fingerprint {
+                None => "after `adb reverse` of its port".to_owned(),
+                Some(fingerprint) => {
+                    format!("whose certificate is its own, with the SHA-256 fingerprint {fingerprint}")
+                }
+            };
+            note(&format!("open {} on the phone or headset, {then}", page.address));
+            Opened::of(::teleop::Device::Quest, page.lines)
         }
         DeviceChoice::Glove(port) => Opened::glove(port)?,
         DeviceChoice::Gamepad => Opened::gamepad(path, &mapping.ends)?,

@@ -14,6 +14,8 @@ mod files;
 mod leading;
 #[cfg(unix)]
 mod phone;
+#[cfg_attr(not(unix), allow(dead_code))]
+mod reach;
 #[cfg(unix)]
 mod report;
 

@@ -19,7 +19,12 @@ pub type Refusal = (u16, &'static str);
 
 /// Reads a request that was sent to `port` of this machine.
 pub fn read(source: &mut impl Read, port: u16) -> Result<Request, Refusal> {
-    parse(&head(source)?, port)
+    read_for(source, |host| is_this_machine(host, port))
+}
+
+/// Reads a request that was sent to a host that is ours.
+pub fn read_for(source: &mut impl Read, is_ours: impl Fn(&str) -> bool) -> Result<Request, Refusal> {
+    parse(&head(source)?, is_ours)
 }
 
 /// The bytes up to the empty line.
@@ -42,7 +47,7 @@ fn head(source: &mut impl Read) -> Result<String, Refusal> {
     }
 }
 
-fn parse(head: &str, port: u16) -> Result<Request, Refusal> {
+fn parse(head: &str, is_ours: impl Fn(&str) -> bool) -> Result<Request, Refusal> {
     let mut lines = head.split("\r\n");
     let words: Vec<&str> = lines.next().unwrap_or_default().split(' ').collect();
     let [method, target, version] = words[..] else {
@@ -56,8 +61,11 @@ fn parse(head: &str, port: u16) -> Result<Request, Refusal> {
         .filter(|(name, _)| name.eq_ignore_ascii_case("host"))
         .map(|(_, value)| value.trim());
     // Other names may lead here from pages of others, whose scripts could then read what is served.
-    if !hosts.next().is_some_and(|host| is_this_machine(host, port)) || hosts.next().is_some() {
-        return Err((403, "only requests to 127.0.0.1, [::1] or localhost are answered"));
+    if !hosts.next().is_some_and(is_ours) || hosts.next().is_some() {
+        return Err((
+            403,
+            "only requests to the address that was printed, or to this machine by itself, are answered",
+        ));
     }
     let head_only = match method {
         "GET" => false,

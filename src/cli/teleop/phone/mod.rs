@@ -1,17 +1,20 @@
-//! A page on the loopback for phones and headsets, and the poses that it sends over a WebSocket.
+//! A page for phones and headsets, on the loopback or behind TLS on the local network, and the poses that it sends over a WebSocket.
 
 mod message;
+#[cfg(feature = "tls")]
+mod tls;
 
+use super::reach::Reach;
 use crate::failure::Failure;
-use crate::web::http::{read, write_head};
+use crate::web::http::{read_for, write_head};
 use message::Messages;
 use std::fmt::Write as _;
-use std::io::{self, Read, Write};
-use std::net::{Ipv4Addr, TcpListener, TcpStream};
+use std::io::{self, Cursor, Read, Write};
+use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream, UdpSocket};
 use std::os::fd::OwnedFd;
 use std::os::unix::net::UnixStream;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 use tungstenite::handshake::server::{ErrorResponse, Request, Response};
 use tungstenite::protocol::WebSocketConfig;
@@ -22,35 +25,131 @@ const PATIENCE: Duration = Duration::from_secs(10);
 /// Longest message.
 const LONGEST: usize = 4096;
 
+/// Longest head of a request.
+const HEAD: usize = 8192;
+/// Connections at once.
+const MOST: usize = 16;
+
 /// What all connections share.
 struct Desk {
-    port: u16,
+    /// What a browser calls this page: scheme, and hosts with the port.
+    scheme: &'static str,
+    hosts: Vec<String>,
+    open: AtomicUsize,
     key: String,
     lines: UnixStream,
     taken: AtomicBool,
     began: Instant,
 }
 
-/// Serves the page until the program ends: what its messages become, and its address with the key of this session.
-pub fn serve(port: u16) -> Result<(OwnedFd, String), Failure> {
-    let failed = |error: io::Error| {
-        Failure::new(format!("port {port} of 127.0.0.1: {error}; phone:0 takes a free one"))
+/// The page of a session.
+pub struct Page {
+    /// What its messages become.
+    pub lines: OwnedFd,
+    /// Where it is, with the key of this session.
+    pub address: String,
+    /// Of its certificate, where it has one.
+    pub fingerprint: Option<String>,
+}
+
+/// Serves the page until the program ends.
+///
+/// # Errors
+/// The port is taken; a network without TLS, or none at all.
+pub fn serve(reach: Reach) -> Result<Page, Failure> {
+    let wanted = match reach {
+        Reach::Loopback(port) => (Ipv4Addr::LOCALHOST, port).into(),
+        Reach::Network(port) => network(port)?,
+        Reach::Address(address) => address,
     };
-    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(failed)?;
-    let port = listener.local_addr().map_err(failed)?.port();
+    let failed = |error: io::Error| Failure::new(format!("{wanted}: {error}; port 0 takes a free one"));
+    let listener = TcpListener::bind(wanted).map_err(failed)?;
+    let place = listener.local_addr().map_err(failed)?;
+    let secured = !matches!(reach, Reach::Loopback(_));
+    let lock = secured.then(|| Lock::new(place)).transpose()?;
     let (lines, ours) = UnixStream::pair().map_err(failed)?;
     ours.set_nonblocking(true).map_err(failed)?;
+    let (scheme, mut hosts) = (if secured { "https" } else { "http" }, vec![place.to_string()]);
+    hosts.extend((!secured).then(|| format!("localhost:{}", place.port())));
     let key = key().map_err(failed)?;
-    let address = format!("http://127.0.0.1:{port}/{key}");
-    let desk = Arc::new(Desk { port, key, lines, taken: AtomicBool::new(false), began: Instant::now() });
+    let page = Page {
+        lines: ours.into(),
+        address: format!("{scheme}://{place}/{key}"),
+        fingerprint: lock.as_ref().map(|lock| lock.fingerprint().to_owned()),
+    };
+    let (open, taken) = (AtomicUsize::new(0), AtomicBool::new(false));
+    let desk = Arc::new(Desk { scheme, hosts, open, key, lines, taken, began: Instant::now() });
+    let lock = lock.map(Arc::new);
     std::thread::spawn(move || {
         for stream in listener.incoming().flatten() {
-            let desk = desk.clone();
+            let (desk, lock) = (desk.clone(), lock.clone());
             // A browser that goes away is no error.
-            std::thread::spawn(move || desk.answer(stream).unwrap_or_default());
+            std::thread::spawn(move || desk.meet(stream, lock.as_deref()).unwrap_or_default());
         }
     });
-    Ok((ours.into(), address))
+    Ok(page)
+}
+
+/// The address by which this machine is on its network; nothing is sent.
+fn network(port: u16) -> Result<SocketAddr, Failure> {
+    let found = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).and_then(|socket| {
+        // An address of documentation (RFC 5737): whatever leads there leads to the network.
+        socket.connect((Ipv4Addr::new(192, 0, 2, 1), 9))?;
+        socket.local_addr()
+    });
+    let address = found.map(|found| found.ip()).ok().filter(|ip| !ip.is_loopback() && !ip.is_unspecified());
+    address.map(|ip| (ip, port).into()).ok_or_else(|| {
+        Failure::new("this machine is on no network; name its address as --device phone-lan:ADDRESS:PORT")
+    })
+}
+
+#[cfg(feature = "tls")]
+use tls::Identity as Lock;
+
+/// What stands for TLS where it was not built in.
+#[cfg(not(feature = "tls"))]
+enum Lock {}
+
+#[cfg(not(feature = "tls"))]
+impl Lock {
+    fn new(_: SocketAddr) -> Result<Self, Failure> {
+        Err(Failure::usage(
+            "this build has no TLS, which browsers ask for on a network: build it with --features tls, or use --device phone and `adb reverse`",
+        ))
+    }
+
+    fn fingerprint(&self) -> &str {
+        match *self {}
+    }
+
+    fn accept(&self, _: TcpStream) -> io::Result<TcpStream> {
+        match *self {}
+    }
+}
+
+/// A stream whose first bytes were read already.
+struct Again<S> {
+    first: Cursor<Vec<u8>>,
+    stream: S,
+}
+
+impl<S: Read> Read for Again<S> {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        match self.first.read(bytes)? {
+            0 => self.stream.read(bytes),
+            count => Ok(count),
+        }
+    }
+}
+
+impl<S: Write> Write for Again<S> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.stream.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.stream.flush()
+    }
 }
 
 /// 128 bits that nobody guesses.
@@ -63,16 +162,37 @@ fn key() -> io::Result<String> {
 }
 
 impl Desk {
-    fn answer(&self, mut stream: TcpStream) -> io::Result<()> {
+    /// Takes a connection, unless there are too many.
+    fn meet(&self, stream: TcpStream, lock: Option<&Lock>) -> io::Result<()> {
         stream.set_read_timeout(Some(PATIENCE))?;
         stream.set_write_timeout(Some(PATIENCE))?;
-        let mut head = [0; 4096];
-        let count = stream.peek(&mut head)?;
-        let first = head[..count].split(|byte| *byte == b'\n').next().unwrap_or_default();
-        if String::from_utf8_lossy(first).contains("/socket ") {
+        let others = self.open.fetch_add(1, Ordering::AcqRel);
+        let outcome = match lock {
+            _ if others >= MOST => Ok(()),
+            Some(lock) => lock.accept(stream).and_then(|stream| self.answer(stream)),
+            None => self.answer(stream),
+        };
+        self.open.fetch_sub(1, Ordering::AcqRel);
+        outcome
+    }
+
+    fn answer(&self, mut stream: impl Read + Write) -> io::Result<()> {
+        let mut first = Vec::new();
+        let mut piece = [0; 1024];
+        while !first.windows(4).any(|four| four == b"\r\n\r\n") && first.len() < HEAD {
+            match stream.read(&mut piece)? {
+                0 => break,
+                count => first.extend_from_slice(&piece[..count]),
+            }
+        }
+        let line = first.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        let listens = String::from_utf8_lossy(line).contains("/socket ");
+        let mut stream = Again { first: Cursor::new(first), stream };
+        if listens {
             return self.listen(stream);
         }
-        let (status, kind, text) = match read(&mut stream, self.port) {
+        let is_ours = |host: &str| self.hosts.iter().any(|ours| ours.eq_ignore_ascii_case(host));
+        let (status, kind, text) = match read_for(&mut stream, is_ours) {
             Ok(request) if request.path.trim_end_matches('/') == self.key => {
                 (200, "text/html; charset=utf-8", PAGE)
             }
@@ -82,12 +202,13 @@ impl Desk {
             Err((status, why)) => (status, "text/plain; charset=utf-8", why),
         };
         write_head(&mut stream, status, kind, text.len() as u64)?;
-        stream.write_all(text.as_bytes())
+        stream.write_all(text.as_bytes())?;
+        stream.flush()
     }
 
     /// Takes messages of a page until it goes; of two the second is refused.
     #[expect(clippy::result_large_err, reason = "the handshake of tungstenite asks for it")]
-    fn listen(&self, stream: TcpStream) -> io::Result<()> {
+    fn listen(&self, stream: impl Read + Write) -> io::Result<()> {
         let config = WebSocketConfig::default().max_message_size(Some(LONGEST)).max_frame_size(Some(LONGEST));
         let check = |request: &Request, response: Response| {
             if self.admits(request) { Ok(response) } else { Err(forbidden()) }
@@ -113,10 +234,9 @@ impl Desk {
 
     /// Whether a page of ours asks, with the key.
     fn admits(&self, request: &Request) -> bool {
-        let hosts = [format!("127.0.0.1:{}", self.port), format!("localhost:{}", self.port)];
         let header = |name: &str| request.headers().get(name).and_then(|value| value.to_str().ok());
-        let host = header("host").filter(|host| hosts.iter().any(|ours| ours == host));
-        let ours = |origin: &str| host.is_some_and(|host| origin == format!("http://{host}"));
+        let host = header("host").filter(|host| self.hosts.iter().any(|ours| ours == host));
+        let ours = |origin: &str| host.is_some_and(|host| origin == format!("{}://{host}", self.scheme));
         let origin = header("origin").is_none_or(ours);
         host.is_some() && origin && request.uri().path() == format!("/{}/socket", self.key)
     }
