@@ -150,3 +150,47 @@ fn servos_in_real_time_are_driven_and_rest_when_the_session_ends() {
     let out = wire.robohive(&["hardware", "check"], &["--samples", "5"]).output().unwrap();
     assert!(out.status.success(), "{}", text(&out.stderr));
 }
+
+#[test]
+fn a_policy_acts_on_servos_until_a_key_takes_over() {
+    let mut typed = Typed::start(&rehearsed(&["--arm", "--policy", "zero"]), true);
+    assert!(typed.line().contains("policy acts"), "{}", typed.line());
+    typed.write("\u{1b}[32;1:1u\u{1b}[32;1:3u");
+    until(&typed, 0.5);
+    assert!(typed.line().contains("policy acts") && !typed.line().contains("PAUSED"), "{}", typed.line());
+    typed.write("\u{1b}[51;1:1u\u{1b}[51;1:3u");
+    typed.wait_for("BY HAND");
+    let taken = seconds(&typed);
+    until(&typed, taken + 0.5);
+    typed.write("p");
+    until(&typed, taken + 1.0);
+    assert!(typed.line().contains("policy acts"), "{}", typed.line());
+    typed.write("\u{1b}[27u");
+    let (status, said) = typed.end();
+    assert!(status.success() && said.contains("steps by hand"), "{said}");
+}
+
+#[test]
+fn a_trot_moves_the_legs_of_servos() {
+    let file = scratch("trot.h5");
+    let arguments = [ID, "--control", "base", "--hardware", CONFIG, "--rehearse", "--arm", "--record"];
+    let mut typed = Typed::start(&[&arguments[..], &[file.to_str().unwrap()]].concat(), true);
+    typed.write("\u{1b}[119;1:1u");
+    until(&typed, 2.0);
+    typed.write("\u{1b}[119;1:3u\r");
+    typed.wait_for("episode 2");
+    typed.write("\u{1b}[27u");
+    let (status, said) = typed.end();
+    assert!(status.success() && !said.contains("watchdog"), "{said}");
+    // What the servos measured: thighs swing, a diagonal against the other.
+    let trace = TraceReader::open(&file).unwrap();
+    let recorded = Recorded::read(&trace, "Trial0").unwrap();
+    let qpos = recorded.part("qpos").unwrap();
+    let thighs: Vec<[f64; 2]> =
+        (8..).map_while(|row| Some([qpos.row(row)?[8], qpos.row(row)?[11]])).collect();
+    let swing = |leg: usize| {
+        let angles = thighs.iter().map(|pair| pair[leg]);
+        angles.clone().fold(f64::MIN, f64::max) - angles.fold(f64::MAX, f64::min)
+    };
+    assert!(swing(0) > 0.1 && swing(1) > 0.1, "{thighs:?}");
+}

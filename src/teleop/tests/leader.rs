@@ -34,7 +34,12 @@ struct Bench {
 impl Bench {
     /// An arm as `plant` says; of the weight of [`ARM`] this share is carried.
     fn new(plant: &str, share: f64) -> Bench {
-        let (config, leader) = (devices(), leader());
+        Bench::of(plant, share, devices())
+    }
+
+    /// The same with the servos of a config.
+    fn of(plant: &str, share: f64, config: Config) -> Bench {
+        let leader = leader();
         let (bench, rigged) = rig(&config, Plant::new(model(plant)).unwrap(), true).unwrap();
         let motors = (1..=JOINTS).map(|k| bench.plant().motor(&format!("joint{k}")).unwrap()).collect();
         let (bench, link) = (Arc::new(Mutex::new(bench)), rigged[0].links[0].1);
@@ -186,6 +191,39 @@ impl Led {
 
 fn furthest(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn feetech_servos_lead_too_and_are_read_alone() {
+    let feetech = SERVOS
+        .replace("dynamixel", "feetech")
+        .replace("mode = \"current\", ", "")
+        .replace(", safe = \"off\"", "");
+    let mut bench = Bench::of(ARM, 0.0, Config::from_toml(&feetech, "servos.toml").unwrap());
+    let place = [0.3, -0.4, 0.5, -1.2, -0.6, 1.1, 0.7];
+    bench.hold(&place);
+    let read: Vec<f64> = bench
+        .tend()
+        .iter()
+        .map(|event| match event {
+            Event::Lead(_, angle) => *angle,
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    let off = furthest(&read, &place);
+    println!("seven STS3215 read to {off:.5} rad");
+    assert!(
+        off < std::f64::consts::TAU / 4096.0 && read.len() == JOINTS,
+        "half a step is rounding: {read:?}"
+    );
+    // Nothing holds the arm.
+    bench.hold(&place);
+    let start = bench.handle();
+    for _ in 0..100 {
+        bench.tend();
+    }
+    let end = bench.handle();
+    assert!((0..3).map(|k| (end[k] - start[k]).powi(2)).sum::<f64>().sqrt() > 0.1, "{start:?} {end:?}");
 }
 
 #[test]
