@@ -43,7 +43,8 @@ fn unpack(folder: &Path) -> Result<Vec<String>, String> {
         archives.filter(|path| path.extension().is_some_and(|end| end == "crate")).collect();
     let mut crates = Vec::new();
     for archive in &archives {
-        output(Command::new("tar").arg("-xzf").arg(archive).arg("-C").arg(folder))?;
+        // Archives have one date for all files, by which changed ones would not be compiled again.
+        output(Command::new("tar").arg("-xzmf").arg(archive).arg("-C").arg(folder))?;
         let name = archive.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         // Cargo has rewritten it, so that it names no path.
         let manifest = read(&folder.join(&name).join("Cargo.toml"))?;
