@@ -2,7 +2,7 @@
 
 use crate::convert::{array, pose, quaternion, rotation, vector};
 use crate::floating::{Floating, Pace};
-use crate::groups::{Groups, Motion};
+use crate::groups::{Group, Groups, Motion};
 use crate::links::{Link, Links, Tree};
 use crate::rules::{self, Geoms};
 use crate::shapes::shape_of;
@@ -12,7 +12,8 @@ use physics::math::Quat;
 use physics::model::{JointType, NotSimulated};
 use rapier3d_f64::math::{Pose, Rotation, Vector};
 use rapier3d_f64::prelude::{
-    ColliderBuilder, ColliderHandle, ColliderSet, MultibodyJoint, MultibodyJointSet, RigidBody, RigidBodySet,
+    ColliderBuilder, ColliderHandle, ColliderSet, MassProperties, MultibodyJoint, MultibodyJointSet,
+    RigidBody, RigidBodySet,
 };
 use std::sync::Arc;
 
@@ -52,7 +53,7 @@ impl Body {
         let colliders = shapes.into_iter().map(|shape| {
             let shape = shape?;
             let mut collider = ColliderBuilder::new(shape.shape)
-                .density(0.0)
+                .mass_properties(MassProperties::default())
                 .position(groups.in_rigid_body(shape.body) * shape.pose)
                 .build();
             let decides = m.npair == 0 && m.nexclude == 0 && !has_relatives(&groups, shape.body);
@@ -88,7 +89,7 @@ impl Body {
                 Motion::Alone | Motion::Floating => {
                     let q = &qpos[free_joint(m, group.body).0..][..7];
                     let turned = rotation([q[3], q[4], q[5], q[6]]);
-                    Pose::from_parts(Vector::new(q[0], q[1], q[2]) + turned * group.origin, turned)
+                    Pose::from_parts(Vector::new(q[0], q[1], q[2]), turned) * group.frame()
                 }
             };
             if let Some(rigid) = sets.bodies.get_mut(handle) {
@@ -116,7 +117,7 @@ impl Body {
                 continue;
             }
             if let Some(rigid) = sets.bodies.get_mut(handle) {
-                let start = Floating { com: group.origin, orientation: *rigid.rotation(), alone };
+                let start = Floating { com: group.origin, orientation: group.orientation(rigid), alone };
                 self.start[k] = Some(start);
                 if alone {
                     let (linear, angular) = start.to_rapier(&qvel[free_joint(m, group.body).1..], pace);
@@ -204,7 +205,7 @@ impl Body {
     ) {
         let Some(start) = self.start[k] else { return };
         let (q, v) = free_joint(m, self.groups.all[k].body);
-        let turned = rigid.rotation().normalize();
+        let turned = self.groups.all[k].orientation(rigid).normalize();
         state.qpos[q..q + 3].copy_from_slice(&array(rigid.translation() - turned * start.com));
         state.qpos[q + 3..q + 7].copy_from_slice(&quaternion(turned));
         start.to_qvel(turned, velocities, pace, &mut state.qvel[v..v + 6]);
@@ -244,7 +245,7 @@ impl Body {
 
     fn push_root(&self, k: usize, force: &[f64], sets: &mut Sets<'_>) {
         if let Some(rigid) = sets.bodies.get_mut(self.links.handles[k]) {
-            let turned = *rigid.rotation();
+            let turned = self.groups.all[k].orientation(rigid);
             let (linear, own) = (Vector::from_slice(&force[..3]), Vector::from_slice(&force[3..6]));
             let arm = turned * self.groups.all[k].origin;
             rigid.add_force(linear, false);
@@ -255,8 +256,16 @@ impl Body {
     /// Orientation of the body that a ball joint moves.
     fn orientation(&self, m: &Model, link: &Link, bodies: &RigidBodySet) -> Rotation {
         let group = self.groups.of_body[m.jnt_bodyid[link.joint] as usize];
-        let last = group.and_then(|k| bodies.get(self.links.handles[k]));
-        last.map_or(Rotation::IDENTITY, |rigid| *rigid.rotation())
+        let last =
+            group.and_then(|k| Some(self.groups.all[k].orientation(bodies.get(self.links.handles[k])?)));
+        last.unwrap_or(Rotation::IDENTITY)
+    }
+}
+
+impl Group {
+    /// Orientation of the model's body.
+    fn orientation(&self, rigid: &RigidBody) -> Rotation {
+        *rigid.rotation() * self.axes.inverse()
     }
 }
 

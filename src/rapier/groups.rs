@@ -30,9 +30,11 @@ pub(crate) struct Group {
     pub motion: Motion,
     /// Centre of mass in the frame of `body`.
     pub com: Vector,
-    /// Origin of rapier's rigid body in the frame of `body`; axes are the same. Rapier takes the velocity of a floating root for
+    /// Origin of rapier's rigid body in the frame of `body`. Rapier takes the velocity of a floating root for
     /// that of its origin in one place and of its centre of mass in another, so there the two must coincide.
     pub origin: Vector,
+    /// Axes of rapier's rigid body in the frame of `body`: the principal ones of inertia.
+    pub axes: Rotation,
     pub mass: MassProperties,
 }
 
@@ -97,14 +99,16 @@ impl Groups {
             group.com = com[k];
             group.origin =
                 if matches!(group.motion, Motion::Alone | Motion::Floating) { com[k] } else { Vector::ZERO };
-            group.mass = mass_properties(com[k] - group.origin, mass[k], inertia[k]);
+            let (moments, axes) = principal(inertia[k]);
+            group.axes = axes;
+            group.mass = MassProperties::new(axes.inverse() * (com[k] - group.origin), mass[k], moments);
         }
     }
 
     /// Pose of a body in the frame of rapier's rigid body, or of the world.
     pub fn in_rigid_body(&self, b: usize) -> Pose {
-        let origin = self.of_body[b].map_or(Vector::ZERO, |k| self.all[k].origin);
-        Pose::from_translation(-origin) * self.within[b]
+        let frame = self.of_body[b].map_or(Pose::IDENTITY, |k| self.all[k].frame());
+        frame.inverse() * self.within[b]
     }
 }
 
@@ -117,22 +121,39 @@ impl Group {
             _ => Motion::Jointed,
         };
         let mass = MassProperties::default();
-        Group { body, parent, motion, com: Vector::ZERO, origin: Vector::ZERO, mass }
+        Group {
+            body,
+            parent,
+            motion,
+            com: Vector::ZERO,
+            origin: Vector::ZERO,
+            axes: Rotation::IDENTITY,
+            mass,
+        }
+    }
+
+    /// Pose of rapier's rigid body in the frame of the body.
+    pub fn frame(&self) -> Pose {
+        Pose::from_parts(self.origin, self.axes)
     }
 }
 
-/// Mass properties with principal axes from our own decomposition: parry's is exact to seven digits where moments are nearly equal.
-fn mass_properties(com: Vector, mass: f64, inertia: Matrix) -> MassProperties {
+/// Principal moments of inertia in ascending order, and their axes. Parry adds colliders to a body's mass, even those without any,
+/// and finds the axes of the sum anew: to seven digits, and of a diagonal matrix as if it were sorted. It is given sorted ones
+/// along the axes of the body.
+fn principal(inertia: Matrix) -> (Vector, Rotation) {
     let mut moments = inertia.to_cols_array();
     let size = (moments[0] + moments[4] + moments[8]).max(f64::MIN_POSITIVE);
     moments.iter_mut().for_each(|entry| *entry /= size);
     let mut columns = [0.0; 9];
     diagonalize(&mut moments, &mut columns, 3, 1e-16);
-    // Eigenvectors are columns of the row-major matrix, and may mirror.
-    let axis = |k: usize| Vector::new(columns[k], columns[3 + k], columns[6 + k]);
+    let mut order = [0, 1, 2];
+    order.sort_by(|&a, &b| moments[4 * a].total_cmp(&moments[4 * b]));
+    let axis = |k: usize| Vector::new(columns[order[k]], columns[3 + order[k]], columns[6 + order[k]]);
+    // Eigenvectors may mirror.
     let axes = Matrix::from_cols(axis(0), axis(1), axis(0).cross(axis(1)));
-    let moments = Vector::new(moments[0], moments[4], moments[8]) * size;
-    MassProperties::with_principal_inertia_frame(com, mass, moments, Rotation::from_mat3(&axes).normalize())
+    let sorted = order.map(|k| moments[4 * k] * size);
+    (vector(sorted), Rotation::from_mat3(&axes).normalize())
 }
 
 /// Joints of a body.

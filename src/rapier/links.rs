@@ -132,7 +132,9 @@ impl Links {
         for j in all.clone() {
             let handle = if j + 1 == all.end { self.handles[k] } else { bodies.insert(dynamic()) };
             let Some(kind) = JointType::from_code(m.jnt_type[j]) else { return };
-            let inserted = multibodies.insert(before, handle, joint(m, j, kind, base), true);
+            let last = j + 1 == all.end;
+            let within = if last { groups.all[k].frame().inverse() } else { Pose::IDENTITY };
+            let inserted = multibodies.insert(before, handle, joint(m, j, kind, [base, within]), true);
             let id = inserted.and_then(|h| multibodies.get(h)).map_or(0, |(_, id)| id);
             let tree = &mut self.trees[tree];
             let dof = m.jnt_dofadr[j] as usize - tree.dofs.start;
@@ -169,15 +171,15 @@ fn rigid_body(group: &Group) -> RigidBody {
     builder.build()
 }
 
-/// A joint between the body before it, in whose frame the joint's frame is at `base`, and the body that it moves.
-fn joint(m: &Model, j: usize, kind: JointType, base: Pose) -> GenericJoint {
+/// A joint between the body before it and the body that it moves, with the poses of the model's body, unmoved, in both.
+fn joint(m: &Model, j: usize, kind: JointType, [base, within]: [Pose; 2]) -> GenericJoint {
     let place = Pose::from_parts(vector(m.jnt_pos[j]), axes(kind, vector(m.jnt_axis[j])));
     let locked = match kind {
         JointType::Hinge => JointAxesMask::FREE_REVOLUTE_AXES,
         JointType::Slide => JointAxesMask::FREE_PRISMATIC_AXES,
         JointType::Ball | JointType::Free => JointAxesMask::FREE_SPHERICAL_AXES,
     };
-    GenericJointBuilder::new(!locked).local_frame1(base * place).local_frame2(place).build()
+    GenericJointBuilder::new(!locked).local_frame1(base * place).local_frame2(within * place).build()
 }
 
 /// Orientation of a joint's frame, whose x axis rapier's hinges and slides move along.

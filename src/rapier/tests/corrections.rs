@@ -160,3 +160,19 @@ fn masses_axes_and_degrees_of_freedom_are_the_models() {
     }
     assert!(found.inertia < 1e-9, "the joint-space inertia is ours: {found:?}");
 }
+
+#[test]
+fn a_body_keeps_its_moments_of_inertia() {
+    // A knob with a turned inertial frame, and a geom that adds no mass, as in RoboHive's kitchen.
+    let knob = "<body><joint axis='0 0 1'/><inertial pos='0 0 .0255' mass='.02' quat='.5 .5 -.5 .5'
+        diaginertia='2.0833333333333336e-5 1.8348333333333335e-5 1.1321666666666669e-5'/><geom size='.01'/></body>";
+    let m = model(knob, "");
+    let world = World::new(&m, Options::default()).unwrap();
+    assert!(world.measure(&m).inertia < 1e-12, "{:?}", world.measure(&m));
+
+    let [x, y, z] = [1.8348333333333335e-5, 1.1321666666666669e-5, 2.0833333333333336e-5];
+    let inertia = robohive_rapier::rapier::math::Matrix::from_diagonal(Vector::new(x, y, z));
+    let stock = MassProperties::with_inertia_matrix(Vector::ZERO, 0.02, inertia).reconstruct_inertia_matrix();
+    let off = (stock - inertia).to_cols_array().into_iter().fold(0.0, |off: f64, x| off.max(x.abs()));
+    assert!(off > 0.1 * z, "parry mixes up the moments of a diagonal matrix: {stock:?}");
+}
