@@ -139,7 +139,7 @@ impl Group {
 }
 
 /// Principal moments of inertia in ascending order, and their axes. Parry adds colliders to a body's mass, even those without any,
-/// and finds the axes of the sum anew: to seven digits, and of a diagonal matrix as if it were sorted. It is given sorted ones
+/// and finds the axes of the sum anew: to seven digits, and of small bodies not at all. It is given moments in the order it likes,
 /// along the axes of the body.
 fn principal(inertia: Matrix) -> (Vector, Rotation) {
     let mut moments = inertia.to_cols_array();

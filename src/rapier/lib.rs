@@ -45,7 +45,7 @@
 //! |---|---|
 //! | 0.1 N m s of damping on every rotation of a multibody | none |
 //! | a floating root whose centre of mass is not its origin breaks the conservation of momentum | its origin is put there |
-//! | moments of inertia of a body with colliders are mixed up where its axes are not sorted: by 12 % of a knob's | the body lies along its principal axes |
+//! | moments of inertia below 1e-4 kg m² are mixed up in bodies with colliders: those of a knob by 12 % | the body lies along its principal axes |
 //! | velocity of a floating body is that of its centre of mass, in the world | translated from and to MuJoCo's, exactly over a step |
 //! | bodies that stand alone turn by a linearised rotation, `2 atan(h w / 2)` for `h w` | the velocity is scaled, and scaled back |
 //! | bodies that stand alone get gyroscopic torques of their own | switched off: they are in our forces |
@@ -73,6 +73,8 @@
 //! moving surfaces, joints below a mocap body.
 //!
 //! # What cannot be helped from outside
+//! Defects with reproductions stand in `DEFECTS.md`.
+//!
 //! Rapier solves contacts by its own softness for the whole world, with a frozen Jacobian and a single sweep: resting depths and
 //! the course of an impact differ from MuJoCo's (`validation/results/rapier.md` has by how much). Contacts do not see joint limits
 //! in the same sweep, as limits are ours: a finger that is pushed against its limit gives by a step. A contact row in a direction
