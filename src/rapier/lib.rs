@@ -81,6 +81,12 @@
 //! that the joints hardly move in is not regularised, and makes impulses without bound: RoboHive's `franka_robotiq.xml`, whose
 //! gripper begins 12 cm inside a table, is unstable. Each step costs two dense factorisations of
 //! the joint-space inertia.
+//!
+//! # What is not here
+//! Limits, dry friction and equality constraints solved by rapier in the same sweep as contacts; meshes decomposed into convex
+//! parts, since MuJoCo collides hulls; batches (`physics::Batch`) and the viewer under another engine than our own; contacts of a
+//! [`Robot`] with other bodies among those of its `Data`; a state of this engine in what
+//! environments pickle, which begin afresh there.
 
 pub use parry3d_f64 as parry;
 pub use rapier3d_f64 as rapier;
