@@ -12,6 +12,7 @@ const SIGNALS: [i32; 3] = [signal::SIGINT, signal::SIGTERM, signal::SIGHUP];
 const SIGNALS: [i32; 2] = [signal::SIGINT, signal::SIGTERM];
 
 /// Notes the first signal, so that a run can complete its files; a second one ends the process at once.
+#[derive(Clone)]
 pub struct Interrupt(Arc<AtomicUsize>);
 
 impl Interrupt {

@@ -98,8 +98,18 @@ impl Guarded {
         self.core.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets the watchdog look from now on.
+    /// Ends the watchdog's thread.
+    fn unwatch(&mut self) {
+        if let Some((stop, thread)) = self.watching.take() {
+            stop.store(true, Ordering::Relaxed);
+            // A watchdog that panicked has said so; what is left is to go on.
+            thread.join().unwrap_or_default();
+        }
+    }
+
+    /// Lets the watchdog look from now on; the one of an earlier connection ends.
     fn watch(&mut self) {
+        self.unwatch();
         let services = self.core().setup.services.clone();
         if let Some(services) = services {
             let service: Weak<Mutex<Core>> = Arc::downgrade(&self.core);
@@ -161,7 +171,7 @@ impl Device for Guarded {
             // The lock is free while the motion waits, so that the watchdog looks.
             clock.wait(RESET_PERIOD);
             let mut core = self.core();
-            outcome = core.go_on(&mut motion);
+            outcome = if (core.setup.halted)() { Err(core.halt()) } else { core.go_on(&mut motion) };
             core.tend(clock.now());
         }
         let mut core = self.core();
@@ -179,11 +189,7 @@ impl Device for Guarded {
     }
 
     fn close(&mut self) -> Result<(), Fault> {
-        if let Some((stop, thread)) = self.watching.take() {
-            stop.store(true, Ordering::Relaxed);
-            // A watchdog that panicked has said so; what is left is to close.
-            thread.join().unwrap_or_default();
-        }
+        self.unwatch();
         let outcome = self.core().close();
         self.lock = None;
         outcome
@@ -386,6 +392,14 @@ impl Core {
 
     /// Commands where a motion is now.
     fn go_on(&mut self, motion: &mut Motion) -> Result<(), Fault> {
+    /// Makes the device safe because somebody asked for the end.
+    fn halt(&mut self) -> Fault {
+        let fault =
+            Fault::Refused("its motion was ended before it was done; a reset arms it again".to_owned());
+        self.stop(fault.clone());
+        fault
+    }
+
         let now = self.clock.now();
         let commands = motion.command(now);
         self.apply(&commands)

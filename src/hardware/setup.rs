@@ -31,6 +31,8 @@ pub struct Setup {
     pub clocks: Clocks,
     /// What a driver has to say to a person.
     pub say: Arc<dyn Fn(&str) + Send + Sync>,
+    /// Whether whoever drives has asked for the end: the motion of a reset then stops, and the device is made safe.
+    pub halted: Arc<dyn Fn() -> bool + Send + Sync>,
     /// Watchdogs and control loops that a [`TendedClock`](crate::TendedClock) runs; `None` gives each a thread.
     pub services: Option<Services>,
     /// Whether other programs are kept from the same device.
@@ -50,6 +52,7 @@ impl Default for Setup {
             captures: Arc::new(System),
             clocks: Arc::new(move || Box::new(start)),
             say: Arc::new(|line| eprintln!("{line}")),
+            halted: Arc::new(|| false),
             services: None,
             locks: true,
         }
@@ -109,6 +112,13 @@ impl Setup {
     #[must_use]
     pub fn with_dry_run(mut self, dry_run: bool) -> Self {
         self.dry_run = dry_run;
+        self
+    }
+
+    /// What says that whoever drives has asked for the end.
+    #[must_use]
+    pub fn with_halted(mut self, halted: Arc<dyn Fn() -> bool + Send + Sync>) -> Self {
+        self.halted = halted;
         self
     }
 

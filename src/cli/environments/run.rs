@@ -186,7 +186,10 @@ fn play(
     let mut episode = Summary::default();
     let Witnesses { recording, mut film } = witnesses;
     let mut record = recording.map(|recording| recording.begin(seed)).transpose()?;
-    env.reset(Some(seed)).map_err(Failure::new)?;
+    if let Err(error) = env.reset(Some(seed)) {
+        // A signal ends the motion of a robot to where an episode begins.
+        return if interrupt.code().is_some() { Ok(None) } else { Err(Failure::new(error)) };
+    }
     if let Some(film) = &mut film {
         film.begin();
         film.show(&env.scene().model, &env.scene().data, 0.0)?;

@@ -3,7 +3,7 @@
 use crate::failure::{Failure, unwritable};
 use crate::output::{check_place, keep_existing, keep_input};
 use crate::robots::devices::{Connected, Devices, Reached, failed};
-use crate::robots::live::Arming;
+use crate::robots::live::READING;
 use crate::terminal::{note, show};
 use ::hardware::calibration::{Fit, Joint, Measured, SERVOS, adopt, fit, joints};
 use clap::{Args, ValueHint};
@@ -97,9 +97,8 @@ pub fn run(a: &Calibrate) -> Result<(), Failure> {
     keep_input(&a.devices.config, &a.out)?;
     check_place(&a.out)?;
     keep_existing(&a.out, a.force)?;
-    let reading = Arming { arm: false, dry_run: false, flight: None };
     let Reached { mut devices, mut clock, rehearsal, .. } =
-        a.devices.reach_mounted(&reading, a.mounted.as_deref())?;
+        a.devices.reach_mounted(READING.setup(), a.mounted.as_deref())?;
     let mut held = all_joints(&devices);
     let ends = [Pose::Lower, Pose::Upper];
     let poses = if a.poses.is_empty() { &ends[..] } else { &a.poses };

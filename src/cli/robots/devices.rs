@@ -2,7 +2,6 @@
 
 use crate::failure::Failure;
 use crate::input::library::Making;
-use crate::robots::live::Arming;
 use crate::robots::rehearsal::{rehearsal, simulated};
 use ::hardware::camera::{Cameras, is_camera};
 use ::hardware::{Setup, device};
@@ -60,12 +59,12 @@ impl Reached {
 
 impl Devices {
     /// Connects them.
-    pub fn reach(&self, arming: &Arming) -> Result<Reached, Failure> {
-        self.reach_mounted(arming, None)
+    pub fn reach(&self, setup: Setup) -> Result<Reached, Failure> {
+        self.reach_mounted(setup, None)
     }
 
     /// Connects them; simulated ones are as the config at `mounted` says, if there is any.
-    pub fn reach_mounted(&self, arming: &Arming, mounted: Option<&Path>) -> Result<Reached, Failure> {
+    pub fn reach_mounted(&self, setup: Setup, mounted: Option<&Path>) -> Result<Reached, Failure> {
         let config = Config::read(&self.config).map_err(Failure::usage)?;
         let mounted = mounted.map(Config::read).transpose().map_err(Failure::usage)?;
         let rehearsal = match &self.rehearse {
@@ -74,15 +73,16 @@ impl Devices {
             }
             None => None,
         };
-        let setup = arming.setup();
-        let setup =
-            rehearsal.as_ref().map_or_else(|| setup.clone(), |rehearsal| rehearsal.setup(setup.clone()));
+        let setup = match &rehearsal {
+            Some(rehearsal) => rehearsal.setup(setup),
+            None => setup,
+        };
         let chosen: Vec<_> = config.devices.iter().filter(|device| self.chosen(device)).collect();
         let (cameras, chosen): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|device| sees(device));
         if cameras.is_empty() && chosen.is_empty() {
             let names: Vec<_> = config.devices.iter().map(|device| device.name.as_str()).collect();
             return Err(Failure::usage(format!(
-                "{} has no such device with an interface; it has {}",
+                "{} has no such device with an interface and a sensor, an actuator or a camera; it has {}",
                 self.config.display(),
                 names.join(", ")
             )));

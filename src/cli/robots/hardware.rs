@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::robots::calibrate::{self, Calibrate};
 use crate::robots::devices::{Connected, Devices, Reached, failed};
-use crate::robots::live::Arming;
+use crate::robots::live::{Arming, READING};
 use crate::terminal::{show, show_json};
 use ::hardware::camera::{Cameras, Streamed, Wanted, video_devices};
 use ::hardware::recorder::{What, read};
@@ -109,7 +109,7 @@ struct Monitor {
     #[arg(long, value_name = "HZ", default_value_t = 10.0, value_parser = rate)]
     rate: f64,
     /// End after this time [s]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     seconds: Option<f64>,
 }
 
@@ -137,8 +137,11 @@ fn rate(text: &str) -> Result<f64, String> {
     rate.ok_or_else(|| "it must be a number from 0.1 to 10000".to_owned())
 }
 
-/// Devices that are only read.
-const READING: Arming = Arming { arm: false, dry_run: false, flight: None };
+/// A time after which a command ends.
+pub fn seconds(text: &str) -> Result<f64, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds >= 0.0);
+    seconds.ok_or_else(|| "it must be a number of seconds, 0 or more".to_owned())
+}
 
 /// Runs the command.
 pub fn run(a: &Hardware) -> Result<(), Failure> {
@@ -195,7 +198,7 @@ impl Answers {
 }
 
 fn check(a: &Check) -> Result<(), Failure> {
-    let reached = a.devices.reach(&READING)?;
+    let reached = a.devices.reach(READING.setup())?;
     let mut cameras = reached.cameras()?;
     let Reached { mut devices, mut clock, .. } = reached;
     let period = 1.0 / a.rate;
@@ -303,7 +306,12 @@ fn report(a: &Check, device: &Connected, answers: &Answers) {
 }
 
 fn monitor(a: &Monitor) -> Result<(), Failure> {
-    let Reached { mut devices, mut clock, .. } = a.devices.reach(&READING)?;
+    let Reached { mut devices, mut clock, .. } = a.devices.reach(READING.setup())?;
+    if devices.is_empty() {
+        return Err(Failure::usage(
+            "the chosen devices are cameras, which have no sensors to show: `robohive hardware check` looks through them",
+        ));
+    }
     let interrupt = Interrupt::listen().map_err(Failure::new)?;
     let begun = clock.now();
     let terminal = std::io::stdout().is_terminal();
@@ -339,10 +347,17 @@ fn monitor(a: &Monitor) -> Result<(), Failure> {
 }
 
 fn home(a: &Home) -> Result<(), Failure> {
-    let Reached { mut devices, .. } = a.devices.reach(&a.arming)?;
+    let interrupt = Interrupt::listen().map_err(Failure::new)?;
+    let Reached { mut devices, .. } = a.devices.reach(a.arming.setup_until(&interrupt))?;
+    if devices.iter().all(|device| device.config.actuators.is_empty()) {
+        return Err(Failure::usage("the chosen devices have no actuators to move"));
+    }
     for device in devices.iter_mut().filter(|device| !device.config.actuators.is_empty()) {
         let targets: Vec<_> = device.config.actuators.iter().map(middle).collect();
-        device.device.reset(&targets).map_err(|fault| failed(&device.config.name, &fault))?;
+        device.device.reset(&targets).map_err(|fault| Failure {
+            code: interrupt.code().unwrap_or(1),
+            ..failed(&device.config.name, &fault)
+        })?;
         device.read().map_err(|fault| failed(&device.config.name, &fault))?;
         show!("{}: {} actuators at the middle of their ranges", device.config.name, targets.len());
     }

@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::library::Making;
+use crate::interrupt::Interrupt;
 use crate::robots::rehearsal::{rehearsal, simulated};
 use crate::terminal::note;
 use ::hardware::Setup;
@@ -12,6 +13,8 @@ use robot::Config;
 use std::io::BufRead;
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
 
 /// How a robot that is hardware is reached.
 #[derive(Args)]
@@ -41,6 +44,9 @@ pub struct Arming {
     pub flight: Option<PathBuf>,
 }
 
+/// Devices that are only read.
+pub const READING: Arming = Arming { arm: false, dry_run: false, flight: None };
+
 impl Arming {
     /// What drivers run with.
     pub fn setup(&self) -> Setup {
@@ -50,6 +56,12 @@ impl Arming {
             .with_records(self.flight.clone());
         setup.say = Arc::new(note);
         setup
+    }
+
+    /// The same; a signal ends the motion of a reset.
+    pub fn setup_until(&self, interrupt: &Interrupt) -> Setup {
+        let interrupt = interrupt.clone();
+        self.setup().with_halted(Arc::new(move || interrupt.code().is_some()))
     }
 }
 
@@ -65,21 +77,28 @@ impl Live {
             return Ok(None);
         };
         let config = Config::read(path).map_err(Failure::usage)?;
-        let setup = self.arming.setup();
+        let interrupt = Interrupt::listen().map_err(Failure::new)?;
+        let setup = self.arming.setup_until(&interrupt);
         Ok(Some(if self.rehearse {
             rehearsal(&config, &mut simulated(id, making)?)?.hardware(config, setup, None)
         } else {
-            real_hardware(Some(config), &setup, Arc::new(|_| ask()))
+            real_hardware(Some(config), &setup, Arc::new(move |_| ask(&interrupt)))
         }))
     }
 }
 
 /// Waits for a person to prepare the surroundings.
-fn ask() -> Result<(), env::NotReady> {
+fn ask(interrupt: &Interrupt) -> Result<(), env::NotReady> {
     note("the robot stands at the start of an episode; put everything in place and press Enter");
-    let mut line = String::new();
-    if std::io::stdin().lock().read_line(&mut line)? == 0 {
-        return Err("nobody is there to prepare it: standard input has ended".into());
+    let (said, heard) = mpsc::channel();
+    // A line is waited for through signals, so that it is waited for elsewhere.
+    std::thread::spawn(move || said.send(std::io::stdin().lock().read_line(&mut String::new())));
+    loop {
+        match heard.recv_timeout(Duration::from_millis(20)) {
+            Ok(Ok(0)) => return Err("nobody is there to prepare it: standard input has ended".into()),
+            Ok(read) => return Ok(read.map(drop)?),
+            Err(RecvTimeoutError::Timeout) if interrupt.code().is_none() => {}
+            Err(_) => return Err("a signal ended it while it waited for a person".into()),
+        }
     }
-    Ok(())
 }

@@ -171,6 +171,26 @@ fn silence_stops_it_and_a_reset_goes_on() {
 }
 
 #[test]
+fn whoever_asks_for_the_end_stops_the_motion_of_a_reset() {
+    let mut rig = on_bus(Carries::serial(1e6), |_| {});
+    let bench = rig.bench.clone();
+    rig.setup.halted = std::sync::Arc::new(move || bench.lock().unwrap().time() > 0.5);
+    // It stands where the episode does not begin.
+    rig.bench.lock().unwrap().plant_mut().place(&[0.9, -0.9], &[0.0; 2]).unwrap();
+    let (config, model) = (config(""), rig.model.clone());
+    let mut robot = rig.robot(&config).unwrap();
+    let data = physics::Data::new(&model);
+    let error = robot.reset(&model, &data, &mut random::Generator::pcg64(1_u64)).unwrap_err();
+    assert!(error.to_string().contains("its motion was ended before it was done"), "{error}");
+    let ended = rig.clock().now();
+    assert!(ended < 0.6, "a second is not waited for: {ended}");
+    let stopped = rig.positions();
+    rig.clock().wait(1.0);
+    let later = rig.positions();
+    assert!(stopped[0] > 0.3 && (stopped[0] - later[0]).abs() < 0.1, "{stopped:?} {later:?}");
+}
+
+#[test]
 fn the_servos_stop_by_themselves_when_the_process_is_killed() {
     let rig = on_bus(Carries::serial(1e6), |_| {});
     let (config, model) = (config(""), rig.model.clone());
