@@ -90,8 +90,14 @@ pub fn rig(config: &Config, mut plant: Plant, at_once: bool) -> Result<(Bench, V
     }
     if rigged.is_empty() {
         let kinds: Vec<_> = kinds().collect();
+        let named = |device: &DeviceConfig| {
+            let kind = device.interface.kind.as_deref().unwrap_or("none");
+            format!("'{kind}' of device '{}'", device.name)
+        };
+        let named: Vec<_> = config.devices.iter().map(named).collect();
         return Err(PlantError::new(format!(
-            "no device of the config has an interface that can be simulated; those are {}",
+            "no device of the config has sensors or actuators and an interface that can be simulated: {}; those that can are {}",
+            named.join(", "),
             kinds.join(", ")
         )));
     }

@@ -1,8 +1,10 @@
 //! `wire`: simulated devices that other programs open.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::input::library::Making;
 use crate::interrupt::Interrupt;
+use crate::output::{check_place, keep_input};
+use crate::robots::hardware::seconds;
 use crate::robots::rehearsal::simulated;
 use crate::robots::worn;
 use crate::terminal::{note, show};
@@ -56,7 +58,7 @@ pub struct Wire {
     #[arg(long, value_name = "MODEL", default_value = MODELS[0].kind.name, value_parser = model)]
     model: &'static Kind,
     /// A Quest with this serial number, at an adb server
-    #[arg(long, value_name = "SERIAL", conflicts_with = "config")]
+    #[arg(long, value_name = "SERIAL", conflicts_with = "config", value_parser = serial)]
     quest: Option<String>,
     /// A CyberGlove with 18 or 22 sensors
     #[arg(long, value_name = "SENSORS", conflicts_with = "config", value_parser = ["18", "22"])]
@@ -74,7 +76,7 @@ pub struct Wire {
     #[arg(long, value_name = "SEED", default_value_t = 0)]
     seed: u64,
     /// End after this time [s]
-    #[arg(long, value_name = "SECONDS")]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     seconds: Option<f64>,
     /// How the environment is made
     #[command(flatten)]
@@ -91,9 +93,26 @@ fn ids(text: &str) -> Result<Ids, String> {
     for part in text.split(',') {
         let (first, last) = part.split_once('-').unwrap_or((part, part));
         let [first, last] = [first, last].map(|id| id.trim().parse::<u8>().ok().filter(|id| *id <= 252));
-        ids.extend(first.ok_or_else(wrong)?..=last.ok_or_else(wrong)?);
+        let (first, last) = (first.ok_or_else(wrong)?, last.ok_or_else(wrong)?);
+        if first > last {
+            return Err(format!("'{part}' begins above its end: write {last}-{first}"));
+        }
+        for id in first..=last {
+            if ids.contains(&id) {
+                return Err(format!("the id {id} is there twice: servos on one bus have ids of their own"));
+            }
+            ids.push(id);
+        }
     }
     Ok(Ids(ids))
+}
+
+/// The serial number of a headset: a word in a list of words.
+fn serial(text: &str) -> Result<String, String> {
+    if text.is_empty() || !text.bytes().all(|byte| byte.is_ascii_graphic()) {
+        return Err("a serial number has letters and digits, and no spaces, as 1WMHH8000X".to_owned());
+    }
+    Ok(text.to_owned())
 }
 
 fn model(text: &str) -> Result<&'static Kind, String> {
@@ -106,6 +125,10 @@ fn model(text: &str) -> Result<&'static Kind, String> {
 
 /// Runs the command.
 pub fn run(a: &Wire) -> Result<(), Failure> {
+    if let Some((out, input)) = a.out.as_ref().zip(a.config.as_ref()) {
+        keep_input(input, out)?;
+        check_place(out)?;
+    }
     let (mut bench, mut config, rigged) = match (&a.config, &a.env) {
         (Some(path), Some(id)) => devices_of(a, path, id)?,
         _ => stand(a)?,
@@ -124,8 +147,7 @@ pub fn run(a: &Wire) -> Result<(), Failure> {
     }
     let _linked = a.link.as_deref().map(|path| Linked::new(path, &ends)).transpose()?;
     if let Some(out) = &a.out {
-        std::fs::write(out, config.to_toml())
-            .map_err(|error| Failure::new(format!("{}: {error}", out.display())))?;
+        std::fs::write(out, config.to_toml()).map_err(unwritable(out))?;
         show!("config: {}", out.display());
     }
     serve_until(a, bench, ends)
@@ -188,7 +210,7 @@ fn serve_until(a: &Wire, bench: Bench, mut ends: Vec<(LinkId, End)>) -> Result<(
             std::thread::sleep(Duration::from_millis(20));
         }
         stop.store(true, Ordering::Relaxed);
-        serving.join().unwrap_or(Ok(())).map_err(Failure::new)
+        serving.join().map_err(|_| Failure::new("serving ended by a panic"))?.map_err(Failure::new)
     })?;
     let bench = bench.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let struck: u64 = ends.iter().map(|(link, _)| bench.struck(*link)).sum();

@@ -190,6 +190,13 @@ fn calibration_refuses_poses_that_nobody_held() {
     assert!(calibrate(&["--tolerance", "0.0001"]).contains("hold it still"));
     assert!(!out.exists());
     let wire = Wire::new("held_still.toml", &[]);
+    let path = wrong("\"dynamixel\" => \"dinamixel\"", "wrong.toml");
+    let out = command().args(["hardware", "check", "--rehearse", ID]).arg(&path).output().unwrap();
+    let said = text(&out.stderr);
+    assert!(
+        said.contains("can be simulated: 'dinamixel' of device 'legs'; those that can are dynamixel"),
+        "{said}"
+    );
     // Somebody presses Enter without moving the robot.
     let mut still = wire.robohive(&["hardware", "calibrate"], &["--out"]);
     still.arg(&out).args(["--samples", "5", "--pose", "front_left_knee=-1", "--pose", "front_left_knee=1"]);

@@ -95,6 +95,10 @@ fn what_cannot_be_served_is_named() {
         (&["wire"][..], "--config <FILE>"),
         (&["wire", "--glove", "20"], "possible values: 18, 22"),
         (&["wire", "--ids", "1", "--model", "AX-12"], "there are XM430-W350"),
+        (&["wire", "--ids", "6-1"], "write 1-6"),
+        (&["wire", "--ids", "1-3,2"], "the id 2 is there twice"),
+        (&["wire", "--quest", "my headset"], "no spaces"),
+        (&["wire", "--ids", "1", "--seconds", "nan"], "a number of seconds"),
         (&["wire", "--quest", "1", "--link", "x", "--seconds", "0"], "no device here has one"),
     ] {
         let out = robohive(arguments);
