@@ -210,7 +210,9 @@ impl Core {
                 self.setup.records.as_deref().map(|folder| {
                     Recorder::create(folder, &self.name, self.values.len(), self.commands.len())
                 });
-            self.recorder = recorder.transpose().map_err(|error| Fault::Unreachable(error.to_string()))?;
+            self.recorder = recorder
+                .transpose()
+                .map_err(|error| Fault::Refused(format!("its record cannot begin: {error}")))?;
         }
         self.driver.connect()?;
         // What a device may do can depend on which it is.
@@ -390,8 +392,6 @@ impl Core {
         })
     }
 
-    /// Commands where a motion is now.
-    fn go_on(&mut self, motion: &mut Motion) -> Result<(), Fault> {
     /// Makes the device safe because somebody asked for the end.
     fn halt(&mut self) -> Fault {
         let fault =
@@ -400,6 +400,8 @@ impl Core {
         fault
     }
 
+    /// Commands where a motion is now.
+    fn go_on(&mut self, motion: &mut Motion) -> Result<(), Fault> {
         let now = self.clock.now();
         let commands = motion.command(now);
         self.apply(&commands)

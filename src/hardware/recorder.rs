@@ -72,21 +72,20 @@ impl Recorder {
     /// # Errors
     /// The file cannot be made.
     pub fn create(folder: &Path, device: &str, sensors: usize, actuators: usize) -> io::Result<Recorder> {
-        std::fs::create_dir_all(folder)?;
+        std::fs::create_dir_all(folder).map_err(named(folder))?;
         let name: String = device.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
         let path = folder.join(format!("{name}.flight"));
         if path.exists() {
-            std::fs::rename(&path, folder.join(format!("{name}.flight.previous")))?;
+            std::fs::rename(&path, folder.join(format!("{name}.flight.previous"))).map_err(named(&path))?;
         }
-        let explain = |error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
-        let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(explain)?;
+        let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(named(&path))?;
         let size = PREFIX + TEXT.max(8 * sensors.max(actuators));
         let capacity = BYTES / size as u64;
         let mut header = [0; HEADER];
         header[..8].copy_from_slice(&MAGIC);
         header[8..16].copy_from_slice(&(size as u64).to_le_bytes());
         header[16..24].copy_from_slice(&capacity.to_le_bytes());
-        file.write_all(&header)?;
+        file.write_all(&header).map_err(named(&path))?;
         Ok(Recorder { file, path, record: vec![0; size], capacity, written: 0 })
     }
 
@@ -136,13 +135,18 @@ impl Recorder {
     }
 }
 
+/// An error that says which file it is about.
+fn named(path: &Path) -> impl Fn(io::Error) -> io::Error {
+    move |error| io::Error::new(error.kind(), format!("{}: {error}", path.display()))
+}
+
 /// Reads the records of a file in the order in which they were written.
 ///
 /// # Errors
 /// The file cannot be read, or is not a flight recorder's.
 pub fn read(path: &Path) -> io::Result<Vec<Entry>> {
     let mut bytes = Vec::new();
-    File::open(path)?.read_to_end(&mut bytes)?;
+    File::open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(named(path))?;
     let number =
         |at: usize| bytes.get(at..at + 8).map(|b| u64::from_le_bytes(b.try_into().unwrap_or_default()));
     let size = number(8).filter(|_| bytes.starts_with(&MAGIC)).and_then(|size| usize::try_from(size).ok());

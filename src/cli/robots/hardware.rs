@@ -373,7 +373,7 @@ fn middle(actuator: &robot::ActuatorConfig) -> f64 {
 }
 
 fn flight(a: &Flight) -> Result<(), Failure> {
-    let entries = read(&a.file).map_err(|error| Failure::usage(format!("{}: {error}", a.file.display())))?;
+    let entries = read(&a.file).map_err(Failure::usage)?;
     let first = a.last.map_or(0, |last| entries.len().saturating_sub(last));
     for entry in &entries[first..] {
         let (what, content) = match &entry.what {

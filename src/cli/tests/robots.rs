@@ -7,7 +7,7 @@ mod serving;
 use command::{ROOT, command, robohive, scratch, text};
 use robot::Config;
 use serving::{CONFIG, ID, Wire};
-use std::io::Write;
+use std::io::{BufRead, BufReader, Write};
 use std::path::Path;
 use std::process::Stdio;
 use std::thread::sleep;
@@ -96,6 +96,75 @@ fn a_killed_run_leaves_the_servos_standing_and_its_last_minutes_on_disk() {
         assert!(Instant::now() < end, "they stand: {before:?} {after:?}");
         before = after;
     }
+}
+
+/// Ctrl-C while the robot moves: it is made safe, and not left where the process died.
+#[test]
+fn a_signal_ends_a_motion_and_leaves_the_robot_safe() {
+    let wire = Wire::new("signalled.toml", &[]);
+    for (signal, code) in [("-INT", 130), ("-TERM", 143)] {
+        let flights = scratch("signalled_flights");
+        std::fs::remove_dir_all(&flights).unwrap_or_default();
+        let mut home = wire.robohive(&["hardware", "home"], &["--arm", "--flight"]);
+        let mut child = home.arg(&flights).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+        let flight = flights.join("legs.flight");
+        let records = || text(&command().args(["hardware", "flight"]).arg(&flight).output().unwrap().stdout);
+        while !flight.exists() || !records().contains(" command ") {
+            assert!(child.try_wait().unwrap().is_none(), "it moves");
+            sleep(Duration::from_millis(20));
+        }
+        let status = std::process::Command::new("kill").args([signal, &child.id().to_string()]).status();
+        assert!(status.unwrap().success());
+        let out = child.wait_with_output().unwrap();
+        let (said, kept) = (text(&out.stderr), records());
+        assert_eq!(out.status.code(), Some(code), "{said}");
+        assert!(said.contains("its motion was ended before it was done"), "{said}");
+        assert!(kept.contains("note     safe") && kept.contains("closed"), "{kept}");
+    }
+    // Who is waited for to prepare the surroundings can end it, too.
+    let mut run = wire.robohive(&["run", ID, "--arm", "--hardware"], &[]);
+    let mut child = run.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
+    assert!(lines.any(|line| line.unwrap().contains("press Enter")));
+    let status = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(status.unwrap().success());
+    assert!(lines.any(|line| line.unwrap().contains("interrupted in episode 0")));
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+}
+
+#[test]
+fn files_of_devices_are_named_and_kept() {
+    let refuse = |arguments: &[&str], says: &str| {
+        let out = robohive(arguments);
+        let said = text(&out.stderr);
+        assert!(!out.status.success() && said.contains(says), "{arguments:?}: {said}");
+        assert_eq!(said.lines().count(), 1, "{said}");
+    };
+    // A config is not replaced by that of its simulated devices.
+    let config = scratch("own.toml");
+    std::fs::copy(Path::new(ROOT).join(CONFIG), &config).unwrap();
+    let own = config.to_str().unwrap();
+    let before = std::fs::read(&config).unwrap();
+    let serve = ["wire", "--config", own, "--env", ID, "--seconds", "0", "--out"];
+    refuse(&[&serve[..], &[own]].concat(), "input and output are one file");
+    assert_eq!(std::fs::read(&config).unwrap(), before);
+    refuse(&[&serve[..], &["nowhere/served.toml"]].concat(), "there is no folder nowhere");
+    let home = ["hardware", "home", CONFIG, "--rehearse", ID, "--arm", "--flight", own];
+    refuse(&home, &format!("its record cannot begin: {own}: "));
+    refuse(&["hardware", "flight", own], &format!("robohive: {own} is not a file of a flight recorder"));
+}
+
+#[test]
+fn cameras_are_neither_monitored_nor_moved() {
+    let of = |verb: &str, more: &[&str]| {
+        let cameras =
+            ["hardware", verb, "assets/franka/tasks/hardware.toml", "--device", "front", "--rehearse"];
+        let out = robohive(&[&cameras[..], &["hive/FrankaReach-v0"], more].concat());
+        assert_eq!(out.status.code(), Some(2));
+        text(&out.stderr)
+    };
+    assert!(of("monitor", &["--seconds", "1"]).contains("`robohive hardware check` looks through them"));
+    assert!(of("home", &["--arm"]).contains("no actuators to move"));
 }
 
 #[test]
