@@ -34,11 +34,16 @@ pub struct Calibrate {
     #[arg(long, value_name = "N", default_value_t = 50, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     samples: u32,
     /// Refuse joints that are farther from a pose than this, or move by more while they are read [rad, m]
-    #[arg(long, value_name = "DISTANCE", default_value_t = 0.1)]
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.1, value_parser = tolerance)]
     tolerance: f64,
     /// In a rehearsal, mount the simulated devices as this config says, which the new one is to find
     #[arg(long, value_name = "CONFIG", value_hint = ValueHint::FilePath, requires = "rehearse")]
     mounted: Option<PathBuf>,
+}
+
+fn tolerance(text: &str) -> Result<f64, String> {
+    let tolerance = text.parse::<f64>().ok().filter(|distance| *distance > 0.0 && distance.is_finite());
+    tolerance.ok_or_else(|| "it must be a number above 0".to_owned())
 }
 
 /// Where the joints are held.
@@ -137,7 +142,7 @@ fn all_joints(devices: &[Connected]) -> Vec<Held> {
     devices.iter().enumerate().flat_map(of_device).collect()
 }
 
-/// Poses may name joints alone that there are, and zero must be within the ranges.
+/// Poses may name joints alone that there are, at places within their ranges.
 fn check_names(poses: &[Pose], held: &[Held]) -> Result<(), Failure> {
     if held.is_empty() {
         return Err(Failure::usage(format!(
@@ -155,6 +160,16 @@ fn check_names(poses: &[Pose], held: &[Held]) -> Result<(), Failure> {
                     return Err(Failure::usage(format!(
                         "no joint that can be calibrated is named '{unknown}'; there are {}",
                         names()
+                    )));
+                }
+                let outside = |joint: &&Held| {
+                    pose.position(&joint.name, joint.range)
+                        .is_some_and(|place| !(joint.range[0]..=joint.range[1]).contains(&place))
+                };
+                if let Some(joint) = held.iter().find(outside) {
+                    return Err(Failure::usage(format!(
+                        "the pose of '{}' is outside its range, {:?}; poses are in the model's units, rad or m",
+                        joint.name, joint.range
                     )));
                 }
             }

@@ -190,6 +190,13 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
         assert!(!out.status.success() && said.contains(part), "{change}: {said}");
         assert_eq!(said.lines().count(), 1, "{said}");
     }
+    let path = wrong("\"dynamixel\" => \"dinamixel\"", "wrong.toml");
+    let out = command().args(["hardware", "check", "--rehearse", ID]).arg(&path).output().unwrap();
+    let said = text(&out.stderr);
+    assert!(
+        said.contains("can be simulated: 'dinamixel' of device 'legs'; those that can are dynamixel"),
+        "{said}"
+    );
     let cut = scratch("cut.toml");
     let config = std::fs::read(Path::new(ROOT).join(CONFIG)).unwrap();
     std::fs::write(&cut, &config[..config.len() / 2]).unwrap();
@@ -256,16 +263,12 @@ fn calibration_refuses_poses_that_nobody_held() {
             .contains("is named 'front_left_toe'; there are front_right_hip")
     );
     assert!(calibrate(&["--pose", "low"]).contains("'low' is no pose"));
+    // Degrees, perhaps.
+    assert!(calibrate(&["--pose", "front_left_knee=57"]).contains("outside its range, [-1.57, 1.57]"));
+    assert!(calibrate(&["--tolerance", "nan"]).contains("a number above 0"));
     assert!(calibrate(&["--tolerance", "0.0001"]).contains("hold it still"));
     assert!(!out.exists());
     let wire = Wire::new("held_still.toml", &[]);
-    let path = wrong("\"dynamixel\" => \"dinamixel\"", "wrong.toml");
-    let out = command().args(["hardware", "check", "--rehearse", ID]).arg(&path).output().unwrap();
-    let said = text(&out.stderr);
-    assert!(
-        said.contains("can be simulated: 'dinamixel' of device 'legs'; those that can are dynamixel"),
-        "{said}"
-    );
     // Somebody presses Enter without moving the robot.
     let mut still = wire.robohive(&["hardware", "calibrate"], &["--out"]);
     still.arg(&out).args(["--samples", "5", "--pose", "front_left_knee=-1", "--pose", "front_left_knee=1"]);
