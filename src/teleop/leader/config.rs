@@ -69,16 +69,25 @@ impl LeaderConfig {
             joints: joints.map_err(wrong)?,
             catch_up: top
                 .section("catch_up")
-                .map_or(Ok(CatchUp { speed: 0.5, far: 1.0 }), catch_up)
+                .and_then(|section| section.map_or(Ok(CatchUp { speed: 0.5, far: 1.0 }), catch_up))
                 .map_err(wrong)?,
-            gravity: top.section("gravity").map(gravity).transpose().map_err(wrong)?,
+            gravity: top
+                .section("gravity")
+                .and_then(|section| section.map(gravity).transpose())
+                .map_err(wrong)?,
         };
-        match config.joints.is_empty() {
-            true => Err(wrong(
+        if config.joints.is_empty() {
+            return Err(wrong(
                 "it has no [[joint]] with the sensor that leads and the actuator that follows".to_owned(),
-            )),
-            false => Ok(config),
+            ));
         }
+        let actuators = || config.joints.iter().map(|joint| &joint.actuator);
+        if let Some((_, twice)) =
+            actuators().enumerate().find(|(k, name)| actuators().take(*k).any(|n| n == *name))
+        {
+            return Err(wrong(format!("two joints lead the actuator '{twice}'")));
+        }
+        Ok(config)
     }
 
     /// Where the controls of its joints are led; nothing while a joint says nothing.
@@ -130,9 +139,10 @@ struct Section<'a> {
 }
 
 impl<'a> Section<'a> {
-    fn section(&self, name: &str) -> Option<Section<'a>> {
-        let table = self.table.get(name)?.as_table()?;
-        Some(Section { table, title: format!("[{name}]") })
+    fn section(&self, name: &str) -> Result<Option<Section<'a>>, String> {
+        let Some(value) = self.table.get(name) else { return Ok(None) };
+        let table = value.as_table().ok_or_else(|| format!("{name} is a section: [{name}]"))?;
+        Ok(Some(Section { table, title: format!("[{name}]") }))
     }
 
     fn knows(&self, names: &[&str]) -> Result<(), String> {
@@ -153,6 +163,6 @@ impl<'a> Section<'a> {
         };
         let number = value.as_float().or(value.as_integer().map(|whole| whole as f64));
         let fits = number.filter(|x| x.is_finite() && (low..=high).contains(x));
-        fits.ok_or_else(|| format!("{}: {name} = {value} is no number from {low} to {high}", self.title))
+        fits.ok_or_else(|| format!("{}: {name} = {value} is no number from {low:?} to {high:?}", self.title))
     }
 }

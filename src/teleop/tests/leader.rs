@@ -316,6 +316,15 @@ fn configs_that_are_wrong_say_where() {
             "devices = 'a.toml'\n[gravity]\nmodel = 'm'\n[[joint]]\nsensor = 'a'\nactuator = 'b'",
             "'torque_constant'",
         ),
+        (
+            "devices = 'a.toml'\ngravity = true\n[[joint]]\nsensor = 'a'\nactuator = 'b'",
+            "gravity is a section",
+        ),
+        (
+            "devices = 'a.toml'\n[[joint]]\nsensor = 'a'\nactuator = 'b'\n[[joint]]\nsensor = 'c'\nactuator = 'b'",
+            "two joints lead the actuator 'b'",
+        ),
+        ("devices = 'a.toml'\n[[joint]]\nsensor = 'a'\nactuator = 'b'\noffset = nan", "no number from -1.79"),
         ("devices =", "leader.toml"),
     ];
     for (text, says) in cases {
