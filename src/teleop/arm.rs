@@ -57,7 +57,7 @@ impl Arm {
     /// # Errors
     /// The model has no such site, or nothing that moves it.
     pub fn of(env: &Env, settings: &ArmSettings, gains: Gains) -> Result<Self, TeleopError> {
-        Arm::at(env, &settings.sites, settings, gains)
+        Arm::at(env, &settings.sites, "--site", settings, gains)
     }
 
     /// The first arm, and the left one where the settings name its site. Each has the grippers that hang on it, the first all that
@@ -70,7 +70,7 @@ impl Arm {
         if settings.left_sites.is_empty() {
             return Ok(vec![first]);
         }
-        let mut left = Arm::at(env, &settings.left_sites, settings, gains)?;
+        let mut left = Arm::at(env, &settings.left_sites, "--left-site", settings, gains)?;
         let model = &env.scene().model;
         let chains = [first.site, left.site].map(|site| chain(model, model.site_bodyid[site.index()]));
         let shared =
@@ -86,13 +86,20 @@ impl Arm {
         Ok(vec![first, left])
     }
 
-    /// The arm that moves the first of these sites.
-    fn at(env: &Env, sites: &[String], settings: &ArmSettings, gains: Gains) -> Result<Self, TeleopError> {
+    /// The arm that moves the first of these sites, which `option` names.
+    fn at(
+        env: &Env,
+        sites: &[String],
+        option: &str,
+        settings: &ArmSettings,
+        gains: Gains,
+    ) -> Result<Self, TeleopError> {
         let model = &env.scene().model;
         let Some(site) = sites.iter().find_map(|name| model.site(name)) else {
             let has: Vec<&str> = model.site_names().map(|(_, name)| name).take(12).collect();
             return Err(missing(format!(
-                "no site to move: the model has none of {}; name one by --site: {}",
+                "no hand to move: the model has none of the sites {}; name one by {option}: {}. What has no hand is driven by --control \
+                 joints, and a robot on legs by --control base",
                 sites.join(", "),
                 has.join(", ")
             )));

@@ -75,8 +75,8 @@ pub(crate) fn arm(section: &Table, file: &str) -> Result<ArmSettings, TeleopErro
         ArmSettings { sites: Vec::new(), left_sites: Vec::new(), reach: 0.0, pull: 0.0, gripper: 0.0 };
     for (name, value) in section {
         match &name[..] {
-            "sites" => arm.sites = names(value),
-            "left_sites" => arm.left_sites = names(value),
+            "sites" => arm.sites = sites(file, name, value)?,
+            "left_sites" => arm.left_sites = sites(file, name, value)?,
             "reach" => arm.reach = positive(file, "arm", name, value)?,
             "pull" => {
                 arm.pull = number(value)
@@ -128,6 +128,16 @@ pub(crate) fn base(section: &Table, file: &str) -> Result<BaseSettings, TeleopEr
 
 pub(crate) fn names(value: &Value) -> Vec<String> {
     value.as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect()
+}
+
+fn sites(file: &str, name: &str, value: &Value) -> Result<Vec<String>, TeleopError> {
+    let named = names(value);
+    let all = value.as_array().is_some_and(|entries| entries.len() == named.len());
+    if all {
+        Ok(named)
+    } else {
+        Err(wrong(file, format!("[arm] {name} is a list of names, and not {value}")))
+    }
 }
 
 pub(crate) fn number(value: &Value) -> Option<f64> {

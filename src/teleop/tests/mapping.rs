@@ -116,6 +116,8 @@ fn files_replace_sections_and_errors_name_what_is_wrong() {
         ("[gains]\nposition = -1", "positive"),
         ("[gains]\nposition = nan", "positive"),
         ("[arm]\ngripper = 2", "-1 (closed) to 1"),
+        ("[arm]\nsites = \"grasp\"", "[arm] sites is a list of names, and not \"grasp\""),
+        ("[arm]\nleft_sites = [3]", "[arm] left_sites is a list of names"),
         ("[arm", "mine.toml"),
     ] {
         let error = Mapping::from_toml(text, "mine.toml").err().unwrap_or_else(|| panic!("{text} is taken"));

@@ -172,7 +172,7 @@ fn a_left_arm_that_is_not_there_or_the_same_is_refused() {
         );
         session(&mapping.unwrap()).err().unwrap().to_string()
     };
-    assert!(refused("paw").contains("none of paw"), "{}", refused("paw"));
+    assert!(refused("paw").contains("none of the sites paw; name one by --left-site"), "{}", refused("paw"));
     assert!(refused("hand_right").contains("moves both arms"), "{}", refused("hand_right"));
     let wrong = Mapping::from_toml("[keyboard]\nd = 'left.+1'", "two.toml").unwrap_err().to_string();
     assert!(wrong.contains("left.+x"), "{wrong}");
