@@ -120,6 +120,11 @@ impl Calibration {
         &self.actuators
     }
 
+    /// How many sensors it is of.
+    pub fn sensors(&self) -> usize {
+        self.least.len()
+    }
+
     /// Where the joints are \[rad\] when the sensors measure this, one value for each.
     pub fn joints(&self, raw: &[f64]) -> Vec<f64> {
         let ends = self.least.iter().zip(&self.largest);
@@ -130,9 +135,12 @@ impl Calibration {
         joints.map(|(row, [low, high])| low + place(row) * (high - low)).collect()
     }
 
-    /// The joints of a sample that every sensor is in.
+    /// The joints of a sample that every sensor is in, and no other: what a glove with more sensors calls the first 18 is elsewhere.
     pub(crate) fn read(&self, sample: &Sample) -> Option<Vec<f64>> {
         let sensors = 0..self.least.len() as u16;
+        if sample.axes.contains_key(&Axis(Device::Glove, sensors.end)) {
+            return None;
+        }
         let raw: Option<Vec<f64>> =
             sensors.map(|k| sample.axes.get(&Axis(Device::Glove, k)).copied()).collect();
         raw.map(|raw| self.joints(&raw))

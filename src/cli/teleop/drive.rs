@@ -260,7 +260,7 @@ impl Desk {
             }
             let now = self.now();
             if now - shown >= LINE || ticked.finished.is_some() || ticked.impossible.is_some() {
-                redraw(&self.line(&ticked));
+                redraw(&self.line(&ticked, input.motion.led.is_some()));
                 shown = now;
             }
             if ticked.over {
@@ -300,8 +300,18 @@ impl Desk {
         film.as_mut().map_or(Ok(()), |film| film.show(&scene.model, &scene.data, time))
     }
 
-    /// How it goes.
-    fn line(&self, ticked: &Ticked) -> String {
+    /// How it goes; `led` where what leads joints says where they are.
+    fn line(&self, ticked: &Ticked, led: bool) -> String {
+        let silent = match &self.mapping.led {
+            Some(Leading::Glove(calibration)) if !led => {
+                format!(
+                    "  the glove does not say what the {} sensors of its calibration measure",
+                    calibration.sensors()
+                )
+            }
+            Some(Leading::Arm(_)) if !led => "  the leader says nothing".to_owned(),
+            _ => String::new(),
+        };
         let refused = match ticked.refused {
             Some(::teleop::Reached::Nowhere) => "  out of reach",
             Some(::teleop::Reached::Far) => "  too far ahead",
@@ -314,6 +324,6 @@ impl Desk {
             Some(_) => "  hardware cannot go back in time",
             None => "",
         };
-        format!("{}  {} dropped{refused}{impossible}", self.session.line(), self.report.dropped)
+        format!("{}  {} dropped{refused}{impossible}{silent}", self.session.line(), self.report.dropped)
     }
 }

@@ -76,6 +76,22 @@ fn a_headset_leads_a_hand_and_a_glove_says_what_its_fingers_do() {
     assert_eq!(said[23], 0, "{said:?}");
     assert!(said[5..23].iter().all(|value| (60..=200).contains(value)), "{said:?}");
 
+    // A calibration of 22 sensors is not that of this glove.
+    let file = scratch("calibration.toml");
+    let of = |value: u8| format!("{:?}", [value; 22]);
+    let row = format!("{:?}", [0.0; 23]);
+    let calibration = format!(
+        "min = {}\nmax = {}\nmatrix = [{row}]\nranges = [[0, 1]]\nactuators = ['joint1']",
+        of(0),
+        of(255)
+    );
+    std::fs::write(&file, calibration).unwrap();
+    let led = format!("glove:{}", wire.1[1]);
+    let arguments = ["hive/FrankaReach-v0", "--device", &led, "--calibration", file.to_str().unwrap()];
+    let typed = Typed::start(&arguments, true);
+    typed.wait_for("does not say what the 22 sensors of its calibration measure");
+    drop(typed);
+
     let device = format!("quest:{}", wire.1[0]);
     let hand = |typed: &Typed| typed.line().split_once("hand ").map(|(_, after)| after[..20].to_owned());
     let mut typed = Typed::start(&["hive/FrankaReach-v0", "--device", &device], true);

@@ -112,6 +112,21 @@ fn a_calibration_is_applied_as_robohive_does() {
 }
 
 #[test]
+fn a_glove_with_more_sensors_than_its_calibration_leads_nothing() {
+    let text = format!(
+        "min = {:?}\nmax = {:?}\nmatrix = [{:?}]\nranges = [[0, 1]]\nactuators = ['M2']",
+        [0; 18], [255; 18], [0.0; 19]
+    );
+    let mut mapping = Mapping::default();
+    mapping.led = Some(Leading::Glove(Calibration::from_toml(&text, "glove.toml").unwrap()));
+    for (sensors, leads) in [(17, false), (18, true), (22, false)] {
+        let mut held = robohive_teleop::Held::default();
+        (0..sensors).for_each(|k| held.apply(Event::Move(Axis(Device::Glove, k), 100.0), 0.0));
+        assert_eq!(mapping.read(&held.sample(0.0)).motion.led.is_some(), leads, "{sensors} sensors");
+    }
+}
+
+#[test]
 fn calibrations_that_do_not_fit_together_are_refused() {
     let whole = calibration();
     for (from, to, says) in [
