@@ -46,6 +46,9 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     files::check(a)?;
     let policy = a.policy.as_deref().map(policy).transpose()?;
     let painters = a.film.painters(a.visual)?;
+    let interrupt = Interrupt::listen().map_err(Failure::new)?;
+    // A signal ends the motion of a robot to where an episode begins, which then fails.
+    let ended = |failure: Failure| Failure { code: interrupt.code().unwrap_or(failure.code), ..failure };
     let listening = Listening::new();
     let env = make(a, source, &listening, painters.clone())?;
     let live = env.is_live();
@@ -65,11 +68,11 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         solved_for: a.solved_for,
         images: a.visual,
     };
-    let mut session = Session::new(env, control, &mapping, plan)?;
+    let session = Session::new(env, control, &mapping, plan);
+    let mut session = session.map_err(|error| ended(error.into()))?;
     if let Some(policy) = &policy {
         session = session.with_policy(policy)?;
     }
-    let interrupt = Interrupt::listen().map_err(Failure::new)?;
     if !live {
         open(a, &mapping, &listening)?;
     }
@@ -101,7 +104,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     if let Some(closed) = recorded {
         closed.show();
     }
-    outcome?;
+    outcome.map_err(ended)?;
     let_go?;
     match interrupt.code() {
         None => Ok(()),

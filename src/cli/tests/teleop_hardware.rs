@@ -134,6 +134,15 @@ fn servos_in_real_time_are_driven_and_rest_when_the_session_ends() {
         "{said}"
     );
 
+    // Ctrl-C on the way to the first episode.
+    let mut typed = Typed::open(&common);
+    typed.wait_for("\u{1b}[?u");
+    let status = std::process::Command::new("kill").args(["-INT", &typed.child.id().to_string()]).status();
+    assert!(status.unwrap().success());
+    let (status, said) = typed.end();
+    assert_eq!(status.code(), Some(130), "{said}");
+    assert!(said.contains("its motion was ended before it was done"), "{said}");
+
     let mut typed = Typed::start(&common, true);
     typed.wait_for("the robot stands at the start of an episode");
     typed.write("\u{1b}[51;1:1u");
