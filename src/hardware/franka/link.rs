@@ -92,7 +92,10 @@ impl Channel {
             self.decoder.push(&self.buffer[..count]);
             while let Some(frame) = self.decoder.next_frame() {
                 let frame = frame.map_err(|length| {
-                    Fault::Unreachable(format!("its server announces a message of {} bytes", length.0))
+                    Fault::Unreachable(format!(
+                        "its server announces a message of {} bytes, as no arm does; check that the address is the arm's",
+                        length.0
+                    ))
                 })?;
                 self.replies.push(Reply { id: frame.id, payload: frame.payload.to_vec() });
             }
