@@ -2,7 +2,7 @@
 
 use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A lock that other programs on this machine see; it ends with the process that took it, however that ends.
 #[derive(Debug)]
@@ -14,10 +14,17 @@ impl Lock {
     /// # Errors
     /// Another process has it: which one. The lock's file cannot be made.
     pub fn take(resource: &str) -> io::Result<Lock> {
-        let name: String =
-            resource.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+        // A device has several names: links in /dev/serial/by-id, and the node that they lead to.
+        let node = std::fs::canonicalize(resource).ok();
+        let node = node.as_deref().and_then(Path::to_str).unwrap_or(resource);
+        let name: String = node.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
         let path: PathBuf = std::env::temp_dir().join(format!("robohive-{name}.lock"));
-        let mut file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path)?;
+        let mut file = open(&path).map_err(|error| {
+            io::Error::new(
+                error.kind(),
+                format!("{}: {error}; remove it, if no program is using {resource}", path.display()),
+            )
+        })?;
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
@@ -39,9 +46,57 @@ impl Lock {
     }
 }
 
+/// The file, which every user may write: the next who needs the device may be another.
+fn open(path: &Path) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.read(true).write(true);
+    // Asked to make the file, Linux refuses another user's in a folder that all share.
+    match options.open(path) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        opened => return opened,
+    }
+    let file = options.create(true).truncate(false).open(path)?;
+    #[cfg(unix)]
+    file.set_permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666))?;
+    Ok(file)
+}
+
 impl Drop for Lock {
     fn drop(&mut self) {
         // Closing the file would do; an error here has nobody to hear it.
         self.0.unlock().unwrap_or_default();
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::{PermissionsExt, symlink};
+
+    #[test]
+    fn a_device_is_locked_under_all_its_names_and_for_all_users() {
+        let folder = std::env::temp_dir().join(format!("robohive-lock-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).unwrap();
+        let (node, link) = (folder.join("ttyUSB0"), folder.join("by-id"));
+        std::fs::write(&node, "").unwrap();
+        symlink(&node, &link).unwrap();
+        let [node, link] = [&node, &link].map(|path| path.to_str().unwrap());
+        let first = Lock::take(node).unwrap();
+        let refused = Lock::take(link).unwrap_err().to_string();
+        assert!(refused.contains(&format!("(process {}) is using {link}", std::process::id())), "{refused}");
+        let mode = first.0.metadata().unwrap().permissions().mode();
+        assert_eq!(mode & 0o777, 0o666);
+        drop(first);
+        Lock::take(link).unwrap();
+        std::fs::remove_dir_all(&folder).unwrap();
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_opened_is_named() {
+        let path = std::env::temp_dir().join("robohive-a_folder_in_its_place.lock");
+        std::fs::create_dir_all(&path).unwrap();
+        let said = Lock::take("a_folder_in_its_place").unwrap_err().to_string();
+        std::fs::remove_dir(&path).unwrap();
+        assert!(said.starts_with(path.to_str().unwrap()) && said.contains("remove it"), "{said}");
     }
 }
