@@ -68,7 +68,11 @@ impl Cell {
                 let magnitude = value.abs().min((1 << bit) - 1);
                 if value < 0 { magnitude | 1 << bit } else { magnitude }
             }
-            Sign::None | Sign::Complement => value,
+            Sign::None => value.clamp(0, (1 << (8 * self.size)) - 1),
+            Sign::Complement => {
+                let end = 1 << (8 * self.size - 1);
+                value.clamp(-end, end - 1)
+            }
         };
         (raw as u32).to_le_bytes()
     }
@@ -299,6 +303,15 @@ mod tests {
         }
         let cell = Cell::new(0, 2).with_sign(Sign::Bit(15));
         assert_eq!((cell.encode(-2), cell.encode(-100_000)), ([2, 0x80, 0, 0], [0xFF, 0xFF, 0, 0]));
+        // What is beyond a register is its end, and not the other direction.
+        for (cell, value, kept) in [
+            (Cell::new(0, 2).with_sign(Sign::Complement), 40_000, 32_767),
+            (Cell::new(0, 4).with_sign(Sign::Complement), i64::MIN, -2_147_483_648),
+            (Cell::new(0, 1), 300, 255),
+            (Cell::new(0, 2), -1, 0),
+        ] {
+            assert_eq!(cell.decode(&cell.encode(value)[..usize::from(cell.size)]), kept);
+        }
         assert_eq!(Cell::new(0, 1).decode(&[0xFF]), 255);
         assert_eq!(Cell::new(0, 4).with_sign(Sign::Complement).decode(&[0xFE, 0xFF, 0xFF, 0xFF]), -2);
     }
