@@ -205,14 +205,10 @@ impl Drop for Guarded {
 
 impl Core {
     fn connect(&mut self) -> Result<(), Fault> {
-        if self.setup.records.is_some() && self.recorder.is_none() {
-            let recorder =
-                self.setup.records.as_deref().map(|folder| {
-                    Recorder::create(folder, &self.name, self.values.len(), self.commands.len())
-                });
-            self.recorder = recorder
-                .transpose()
-                .map_err(|error| Fault::Refused(format!("its record cannot begin: {error}")))?;
+        if let (Some(folder), None) = (self.setup.records.as_deref(), &self.recorder) {
+            let recorder = Recorder::create(folder, &self.name, self.values.len(), self.commands.len());
+            let refused = |error| Fault::Refused(format!("its record cannot begin: {error}"));
+            self.recorder = Some(recorder.map_err(refused)?);
         }
         self.driver.connect()?;
         // What a device may do can depend on which it is.
@@ -220,7 +216,10 @@ impl Core {
         let now = self.clock.now();
         self.connected = now;
         self.watchdog = Watchdog::new(self.driver.timeouts(), now);
-        self.driver.read(&mut self.values)?;
+        self.driver.read(&mut self.values).map_err(|fault| match fault {
+            Fault::Stale(_) => Fault::Unreachable("it does not answer when it is read".to_owned()),
+            fault => fault,
+        })?;
         self.phase = Phase::Idle;
         Ok(())
     }

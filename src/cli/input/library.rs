@@ -5,10 +5,11 @@ use crate::input::solver::SolverArgument;
 use crate::terminal::note;
 use ::library::{Library, Weights};
 use clap::{Args, ValueHint};
-use env::{Arguments, Compat, Env, Hardware, Options};
+use env::{Arguments, Compat, Env, EnvError, Hardware, Options};
 use mjcf::diagnostic::Diagnostic;
 use render::Painters;
 use render::painter::Cpu;
+use robot::RobotError;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -59,7 +60,10 @@ impl Source {
     pub fn make_on(&self, hardware: Option<Hardware>, painters: Arc<dyn Painters>) -> Result<Env, Failure> {
         let library = self.making.assets()?;
         let options = self.making.options()?.with_painters(painters).with_hardware(hardware);
-        let env = Env::make(&self.id, &library, &options).map_err(Failure::usage)?;
+        let env = Env::make(&self.id, &library, &options).map_err(|error| match error {
+            EnvError::Robot(RobotError::Device { .. }) => Failure::new(error),
+            error => Failure::usage(error),
+        })?;
         let imported = |warning: &&Diagnostic| {
             warning.position.as_ref().is_some_and(|position| library.is_imported(Path::new(&position.path)))
         };

@@ -203,6 +203,10 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
     let out = command().args(["hardware", "check"]).arg(&cut).output().unwrap();
     assert_eq!(out.status.code(), Some(2));
     assert!(text(&out.stderr).contains("cut.toml:"), "{}", text(&out.stderr));
+    // What is not there is no wrong input.
+    let path = wrong("/dev/ttyUSB0 => /dev/ttyNONE", "wrong.toml");
+    let out = command().args(["run", ID, "--arm", "--hardware"]).arg(&path).output().unwrap();
+    assert_eq!(out.status.code(), Some(1), "{}", text(&out.stderr));
     let slow = command().args(["wire", "--ids", "300"]).output().unwrap();
     assert!(text(&slow.stderr).contains("no list of ids"), "{}", text(&slow.stderr));
 }

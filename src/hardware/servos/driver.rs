@@ -74,17 +74,23 @@ impl Servos {
         self.found[self.place(motor.id)].kind
     }
 
+    /// A fault of a servo while it is connected: one that is silent is not there.
+    fn missing(&self, id: u8, fault: Fault) -> Fault {
+        let Settings { port, baud, .. } = &self.settings;
+        match fault {
+            Fault::Stale(_) => Fault::Unreachable(format!(
+                "servo {id} does not answer at {baud} baud on {port}; check its power, its id, its baud rate and its protocol"
+            )),
+            fault => fault,
+        }
+    }
+
     /// Finds a servo, and restarts it where that clears an error of its hardware.
     fn find(&mut self, id: u8) -> Result<Found, Fault> {
-        let Settings { port, baud, make, .. } = &self.settings;
-        let (family, layout) = (make.family, self.layout);
-        let missing = format!(
-            "servo {id} does not answer at {baud} baud on {port}; check its power, its id, its baud rate and its protocol"
-        );
-        let wanted = make.model;
+        let Make { family, model: wanted, .. } = self.settings.make;
+        let layout = self.layout;
         let bus = self.bus()?;
-        let missing = |fault| if let Fault::Stale(_) = fault { Fault::Unreachable(missing) } else { fault };
-        let (number, mut error) = bus.look(id, layout.model).map_err(missing)?;
+        let (number, mut error) = bus.look(id, layout.model)?;
         if family.reboots && bus.trouble(id, error)?.is_some() {
             bus.reboot(id)?;
             bus.wait(REBOOT);
@@ -133,7 +139,8 @@ impl Servos {
         };
         for place in 0..self.ids.len() {
             let (id, first) = (self.ids[place], self.found[place].kind.fast_sync_read);
-            let version = self.bus()?.read_twice(id, firmware)?;
+            let version = self.bus()?.read_twice(id, firmware);
+            let version = version.map_err(|fault| self.missing(id, fault))?;
             if first.is_none_or(|first| version < first) {
                 return Ok(Reading::Sync);
             }
@@ -236,7 +243,8 @@ impl Driver for Servos {
         let opened = (self.opener)(port, *baud).map_err(|error| Fault::Unreachable(error.to_string()))?;
         self.bus = Some(Bus::new(opened, *baud, make.family));
         for place in 0..self.ids.len() {
-            self.found[place] = self.find(self.ids[place])?;
+            let id = self.ids[place];
+            self.found[place] = self.find(id).map_err(|fault| self.missing(id, fault))?;
         }
         self.check_abilities()?;
         self.reading = self.choose_reading()?;

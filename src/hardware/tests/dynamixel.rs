@@ -263,6 +263,22 @@ fn bad_commands_and_failing_hardware_are_named() {
 }
 
 #[test]
+fn a_bus_that_fails_while_it_is_connected_is_named() {
+    let rates: Rates = "drop=0.4".parse().unwrap();
+    let mut errors = Vec::new();
+    for seed in 0..20 {
+        let rig = on_bus(Carries::serial(1e6), |_| {});
+        rig.bench.lock().unwrap().inject(rig.link, rates, seed);
+        errors.extend(rig.robot(&config("")).err().map(|error| error.to_string()));
+    }
+    println!("{} of 20 fail", errors.len());
+    assert!(errors.len() > 10);
+    for error in errors {
+        assert!(error.contains("it cannot be reached: ") && error.contains("does not answer"), "{error}");
+    }
+}
+
+#[test]
 fn a_thousand_seeded_faults_end_in_errors_or_in_motion_within_limits() {
     let rates: Rates =
         "drop=0.01,delay=0.01,reorder=0.01,duplicate=0.01,corrupt=0.02,truncate=0.01,stall=0.0005,disconnect=0.0005"
