@@ -204,17 +204,22 @@ fn check(a: &Check) -> Result<(), Failure> {
     let period = 1.0 / a.rate;
     let interrupt = Interrupt::listen().map_err(Failure::new)?;
     for device in &mut devices {
-        let mut answers = Answers::default();
+        // Why the newest reading did not come.
+        let (mut answers, mut lost) = (Answers::default(), None);
         for _ in 0..a.samples {
             if interrupt.code().is_some() {
                 break;
             }
             let begun = clock.now();
             match device.read() {
-                Ok(_) => answers.latencies.push(clock.now() - begun),
+                Ok(_) => {
+                    answers.latencies.push(clock.now() - begun);
+                    lost = None;
+                }
                 Err(fault) => {
                     answers.faults += 1;
-                    answers.fault = Some(fault);
+                    answers.fault = Some(fault.clone());
+                    lost = Some(fault);
                 }
             }
             let left = begun + period - clock.now();
@@ -226,6 +231,9 @@ fn check(a: &Check) -> Result<(), Failure> {
         }
         answers.latencies.sort_by(f64::total_cmp);
         report(a, device, &answers);
+        if let Some(fault) = lost {
+            return Err(failed(&device.config.name, &fault));
+        }
         device.device.close().map_err(|fault| failed(&device.config.name, &fault))?;
     }
     look(a, &mut cameras, &mut *clock, &interrupt)?;

@@ -133,6 +133,19 @@ fn a_signal_ends_a_motion_and_leaves_the_robot_safe() {
 }
 
 #[test]
+fn a_check_of_a_device_that_goes_away_fails() {
+    let mut wire = Wire::new("gone.toml", &[]);
+    let mut check = wire.robohive(&["hardware", "check"], &["--samples", "100", "--rate", "20"]);
+    let check = check.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    sleep(Duration::from_millis(1500));
+    wire.kill();
+    let out = check.wait_with_output().unwrap();
+    let (shown, said) = (text(&out.stdout), text(&out.stderr));
+    assert!(out.status.code() == Some(1) && said.contains("device 'legs': "), "{shown}{said}");
+    assert!(shown.contains(" of 100, "), "{shown}");
+}
+
+#[test]
 fn files_of_devices_are_named_and_kept() {
     let refuse = |arguments: &[&str], says: &str| {
         let out = robohive(arguments);
@@ -190,6 +203,10 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
         assert!(!out.status.success() && said.contains(part), "{change}: {said}");
         assert_eq!(said.lines().count(), 1, "{said}");
     }
+    // What is not there is no wrong input.
+    let path = wrong("/dev/ttyUSB0 => /dev/ttyNONE", "wrong.toml");
+    let out = command().args(["run", ID, "--arm", "--hardware"]).arg(&path).output().unwrap();
+    assert_eq!(out.status.code(), Some(1), "{}", text(&out.stderr));
     let path = wrong("\"dynamixel\" => \"dinamixel\"", "wrong.toml");
     let out = command().args(["hardware", "check", "--rehearse", ID]).arg(&path).output().unwrap();
     let said = text(&out.stderr);
@@ -203,10 +220,6 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
     let out = command().args(["hardware", "check"]).arg(&cut).output().unwrap();
     assert_eq!(out.status.code(), Some(2));
     assert!(text(&out.stderr).contains("cut.toml:"), "{}", text(&out.stderr));
-    // What is not there is no wrong input.
-    let path = wrong("/dev/ttyUSB0 => /dev/ttyNONE", "wrong.toml");
-    let out = command().args(["run", ID, "--arm", "--hardware"]).arg(&path).output().unwrap();
-    assert_eq!(out.status.code(), Some(1), "{}", text(&out.stderr));
     let slow = command().args(["wire", "--ids", "300"]).output().unwrap();
     assert!(text(&slow.stderr).contains("no list of ids"), "{}", text(&slow.stderr));
 }

@@ -30,6 +30,12 @@ impl Wire {
         Wire { child, config }
     }
 
+    /// Ends it, and with it the pseudo-terminal.
+    pub fn kill(&mut self) {
+        self.child.kill().unwrap_or_default();
+        self.child.wait().unwrap();
+    }
+
     pub fn robohive(&self, before: &[&str], after: &[&str]) -> Command {
         let mut command = command();
         command.args(before).arg(&self.config).args(after);
@@ -39,7 +45,6 @@ impl Wire {
 
 impl Drop for Wire {
     fn drop(&mut self) {
-        self.child.kill().unwrap_or_default();
-        self.child.wait().unwrap();
+        self.kill();
     }
 }
