@@ -4,7 +4,7 @@ use super::features::{Feature, NUMBERING};
 use super::reader::LeRobotReader;
 use super::series::{CHUNK_FILES, Series, file_name};
 use super::stats::Stats;
-use super::writer::{LeRobotWriter, Settings};
+use super::writer::{LeRobotWriter, Settings, lock};
 use crate::json;
 use dataset::trace::TraceError;
 use serde_json::Value;
@@ -27,6 +27,7 @@ impl LeRobotWriter {
             let message = "the folder exists and is no dataset of LeRobot: choose another one";
             return Err(TraceError::new(root, "", message));
         }
+        let _lock = lock(root)?;
         let reader = LeRobotReader::open(root)?;
         let (frames, data, table) = reader.end();
         let writer = LeRobotWriter {
@@ -41,6 +42,7 @@ impl LeRobotWriter {
             table: Series::new(root.join("meta/episodes"), table),
             episodes: reader.episodes(),
             frames,
+            _lock,
         };
         writer.drop_torn(data, table)?;
         Ok(writer)

@@ -9,6 +9,7 @@ use crate::json;
 use dataset::Array;
 use dataset::trace::TraceError;
 use serde_json::{Map, Value, json};
+use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use video::{Frame, VideoWriter, png_bytes};
 
@@ -73,6 +74,25 @@ pub struct LeRobotWriter {
     pub(super) table: Series,
     pub(super) episodes: usize,
     pub(super) frames: usize,
+    /// The folder, whatever its name, which nobody else writes; without locks in the file system nothing.
+    pub(super) _lock: Option<File>,
+}
+
+/// Keeps others from writing a folder, also under the name that it gets later, for as long as the file is open.
+///
+/// # Errors
+/// Another process writes it.
+pub(super) fn lock(folder: &Path) -> Result<Option<File>, TraceError> {
+    let Ok(file) = File::open(folder) else { return Ok(None) };
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Err(TraceError::new(
+            folder,
+            "",
+            "another session is writing this dataset: end it, or choose another folder",
+        )),
+        Err(TryLockError::Error(_)) => Ok(None),
+    }
 }
 
 /// A feature of an episode, ready for the files.
@@ -100,9 +120,11 @@ impl LeRobotWriter {
         let io = |e: std::io::Error| TraceError::new(&folder, "", e);
         if folder.exists() {
             // Of a process that was killed.
+            lock(&folder)?;
             std::fs::remove_dir_all(&folder).map_err(io)?;
         }
         std::fs::create_dir_all(folder.join("meta")).map_err(io)?;
+        let _lock = lock(&folder)?;
         Ok(LeRobotWriter {
             root: root.to_owned(),
             data: Series::new(folder.join("data"), 0),
@@ -115,6 +137,7 @@ impl LeRobotWriter {
             stats: Vec::new(),
             episodes: 0,
             frames: 0,
+            _lock,
         })
     }
 

@@ -143,3 +143,23 @@ fn what_does_not_fit_is_refused_by_name() {
     std::fs::write(&path, text).unwrap();
     assert_says(LeRobotWriter::grow(&root, settings()), &["grid", "complex128"]);
 }
+
+#[cfg(unix)]
+#[test]
+fn two_sessions_do_not_write_one_dataset() {
+    let folder = Folder::new("two");
+    let root = folder.path().join("set");
+    let busy = ["another session is writing this dataset"];
+    let mut first = LeRobotWriter::grow(&root, settings()).unwrap();
+    assert_says(LeRobotWriter::grow(&root, settings()).map(drop), &busy);
+    first.add(&frames(0, 4)).unwrap();
+    // The folder has its name now.
+    assert_says(LeRobotWriter::grow(&root, settings()).map(drop), &busy);
+    first.add(&frames(1, 3)).unwrap();
+    first.finish().unwrap();
+    let mut second = LeRobotWriter::grow(&root, settings()).unwrap();
+    assert_says(LeRobotWriter::grow(&root, settings()).map(drop), &busy);
+    second.add(&frames(2, 2)).unwrap();
+    second.finish().unwrap();
+    assert_eq!(LeRobotReader::open(&root).unwrap().episodes(), 3);
+}
