@@ -162,8 +162,11 @@ fn dynamixels(
         return chain(device, bench, at_once, |id| dynamixel::v1::Servo::new(model, id));
     }
     let model = match name {
-        Some(name) => protocol::dynamixel::model(name)
-            .ok_or_else(|| PlantError::new(format!("there is no model of servo '{name}'")))?,
+        Some(name) => protocol::dynamixel::model(name).ok_or_else(|| {
+            let known = protocol::dynamixel::KINDS.iter().chain(&v1::KINDS).map(|kind| kind.name);
+            let known: Vec<_> = known.collect();
+            PlantError::new(format!("no servo '{name}' can be simulated; there are {}", known.join(", ")))
+        })?,
         None => &protocol::dynamixel::MODELS[0],
     };
     chain(device, bench, at_once, |id| dynamixel::Servo::new(model, id))

@@ -207,6 +207,14 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
     let path = wrong("/dev/ttyUSB0 => /dev/ttyNONE", "wrong.toml");
     let out = command().args(["run", ID, "--arm", "--hardware"]).arg(&path).output().unwrap();
     assert_eq!(out.status.code(), Some(1), "{}", text(&out.stderr));
+    let path = wrong("safe = \"off\" => model = \"AX-12\"", "wrong.toml");
+    let out = command().args(["hardware", "check", "--rehearse", ID]).arg(&path).output().unwrap();
+    let said = text(&out.stderr);
+    assert!(
+        said.contains("device 'legs': no servo 'AX-12' can be simulated; there are XM430-W350"),
+        "{said}"
+    );
+    assert!(said.contains("AX-12A"), "{said}");
     let path = wrong("\"dynamixel\" => \"dinamixel\"", "wrong.toml");
     let out = command().args(["hardware", "check", "--rehearse", ID]).arg(&path).output().unwrap();
     let said = text(&out.stderr);
