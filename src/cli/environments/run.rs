@@ -238,6 +238,9 @@ fn show_result(a: &Run, env: &Env, episodes: &[Summary], seconds: f64) {
     let (low, high) =
         returns().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     show!("{}: {} episodes, {steps} steps, {} policy", a.source.id, episodes.len(), a.policy);
+    if episodes.is_empty() {
+        return;
+    }
     show!("success      {:.1} %", result.success_percentage);
     show!("return       {:.3} (from {low:.3} to {high:.3})", result.reward);
     show!("sparse       {:.4} a step", result.rwd_sparse);

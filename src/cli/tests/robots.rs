@@ -123,13 +123,16 @@ fn a_signal_ends_a_motion_and_leaves_the_robot_safe() {
     }
     // Who is waited for to prepare the surroundings can end it, too.
     let mut run = wire.robohive(&["run", ID, "--arm", "--hardware"], &[]);
-    let mut child = run.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut child = run.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let mut lines = BufReader::new(child.stderr.take().unwrap()).lines();
     assert!(lines.any(|line| line.unwrap().contains("press Enter")));
     let status = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(status.unwrap().success());
     assert!(lines.any(|line| line.unwrap().contains("interrupted in episode 0")));
-    assert_eq!(child.wait().unwrap().code(), Some(130));
+    let out = child.wait_with_output().unwrap();
+    assert_eq!(out.status.code(), Some(130));
+    let shown = text(&out.stdout);
+    assert_eq!(shown, format!("{ID}: 0 episodes, 0 steps, random policy\n"), "of nothing there are no means");
 }
 
 #[test]
