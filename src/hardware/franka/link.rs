@@ -199,7 +199,7 @@ impl Link {
             // Damaged and outdated datagrams are skipped.
             let Some(state) = State::decode(bytes, self.version) else { continue };
             let latest = newest.as_ref().map_or(before, |newest| newest.message);
-            let plausible = self.received.is_none() || state.message < before + MOST_AHEAD;
+            let plausible = self.received.is_none() || state.message < before.saturating_add(MOST_AHEAD);
             if sound(&state) && plausible && (state.message > latest || self.received.is_none()) {
                 newest = Some(state);
             }

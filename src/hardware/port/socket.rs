@@ -9,6 +9,8 @@ use std::time::{Duration, Instant};
 const CONNECT: Duration = Duration::from_secs(2);
 /// Sleep between two looks for something to receive.
 const NAP: Duration = Duration::from_micros(100);
+/// Datagrams of others that are passed over at once: what the device sent stands behind them, and grows old.
+const FOREIGN: usize = 1024;
 
 /// Opens connections and sockets.
 pub trait Sockets: Send + Sync {
@@ -194,19 +196,24 @@ impl Port for Datagrams {
 
     fn receive(&mut self, buffer: &mut [u8], timeout: f64) -> io::Result<usize> {
         let Datagrams { socket, peer, last, .. } = self;
-        poll(timeout, || match socket.recv_from(buffer) {
-            Ok((_, from)) if from.ip() != *peer => Err(ErrorKind::WouldBlock.into()),
-            Ok((count, from)) => {
-                *last = Some(from);
-                Ok(count)
+        poll(timeout, || {
+            for _ in 0..FOREIGN {
+                match socket.recv_from(buffer) {
+                    Ok((_, from)) if from.ip() != *peer => {}
+                    Ok((count, from)) => {
+                        *last = Some(from);
+                        return Ok(count);
+                    }
+                    // Nobody listens where a command went; the next state tells more.
+                    Err(error)
+                        if matches!(
+                            error.kind(),
+                            ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset
+                        ) => {}
+                    Err(error) => return Err(error),
+                }
             }
-            // Nobody listens where a command went; the next state tells more.
-            Err(error)
-                if matches!(error.kind(), ErrorKind::ConnectionRefused | ErrorKind::ConnectionReset) =>
-            {
-                Err(ErrorKind::WouldBlock.into())
-            }
-            Err(error) => Err(error),
+            Err(ErrorKind::WouldBlock.into())
         })
     }
 
@@ -220,5 +227,29 @@ impl Port for Datagrams {
 
     fn wait(&mut self, seconds: f64) {
         std::thread::sleep(Duration::try_from_secs_f64(seconds).unwrap_or_default());
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn datagrams_of_others_do_not_stand_before_those_of_the_device() {
+        let (mut port, number) = Network.datagrams("127.0.0.1", 9).unwrap();
+        let ours = (Ipv4Addr::LOCALHOST, number);
+        let [device, other] = ["127.0.0.1:0", "127.0.0.2:0"].map(|address| UdpSocket::bind(address).unwrap());
+        for _ in 0..20 {
+            other.send_to(b"other", ours).unwrap();
+        }
+        device.send_to(b"state", ours).unwrap();
+        let mut buffer = [0; 16];
+        // One look, without waiting.
+        assert_eq!(port.receive(&mut buffer, 0.0).unwrap(), 5);
+        assert_eq!(&buffer[..5], b"state");
+        other.send_to(b"other", ours).unwrap();
+        device.send_to(b"state", ours).unwrap();
+        port.discard().unwrap();
+        assert_eq!(port.receive(&mut buffer, 0.0).unwrap(), 0);
     }
 }
