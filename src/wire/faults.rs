@@ -67,7 +67,7 @@ impl FromStr for Rates {
     type Err = RatesError;
 
     fn from_str(text: &str) -> Result<Rates, RatesError> {
-        let mut rates = Rates::default();
+        let (mut rates, mut named) = (Rates::default(), [false; NAMES.len()]);
         for entry in text.split(',').map(str::trim).filter(|entry| !entry.is_empty()) {
             let Some((name, value)) = entry.split_once('=') else {
                 return Err(RatesError(format!(
@@ -81,6 +81,9 @@ impl FromStr for Rates {
                     NAMES.join(", ")
                 )));
             };
+            if std::mem::replace(&mut named[place], true) {
+                return Err(RatesError(format!("the fault {} is there twice", NAMES[place])));
+            }
             let rate = value.trim().parse::<f64>().ok().filter(|rate| (0.0..=1.0).contains(rate));
             *rates.all()[place] = rate.ok_or_else(|| {
                 RatesError(format!("'{value}' is not a probability of {name}: a number from 0 to 1"))
