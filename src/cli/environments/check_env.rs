@@ -50,6 +50,8 @@ pub struct CheckEnv {
 /// Runs the command.
 pub fn run(a: &CheckEnv) -> Result<(), Failure> {
     let specs = chosen(&a.which)?;
+    // What is wrong with the arguments is wrong with no environment.
+    a.making.options()?;
     let painters = a.renderer.painters_if(a.visual, "--visual")?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if a.threads == 0 { cores } else { a.threads.min(specs.len()) };
