@@ -78,7 +78,7 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
                 NAME. Where there is no such GPU, the CPU draws, and a line on the standard error stream says so.
             instability: What a state does that physics refuses: `truncate` ends the episode, with the reason in the infos as
                 `fault`; `reset` returns to the reference configuration in the middle of the episode, as MuJoCo does.
-            solver: What moves the simulation: `own`; or, in wheels built with the feature `rapier`, `rapier`.
+            solver: The engine of the simulation: `own`, or, in wheels built with the feature `rapier`, `rapier`.
             time_limit: Whether episodes end at their length; `gymnasium.make` has a wrapper for that.
             override_keys: Settings of the id that `settings` replaces rather than merges.
             is_hardware: Whether the devices of the robot's config are driven, and the simulation mirrors what they read.

@@ -14,9 +14,9 @@ class HardwareError(RuntimeError):
 
     Attributes:
         device: Its name in the robot's config; empty where no single device is to blame.
-        kind: What failed: "connection", "silence" (no answer in time), "values" (a command or a reading that is no finite number),
-            "refusal" (it refuses, or was not armed), "hardware" (what the device itself reports: an overload, a reflex, a pressed
-            stop button), "end" (a recorded device has nothing more to say); empty where nothing drives the device.
+        kind: The kind of fault: "connection", "silence" (no answer in time), "values" (a command or a reading that is not finite),
+            "refusal" (the device refuses, or is not armed), "hardware" (the device reports an error: an overload, a reflex, a pressed
+            stop button), "end" (a recording has ended); empty if the interface has no driver.
     """
 
     def __init__(self, message: str, device: str = "", kind: str = "") -> None:

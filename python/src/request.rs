@@ -127,7 +127,7 @@ fn rapier() -> PyResult<Engine> {
 #[cfg(not(feature = "rapier"))]
 fn rapier() -> PyResult<Engine> {
     Err(PyNotImplementedError::new_err(
-        "this wheel has no rapier; `maturin build --profile dist --features rapier` builds one that has",
+        "this wheel has no rapier; build one with `maturin build --profile dist --features rapier`",
     ))
 }
 

@@ -217,7 +217,7 @@ def test_what_fails_leaves_nothing(tmp_path):
         writer.add({"action": np.zeros((4, 2))}, "t")
         raise RuntimeError
     odd = {"observation.images.a": np.zeros((2, 33, 40, 3), dtype=np.uint8)}
-    with pytest.raises(data.DataError, match="40 x 33 pixels: sides of videos are even"):
+    with pytest.raises(data.DataError, match="40 x 33 pixels: the sides of videos must be even"):
         with data.LeRobotWriter(tmp_path / "set", fps=10) as writer:
             writer.add(odd, "t")
     assert [path.name for path in tmp_path.iterdir()] == ["trials.h5"]

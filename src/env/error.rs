@@ -115,7 +115,7 @@ pub enum EnvError {
         /// What the system says.
         message: String,
     },
-    /// A camera of a robot that is hardware is missing, or shows nothing: why.
+    /// A camera of a robot on hardware is missing, or has no frame.
     Camera {
         /// Which, and why.
         message: String,

@@ -5,7 +5,7 @@ use dataset::{Array, Values};
 
 /// The folder of a trial that holds everything but observations, actions, rewards and done.
 const INFOS: &str = "env_infos/";
-/// The dataset that holds how the person who drove judged the episode.
+/// The dataset with the person's judgement of the episode.
 const JUDGED: &str = "teleop/success";
 /// The datasets that become an episode, apart from infos.
 const OWN: [&str; 7] = ["observations", "actions", "rewards", "done", "time", "seed", JUDGED];

@@ -34,10 +34,10 @@ pub trait Driver: Send {
     /// A device that refuses, and why.
     fn arm(&mut self, present: &[f64]) -> Result<(), Fault>;
 
-    /// Refuses commands that are within the limits of each and may not be given together. It tells the device nothing.
+    /// Refuses commands that are each within their limits but are not allowed in combination. Sends nothing to the device.
     ///
     /// # Errors
-    /// What would become of them.
+    /// The limit that the commands would exceed.
     fn check(&self, _commands: &[f64]) -> Result<(), Fault> {
         Ok(())
     }
@@ -55,7 +55,7 @@ pub trait Driver: Send {
     /// What could not be reached.
     fn make_safe(&mut self) -> Result<bool, Fault>;
 
-    /// What it measures was put elsewhere by hand; returns when it measures anew.
+    /// The measured object was moved by hand; returns when there is a new measurement.
     ///
     /// # Errors
     /// As [`Driver::read`].

@@ -3,46 +3,46 @@
 //! An actuator's `hdr_id` is the id of its servo, and its `mode` is `position` (the default), `extended`, `velocity` or
 //! `current`. Commands and readings are in rad (0 to 2π, as the servo counts), rad/s, and A. A sensor with the number of a
 //! servo reads its position; a second one with the same number reads its velocity, as RoboHive's driver orders them. A name
-//! says it outright: `'12:velocity'`, `'12:current'`, `'12:position'`.
+//! gives the quantity explicitly: `'12:velocity'`, `'12:current'`, `'12:position'`.
 //!
 //! | parameter | meaning | default |
 //! |---|---|---|
 //! | `name` | the serial port | required |
 //! | `baud` | bits a second | 1,000,000 |
-//! | `protocol` | 2 (series X, and MX with that firmware) or 1 (AX, RX, MX) | that of `model`, or 2 |
-//! | `model` | the model of all servos, as `'AX-12A'`: others are refused | any of the protocol |
+//! | `protocol` | 2 (series X, and MX with firmware for it) or 1 (AX, RX, MX) | that of `model`, or 2 |
+//! | `model` | the model of all servos, such as `'AX-12A'`; others are refused | any of the protocol |
 //! | `safe` | `hold`: it stays where it is with torque; `off`: torque off | `hold` |
-//! | `profile_velocity` | limit of the servo's own motion to a goal \[rad/s\]; 0 is none | the servo's velocity limit; with protocol 1 3 |
-//! | `profile_acceleration` | the same of its acceleration \[rad/s²\]; not with protocol 1 | none |
+//! | `profile_velocity` | limit of the servo's own motion to a goal \[rad/s\]; 0 is none | the servo's velocity limit; 3 with protocol 1 |
+//! | `profile_acceleration` | limit of its acceleration \[rad/s²\]; not with protocol 1 | none |
 //! | `watchdog` | longest time without a command \[s\] | 0.25 |
 //! | `reset_time` | duration of a reset \[s\] | 5 |
 //! | `return_delay` | the servo's delay before an answer \[µs\], written where it differs | 0 |
-//! | `fast_sync_read` | all servos answer in one packet, where every firmware can (430 and 540 from 45 on, 330 from 46 on) | true |
+//! | `fast_sync_read` | all servos answer in one packet, if every firmware supports it (430 and 540 from 45, 330 from 46) | true |
 //!
 //! With protocol 2 the servos' own bus watchdog is set when they are armed: 0.1 s after the last instruction they stop where they
-//! are, also when this process was killed. RoboHive's keys `motor_type` and `n` are accepted and not needed.
+//! are, even if this process was killed. RoboHive's keys `motor_type` and `n` are accepted and ignored.
 //!
 //! # Protocol 1.0
 //!
 //! Those servos have no watchdog of their own: when this process is killed they go to their last goal, no faster than
-//! `profile_velocity`, and hold it. They are read one after the other. AX and RX turn within 300 degrees, so that their angles are
-//! from 0 to 5.23 rad, the middle at 2.62, and know positions alone: as a wheel they are told the share of their output, not a
-//! velocity. No current is measured. An alarm that has passed is cleared by the next reset, which gives the limit of torque back.
+//! `profile_velocity`, and hold it. They are read one after the other. AX and RX turn within 300 degrees, so their angles are
+//! from 0 to 5.23 rad, with the middle at 2.62. They support position mode only: in wheel mode their command is a share of the output, not a
+//! velocity. No current is measured. The next reset clears an alarm whose cause is gone, and restores the torque limit.
 //!
-//! Source: ROBOTIS e-Manual. Proven against the simulated servos of `robohive-wire`; never tried on a physical servo.
+//! Source: ROBOTIS e-Manual. Tested against the simulated servos of `robohive-wire`; never tried on a physical servo.
 
 use crate::port::Opener;
 use crate::servos::{Make, Servos};
 use protocol::dynamixel::{FAMILY, MODELS, v1};
 use robot::{DeviceConfig, Fault};
 
-/// Limit of the velocity of servos that have none of their own \[rad/s\].
+/// Velocity limit of servos without a register for it \[rad/s\].
 const SPEED: f64 = 3.0;
 
 /// The driver of a device; nothing is opened yet.
 ///
 /// # Errors
-/// What the config lacks or says wrongly.
+/// A parameter that is missing or wrong.
 pub fn driver(config: &DeviceConfig, opener: Opener) -> Result<Servos, Fault> {
     Servos::new(config, opener, |parameters| {
         parameters.skip(&["motor_type", "n"]);
@@ -64,7 +64,7 @@ pub fn driver(config: &DeviceConfig, opener: Opener) -> Result<Servos, Fault> {
         if protocol != 0.0 && first != (protocol == 1.0) {
             let name = model.unwrap_or_default();
             return Err(Fault::Refused(format!(
-                "its interface has protocol = {protocol}, which servos of the model '{name}' do not speak"
+                "its interface has protocol = {protocol}, which the model '{name}' does not support; remove 'protocol'"
             )));
         }
         let otherwise = if first { SPEED } else { -1.0 };
@@ -72,7 +72,7 @@ pub fn driver(config: &DeviceConfig, opener: Opener) -> Result<Servos, Fault> {
         let acceleration = parameters.number("profile_acceleration", 0.0, [0.0, 1e4])?;
         if first && acceleration != 0.0 {
             return Err(Fault::Refused(
-                "its interface has a profile_acceleration, which servos with protocol 1 do not keep"
+                "its interface has a profile_acceleration, which servos with protocol 1 do not support; remove it"
                     .to_owned(),
             ));
         }
@@ -91,5 +91,8 @@ pub fn driver(config: &DeviceConfig, opener: Opener) -> Result<Servos, Fault> {
 fn unknown(name: &str) -> Fault {
     let all = MODELS.iter().map(|model| model.kind).chain(v1::MODELS.iter().map(|model| model.kind));
     let names: Vec<_> = all.map(|kind| kind.name).collect();
-    Fault::Refused(format!("its interface has model = '{name}'; there are {}", names.join(", ")))
+    Fault::Refused(format!(
+        "its interface has the unknown model '{name}'; the models are {}",
+        names.join(", ")
+    ))
 }

@@ -65,7 +65,7 @@ pub struct Guarded {
 }
 
 impl Guarded {
-    /// A device of this name with so many sensors and actuators. Nothing is opened yet.
+    /// A device of this name with these numbers of sensors and actuators. Nothing is opened yet.
     pub fn new(
         name: &str,
         driver: Box<dyn Driver>,

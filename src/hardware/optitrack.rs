@@ -12,7 +12,7 @@
 //! | `multicast` | NatNet frames come to the group that the server names, instead of to this machine alone | false |
 //!
 //! A frame that is more than 0.2 m or 0.5 rad from the one before it is refused; after the body was lost, ten good frames must
-//! follow each other. After a reset, when a person has put the body elsewhere, the next frame counts. Without a frame for 50 ms the reading is stale. RoboHive's keys `client_name`, `packet_size` and
+//! follow each other. After a reset, when a person may have moved the body, the next frame is accepted at any pose. Without a frame for 50 ms the reading is stale. RoboHive's keys `client_name`, `packet_size` and
 //! `data_type` are accepted and not needed.
 //!
 //! Source: NatNet SDK documentation; RoboHive 0.7, `hardware_optitrack.py`. Proven against the simulated tracker of
@@ -242,7 +242,9 @@ impl OptiTrack {
         }
         let (id, server) = (self.id, &self.server);
         Err(Fault::Unreachable(match self.other {
-            Some(other) => format!("{server} sends the rigid body {other}, and none with the id {id}"),
+            Some(other) => format!(
+                "{server} sends the rigid body {other} and none with the id {id}; set 'id' of its interface"
+            ),
             None => format!(
                 "no frame of the rigid body {id} came from {server} in {PATIENCE} s; check that it is streamed, and that \
                  no firewall stops it"

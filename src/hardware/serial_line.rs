@@ -38,9 +38,9 @@ impl SerialLine {
         self.port.discard().and_then(|()| self.port.send(&self.sent)).map_err(|error| broken(&error))
     }
 
-    /// Waits for answers of so many `bytes`: `take` gets what was sent and what has come since its last call, at first nothing, until
-    /// it has all that it waits for. Where it has found a part of that, it returns the bytes that are still to come, and the wait
-    /// for these begins then.
+    /// Waits for answers of `bytes` bytes. `take` is called with the bytes that were sent and those received since its last call (none
+    /// at first) until it breaks. Where it has found some of the answers, it continues with the number of bytes still
+    /// missing, and the timeout restarts for these.
     pub(crate) fn answers<R>(
         &mut self,
         bytes: usize,

@@ -29,8 +29,8 @@ impl Services {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(Listed { service, period });
     }
 
-    /// Lets each do what is due at `now`, but for those that are in use: it is one of them that waits. Those that are gone are
-    /// forgotten. Returns after how long the next is due \[s\].
+    /// Runs the services that are due at `now`, except those in use: one of them is waiting. Dropped services are
+    /// removed. Returns the time until the next one is due \[s\].
     fn tend(&self, now: f64) -> f64 {
         let mut services = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         services.retain(|listed| listed.service.strong_count() > 0);
@@ -103,7 +103,7 @@ impl<P: Port> Port for TendedPort<P> {
         let end = self.port.now() + timeout;
         let mut left = timeout;
         loop {
-            // Who does not wait tends nobody.
+            // Without a wait no service runs.
             let period = if left > 0.0 { self.services.tend(self.port.now()) } else { 0.0 };
             let count = self.port.receive(buffer, left.min(period))?;
             left = end - self.port.now();

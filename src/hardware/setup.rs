@@ -64,7 +64,7 @@ fn open_serial(path: &str, baud: u32) -> io::Result<Box<dyn Port>> {
 }
 
 impl Setup {
-    /// A clock to wait with: where no threads tend the services, it does.
+    /// A clock to wait with; where no threads run the services, its waiting does.
     pub(crate) fn clock(&self) -> Box<dyn Clock + Send> {
         let clock = (self.clocks)();
         match &self.services {

@@ -1,4 +1,4 @@
-//! Cameras of robots that are hardware, and simulated ones in their place.
+//! Cameras of robots on hardware, and simulated cameras for rehearsals.
 
 use env::{CameraError, Cameras, OpenCameras};
 use hardware::Setup;
@@ -24,7 +24,7 @@ pub(crate) fn opener(setup: Setup) -> OpenCameras {
     })
 }
 
-/// Frames of cameras, in the place of drawings.
+/// Frames of real or simulated cameras, for visual keys.
 struct Frames(camera::Cameras);
 
 impl Cameras for Frames {
@@ -39,10 +39,10 @@ impl Cameras for Frames {
     }
 }
 
-/// Metres in one step of a simulated camera's depth, as of a real one that was left as it came.
+/// Unit of a simulated camera's depth \[m\]: the default of a real one.
 const UNIT: f64 = 0.001;
 
-/// Cameras that see what is on a bench: each from the model's camera of its name, in the bench's time.
+/// Simulated cameras of a bench: each renders from the model's camera of its name, in the bench's time.
 pub(crate) struct Onlookers(pub(crate) Shared);
 
 impl Captures for Onlookers {
@@ -59,7 +59,7 @@ impl Captures for Onlookers {
         };
         if format.encoding == Encoding::Mjpg {
             return Err(Fault::Refused(
-                "a simulated camera sends no JPEG pictures; its 'format' is 'yuyv'".to_owned(),
+                "a simulated camera sends no JPEG pictures; set its 'format' to 'yuyv'".to_owned(),
             ));
         }
         Ok(Box::new(Onlooker {
@@ -78,7 +78,7 @@ impl Captures for Onlookers {
     }
 }
 
-/// A camera that is simulated. Frames that nobody waits for are not drawn, nor counted: only the newest would be seen.
+/// A simulated camera. Frames that are not read are neither drawn nor counted, since only the newest is used.
 struct Onlooker {
     bench: Shared,
     camera: Camera,
@@ -138,7 +138,7 @@ impl Onlooker {
     }
 }
 
-/// What is on the bench. A panic elsewhere leaves whole values.
+/// Locks the bench, also after a panic elsewhere.
 fn lock(bench: &Shared) -> std::sync::MutexGuard<'_, Bench> {
     bench.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -67,7 +67,7 @@ impl Rehearsal {
         self.bench.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Lets faults strike all links from now on.
+    /// Injects faults into all links from now on.
     pub fn inject(&self, rates: Rates, seed: u64) {
         let mut bench = self.bench();
         for (k, (_, link)) in self.rigged.iter().flat_map(|device| &device.links).enumerate() {
@@ -75,7 +75,7 @@ impl Rehearsal {
         }
     }
 
-    /// Faults that struck links since [`Rehearsal::inject`].
+    /// Number of faults injected since [`Rehearsal::inject`].
     pub fn struck(&self) -> u64 {
         let bench = self.bench();
         self.rigged.iter().flat_map(|device| &device.links).map(|(_, link)| bench.struck(*link)).sum()
@@ -136,7 +136,7 @@ struct Wires {
 }
 
 impl Wires {
-    /// The link of the device at an address; a connection begins anew.
+    /// The link of the device at an address; a connection starts again.
     fn open(&self, address: &str, outlet: Outlet) -> io::Result<Box<dyn Port>> {
         let devices = self.rigged.iter().filter(|device| device.address == address);
         let found = devices.flat_map(|device| &device.links).find(|(place, _)| *place == outlet);

@@ -1,4 +1,4 @@
-//! Feetech servos of the STS series, as the arms SO-100 and SO-101 have them.
+//! Feetech servos of the STS series, as in the arms SO-100 and SO-101.
 //!
 //! Their packets are those of [Dynamixel's protocol 1.0](crate::dynamixel::v1), with a sync read. Numbers of 16 bits are
 //! little-endian; those that can be negative have their sign in a bit of its own.
@@ -8,7 +8,8 @@
 
 use crate::dynamixel::v1::First;
 use crate::servo::{Cell, Family, Kind, Layout, Mode, Setting, Sign, Verdict, words};
-/// What the register "model" of an STS3215 says.
+
+/// Value of the register "model" of an STS3215.
 pub const STS3215: u16 = 777;
 /// Steps of one turn.
 pub const STEPS_PER_TURN: f64 = 4096.0;
@@ -38,7 +39,7 @@ pub mod trouble {
         (OVERLOAD, "overload"),
     ];
 
-    /// What the bits say: they are all of the hardware.
+    /// The meaning of the bits, all of which are hardware errors.
     pub fn verdict(error: u8) -> super::Verdict {
         let trouble = (error != 0).then(|| super::words(&NAMES, error).into());
         super::Verdict { trouble, ..super::Verdict::default() }
@@ -64,7 +65,7 @@ pub mod address {
     pub const GOAL_TIME: u8 = 44;
     pub const GOAL_VELOCITY: u8 = 46;
     pub const TORQUE_LIMIT: u8 = 48;
-    /// Registers below [`TORQUE_ENABLE`] outlive a restart, and are written only while this is 0.
+    /// Registers below [`TORQUE_ENABLE`] are non-volatile, and can be written only while this is 0.
     pub const LOCK: u8 = 55;
     pub const PRESENT_POSITION: u8 = 56;
     pub const PRESENT_VELOCITY: u8 = 58;
@@ -82,7 +83,7 @@ const fn signed(address: u8) -> Cell {
 
 const MODE: Cell = Cell::new(address::MODE as u16, 1);
 
-/// Where what is.
+/// Registers that drivers use.
 const LAYOUT: Layout = Layout {
     model: Cell::new(address::MODEL as u16, 2),
     firmware: None,
@@ -104,7 +105,7 @@ const LAYOUT: Layout = Layout {
     current: Some(Cell::new(address::PRESENT_CURRENT as u16, 2)),
 };
 
-/// What drivers need of models that are known.
+/// Supported models, for drivers.
 pub static KINDS: [Kind; 1] = [Kind {
     name: "STS3215",
     number: STS3215,

@@ -1,43 +1,43 @@
-//! What a driver must know of servos of any make: where the numbers of a control table stand, in which units, and how packets
-//! ask for them. A make is a [`Family`] and its [`Packets`].
+//! Servos of any make, as a driver needs them: addresses and units of the registers in the control table, and packets that
+//! read and write them. A make has a [`Family`] and [`Packets`].
 
 use std::borrow::Cow;
 
-/// How a negative number stands in a control table.
+/// How negative numbers are encoded in a control table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sign {
-    /// Not at all.
+    /// There are no negative numbers.
     None,
-    /// As two's complement.
+    /// Two's complement.
     Complement,
-    /// As a magnitude, with this bit set.
+    /// A magnitude, with this bit as its sign.
     Bit(u8),
 }
 
-/// A number of a control table.
+/// A register: a number in a control table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cell {
     /// First byte.
     pub address: u16,
     /// Bytes: 1, 2 or 4, little-endian.
     pub size: u16,
-    /// How negative ones are written.
+    /// Encoding of negative numbers.
     pub sign: Sign,
 }
 
 impl Cell {
-    /// A number that is never negative.
+    /// A register that is never negative.
     pub const fn new(address: u16, size: u16) -> Cell {
         Cell { address, size, sign: Sign::None }
     }
 
-    /// The same place with another sign.
+    /// The same register with another encoding of negative numbers.
     #[must_use]
     pub const fn with_sign(self, sign: Sign) -> Cell {
         Cell { sign, ..self }
     }
 
-    /// The number that these bytes, of which the last ones count most, are.
+    /// Decodes a number from its bytes, little-endian.
     ///
     /// ```
     /// use robohive_protocol::servo::{Cell, Sign};
@@ -61,7 +61,7 @@ impl Cell {
         }
     }
 
-    /// The bytes of a number, of which the first `size` count; a magnitude that is too large is clipped.
+    /// Encodes a number, little-endian; the first `size` bytes are the register's. A magnitude beyond its range is clipped.
     pub fn encode(self, value: i64) -> [u8; 4] {
         let raw = match self.sign {
             Sign::Bit(bit) => {
@@ -78,7 +78,7 @@ impl Cell {
     }
 }
 
-/// What a servo is commanded.
+/// The quantity that a servo's command sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
     /// A position within one turn.
@@ -95,7 +95,7 @@ impl Mode {
     /// All of them.
     pub const ALL: [Mode; 4] = [Mode::Position, Mode::Turns, Mode::Velocity, Mode::Current];
 
-    /// What configs call it.
+    /// Its name in configs.
     pub const fn name(self) -> &'static str {
         match self {
             Mode::Position => "position",
@@ -106,67 +106,67 @@ impl Mode {
     }
 }
 
-/// A register that must hold one of some numbers before a servo is commanded in a mode.
+/// The value that a register must have for a mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Setting {
     /// The register.
     pub cell: Cell,
-    /// Smallest and largest number that will do.
+    /// Smallest and largest accepted value.
     pub allowed: [i64; 2],
-    /// What is written where it holds none of these.
+    /// The value that is written if the register has another.
     pub otherwise: i64,
 }
 
 impl Setting {
-    /// One number alone will do.
+    /// A setting that accepts only this value.
     pub const fn exactly(cell: Cell, value: i64) -> Setting {
         Setting { cell, allowed: [value, value], otherwise: value }
     }
 }
 
-/// Where servos of a family have what a driver uses.
+/// The registers of a family of servos that a driver uses; `None` for those that the family lacks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Layout {
     /// Number of the model.
     pub model: Cell,
     /// Version of the firmware.
     pub firmware: Option<Cell>,
-    /// Delay before an answer, and the time of one unit \[s\].
+    /// Delay before an answer, and its unit \[s\].
     pub return_delay: Option<(Cell, f64)>,
     /// Smallest and largest goal position.
     pub limits: [Cell; 2],
-    /// 1: the motor has torque.
+    /// 1 switches the torque on.
     pub torque: Cell,
-    /// 0: what outlives a restart may be written.
+    /// 0 allows writing of non-volatile registers.
     pub lock: Option<Cell>,
-    /// The limit of torque, which an alarm makes 0, and what it was before.
+    /// The torque limit, which an alarm sets to 0, and the register with its initial value.
     pub torque_limit: Option<[Cell; 2]>,
     /// Watchdog of the bus, in units of 20 ms; 0 clears it.
     pub watchdog: Option<Cell>,
-    /// What the hardware has, where the error byte of an answer says no more than that it has something.
+    /// Hardware errors, where the error byte of an answer has only one bit for all of them.
     pub hardware_error: Option<Cell>,
-    /// Largest velocity that the servo lets itself be commanded.
+    /// The servo's own limit of velocity commands.
     pub velocity_limit: Option<Cell>,
-    /// Limit of the acceleration on the way to a goal position.
+    /// Acceleration limit of a motion to a goal position.
     pub acceleration: Option<Cell>,
-    /// Limit of the velocity on the way to a goal position; 0 is none.
+    /// Velocity limit of a motion to a goal position; 0 for no limit.
     pub speed: Cell,
-    /// Goals.
+    /// Goal position.
     pub goal_position: Cell,
-    /// Of modes with a velocity.
+    /// Goal velocity.
     pub goal_velocity: Cell,
-    /// Of modes with a current.
+    /// Goal current.
     pub goal_current: Option<Cell>,
-    /// What is measured, close together.
+    /// Measured position. The measured quantities are close together, so that one request reads them.
     pub position: Cell,
-    /// The velocity.
+    /// Measured velocity.
     pub velocity: Cell,
-    /// The current, where it is measured.
+    /// Measured current.
     pub current: Option<Cell>,
 }
 
 impl Layout {
-    /// Where the goal of a mode is written.
+    /// The register with the goal of a mode.
     pub fn goal(&self, mode: Mode) -> Option<Cell> {
         match mode {
             Mode::Position | Mode::Turns => Some(self.goal_position),
@@ -175,7 +175,7 @@ impl Layout {
         }
     }
 
-    /// First byte and number of bytes of all that is measured.
+    /// Address and number of bytes of all measured quantities.
     pub fn present(&self) -> (u16, u16) {
         let cells = [Some(self.position), Some(self.velocity), self.current];
         let cells = cells.into_iter().flatten();
@@ -189,7 +189,7 @@ impl Layout {
 pub struct Kind {
     /// Its name.
     pub name: &'static str,
-    /// What the register of the model says.
+    /// Value of the register with the model.
     pub number: u16,
     /// One unit of position \[rad\].
     pub position: f64,
@@ -199,87 +199,87 @@ pub struct Kind {
     pub velocity: f64,
     /// One unit of acceleration \[rad/s²\].
     pub acceleration: f64,
-    /// One unit of current \[A\], of those that measure it.
+    /// One unit of current \[A\]; `None` for servos that do not measure it.
     pub current: Option<f64>,
-    /// What it can be commanded, and what it needs for that.
+    /// Its modes, and the settings that each needs.
     pub modes: &'static [(Mode, &'static [Setting])],
-    /// The firmware from which on all can be read by one packet.
+    /// First firmware with the fast sync read, which reads all servos by one packet.
     pub fast_sync_read: Option<i64>,
 }
 
-/// Servos that share a layout and a kind of packets.
+/// Servos with the same registers and packets.
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
-    /// Where what is.
+    /// Registers.
     pub layout: &'static Layout,
-    /// Models that are known.
+    /// Supported models.
     pub kinds: &'static [Kind],
     /// Whether one instruction reads several servos.
     pub sync_read: bool,
-    /// Whether a restart can be asked for, which clears errors of the hardware.
+    /// Whether there is an instruction to restart, which clears hardware errors.
     pub reboots: bool,
-    /// Makes what turns requests into bytes.
+    /// Creates the encoder and decoder of packets.
     pub packets: fn() -> Box<dyn Packets>,
 }
 
-/// What servos are asked.
+/// A request to servos.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Request<'a> {
-    /// Bytes of one: the first one's address, and how many.
+    /// Reads one servo: address, number of bytes.
     Read(u16, u16),
-    /// Bytes for one, from an address on.
+    /// Writes to one servo: address, bytes.
     Write(u16, &'a [u8]),
-    /// A restart.
+    /// Restarts one servo.
     Reboot,
-    /// The same bytes of several: address, count, ids.
+    /// Reads the same bytes of several servos: address, number of bytes, ids.
     SyncRead(u16, u16, &'a [u8]),
-    /// The same in one packet.
+    /// The same, answered by one packet.
     FastSyncRead(u16, u16, &'a [u8]),
-    /// Bytes for several: address, count, and for each its id and its bytes.
+    /// Writes to several servos: address, number of bytes, and for each servo its id and its bytes.
     SyncWrite(u16, u16, &'a [u8]),
 }
 
-/// What a servo says.
+/// An answer of a servo.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Answer<'a> {
-    /// Who.
+    /// The servo.
     pub id: u8,
-    /// What is wrong.
+    /// Error byte; 0 without an error.
     pub error: u8,
-    /// What was asked for.
+    /// Requested bytes.
     pub data: &'a [u8],
 }
 
-/// What an error byte means.
+/// The meaning of an error byte.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Verdict {
-    /// The instruction came damaged: it may be sent again.
+    /// The instruction arrived damaged, and can be sent again.
     pub damaged: bool,
-    /// Why the instruction was not followed.
+    /// Why the instruction was refused.
     pub refusal: Option<Cow<'static, str>>,
-    /// What the hardware has.
+    /// Hardware errors.
     pub trouble: Option<Cow<'static, str>>,
 }
 
-/// Requests as bytes, and bytes as answers.
+/// Encodes requests and decodes answers.
 pub trait Packets: Send {
-    /// Bytes of an answer around its data, at most.
+    /// Largest number of bytes of an answer besides its data.
     fn frame(&self) -> usize;
 
-    /// Appends a request to the servo `id`, or to all that it names.
+    /// Appends a request to `out`: to the servo `id`, or to the servos that the request lists.
     fn encode(&mut self, out: &mut Vec<u8>, id: u8, request: Request<'_>);
 
-    /// Takes bytes, and gives the answers among all that came, without the echo of what was `sent`, to `take` until that
+    /// Takes received bytes, and calls `take` with each complete answer, without the echo of `sent`, until it
     /// returns true; returns whether it did.
     fn answers(&mut self, sent: &[u8], came: &[u8], take: &mut dyn FnMut(Answer<'_>) -> bool) -> bool;
 
-    /// Drops what came and was no answer yet.
+    /// Drops received bytes that are not yet an answer.
     fn clear(&mut self);
 
-    /// What an error byte means.
+    /// The meaning of an error byte.
     fn verdict(&self, error: u8) -> Verdict;
 
-    /// The register "hardware error" in words.
+    /// The bits of the register of hardware errors in words.
     fn describe_trouble(&self, bits: u8) -> String;
 }
 

@@ -37,7 +37,7 @@ impl Kept {
         self.seed
     }
 
-    /// Number of rows so far.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
@@ -55,7 +55,7 @@ impl Kept {
         Ok(push_row(self, env, action)?)
     }
 
-    /// Adds what is true or false of the row that was added last.
+    /// Adds a boolean to the last added row.
     ///
     /// # Errors
     /// The name has rows of another kind.

@@ -141,7 +141,7 @@ impl Links {
         self.command(binding, |actuator| qpos[actuator.position], |device, targets| device.reset(targets))
     }
 
-    /// Tells every device that things were moved by hand.
+    /// Informs every device that objects were moved by hand.
     pub(crate) fn moved(&mut self, binding: &Binding) -> Result<(), RobotError> {
         let links = self.devices.iter_mut().zip(&binding.devices);
         links

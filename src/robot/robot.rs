@@ -226,7 +226,7 @@ impl Robot {
         Ok(self.history.newest())
     }
 
-    /// Tells the devices that a person has moved what they measure, after a reset.
+    /// Informs the devices that a person has moved the measured objects, after a reset.
     ///
     /// # Errors
     /// Devices that fail.
@@ -310,7 +310,7 @@ impl Robot {
             let state = truth.state.qpos.iter().chain(&truth.state.qvel).chain(&truth.state.act);
             values.iter_mut().zip(state).for_each(|(value, state)| *value = *state);
         } else {
-            // What the hardware does not have, the mirror does.
+            // Entries that the hardware lacks keep their simulated values.
             let simulated = |sensor: &Sensor| !self.options.hardware || !sensor.on_hardware;
             let all = values.iter_mut().zip(&self.binding.sensors);
             for (value, sensor) in all.filter(|(_, sensor)| simulated(sensor)) {

@@ -1,4 +1,4 @@
-//! An arm that is driven by its hand: a target moves, inverse kinematics says where joints go.
+//! An arm that is driven by the target of its hand: inverse kinematics gives the joints.
 
 use crate::error::TeleopError;
 use crate::link::{Link, link};
@@ -14,21 +14,21 @@ use physics::position::kinematics::kinematics;
 use physics::{Data, Model};
 use robot::{Pose, Reach, Search};
 
-/// Error at which a target counts as reached \[m, rad\].
+/// Error below which a target counts as reached \[m, rad\].
 const TOLERANCE: f64 = 1e-3;
-/// Most updates of a search, which begins where the last one ended.
+/// Largest number of updates of a search, which starts from the last solution.
 const STEPS: usize = 50;
-/// A way that needs no time \[rad\].
+/// A joint motion below this counts as none \[rad\].
 const SMALL: f64 = 1e-3;
-/// Damping and largest update \[rad\] of a search: near the ends of what an arm reaches it must not wander.
+/// Damping and largest update \[rad\] of a search, so that it does not drift near the limits of the workspace.
 const DAMPING: f64 = 1e-3;
 const UPDATE: f64 = 0.5;
-/// Parts of a motion that are tried: near the ends of what an arm reaches a little way is a long one for its joints.
+/// Fractions of a motion that are tried: near the limits of the workspace a small motion of the hand is a large one of the joints.
 const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// What `quarter` leaves.
 const QUARTER: f64 = 0.25;
 
-/// What an arm is made of, and its target. A copy is all that an episode needs to go on from here.
+/// An arm and its target. A copy is sufficient to continue an episode from here.
 #[derive(Clone, Debug)]
 pub struct Arm {
     site: SiteId,
@@ -38,7 +38,7 @@ pub struct Arm {
     gripper: Vec<usize>,
     settings: ArmSettings,
     gains: Gains,
-    /// Positions after the reset, which the arm keeps near to.
+    /// Positions after the reset, to which redundant joints are pulled.
     rest: Vec<f64>,
     /// Commanded positions of the links.
     command: Vec<f64>,
@@ -46,13 +46,13 @@ pub struct Arm {
     /// The hand moves, and is turned while it does.
     moving: bool,
     turning: bool,
-    /// Its way in the last tick.
+    /// Its motion in the last tick.
     way: Vec3,
     grip: f64,
 }
 
 impl Arm {
-    /// The arm whose actuators of joints lead to the site that moves; every other actuator is the gripper's.
+    /// The arm that moves the site: its joints have actuators; every other actuator belongs to the gripper.
     ///
     /// # Errors
     /// The model has no such site, or nothing that moves it.
@@ -60,11 +60,11 @@ impl Arm {
         Arm::at(env, &settings.sites, "--site", settings, gains)
     }
 
-    /// The first arm, and the left one where the settings name its site. Each has the grippers that hang on it, the first all that
-    /// hang on neither.
+    /// The first arm, and the left one if the settings name its site. Each has the grippers that are mounted on it; the first also
+    /// has those that are mounted on neither.
     ///
     /// # Errors
-    /// As [`Arm::of`]; an actuator that would move both.
+    /// As [`Arm::of`], or a joint that moves both arms.
     pub fn all_of(env: &Env, settings: &ArmSettings, gains: Gains) -> Result<Vec<Self>, TeleopError> {
         let mut first = Arm::of(env, settings, gains)?;
         if settings.left_sites.is_empty() {
@@ -77,7 +77,9 @@ impl Arm {
             first.links.iter().find(|link| left.links.iter().any(|other| other.control == link.control));
         if let Some(link) = shared {
             let name = model.name_of(JointId::KIND, link.joint.index());
-            return Err(missing(format!("the joint {name:?} moves both arms, which are driven apart")));
+            return Err(missing(format!(
+                "the joint {name:?} moves both arms, but they are driven separately: choose sites on separate arms"
+            )));
         }
         let links = |arm: &Arm, control: usize| arm.links.iter().any(|link| link.control == control);
         let hangs = |control: usize, chain: &[i32]| hangs(model, control, chain);
@@ -119,7 +121,7 @@ impl Arm {
         if links.is_empty() {
             let name = model.name_of(SiteId::KIND, site.index());
             return Err(missing(format!(
-                "no actuator of a joint moves the site {name:?}; --control joints drives joints"
+                "no actuator moves the site {name:?} through a joint; use --control joints"
             )));
         }
         let joints = links.iter().map(|link| link.joint).collect();
@@ -142,7 +144,7 @@ impl Arm {
         Ok(arm)
     }
 
-    /// Takes the state after a reset as where to rest, and the hand's pose as its target.
+    /// Takes the state after a reset as the rest pose, and the hand's pose as its target.
     pub fn begin(&mut self, env: &Env) {
         let (model, data) = (&env.scene().model, &env.scene().data);
         self.rest = data.state.qpos.clone();
@@ -151,7 +153,7 @@ impl Arm {
         (self.moving, self.turning, self.grip) = (false, false, self.settings.gripper);
     }
 
-    /// Takes the state that something else has brought the arm to as its target, and the gripper as that has left it.
+    /// Takes the present state of arm and gripper as their targets, after something else has moved them.
     pub fn take_over(&mut self, env: &Env) {
         let (model, data) = (&env.scene().model, &env.scene().data);
         self.stay(model, data);
@@ -162,7 +164,7 @@ impl Arm {
         }
     }
 
-    /// Where the hand would be if the joints were there.
+    /// Pose of the hand for these joint positions.
     fn hand(&self, model: &Model, data: &Data, joints: &[f64]) -> (Vec3, Quat) {
         let mut there = data.clone();
         for (link, position) in self.links.iter().zip(joints) {
@@ -173,8 +175,8 @@ impl Arm {
         (there.kin.site_xpos[site], mat_to_quat(&there.kin.site_xmat[site]))
     }
 
-    /// Moves the target and writes the controls that follow. `within` are the least and the largest controls that the robot would
-    /// follow during this tick: an arm whose way is longer goes a part of it, all joints alike, so that the hand keeps its direction.
+    /// Moves the target and writes the resulting controls. `within` has the smallest and the largest controls that the robot can
+    /// follow in this tick: a longer motion is shortened by the same factor for all joints, so that the hand keeps its direction.
     pub fn drive(
         &mut self,
         env: &Env,
@@ -193,7 +195,7 @@ impl Arm {
             self.way = motion.way();
             let mut reached = self.pursue(model, data, motion, most);
             if begins && reached != Reached::Yes {
-                // What was meant cannot be had from here: it goes on from what is.
+                // The target cannot be reached from here: continue from the actual pose.
                 self.stay(model, data);
                 reached = self.pursue(model, data, motion, most);
             }
@@ -214,7 +216,7 @@ impl Arm {
         reached
     }
 
-    /// The part of the way to their commands that all joints can go at once.
+    /// The fraction of the motion to their commands that all joints can make in a tick.
     fn part(&self, data: &Data, [low, high]: [&[f64]; 2]) -> f64 {
         let part = |(link, command): (&Link, &f64)| {
             let (now, droop) = (data.state.qpos[link.position], link.droop(data));
@@ -225,7 +227,7 @@ impl Arm {
         self.links.iter().zip(&self.command).map(part).fold(1.0, f64::min)
     }
 
-    /// Moves the target by the largest part of a motion that the joints can follow.
+    /// Moves the target by the largest fraction of a motion that the joints can follow.
     fn pursue(&mut self, model: &Model, data: &Data, motion: &ArmMotion, most: f64) -> Reached {
         let mut start = data.clone();
         for (link, command) in self.links.iter().zip(&self.command) {
@@ -245,7 +247,7 @@ impl Arm {
         why
     }
 
-    /// Where the joints go for a target.
+    /// The joint positions for a target.
     fn joints_at(
         &self,
         model: &Model,
@@ -273,7 +275,7 @@ impl Arm {
         if distance > self.settings.reach { Err(Reached::Far) } else { Ok(joints) }
     }
 
-    /// The target after a part of a motion.
+    /// The target after a fraction of a motion.
     fn moved(&self, motion: &ArmMotion, part: f64) -> (Vec3, Quat) {
         let [x, y, z, roll, pitch, yaw] = motion.along;
         let (mut position, mut turned) = self.target;
@@ -290,8 +292,8 @@ impl Arm {
         (position, quat_normalize(turned))
     }
 
-    /// Stays where the arm is when a motion ends. Across its way, and unless it was turned, the hand is meant to be where its target was:
-    /// otherwise every stop would add what it is off.
+    /// Stops at the present pose when a motion ends. Perpendicular to the motion, and in orientation if it was not turned, the hand keeps
+    /// its target: otherwise the tracking error would accumulate with every stop.
     fn rest_at(&mut self, model: &Model, data: &Data) {
         if std::mem::take(&mut self.moving) {
             let (place, direction) = self.target;
@@ -305,18 +307,18 @@ impl Arm {
         }
     }
 
-    /// Takes where the arm is as its target.
+    /// Takes the present pose as the target.
     fn stay(&mut self, model: &Model, data: &Data) {
         self.command = self.links.iter().map(|link| data.state.qpos[link.position]).collect();
         self.target = self.hand(model, data, &self.command);
     }
 
-    /// Where the gripper should be, -1 (closed) to 1.
+    /// Target of the gripper, -1 (closed) to 1 (open).
     pub fn grip(&self) -> f64 {
         self.grip
     }
 
-    /// The site that moves.
+    /// The site of the hand.
     pub fn site(&self) -> SiteId {
         self.site
     }

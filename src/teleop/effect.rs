@@ -1,21 +1,21 @@
-//! What keys, buttons and axes can do, by the words of mapping files.
+//! Effects of keys, buttons and axes, by their words in mapping files.
 
 use crate::error::TeleopError;
 use crate::motion::{MARKS, Mark, Motion};
 use crate::settings::wrong;
 use toml::Value;
 
-/// Names of what a hand does, in the order of [`Motion::along`].
+/// Names of the motions of a hand, in the order of [`Motion::along`].
 const ALONG: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
-/// Names of what a base does, in the order of [`Motion::base`].
+/// Names of the motions of a base, in the order of [`Motion::base`].
 const BASE: [&str; 3] = ["forward", "left", "turn"];
-/// Joints that a mapping can name.
+/// Number of joints that a mapping can name.
 const JOINTS: usize = 64;
 
-/// What something does while it is held.
+/// The effect of a key, button or axis while it is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Effect {
-    /// To the arm of a number.
+    /// On the arm with this number.
     Arm(usize, ArmEffect),
     Joint(usize, f64),
     /// A base: forward, to the left, counterclockwise.
@@ -24,7 +24,7 @@ pub(crate) enum Effect {
     Mark(Mark),
 }
 
-/// What something does to an arm.
+/// The effect on an arm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ArmEffect {
     Along(usize, f64),
@@ -45,7 +45,7 @@ pub(crate) fn apply(effect: Effect, place: f64, motion: &mut Motion) {
     }
 }
 
-/// What an entry does: one thing, or a list of them.
+/// The effects of an entry: one, or a list.
 pub(crate) fn effects(value: &Value) -> Option<Vec<Effect>> {
     match value.as_array() {
         Some(list) => list.iter().map(|value| effect(value.as_str()?)).collect(),
@@ -98,7 +98,7 @@ pub(crate) fn unknown(file: &str, section: &str, name: &str, does: &Value) -> Te
     wrong(
         file,
         format!(
-            "[{section}] {name} = {does}: there are +x to -yaw, open, close, grip, clutch, each also as left.+x, +1 to -{JOINTS}, +forward, +left, +turn and their opposites, quarter, {}; or a list of these",
+            "[{section}] {name} = {does}: the effects are +x to -yaw, open, close, grip, clutch, each also as left.+x, +1 to -{JOINTS}, +forward, +left, +turn and their opposites, quarter, {}; or a list of these",
             marks.join(", ")
         ),
     )

@@ -1,4 +1,4 @@
-//! What can go wrong while a person drives.
+//! Errors of teleoperation.
 
 use agents::PolicyError;
 use env::EnvError;
@@ -7,25 +7,25 @@ use robot::RobotError;
 use std::fmt;
 use std::path::PathBuf;
 
-/// What went wrong.
+/// An error of teleoperation.
 #[derive(Debug)]
 #[non_exhaustive]
 pub enum TeleopError {
-    /// A mapping file says something that nothing is known of.
+    /// A mapping, calibration or leader file is not valid.
     Mapping {
-        /// The file, or what stands for it.
+        /// The file, or a name for built-in text.
         file: String,
-        /// What is wrong, and what would be right.
+        /// What is wrong, and how to fix it.
         message: String,
     },
-    /// The environment has nothing that can be driven this way.
+    /// The environment cannot be driven this way.
     Control {
         /// What is missing, and what to do.
         message: String,
     },
     /// A device cannot be opened or read.
     Device {
-        /// The device, for people.
+        /// Name of the device.
         device: String,
         /// Its path, where it has one.
         path: Option<PathBuf>,

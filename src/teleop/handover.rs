@@ -1,14 +1,14 @@
-//! Control that a policy and a person share: the policy acts until the person takes over, and again once it is given back.
+//! Control shared by a policy and a person: the policy acts until the person takes control, and again after it is handed back.
 
 use crate::error::TeleopError;
 use crate::motion::Motion;
 use agents::Policy;
 use env::Env;
 
-/// The rows of a trial that say who acted in a state: true for the person, false for the policy and in the last state.
+/// The dataset of a trial with who acted in each state: true for the person, false for the policy and in the last state.
 pub const INTERVENTION: &str = "env_infos/intervention";
 
-/// A policy, and who acts. A copy is all that an episode needs to go on from here.
+/// A policy, and who acts. A copy is sufficient to continue an episode from here.
 #[derive(Clone)]
 pub struct Handover {
     policy: Policy,
@@ -17,7 +17,7 @@ pub struct Handover {
 }
 
 impl Handover {
-    /// A policy that acts first.
+    /// Shared control that starts with the policy.
     pub fn new(policy: &Policy, seed: u64) -> Self {
         Handover { policy: policy.for_episode(seed), by_hand: false, action: Vec::new() }
     }
@@ -32,20 +32,20 @@ impl Handover {
         self.by_hand
     }
 
-    /// Hands control to the other one; whether the person has it now.
+    /// Hands control over; returns whether the person has it now.
     pub fn hand_over(&mut self) -> bool {
         self.by_hand = !self.by_hand;
         self.by_hand
     }
 
-    /// Whether the person takes over by touching a device. A hand in a glove never rests: it takes over by the mark alone.
+    /// Whether the person takes control by any motion. A hand in a glove never rests: with it only the mark takes control.
     pub fn takes_over(&mut self, motion: &Motion) -> bool {
         let takes = motion.touches() && !self.by_hand;
         self.by_hand |= takes;
         takes
     }
 
-    /// What the policy does in this state; nothing where the person acts.
+    /// The policy's action in this state; `None` while the person acts.
     ///
     /// # Errors
     /// The policy is one for another environment.

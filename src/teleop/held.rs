@@ -1,15 +1,15 @@
-//! What is held down, and for how long that is believed.
+//! Keys, buttons and axes that are held, and when they expire.
 
 use crate::event::{Axis, Button, Device, Event, HandPose, Lost};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Time after which a key or a report that is not repeated counts as released, where releases are not told \[s\].
+/// Time after which a key or a report that is not repeated counts as released, for devices that do not report releases \[s\].
 pub const BELIEF: f64 = 0.15;
 
-/// What is held down at the moment, of all devices.
+/// Keys, buttons and axes of all devices that are held now.
 #[derive(Clone, Debug, Default)]
 pub struct Held {
-    /// Buttons that are down, and when that was said last \[s\].
+    /// Buttons that are down, and the time of their last report \[s\].
     down: BTreeMap<Button, f64>,
     /// Buttons that went down since the last sample.
     struck: BTreeSet<Button>,
@@ -17,11 +17,11 @@ pub struct Held {
     hands: [Option<(HandPose, f64)>; 2],
     /// Joints of a leader arm.
     leader: BTreeMap<u16, (f64, f64)>,
-    /// The keyboard tells releases.
+    /// Whether the keyboard reports releases.
     tells_releases: bool,
 }
 
-/// What is held during a tick.
+/// The input of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sample {
     /// Buttons that are down, or were since the last sample.
@@ -37,17 +37,17 @@ pub struct Sample {
 }
 
 impl Held {
-    /// Says whether the keyboard tells releases.
+    /// Sets whether the keyboard reports releases.
     pub fn tells_releases(&mut self, does: bool) {
         self.tells_releases = does;
     }
 
-    /// Takes an event that came at `now` \[s\].
+    /// Takes an event of the time `now` \[s\].
     pub fn apply(&mut self, event: Event, now: f64) {
         match event {
             Event::Press(button) => {
                 let before = self.down.insert(button, now);
-                // A key whose repetitions were late was believed released, and is struck again.
+                // A key whose repetitions were late had expired, and counts as pressed again.
                 if before.is_none_or(|then| self.is_over(button, then, now)) {
                     self.struck.insert(button);
                 }
@@ -67,7 +67,7 @@ impl Held {
         }
     }
 
-    /// What is held at `now` \[s\]. What was struck and released since the last sample is held once.
+    /// The input held at `now` \[s\]. A button that was pressed and released since the last sample counts as held once.
     pub fn sample(&mut self, now: f64) -> Sample {
         let over: Vec<Button> = self
             .down
@@ -96,7 +96,7 @@ impl Held {
         }
     }
 
-    /// Whether what was said `then` is not believed any more. Gamepads say what changes, and nothing while it stays.
+    /// Whether a report of the time `then` \[s\] has expired. Reports of gamepads do not expire: they send changes only.
     fn is_over(&self, button: Button, then: f64, now: f64) -> bool {
         let believed = match button {
             Button::Key(_) => self.tells_releases,

@@ -1,4 +1,4 @@
-//! Controls that a device leads to places of its own: the joints of a hand by a glove, those of an arm by another arm.
+//! Controls that follow a device: the joints of a hand follow a glove, those of an arm a leader arm.
 
 use crate::error::TeleopError;
 use crate::glove::Calibration;
@@ -7,12 +7,12 @@ use crate::leader::{CatchUp, LeaderConfig};
 use crate::reached::Reached;
 use env::Env;
 
-/// Most that a tick moves a control, in parts of its range: what begins elsewhere is not thrown.
+/// Largest motion of a control in a tick, as a fraction of its range, so that a control that starts elsewhere does not jump.
 const STEP: f64 = 0.1;
-/// Distance of a leader's joints at which a robot that comes to where they are follows them \[rad\].
+/// Distance of the joints below which a robot that catches up with its leader begins to follow it \[rad\].
 const CAUGHT: f64 = 0.05;
 
-/// What leads, and which controls.
+/// The device that leads, and its controls.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Leading {
     /// A glove.
@@ -22,7 +22,7 @@ pub enum Leading {
 }
 
 impl Leading {
-    /// Names of actuators, each the control of a value; empty for values that the robot lacks.
+    /// The actuator of each value; an empty name for values that the robot lacks.
     fn actuators(&self) -> Vec<&str> {
         match self {
             Leading::Glove(calibration) => calibration.actuators().iter().map(String::as_str).collect(),
@@ -30,7 +30,7 @@ impl Leading {
         }
     }
 
-    /// Where controls are led, in their units.
+    /// Targets of the controls, in their units.
     pub(crate) fn read(&self, sample: &Sample) -> Option<Vec<f64>> {
         match self {
             Leading::Glove(calibration) => calibration.read(sample),
@@ -39,7 +39,7 @@ impl Leading {
     }
 }
 
-/// A leader that is caught up with before it is followed.
+/// A leader arm, which the robot catches up with before it follows.
 #[derive(Clone, Debug)]
 struct Catching {
     settings: CatchUp,
@@ -48,7 +48,7 @@ struct Catching {
     caught: bool,
 }
 
-/// What is led. A copy is all that an episode needs to go on from here.
+/// The led controls. A copy is sufficient to continue an episode from here.
 #[derive(Clone, Debug)]
 pub struct Lead {
     controls: Vec<Option<usize>>,
@@ -56,7 +56,7 @@ pub struct Lead {
 }
 
 impl Lead {
-    /// The controls that something leads, or none.
+    /// The controls that a device leads, or none.
     ///
     /// # Errors
     /// The model lacks an actuator.
@@ -86,15 +86,15 @@ impl Lead {
         Ok(Lead { controls: names.into_iter().map(control).collect::<Result<_, _>>()?, catching })
     }
 
-    /// Catches up before it follows again: nobody knows where the leader goes in the meantime.
+    /// Makes the robot catch up before it follows again, since the leader may move in the meantime.
     pub fn let_go(&mut self) {
         if let Some(catching) = &mut self.catching {
             catching.caught = false;
         }
     }
 
-    /// Leads parts of the action to where a device has their controls, by no more than [`STEP`] of their ranges a tick, and a part
-    /// of that.
+    /// Moves entries of the action towards the targets of the device, by at most [`STEP`] of their ranges in a tick, times
+    /// a fraction.
     ///
     /// # Errors
     /// The robot refuses.
@@ -131,7 +131,7 @@ impl Lead {
         Ok(Reached::Yes)
     }
 
-    /// Where the controls go in a tick of `dt` seconds on their way to where they are led; nothing where they are too far from it.
+    /// The controls after a tick of `dt` seconds towards their targets; `None` if they are too far away.
     fn reach(&mut self, dt: f64, now: &[f64], led: &[f64]) -> Option<Vec<f64>> {
         let Some(Catching { settings, scales, caught }) = self.catching.as_mut().filter(|c| !c.caught) else {
             return Some(led.to_vec());

@@ -4,30 +4,30 @@ use physics::elements::{ActuatorId, JointId};
 use physics::model::TrnType;
 use physics::{Data, Model};
 
-/// Most that a command is put ahead of where a joint should be, so that its servo carries the arm's weight \[rad\].
+/// Largest offset of a command from the target of a joint, by which its servo holds the arm's weight \[rad\].
 const DROOP: f64 = 0.2;
 
 /// A joint that an actuator drives.
 #[derive(Clone, Debug)]
 pub(crate) struct Link {
     pub(crate) joint: JointId,
-    /// Its places in `qpos` and `qvel`.
+    /// Its indices in `qpos` and `qvel`.
     pub(crate) position: usize,
     velocity: usize,
     /// The control of its actuator.
     pub(crate) control: usize,
-    /// Its torque for each radian by which a joint is behind its command; none where the actuator is no servo.
+    /// Stiffness of its position servo \[N m/rad\]; `None` for other actuators.
     stiffness: Option<f64>,
 }
 
 impl Link {
-    /// How far the joint would hang behind a command under the weight that it carries.
+    /// Steady-state error of the joint under its present load \[rad\].
     pub(crate) fn droop(&self, data: &Data) -> f64 {
         let carried = data.vel.qfrc_bias[self.velocity] - data.passive.qfrc_gravcomp[self.velocity];
         self.stiffness.map_or(0.0, |stiffness| (carried / stiffness).clamp(-DROOP, DROOP))
     }
 
-    /// The actuator is a servo.
+    /// Whether the actuator is a position servo.
     pub(crate) fn is_servo(&self) -> bool {
         self.stiffness.is_some()
     }

@@ -1,4 +1,4 @@
-//! What keys, buttons and axes do, from a file in TOML.
+//! The effects of keys, buttons and axes, from a TOML file.
 
 use crate::effect::{ArmEffect, Effect, apply, effects, unknown};
 use crate::error::TeleopError;
@@ -13,24 +13,24 @@ use physics::math::{Quat, Vec3, quat_conj, quat_mul, quat_normalize, sub};
 use std::collections::BTreeSet;
 use toml::{Table, Value};
 
-/// The mapping that there is without a file: RoboHive's.
+/// The default mapping: RoboHive's.
 pub const DEFAULTS: &str = include_str!("defaults.toml");
 
 /// Numbers of buttons or axes by name.
 type Codes<'a> = &'a [(&'a str, u16)];
 
-/// What keys, buttons and axes do.
+/// The effects of keys, buttons and axes.
 #[derive(Clone, Debug)]
 pub struct Mapping {
     /// How far a tick moves.
     pub gains: Gains,
-    /// What an arm is driven by.
+    /// Settings of an arm.
     pub arm: ArmSettings,
-    /// How a robot on legs steps.
+    /// The gait of a four-legged robot.
     pub base: BaseSettings,
-    /// Ends of the axes of a gamepad that does not speak xpad's language.
+    /// Ends of the axes of a gamepad whose events are not xpad's.
     pub ends: Vec<(u16, Ends)>,
-    /// What leads joints, where something does.
+    /// The device that leads joints, if one does.
     pub led: Option<Leading>,
     buttons: Vec<(BTreeSet<Button>, Effect)>,
     axes: Vec<(Axis, Effect)>,
@@ -50,7 +50,7 @@ impl Mapping {
     /// Reads a mapping; sections that it lacks are those of [`DEFAULTS`]. `file` is its name, for errors.
     ///
     /// # Errors
-    /// It is no TOML, or names what is not known.
+    /// It is not valid TOML, or has an unknown entry.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, TeleopError> {
         let table = text.parse::<Table>().map_err(|error| wrong(file, error.to_string()))?;
         Mapping::of(&table, file)
@@ -158,12 +158,12 @@ impl Mapping {
         Ok(())
     }
 
-    /// What a person wants who holds this.
+    /// The input of a tick for a sample of the devices.
     pub fn read(&mut self, sample: &Sample) -> Input {
         let mut input = Input::default();
         let mut clutches = [false; ARMS];
         let held: Vec<_> = self.buttons.iter().filter(|(chord, _)| chord.is_subset(&sample.down)).collect();
-        // Of buttons that are held together, the chord counts alone.
+        // Of buttons that are held together, only the chord counts.
         let alone = |chord: &BTreeSet<Button>| {
             !held.iter().any(|(other, _)| other.len() > chord.len() && chord.is_subset(other))
         };
@@ -199,7 +199,7 @@ impl Mapping {
         input
     }
 
-    /// Follows a hand while the clutch is held; where it was when the clutch was taken counts as the middle.
+    /// Follows a hand while the clutch is held, relative to its pose when the clutch was pressed.
     fn follow(&mut self, arm: usize, hand: Option<HandPose>, motion: &mut ArmMotion) {
         let before = std::mem::replace(&mut self.clutched[arm], hand);
         let (Some(before), Some(now)) = (before, hand) else { return };

@@ -13,9 +13,9 @@ pub struct Moment {
     pub pilot: Pilot,
     /// What acts beside the person.
     pub handover: Option<Handover>,
-    /// The return so far.
+    /// The return up to this state.
     pub reward: f64,
-    /// Steps so far that solved the task.
+    /// Number of successive solved steps up to this state.
     pub solved: usize,
 }
 

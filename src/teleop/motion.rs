@@ -1,13 +1,13 @@
-//! What a person wants, tick by tick.
+//! The input of a person in a tick: motion and marks.
 
 use physics::math::{Quat, Vec3};
 
-/// Way and turn of a hand since the last tick, in the frame of the world.
+/// Motion of a hand since the last tick, in the world frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HandMove {
-    /// The way \[m\].
+    /// Displacement \[m\].
     pub way: Vec3,
-    /// The turn.
+    /// Rotation.
     pub turn: Quat,
 }
 
@@ -17,11 +17,11 @@ pub const ARMS: usize = 2;
 /// How a person wants an arm to move during a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmMotion {
-    /// Along x, y, z, and about them: parts of what a tick moves, -1 to 1.
+    /// Along x, y, z, and about them: fractions of the motion in a tick, -1 to 1.
     pub along: [f64; 6],
-    /// A hand that is followed.
+    /// Motion of a tracked hand that is followed.
     pub hand: Option<HandMove>,
-    /// Where the gripper should be, -1 (closed) to 1; `None` leaves it.
+    /// Target of the gripper, -1 (closed) to 1 (open); `None` leaves it.
     pub gripper: Option<f64>,
 }
 
@@ -31,7 +31,7 @@ impl ArmMotion {
         self.along.iter().any(|&x| x != 0.0) || self.hand.is_some()
     }
 
-    /// The direction in which the hand goes, of any length.
+    /// The direction of the hand's motion, not normalised.
     pub fn way(&self) -> Vec3 {
         let [x, y, z, ..] = self.along;
         self.hand.map_or([x, y, z], |hand| hand.way)
@@ -48,49 +48,49 @@ impl ArmMotion {
 pub struct Motion {
     /// Its arms: the first, and the left one.
     pub arms: [ArmMotion; ARMS],
-    /// Velocity of a base, in parts of the largest, -1 to 1: forward, to the left, counterclockwise.
+    /// Velocity of a base, as fractions of the largest, -1 to 1: forward, to the left, counterclockwise.
     pub base: [f64; 3],
-    /// Numbers of joints, and the parts of what a tick moves them, -1 to 1.
+    /// Numbers of joints, and the fractions of their motion in a tick, -1 to 1.
     pub joints: Vec<(usize, f64)>,
-    /// Where a glove or a leader arm has controls, in their units and in the order of the calibration or the config.
+    /// Targets of the controls led by a glove or a leader arm, in their units, in the order of the calibration or the config.
     pub led: Option<Vec<f64>>,
-    /// Everything moves at a quarter.
+    /// Everything moves at a quarter of its speed.
     pub quarter: bool,
 }
 
 impl Motion {
-    /// Whether anything should move that rests otherwise. A hand in a glove or at an arm never rests: it moves nothing while time stands
-    /// still, which a pause that is ended lets go on.
+    /// Whether there is any motion. Gloves and leader arms never rest and do not count: they do not start time, which ending a
+    /// pause does.
     pub fn moves(&self) -> bool {
         self.arms.iter().any(ArmMotion::moves)
             || self.base.iter().any(|&x| x != 0.0)
             || self.joints.iter().any(|&(_, x)| x != 0.0)
     }
 
-    /// Whether a person touches anything: something should move, or a gripper.
+    /// Whether there is any motion, or a target of a gripper.
     pub fn touches(&self) -> bool {
         self.moves() || self.arms.iter().any(|arm| arm.gripper.is_some())
     }
 }
 
-/// What a person says of the episode.
+/// A command about the episode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Mark {
     /// The episode is over, and a good one.
     Success,
     /// The episode is over; it is kept as one that failed.
     Failure,
-    /// The episode is thrown away, and begins once more from the same reset.
+    /// The episode is discarded, and restarts from the same reset.
     Discard,
-    /// The episode is thrown away, and the next one begins.
+    /// The episode is discarded, and the next one begins.
     Skip,
-    /// Time stands still, or goes on.
+    /// Time pauses, or continues.
     Pause,
-    /// Time goes at a quarter of its speed, or at its own again.
+    /// Time runs at a quarter of its speed, or at full speed again.
     Slow,
-    /// One state back; time stands still then.
+    /// One state back; time pauses.
     Back,
-    /// One state forward again, of those that were gone back over.
+    /// One state forward again, after going back.
     Forward,
     /// A second back.
     BackSecond,
@@ -119,17 +119,17 @@ pub const MARKS: [(&str, Mark); 12] = [
 ];
 
 impl Mark {
-    /// Whether it acts as long as it is held, and not once.
+    /// Whether it repeats while it is held.
     pub fn repeats(self) -> bool {
         matches!(self, Mark::Back | Mark::Forward | Mark::BackSecond | Mark::ForwardSecond)
     }
 }
 
-/// All that a person wants of one tick.
+/// The input of a tick.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Input {
     /// How the robot moves.
     pub motion: Motion,
-    /// What is said of the episode.
+    /// Commands about the episode.
     pub marks: Vec<Mark>,
 }

@@ -1,4 +1,4 @@
-//! From what a person wants to the action of an environment.
+//! Converts the input of a person to the action of an environment.
 
 use crate::arm::Arm;
 use crate::error::TeleopError;
@@ -9,18 +9,18 @@ use crate::reached::Reached;
 use crate::trot::Trot;
 use env::Env;
 
-/// What a person drives.
+/// The part of the robot that a person drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Control {
     /// The hand of an arm, by inverse kinematics.
     Hand,
     /// Joints one by one, or whatever the actuators move.
     Joints,
-    /// The torso of a robot on legs, by a velocity.
+    /// The torso of a four-legged robot, by its velocity.
     Base,
 }
 
-/// What turns a person's wishes into actions. A copy is all that an episode needs to go on from here.
+/// Converts input to actions. A copy is sufficient to continue an episode from here.
 #[derive(Clone, Debug)]
 pub struct Pilot {
     driven: Driven,
@@ -31,7 +31,7 @@ pub struct Pilot {
 enum Driven {
     Arms(Vec<Arm>),
     Base(Box<Trot>),
-    /// Parts of the action, the part of its range that a tick moves one, and what a device leads.
+    /// Entries of the action, the fraction of their range that a tick moves, and the controls that a device leads.
     Joints(Vec<f64>, f64, Lead),
 }
 
@@ -39,7 +39,7 @@ impl Pilot {
     /// A pilot of an environment that was reset.
     ///
     /// # Errors
-    /// It has nothing that can be driven this way.
+    /// The environment cannot be driven this way.
     pub fn new(env: &Env, control: Control, mapping: &Mapping) -> Result<Self, TeleopError> {
         let action = vec![0.0; env.action_len()];
         if action.is_empty() {
@@ -71,14 +71,14 @@ impl Pilot {
         Ok(())
     }
 
-    /// Follows nothing for a while: what leads is caught up with before it is followed again.
+    /// Pauses following: the robot catches up with a leader before it follows again.
     pub fn let_go(&mut self) {
         if let Driven::Joints(_, _, lead) = &mut self.driven {
             lead.let_go();
         }
     }
 
-    /// Goes on from where something else has brought the robot, so that nothing jumps.
+    /// Continues from the present state, after something else has moved the robot, so that nothing jumps.
     ///
     /// # Errors
     /// The robot refuses.
@@ -121,7 +121,7 @@ impl Pilot {
             }
             Driven::Joints(at, gain, lead) => {
                 if live && env.steps() > 0 {
-                    // What was asked for beyond the limits of the robot is forgotten, so that it stops when nobody asks.
+                    // Targets beyond the robot's limits are dropped, so that it stops when the input ends.
                     *at = last_action(env)?;
                 }
                 let part = if motion.quarter { 0.25 } else { 1.0 };
@@ -148,14 +148,14 @@ impl Pilot {
     }
 }
 
-/// The least and the largest controls that the robot would follow during the next period.
+/// The smallest and the largest controls that the robot can follow in the next period.
 fn within(env: &mut Env) -> Result<[Vec<f64>; 2], TeleopError> {
     let bounds: Vec<[f64; 2]> = (0..env.action_len()).map(|k| env.action_bounds(k)).collect();
     let mut end = |end: usize| env.controls_of(&bounds.iter().map(|bound| bound[end]).collect::<Vec<_>>());
     Ok([end(0)?, end(1)?])
 }
 
-/// The action whose controls the robot follows.
+/// The action for these controls.
 fn last_action(env: &Env) -> Result<Vec<f64>, TeleopError> {
     let mut action = env.robot().last_control().to_vec();
     if env.settings().normalize_act {
@@ -165,7 +165,7 @@ fn last_action(env: &Env) -> Result<Vec<f64>, TeleopError> {
     Ok(action.iter().zip(bounds).map(|(x, [low, high])| x.clamp(low, high)).collect())
 }
 
-/// The action that keeps what the actuators move where it is: positions of their joints, and the middle for the rest.
+/// The action that holds the present state: the positions of the actuators' joints, and the middle of the range for other actuators.
 fn resting(env: &Env) -> Result<Vec<f64>, TeleopError> {
     let (model, data) = (&env.scene().model, &env.scene().data);
     let mut controls: Vec<f64> = (0..env.action_len())

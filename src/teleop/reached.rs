@@ -1,14 +1,14 @@
-//! What became of where a person wanted the robot.
+//! Whether the robot can follow a target.
 
-/// Whether the target of a tick was taken.
+/// Whether the target of a tick was accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reached {
     /// The robot follows, or rests.
     Yes,
-    /// No joints within their ranges bring the hand there.
+    /// No joint positions within the ranges reach it.
     Nowhere,
-    /// They would be further away than a tick may ask for.
+    /// The joint positions are further away than the limit of a tick.
     Far,
-    /// The robot is further from what leads it than that lets it go by itself.
+    /// The robot is further from its leader than the distance that it may catch up.
     Apart,
 }

@@ -13,7 +13,7 @@ use env::Env;
 use record::Kept;
 use robot::ActionMode;
 
-/// The dataset of a trial that says how the person judged it: 1 for success, 0 for failure.
+/// The dataset of a trial with the person's judgement: 1 for success, 0 for failure.
 pub const JUDGED: &str = "teleop/success";
 
 /// Episode after episode that a person drives.
@@ -34,17 +34,17 @@ pub struct Session {
 }
 
 impl Session {
-    /// Resets the environment for the first episode. Time stands still until something moves. Hardware stands still too: see
+    /// Resets the environment for the first episode. Time is paused until there is a motion. On hardware the robot holds its position: see
     /// [`Session::tick`].
     ///
     /// # Errors
-    /// The reset fails, or there is nothing to drive; hardware that is driven by anything but positions, which would go on
-    /// moving when nobody says anything.
+    /// The reset fails, or there is nothing to drive; hardware in another mode than positions, which would continue to
+    /// move without input.
     pub fn new(mut env: Env, control: Control, mapping: &Mapping, plan: Plan) -> Result<Self, TeleopError> {
         if env.is_live() && env.robot().options().mode != ActionMode::Position {
             return Err(TeleopError::Control {
                 message: format!(
-                    "hardware is driven by hand in positions, where silence means rest, and not in '{}': --set act_mode=pos",
+                    "hardware cannot be teleoperated in the action mode '{}', in which it moves without input: add --set act_mode=pos",
                     env.robot().options().mode
                 ),
             });
@@ -71,8 +71,8 @@ impl Session {
         Ok(session)
     }
 
-    /// Shares control with a policy, which acts first: any motion of the person, or [`Mark::Policy`], takes over, and this mark gives
-    /// back. Rows then say who acted, see [`INTERVENTION`]; random actions are those of the seed of each episode.
+    /// Shares control with a policy, which acts first: any motion of the person, or [`Mark::Policy`], takes control, and this mark hands
+    /// it back. Rows then record who acted, see [`INTERVENTION`]; random actions depend on the seed of each episode.
     ///
     /// # Errors
     /// The reset fails.
@@ -105,9 +105,9 @@ impl Session {
         }
     }
 
-    /// One tick: marks first, then a step of the environment where time goes on. Any motion lets it go on. Where it stands
-    /// still, hardware is told its last command again ([`Env::hold`]), so that watchdogs know that somebody is there; a
-    /// session that hangs or dies says nothing, and they make the devices safe.
+    /// One tick: marks first, then a step of the environment unless time is paused. Any motion ends a pause. During a
+    /// pause the last command to hardware is repeated ([`Env::hold`]), so that watchdogs do not trip; when a
+    /// session hangs or dies, they make the devices safe.
     ///
     /// # Errors
     /// The environment, its robot or its pictures refuse.
@@ -170,7 +170,7 @@ impl Session {
         Ok(())
     }
 
-    /// Shows another state of the episode, with time standing still.
+    /// Shows another state of the episode, and pauses time.
     fn go(&mut self, by: isize) -> Result<(), TeleopError> {
         self.paused = true;
         if let Some(moment) = self.moments.go(by) {
@@ -189,7 +189,7 @@ impl Session {
         };
         let action = action.to_vec();
         ticked.refused = Some(reached).filter(|reached| *reached != Reached::Yes);
-        // What was gone back over is no part of the episode any more.
+        // Later states are removed from the episode.
         self.kept.truncate(self.moments.at());
         self.keep(&action, self.by_hand() == Some(true))?;
         let step = self.env.step(&action)?;
@@ -229,7 +229,7 @@ impl Session {
         Ok(())
     }
 
-    /// An episode of one step that stays where the reset has brought the robot, to see what episodes consist of.
+    /// An episode of one step that holds the position after the reset, as an example of the data of an episode.
     ///
     /// # Errors
     /// A picture cannot be drawn.
@@ -242,7 +242,7 @@ impl Session {
         Ok(example)
     }
 
-    /// Takes the state that is shown once more, after a step from it was refused.
+    /// Restores the state that is shown, after a step from it failed.
     fn return_to_last(&mut self) -> Result<(), TeleopError> {
         let back = self.moments.at();
         self.moments.go(-1);
@@ -250,7 +250,7 @@ impl Session {
         if back == 0 { self.begin() } else { Ok(()) }
     }
 
-    /// Completes the episode at the state that is shown, and begins the next. One without a step is none.
+    /// Completes the episode at the state that is shown, and begins the next. An episode without a step is not kept.
     fn finish(&mut self, success: bool, ticked: &mut Ticked) -> Result<(), TeleopError> {
         let steps = self.moments.at();
         if steps == 0 {
@@ -273,22 +273,22 @@ impl Session {
         &self.env
     }
 
-    /// What drives it.
+    /// The pilot.
     pub fn pilot(&self) -> &Pilot {
         &self.pilot
     }
 
-    /// Whether the person acts, where a policy shares control.
+    /// Whether the person acts; `None` without a policy.
     pub fn by_hand(&self) -> Option<bool> {
         self.handover.as_ref().map(Handover::by_hand)
     }
 
-    /// Time stands still.
+    /// Whether time is paused.
     pub fn is_paused(&self) -> bool {
         self.paused
     }
 
-    /// How long a tick should take \[s\].
+    /// Duration of a tick \[s\].
     pub fn period(&self) -> f64 {
         self.env.dt() * if self.slow { 4.0 } else { 1.0 }
     }
@@ -303,12 +303,12 @@ impl Session {
         self.seed
     }
 
-    /// Steps before the state that is shown, and those after it that were gone back over.
+    /// Number of steps before the state that is shown, and after it.
     pub fn steps(&self) -> (usize, usize) {
         (self.moments.at(), self.moments.ahead())
     }
 
-    /// How the episode goes, on one line.
+    /// The status line of the episode.
     pub fn line(&self) -> String {
         let ((kept, good), (steps, ahead)) = (self.counts, self.steps());
         let time = steps as f64 * self.env.dt();

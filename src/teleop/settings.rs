@@ -1,4 +1,4 @@
-//! Numbers of a mapping file: how far a tick moves, and what arms and legs are driven by.
+//! Numbers of a mapping file: motions in a tick, and settings of arms and legs.
 
 use crate::error::TeleopError;
 use toml::{Table, Value};
@@ -10,28 +10,28 @@ pub struct Gains {
     pub position: f64,
     /// The hand \[rad\].
     pub rotation: f64,
-    /// A joint, in parts of the range of its actuator.
+    /// A joint, as a fraction of the range of its actuator.
     pub joint: f64,
     /// Metres of the robot for a metre of a tracked hand.
     pub hand: f64,
 }
 
-/// What an arm is driven by.
+/// Settings of an arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArmSettings {
-    /// Names of sites that can be moved; the first that a model has is.
+    /// Names of sites; the first that the model has is the hand.
     pub sites: Vec<String>,
-    /// The same of a left arm that is driven beside it; none for one arm.
+    /// The same for a second, left arm; empty for one arm.
     pub left_sites: Vec<String>,
-    /// Largest distance of the joints that are asked for from where they are \[rad\].
+    /// Largest distance between the target and the present position of a joint \[rad\].
     pub reach: f64,
     /// See [`robot::Reach::pull`].
     pub pull: f64,
-    /// Where the gripper is first, -1 (closed) to 1.
+    /// First target of the gripper, -1 (closed) to 1 (open).
     pub gripper: f64,
 }
 
-/// How a robot on legs steps. Velocities are the largest.
+/// The gait of a four-legged robot. Velocities are the largest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BaseSettings {
     /// Forward \[m/s\].
@@ -42,11 +42,11 @@ pub struct BaseSettings {
     pub turn: f64,
     /// Time from rest to the largest velocity \[s\].
     pub ramp: f64,
-    /// Time of a step of every leg \[s\].
+    /// Period of the gait, in which every leg makes a step \[s\].
     pub period: f64,
-    /// How far feet are lifted \[m\].
+    /// Height to which feet are lifted \[m\].
     pub lift: f64,
-    /// Where forward is, from the x axis of the torso \[rad\].
+    /// Angle of the forward direction from the x axis of the torso \[rad\].
     pub heading: f64,
 }
 
@@ -61,7 +61,7 @@ pub(crate) fn gains(section: &Table, file: &str) -> Result<Gains, TeleopError> {
             _ => {
                 return Err(wrong(
                     file,
-                    format!("[gains] {name}: there are position, rotation, joint, hand"),
+                    format!("[gains] {name} is unknown; the entries are position, rotation, joint, hand"),
                 ));
             }
         };
@@ -81,17 +81,19 @@ pub(crate) fn arm(section: &Table, file: &str) -> Result<ArmSettings, TeleopErro
             "pull" => {
                 arm.pull = number(value)
                     .filter(|pull| (0.0..=1.0).contains(pull))
-                    .ok_or_else(|| wrong(file, "[arm] pull is 0 to 1".to_owned()))?
+                    .ok_or_else(|| wrong(file, "[arm] pull must be from 0 to 1".to_owned()))?
             }
             "gripper" => {
-                arm.gripper = number(value)
-                    .filter(|place| (-1.0..=1.0).contains(place))
-                    .ok_or_else(|| wrong(file, "[arm] gripper is -1 (closed) to 1".to_owned()))?
+                arm.gripper = number(value).filter(|place| (-1.0..=1.0).contains(place)).ok_or_else(|| {
+                    wrong(file, "[arm] gripper must be from -1 (closed) to 1 (open)".to_owned())
+                })?
             }
             _ => {
                 return Err(wrong(
                     file,
-                    format!("[arm] {name}: there are sites, left_sites, reach, pull, gripper"),
+                    format!(
+                        "[arm] {name} is unknown; the entries are sites, left_sites, reach, pull, gripper"
+                    ),
                 ));
             }
         }
@@ -113,12 +115,12 @@ pub(crate) fn base(section: &Table, file: &str) -> Result<BaseSettings, TeleopEr
             "heading" => {
                 base.heading = number(value)
                     .filter(|angle| angle.is_finite())
-                    .ok_or_else(|| wrong(file, "[base] heading is an angle [rad]".to_owned()))?;
+                    .ok_or_else(|| wrong(file, "[base] heading must be an angle [rad]".to_owned()))?;
                 continue;
             }
             _ => {
                 let known = "forward, left, turn, ramp, period, lift, heading";
-                return Err(wrong(file, format!("[base] {name}: there are {known}")));
+                return Err(wrong(file, format!("[base] {name} is unknown; the entries are {known}")));
             }
         };
         *place = positive(file, "base", name, value)?;
@@ -146,7 +148,7 @@ pub(crate) fn number(value: &Value) -> Option<f64> {
 
 pub(crate) fn positive(file: &str, section: &str, name: &str, value: &Value) -> Result<f64, TeleopError> {
     let fits = number(value).filter(|x| x.is_finite() && *x > 0.0);
-    fits.ok_or_else(|| wrong(file, format!("[{section}] {name} is a positive number, and not {value}")))
+    fits.ok_or_else(|| wrong(file, format!("[{section}] {name} must be a positive number, not {value}")))
 }
 
 pub(crate) fn wrong(file: &str, message: String) -> TeleopError {

@@ -1,4 +1,4 @@
-//! A trot that follows a velocity: diagonal legs step in turn, and inverse kinematics says where their joints go. It feels neither
+//! A trot at a commanded velocity: diagonal pairs of legs step in turn, and inverse kinematics gives their joints. It detects neither
 //! contacts nor falls.
 
 use crate::error::TeleopError;
@@ -14,54 +14,54 @@ use robot::{Pose, Reach, Search};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Joints that place a foot anywhere.
+/// Number of joints of a leg.
 const LEG: usize = 3;
-/// Numbers of a free joint in `qpos`, and where they are without way and turn.
+/// Numbers of a free joint in `qpos`, and their values at the origin.
 const ORIGIN: [f64; 7] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0];
-/// Error at which a foot is where it should be \[m\].
+/// Error below which a foot has reached its target \[m\].
 const TOLERANCE: f64 = 1e-4;
-/// Most updates of the search for it, which begins where the last one ended.
+/// Largest number of updates of the search, which starts from the last solution.
 const STEPS: usize = 30;
-/// A velocity at which the robot stands, in parts of the largest.
+/// Velocity below which the robot stands, as a fraction of the largest.
 const SLOW: f64 = 1e-3;
-/// Velocity from which on feet are lifted in full, in parts of the largest.
+/// Velocity above which feet are lifted to their full height, as a fraction of the largest.
 const FULL: f64 = 0.2;
 
 /// A leg.
 #[derive(Clone, Debug)]
 struct Leg {
     joints: Vec<JointId>,
-    /// Places of the joints in `qpos`, and their controls.
+    /// Indices of the joints in `qpos`, and their controls.
     places: Vec<(usize, usize)>,
     site: SiteId,
-    /// Where the foot stands, in the frame of the torso \[m\].
+    /// Position of the foot when standing, in the frame of the torso \[m\].
     foot: Vec3,
-    /// Part of a period by which it steps later than the first pair.
+    /// Delay of its step after that of the first pair, as a fraction of the period.
     late: f64,
 }
 
-/// A robot of four legs that trots. A copy is all that an episode needs to go on from here.
+/// A four-legged robot that trots. A copy is sufficient to continue an episode from here.
 #[derive(Clone, Debug)]
 pub struct Trot {
     legs: Vec<Leg>,
     settings: BaseSettings,
-    /// Positions in which the robot stands, its torso at the origin; the legs' go on from there.
+    /// Joint positions, with the torso at the origin; the legs start from their standing positions.
     pose: Vec<f64>,
-    /// Velocity now, in parts of the largest: forward, to the left, counterclockwise.
+    /// Present velocity, as fractions of the largest: forward, to the left, counterclockwise.
     velocity: [f64; 3],
     phase: f64,
 }
 
 impl Trot {
-    /// The legs of a model: three servos each, between its floating torso and a site at a foot. They stand as the first key frame has
-    /// them, or as they are where there is none.
+    /// Finds the legs of a model: three servos each, between its floating torso and a site at the foot. They stand as in the first
+    /// keyframe, or as in the present state without keyframes.
     ///
     /// # Errors
     /// The model has no such torso, or no such legs.
     pub fn of(env: &Env, settings: BaseSettings) -> Result<Self, TeleopError> {
         let (model, data) = (&env.scene().model, &env.scene().data);
         let root = model.joints().next().filter(|joint| model.joint(*joint).kind() == Some(JointType::Free));
-        let Some(root) = root else { return Err(missing("the model has no torso that floats freely")) };
+        let Some(root) = root else { return Err(missing("the model has no torso with a free joint")) };
         let torso = model.jnt_bodyid[root.index()];
         let mut pose = model.key_qpos.get(..model.nq).unwrap_or(&data.state.qpos).to_vec();
         pose[..ORIGIN.len()].copy_from_slice(&ORIGIN);
@@ -78,12 +78,12 @@ impl Trot {
         Ok(Trot { legs, settings, pose, velocity: [0.0; 3], phase: 0.0 })
     }
 
-    /// Stands still.
+    /// Stops, standing.
     pub fn stop(&mut self) {
         (self.velocity, self.phase) = ([0.0; 3], 0.0);
     }
 
-    /// Writes the controls of the next `dt` seconds, on the way to the velocity that is wanted: parts of the largest, -1 to 1.
+    /// Writes the controls of the next `dt` seconds, approaching the commanded velocity: fractions of the largest, -1 to 1.
     pub fn step(&mut self, env: &Env, wanted: [f64; 3], dt: f64, controls: &mut [f64]) {
         let most = dt / self.settings.ramp;
         for (now, wanted) in self.velocity.iter_mut().zip(wanted) {
@@ -98,7 +98,7 @@ impl Trot {
             let pose = Pose { position: Some(self.target(leg, pace)), ..Pose::default() };
             let search = Search { tolerance: TOLERANCE, max_steps: STEPS, ..Search::default() };
             let reach = Reach { joints: &leg.joints, rest: None, pull: 0.0 };
-            // A foot that cannot be there goes as near as it gets.
+            // A foot that cannot reach its target goes as near as possible.
             let found = search.run_within(model, &start, leg.site, &pose, &reach);
             for &(place, control) in &leg.places {
                 self.pose[place] = found.qpos[place];
@@ -107,14 +107,14 @@ impl Trot {
         }
     }
 
-    /// Where a foot should be, in the frame of the torso.
+    /// Target of a foot, in the frame of the torso \[m\].
     fn target(&self, leg: &Leg, pace: f64) -> Vec3 {
         let BaseSettings { forward, left, turn, period, lift, heading, .. } = self.settings;
         let [ahead, aside, round] = self.velocity;
         let (sin, cos) = heading.sin_cos();
         let [ahead, aside, round] = [ahead * forward, aside * left, round * turn];
         let [x, y, _] = leg.foot;
-        // What the torso does over a foot that stands.
+        // The motion of the torso relative to a standing foot.
         let over = [ahead * cos - aside * sin - round * y, ahead * sin + aside * cos + round * x];
         let phase = (self.phase + leg.late).fract();
         let half = period / 2.0;
@@ -122,7 +122,7 @@ impl Trot {
             (half * (0.5 - 2.0 * phase), 0.0)
         } else {
             let swing = 2.0 * phase - 1.0;
-            // It goes and comes without a jolt.
+            // Starts and ends without a jump in velocity.
             let part = swing - (2.0 * PI * swing).sin() / (2.0 * PI);
             (half * (part - 0.5), lift * (PI * swing).sin() * (pace / FULL).min(1.0))
         };

@@ -70,7 +70,7 @@ impl Server {
         Server { serial: serial.to_owned(), script, period: None, heard: Vec::new(), phase: Phase::Server }
     }
 
-    /// Shows the script again and again, every so many seconds.
+    /// Repeats the script with this period \[s\].
     #[must_use]
     pub fn with_period(mut self, seconds: f64) -> Self {
         self.period = Some(seconds);

@@ -1,54 +1,54 @@
-//! Servos that share one line, whatever they speak.
+//! Simulated servos on one line, for any protocol.
 
 use crate::device::{Device, Moment};
 use crate::plant::{Plant, PlantError};
 use robot::{DeviceConfig, HardwareId};
 
-/// Silence after which what was heard of an instruction is forgotten \[s\]: a damaged length would wait for bytes for ever.
+/// Silence after which an incomplete instruction is dropped \[s\]: with a damaged length the decoder would wait for bytes forever.
 const GAP: f64 = 0.01;
 
-/// Whom an instruction asks for what: addresses of bytes, and how many.
+/// What an instruction asks for; a read has an address and a number of bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Asked {
-    /// Whether it is there.
+    /// An answer, if the servo exists.
     Ping,
-    /// Bytes.
+    /// To read bytes.
     Read(u16, u16),
-    /// To take bytes.
+    /// To write bytes.
     Write(u16, Vec<u8>),
-    /// To take bytes later.
+    /// To write bytes at the next [`Asked::Action`].
     Register(u16, Vec<u8>),
-    /// To take them now.
+    /// To write the registered bytes.
     Action,
     /// To restart.
     Reboot,
-    /// To forget what it was told; how much of it.
+    /// To restore the factory settings; the byte says which.
     FactoryReset(u8),
-    /// What it follows by doing nothing.
+    /// Nothing: it is acknowledged only.
     Nothing,
-    /// Bytes of several: of each its id, the address and the count.
+    /// To read several servos: id, address and number of bytes of each.
     ReadEach(Vec<(u8, u16, u16)>),
-    /// The same bytes of several in one packet.
+    /// To read the same bytes of several servos by one packet: address, number of bytes, ids.
     ReadTogether(u16, u16, Vec<u8>),
-    /// Bytes for several: for each its id, the address and the bytes.
+    /// To write to several servos: id, address and bytes of each.
     WriteEach(Vec<(u8, u16, Vec<u8>)>),
-    /// Something that it does not know.
+    /// An unknown instruction.
     Unknown,
 }
 
-/// Who is asked for what.
+/// A decoded instruction.
 pub struct Instruction {
-    /// An id, or the one that all listen to.
+    /// The id of a servo, or [`Member::BROADCAST`].
     pub id: u8,
-    /// What.
+    /// Its request.
     pub asked: Asked,
 }
 
-/// An answer under way: what is said, after which delay.
+/// An answer, and its delay.
 pub struct Answer {
-    /// Seconds after what was said before it.
+    /// Delay after the previous message \[s\].
     pub delay: f64,
-    /// What.
+    /// Its packet.
     pub bytes: Vec<u8>,
 }
 
@@ -56,31 +56,31 @@ pub struct Answer {
 pub trait Member: Send + Sized {
     /// Finds packets among bytes.
     type Decoder: Default + Send;
-    /// The id that all listen to.
+    /// The id to which all servos listen.
     const BROADCAST: u8 = 0xFE;
-    /// The largest id that one can have.
+    /// The largest id of a servo.
     const LARGEST_ID: u8;
-    /// What it says of an instruction that it does not know; `None` if it is silent.
+    /// The error byte for an unknown instruction; `None` if there is no answer.
     const UNKNOWN: Option<u8>;
 
-    /// Takes bytes, and returns the instructions that are whole by now.
+    /// Takes received bytes, and returns the instructions that are complete.
     fn instructions(decoder: &mut Self::Decoder, bytes: &[u8]) -> Vec<Instruction>;
     /// Appends an answer to `out`.
     fn encode(out: &mut Vec<u8>, id: u8, error: u8, data: &[u8]);
 
     /// Its id.
     fn id(&self) -> u8;
-    /// Puts it on the shaft of a motor of the plant.
+    /// Puts it on the shaft of a motor of the plant: angle \[rad\] = joint × scale + offset.
     fn mount(&mut self, motor: usize, scale: f64, offset: f64);
-    /// Whether it hears and speaks now.
+    /// Whether it receives and answers at `now` \[s\].
     fn listens(&self, now: f64) -> bool;
-    /// An instruction has come to anybody on the line.
+    /// An instruction to any servo arrived at `now` \[s\].
     fn hear(&mut self, _now: f64) {}
     /// Seconds between an instruction and its answer.
     fn return_delay(&self) -> f64 {
         0.0
     }
-    /// Whether it answers: everything (2), reads (1), or pings alone (0).
+    /// Whether it answers instructions of a level: pings (0), reads (1), all others (2).
     fn answers(&self, _level: i64) -> bool {
         true
     }
@@ -88,62 +88,68 @@ pub trait Member: Send + Sized {
     fn reads_in_bulk(&self) -> bool {
         true
     }
-    /// What its hardware adds to the error byte.
+    /// The bits that hardware errors add to the error byte.
     fn alarm(&self) -> u8;
-    /// What it says of itself when it is asked whether it is there.
+    /// Parameters of its answer to a ping.
     fn identity(&self) -> Vec<u8> {
         Vec::new()
     }
-    /// Appends bytes of its table.
+    /// Appends `length` bytes of its table to `out`.
+    ///
+    /// # Errors
+    /// The error byte of a refusal.
     fn read(&mut self, plant: &Plant, from: u16, length: u16, out: &mut Vec<u8>) -> Result<(), u8>;
-    /// Takes bytes into its table.
+    /// Writes bytes to its table.
+    ///
+    /// # Errors
+    /// The error byte of a refusal.
     fn write(&mut self, plant: &Plant, from: u16, data: &[u8]) -> Result<(), u8>;
-    /// Keeps bytes to be written later, or none; returns those that it kept.
+    /// Registers a write for later, or none; returns the one registered before.
     fn keep(&mut self, write: Option<(u16, Vec<u8>)>) -> Option<(u16, Vec<u8>)>;
     /// Restarts.
     fn reboot(&mut self, _now: f64) -> Result<(), u8> {
         Self::UNKNOWN.map_or(Ok(()), Err)
     }
-    /// Forgets what it was told.
+    /// Restores the factory settings that `how` names.
     fn factory_reset(&mut self, _how: u8, _now: f64) -> Result<(), u8> {
         Self::UNKNOWN.map_or(Ok(()), Err)
     }
-    /// Answers of all servos in one packet.
+    /// The answer of the servos in `ids` to a read, in one packet.
     fn together(_: &mut Bus<Self>, _: &Plant, _from: u16, _length: u16, _ids: &[u8]) -> Vec<Answer> {
         Vec::new()
     }
-    /// Drives the motor for the time step to come, which takes `dt` seconds.
+    /// Drives the motor during the next time step, of `dt` seconds.
     fn tick(&mut self, plant: &mut Plant, now: f64, dt: f64);
-    /// Cuts its power, or gives it back.
+    /// Switches its power.
     fn set_powered(&mut self, powered: bool);
 }
 
-/// Servos on one line: each hears everything, and one speaks at a time.
+/// Servos on one line: each receives everything, and one sends at a time.
 pub struct Bus<S: Member> {
     servos: Vec<S>,
     decoder: S::Decoder,
     echo: bool,
-    /// Seconds a byte takes, for answers that follow each other; the link adds the time of the message itself.
+    /// Duration of a byte \[s\], for successive answers; the link adds the duration of each message itself.
     byte: f64,
     time: f64,
-    /// When bytes last came \[s\].
+    /// Time of the last received bytes \[s\].
     heard: f64,
 }
 
 impl<S: Member> Bus<S> {
-    /// Servos whose answers follow each other at once.
+    /// Servos whose successive answers are sent at the same time; see [`Bus::with_baud`].
     pub fn new(servos: Vec<S>) -> Bus<S> {
         Bus { servos, decoder: S::Decoder::default(), echo: false, byte: 0.0, time: 0.0, heard: 0.0 }
     }
 
-    /// Lets the answers to a sync read follow each other at this baud rate; the link itself is told separately.
+    /// Sends the answers to a sync read one after the other at this baud rate; the link has a baud rate of its own.
     #[must_use]
     pub fn with_baud(mut self, baud: f64) -> Bus<S> {
         self.byte = 10.0 / baud;
         self
     }
 
-    /// Returns to the driver what it sends, as converters to two wires do that do not switch their receiver off.
+    /// Echoes received bytes, as half-duplex converters that do not switch their receiver off do.
     #[must_use]
     pub fn with_echo(mut self, echo: bool) -> Bus<S> {
         self.echo = echo;
@@ -166,7 +172,7 @@ impl<S: Member> Bus<S> {
         found
     }
 
-    /// Lets every servo of `id` do something and answer: two with one id talk at the same time.
+    /// Calls `act` on every servo with the id `id` and returns their answers; those of several servos with one id collide.
     fn each(
         &mut self,
         id: u8,
@@ -192,7 +198,7 @@ impl<S: Member> Bus<S> {
         answers
     }
 
-    /// Does what an instruction asks for.
+    /// Executes an instruction.
     fn follow(&mut self, plant: &Plant, instruction: &Instruction) -> Vec<Answer> {
         let (id, now) = (instruction.id, self.time);
         let answers = match &instruction.asked {
@@ -272,12 +278,12 @@ impl<S: Member> Device for Bus<S> {
     }
 
     fn stop_button(&mut self, pressed: bool) {
-        // Servos have no stop button of their own: it cuts their power.
+        // Servos have no stop button; the robot's cuts their power.
         self.servos.iter_mut().for_each(|servo| servo.set_powered(!pressed));
     }
 }
 
-/// Two that speak at once pull the line low wherever either does.
+/// Merges answers that are sent at the same time: a bit is 0 where any of them is.
 fn collide(answers: &mut Vec<Answer>) {
     while answers.len() > 1 {
         let Some(other) = answers.pop() else { return };
@@ -286,10 +292,10 @@ fn collide(answers: &mut Vec<Answer>) {
     }
 }
 
-/// A servo for every actuator of a device, on the motor that it names, with the angle that its scale and offset make.
+/// A servo for every actuator of a device, on the motor of the same name, with the actuator's scale and offset.
 ///
 /// # Errors
-/// Actuators that the plant does not have, and ids that no servo can have.
+/// An actuator that the plant lacks, or an id outside the range.
 pub(crate) fn servos_of<S: Member>(
     device: &DeviceConfig,
     plant: &Plant,
@@ -302,7 +308,9 @@ pub(crate) fn servos_of<S: Member>(
         };
         let id = id.ok_or_else(|| {
             let (name, largest) = (&actuator.name, S::LARGEST_ID);
-            PlantError::new(format!("the hdr_id of '{name}' is no id of a servo: 0 to {largest}"))
+            PlantError::new(format!(
+                "the hdr_id of '{name}' is not the id of a servo; ids are from 0 to {largest}"
+            ))
         })?;
         let mut servo = make(id);
         servo.mount(plant.motor(&actuator.name)?, actuator.scale, actuator.offset);
@@ -311,12 +319,12 @@ pub(crate) fn servos_of<S: Member>(
     device.actuators.iter().map(servo).collect()
 }
 
-/// What protocol 1.0 asks, which several makes speak.
+/// Instructions of protocol 1.0, which several makes use.
 pub(crate) mod first {
     use super::{Asked, Instruction};
     use protocol::dynamixel::v1::{Decoder, instruction};
 
-    /// Takes bytes, and returns the instructions that are whole by now, to servos that know the sync read or the bulk read.
+    /// Takes received bytes, and returns the complete instructions, for servos that support the sync read or the bulk read.
     pub(crate) fn instructions(
         decoder: &mut Decoder,
         bytes: &[u8],

@@ -91,7 +91,7 @@ impl Servo {
         self.powered && self.table[usize::from(address::TORQUE_ENABLE)] == 1
     }
 
-    /// Fills the registers that say how it is.
+    /// Writes the measured quantities to their registers.
     fn measure(&mut self, plant: &Plant) {
         let Some(shaft) = self.shaft else { return };
         let position = (shaft.angle(plant) / STEP).round().rem_euclid(4096.0);

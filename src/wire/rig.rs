@@ -111,7 +111,7 @@ fn maker(device: &DeviceConfig) -> Option<&'static (&'static str, &'static str, 
 /// Puts one device on a bench; returns its links, as [`rig`] does.
 ///
 /// # Errors
-/// A device that cannot be simulated, or names what the plant does not have.
+/// A device that cannot be simulated, or that names an element which the plant lacks.
 pub fn connect(
     device: &DeviceConfig,
     bench: &mut Bench,

@@ -1,4 +1,4 @@
-//! Policies that a command line names.
+//! Policies by their names on the command line.
 
 use crate::failure::Failure;
 use agents::Policy;
@@ -12,7 +12,7 @@ pub fn policy(name: &str) -> Result<Policy, Failure> {
         "random" => Ok(Policy::random(0)),
         "zero" => Ok(Policy::Zero),
         path => Policy::open(path).map_err(|error| {
-            Failure::usage(format!("--policy is random, zero or a file with a policy: {error}"))
+            Failure::usage(format!("--policy must be random, zero or a file with a policy: {error}"))
         }),
     }
 }

@@ -1,13 +1,13 @@
-//! What moves models: our own pipeline, or another engine in builds that have one.
+//! The engine of a command: our own pipeline, or another one in builds that have it.
 
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
 use physics::Engine;
 
-/// What moves models.
+/// The argument that chooses the engine.
 #[derive(Clone, Copy, Default, Args)]
 pub struct SolverArgument {
-    /// What moves the model: our own pipeline, or rapier in builds that have it
+    /// Engine that steps the model: our own pipeline, or rapier in builds with --features rapier
     #[arg(long, value_name = "own|rapier", default_value = "own", hide_possible_values = true)]
     solver: Solver,
 }
@@ -48,6 +48,6 @@ fn rapier() -> Result<Engine, Failure> {
 #[cfg(not(feature = "rapier"))]
 fn rapier() -> Result<Engine, Failure> {
     Err(Failure::usage(
-        "this build has no rapier; `cargo install --path src/cli --features rapier` installs one that has",
+        "this build has no rapier; install one with `cargo install --path src/cli --features rapier`",
     ))
 }

@@ -90,7 +90,7 @@ pub fn run(a: &Bench) -> Result<(), Failure> {
         let workload = Workload::new(a, path)?;
         if !a.solver.is_own() && (a.stages || a.requests || a.batch.is_some() || a.threads > 1) {
             return Err(Failure::usage(
-                "--solver rapier steps one environment: without --batch, --threads, --stages and --requests",
+                "--solver rapier steps one environment: remove --batch, --threads, --stages and --requests",
             ));
         }
         if a.requests {

@@ -1,4 +1,4 @@
-//! Layouts and precisions by the names that arguments have for them.
+//! Names of layouts, precisions and forms of pictures in arguments.
 
 use clap::ValueEnum;
 use dataset::trace::{Layout, Precision};
@@ -25,7 +25,7 @@ impl From<LayoutName> for Layout {
 /// How a dataset of LeRobot keeps pictures.
 #[derive(Clone, Copy, ValueEnum)]
 pub enum PictureForm {
-    /// H.264 in MP4 files, which lose little
+    /// H.264 in MP4 files, with a small loss
     Video,
     /// PNG in the tables, without loss
     Png,

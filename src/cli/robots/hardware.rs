@@ -1,4 +1,4 @@
-//! `hardware`: look at a robot's devices, and move them by hand of the command line.
+//! `hardware`: inspect a robot's devices, and move them from the command line.
 
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
@@ -15,7 +15,7 @@ use serde_json::json;
 use std::io::IsTerminal;
 use std::path::PathBuf;
 
-/// Look at a robot's devices: which there are, how they answer, what they measure
+/// Inspect a robot's devices: list them, measure their latency, show their readings, move them home, calibrate them
 #[derive(Args)]
 #[command(
     after_help = "A robot config names devices, each with an interface whose `type` is a driver. Nothing moves without --arm; reading needs \
@@ -190,7 +190,7 @@ struct Answers {
 }
 
 impl Answers {
-    /// The latency that this share of readings kept [ms].
+    /// Quantile of the latencies [ms].
     fn quantile(&self, share: f64) -> f64 {
         let place = ((self.latencies.len().max(1) - 1) as f64 * share).round() as usize;
         self.latencies.get(place).map_or(f64::NAN, |latency| latency * 1e3)
@@ -240,7 +240,7 @@ fn check(a: &Check) -> Result<(), Failure> {
     interrupt.code().map_or(Ok(()), |code| Err(Failure::silent(code)))
 }
 
-/// Looks through every camera for as long as a device is read, and says what became of the frames.
+/// Reads every camera as often as a device is read, and reports counts of its frames.
 fn look(
     a: &Check,
     cameras: &mut Cameras,
@@ -288,7 +288,7 @@ fn look(
             format.rate
         );
         show!("  frames      {frames} in {seconds:.2} s, {dropped} dropped, {damaged} damaged");
-        show!("  looks       {} of {} without a frame", faults, a.samples);
+        show!("  reads       {} of {} failed", faults, a.samples);
     }
     Ok(())
 }

@@ -26,14 +26,14 @@ use wire::{Bench, Carries, End, LinkId, Outlet, Plant, Rates, Rigged, Terminal, 
 #[derive(Args)]
 #[command(
     after_help = "With a robot config and an environment, every device of the config that can be simulated moves and measures that \
-environment's model: `robohive run ID --hardware OUT` then drives it through the real drivers, in real time. With --ids alone, servos \
-stand on a bench, each with a flywheel.
+environment's model: `robohive run ID --hardware OUT` then drives it through the real drivers, in real time. With --ids alone, each \
+servo drives a flywheel.
 
-A headset and a glove are worn by nobody: the right controller is gripped and goes round a circle of 0.1 m in front of the head, the \
-fingers close and open, every four seconds. `robohive teleop ID --device quest:ADDRESS` and `--device glove:PATH` read them.
+The headset and the glove repeat a motion of four seconds: the right controller is gripped and moves on a circle of radius 0.1 m in front of the head, the \
+fingers close and open. `robohive teleop ID --device quest:ADDRESS` and `--device glove:PATH` read them.
 
 --faults takes probabilities a message: drop, delay, reorder, duplicate, corrupt, truncate, stall, disconnect, stop. The same seed \
-strikes the same messages.
+injects the same faults.
 
 Examples:
   robohive wire --ids 1-6 --model XL330-M288 --faults drop=0.001,corrupt=0.001 --seconds 0.2
@@ -54,7 +54,7 @@ pub struct Wire {
     /// Servos with these ids on one bus, as 1-6 or 10,11,20
     #[arg(long, value_name = "IDS", value_parser = ids, conflicts_with = "config")]
     ids: Option<Ids>,
-    /// Model of the servos: Dynamixel's, which decides their protocol, or Feetech's STS3215
+    /// Model of the servos: a Dynamixel model, which determines the protocol, or Feetech's STS3215
     #[arg(long, value_name = "MODEL", default_value = MODELS[0].kind.name, value_parser = model)]
     model: &'static Kind,
     /// A Quest with this serial number, at an adb server
@@ -88,7 +88,7 @@ pub struct Wire {
 struct Ids(Vec<u8>);
 
 fn ids(text: &str) -> Result<Ids, String> {
-    let wrong = || format!("'{text}' is no list of ids from 0 to 252, as 1-6 or 10,11,20");
+    let wrong = || format!("'{text}' is not a list of ids from 0 to 252, such as 1-6 or 10,11,20");
     let mut ids = Vec::new();
     for part in text.split(',') {
         let (first, last) = part.split_once('-').unwrap_or((part, part));
@@ -119,7 +119,7 @@ fn model(text: &str) -> Result<&'static Kind, String> {
     let kinds = || dynamixel::KINDS.iter().chain(&v1::KINDS).chain(&feetech::KINDS);
     kinds().find(|kind| kind.name == text).ok_or_else(|| {
         let names: Vec<_> = kinds().map(|kind| kind.name).collect();
-        format!("there are {}", names.join(", "))
+        format!("the models are {}", names.join(", "))
     })
 }
 
@@ -136,7 +136,7 @@ pub fn run(a: &Wire) -> Result<(), Failure> {
     let mut ends: Vec<(LinkId, End)> = Vec::new();
     for device in &rigged {
         for (outlet, link) in &device.links {
-            // Links of one seed would be struck at the same messages.
+            // Links with the same seed would have faults in the same messages.
             bench.inject(*link, a.faults, a.seed.wrapping_add(ends.len() as u64));
             let end = end(*outlet).map_err(|error| Failure::new(format!("{}: {error}", device.device)))?;
             let address = end.address();
@@ -159,13 +159,13 @@ fn end(outlet: Outlet) -> io::Result<End> {
     match outlet {
         Outlet::Serial => Terminal::open().map(End::Terminal),
         Outlet::Tcp(_) => End::tcp(here(0)),
-        // A server that is asked at a port of its own; frames and states go to a port of the driver.
+        // NatNet requests go to a fixed port of the server; frames and states go to a port of the driver.
         Outlet::Udp(port @ natnet::COMMAND_PORT) => End::udp(here(port), None),
         Outlet::Udp(port) => End::udp(here(0), Some(here(port))),
     }
 }
 
-/// What a person does with an end.
+/// How to connect to an end.
 fn described(outlet: Outlet, address: &str) -> String {
     match outlet {
         Outlet::Serial => address.to_owned(),
@@ -175,7 +175,7 @@ fn described(outlet: Outlet, address: &str) -> String {
     }
 }
 
-/// Writes into the config where a link of a device is now.
+/// Writes the address of a link to the config.
 fn readdress(config: &mut Config, device: &Rigged, outlet: Outlet, address: &str) {
     let found = config.devices.iter_mut().find(|other| other.name == device.device);
     let Some(parameters) = found.map(|found| &mut found.interface.parameters) else { return };
@@ -185,14 +185,14 @@ fn readdress(config: &mut Config, device: &Rigged, outlet: Outlet, address: &str
         Outlet::Serial | Outlet::Tcp(_) if first => {
             parameters.insert(device.key.to_owned(), Value::Text(address.to_owned()));
         }
-        // The second server of an arm is its hand's.
+        // The second TCP server of an arm is that of its hand.
         Outlet::Tcp(_) => {
             parameters.extend(port.map(|port| ("hand_port".to_owned(), Value::Integer(port))));
         }
         Outlet::Udp(_) if first => {
             parameters.insert(device.key.to_owned(), Value::Text(Ipv4Addr::LOCALHOST.to_string()));
         }
-        // Drivers announce where states go, and requests have one port everywhere.
+        // Drivers announce their port for states, and the port for requests is fixed.
         Outlet::Serial | Outlet::Udp(_) => {}
     }
 }
@@ -304,7 +304,7 @@ impl Linked {
     fn new(path: &Path, ends: &[(LinkId, End)]) -> Result<Linked, Failure> {
         let terminal = ends.iter().find(|(_, end)| matches!(end, End::Terminal(_)));
         let (_, terminal) = terminal.ok_or_else(|| {
-            Failure::usage("--link is about pseudo-terminals, and no device here has one: leave it out")
+            Failure::usage("--link applies only to pseudo-terminals, and no device here has one: remove it")
         })?;
         let to = terminal.address();
         std::os::unix::fs::symlink(to, path).map_err(|error| {
@@ -318,7 +318,7 @@ impl Linked {
 impl Drop for Linked {
     fn drop(&mut self) {
         if let Err(error) = std::fs::remove_file(&self.0) {
-            note(&format!("the link {} is left: {error}", self.0.display()));
+            note(&format!("the link {} was not removed: {error}", self.0.display()));
         }
     }
 }

@@ -1,18 +1,18 @@
-//! A headset and a glove on nobody, which move by themselves.
+//! A simulated headset and a simulated glove that repeat a motion.
 
 use std::f64::consts::TAU;
 use wire::adb::{Server, Shown};
 use wire::cyberglove::Glove;
 
-/// How long a motion takes, which then begins again \[s\].
+/// Period of the motion \[s\].
 const PERIOD: f64 = 4.0;
 /// Frames a second of the headset.
 const FRAMES: u32 = 72;
-/// Radius of the controller's circle \[m\], and how far it is in front of the head.
+/// Radius of the controller's circle, and its distance in front of the head \[m\].
 const RADIUS: f64 = 0.1;
 const AHEAD: f64 = 0.4;
 
-/// A headset whose right controller is gripped and goes round a circle in the plane of the face, x right and y up.
+/// A headset whose right controller is gripped and moves on a circle in the plane of the face, x right and y up.
 pub fn headset(serial: &str) -> Server {
     const UPRIGHT: [f64; 9] = [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
     let frame = |k: u32| {

@@ -1,4 +1,4 @@
-//! The arguments of `teleop`, and the help that teaches it.
+//! The arguments of `teleop`, and its help.
 
 use super::device::DeviceChoice;
 use crate::input::library::{Making, Source};
@@ -20,31 +20,31 @@ Keys (those of RoboHive, and what episodes need):
   Delete             throw away, same reset again    Tab            throw away, next reset
   Space              pause                           s              slow motion
   b n                back and forward by one state   PgUp PgDn      by a second
-  p                  with --policy: take over, give back  Esc       end
-Any motion goes on from the state that is shown: what was gone back over is no part of the episode. With --control joints keys in \
-pairs move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k. With --control base w and x walk forward and back, a and d sideways, left and right \
+  p                  with --policy: take, return control  Esc       end
+Any motion continues from the state that is shown; later states are removed from the episode. With --control joints pairs \
+of keys move one joint each: 1 2, 3 4, 5 6, 7 8, 9 0, r f, t g, y h, u j, i k. With --control base w and x walk forward and back, a and d sideways, left and right \
 turn; on a pad the left stick walks and the right one turns.
 
 Gamepad: left stick and triggers move, the cross and TL TR turn, WEST EAST close and open, NORTH slows down, SOUTH is success, a \
 press of the left stick throws away, of the right one pauses, SELECT and START end. Six-axis mouse: its six axes; left and right button close and \
-open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end; with --left-site the left hand leads a second arm by LG and leftTrig. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. So it is with a leader arm: the robot comes to where it is, slowly, and then follows it joint by joint; with --arm its servos carry its weight where \
-its config says how. The keyboard's marks \
+open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end; with --left-site the left hand leads a second arm by LG and leftTrig. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. A leader arm leads joints too: the robot first moves slowly to its position, and then follows it; with --arm the leader's servos compensate its weight if \
+its config has a section [gravity]. The keyboard's marks \
 work beside every device.
 
-With --policy POLICY the policy acts once time goes on (Space), and any motion of yours takes over from where the robot is; p gives back. The line says who acts, and env_infos/intervention of a recording holds it for every step: 1 where you did.
+With --policy POLICY the policy acts when you start time (Space), and any motion of yours takes control from where the robot is; p returns it. The status line shows who acts, and env_infos/intervention of a recording is 1 for every step in which you act.
 
 --mapping FILE changes all of this; --print-mapping prints the mapping that is used without one, to begin from. A target whose joints would be \
-more than 0.5 rad away, or out of range, is not taken. Terminals with the kitty keyboard protocol tell when keys are released; in others a key counts as released 0.15 s after its last \
+more than 0.5 rad away, or out of range, is refused. Terminals with the kitty keyboard protocol report when keys are released; in others a key counts as released 0.15 s after its last \
 repetition. --preview shows the scene in the terminal.
 
---record writes as `robohive run --record` does, an episode when it is finished, so that a kill loses none of those; teleop/success \
-holds the person's judgement. `robohive view FILE` shows it. --layout lerobot writes a dataset of LeRobot instead, complete after every episode; one \
-that is there goes on if its features and its frames a second are those of the session. Frames also have judged_success, and intervention with --policy.
+--record writes as `robohive run --record` does, each episode when it is finished, so that a kill loses no finished episode; teleop/success \
+holds your judgement. `robohive view FILE` shows the recording. --layout lerobot writes a LeRobot dataset instead, complete after every episode; an \
+existing dataset is extended if its features and its frame rate are those of the session. Frames also have judged_success, and intervention with --policy.
 
 --hardware CONFIG drives the devices that a robot config names, and nothing moves without --arm; --rehearse puts simulated ones in their \
-place. The robot goes to the start of an episode by itself and rests there until you move it. What a device has not said for 0.15 s is over, \
-and the robot stops where it was last sent. A pause repeats the last command, so that the watchdogs of the devices know that the session lives; when it \
-dies, they make the devices safe. Hardware goes neither back in time nor in slow motion.
+place. The robot moves to the start of an episode by itself and rests there until you move it. Input older than 0.15 s is ignored, \
+and the robot stops at its last target. During a pause the last command is repeated, so that the watchdogs of the devices do not trip; when the session \
+dies, they make the devices safe. Hardware can neither go back in time nor run in slow motion.
 
 Examples:
   robohive teleop --print-mapping
@@ -62,31 +62,31 @@ pub struct Teleop {
     /// The environment
     #[command(flatten)]
     pub source: OptionalSource,
-    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), leader:FILE (an arm that is led by hand, by its config), phone[:PORT] (a page for phones and headsets), phone-lan[:PORT] (the same on the local network behind TLS; builds with --features tls)
+    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), leader:FILE (an arm that you move by hand, by its config), phone[:PORT] (a page for phones and headsets), phone-lan[:PORT] or phone-lan:ADDRESS:PORT (the same on the local network behind TLS; builds with --features tls)
     #[arg(long, value_name = "DEVICE", default_value = "keyboard", value_parser = DeviceChoice::read)]
     pub device: DeviceChoice,
-    /// File of the device, instead of the first that is found; of a quest a pipe with lines of its log
+    /// File of the device, instead of the first that is found; for quest a pipe with lines of its log
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub path: Option<PathBuf>,
-    /// What a glove's sensors say of the joints of a hand (TOML); needed for gloves
+    /// How a glove's sensors map to the joints of a hand (TOML); required for gloves
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub calibration: Option<PathBuf>,
     /// What acts until you take over, by any motion or by p: random, zero, or a file with a policy, as for `robohive run`
     #[arg(long, value_name = "POLICY")]
     pub policy: Option<String>,
-    /// What is driven; by a glove or a leader arm always joints
+    /// What is driven; a glove or a leader arm always drives joints
     #[arg(long, value_name = "WHAT", default_value = "hand")]
     pub control: ControlName,
-    /// Site of the model that is the hand [default: the first that there is of those that the mapping names]
+    /// Site of the model that is the hand [default: the first of the mapping's sites that the model has]
     #[arg(long, value_name = "NAME")]
     pub site: Option<String>,
-    /// Site of a left arm that is driven beside it: by the left controller of a headset, or as a mapping says
+    /// Site of a second, left arm: driven by the left controller of a headset, or by entries of a mapping
     #[arg(long, value_name = "NAME")]
     pub left_site: Option<String>,
-    /// Mapping of keys, buttons and axes (TOML); sections that it lacks are the usual ones
+    /// Mapping of keys, buttons and axes (TOML); missing sections have their defaults
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub mapping: Option<PathBuf>,
-    /// Print the usual mapping and end
+    /// Print the default mapping and end
     #[arg(long, exclusive = true)]
     pub print_mapping: bool,
     /// Seed of the first reset
@@ -101,13 +101,13 @@ pub struct Teleop {
     /// Steps in a row that must solve the task for an episode to end as a success by itself [default: never]
     #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
     pub solved_for: usize,
-    /// Record every finished episode in this file, .h5 or .hdf5 (HDF5), or .npz, and replace it; a folder with --layout lerobot, which goes on
+    /// Record every finished episode in this file, .h5 or .hdf5 (HDF5), or .npz, and replace it; with --layout lerobot a folder, which is extended
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub record: Option<PathBuf>,
     /// What is recorded
     #[arg(long, default_value = "robohive", requires = "record")]
     pub layout: LayoutName,
-    /// What the episodes of --layout lerobot are attempts at, in words [default: the id]
+    /// Description of the task, for --layout lerobot [default: the id]
     #[arg(long, value_name = "TEXT", requires = "record")]
     pub task: Option<String>,
     /// Where --layout lerobot keeps the images of --visual
@@ -116,7 +116,7 @@ pub struct Teleop {
     /// Precision of the recorded numbers; that of RoboHive's own files is reduced
     #[arg(long, default_value = "full", requires = "record")]
     pub precision: PrecisionName,
-    /// Record the images of the visual keys too, which takes their drawing
+    /// Record the images of the visual keys too; drawing them takes time
     #[arg(long, requires = "record")]
     pub visual: bool,
     /// Its video

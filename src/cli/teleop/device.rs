@@ -1,11 +1,11 @@
-//! What drives, by name.
+//! Devices of `teleop`, by name.
 
 use super::reach::Reach;
 use protocol::adb;
 use std::fmt;
 use std::path::PathBuf;
 
-/// What drives.
+/// The device that drives.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DeviceChoice {
     /// The keyboard of this terminal.
@@ -40,7 +40,7 @@ impl DeviceChoice {
                 let port = place.rsplit_once(':').and_then(|(_, port)| port.parse::<u16>().ok());
                 let address = port.map(|_| DeviceChoice::Quest(Some(place.to_owned())));
                 address.ok_or_else(|| {
-                    format!("'{place}' is no address of an adb server, as 127.0.0.1:{}", adb::PORT)
+                    format!("'{place}' is not the address of an adb server, such as 127.0.0.1:{}", adb::PORT)
                 })
             }
             ("glove", Some(port)) if !port.is_empty() => Ok(DeviceChoice::Glove(port.into())),
@@ -51,14 +51,14 @@ impl DeviceChoice {
                 let port = place.parse().map(Reach::Network);
                 let reach = port.or_else(|_| place.parse().map(Reach::Address));
                 reach.map(DeviceChoice::Phone).map_err(|_| {
-                    format!("'{place}' is no port, as {PAGE}, and no address of this machine with one, as 192.168.0.7:{PAGE}")
+                    format!("'{place}' is neither a port, such as {PAGE}, nor an address of this machine with a port, such as 192.168.0.7:{PAGE}")
                 })
             }
             ("phone", Some(port)) => {
-                port.parse().map(|port| DeviceChoice::Phone(Reach::Loopback(port))).map_err(|_| format!("'{port}' is no port, as {PAGE}"))
+                port.parse().map(|port| DeviceChoice::Phone(Reach::Loopback(port))).map_err(|_| format!("'{port}' is not a port, such as {PAGE}"))
             }
             _ => {
-                Err("there are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT, leader:FILE, phone, phone:PORT, phone-lan, phone-lan:PORT".to_owned())
+                Err("the devices are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT, leader:FILE, phone, phone:PORT, phone-lan, phone-lan:PORT, phone-lan:ADDRESS:PORT".to_owned())
             }
         }
     }

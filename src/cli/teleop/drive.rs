@@ -23,7 +23,7 @@ use render::Painters;
 use std::env::VarError;
 use std::sync::Arc;
 
-/// Time between two looks of the line that says how it goes [s].
+/// Time between two updates of the status line [s].
 const LINE: f64 = 0.1;
 
 impl From<TeleopError> for Failure {
@@ -53,7 +53,7 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
     let env = make(a, source, &listening, painters.clone())?;
     let live = env.is_live();
     if live {
-        // What drives is there before anything moves.
+        // The device is opened before anything moves.
         open(a, &mapping, &listening)?;
     }
     let control = match a.control {
@@ -90,11 +90,11 @@ pub fn drive(a: &Teleop, source: &Source) -> Result<(), Failure> {
         report: Report::default(),
     };
     let outcome = desk.run(&interrupt, film.as_mut());
-    // The line ends, and the terminal is as it was, before anything else is said.
+    // The status line ends, and the terminal is restored, before anything else is printed.
     redraw("");
     desk.report.seconds = desk.now() - desk.began;
     let let_go = desk.listening.ears().close();
-    // Files first: whoever looked on may be gone.
+    // Files first: standard output may be closed.
     let recorded = desk.files.take().map(Files::close).transpose()?;
     let finished = film.map(Film::finish).transpose()?.flatten();
     desk.report.show(&source.id, desk.session.counts());
@@ -139,7 +139,7 @@ fn make(
     listening: &Listening,
     painters: Arc<dyn Painters>,
 ) -> Result<Env, Failure> {
-    // Arming is about the leader where the robot is simulated.
+    // Where the robot is simulated, --arm applies to the leader.
     let led = matches!(a.device, DeviceChoice::Leader(_)) && a.live.hardware.is_none();
     let mut hardware = if led { None } else { a.live.hardware(&source.id, &source.making)? };
     if let Some(Hardware { clock, ready, .. }) = hardware.as_mut().filter(|_| !a.live.rehearse) {
@@ -147,7 +147,7 @@ fn make(
         *clock = Arc::new(move || Box::new(ListeningClock(listening.clone())));
         *ready = Arc::new(|_| {
             note(
-                "the robot stands at the start of an episode, and rests until you move it: put everything in place",
+                "the robot is at the start of an episode, and rests until you move it: put everything in place",
             );
             Ok(())
         });
@@ -155,13 +155,13 @@ fn make(
     source.make_on(hardware, painters)
 }
 
-/// Opens what drives, and the keyboard beside it where there is a terminal.
+/// Opens the device, and the keyboard beside it where there is a terminal.
 fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Failure> {
     let path = a.path.as_deref();
     let device = match &a.device {
         DeviceChoice::Keyboard if path.is_some() => {
             return Err(Failure::usage(
-                "--path names the file of another device than the keyboard: add --device",
+                "--path does not apply to the keyboard: choose another device with --device",
             ));
         }
         DeviceChoice::Keyboard => {
@@ -170,7 +170,7 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
         }
         DeviceChoice::Leader(_) if path.is_some() => {
             return Err(Failure::usage(
-                "the config of a leader arm stands in --device leader:FILE, without --path",
+                "--path does not apply to a leader arm: name its config by --device leader:FILE",
             ));
         }
         DeviceChoice::Leader(file) => {
@@ -182,18 +182,18 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
         }
         DeviceChoice::Glove(_) if path.is_some() => {
             return Err(Failure::usage(
-                "the serial port of a glove stands in --device glove:PORT, without --path",
+                "--path does not apply to a glove: name its serial port by --device glove:PORT",
             ));
         }
         DeviceChoice::Phone(_) if path.is_some() => {
-            return Err(Failure::usage("a phone has no file: leave --path out"));
+            return Err(Failure::usage("--path does not apply to a phone: remove it"));
         }
         DeviceChoice::Phone(reach) => {
             let page = phone::serve(*reach)?;
             let then = match &page.fingerprint {
                 None => "after `adb reverse` of its port".to_owned(),
                 Some(fingerprint) => {
-                    format!("whose certificate is its own, with the SHA-256 fingerprint {fingerprint}")
+                    format!("whose self-signed certificate has the SHA-256 fingerprint {fingerprint}")
                 }
             };
             note(&format!("open {} on the phone or headset, {then}", page.address));
@@ -204,11 +204,13 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
         DeviceChoice::SpaceMouse => Opened::space_mouse(path)?,
         DeviceChoice::Quest(None) if path.is_some() => Opened::quest(path)?,
         DeviceChoice::Quest(_) if path.is_some() => {
-            return Err(Failure::usage("--path is a pipe, and quest:HOST:PORT a server: give one of them"));
+            return Err(Failure::usage(
+                "--path names a pipe and quest:HOST:PORT a server: give only one of them",
+            ));
         }
         DeviceChoice::Quest(address) => {
             let local = || format!("127.0.0.1:{}", adb::PORT);
-            // As adb itself: which of several headsets.
+            // Chooses among several headsets, as for adb.
             let serial = match std::env::var("ANDROID_SERIAL") {
                 Ok(serial) => Some(serial),
                 Err(VarError::NotPresent) => None,
@@ -222,16 +224,16 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
     Ok(())
 }
 
-/// All that takes part in a session.
+/// A running session with its input and output.
 struct Desk {
     session: Session,
     mapping: Mapping,
     listening: Listening,
-    /// A tick lasts as long as the robot says, which listens in the meantime.
+    /// Whether the robot's clock times the ticks, and reads the input in the meantime.
     paced: bool,
     files: Option<Files>,
     report: Report,
-    /// When it began, on the clock of the ears [s].
+    /// Time at which it began, on the clock of the ears [s].
     began: f64,
 }
 
@@ -274,7 +276,7 @@ impl Desk {
         Ok(())
     }
 
-    /// What is held at `due` [s]; nothing where the person is gone.
+    /// The input that is held at `due` [s]; `None` after its end.
     fn listen(&mut self, due: f64) -> Result<Option<Sample>, Failure> {
         let mut ears = self.listening.ears();
         ears.listen(due);
@@ -288,8 +290,11 @@ impl Desk {
         self.report.discarded += usize::from(ticked.discarded);
         if let Some(fault) = &ticked.fault {
             redraw("");
-            let then =
-                if ticked.discarded { "the episode was thrown away" } else { "the session went back by it" };
+            let then = if ticked.discarded {
+                "the episode was thrown away"
+            } else {
+                "the session went back by one step"
+            };
             complain(&format!("physics refused the step, and {then}: {fault}"));
         }
         if let (Some(finished), Some(files)) = (&ticked.finished, &mut self.files) {
@@ -318,11 +323,13 @@ impl Desk {
         let refused = match ticked.refused {
             Some(::teleop::Reached::Nowhere) => "  out of reach",
             Some(::teleop::Reached::Far) => "  too far ahead",
-            Some(::teleop::Reached::Apart) => "  the leader is too far away: bring it nearer",
+            Some(::teleop::Reached::Apart) => {
+                "  the leader is too far from the robot's position: move it closer"
+            }
             _ => "",
         };
         let impossible = match ticked.impossible {
-            Some(Mark::Policy) => "  no policy to give back to: start with --policy",
+            Some(Mark::Policy) => "  no policy to return control to: start with --policy",
             Some(Mark::Slow) => "  hardware has no slow motion",
             Some(_) => "  hardware cannot go back in time",
             None => "",

@@ -1,4 +1,4 @@
-//! What listens to the person: the devices and the keyboard beside them, in the time between two ticks.
+//! Reads the devices and the keyboard in the time between two ticks.
 
 use crate::failure::Failure;
 use ::teleop::devices::{Opened, Terminal, wait};
@@ -8,11 +8,11 @@ use std::os::fd::{AsFd, BorrowedFd};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Devices, and what is held on them.
+/// Devices, and the keys, buttons and axes that are held on them.
 pub struct Ears {
-    /// What drives, if not the keyboard.
+    /// The device that drives, unless it is the keyboard.
     pub device: Option<Opened>,
-    /// An arm that is led by hand.
+    /// A leader arm.
     pub leader: Option<LeaderArm>,
     /// The keyboard.
     pub terminal: Option<Terminal>,
@@ -69,7 +69,7 @@ impl Ears {
         self.began.elapsed().as_secs_f64()
     }
 
-    /// What drives, for people.
+    /// Name of the device that drives.
     pub fn name(&self) -> &str {
         match (&self.device, &self.leader) {
             (Some(device), _) => device.name(),
@@ -78,35 +78,35 @@ impl Ears {
         }
     }
 
-    /// Lets go of the terminal, which is then as it was, and of a leader arm.
+    /// Restores the terminal, and closes a leader arm.
     ///
     /// # Errors
-    /// The arm's servos may carry it still.
+    /// The leader arm cannot be closed; its servos may still have torque.
     pub fn close(&mut self) -> Result<(), Failure> {
         self.terminal = None;
         self.leader.take().map_or(Ok(()), |leader| Ok(leader.close()?))
     }
 
-    /// What is held now.
+    /// The input that is held now.
     pub fn sample(&mut self) -> Sample {
         let now = self.now();
         self.held.sample(now)
     }
 
-    /// When the events came that nobody has counted yet.
+    /// Times [s] of the events since the last call.
     pub fn came(&mut self) -> Vec<f64> {
         std::mem::take(&mut self.came)
     }
 
-    /// Whether the person is there still.
+    /// Whether there is still input.
     ///
     /// # Errors
-    /// A device that is gone.
+    /// A device that failed or was disconnected.
     pub fn outcome(&mut self) -> Result<bool, Failure> {
         self.failed.take().map_or(Ok(!self.gone), Err)
     }
 
-    /// Takes what devices say until `due` [s], also after one of them has failed: nothing is held on it then.
+    /// Reads the devices until `due` [s]; after one of them has failed, only waits.
     pub fn listen(&mut self, due: f64) {
         loop {
             if self.failed.is_some() || self.gone {
@@ -118,7 +118,7 @@ impl Ears {
             let now = self.now();
             for event in events {
                 self.held.apply(event, now);
-                // An arm says where it is all the time: nobody waits for that.
+                // A leader arm sends its position all the time: latency is not measured for it.
                 self.came.extend((!matches!(event, Event::Lead(..))).then_some(now));
             }
             match outcome {
@@ -131,7 +131,7 @@ impl Ears {
         }
     }
 
-    /// Waits for devices until `due` [s], and takes what they say; false where the last of them is gone.
+    /// Waits for the devices until `due` [s], and reads their events; false after the last device has ended.
     fn hear(&mut self, due: f64, events: &mut Vec<Event>) -> Result<bool, Failure> {
         let files: Vec<BorrowedFd<'_>> =
             self.terminal.iter().map(AsFd::as_fd).chain(self.device.iter().map(AsFd::as_fd)).collect();

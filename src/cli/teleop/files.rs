@@ -1,4 +1,4 @@
-//! Where finished episodes go: a recording, or a dataset of LeRobot.
+//! The files of finished episodes: a recording, or a LeRobot dataset.
 
 use super::arguments::{LayoutName, Teleop};
 use crate::failure::Failure;
@@ -12,28 +12,28 @@ use exchange::lerobot::{Frames, LeRobotWriter, Settings, frames};
 use record::{Kept, Recording};
 use std::path::{Path, PathBuf};
 
-/// Files that hold every episode that was added, whatever ends the process.
+/// Files that contain every added episode, even if the process is killed.
 pub enum Files {
     /// A recording in a file.
     Recording(Recording),
-    /// A dataset of LeRobot in a folder; what its episodes are attempts at.
+    /// A LeRobot dataset in a folder, with the description of its task and the number of earlier episodes.
     Dataset { writer: Box<LeRobotWriter>, root: PathBuf, task: String, before: usize },
 }
 
-/// Refuses a place that does not fit the layout.
+/// Checks that the path fits the layout.
 ///
 /// # Errors
-/// What stands in the way, and what would fit.
+/// A file for a dataset, or another file name than a recording's.
 pub fn check(a: &Teleop) -> Result<(), Failure> {
     let Some(path) = &a.record else { return Ok(()) };
     let is_file = recording_file(&path.to_string_lossy());
     match a.layout {
         LayoutName::Lerobot if is_file.is_ok() => Err(Failure::usage(format!(
-            "{}: a dataset of LeRobot is a folder: leave the ending out",
+            "{}: --layout lerobot writes a folder: remove the extension",
             path.display()
         ))),
         LayoutName::Lerobot => Ok(()),
-        _ if a.task.is_some() => Err(Failure::usage("--task describes the episodes of --layout lerobot")),
+        _ if a.task.is_some() => Err(Failure::usage("--task applies only to --layout lerobot")),
         _ => {
             is_file.map_err(|message| {
                 Failure::usage(format!("{}: {message}; --layout lerobot writes a folder", path.display()))
@@ -44,10 +44,10 @@ pub fn check(a: &Teleop) -> Result<(), Failure> {
 }
 
 impl Files {
-    /// Those that the arguments ask for. A dataset that is there goes on, if the session's episodes fit it.
+    /// Opens the files that the arguments name. An existing dataset is extended, if the session's episodes fit it.
     ///
     /// # Errors
-    /// They cannot be written, or do not fit.
+    /// The files cannot be written, or the episodes do not fit.
     pub fn open(a: &Teleop, source: &Source, session: &mut Session) -> Result<Option<Self>, Failure> {
         let Some(path) = a.record.as_deref() else { return Ok(None) };
         let layout = match a.layout {
@@ -84,7 +84,7 @@ impl Files {
         }
     }
 
-    /// Completes the files; what is said of them then.
+    /// Completes the files, and returns a summary.
     ///
     /// # Errors
     /// Writing fails.
@@ -103,7 +103,7 @@ impl Files {
     }
 }
 
-/// What was written.
+/// Summary of the files that were written.
 pub struct Closed {
     path: PathBuf,
     episodes: usize,
@@ -114,17 +114,20 @@ pub struct Closed {
 }
 
 impl Closed {
-    /// Says what was written.
+    /// Prints the summary.
     pub fn show(&self) {
         if !self.unmapped.is_empty() {
-            note(&format!("not recorded, for want of a place in the layout: {}", listed(&self.unmapped, 8)));
+            note(&format!(
+                "not recorded, because the layout has no place for: {}",
+                listed(&self.unmapped, 8)
+            ));
         }
         let total = self.total.map_or_else(String::new, |total| format!(", which has {total}"));
         show!("recorded     {} episodes in {}{total}", self.episodes, self.path.display());
     }
 }
 
-/// A dataset that the session's episodes go to.
+/// Opens the LeRobot dataset for the session's episodes.
 fn dataset(a: &Teleop, path: &Path, source: &Source, session: &mut Session) -> Result<Files, Failure> {
     let root = path.components().collect::<PathBuf>();
     let task = a.task.clone().unwrap_or_else(|| source.id.clone());
@@ -134,12 +137,12 @@ fn dataset(a: &Teleop, path: &Path, source: &Source, session: &mut Session) -> R
     writer.check(&frames).map_err(Failure::new)?;
     let dropped: Vec<String> = dropped.into_iter().map(|(key, _)| key).collect();
     if !dropped.is_empty() {
-        note(&format!("no part of frames: {}", listed(&dropped, 4)));
+        note(&format!("not recorded, because frames have no feature for: {}", listed(&dropped, 4)));
     }
     Ok(Files::Dataset { before: writer.episodes(), writer: Box::new(writer), root, task })
 }
 
-/// The frames of an episode, and what has no place in them.
+/// The frames of an episode, and the datasets that have no place in them.
 fn frames_of(kept: &Kept, root: &Path, task: &str) -> Result<(Frames, Vec<(String, String)>), Failure> {
     let episode = Episode::of_arrays("episode", kept.arrays())
         .map_err(|(key, message)| Failure::new(TraceError::new(root, key, message)))?;

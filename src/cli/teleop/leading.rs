@@ -1,4 +1,4 @@
-//! What leads joints: gloves by their calibration, leader arms by their config and their servos.
+//! Devices that lead joints: gloves with their calibration, leader arms with their config and their servos.
 
 use super::arguments::Teleop;
 use super::device::DeviceChoice;
@@ -8,7 +8,7 @@ use ::teleop::{Calibration, Gravity, GravitySettings, LeaderArm, LeaderConfig, L
 use robot::Config;
 use std::path::Path;
 
-/// What the device leads, where it does.
+/// The controls that the device leads; `None` for devices that do not lead joints.
 ///
 /// # Errors
 /// A file that is missing or wrong.
@@ -19,9 +19,9 @@ pub fn leading(a: &Teleop) -> Result<Option<Leading>, Failure> {
             Ok(Some(Leading::Glove(Calibration::from_toml(&text, &named)?)))
         }
         (DeviceChoice::Glove(_), None) => {
-            Err(Failure::usage("a glove needs --calibration FILE, which says what its sensors mean"))
+            Err(Failure::usage("a glove needs --calibration FILE, which maps its sensors to joints"))
         }
-        (_, Some(_)) => Err(Failure::usage("--calibration is about gloves: add --device glove:PORT")),
+        (_, Some(_)) => Err(Failure::usage("--calibration applies only to gloves: add --device glove:PORT")),
         (DeviceChoice::Leader(path), None) => {
             let (text, named) = read(path)?;
             Ok(Some(Leading::Arm(LeaderConfig::from_toml(&text, &named)?)))
@@ -36,7 +36,8 @@ fn read(path: &Path) -> Result<(String, String), Failure> {
     Ok((text, named))
 }
 
-/// Connects the servos of a leader arm, whose config is at `path`. They carry it where the config says how and --arm lets them.
+/// Connects the servos of a leader arm, whose config is at `path`. They compensate its weight if the config has a section
+/// `[gravity]` and `--arm` is given.
 ///
 /// # Errors
 /// Files that are missing or wrong, and devices that cannot be reached.
@@ -45,7 +46,7 @@ pub fn connect(a: &Teleop, config: &LeaderConfig, path: &Path) -> Result<LeaderA
     let devices = Config::read(beside(&config.devices)).map_err(Failure::usage)?;
     let armed = a.live.arming.arm;
     if config.gravity.is_some() && !armed {
-        note("the leader's servos are read alone: --arm lets them carry its weight");
+        note("the leader's servos are only read: add --arm to let them compensate its weight");
     }
     let gravity = config.gravity.as_ref().filter(|_| armed);
     let gravity = gravity.map(|settings| weight(&beside(&settings.model), &devices, settings)).transpose()?;

@@ -1,14 +1,14 @@
-//! Who may come to the page of phones and headsets.
+//! The address at which the page for phones and headsets is served.
 
 use std::net::SocketAddr;
 
-/// Who may come to the page.
+/// The address at which the page is served.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
-    /// This machine, and who has a tunnel to it, at this port.
+    /// The loopback address at this port: for this machine, and through tunnels.
     Loopback(u16),
-    /// The local network behind TLS, at this port of the address that leads there.
+    /// This machine's address on the local network at this port, behind TLS.
     Network(u16),
-    /// The same at this address.
+    /// This address, behind TLS.
     Address(SocketAddr),
 }

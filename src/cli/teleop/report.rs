@@ -1,4 +1,4 @@
-//! What a session says of itself: ticks, latency, episodes.
+//! Statistics of a session: ticks, latency, episodes.
 
 use crate::terminal::show;
 use ::teleop::Latencies;
@@ -9,9 +9,9 @@ pub struct Report {
     latencies: Latencies,
     ticks: u64,
     steps: u64,
-    /// Steps of the person, and of the policy that shares control.
+    /// Number of steps by the person, and by the policy.
     acted: [u64; 2],
-    /// Ticks that were left out, since one before took too long.
+    /// Ticks that were skipped because an earlier one took too long.
     pub dropped: u64,
     /// Episodes that were thrown away.
     pub discarded: usize,
@@ -32,7 +32,7 @@ impl Report {
         self.steps += u64::from(stepped);
     }
 
-    /// A step was the person's, or the policy's, where one shares control.
+    /// Counts a step by the person or by the policy; `None` for no step, or without a policy.
     pub fn acted(&mut self, by_hand: Option<bool>) {
         if let Some(by_hand) = by_hand {
             self.acted[usize::from(!by_hand)] += 1;
@@ -46,7 +46,7 @@ impl Report {
         due + (late + 1.0) * period
     }
 
-    /// Says how it went.
+    /// Prints the statistics.
     pub fn show(&self, id: &str, (kept, good): (usize, usize)) {
         show!("{id}: {kept} episodes kept, {good} succeeded, {} thrown away", self.discarded);
         let rate = self.ticks as f64 / self.seconds.max(1e-9);

@@ -81,7 +81,7 @@ fn a_robot_follows_a_leader_on_a_serial_line_which_carries_its_weight() {
         hold(&bench, &start);
         typed.write(" ");
         (0..10).for_each(|_| typed.pause());
-        // Let go of, it stays where it is.
+        // Released, it stays where it is.
         assert!(!typed.line().contains("PAUSED") && !typed.line().contains("far away"), "{}", typed.line());
         assert!(torque(&bench) > 0.5, "the servos carry the arm: {} N m", torque(&bench));
         let mut led = start;
@@ -116,5 +116,5 @@ fn a_leader_that_is_not_there_is_named() {
     };
     says(&format!("leader:{}", config.display()), "/nonexistent/tty");
     says("leader:/nonexistent/leader.toml", "/nonexistent/leader.toml");
-    says("leader:Cargo.toml", "the file has '");
+    says("leader:Cargo.toml", "the file has the unknown entry '");
 }

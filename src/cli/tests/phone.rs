@@ -63,5 +63,5 @@ fn a_page_with_the_key_drives_and_others_are_refused() {
     let recorded = Recorded::read(&TraceReader::open(&file).unwrap(), "Trial0").unwrap();
     assert!(recorded.actions.row(2).is_some());
     let out = robohive(&["teleop", ID, "--device", "phone:x"]);
-    assert!(text(&out.stderr).contains("is no port"), "{}", text(&out.stderr));
+    assert!(text(&out.stderr).contains("is not a port"), "{}", text(&out.stderr));
 }

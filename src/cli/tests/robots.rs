@@ -197,7 +197,7 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
         ("\"dynamixel\" => \"dinamixel\"", "nothing drives the interface 'dinamixel'; there are dynamixel"),
         ("/dev/ttyUSB0 => /dev/ttyNONE", "/dev/ttyNONE at 1000000 baud: No such file or directory"),
         ("safe = \"off\" => save = 1", "'save' of its interface is not known; there are name, safe"),
-        ("hdr_id = 12 => hdr_id = 300", "hdr_id 300 of 'front_right_knee' is no id of a servo"),
+        ("hdr_id = 12 => hdr_id = 300", "hdr_id 300 of 'front_right_knee' is not the id of a servo"),
         ("pos_range = [-0.6, 0.6] => pos_range = 5", "pos_range"),
     ] {
         let path = wrong(change, "wrong.toml");
@@ -232,7 +232,7 @@ fn what_is_wrong_with_a_device_is_said_before_anything_moves() {
     assert_eq!(out.status.code(), Some(2));
     assert!(text(&out.stderr).contains("cut.toml:"), "{}", text(&out.stderr));
     let slow = command().args(["wire", "--ids", "300"]).output().unwrap();
-    assert!(text(&slow.stderr).contains("no list of ids"), "{}", text(&slow.stderr));
+    assert!(text(&slow.stderr).contains("not a list of ids"), "{}", text(&slow.stderr));
 }
 
 #[test]

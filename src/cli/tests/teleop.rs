@@ -237,7 +237,7 @@ fn a_kill_loses_no_finished_episode_of_a_dataset_which_then_goes_on() {
     assert_eq!((films.kind.name(), &films.shape[..]), ("video", &[224, 224, 3][..]));
     assert!(root.join("videos/observation.images.front/chunk-000/file-000.mp4").is_file());
     let said = refused(&[ID, "--record", "reach.h5", "--layout", "lerobot"]);
-    assert!(said.contains("is a folder: leave the ending out"), "{said}");
+    assert!(said.contains("writes a folder: remove the extension"), "{said}");
     let said = refused(&[ID, "--record", path]);
     assert!(said.contains("--layout lerobot writes a folder"), "{said}");
 }
@@ -293,8 +293,8 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
     let cases: [(&[&str], &str); 14] = [
         (&[ID, "--device", "gamepad", "--path", "/nonexistent/event3"], "/nonexistent/event3"),
         (&[ID, "--device", "quest:127.0.0.1:1"], "adb start-server"),
-        (&[ID, "--device", "quest:headset"], "is no address"),
-        (&[ID, "--device", "quest:127.0.0.1:1", "--path", "/dev/null"], "give one of them"),
+        (&[ID, "--device", "quest:headset"], "is not the address"),
+        (&[ID, "--device", "quest:127.0.0.1:1", "--path", "/dev/null"], "give only one of them"),
         (&[ID, "--device", "glove:/dev/null"], "--calibration FILE"),
         (&[ID, "--calibration", "/dev/null"], "--device glove:PORT"),
         (&[ID, "--device", "glove:/dev/null", "--calibration", "/nonexistent/glove.toml"], "glove.toml"),
@@ -304,7 +304,7 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
         (&[ID, "--mapping", "/nonexistent/keys.toml"], "keys.toml"),
         (&[ID, "--site", "nose"], "nose"),
         (&[ID, "--left-site", "ear"], "ear"),
-        (&[ID, "--control", "base"], "floats freely"),
+        (&[ID, "--control", "base"], "free joint"),
     ];
     for (arguments, says) in cases {
         let out = robohive(&[&["teleop"], arguments].concat());

@@ -62,10 +62,7 @@ fn parse(head: &str, is_ours: impl Fn(&str) -> bool) -> Result<Request, Refusal>
         .map(|(_, value)| value.trim());
     // Other names may lead here from pages of others, whose scripts could then read what is served.
     if !hosts.next().is_some_and(is_ours) || hosts.next().is_some() {
-        return Err((
-            403,
-            "only requests to the address that was printed, or to this machine by itself, are answered",
-        ));
+        return Err((403, "only requests to the printed address, or to the loopback address, are answered"));
     }
     let head_only = match method {
         "GET" => false,

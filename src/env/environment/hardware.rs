@@ -28,7 +28,7 @@ pub struct Hardware {
     pub ready: Ready,
     /// The robot's config, if not the environment's own.
     pub config: Option<Config>,
-    /// Opens what visual keys see, if there are any. Without it they see drawings of the state that mirrors the devices.
+    /// Opens the cameras for visual keys, if there are any. Without it the images are renderings of the state that mirrors the devices.
     pub cameras: Option<OpenCameras>,
 }
 
@@ -48,7 +48,7 @@ pub(crate) struct Live {
     pub(crate) begun: Option<f64>,
     /// A command was sent in this episode.
     pub(crate) commanded: bool,
-    /// What visual keys see.
+    /// The cameras for visual keys.
     pub(crate) cameras: Option<Box<dyn Cameras>>,
 }
 
@@ -68,7 +68,7 @@ impl Live {
             return Err(EnvError::Camera {
                 message: format!(
                     "the visual key {key} needs a camera '{}', and the robot's config has no such device with the interface \
-                     'camera' or 'realsense'; cameras of it: {there}. Add it, or set visual_keys to what there is",
+                     'camera' or 'realsense'; its cameras are: {there}. Add it, or set visual_keys to what there is",
                     key.camera
                 ),
             });

@@ -17,7 +17,7 @@ impl Env {
     /// hardware the images are the newest frames of its cameras.
     ///
     /// # Errors
-    /// The model or a camera cannot be drawn; a camera of the hardware shows nothing; a network is missing, with the file that has its weights.
+    /// The model or a camera cannot be drawn; a camera of the hardware has no frame; a network is missing, with the file that has its weights.
     pub fn exteroception(&mut self) -> Result<&Exteroception, EnvError> {
         if self.eyes.open() {
             return Ok(self.eyes.seen());

@@ -13,8 +13,8 @@ type Edits = Vec<(String, Vec<f64>)>;
 
 /// All that decides the rest of an episode and the ones after it, beside how the environment was made.
 ///
-/// [`EnvState`](crate::EnvState) is the same within a process, cheaper. What another engine than our own keeps beside the state,
-/// such as the impulses that start its next solution, is not in it: that engine then begins afresh.
+/// [`EnvState`](crate::EnvState) is the same within a process, cheaper. State that another engine keeps besides,
+/// such as impulses for warm starts, is not included: that engine then starts cold.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EnvMemory {
     /// Arrays of the model that differ from a newly made environment's.

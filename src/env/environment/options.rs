@@ -28,7 +28,7 @@ pub struct Options {
     /// A bad number in the physics resets it as MuJoCo does, in the middle of the episode, instead of ending that
     /// (`Data::autoreset`).
     pub autoreset: bool,
-    /// What moves the simulation: by default our own pipeline.
+    /// The engine of the simulation: by default our own pipeline.
     pub engine: Engine,
     /// The robot's devices, if it is not simulated.
     pub hardware: Option<Hardware>,
@@ -100,7 +100,7 @@ impl Options {
         self
     }
 
-    /// What moves the simulation.
+    /// Sets the engine of the simulation.
     #[must_use]
     pub fn with_engine(mut self, engine: Engine) -> Self {
         self.engine = engine;

@@ -194,7 +194,7 @@ impl Eyes {
         })
     }
 
-    /// Fills the drawings with frames of cameras that are there; [`Eyes::finish`] follows.
+    /// Fills the images with frames of connected cameras; call [`Eyes::finish`] next.
     pub(crate) fn look_through(&mut self, cameras: &mut dyn Cameras) -> Result<(), EnvError> {
         let mut fill = |take: &mut Take| cameras.take(&take.name, take.channels, &mut take.picture);
         self.takes

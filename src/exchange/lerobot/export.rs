@@ -84,8 +84,8 @@ fn rate(episode: &Episode) -> Result<f64, String> {
     Ok(whole_rate(rate))
 }
 
-/// The frames of an episode, and what has no place in them with the reason: `observation.state`, `observation.images.CAMERA`,
-/// `action`, `next.reward`, `next.done`, `next.success` where the task says it; of an episode by hand also `intervention` (the person
+/// The frames of an episode, and the datasets that have no place in them, with the reason. Features: `observation.state`, `observation.images.CAMERA`,
+/// `action`, `next.reward`, `next.done`, `next.success` if the task reports it; for a teleoperated episode also `intervention` (the person
 /// acted) and `judged_success` (the same in all frames).
 pub fn frames(episode: Episode, task: &str) -> (Frames, Vec<(String, String)>) {
     let steps = episode.steps();
@@ -118,7 +118,7 @@ pub fn frames(episode: Episode, task: &str) -> (Frames, Vec<(String, String)>) {
     (Frames { features, task: task.to_owned() }, dropped)
 }
 
-/// What is true or false of frames.
+/// A feature of booleans, one for each frame.
 fn flags(values: &[f64]) -> Array {
     let flags = values.iter().map(|&x| x != 0.0).collect();
     Array { shape: vec![values.len()], values: Values::Bool(flags) }

@@ -11,11 +11,11 @@ use serde_json::Value;
 use std::path::Path;
 
 impl LeRobotWriter {
-    /// Begins a dataset that is complete after every episode, so that whatever ends the process takes none that was added; of one
-    /// that is there, goes on with the next episode. An episode then has files of its own.
+    /// Begins a dataset that is complete after every episode, so that a killed process loses no added episode; an existing
+    /// dataset is extended. Each episode then has its own files.
     ///
     /// # Errors
-    /// The folder holds something else, or a dataset with another number of frames a second, or one that cannot be read; it
+    /// The folder contains something else, or a dataset with another frame rate, or one that cannot be read; it
     /// cannot be written. Episodes with other features are refused when they are checked or added.
     pub fn grow(root: &Path, settings: Settings) -> Result<Self, TraceError> {
         if !root.exists() {
@@ -24,7 +24,7 @@ impl LeRobotWriter {
             return Ok(writer);
         }
         if !root.join("meta/info.json").is_file() {
-            let message = "the folder exists and is no dataset of LeRobot: choose another one";
+            let message = "the folder exists and is not a LeRobot dataset: choose another one";
             return Err(TraceError::new(root, "", message));
         }
         let _lock = lock(root)?;
@@ -48,7 +48,7 @@ impl LeRobotWriter {
         Ok(writer)
     }
 
-    /// Removes the tables of an episode that a killed process has not counted.
+    /// Removes the tables of an episode that a killed process had not yet added to the index.
     fn drop_torn(&self, data: usize, table: usize) -> Result<(), TraceError> {
         for (folder, number) in [("data", data), ("meta/episodes", table)] {
             for ending in ["parquet", "parquet.new"] {
@@ -62,7 +62,7 @@ impl LeRobotWriter {
     }
 }
 
-/// The features of a dataset that goes on as the settings say, without those that number its frames.
+/// The features of an existing dataset that fits the settings, without the columns that number its frames.
 fn features(root: &Path, reader: &LeRobotReader, settings: &Settings) -> Result<Vec<Feature>, TraceError> {
     let fail = |object: &str, message: String| TraceError::new(root, object, message);
     let number = |name: &str| reader.info().get(name).and_then(Value::as_f64);
@@ -75,7 +75,10 @@ fn features(root: &Path, reader: &LeRobotReader, settings: &Settings) -> Result<
         return Err(fail("fps", message));
     }
     if number("chunks_size") != Some(CHUNK_FILES as f64) {
-        return Err(fail("chunks_size", format!("a dataset grows in chunks of {CHUNK_FILES} files")));
+        return Err(fail(
+            "chunks_size",
+            format!("only datasets with chunks of {CHUNK_FILES} files can be extended"),
+        ));
     }
     let names = reader.info().get("features").and_then(Value::as_object);
     let unknown = names.into_iter().flatten().find(|(name, _)| {
@@ -83,13 +86,13 @@ fn features(root: &Path, reader: &LeRobotReader, settings: &Settings) -> Result<
         !reader.features().iter().any(known)
     });
     if let Some((name, entry)) = unknown {
-        return Err(fail(name, format!("features of type {} are not written", entry["dtype"])));
+        return Err(fail(name, format!("features of type {} cannot be written", entry["dtype"])));
     }
     let numbers = |feature: &&Feature| NUMBERING.iter().all(|(name, _)| *name != feature.name);
     Ok(reader.features().iter().filter(numbers).cloned().collect())
 }
 
-/// The statistics of a dataset so far.
+/// The statistics of an existing dataset.
 fn stats(root: &Path, reader: &LeRobotReader) -> Result<Vec<(String, Stats)>, TraceError> {
     let path = root.join("meta/stats.json");
     let all = json::read(&path)?;
@@ -99,7 +102,7 @@ fn stats(root: &Path, reader: &LeRobotReader) -> Result<Vec<(String, Stats)>, Tr
             TraceError::new(
                 &path,
                 &feature.name[..],
-                "no statistics, or without quantiles: they cannot be continued",
+                "there are no statistics with quantiles, so the dataset cannot be extended",
             )
         })?;
         Ok((feature.name.clone(), stats))

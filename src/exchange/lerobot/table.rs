@@ -184,7 +184,7 @@ impl Table {
         Ok(())
     }
 
-    /// Bytes in the file so far.
+    /// Bytes written to the file.
     pub fn bytes(&self) -> usize {
         self.writer.bytes_written()
     }

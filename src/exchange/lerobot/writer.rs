@@ -13,7 +13,7 @@ use std::fs::{File, TryLockError};
 use std::path::{Path, PathBuf};
 use video::{Frame, VideoWriter, png_bytes};
 
-/// What a dataset is like.
+/// Settings of a dataset.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Settings {
@@ -57,8 +57,8 @@ pub(super) fn whole_rate(rate: f64) -> f64 {
     if (rate - whole).abs() < 1e-6 * rate { whole } else { (rate * 1e6).round() / 1e6 }
 }
 
-/// A dataset that is being written, in a hidden folder beside the one that it is for. That appears with
-/// [`LeRobotWriter::finish`], or with its first episode where it grows ([`LeRobotWriter::grow`]).
+/// A dataset that is being written, in a hidden folder beside its final place. It is moved there by
+/// [`LeRobotWriter::finish`], or, for [`LeRobotWriter::grow`], after its first episode.
 pub struct LeRobotWriter {
     pub(super) root: PathBuf,
     /// Where the files are until then.
@@ -113,9 +113,9 @@ impl LeRobotWriter {
             return Err(fail("the folder exists: delete it, or choose another one"));
         }
         if !(settings.frames_per_second > 0.0 && settings.frames_per_second.is_finite()) {
-            return Err(fail("frames a second are a positive number"));
+            return Err(fail("frames a second must be a positive number"));
         }
-        let Some(name) = root.file_name() else { return Err(fail("this is no name of a folder")) };
+        let Some(name) = root.file_name() else { return Err(fail("the path has no folder name")) };
         let folder = root.with_file_name(format!(".{}.unfinished", name.to_string_lossy()));
         let io = |e: std::io::Error| TraceError::new(&folder, "", e);
         if folder.exists() {
@@ -141,7 +141,7 @@ impl LeRobotWriter {
         })
     }
 
-    /// Episodes so far.
+    /// Number of added episodes.
     pub fn episodes(&self) -> usize {
         self.episodes
     }
@@ -180,7 +180,7 @@ impl LeRobotWriter {
         if self.grows { self.publish() } else { Ok(()) }
     }
 
-    /// How many frames an episode has; refuses those that do not fit the dataset, before anything is written.
+    /// Checks that an episode fits the dataset, and returns its number of frames. Writes nothing.
     ///
     /// # Errors
     /// It has no frames, or its features differ from the first episode's.
@@ -199,7 +199,7 @@ impl LeRobotWriter {
     pub fn finish(mut self) -> Result<(), TraceError> {
         match (self.grows, self.episodes) {
             (true, _) => Ok(()),
-            (false, 0) => Err(self.fail("", "a dataset has an episode at least")),
+            (false, 0) => Err(self.fail("", "a dataset needs at least one episode")),
             (false, _) => self.publish(),
         }
     }
@@ -272,7 +272,7 @@ impl LeRobotWriter {
     ) -> Result<(), String> {
         if size.0 % 2 + size.1 % 2 != 0 {
             return Err(format!(
-                "{} x {} pixels: sides of videos are even; keep pictures as PNG",
+                "{} x {} pixels: the sides of videos must be even; store the pictures as PNG",
                 size.0, size.1
             ));
         }

@@ -54,7 +54,7 @@ fn frames_that_are_none_are_refused_by_name() {
         let mut writer = LeRobotWriter::create(&root, Settings::new(10.0)).unwrap();
         assert_says(writer.add(&frames(features)), expected);
         assert_eq!(writer.episodes(), 0);
-        assert_says(writer.finish(), &["a dataset has an episode at least"]);
+        assert_says(writer.finish(), &["a dataset needs at least one episode"]);
     }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0, "something was left behind");
 }
@@ -107,7 +107,7 @@ fn pictures_of_odd_sides_are_no_videos() {
     let picture = Array { shape: vec![2, 3, 4, 3], values: Values::U8(vec![9; 72]) };
     let mut writer = LeRobotWriter::create(&root, Settings::new(5.0)).unwrap();
     let result = writer.add(&frames(vec![numbers("a", &[2]), ("eye".into(), picture)]));
-    assert_says(result, &["eye", "4 x 3 pixels", "keep pictures as PNG"]);
+    assert_says(result, &["eye", "4 x 3 pixels", "store the pictures as PNG"]);
     // Nothing of that episode counts.
     writer.add(&frames(vec![numbers("a", &[3])])).unwrap();
     writer.finish().unwrap();

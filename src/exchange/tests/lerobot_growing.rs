@@ -137,7 +137,7 @@ fn what_does_not_fit_is_refused_by_name() {
     let strange = folder.path().join("strange");
     std::fs::create_dir(&strange).unwrap();
     std::fs::write(strange.join("notes.txt"), "mine").unwrap();
-    assert_says(LeRobotWriter::grow(&strange, settings()), &["is no dataset of LeRobot"]);
+    assert_says(LeRobotWriter::grow(&strange, settings()), &["is not a LeRobot dataset"]);
     let path = root.join("meta/info.json");
     let text = std::fs::read_to_string(&path).unwrap().replace("float64", "complex128");
     std::fs::write(&path, text).unwrap();

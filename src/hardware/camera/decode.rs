@@ -1,4 +1,4 @@
-//! Bytes of frames to colours and depths, and back for cameras that are simulated.
+//! Decodes the bytes of frames to colours and depths, and encodes the frames of simulated cameras.
 
 use crate::port::{Encoding, Format};
 use std::io::Cursor;
@@ -14,7 +14,7 @@ pub(super) struct Decoder {
     decoded: Vec<u8>,
 }
 
-/// The beginning of a JPEG picture, and the segment that tells the decoder to use the Huffman tables of ITU-T T.81,
+/// Start marker of a JPEG picture, and the segment that makes the decoder use the Huffman tables of ITU-T T.81,
 /// annex K.3, where the picture has none.
 const START: [u8; 2] = [0xff, 0xd8];
 const USUAL_TABLES: [u8; 10] = *b"\xff\xe0\x00\x08AVI1\0\0";
@@ -23,19 +23,20 @@ impl Decoder {
     /// Fills `rgb` with the colours of a frame, `height * width * 3`.
     ///
     /// # Errors
-    /// The frame is damaged: how.
+    /// The frame is damaged; the message says how.
     pub(super) fn rgb(&mut self, format: Format, bytes: &[u8], rgb: &mut Vec<u8>) -> Result<(), String> {
         match format.encoding {
             Encoding::Yuyv => pairs(format, bytes, [0, 2, 1, 3], rgb),
             Encoding::Uyvy => pairs(format, bytes, [1, 3, 0, 2], rgb),
             Encoding::Mjpg => self.jpeg(format, bytes, rgb),
-            Encoding::Z16 => Err("it holds depth and no colours".to_owned()),
+            Encoding::Z16 => Err("it contains depth and no colours".to_owned()),
         }
     }
 
     fn jpeg(&mut self, format: Format, bytes: &[u8], rgb: &mut Vec<u8>) -> Result<(), String> {
         let Decoder { jpeg, decoded } = self;
-        let picture = bytes.strip_prefix(&START).ok_or("it is damaged: no JPEG picture begins like this")?;
+        let picture =
+            bytes.strip_prefix(&START).ok_or("it is damaged: it does not begin like a JPEG picture")?;
         jpeg.clear();
         for part in [&START[..], &USUAL_TABLES, picture] {
             jpeg.extend_from_slice(part);
@@ -61,14 +62,17 @@ impl Decoder {
     }
 }
 
-/// Bytes must be there for all pixels.
+/// The bytes of all pixels, 2 for each.
+///
+/// # Errors
+/// The frame is shorter.
 fn whole(format: Format, bytes: &[u8]) -> Result<&[u8], String> {
     let expected = 2 * format.width * format.height;
-    bytes.get(..expected).ok_or_else(|| format!("it has {} bytes, and a whole one {expected}", bytes.len()))
+    bytes.get(..expected).ok_or_else(|| format!("it has {} bytes instead of {expected}", bytes.len()))
 }
 
-/// Pairs of pixels whose brightnesses, blue and red stand at these places of four bytes, by ITU-R BT.601 with brightness
-/// from 16 to 235, which is what cameras on USB send.
+/// Converts pairs of pixels from YCbCr (ITU-R BT.601 with luma from 16 to 235, as USB cameras send it) to RGB. The list has the
+/// indices of first luma, second luma, Cb and Cr among the four bytes of a pair.
 fn pairs(
     format: Format,
     bytes: &[u8],
@@ -87,10 +91,10 @@ fn pairs(
     Ok(())
 }
 
-/// Fills `depths` with the depths of a frame \[m\], each step of which is `unit` \[m\].
+/// Fills `depths` with the depths of a frame \[m\], whose unit is `unit` \[m\].
 ///
 /// # Errors
-/// The frame is damaged: how.
+/// The frame is damaged; the message says how.
 pub(super) fn depth(format: Format, bytes: &[u8], unit: f64, depths: &mut Vec<f32>) -> Result<(), String> {
     let steps = whole(format, bytes)?.chunks_exact(2).map(|pair| u16::from_le_bytes([pair[0], pair[1]]));
     depths.clear();
@@ -98,8 +102,7 @@ pub(super) fn depth(format: Format, bytes: &[u8], unit: f64, depths: &mut Vec<f3
     Ok(())
 }
 
-/// The frame of [`Encoding::Yuyv`] that shows these colours, `height * width * 3`; of each two pixels it keeps one blue and
-/// one red.
+/// Encodes colours, `height * width * 3`, as a frame of [`Encoding::Yuyv`]; two neighbouring pixels share their chroma.
 pub fn rgb_to_yuyv(rgb: &[u8], frame: &mut Vec<u8>) {
     frame.clear();
     for pair in rgb.chunks_exact(6) {
@@ -113,8 +116,7 @@ pub fn rgb_to_yuyv(rgb: &[u8], frame: &mut Vec<u8>) {
     }
 }
 
-/// The frame of [`Encoding::Z16`] that shows these depths \[m\] in steps of `unit` \[m\]; 0, no depth, for what is farther
-/// than 65,535 steps.
+/// Encodes depths \[m\] as a frame of [`Encoding::Z16`] with the unit `unit` \[m\]; 0, no depth, beyond 65,535 units.
 pub fn depth_to_z16(depths: &[f32], unit: f64, frame: &mut Vec<u8>) {
     frame.clear();
     for depth in depths {

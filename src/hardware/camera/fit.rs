@@ -1,7 +1,6 @@
-//! Frames to the size that an observation has.
+//! Scales frames to the size of an observation.
 
-/// Scales colours from one `[height, width]` to another: each pixel is the mean of what it covers, so that nothing is
-/// skipped when pictures become smaller.
+/// Scales colours from one `[height, width]` to another: each pixel is the mean of the pixels that it covers.
 pub(super) fn fit_rgb(
     from: &[u8],
     [height, width]: [usize; 2],
@@ -33,8 +32,8 @@ pub(super) fn fit_rgb(
     }
 }
 
-/// Scales depths from one `[height, width]` to another: each pixel is the one nearest to its middle, so that no depth comes
-/// out that nothing has.
+/// Scales depths from one `[height, width]` to another: each pixel is the one nearest to its centre, since a mean of
+/// two depths is the depth of neither.
 pub(super) fn fit_depth(
     from: &[f32],
     [height, width]: [usize; 2],
@@ -48,7 +47,7 @@ pub(super) fn fit_depth(
     }
 }
 
-/// Which of `there` pixels one of `count` covers.
+/// The range of `there` input pixels that output pixel `place` of `count` covers.
 fn covered(place: usize, count: usize, there: usize) -> std::ops::Range<usize> {
     let first = place * there / count;
     first..((place + 1) * there / count).max(first + 1)

@@ -1,16 +1,16 @@
-//! Cameras: `camera` (any that Linux knows as a video device) and `realsense` (Intel RealSense of the series D400).
+//! Cameras: `camera` (any video device of Linux) and `realsense` (Intel RealSense of the series D400).
 //!
 //! A device of a config with one of these interfaces is a camera with the device's name, which visual keys name:
-//! `rgb:right_cam:480x640:2d` shows what the device `right_cam` sees. Its list `cam` says what it has: an entry whose
-//! `hdr_id` is `rgb`, and one whose `hdr_id` is `d` where there is depth. Depths come out in metres, times the entry's
+//! `rgb:right_cam:480x640:2d` is the image of the device `right_cam`. Its list `cam` has an entry whose
+//! `hdr_id` is `rgb`, and one whose `hdr_id` is `d` if there is depth. Depths are in metres, times the entry's
 //! `scale`, plus its `offset`, clipped to its `range`.
 //!
 //! | parameter of `camera` | meaning | default |
 //! |---|---|---|
 //! | `name` | device node, as `/dev/video0` or a link of `/dev/v4l/by-id` | required |
-//! | `width`, `height`, `rate` | pixels and frames a second that are asked for; the camera gives these or is refused | 640, 480, 30 |
+//! | `width`, `height`, `rate` | pixels, and frames a second; a camera that does not have them is refused | 640, 480, 30 |
 //! | `format` | `auto`, `yuyv`, `uyvy` or `mjpg` | `auto`: the first of these that the camera has |
-//! | `warm_up` | frames that are thrown away while exposure settles | 5 |
+//! | `warm_up` | frames that are discarded while exposure settles | 5 |
 //! | `stale` | age at which a frame is too old to be an observation \[s\] | three periods, no less than 0.1 |
 //!
 //! | parameter of `realsense`, besides these | meaning | default |
@@ -18,16 +18,16 @@
 //! | `serial` | serial number on the USB bus | the digits in `rgb_topic`, as RoboHive's configs have them; else the only one there is |
 //! | `name`, `depth_name` | device nodes of colour and depth, instead of a serial number | found |
 //! | `depth_unit` | metres in one step of depth | 0.001 |
-//! | `rgb_intrinsics`, `depth_intrinsics` | \[fx, fy, cx, cy\] in pixels of the frames asked for | depth stays as its own imager sees it |
-//! | `depth_to_rgb` | rotation, row by row, then translation \[m\]: from the depth imager's frame to that of colours | none |
+//! | `rgb_intrinsics`, `depth_intrinsics` | \[fx, fy, cx, cy\] in pixels of the frames asked for | depth stays in the frame of the depth imager |
+//! | `depth_to_rgb` | rotation, row by row, then translation \[m\]: from the depth imager's frame to the colour imager's | identity |
 //! | `warm_up` | as above | 30, as in RoboHive |
 //!
-//! With intrinsics depth is aligned to colours, as in the original: each point that the depth imager sees is seen by the
-//! colour imager ([`Registration`]). `rs-enumerate-devices -c` prints the numbers; lens distortion is not corrected. They
-//! cannot be read from the camera here, because that takes a request of its driver that no safe library offers.
+//! With intrinsics, depth is aligned to the colour image, as in RoboHive: each point of the depth image is projected into the
+//! colour image ([`Registration`]). `rs-enumerate-devices -c` prints the numbers; lens distortion is not corrected. They
+//! cannot be read from the camera here, because no safe library offers the driver request for them.
 //!
-//! A thread takes every frame from the camera and keeps the newest; [`Cameras::take`] decodes it, so that pictures that
-//! nobody asks for cost a copy. Frames that the camera numbers and nobody gets are counted ([`Counts`]).
+//! A thread takes every frame from the camera and keeps the newest; [`Cameras::take`] decodes it, so that unused
+//! frames cost only a copy. Gaps in the camera's frame numbers are counted ([`Counts`]).
 
 mod decode;
 mod fit;
@@ -83,13 +83,13 @@ pub struct Streamed<'a> {
     pub camera: &'a str,
     /// `rgb` or `d`.
     pub which: &'static str,
-    /// What its frames are.
+    /// Format of its frames.
     pub format: Format,
-    /// What became of them.
+    /// Counts of its frames.
     pub counts: Counts,
 }
 
-/// Where the pictures go that are taken at one time: those that are wanted.
+/// Buffers for the images of one time; `None` for images that are not wanted.
 #[derive(Debug, Default)]
 pub struct Wanted<'a> {
     /// Colours, `height * width * 3`, row 0 at the top.
@@ -104,17 +104,17 @@ struct Camera {
     rgb: Option<Stream>,
     depth: Option<(Stream, Depth)>,
     decoder: Decoder,
-    /// Frames before they have the size that is wanted.
+    /// Decoded frames, in the size of the camera.
     colours: Vec<u8>,
     depths: Vec<f32>,
     aligned: Vec<f32>,
 }
 
 impl Cameras {
-    /// Opens the cameras of `config` and waits for their first frames; those of other interfaces are left alone.
+    /// Opens the cameras of `config` and waits for their first frames; other devices are ignored.
     ///
     /// # Errors
-    /// A camera that is not there or cannot do what the config says: which, and what to do about it.
+    /// A camera is missing or does not support the format in the config; the error names the camera and the fix.
     pub fn connect(config: &Config, setup: &Setup) -> Result<Cameras, CameraError> {
         let mut clock = setup.clock();
         let chosen =
@@ -133,7 +133,7 @@ impl Cameras {
         self.cameras.iter().map(|camera| camera.name.as_str())
     }
 
-    /// Fills what is wanted with the newest frames of a camera, scaled to `[height, width]`.
+    /// Fills the buffers of `wanted` with the newest frames of a camera, scaled to `[height, width]`.
     ///
     /// # Errors
     /// No camera has this name, or it has no depth or no colours; it is unplugged, or its newest frame is too old or
@@ -144,13 +144,13 @@ impl Cameras {
             let known: Vec<_> = self.names().collect();
             let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
             return Err(error(Fault::Refused(format!(
-                "the robot's config has no device of this name with the interface 'camera' or 'realsense'; cameras of it: {known}"
+                "the robot's config has no device of this name with the interface 'camera' or 'realsense'; its cameras are: {known}"
             ))));
         };
         self.cameras[place].take(size, wanted, &mut *self.clock).map_err(error)
     }
 
-    /// Their streams, and what became of the frames so far.
+    /// Their streams, with counts of the frames since the cameras were opened.
     pub fn streams(&self) -> impl Iterator<Item = Streamed<'_>> {
         self.cameras.iter().flat_map(|camera| {
             let rgb = camera.rgb.as_ref().map(|stream| ("rgb", stream));
@@ -215,7 +215,9 @@ impl Camera {
     }
 }
 
-/// The config says of a camera that it has less than is asked of it.
+/// The fault of a camera whose config has no entry for a stream.
 fn lacks(what: &str, id: &str) -> Fault {
-    Fault::Refused(format!("its list 'cam' has no entry with hdr_id '{id}', so that it shows no {what}"))
+    Fault::Refused(format!(
+        "its list 'cam' has no entry with hdr_id '{id}', so it has no {what}; add one to the config"
+    ))
 }

@@ -1,39 +1,39 @@
-//! Depth as another imager sees it.
+//! Depth in the image of another imager.
 
-/// How an imager without distortion maps points to pixels: x = fx · X/Z + cx, y = fy · Y/Z + cy, with X to the right, Y
+/// A pinhole camera without distortion: x = fx · X/Z + cx, y = fy · Y/Z + cy, with X to the right, Y
 /// down and Z forward.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intrinsics {
-    /// Pixels in a row, rows.
+    /// Width, height \[pixels\].
     pub size: [usize; 2],
     /// fx, fy \[pixels\].
     pub focal: [f64; 2],
-    /// cx, cy \[pixels\], from the middle of the first pixel.
+    /// cx, cy \[pixels\], from the centre of the first pixel.
     pub centre: [f64; 2],
 }
 
-/// Two imagers on one body: one that measures depth, and one that depth is wanted for.
+/// Two imagers on one body: the depth imager, and the imager to which depth is aligned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Registration {
     /// The imager that measures depth.
     pub from: Intrinsics,
-    /// The imager that it is wanted for.
+    /// The imager to which it is aligned.
     pub to: Intrinsics,
     /// Rotation from the first imager's frame to the second's, row by row.
     pub rotation: [[f64; 3]; 3],
-    /// Place of the first imager in the second's frame \[m\].
+    /// Position of the first imager in the second's frame \[m\].
     pub translation: [f64; 3],
 }
 
 impl Registration {
-    /// `[height, width]` of what [`Registration::align`] fills.
+    /// `[height, width]` of the result of [`Registration::align`].
     pub fn size(&self) -> [usize; 2] {
         [self.to.size[1], self.to.size[0]]
     }
 
-    /// Fills `aligned` with the depths \[m\] that the second imager sees, of those that the first sees, which are
-    /// `[height, width]`. Each depth stands for the square of its pixel; where several fall on one pixel the nearest
-    /// counts, and where none does there is 0.
+    /// Fills `aligned` with the depths \[m\] in the image of the second imager, from the `[height, width]` depths of the
+    /// first. Each depth covers the square of its pixel; where several fall on one pixel the nearest
+    /// counts, and where none does the depth is 0.
     pub fn align(&self, depths: &[f32], [height, width]: [usize; 2], aligned: &mut Vec<f32>) {
         let [rows, columns] = self.size();
         aligned.clear();
@@ -59,7 +59,7 @@ impl Registration {
         }
     }
 
-    /// Where the second imager sees what the first sees at a pixel, and how deep; `None` behind it.
+    /// Pixel and depth \[m\] in the second image of a point of the first; `None` behind the second imager.
     fn project(&self, pixel: [f64; 2], depth: f64) -> Option<([f64; 2], f32)> {
         let [x, y] = [0, 1].map(|k| (pixel[k] - self.from.centre[k]) / self.from.focal[k] * depth);
         let point = [0, 1, 2].map(|k| {
@@ -71,7 +71,7 @@ impl Registration {
     }
 }
 
-/// The pixels whose middles lie between two places, at least the one nearest to their middle, of those that there are.
+/// The pixels, of `count`, whose centres lie between `low` and `high`; at least the one nearest to the midpoint.
 fn pixels(low: f64, high: f64, count: usize) -> std::ops::Range<usize> {
     let middle = (0.5 * (low + high)).round();
     let first = low.ceil().min(middle).max(0.0) as usize;

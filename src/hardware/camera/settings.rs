@@ -1,32 +1,32 @@
-//! What a config says of a camera.
+//! Settings of a camera, from a config.
 
 use super::registration::{Intrinsics, Registration};
 use crate::parameters::Parameters;
 use crate::port::{Encoding, Request, Source};
 use robot::{CameraConfig, DeviceConfig, Fault, HardwareId};
 
-/// Most pixels along a side, and frames a second.
+/// Range of the pixels along a side, and of the frames a second.
 const SIDES: [f64; 2] = [16.0, 8192.0];
 const RATES: [f64; 2] = [1.0, 300.0];
 
-/// A camera as its config has it.
+/// Settings of a camera.
 #[derive(Clone, Debug)]
 pub(super) struct Settings {
     /// The stream of colours.
     pub(super) rgb: Option<Request>,
     /// The stream of depth.
     pub(super) depth: Option<Depth>,
-    /// Frames that are thrown away.
+    /// Number of first frames that are discarded.
     pub(super) warm_up: u32,
     /// Age at which a frame is too old \[s\].
     pub(super) stale: f64,
 }
 
-/// A stream of depth, and what becomes of it.
+/// A stream of depth, and how its values are converted.
 #[derive(Clone, Debug)]
 pub(super) struct Depth {
     pub(super) request: Request,
-    /// Metres in one step.
+    /// One unit of depth \[m\].
     pub(super) unit: f64,
     pub(super) registration: Option<Registration>,
     scale: f64,
@@ -35,7 +35,7 @@ pub(super) struct Depth {
 }
 
 impl Depth {
-    /// Applies what the config says of the values; where there is no depth, there is none afterwards.
+    /// Applies scale, offset and range of the config; a depth of 0, none, stays 0.
     pub(super) fn correct(&self, depths: &mut [f32]) {
         let [low, high] = self.range;
         for depth in depths.iter_mut().filter(|depth| **depth > 0.0) {
@@ -49,10 +49,10 @@ fn refused<T>(why: impl Into<String>) -> Result<T, Fault> {
 }
 
 impl Settings {
-    /// Those of a device.
+    /// The settings of a device.
     ///
     /// # Errors
-    /// What the config lacks or says wrongly.
+    /// A parameter that is missing or wrong.
     pub(super) fn new(config: &DeviceConfig) -> Result<Settings, Fault> {
         let mut parameters = Parameters::new(config);
         let [rgb, depth] = streams(config)?;
@@ -65,10 +65,10 @@ impl Settings {
     }
 }
 
-/// The entries for colours and for depth.
+/// The entries for colours and for depth in the list `cam`.
 fn streams(config: &DeviceConfig) -> Result<[Option<&CameraConfig>; 2], Fault> {
     if !config.sensors.is_empty() || !config.actuators.is_empty() {
-        return refused("a camera has a list 'cam', and neither sensors nor actuators");
+        return refused("a camera must have a list 'cam' and no sensors or actuators");
     }
     let mut found = [None; 2];
     for entry in &config.cameras {
@@ -76,7 +76,7 @@ fn streams(config: &DeviceConfig) -> Result<[Option<&CameraConfig>; 2], Fault> {
             HardwareId::Name(name) if name == "rgb" => 0,
             HardwareId::Name(name) if name == "d" => 1,
             _ => {
-                return refused(format!("the hdr_id of its entry '{}' is neither 'rgb' nor 'd'", entry.name));
+                return refused(format!("the hdr_id of its entry '{}' must be 'rgb' or 'd'", entry.name));
             }
         };
         if found[place].replace(entry).is_some() {
@@ -87,16 +87,16 @@ fn streams(config: &DeviceConfig) -> Result<[Option<&CameraConfig>; 2], Fault> {
         }
     }
     match found {
-        [None, None] => refused("its list 'cam' has no entry; write one with hdr_id 'rgb', or 'd' for depth"),
+        [None, None] => refused("its list 'cam' has no entry; add one with hdr_id 'rgb', or 'd' for depth"),
         [Some(rgb), _] if (rgb.scale, rgb.offset) != (1.0, 0.0) => refused(format!(
-            "the scale of '{}' must be 1 and its offset 0: colours stay as they are",
+            "the scale of '{}' must be 1 and its offset 0: colours are not converted",
             rgb.name
         )),
         found => Ok(found),
     }
 }
 
-/// What both kinds of camera have.
+/// Settings of both kinds of camera.
 struct Common {
     width: usize,
     height: usize,
@@ -143,12 +143,12 @@ fn camera(
     let common = Common::new(parameters, 5.0)?;
     if let Some(depth) = depth {
         return refused(format!(
-            "a camera of type 'camera' has no depth for '{}'; 'realsense' has",
+            "an interface of type 'camera' has no depth for '{}'; use the type 'realsense', or remove the entry",
             depth.name
         ));
     }
     let Some(path) = parameters.text("name")? else {
-        return refused("its interface needs a 'name', the camera's device node, as '/dev/video0'");
+        return refused("its interface needs a 'name', the camera's device node, such as '/dev/video0'");
     };
     Ok(common.settings(rgb.map(|_| Source::Node(path)), None))
 }
@@ -162,7 +162,7 @@ fn realsense(
     let topics = [parameters.text("rgb_topic")?, parameters.text("topic")?];
     let serial =
         parameters.text("serial")?.or_else(|| topics.iter().flatten().find_map(|topic| serial_in(topic)));
-    // Of the original's program that passed frames on.
+    // Parameters of the separate program that sends frames to RoboHive.
     parameters.skip(&["d_topic", "data_type"]);
     let nodes = [parameters.text("name")?, parameters.text("depth_name")?];
     let unit = parameters.number("depth_unit", 0.001, [1e-6, 0.1])?;
@@ -182,7 +182,7 @@ fn realsense(
     Ok(common.settings(rgb.map(|_| colour_source), depth))
 }
 
-/// The digits after the first underscore of a topic of the original, as `realsense_815412070228/color/image_raw`.
+/// The digits after the first underscore of a topic of RoboHive, such as `realsense_815412070228/color/image_raw`.
 fn serial_in(topic: &str) -> Option<String> {
     let digits: String = topic.split_once('_')?.1.chars().take_while(char::is_ascii_digit).collect();
     (!digits.is_empty()).then_some(digits)
@@ -191,7 +191,9 @@ fn serial_in(topic: &str) -> Option<String> {
 fn registration(parameters: &mut Parameters, size: [usize; 2]) -> Result<Option<Registration>, Fault> {
     let mut list = |key: &'static str, count: usize| match parameters.numbers(key)? {
         Some(numbers) if numbers.len() != count || !numbers.iter().all(|number| number.is_finite()) => {
-            refused(format!("the parameter '{key}' of its interface is not a list of {count} numbers"))
+            refused(format!(
+                "the parameter '{key}' of its interface must be a list of {count} finite numbers"
+            ))
         }
         numbers => Ok(numbers),
     };
@@ -213,7 +215,7 @@ fn registration(parameters: &mut Parameters, size: [usize; 2]) -> Result<Option<
     for [a, b] in [[0, 1], [0, 2], [1, 2], [0, 0], [1, 1], [2, 2]] {
         let product: f64 = (0..3).map(|k| rotation[a][k] * rotation[b][k]).sum();
         if (product - f64::from(u8::from(a == b))).abs() > 1e-3 {
-            return refused("the first nine numbers of 'depth_to_rgb' are no rotation matrix, row by row");
+            return refused("the first nine numbers of 'depth_to_rgb' must be a rotation matrix, row by row");
         }
     }
     Ok(Some(Registration { from, to, rotation, translation: [pose[9], pose[10], pose[11]] }))
@@ -222,7 +224,7 @@ fn registration(parameters: &mut Parameters, size: [usize; 2]) -> Result<Option<
 fn intrinsics(key: &str, numbers: &[f64], size: [usize; 2]) -> Result<Intrinsics, Fault> {
     if numbers[0] <= 0.0 || numbers[1] <= 0.0 {
         return refused(format!(
-            "the first two numbers of '{key}' are focal lengths in pixels, and positive"
+            "the first two numbers of '{key}' are focal lengths in pixels and must be positive"
         ));
     }
     Ok(Intrinsics { size, focal: [numbers[0], numbers[1]], centre: [numbers[2], numbers[3]] })

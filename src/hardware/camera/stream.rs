@@ -11,54 +11,54 @@ use std::time::Duration;
 
 /// Longest wait for the first frame \[s\]: cameras take a moment to begin.
 const FIRST: f64 = 5.0;
-/// How long the thread waits for a frame before it looks whether it is still needed.
+/// How long the thread waits for a frame before it checks whether it should end.
 const WAIT: Duration = Duration::from_millis(50);
 /// Time between two attempts to open a camera that was lost \[s\].
 const AGAIN: f64 = 1.0;
 
-/// What became of a stream's frames.
+/// Counts of a stream's frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
-    /// Frames that came.
+    /// Frames that were received.
     pub frames: u64,
-    /// Frames that the camera numbered and nobody got.
+    /// Frames that are missing in the camera's numbering.
     pub dropped: u64,
-    /// Frames that the camera's driver called damaged; they are not shown.
+    /// Frames that the camera's driver reported as damaged; they are not used.
     pub damaged: u64,
-    /// Times that the camera was lost and opened again.
+    /// Times that the camera was lost and reopened.
     pub reopened: u64,
 }
 
-/// A stream, of which the newest frame is kept.
+/// A stream that keeps its newest frame.
 pub(super) struct Stream {
     format: Format,
-    /// Whether its first frames are to be thrown away.
+    /// Whether its first frames are discarded.
     settles: bool,
     stale: f64,
     newest: Arc<Mutex<Newest>>,
     intake: Intake,
 }
 
-/// Who takes frames from the camera.
+/// What takes frames from the camera.
 enum Intake {
     /// A thread, in real time.
     Thread { wanted: Arc<AtomicBool>, thread: Option<JoinHandle<()>> },
-    /// Whoever asks for the newest one, where time is virtual.
+    /// The caller that asks for the newest frame, in virtual time.
     Asked(Box<Source>),
 }
 
 #[derive(Default)]
 struct Newest {
     bytes: Vec<u8>,
-    /// When it came \[s\], on the clock of the setup.
+    /// Time of arrival \[s\], on the clock of the setup.
     time: Option<f64>,
     sequence: Option<u32>,
-    /// Why none come.
+    /// Why no frames arrive.
     fault: Option<String>,
     counts: Counts,
 }
 
-/// A camera, opened again when it was lost.
+/// A camera that is reopened when it was lost.
 struct Source {
     name: String,
     request: Request,
@@ -109,7 +109,7 @@ impl Stream {
         lock(&self.newest).counts
     }
 
-    /// Returns when so many frames have come and one more; of a camera that need not settle, when one has.
+    /// Waits for `frames` frames and one more, or for one frame of a camera that need not settle.
     pub(super) fn warm_up(&mut self, frames: u32, clock: &mut dyn Clock) -> Result<(), Fault> {
         let frames = if self.settles { frames } else { 0 };
         let end = clock.now() + FIRST + f64::from(frames) / self.format.rate;
@@ -126,7 +126,7 @@ impl Stream {
             drop(newest);
             if clock.now() > end {
                 return Err(Fault::Unreachable(format!(
-                    "{came} frames came in {:.0} s; another program may use it, or its cable may be too slow",
+                    "only {came} frames came in {:.0} s; check that no other program uses it and that its cable is fast enough",
                     FIRST + f64::from(frames) / self.format.rate
                 )));
             }
@@ -134,7 +134,7 @@ impl Stream {
         }
     }
 
-    /// Has the newest frame decoded.
+    /// Decodes the newest frame.
     pub(super) fn newest(
         &mut self,
         clock: &mut dyn Clock,
@@ -150,10 +150,10 @@ impl Stream {
             return Err(Fault::Stale((1e3 * age.min(1e9)) as u64));
         }
         decode(&newest.bytes)
-            .map_err(|why| Fault::Unreachable(format!("its newest frame cannot be shown: {why}")))
+            .map_err(|why| Fault::Unreachable(format!("its newest frame cannot be decoded: {why}")))
     }
 
-    /// Takes what has come, where no thread does.
+    /// Takes the frames that have arrived, where no thread does.
     fn take_in(&mut self) {
         if let Intake::Asked(source) = &mut self.intake {
             while source.pull(Duration::ZERO, &self.newest) {}
@@ -166,7 +166,7 @@ impl Drop for Stream {
         if let Intake::Thread { wanted, thread } = &mut self.intake {
             wanted.store(false, Ordering::Relaxed);
             if let Some(thread) = thread.take() {
-                // It has nothing to say: what it found is in `newest`.
+                // The thread returns nothing: its results are in `newest`.
                 let _ = thread.join();
             }
         }
@@ -174,7 +174,7 @@ impl Drop for Stream {
 }
 
 impl Source {
-    /// Waits for the next frame and puts it in its place; whether one came.
+    /// Waits for the next frame and stores it in `place`; returns whether one came.
     fn pull(&mut self, wait: Duration, place: &Mutex<Newest>) -> bool {
         let Some(capture) = &mut self.capture else {
             self.reopen(wait, place);
@@ -194,10 +194,10 @@ impl Source {
         }
     }
 
-    /// Opens the camera again, if it was not tried a moment ago.
+    /// Reopens the camera, at most once in [`AGAIN`] seconds.
     fn reopen(&mut self, wait: Duration, place: &Mutex<Newest>) {
         if self.clock.now() - self.lost < AGAIN {
-            // A virtual clock is moved by somebody else.
+            // A virtual clock advances elsewhere, so this is real time.
             std::thread::sleep(wait);
             return;
         }
@@ -207,7 +207,7 @@ impl Source {
                 self.capture = Some(capture);
                 lock(place).reopen();
             }
-            Ok(_) => lock(place).lose("it came back with another format; start again".to_owned()),
+            Ok(_) => lock(place).lose("it came back with another format; restart the program".to_owned()),
             Err(fault) => lock(place).lose(format!("it was lost: {fault}")),
         }
     }
@@ -216,7 +216,7 @@ impl Source {
 impl Newest {
     fn put(&mut self, frame: &Frame, now: f64) {
         let step = self.sequence.map_or(1, |before| frame.sequence.wrapping_sub(before));
-        // A camera that counts backwards has begun again.
+        // A number that goes back means that the camera restarted its count.
         if step > 1 && step < u32::MAX / 2 {
             self.counts.dropped += u64::from(step - 1);
         }
@@ -242,10 +242,10 @@ impl Newest {
 }
 
 fn lost(error: &io::Error) -> String {
-    format!("it was lost, and is opened again when it is back: {error}")
+    format!("it was lost, and is reopened when it is connected again: {error}")
 }
 
-/// What a mutex holds. A panic elsewhere leaves whole values, since each is put in place when it is complete.
+/// Locks a mutex, also after a panic elsewhere: each value is stored only when it is complete.
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

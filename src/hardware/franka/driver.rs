@@ -21,7 +21,7 @@ const PERIOD: f64 = 0.25e-3;
 const WARN: f64 = 3e-3;
 /// Silence after which the motion comes to rest \[s\].
 const HOLD: f64 = 10e-3;
-/// Silence after which the arm is told to stop \[s\].
+/// Silence after which the arm is commanded to stop \[s\].
 const STOP: f64 = 20e-3;
 /// Stiffness \[N m/rad\] and damping \[N m s/rad\].
 const STIFFNESS: [f64; JOINTS] = [40.0, 30.0, 50.0, 25.0, 35.0, 25.0, 10.0];

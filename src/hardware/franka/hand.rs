@@ -24,7 +24,7 @@ pub(super) struct Hand {
     received: Option<f64>,
     speed: f64,
     force: f64,
-    /// What it was told last \[m\].
+    /// Its last commanded width \[m\].
     told: Option<f64>,
     wanted: f64,
     sent: f64,

@@ -12,7 +12,7 @@
 //! | `control` | `impedance`: torques from here, as RoboHive has them; `position`: the arm's own joint position control | `impedance` |
 //! | `gain_scale` | of the stiffness 40 30 50 25 35 25 10 N m/rad and the damping 4 6 5 5 3 2 1 N m s/rad | 1 |
 //! | `reset_gain_scale` | the same, on the way to where an episode begins | 1 |
-//! | `interpolation` | `smooth`: targets become a motion within the arm's limits; `none`: targets leap, which only an arm at a loopback address is sent | `smooth` |
+//! | `interpolation` | `smooth`: targets become a motion within the arm's limits; `none`: targets jump, which only an arm at a loopback address is sent | `smooth` |
 //! | `version` | of the interface, 5 or 10; 0 finds out | 0 |
 //! | `collision_torque`, `collision_force` | contacts that stop the arm \[N m, N\] | 40, 40 |
 //! | `box` | `[x low, x high, y low, y high, z low, z high]` of the end effector, in the frame of the arm's base \[m\] | none |

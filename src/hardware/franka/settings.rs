@@ -39,7 +39,7 @@ pub(super) struct Settings {
     pub(super) impedance: bool,
     pub(super) gain_scale: f64,
     pub(super) reset_gain_scale: f64,
-    /// Targets leap.
+    /// Targets jump.
     pub(super) direct: bool,
     pub(super) collision: [f64; 2],
     /// Where the end effector may be.
@@ -88,7 +88,7 @@ impl Settings {
         if direct && !(host == "localhost" || host.parse().is_ok_and(|address: IpAddr| address.is_loopback()))
         {
             return Err(refused(format!(
-                "its interface has interpolation = 'none', which lets targets leap beyond the limits of an arm: only a \
+                "its interface has interpolation = 'none', which lets targets jump beyond the limits of an arm: only a \
                  simulated one at a loopback address is sent that, not '{host}'"
             )));
         }

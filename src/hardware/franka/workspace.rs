@@ -3,7 +3,7 @@
 use protocol::franka::{JOINTS, flange};
 use robot::Fault;
 
-/// How much farther outside an arm that begins outside may get on its way in \[m\].
+/// How much farther outside the box an arm that begins outside may get while it moves inside \[m\].
 const SLACK: f64 = 1e-3;
 
 /// A box in the frame of the arm's base \[m\].
@@ -11,15 +11,15 @@ const SLACK: f64 = 1e-3;
 pub(super) struct Workspace {
     /// Smallest and largest coordinate along each axis.
     ends: [[f64; 2]; 3],
-    /// From the flange to the point that is kept inside, along the flange's axis.
+    /// Distance of the point that is kept inside from the flange, along the flange's axis \[m\].
     tool: f64,
 }
 
 impl Workspace {
-    /// A box `[x low, x high, y low, y high, z low, z high]` for a point so far before the flange.
+    /// A box `[x low, x high, y low, y high, z low, z high]` \[m\] for a point at this distance \[m\] in front of the flange.
     ///
     /// # Errors
-    /// Why the numbers are no box.
+    /// The numbers are not a box.
     pub(super) fn new(numbers: &[f64], tool: f64) -> Result<Workspace, Fault> {
         let wrong = |why: &str| {
             Err(Fault::Refused(format!(
@@ -34,19 +34,19 @@ impl Workspace {
             ends.as_flattened().iter().all(|end| end.is_finite()),
             ends.iter().all(|[low, high]| low < high),
         ) {
-            (false, _) => wrong("has something else than finite numbers"),
+            (false, _) => wrong("has numbers that are not finite"),
             (_, false) => wrong("has a low end that is not below its high end"),
             _ => Ok(Workspace { ends, tool }),
         }
     }
 
-    /// Where the point is with the joints at `q` \[rad\].
+    /// Position of the point \[m\], in the frame of the base, with the joints at `q` \[rad\].
     fn point(&self, q: &[f64; JOINTS]) -> [f64; 3] {
         let pose = flange(q);
         std::array::from_fn(|axis| pose[12 + axis] + self.tool * pose[8 + axis])
     }
 
-    /// How far it is outside along each axis; 0 inside.
+    /// Distance outside along each axis \[m\]; 0 inside.
     pub(super) fn beyond(&self, q: &[f64; JOINTS]) -> [f64; 3] {
         let point = self.point(q);
         std::array::from_fn(|axis| {
@@ -55,14 +55,14 @@ impl Workspace {
         })
     }
 
-    /// Whether the joints may be at `wanted`: in the box, or no farther outside than `outside`, the least that they have been since
-    /// their motion began.
+    /// Whether the joints may be at `wanted`: in the box, or no farther outside than `outside`, the smallest distance since
+    /// the motion began.
     pub(super) fn allows(&self, outside: &[f64; 3], wanted: &[f64; JOINTS]) -> bool {
         let slack = |outside: f64| if outside > 0.0 { outside + SLACK } else { 0.0 };
         self.beyond(wanted).iter().zip(outside).all(|(beyond, outside)| *beyond <= slack(*outside))
     }
 
-    /// Why the joints may not be at `wanted`.
+    /// The fault for joints at `wanted` that are not allowed.
     pub(super) fn refusal(&self, what: &str, wanted: &[f64; JOINTS]) -> Fault {
         let [x, y, z] = self.point(wanted);
         let beyond = self.beyond(wanted);
@@ -83,7 +83,7 @@ mod tests {
 
     #[test]
     fn a_point_outside_may_come_nearer_and_go_no_further() {
-        // Stretched upwards the flange is 0.926 m high, 0.088 m in front, and looks down.
+        // Stretched upwards the flange is 0.926 m high, 0.088 m in front, and points down.
         let up = [0.0; JOINTS];
         let workspace = Workspace::new(&[-0.2, 0.2, -0.2, 0.2, 0.0, 0.8], 0.1).unwrap();
         let [x, y, z] = workspace.point(&up);

@@ -7,9 +7,9 @@ use std::path::Path;
 /// A video device that the system knows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
-    /// Its node.
+    /// Path of its device node.
     pub path: String,
-    /// What its driver calls it.
+    /// Its name, from its driver.
     pub name: String,
     /// Vendor and product on the USB bus, as `8086:0b07`.
     pub usb: Option<String>,
@@ -20,8 +20,8 @@ pub struct Found {
 /// Where Linux lists video devices.
 const LIST: &str = "/sys/class/video4linux";
 
-/// Video devices of this machine, by the numbers of their nodes. One camera often has several: for pictures, for
-/// descriptions of pictures, for each of its imagers.
+/// Video devices of this machine, by the numbers of their nodes. One camera often has several: for frames, for
+/// metadata, for each of its imagers.
 pub fn video_devices() -> Vec<Found> {
     listed(Path::new(LIST))
 }
@@ -43,7 +43,7 @@ fn listed(folder: &Path) -> Vec<Found> {
 fn described(node: &str, entry: &Path) -> Found {
     let text =
         |path: std::path::PathBuf| std::fs::read_to_string(path).ok().map(|text| text.trim().to_owned());
-    // The device is an interface on the USB bus; what is above it has the identity.
+    // The device is an interface on the USB bus; its parent has the identity.
     let usb = |file: &str| text(entry.join("device/..").join(file));
     Found {
         path: format!("/dev/{node}"),
@@ -81,7 +81,7 @@ impl Captures for System {
 
     #[cfg(not(target_os = "linux"))]
     fn open(&self, _: &str, _: &Request) -> Result<Box<dyn Capture>, Fault> {
-        Err(Fault::Refused("cameras are read on Linux alone".to_owned()))
+        Err(Fault::Refused("cameras are supported on Linux only".to_owned()))
     }
 }
 
@@ -111,8 +111,8 @@ fn real_sense(devices: &[Found], serial: Option<&str>) -> Result<Vec<String>, Fa
         }
         (Some(serial), known) => known.iter().find(|known| **known == serial).ok_or_else(|| {
             Fault::Unreachable(format!(
-                "no RealSense has the serial number {serial} on the USB bus; there are {}. It is what rs-enumerate-devices \
-                 calls Asic Serial Number, not the number on the camera",
+                "no RealSense has the serial number {serial} on the USB bus; there are {}. Set 'serial' to the number that \
+                 rs-enumerate-devices calls Asic Serial Number, not the one printed on the camera",
                 known.join(", ")
             ))
         })?,

@@ -1,11 +1,11 @@
-//! Where frames come from: what a camera is asked for, and what it sends.
+//! Sources of frames: requests to a camera, and the frames that it sends.
 
 use robot::Fault;
 use std::fmt;
 use std::io;
 use std::time::Duration;
 
-/// How the bytes of a frame stand for pixels.
+/// Encoding of pixels in the bytes of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Encoding {
     /// Two pixels in four bytes: brightness, blue, brightness, red.
@@ -14,12 +14,12 @@ pub enum Encoding {
     Uyvy,
     /// A JPEG picture, whose Huffman tables may be left out.
     Mjpg,
-    /// Depth, 16 bits a pixel, lowest byte first.
+    /// Depth, 16 bits a pixel, little-endian.
     Z16,
 }
 
 impl Encoding {
-    /// Those of colours, in the order in which they are preferred: those without loss before the other.
+    /// Encodings of colours, in order of preference: uncompressed ones first.
     pub const COLOURS: [Encoding; 3] = [Encoding::Yuyv, Encoding::Uyvy, Encoding::Mjpg];
 
     /// Its four characters in Video4Linux.
@@ -32,7 +32,7 @@ impl Encoding {
         }
     }
 
-    /// Bytes of a frame of so many pixels; `None` where they differ.
+    /// Bytes of a frame of `pixels` pixels; `None` where the size varies.
     pub fn bytes(self, pixels: usize) -> Option<usize> {
         (self != Encoding::Mjpg).then_some(2 * pixels)
     }
@@ -49,10 +49,10 @@ impl fmt::Display for Encoding {
     }
 }
 
-/// What the frames of a stream are.
+/// Format of the frames of a stream.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Format {
-    /// Of the bytes.
+    /// Encoding of the bytes.
     pub encoding: Encoding,
     /// Pixels in a row.
     pub width: usize,
@@ -81,12 +81,12 @@ impl fmt::Display for Source {
     }
 }
 
-/// What is asked of a camera.
+/// The stream that is requested from a camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Request {
-    /// Where it is.
+    /// The camera.
     pub source: Source,
-    /// The encodings that will do, the best first.
+    /// Accepted encodings, in order of preference.
     pub encodings: Vec<Encoding>,
     /// Pixels in a row.
     pub width: usize,
@@ -96,14 +96,14 @@ pub struct Request {
     pub rate: f64,
 }
 
-/// A frame as it came.
+/// A frame as received.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame<'a> {
     /// Its bytes.
     pub bytes: &'a [u8],
-    /// Its number in the camera's count, which goes round at 2³².
+    /// Its number in the camera's count, which wraps around at 2³².
     pub sequence: u32,
-    /// When it was taken, by the camera's driver \[s\].
+    /// Time at which it was taken \[s\], on the clock of the camera's driver.
     pub time: f64,
     /// The driver says that bytes of it are missing.
     pub damaged: bool,
@@ -111,15 +111,15 @@ pub struct Frame<'a> {
 
 /// A stream of frames.
 pub trait Capture: Send {
-    /// What the frames are.
+    /// Format of the frames.
     fn format(&self) -> Format;
 
-    /// Whether the first frames are too dark or too light, until exposure has settled.
+    /// Whether the exposure of the first frames has to settle.
     fn settles(&self) -> bool {
         true
     }
 
-    /// The next frame, in their order; waits for it this long. `None` if it does not come.
+    /// The next frame, in order; waits for it up to `wait`. `None` if it does not come.
     ///
     /// # Errors
     /// The camera is gone.
@@ -128,19 +128,19 @@ pub trait Capture: Send {
 
 /// Opens cameras.
 pub trait Captures: Send + Sync {
-    /// Begins the stream that is asked for, of the camera that a config calls `name`.
+    /// Begins the requested stream of the camera that a config calls `name`.
     ///
     /// # Errors
-    /// There is no such camera, it is in use, or it cannot do that: what it can.
+    /// There is no such camera, it is in use, or it does not support the request; the error lists what it supports.
     fn open(&self, name: &str, request: &Request) -> Result<Box<dyn Capture>, Fault>;
 }
 
-/// Where devices are simulated, but no cameras.
+/// For simulated devices without simulated cameras.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct NoCaptures;
 
 impl Captures for NoCaptures {
     fn open(&self, _: &str, request: &Request) -> Result<Box<dyn Capture>, Fault> {
-        Err(Fault::Unreachable(format!("no simulated camera is in the place of {}", request.source)))
+        Err(Fault::Unreachable(format!("there is no simulated camera for {}", request.source)))
     }
 }

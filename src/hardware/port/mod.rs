@@ -1,4 +1,4 @@
-//! Real ports, and how drivers come by one.
+//! Ports of this machine, and how drivers open them.
 
 mod cameras;
 mod capture;
@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// Opens the port of a device by its name and speed; again when the connection was lost.
 pub type Opener = Arc<dyn Fn(&str, u32) -> io::Result<Box<dyn Port>> + Send + Sync>;
 
-/// An error of a port as a fault: the device is gone, or could not be asked.
+/// An error of a port as a fault: the device is disconnected, or does not respond.
 pub(crate) fn broken(error: &io::Error) -> Fault {
     match error.kind() {
         io::ErrorKind::UnexpectedEof => Fault::Unreachable(format!("the connection is lost: {error}")),

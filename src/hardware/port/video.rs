@@ -21,7 +21,7 @@ const READABLE: i16 = 1;
 pub(super) struct Video {
     stream: MmapStream<'static>,
     format: Format,
-    /// Buffers were given to the driver.
+    /// Whether the driver has the buffers.
     begun: bool,
 }
 
@@ -29,13 +29,15 @@ impl Video {
     /// Begins the stream of a node.
     ///
     /// # Errors
-    /// There is no such node, it is in use, or it cannot do what is asked: what it can.
+    /// There is no such node, it is in use, or it does not support the request; the error lists what it supports.
     pub(super) fn open(path: &str, request: &Request) -> Result<Video, Fault> {
         let device = Device::with_path(path).map_err(|error| unopened(path, &error))?;
         let failed = |error: io::Error| Fault::Unreachable(format!("{path}: {error}"));
         let capabilities = device.query_caps().map_err(failed)?.capabilities;
         if !capabilities.contains(Can::VIDEO_CAPTURE | Can::STREAMING) {
-            return Err(Fault::Refused(format!("{path} is no camera: it sends no pictures")));
+            return Err(Fault::Refused(format!(
+                "{path} is not a camera: it sends no frames; choose another node"
+            )));
         }
         let encoding = encoding_of(&device, path, request)?;
         let mut format = device.format().map_err(failed)?;
@@ -46,7 +48,7 @@ impl Video {
             || [format.width as usize, format.height as usize] != [request.width, request.height]
         {
             return Err(Fault::Refused(format!(
-                "{path} gives {} x {} pixels instead of {} x {}; set 'width' and 'height' of its interface to what it has",
+                "{path} offers {} x {} pixels instead of {} x {}; set 'width' and 'height' of its interface to these",
                 format.width, format.height, request.width, request.height
             )));
         }
@@ -55,7 +57,7 @@ impl Video {
         let rate = f64::from(interval.denominator) / f64::from(interval.numerator.max(1));
         if (rate - request.rate).abs() > 0.05 * request.rate {
             return Err(Fault::Refused(format!(
-                "{path} gives {rate:.0} frames a second at this size instead of {}; set the 'rate' of its interface",
+                "{path} offers {rate:.0} frames a second at this size instead of {}; set the 'rate' of its interface to this",
                 request.rate
             )));
         }
@@ -85,14 +87,20 @@ fn encoding_of(device: &Device, path: &str, request: &Request) -> Result<Encodin
         let offered = device.enum_formats().unwrap_or_default();
         let offered: Vec<_> = offered.iter().map(|format| format.fourcc.to_string()).collect();
         let asked: Vec<_> = request.encodings.iter().map(Encoding::to_string).collect();
-        Fault::Refused(format!("{path} offers {}, and none of {}", offered.join(", "), asked.join(", ")))
+        Fault::Refused(format!(
+            "{path} offers the formats {}, and none of {}",
+            offered.join(", "),
+            asked.join(", ")
+        ))
     })
 }
 
 fn unopened(path: &str, error: &io::Error) -> Fault {
     let advice = match error.kind() {
         io::ErrorKind::NotFound => "; `robohive hardware list` shows the cameras of this machine",
-        io::ErrorKind::PermissionDenied => "; add yourself to the group video, and log in again",
+        io::ErrorKind::PermissionDenied => {
+            "; add yourself to the group video (sudo usermod -aG video $USER) and log in again"
+        }
         _ => "",
     };
     Fault::Unreachable(format!("{path}: {error}{advice}"))
@@ -100,7 +108,7 @@ fn unopened(path: &str, error: &io::Error) -> Fault {
 
 fn busy(path: &str, error: &io::Error) -> Fault {
     let advice = match error.kind() {
-        io::ErrorKind::ResourceBusy => "; another program has the camera",
+        io::ErrorKind::ResourceBusy => "; another program uses the camera: close it",
         _ => "",
     };
     Fault::Unreachable(format!("{path}: {error}{advice}"))

@@ -11,14 +11,14 @@ const TRIES: usize = 3;
 /// Most bytes of one servo that are read at once.
 const MOST: usize = 32;
 
-/// How several servos are read.
+/// How the servos on a bus are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Reading {
     /// One request after the other.
     Each,
-    /// One request, and an answer of each.
+    /// One request, and one answer from each servo.
     Sync,
-    /// One request and one answer.
+    /// One request, and one answer from all servos together.
     Fast,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Bus {
     line: SerialLine,
     packets: Box<dyn Packets>,
     layout: &'static Layout,
-    /// Of a request to several servos.
+    /// Data of a request to several servos.
     scratch: Vec<u8>,
 }
 
@@ -37,14 +37,14 @@ impl Bus {
         Bus { line: SerialLine::new(port, baud), packets, layout: family.layout, scratch: Vec::new() }
     }
 
-    /// Sends a request. What an earlier one left behind is dropped.
+    /// Sends a request, and drops the remains of earlier answers.
     fn send(&mut self, id: u8, request: Request<'_>) -> Result<(), Fault> {
         let packets = &mut self.packets;
         packets.clear();
         self.line.send(|out| packets.encode(out, id, request))
     }
 
-    /// Asks one servo once; returns its error byte.
+    /// Sends a request to one servo, writes its answer to `out`, and returns its error byte.
     fn ask_once(&mut self, id: u8, request: Request<'_>, out: &mut [u8]) -> Result<u8, Fault> {
         self.send(id, request)?;
         let Bus { line, packets, .. } = self;
@@ -52,7 +52,7 @@ impl Bus {
         line.answers(bytes, |sent, came| {
             let mut error = None;
             packets.answers(sent, came, &mut |answer: Answer<'_>| {
-                // An answer without data is a refusal; of a wrong length it is that to another request.
+                // An answer without data is a refusal; one of the wrong length answers another request.
                 let whole = answer.data.len() == out.len();
                 if answer.id != id || !whole && (answer.error == 0 || !answer.data.is_empty()) {
                     return false;
@@ -66,7 +66,7 @@ impl Bus {
             error.map_or(ControlFlow::Continue(None), ControlFlow::Break)
         })
         .and_then(|(error, whole)| match self.packets.verdict(error) {
-            // A servo that heard a damaged instruction says so; it is asked again.
+            // The servo reports a damaged instruction: the request is repeated.
             verdict if error != 0 && verdict.damaged => Err(Fault::Stale(0)),
             verdict if verdict.refusal.is_some() || !whole => {
                 let why = verdict.refusal.or(verdict.trouble).unwrap_or_default();
@@ -76,7 +76,7 @@ impl Bus {
         })
     }
 
-    /// Asks one servo until it answers, a few times.
+    /// Sends a request to one servo until it answers, at most [`TRIES`] times.
     fn ask(&mut self, id: u8, request: Request<'_>, out: &mut [u8]) -> Result<u8, Fault> {
         let mut last = Fault::Stale(0);
         for _ in 0..TRIES {
@@ -88,7 +88,7 @@ impl Bus {
         Err(last)
     }
 
-    /// A register of one servo, and its error byte.
+    /// Reads a register of one servo, and its error byte.
     pub(super) fn look(&mut self, id: u8, cell: Cell) -> Result<(i64, u8), Fault> {
         let mut data = [0; 4];
         let data = &mut data[..usize::from(cell.size)];
@@ -96,13 +96,13 @@ impl Bus {
         Ok((cell.decode(data), error))
     }
 
-    /// A register of one servo.
+    /// Reads a register of one servo.
     pub(super) fn read(&mut self, id: u8, cell: Cell) -> Result<i64, Fault> {
         Ok(self.look(id, cell)?.0)
     }
 
-    /// The same, where much depends on it: answers carry no number, so that one that is late can be taken for another, and two
-    /// in a row must agree.
+    /// Reads a register whose value must be certain: answers carry no sequence number, so a late one can be mistaken for another.
+    /// Two readings in a row must agree.
     pub(super) fn read_twice(&mut self, id: u8, cell: Cell) -> Result<i64, Fault> {
         let mut before = self.read(id, cell)?;
         for _ in 0..TRIES {
@@ -122,7 +122,7 @@ impl Bus {
         self.ask(id, request, &mut []).map(drop)
     }
 
-    /// Writes a register, and makes sure that it was taken.
+    /// Writes a register, and verifies it by reading.
     pub(super) fn write_surely(&mut self, id: u8, cell: Cell, value: i64) -> Result<(), Fault> {
         for _ in 0..TRIES {
             self.write(id, cell, value)?;
@@ -131,7 +131,7 @@ impl Bus {
             }
         }
         let address = cell.address;
-        Err(Fault::Refused(format!("servo {id}: its register {address} does not take the value {value}")))
+        Err(Fault::Refused(format!("servo {id}: its register {address} does not accept the value {value}")))
     }
 
     /// Restarts a servo; it is silent for a while.
@@ -139,7 +139,7 @@ impl Bus {
         self.ask(id, Request::Reboot, &mut []).map(drop)
     }
 
-    /// What the hardware of a servo has that answered with this error byte.
+    /// The hardware errors of a servo that answered with this error byte, in words.
     pub(super) fn trouble(&mut self, id: u8, error: u8) -> Result<Option<String>, Fault> {
         if error == 0 {
             return Ok(None);
@@ -175,8 +175,8 @@ impl Bus {
         sent
     }
 
-    /// Reads `size` bytes from an address on of all servos in `ids`, and gives each its place, its error byte and its bytes.
-    /// Returns whether all answered.
+    /// Reads `size` bytes at the address `from` of all servos in `ids`, and calls `take` with the index of each servo in `ids`, its
+    /// error byte and its bytes. Returns whether all answered.
     pub(super) fn read_all(
         &mut self,
         reading: Reading,
@@ -192,7 +192,7 @@ impl Bus {
         self.send(0, request)?;
         let Bus { line, packets, .. } = self;
         let each = usize::from(size) + packets.frame();
-        // They answer in the order in which they are asked, so that a gap ends with the next.
+        // Servos answer in the order of `ids`, so an answer means that those before it are missing.
         let (mut next, mut all) = (0, true);
         let answered = line.answers(ids.len() * each, |sent, came| {
             let before = next;
@@ -228,7 +228,7 @@ impl Bus {
         for (place, id) in ids.iter().enumerate() {
             match self.ask_once(*id, Request::Read(from, size), data) {
                 Ok(error) => take(place, error, data),
-                // Who waits for one servo after the other learns too late of those that answer.
+                // Waiting for the remaining servos would delay the next reading.
                 Err(Fault::Stale(_)) => return Ok(false),
                 Err(fault) => return Err(fault),
             }
@@ -236,7 +236,7 @@ impl Bus {
         Ok(true)
     }
 
-    /// Lets the bus rest.
+    /// Waits without using the bus.
     pub(super) fn wait(&mut self, seconds: f64) {
         self.line.wait(seconds);
     }

@@ -12,20 +12,20 @@ use robot::{DeviceConfig, Fault};
 
 /// Watchdog of the bus in the servos, in units of 20 ms.
 const BUS_WATCHDOG: i64 = 5;
-/// Without a reading for this long the servos are made safe \[s\]: three lost answers, each with the wait for it.
+/// Time without a reading after which the servos are made safe \[s\]: three lost answers, with their timeouts.
 const READING: f64 = 0.09;
-/// Time between two readings of servos that nobody else reads \[s\].
+/// Time between two readings by the watchdog, where the program reads nothing \[s\].
 const HEARTBEAT: f64 = 0.02;
-/// Seconds of silence after a restart, with some to spare.
+/// Time in which a servo does not answer after a restart, with a margin \[s\].
 const REBOOT: f64 = 0.4;
 
-/// A servo that was found.
+/// A servo that answered.
 #[derive(Clone, Copy, Debug)]
 struct Found {
     kind: &'static Kind,
-    /// Goal positions that it takes.
+    /// Smallest and largest goal position, in its units.
     limits: [i64; 2],
-    /// What it last said: position, velocity, current, in its units.
+    /// Its last position, velocity and current, in its units.
     present: [i64; 3],
 }
 
@@ -41,7 +41,10 @@ pub struct Servos {
 }
 
 impl Servos {
-    /// The driver of a device, whose make reads parameters of its own; nothing is opened yet.
+    /// The driver of a device; `make` reads the parameters of its make. Nothing is opened yet.
+    ///
+    /// # Errors
+    /// A parameter that is missing or wrong.
     pub(crate) fn new(
         config: &DeviceConfig,
         opener: Opener,
@@ -97,23 +100,28 @@ impl Servos {
             error = bus.look(id, layout.model)?.1;
         }
         if let Some(trouble) = bus.trouble(id, error)? {
-            let again = if family.reboots { ", also after a reboot" } else { "" };
+            let again = if family.reboots { ", even after a reboot" } else { "" };
             return Err(Fault::Hardware(format!("servo {id}: {trouble}{again}")));
         }
         let kind = family.kinds.iter().find(|kind| i64::from(kind.number) == number).ok_or_else(|| {
             let known: Vec<_> = family.kinds.iter().map(|kind| kind.name).collect();
-            Fault::Refused(format!("servo {id} is of model {number}; known are {}", known.join(", ")))
+            Fault::Refused(format!(
+                "servo {id} has the unknown model number {number}; supported models are {}",
+                known.join(", ")
+            ))
         })?;
         if let Some(model) = wanted.filter(|model| *model != kind.name) {
             let name = kind.name;
-            return Err(Fault::Refused(format!("servo {id} is an {name}, and its config says {model}")));
+            return Err(Fault::Refused(format!(
+                "servo {id} is an {name}, and the config says {model}; change the config's 'model'"
+            )));
         }
         let [low, high] = layout.limits;
         let limits = [bus.read_twice(id, low)?, bus.read_twice(id, high)?];
         Ok(Found { kind, limits, present: [0; 3] })
     }
 
-    /// Whether every servo can do what the config asks of it.
+    /// Checks that every servo supports its mode and its sensors in the config.
     fn check_abilities(&self) -> Result<(), Fault> {
         for motor in &self.settings.motors {
             let kind = self.kind(motor);
@@ -131,7 +139,7 @@ impl Servos {
         Ok(())
     }
 
-    /// How all are read: by one packet where every servo's firmware can.
+    /// How the servos are read: by one packet if every firmware supports it.
     fn choose_reading(&mut self) -> Result<Reading, Fault> {
         let make = &self.settings.make;
         let Some(firmware) = self.layout.firmware.filter(|_| make.fast_sync_read) else {
@@ -148,7 +156,7 @@ impl Servos {
         Ok(Reading::Fast)
     }
 
-    /// Sets what a servo needs before it gets torque: mode, answers, motion to a goal.
+    /// Sets up a servo before its torque is switched on: mode, return delay, speed and acceleration.
     fn prepare(&mut self, motor: Motor) -> Result<(), Fault> {
         let (id, kind, layout) = (motor.id, self.kind(&motor), self.layout);
         let Make { speed, acceleration, return_delay, .. } = self.settings.make;
@@ -161,7 +169,8 @@ impl Servos {
             .map(|(cell, unit)| Setting::exactly(cell, (return_delay / unit).round() as i64));
         let mode =
             kind.modes.iter().find(|(mode, _)| *mode == motor.mode).map_or(&[][..], |(_, needs)| needs);
-        // These outlive a restart in memory that wears, and take the torque away: written only where they differ.
+        // These registers are in non-volatile memory with a limited number of writes, and can only be written with torque off: they
+        // are written only where they differ.
         for Setting { cell, allowed: [low, high], otherwise } in delay.iter().chain(mode) {
             if (*low..=*high).contains(&bus.read_twice(id, *cell)?) {
                 continue;
@@ -184,12 +193,12 @@ impl Servos {
         if let Some(cell) = layout.acceleration {
             bus.write(id, cell, (acceleration / kind.acceleration).round() as i64)?;
         }
-        // Where one register is both, the speed of a wheel is its goal.
+        // Where one register is both speed limit and goal velocity, in velocity mode it is the goal.
         if layout.goal(motor.mode) == Some(layout.speed) {
             return Ok(());
         }
         let speed = match (speed, layout.velocity_limit) {
-            // The least unit stands for less: 0 would be no limit.
+            // At least one unit: 0 would be no limit.
             (Some(speed), _) if speed > 0.0 => ((speed / kind.velocity).round() as i64).max(1),
             (None, Some(limit)) => bus.read(id, limit)?,
             _ => 0,
@@ -197,7 +206,7 @@ impl Servos {
         bus.write(id, layout.speed, speed)
     }
 
-    /// Writes goals of all motors of each mode.
+    /// Writes the goals of all motors, in one packet for each goal register.
     fn write_goals(&mut self, commands: &[f64]) -> Result<(), Fault> {
         let Servos { settings, bus, found, ids, layout, .. } = self;
         let bus = bus.as_mut().ok_or(Fault::NotConnected)?;
@@ -212,7 +221,7 @@ impl Servos {
         Ok(())
     }
 
-    /// Stops a servo where it is, with torque; clears a watchdog of the bus that tripped, so that the goal can be written.
+    /// Stops a servo where it is, with torque; first clears a tripped bus watchdog, so that the goal can be written.
     fn hold(&mut self, motor: Motor) -> Result<(), Fault> {
         let layout = self.layout;
         let bus = self.bus()?;
@@ -227,7 +236,7 @@ impl Servos {
     }
 }
 
-/// A command as the register that takes it.
+/// The register value of a command.
 fn goal(kind: &Kind, mode: Mode, command: f64) -> i64 {
     match mode {
         Mode::Position => ((command / kind.position).round() as i64).clamp(0, kind.last),
@@ -308,7 +317,7 @@ impl Driver for Servos {
             let wanted = goal(self.kind(motor), motor.mode, *command);
             let bus = self.bus()?;
             if let Some(cell) = layout.goal(motor.mode) {
-                // A goal that was lost on the way would let the servo leap to an old one.
+                // If this goal were lost, the servo would jump to an old one.
                 bus.write_surely(motor.id, cell, wanted)?;
             }
             bus.write(motor.id, layout.torque, 1)?;
@@ -327,7 +336,7 @@ impl Driver for Servos {
         let (safe, torque) = (self.settings.safe, self.layout.torque);
         let mut first = Ok(true);
         for motor in self.settings.motors.clone() {
-            // Each servo is tried, whatever became of the one before.
+            // Each servo is tried, even if another one failed.
             let outcome = match safe {
                 Safe::Off => self.bus()?.write(motor.id, torque, 0),
                 Safe::Hold => self.hold(motor),
@@ -346,7 +355,7 @@ impl Driver for Servos {
             let Found { kind, limits: [low, high], .. } = self.found[self.place(motor.id)];
             let [least, most] = [low.max(0), high.min(kind.last)].map(|end| end as f64 * kind.position);
             match motor.mode {
-                // A wheel has both limits at 0: they are set when it is armed.
+                // In wheel mode both limits are 0; they are set when the servo is armed.
                 Mode::Position if least < most => {
                     Limits::of_value([motor.range[0].max(least), motor.range[1].min(most)])
                 }

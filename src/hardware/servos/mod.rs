@@ -1,4 +1,4 @@
-//! Servos of any make on a serial bus: a make is its table and its packets ([`protocol::servo`]), and what its parameters say.
+//! Servos of any make on a serial bus: a make has a control table and packets ([`protocol::servo`]), and parameters of its own.
 
 mod bus;
 mod driver;

@@ -1,4 +1,4 @@
-//! What configs say of servos of any make.
+//! Settings of servos of any make, from a config.
 
 use crate::parameters::Parameters;
 use protocol::servo::{Family, Mode};
@@ -8,7 +8,7 @@ fn refused(why: String) -> Fault {
     Fault::Refused(why)
 }
 
-/// What servos do when they are to be safe.
+/// The safe state of servos.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Safe {
     /// They stay where they are, with torque.
@@ -17,7 +17,7 @@ pub(super) enum Safe {
     Off,
 }
 
-/// What a sensor reads: its place among what is measured.
+/// The quantity that a sensor reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
     Position,
@@ -25,21 +25,21 @@ pub(super) enum Quantity {
     Current,
 }
 
-/// What the parameters of a make say beyond those that all have.
+/// Parameters that differ between makes.
 pub(crate) struct Make {
-    /// Table and packets.
+    /// Control table and packets.
     pub(crate) family: &'static Family,
     /// The model that all servos must be of.
     pub(crate) model: Option<&'static str>,
-    /// Limit of the velocity on the way to a goal \[rad/s\]; `None` for the servo's own limit, 0 for none.
+    /// Velocity limit of a motion to a goal \[rad/s\]; `None` for the servo's own limit, 0 for no limit.
     pub(crate) speed: Option<f64>,
-    /// The same of the acceleration \[rad/s²\].
+    /// Acceleration limit of a motion to a goal \[rad/s²\]; 0 for no limit.
     pub(crate) acceleration: f64,
-    /// Delay before an answer \[s\], of those that have one.
+    /// Delay before an answer \[s\], for servos with a register for it.
     pub(crate) return_delay: f64,
-    /// Whether all are read by one packet, where they can.
+    /// Whether all servos are read by one packet, if they support it.
     pub(crate) fast_sync_read: bool,
-    /// Baud rates that there are.
+    /// Smallest and largest baud rate.
     pub(crate) bauds: [f64; 2],
 }
 
@@ -48,11 +48,11 @@ pub(crate) struct Make {
 pub(super) struct Motor {
     pub(super) id: u8,
     pub(super) mode: Mode,
-    /// Commands that the config's range of positions gives, in the servo's units \[rad\].
+    /// Range of commands from the config's range of positions \[rad\], as the servo counts.
     pub(super) range: [f64; 2],
 }
 
-/// Parameters of a bus, and what is on it.
+/// Parameters of a bus, and its servos.
 pub(super) struct Settings {
     pub(super) port: String,
     pub(super) baud: u32,
@@ -65,14 +65,20 @@ pub(super) struct Settings {
 }
 
 impl Settings {
-    /// Those of a device, whose make reads parameters of its own.
+    /// The settings of a device; `make` reads the parameters of its make.
+    ///
+    /// # Errors
+    /// A parameter that is missing or wrong.
     pub(super) fn new(
         config: &DeviceConfig,
         make: impl FnOnce(&mut Parameters) -> Result<Make, Fault>,
     ) -> Result<Settings, Fault> {
         let mut parameters = Parameters::new(config);
         let port = parameters.text("name")?.ok_or_else(|| {
-            refused("its interface has no 'name', the path of the serial port, as '/dev/ttyUSB0'".to_owned())
+            refused(
+                "its interface needs a 'name', the path of the serial port, such as '/dev/ttyUSB0'"
+                    .to_owned(),
+            )
         })?;
         let safe = [Safe::Hold, Safe::Off][parameters.choice("safe", &["hold", "off"])?];
         let make = make(&mut parameters)?;
@@ -113,10 +119,12 @@ fn motor(config: &ActuatorConfig) -> Result<Motor, Fault> {
     };
     let mode = Mode::ALL.into_iter().find(|mode| mode.name() == word).ok_or_else(|| {
         let known = Mode::ALL.map(Mode::name).join(", ");
-        refused(format!("'{name}' has mode '{word}'; there are {known}"))
+        refused(format!("'{name}' has the unknown mode '{word}'; the modes are {known}"))
     })?;
     let HardwareId::Number(number) = &config.hardware else {
-        return Err(refused(format!("hdr_id of '{name}' is a text; an actuator has the id of its servo")));
+        return Err(refused(format!(
+            "the hdr_id of '{name}' is a string; it must be the id of its servo, a number"
+        )));
     };
     let ends = config.position_range.map(|end| end * config.scale + config.offset);
     let range = [ends[0].min(ends[1]), ends[0].max(ends[1])];
@@ -125,11 +133,11 @@ fn motor(config: &ActuatorConfig) -> Result<Motor, Fault> {
 
 fn checked(name: &str, number: i64) -> Result<u8, Fault> {
     u8::try_from(number).ok().filter(|id| *id <= 252).ok_or_else(|| {
-        refused(format!("hdr_id {number} of '{name}' is no id of a servo; ids are from 0 to 252"))
+        refused(format!("the hdr_id {number} of '{name}' is not the id of a servo; ids are from 0 to 252"))
     })
 }
 
-/// What each sensor reads: of a number the position, of the same number again the velocity.
+/// Servo and quantity of each sensor: the first sensor with a number reads the position, the next with the same number the velocity.
 fn sensors(configs: &[SensorConfig]) -> Result<Vec<(u8, Quantity)>, Fault> {
     let mut sensors: Vec<(u8, Quantity)> = Vec::new();
     for config in configs {
@@ -142,7 +150,7 @@ fn sensors(configs: &[SensorConfig]) -> Result<Vec<(u8, Quantity)>, Fault> {
             HardwareId::Name(name) => {
                 let wrong = || {
                     refused(format!(
-                        "hdr_id '{name}' of '{}' is not of the form id:quantity, as '12:velocity'",
+                        "the hdr_id '{name}' of '{}' is not of the form id:quantity, such as '12:velocity'; quantities are position, velocity, current",
                         config.name
                     ))
                 };
@@ -161,12 +169,15 @@ fn sensors(configs: &[SensorConfig]) -> Result<Vec<(u8, Quantity)>, Fault> {
     Ok(sensors)
 }
 
-/// No two actuators may have one servo.
+/// Refuses two actuators with the same servo.
 fn unique(ids: impl Iterator<Item = u8>) -> Result<(), Fault> {
     let mut ids: Vec<_> = ids.collect();
     ids.sort_unstable();
     match ids.windows(2).find(|pair| pair[0] == pair[1]) {
-        Some(twice) => Err(refused(format!("two of its actuators have the servo {}", twice[0]))),
+        Some(twice) => Err(refused(format!(
+            "two of its actuators have the hdr_id {}; each needs a servo of its own",
+            twice[0]
+        ))),
         None => Ok(()),
     }
 }

@@ -277,9 +277,9 @@ fn the_newest_frame_counts_and_old_ones_are_none() {
     // A frame with bytes missing is an error, and no other camera has the name.
     *script.entries.lock().unwrap() = vec![frame(1, vec![0; 100])];
     let error = rgb(&mut cameras, [1, 1]).unwrap_err();
-    assert!(error.contains("100 bytes, and a whole one 512"), "{error}");
+    assert!(error.contains("100 bytes instead of 512"), "{error}");
     let error = cameras.take("back", [1, 1], Wanted::default()).unwrap_err().to_string();
-    assert!(error.contains("camera 'back'") && error.contains("cameras of it: front"), "{error}");
+    assert!(error.contains("camera 'back'") && error.contains("its cameras are: front"), "{error}");
 }
 
 #[test]
@@ -305,7 +305,7 @@ fn bad_configs_say_what_to_write() {
     for (interface, cam, said) in [
         ("type = 'camera'", RGB, "needs a 'name'"),
         (camera, "", "has no entry"),
-        (camera, thrice, "neither 'rgb' nor 'd'"),
+        (camera, thrice, "must be 'rgb' or 'd'"),
         (camera, scaled, "must be 1"),
         (camera, &[RGB, RGB].concat(), "two entries"),
         (camera, DEPTH, "has no depth"),
@@ -314,7 +314,7 @@ fn bad_configs_say_what_to_write() {
         (&format!("{camera}, format = 'h264'"), RGB, "auto, yuyv, uyvy, mjpg"),
         (&format!("{camera}, serial = '3'"), RGB, "not known"),
         (&format!("{real}, rgb_intrinsics = [1, 1, 0, 0]"), DEPTH, "both"),
-        (&format!("{real}, rgb_intrinsics = [1, 1, 0]"), DEPTH, "4 numbers"),
+        (&format!("{real}, rgb_intrinsics = [1, 1, 0]"), DEPTH, "4 finite numbers"),
         (
             &format!("{real}, rgb_intrinsics = [0, 1, 0, 0], depth_intrinsics = [1, 1, 0, 0]"),
             DEPTH,
@@ -326,7 +326,7 @@ fn bad_configs_say_what_to_write() {
                  depth_to_rgb = [2, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0]"
             ),
             DEPTH,
-            "no rotation",
+            "must be a rotation matrix",
         ),
         // Nothing is wrong, and no frame comes.
         (camera, RGB, "0 frames came in 5 s"),

@@ -157,7 +157,7 @@ fn silence_stops_it_and_a_reset_goes_on() {
     let mut clock = rig.clock();
     clock.wait(0.2);
     robot.control(&model, &data, &[0.8, 0.0], 1.0).unwrap();
-    // The policy hangs. Within its quarter of a second and a look of the watchdog the arm is told to hold.
+    // The policy hangs. Within a quarter of a second and a period of the watchdog the arm is commanded to hold.
     clock.wait(0.27);
     let held = rig.positions();
     let error = robot.control(&model, &data, &[0.8, 0.0], 1.0).unwrap_err();
@@ -199,7 +199,7 @@ fn the_servos_stop_by_themselves_when_the_process_is_killed() {
     let data = physics::Data::new(&model);
     robot.reset(&model, &data, &mut rng).unwrap();
     robot.control(&model, &data, &[0.9, 0.0], 2.0).unwrap();
-    // Time that nobody tends: no watchdog of ours looks any more.
+    // Time passes without services: our watchdog does not run any more.
     VirtualClock::new(rig.bench.clone()).wait(0.105);
     let stopped = rig.positions();
     VirtualClock::new(rig.bench.clone()).wait(1.0);

@@ -159,10 +159,10 @@ fn what_these_servos_cannot_do_is_named() {
             "servo 10 does not answer at 1000000 baud on bus; check its power, its id, its baud rate and its protocol",
         ),
         ("protocol = 1", "mode = 'velocity'", "servo 11, an AX-12A, has no mode 'velocity'"),
-        ("protocol = 1, profile_acceleration = 2", "", "servos with protocol 1 do not keep"),
-        ("protocol = 1, model = 'XM430-W350'", "", "which servos of the model 'XM430-W350' do not speak"),
-        ("model = 'MX-28'", "", "servo 10 is an AX-12A, and its config says MX-28"),
-        ("model = 'AX-12'", "", "has model = 'AX-12'; there are XM430-W350, XL430-W250"),
+        ("protocol = 1, profile_acceleration = 2", "", "servos with protocol 1 do not support"),
+        ("protocol = 1, model = 'XM430-W350'", "", "which the model 'XM430-W350' does not support"),
+        ("model = 'MX-28'", "", "servo 10 is an AX-12A, and the config says MX-28"),
+        ("model = 'AX-12'", "", "has the unknown model 'AX-12'; the models are XM430-W350, XL430-W250"),
     ] {
         let text = rig.robot(&config(extra, elbow)).err().unwrap().to_string();
         assert!(text.contains(part), "{text}");
@@ -197,7 +197,11 @@ fn an_mx_turns_like_a_wheel_at_the_velocity_that_it_is_told() {
     assert!((values[0] + turned).abs() < 0.012 && turned > 0.8, "{values:?} {turned}");
     assert!(rig.positions()[1] > 1.0, "{:?}", rig.positions());
     device.close().unwrap();
-    assert_eq!(bus.lock().unwrap().servos_mut()[1].register(address::MOVING_SPEED), 0, "it is told to stand");
+    assert_eq!(
+        bus.lock().unwrap().servos_mut()[1].register(address::MOVING_SPEED),
+        0,
+        "it is commanded to stop"
+    );
 }
 
 #[test]

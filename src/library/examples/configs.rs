@@ -2,8 +2,8 @@
 //!
 //! `ROBOHIVE_STORE=FOLDER cargo run --release -p robohive-library --example configs`
 //!
-//! The store has RoboHive's models (`robohive assets import`). Each line is the first episode with the action zero: how far the
-//! joints that devices read are from the simulation's in the end, and the return of both.
+//! The store has RoboHive's models (`robohive assets import`). Each line is the first episode with zero actions: the largest difference
+//! between the joint positions that devices read and those of the simulation at the end, and the return of both.
 
 use env::{Assets, Env, Options};
 use hardware::Setup;
@@ -30,12 +30,14 @@ const STEPS: usize = 50;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let library = Library::from_environment(None, None)?;
-    println!("| config | environment | devices | steps | joints apart in the end | return | in simulation |");
+    println!(
+        "| config | environment | devices | steps | largest joint difference at the end [rad] | return | in simulation |"
+    );
     println!("|---|---|---|---|---|---|---|");
     for (id, path) in CASES {
         let text = String::from_utf8(library.read(path)?.to_vec())?;
         let config = Config::from_literal(&text, path)?;
-        // What the devices move is an environment of its own, beside the one that it is compared with.
+        // The devices move an environment of their own; `simulated` is the one for comparison.
         let mut world = Env::make(id, &library, &Options::default())?;
         let rehearsal = Rehearsal::new(&config, &mut world)?;
         let mut setup = Setup::default().with_armed(true);

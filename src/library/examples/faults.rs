@@ -2,7 +2,7 @@
 //!
 //! `cargo run --profile ci -p robohive-library --example faults -- 10000`
 //!
-//! Each episode arms the devices, moves them and is struck by faults of all kinds. It must end in a typed error that names the
+//! Each episode arms the devices and moves them while faults of all kinds are injected. It must end in a typed error that names the
 //! device, or well; what motors are told stays within the ranges of the config, and the end effector of an arm in its box; and when the faults have ended the motors are told to
 //! stay where they are within a second of the error, and the next reset works.
 

@@ -87,7 +87,7 @@ fn visual_keys_show_frames_of_the_cameras() {
 fn keys_without_a_camera_are_refused_before_anything_moves() {
     let (live, _) = made(config(None));
     let error = live.err().unwrap().to_string();
-    assert!(error.contains("rgb:front:224x224:2d") && error.contains("cameras of it: none"), "{error}");
+    assert!(error.contains("rgb:front:224x224:2d") && error.contains("its cameras are: none"), "{error}");
     let (live, _) = made(config(Some("type = 'camera', name = '/dev/video0'")));
     let error = live.err().unwrap().to_string();
     assert!(error.contains("camera 'front'") && error.contains("has no depth"), "{error}");

@@ -1,4 +1,4 @@
-//! What models of servos have in common, and in what they differ.
+//! Models of servos with protocol 2.0.
 
 use super::registers::{Register, TABLE, address};
 use crate::servo::{self, Cell, Kind, Setting};
@@ -31,7 +31,7 @@ pub mod hardware_error {
     }
 }
 
-/// Operating modes, as the register says them.
+/// Values of the register "Operating Mode".
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Mode {
@@ -68,13 +68,13 @@ impl Mode {
 /// A model of servo with protocol 2.0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model {
-    /// What drivers need. One unit of current is `None` where the servo measures load (0.1 % of the largest torque) instead.
+    /// Properties for drivers. The unit of current is `None` where the servo measures load (0.1 % of the largest torque) instead.
     pub kind: Kind,
     /// Modes.
     pub modes: &'static [Mode],
-    /// Torque \[N m\] and current \[A\] when it is held fast at its nominal voltage.
+    /// Stall torque \[N m\] and stall current \[A\] at the nominal voltage.
     pub stall: [f64; 2],
-    /// Registers whose value after a factory reset is not the XM430-W350's.
+    /// Registers whose value after a factory reset differs from that of the XM430-W350.
     initial: &'static [(u16, i64)],
 }
 
@@ -97,8 +97,8 @@ const TURNS: (servo::Mode, &[Setting]) = (servo::Mode::Turns, &mode(Mode::Extend
 const VELOCITY: (servo::Mode, &[Setting]) = (servo::Mode::Velocity, &mode(Mode::Velocity));
 const CURRENT: (servo::Mode, &[Setting]) = (servo::Mode::Current, &mode(Mode::Current));
 
-/// A model by its name, its number, its unit of current, torque and current at stall, and the firmware that knows the fast sync
-/// read.
+/// A model with its name, number, unit of current \[A\], stall torque \[N m\] and current \[A\], and first firmware with the fast
+/// sync read.
 const fn servo(
     name: &'static str,
     number: u16,
@@ -124,7 +124,7 @@ const fn servo(
     Model { kind, modes, stall, initial: &[] }
 }
 
-/// Models that are known; the e-Manual's page of each is the source.
+/// Supported models; source: the page of each in the ROBOTIS e-Manual.
 pub const MODELS: [Model; 7] = [
     servo("XM430-W350", 1020, Some(2.69e-3), [4.1, 2.3], Some(45)),
     Model { initial: XL430, ..servo("XL430-W250", 1060, None, [1.5, 1.4], Some(45)) },
@@ -135,7 +135,7 @@ pub const MODELS: [Model; 7] = [
     servo("MX-106(2.0)", 321, Some(3.36e-3), [8.4, 5.2], None),
 ];
 
-/// What drivers need of them.
+/// Properties of the supported models, for drivers.
 pub static KINDS: [Kind; MODELS.len()] = {
     let mut kinds = [MODELS[0].kind; MODELS.len()];
     let mut at = 0;
@@ -184,7 +184,7 @@ impl Model {
     /// One unit of "Bus Watchdog" \[s\].
     pub const WATCHDOG_UNIT: f64 = 0.02;
 
-    /// Torque of one ampere \[N m/A\], from those at stall.
+    /// Torque constant \[N m/A\]: stall torque over stall current.
     pub fn torque_constant(&self) -> f64 {
         self.stall[0] / self.stall[1]
     }
@@ -201,7 +201,7 @@ impl Model {
         })
     }
 
-    /// The register that has the byte at this address.
+    /// The register that contains the byte at this address.
     pub fn register(&self, address: u16) -> Option<Register> {
         self.registers().find(|r| (r.address..r.address + r.size).contains(&address))
     }

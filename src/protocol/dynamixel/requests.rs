@@ -1,25 +1,25 @@
-//! Requests and answers of protocol 2.0, and where its control table has what drivers use.
+//! Requests and answers of protocol 2.0, and the registers that drivers use.
 
-use super::model::{KINDS, hardware_error};
+use super::model::{KINDS, Model, hardware_error};
 use super::packet::{BROADCAST, Decoder, encode, instruction, status_error};
 use super::registers::address;
 use crate::crc;
 use crate::servo::{Answer, Cell, Family, Layout, Packets, Request, Sign, Verdict};
 
-/// Bytes of an answer around its data: header, id, length, instruction, error, checksum, and what stuffing may add.
+/// Largest number of bytes of an answer besides its data: header, id, length, instruction, error, checksum, and stuffing.
 const FRAME: usize = 16;
-/// Around the data of each servo in the answer to a fast sync read: error and id before it, a checksum after it.
+/// Bytes besides the data of each servo in the answer to a fast sync read: error and id before, a checksum after the data.
 const BLOCK: usize = 4;
 
 const fn signed(address: u16, size: u16) -> Cell {
     Cell::new(address, size).with_sign(Sign::Complement)
 }
 
-/// Where what is.
+/// Registers that drivers use.
 const LAYOUT: Layout = Layout {
     model: Cell::new(address::MODEL_NUMBER, 2),
     firmware: Some(Cell::new(address::FIRMWARE, 1)),
-    return_delay: Some((Cell::new(address::RETURN_DELAY, 1), 2e-6)),
+    return_delay: Some((Cell::new(address::RETURN_DELAY, 1), Model::DELAY_UNIT)),
     limits: [Cell::new(address::MIN_POSITION, 4), Cell::new(address::MAX_POSITION, 4)],
     torque: Cell::new(address::TORQUE_ENABLE, 1),
     lock: None,
@@ -46,16 +46,16 @@ pub static FAMILY: Family = Family {
     packets: || Box::new(Second::default()),
 };
 
-/// Requests and answers of protocol 2.0. Once the longest has come, it allocates nothing.
+/// Packets of protocol 2.0. Allocates nothing after the longest answer.
 pub struct Second {
     decoder: Decoder,
-    /// Bytes of each servo, of the fast sync read that was sent last.
+    /// Number of bytes of each servo in the last fast sync read.
     fast: usize,
 }
 
 impl Default for Second {
     fn default() -> Second {
-        /// Bytes that may come at once without an allocation.
+        /// Bytes that can be received at once without an allocation.
         const ROOM: usize = 1024;
         Second { decoder: Decoder::with_room(ROOM), fast: 0 }
     }
@@ -128,7 +128,7 @@ impl Packets for Second {
     }
 }
 
-/// What each servo says in the answer to a fast sync read of `size` bytes.
+/// The answers of all servos in the parameters of the answer to a fast sync read of `size` bytes.
 fn blocks(parameters: &[u8], size: usize) -> impl Iterator<Item = Answer<'_>> {
     parameters.chunks(size + BLOCK).filter_map(move |block| {
         let [error, id, rest @ ..] = block else { return None };
@@ -136,13 +136,13 @@ fn blocks(parameters: &[u8], size: usize) -> impl Iterator<Item = Answer<'_>> {
     })
 }
 
-/// Whether every servo's own checksum, over all before it, is right: the last servo counts what it heard, so that the packet's
-/// does not tell of damage that it heard as well.
+/// Whether the checksum of every servo, over all bytes before it, is right. The last servo computes the packet's checksum from the
+/// bytes that it received, so that one does not detect damage that the last servo received as well.
 fn whole(parameters: &[u8], size: usize) -> bool {
     let length = (parameters.len() + 3) as u16;
     let [low, high] = length.to_le_bytes();
     let mut crc = crc::buypass(0, &[0xFF, 0xFF, 0xFD, 0x00, BROADCAST, low, high, instruction::STATUS]);
-    // The checksum of the last is the packet's, which has been compared.
+    // The checksum of the last servo is the packet's, which the decoder has verified.
     (parameters.len() + 2).is_multiple_of(size + BLOCK)
         && parameters.chunks(size + BLOCK).all(|block| {
             let (said, sum) = block.split_at(size + 2);
@@ -199,7 +199,7 @@ mod tests {
             bytes[22..].copy_from_slice(&sum);
             assert_eq!(heard(&mut second, &bytes), [], "{damaged}");
         }
-        // A packet of another size is none of this read.
+        // A packet of another size is not the answer to this read.
         second.encode(&mut Vec::new(), BROADCAST, Request::FastSyncRead(580, 3, &[1, 2]));
         assert_eq!(heard(&mut second, &ANSWER), []);
     }

@@ -33,7 +33,7 @@ impl DeviceConfig {
         exists && (self.interface.kind.is_some() || !self.actuators.is_empty())
     }
 
-    /// What of it the hardware has.
+    /// The device with only the entries that the hardware has.
     pub fn on_hardware(&self) -> DeviceConfig {
         let mut present = self.clone();
         present.sensors.retain(|sensor| self.has(&sensor.hardware));

@@ -31,9 +31,9 @@ pub enum Fault {
     BadValue(usize),
     /// A recorded device has nothing more to say.
     Exhausted,
-    /// It refused a command, or its config asks for what there is not.
+    /// It refused a command, or does not support its config.
     Refused(String),
-    /// Its hardware says that something is wrong: an overload, a reflex, a pressed stop button.
+    /// Its hardware reports an error: an overload, a reflex, a pressed stop button.
     Hardware(String),
 }
 
@@ -55,7 +55,7 @@ impl fmt::Display for Fault {
 impl std::error::Error for Fault {}
 
 impl Fault {
-    /// What failed, in a word for programs: `connection`, `silence`, `values`, `end`, `refusal` or `hardware`.
+    /// The kind of fault, for programs: `connection`, `silence`, `values`, `end`, `refusal` or `hardware`.
     pub fn kind(&self) -> &'static str {
         match self {
             Fault::NotConnected | Fault::Unreachable(_) => "connection",
@@ -106,8 +106,8 @@ pub trait Device: Send {
     /// Devices that do not answer or refuse.
     fn reset(&mut self, targets: &[f64]) -> Result<(), Fault>;
 
-    /// What it measures was put elsewhere by hand: returns when it measures anew. Devices that take every reading as it comes
-    /// have nothing to do.
+    /// The measured object was moved by hand: returns when there is a new measurement. Devices that accept every reading
+    /// do nothing.
     ///
     /// # Errors
     /// Devices that do not answer.

@@ -1,4 +1,4 @@
-//! The servos of a leader arm: read, and where they carry its weight commanded.
+//! The servos of a leader arm: read, and commanded if they compensate its weight.
 
 use super::config::LeaderConfig;
 use super::gravity::Gravity;
@@ -21,18 +21,18 @@ pub struct LeaderArm {
     buses: Vec<Bus>,
     /// Newest positions and velocities of all sensors, in the model's units.
     readings: Vec<f64>,
-    /// Sensors of the joints that lead.
+    /// Indices of the sensors of the joints that lead.
     joints: Vec<usize>,
     gravity: Option<Gravity>,
     due: f64,
 }
 
 impl LeaderArm {
-    /// Connects the devices of `devices`, which `open` makes. With `gravity` their actuators carry the arm from now on; otherwise
-    /// nothing is commanded.
+    /// Connects the devices of `devices`, which `open` creates. With `gravity` their actuators compensate the arm's weight from now on;
+    /// otherwise nothing is commanded.
     ///
     /// # Errors
-    /// A joint whose sensor there is none of; a device that cannot be reached, or not be armed.
+    /// A joint without its sensor; a device that cannot be connected or armed.
     pub fn connect(
         config: &LeaderConfig,
         devices: &Config,
@@ -73,12 +73,12 @@ impl LeaderArm {
         Ok(arm)
     }
 
-    /// When it is to be tended next \[s\].
+    /// Time of the next call of [`LeaderArm::tend`] \[s\].
     pub fn due(&self) -> f64 {
         self.due
     }
 
-    /// Reads the joints at `now` \[s\], and lets the servos carry what they weigh there.
+    /// Reads the joints at `now` \[s\], and commands the currents that compensate the weight there.
     ///
     /// # Errors
     /// A device that failed.
@@ -107,7 +107,7 @@ impl LeaderArm {
         Ok(())
     }
 
-    /// Ends the connections; servos that carried the arm let go of it.
+    /// Closes the devices; servos that compensated the weight lose their torque.
     ///
     /// # Errors
     /// The first device that fails.
@@ -123,6 +123,6 @@ fn refused(name: &str, fault: &Fault) -> TeleopError {
         device: format!("leader arm, {name}"),
         path: None,
         message: fault.to_string(),
-        fix: "`robohive hardware check` says more of its devices; finished episodes are kept".to_owned(),
+        fix: "check its devices with `robohive hardware check`; finished episodes are kept".to_owned(),
     }
 }

@@ -1,4 +1,4 @@
-//! What leads which joint, from a file in TOML.
+//! Config of a leader arm, from a TOML file.
 
 use crate::error::TeleopError;
 use crate::held::Sample;
@@ -11,27 +11,27 @@ pub struct LedJoint {
     pub sensor: String,
     /// The actuator of the environment.
     pub actuator: String,
-    /// Units of the control for a radian; its sign is the direction.
+    /// Units of the control for a radian of the joint; its sign is the direction.
     pub scale: f64,
-    /// Control where the leader's joint is at 0.
+    /// Control for the leader's joint at 0.
     pub offset: f64,
 }
 
-/// How a robot comes to where its leader is, before it follows.
+/// How a robot moves to the position of its leader before it follows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CatchUp {
-    /// Most that a joint moves, as the leader counts it \[rad/s\].
+    /// Largest velocity of a joint, in units of the leader \[rad/s\].
     pub speed: f64,
-    /// Distance of a joint, as the leader counts it, from which on the robot stays where it is \[rad\].
+    /// Distance of a joint, in units of the leader, beyond which the robot does not move \[rad\].
     pub far: f64,
 }
 
-/// How the leader's servos carry its weight.
+/// Gravity compensation by the leader's servos.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GravitySettings {
     /// The leader as MJCF, beside the config; its sensors and actuators have the names of the robot config.
     pub model: String,
-    /// Part of the weight that is carried.
+    /// Share of the weight that is compensated.
     pub share: f64,
     /// Torque of one ampere \[N m/A\].
     pub torque_constant: f64,
@@ -46,9 +46,9 @@ pub struct LeaderConfig {
     pub devices: String,
     /// Its joints.
     pub joints: Vec<LedJoint>,
-    /// How the robot comes to where it is.
+    /// How the robot catches up with it.
     pub catch_up: CatchUp,
-    /// How its weight is carried, where it is.
+    /// Gravity compensation, if any.
     pub gravity: Option<GravitySettings>,
 }
 
@@ -56,7 +56,7 @@ impl LeaderConfig {
     /// Reads a config: `devices`, a list of `joint`s, and the sections `catch_up` and `gravity`. `file` is its name, for errors.
     ///
     /// # Errors
-    /// It is no TOML, lacks something, or says what nothing is known of.
+    /// It is not valid TOML, or has a missing or unknown entry.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, TeleopError> {
         let wrong = |message: String| TeleopError::Mapping { file: file.to_owned(), message };
         let table: Table = text.parse().map_err(|error: toml::de::Error| wrong(error.to_string()))?;
@@ -90,7 +90,7 @@ impl LeaderConfig {
         Ok(config)
     }
 
-    /// Where the controls of its joints are led; nothing while a joint says nothing.
+    /// Targets of the controls of its joints; `None` while a joint has no reading.
     pub(crate) fn read(&self, sample: &Sample) -> Option<Vec<f64>> {
         let place = |(k, joint): (u16, &LedJoint)| Some(sample.leader.get(&k)? * joint.scale + joint.offset);
         (0..).zip(&self.joints).map(place).collect()
@@ -99,12 +99,12 @@ impl LeaderConfig {
 
 fn joint(k: usize, entry: &Value) -> Result<LedJoint, String> {
     let title = format!("joint {}", k + 1);
-    let table = entry.as_table().ok_or_else(|| format!("{title} is no section: write [[joint]]"))?;
+    let table = entry.as_table().ok_or_else(|| format!("{title} is not a section: write [[joint]]"))?;
     let section = Section { table, title };
     section.knows(&["sensor", "actuator", "scale", "offset"])?;
     let scale = section.number("scale", Some(1.0), [f64::MIN, f64::MAX])?;
     if scale == 0.0 {
-        return Err(format!("{}: scale is not 0", section.title));
+        return Err(format!("{}: scale must not be 0", section.title));
     }
     Ok(LedJoint {
         sensor: section.text("sensor")?,
@@ -147,7 +147,11 @@ impl<'a> Section<'a> {
 
     fn knows(&self, names: &[&str]) -> Result<(), String> {
         match self.table.keys().find(|key| !names.contains(&&key[..])) {
-            Some(key) => Err(format!("{} has '{key}'; there are {}", self.title, names.join(", "))),
+            Some(key) => Err(format!(
+                "{} has the unknown entry '{key}'; the entries are {}",
+                self.title,
+                names.join(", ")
+            )),
             None => Ok(()),
         }
     }

@@ -1,4 +1,4 @@
-//! Currents by which the servos of a leader arm carry its weight.
+//! Gravity compensation of a leader arm: the currents of its servos.
 
 use super::config::GravitySettings;
 use crate::error::TeleopError;
@@ -6,30 +6,30 @@ use physics::model::{SensorType, TrnType};
 use physics::{Data, Model};
 use robot::{ActuatorConfig, Config};
 
-/// What a motor carries.
+/// A motor of the compensation.
 #[derive(Clone, Copy, Debug)]
 struct Motor {
-    /// Place of its joint in `qvel`.
+    /// Index of its joint in `qvel`.
     velocity: usize,
     /// Current for a torque on the joint \[A/(N m)\].
     factor: f64,
 }
 
-/// The weight of an arm, as its model has it: the torques that hold it where it is, at rest.
+/// Gravity compensation of an arm from its model: the torques that hold it at rest in its present pose.
 pub struct Gravity {
     model: Model,
     data: Data,
-    /// Places in `qpos` of what the sensors read; none for velocities.
+    /// Indices in `qpos` of the sensors' joints; `None` for sensors of velocity.
     positions: Vec<Option<usize>>,
     motors: Vec<Motor>,
     largest: f64,
 }
 
 impl Gravity {
-    /// The weight of `model`, carried by the actuators of `config`, all of which take currents.
+    /// Compensation of the weight of `model` by the actuators of `config`, all of which must be commanded by current.
     ///
     /// # Errors
-    /// A sensor or an actuator that the model does not have on a single hinge or slide, or one that takes no currents.
+    /// A sensor or an actuator that the model does not have on a single hinge or slide, or an actuator not commanded by current.
     pub fn new(model: Model, config: &Config, settings: &GravitySettings) -> Result<Self, TeleopError> {
         let sensors = config.devices.iter().flat_map(|device| &device.sensors);
         let positions = sensors.map(|sensor| position(&model, &sensor.name));
@@ -41,10 +41,10 @@ impl Gravity {
         Ok(Gravity { model, data, positions, motors, largest: settings.current })
     }
 
-    /// Currents \[A\] of the motors where the sensors read this, each within the largest.
+    /// Currents of the motors \[A\] for these readings of the sensors, each limited to the largest current.
     ///
     /// # Errors
-    /// Physics refuses the pose.
+    /// The physics of the model fails at this pose.
     pub fn currents(&mut self, readings: impl Iterator<Item = f64>) -> Result<Vec<f64>, TeleopError> {
         for (position, reading) in self.positions.iter().zip(readings) {
             if let Some(position) = position {
@@ -59,7 +59,7 @@ impl Gravity {
     }
 }
 
-/// Where `qpos` has what a sensor reads.
+/// Index in `qpos` of a sensor's joint.
 fn position(model: &Model, sensor: &str) -> Result<Option<usize>, String> {
     let id =
         model.sensor(sensor).ok_or_else(|| format!("the leader's model has no sensor '{sensor}'"))?.index();
@@ -80,15 +80,17 @@ fn motor(model: &Model, actuator: &ActuatorConfig, settings: &GravitySettings) -
     let joint = usize::try_from(model.actuator_trnid[id][0]).ok().filter(|_| on_joint);
     let joint = joint.ok_or_else(|| format!("the actuator '{name}' of the leader's model moves no joint"))?;
     if !matches!(actuator.mode.as_deref(), Some("current" | "torque")) {
-        return Err(format!("the actuator '{name}' carries weight by currents: give it mode = \"current\""));
+        return Err(format!(
+            "the actuator '{name}' must be commanded by current: give it mode = \"current\""
+        ));
     }
     if actuator.scale == 0.0 {
-        return Err(format!("the scale of the actuator '{name}' is 0"));
+        return Err(format!("the scale of the actuator '{name}' must not be 0"));
     }
     let velocity = model.jnt_dofadr[joint] as usize;
     Ok(Motor { velocity, factor: settings.share / (settings.torque_constant * actuator.scale) })
 }
 
 fn unfit(message: String) -> TeleopError {
-    TeleopError::Control { message: format!("the leader's weight: {message}") }
+    TeleopError::Control { message: format!("gravity compensation of the leader: {message}") }
 }

@@ -1,4 +1,4 @@
-//! Arms that a person leads by hand, and that a robot follows joint by joint: servos with the robot's kinematics, or any others.
+//! Leader arms: a person moves one by hand, and a robot follows it joint by joint. Its kinematics may differ from the robot's.
 
 mod arm;
 mod config;

@@ -67,7 +67,7 @@ fn the_robot_goes_as_fast_as_it_is_told() {
             for k in 0..3 {
                 worst[k] = worst[k].max((got[k] - told[k]).abs());
             }
-            // Let go of, it stands.
+            // Without input, it stands.
             measured(&mut session, [0.0; 3], 1.0).unwrap();
             let rest = measured(&mut session, [0.0; 3], 1.0).unwrap();
             assert!(rest.iter().all(|x| x.abs() < 0.01), "{rest:?}");
@@ -109,13 +109,13 @@ fn a_person_who_steers_walks_to_the_targets_of_the_task() {
 
 #[test]
 fn a_robot_without_four_legs_is_refused_by_what_it_lacks() {
-    for (id, says) in [("hive/ElbowPose-v0", "floats freely"), ("hive/FrankaReach-v0", "floats freely")] {
+    for (id, says) in [("hive/ElbowPose-v0", "free joint"), ("hive/FrankaReach-v0", "free joint")] {
         let env = Env::make(id, &OwnModels, &Options::default()).unwrap();
         let error = Session::new(env, Control::Base, &Mapping::default(), Plan::default()).err().unwrap();
         assert!(error.to_string().contains(says), "{error}");
     }
     let wrong = Mapping::from_toml("[base]\nspeed = 1", "base.toml").unwrap_err().to_string();
-    assert!(wrong.contains("[base] speed: there are forward"), "{wrong}");
+    assert!(wrong.contains("[base] speed is unknown; the entries are forward"), "{wrong}");
     let wrong = Mapping::from_toml("[keyboard]\nw = ['+y', '+ahead']", "base.toml").unwrap_err().to_string();
     assert!(wrong.contains("+forward"), "{wrong}");
 }

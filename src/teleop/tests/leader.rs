@@ -96,7 +96,7 @@ fn pose(rng: &mut Generator<random::Pcg64>) -> Vec<f64> {
     ranges.map(|[low, high]| low + (high - low) * rng.random()).collect()
 }
 
-/// How far the handle is from where it was let go of, after two seconds, and at most [m].
+/// Distance of the handle from where it was released, after two seconds, and at most [m].
 fn released(bench: &mut Bench, joints: &[f64]) -> f64 {
     // The servos know the pose before the hand lets go.
     for _ in 0..3 {
@@ -309,8 +309,8 @@ fn configs_that_are_wrong_say_where() {
         ("", "lacks the text 'devices'"),
         ("devices = 'a.toml'", "no [[joint]]"),
         ("devices = 'a.toml'\n[[joint]]\nsensor = 'a'", "joint 1 lacks the text 'actuator'"),
-        ("devices = 'a.toml'\n[[joint]]\nsensor = 'a'\nactuator = 'b'\nscale = 0", "scale is not 0"),
-        ("devices = 'a.toml'\n[[joint]]\nsensor = 'a'\nactuator = 'b'\nsign = -1", "'sign'; there are"),
+        ("devices = 'a.toml'\n[[joint]]\nsensor = 'a'\nactuator = 'b'\nscale = 0", "scale must not be 0"),
+        ("devices = 'a.toml'\n[[joint]]\nsensor = 'a'\nactuator = 'b'\nsign = -1", "'sign'; the entries are"),
         ("devices = 'a.toml'\n[catch_up]\nspeed = 'fast'\n[[joint]]\nsensor = 'a'\nactuator = 'b'", "speed"),
         (
             "devices = 'a.toml'\n[gravity]\nmodel = 'm'\n[[joint]]\nsensor = 'a'\nactuator = 'b'",

@@ -136,7 +136,7 @@ fn a_log_that_stalls_stops_the_arm_and_does_not_move_it_when_it_comes_back() {
     let stale: Vec<&Tick> = ticks.iter().filter(|tick| tick.time - tick.last > 0.15).collect();
     assert!(stale.len() >= 5, "the log stalled: {}", stale.len());
     assert!(stale.iter().all(|tick| !tick.followed));
-    // What was said during a stall is no motion: no tick leaps.
+    // Lines of a stall are no motion: no tick jumps.
     let step =
         |pair: &[Tick]| (0..3).map(|k| (pair[1].hand[k] - pair[0].hand[k]).powi(2)).sum::<f64>().sqrt();
     let leap = ticks.windows(2).map(step).fold(0.0, f64::max);

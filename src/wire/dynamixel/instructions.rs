@@ -1,4 +1,4 @@
-//! What protocol 2.0 asks, and the answer that servos give together.
+//! Instructions of protocol 2.0, and the answer to its fast sync read.
 
 use crate::chain::{Answer, Asked, Bus, Member};
 use crate::plant::Plant;
@@ -59,7 +59,7 @@ pub(super) fn together<S: Member>(
     let mut delay = 0.0;
     for (place, id) in ids.iter().enumerate() {
         let mut listening = bus.listening(*id);
-        // A servo that is not there leaves a gap: nobody after it knows that it is their turn.
+        // After a missing servo, the others do not answer either: each waits for the one before.
         let Some(servo) = listening.first_mut() else { break };
         let mut data = Vec::new();
         let error = servo.read(plant, from, length, &mut data).err().unwrap_or(0);

@@ -93,7 +93,7 @@ impl Servo {
         matches!(self.mode(), Mode::Position | Mode::ExtendedPosition | Mode::CurrentPosition)
     }
 
-    /// What its mode and its goals make of the motor.
+    /// The drive of the motor for its mode and goals.
     fn drive(&mut self, dt: f64) -> Drive {
         let Some(shaft) = self.shaft else { return Drive::Off };
         let scale = shaft.scale;
@@ -119,7 +119,7 @@ impl Servo {
         }
     }
 
-    /// Fills the registers that say how it is.
+    /// Writes the measured quantities to their registers.
     fn measure(&mut self, plant: &Plant) {
         let Some(shaft) = self.shaft else { return };
         let (angle, velocity, effort) = (shaft.angle(plant), shaft.velocity(plant), shaft.effort(plant));

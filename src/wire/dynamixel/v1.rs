@@ -1,4 +1,4 @@
-//! Dynamixel servos with protocol 1.0: AX, RX, and MX with their first firmware.
+//! Dynamixel servos with protocol 1.0: AX, RX, and MX with older firmware.
 
 use crate::chain::{Instruction, Member, first};
 use crate::plant::{Drive, Plant};
@@ -15,7 +15,7 @@ const FULL: f64 = 1023.0;
 /// Numbers whose sign is bit 10.
 const SPEED: Cell = Cell::new(address::MOVING_SPEED, 2).with_sign(Sign::Bit(10));
 
-/// A servo, on the shaft of a motor of the plant or on none. Of its limit of torque it knows 0, which takes the torque.
+/// A servo, on the shaft of a motor of the plant or on none. Of the torque limit only 0, no torque, is simulated.
 pub struct Servo {
     model: &'static Model,
     table: [u8; TABLE],
@@ -65,8 +65,8 @@ impl Servo {
         u16::from_le_bytes([self.table[at], high])
     }
 
-    /// Its hardware has these errors from now on, or none any more; those that the register "Shutdown" names take the torque until
-    /// the limit of torque is written again.
+    /// Sets its hardware errors, 0 for none; those in the register "Shutdown" switch the torque off until
+    /// the torque limit is written again.
     pub fn set_alarm(&mut self, errors: u8) {
         self.alarm = errors;
         if errors & self.table[usize::from(address::SHUTDOWN)] != 0 {
@@ -81,7 +81,7 @@ impl Servo {
         self.set_alarm(if hot { self.alarm | error::HEAT } else { self.alarm & !error::HEAT });
     }
 
-    /// What outlives a restart, as the factory has it.
+    /// Restores the factory values of the non-volatile registers.
     fn forget(&mut self, id: u8) {
         for (register, value) in [
             (address::MODEL_NUMBER, self.model.kind.number),
@@ -103,7 +103,7 @@ impl Servo {
         }
     }
 
-    /// What a restart leaves of the registers that do not outlive it.
+    /// Restores the initial values of the volatile registers.
     fn restart(&mut self) {
         self.table[usize::from(address::TORQUE_ENABLE)..].fill(0);
         self.set_register(address::TORQUE_LIMIT, self.register(address::MAX_TORQUE));
@@ -117,12 +117,15 @@ impl Servo {
             && self.register(address::TORQUE_LIMIT) > 0
     }
 
-    /// Whether it turns without end: both limits of the angle are 0.
+    /// Whether it is in wheel mode: both angle limits are 0.
     fn wheel(&self) -> bool {
         self.register(address::CW_LIMIT) == 0 && self.register(address::CCW_LIMIT) == 0
     }
 
-    /// Why a register may not have the value that it has.
+    /// Checks the value of a register.
+    ///
+    /// # Errors
+    /// The error byte for a value that is not allowed.
     fn check(&self, register: u16) -> Result<(), u8> {
         let value = self.register(register);
         let [low, high] = [address::CW_LIMIT, address::CCW_LIMIT].map(|limit| self.register(limit));
@@ -140,7 +143,7 @@ impl Servo {
         if value > largest { Err(error::RANGE) } else { Ok(()) }
     }
 
-    /// What its goals make of the motor.
+    /// The drive of the motor for its goals.
     fn drive(&mut self, scale: f64, dt: f64) -> Drive {
         let kind = &self.model.kind;
         let speed = SPEED.decode(&self.register(address::MOVING_SPEED).to_le_bytes()) as f64;
@@ -157,7 +160,7 @@ impl Servo {
         self.shaft.map_or(Drive::Off, |shaft| Drive::Control(shaft.joint(angle)))
     }
 
-    /// Fills the registers that say how it is.
+    /// Writes the measured quantities to their registers.
     fn measure(&mut self, plant: &Plant) {
         let Some(shaft) = self.shaft else { return };
         let kind = &self.model.kind;
@@ -215,7 +218,7 @@ impl Member for Servo {
     }
 
     fn return_delay(&self) -> f64 {
-        f64::from(self.register(address::RETURN_DELAY)) * 2e-6
+        f64::from(self.register(address::RETURN_DELAY)) * Model::DELAY_UNIT
     }
 
     fn answers(&self, level: i64) -> bool {
@@ -238,8 +241,8 @@ impl Member for Servo {
         Ok(())
     }
 
-    /// All bytes, or none and why. What outlives a restart stays as it is while torque is on, or once it is locked: what a servo says
-    /// of that the document leaves open.
+    /// Writes all bytes, or none on an error. Non-volatile registers do not change while torque is on or while they are locked; the answer
+    /// of a real servo in this case is not documented.
     fn write(&mut self, plant: &Plant, from: u16, data: &[u8]) -> Result<(), u8> {
         let torque = self.torque();
         let kept = self.table;

@@ -97,7 +97,7 @@ impl Arm {
         self
     }
 
-    /// Takes every command that is a number, as no arm of steel would: for comparison with a simulation whose targets leap.
+    /// Takes every command that is a number, as no arm of steel would: for comparison with a simulation whose targets jump.
     #[must_use]
     pub fn without_limits(mut self) -> Arm {
         self.judge.lenient = true;

@@ -1,24 +1,24 @@
-//! What the page says, as lines of a headset's log, which sessions understand.
+//! Converts messages of the page to lines of a headset's log, which sessions read.
 
 use serde_json::Value;
 
-/// Longest that a message may be under way, beyond the shortest of the session [s].
+/// Largest delay of a message beyond the smallest delay of the session [s].
 const LATE: f64 = 0.15;
-/// Most names of a message.
+/// Largest number of buttons in a message.
 const BUTTONS: usize = 16;
 
-/// Messages of one page, one after the other.
+/// Decoder of the messages of one page.
 #[derive(Default)]
 pub struct Messages {
     /// Number of the last one.
     last: Option<u64>,
-    /// The least difference of our clock to the page's [s].
+    /// Smallest difference between our clock and the page's [s].
     offset: Option<f64>,
 }
 
 impl Messages {
-    /// The line of a message that came at `now` [s]; nothing where it is damaged, or older than one before it. A pose that is not
-    /// tracked, or was under way for too long, is left out: nothing follows it.
+    /// The line of a message that arrived at `now` [s]; `None` if it is invalid, or older than an earlier one. A pose that is not
+    /// tracked, or is too late, is left out: nothing follows it.
     pub fn line(&mut self, text: &str, now: f64) -> Option<String> {
         let message: Value = serde_json::from_str(text).ok()?;
         let number = message["seq"].as_u64().filter(|number| self.last.is_none_or(|last| *number > last))?;
@@ -40,7 +40,7 @@ impl Messages {
     }
 }
 
-/// Position and quaternion x, y, z, w as the rows of a rigid motion.
+/// Position \[m\] and quaternion (x, y, z, w) as the rows of a homogeneous transform.
 fn pose(value: &Value) -> Option<String> {
     let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(Value::as_f64).collect();
     let [px, py, pz, x, y, z, w]: [f64; 7] = numbers?.try_into().ok()?;
@@ -92,7 +92,7 @@ mod tests {
         messages.line(&message(5, 1.0, true), 101.0).unwrap();
         assert_eq!(messages.line(&message(5, 1.1, true), 101.1), None);
         assert_eq!(messages.line(&message(4, 1.1, true), 101.1), None);
-        // Under way for 0.2 s longer than the first: what it says was let go.
+        // Delayed 0.2 s more than the first: its buttons are released.
         assert_eq!(messages.line(&message(6, 1.1, true), 101.3).as_deref(), Some("wE9ryARX: &\n"));
         assert!(messages.line(&message(7, 1.3, true), 101.4).unwrap().contains("r:"));
         for wrong in ["", "{}", "[1]", r#"{"seq":9,"time":1.4,"buttons":[]}"#, r#"{"seq":-1,"time":0}"#] {

@@ -20,19 +20,18 @@ use tungstenite::handshake::server::{ErrorResponse, Request, Response};
 use tungstenite::protocol::WebSocketConfig;
 
 const PAGE: &str = include_str!("page.html");
-/// How long a browser may take to ask.
+/// Longest wait for a request.
 const PATIENCE: Duration = Duration::from_secs(10);
-/// Longest message.
+/// Bytes of the longest message.
 const LONGEST: usize = 4096;
-
-/// Longest head of a request.
+/// Bytes of the longest head of a request.
 const HEAD: usize = 8192;
-/// Connections at once.
+/// Largest number of connections at once.
 const MOST: usize = 16;
 
-/// What all connections share.
+/// State that all connections share.
 struct Desk {
-    /// What a browser calls this page: scheme, and hosts with the port.
+    /// Scheme, and hosts with the port, of this page.
     scheme: &'static str,
     hosts: Vec<String>,
     open: AtomicUsize,
@@ -44,25 +43,25 @@ struct Desk {
 
 /// The page of a session.
 pub struct Page {
-    /// What its messages become.
+    /// Messages of the page, as lines of a headset's log.
     pub lines: OwnedFd,
-    /// Where it is, with the key of this session.
+    /// Its address, with the key of this session.
     pub address: String,
-    /// Of its certificate, where it has one.
+    /// SHA-256 fingerprint of its certificate; `None` on the loopback.
     pub fingerprint: Option<String>,
 }
 
 /// Serves the page until the program ends.
 ///
 /// # Errors
-/// The port is taken; a network without TLS, or none at all.
+/// The port is in use, the build has no TLS for the network, or there is no network.
 pub fn serve(reach: Reach) -> Result<Page, Failure> {
     let wanted = match reach {
         Reach::Loopback(port) => (Ipv4Addr::LOCALHOST, port).into(),
         Reach::Network(port) => network(port)?,
         Reach::Address(address) => address,
     };
-    let failed = |error: io::Error| Failure::new(format!("{wanted}: {error}; port 0 takes a free one"));
+    let failed = |error: io::Error| Failure::new(format!("{wanted}: {error}; use port 0 for a free one"));
     let listener = TcpListener::bind(wanted).map_err(failed)?;
     let place = listener.local_addr().map_err(failed)?;
     let secured = !matches!(reach, Reach::Loopback(_));
@@ -83,30 +82,30 @@ pub fn serve(reach: Reach) -> Result<Page, Failure> {
     std::thread::spawn(move || {
         for stream in listener.incoming().flatten() {
             let (desk, lock) = (desk.clone(), lock.clone());
-            // A browser that goes away is no error.
+            // A closed connection is not an error.
             std::thread::spawn(move || desk.meet(stream, lock.as_deref()).unwrap_or_default());
         }
     });
     Ok(page)
 }
 
-/// The address by which this machine is on its network; nothing is sent.
+/// This machine's address on its network. No packet is sent.
 fn network(port: u16) -> Result<SocketAddr, Failure> {
     let found = UdpSocket::bind((Ipv4Addr::UNSPECIFIED, 0)).and_then(|socket| {
-        // An address of documentation (RFC 5737): whatever leads there leads to the network.
+        // An address reserved for documentation (RFC 5737): the route to it is the route to the network.
         socket.connect((Ipv4Addr::new(192, 0, 2, 1), 9))?;
         socket.local_addr()
     });
     let address = found.map(|found| found.ip()).ok().filter(|ip| !ip.is_loopback() && !ip.is_unspecified());
     address.map(|ip| (ip, port).into()).ok_or_else(|| {
-        Failure::new("this machine is on no network; name its address as --device phone-lan:ADDRESS:PORT")
+        Failure::new("this machine has no network address; name one by --device phone-lan:ADDRESS:PORT")
     })
 }
 
 #[cfg(feature = "tls")]
 use tls::Identity as Lock;
 
-/// What stands for TLS where it was not built in.
+/// Placeholder for TLS in builds without it.
 #[cfg(not(feature = "tls"))]
 enum Lock {}
 
@@ -114,7 +113,7 @@ enum Lock {}
 impl Lock {
     fn new(_: SocketAddr) -> Result<Self, Failure> {
         Err(Failure::usage(
-            "this build has no TLS, which browsers ask for on a network: build it with --features tls, or use --device phone and `adb reverse`",
+            "this build has no TLS, which browsers require on a network: build with --features tls, or use --device phone and `adb reverse`",
         ))
     }
 
@@ -127,7 +126,7 @@ impl Lock {
     }
 }
 
-/// A stream whose first bytes were read already.
+/// A stream whose first bytes have already been read.
 struct Again<S> {
     first: Cursor<Vec<u8>>,
     stream: S,
@@ -152,7 +151,7 @@ impl<S: Write> Write for Again<S> {
     }
 }
 
-/// 128 bits that nobody guesses.
+/// A random key of 128 bits, in hexadecimal.
 fn key() -> io::Result<String> {
     let mut bytes = [0; 16];
     std::fs::File::open("/dev/urandom")?.read_exact(&mut bytes)?;
@@ -162,7 +161,7 @@ fn key() -> io::Result<String> {
 }
 
 impl Desk {
-    /// Takes a connection, unless there are too many.
+    /// Serves a connection, unless there are too many.
     fn meet(&self, stream: TcpStream, lock: Option<&Lock>) -> io::Result<()> {
         stream.set_read_timeout(Some(PATIENCE))?;
         stream.set_write_timeout(Some(PATIENCE))?;
@@ -196,9 +195,11 @@ impl Desk {
             Ok(request) if request.path.trim_end_matches('/') == self.key => {
                 (200, "text/html; charset=utf-8", PAGE)
             }
-            Ok(_) => {
-                (403, "text/plain; charset=utf-8", "the address lacks the key that the session has printed\n")
-            }
+            Ok(_) => (
+                403,
+                "text/plain; charset=utf-8",
+                "the address lacks the key: open the address that the session printed\n",
+            ),
             Err((status, why)) => (status, "text/plain; charset=utf-8", why),
         };
         write_head(&mut stream, status, kind, text.len() as u64)?;
@@ -206,7 +207,7 @@ impl Desk {
         stream.flush()
     }
 
-    /// Takes messages of a page until it goes; of two the second is refused.
+    /// Reads the messages of a page until it disconnects; a second page is refused.
     #[expect(clippy::result_large_err, reason = "the handshake of tungstenite asks for it")]
     fn listen(&self, stream: impl Read + Write) -> io::Result<()> {
         let config = WebSocketConfig::default().max_message_size(Some(LONGEST)).max_frame_size(Some(LONGEST));
@@ -232,7 +233,7 @@ impl Desk {
         Ok(())
     }
 
-    /// Whether a page of ours asks, with the key.
+    /// Whether a request comes from our page, with the key.
     fn admits(&self, request: &Request) -> bool {
         let header = |name: &str| request.headers().get(name).and_then(|value| value.to_str().ok());
         let host = header("host").filter(|host| self.hosts.iter().any(|ours| ours == host));

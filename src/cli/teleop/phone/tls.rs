@@ -1,4 +1,4 @@
-//! TLS for phones and headsets on the local network, which browsers ask for: a certificate of each session's own, known by its fingerprint.
+//! TLS for phones and headsets on the local network, which browsers require: a self-signed certificate for each session, identified by its fingerprint.
 
 use crate::failure::Failure;
 use graviola::hashing::{Hash, Sha256};
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// Bytes of the longest key or signature.
 const ROOM: usize = 256;
-/// Bytes of an uncompressed point of the curve, with which a public key ends.
+/// Bytes of an uncompressed point of the curve, at the end of an encoded public key.
 const POINT: usize = 65;
 
 /// The identity of a session.
@@ -25,7 +25,7 @@ impl Identity {
     /// A new key, and a certificate of it for an address.
     ///
     /// # Errors
-    /// The processor lacks what the cryptography needs, or has no random numbers.
+    /// The processor lacks instructions that the cryptography needs, or there are no random numbers.
     pub fn new(place: SocketAddr) -> Result<Self, Failure> {
         if !graviola::util::is_cpu_supported() {
             return Err(failed("this processor lacks instructions that it needs"));
@@ -54,10 +54,10 @@ impl Identity {
         &self.fingerprint
     }
 
-    /// The other side of a connection behind TLS; the handshake happens with the first byte that is read.
+    /// Accepts a connection; the TLS handshake happens with the first read.
     ///
     /// # Errors
-    /// None that a valid config would have.
+    /// The configuration is not valid.
     pub fn accept(&self, stream: TcpStream) -> io::Result<StreamOwned<ServerConnection, TcpStream>> {
         let connection = ServerConnection::new(self.config.clone()).map_err(io::Error::other)?;
         Ok(StreamOwned::new(connection, stream))
@@ -102,5 +102,5 @@ impl rcgen::SigningKey for Key {
 }
 
 fn failed(error: impl ToString) -> Failure {
-    Failure::new(format!("no TLS for phones: {}", error.to_string()))
+    Failure::new(format!("cannot set up TLS for phones: {}", error.to_string()))
 }

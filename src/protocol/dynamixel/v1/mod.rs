@@ -1,4 +1,4 @@
-//! Protocol 1.0: servos of the series AX, RX, DX and EX, and MX with their first firmware.
+//! Protocol 1.0: servos of the series AX, RX, DX and EX, and MX with older firmware.
 //!
 //! Source: ROBOTIS e-Manual, page "DYNAMIXEL Protocol 1.0" and the control table of each model.
 

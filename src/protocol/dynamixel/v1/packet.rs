@@ -1,18 +1,18 @@
-//! Packets of protocol 1.0, which Feetech servos speak as well.
+//! Packets of protocol 1.0, which Feetech servos also use.
 //!
-//! `FF FF | id | length | instruction or error | parameters | checksum`: the length counts what follows it, the checksum is the
-//! complement of the sum of all from the id on.
+//! `FF FF | id | length | instruction or error | parameters | checksum`: the length is the number of bytes after it, the checksum is the
+//! complement of the sum of all bytes from the id.
 
 use crate::servo::{Answer, Packets, Request, Verdict, words};
 
-/// The id that all servos listen to.
+/// The id to which all servos listen.
 pub const BROADCAST: u8 = 0xFE;
 
 const HEADER: [u8; 2] = [0xFF, 0xFF];
-/// Bytes of a packet around its parameters.
+/// Bytes of a packet besides its parameters.
 const FRAME: usize = 6;
 
-/// Instructions, as the byte that says which. Feetech's servos know the sync read, Dynamixel's MX the bulk read.
+/// Codes of instructions. Only Feetech servos support the sync read, and only Dynamixel MX the bulk read.
 pub mod instruction {
     #![allow(missing_docs)]
     pub const PING: u8 = 1;
@@ -47,7 +47,7 @@ pub mod error {
         (INSTRUCTION, "it does not know the instruction"),
     ];
 
-    /// What the bits say.
+    /// The meaning of the bits.
     pub fn verdict(error: u8) -> Verdict {
         let said = |names: &[(u8, &str)]| {
             names.iter().any(|(bit, _)| error & bit != 0).then(|| words(names, error).into())
@@ -59,7 +59,7 @@ pub mod error {
 /// A packet: an instruction, or an answer whose `code` is the error byte.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Packet<'a> {
-    /// Who is asked, or answers.
+    /// The servo that receives the instruction or sends the answer.
     pub id: u8,
     /// The instruction, or the error byte.
     pub code: u8,
@@ -90,7 +90,7 @@ fn checksum(bytes: &[u8]) -> u8 {
     !bytes.iter().fold(0_u8, |sum, byte| sum.wrapping_add(*byte))
 }
 
-/// Finds packets in a stream of bytes, wherever it begins. It allocates nothing once its buffer has held the longest.
+/// Finds packets in a stream of bytes, which may begin anywhere. Allocates nothing after the longest packet.
 #[derive(Clone, Debug, Default)]
 pub struct Decoder {
     bytes: Vec<u8>,
@@ -98,20 +98,20 @@ pub struct Decoder {
 }
 
 impl Decoder {
-    /// Takes what came.
+    /// Takes received bytes.
     pub fn push(&mut self, bytes: &[u8]) {
         self.bytes.drain(..self.used);
         self.used = 0;
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// Drops what came and was not decoded.
+    /// Drops bytes that are not decoded yet.
     pub fn clear(&mut self) {
         self.bytes.clear();
         self.used = 0;
     }
 
-    /// The next packet whose checksum is right; `None` until more bytes come.
+    /// The next packet with a correct checksum; `None` until more bytes arrive.
     pub fn next_packet(&mut self) -> Option<Packet<'_>> {
         let end = loop {
             let bytes = &self.bytes[self.used..];
@@ -120,7 +120,7 @@ impl Decoder {
             let bytes = &self.bytes[self.used..];
             let (&id, &length) = (bytes.get(2)?, bytes.get(3)?);
             let end = 4 + usize::from(length);
-            // No id is FF, so that three in a row begin one byte later.
+            // No id is FF: of three FF in a row, the packet begins at the second.
             if id == 0xFF || length < 2 {
                 self.used += 1;
                 continue;
@@ -144,7 +144,7 @@ pub struct First {
 }
 
 impl First {
-    /// Packets whose error byte means this.
+    /// Packets whose error byte has this meaning.
     pub fn new(verdict: fn(u8) -> Verdict) -> First {
         First { decoder: Decoder::default(), verdict }
     }
@@ -159,7 +159,7 @@ impl Packets for First {
         match request {
             Request::Read(from, size) => encode(out, id, instruction::READ, &[&[from as u8, size as u8]]),
             Request::Write(from, data) => encode(out, id, instruction::WRITE, &[&[from as u8], data]),
-            // Nothing here restarts a servo: it is asked whether it is there.
+            // Protocol 1.0 has no restart (`Family::reboots` is false): a ping has no effect.
             Request::Reboot => encode(out, id, instruction::PING, &[]),
             Request::SyncRead(from, size, ids) | Request::FastSyncRead(from, size, ids) => {
                 encode(out, BROADCAST, instruction::SYNC_READ, &[&[from as u8, size as u8], ids]);
@@ -173,7 +173,7 @@ impl Packets for First {
     fn answers(&mut self, sent: &[u8], came: &[u8], take: &mut dyn FnMut(Answer<'_>) -> bool) -> bool {
         self.decoder.push(came);
         while let Some(Packet { id, code, parameters }) = self.decoder.next_packet() {
-            // A converter that does not switch its receiver off returns what was sent.
+            // A converter that does not switch its receiver off echoes the request.
             let echoed = sent.get(2) == Some(&id)
                 && sent.get(4) == Some(&code)
                 && sent.get(5..sent.len() - 1) == Some(parameters);

@@ -1,4 +1,4 @@
-//! The control table that servos with protocol 1.0 have in common, and in what models differ.
+//! The control table of servos with protocol 1.0, and their models.
 
 use super::packet::{First, error};
 use crate::servo::{Cell, Family, Kind, Layout, Mode, Setting, Sign};
@@ -21,7 +21,7 @@ pub mod address {
     pub const STATUS_RETURN: u16 = 16;
     pub const ALARM_LED: u16 = 17;
     pub const SHUTDOWN: u16 = 18;
-    /// Registers below it outlive a restart, and are locked while torque is on.
+    /// Registers below it are non-volatile, and are locked while torque is on.
     pub const TORQUE_ENABLE: u16 = 24;
     pub const GOAL_POSITION: u16 = 30;
     pub const MOVING_SPEED: u16 = 32;
@@ -33,7 +33,7 @@ pub mod address {
     pub const PRESENT_TEMPERATURE: u16 = 43;
     pub const REGISTERED: u16 = 44;
     pub const MOVING: u16 = 46;
-    /// 1 keeps what outlives a restart from being written until the next restart.
+    /// 1 locks the non-volatile registers until the next restart.
     pub const LOCK: u16 = 47;
     pub const PUNCH: u16 = 48;
 }
@@ -46,11 +46,11 @@ const CCW_LIMIT: Cell = Cell::new(address::CCW_LIMIT, 2);
 const TORQUE_LIMIT: Cell = Cell::new(address::TORQUE_LIMIT, 2);
 const SPEED: Cell = Cell::new(address::MOVING_SPEED, 2).with_sign(Sign::Bit(10));
 
-/// Where what is.
+/// Registers that drivers use.
 const LAYOUT: Layout = Layout {
     model: Cell::new(address::MODEL_NUMBER, 2),
     firmware: None,
-    return_delay: Some((Cell::new(address::RETURN_DELAY, 1), 2e-6)),
+    return_delay: Some((Cell::new(address::RETURN_DELAY, 1), Model::DELAY_UNIT)),
     limits: [CW_LIMIT, CCW_LIMIT],
     torque: Cell::new(address::TORQUE_ENABLE, 1),
     lock: None,
@@ -71,17 +71,21 @@ const LAYOUT: Layout = Layout {
 /// A model of servo with protocol 1.0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Model {
-    /// What drivers need.
+    /// Properties for drivers.
     pub kind: Kind,
-    /// Torque when it is held fast at its nominal voltage \[N m\].
+    /// Stall torque at the nominal voltage \[N m\].
     pub stall: f64,
-    /// Whether it has an encoder: then it holds a velocity when it turns like a wheel, where others are told the share of their
-    /// output, and one instruction, the bulk read, reads several.
+    /// Whether it has an encoder. Then its wheel mode controls the velocity, where that of others sets a share of the
+    /// output, and it supports the bulk read of several servos.
     pub encoder: bool,
 }
 
-/// A servo that turns like a wheel has both limits at 0; one with a goal has another upper limit, and one that counts turns both
-/// at the end.
+impl Model {
+    /// One unit of the return delay \[s\].
+    pub const DELAY_UNIT: f64 = 2e-6;
+}
+
+/// The angle limits select the mode: both at 0 is wheel mode, both at the largest value multi-turn mode, all others position mode.
 const POSITION_300: &[Setting] = &[Setting { cell: CCW_LIMIT, allowed: [1, 1023], otherwise: 1023 }];
 const POSITION_360: &[Setting] = &[
     Setting { cell: CW_LIMIT, allowed: [0, 4094], otherwise: 0 },
@@ -89,8 +93,8 @@ const POSITION_360: &[Setting] = &[
 ];
 const WHEEL: &[Setting] = &[Setting::exactly(CW_LIMIT, 0), Setting::exactly(CCW_LIMIT, 0)];
 
-/// Servos with a potentiometer: 1024 positions over 300 degrees, 512 in the middle. A wheel of theirs is told its output, not
-/// its velocity, so that drivers do not command it.
+/// Servos with a potentiometer: 1024 positions over 300 degrees, 512 in the middle. Their wheel mode sets the output, not
+/// the velocity, so drivers do not use it.
 const fn potentiometer(name: &'static str, number: u16, stall: f64) -> Model {
     let kind = Kind {
         name,
@@ -118,7 +122,7 @@ const fn encoder(name: &'static str, number: u16, stall: f64) -> Model {
     Model { kind, stall, encoder: true }
 }
 
-/// Models that are known; the e-Manual's page of each is the source.
+/// Supported models; source: the page of each in the ROBOTIS e-Manual.
 pub const MODELS: [Model; 8] = [
     potentiometer("AX-12A", 12, 1.5),
     potentiometer("AX-18A", 18, 1.8),
@@ -130,7 +134,7 @@ pub const MODELS: [Model; 8] = [
     encoder("MX-106", 320, 8.4),
 ];
 
-/// What drivers need of them.
+/// Properties of the supported models, for drivers.
 pub static KINDS: [Kind; MODELS.len()] = {
     let mut kinds = [MODELS[0].kind; MODELS.len()];
     let mut at = 0;
@@ -165,7 +169,7 @@ mod tests {
         // Position and speed, 4 bytes from 36 on.
         assert_eq!(LAYOUT.present(), (36, 4));
         let kind = model("AX-12A").unwrap().kind;
-        assert!((512.0 * kind.position).to_degrees() - 150.0 < 1e-12);
+        assert!(((512.0 * kind.position).to_degrees() - 150.0).abs() < 1e-12);
         assert_eq!(LAYOUT.goal(Mode::Current), None);
     }
 }
