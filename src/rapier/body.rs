@@ -1,4 +1,4 @@
-//! A model's bodies, joints and shapes in sets of rapier: inserted, placed, set in motion, and read back.
+//! A model's bodies, joints and shapes in rapier's sets: inserts them, sets their positions and velocities, and reads them back.
 
 use crate::convert::{array, pose, quaternion, rotation, vector};
 use crate::floating::{Floating, Pace};
@@ -17,7 +17,7 @@ use rapier3d_f64::prelude::{
 };
 use std::sync::Arc;
 
-/// A model's bodies among rapier's.
+/// A model's bodies in rapier's sets.
 #[derive(Clone, Debug)]
 pub(crate) struct Body {
     pub groups: Groups,
@@ -30,7 +30,7 @@ pub(crate) struct Body {
     start: Vec<Option<Floating>>,
 }
 
-/// The sets that bodies are in.
+/// Rapier's sets.
 pub(crate) struct Sets<'a> {
     pub bodies: &'a mut RigidBodySet,
     pub colliders: &'a mut ColliderSet,
@@ -67,7 +67,7 @@ impl Body {
         let geoms = colliders.iter().enumerate().filter_map(|(g, handle)| Some(((*handle)?, g))).collect();
         let start = vec![None; groups.all.len()];
         let mut body = Body { groups, links, colliders, geoms: Arc::new(geoms), start };
-        // Masses of rigid bodies follow from what was given to them, not from their colliders.
+        // Masses of rigid bodies come from their additional mass properties; colliders have no density.
         for &handle in &body.links.handles {
             if let Some(rigid) = sets.bodies.get_mut(handle) {
                 rigid.recompute_mass_properties_from_colliders(sets.colliders);
@@ -77,7 +77,7 @@ impl Body {
         Ok(body)
     }
 
-    /// Puts bodies where `qpos` says, and mocap bodies where the state says.
+    /// Sets the poses of bodies from `qpos`, and of mocap bodies from the state.
     pub fn place(&mut self, m: &Model, state: &State, qpos: &[f64], sets: &mut Sets<'_>) {
         for (group, &handle) in self.groups.all.iter().zip(&self.links.handles) {
             let at = match group.motion {
@@ -144,8 +144,8 @@ impl Body {
         }
     }
 
-    /// Acceleration that the centres of mass of floating roots have towards their origins, where those keep their velocity: the
-    /// difference between MuJoCo's bias force and rapier's is the force of it. Nothing where no root floats.
+    /// Centripetal acceleration of the centres of mass of floating roots \[m/s²\], at constant velocity of their origins, as a generalised
+    /// acceleration. MuJoCo's and rapier's bias forces differ by its force. Returns false if there is no floating root.
     pub fn centripetal(&self, m: &Model, qvel: &[f64], out: &mut Vec<f64>) -> bool {
         let roots = || self.links.trees.iter().filter_map(|tree| Some((tree, self.start[tree.root?]?)));
         out.clear();
@@ -211,17 +211,17 @@ impl Body {
         start.to_qvel(turned, velocities, pace, &mut state.qvel[v..v + 6]);
     }
 
-    /// Whether the model has as many bodies and geoms.
+    /// Whether the model has the same numbers of bodies and geoms.
     pub fn fits(&self, m: &Model) -> bool {
         self.groups.of_body.len() == m.nbody && self.colliders.len() == m.ngeom
     }
 
-    /// Whether a stage has to hold forces against rapier's own gyroscopic ones.
+    /// Whether rapier's own gyroscopic forces have to be cancelled.
     pub fn has_multibodies(&self) -> bool {
         !self.links.trees.is_empty()
     }
 
-    /// Applies generalised forces as wrenches: each joint's on the body that it moves, and back on the one before it.
+    /// Applies generalised forces as wrenches: each joint's on the body that it moves, and the opposite on its parent.
     pub fn push(&self, m: &Model, forces: &[f64], axes: &[[f64; 3]], sets: &mut Sets<'_>) {
         for tree in &self.links.trees {
             tree.release(sets.bodies);
@@ -270,7 +270,7 @@ impl Group {
 }
 
 impl Tree {
-    /// Takes all forces off its bodies.
+    /// Removes all forces from its bodies.
     fn release(&self, bodies: &mut RigidBodySet) {
         let handles = std::iter::once(self.handle).chain(self.links.iter().map(|link| link.handle));
         for handle in handles {
@@ -308,7 +308,7 @@ fn touches(m: &Model, g: usize) -> bool {
     m.geom_contype[g] | m.geom_conaffinity[g] != 0 || named(&m.pair_geom1) || named(&m.pair_geom2)
 }
 
-/// True where bodies of the same tree may touch: contact types do not say all then.
+/// Whether bodies of the same tree may touch, so that contact types alone do not decide about contacts.
 fn has_relatives(groups: &Groups, body: usize) -> bool {
     let Some(k) = groups.of_body[body] else { return false };
     groups.all[k].parent.is_some() || groups.all.iter().any(|g| g.parent == Some(k))

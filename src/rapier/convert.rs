@@ -1,4 +1,4 @@
-//! Between this project's arrays and glam's types, which stand nowhere but at the border to rapier.
+//! Conversions between this project's arrays and glam's types, which are used only for rapier.
 
 use physics::math::{Quat, Vec3};
 use rapier3d_f64::math::{Pose, Rotation, Vector};

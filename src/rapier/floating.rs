@@ -1,18 +1,18 @@
-//! Velocities of floating bodies, as MuJoCo and as rapier mean them.
+//! Converts velocities of floating bodies between MuJoCo's and rapier's conventions.
 //!
 //! MuJoCo moves the origin of the body's frame by its velocity, and turns the body by an angular velocity in its own frame.
 //! Rapier moves the centre of mass. Over a step that turns the body by `R' = exp(h w) R`, an origin that moves by `h v` carries
 //! the centre of mass, at `r` in the frame of the body, by `h v + (R' - R) r`: the quotient by `h` is the velocity given to
-//! rapier, and taken off again afterwards with the turn that rapier made. So motion without contacts is our pipeline's to
-//! rounding, for any offset of the centre of mass.
+//! rapier, and subtracted again afterwards with the rotation that rapier made. So motion without contacts equals that of our pipeline up
+//! to rounding, for any offset of the centre of mass.
 //!
-//! Rapier turns bodies that stand alone by a quaternion of the linearised rotation, which is an angle of `2 atan(h w / 2)` in
-//! place of `h w`: they are given the velocity that turns them right.
+//! Rapier rotates single rigid bodies by a quaternion of the linearised rotation, which is an angle of `2 atan(h w / 2)` instead
+//! of `h w`: their velocity is scaled so that the angle is right.
 
 use crate::convert::array;
 use rapier3d_f64::math::{Rotation, Vector};
 
-/// How long a step of rapier takes, and into how many parts rapier divides it.
+/// Length of a step of rapier, and number of its solver iterations.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pace {
     pub dt: f64,
@@ -25,7 +25,7 @@ pub(crate) struct Floating {
     /// Centre of mass in the frame of the body.
     pub com: Vector,
     pub orientation: Rotation,
-    /// Rapier turns it by the linearised rotation.
+    /// Whether it is a single rigid body, which rapier rotates by the linearised rotation.
     pub alone: bool,
 }
 

@@ -1,4 +1,4 @@
-//! All forces but those of contacts, as rapier can take them: velocities for its step, and wrenches that hold them.
+//! All forces except contact forces, in a form that rapier accepts: velocities for its step, and wrenches that hold them constant.
 
 use crate::body::{Body, Sets};
 use crate::floating::Pace;
@@ -67,7 +67,7 @@ impl Forces {
         }
     }
 
-    /// Takes the step without contacts. False where a bad number has been reset in it, and with it the state.
+    /// Computes the step without contacts. Returns false if the step had a bad number and reset the state.
     ///
     /// # Errors
     /// As `physics::step`.
@@ -77,8 +77,8 @@ impl Forces {
         Ok(d.state.time > self.start.time)
     }
 
-    /// Gives rapier the velocities of the end of the step, and the forces under which it keeps them: it would add its own
-    /// gyroscopic ones, which are counted already.
+    /// Gives rapier the velocities of the end of the step, and the forces that keep them constant: they cancel its own
+    /// gyroscopic forces, which are already included.
     pub fn hold(&mut self, d: &Data, body: &mut Body, sets: &mut Sets<'_>, pace: Pace) {
         body.set_in_motion(&self.model, &d.state.qvel, pace, sets);
         if body.has_multibodies() {
@@ -99,8 +99,8 @@ impl Forces {
         self.change.clone_from(&d.state.qvel);
     }
 
-    /// Finds the force of contacts in the velocities that rapier made of those given to it. Where constraints beyond joints couple
-    /// bodies, takes the step again with that force as a given one: rapier knows nothing of them, and would tear them apart.
+    /// Computes the contact forces from the change of velocity in rapier's step. Where equality constraints couple
+    /// bodies, repeats the step with these forces as given ones: rapier does not have the constraints, and would violate them.
     ///
     /// # Errors
     /// As `physics::step`.
@@ -122,8 +122,8 @@ impl Forces {
         Ok(())
     }
 
-    /// Completes accelerations, constraint forces and sensors by what contacts did, as `Data` have them after a step: of the
-    /// state that the step began from.
+    /// Adds the effect of contacts to accelerations, constraint forces and sensors, which after a step are those of the
+    /// state from which the step began.
     pub fn account(&mut self, d: &mut Data) {
         let h = self.timestep();
         for ((acceleration, start), now) in d.acc.qacc.iter_mut().zip(&self.start.qvel).zip(&d.state.qvel) {

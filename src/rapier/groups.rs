@@ -1,4 +1,4 @@
-//! Bodies of a model as rapier's rigid bodies: those welded together are one.
+//! Groups of welded bodies, each of which is one rigid body of rapier.
 
 use crate::convert::{array, pose, rotation, vector};
 use physics::Model;
@@ -10,7 +10,7 @@ use rapier3d_f64::prelude::MassProperties;
 /// What moves a group of welded bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motion {
-    /// A free joint, and nothing hangs on it: a rigid body alone.
+    /// A free joint without joints below it: a single rigid body.
     Alone,
     /// A free joint, and other joints below it: the root of a multibody.
     Floating,
@@ -25,7 +25,7 @@ pub(crate) enum Motion {
 pub(crate) struct Group {
     /// The topmost body.
     pub body: usize,
-    /// Group that this one hangs on; `None` for the world.
+    /// Parent group; `None` for the world.
     pub parent: Option<usize>,
     pub motion: Motion,
     /// Centre of mass in the frame of `body`.
@@ -42,7 +42,7 @@ pub(crate) struct Group {
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
     pub all: Vec<Group>,
-    /// Group of each body; `None` where it stands still.
+    /// Group of each body; `None` for bodies fixed to the world.
     pub of_body: Vec<Option<usize>>,
     /// Pose of each body in the frame of the topmost one of its group, or of the world.
     pub within: Vec<Pose>,

@@ -1,8 +1,8 @@
-//! Models of MJCF under [rapier](https://rapier.rs): with tendons, muscles, actuators, sensors and MuJoCo's rules of contact.
+//! MJCF models under [rapier](https://rapier.rs), with tendons, muscles, actuators, sensors and MuJoCo's rules of contact.
 //!
-//! Rapier does not follow MuJoCo, so this project's own pipeline stays the default. This crate is for programs that simulate with
-//! rapier already and want a robot out of MJCF among their bodies ([`Robot`]), for those that want parry's shapes of a
-//! model ([`shapes_of`]), and for whoever wants rapier's solver under a whole environment ([`engine`]). No C, and not built by
+//! Rapier does not follow MuJoCo, so this project's own pipeline stays the default. This crate is for programs that already simulate
+//! with rapier and need a robot from MJCF among their bodies ([`Robot`]), for programs that need the geoms of a model as shapes of parry
+//! ([`shapes_of`]), and for running a whole environment with rapier's contact solver ([`engine`]). It contains no C, and is not built by
 //! default.
 //!
 //! ```
@@ -20,27 +20,27 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! # Who computes what
-//! In each substep our own stages compute all forces but those of contacts from rapier's positions and velocities: weight,
+//! # Division of work
+//! In each substep our own stages compute all forces except contact forces from rapier's positions and velocities: weight,
 //! Coriolis and fluid forces, springs and dampers, tendons with their wrapping, muscles with their activation, every actuator,
-//! gravity compensation; and with our own solver limits, dry friction and equality constraints. Rapier has no input for
-//! generalised forces, so it is given their sum in two parts that its public interface has:
+//! gravity compensation; and, with our own solver, joint limits, dry friction and equality constraints. Rapier has no input for
+//! generalised forces, so their sum is passed in two parts through its public interface:
 //!
-//! 1. the generalised velocities of its multibodies are set to those that these forces make by the end of the step;
-//! 2. wrenches on its bodies hold them: they are exactly rapier's own gyroscopic and Coriolis terms at those velocities, which
-//!    our side has counted. A joint's force is a torque, or a force through the moved centre of mass, on the body that it moves
-//!    and the opposite on the one before.
+//! 1. the generalised velocities of its multibodies are set to those that result from these forces at the end of the step;
+//! 2. wrenches on its bodies cancel rapier's own gyroscopic and Coriolis terms at those velocities, which our stages already
+//!    include. A joint's force is a torque, or a force through the moved centre of mass, on the body that the joint moves,
+//!    and the opposite on its parent.
 //!
-//! What is left to rapier is what it is for: detection of collisions, contacts with friction, and the motion that follows. So
-//! motion without contacts is our pipeline's to rounding (of poses, over the length of a step), for whatever joints, and rapier's integration (implicit in
-//! Coriolis forces and springs), its damping, armature and limits are not in play. Where equality constraints are active and
-//! contacts push, the step is taken once more with the contacts' forces as given ones, as rapier would push against joints that
-//! it does not know.
+//! Rapier computes the rest: collision detection, contacts with friction, and the resulting motion. So
+//! motion without contacts equals that of our pipeline up to rounding (of poses, over the length of a step), for all types of joints; rapier's integration
+//! (implicit in Coriolis forces and springs), damping, armature and limits have no effect. Where equality constraints are active and
+//! there are contact forces, the step is repeated with the contact forces as given ones, because rapier solves contacts without these
+//! constraints.
 //!
-//! After a step a [`Data`](physics::Data) holds what it holds after our own: the new state, and poses, contacts, forces and sensor
-//! readings of the state before.
+//! After a step a [`Data`](physics::Data) has the same contents as after a step of our own pipeline: the new state, and poses, contacts, forces and
+//! sensor readings of the previous state.
 //!
-//! # Where rapier had to be told
+//! # Corrections of stock rapier
 //! | stock rapier 0.36.1 | here |
 //! |---|---|
 //! | 0.1 N m s of damping on every rotation of a multibody | none |
@@ -57,19 +57,19 @@
 //! | MuJoCo | here |
 //! |---|---|
 //! | contact types and affinities, excluded and predefined pairs, welded bodies, parents | the same |
-//! | friction: maximum, or by priority, or the pair's | the same; of a pair's two coefficients the first |
+//! | friction: maximum, or by priority, or the pair's | the same; only the first of a pair's two coefficients |
 //! | `condim` 1 | no friction |
 //! | `condim` 4 and 6 | as 3: rapier has no torsional or rolling friction |
-//! | `solref`, `solimp`, `solmix`, `margin` and `gap` of contacts | rapier's one softness ([`World::parameters_mut`]) |
+//! | `solref`, `solimp`, `solmix`, `margin` and `gap` of contacts | one softness for all contacts ([`World::parameters_mut`]) |
 //! | those of limits, dry friction and equality constraints | the same |
-//! | pyramidal or elliptic cone | rapier's disc; forces are written in the model's form |
-//! | integrator `RK4` | Euler's method. The others are the model's own |
-//! | mocap bodies | moved where the program says, without a velocity |
-//! | trees that sleep | none |
-//! | shapes | [`shapes_of`] says which are exact |
+//! | pyramidal or elliptic cone | rapier's circular cone; forces are converted to the model's cone |
+//! | integrator `RK4` | Euler's method; the other integrators are used as in the model |
+//! | mocap bodies | moved to their pose, without a velocity |
+//! | sleeping trees | no sleep |
+//! | shapes | see [`shapes_of`] for which are exact |
 //! | height fields | a surface without its base |
 //!
-//! Refused, by the name of the element: flexes, signed distance fields and meshes without volume that touch something, adhesion,
+//! Refused, with the name of the element: flexes, signed distance fields and meshes without volume that can collide, adhesion,
 //! moving surfaces, joints below a mocap body.
 //!
 //! # What cannot be helped from outside
@@ -113,7 +113,7 @@ pub use shapes::{GeomShape, shape_of, shapes_of};
 pub use stepper::Rapier;
 pub use world::{Options, World};
 
-/// Rapier as an engine, by its name.
+/// Rapier as an engine, named "rapier".
 pub fn engine(options: Options) -> physics::Engine {
     physics::Engine::new("rapier", move |m| Ok(Box::new(Rapier::new(m, options)?)))
 }

@@ -16,20 +16,20 @@ pub(crate) struct Link {
     /// The joint.
     pub joint: usize,
     pub kind: JointType,
-    /// What it moves: the body itself, or an intermediate one without mass where more joints follow.
+    /// The body that it moves: the body itself, or, if it has more joints, an intermediate body without mass.
     pub handle: RigidBodyHandle,
-    /// What it hangs on.
+    /// Its parent.
     pub before: RigidBodyHandle,
-    /// Its number in the multibody.
+    /// Its index in the multibody.
     pub id: usize,
     /// First degree of freedom in the multibody.
     pub dof: usize,
 }
 
-/// Joints that move together.
+/// A kinematic tree: a multibody of rapier.
 #[derive(Clone, Debug)]
 pub(crate) struct Tree {
-    /// A body of the multibody by which it is found.
+    /// A body of the multibody, to find it.
     pub handle: RigidBodyHandle,
     /// Its floating root, if it has one.
     pub root: Option<usize>,
@@ -57,7 +57,7 @@ impl Tree {
     }
 }
 
-/// A rigid body that rapier neither weighs nor turns by itself, nor lets sleep, nor slows down.
+/// A rigid body without gravity, gyroscopic forces, sleep and limit of rotation.
 fn dynamic() -> RigidBodyBuilder {
     RigidBodyBuilder::dynamic()
         .can_sleep(false)
@@ -114,7 +114,7 @@ impl Links {
         links
     }
 
-    /// Hangs a group on the body before it, by a joint of the multibody for each of the model's.
+    /// Connects a group to its parent, by a joint of the multibody for each of the model's joints.
     fn join(
         &mut self,
         m: &Model,
@@ -145,7 +145,7 @@ impl Links {
         }
     }
 
-    /// Gives joints their armature, and takes away the damping of 0.1 N m s that rapier gives every rotation: damping, springs,
+    /// Sets the armature of joints, and removes rapier's default damping of 0.1 N m s of every rotation: damping, springs,
     /// dry friction and limits are in the forces that the model's own stages compute.
     fn settle(&self, m: &Model, bodies: &mut RigidBodySet, multibodies: &mut MultibodyJointSet) {
         for tree in &self.trees {

@@ -1,4 +1,4 @@
-//! How close a world is to the model that it was made from.
+//! Differences between a world and its model.
 
 use crate::convert::array;
 use crate::world::World;
@@ -8,24 +8,24 @@ use physics::{Data, Model};
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::utils::AngularInertiaOps;
 
-/// What a world has of its model, at the reference configuration.
+/// Quantities of a world at the reference configuration, for comparison with its model.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Measures {
-    /// Positions and degrees of freedom.
+    /// Number of positions.
     pub nq: usize,
-    /// Degrees of freedom.
+    /// Number of degrees of freedom.
     pub nv: usize,
-    /// Mass of all bodies that joints move \[kg\].
+    /// Mass of all moving bodies \[kg\].
     pub mass: f64,
-    /// Axis of each joint in the world; zero for those without one.
+    /// Axis of each hinge and slide in the world frame; zero for other joints.
     pub axes: Vec<[f64; 3]>,
     /// Largest difference between the inertia of rapier's multibodies and the model's, relative to the largest entry.
     pub inertia: f64,
 }
 
 impl World {
-    /// Reads back what rapier's bodies and joints are.
+    /// Measures rapier's bodies and joints.
     pub fn measure(&self, m: &Model) -> Measures {
         let (mut nq, mut nv) = (0, 0);
         let mut axes = vec![[0.0; 3]; m.njnt];

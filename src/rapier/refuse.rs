@@ -1,4 +1,4 @@
-//! What rapier cannot carry: refused by the name of the element, before a world is built.
+//! Refuses models with elements that rapier does not support, by the name of the element, before a world is built.
 
 use physics::Model;
 use physics::model::{EqType, JointType, NotSimulated, ObjType, TrnType};
@@ -11,7 +11,8 @@ pub(crate) fn of(m: &Model, kind: ObjType, id: usize, what: &str) -> NotSimulate
 /// Checks that a model has nothing that this engine does not simulate.
 ///
 /// # Errors
-/// The first element that asks for it: a flex, adhesion, a plugin that is a signed distance field, a joint below a mocap body.
+/// The first element that is not supported: a flex, adhesion, a moving surface, a type of equality constraint or joint, or a joint below a
+/// mocap body.
 pub fn check(m: &Model) -> Result<(), NotSimulated> {
     if m.nflex > 0 {
         return Err(of(m, ObjType::Flex, 0, "a deformable body"));

@@ -14,13 +14,13 @@ use rapier3d_f64::prelude::{
     NarrowPhase, PairFilterContext, PhysicsHooks, RigidBodyHandle, RigidBodySet, SolverFlags,
 };
 
-/// A robot out of MJCF, with its muscles, tendons and actuators, in the sets of a program that steps rapier itself.
+/// A robot from MJCF, with its muscles, tendons and actuators, in the sets of a program that steps rapier itself.
 ///
-/// Before each step of rapier the program calls [`Robot::before_step`], which moves actuators and muscles on and gives rapier the
-/// robot's velocities and forces; after it [`Robot::after_step`], which reads the state back and completes the sensors. Controls
-/// go into [`Robot::data`]; so do forces of the program on the robot (`qfrc_applied`, `xfrc_applied`), as those set on its rigid
-/// bodies are taken off them. The robot stands where the model puts it, in the axes of the program's world, and feels the gravity
-/// that the program names. Its contacts with other bodies act on it, and are not among those of `data`, which name geoms.
+/// Before each step of rapier the program calls [`Robot::before_step`], which advances actuators and muscles and sets the
+/// robot's velocities and forces in rapier; after it [`Robot::after_step`], which reads the state back and completes the sensors. Set controls
+/// in [`Robot::data`], and also forces of the program on the robot (`qfrc_applied`, `xfrc_applied`): forces set on its rigid
+/// bodies are removed. The model's world frame is the program's, and gravity is that of
+/// [`Robot::before_step`]. Contacts with other bodies act on the robot, but are not in `data`, whose contacts are between geoms.
 ///
 /// ```
 /// use robohive_rapier::rapier::prelude::*;
@@ -51,7 +51,7 @@ pub struct Robot {
     pub data: Data,
     forces: Forces,
     body: Body,
-    /// Positions as they were last read or placed, to see what a program has written.
+    /// Positions that were last read or placed, to detect changes by the program.
     placed: Vec<f64>,
     pace: Option<Pace>,
 }
@@ -78,7 +78,7 @@ impl Robot {
         &self.forces.model
     }
 
-    /// The rigid body that a body of the model is, alone or with those that it is welded to; `None` where it stands still.
+    /// The rigid body of a body of the model and those welded to it; `None` for bodies fixed to the world.
     pub fn rigid_body(&self, body: usize) -> Option<RigidBodyHandle> {
         self.body.groups.of_body[body].map(|k| self.body.links.handles[k])
     }
@@ -88,10 +88,10 @@ impl Robot {
         self.body.colliders[geom]
     }
 
-    /// Prepares a step of rapier under these parameters: its length need not be the model's.
+    /// Prepares a step of rapier with these parameters and this gravity \[m/s²\]; the length of the step may differ from the model's.
     ///
     /// # Errors
-    /// As a step of our own pipeline: a number of the state or of the inputs is not finite or too large.
+    /// As for a step of our own pipeline: a number of the state or of the inputs is not finite, or too large.
     pub fn before_step(
         &mut self,
         gravity: Vector,
@@ -101,7 +101,7 @@ impl Robot {
     ) -> Result<(), StepError> {
         self.pace = None;
         let Robot { data, forces, body, placed, .. } = self;
-        // Colliders follow their bodies.
+        // No colliders are needed: they follow their bodies.
         let mut sets = Sets { bodies, colliders: &mut ColliderSet::new(), multibodies };
         if *placed != data.state.qpos {
             body.place(&forces.model, &data.state, &data.state.qpos, &mut sets);
@@ -115,7 +115,7 @@ impl Robot {
         Ok(())
     }
 
-    /// Reads the state after the step of rapier, and completes what follows from contacts.
+    /// Reads the state after the step of rapier, and completes forces and sensors.
     ///
     /// # Errors
     /// As [`Robot::before_step`].

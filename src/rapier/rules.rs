@@ -1,4 +1,4 @@
-//! Which geoms touch, and with what friction: MuJoCo's rules as hooks of rapier's narrow phase.
+//! MuJoCo's rules for contact pairs and friction, as hooks of rapier's narrow phase.
 
 use physics::Model;
 use physics::collision::filter::{Touching, touching};
@@ -18,12 +18,12 @@ pub(crate) fn mixture(m: &Model, g1: usize, g2: usize) -> Option<Mixture> {
     }
 }
 
-/// Sliding friction, which rapier has alone; none without tangents. Of a predefined pair's two coefficients the first counts.
+/// Sliding friction, the only kind in rapier; 0 for contacts without tangents. Of a predefined pair's two coefficients the first is used.
 fn friction(mixture: &Mixture) -> f64 {
     if mixture.dim() == 1 { 0.0 } else { mixture.friction()[0] }
 }
 
-/// Whether all geoms that collide mix friction in the one way that rapier knows by itself: the larger.
+/// Whether the friction of all pairs is the maximum, the rule that rapier applies without hooks.
 pub(crate) fn mixes_plainly(m: &Model) -> bool {
     let mut first = None;
     m.npair == 0
@@ -33,8 +33,8 @@ pub(crate) fn mixes_plainly(m: &Model) -> bool {
             .all(|g| *first.get_or_insert(m.geom_priority[g]) == m.geom_priority[g] && m.geom_condim[g] > 1)
 }
 
-/// Gives a collider what rapier decides by itself, and asks for hooks where it cannot. `decides`: contact types say all that is
-/// to be said of which geoms it touches.
+/// Sets friction, groups and hooks of a collider. `decides`: contact types alone decide which geoms it touches, so no hook is
+/// needed for that. `plainly`: no hook is needed for friction ([`mixes_plainly`]).
 pub(crate) fn prepare(m: &Model, g: usize, decides: bool, plainly: bool, collider: &mut Collider) {
     collider.set_friction(m.geom_friction[g][0]);
     collider.set_friction_combine_rule(CoefficientCombineRule::Max);
@@ -58,7 +58,7 @@ pub(crate) fn prepare(m: &Model, g: usize, decides: bool, plainly: bool, collide
 /// The geom of each collider of a model.
 pub(crate) type Geoms = HashMap<ColliderHandle, usize>;
 
-/// MuJoCo's rules for the colliders of one model. Pairs with colliders of other origin are left to rapier.
+/// MuJoCo's rules for the colliders of one model. Pairs with other colliders are left to rapier.
 pub(crate) struct Rules<'a> {
     pub m: &'a Model,
     pub geoms: &'a Geoms,

@@ -16,18 +16,18 @@ pub struct GeomShape {
     pub geom: usize,
     /// The body that it is fixed to.
     pub body: usize,
-    /// Pose of the shape in the frame of the body \[m\]. Parry's cylinders and height fields lie along other axes than
-    /// MuJoCo's, so this may be turned against the frame of the geom.
+    /// Pose of the shape in the frame of the body \[m\]. The axes of parry's cylinders and height fields differ from
+    /// MuJoCo's, so this may be rotated relative to the frame of the geom.
     pub pose: Pose,
     /// The shape; sizes in m.
     pub shape: SharedShape,
 }
 
-/// Halvings of the icosahedron's edges in the stand-in of an ellipsoid.
+/// Number of times that the edges of an icosahedron are halved to approximate an ellipsoid.
 const HALVINGS: usize = 3;
 
-/// All geoms of a model as shapes of parry, in the order of geoms: for distances, ray casts, projections and continuous
-/// collision by parry.
+/// All geoms of a model as shapes of parry, in the order of geoms, for parry's distances, ray casts, projections and continuous
+/// collision detection.
 ///
 /// | geom | shape | exact |
 /// |---|---|---|
@@ -60,7 +60,7 @@ pub fn shapes_of(m: &Model) -> Result<Vec<GeomShape>, NotSimulated> {
 /// One geom as a shape of parry.
 ///
 /// # Errors
-/// It has none, as for [`shapes_of`].
+/// The geom has no such shape, see [`shapes_of`].
 pub fn shape_of(m: &Model, g: usize) -> Result<GeomShape, NotSimulated> {
     let [a, b, c] = m.geom_size[g];
     let upright = Pose::from_rotation(Rotation::from_rotation_x(FRAC_PI_2));
@@ -99,7 +99,7 @@ fn mesh(m: &Model, g: usize) -> Result<SharedShape, NotSimulated> {
     hull(&points).ok_or_else(|| refusal(m, g, "contacts of a mesh without volume"))
 }
 
-/// A polyhedron as far outside the surface as inside.
+/// A polyhedron whose largest distances outside and inside the surface are equal.
 fn ellipsoid(m: &Model, g: usize) -> Result<SharedShape, NotSimulated> {
     let (points, inner) = sphere_points();
     let scale = 2.0 / (1.0 + inner) * vector(m.geom_size[g]);

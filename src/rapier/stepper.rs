@@ -9,12 +9,12 @@ use physics::pipeline::error::{BadNumber, StepError};
 use physics::{Data, Memory, Model, Stepper};
 use std::sync::Arc;
 
-/// A model under rapier. See the [crate](crate) for who computes what.
+/// A model under rapier. See the [crate](crate) for the division of work.
 #[derive(Clone, Debug)]
 pub struct Rapier {
     forces: Forces,
     world: World,
-    /// The world as it was built.
+    /// The initial world.
     fresh: Arc<World>,
 }
 
@@ -38,7 +38,7 @@ impl Rapier {
         &mut self.world
     }
 
-    /// Takes over what a program has changed in the model.
+    /// Applies changes of the model by the program.
     fn follow(&mut self, m: &Model) -> Result<(), NotSimulated> {
         let known = &self.forces.model;
         if m.opt == known.opt && m.shares(known) {
@@ -65,7 +65,7 @@ impl Rapier {
         let (body, mut sets) = world.sets();
         forces.hold(d, body, &mut sets, pace);
         world.advance(&forces.model, pace);
-        // Rapier leaves what is no number where it was, and goes on.
+        // Rapier ignores numbers that are not finite, and continues.
         if !world.physics.quarantine().is_empty() {
             let element = "a contact under rapier".to_string();
             let bad = BadNumber { index: 0, element, value: f64::NAN, time: d.state.time };

@@ -11,7 +11,7 @@ use physics::{Data, Model};
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{ContactManifold, NarrowPhase, RigidBodyHandle, RigidBodySet};
 
-/// Where rapier has contacts and what they are between.
+/// Rapier's contacts, and the geoms of their colliders.
 #[derive(Clone, Copy)]
 pub(crate) struct Found<'a> {
     pub narrow_phase: &'a NarrowPhase,
@@ -36,7 +36,7 @@ pub(crate) fn write(m: &Model, found: Found<'_>, pace: Pace, d: &mut Data) {
             for touch in points(found.bodies, manifold, pace) {
                 let point = PreContact { dist: touch.dist, pos: touch.pos, normal, tangent: [0.0; 3] };
                 let mut contact = mixture.contact(ids, &point);
-                // Rapier looks ahead; what neither touches nor was held off is no contact of MuJoCo's.
+                // Rapier predicts contacts; one without penetration and impulse is not a contact in MuJoCo.
                 if touch.dist > contact.includemargin && touch.normal == 0.0 {
                     continue;
                 }
@@ -75,7 +75,8 @@ fn points<'a>(
         let (p1, p2) = manifold.data.solver_contact_world_points(contact, bodies);
         let pos = (p1 + p2) / 2.0;
         let friction = match data.tangent_impulse.norm() {
-            // Rapier's friction is that on the first body. For multibodies it keeps the size over the whole step, and the direction in the world of the last iteration.
+            // Rapier's friction is that on the first body. For multibodies it has the magnitude over the whole step, and the direction of
+            // the last iteration, in the world frame.
             size if size > 0.0 => -data.warmstart_tangent_world.normalize_or_zero() * size,
             // For bodies alone, that of the last iteration for all points together. Where they slide it is nothing at times, but
             // then friction is known.
@@ -132,7 +133,7 @@ fn push_rows(
     }
 }
 
-/// A row that has a force and acts on nothing: rapier has done that.
+/// A row with a force and an empty Jacobian: rapier has already applied the force.
 fn push(efc: &mut Constraints, kind: ConstraintType, id: usize, dist: f64, force: f64) {
     efc.efc_type.push(kind.code());
     efc.efc_id.push(id as i32);

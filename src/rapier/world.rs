@@ -11,19 +11,19 @@ use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{ColliderHandle, IntegrationParameters, PhysicsPipeline, PhysicsWorld};
 use std::fmt;
 
-/// How rapier is asked to solve.
+/// Solver settings of rapier.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Options {
-    /// Steps of rapier in a time step, each with forces of its own.
+    /// Steps of rapier in a time step; forces are computed for each.
     pub substeps: usize,
-    /// Iterations of rapier's solver in a step, itself divided into as many, while anything is near enough to touch; otherwise
-    /// one, which keeps motion without contacts equal to our pipeline's. By default four where bodies are free, which lets them
-    /// stack, and one where joints connect them: there more cost four times as much, and follow MuJoCo no better.
+    /// Solver iterations in a step of rapier, each of which is a part of the step, while there are contacts; otherwise
+    /// one, which keeps motion without contacts equal to that of our pipeline. By default four for free bodies, which stabilises
+    /// stacks, and one for models with joints, where four cost four times as much and follow MuJoCo no better.
     pub iterations: Option<usize>,
-    /// Whether fast bodies are stopped at what they would pass through. MuJoCo has nothing of the kind.
+    /// Continuous collision detection: whether fast bodies stop at obstacles that they would pass through. MuJoCo has none.
     pub continuous: bool,
-    /// Whether contacts of pairs that barely moved are kept from step to step: faster, and less exact.
+    /// Whether contacts of pairs that barely moved are reused in the next step: faster, and less accurate.
     pub recycling: bool,
 }
 
@@ -34,28 +34,28 @@ impl Default for Options {
 }
 
 impl Options {
-    /// Steps of rapier in a time step.
+    /// Sets the steps of rapier in a time step, at least 1.
     #[must_use]
     pub fn with_substeps(mut self, substeps: usize) -> Self {
         self.substeps = substeps.max(1);
         self
     }
 
-    /// Iterations of rapier's solver while anything is near.
+    /// Sets the solver iterations while there are contacts, at least 1.
     #[must_use]
     pub fn with_iterations(mut self, iterations: usize) -> Self {
         self.iterations = Some(iterations.max(1));
         self
     }
 
-    /// Whether fast bodies are stopped at what they would pass through.
+    /// Sets continuous collision detection.
     #[must_use]
     pub fn with_continuous(mut self, continuous: bool) -> Self {
         self.continuous = continuous;
         self
     }
 
-    /// Whether contacts of pairs that barely moved are kept.
+    /// Sets whether contacts of pairs that barely moved are reused.
     #[must_use]
     pub fn with_recycling(mut self, recycling: bool) -> Self {
         self.recycling = recycling;
@@ -69,7 +69,7 @@ impl Options {
 pub struct World {
     pub(crate) physics: PhysicsWorld,
     pub(crate) body: Body,
-    /// Positions as they were last read or placed, to see what a program has written.
+    /// Positions that were last read or placed, to detect changes by the program.
     placed: Vec<f64>,
     mocap: Vec<f64>,
     options: Options,
@@ -87,7 +87,7 @@ impl World {
         parameters.max_ccd_substeps = usize::from(options.continuous);
         parameters.contact_recycling = options.recycling;
         parameters.contact_clustering = false;
-        // MuJoCo's contacts begin at zero distance; rapier has to see them a step ahead.
+        // MuJoCo's contacts begin at zero distance; rapier has to predict them a step earlier.
         parameters.normalized_prediction_distance = 0.002;
         let mut sets = Sets {
             bodies: &mut physics.bodies,
@@ -98,12 +98,12 @@ impl World {
         Ok(World { physics, body, placed: Vec::new(), mocap: Vec::new(), options })
     }
 
-    /// Rapier's own world, to look at.
+    /// Rapier's own world, read-only.
     pub fn physics(&self) -> &PhysicsWorld {
         &self.physics
     }
 
-    /// How rapier solves: what [`Options`] do not say. The length of a step and the number of its parts are set at every step.
+    /// Solver parameters beyond [`Options`]. The length of a step and the number of iterations are overwritten at every step.
     pub fn parameters_mut(&mut self) -> &mut IntegrationParameters {
         &mut self.physics.integration_parameters
     }
@@ -122,7 +122,7 @@ impl World {
         (&mut self.body, Sets { bodies, colliders, multibodies: multibody_joints })
     }
 
-    /// Follows what a program has written into positions.
+    /// Applies changes of positions by the program.
     pub(crate) fn follow(&mut self, m: &Model, state: &State) {
         let mocap = [state.mocap_pos.as_flattened(), state.mocap_quat.as_flattened()];
         let same = self.placed == state.qpos && self.mocap.iter().eq(mocap.iter().copied().flatten());
@@ -134,7 +134,7 @@ impl World {
         }
     }
 
-    /// How the next step of rapier, of `dt` seconds, is divided: motion without contacts needs no division.
+    /// Length \[s\] and iterations of the next step of rapier: without contacts, one iteration.
     pub(crate) fn pace(&self, dt: f64) -> Pace {
         let near = self.physics.narrow_phase.contact_pairs().any(|pair| !pair.manifolds().is_empty());
         let most = self.options.iterations.unwrap_or(if self.body.has_multibodies() { 1 } else { 4 });
@@ -168,7 +168,7 @@ impl Clone for World {
         let physics = PhysicsWorld {
             gravity: p.gravity,
             integration_parameters: p.integration_parameters,
-            // Both pipelines are working memory.
+            // The pipeline has no state.
             physics_pipeline: PhysicsPipeline::new(),
             islands: p.islands.clone(),
             broad_phase: p.broad_phase.clone(),

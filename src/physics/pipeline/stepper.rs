@@ -1,8 +1,8 @@
-//! What advances a [`Data`] by one time step: this crate's own pipeline, or another engine behind the same two nouns.
+//! The interface to engines, which advance a [`Data`] by one time step: this crate's own pipeline, or another one.
 //!
-//! Whatever moved it, a `Data` holds after a step what it holds after [`step`]: the new state, and poses, forces and sensor
-//! readings of the state that the step began from. So kinematics, sensors, pictures, robots and tasks read it without knowing
-//! what moved it.
+//! With any engine, a `Data` has the same contents after a step as after [`step`]: the new state, and poses, forces and sensor
+//! readings of the state from which the step began. So kinematics, sensors, pictures, robots and tasks do not depend on the
+//! engine.
 //!
 //! ```
 //! use robohive_physics::{Data, Engine, step};
@@ -27,25 +27,25 @@ use std::any::Any;
 use std::fmt;
 use std::sync::Arc;
 
-/// An engine that moves models in place of this crate's pipeline. It belongs to one model and one `Data`.
+/// An engine that replaces this crate's pipeline. It belongs to one model and one `Data`.
 ///
-/// A stepper takes the state from the `Data` at every step, so that a program may write there; what it keeps beside that, such
-/// as impulses that start the next solution, is its [`Memory`].
+/// A stepper reads the state from the `Data` at every step, so a program may write it; its other state, such
+/// as impulses for warm starts, is its [`Memory`].
 pub trait Stepper: fmt::Debug + Send + Sync {
-    /// Forgets all that earlier steps left: the next step follows from the `Data` alone.
+    /// Drops all state of earlier steps: the next step depends only on the `Data`.
     fn reset(&mut self);
 
     /// Advances by one time step, as [`step`] does.
     ///
     /// # Errors
-    /// As `step`, and where `m` has been changed into a model that this engine does not simulate. The `Data` keep the state for
+    /// As for `step`, or `m` was changed to a model that this engine does not simulate. The `Data` keeps the state for
     /// inspection.
     fn step(&mut self, m: &Model, d: &mut Data) -> Result<(), StepError>;
 
-    /// What decides the next step beside the `Data`.
+    /// The state that the next step depends on besides the `Data`.
     fn save(&self) -> Memory;
 
-    /// Returns to what [`Stepper::save`] gave.
+    /// Restores the state that [`Stepper::save`] returned.
     ///
     /// # Errors
     /// The memory is of another engine or model; the stepper stays as it was.
@@ -55,17 +55,17 @@ pub trait Stepper: fmt::Debug + Send + Sync {
     fn duplicate(&self) -> Box<dyn Stepper>;
 }
 
-/// What a stepper keeps from step to step beside the `Data`. Goes with the [`Snapshot`](crate::Snapshot) of the same moment.
+/// State that a stepper keeps between steps besides the `Data`. Belongs to the [`Snapshot`](crate::Snapshot) of the same time.
 #[derive(Clone, Default)]
 pub struct Memory(Option<Arc<dyn Any + Send + Sync>>);
 
 impl Memory {
-    /// Wraps what an engine keeps.
+    /// Wraps the state of an engine.
     pub fn of(kept: impl Any + Send + Sync) -> Self {
         Memory(Some(Arc::new(kept)))
     }
 
-    /// What was wrapped, if it is of type `T`.
+    /// The wrapped state, if it has the type `T`.
     pub fn get<T: Any>(&self) -> Option<&T> {
         self.0.as_ref()?.downcast_ref()
     }
@@ -87,7 +87,7 @@ impl Engine {
     /// Name of this crate's pipeline.
     pub const OWN: &'static str = "own";
 
-    /// Another engine; `make` prepares a model for it, or says what it does not simulate.
+    /// Another engine; `make` prepares a model for it, or returns the first element that it does not simulate.
     pub fn new(
         name: &'static str,
         make: impl Fn(&Model) -> Result<Box<dyn Stepper>, NotSimulated> + Send + Sync + 'static,
@@ -115,12 +115,12 @@ impl fmt::Debug for Engine {
     }
 }
 
-/// An engine at work on one `Data`. This crate's pipeline keeps nothing and is called directly.
+/// An engine for one `Data`. This crate's pipeline has no state of its own and is called directly.
 #[derive(Debug, Default)]
 pub struct Mover(Option<Box<dyn Stepper>>);
 
 impl Mover {
-    /// The stepper, unless this crate's pipeline moves the data.
+    /// The stepper; `None` for this crate's pipeline.
     pub fn foreign(&mut self) -> Option<&mut dyn Stepper> {
         match &mut self.0 {
             Some(stepper) => Some(&mut **stepper),
@@ -139,19 +139,19 @@ impl Mover {
         }
     }
 
-    /// Forgets all that earlier steps left.
+    /// Drops all state of earlier steps.
     pub fn reset(&mut self) {
         if let Some(stepper) = &mut self.0 {
             stepper.reset();
         }
     }
 
-    /// What decides the next step beside the `Data`.
+    /// The state that the next step depends on besides the `Data`.
     pub fn save(&self) -> Memory {
         self.0.as_ref().map_or_else(Memory::default, |stepper| stepper.save())
     }
 
-    /// Returns to what [`Mover::save`] gave.
+    /// Restores the state that [`Mover::save`] returned.
     ///
     /// # Errors
     /// The memory is of another engine or model.

@@ -1,4 +1,4 @@
-//! How two geoms may touch, wherever they are.
+//! Whether two geoms may touch, regardless of their positions, and with which parameters.
 
 use crate::collision::broad_phase::{bodies_match, signature, types_match};
 use crate::model::Model;
@@ -7,11 +7,11 @@ use crate::sleep::Awake;
 /// How two geoms may touch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Touching {
-    /// They never do.
+    /// Never.
     Never,
-    /// By their own contact parameters, mixed.
+    /// With their own contact parameters, mixed.
     Mixed,
-    /// As this predefined pair says.
+    /// With the parameters of this predefined pair.
     Named(usize),
 }
 
