@@ -110,7 +110,7 @@ fn what_cannot_be_served_is_named() {
     for (arguments, says) in [
         (&["wire"][..], "--config <FILE>"),
         (&["wire", "--glove", "20"], "possible values: 18, 22"),
-        (&["wire", "--ids", "1", "--model", "AX-12"], "there are XM430-W350"),
+        (&["wire", "--ids", "1", "--model", "AX-12"], "the models are XM430-W350"),
         (&["wire", "--ids", "6-1"], "write 1-6"),
         (&["wire", "--ids", "1", "--faults", "drop=0.1,drop=0"], "the fault drop is there twice"),
         (&["wire", "--ids", "1-3,2"], "the id 2 is there twice"),

@@ -130,7 +130,7 @@ fn servos_in_real_time_are_driven_and_rest_when_the_session_ends() {
     let mut typed = Typed::open(&[&common[..], &["--set", "act_mode=vel"]].concat());
     let (status, said) = typed.end();
     assert!(
-        !status.success() && said.contains("silence means rest, and not in 'vel': --set act_mode=pos"),
+        !status.success() && said.contains("in which it moves without input: add --set act_mode=pos"),
         "{said}"
     );
 
@@ -144,7 +144,7 @@ fn servos_in_real_time_are_driven_and_rest_when_the_session_ends() {
     assert!(said.contains("its motion was ended before it was done"), "{said}");
 
     let mut typed = Typed::start(&common, true);
-    typed.wait_for("the robot stands at the start of an episode");
+    typed.wait_for("the robot is at the start of an episode");
     typed.write("\u{1b}[51;1:1u");
     until(&typed, 0.3);
     typed.write("\u{1b}[51;1:3u\u{1b}[32;1:1u\u{1b}[32;1:3u");
