@@ -37,6 +37,7 @@ pub struct Servos {
     bus: Option<Bus>,
     reading: Reading,
     ids: Vec<u8>,
+    /// What answered, by id.
     found: Vec<Found>,
 }
 
@@ -59,7 +60,7 @@ impl Servos {
             opener,
             bus: None,
             reading: Reading::Each,
-            found: vec![nothing; ids.len()],
+            found: vec![nothing; 1 + usize::from(u8::MAX)],
             ids,
             settings,
         })
@@ -69,12 +70,8 @@ impl Servos {
         self.bus.as_mut().ok_or(Fault::NotConnected)
     }
 
-    fn place(&self, id: u8) -> usize {
-        self.ids.iter().position(|other| *other == id).unwrap_or(0)
-    }
-
-    fn kind(&self, motor: &Motor) -> &'static Kind {
-        self.found[self.place(motor.id)].kind
+    fn kind(&self, id: u8) -> &'static Kind {
+        self.found[usize::from(id)].kind
     }
 
     /// A fault of a servo while it is connected: one that is silent is not there.
@@ -124,14 +121,14 @@ impl Servos {
     /// Checks that every servo supports its mode and its sensors in the config.
     fn check_abilities(&self) -> Result<(), Fault> {
         for motor in &self.settings.motors {
-            let kind = self.kind(motor);
+            let kind = self.kind(motor.id);
             if kind.modes.iter().all(|(mode, _)| *mode != motor.mode) {
                 let (id, name, mode) = (motor.id, kind.name, motor.mode.name());
                 return Err(Fault::Refused(format!("servo {id}, an {name}, has no mode '{mode}'")));
             }
         }
         for (id, _) in self.settings.sensors.iter().filter(|(_, quantity)| *quantity == Quantity::Current) {
-            let kind = self.found[self.place(*id)].kind;
+            let kind = self.kind(*id);
             if kind.current.is_none() {
                 return Err(Fault::Refused(format!("servo {id}, an {}, measures no current", kind.name)));
             }
@@ -146,7 +143,8 @@ impl Servos {
             return Ok(if make.family.sync_read { Reading::Sync } else { Reading::Each });
         };
         for place in 0..self.ids.len() {
-            let (id, first) = (self.ids[place], self.found[place].kind.fast_sync_read);
+            let id = self.ids[place];
+            let first = self.kind(id).fast_sync_read;
             let version = self.bus()?.read_twice(id, firmware);
             let version = version.map_err(|fault| self.missing(id, fault))?;
             if first.is_none_or(|first| version < first) {
@@ -158,7 +156,7 @@ impl Servos {
 
     /// Sets up a servo before its torque is switched on: mode, return delay, speed and acceleration.
     fn prepare(&mut self, motor: Motor) -> Result<(), Fault> {
-        let (id, kind, layout) = (motor.id, self.kind(&motor), self.layout);
+        let (id, kind, layout) = (motor.id, self.kind(motor.id), self.layout);
         let Make { speed, acceleration, return_delay, .. } = self.settings.make;
         let bus = self.bus()?;
         if let Some(watchdog) = layout.watchdog {
@@ -208,15 +206,15 @@ impl Servos {
 
     /// Writes the goals of all motors, in one packet for each goal register.
     fn write_goals(&mut self, commands: &[f64]) -> Result<(), Fault> {
-        let Servos { settings, bus, found, ids, layout, .. } = self;
+        let Servos { settings, bus, found, layout, .. } = self;
         let bus = bus.as_mut().ok_or(Fault::NotConnected)?;
-        let kind = |id: u8| found[ids.iter().position(|other| *other == id).unwrap_or(0)].kind;
         for cell in
             [Mode::Position, Mode::Velocity, Mode::Current].into_iter().filter_map(|mode| layout.goal(mode))
         {
             let motors = settings.motors.iter().zip(commands);
             let motors = motors.filter(|(motor, _)| layout.goal(motor.mode) == Some(cell));
-            bus.write_all(cell, motors.map(|(m, command)| (m.id, goal(kind(m.id), m.mode, *command))))?;
+            let goal = |m: &Motor, command| goal(found[usize::from(m.id)].kind, m.mode, command);
+            bus.write_all(cell, motors.map(|(m, command)| (m.id, goal(m, *command))))?;
         }
         Ok(())
     }
@@ -253,7 +251,7 @@ impl Driver for Servos {
         self.bus = Some(Bus::new(opened, *baud, make.family));
         for place in 0..self.ids.len() {
             let id = self.ids[place];
-            self.found[place] = self.find(id).map_err(|fault| self.missing(id, fault))?;
+            self.found[usize::from(id)] = self.find(id).map_err(|fault| self.missing(id, fault))?;
         }
         self.check_abilities()?;
         self.reading = self.choose_reading()?;
@@ -270,7 +268,7 @@ impl Driver for Servos {
                 broken.get_or_insert((ids[place], error));
             }
             let cells = [Some(layout.position), Some(layout.velocity), layout.current];
-            found[place].present = cells.map(|cell| {
+            found[usize::from(ids[place])].present = cells.map(|cell| {
                 cell.map_or(0, |cell| {
                     let at = usize::from(cell.address - from);
                     cell.decode(&data[at..at + usize::from(cell.size)])
@@ -286,8 +284,7 @@ impl Driver for Servos {
             return Err(Fault::Stale(0));
         }
         for (value, (id, quantity)) in values.iter_mut().zip(&settings.sensors) {
-            let Found { kind, present: [position, velocity, current], .. } =
-                found[ids.iter().position(|other| other == id).unwrap_or(0)];
+            let Found { kind, present: [position, velocity, current], .. } = found[usize::from(*id)];
             *value = match quantity {
                 Quantity::Position => position as f64 * kind.position,
                 Quantity::Velocity => velocity as f64 * kind.velocity,
@@ -299,7 +296,7 @@ impl Driver for Servos {
 
     fn present(&mut self, commands: &mut [f64]) -> Result<(), Fault> {
         for (command, motor) in commands.iter_mut().zip(self.settings.motors.clone()) {
-            let (unit, cell) = (self.kind(&motor).position, self.layout.position);
+            let (unit, cell) = (self.kind(motor.id).position, self.layout.position);
             *command = match motor.mode {
                 Mode::Position | Mode::Turns => self.bus()?.read(motor.id, cell)? as f64 * unit,
                 Mode::Velocity | Mode::Current => 0.0,
@@ -314,7 +311,7 @@ impl Driver for Servos {
             self.prepare(motor)?;
         }
         for (motor, command) in self.settings.motors.clone().iter().zip(present) {
-            let wanted = goal(self.kind(motor), motor.mode, *command);
+            let wanted = goal(self.kind(motor.id), motor.mode, *command);
             let bus = self.bus()?;
             if let Some(cell) = layout.goal(motor.mode) {
                 // If this goal were lost, the servo would jump to an old one.
@@ -352,7 +349,7 @@ impl Driver for Servos {
 
     fn limits(&self) -> Vec<Limits> {
         let limits = |motor: &Motor| {
-            let Found { kind, limits: [low, high], .. } = self.found[self.place(motor.id)];
+            let Found { kind, limits: [low, high], .. } = self.found[usize::from(motor.id)];
             let [least, most] = [low.max(0), high.min(kind.last)].map(|end| end as f64 * kind.position);
             match motor.mode {
                 // In wheel mode both limits are 0; they are set when the servo is armed.
