@@ -188,7 +188,7 @@ def test_bad_input_is_named(tmp_path):
     for fps in (0, -1, np.nan):
         with pytest.raises(data.DataError, match="positive number"):
             data.LeRobotWriter(tmp_path / "other", fps=fps)
-    with pytest.raises(data.DataError, match="an episode at least"), data.LeRobotWriter(tmp_path / "other", fps=1):
+    with pytest.raises(data.DataError, match="at least one episode"), data.LeRobotWriter(tmp_path / "other", fps=1):
         pass
     with data.LeRobotWriter(tmp_path / "other", fps=10) as writer:
         writer.add({"action": np.zeros((4, 2))}, "t")
