@@ -78,7 +78,7 @@ impl Devices {
             None => setup,
         };
         let chosen: Vec<_> = config.devices.iter().filter(|device| self.chosen(device)).collect();
-        let (cameras, chosen): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|device| sees(device));
+        let (cameras, chosen): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|device| is_camera(device));
         if cameras.is_empty() && chosen.is_empty() {
             let names: Vec<_> = config.devices.iter().map(|device| device.name.as_str()).collect();
             return Err(Failure::usage(format!(
@@ -98,14 +98,9 @@ impl Devices {
 
     fn chosen(&self, device: &DeviceConfig) -> bool {
         device.interface.kind.is_some()
-            && !(device.sensors.is_empty() && device.actuators.is_empty() && !sees(device))
+            && !(device.sensors.is_empty() && device.actuators.is_empty() && !is_camera(device))
             && self.device.as_ref().is_none_or(|name| *name == device.name)
     }
-}
-
-/// Whether a device is a camera.
-fn sees(device: &DeviceConfig) -> bool {
-    device.interface.kind.as_deref().is_some_and(is_camera)
 }
 
 /// A failure of a device.

@@ -6,7 +6,7 @@ use crate::robots::calibrate::{self, Calibrate};
 use crate::robots::devices::{Connected, Devices, Reached, failed};
 use crate::robots::live::{Arming, READING};
 use crate::terminal::{show, show_json};
-use ::hardware::camera::{Cameras, Streamed, Wanted, video_devices};
+use ::hardware::camera::{self, CameraError, Cameras, Streamed, Wanted, video_devices};
 use ::hardware::recorder::{What, read};
 use ::hardware::{kinds, serial_ports};
 use clap::{Args, Subcommand, ValueHint};
@@ -159,14 +159,14 @@ fn list(a: &List) -> Result<(), Failure> {
     let (kinds, ports, videos): (Vec<_>, _, _) = (kinds().collect(), serial_ports(), video_devices());
     if a.json {
         show_json(
-            &json!({"drivers": kinds, "simulated": wire::kinds().collect::<Vec<_>>(), "serial_ports": ports,
+            &json!({"drivers": kinds, "cameras": camera::KINDS, "simulated": wire::kinds().collect::<Vec<_>>(), "serial_ports": ports,
                 "video_devices": videos.iter().map(|found| json!({"path": found.path, "name": found.name, "usb": found.usb,
                     "serial": found.serial})).collect::<Vec<_>>()}),
         );
         return Ok(());
     }
     show!("drivers       {}", kinds.join(", "));
-    show!("cameras       camera, realsense");
+    show!("cameras       {}", camera::KINDS.join(", "));
     show!("serial ports  {}", if ports.is_empty() { "none".to_owned() } else { ports.join(", ") });
     if videos.is_empty() {
         show!("video devices none");
@@ -254,29 +254,37 @@ fn look(
         .streams()
         .map(|Streamed { camera, which, format, .. }| (camera.to_owned(), which, format))
         .collect();
-    let mut faults = vec![0; streams.len()];
+    let mut faults: Vec<(u32, Option<CameraError>)> = vec![(0, None); streams.len()];
+    let mut lost = None;
     for _ in 0..if streams.is_empty() { 0 } else { a.samples } {
         if interrupt.code().is_some() {
             break;
         }
-        for ((camera, which, format), faults) in streams.iter().zip(&mut faults) {
+        lost = None;
+        for ((camera, which, format), (count, last)) in streams.iter().zip(&mut faults) {
             let colours = *which == "rgb";
             let wanted = Wanted { rgb: colours.then_some(&mut rgb), depth: (!colours).then_some(&mut depth) };
-            *faults += u32::from(cameras.take(camera, [format.height, format.width], wanted).is_err());
+            if let Err(error) = cameras.take(camera, [format.height, format.width], wanted) {
+                *count += 1;
+                *last = Some(error.clone());
+                lost = Some(error);
+            }
         }
         clock.wait(1.0 / a.rate);
     }
     let seconds = clock.now() - begun;
-    for ((stream, before), faults) in cameras.streams().zip(before).zip(faults) {
+    for ((stream, before), (faults, last)) in cameras.streams().zip(before).zip(faults) {
         let (frames, dropped) =
             (stream.counts.frames - before.frames, stream.counts.dropped - before.dropped);
         let damaged = stream.counts.damaged - before.damaged;
-        let Streamed { camera, which, format, .. } = stream;
+        let Streamed { camera, which, format, counts } = stream;
+        let last = last.map(|error| error.fault);
         if a.json {
             show_json(&json!({
                 "camera": camera, "stream": which, "encoding": format.encoding.to_string(), "width": format.width,
                 "height": format.height, "rate": format.rate, "seconds": seconds, "frames": frames, "dropped": dropped,
-                "damaged": damaged, "faults": faults,
+                "damaged": damaged, "longest_interval": counts.longest, "faults": faults,
+                "fault": last.map(|fault| json!({"kind": fault.kind(), "text": fault.to_string()})),
             }));
             continue;
         }
@@ -288,9 +296,11 @@ fn look(
             format.rate
         );
         show!("  frames      {frames} in {seconds:.2} s, {dropped} dropped, {damaged} damaged");
-        show!("  reads       {} of {} failed", faults, a.samples);
+        show!("  interval    {:.1} ms at most between two frames", counts.longest * 1e3);
+        let last = last.map_or_else(String::new, |fault| format!(", the last: {fault}"));
+        show!("  reads       {faults} of {} failed{last}", a.samples);
     }
-    Ok(())
+    lost.map_or(Ok(()), |error| Err(Failure::new(error)))
 }
 
 fn report(a: &Check, device: &Connected, answers: &Answers) {

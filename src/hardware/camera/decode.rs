@@ -48,14 +48,16 @@ impl Decoder {
         let mut decoder = JpegDecoder::new_with_options(Cursor::new(&*jpeg), options);
         let damaged = |error: DecodeErrors| format!("its JPEG picture is damaged: {error}");
         decoder.decode_headers().map_err(damaged)?;
-        let size = decoder.dimensions().unwrap_or_default();
+        let (Some(size), Some(length)) = (decoder.dimensions(), decoder.output_buffer_size()) else {
+            return Err("its JPEG picture has no size".to_owned());
+        };
         if size != (format.width, format.height) {
             return Err(format!(
                 "its JPEG picture has {} x {} pixels instead of {} x {}",
                 size.0, size.1, format.width, format.height
             ));
         }
-        decoded.resize(decoder.output_buffer_size().unwrap_or_default(), 0);
+        decoded.resize(length, 0);
         decoder.decode_into(decoded).map_err(damaged)?;
         std::mem::swap(rgb, decoded);
         Ok(())

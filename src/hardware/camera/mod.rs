@@ -43,14 +43,17 @@ pub use stream::Counts;
 use crate::setup::Setup;
 use decode::Decoder;
 use fit::{fit_depth, fit_rgb};
-use robot::{Clock, Config, Fault};
+use robot::{Clock, Config, DeviceConfig, Fault};
 use settings::{Depth, Settings};
 use std::fmt;
 use stream::Stream;
 
-/// Whether an interface of this type is a camera.
-pub fn is_camera(kind: &str) -> bool {
-    matches!(kind, "camera" | "realsense")
+/// Types of interface that are cameras.
+pub const KINDS: [&str; 2] = ["camera", "realsense"];
+
+/// Whether a device is a camera.
+pub fn is_camera(device: &DeviceConfig) -> bool {
+    device.interface.kind.as_deref().is_some_and(|kind| KINDS.contains(&kind))
 }
 
 /// The cameras of a config, connected.
@@ -117,8 +120,7 @@ impl Cameras {
     /// A camera is missing or does not support the format in the config; the error names the camera and the fix.
     pub fn connect(config: &Config, setup: &Setup) -> Result<Cameras, CameraError> {
         let mut clock = setup.clock();
-        let chosen =
-            config.devices.iter().filter(|device| device.interface.kind.as_deref().is_some_and(is_camera));
+        let chosen = config.devices.iter().filter(|device| is_camera(device));
         let mut cameras = Vec::new();
         for device in chosen {
             let error = |fault| CameraError { camera: device.name.clone(), fault };

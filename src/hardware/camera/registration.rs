@@ -25,6 +25,9 @@ pub struct Registration {
     pub translation: [f64; 3],
 }
 
+/// Largest side of the square that one depth covers \[pixels\], which bounds the time that an alignment takes.
+const WIDEST: f64 = 64.0;
+
 impl Registration {
     /// `[height, width]` of the result of [`Registration::align`].
     pub fn size(&self) -> [usize; 2] {
@@ -33,7 +36,8 @@ impl Registration {
 
     /// Fills `aligned` with the depths \[m\] in the image of the second imager, from the `[height, width]` depths of the
     /// first. Each depth covers the square of its pixel; where several fall on one pixel the nearest
-    /// counts, and where none does the depth is 0.
+    /// counts, and where none does the depth is 0. Points so close to the second imager that their square covers more than 64
+    /// pixels along a side are left out: they are nearer than any camera measures.
     pub fn align(&self, depths: &[f32], [height, width]: [usize; 2], aligned: &mut Vec<f32>) {
         let [rows, columns] = self.size();
         aligned.clear();
@@ -46,6 +50,9 @@ impl Registration {
                 else {
                     continue;
                 };
+                if [0, 1].iter().any(|&k| (high[k] - low[k]).abs() > WIDEST) {
+                    continue;
+                }
                 let [xs, ys] =
                     [0, 1].map(|k| pixels(low[k].min(high[k]), low[k].max(high[k]), [columns, rows][k]));
                 for y in ys {

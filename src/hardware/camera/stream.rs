@@ -17,7 +17,7 @@ const WAIT: Duration = Duration::from_millis(50);
 const AGAIN: f64 = 1.0;
 
 /// Counts of a stream's frames.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
     /// Frames that were received.
     pub frames: u64,
@@ -27,6 +27,8 @@ pub struct Counts {
     pub damaged: u64,
     /// Times that the camera was lost and reopened.
     pub reopened: u64,
+    /// Longest time between two frames, by the clock of the camera's driver \[s\].
+    pub longest: f64,
 }
 
 /// A stream that keeps its newest frame.
@@ -53,6 +55,8 @@ struct Newest {
     /// Time of arrival \[s\], on the clock of the setup.
     time: Option<f64>,
     sequence: Option<u32>,
+    /// When the frame was taken, by the camera's driver \[s\].
+    taken: Option<f64>,
     /// Why no frames arrive.
     fault: Option<String>,
     counts: Counts,
@@ -222,6 +226,8 @@ impl Newest {
         }
         self.sequence = Some(frame.sequence);
         self.counts.frames += 1;
+        let since = self.taken.replace(frame.time).map_or(0.0, |before| frame.time - before);
+        self.counts.longest = self.counts.longest.max(since);
         if frame.damaged {
             self.counts.damaged += 1;
             return;
@@ -232,7 +238,7 @@ impl Newest {
     }
 
     fn lose(&mut self, why: String) {
-        (self.fault, self.time, self.sequence) = (Some(why), None, None);
+        (self.fault, self.time, self.sequence, self.taken) = (Some(why), None, None, None);
     }
 
     fn reopen(&mut self) {

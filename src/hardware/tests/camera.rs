@@ -59,7 +59,7 @@ impl Capture for Player {
             Next::Gone => Err(io::Error::other("unplugged")),
             Next::Frame { bytes, sequence, damaged } => {
                 self.bytes = bytes;
-                Ok(Some(Frame { bytes: &self.bytes, sequence, time: 0.0, damaged }))
+                Ok(Some(Frame { bytes: &self.bytes, sequence, time: 0.05 * f64::from(sequence), damaged }))
             }
         }
     }
@@ -230,6 +230,11 @@ fn alignment_shows_what_the_other_imager_sees() {
         assert_eq!(*seen, if hidden { 0.0 } else { expected }, "({}, {})", pixel % 80, pixel / 80);
     }
 
+    // What is all but in the second imager's plane would cover the whole image, and is left out.
+    let near = Registration { translation: [0.0, 0.0, -0.999], ..registration };
+    near.align(&[1.0; 80 * 60], [60, 80], &mut aligned);
+    assert!(aligned.iter().all(|depth| *depth == 0.0));
+
     // A wider imager with twice the pixels has no holes.
     let to = Intrinsics { size: [160, 120], focal: [80.0, 80.0], centre: [79.5, 59.5] };
     let wider = Registration { to, translation: [0.0; 3], ..registration };
@@ -251,7 +256,10 @@ fn the_newest_frame_counts_and_old_ones_are_none() {
     assert_eq!(rgb(&mut cameras, [1, 1]).unwrap(), [128; 3]);
     let Streamed { camera, which, format, counts } = cameras.streams().next().unwrap();
     assert_eq!((camera, which, format.width, format.rate), ("front", "rgb", 16, 20.0));
-    assert_eq!(counts, Counts { frames: 6, dropped: 3, damaged: 1, reopened: 0 });
+    assert_eq!(
+        counts,
+        Counts { frames: 6, dropped: 3, damaged: 1, reopened: 0, longest: 0.05 * 13.0 - 0.05 * 9.0 }
+    );
     // Three periods later it is no observation any more.
     hands.wait(0.14);
     assert_eq!(rgb(&mut cameras, [1, 1]).unwrap(), [128; 3]);
