@@ -25,7 +25,7 @@
 //! | `pos_range`, `vel_range` | actuator | limits of the commanded position and of its rate \[rad or m, 1/s\] | error |
 //! | `effort_range` | actuator | limits of the joint's force or torque \[N, N m\] | none |
 //! | `mode` | actuator | operating mode of the motor, for the driver | none |
-//! | `hdr_id` | sensor, actuator, camera | number or name on the hardware | place in the list |
+//! | `hdr_id` | sensor, actuator, camera | number or name on the hardware; a negative number: not there, its simulated value stays | place in the list |
 //! | `scale`, `offset` | sensor, actuator, camera | hardware to model of sensors, model to hardware of actuators | 1, 0 |
 
 mod devices;
