@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 const CONNECT: Duration = Duration::from_secs(2);
 /// Sleep between two looks for something to receive.
 const NAP: Duration = Duration::from_micros(100);
-/// Datagrams of others that are passed over at once: what the device sent stands behind them, and grows old.
+/// Datagrams of other hosts that are skipped in one look: those of the device are queued behind them, and grow old.
 const FOREIGN: usize = 1024;
 
 /// Opens connections and sockets.

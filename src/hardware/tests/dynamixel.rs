@@ -4,19 +4,11 @@ mod rig;
 
 use protocol::dynamixel::{MODELS, address, hardware_error};
 use rig::Rig;
-use robot::{Clock, Config, Fault, Options, Robot, RobotError};
+use robot::{Clock, Config, Fault, RobotError};
 use wire::dynamixel::{Bus, Servo};
 use wire::{Bench, Carries, Plant, Rates, VirtualClock};
 
-const ARM: &str = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody>
-    <body><joint name='shoulder' axis='0 1 0' damping='.1' armature='.01'/>
-      <geom type='capsule' fromto='0 0 0 .2 0 0' size='.02' mass='.3'/>
-      <body pos='.2 0 0'><joint name='elbow' axis='0 1 0' damping='.1' armature='.01'/>
-        <geom type='capsule' fromto='0 0 0 .2 0 0' size='.02' mass='.2'/></body></body></worldbody>
-  <actuator><position name='shoulder' joint='shoulder' kp='20' kv='1'/>
-    <position name='elbow' joint='elbow' kp='10' kv='.5'/></actuator>
-  <sensor><jointpos name='shoulder_angle' joint='shoulder'/><jointpos name='elbow_angle' joint='elbow'/>
-    <jointvel name='elbow_speed' joint='elbow'/></sensor></mujoco>";
+const ARM: &str = include_str!("rig/arm.xml");
 
 fn config(extra: &str) -> Config {
     let text = format!(
@@ -56,46 +48,12 @@ fn action(k: u32) -> [f64; 2] {
 
 #[test]
 fn the_same_policy_ends_within_quantisation_of_the_simulation() {
-    let rig = on_bus(Carries::AT_ONCE, |_| {});
-    let config = config("profile_velocity = 0");
-    let model = rig.model.clone();
-    let mut rng = random::Generator::pcg64(1_u64);
-    let mut simulated = Robot::new(&model, Some(&config), Options::default().with_normalized(false)).unwrap();
-    let mut truth = physics::Data::new(&model);
-    physics::forward(&model, &mut truth).unwrap();
-    simulated.reset(&model, &truth, &mut rng).unwrap();
-
-    let mut hardware = rig.robot(&config).unwrap();
-    let mut mirror = truth.clone();
-    hardware.reset(&model, &mirror, &mut rng).unwrap();
-    rig.bench.lock().unwrap().plant_mut().place(&[0.0; 2], &[0.0; 2]).unwrap();
-    hardware.sense(&model, &mirror, &mut rng);
-    hardware.write_readings(&mut mirror);
-
-    let mut clock = rig.clock();
-    let mut worst = 0.0_f64;
-    for k in 0..100 {
-        let controls = simulated.control(&model, &truth, &action(k), 0.1).unwrap();
-        truth.state.ctrl.copy_from_slice(controls);
-        for _ in 0..50 {
-            physics::step(&model, &mut truth).unwrap();
-        }
-        physics::forward(&model, &mut truth).unwrap();
-        simulated.sense(&model, &truth, &mut rng);
-
-        hardware.control(&model, &mirror, &action(k), 0.1).unwrap();
-        clock.wait(0.1);
-        hardware.sense(&model, &mirror, &mut rng);
-        hardware.write_readings(&mut mirror);
-        for (a, b) in truth.state.qpos.iter().zip(&rig.positions()) {
-            worst = worst.max((a - b).abs());
-        }
-    }
-    hardware.close().unwrap();
+    let [worst, speeds] =
+        on_bus(Carries::AT_ONCE, |_| {}).differences(&config("profile_velocity = 0"), action);
     // A unit of position is 1.5 mrad: half of it for the command, half for the reading that limits the velocity.
     assert!(worst < 1.6e-3, "{worst}");
     assert!(worst > 1e-5, "the servos quantise, so that something must differ");
-    assert!(truth.state.qpos[0].abs() > 0.05, "it moved");
+    assert!(speeds < 0.04, "{speeds}");
 }
 
 #[test]
@@ -280,48 +238,7 @@ fn a_bus_that_fails_while_it_is_connected_is_named() {
 
 #[test]
 fn a_thousand_seeded_faults_end_in_errors_or_in_motion_within_limits() {
-    let rates: Rates =
-        "drop=0.01,delay=0.01,reorder=0.01,duplicate=0.01,corrupt=0.02,truncate=0.01,stall=0.0005,disconnect=0.0005"
-            .parse()
-            .unwrap();
-    let (mut struck, mut episodes, mut errors, mut seed) = (0, 0, 0, 0);
-    while struck < 1000 {
-        seed += 1;
-        let rig = on_bus(Carries::serial(1e6), |_| {});
-        let (config, model) = (config(""), rig.model.clone());
-        let mut rng = random::Generator::pcg64(seed);
-        let mut robot = rig.robot(&config).unwrap();
-        rig.bench.lock().unwrap().inject(rig.link, rates, seed);
-        let data = physics::Data::new(&model);
-        let mut clock = rig.clock();
-        for _ in 0..3 {
-            episodes += 1;
-            if robot.reset(&model, &data, &mut rng).is_err() {
-                errors += 1;
-                continue;
-            }
-            for k in 0..20 {
-                if robot.control(&model, &data, &action(k), 0.1).is_err() {
-                    errors += 1;
-                    break;
-                }
-                clock.wait(0.1);
-                robot.sense(&model, &data, &mut rng);
-                assert!(rig.positions().iter().all(|position| position.abs() < 1.3), "{:?}", rig.positions());
-            }
-        }
-        // Whatever happened, the arm comes to rest: held, or hanging where it never got torque.
-        let hits = rig.bench.lock().unwrap().struck(rig.link);
-        rig.bench.lock().unwrap().inject(rig.link, Rates::default(), 0);
-        robot.close().unwrap_or_default();
-        VirtualClock::new(rig.bench.clone()).wait(10.0);
-        let before = rig.positions();
-        VirtualClock::new(rig.bench.clone()).wait(0.5);
-        let after = rig.positions();
-        assert!((before[0] - after[0]).abs() < 0.01, "seed {seed}: {before:?} {after:?}");
-        struck += hits;
-    }
-    assert!(errors > 0 && errors < episodes, "{errors} of {episodes}");
+    rig::strike(|| on_bus(Carries::serial(1e6), |_| {}), &config(""), action);
 }
 
 #[test]

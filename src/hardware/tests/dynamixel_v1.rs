@@ -4,20 +4,12 @@ mod rig;
 
 use protocol::dynamixel::v1::{address, error, model};
 use rig::Rig;
-use robot::{Clock, Config, Fault, Options, Robot, RobotError};
+use robot::{Clock, Config, Fault, RobotError};
 use std::sync::{Arc, Mutex};
 use wire::dynamixel::v1::{Bus, Servo};
-use wire::{Bench, Carries, Device, Moment, Plant, Rates, VirtualClock};
+use wire::{Bench, Carries, Device, Moment, Plant};
 
-const ARM: &str = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody>
-    <body><joint name='shoulder' axis='0 1 0' damping='.1' armature='.01'/>
-      <geom type='capsule' fromto='0 0 0 .2 0 0' size='.02' mass='.3'/>
-      <body pos='.2 0 0'><joint name='elbow' axis='0 1 0' damping='.1' armature='.01'/>
-        <geom type='capsule' fromto='0 0 0 .2 0 0' size='.02' mass='.2'/></body></body></worldbody>
-  <actuator><position name='shoulder' joint='shoulder' kp='20' kv='1'/>
-    <position name='elbow' joint='elbow' kp='10' kv='.5'/></actuator>
-  <sensor><jointpos name='shoulder_angle' joint='shoulder'/><jointpos name='elbow_angle' joint='elbow'/>
-    <jointvel name='elbow_speed' joint='elbow'/></sensor></mujoco>";
+const ARM: &str = include_str!("rig/arm.xml");
 
 /// Angle of the middle of 300 degrees.
 const MIDDLE: f64 = 150.0 / 180.0 * std::f64::consts::PI;
@@ -76,40 +68,10 @@ fn action(k: u32) -> [f64; 2] {
 #[test]
 fn the_same_policy_ends_within_quantisation_of_the_simulation() {
     let (rig, _) = on_bus("AX-12A", Carries::AT_ONCE);
-    let (config, model) = (config("model = 'AX-12A', profile_velocity = 0", ""), rig.model.clone());
-    let mut rng = random::Generator::pcg64(1_u64);
-    let mut simulated = Robot::new(&model, Some(&config), Options::default().with_normalized(false)).unwrap();
-    let mut truth = physics::Data::new(&model);
-    physics::forward(&model, &mut truth).unwrap();
-    simulated.reset(&model, &truth, &mut rng).unwrap();
-    let mut hardware = rig.robot(&config).unwrap();
-    let mut mirror = truth.clone();
-    hardware.reset(&model, &mirror, &mut rng).unwrap();
-    rig.bench.lock().unwrap().plant_mut().place(&[0.0; 2], &[0.0; 2]).unwrap();
-    hardware.sense(&model, &mirror, &mut rng);
-    hardware.write_readings(&mut mirror);
-    let mut clock = rig.clock();
-    let (mut worst, mut speeds) = (0.0_f64, 0.0_f64);
-    for k in 0..100 {
-        let controls = simulated.control(&model, &truth, &action(k), 0.1).unwrap();
-        truth.state.ctrl.copy_from_slice(controls);
-        (0..50).try_for_each(|_| physics::step(&model, &mut truth)).unwrap();
-        physics::forward(&model, &mut truth).unwrap();
-        simulated.sense(&model, &truth, &mut rng);
-        hardware.control(&model, &mirror, &action(k), 0.1).unwrap();
-        clock.wait(0.1);
-        let speed = hardware.sense(&model, &mirror, &mut rng).values[2];
-        hardware.write_readings(&mut mirror);
-        speeds = speeds.max((speed - truth.state.qvel[1]).abs());
-        let away = truth.state.qpos.iter().zip(rig.positions()).map(|(a, b)| (a - b).abs());
-        worst = away.fold(worst, f64::max);
-    }
-    hardware.close().unwrap();
-    assert!(rig.said.lock().unwrap().is_empty(), "all went well");
+    let [worst, speeds] = rig.differences(&config("model = 'AX-12A', profile_velocity = 0", ""), action);
     // A unit of position is 5.1 mrad: half of it for the command, half for the reading that limits the velocity.
     assert!(worst < 5.2e-3 && worst > 1e-4, "{worst}");
     assert!(speeds < 0.04, "{speeds}");
-    assert!(truth.state.qpos[0].abs() > 0.05, "it moved");
 }
 
 #[test]
@@ -206,45 +168,5 @@ fn an_mx_turns_like_a_wheel_at_the_velocity_that_it_is_told() {
 
 #[test]
 fn seeded_faults_end_in_errors_or_in_motion_within_limits() {
-    let rates: Rates =
-        "drop=0.01,delay=0.01,reorder=0.01,duplicate=0.01,corrupt=0.02,truncate=0.01,stall=0.0005,disconnect=0.0005"
-            .parse()
-            .unwrap();
-    let sound = config("protocol = 1", "");
-    let (mut struck, mut episodes, mut errors, mut seed) = (0, 0, 0, 0);
-    while struck < 1000 {
-        seed += 1;
-        let (rig, _) = on_bus("AX-12A", Carries::serial(1e6));
-        let (model, mut rng) = (rig.model.clone(), random::Generator::pcg64(seed));
-        let data = physics::Data::new(&model);
-        let mut robot = rig.robot(&sound).unwrap();
-        rig.bench.lock().unwrap().inject(rig.link, rates, seed);
-        let mut clock = rig.clock();
-        for _ in 0..3 {
-            episodes += 1;
-            if robot.reset(&model, &data, &mut rng).is_err() {
-                errors += 1;
-                continue;
-            }
-            for k in 0..20 {
-                if robot.control(&model, &data, &action(k), 0.1).is_err() {
-                    errors += 1;
-                    break;
-                }
-                clock.wait(0.1);
-                robot.sense(&model, &data, &mut rng);
-                let [shoulder, elbow] = rig.positions();
-                assert!(shoulder.abs() < 1.3 && elbow.abs() < 1.3, "seed {seed}: {shoulder} {elbow}");
-            }
-        }
-        struck += rig.bench.lock().unwrap().struck(rig.link);
-        rig.bench.lock().unwrap().inject(rig.link, Rates::default(), 0);
-        robot.close().unwrap_or_default();
-        // Whatever happened, the arm comes to rest.
-        VirtualClock::new(rig.bench.clone()).wait(10.0);
-        let before = rig.positions();
-        VirtualClock::new(rig.bench.clone()).wait(0.5);
-        assert!((before[0] - rig.positions()[0]).abs() < 0.01, "seed {seed}");
-    }
-    assert!(errors > 0 && errors < episodes, "{errors} of {episodes}");
+    rig::strike(|| on_bus("AX-12A", Carries::serial(1e6)).0, &config("protocol = 1", ""), action);
 }

@@ -3,8 +3,8 @@
 mod rig;
 
 use rig::Rig;
-use robot::{Clock, Config, Options, Robot};
-use wire::{Plant, Rates, VirtualClock};
+use robot::{Clock, Config};
+use wire::Plant;
 
 const ARM: &str = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody>
     <body><joint name='pan' axis='0 0 1' damping='.1' armature='.01'/>
@@ -44,40 +44,10 @@ fn action(k: u32) -> [f64; 2] {
 #[test]
 fn the_same_policy_ends_within_quantisation_of_the_simulation() {
     let config = config("speed = 0, acceleration = 0");
-    let rig = on_bus(&config, true);
-    let model = rig.model.clone();
-    let mut rng = random::Generator::pcg64(1_u64);
-    let mut simulated = Robot::new(&model, Some(&config), Options::default().with_normalized(false)).unwrap();
-    let mut truth = physics::Data::new(&model);
-    physics::forward(&model, &mut truth).unwrap();
-    simulated.reset(&model, &truth, &mut rng).unwrap();
-    let mut hardware = rig.robot(&config).unwrap();
-    let mut mirror = truth.clone();
-    hardware.reset(&model, &mirror, &mut rng).unwrap();
-    rig.bench.lock().unwrap().plant_mut().place(&[0.0; 2], &[0.0; 2]).unwrap();
-    hardware.sense(&model, &mirror, &mut rng);
-    hardware.write_readings(&mut mirror);
-    let mut clock = rig.clock();
-    let mut worst = 0.0_f64;
-    for k in 0..100 {
-        let controls = simulated.control(&model, &truth, &action(k), 0.1).unwrap();
-        truth.state.ctrl.copy_from_slice(controls);
-        (0..50).try_for_each(|_| physics::step(&model, &mut truth)).unwrap();
-        physics::forward(&model, &mut truth).unwrap();
-        simulated.sense(&model, &truth, &mut rng);
-        hardware.control(&model, &mirror, &action(k), 0.1).unwrap();
-        clock.wait(0.1);
-        let speed = hardware.sense(&model, &mirror, &mut rng).values[2];
-        hardware.write_readings(&mut mirror);
-        assert!((speed - truth.state.qvel[1]).abs() < 0.02, "{speed} {}", truth.state.qvel[1]);
-        let away = truth.state.qpos.iter().zip(rig.positions()).map(|(a, b)| (a - b).abs());
-        worst = away.fold(worst, f64::max);
-    }
-    hardware.close().unwrap();
-    assert!(rig.said.lock().unwrap().is_empty(), "all went well");
+    let [worst, speeds] = on_bus(&config, true).differences(&config, action);
     // A step is 1.5 mrad: half of it for the command, half for the reading that limits the velocity.
     assert!(worst < 1.6e-3 && worst > 1e-5, "{worst}");
-    assert!(truth.state.qpos[0].abs() > 0.05, "it moved");
+    assert!(speeds < 0.02, "{speeds}");
 }
 
 #[test]
@@ -110,45 +80,6 @@ fn silence_trouble_and_wrong_configs_are_named() {
 
 #[test]
 fn seeded_faults_end_in_errors_or_in_motion_within_limits() {
-    let rates: Rates =
-        "drop=0.01,delay=0.01,reorder=0.01,duplicate=0.01,corrupt=0.02,truncate=0.01,stall=0.0005,disconnect=0.0005"
-            .parse()
-            .unwrap();
     let sound = config("");
-    let (mut struck, mut episodes, mut errors, mut seed) = (0, 0, 0, 0);
-    while struck < 1000 {
-        seed += 1;
-        let rig = on_bus(&sound, false);
-        let (model, mut rng) = (rig.model.clone(), random::Generator::pcg64(seed));
-        let data = physics::Data::new(&model);
-        let mut robot = rig.robot(&sound).unwrap();
-        rig.bench.lock().unwrap().inject(rig.link, rates, seed);
-        let mut clock = rig.clock();
-        for _ in 0..3 {
-            episodes += 1;
-            if robot.reset(&model, &data, &mut rng).is_err() {
-                errors += 1;
-                continue;
-            }
-            for k in 0..20 {
-                if robot.control(&model, &data, &action(k), 0.1).is_err() {
-                    errors += 1;
-                    break;
-                }
-                clock.wait(0.1);
-                robot.sense(&model, &data, &mut rng);
-                let [pan, lift] = rig.positions();
-                assert!(pan.abs() < 1.3 && lift.abs() < 1.3, "seed {seed}: {pan} {lift}");
-            }
-        }
-        struck += rig.bench.lock().unwrap().struck(rig.link);
-        rig.bench.lock().unwrap().inject(rig.link, Rates::default(), 0);
-        robot.close().unwrap_or_default();
-        // Whatever happened, the arm comes to rest.
-        VirtualClock::new(rig.bench.clone()).wait(10.0);
-        let before = rig.positions();
-        VirtualClock::new(rig.bench.clone()).wait(0.5);
-        assert!((before[1] - rig.positions()[1]).abs() < 0.01, "seed {seed}");
-    }
-    assert!(errors > 0 && errors < episodes, "{errors} of {episodes}");
+    rig::strike(|| on_bus(&sound, false), &sound, action);
 }

@@ -10,7 +10,7 @@ fn tip(q: &[f64]) -> [f64; 3] {
     std::array::from_fn(|axis| pose[12 + axis] + 0.1034 * pose[8 + axis])
 }
 
-/// Lets the arm follow an action until an error, for at most so many periods of 40 ms.
+/// Lets the arm follow an action until an error, for at most `steps` periods of 40 ms.
 fn follow(rig: &Rig, robot: &mut Robot, action: &[f64], steps: u32) -> Result<(), RobotError> {
     let data = rig.data();
     for _ in 0..steps {
