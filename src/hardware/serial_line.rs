@@ -32,9 +32,12 @@ impl SerialLine {
     }
 
     /// Sends what `encode` appends, and drops what has arrived before.
-    pub(crate) fn send(&mut self, encode: impl FnOnce(&mut Vec<u8>)) -> Result<(), Fault> {
+    pub(crate) fn send(
+        &mut self,
+        encode: impl FnOnce(&mut Vec<u8>) -> Result<(), Fault>,
+    ) -> Result<(), Fault> {
         self.sent.clear();
-        encode(&mut self.sent);
+        encode(&mut self.sent)?;
         self.port.discard().and_then(|()| self.port.send(&self.sent)).map_err(|error| broken(&error))
     }
 

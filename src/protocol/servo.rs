@@ -2,6 +2,7 @@
 //! read and write them. A make has a [`Family`] and [`Packets`].
 
 use std::borrow::Cow;
+use std::fmt;
 
 /// How negative numbers are encoded in a control table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -124,8 +125,11 @@ impl Setting {
     }
 }
 
+/// Describes the bits that are set in a register.
+pub type Words = fn(u8) -> String;
+
 /// The registers of a family of servos that a driver uses; `None` for those that the family lacks.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct Layout {
     /// Number of the model.
     pub model: Cell,
@@ -143,8 +147,8 @@ pub struct Layout {
     pub torque_limit: Option<[Cell; 2]>,
     /// Watchdog of the bus, in units of 20 ms; 0 clears it.
     pub watchdog: Option<Cell>,
-    /// Hardware errors, where the error byte of an answer has only one bit for all of them.
-    pub hardware_error: Option<Cell>,
+    /// Hardware errors, and their bits in words, where the error byte of an answer has only one bit for all of them.
+    pub hardware_error: Option<(Cell, Words)>,
     /// The servo's own limit of velocity commands.
     pub velocity_limit: Option<Cell>,
     /// Acceleration limit of a motion to a goal position.
@@ -207,6 +211,20 @@ pub struct Kind {
     pub fast_sync_read: Option<i64>,
 }
 
+/// The kinds of a static array of models.
+macro_rules! kinds_of {
+    ($models:ident) => {{
+        let mut kinds = [$models[0].kind; $models.len()];
+        let mut at = 0;
+        while at < kinds.len() {
+            kinds[at] = $models[at].kind;
+            at += 1;
+        }
+        kinds
+    }};
+}
+pub(crate) use kinds_of;
+
 /// Servos with the same registers and packets.
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
@@ -229,11 +247,11 @@ pub enum Request<'a> {
     Read(u16, u16),
     /// Writes to one servo: address, bytes.
     Write(u16, &'a [u8]),
-    /// Restarts one servo.
+    /// Restarts one servo; where [`Family::reboots`].
     Reboot,
-    /// Reads the same bytes of several servos: address, number of bytes, ids.
+    /// Reads the same bytes of several servos: address, number of bytes, ids; where [`Family::sync_read`].
     SyncRead(u16, u16, &'a [u8]),
-    /// The same, answered by one packet.
+    /// The same, answered by one packet; where [`Kind::fast_sync_read`] has the firmware.
     FastSyncRead(u16, u16, &'a [u8]),
     /// Writes to several servos: address, number of bytes, and for each servo its id and its bytes.
     SyncWrite(u16, u16, &'a [u8]),
@@ -267,7 +285,10 @@ pub trait Packets: Send {
     fn frame(&self) -> usize;
 
     /// Appends a request to `out`: to the servo `id`, or to the servos that the request lists.
-    fn encode(&mut self, out: &mut Vec<u8>, id: u8, request: Request<'_>);
+    ///
+    /// # Errors
+    /// A request that the protocol cannot express; `out` is then unchanged.
+    fn encode(&mut self, out: &mut Vec<u8>, id: u8, request: Request<'_>) -> Result<(), RequestError>;
 
     /// Takes received bytes, and calls `take` with each complete answer, without the echo of `sent`, until it
     /// returns true; returns whether it did.
@@ -278,10 +299,29 @@ pub trait Packets: Send {
 
     /// The meaning of an error byte.
     fn verdict(&self, error: u8) -> Verdict;
-
-    /// The bits of the register of hardware errors in words.
-    fn describe_trouble(&self, bits: u8) -> String;
 }
+
+/// Why a request cannot be sent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RequestError {
+    /// The protocol has no such instruction.
+    Unknown,
+    /// The request has more bytes than a packet, or a larger address.
+    TooLong,
+}
+
+impl fmt::Display for RequestError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            RequestError::Unknown => "the servos' protocol has no instruction for the request",
+            RequestError::TooLong => {
+                "a request to so many servos does not fit into one packet of their protocol; use fewer servos on a bus"
+            }
+        })
+    }
+}
+
+impl std::error::Error for RequestError {}
 
 /// Names of bits that are set.
 pub(crate) fn words(names: &[(u8, &str)], bits: u8) -> String {

@@ -65,13 +65,11 @@ pub trait Member: Send + Sized {
 
     /// Takes received bytes, and returns the instructions that are complete.
     fn instructions(decoder: &mut Self::Decoder, bytes: &[u8]) -> Vec<Instruction>;
-    /// Appends an answer to `out`.
-    fn encode(out: &mut Vec<u8>, id: u8, error: u8, data: &[u8]);
+    /// The packet of an answer; `None` for more data than a packet can have.
+    fn encode(id: u8, error: u8, data: &[u8]) -> Option<Vec<u8>>;
 
     /// Its id.
     fn id(&self) -> u8;
-    /// Puts it on the shaft of a motor of the plant: angle \[rad\] = joint × scale + offset.
-    fn mount(&mut self, motor: usize, scale: f64, offset: f64);
     /// Whether it receives and answers at `now` \[s\].
     fn listens(&self, now: f64) -> bool;
     /// An instruction to any servo arrived at `now` \[s\].
@@ -187,9 +185,8 @@ impl<S: Member> Bus<S> {
                 data.clear();
             }
             if servo.answers(level) {
-                let mut bytes = Vec::new();
-                S::encode(&mut bytes, servo.id(), error | servo.alarm(), &data);
-                answers.push(Answer { delay: servo.return_delay(), bytes });
+                let bytes = S::encode(servo.id(), error | servo.alarm(), &data);
+                answers.extend(bytes.map(|bytes| Answer { delay: servo.return_delay(), bytes }));
             }
         }
         if id != S::BROADCAST {
@@ -292,7 +289,8 @@ fn collide(answers: &mut Vec<Answer>) {
     }
 }
 
-/// A servo for every actuator of a device, on the motor of the same name, with the actuator's scale and offset.
+/// A servo for every actuator of a device, which `mount` puts on the motor of the same name, with the actuator's scale and
+/// offset.
 ///
 /// # Errors
 /// An actuator that the plant lacks, or an id outside the range.
@@ -300,6 +298,7 @@ pub(crate) fn servos_of<S: Member>(
     device: &DeviceConfig,
     plant: &Plant,
     make: impl Fn(u8) -> S,
+    mount: fn(&mut S, usize, f64, f64),
 ) -> Result<Vec<S>, PlantError> {
     let servo = |actuator: &robot::ActuatorConfig| {
         let id = match actuator.hardware {
@@ -313,7 +312,7 @@ pub(crate) fn servos_of<S: Member>(
             ))
         })?;
         let mut servo = make(id);
-        servo.mount(plant.motor(&actuator.name)?, actuator.scale, actuator.offset);
+        mount(&mut servo, plant.motor(&actuator.name)?, actuator.scale, actuator.offset);
         Ok(servo)
     };
     device.actuators.iter().map(servo).collect()
@@ -322,7 +321,13 @@ pub(crate) fn servos_of<S: Member>(
 /// Instructions of protocol 1.0, which several makes use.
 pub(crate) mod first {
     use super::{Asked, Instruction};
-    use protocol::dynamixel::v1::{Decoder, instruction};
+    use protocol::dynamixel::v1::{Decoder, encode, instruction};
+
+    /// The packet of an answer; `None` for more data than a packet can have.
+    pub(crate) fn answer(id: u8, error: u8, data: &[u8]) -> Option<Vec<u8>> {
+        let mut bytes = Vec::new();
+        encode(&mut bytes, id, error, &[data]).is_ok().then_some(bytes)
+    }
 
     /// Takes received bytes, and returns the complete instructions, for servos that support the sync read or the bulk read.
     pub(crate) fn instructions(

@@ -4,7 +4,7 @@ use crate::chain::{Instruction, Member, first};
 use crate::plant::{Drive, Plant};
 use crate::profile::Profile;
 use crate::shaft::Shaft;
-use protocol::dynamixel::v1::{Decoder, encode};
+use protocol::dynamixel::v1::Decoder;
 use protocol::feetech::{ACCELERATION_UNIT, CURRENT_UNIT, STEP, STS3215, TABLE, address};
 use protocol::servo::{Cell, Sign};
 
@@ -111,16 +111,12 @@ impl Member for Servo {
         first::instructions(decoder, bytes, true, false)
     }
 
-    fn encode(out: &mut Vec<u8>, id: u8, error: u8, data: &[u8]) {
-        encode(out, id, error, &[data]);
+    fn encode(id: u8, error: u8, data: &[u8]) -> Option<Vec<u8>> {
+        first::answer(id, error, data)
     }
 
     fn id(&self) -> u8 {
         self.table[usize::from(address::ID)]
-    }
-
-    fn mount(&mut self, motor: usize, scale: f64, offset: f64) {
-        self.mount(motor, scale, offset);
     }
 
     fn listens(&self, _now: f64) -> bool {

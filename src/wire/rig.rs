@@ -159,7 +159,8 @@ fn dynamixels(
 ) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
     let name = text(device, "model");
     if let Some(model) = first_model(device, name) {
-        return chain(device, bench, at_once, |id| dynamixel::v1::Servo::new(model, id));
+        let make = |id| dynamixel::v1::Servo::new(model, id);
+        return chain(device, bench, at_once, make, dynamixel::v1::Servo::mount);
     }
     let model = match name {
         Some(name) => protocol::dynamixel::model(name).ok_or_else(|| {
@@ -169,7 +170,7 @@ fn dynamixels(
         })?,
         None => &protocol::dynamixel::MODELS[0],
     };
-    chain(device, bench, at_once, |id| dynamixel::Servo::new(model, id))
+    chain(device, bench, at_once, |id| dynamixel::Servo::new(model, id), dynamixel::Servo::mount)
 }
 
 /// The model of servos with protocol 1.0, where the config names one, or the protocol.
@@ -186,7 +187,7 @@ fn feetechs(
     bench: &mut Bench,
     at_once: bool,
 ) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
-    chain(device, bench, at_once, feetech::Servo::new)
+    chain(device, bench, at_once, feetech::Servo::new, feetech::Servo::mount)
 }
 
 /// Servos that share a line.
@@ -195,9 +196,10 @@ fn chain<S: Member + 'static>(
     bench: &mut Bench,
     at_once: bool,
     make: impl Fn(u8) -> S,
+    mount: fn(&mut S, usize, f64, f64),
 ) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
     let (baud, carries) = line(device, at_once);
-    let bus = Bus::new(servos_of(device, bench.plant(), make)?).with_baud(baud);
+    let bus = Bus::new(servos_of(device, bench.plant(), make, mount)?).with_baud(baud);
     Ok(vec![(Outlet::Serial, bench.connect(Box::new(bus), carries))])
 }
 

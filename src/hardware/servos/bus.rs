@@ -41,7 +41,8 @@ impl Bus {
     fn send(&mut self, id: u8, request: Request<'_>) -> Result<(), Fault> {
         let packets = &mut self.packets;
         packets.clear();
-        self.line.send(|out| packets.encode(out, id, request))
+        self.line
+            .send(|out| packets.encode(out, id, request).map_err(|error| Fault::Refused(error.to_string())))
     }
 
     /// Sends a request to one servo, writes its answer to `out`, and returns its error byte.
@@ -67,9 +68,11 @@ impl Bus {
         })
         .and_then(|(error, whole)| match self.packets.verdict(error) {
             // The servo reports a damaged instruction: the request is repeated.
-            verdict if error != 0 && verdict.damaged => Err(Fault::Stale(0)),
+            verdict if verdict.damaged => Err(Fault::Stale(0)),
             verdict if verdict.refusal.is_some() || !whole => {
-                let why = verdict.refusal.or(verdict.trouble).unwrap_or_default();
+                let why = verdict.refusal.or(verdict.trouble);
+                let why =
+                    why.unwrap_or_else(|| format!("it answers with the unknown error {error:#04x}").into());
                 Err(Fault::Refused(format!("servo {id}: {why}")))
             }
             _ => Ok(error),
@@ -146,10 +149,7 @@ impl Bus {
         }
         let Some(trouble) = self.packets.verdict(error).trouble else { return Ok(None) };
         Ok(Some(match self.layout.hardware_error {
-            Some(cell) => {
-                let bits = self.read(id, cell)?;
-                self.packets.describe_trouble(bits as u8)
-            }
+            Some((cell, describe)) => describe(self.read(id, cell)? as u8),
             None => trouble.into_owned(),
         }))
     }

@@ -1,7 +1,7 @@
 //! Models of servos with protocol 2.0.
 
 use super::registers::{Register, TABLE, address};
-use crate::servo::{self, Cell, Kind, Setting};
+use crate::servo::{self, Cell, Kind, Setting, kinds_of};
 
 /// Positions of one turn of the output shaft.
 pub const POSITION_PER_TURN: f64 = 4096.0;
@@ -125,7 +125,7 @@ const fn servo(
 }
 
 /// Supported models; source: the page of each in the ROBOTIS e-Manual.
-pub const MODELS: [Model; 7] = [
+pub static MODELS: [Model; 7] = [
     servo("XM430-W350", 1020, Some(2.69e-3), [4.1, 2.3], Some(45)),
     Model { initial: XL430, ..servo("XL430-W250", 1060, None, [1.5, 1.4], Some(45)) },
     Model { initial: XL330, ..servo("XL330-M288", 1200, Some(1e-3), [0.52, 1.47], Some(46)) },
@@ -136,15 +136,7 @@ pub const MODELS: [Model; 7] = [
 ];
 
 /// Properties of the supported models, for drivers.
-pub static KINDS: [Kind; MODELS.len()] = {
-    let mut kinds = [MODELS[0].kind; MODELS.len()];
-    let mut at = 0;
-    while at < MODELS.len() {
-        kinds[at] = MODELS[at].kind;
-        at += 1;
-    }
-    kinds
-};
+pub static KINDS: [Kind; MODELS.len()] = kinds_of!(MODELS);
 
 const XL430: &[(u16, i64)] = &[
     (34, 65),
@@ -168,8 +160,7 @@ const XL330: &[(u16, i64)] = &[
 
 /// The model of this name.
 pub fn model(name: &str) -> Option<&'static Model> {
-    static ALL: [Model; MODELS.len()] = MODELS;
-    ALL.iter().find(|model| model.kind.name == name)
+    MODELS.iter().find(|model| model.kind.name == name)
 }
 
 impl Model {
@@ -213,7 +204,7 @@ mod tests {
 
     #[test]
     fn registers_do_not_overlap_and_their_values_fit() {
-        for model in MODELS {
+        for model in &MODELS {
             let mut end = 0;
             for register in model.registers() {
                 assert!(register.address >= end, "{} of {}", register.name, model.kind.name);

@@ -4,7 +4,7 @@ use super::model::{KINDS, Model, hardware_error};
 use super::packet::{BROADCAST, Decoder, encode, instruction, status_error};
 use super::registers::address;
 use crate::crc;
-use crate::servo::{Answer, Cell, Family, Layout, Packets, Request, Sign, Verdict};
+use crate::servo::{Answer, Cell, Family, Layout, Packets, Request, RequestError, Sign, Verdict};
 
 /// Largest number of bytes of an answer besides its data: header, id, length, instruction, error, checksum, and stuffing.
 const FRAME: usize = 16;
@@ -25,7 +25,7 @@ const LAYOUT: Layout = Layout {
     lock: None,
     torque_limit: None,
     watchdog: Some(Cell::new(address::BUS_WATCHDOG, 1)),
-    hardware_error: Some(Cell::new(address::HARDWARE_ERROR, 1)),
+    hardware_error: Some((Cell::new(address::HARDWARE_ERROR, 1), hardware_error::describe)),
     velocity_limit: Some(Cell::new(address::VELOCITY_LIMIT, 4)),
     acceleration: Some(Cell::new(address::PROFILE_ACCELERATION, 4)),
     speed: Cell::new(address::PROFILE_VELOCITY, 4),
@@ -66,7 +66,7 @@ impl Packets for Second {
         FRAME
     }
 
-    fn encode(&mut self, out: &mut Vec<u8>, id: u8, request: Request<'_>) {
+    fn encode(&mut self, out: &mut Vec<u8>, id: u8, request: Request<'_>) -> Result<(), RequestError> {
         let range = |from: u16, size: u16| [from.to_le_bytes(), size.to_le_bytes()];
         let mut all = |code: u8, from, size, rest: &[u8]| {
             encode(out, BROADCAST, code, &[range(from, size).as_flattened(), rest]);
@@ -84,6 +84,7 @@ impl Packets for Second {
             Request::Write(from, data) => encode(out, id, instruction::WRITE, &[&from.to_le_bytes(), data]),
             Request::Reboot => encode(out, id, instruction::REBOOT, &[]),
         }
+        Ok(())
     }
 
     fn answers(&mut self, _sent: &[u8], came: &[u8], take: &mut dyn FnMut(Answer<'_>) -> bool) -> bool {
@@ -121,10 +122,6 @@ impl Packets for Second {
             refusal: (refused != 0).then(|| status_error::describe(refused).into()),
             trouble: (error & status_error::ALERT != 0).then(|| "an error of its hardware".into()),
         }
-    }
-
-    fn describe_trouble(&self, bits: u8) -> String {
-        hardware_error::describe(bits)
     }
 }
 
@@ -176,7 +173,7 @@ mod tests {
     fn a_fast_sync_read_is_that_of_the_document() {
         let mut second = Second::default();
         let mut bytes = Vec::new();
-        second.encode(&mut bytes, BROADCAST, Request::FastSyncRead(580, 4, &[1, 2]));
+        second.encode(&mut bytes, BROADCAST, Request::FastSyncRead(580, 4, &[1, 2])).unwrap();
         assert_eq!(
             bytes,
             [0xFF, 0xFF, 0xFD, 0x00, 0xFE, 0x09, 0x00, 0x8A, 0x44, 0x02, 0x04, 0x00, 0x01, 0x02, 0x72, 0xF2]
@@ -191,7 +188,7 @@ mod tests {
     #[test]
     fn what_the_last_servo_heard_wrongly_as_well_is_not_taken() {
         let mut second = Second::default();
-        second.encode(&mut Vec::new(), BROADCAST, Request::FastSyncRead(580, 4, &[1, 2]));
+        second.encode(&mut Vec::new(), BROADCAST, Request::FastSyncRead(580, 4, &[1, 2])).unwrap();
         for damaged in 8..16 {
             let mut bytes = ANSWER;
             bytes[damaged] ^= 0x10;
@@ -200,7 +197,7 @@ mod tests {
             assert_eq!(heard(&mut second, &bytes), [], "{damaged}");
         }
         // A packet of another size is not the answer to this read.
-        second.encode(&mut Vec::new(), BROADCAST, Request::FastSyncRead(580, 3, &[1, 2]));
+        second.encode(&mut Vec::new(), BROADCAST, Request::FastSyncRead(580, 3, &[1, 2])).unwrap();
         assert_eq!(heard(&mut second, &ANSWER), []);
     }
 

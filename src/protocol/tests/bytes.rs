@@ -109,7 +109,13 @@ fn noise_is_no_answer_of_a_servo() {
         let mut taken = 0;
         for round in 0..20_000 {
             let (mut sent, size) = (Vec::new(), (noise.next() % 12) as u16);
-            packets.encode(&mut sent, 1, servo::Request::FastSyncRead(100, size, &[1, 2, 3]));
+            let ids = &[1, 2, 3];
+            let request = if family.kinds.iter().any(|kind| kind.fast_sync_read.is_some()) {
+                servo::Request::FastSyncRead(100, size, ids)
+            } else {
+                servo::Request::SyncRead(100, size, ids)
+            };
+            packets.encode(&mut sent, 1, request).unwrap();
             let count = noise.next() as usize % 80;
             let mut bytes = noise.bytes(count);
             // Headers, lengths and ids that are possible are rare among random ones.

@@ -165,8 +165,10 @@ impl Member for Servo {
         all
     }
 
-    fn encode(out: &mut Vec<u8>, id: u8, error: u8, data: &[u8]) {
-        encode(out, id, instruction::STATUS, &[&[error], data]);
+    fn encode(id: u8, error: u8, data: &[u8]) -> Option<Vec<u8>> {
+        let mut bytes = Vec::new();
+        encode(&mut bytes, id, instruction::STATUS, &[&[error], data]);
+        Some(bytes)
     }
 
     fn together(bus: &mut Bus<Servo>, plant: &Plant, from: u16, length: u16, ids: &[u8]) -> Vec<Answer> {
@@ -175,10 +177,6 @@ impl Member for Servo {
 
     fn id(&self) -> u8 {
         self.memory.get(address::ID) as u8
-    }
-
-    fn mount(&mut self, motor: usize, scale: f64, offset: f64) {
-        self.mount(motor, scale, offset);
     }
 
     fn set_powered(&mut self, powered: bool) {

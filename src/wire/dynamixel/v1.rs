@@ -4,7 +4,7 @@ use crate::chain::{Instruction, Member, first};
 use crate::plant::{Drive, Plant};
 use crate::profile::Profile;
 use crate::shaft::Shaft;
-use protocol::dynamixel::v1::{Decoder, Model, TABLE, address, encode, error};
+use protocol::dynamixel::v1::{Decoder, Model, TABLE, address, error};
 use protocol::servo::{Cell, Sign};
 
 /// Servos with protocol 1.0 on one line.
@@ -201,16 +201,12 @@ impl Member for Servo {
         first::instructions(decoder, bytes, false, true)
     }
 
-    fn encode(out: &mut Vec<u8>, id: u8, error: u8, data: &[u8]) {
-        encode(out, id, error, &[data]);
+    fn encode(id: u8, error: u8, data: &[u8]) -> Option<Vec<u8>> {
+        first::answer(id, error, data)
     }
 
     fn id(&self) -> u8 {
         self.table[usize::from(address::ID)]
-    }
-
-    fn mount(&mut self, motor: usize, scale: f64, offset: f64) {
-        self.mount(motor, scale, offset);
     }
 
     fn listens(&self, _now: f64) -> bool {
@@ -307,7 +303,7 @@ mod tests {
     use super::*;
     use crate::{Bench, Carries, VirtualPort};
     use protocol::Port;
-    use protocol::dynamixel::v1::{BROADCAST, instruction, model};
+    use protocol::dynamixel::v1::{BROADCAST, encode, instruction, model};
     use std::sync::{Arc, Mutex};
 
     const BAUD: f64 = 1e6;
@@ -342,7 +338,7 @@ mod tests {
     /// Every answer: id, error, data.
     fn ask(port: &mut VirtualPort, id: u8, code: u8, parameters: &[u8]) -> Vec<(u8, u8, Vec<u8>)> {
         let mut bytes = Vec::new();
-        encode(&mut bytes, id, code, &[parameters]);
+        encode(&mut bytes, id, code, &[parameters]).unwrap();
         port.send(&bytes).unwrap();
         let (mut decoder, mut buffer) = (Decoder::default(), [0; 64]);
         loop {
@@ -411,7 +407,7 @@ mod tests {
     fn it_answers_as_late_and_as_seldom_as_it_is_told() {
         let mut port = line(|servos| servos[1].set_register(address::STATUS_RETURN, 1));
         let mut bytes = Vec::new();
-        encode(&mut bytes, 1, instruction::PING, &[]);
+        encode(&mut bytes, 1, instruction::PING, &[]).unwrap();
         port.send(&bytes).unwrap();
         let mut buffer = [0; 16];
         assert_eq!(port.receive(&mut buffer, 0.1).unwrap(), 6);

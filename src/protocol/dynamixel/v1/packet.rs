@@ -3,7 +3,7 @@
 //! `FF FF | id | length | instruction or error | parameters | checksum`: the length is the number of bytes after it, the checksum is the
 //! complement of the sum of all bytes from the id.
 
-use crate::servo::{Answer, Packets, Request, Verdict, words};
+use crate::servo::{Answer, Packets, Request, RequestError, Verdict, words};
 
 /// The id to which all servos listen.
 pub const BROADCAST: u8 = 0xFE;
@@ -11,6 +11,8 @@ pub const BROADCAST: u8 = 0xFE;
 const HEADER: [u8; 2] = [0xFF, 0xFF];
 /// Bytes of a packet besides its parameters.
 const FRAME: usize = 6;
+/// Most bytes of parameters: the length, one byte, also counts the code and the checksum.
+const MOST: usize = 253;
 
 /// Codes of instructions. Only Feetech servos support the sync read, and only Dynamixel MX the bulk read.
 pub mod instruction {
@@ -69,21 +71,29 @@ pub struct Packet<'a> {
 
 /// Appends a packet to `out`.
 ///
+/// # Errors
+/// [`RequestError::TooLong`] for more than 253 bytes of parameters; `out` is then unchanged.
+///
 /// ```
 /// use robohive_protocol::dynamixel::v1::{encode, instruction};
 ///
 /// let mut bytes = Vec::new();
-/// encode(&mut bytes, 1, instruction::PING, &[]);
+/// encode(&mut bytes, 1, instruction::PING, &[])?;
 /// assert_eq!(bytes, [0xFF, 0xFF, 0x01, 0x02, 0x01, 0xFB]);
+/// # Ok::<(), robohive_protocol::servo::RequestError>(())
 /// ```
-pub fn encode(out: &mut Vec<u8>, id: u8, code: u8, parameters: &[&[u8]]) {
+pub fn encode(out: &mut Vec<u8>, id: u8, code: u8, parameters: &[&[u8]]) -> Result<(), RequestError> {
     let length: usize = parameters.iter().map(|piece| piece.len()).sum();
+    if length > MOST {
+        return Err(RequestError::TooLong);
+    }
     out.extend(HEADER);
     let start = out.len();
     out.extend([id, (length + 2) as u8, code]);
     parameters.iter().for_each(|piece| out.extend_from_slice(piece));
     let sum = checksum(&out[start..]);
     out.push(sum);
+    Ok(())
 }
 
 fn checksum(bytes: &[u8]) -> u8 {
@@ -155,17 +165,17 @@ impl Packets for First {
         FRAME
     }
 
-    fn encode(&mut self, out: &mut Vec<u8>, id: u8, request: Request<'_>) {
+    fn encode(&mut self, out: &mut Vec<u8>, id: u8, request: Request<'_>) -> Result<(), RequestError> {
+        let byte = |number: u16| u8::try_from(number).map_err(|_| RequestError::TooLong);
         match request {
-            Request::Read(from, size) => encode(out, id, instruction::READ, &[&[from as u8, size as u8]]),
-            Request::Write(from, data) => encode(out, id, instruction::WRITE, &[&[from as u8], data]),
-            // Protocol 1.0 has no restart (`Family::reboots` is false): a ping has no effect.
-            Request::Reboot => encode(out, id, instruction::PING, &[]),
-            Request::SyncRead(from, size, ids) | Request::FastSyncRead(from, size, ids) => {
-                encode(out, BROADCAST, instruction::SYNC_READ, &[&[from as u8, size as u8], ids]);
+            Request::Read(from, size) => encode(out, id, instruction::READ, &[&[byte(from)?, byte(size)?]]),
+            Request::Write(from, data) => encode(out, id, instruction::WRITE, &[&[byte(from)?], data]),
+            Request::Reboot | Request::FastSyncRead(..) => Err(RequestError::Unknown),
+            Request::SyncRead(from, size, ids) => {
+                encode(out, BROADCAST, instruction::SYNC_READ, &[&[byte(from)?, byte(size)?], ids])
             }
             Request::SyncWrite(from, size, data) => {
-                encode(out, BROADCAST, instruction::SYNC_WRITE, &[&[from as u8, size as u8], data]);
+                encode(out, BROADCAST, instruction::SYNC_WRITE, &[&[byte(from)?, byte(size)?], data])
             }
         }
     }
@@ -190,10 +200,6 @@ impl Packets for First {
 
     fn verdict(&self, error: u8) -> Verdict {
         (self.verdict)(error)
-    }
-
-    fn describe_trouble(&self, bits: u8) -> String {
-        words(&[], bits)
     }
 }
 
@@ -229,7 +235,7 @@ mod tests {
         ];
         for (id, code, parameters, expected) in examples {
             let mut bytes = Vec::new();
-            encode(&mut bytes, id, code, &[parameters]);
+            encode(&mut bytes, id, code, &[parameters]).unwrap();
             assert_eq!(bytes, expected);
             let mut decoder = Decoder::default();
             decoder.push(expected);
@@ -255,9 +261,9 @@ mod tests {
     fn an_echo_is_told_from_an_answer_of_its_length() {
         let mut first = First::new(error::verdict);
         let mut sent = Vec::new();
-        first.encode(&mut sent, 1, Request::Read(36, 2));
+        first.encode(&mut sent, 1, Request::Read(36, 2)).unwrap();
         let mut answer = Vec::new();
-        encode(&mut answer, 1, error::ANGLE, &[&[0x20, 0x02]]);
+        encode(&mut answer, 1, error::ANGLE, &[&[0x20, 0x02]]).unwrap();
         assert_eq!(sent.len(), answer.len());
         let mut heard = Vec::new();
         first.answers(&sent, &[&sent[..], &answer].concat(), &mut |answer| {
@@ -268,11 +274,31 @@ mod tests {
     }
 
     #[test]
+    fn what_the_protocol_cannot_say_is_an_error() {
+        let (mut first, mut bytes) = (First::new(error::verdict), Vec::new());
+        assert_eq!(first.encode(&mut bytes, 1, Request::Reboot), Err(RequestError::Unknown));
+        assert_eq!(
+            first.encode(&mut bytes, 1, Request::FastSyncRead(36, 2, &[1])),
+            Err(RequestError::Unknown)
+        );
+        // Of each servo an id and two bytes, after the address and the number of bytes: 83 servos fit.
+        assert_eq!(
+            first.encode(&mut bytes, 1, Request::SyncWrite(30, 2, &[0; 84 * 3])),
+            Err(RequestError::TooLong)
+        );
+        assert_eq!(bytes, []);
+        first.encode(&mut bytes, 1, Request::SyncWrite(30, 2, &[0; 83 * 3])).unwrap();
+        let mut decoder = Decoder::default();
+        decoder.push(&bytes);
+        assert_eq!(decoder.next_packet().map(|packet| packet.parameters.len()), Some(2 + 83 * 3));
+    }
+
+    #[test]
     fn a_damaged_packet_does_not_hide_the_next() {
         let mut bytes = Vec::new();
-        encode(&mut bytes, 1, instruction::WRITE, &[&[42, 0, 8]]);
+        encode(&mut bytes, 1, instruction::WRITE, &[&[42, 0, 8]]).unwrap();
         let one = bytes.len();
-        encode(&mut bytes, 2, instruction::PING, &[]);
+        encode(&mut bytes, 2, instruction::PING, &[]).unwrap();
         for damaged in 0..one {
             let mut copy = bytes.clone();
             copy[damaged] ^= 0x40;

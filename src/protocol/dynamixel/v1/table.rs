@@ -1,7 +1,7 @@
 //! The control table of servos with protocol 1.0, and their models.
 
 use super::packet::{First, error};
-use crate::servo::{Cell, Family, Kind, Layout, Mode, Setting, Sign};
+use crate::servo::{Cell, Family, Kind, Layout, Mode, Setting, Sign, kinds_of};
 use std::f64::consts::TAU;
 
 /// Addresses of the control table.
@@ -123,7 +123,7 @@ const fn encoder(name: &'static str, number: u16, stall: f64) -> Model {
 }
 
 /// Supported models; source: the page of each in the ROBOTIS e-Manual.
-pub const MODELS: [Model; 8] = [
+pub static MODELS: [Model; 8] = [
     potentiometer("AX-12A", 12, 1.5),
     potentiometer("AX-18A", 18, 1.8),
     potentiometer("RX-24F", 24, 2.6),
@@ -135,15 +135,7 @@ pub const MODELS: [Model; 8] = [
 ];
 
 /// Properties of the supported models, for drivers.
-pub static KINDS: [Kind; MODELS.len()] = {
-    let mut kinds = [MODELS[0].kind; MODELS.len()];
-    let mut at = 0;
-    while at < MODELS.len() {
-        kinds[at] = MODELS[at].kind;
-        at += 1;
-    }
-    kinds
-};
+pub static KINDS: [Kind; MODELS.len()] = kinds_of!(MODELS);
 
 /// Servos with protocol 1.0, for drivers.
 pub static FAMILY: Family = Family {
@@ -156,8 +148,7 @@ pub static FAMILY: Family = Family {
 
 /// The model of this name.
 pub fn model(name: &str) -> Option<&'static Model> {
-    static ALL: [Model; MODELS.len()] = MODELS;
-    ALL.iter().find(|model| model.kind.name == name)
+    MODELS.iter().find(|model| model.kind.name == name)
 }
 
 #[cfg(test)]
