@@ -17,7 +17,7 @@
 //! | `watchdog` | longest time without a command \[s\] | 0.25 |
 //! | `reset_time` | duration of a reset \[s\] | 5 |
 //! | `return_delay` | the servo's delay before an answer \[µs\], written where it differs | 0 |
-//! | `fast_sync_read` | all servos answer in one packet, if every firmware supports it (430 and 540 from 45, 330 from 46) | true |
+//! | `fast_sync_read` | all servos answer in one packet, if every firmware supports it (X430 from 45, X330 from 46) | true |
 //!
 //! With protocol 2 the servos' own bus watchdog is set when they are armed: 0.1 s after the last instruction they stop where they
 //! are, even if this process was killed. RoboHive's keys `motor_type` and `n` are accepted and ignored.
@@ -33,7 +33,7 @@
 
 use crate::port::Opener;
 use crate::servos::{Make, Servos};
-use protocol::dynamixel::{FAMILY, MODELS, v1};
+use protocol::dynamixel::{FAMILY, v1};
 use robot::{DeviceConfig, Fault};
 
 /// Velocity limit of servos without a register for it \[rad/s\].
@@ -46,27 +46,22 @@ const SPEED: f64 = 3.0;
 pub fn driver(config: &DeviceConfig, opener: Opener) -> Result<Servos, Fault> {
     Servos::new(config, opener, |parameters| {
         parameters.skip(&["motor_type", "n"]);
-        let model = parameters.text("model")?;
-        let protocol = parameters.number("protocol", 0.0, [0.0, 2.0])?;
-        let (family, model) = match (model, protocol) {
-            (Some(name), _) => {
-                let families = [&FAMILY, &v1::FAMILY];
-                let found = families.into_iter().find_map(|family| {
-                    Some((family, family.kinds.iter().find(|kind| kind.name == name)?.name))
-                });
-                let (family, name) = found.ok_or_else(|| unknown(&name))?;
-                (family, Some(name))
-            }
-            (None, 1.0) => (&v1::FAMILY, None),
-            (None, _) => (&FAMILY, None),
-        };
-        let first = std::ptr::eq(family, &v1::FAMILY);
-        if protocol != 0.0 && first != (protocol == 1.0) {
-            let name = model.unwrap_or_default();
+        let model = parameters.text("model")?.map(|name| known(&name)).transpose()?;
+        let protocol =
+            parameters.number("protocol", model.map_or(2.0, |(protocol, _)| protocol), [1.0, 2.0])?;
+        if protocol.fract() != 0.0 {
+            return Err(Fault::Refused(format!(
+                "its interface has protocol = {protocol}; there are 1 and 2"
+            )));
+        }
+        if let Some((own, name)) = model
+            && own != protocol
+        {
             return Err(Fault::Refused(format!(
                 "its interface has protocol = {protocol}, which the model '{name}' does not support; remove 'protocol'"
             )));
         }
+        let first = protocol == 1.0;
         let otherwise = if first { SPEED } else { -1.0 };
         let speed = parameters.number("profile_velocity", otherwise, [0.0, 100.0])?;
         let acceleration = parameters.number("profile_acceleration", 0.0, [0.0, 1e4])?;
@@ -77,8 +72,8 @@ pub fn driver(config: &DeviceConfig, opener: Opener) -> Result<Servos, Fault> {
             ));
         }
         Ok(Make {
-            family,
-            model,
+            family: if first { &v1::FAMILY } else { &FAMILY },
+            model: model.map(|(_, name)| name),
             speed: (speed >= 0.0).then_some(speed),
             acceleration,
             return_delay: 1e-6 * parameters.number("return_delay", 0.0, [0.0, 508.0])?,
@@ -88,11 +83,15 @@ pub fn driver(config: &DeviceConfig, opener: Opener) -> Result<Servos, Fault> {
     })
 }
 
-fn unknown(name: &str) -> Fault {
-    let all = MODELS.iter().map(|model| model.kind).chain(v1::MODELS.iter().map(|model| model.kind));
-    let names: Vec<_> = all.map(|kind| kind.name).collect();
-    Fault::Refused(format!(
-        "its interface has the unknown model '{name}'; the models are {}",
-        names.join(", ")
-    ))
+/// The protocol of a model of this name, and the name.
+fn known(name: &str) -> Result<(f64, &'static str), Fault> {
+    let second = FAMILY.kinds.iter().map(|kind| (2.0, kind.name));
+    let all = second.chain(v1::FAMILY.kinds.iter().map(|kind| (1.0, kind.name)));
+    all.clone().find(|(_, known)| *known == name).ok_or_else(|| {
+        let names: Vec<_> = all.map(|(_, known)| known).collect();
+        Fault::Refused(format!(
+            "its interface has the unknown model '{name}'; the models are {}",
+            names.join(", ")
+        ))
+    })
 }

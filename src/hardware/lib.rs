@@ -44,7 +44,6 @@ pub mod recorder;
 mod registry;
 pub mod robotiq;
 mod safety;
-mod serial_line;
 mod service;
 mod servos;
 mod setup;

@@ -143,7 +143,7 @@ fn named(path: &Path) -> impl Fn(io::Error) -> io::Error {
 /// Reads the records of a file in the order in which they were written.
 ///
 /// # Errors
-/// The file cannot be read, or is not a flight recorder's.
+/// The file cannot be read, is not a flight recorder's, or has records of which none is whole.
 pub fn read(path: &Path) -> io::Result<Vec<Entry>> {
     let mut bytes = Vec::new();
     File::open(path).and_then(|mut file| file.read_to_end(&mut bytes)).map_err(named(path))?;
@@ -154,7 +154,14 @@ pub fn read(path: &Path) -> io::Result<Vec<Entry>> {
         let message = format!("{} is not a file of a flight recorder", path.display());
         io::Error::new(io::ErrorKind::InvalidData, message)
     })?;
-    let mut entries: Vec<_> = bytes[HEADER.min(bytes.len())..].chunks_exact(size).filter_map(entry).collect();
+    let records = bytes[HEADER.min(bytes.len())..].chunks_exact(size);
+    let count = records.len();
+    // The process may have died while it wrote one: that is left out.
+    let mut entries: Vec<_> = records.filter_map(entry).collect();
+    if entries.is_empty() && count > 0 {
+        let message = format!("{} is damaged: none of its {count} records is whole", path.display());
+        return Err(io::Error::new(io::ErrorKind::InvalidData, message));
+    }
     entries.sort_by_key(|entry| entry.number);
     Ok(entries)
 }
@@ -213,6 +220,10 @@ mod tests {
         bytes[HEADER + 4 * size] = 9;
         std::fs::write(&path, &bytes).unwrap();
         assert_eq!(numbers(&read(&path).unwrap()), [5, 6, 7, 8]);
+        bytes[HEADER..].fill(1);
+        std::fs::write(&path, &bytes).unwrap();
+        let said = read(&path).unwrap_err().to_string();
+        assert!(said.ends_with("left_arm.flight is damaged: none of its 5 records is whole"), "{said}");
         std::fs::write(&path, b"RHFLIGHX").unwrap();
         assert!(read(&path).unwrap_err().to_string().contains("left_arm.flight is not a file of"));
         std::fs::remove_dir_all(folder).unwrap();

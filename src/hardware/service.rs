@@ -29,15 +29,15 @@ impl Services {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).push(Listed { service, period });
     }
 
-    /// Runs the services that are due at `now`, except those in use: one of them is waiting. Dropped services are
-    /// removed. Returns the time until the next one is due \[s\].
+    /// Runs all services at `now`, except those in use: one of them is waiting. Dropped services are removed. Returns the
+    /// shortest of their periods \[s\].
     fn tend(&self, now: f64) -> f64 {
         let mut services = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         services.retain(|listed| listed.service.strong_count() > 0);
         let period = services.iter().map(|listed| listed.period).fold(LOOK, f64::min);
-        let due: Vec<_> = services.iter().filter_map(|listed| listed.service.upgrade()).collect();
+        let alive: Vec<_> = services.iter().filter_map(|listed| listed.service.upgrade()).collect();
         drop(services);
-        for service in due {
+        for service in alive {
             match service.try_lock() {
                 Ok(mut service) => service.tend(now),
                 Err(TryLockError::Poisoned(service)) => service.into_inner().tend(now),
@@ -45,6 +45,20 @@ impl Services {
             }
         }
         period
+    }
+
+    /// Waits for `seconds` with the clock of `device`, and runs the services meanwhile.
+    fn wait<T>(&self, device: &mut T, seconds: f64, now: impl Fn(&mut T) -> f64, wait: impl Fn(&mut T, f64)) {
+        let end = now(device) + seconds;
+        loop {
+            let period = self.tend(now(device));
+            // Tending takes time too: it may talk to a device.
+            let left = end - now(device);
+            if left <= 0.0 {
+                return;
+            }
+            wait(device, left.min(period));
+        }
     }
 }
 
@@ -67,17 +81,7 @@ impl<C: Clock> Clock for TendedClock<C> {
     }
 
     fn wait(&mut self, seconds: f64) {
-        let end = self.clock.now() + seconds;
-        loop {
-            let now = self.clock.now();
-            let period = self.services.tend(now);
-            // Tending takes time too: it may talk to a device.
-            let left = end - self.clock.now();
-            if left <= 0.0 {
-                return;
-            }
-            self.clock.wait(left.min(period));
-        }
+        self.services.wait(&mut self.clock, seconds, C::now, C::wait);
     }
 }
 
@@ -122,14 +126,6 @@ impl<P: Port> Port for TendedPort<P> {
     }
 
     fn wait(&mut self, seconds: f64) {
-        let end = self.port.now() + seconds;
-        loop {
-            let period = self.services.tend(self.port.now());
-            let left = end - self.port.now();
-            if left <= 0.0 {
-                return;
-            }
-            self.port.wait(left.min(period));
-        }
+        self.services.wait(&mut self.port, seconds, |port| port.now(), P::wait);
     }
 }

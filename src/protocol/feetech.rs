@@ -6,7 +6,7 @@
 //! Source: Feetech, "STS series communication protocol" and memory table of the STS3215, checked against the table of the
 //! crate `rustypot`.
 
-use crate::dynamixel::v1::First;
+use crate::dynamixel::v1::PacketsV1;
 use crate::servo::{Cell, Family, Kind, Layout, Mode, Setting, Sign, Verdict, words};
 
 /// Value of the register "model" of an STS3215.
@@ -124,5 +124,5 @@ pub static FAMILY: Family = Family {
     kinds: &KINDS,
     sync_read: true,
     reboots: false,
-    packets: || Box::new(First::new(trouble::verdict)),
+    packets: || Box::new(PacketsV1::new(trouble::verdict)),
 };

@@ -125,7 +125,7 @@ impl Hand {
         let now = self.channel.now();
         let silence = now - self.received.unwrap_or(now);
         if silence > SILENCE {
-            return Err(Fault::Unreachable(format!("the hand has not said its state for {:.1} s", silence)));
+            return Err(Fault::Unreachable(format!("the hand has sent no state for {silence:.1} s")));
         }
         let mut failed = false;
         let channel = &mut self.channel;

@@ -14,7 +14,8 @@ impl Lock {
     /// # Errors
     /// Another process has it: which one. The lock's file cannot be made.
     pub fn take(resource: &str) -> io::Result<Lock> {
-        // A device has several names: links in /dev/serial/by-id, and the node that they lead to.
+        // A device has several names: links in /dev/serial/by-id, and the node that they lead to. What is no path, such as a
+        // host, has one.
         let node = std::fs::canonicalize(resource).ok();
         let node = node.as_deref().and_then(Path::to_str).unwrap_or(resource);
         let name: String = node.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();

@@ -1,6 +1,6 @@
 //! Requests to servos, and their answers.
 
-use crate::serial_line::SerialLine;
+use super::line::Line;
 use protocol::Port;
 use protocol::servo::{Answer, Cell, Family, Layout, Packets, Request};
 use robot::Fault;
@@ -24,7 +24,7 @@ pub(super) enum Reading {
 
 /// The driver's side of a bus. Once it has sent its longest instruction, it allocates nothing.
 pub(super) struct Bus {
-    line: SerialLine,
+    line: Line,
     packets: Box<dyn Packets>,
     layout: &'static Layout,
     /// Data of a request to several servos.
@@ -34,7 +34,7 @@ pub(super) struct Bus {
 impl Bus {
     pub(super) fn new(port: Box<dyn Port>, baud: u32, family: &Family) -> Bus {
         let packets = (family.packets)();
-        Bus { line: SerialLine::new(port, baud), packets, layout: family.layout, scratch: Vec::new() }
+        Bus { line: Line::new(port, baud), packets, layout: family.layout, scratch: Vec::new() }
     }
 
     /// Sends a request, and drops the remains of earlier answers.

@@ -2,6 +2,7 @@
 
 mod bus;
 mod driver;
+mod line;
 mod settings;
 
 pub use driver::Servos;

@@ -123,6 +123,8 @@ fn what_these_servos_cannot_do_is_named() {
         ("protocol = 1", "mode = 'velocity'", "servo 11, an AX-12A, has no mode 'velocity'"),
         ("protocol = 1, profile_acceleration = 2", "", "servos with protocol 1 do not support"),
         ("protocol = 1, model = 'XM430-W350'", "", "which the model 'XM430-W350' does not support"),
+        ("protocol = 1.5", "", "its interface has protocol = 1.5; there are 1 and 2"),
+        ("protocol = 0", "", "it must be from 1 to 2"),
         ("model = 'MX-28'", "", "servo 10 is an AX-12A, and the config says MX-28"),
         ("model = 'AX-12'", "", "has the unknown model 'AX-12'; the models are XM430-W350, XL430-W250"),
     ] {

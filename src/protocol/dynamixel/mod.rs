@@ -11,4 +11,4 @@ pub mod v1;
 pub use model::{KINDS, MODELS, Mode, Model, POSITION_PER_TURN, hardware_error, model};
 pub use packet::{BROADCAST, Corrupt, Decoder, Packet, encode, instruction, status_error};
 pub use registers::{Access, Register, address};
-pub use requests::{FAMILY, Second};
+pub use requests::FAMILY;

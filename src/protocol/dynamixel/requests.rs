@@ -43,25 +43,25 @@ pub static FAMILY: Family = Family {
     kinds: &KINDS,
     sync_read: true,
     reboots: true,
-    packets: || Box::new(Second::default()),
+    packets: || Box::new(PacketsV2::default()),
 };
 
 /// Packets of protocol 2.0. Allocates nothing after the longest answer.
-pub struct Second {
+struct PacketsV2 {
     decoder: Decoder,
     /// Number of bytes of each servo in the last fast sync read.
     fast: usize,
 }
 
-impl Default for Second {
-    fn default() -> Second {
+impl Default for PacketsV2 {
+    fn default() -> PacketsV2 {
         /// Bytes that can be received at once without an allocation.
         const ROOM: usize = 1024;
-        Second { decoder: Decoder::with_room(ROOM), fast: 0 }
+        PacketsV2 { decoder: Decoder::with_room(ROOM), fast: 0 }
     }
 }
 
-impl Packets for Second {
+impl Packets for PacketsV2 {
     fn frame(&self) -> usize {
         FRAME
     }
@@ -88,7 +88,7 @@ impl Packets for Second {
     }
 
     fn answers(&mut self, _sent: &[u8], came: &[u8], take: &mut dyn FnMut(Answer<'_>) -> bool) -> bool {
-        let Second { decoder, fast } = self;
+        let PacketsV2 { decoder, fast } = self;
         decoder.push(came);
         while let Some(packet) = decoder.next_packet() {
             // Damaged packets, and the echo of our own instruction, are skipped.
@@ -160,7 +160,7 @@ mod tests {
         0x02, 0x09, 0x00, 0x00, 0x00, 0x11, 0x40,
     ];
 
-    fn heard(second: &mut Second, bytes: &[u8]) -> Vec<(u8, u8, Vec<u8>)> {
+    fn heard(second: &mut PacketsV2, bytes: &[u8]) -> Vec<(u8, u8, Vec<u8>)> {
         let mut all = Vec::new();
         second.answers(&[], bytes, &mut |answer| {
             all.push((answer.id, answer.error, answer.data.to_vec()));
@@ -171,7 +171,7 @@ mod tests {
 
     #[test]
     fn a_fast_sync_read_is_that_of_the_document() {
-        let mut second = Second::default();
+        let mut second = PacketsV2::default();
         let mut bytes = Vec::new();
         second.encode(&mut bytes, BROADCAST, Request::FastSyncRead(580, 4, &[1, 2])).unwrap();
         assert_eq!(
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn what_the_last_servo_heard_wrongly_as_well_is_not_taken() {
-        let mut second = Second::default();
+        let mut second = PacketsV2::default();
         second.encode(&mut Vec::new(), BROADCAST, Request::FastSyncRead(580, 4, &[1, 2])).unwrap();
         for damaged in 8..16 {
             let mut bytes = ANSWER;

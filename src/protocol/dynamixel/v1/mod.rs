@@ -5,5 +5,6 @@
 mod packet;
 mod table;
 
-pub use packet::{BROADCAST, Decoder, First, Packet, encode, error, instruction};
+pub(crate) use packet::PacketsV1;
+pub use packet::{BROADCAST, Decoder, Packet, encode, error, instruction};
 pub use table::{FAMILY, KINDS, MODELS, Model, TABLE, address, model};

@@ -148,19 +148,19 @@ impl Decoder {
 }
 
 /// Requests and answers of protocol 1.0.
-pub struct First {
+pub struct PacketsV1 {
     decoder: Decoder,
     verdict: fn(u8) -> Verdict,
 }
 
-impl First {
+impl PacketsV1 {
     /// Packets whose error byte has this meaning.
-    pub fn new(verdict: fn(u8) -> Verdict) -> First {
-        First { decoder: Decoder::default(), verdict }
+    pub fn new(verdict: fn(u8) -> Verdict) -> PacketsV1 {
+        PacketsV1 { decoder: Decoder::default(), verdict }
     }
 }
 
-impl Packets for First {
+impl Packets for PacketsV1 {
     fn frame(&self) -> usize {
         FRAME
     }
@@ -259,7 +259,7 @@ mod tests {
 
     #[test]
     fn an_echo_is_told_from_an_answer_of_its_length() {
-        let mut first = First::new(error::verdict);
+        let mut first = PacketsV1::new(error::verdict);
         let mut sent = Vec::new();
         first.encode(&mut sent, 1, Request::Read(36, 2)).unwrap();
         let mut answer = Vec::new();
@@ -275,7 +275,7 @@ mod tests {
 
     #[test]
     fn what_the_protocol_cannot_say_is_an_error() {
-        let (mut first, mut bytes) = (First::new(error::verdict), Vec::new());
+        let (mut first, mut bytes) = (PacketsV1::new(error::verdict), Vec::new());
         assert_eq!(first.encode(&mut bytes, 1, Request::Reboot), Err(RequestError::Unknown));
         assert_eq!(
             first.encode(&mut bytes, 1, Request::FastSyncRead(36, 2, &[1])),

@@ -1,6 +1,6 @@
 //! The control table of servos with protocol 1.0, and their models.
 
-use super::packet::{First, error};
+use super::packet::{PacketsV1, error};
 use crate::servo::{Cell, Family, Kind, Layout, Mode, Setting, Sign, kinds_of};
 use std::f64::consts::TAU;
 
@@ -143,7 +143,7 @@ pub static FAMILY: Family = Family {
     kinds: &KINDS,
     sync_read: false,
     reboots: false,
-    packets: || Box::new(First::new(error::verdict)),
+    packets: || Box::new(PacketsV1::new(error::verdict)),
 };
 
 /// The model of this name.

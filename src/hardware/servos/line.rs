@@ -13,7 +13,7 @@ const RECEIVED: usize = 256;
 const SENT: usize = 1024;
 
 /// The driver's end of a line.
-pub(crate) struct SerialLine {
+pub(super) struct Line {
     port: Box<dyn Port>,
     sent: Vec<u8>,
     received: [u8; RECEIVED],
@@ -21,18 +21,13 @@ pub(crate) struct SerialLine {
     byte: f64,
 }
 
-impl SerialLine {
-    pub(crate) fn new(port: Box<dyn Port>, baud: u32) -> SerialLine {
-        SerialLine {
-            port,
-            sent: Vec::with_capacity(SENT),
-            received: [0; RECEIVED],
-            byte: 10.0 / f64::from(baud),
-        }
+impl Line {
+    pub(super) fn new(port: Box<dyn Port>, baud: u32) -> Line {
+        Line { port, sent: Vec::with_capacity(SENT), received: [0; RECEIVED], byte: 10.0 / f64::from(baud) }
     }
 
     /// Sends what `encode` appends, and drops what has arrived before.
-    pub(crate) fn send(
+    pub(super) fn send(
         &mut self,
         encode: impl FnOnce(&mut Vec<u8>) -> Result<(), Fault>,
     ) -> Result<(), Fault> {
@@ -44,7 +39,7 @@ impl SerialLine {
     /// Waits for answers of `bytes` bytes. `take` is called with the bytes that were sent and those received since its last call (none
     /// at first) until it breaks. Where it has found some of the answers, it continues with the number of bytes still
     /// missing, and the timeout restarts for these.
-    pub(crate) fn answers<R>(
+    pub(super) fn answers<R>(
         &mut self,
         bytes: usize,
         mut take: impl FnMut(&[u8], &[u8]) -> ControlFlow<R, Option<usize>>,
@@ -69,7 +64,7 @@ impl SerialLine {
     }
 
     /// Lets the line rest.
-    pub(crate) fn wait(&mut self, seconds: f64) {
+    pub(super) fn wait(&mut self, seconds: f64) {
         self.port.wait(seconds);
     }
 }
