@@ -147,7 +147,7 @@ impl<S: Member> Bus<S> {
         self
     }
 
-    /// Echoes received bytes, as half-duplex converters that do not switch their receiver off do.
+    /// Echoes received bytes, as half-duplex converters that do not switch their receiver off do; needs [`Bus::with_baud`].
     #[must_use]
     pub fn with_echo(mut self, echo: bool) -> Bus<S> {
         self.echo = echo;
@@ -254,7 +254,9 @@ impl<S: Member> Device for Bus<S> {
         }
         (self.heard, self.time) = (moment.time, moment.time);
         if self.echo {
-            moment.outbox.send(channel, moment.time, bytes.to_vec());
+            // Each byte comes back while it is sent, and the link takes its time once more.
+            let sent = bytes.len() as f64 * self.byte;
+            moment.outbox.send(channel, moment.time - sent, bytes.to_vec());
         }
         for instruction in S::instructions(&mut self.decoder, bytes) {
             self.servos.iter_mut().for_each(|servo| servo.hear(moment.time));
@@ -319,7 +321,7 @@ pub(crate) fn servos_of<S: Member>(
 }
 
 /// Instructions of protocol 1.0, which several makes use.
-pub(crate) mod first {
+pub(crate) mod protocol_1 {
     use super::{Asked, Instruction};
     use protocol::dynamixel::v1::{Decoder, encode, instruction};
 

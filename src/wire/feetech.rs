@@ -1,6 +1,6 @@
 //! Feetech servos of the STS series on a bus.
 
-use crate::chain::{Instruction, Member, first};
+use crate::chain::{Instruction, Member, protocol_1};
 use crate::plant::{Drive, Plant};
 use crate::profile::Profile;
 use crate::shaft::Shaft;
@@ -108,11 +108,11 @@ impl Member for Servo {
     const UNKNOWN: Option<u8> = None;
 
     fn instructions(decoder: &mut Decoder, bytes: &[u8]) -> Vec<Instruction> {
-        first::instructions(decoder, bytes, true, false)
+        protocol_1::instructions(decoder, bytes, true, false)
     }
 
     fn encode(id: u8, error: u8, data: &[u8]) -> Option<Vec<u8>> {
-        first::answer(id, error, data)
+        protocol_1::answer(id, error, data)
     }
 
     fn id(&self) -> u8 {

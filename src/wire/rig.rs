@@ -158,7 +158,7 @@ fn dynamixels(
     at_once: bool,
 ) -> Result<Vec<(Outlet, LinkId)>, PlantError> {
     let name = text(device, "model");
-    if let Some(model) = first_model(device, name) {
+    if let Some(model) = model_v1(device, name) {
         let make = |id| dynamixel::v1::Servo::new(model, id);
         return chain(device, bench, at_once, make, dynamixel::v1::Servo::mount);
     }
@@ -174,7 +174,7 @@ fn dynamixels(
 }
 
 /// The model of servos with protocol 1.0, where the config names one, or the protocol.
-fn first_model(device: &DeviceConfig, name: Option<&str>) -> Option<&'static v1::Model> {
+fn model_v1(device: &DeviceConfig, name: Option<&str>) -> Option<&'static v1::Model> {
     match name {
         Some(name) => v1::model(name),
         None if number(device, "protocol", 2.0) == 1.0 => v1::model(v1::MODELS[0].kind.name),

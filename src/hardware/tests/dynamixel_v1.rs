@@ -112,6 +112,27 @@ fn an_alarm_is_named_and_the_reset_after_it_gives_the_torque_back() {
 }
 
 #[test]
+fn an_adapter_that_echoes_is_no_servo_that_answers() {
+    let (rig, bus) = on_bus("AX-12A", Carries::serial(1e6));
+    let plain = std::mem::replace(&mut *bus.lock().unwrap(), Bus::new(Vec::new()));
+    *bus.lock().unwrap() = plain.with_echo(true).with_baud(1e6);
+    let (model, mut rng) = (rig.model.clone(), random::Generator::pcg64(1_u64));
+    let data = physics::Data::new(&model);
+    let mut robot = rig.robot(&config("protocol = 1", "")).unwrap();
+    robot.reset(&model, &data, &mut rng).unwrap();
+    for k in 0..20 {
+        robot.control(&model, &data, &action(k), 0.1).unwrap();
+        rig.clock().wait(0.1);
+        let read = robot.sense(&model, &data, &mut rng).values[..2].to_vec();
+        let away = read.iter().zip(rig.positions()).map(|(read, is)| (read - is).abs());
+        // A unit of position is 5.1 mrad, and it moves while it is read.
+        assert!(away.fold(0.0, f64::max) < 10e-3, "{read:?} {:?}", rig.positions());
+    }
+    robot.close().unwrap();
+    assert!(rig.said.lock().unwrap().is_empty(), "all went well");
+}
+
+#[test]
 fn what_these_servos_cannot_do_is_named() {
     let (rig, _) = on_bus("AX-12A", Carries::serial(1e6));
     for (extra, elbow, part) in [

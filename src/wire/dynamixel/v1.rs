@@ -1,6 +1,6 @@
 //! Dynamixel servos with protocol 1.0: AX, RX, and MX with older firmware.
 
-use crate::chain::{Instruction, Member, first};
+use crate::chain::{Instruction, Member, protocol_1};
 use crate::plant::{Drive, Plant};
 use crate::profile::Profile;
 use crate::shaft::Shaft;
@@ -198,11 +198,11 @@ impl Member for Servo {
     const UNKNOWN: Option<u8> = Some(error::INSTRUCTION);
 
     fn instructions(decoder: &mut Decoder, bytes: &[u8]) -> Vec<Instruction> {
-        first::instructions(decoder, bytes, false, true)
+        protocol_1::instructions(decoder, bytes, false, true)
     }
 
     fn encode(id: u8, error: u8, data: &[u8]) -> Option<Vec<u8>> {
-        first::answer(id, error, data)
+        protocol_1::answer(id, error, data)
     }
 
     fn id(&self) -> u8 {
