@@ -15,8 +15,8 @@ impl LeRobotWriter {
     /// dataset is extended. Each episode then has its own files.
     ///
     /// # Errors
-    /// The folder contains something else, or a dataset with another frame rate, or one that cannot be read; it
-    /// cannot be written. Episodes with other features are refused when they are checked or added.
+    /// The folder contains something else, or a dataset with another frame rate, or one that lacks files or cannot be read;
+    /// it cannot be written, or another process writes it. Episodes with other features are refused when they are checked or added.
     pub fn grow(root: &Path, settings: Settings) -> Result<Self, TraceError> {
         if !root.exists() {
             let mut writer = LeRobotWriter::create(root, settings)?;
@@ -29,6 +29,10 @@ impl LeRobotWriter {
         }
         let _lock = lock(root)?;
         let reader = LeRobotReader::open(root)?;
+        if let Some(path) = reader.files()?.iter().find(|path| !path.is_file()) {
+            let message = "the file is missing, so the dataset cannot be extended: restore it, or choose another folder";
+            return Err(TraceError::new(path, "", message));
+        }
         let (frames, data, table) = reader.end();
         let writer = LeRobotWriter {
             root: root.to_owned(),

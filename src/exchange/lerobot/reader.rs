@@ -9,11 +9,12 @@ use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
 use parquet::data_type::{ByteArray, DataType};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use serde_json::Value;
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
-/// Frames of an episode at most.
-const MAX_FRAMES: usize = 1 << 28;
+/// Largest number of frames of an episode, of a chunk, and of a file.
+const LARGEST: usize = 1 << 28;
 
 /// A dataset.
 pub struct LeRobotReader {
@@ -29,8 +30,8 @@ pub struct LeRobotReader {
 /// Where the frames of an episode are.
 #[derive(Clone, Copy, Debug)]
 struct Place {
-    chunk: i64,
-    file: i64,
+    chunk: usize,
+    file: usize,
     first: usize,
     frames: usize,
 }
@@ -92,9 +93,29 @@ impl LeRobotReader {
     /// Frames of all episodes, and the numbers of the files that come next: of frames and of the table of episodes.
     pub(super) fn end(&self) -> (usize, usize, usize) {
         let frames = self.episodes.iter().map(|place| place.frames).sum();
-        let number = |place: &Place| place.chunk * CHUNK_FILES as i64 + place.file + 1;
-        let next = self.episodes.iter().map(number).max().and_then(|next| usize::try_from(next).ok());
-        (frames, next.unwrap_or(0), self.tables)
+        let number = |place: &Place| place.chunk * CHUNK_FILES + place.file + 1;
+        let next = self.episodes.iter().map(number).max().unwrap_or(0);
+        (frames, next, self.tables)
+    }
+
+    /// Paths of the files with frames and videos.
+    ///
+    /// # Errors
+    /// A table of episodes lacks where a video is.
+    pub(super) fn files(&self) -> Result<BTreeSet<PathBuf>, TraceError> {
+        let mut files: BTreeSet<_> = self.episodes.iter().map(|place| self.root.join(place.path())).collect();
+        let videos: Vec<_> = self.features.iter().filter(|f| f.kind == FeatureKind::Video).collect();
+        for number in 0..if videos.is_empty() { 0 } else { self.tables } {
+            let table = self.table(number)?;
+            for Feature { name, .. } in &videos {
+                let read = |part: &str| table.counts(&format!("videos/{name}/{part}"));
+                for (chunk, file) in read("chunk_index")?.into_iter().zip(read("file_index")?) {
+                    let path = format!("videos/{name}/chunk-{chunk:03}/file-{file:03}.mp4");
+                    files.insert(self.root.join(path));
+                }
+            }
+        }
+        Ok(files)
     }
 
     /// The text of a task.
@@ -111,8 +132,7 @@ impl LeRobotReader {
             let message = format!("there is no episode {episode}: the dataset has {}", self.episodes.len());
             return Err(TraceError::new(&self.root, "", message));
         };
-        let name = format!("data/chunk-{:03}/file-{:03}.parquet", place.chunk, place.file);
-        let path = self.root.join(name);
+        let path = self.root.join(place.path());
         // Frames of the file that belong to episodes before.
         let same = |other: &&Place| (other.chunk, other.file) == (place.chunk, place.file);
         let start = self.episodes.iter().filter(same).map(|other| other.first).min().unwrap_or(0);
@@ -134,21 +154,22 @@ impl LeRobotReader {
     }
 
     fn read_episodes(&mut self) -> Result<(), TraceError> {
-        let total = self.info.get("total_episodes").and_then(Value::as_u64).unwrap_or(0);
+        let total = self.info.get("total_episodes").and_then(Value::as_u64);
+        let Some(total) = total else {
+            let path = self.root.join("meta/info.json");
+            return Err(TraceError::new(&path, "total_episodes", "the number of episodes is missing"));
+        };
         let mut number = 0;
         while (self.episodes.len() as u64) < total {
-            let name = format!("meta/episodes/{}.parquet", file_name(number));
-            let file = Parquet::open(&self.root.join(name))?;
-            let all = 0..file.rows;
-            let read = |name: &str| file.integers(name, all.clone());
-            let (chunks, files) = (read("data/chunk_index")?, read("data/file_index")?);
-            let (firsts, lengths) = (read("dataset_from_index")?, read("length")?);
+            let file = self.table(number)?;
+            let (chunks, files) = (file.counts("data/chunk_index")?, file.counts("data/file_index")?);
+            let (firsts, lengths) =
+                (file.integers("dataset_from_index", 0..file.rows)?, file.counts("length")?);
             for i in 0..file.rows {
-                let count = |n: i64| usize::try_from(n).ok().filter(|&n| n <= MAX_FRAMES);
-                let (Some(first), Some(frames)) = (usize::try_from(firsts[i]).ok(), count(lengths[i])) else {
-                    return Err(file.fail("length", "a number of frames is out of range"));
+                let Ok(first) = usize::try_from(firsts[i]) else {
+                    return Err(file.fail("dataset_from_index", "a number is out of range"));
                 };
-                self.episodes.push(Place { chunk: chunks[i], file: files[i], first, frames });
+                self.episodes.push(Place { chunk: chunks[i], file: files[i], first, frames: lengths[i] });
             }
             if file.rows == 0 {
                 return Err(
@@ -159,6 +180,18 @@ impl LeRobotReader {
         }
         self.tables = number;
         Ok(())
+    }
+
+    /// A file of the table of episodes.
+    fn table(&self, number: usize) -> Result<Parquet, TraceError> {
+        Parquet::open(&self.root.join(format!("meta/episodes/{}.parquet", file_name(number))))
+    }
+}
+
+impl Place {
+    /// Path of the file with the frames, in the dataset's folder.
+    fn path(&self) -> String {
+        format!("data/chunk-{:03}/file-{:03}.parquet", self.chunk, self.file)
     }
 }
 
@@ -220,6 +253,13 @@ impl Parquet {
             Cells::I64(values) if values.len() == count => Ok(values),
             _ => Err(self.fail(name, "its elements are no integers, or some are missing")),
         }
+    }
+
+    /// A column of numbers of frames or files.
+    fn counts(&self, name: &str) -> Result<Vec<usize>, TraceError> {
+        let count = |n: i64| usize::try_from(n).ok().filter(|&n| n <= LARGEST);
+        let counts = self.integers(name, 0..self.rows)?.into_iter().map(count).collect::<Option<_>>();
+        counts.ok_or_else(|| self.fail(name, "a number is out of range"))
     }
 
     /// The scalars of some rows.

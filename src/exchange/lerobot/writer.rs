@@ -74,11 +74,12 @@ pub struct LeRobotWriter {
     pub(super) table: Series,
     pub(super) episodes: usize,
     pub(super) frames: usize,
-    /// The folder, whatever its name, which nobody else writes; without locks in the file system nothing.
+    /// Keeps others from writing the folder; `None` where folders cannot be locked.
     pub(super) _lock: Option<File>,
 }
 
-/// Keeps others from writing a folder, also under the name that it gets later, for as long as the file is open.
+/// Keeps others from writing a folder, also under the name that it gets later, for as long as the file is open. `None` where
+/// folders cannot be locked, as on Windows and on some network file systems.
 ///
 /// # Errors
 /// Another process writes it.
@@ -95,6 +96,29 @@ pub(super) fn lock(folder: &Path) -> Result<Option<File>, TraceError> {
     }
 }
 
+/// Makes the folder of an unfinished dataset, locked and without the files of a process that was killed.
+///
+/// # Errors
+/// Another process writes it, or may write it; it cannot be made.
+fn begin(folder: &Path) -> Result<Option<File>, TraceError> {
+    let io = |e: std::io::Error| TraceError::new(folder, "", e);
+    std::fs::create_dir_all(folder).map_err(io)?;
+    // The lock comes first: it tells a process that was killed from one that is writing.
+    let lock = lock(folder)?;
+    for entry in std::fs::read_dir(folder).map_err(io)? {
+        let path = entry.map_err(io)?.path();
+        if lock.is_none() {
+            let message = "an unfinished dataset, which another session may be writing, since this file system has no locks: \
+                delete the folder if none is";
+            return Err(TraceError::new(folder, "", message));
+        }
+        if path.is_dir() { std::fs::remove_dir_all(&path) } else { std::fs::remove_file(&path) }
+            .map_err(io)?;
+    }
+    std::fs::create_dir(folder.join("meta")).map_err(io)?;
+    Ok(lock)
+}
+
 /// A feature of an episode, ready for the files.
 struct Part {
     /// Nothing for videos.
@@ -106,7 +130,7 @@ impl LeRobotWriter {
     /// Begins a dataset that will be at `root`.
     ///
     /// # Errors
-    /// The folder exists, or cannot be written; the number of frames a second is not positive.
+    /// The folder exists, or cannot be written, or another process writes it; the number of frames a second is not positive.
     pub fn create(root: &Path, settings: Settings) -> Result<Self, TraceError> {
         let fail = |message: &str| TraceError::new(root, "", message);
         if root.exists() {
@@ -117,14 +141,7 @@ impl LeRobotWriter {
         }
         let Some(name) = root.file_name() else { return Err(fail("the path has no folder name")) };
         let folder = root.with_file_name(format!(".{}.unfinished", name.to_string_lossy()));
-        let io = |e: std::io::Error| TraceError::new(&folder, "", e);
-        if folder.exists() {
-            // Of a process that was killed.
-            lock(&folder)?;
-            std::fs::remove_dir_all(&folder).map_err(io)?;
-        }
-        std::fs::create_dir_all(folder.join("meta")).map_err(io)?;
-        let _lock = lock(&folder)?;
+        let _lock = begin(&folder)?;
         Ok(LeRobotWriter {
             root: root.to_owned(),
             data: Series::new(folder.join("data"), 0),

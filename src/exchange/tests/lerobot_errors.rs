@@ -93,11 +93,13 @@ fn datasets_are_not_overwritten_and_leftovers_are() {
     let leftover = folder.path().join(".other.unfinished/data");
     std::fs::create_dir_all(&leftover).unwrap();
     std::fs::write(leftover.join("old.parquet"), b"old").unwrap();
+    std::fs::write(leftover.with_file_name("old.json"), b"old").unwrap();
     let root = folder.path().join("other");
     let mut writer = LeRobotWriter::create(&root, Settings::new(1.0)).unwrap();
     writer.add(&frames(vec![numbers("a", &[2])])).unwrap();
     writer.finish().unwrap();
-    assert!(!root.join("data/old.parquet").exists() && root.join("data/chunk-000/file-000.parquet").exists());
+    assert!(!root.join("data/old.parquet").exists() && !root.join("old.json").exists());
+    assert!(root.join("data/chunk-000/file-000.parquet").exists());
 }
 
 #[test]
@@ -144,6 +146,7 @@ fn missing_and_foreign_files_are_named() {
     edited("v3.0", "v2.1", &["version v2.1 is not read", "lerobot's own script"]);
     edited("\"features\"", "\"parts\"", &["info.json", "the file has no features"]);
     edited("\"total_episodes\": 2", "\"total_episodes\": 3", &["file-001.parquet"]);
+    edited("\"total_episodes\"", "\"episodes\"", &["info.json", "total_episodes", "missing"]);
     edited("\"reward\"", "\"penalty\"", &["penalty", "no such column"]);
     edited("{", "[", &["info.json"]);
 }

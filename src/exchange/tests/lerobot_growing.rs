@@ -144,6 +144,25 @@ fn what_does_not_fit_is_refused_by_name() {
     assert_says(LeRobotWriter::grow(&root, settings()), &["grid", "complex128"]);
 }
 
+#[test]
+fn a_dataset_that_lacks_a_file_is_not_extended() {
+    let folder = Folder::new("lacks");
+    let root = folder.path().join("set");
+    for (form, file) in [
+        (Pictures::Png, "data/chunk-000/file-000.parquet"),
+        (Pictures::Video, "videos/observation.images.eye/chunk-000/file-001.mp4"),
+    ] {
+        let settings = || Settings::new(12.5).with_pictures(form);
+        let mut writer = LeRobotWriter::grow(&root, settings()).unwrap();
+        (0..3).for_each(|k| writer.add(&frames(k, 4)).unwrap());
+        drop(writer);
+        LeRobotWriter::grow(&root, settings()).unwrap();
+        std::fs::remove_file(root.join(file)).unwrap();
+        assert_says(LeRobotWriter::grow(&root, settings()), &[file, "missing", "cannot be extended"]);
+        std::fs::remove_dir_all(&root).unwrap();
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn two_sessions_do_not_write_one_dataset() {
@@ -152,6 +171,7 @@ fn two_sessions_do_not_write_one_dataset() {
     let busy = ["another session is writing this dataset"];
     let mut first = LeRobotWriter::grow(&root, settings()).unwrap();
     assert_says(LeRobotWriter::grow(&root, settings()).map(drop), &busy);
+    assert_says(LeRobotWriter::create(&root, settings()).map(drop), &busy);
     first.add(&frames(0, 4)).unwrap();
     // The folder has its name now.
     assert_says(LeRobotWriter::grow(&root, settings()).map(drop), &busy);
