@@ -27,15 +27,16 @@ fn a_build_without_tls_says_what_to_do() {
 }
 
 #[cfg(feature = "tls")]
+mod phoning;
+#[cfg(feature = "tls")]
 mod typing;
 
 #[cfg(feature = "tls")]
 mod tls {
     use super::command::scratch;
+    use super::phoning::{Page, assert_recorded, status};
     use super::typing::Typed;
-    use dataset::trace::TraceReader;
     use graviola::hashing::{Hash, Sha256};
-    use record::Recorded;
     use rustix::termios::{LocalModes, tcgetattr};
     use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, ServerCertVerifier};
     use rustls::crypto::{CryptoProvider, verify_tls12_signature, verify_tls13_signature};
@@ -46,8 +47,7 @@ mod tls {
     use std::io::{Read, Write};
     use std::net::TcpStream;
     use std::sync::Arc;
-    use std::time::{Duration, Instant};
-    use tungstenite::{Message, client};
+    use tungstenite::client;
 
     /// A browser whose user has compared the fingerprint.
     #[derive(Debug)]
@@ -113,18 +113,6 @@ mod tls {
         StreamOwned::new(connection, TcpStream::connect(address).unwrap())
     }
 
-    /// The first line of an answer.
-    fn status(address: &str, fingerprint: &str, path: &str, host: &str) -> std::io::Result<String> {
-        let mut stream = connect(address, fingerprint);
-        write!(stream, "GET {path} HTTP/1.1\r\nHost: {host}\r\n\r\n")?;
-        let (mut answer, mut bytes) = (Vec::new(), [0; 1024]);
-        // The page does not say that it ends, and what was read is what counts.
-        while let Ok(count @ 1..) = stream.read(&mut bytes) {
-            answer.extend_from_slice(&bytes[..count]);
-        }
-        Ok(String::from_utf8_lossy(&answer).lines().next().unwrap_or_default().to_owned())
-    }
-
     #[test]
     fn a_phone_that_knows_the_fingerprint_drives_behind_tls() {
         let file = scratch("phone_tls.h5");
@@ -138,29 +126,26 @@ mod tls {
         let (_, after) = after.split_once("fingerprint").unwrap();
         let fingerprint: String = after.chars().take(32 * 3 - 1).collect();
         let page = format!("/{key}");
-        let ask = |fingerprint: &str, path: &str, host: &str| status(address, fingerprint, path, host);
+        let ask = |fingerprint: &str, path: &str, host: &str| {
+            status(&mut connect(address, fingerprint), path, host)
+        };
         assert!(ask(&fingerprint, &page, address).unwrap().contains("200"));
         assert!(ask(&fingerprint, "/", address).unwrap().contains("403"));
         assert!(ask(&fingerprint, &page, "evil.example").unwrap().contains("403"));
         assert!(ask(&"00:".repeat(32), &page, address).is_err(), "another certificate is not trusted");
         let mut plain = TcpStream::connect(address).unwrap();
-        write!(plain, "GET {page} HTTP/1.1\r\nHost: {address}\r\n\r\n").unwrap();
+        // At once: the first byte that is not TLS ends the connection.
+        let request = format!("GET {page} HTTP/1.1\r\nHost: {address}\r\n\r\n");
+        plain.write_all(request.as_bytes()).unwrap();
         let mut answer = Vec::new();
         _ = plain.read_to_end(&mut answer);
         assert!(!String::from_utf8_lossy(&answer).contains("HTTP/1.1"), "nothing is said without TLS");
 
-        let (mut socket, _) =
+        let (socket, _) =
             client(format!("wss://{address}/{key}/socket"), connect(address, &fingerprint)).unwrap();
-        let began = Instant::now();
-        for k in 0..70 {
-            let (time, buttons) = (began.elapsed().as_secs_f64(), if k < 60 { "\"RG\"" } else { "\"A\"" });
-            let down = -0.1 * time;
-            let text = format!(
-                "{{\"seq\":{k},\"time\":{time},\"pose\":[0,{down},0,0,0,0,1],\"tracked\":true,\"buttons\":[{buttons}]}}"
-            );
-            socket.send(Message::text(text)).unwrap();
-            std::thread::sleep(Duration::from_millis(17));
-        }
+        let mut page = Page::new(socket);
+        page.hold("\"RG\"", 60);
+        page.hold("\"A\"", 10);
         typed.wait_for("episode 2  seed 1");
         typed.pause();
         assert!(typed.line().starts_with("episode 2"), "{}", typed.line());
@@ -168,7 +153,6 @@ mod tls {
         let (status, said) = typed.end();
         assert!(status.success() && said.contains("1 episodes kept, 1 succeeded"), "{said}");
         assert!(tcgetattr(&typed.slave).unwrap().local_modes.contains(LocalModes::ICANON));
-        let recorded = Recorded::read(&TraceReader::open(&file).unwrap(), "Trial0").unwrap();
-        assert!(recorded.actions.row(2).is_some());
+        assert_recorded(&file);
     }
 }

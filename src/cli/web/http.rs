@@ -19,35 +19,38 @@ pub type Refusal = (u16, &'static str);
 
 /// Reads a request that was sent to `port` of this machine.
 pub fn read(source: &mut impl Read, port: u16) -> Result<Request, Refusal> {
-    read_for(source, |host| is_this_machine(host, port))
+    let head = read_head(source).map_err(|_| (408, "the request did not come in time"))?;
+    parse(&head, |host| is_this_machine(host, port))
 }
 
-/// Reads a request that was sent to a host that is ours.
-pub fn read_for(source: &mut impl Read, is_ours: impl Fn(&str) -> bool) -> Result<Request, Refusal> {
-    parse(&head(source)?, is_ours)
-}
-
-/// The bytes up to the empty line.
-fn head(source: &mut impl Read) -> Result<String, Refusal> {
+/// Reads a request's head up to its empty line, and what comes with it; less where it ends before, or is too long.
+pub fn read_head(source: &mut impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     let mut piece = [0; 1024];
-    loop {
-        let count = source.read(&mut piece).map_err(|_| (408, "the request did not come in time"))?;
-        bytes.extend_from_slice(&piece[..count]);
-        if let Some(end) = bytes.windows(4).position(|four| four == b"\r\n\r\n") {
-            bytes.truncate(end);
-            return String::from_utf8(bytes).map_err(|_| (400, "the request is not UTF-8"));
-        }
-        if count == 0 {
-            return Err((400, "the request has no end"));
-        }
-        if bytes.len() > HEAD {
-            return Err((431, "the head of the request is too large"));
+    while end(&bytes).is_none() && bytes.len() <= HEAD {
+        match source.read(&mut piece)? {
+            0 => break,
+            count => bytes.extend_from_slice(&piece[..count]),
         }
     }
+    Ok(bytes)
 }
 
-fn parse(head: &str, is_ours: impl Fn(&str) -> bool) -> Result<Request, Refusal> {
+/// Where a request's head ends.
+fn end(bytes: &[u8]) -> Option<usize> {
+    bytes.windows(4).position(|four| four == b"\r\n\r\n")
+}
+
+/// The request of a head, which was sent to a host that is ours.
+pub fn parse(bytes: &[u8], is_ours: impl Fn(&str) -> bool) -> Result<Request, Refusal> {
+    let Some(end) = end(bytes) else {
+        return Err(if bytes.len() > HEAD {
+            (431, "the head of the request is too large")
+        } else {
+            (400, "the request has no end")
+        });
+    };
+    let head = std::str::from_utf8(&bytes[..end]).map_err(|_| (400, "the request is not UTF-8"))?;
     let mut lines = head.split("\r\n");
     let words: Vec<&str> = lines.next().unwrap_or_default().split(' ').collect();
     let [method, target, version] = words[..] else {
