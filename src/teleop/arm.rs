@@ -25,8 +25,6 @@ const DAMPING: f64 = 1e-3;
 const UPDATE: f64 = 0.5;
 /// Fractions of a motion that are tried: near the limits of the workspace a small motion of the hand is a large one of the joints.
 const PARTS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
-/// What `quarter` leaves.
-const QUARTER: f64 = 0.25;
 
 /// An arm and its target. A copy is sufficient to continue an episode from here.
 #[derive(Clone, Debug)]
@@ -175,12 +173,13 @@ impl Arm {
         (there.kin.site_xpos[site], mat_to_quat(&there.kin.site_xmat[site]))
     }
 
-    /// Moves the target and writes the resulting controls. `within` has the smallest and the largest controls that the robot can
-    /// follow in this tick: a longer motion is shortened by the same factor for all joints, so that the hand keeps its direction.
+    /// Moves the target by a motion, or at most by a fraction of it, and writes the resulting controls. `within` has the smallest
+    /// and the largest controls that the robot can follow in this tick: a longer motion is shortened by the same factor for all
+    /// joints, so that the hand keeps its direction.
     pub fn drive(
         &mut self,
         env: &Env,
-        (motion, quarter): (&ArmMotion, bool),
+        (motion, most): (&ArmMotion, f64),
         within: [&[f64]; 2],
         controls: &mut [f64],
     ) -> Reached {
@@ -189,7 +188,6 @@ impl Arm {
             self.grip = grip.clamp(-1.0, 1.0);
         }
         let reached = if motion.moves() {
-            let most = if quarter { QUARTER } else { 1.0 };
             let begins = !std::mem::replace(&mut self.moving, true);
             self.turning |= motion.turns();
             self.way = motion.way();

@@ -53,7 +53,7 @@ pub(crate) fn effects(value: &Value) -> Option<Vec<Effect>> {
     }
 }
 
-pub(crate) fn effect(text: &str) -> Option<Effect> {
+fn effect(text: &str) -> Option<Effect> {
     if let Some((_, mark)) = MARKS.iter().find(|(name, _)| *name == text) {
         return Some(Effect::Mark(*mark));
     }
@@ -72,7 +72,7 @@ pub(crate) fn effect(text: &str) -> Option<Effect> {
     Some(Effect::Joint(joint - 1, sign))
 }
 
-pub(crate) fn arm_effect(text: &str) -> Option<ArmEffect> {
+fn arm_effect(text: &str) -> Option<ArmEffect> {
     match text {
         "close" => return Some(ArmEffect::Gripper(-1.0)),
         "open" => return Some(ArmEffect::Gripper(1.0)),
@@ -85,7 +85,7 @@ pub(crate) fn arm_effect(text: &str) -> Option<ArmEffect> {
     Some(ArmEffect::Along(axis, sign))
 }
 
-pub(crate) fn signed(text: &str) -> Option<(f64, &str)> {
+fn signed(text: &str) -> Option<(f64, &str)> {
     match text.split_at_checked(1)? {
         ("+", name) => Some((1.0, name)),
         ("-", name) => Some((-1.0, name)),

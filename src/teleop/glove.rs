@@ -3,6 +3,7 @@
 use crate::error::TeleopError;
 use crate::event::{Axis, Device, Event, Lost};
 use crate::held::Sample;
+use crate::settings::{number, wrong};
 use protocol::cyberglove::{Decoder, GloveError, MOST, Message};
 use toml::{Table, Value};
 
@@ -56,7 +57,7 @@ impl Calibration {
     /// # Errors
     /// It is no TOML, or its parts do not fit together.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, TeleopError> {
-        let wrong = |message: String| TeleopError::Mapping { file: file.to_owned(), message };
+        let wrong = |message: String| wrong(file, message);
         let table = text.parse::<Table>().map_err(|error| wrong(error.to_string()))?;
         let list = |name: &str| {
             table
@@ -65,7 +66,6 @@ impl Calibration {
                 .ok_or_else(|| wrong(format!("it lacks the list '{name}'")))
         };
         let row = |name: &str, values: &[Value]| {
-            let number = |value: &Value| value.as_float().or(value.as_integer().map(|whole| whole as f64));
             let numbers: Option<Vec<f64>> =
                 values.iter().map(|value| number(value).filter(|x| x.is_finite())).collect();
             numbers.ok_or_else(|| wrong(format!("'{name}' has something else than numbers")))

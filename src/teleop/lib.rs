@@ -6,7 +6,7 @@
 //! | [`LeaderArm`] | the servos of an arm that is led by hand, which may carry its weight |
 //! | [`Held`] | from events to what is held during a tick; what is not repeated is let go |
 //! | [`Mapping`] | from what is held to an [`Input`]: motions and marks, by a file |
-//! | [`Pilot`] | from motions to actions: an [`Arm`] by inverse kinematics, or joints |
+//! | [`Pilot`] | from motions to actions: an [`Arm`] by inverse kinematics, joints, or a base that trots |
 //! | [`Session`] | episodes: marked, thrown away, gone back in, kept; a tick is a call, so that nothing here has a clock |
 //! | [`devices`] | terminals and devices of this machine, opened and read |
 //!

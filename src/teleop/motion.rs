@@ -67,6 +67,11 @@ impl Motion {
             || self.joints.iter().any(|&(_, x)| x != 0.0)
     }
 
+    /// The fraction of its speed at which everything moves.
+    pub(crate) fn pace(&self) -> f64 {
+        if self.quarter { 0.25 } else { 1.0 }
+    }
+
     /// Whether there is any motion, or a target of a gripper.
     pub fn touches(&self) -> bool {
         self.moves() || self.arms.iter().any(|arm| arm.gripper.is_some())

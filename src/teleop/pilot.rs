@@ -105,7 +105,7 @@ impl Pilot {
                 let [low, high] = within(env)?;
                 self.action.fill(0.0);
                 for (arm, own) in arms.iter_mut().zip(&motion.arms) {
-                    let outcome = arm.drive(env, (own, motion.quarter), [&low, &high], &mut self.action);
+                    let outcome = arm.drive(env, (own, motion.pace()), [&low, &high], &mut self.action);
                     reached = if reached == Reached::Yes { outcome } else { reached };
                 }
                 if normalized {
@@ -113,7 +113,7 @@ impl Pilot {
                 }
             }
             Driven::Base(trot) => {
-                let part = if motion.quarter { 0.25 } else { 1.0 };
+                let part = motion.pace();
                 trot.step(env, motion.base.map(|x| part * x), env.dt(), &mut self.action);
                 if normalized {
                     env.robot().normalize(&env.scene().model, &mut self.action)?;
@@ -124,7 +124,7 @@ impl Pilot {
                     // Targets beyond the robot's limits are dropped, so that it stops when the input ends.
                     *at = last_action(env)?;
                 }
-                let part = if motion.quarter { 0.25 } else { 1.0 };
+                let part = motion.pace();
                 for &(joint, along) in &motion.joints {
                     let Some(place) = at.get_mut(joint) else { continue };
                     let [low, high] = env.action_bounds(joint);
@@ -155,14 +155,9 @@ fn within(env: &mut Env) -> Result<[Vec<f64>; 2], TeleopError> {
     Ok([end(0)?, end(1)?])
 }
 
-/// The action for these controls.
+/// The action that repeats the last controls.
 fn last_action(env: &Env) -> Result<Vec<f64>, TeleopError> {
-    let mut action = env.robot().last_control().to_vec();
-    if env.settings().normalize_act {
-        env.robot().normalize(&env.scene().model, &mut action)?;
-    }
-    let bounds = (0..env.action_len()).map(|k| env.action_bounds(k));
-    Ok(action.iter().zip(bounds).map(|(x, [low, high])| x.clamp(low, high)).collect())
+    action_of(env, env.robot().last_control().to_vec())
 }
 
 /// The action that holds the present state: the positions of the actuators' joints, and the middle of the range for other actuators.
@@ -183,8 +178,13 @@ fn resting(env: &Env) -> Result<Vec<f64>, TeleopError> {
             *place = *length;
         }
     }
+    action_of(env, controls)
+}
+
+/// The action for these controls, within its bounds.
+fn action_of(env: &Env, mut controls: Vec<f64>) -> Result<Vec<f64>, TeleopError> {
     if env.settings().normalize_act {
-        env.robot().normalize(model, &mut controls)?;
+        env.robot().normalize(&env.scene().model, &mut controls)?;
     }
     let bounds = (0..env.action_len()).map(|k| env.action_bounds(k));
     Ok(controls.iter().zip(bounds).map(|(x, [low, high])| x.clamp(low, high)).collect())

@@ -128,20 +128,14 @@ pub(crate) fn base(section: &Table, file: &str) -> Result<BaseSettings, TeleopEr
     Ok(base)
 }
 
-pub(crate) fn names(value: &Value) -> Vec<String> {
-    value.as_array().into_iter().flatten().filter_map(Value::as_str).map(str::to_owned).collect()
-}
-
 fn sites(file: &str, name: &str, value: &Value) -> Result<Vec<String>, TeleopError> {
-    let named = names(value);
-    let all = value.as_array().is_some_and(|entries| entries.len() == named.len());
-    if all {
-        Ok(named)
-    } else {
-        Err(wrong(file, format!("[arm] {name} is a list of names, and not {value}")))
-    }
+    let named =
+        |entries: &Vec<Value>| entries.iter().map(|entry| entry.as_str().map(str::to_owned)).collect();
+    let all: Option<Vec<String>> = value.as_array().and_then(named);
+    all.ok_or_else(|| wrong(file, format!("[arm] {name} is a list of names, and not {value}")))
 }
 
+/// A number, with or without a decimal point.
 pub(crate) fn number(value: &Value) -> Option<f64> {
     value.as_float().or(value.as_integer().map(|whole| whole as f64))
 }

@@ -2,6 +2,7 @@
 
 use crate::error::TeleopError;
 use crate::held::Sample;
+use crate::settings::{number, wrong};
 use toml::{Table, Value};
 
 /// A joint of the leader, and the control of the robot that follows it: control = joint × scale + offset.
@@ -58,7 +59,7 @@ impl LeaderConfig {
     /// # Errors
     /// It is not valid TOML, or has a missing or unknown entry.
     pub fn from_toml(text: &str, file: &str) -> Result<Self, TeleopError> {
-        let wrong = |message: String| TeleopError::Mapping { file: file.to_owned(), message };
+        let wrong = |message: String| wrong(file, message);
         let table: Table = text.parse().map_err(|error: toml::de::Error| wrong(error.to_string()))?;
         let top = Section { table: &table, title: "the file".to_owned() };
         top.knows(&["devices", "joint", "catch_up", "gravity"]).map_err(wrong)?;
@@ -165,8 +166,7 @@ impl<'a> Section<'a> {
         let Some(value) = self.table.get(name) else {
             return otherwise.ok_or_else(|| format!("{} lacks the number '{name}'", self.title));
         };
-        let number = value.as_float().or(value.as_integer().map(|whole| whole as f64));
-        let fits = number.filter(|x| x.is_finite() && (low..=high).contains(x));
+        let fits = number(value).filter(|x| x.is_finite() && (low..=high).contains(x));
         fits.ok_or_else(|| format!("{}: {name} = {value} is no number from {low:?} to {high:?}", self.title))
     }
 }
