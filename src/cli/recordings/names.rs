@@ -5,7 +5,7 @@ use dataset::trace::{Layout, Precision};
 use exchange::lerobot::Pictures;
 
 /// Names of rows in the files.
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum LayoutName {
     /// By environment: time, observations, actions, rewards, done, env_infos/...
     Robohive,

@@ -91,7 +91,7 @@ impl Live {
 fn ask(interrupt: &Interrupt) -> Result<(), env::NotReady> {
     note("the robot stands at the start of an episode; put everything in place and press Enter");
     let (said, heard) = mpsc::channel();
-    // A line is waited for through signals, so that it is waited for elsewhere.
+    // Reading a line goes on after a signal, so that a thread of its own reads.
     std::thread::spawn(move || said.send(std::io::stdin().lock().read_line(&mut String::new())));
     loop {
         match heard.recv_timeout(Duration::from_millis(20)) {

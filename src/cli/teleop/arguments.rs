@@ -3,8 +3,9 @@
 use super::device::DeviceChoice;
 use crate::input::library::{Making, Source};
 use crate::pictures::film::FilmArguments;
-use crate::recordings::names::{PictureForm, PrecisionName};
+use crate::recordings::names::{LayoutName, PictureForm, PrecisionName};
 use crate::robots::live::Live;
+use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
@@ -106,7 +107,7 @@ pub struct Teleop {
     pub record: Option<PathBuf>,
     /// What is recorded
     #[arg(long, default_value = "robohive", requires = "record")]
-    pub layout: LayoutName,
+    pub layout: RecordForm,
     /// Description of the task, for --layout lerobot [default: the id]
     #[arg(long, value_name = "TEXT", requires = "record")]
     pub task: Option<String>,
@@ -139,14 +140,27 @@ pub struct OptionalSource {
 }
 
 /// What is recorded, and where.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum LayoutName {
-    /// A file, rows by environment: time, observations, actions, rewards, done, env_infos/...
-    Robohive,
-    /// A file, rows by robot: data/..., derived/..., config/...
-    Roboset,
-    /// A folder, a dataset of LeRobot (version 3.0): frames with observation.state, action, next.reward...
-    Lerobot,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RecordForm {
+    /// A file in a layout.
+    File(LayoutName),
+    /// A folder, a dataset of LeRobot.
+    Dataset,
+}
+
+impl ValueEnum for RecordForm {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[RecordForm::File(LayoutName::Robohive), RecordForm::File(LayoutName::Roboset), RecordForm::Dataset]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        match self {
+            RecordForm::File(layout) => layout.to_possible_value(),
+            RecordForm::Dataset => Some(PossibleValue::new("lerobot").help(
+                "A folder, a dataset of LeRobot (version 3.0): frames with observation.state, action, next.reward...",
+            )),
+        }
+    }
 }
 
 /// What can be driven.

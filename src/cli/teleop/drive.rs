@@ -4,7 +4,7 @@ use super::arguments::{ControlName, Teleop};
 use super::device::DeviceChoice;
 use super::ears::{Listening, ListeningClock};
 use super::files::{self, Files};
-use super::leading::{connect, leading};
+use super::leading::{connect, leading, read};
 use super::phone;
 use super::report::{Report, keys};
 use crate::failure::Failure;
@@ -116,9 +116,7 @@ fn mapping(a: &Teleop) -> Result<Mapping, Failure> {
     let mut mapping = match &a.mapping {
         None => Mapping::default(),
         Some(path) => {
-            let named = path.display().to_string();
-            let text =
-                std::fs::read_to_string(path).map_err(|error| Failure::usage(format!("{named}: {error}")))?;
+            let (text, named) = read(path)?;
             Mapping::from_toml(&text, &named)?
         }
     };

@@ -110,6 +110,7 @@ impl Ears {
     pub fn listen(&mut self, due: f64) {
         loop {
             if self.failed.is_some() || self.gone {
+                // A time that has passed is not waited for.
                 std::thread::sleep(Duration::try_from_secs_f64(due - self.now()).unwrap_or_default());
                 return;
             }

@@ -1,12 +1,12 @@
 //! The files of finished episodes: a recording, or a LeRobot dataset.
 
-use super::arguments::{LayoutName, Teleop};
+use super::arguments::{RecordForm, Teleop};
 use crate::failure::Failure;
 use crate::input::library::Source;
 use crate::output::{check_place, recording_file};
 use crate::terminal::{listed, note, show};
 use ::teleop::Session;
-use dataset::trace::{Layout, TraceError};
+use dataset::trace::TraceError;
 use exchange::Episode;
 use exchange::lerobot::{Frames, LeRobotWriter, Settings, frames};
 use record::{Kept, Recording};
@@ -28,11 +28,11 @@ pub fn check(a: &Teleop) -> Result<(), Failure> {
     let Some(path) = &a.record else { return Ok(()) };
     let is_file = recording_file(&path.to_string_lossy());
     match a.layout {
-        LayoutName::Lerobot if is_file.is_ok() => Err(Failure::usage(format!(
+        RecordForm::Dataset if is_file.is_ok() => Err(Failure::usage(format!(
             "{}: --layout lerobot writes a folder: remove the extension",
             path.display()
         ))),
-        LayoutName::Lerobot => Ok(()),
+        RecordForm::Dataset => Ok(()),
         _ if a.task.is_some() => Err(Failure::usage("--task applies only to --layout lerobot")),
         _ => {
             is_file.map_err(|message| {
@@ -50,10 +50,8 @@ impl Files {
     /// The files cannot be written, or the episodes do not fit.
     pub fn open(a: &Teleop, source: &Source, session: &mut Session) -> Result<Option<Self>, Failure> {
         let Some(path) = a.record.as_deref() else { return Ok(None) };
-        let layout = match a.layout {
-            LayoutName::Robohive => Layout::RoboHive,
-            LayoutName::Roboset => Layout::RoboSet,
-            LayoutName::Lerobot => return dataset(a, path, source, session).map(Some),
+        let RecordForm::File(layout) = a.layout else {
+            return dataset(a, path, source, session).map(Some);
         };
         let settings = source.making.changes()?.to_string();
         let (compat, seed) = (source.making.compat.to_string(), a.seed.to_string());
@@ -66,7 +64,7 @@ impl Files {
             ("device", &device),
             ("seed", &seed),
         ];
-        let recording = Recording::create(path, layout, a.precision.into(), &attributes)?;
+        let recording = Recording::create(path, layout.into(), a.precision.into(), &attributes)?;
         Ok(Some(Files::Recording(recording)))
     }
 

@@ -30,7 +30,11 @@ pub fn leading(a: &Teleop) -> Result<Option<Leading>, Failure> {
     }
 }
 
-fn read(path: &Path) -> Result<(String, String), Failure> {
+/// The text of a file, and its name for errors.
+///
+/// # Errors
+/// It cannot be read.
+pub fn read(path: &Path) -> Result<(String, String), Failure> {
     let named = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|error| Failure::usage(format!("{named}: {error}")))?;
     Ok((text, named))

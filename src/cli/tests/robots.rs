@@ -132,7 +132,11 @@ fn a_signal_ends_a_motion_and_leaves_the_robot_safe() {
     let out = child.wait_with_output().unwrap();
     assert_eq!(out.status.code(), Some(130));
     let shown = text(&out.stdout);
-    assert_eq!(shown, format!("{ID}: 0 episodes, 0 steps, random policy\n"), "of nothing there are no means");
+    assert_eq!(
+        shown,
+        format!("{ID}: 0 episodes, 0 steps, random policy\n"),
+        "without an episode there are no statistics"
+    );
 }
 
 #[test]
