@@ -1,6 +1,7 @@
 //! Files that commands write: their endings, which say what they hold, and where they may not stand.
 
 use crate::failure::Failure;
+use crate::terminal::{listed, note};
 use std::path::{Path, PathBuf};
 
 /// A model as text.
@@ -78,6 +79,13 @@ pub fn keep_existing(out: &Path, force: bool) -> Result<(), Failure> {
 /// Whether two paths lead to one file.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     a.canonicalize().is_ok_and(|a| b.canonicalize().is_ok_and(|b| a == b))
+}
+
+/// Says which names of a recording were left out, because its layout has no place for them.
+pub fn note_unmapped(names: &[String]) {
+    if !names.is_empty() {
+        note(&format!("not recorded, because the layout has no place for: {}", listed(names, 8)));
+    }
 }
 
 #[cfg(test)]

@@ -4,12 +4,12 @@ use crate::failure::Failure;
 use crate::input::library::Source;
 use crate::input::policy::policy;
 use crate::interrupt::Interrupt;
-use crate::output::{check_place, keep_input, recording_file};
+use crate::output::{check_place, keep_input, note_unmapped, recording_file};
 use crate::pictures::film::{Film, FilmArguments};
 use crate::pictures::subject::camera_of;
 use crate::recordings::names::{LayoutName, PrecisionName};
 use crate::robots::live::Live;
-use crate::terminal::{listed, note, show, show_json};
+use crate::terminal::{note, show, show_json};
 use agents::Policy;
 use clap::{Args, ValueHint};
 use dataset::trace::is_npz;
@@ -158,9 +158,7 @@ fn open_recording(a: &Run) -> Result<Recording, Failure> {
 /// Completes the file, and says what it holds.
 fn close_recording(recording: Recording, json: bool) -> Result<String, Failure> {
     let (path, episodes, unmapped) = recording.close()?;
-    if !unmapped.is_empty() {
-        note(&format!("not recorded, for want of a place in the layout: {}", listed(&unmapped, 8)));
-    }
+    note_unmapped(&unmapped);
     if !json {
         let hint = if is_npz(&path) { "; numpy archives name no environment" } else { "" };
         show!("recorded     {episodes} episodes in {}{hint}", path.display());

@@ -3,7 +3,7 @@
 use super::arguments::{RecordForm, Teleop};
 use crate::failure::Failure;
 use crate::input::library::Source;
-use crate::output::{check_place, recording_file};
+use crate::output::{check_place, note_unmapped, recording_file};
 use crate::terminal::{listed, note, show};
 use ::teleop::Session;
 use dataset::trace::TraceError;
@@ -76,6 +76,7 @@ impl Files {
         match self {
             Files::Recording(recording) => Ok(recording.add(kept)?),
             Files::Dataset { writer, root, task, .. } => {
+                // What has no place was named when the dataset was opened.
                 let (frames, _) = frames_of(kept, root, task)?;
                 writer.add(&frames).map_err(Failure::new)
             }
@@ -114,12 +115,7 @@ pub struct Closed {
 impl Closed {
     /// Prints the summary.
     pub fn show(&self) {
-        if !self.unmapped.is_empty() {
-            note(&format!(
-                "not recorded, because the layout has no place for: {}",
-                listed(&self.unmapped, 8)
-            ));
-        }
+        note_unmapped(&self.unmapped);
         let total = self.total.map_or_else(String::new, |total| format!(", which has {total}"));
         show!("recorded     {} episodes in {}{total}", self.episodes, self.path.display());
     }

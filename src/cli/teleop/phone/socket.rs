@@ -81,6 +81,7 @@ impl Socket {
         if !self.taken.swap(true, Ordering::AcqRel) {
             let mut messages = Messages::default();
             while let Ok(message) = socket.read() {
+                // A ping, or a message that is damaged, has no pose.
                 let line = message
                     .to_text()
                     .ok()

@@ -47,6 +47,7 @@ struct Seen {
 fn seen(env: &Env) -> Seen {
     let scene = env.scene();
     let (model, kin) = (&scene.model, &scene.data.kin);
+    // Reaching has no cube.
     let place = |name: &str| model.site(name).map(|site| kin.site_xpos[site.index()]).unwrap_or_default();
     let hand = model.site("grasp").map(|site| kin.site_xmat[site.index()]).unwrap_or_default();
     Seen {
