@@ -38,16 +38,17 @@
 //! constraints.
 //!
 //! After a step a [`Data`](physics::Data) has the same contents as after a step of our own pipeline: the new state, and poses, contacts, forces and
-//! sensor readings of the previous state.
+//! sensor readings of the previous state. Its constraint rows of contacts have a force and no Jacobian
+//! ([`push_applied`](physics::constraint::push_applied)).
 //!
 //! # Corrections of stock rapier
 //! | stock rapier 0.36.1 | here |
 //! |---|---|
 //! | 0.1 N m s of damping on every rotation of a multibody | none |
 //! | a floating root whose centre of mass is not its origin breaks the conservation of momentum | its origin is put there |
-//! | moments of inertia below 1e-4 kg m² are mixed up in bodies with colliders: those of a knob by 12 % | the body lies along its principal axes |
+//! | moments of inertia of about 1e-5 kg m² and less are permuted in bodies with colliders | the body lies along its principal axes |
 //! | velocity of a floating body is that of its centre of mass, in the world | translated from and to MuJoCo's, exactly over a step |
-//! | bodies that stand alone turn by a linearised rotation, `2 atan(h w / 2)` for `h w` | the velocity is scaled, and scaled back |
+//! | bodies that stand alone turn by a linearised rotation, in each iteration of `h` seconds `2 atan(h w / 2)` for `h w` | the velocity is scaled, and scaled back |
 //! | bodies that stand alone get gyroscopic torques of their own | switched off: they are in our forces |
 //! | 45 degrees and 400 m/s at most a step | no bound |
 //! | looks 2 cm ahead, solves four parts of a step | 2 mm; one part where joints are, four for free bodies ([`Options`]) |

@@ -4,9 +4,10 @@ use crate::convert::array;
 use crate::floating::Pace;
 use crate::rules::{Geoms, mixture};
 use physics::collision::PreContact;
+use physics::constraint::push_applied;
 use physics::data::{Constraints, Contact};
 use physics::math::{Vec3, dot, row, scale};
-use physics::model::{Cone, ConstraintState, ConstraintType};
+use physics::model::{Cone, ConstraintType};
 use physics::{Data, Model};
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::prelude::{ContactManifold, NarrowPhase, RigidBodyHandle, RigidBodySet};
@@ -116,10 +117,10 @@ fn push_rows(
     let tangents = [1, 2].map(|axis| dot(friction, row(&contact.frame, axis)));
     let dim = contact.dim as usize;
     if dim == 1 {
-        push(efc, ConstraintType::ContactFrictionless, id, contact.dist, normal);
+        push_applied(efc, ConstraintType::ContactFrictionless, id, contact.dist, normal);
     } else if m.opt.cone == Cone::Elliptic {
         for force in [normal, tangents[0], tangents[1], 0.0, 0.0, 0.0].into_iter().take(dim) {
-            push(efc, ConstraintType::ContactElliptic, id, contact.dist, force);
+            push_applied(efc, ConstraintType::ContactElliptic, id, contact.dist, force);
         }
     } else {
         let share = normal / (dim - 1) as f64;
@@ -127,33 +128,8 @@ fn push_rows(
             let difference = tangents.get(k).map_or(0.0, |force| force / contact.friction[k]);
             for sign in [1.0, -1.0] {
                 let force = (share + sign * difference) / 2.0;
-                push(efc, ConstraintType::ContactPyramidal, id, contact.dist, force);
+                push_applied(efc, ConstraintType::ContactPyramidal, id, contact.dist, force);
             }
         }
     }
-}
-
-/// A row with a force and an empty Jacobian: rapier has already applied the force.
-fn push(efc: &mut Constraints, kind: ConstraintType, id: usize, dist: f64, force: f64) {
-    efc.efc_type.push(kind.code());
-    efc.efc_id.push(id as i32);
-    efc.efc_J_rownnz.push(0);
-    efc.efc_J_rowadr.push(efc.efc_J.len() as i32);
-    efc.efc_pos.push(dist);
-    efc.efc_state.push(ConstraintState::Quadratic.code());
-    efc.efc_KBIP.push([0.0; 4]);
-    for values in [
-        &mut efc.efc_margin,
-        &mut efc.efc_frictionloss,
-        &mut efc.efc_diagA,
-        &mut efc.efc_D,
-        &mut efc.efc_R,
-        &mut efc.efc_vel,
-        &mut efc.efc_aref,
-        &mut efc.efc_b,
-    ] {
-        values.push(0.0);
-    }
-    efc.efc_force.push(force);
-    efc.nefc += 1;
 }

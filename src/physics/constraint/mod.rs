@@ -21,7 +21,7 @@ pub use contacts::NO_DOF;
 pub use half_jacobian::{BLOCK, HalfJacobian, TILE, half_jacobian};
 pub use islands::{IslandScratch, find_islands};
 pub use reference::reference;
-pub use rows::{mul_jacobian, mul_jacobian_transposed};
+pub use rows::{mul_jacobian, mul_jacobian_transposed, push_applied};
 pub use scratch::ConstraintScratch;
 
 use crate::model::{Disable, Enable, Model};

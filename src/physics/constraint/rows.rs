@@ -1,7 +1,7 @@
 //! Appending rows, and products of the row Jacobian with vectors.
 
 use crate::math::dot_sparse;
-use crate::model::{ConstraintType, Jacobian, Model};
+use crate::model::{ConstraintState, ConstraintType, Jacobian, Model};
 use crate::stages::Constraints;
 
 impl Model {
@@ -65,6 +65,25 @@ pub(super) fn push(efc: &mut Constraints, row: RowKind, pos: f64, columns: &[i32
         | ConstraintType::ContactPyramidal
         | ConstraintType::ContactElliptic => {}
     }
+}
+
+/// Appends a row of a contact whose force another engine has applied already: it has no Jacobian entries, and zero for
+/// everything but its position and force, so that nothing applies the force again.
+pub fn push_applied(efc: &mut Constraints, kind: ConstraintType, contact: usize, pos: f64, force: f64) {
+    push(efc, RowKind { kind, id: contact, margin: 0.0, frictionloss: 0.0 }, pos, &[], &[]);
+    efc.efc_KBIP.push([0.0; 4]);
+    for values in [
+        &mut efc.efc_diagA,
+        &mut efc.efc_D,
+        &mut efc.efc_R,
+        &mut efc.efc_vel,
+        &mut efc.efc_aref,
+        &mut efc.efc_b,
+    ] {
+        values.push(0.0);
+    }
+    efc.efc_state.push(ConstraintState::Quadratic.code());
+    efc.efc_force.push(force);
 }
 
 /// True when a constraint other than a contact acts on nothing and makes no row.

@@ -2,7 +2,8 @@
 //!
 //! With any engine, a `Data` has the same contents after a step as after [`step`]: the new state, and poses, forces and sensor
 //! readings of the state from which the step began. So kinematics, sensors, pictures, robots and tasks do not depend on the
-//! engine.
+//! engine. Rows of contacts that another engine solved are an exception: they have a force, and no Jacobian
+//! ([`push_applied`](crate::constraint::push_applied)).
 //!
 //! ```
 //! use robohive_physics::{Data, Engine, step};

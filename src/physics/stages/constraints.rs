@@ -96,7 +96,8 @@ macro_rules! rows {
 
 rows! {
     /// Constraint rows (`make_constraint`): equality, friction loss, limits, contacts, in that order.
-    /// The Jacobian is kept in compressed rows on every path.
+    /// The Jacobian is kept in compressed rows on every path. After a step of another engine
+    /// (`pipeline::stepper`) rows of contacts have a force but no Jacobian entries (`constraint::push_applied`).
     Constraints {
         /// Kind of row (`ConstraintType`).
         efc_type: Vec<i32>,
