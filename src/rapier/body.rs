@@ -48,7 +48,7 @@ impl Body {
         let shapes: Vec<_> = (0..m.ngeom)
             .map(|g| touches(m, g).then(|| shape_of(m, g)).transpose())
             .collect::<Result<_, _>>()?;
-        let links = Links::insert(m, &groups, sets.bodies, sets.multibodies);
+        let links = Links::insert(m, &groups, sets.bodies, sets.multibodies)?;
         let plainly = rules::mixes_plainly(m);
         let colliders = shapes.into_iter().map(|shape| {
             let shape = shape?;

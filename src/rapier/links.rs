@@ -3,7 +3,7 @@
 use crate::convert::{pose, vector};
 use crate::groups::{Group, Groups, Motion, joints};
 use physics::Model;
-use physics::model::{JointType, dof_armature};
+use physics::model::{JointType, NotSimulated, ObjType, dof_armature};
 use rapier3d_f64::math::{Matrix, Pose, Rotation, Vector};
 use rapier3d_f64::prelude::{
     GenericJoint, GenericJointBuilder, JointAxesMask, Multibody, MultibodyJointSet, RigidBody,
@@ -68,12 +68,15 @@ fn dynamic() -> RigidBodyBuilder {
 
 impl Links {
     /// Inserts bodies and joints at the model's reference configuration.
+    ///
+    /// # Errors
+    /// A joint that rapier does not accept.
     pub fn insert(
         m: &Model,
         groups: &Groups,
         bodies: &mut RigidBodySet,
         multibodies: &mut MultibodyJointSet,
-    ) -> Self {
+    ) -> Result<Self, NotSimulated> {
         let handles = groups.all.iter().map(|g| bodies.insert(rigid_body(g))).collect();
         let mut links = Links { handles, trees: Vec::new() };
         let mut tree_of = vec![None; groups.all.len()];
@@ -94,7 +97,7 @@ impl Links {
                 (Motion::Jointed, Some(parent)) => {
                     tree_of[k] = tree_of[parent];
                     let before = links.handles[parent];
-                    links.join(m, groups, k, before, tree_of[k], (bodies, multibodies));
+                    links.join(m, groups, k, before, tree_of[k], (bodies, multibodies))?;
                 }
                 (Motion::Jointed, None) => {
                     tree_of[k] = Some(links.trees.len());
@@ -106,15 +109,18 @@ impl Links {
                         links: Vec::new(),
                         dofs: first..first,
                     });
-                    links.join(m, groups, k, ground, tree_of[k], (bodies, multibodies));
+                    links.join(m, groups, k, ground, tree_of[k], (bodies, multibodies))?;
                 }
             }
         }
         links.settle(m, bodies, multibodies);
-        links
+        Ok(links)
     }
 
     /// Connects a group to its parent, by a joint of the multibody for each of the model's joints.
+    ///
+    /// # Errors
+    /// A joint that rapier does not accept.
     fn join(
         &mut self,
         m: &Model,
@@ -123,26 +129,29 @@ impl Links {
         mut before: RigidBodyHandle,
         tree: Option<usize>,
         (bodies, multibodies): (&mut RigidBodySet, &mut MultibodyJointSet),
-    ) {
-        let Some(tree) = tree else { return };
+    ) -> Result<(), NotSimulated> {
         let body = groups.all[k].body;
         let parent = m.body_parentid[body] as usize;
         let mut base = groups.in_rigid_body(parent) * pose(m.body_pos[body], m.body_quat[body]);
         let all = joints(m, body);
+        let refusal = |j: usize| crate::refuse::of(m, ObjType::Joint, j, "this joint");
         for j in all.clone() {
-            let handle = if j + 1 == all.end { self.handles[k] } else { bodies.insert(dynamic()) };
-            let Some(kind) = JointType::from_code(m.jnt_type[j]) else { return };
-            let last = j + 1 == all.end;
-            let within = if last { groups.all[k].frame().inverse() } else { Pose::IDENTITY };
+            let (handle, within) = if j + 1 == all.end {
+                (self.handles[k], groups.all[k].frame().inverse())
+            } else {
+                (bodies.insert(dynamic()), Pose::IDENTITY)
+            };
+            let kind = JointType::from_code(m.jnt_type[j]).ok_or_else(|| refusal(j))?;
             let inserted = multibodies.insert(before, handle, joint(m, j, kind, [base, within]), true);
-            let id = inserted.and_then(|h| multibodies.get(h)).map_or(0, |(_, id)| id);
-            let tree = &mut self.trees[tree];
+            let (_, id) = inserted.and_then(|h| multibodies.get(h)).ok_or_else(|| refusal(j))?;
+            let tree = &mut self.trees[tree.ok_or_else(|| refusal(j))?];
             let dof = m.jnt_dofadr[j] as usize - tree.dofs.start;
             tree.links.push(Link { joint: j, kind, handle, before, id, dof });
             tree.dofs.end = m.jnt_dofadr[j] as usize + if kind == JointType::Ball { 3 } else { 1 };
             before = handle;
             base = Pose::IDENTITY;
         }
+        Ok(())
     }
 
     /// Sets the armature of joints, and removes rapier's default damping of 0.1 N m s of every rotation: damping, springs,

@@ -114,9 +114,8 @@ fn sphere_points() -> (Vec<Vector>, f64) {
     let signs = [(1.0, golden), (1.0, -golden), (-1.0, golden), (-1.0, -golden)];
     let mut points: Vec<Vector> =
         signs.iter().flat_map(|&(a, b)| corner(a, b)).map(|p| vector(p).normalize()).collect();
-    let edge = (points[0] - points[3]).length();
-    let near = |p: Vector, q: Vector| ((p - q).length() - 1.0514622242382672).abs() < 1e-6;
-    debug_assert!(edge > 0.0);
+    let edge = 2.0 / (1.0 + golden * golden).sqrt();
+    let near = |p: Vector, q: Vector| ((p - q).length() - edge).abs() < 1e-6;
     let mut faces = Vec::new();
     for i in 0..12 {
         for j in i + 1..12 {

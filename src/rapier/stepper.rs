@@ -39,11 +39,15 @@ impl Rapier {
     }
 
     /// Applies changes of the model by the program.
+    ///
+    /// # Errors
+    /// The first element that is not simulated any more.
     fn follow(&mut self, m: &Model) -> Result<(), NotSimulated> {
         let known = &self.forces.model;
         if m.opt == known.opt && m.shares(known) {
             return Ok(());
         }
+        crate::refuse::check(m)?;
         if !same_world(m, known) {
             let parameters = *self.world.parameters_mut();
             self.world = World::new(m, self.world.options())?;
@@ -139,6 +143,7 @@ fn same_world(a: &Arrays, b: &Arrays) -> bool {
         && a.geom_condim[..] == b.geom_condim[..]
         && a.geom_priority[..] == b.geom_priority[..]
         && a.geom_friction[..] == b.geom_friction[..]
+        && a.hfield_size[..] == b.hfield_size[..]
         && a.hfield_data[..] == b.hfield_data[..]
         && a.mesh_vert[..] == b.mesh_vert[..]
 }

@@ -119,6 +119,24 @@ fn what_a_program_writes_is_followed() {
     let before = d.state.qvel[0];
     rapier.step(&heavy, &mut d).unwrap();
     assert!((d.state.qvel[0] - before).abs() < 1e-12, "the options were followed");
+    heavy.edit(|e| e.geom_adhesion[0] = 3.0).unwrap();
+    let refusal = rapier.step(&heavy, &mut d).unwrap_err().to_string();
+    assert!(refusal.contains("adhesion under rapier"), "{refusal}");
+}
+
+#[test]
+fn a_height_field_that_is_edited_is_followed() {
+    let text = "<mujoco><asset><hfield name='flat' nrow='2' ncol='2' size='2 2 .5 .1' elevation='0 0 1 1'/></asset><worldbody>
+        <geom type='hfield' hfield='flat'/><body pos='0 0 .3'><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
+    let mut m = mjcf::load_str(text).unwrap().model;
+    let mut rapier = Rapier::new(&m, Options::default()).unwrap();
+    let mut d = Data::new(&m);
+    rapier.step(&m, &mut d).unwrap();
+    let touches = |d: &Data| !d.con.contact.is_empty();
+    assert!(touches(&d), "the slope is 0.25 m high under the ball's centre at 0.3 m");
+    m.edit(|e| e.hfield_size[0][2] = 0.1).unwrap();
+    rapier.step(&m, &mut d).unwrap();
+    assert!(!touches(&d), "0.05 m high, it is out of reach");
 }
 
 #[test]
