@@ -138,9 +138,9 @@ impl Group {
     }
 }
 
-/// Principal moments of inertia in ascending order, and their axes. Parry adds colliders to a body's mass, even those without any,
-/// and finds the axes of the sum anew: to seven digits, and of small bodies not at all. It is given moments in the order it likes,
-/// along the axes of the body.
+/// Principal moments of inertia in ascending order, and their axes. When parry adds colliders to a body, even massless ones, it
+/// diagonalises the summed inertia again: with seven digits, and wrongly for small bodies (`DEFECTS.md`). A body whose axes are the
+/// principal ones, with its moments in ascending order, the order in which parry returns them, is not changed by that.
 fn principal(inertia: Matrix) -> (Vector, Rotation) {
     let mut moments = inertia.to_cols_array();
     let size = (moments[0] + moments[4] + moments[8]).max(f64::MIN_POSITIVE);

@@ -80,7 +80,7 @@
 //! the course of an impact differ from MuJoCo's (`validation/results/rapier.md` has by how much). Contacts do not see joint limits
 //! in the same sweep, as limits are ours: a finger that is pushed against its limit gives by a step. A contact row in a direction
 //! that the joints hardly move in is not regularised, and makes impulses without bound: RoboHive's `franka_robotiq.xml`, whose
-//! gripper begins 12 cm inside a table, is unstable. Each step costs two dense factorisations of
+//! gripper begins inside a table, is unstable. Each step costs two dense factorisations of
 //! the joint-space inertia.
 //!
 //! # What is not here

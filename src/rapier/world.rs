@@ -19,7 +19,7 @@ pub struct Options {
     pub substeps: usize,
     /// Solver iterations in a step of rapier, each of which is a part of the step, while there are contacts; otherwise
     /// one, which keeps motion without contacts equal to that of our pipeline. By default four for free bodies, which stabilises
-    /// stacks, and one for models with joints, where four cost four times as much and follow MuJoCo no better.
+    /// stacks, and one for models with joints, to save time.
     pub iterations: Option<usize>,
     /// Continuous collision detection: whether fast bodies stop at obstacles that they would pass through. MuJoCo has none.
     pub continuous: bool,

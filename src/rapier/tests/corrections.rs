@@ -91,7 +91,19 @@ fn a_floating_base_keeps_its_momentum() {
     let [coarse, fine] = [1e-3, 1e-4].map(lost);
     assert!(coarse > 5.0 * fine && coarse < 0.02, "{coarse} {fine}");
 
+    for dt in [1e-3, 1e-4] {
+        let bent = stock_bends(dt);
+        assert!(
+            bent > 0.02,
+            "stock rapier, in steps of {dt} s, bends the path of the centre of mass by {bent} m"
+        );
+    }
+}
+
+/// The same motion under stock rapier: the largest distance \[m\] of the common centre of mass from a straight line in a second.
+fn stock_bends(dt: f64) -> f64 {
     let mut world = stock(Vector::ZERO);
+    world.integration_parameters.dt = dt;
     world.integration_parameters.num_solver_iterations = 1;
     let base = world.insert_body(dynamic(1.0, 0.02, Vector::X * 0.2));
     let part = world.insert_body(dynamic(0.5, 0.01, Vector::X * 0.1));
@@ -100,17 +112,17 @@ fn a_floating_base_keeps_its_momentum() {
     let (multibody, _) = world.multibody_joints.get_mut(joint).unwrap();
     multibody.forward_kinematics(&world.bodies, true);
     multibody.damping_mut().fill(0.0);
-    // The same motion: the first three numbers are, where rapier's Jacobian reads them, those of the centre of mass.
+    // The first three numbers are, where rapier's Jacobian reads them, those of the centre of mass.
     multibody.generalized_velocity_mut().copy_from_slice(&[0.0, 0.6, 0.0, 0.0, 0.0, 3.0, 1.0]);
     let centre = |world: &PhysicsWorld| {
         let of = |body: RigidBodyHandle| world.bodies[body].center_of_mass() * world.bodies[body].mass();
         (of(base) + of(part)) / 1.5
     };
     world.step();
-    let places: Vec<_> = (0..1000).map(|_| (world.step(), centre(&world)).1).collect();
-    let straight = |k: usize| places[0] + (places[999] - places[0]) * (k as f64 / 999.0);
-    let bent = (0..1000).map(|k| (places[k] - straight(k)).length()).fold(0.0, f64::max);
-    assert!(bent > 0.02, "stock rapier bends the path of the centre of mass by {bent} m");
+    let places: Vec<_> = (0..(1.0 / dt) as usize).map(|_| (world.step(), centre(&world)).1).collect();
+    let last = places.len() - 1;
+    let straight = |k: usize| places[0] + (places[last] - places[0]) * (k as f64 / last as f64);
+    (0..=last).map(|k| (places[k] - straight(k)).length()).fold(0.0, f64::max)
 }
 
 #[test]
@@ -139,7 +151,12 @@ fn a_fast_spin_is_neither_slowed_nor_cut() {
     let ball = world.insert_body(spinning);
     world.step();
     let turned = world.bodies[ball].rotation().to_axis_angle().1;
-    assert!((turned - 0.9).abs() > 1e-3, "and by a linearised rotation: {turned} for 0.9");
+    let parts = world.integration_parameters.num_solver_iterations as f64;
+    let linearised = parts * 2.0 * (0.9 / parts / 2.0).atan();
+    assert!(
+        (turned - linearised).abs() < 1e-9 && turned < 0.897,
+        "and by a linearised rotation: {turned} for 0.9"
+    );
 }
 
 #[test]
@@ -176,6 +193,35 @@ fn a_body_keeps_its_moments_of_inertia() {
         let stock = MassProperties::with_inertia_matrix(Vector::ZERO, 1.0, inertia);
         stock.reconstruct_inertia_matrix() * (1.0 / size)
     };
-    assert!(found(1.0).y_axis.y < 1.14, "of a large body parry finds them");
-    assert!(found(1e-5).y_axis.y > 1.8, "of a small one it mixes them up: {:?}", found(1e-5));
+    let are = |size: f64, moments: [f64; 3]| {
+        let expected = robohive_rapier::rapier::math::Matrix::from_diagonal(Vector::from(moments));
+        assert!(found(size).abs_diff_eq(expected, 1e-6), "{size}: {:?}", found(size));
+    };
+    are(1.0, [1.83, 1.13, 2.08]);
+    are(3e-5, [1.83, 1.13, 2.08]);
+    // Of small bodies parry permutes them.
+    are(1e-5, [1.13, 2.08, 1.83]);
+}
+
+/// Not corrected here: see `DEFECTS.md`.
+#[test]
+fn a_contact_across_a_hinge_is_not_bounded() {
+    // A ball of radius 0.2 m, whose hinge moves it in a plane, 0.12 m inside a wall that is parallel to the plane but for 1e-4 rad.
+    let mut world = stock(Vector::ZERO);
+    let post = world.insert_body(RigidBodyBuilder::fixed());
+    let (link, ball) = world.insert(
+        dynamic(1.0, 0.01, Vector::X * 0.5),
+        ColliderBuilder::ball(0.2).translation(Vector::X * 0.5).density(0.0),
+    );
+    world.insert_multibody_joint(post, link, RevoluteJointBuilder::new(Vector::Y)).unwrap();
+    let wall = SharedShape::halfspace(Vector::new(0.0, 1.0, 1e-4).normalize());
+    world.colliders.insert(ColliderBuilder::new(wall).translation(Vector::Y * -0.08));
+    let mut impulse = 0.0_f64;
+    for _ in 0..100 {
+        world.step();
+        let manifolds = world.narrow_phase.contact_pairs_with(ball).flat_map(ContactPair::solver_manifolds);
+        impulse =
+            manifolds.flat_map(|manifold| &manifold.points).fold(impulse, |most, p| most.max(p.data.impulse));
+    }
+    assert!(impulse > 1e9, "{impulse} N s on a body of 1 kg");
 }

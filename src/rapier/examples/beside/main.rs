@@ -15,8 +15,28 @@ mod stock;
 mod worlds;
 
 use physics::Model;
+use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+
+const USAGE: &str = "usage: beside worlds|motion|speed|piles|bits [CORPUS LIST]";
+
+/// Begins the names of this repository's models.
+const OWN: &str = "own ";
+
+/// Models of this repository, as paths in `assets`.
+const MODELS: [&str; 11] = [
+    "delays/delays",
+    "drape/drape",
+    "elbow/elbow",
+    "franka/franka_table",
+    "grasp/grasp",
+    "humanoid/humanoid",
+    "pile/pile",
+    "quadruped/quadruped",
+    "servos/servos",
+    "workbench/workbench",
+    "yard/yard",
+];
 
 /// A model and what stands for it in a table.
 pub struct Subject {
@@ -35,26 +55,25 @@ impl Subject {
         let model = loaded.map(|loaded| loaded.model).map_err(|error| error.to_string());
         Subject { name: name.into(), path, model }
     }
+
+    fn own(path: &str) -> Self {
+        Subject::read(&format!("{OWN}{path}"), Path::new("assets").join(path).with_extension("xml"))
+    }
+
+    /// Whether it is one of this repository's models.
+    pub fn is_own(&self) -> bool {
+        self.name.starts_with(OWN)
+    }
+}
+
+/// What an error says first; the rest would not fit in a table.
+pub fn first_line(error: &str) -> &str {
+    error.lines().next().unwrap_or(error)
 }
 
 /// Our own models, then those of the list.
 fn subjects(corpus: Option<(&str, &str)>) -> std::io::Result<Vec<Subject>> {
-    let own = [
-        "delays",
-        "drape",
-        "elbow",
-        "franka/franka_table",
-        "grasp",
-        "humanoid",
-        "pile",
-        "quadruped",
-        "servos",
-    ]
-    .into_iter()
-    .chain(["workbench", "yard"])
-    .map(|name| if name.contains('/') { name.to_owned() } else { format!("{name}/{name}") })
-    .map(|path| Subject::read(&format!("own {path}"), Path::new("assets").join(path + ".xml")));
-    let mut all: Vec<_> = own.collect();
+    let mut all: Vec<_> = MODELS.map(Subject::own).into();
     if let Some((corpus, list)) = corpus {
         let text = std::fs::read_to_string(list)?;
         all.extend(text.lines().map(|line| Subject::read(line, Path::new(corpus).join(line))));
@@ -62,31 +81,21 @@ fn subjects(corpus: Option<(&str, &str)>) -> std::io::Result<Vec<Subject>> {
     Ok(all)
 }
 
-fn main() -> ExitCode {
+fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     let (what, corpus) = match words[..] {
         [what] => (what, None),
         [what, corpus, list] => (what, Some((corpus, list))),
-        _ => ("", None),
-    };
-    let all = match subjects(corpus) {
-        Ok(all) => all,
-        Err(error) => {
-            eprintln!("{error}");
-            return ExitCode::FAILURE;
-        }
+        _ => return Err(USAGE.into()),
     };
     match what {
-        "worlds" => worlds::table(&all),
-        "motion" => motion::table(&all),
-        "speed" => speed::table(&all),
-        "piles" => speed::piles(),
-        "bits" => motion::bits(),
-        _ => {
-            eprintln!("usage: beside worlds|motion|speed|piles|bits [CORPUS LIST]");
-            return ExitCode::FAILURE;
-        }
+        "worlds" => worlds::table(&subjects(corpus)?),
+        "motion" => motion::table(&subjects(corpus)?)?,
+        "speed" => speed::table(&subjects(corpus)?),
+        "piles" => speed::piles()?,
+        "bits" => motion::bits()?,
+        _ => return Err(USAGE.into()),
     }
-    ExitCode::SUCCESS
+    Ok(())
 }

@@ -1,10 +1,11 @@
 //! How far motions drift apart: rapier here, and rapier as its own loader sets it up, from our own solver, which follows MuJoCo
 //! (`validation/results/steps.md`, `robohive.md`).
 
-use crate::Subject;
 use crate::scenes::SCENES;
+use crate::{Subject, first_line};
 use physics::{Data, Engine, Model};
 use robohive_rapier::{Options, engine};
+use std::error::Error;
 
 /// RoboHive's models whose motion is compared.
 const ROBOHIVE: [&str; 12] = [
@@ -25,7 +26,8 @@ const ROBOHIVE: [&str; 12] = [
 /// Positions of bodies by name, at every step of a second.
 pub type Motion = Vec<Vec<[f64; 3]>>;
 
-/// Controls at a time: sines of half the range, or half of nothing bounded, each with a phase of its own.
+/// Controls at a time: sines over half of each control's range, each with a phase of its own. A control without a range has
+/// that of -0.5 to 0.5.
 pub fn controls(m: &Model, time: f64, out: &mut [f64]) {
     for (i, control) in out.iter_mut().enumerate() {
         let [low, high] = if m.actuator_ctrllimited[i] { m.actuator_ctrlrange[i] } else { [-0.5, 0.5] };
@@ -36,14 +38,15 @@ pub fn controls(m: &Model, time: f64, out: &mut [f64]) {
 
 /// Names of the bodies that move, with their numbers.
 pub fn bodies(m: &Model) -> Vec<(String, usize)> {
-    let named = m.body_names().map(|(id, name)| (name.to_owned(), m.body(name).map_or(0, |_| id.index())));
+    let named = m.body_names().map(|(id, name)| (name.to_owned(), id.index()));
     named.filter(|(name, b)| !name.is_empty() && m.body_weldid[*b] != 0).collect()
 }
 
-fn start(m: &Model) -> Data {
+/// The first keyframe, or the reference configuration of a model without any.
+pub fn start(m: &Model) -> Data {
     let mut d = Data::new(m);
     if m.nkey > 0 {
-        let _ = d.reset_to_key(m, 0);
+        d.reset_to_key(m, 0).expect("the model has a key");
     }
     d
 }
@@ -88,28 +91,32 @@ fn drift(own: &Motion, other: &Motion, dt: f64) -> String {
 }
 
 /// Prints a row for each scene and model.
-pub fn table(all: &[Subject]) {
+///
+/// # Errors
+/// A scene cannot be written where stock rapier's loader reads it.
+pub fn table(all: &[Subject]) -> std::io::Result<()> {
     println!(
         "| model | here: 0.1 s | 1 s | off by 0.01 m at | stock: 0.1 s | 1 s | off at |\n|---|---|---|---|---|---|---|"
     );
     let folder = std::env::temp_dir();
     for (name, text) in SCENES {
         let path = folder.join(format!("{}.xml", name.replace([' ', ','], "_")));
-        if std::fs::write(&path, text).is_ok() {
-            row(&Subject::read(name, path));
-        }
+        std::fs::write(&path, text)?;
+        row(&Subject::read(name, path));
     }
-    let wanted =
-        |s: &&Subject| s.name.starts_with("own ") || ROBOHIVE.iter().any(|name| s.name.contains(name));
+    let wanted = |s: &&Subject| s.is_own() || ROBOHIVE.iter().any(|name| s.name.contains(name));
     all.iter().filter(wanted).for_each(row);
+    Ok(())
 }
 
 fn row(subject: &Subject) {
-    let Ok(m) = &subject.model else { return };
+    let m = match &subject.model {
+        Ok(m) => m,
+        Err(error) => return println!("| {} | {} | | | | | |", subject.name, first_line(error)),
+    };
     let own = simulate(m, &Engine::default());
     let (Ok(own), Ok(other)) = (own, simulate(m, &engine(Options::default()))) else {
-        println!("| {} | refused | | | | | |", subject.name);
-        return;
+        return println!("| {} | refused | | | | | |", subject.name);
     };
     let stock = stock(subject, m, &own);
     println!("| {} | {} | {stock} |", subject.name, drift(&own, &other, m.opt.timestep));
@@ -129,18 +136,18 @@ fn stock(_: &Subject, _: &Model, _: &Motion) -> String {
 }
 
 /// Prints a digest of the state after a second of every scene: the same on every machine, if rapier keeps its promise.
-pub fn bits() {
+///
+/// # Errors
+/// A scene does not load or move.
+pub fn bits() -> Result<(), Box<dyn Error>> {
     for (name, text) in SCENES {
-        let Ok(loaded) = mjcf::load_str(text) else { continue };
-        let m = loaded.model;
-        let Ok(mut mover) = engine(Options::default()).start(&m) else { continue };
+        let m = mjcf::load_str(text)?.model;
+        let mut mover = engine(Options::default()).start(&m)?;
         let mut d = start(&m);
         for _ in 0..steps(&m) {
             let time = d.time();
             controls(&m, time, &mut d.state.ctrl);
-            if mover.step(&m, &mut d).is_err() {
-                break;
-            }
+            mover.step(&m, &mut d)?;
         }
         let mut digest: u64 = 0xcbf2_9ce4_8422_2325;
         for x in d.state.qpos.iter().chain(&d.state.qvel) {
@@ -150,4 +157,5 @@ pub fn bits() {
         }
         println!("| {name} | {digest:016x} |");
     }
+    Ok(())
 }

@@ -1,22 +1,20 @@
 //! Steps a second of both solvers on one thread.
 
-use crate::Subject;
-use crate::motion::controls;
+use crate::motion::{controls, start};
+use crate::{Subject, first_line};
 use physics::{Data, Engine, Model};
 use robohive_rapier::{Options, engine};
+use std::error::Error;
 use std::fmt::Write as _;
 use std::time::Instant;
 
-/// Time that a measurement takes \[s\], after as many steps as a second of motion has at most.
+/// Time that a measurement takes \[s\].
 const SECONDS: f64 = 1.0;
 
 /// Steps a second, from the first keyframe under sines; after two seconds of motion it begins again.
-fn rate(m: &Model, engine: &Engine) -> Option<f64> {
-    let mut mover = engine.start(m).ok()?;
-    let mut start = Data::new(m);
-    if m.nkey > 0 {
-        start.reset_to_key(m, 0).ok()?;
-    }
+fn rate(m: &Model, engine: &Engine) -> Result<f64, Box<dyn Error>> {
+    let mut mover = engine.start(m)?;
+    let start = start(m);
     let mut d = start.clone();
     let (mut steps, began) = (0, Instant::now());
     while began.elapsed().as_secs_f64() < SECONDS {
@@ -27,21 +25,21 @@ fn rate(m: &Model, engine: &Engine) -> Option<f64> {
             }
             let time = d.time();
             controls(m, time, &mut d.state.ctrl);
-            mover.step(m, &mut d).ok()?;
+            mover.step(m, &mut d)?;
             steps += 1;
         }
     }
-    Some(f64::from(steps) / began.elapsed().as_secs_f64())
+    Ok(f64::from(steps) / began.elapsed().as_secs_f64())
 }
 
 fn row(name: &str, m: &Model) {
     let [own, other] = [Engine::default(), engine(Options::default())].map(|engine| rate(m, &engine));
     match (own, other) {
-        (Some(own), Some(other)) => {
+        (Ok(own), Ok(other)) => {
             println!("| {name} | {} | {own:.0} | {other:.0} | {:.2} |", m.nv, other / own)
         }
-        (Some(own), None) => println!("| {name} | {} | {own:.0} | refused or unstable | |", m.nv),
-        _ => println!("| {name} | {} | unstable | | |", m.nv),
+        (Ok(own), Err(error)) => println!("| {name} | {} | {own:.0} | {error} | |", m.nv),
+        (Err(error), _) => println!("| {name} | {} | {error} | | |", m.nv),
     }
 }
 
@@ -51,8 +49,9 @@ pub fn table(all: &[Subject]) {
         "| model | nv | own \\[steps/s\\] | rapier \\[steps/s\\] | rapier / own |\n|---|---|---|---|---|"
     );
     for subject in all {
-        if let Ok(m) = &subject.model {
-            row(&subject.name, m);
+        match &subject.model {
+            Ok(m) => row(&subject.name, m),
+            Err(error) => println!("| {} | | {} | | |", subject.name, first_line(error)),
         }
     }
 }
@@ -78,39 +77,28 @@ fn pile(count: usize) -> String {
 }
 
 /// Prints a row for each size of a pile: steps a second over the first second and a half of its fall.
-pub fn piles() {
+///
+/// # Errors
+/// A pile does not load or move.
+pub fn piles() -> Result<(), Box<dyn Error>> {
     println!(
         "| bodies | own \\[steps/s\\] | rapier | rapier, contacts kept | contacts own, rapier |\n|---|---|---|---|---|"
     );
     for count in [100, 1000, 10_000] {
-        let loaded = match mjcf::load_str(pile(count)) {
-            Ok(loaded) => loaded,
-            Err(error) => {
-                println!("| {count} | {error} | | | |");
-                continue;
-            }
-        };
-        let m = loaded.model;
+        let m = mjcf::load_str(pile(count))?.model;
         let steps = if count == 10_000 { 40 } else { 300 };
         let kept = engine(Options::default().with_recycling(true));
         let engines = [Engine::default(), engine(Options::default()), kept];
         let found = engines.map(|engine| {
-            let mut mover = engine.start(&m).ok()?;
+            let mut mover = engine.start(&m)?;
             let mut d = Data::new(&m);
             let began = Instant::now();
-            (0..steps).try_for_each(|_| mover.step(&m, &mut d)).ok()?;
-            Some((f64::from(steps) / began.elapsed().as_secs_f64(), d.con.contact.len()))
+            (0..steps).try_for_each(|_| mover.step(&m, &mut d))?;
+            Ok::<_, Box<dyn Error>>((f64::from(steps) / began.elapsed().as_secs_f64(), d.con.contact.len()))
         });
-        let [rates, contacts] = [0, 1].map(|part| {
-            found.map(|found| match (found, part) {
-                (None, _) => "fails".to_owned(),
-                (Some((rate, _)), 0) => format!("{rate:.1}"),
-                (Some((_, contacts)), _) => contacts.to_string(),
-            })
-        });
-        println!(
-            "| {count} | {} | {} | {} | {}, {} |",
-            rates[0], rates[1], rates[2], contacts[0], contacts[1]
-        );
+        let [own, other, kept] = found;
+        let ((own, own_contacts), (other, contacts), (kept, _)) = (own?, other?, kept?);
+        println!("| {count} | {own:.1} | {other:.1} | {kept:.1} | {own_contacts}, {contacts} |");
     }
+    Ok(())
 }
