@@ -105,7 +105,7 @@ class RoboHiveVectorEnv(VectorEnv[Array, Array, Array]):
                 NAME. Where there is no such GPU, the CPU draws, and a line on the standard error stream says so.
             instability: What a state does that physics refuses: `truncate` ends the episode, with the reason in the infos as
                 `fault`; `reset` returns to the reference configuration in the middle of the episode, as MuJoCo does.
-            solver: What moves the simulation: `own`; or, in wheels built with the feature `rapier`, `rapier`.
+            solver: The engine of the simulation: `own`, or, in wheels built with the feature `rapier`, `rapier`.
             time_limit: Whether episodes end at their length.
             override_keys: Settings of the id that `settings` replaces rather than merges.
             settings: Settings that differ from the id's, by RoboHive's names.

@@ -35,8 +35,7 @@ pub struct Making {
     height: Option<usize>,
     renderer: String,
     instability: String,
-    #[pyo3(default)]
-    solver: Option<String>,
+    solver: String,
     override_keys: Vec<String>,
     /// Whether the environment ends episodes at their length itself; otherwise a wrapper does.
     time_limit: bool,
@@ -76,7 +75,7 @@ impl Request {
             "reset" => true,
             other => return Err(wrong(format!("instability is truncate or reset, not {other}"))),
         };
-        let engine = engine(making.solver.as_deref().unwrap_or(Engine::OWN))?;
+        let engine = engine(&making.solver)?;
         let networks = Arc::new(Weights::from_environment());
         let seed = making.seed.unwrap_or(Options::default().seed);
         let horizon = spec.with(&changes).map_err(|error| exception(py, &error))?.max_episode_steps;
@@ -110,7 +109,7 @@ impl Request {
     }
 }
 
-/// What moves the simulation.
+/// The engine of a name.
 fn engine(solver: &str) -> PyResult<Engine> {
     match solver {
         Engine::OWN => Ok(Engine::default()),

@@ -6,13 +6,25 @@ use crate::outcome::Outcome;
 use std::process::Command;
 
 /// What decides how models move under rapier.
-pub const INPUTS: &[&str] = &["src/physics", "src/rapier", "src/env", "src/cli", "mjcf", "assets"];
+pub const INPUTS: &[&str] = &[
+    "src/physics",
+    "src/rapier",
+    "src/env",
+    "src/cli",
+    "mjcf",
+    "assets",
+    "python/Cargo.toml",
+    "python/src/request.rs",
+];
 
-/// Lints it, runs its tests and examples, documents it, compiles it for WebAssembly, and asks the command for it.
+/// Lints it, with stock rapier beside it and in what can have it, runs its tests and examples, documents it, compiles it for
+/// WebAssembly, and asks the command for it.
 pub fn run() -> Outcome {
     let package = ["--profile", PROFILE, "-p", "robohive-rapier"];
     let command = ["--profile", PROFILE, "-p", "robohive-cli", "--features", "robohive-cli/rapier"];
-    for packages in [&package[..], &command] {
+    let stock = [&package[..], &["--features", "robohive-rapier/stock"]].concat();
+    let python = ["--profile", PROFILE, "-p", "robohive-python", "--features", "robohive-python/rapier"];
+    for packages in [&package[..], &stock, &command, &python] {
         cargo(&[&["clippy"][..], packages, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     }
     cargo(&[&["test"][..], &package].concat())?;
