@@ -172,8 +172,9 @@ impl Env {
         let foreign = |_| EnvError::ForeignState {
             message: "it was saved by an environment with another model or engine".into(),
         };
-        self.scene.data.restore(&state.snapshot).map_err(foreign)?;
+        // First, so that a state under another engine changes nothing.
         self.scene.mover.restore(&state.mover).map_err(foreign)?;
+        self.scene.data.restore(&state.snapshot).map_err(foreign)?;
         self.scene.model = state.model.clone();
         self.scene.forward()?;
         // The pass above moved the solver's start.
