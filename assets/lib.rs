@@ -1,18 +1,35 @@
-//! Our own models as text, with limits of their robots, for programs that carry them along. What each shows, and where its numbers come from, stands in
-//! the README of its folder.
+//! Our own models, for programs that carry them along: their texts, the meshes that they name, and the configs of their robots. What each
+//! shows, and where its numbers come from, stands in the README of its folder.
+//!
+//! Meshes are not stored. The file `shapes.rs` of a folder says how each is made (with `robohive_workshop`), and [`Own`] makes it when a
+//! model is compiled that names it. [`write()`] puts all files into a folder, for programs that read disks.
 //!
 //! ```
-//! let (path, text) = robohive_assets::FILES[0];
-//! assert_eq!(path, "delays/delays.xml");
-//! assert!(text.contains("<mujoco"));
+//! use robohive_assets::Own;
+//!
+//! let panda = mjcf::Loader::default().files(Own).load("panda/scene.xml")?.model;
+//! assert_eq!(panda.nu, 9);
+//! assert!(panda.nmesh > 10);
+//! # Ok::<(), mjcf::diagnostic::Diagnostics>(())
 //! ```
+
+mod panda;
+mod shape;
+
+use mjcf::files::{FileError, FileProvider};
+use shape::Shape;
+use std::borrow::Cow;
+use std::io;
+use std::path::Path;
+use std::sync::Arc;
+use workshop::Mesh;
 
 macro_rules! files {
     ($($path:literal,)*) => { &[$(($path, include_str!($path)),)*] };
 }
 
-/// Every file by its path in this folder. Models include others by relative paths.
-pub const FILES: &[(&str, &str)] = files![
+/// Every text by its path in this folder. Models include others by relative paths.
+const TEXTS: &[(&str, &str)] = files![
     "delays/delays.xml",
     "drape/drape.xml",
     "elbow/elbow.xml",
@@ -21,11 +38,92 @@ pub const FILES: &[(&str, &str)] = files![
     "franka/tasks/reach.xml",
     "grasp/grasp.xml",
     "humanoid/humanoid.xml",
+    "panda/robot.xml",
+    "panda/scene.xml",
+    "panda/tasks/arm.toml",
+    "panda/tasks/pick_place.xml",
+    "panda/tasks/push.xml",
+    "panda/tasks/reach.xml",
     "pile/pile.xml",
     "quadruped/quadruped.xml",
     "quadruped/tasks/walk.xml",
+    "scenery/parts/room.xml",
+    "scenery/parts/table.xml",
     "servos/servos.xml",
     "workbench/workbench.xml",
     "yard/parts/crane.xml",
     "yard/yard.xml",
 ];
+
+/// Every mesh, by the folder that it is in.
+const MESHES: &[(&str, &[Shape])] = &[("panda/", panda::MESHES)];
+
+/// Faces that meet at less than this angle are shaded as one surface \[rad\].
+const CREASE: f64 = 0.6;
+
+/// Paths of all texts and meshes.
+pub fn paths() -> impl Iterator<Item = Cow<'static, str>> {
+    let meshes = MESHES.iter().flat_map(|(folder, meshes)| {
+        meshes.iter().map(move |(name, _)| Cow::Owned(format!("{folder}{name}.obj")))
+    });
+    TEXTS.iter().map(|(path, _)| Cow::Borrowed(*path)).chain(meshes)
+}
+
+/// Names and paths of the models that stand for themselves: a folder's `scene.xml` has the name of the folder, other models that of their
+/// file. Left out are parts of models (`robot.xml`, folders `parts`), and scenes with what a task adds (folders `tasks`).
+pub fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
+    TEXTS.iter().filter_map(|(path, _)| {
+        let (folder, file) = path.strip_suffix(".xml")?.split_once('/')?;
+        let inner = file == "robot" || file.contains('/');
+        (!inner).then_some((if file == "scene" { folder } else { file }, *path))
+    })
+}
+
+/// The text of a model or a config; `None` where there is none, and for meshes.
+pub fn text(path: &str) -> Option<&'static str> {
+    TEXTS.iter().find(|(own, _)| *own == path).map(|(_, text)| *text)
+}
+
+/// The mesh that an OBJ file holds.
+pub fn mesh(path: &str) -> Option<Mesh> {
+    let named = |(folder, meshes): &(&str, &[Shape])| {
+        let name = path.strip_prefix(folder)?.strip_suffix(".obj")?;
+        meshes.iter().find(|(own, _)| *own == name).map(|(_, make)| make())
+    };
+    MESHES.iter().find_map(named)
+}
+
+/// The content of a file, made where it is a mesh.
+pub fn read(path: &str) -> Option<Cow<'static, [u8]>> {
+    let made = || mesh(path).map(|mesh| Cow::Owned(mesh.to_obj(CREASE).into_bytes()));
+    text(path).map(|text| Cow::Borrowed(text.as_bytes())).or_else(made)
+}
+
+/// Writes every file below `folder`, each at its path, and returns how many there are. Files of these names are replaced.
+///
+/// # Errors
+/// A folder or a file cannot be written.
+pub fn write(folder: &Path) -> io::Result<usize> {
+    let mut count = 0;
+    for path in paths() {
+        let file = folder.join(&*path);
+        file.parent().map_or(Ok(()), std::fs::create_dir_all)?;
+        std::fs::write(&file, read(&path).unwrap_or_default())?;
+        count += 1;
+    }
+    Ok(count)
+}
+
+/// All files, for a loader.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Own;
+
+impl FileProvider for Own {
+    fn read(&self, path: &str) -> Result<Arc<[u8]>, FileError> {
+        read(path).map(|bytes| Arc::from(&*bytes)).ok_or(FileError::NotFound)
+    }
+
+    fn exists(&self, path: &str) -> bool {
+        paths().any(|own| own == path)
+    }
+}

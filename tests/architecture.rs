@@ -21,9 +21,9 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 34] = [
-    ("robohive-assets", &[]),
+const ORDER: [(&str, &[&str]); 35] = [
     ("robohive-physics", &[]),
+    ("robohive-workshop", &["physics"]),
     ("robohive-dataset", &[]),
     ("robohive-random", &[]),
     ("robohive-store", &[]),
@@ -31,6 +31,7 @@ const ORDER: [(&str, &[&str]); 34] = [
     ("robohive-exchange", &["dataset", "video"]),
     ("robohive-encoders", &["dataset"]),
     ("robohive-mjcf", &["physics"]),
+    ("robohive-assets", &["mjcf", "workshop"]),
     ("robohive-rapier", &["physics"]),
     ("robohive-robot", &["physics", "random"]),
     ("robohive-protocol", &[]),
@@ -46,7 +47,7 @@ const ORDER: [(&str, &[&str]); 34] = [
     ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",
-        &["physics", "mjcf", "dataset", "random", "robot", "render", "render_gpu", "env", "agents"],
+        &["assets", "physics", "mjcf", "dataset", "random", "robot", "render", "render_gpu", "env", "agents"],
     ),
     ("robohive-clients", &["mjcf", "protocol", "robot", "wire"]),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
@@ -94,6 +95,7 @@ const ORDER: [(&str, &[&str]); 34] = [
     (
         "robohive-cli",
         &[
+            "assets",
             "physics",
             "rapier",
             "mjcf",
@@ -124,9 +126,10 @@ const ORDER: [(&str, &[&str]); 34] = [
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 22] = [
+const OTHERS: [(&str, &[&str]); 23] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
+    ("robohive-workshop", &["earcut"]),
     ("robohive-dataset", &["zip", "flate2"]),
     ("robohive-random", &["libm"]),
     ("robohive-store", &["flate2", "lzma-rust2", "sha2", "zip"]),
@@ -173,6 +176,7 @@ fn crates_depend_on_those_before_them() {
     let ours: BTreeSet<_> = [
         "assets",
         "physics",
+        "workshop",
         "rapier",
         "mjcf",
         "dataset",
@@ -325,19 +329,14 @@ fn python_records_measures_documents_or_belongs_to_the_package() {
 
 #[test]
 fn every_own_model_is_described_and_recorded() {
-    let named = |folder: &str, extension: &str| -> BTreeSet<String> {
-        let files = tree::files(folder, extension).into_iter();
-        let depth = folder.split('/').count() + 1 + usize::from(folder == "assets");
-        let direct = files.filter(|path| path.split('/').count() == depth);
-        direct
-            .map(|path| {
-                path.rsplit('/').next().unwrap().trim_end_matches(&format!(".{extension}")).to_owned()
-            })
-            .collect()
-    };
-    let models = named("assets", "xml");
+    let models: BTreeSet<String> = assets::models().map(|(name, _)| name.to_owned()).collect();
     assert!(models.len() >= 9, "{models:?}");
-    assert_eq!(models, named("validation/reference/own", "npz"), "models and their references");
+    let recorded = tree::files("validation/reference/own", "npz").into_iter();
+    let name = |path: String| path.rsplit('/').next().unwrap().trim_end_matches(".npz").to_owned();
+    assert_eq!(models, recorded.map(name).collect(), "models and their references");
+    let texts: BTreeSet<String> = assets::paths().map(|path| format!("assets/{path}")).collect();
+    let left_out = tree::files("assets", "xml").into_iter().filter(|path| !texts.contains(path));
+    none(left_out.collect(), "models that `assets/lib.rs` does not name");
     let folders = std::fs::read_dir(root().join("assets")).unwrap().map(|entry| entry.unwrap().path());
     let bare = folders.filter(|folder| folder.is_dir()).filter(|folder| {
         std::fs::read_to_string(folder.join("README.md")).map_or(0, |text| text.len()) < 100

@@ -2,13 +2,13 @@
 
 mod own;
 
-use own::{assets, bits};
+use own::{Own, assets, bits};
 use physics::consistency::check_consistency;
 use physics::model::binary::{BinaryError, seal};
 use physics::pipeline::validity::check_model;
 use physics::{Data, Model, step};
 use robohive_mjcf::files::Memory;
-use robohive_mjcf::{Loader, load, load_str};
+use robohive_mjcf::{Loader, load_str};
 
 const SMALL: &str = "<mujoco model='small'><option density='2'/><asset>
     <mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/>
@@ -29,7 +29,7 @@ fn small() -> Model {
 #[test]
 fn every_model_comes_back_bit_for_bit() {
     for path in assets() {
-        let m = load(&path).unwrap().model;
+        let m = Loader::default().files(Own).load(path).unwrap().model;
         let bytes = m.to_bytes();
         let again = Model::from_bytes(&bytes).unwrap_or_else(|error| panic!("{path}: {error}"));
         assert_eq!(bits(&again), bits(&m), "{path}");
@@ -118,7 +118,7 @@ fn sealed_nonsense_makes_no_step_panic() {
 fn numbers_out_of_range_are_refused_or_stepped() {
     let (mut refused, mut stepped) = (0, 0);
     for path in assets().iter().filter(|path| ["workbench", "delays"].iter().any(|n| path.contains(n))) {
-        let m = load(path).unwrap().model;
+        let m = Loader::default().files(Own).load(path).unwrap().model;
         let mut arrays = Vec::new();
         m.visit(&mut |name, _, values| arrays.push((name, values.to_f64(), values.is_float())));
         for (name, values, float) in arrays.iter().filter(|(_, values, _)| !values.is_empty()) {

@@ -2,10 +2,10 @@
 
 mod own;
 
-use own::{assets, bits};
+use own::{Own, assets, bits};
 use physics::Model;
 use robohive_mjcf::Loader;
-use robohive_mjcf::files::{Disk, Overlay};
+use robohive_mjcf::files::Overlay;
 
 fn assert_same(a: &Model, b: &Model, what: &str) {
     for ((name, a), (_, b)) in bits(a).iter().zip(&bits(b)) {
@@ -17,17 +17,17 @@ fn assert_same(a: &Model, b: &Model, what: &str) {
 #[test]
 fn own_models_come_back_bit_for_bit_and_their_texts_stay() {
     for path in assets() {
-        let parsed = Loader::default().parse(&path).unwrap();
+        let parsed = Loader::default().files(Own).parse(path).unwrap();
         let mut spec = parsed.spec.clone();
-        let model = Loader::default().compile(parsed).unwrap().model;
+        let model = Loader::default().files(Own).compile(parsed).unwrap().model;
         let (dir, _) = path.rsplit_once('/').unwrap();
         spec.settle_keys(&model);
         spec.place_assets(dir).unwrap();
         let text = spec.to_xml().unwrap();
         let place = format!("{dir}/written.xml");
-        let loader = Loader::default().files(Overlay::new(Disk::everywhere(), &place, text.as_bytes()));
+        let loader = Loader::default().files(Overlay::new(Own, &place, text.as_bytes()));
         let again = loader.parse(&place).unwrap_or_else(|e| panic!("{path}: {e}\n{text}"));
         assert_eq!(again.spec.to_xml().unwrap(), text, "{path}");
-        assert_same(&loader.compile(again).unwrap().model, &model, &path);
+        assert_same(&loader.compile(again).unwrap().model, &model, path);
     }
 }

@@ -1,6 +1,6 @@
 //! `assets`: the user's store of model files that belong to others.
 
-use crate::failure::Failure;
+use crate::failure::{Failure, unwritable};
 use crate::terminal::{note, show, show_json, show_verdict};
 use clap::{Args, Subcommand, ValueHint};
 use indicatif::{HumanBytes, ProgressBar, ProgressStyle};
@@ -43,6 +43,24 @@ enum Action {
     List(List),
     /// Read everything again and name what is damaged
     Verify(Verify),
+    /// Write our own models, with the meshes that they name, into a folder
+    Own(Own),
+}
+
+/// Write our own models, with the meshes that they name, into a folder
+#[derive(Args)]
+#[command(
+    after_help = "The models of hive/ are part of this program, and their meshes are made when they are needed. As files they open in \
+MuJoCo and in modelling programs, and can be changed. Files of the same names in FOLDER are replaced.
+
+Examples:
+  robohive assets own models
+  robohive render models/panda/scene.xml --out panda.png"
+)]
+struct Own {
+    /// Where to write them
+    #[arg(value_name = "FOLDER", value_hint = ValueHint::DirPath)]
+    folder: PathBuf,
 }
 
 /// Where the store is.
@@ -127,7 +145,14 @@ pub fn run(a: &Assets) -> Result<(), Failure> {
         Action::Import(a) => import(a),
         Action::List(a) => list(a),
         Action::Verify(a) => verify(a),
+        Action::Own(a) => own(a),
     }
+}
+
+fn own(a: &Own) -> Result<(), Failure> {
+    let count = ::assets::write(&a.folder).map_err(unwritable(&a.folder))?;
+    show!("{count} files in {}", a.folder.display());
+    Ok(())
 }
 
 fn open(place: &Place) -> Result<Store, Failure> {

@@ -2,7 +2,6 @@
 
 use crate::message::message;
 use mjcf::Loader;
-use mjcf::files::Memory;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -73,13 +72,11 @@ const OWN: &str = "hive/";
 /// We have no such model.
 pub(crate) fn own_model(path: &str) -> Option<Result<(Loader, PathBuf), AssetError>> {
     let path = path.strip_prefix(OWN)?;
-    if !assets::FILES.iter().any(|(name, _)| *name == path) {
-        let names: Vec<_> = assets::FILES.iter().map(|(name, _)| *name).collect();
+    if assets::text(path).is_none() {
+        let names: Vec<_> = assets::paths().filter(|path| path.ends_with(".xml")).collect();
         return Some(Err(format!("our own models are {}", names.join(", ")).into()));
     }
-    let mut files = Memory::default();
-    assets::FILES.iter().for_each(|(name, text)| files.insert(name, text.as_bytes()));
-    Some(Ok((Loader::default().files(files), path.into())))
+    Some(Ok((Loader::default().files(assets::Own), path.into())))
 }
 
 /// What the paths of models begin with that belong to Gymnasium's package.
@@ -108,7 +105,7 @@ pub(crate) fn foreign_model(path: &str) -> Option<Result<(Loader, PathBuf), Asse
 /// The content of a file of our own; `None` for paths of other files, and for files that we do not have.
 pub(crate) fn own_file(path: &str) -> Option<Arc<[u8]>> {
     let path = path.strip_prefix(OWN)?;
-    assets::FILES.iter().find(|(name, _)| *name == path).map(|(_, text)| Arc::from(text.as_bytes()))
+    assets::read(path).map(|bytes| Arc::from(&*bytes))
 }
 
 /// No files at all: enough for models of our own.

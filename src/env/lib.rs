@@ -41,6 +41,7 @@ mod spec;
 pub mod suite;
 mod task;
 mod task_type;
+mod twins;
 mod vector;
 
 pub use crate::arguments::{Arguments, ArgumentsError};

@@ -17,6 +17,7 @@ use crate::spec::Spec;
 use crate::suite;
 use crate::task::{Setup, Task};
 use crate::task_type::TaskType;
+use crate::twins::twin;
 use physics::model::Suggestions;
 use serde::de::DeserializeOwned;
 use std::collections::HashMap;
@@ -47,6 +48,8 @@ static BUILTIN: LazyLock<Registry> = LazyLock::new(|| {
     const FORM: &str = "the built-in tables are well formed, which a test checks";
     let (mut registry, mut guests) = (Registry::default(), Registry::default());
     TABLES.iter().for_each(|table| registry.add_table(table).expect(FORM));
+    let twins: Vec<Spec> = registry.specs.iter().filter_map(twin).collect();
+    twins.into_iter().for_each(|spec| registry.register(spec));
     GUESTS.iter().for_each(|table| guests.add_table(table).expect(FORM));
     registry.guests = guests.specs;
     registry

@@ -1,7 +1,6 @@
 //! Models of our own, which programs carry.
 
 use mjcf::diagnostic::Diagnostics;
-use mjcf::files::Memory;
 use mjcf::{Loaded, Loader};
 use std::fmt;
 
@@ -28,20 +27,14 @@ impl fmt::Display for OwnModelError {
 
 impl std::error::Error for OwnModelError {}
 
-/// Names and paths in `assets/` of the models; what lies in folders `parts` is a part of models.
+/// Names and paths in `assets/` of the models that stand for themselves.
 pub fn own_models() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let models = assets::FILES.iter().map(|(path, _)| *path).filter(|path| !path.contains("/parts/"));
-    models.filter_map(|path| {
-        let stem = path.strip_suffix(".xml")?;
-        Some((stem.rsplit('/').next().unwrap_or(stem), path))
-    })
+    assets::models()
 }
 
 /// What reads them by their paths.
 pub fn own_loader() -> Loader {
-    let mut files = Memory::default();
-    assets::FILES.iter().for_each(|(path, text)| files.insert(path, text.as_bytes()));
-    Loader::default().files(files)
+    Loader::default().files(assets::Own)
 }
 
 /// The model of a name.

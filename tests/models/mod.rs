@@ -1,17 +1,12 @@
 //! The own models.
 
+use robohive::mjcf::Loader;
 use robohive::physics::Model;
-use std::path::{Path, PathBuf};
 
-/// Every model of `assets/`, with its name.
+/// Every model of our own, with its name.
 pub fn assets() -> Vec<(String, Model)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets");
-    let entries = |folder: PathBuf| std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<_> = entries(root).filter(|folder| folder.is_dir()).flat_map(entries).collect();
-    files.retain(|file| file.extension().is_some_and(|e| e == "xml"));
-    files.sort();
-    assert!(files.len() >= 9, "{files:?}");
-    let name = |file: &Path| file.file_stem().unwrap().to_string_lossy().into_owned();
-    let load = |file: &Path| robohive::mjcf::load(file).unwrap().model;
-    files.iter().map(|file| (name(file), load(file))).collect()
+    let load = |path| Loader::default().files(assets::Own).load(path).unwrap().model;
+    let found: Vec<_> = assets::models().map(|(name, path)| (name.to_owned(), load(path))).collect();
+    assert!(found.len() >= 9, "{}", found.len());
+    found
 }

@@ -5,7 +5,7 @@
     python record.py --out DIR MODEL.xml [MODEL.xml ...]
     python record.py --out DIR --corpus FOLDER --list FILE
 
-One archive a model, named after its path. Its arrays:
+One archive a model, named after its path, `scene.xml` after its folder. Its arrays:
 
     model.NAME, size.NAME, opt.NAME, stat.NAME, vis.GROUP.NAME   the compiled model
     state.NAME      rows of independent states, taken from a moving rollout
@@ -231,7 +231,7 @@ def jobs(args):
     if mujoco.__version__ != "3.12.0":
         sys.exit(f"mujoco 3.12.0 is needed, this is {mujoco.__version__}")
     args.out.mkdir(parents=True, exist_ok=True)
-    found = [(path.stem, path) for path in args.models]
+    found = [(path.parent.name if path.stem == "scene" else path.stem, path) for path in args.models]
     with tempfile.TemporaryDirectory(prefix="corpus-") as copy:
         if args.list:
             shutil.copytree(args.corpus, copy, dirs_exist_ok=True)

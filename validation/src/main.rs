@@ -1,7 +1,7 @@
 //! Measures our physics beside MuJoCo's and writes the tables: model by model, or what the first word chooses.
 
 use physics::Model;
-use robohive_validation::reference::{Reference, own_models, recorded};
+use robohive_validation::reference::{Own, Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
 use robohive_validation::{bits, c_library, collide, demonstrations, draws, environments};
 use robohive_validation::{hulls, laws, pictures, policies, round_trip, scenes, solver, wider};
@@ -276,10 +276,8 @@ fn bits(a: &Arguments) -> Result<(String, Result<(), String>), String> {
         };
         return Ok((table, verdict));
     }
-    for (path, reference) in own_models().map_err(|e| e.to_string())? {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let loaded = mjcf::load(path).map_err(|e| e.to_string())?;
-        take(&name, &loaded.model, &reference)?;
+    for Own { name, model, reference } in own_models().map_err(|e| e.to_string())? {
+        take(name, &model, &reference)?;
     }
     let table = bits::render(&rows);
     let as_recorded = a.write.is_some() || OWN_BITS.contains(&table);

@@ -223,31 +223,29 @@ pub fn is_own(path: &Path) -> bool {
     path.parent().is_some_and(|folder| folder.ends_with("reference/own"))
 }
 
-/// Path and reference of every own model, in the order of their paths: the files directly in the folders of `assets`.
+/// A model of our own.
+pub struct Own {
+    /// Its name.
+    pub name: &'static str,
+    /// As we compile it.
+    pub model: Model,
+    /// What MuJoCo made of it.
+    pub reference: Reference,
+}
+
+/// Every own model, in the order of their names.
 ///
 /// # Errors
-/// A folder cannot be read, or a model has no reference.
-pub fn own_models() -> Result<Vec<(PathBuf, Reference)>, Box<dyn std::error::Error>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut models = Vec::new();
-    for folder in std::fs::read_dir(root.join("../assets"))? {
-        let folder = folder?.path();
-        if !folder.is_dir() {
-            continue;
-        }
-        for file in std::fs::read_dir(folder)? {
-            let path = file?.path();
-            if path.extension().is_some_and(|extension| extension == "xml") {
-                models.push(path);
-            }
-        }
-    }
-    models.sort();
-    let with_reference = |model: PathBuf| {
-        let name = model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let reference = root.join("reference/own").join(name + ".npz");
-        let opened = Reference::open(&reference).map_err(|e| format!("{}: {e}", reference.display()))?;
-        Ok((model, opened))
+/// A model cannot be read, or has no reference.
+pub fn own_models() -> Result<Vec<Own>, Box<dyn std::error::Error>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own");
+    let mut models: Vec<_> = assets::models().collect();
+    models.sort_unstable();
+    let with_reference = |(name, path)| {
+        let file = folder.join(format!("{name}.npz"));
+        let reference = Reference::open(&file).map_err(|e| format!("{}: {e}", file.display()))?;
+        let model = mjcf::Loader::default().files(assets::Own).load(path)?.model;
+        Ok(Own { name, model, reference })
     };
     models.into_iter().map(with_reference).collect()
 }

@@ -2,12 +2,12 @@
 
 use robohive_validation::compile::compare_compiled;
 use robohive_validation::motion::{compare_forward, compare_rollout, compare_steps};
-use robohive_validation::reference::{Reference, own_models};
+use robohive_validation::reference::{Own, own_models};
 use robohive_validation::tolerance::{COMPILE, OWN_QACC, OWN_STEP};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-/// Model and reference of every own model.
-fn own() -> Vec<(PathBuf, Reference)> {
+/// Every own model.
+fn own() -> Vec<Own> {
     let models = own_models().unwrap();
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference/own");
     assert_eq!(models.len(), std::fs::read_dir(folder).unwrap().count(), "a reference of no model");
@@ -15,57 +15,53 @@ fn own() -> Vec<(PathBuf, Reference)> {
     models
 }
 
-fn load(path: &Path) -> physics::Model {
-    mjcf::load(path).unwrap().model
-}
-
 #[test]
 fn own_models_compile_alike() {
     let mut compile = COMPILE.gauge();
-    for (path, reference) in own() {
-        let report = compare_compiled(&load(&path), &reference).unwrap();
+    for Own { name, model, reference } in own() {
+        let report = compare_compiled(&model, &reference).unwrap();
         assert!(report.fields > 300);
         let differences: Vec<_> = report.differences.iter().map(ToString::to_string).collect();
-        compile.take(report.largest, format!("{}: {}", path.display(), differences.join("; ")));
+        compile.take(report.largest, format!("{}: {}", name, differences.join("; ")));
     }
 }
 
 #[test]
 fn own_models_accelerate_alike() {
     let mut qacc = OWN_QACC.gauge();
-    for (path, reference) in own() {
-        let report = compare_forward(&load(&path), &reference).unwrap();
-        let (state, worst) = report.worst.unwrap_or_else(|| panic!("{}: no state", path.display()));
-        qacc.take(worst.error, format!("{} state {state}: {worst}", path.display()));
-        assert_eq!(report.agreeing, report.states, "{}: {:?}", path.display(), report.failure);
-        assert_eq!(report.equal_contacts, report.states, "{}", path.display());
+    for Own { name, model, reference } in own() {
+        let report = compare_forward(&model, &reference).unwrap();
+        let (state, worst) = report.worst.unwrap_or_else(|| panic!("{}: no state", name));
+        qacc.take(worst.error, format!("{} state {state}: {worst}", name));
+        assert_eq!(report.agreeing, report.states, "{}: {:?}", name, report.failure);
+        assert_eq!(report.equal_contacts, report.states, "{}", name);
     }
 }
 
 #[test]
 fn own_models_step_alike() {
     let mut step = OWN_STEP.gauge();
-    for (path, reference) in own() {
-        let report = compare_steps(&load(&path), &reference).unwrap();
+    for Own { name, model, reference } in own() {
+        let report = compare_steps(&model, &reference).unwrap();
         assert!(report.steps > 100);
-        step.take(report.worst.0, format!("{} step {}", path.display(), report.worst.1));
-        assert_eq!(report.agreeing, report.steps, "{}", path.display());
+        step.take(report.worst.0, format!("{} step {}", name, report.worst.1));
+        assert_eq!(report.agreeing, report.steps, "{}", name);
     }
 }
 
 #[test]
 fn own_models_move_alike() {
-    for (path, reference) in own() {
-        let report = compare_rollout(&load(&path), &reference).unwrap();
+    for Own { name, model, reference } in own() {
+        let report = compare_rollout(&model, &reference).unwrap();
         assert!(
             report.follows(),
             "{}: outside from step {:?}, {:?}",
-            path.display(),
+            name,
             report.first_outside,
             report.failure
         );
         let recorded = reference.row_count("rollout.qpos").unwrap();
         assert_eq!((report.steps, report.by_step.len()), (recorded, recorded));
-        assert!(recorded >= 120, "{}: {recorded} steps", path.display());
+        assert!(recorded >= 120, "{}: {recorded} steps", name);
     }
 }

@@ -2,18 +2,11 @@
 
 use physics::Model;
 use physics::table::Slice;
+pub use robohive_assets::Own;
 
-/// Paths of all own models.
-pub fn assets() -> Vec<String> {
-    let top = concat!(env!("CARGO_MANIFEST_DIR"), "/../assets");
-    let folders = std::fs::read_dir(top).unwrap().map(|entry| entry.unwrap().path()).filter(|p| p.is_dir());
-    let mut found: Vec<String> = folders
-        .flat_map(|folder| std::fs::read_dir(folder).unwrap())
-        .map(|entry| entry.unwrap().path())
-        .filter(|path| path.extension().is_some_and(|e| e == "xml"))
-        .map(|path| path.to_str().unwrap().to_owned())
-        .collect();
-    found.sort();
+/// Paths of all own models, for a loader with the files [`Own`].
+pub fn assets() -> Vec<&'static str> {
+    let found: Vec<_> = robohive_assets::models().map(|(_, path)| path).collect();
     assert!(found.len() > 5, "{found:?}");
     found
 }

@@ -95,7 +95,7 @@ fn substeps_are_steps_of_a_shorter_time_step() {
 #[test]
 fn muscles_tendons_and_servos_pull_as_under_our_pipeline() {
     for name in ["elbow/elbow.xml", "servos/servos.xml", "delays/delays.xml"] {
-        let (_, text) = assets::FILES.iter().find(|(path, _)| *path == name).unwrap();
+        let text = assets::text(name).unwrap();
         let m = mjcf::load_str(text).unwrap().model;
         assert!(m.nu > 0);
         let off = difference(&m, 200, Options::default());
@@ -141,7 +141,7 @@ fn a_height_field_that_is_edited_is_followed() {
 
 #[test]
 fn a_restored_world_moves_to_the_same_bits() {
-    let (_, text) = assets::FILES.iter().find(|(path, _)| *path == "pile/pile.xml").unwrap();
+    let text = assets::text("pile/pile.xml").unwrap();
     let m = mjcf::load_str(text).unwrap().model;
     let mut rapier = Rapier::new(&m, Options::default()).unwrap();
     let mut d = Data::new(&m);

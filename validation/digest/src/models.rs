@@ -48,12 +48,15 @@ impl Case {
     /// # Errors
     /// What the reader says of it.
     pub fn load(&self) -> Result<Model, String> {
-        let mut files = Memory::default();
-        for (path, text) in assets::FILES.iter().chain([&GALLERY]) {
-            files.insert(path, text.as_bytes());
-        }
-        let loader =
-            Loader::default().files(files).substitute("<option ", format!("<option {} ", self.options));
+        let loader = Loader::default().substitute("<option ", format!("<option {} ", self.options));
+        let (gallery, text) = GALLERY;
+        let loader = if self.file == gallery {
+            let mut files = Memory::default();
+            files.insert(gallery, text.as_bytes());
+            loader.files(files)
+        } else {
+            loader.files(assets::Own)
+        };
         loader.load(self.file).map(|loaded| loaded.model).map_err(|e| e.to_string())
     }
 }

@@ -52,8 +52,7 @@ impl Task {
 /// The scene with the sites of the task, as a file.
 fn model() -> Result<PathBuf, Box<dyn Error>> {
     static FILES: AtomicUsize = AtomicUsize::new(0);
-    let scene = assets::FILES.iter().find(|(path, _)| *path == "franka/franka_table.xml");
-    let (_, scene) = scene.ok_or("the scene is gone")?;
+    let scene = assets::text("franka/franka_table.xml").ok_or("the scene is gone")?;
     let cube = "<freejoint name=\"cube\"/>";
     let text = scene.replace(cube, &format!("{cube}<site name=\"cube\" size=\"0.005\"/>")).replace(
         "</worldbody>",
