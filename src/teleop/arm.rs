@@ -190,7 +190,9 @@ impl Arm {
         let reached = if motion.moves() {
             let begins = !std::mem::replace(&mut self.moving, true);
             self.turning |= motion.turns();
-            self.way = motion.way();
+            // A followed hand that pauses keeps its direction: along it the target ends where the arm is.
+            let pauses = motion.hand.is_some_and(|hand| hand.way == [0.0; 3]);
+            self.way = if pauses && !begins { self.way } else { motion.way() };
             let mut reached = self.pursue(model, data, motion, most);
             if begins && reached != Reached::Yes {
                 // The target cannot be reached from here: continue from the actual pose.

@@ -3,7 +3,7 @@
 use env::{Env, Options, OwnModels};
 use protocol::Port;
 use protocol::adb::{Next, Opening};
-use robohive_teleop::{Control, Event, Held, Mapping, Plan, Quest, Session};
+use robohive_teleop::{Control, Event, HandMove, Held, Input, Mapping, Plan, Quest, Session};
 use std::sync::{Arc, Mutex};
 use wire::adb::{Server, Shown};
 use wire::{Bench, Carries, Plant, Rates, VirtualPort};
@@ -144,4 +144,27 @@ fn a_log_that_stalls_stops_the_arm_and_does_not_move_it_when_it_comes_back() {
     assert!(leap < 0.02, "{leap}");
     let moved = ticks[ticks.len() - 1].hand[1] - ticks[0].hand[1];
     assert!((0.05..0.3).contains(&moved), "stalls are not caught up with: {moved}");
+}
+
+#[test]
+fn a_clutch_that_is_pressed_again_moves_nothing_by_itself() {
+    let mut session = session(3);
+    // Where the hand is after `ticks` of this input, on average over what is left of the arm's swinging.
+    let mut follow = |way: Option<[f64; 3]>, ticks: u32| {
+        let mut sum = 0.0;
+        for tick in 0..ticks {
+            let mut input = Input::default();
+            input.motion.arms[0].hand = way.map(|way| HandMove { way, turn: [1.0, 0.0, 0.0, 0.0] });
+            session.tick(&input).unwrap();
+            sum += if tick >= ticks / 2 { site(session.env(), "grasp")[2] } else { 0.0 };
+        }
+        sum / f64::from(ticks - ticks / 2)
+    };
+    // The hand rises, pauses, and the clutch is let go while the arm is still behind.
+    follow(Some([0.0, 0.0, 0.05]), 2);
+    follow(Some([0.0; 3]), 1);
+    let rest = follow(None, 88);
+    let again = follow(Some([0.0; 3]), 88);
+    println!("at rest at {rest:.4} m, and at {again:.4} m when the clutch was pressed again");
+    assert!((again - rest).abs() < 2e-3, "{rest} {again}");
 }
