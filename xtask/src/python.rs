@@ -1,7 +1,7 @@
 //! The Python package: its wheel, built and installed into an environment of its own, and its tests there.
 
 use crate::built::PROFILE;
-use crate::command::{installed, output, succeed, target_folder};
+use crate::command::{cargo, installed, output, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -45,16 +45,36 @@ pub fn run() -> Outcome {
     succeed(Command::new(&python).args(types))?;
     let types = ["-m", "basedpyright", "--project", "python/pyproject.toml", "--pythonpath"];
     succeed(Command::new(&python).args(types).arg(&python))?;
-    succeed(Command::new(&python).args(["-m", "pytest", "-q", "python/tests"]))?;
-    let lacks = |(program, package): (&str, &str)| {
+    let robohive = command()?;
+    let tests = ["-m", "pytest", "-q", "python/tests"];
+    succeed(Command::new(&python).args(tests).env("ROBOHIVE_COMMAND", robohive))?;
+    Ok(unchecked(&python))
+}
+
+/// The `robohive` command, built, which sessions of tests run.
+fn command() -> Result<PathBuf, String> {
+    cargo(&["build", "--quiet", "--profile", PROFILE, "-p", "robohive-cli"])?;
+    Ok(target_folder()?.join(PROFILE).join(format!("robohive{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// What the tests skip on this machine.
+fn unchecked(python: &Path) -> Vec<Missing> {
+    let lacks = |(what, program, package): (&str, &str, &str)| {
         (!installed(program)).then(|| {
-            Missing::new(
-                format!("windows from Python on a virtual display (there is no {program})"),
-                format!("apt-get install {package}"),
-            )
+            Missing::new(format!("{what} (there is no {program})"), format!("apt-get install {package}"))
         })
     };
-    Ok([("Xvfb", "xvfb"), ("xdotool", "xdotool")].into_iter().filter_map(lacks).collect())
+    let windows = "windows from Python on a virtual display";
+    let openxr = "controllers of an OpenXR runtime";
+    let programs = [(windows, "Xvfb", "xvfb"), (windows, "xdotool", "xdotool"), (openxr, "cc", "gcc")];
+    let mut missing: Vec<Missing> = programs.into_iter().filter_map(lacks).collect();
+    if output(Command::new(python).args(["-c", "import xr"])).is_err() {
+        missing.push(Missing::new(
+            format!("{openxr} (pyopenxr cannot be imported; it needs OpenGL's libGL)"),
+            "apt-get install libgl1",
+        ));
+    }
+    missing
 }
 
 /// The checkers of learners' libraries, where torch can be imported, which is too large to be installed unasked.

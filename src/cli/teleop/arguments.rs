@@ -28,7 +28,8 @@ turn; on a pad the left stick walks and the right one turns.
 
 Gamepad: left stick and triggers move, the cross and TL TR turn, WEST EAST close and open, NORTH slows down, SOUTH is success, a \
 press of the left stick throws away, of the right one pauses, SELECT and START end. Six-axis mouse: its six axes; left and right button close and \
-open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end; with --left-site the left hand leads a second arm by LG and leftTrig. A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. A leader arm leads joints too: the robot first moves slowly to its position, and then follows it; with --arm the leader's servos compensate its weight if \
+open, both end. Quest: the right hand is followed while RG is held, rightTrig closes, A success, X again, Y pause, B end; with --left-site the left hand leads a second arm by LG and leftTrig. OpenXR: the same \
+with the controllers of any headset; the session prints a command, `python -m robohive.openxr ADDRESS`, that you run where the headset's runtime is (`pip install pyopenxr websockets`). A glove leads the joints of a hand, by --calibration FILE; Space begins and pauses. A leader arm leads joints too: the robot first moves slowly to its position, and then follows it; with --arm the leader's servos compensate its weight if \
 its config has a section [gravity]. The keyboard's marks \
 work beside every device.
 
@@ -63,7 +64,7 @@ pub struct Teleop {
     /// The environment
     #[command(flatten)]
     pub source: OptionalSource,
-    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), leader:FILE (an arm that you move by hand, by its config), phone[:PORT] (a page for phones and headsets), phone-lan[:PORT] or phone-lan:ADDRESS:PORT (the same on the local network behind TLS; builds with --features tls)
+    /// What drives: keyboard, gamepad, spacemouse (Linux), quest[:HOST:PORT] (by an adb server), glove:PORT (a CyberGlove on a serial port), leader:FILE (an arm that you move by hand, by its config), phone[:PORT] (a page for phones and headsets), phone-lan[:PORT] or phone-lan:ADDRESS:PORT (the same on the local network behind TLS; builds with --features tls), openxr[:PORT] (controllers on SteamVR, Monado or WiVRn, by a program in Python)
     #[arg(long, value_name = "DEVICE", default_value = "keyboard", value_parser = DeviceChoice::read)]
     pub device: DeviceChoice,
     /// File of the device, instead of the first that is found; for quest a pipe with lines of its log

@@ -22,9 +22,11 @@ pub enum DeviceChoice {
     Leader(PathBuf),
     /// A phone or a headset, by a page.
     Phone(Reach),
+    /// Controllers of an OpenXR runtime, by a program that sends them to this port of the loopback.
+    OpenXr(u16),
 }
 
-/// Port of the page of phones.
+/// Port of the page of phones, and of OpenXR.
 const PAGE: u16 = 8090;
 
 impl DeviceChoice {
@@ -54,14 +56,18 @@ impl DeviceChoice {
                     format!("'{place}' is neither a port, such as {PAGE}, nor an address of this machine with a port, such as 192.168.0.7:{PAGE}")
                 })
             }
-            ("phone", Some(port)) => {
-                port.parse().map(|port| DeviceChoice::Phone(Reach::Loopback(port))).map_err(|_| format!("'{port}' is not a port, such as {PAGE}"))
-            }
+            ("phone", Some(text)) => port(text).map(|port| DeviceChoice::Phone(Reach::Loopback(port))),
+            ("openxr", None) => Ok(DeviceChoice::OpenXr(PAGE)),
+            ("openxr", Some(text)) => port(text).map(DeviceChoice::OpenXr),
             _ => {
-                Err("the devices are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT, leader:FILE, phone, phone:PORT, phone-lan, phone-lan:PORT, phone-lan:ADDRESS:PORT".to_owned())
+                Err("the devices are keyboard, gamepad, spacemouse, quest, quest:HOST:PORT, glove:PORT, leader:FILE, phone, phone:PORT, phone-lan, phone-lan:PORT, phone-lan:ADDRESS:PORT, openxr, openxr:PORT".to_owned())
             }
         }
     }
+}
+
+fn port(text: &str) -> Result<u16, String> {
+    text.parse().map_err(|_| format!("'{text}' is not a port, such as {PAGE}"))
 }
 
 /// Its name, without its address.
@@ -75,6 +81,7 @@ impl fmt::Display for DeviceChoice {
             DeviceChoice::Glove(_) => "glove",
             DeviceChoice::Leader(_) => "leader",
             DeviceChoice::Phone(_) => "phone",
+            DeviceChoice::OpenXr(_) => "openxr",
         })
     }
 }
@@ -89,6 +96,8 @@ mod tests {
         let address = DeviceChoice::Quest(Some("headset.local:5037".to_owned()));
         assert_eq!(DeviceChoice::read("quest:headset.local:5037"), Ok(address));
         assert_eq!(DeviceChoice::read("glove:/dev/ttyS0"), Ok(DeviceChoice::Glove("/dev/ttyS0".into())));
+        assert_eq!(DeviceChoice::read("openxr"), Ok(DeviceChoice::OpenXr(PAGE)));
+        assert_eq!(DeviceChoice::read("openxr:0"), Ok(DeviceChoice::OpenXr(0)));
         for wrong in [
             "quest:headset",
             "quest:host:70000",
@@ -98,6 +107,8 @@ mod tests {
             "glove:",
             "leader",
             "phone:x",
+            "openxr:x",
+            "openxr:70000",
             "phone-lan:x",
             "",
         ] {

@@ -6,6 +6,7 @@ use super::ears::{Listening, ListeningClock};
 use super::files::{self, Files};
 use super::leading::{connect, leading, read};
 use super::phone;
+use super::reach::Reach;
 use super::report::{Report, keys};
 use crate::failure::Failure;
 use crate::input::library::Source;
@@ -183,8 +184,8 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
                 "--path does not apply to a glove: name its serial port by --device glove:PORT",
             ));
         }
-        DeviceChoice::Phone(_) if path.is_some() => {
-            return Err(Failure::usage("--path does not apply to a phone: remove it"));
+        DeviceChoice::Phone(_) | DeviceChoice::OpenXr(_) if path.is_some() => {
+            return Err(Failure::usage(format!("--path does not apply to {}: remove it", a.device)));
         }
         DeviceChoice::Phone(reach) => {
             let page = phone::serve(*reach)?;
@@ -195,7 +196,12 @@ fn open(a: &Teleop, mapping: &Mapping, listening: &Listening) -> Result<(), Fail
                 }
             };
             note(&format!("open {} on the phone or headset, {then}", page.address));
-            Opened::of(::teleop::Device::Quest, page.lines)
+            Opened::of(::teleop::Device::Quest, page.lines).called("the page")
+        }
+        DeviceChoice::OpenXr(port) => {
+            let page = phone::serve(Reach::Loopback(*port))?;
+            note(&format!("run `python -m robohive.openxr {}` beside the headset's runtime", page.address));
+            Opened::of(::teleop::Device::Quest, page.lines).called("the OpenXR headset")
         }
         DeviceChoice::Glove(port) => Opened::glove(port)?,
         DeviceChoice::Gamepad => Opened::gamepad(path, &mapping.ends)?,

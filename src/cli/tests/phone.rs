@@ -20,6 +20,21 @@ fn ask(address: &str, path: &str, host: &str) -> String {
 }
 
 #[test]
+fn openxr_says_what_to_run_and_is_reached_with_the_key() {
+    let mut typed = Typed::start(&[ID, "--device", "openxr:0"], true);
+    let all = typed.all();
+    assert!(all.contains("the OpenXR headset drives hive/FrankaReach-v0"), "{all}");
+    let (_, after) = all.split_once("run `python -m robohive.openxr http://").unwrap();
+    let (place, _) = after.split_once('`').unwrap();
+    let (socket, _) = connect(format!("ws://{place}/socket")).unwrap();
+    let mut bridge = Page::new(socket);
+    bridge.hold("\"RG\"", 20);
+    typed.write("\u{1b}[27u");
+    let (status, said) = typed.end();
+    assert!(status.success(), "{said}");
+}
+
+#[test]
 fn a_page_with_the_key_drives_and_others_are_refused() {
     let file = scratch("phone.h5");
     let mut typed = Typed::start(&[ID, "--device", "phone:0", "--record", file.to_str().unwrap()], true);

@@ -290,7 +290,9 @@ fn what_cannot_be_opened_is_named_with_what_to_do() {
     let out = robohive(&["teleop", ID]);
     assert_eq!(out.status.code(), Some(1));
     assert!(text(&out.stderr).contains("run the command in a terminal"), "{}", text(&out.stderr));
-    let cases: [(&[&str], &str); 14] = [
+    let cases: [(&[&str], &str); 16] = [
+        (&[ID, "--device", "openxr:x"], "'x' is not a port"),
+        (&[ID, "--device", "openxr", "--path", "/dev/null"], "--path does not apply to openxr"),
         (&[ID, "--device", "gamepad", "--path", "/nonexistent/event3"], "/nonexistent/event3"),
         (&[ID, "--device", "quest:127.0.0.1:1"], "adb start-server"),
         (&[ID, "--device", "quest:headset"], "is not the address"),

@@ -82,6 +82,11 @@ impl Opened {
         Opened { file, decoder, name: name.to_owned() }
     }
 
+    /// The device by another name.
+    pub fn called(self, name: &str) -> Self {
+        Opened { name: name.to_owned(), ..self }
+    }
+
     /// Its name, for people.
     pub fn name(&self) -> &str {
         &self.name

@@ -1,11 +1,11 @@
-//! Converts messages of the page to lines of a headset's log, which sessions read.
+//! Converts messages of the page, and of the OpenXR bridge, to lines of a headset's log, which sessions read.
 
 use serde_json::Value;
 
 /// Largest delay of a message beyond the smallest delay of the session [s].
 const LATE: f64 = 0.15;
 /// Largest number of buttons in a message.
-const BUTTONS: usize = 16;
+const BUTTONS: usize = 24;
 
 /// Decoder of the messages of one page.
 #[derive(Default)]
@@ -34,15 +34,18 @@ impl Messages {
         let plain =
             |name: &&str| name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b" ._-".contains(&byte));
         let buttons: Vec<&str> = names.filter(plain).collect();
-        let tracked = message["tracked"].as_bool()?;
-        let pose = tracked.then(|| pose(&message["pose"])).flatten().unwrap_or_default();
-        Some(format!("wE9ryARX: {pose}&{}\n", buttons.join(",")))
+        message["tracked"].as_bool()?;
+        // The message is of the right hand; a second controller is in `left`.
+        let hands = [('r', &message), ('l', &message["left"])];
+        let poses: Vec<String> = hands.into_iter().filter_map(|(side, hand)| pose(side, hand)).collect();
+        Some(format!("wE9ryARX: {}&{}\n", poses.join("|"), buttons.join(",")))
     }
 }
 
-/// Position \[m\] and quaternion (x, y, z, w) as the rows of a homogeneous transform.
-fn pose(value: &Value) -> Option<String> {
-    let numbers: Option<Vec<f64>> = value.as_array()?.iter().map(Value::as_f64).collect();
+/// Position \[m\] and quaternion (x, y, z, w) of a tracked hand as the rows of a homogeneous transform.
+fn pose(side: char, hand: &Value) -> Option<String> {
+    hand["tracked"].as_bool().filter(|tracked| *tracked)?;
+    let numbers: Option<Vec<f64>> = hand["pose"].as_array()?.iter().map(Value::as_f64).collect();
     let [px, py, pz, x, y, z, w]: [f64; 7] = numbers?.try_into().ok()?;
     let norm = (x * x + y * y + z * z + w * w).sqrt();
     if !(0.5..2.0).contains(&norm) {
@@ -55,7 +58,7 @@ fn pose(value: &Value) -> Option<String> {
         [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y), pz],
     ];
     let numbers: Vec<String> = rows.as_flattened().iter().map(f64::to_string).collect();
-    Some(format!("r:{} 0 0 0 1", numbers.join(" ")))
+    Some(format!("{side}:{} 0 0 0 1", numbers.join(" ")))
 }
 
 #[cfg(test)]
@@ -84,6 +87,23 @@ mod tests {
         let wanted = [1.0, 0.0, 0.0, 0.25, 0.0, 0.0, -1.0, 1.0, 0.0, 1.0, 0.0, -0.5, 0.0, 0.0, 0.0, 1.0];
         assert!(numbers.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12), "{numbers:?}");
         assert_eq!(numbers.len(), 16);
+    }
+
+    #[test]
+    fn a_left_hand_is_told_beside_the_right_one() {
+        let mut messages = Messages::default();
+        let both = |seq, tracked, left| {
+            let left = format!(r#""left":{{"pose":[-0.25,1,-0.5,0,0,0,1],"tracked":{left}}},"buttons""#);
+            message(seq, 0.0, tracked).replace("\"buttons\"", &left)
+        };
+        let [right, left] = ["r:1 0 0 0.25", "l:1 0 0 -0.25"];
+        let rest = "0 1 0 1 0 0 1 -0.5 0 0 0 1";
+        let line = messages.line(&both(1, true, true), 100.0).unwrap();
+        assert_eq!(line, format!("wE9ryARX: {right} {rest}|{left} {rest}&RG,rightTrig 0.5\n"));
+        let line = messages.line(&both(2, false, true), 100.0).unwrap();
+        assert_eq!(line, format!("wE9ryARX: {left} {rest}&RG,rightTrig 0.5\n"));
+        let line = messages.line(&both(3, true, false), 100.0).unwrap();
+        assert_eq!(line, format!("wE9ryARX: {right} {rest}&RG,rightTrig 0.5\n"));
     }
 
     #[test]
