@@ -5,7 +5,7 @@ use crate::floating::{Floating, Pace};
 use crate::groups::{Group, Groups, Motion};
 use crate::links::{Link, Links, Tree};
 use crate::rules::{self, Geoms};
-use crate::shapes::shape_of;
+use crate::shapes::touching_shapes;
 use physics::Model;
 use physics::data::State;
 use physics::math::Quat;
@@ -45,9 +45,7 @@ impl Body {
     pub fn insert(m: &Model, sets: &mut Sets<'_>) -> Result<Self, NotSimulated> {
         crate::refuse::check(m)?;
         let groups = Groups::new(m);
-        let shapes: Vec<_> = (0..m.ngeom)
-            .map(|g| touches(m, g).then(|| shape_of(m, g)).transpose())
-            .collect::<Result<_, _>>()?;
+        let shapes: Vec<_> = touching_shapes(m).collect::<Result<_, _>>()?;
         let links = Links::insert(m, &groups, sets.bodies, sets.multibodies)?;
         let plainly = rules::mixes_plainly(m);
         let colliders = shapes.into_iter().map(|shape| {
@@ -300,12 +298,6 @@ impl Link {
             }
         }
     }
-}
-
-/// True where a geom may touch another.
-fn touches(m: &Model, g: usize) -> bool {
-    let named = |ids: &[i32]| ids.contains(&(g as i32));
-    m.geom_contype[g] | m.geom_conaffinity[g] != 0 || named(&m.pair_geom1) || named(&m.pair_geom2)
 }
 
 /// Whether bodies of the same tree may touch, so that contact types alone do not decide about contacts.

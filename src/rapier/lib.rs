@@ -107,7 +107,7 @@ mod stepper;
 mod touch;
 mod world;
 
-pub use measure::Measures;
+pub use measure::{Differences, Measures, refusals};
 pub use refuse::check;
 pub use robot::{Hooks, Robot};
 pub use shapes::{GeomShape, shape_of, shapes_of};

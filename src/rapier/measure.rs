@@ -1,12 +1,27 @@
-//! Differences between a world and its model.
+//! Whether a model becomes a world, and how far the world is from the model.
 
 use crate::convert::array;
+use crate::refuse::unsupported;
+use crate::shapes::touching_shapes;
 use crate::world::World;
 use physics::inertia::full_inertia;
-use physics::model::JointType;
+use physics::model::{JointType, NotSimulated};
 use physics::{Data, Model};
 use rapier3d_f64::math::Vector;
 use rapier3d_f64::utils::AngularInertiaOps;
+
+/// Everything in a model that keeps it from becoming a world, each by the name of its element; the first is the error of
+/// [`World::new`].
+///
+/// ```
+/// let text = "<mujoco><worldbody><geom name='glue' size='.1' adhesion='3'/></worldbody></mujoco>";
+/// let refusals = robohive_rapier::refusals(&mjcf::load_str(text)?.model);
+/// assert!(refusals[0].to_string().starts_with("geom \"glue\" asks for adhesion under rapier"));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn refusals(m: &Model) -> Vec<NotSimulated> {
+    unsupported(m).chain(touching_shapes(m).filter_map(Result::err)).collect()
+}
 
 /// Quantities of a world at the reference configuration, for comparison with its model.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +37,45 @@ pub struct Measures {
     pub axes: Vec<[f64; 3]>,
     /// Largest difference between the inertia of rapier's multibodies and the model's, relative to the largest entry.
     pub inertia: f64,
+}
+
+/// Differences of a world from its model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Differences {
+    /// Difference of the mass of all moving bodies, relative to it.
+    pub mass: f64,
+    /// Largest difference of a coordinate of a joint's axis in the world frame.
+    pub axes: f64,
+    /// Largest difference of an entry of the joint-space inertia, relative to the largest one.
+    pub inertia: f64,
+}
+
+impl Differences {
+    /// Whether all are below a bound; false where one is NaN.
+    pub fn within(self, bound: f64) -> bool {
+        [self.mass, self.axes, self.inertia].iter().all(|x| *x < bound)
+    }
+}
+
+impl Measures {
+    /// Compares with the model; NaN where its reference configuration cannot be evaluated.
+    pub fn differences(&self, m: &Model) -> Differences {
+        let moves = |b: &usize| m.body_treeid[*b] >= 0;
+        let moving: f64 = (1..m.nbody).filter(moves).map(|b| m.body_mass[b]).sum();
+        let mass = if moving > 0.0 { (self.mass / moving - 1.0).abs() } else { self.mass };
+        Differences { mass, axes: self.axes_off(m), inertia: self.inertia }
+    }
+
+    fn axes_off(&self, m: &Model) -> f64 {
+        let mut d = Data::new(m);
+        if physics::forward(m, &mut d).is_err() {
+            return f64::NAN;
+        }
+        let found = self.axes.iter().zip(&d.kin.xaxis).filter(|(found, _)| **found != [0.0; 3]);
+        let off = found.flat_map(|(a, b)| [0, 1, 2].map(|k| (a[k] - b[k]).abs()));
+        off.fold(0.0, f64::max)
+    }
 }
 
 impl World {

@@ -8,44 +8,37 @@ pub(crate) fn of(m: &Model, kind: ObjType, id: usize, what: &str) -> NotSimulate
     NotSimulated { feature: format!("{what} under rapier"), element: Some(m.label_of(kind, id)) }
 }
 
-/// Checks that a model has nothing that this engine does not simulate.
+/// Checks that a model has nothing that this engine does not simulate, shapes apart ([`refusals`](crate::refusals)).
 ///
 /// # Errors
 /// The first element that is not supported: a flex, adhesion, a moving surface, a type of equality constraint or joint, or a joint below a
 /// mocap body.
 pub fn check(m: &Model) -> Result<(), NotSimulated> {
-    if m.nflex > 0 {
-        return Err(of(m, ObjType::Flex, 0, "a deformable body"));
-    }
-    if let Some(g) = (0..m.ngeom).find(|&g| m.geom_adhesion[g] != 0.0) {
-        return Err(of(m, ObjType::Geom, g, "adhesion"));
-    }
-    if let Some(p) = (0..m.npair).find(|&p| m.pair_adhesion[p] != 0.0) {
-        return Err(of(m, ObjType::Geom, m.pair_geom1[p] as usize, "an adhesive pair"));
-    }
-    if let Some(g) = (0..m.ngeom).find(|&g| m.geom_surfacevel[g] != [0.0; 6]) {
-        return Err(of(m, ObjType::Geom, g, "a moving surface"));
-    }
-    for i in 0..m.nactuator {
-        if TrnType::from_code(m.actuator_trntype[i]) == Some(TrnType::Body) {
-            return Err(of(m, ObjType::Actuator, i, "adhesion"));
-        }
-    }
-    for e in 0..m.neq {
-        let kind = EqType::from_code(m.eq_type[e]);
-        if !matches!(kind, Some(EqType::Connect | EqType::Weld | EqType::Joint | EqType::Tendon)) {
-            return Err(of(m, ObjType::Equality, e, "this type of equality constraint"));
-        }
-    }
-    for j in 0..m.njnt {
-        let b = m.jnt_bodyid[j] as usize;
-        let above = m.body_weldid[m.body_parentid[b] as usize] as usize;
-        if m.body_mocapid[above] >= 0 {
-            return Err(of(m, ObjType::Joint, j, "a joint below a mocap body"));
-        }
-        if JointType::from_code(m.jnt_type[j]).is_none() {
-            return Err(of(m, ObjType::Joint, j, "this type of joint"));
-        }
-    }
-    Ok(())
+    unsupported(m).next().map_or(Ok(()), Err)
+}
+
+/// Every element that is not supported, by kind.
+pub(crate) fn unsupported(m: &Model) -> impl Iterator<Item = NotSimulated> {
+    let all = |kind, count, what, asks: fn(&Model, usize) -> bool| {
+        (0..count).filter(move |&id| asks(m, id)).map(move |id| of(m, kind, id, what))
+    };
+    let pairs = (0..m.npair).filter(|&p| m.pair_adhesion[p] != 0.0);
+    all(ObjType::Flex, m.nflex, "a deformable body", |_, _| true)
+        .chain(all(ObjType::Geom, m.ngeom, "adhesion", |m, g| m.geom_adhesion[g] != 0.0))
+        .chain(pairs.map(|p| of(m, ObjType::Geom, m.pair_geom1[p] as usize, "an adhesive pair")))
+        .chain(all(ObjType::Geom, m.ngeom, "a moving surface", |m, g| m.geom_surfacevel[g] != [0.0; 6]))
+        .chain(all(ObjType::Actuator, m.nactuator, "adhesion", |m, i| {
+            TrnType::from_code(m.actuator_trntype[i]) == Some(TrnType::Body)
+        }))
+        .chain(all(ObjType::Equality, m.neq, "this type of equality constraint", |m, e| {
+            use EqType::{Connect, Joint, Tendon, Weld};
+            !matches!(EqType::from_code(m.eq_type[e]), Some(Connect | Weld | Joint | Tendon))
+        }))
+        .chain(all(ObjType::Joint, m.njnt, "a joint below a mocap body", |m, j| {
+            let parent = m.body_parentid[m.jnt_bodyid[j] as usize] as usize;
+            m.body_mocapid[m.body_weldid[parent] as usize] >= 0
+        }))
+        .chain(all(ObjType::Joint, m.njnt, "this type of joint", |m, j| {
+            JointType::from_code(m.jnt_type[j]).is_none()
+        }))
 }

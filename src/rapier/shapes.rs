@@ -81,6 +81,17 @@ pub fn shape_of(m: &Model, g: usize) -> Result<GeomShape, NotSimulated> {
     Ok(GeomShape { geom: g, body: m.geom_bodyid[g] as usize, pose: local * turned, shape })
 }
 
+/// The shapes of geoms, in their order; `None` for those that touch nothing.
+pub(crate) fn touching_shapes(m: &Model) -> impl Iterator<Item = Result<Option<GeomShape>, NotSimulated>> {
+    (0..m.ngeom).map(|g| touches(m, g).then(|| shape_of(m, g)).transpose())
+}
+
+/// True where a geom may touch another.
+fn touches(m: &Model, g: usize) -> bool {
+    let named = |ids: &[i32]| ids.contains(&(g as i32));
+    m.geom_contype[g] | m.geom_conaffinity[g] != 0 || named(&m.pair_geom1) || named(&m.pair_geom2)
+}
+
 fn refusal(m: &Model, g: usize, what: &str) -> NotSimulated {
     crate::refuse::of(m, ObjType::Geom, g, what)
 }

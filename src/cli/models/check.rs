@@ -1,8 +1,10 @@
-//! `check`: a model beside what MuJoCo recorded of it.
+//! `check`: a model beside what MuJoCo recorded of it, or as a world of rapier.
 
 use crate::failure::Failure;
 use crate::input::loading::load;
+use crate::input::solver::SolverArgument;
 use crate::input::source::ModelSource;
+use crate::models::world;
 use crate::terminal::{show, show_verdict};
 use crate::version::MUJOCO;
 use clap::{Args, ValueHint};
@@ -13,7 +15,7 @@ use validation::motion::{compare_forward, compare_rollout, compare_steps};
 use validation::reference::{Reference, ReferenceError};
 use validation::tolerance::{QACC, STEP};
 
-/// Compare a model with what MuJoCo recorded of it
+/// Compare a model with what MuJoCo recorded of it, or say whether rapier can simulate it
 #[derive(Args)]
 #[command(
     after_help = "Compared are the compiled arrays, the accelerations (qacc) of recorded states, single steps, \
@@ -22,16 +24,23 @@ and its twin, the same run from a state 1e-12 away: rounding differs in every st
 The last line says whether the model passed; the exit code is 1 when it did not. The reference is written by \
 validation/reference/record.py.
 
+With --solver rapier there is no reference: the report says whether the model becomes a world of rapier, with its degrees of \
+freedom, masses, axes of joints and inertia, or names every element that rapier does not support; the exit code is then 1.
+
 Examples:
-  robohive check assets/quadruped/quadruped.xml validation/reference/own/quadruped.npz"
+  robohive check assets/quadruped/quadruped.xml validation/reference/own/quadruped.npz
+  cargo run -p robohive-cli --features rapier -- check assets/pile/pile.xml --solver rapier"
 )]
 pub struct Check {
     /// The model
     #[command(flatten)]
     pub model: ModelSource,
     /// Recorded reference
-    #[arg(value_hint = ValueHint::FilePath)]
-    pub reference: PathBuf,
+    #[arg(value_hint = ValueHint::FilePath, required_unless_present = "solver")]
+    pub reference: Option<PathBuf>,
+    /// What is asked about the model
+    #[command(flatten)]
+    pub solver: SolverArgument,
 }
 
 /// What the words of the report mean, for the line that closes it.
@@ -43,10 +52,22 @@ const MAX_LISTED: usize = 10;
 /// Steps of the rollout whose differences are listed.
 const LISTED_STEPS: [usize; 6] = [0, 9, 49, 99, 199, 499];
 
-/// Runs the command: exit code 1 when a comparison disagrees.
+/// Runs the command: exit code 1 when a comparison disagrees, or rapier cannot simulate the model.
 pub fn run(a: &Check) -> Result<(), Failure> {
+    // A build without it says so first.
+    a.solver.engine()?;
+    let reference = match (&a.reference, a.solver.is_own()) {
+        (Some(path), true) => path,
+        (None, false) => return world::report(&load(&a.model.path, &a.model.reading)?),
+        (None, true) => return Err(Failure::usage("--solver own is compared with MuJoCo: give a reference")),
+        (Some(_), false) => {
+            return Err(Failure::usage(
+                "rapier does not follow MuJoCo: remove the reference, or --solver rapier",
+            ));
+        }
+    };
     let m = load(&a.model.path, &a.model.reading)?;
-    let reference = Reference::open(&a.reference).map_err(Failure::usage)?;
+    let reference = Reference::open(reference).map_err(Failure::usage)?;
     let mut report = Report::default();
     show!("{} beside MuJoCo {MUJOCO}", m.name);
     report.compare(&m, &reference).map_err(Failure::usage)?;

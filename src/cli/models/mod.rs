@@ -9,6 +9,7 @@ pub mod identify;
 pub mod inspect;
 pub mod sim;
 pub mod trace;
+pub mod world;
 
 /// Most steps that one run takes.
 pub const MAX_STEPS: u64 = 1_000_000_000;

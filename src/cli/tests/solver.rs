@@ -17,6 +17,7 @@ fn an_engine_that_is_not_there_is_refused() {
     for arguments in [
         &["sim", &model("pile/pile.xml"), "--quiet"][..],
         &["bench", &model("pile/pile.xml"), "--steps", "1"],
+        &["check", &model("pile/pile.xml")],
         &["run", "hive/FrankaReach-v0", "--episodes", "1"],
         &["check-env", "hive/FrankaReach-v0", "--steps", "1"],
     ] {
@@ -53,6 +54,21 @@ mod rapier {
         assert!(said.contains("steps/s"), "{said}");
         let said = refused(&["bench", &model("elbow/elbow.xml"), "--batch", "2", "--solver", "rapier"]);
         assert!(said.contains("remove --batch"), "{said}");
+    }
+
+    #[test]
+    fn a_check_says_whether_a_model_becomes_a_world_or_names_all_that_keeps_it_from_that() {
+        let said = done(&["check", &model("quadruped/quadruped.xml"), "--solver", "rapier"]);
+        assert!(said.contains("19 positions of 19, 18 degrees of freedom of 18"), "{said}");
+        assert!(said.contains("passed: quadruped becomes a world of rapier"), "{said}");
+        let output = robohive(&["check", &model("workbench/workbench.xml"), "--solver", "rapier"]);
+        assert_eq!(output.status.code(), Some(1));
+        let said = text(&output.stdout);
+        let named = said.lines().filter(|line| line.starts_with("refused"));
+        assert!(named.count() > 1 && said.contains("geom \"block\" asks for adhesion"), "{said}");
+        let reference = format!("{ROOT}/validation/reference/own/pile.npz");
+        let said = refused(&["check", &model("pile/pile.xml"), &reference, "--solver", "rapier"]);
+        assert!(said.contains("remove the reference"), "{said}");
     }
 
     #[test]

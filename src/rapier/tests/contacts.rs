@@ -3,7 +3,7 @@
 use physics::acceleration::contact_force::contact_force;
 use physics::math::mul_mat_t_vec;
 use physics::{Data, Model, Stepper};
-use robohive_rapier::{Options, Rapier, check, shapes_of};
+use robohive_rapier::{Options, Rapier, check, refusals, shapes_of};
 
 fn model(inside: &str) -> Model {
     mjcf::load_str(format!("<mujoco>{inside}</mujoco>")).unwrap().model
@@ -173,6 +173,16 @@ fn what_is_not_simulated_is_refused_by_name() {
         assert!(refusal.contains(said), "{refusal}");
         assert!(Rapier::new(&m, Options::default()).is_err());
     }
+    let m = model(
+        "<asset><mesh name='field' builtin='sphere' params='2'/></asset><worldbody>
+         <geom name='belt' type='plane' size='1 1 1' surfacevel='1 0 0 0 0 0'/>
+         <body><freejoint/><geom name='field' type='sdf' mesh='field'/></body>
+         <body><freejoint/><geom name='seen' type='sdf' mesh='field' contype='0' conaffinity='0'/></body></worldbody>",
+    );
+    let all: Vec<String> = refusals(&m).iter().map(ToString::to_string).collect();
+    let named = |text: &String, name: &str| text.starts_with(&format!("geom \"{name}\" asks for"));
+    assert!(all.len() == 2 && named(&all[0], "belt") && named(&all[1], "field"), "{all:?}");
+    assert_eq!(all[0], Rapier::new(&m, Options::default()).unwrap_err().to_string());
 }
 
 #[test]

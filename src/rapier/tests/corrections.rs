@@ -165,17 +165,16 @@ fn masses_axes_and_degrees_of_freedom_are_the_models() {
         <geom type='box' size='.1 .2 .3' pos='.2 0 0'/><body pos='0 .3 0' euler='0 0 50'><geom size='.2'/></body>
         <body pos='1 0 0'><joint type='ball'/><geom type='ellipsoid' size='.1 .2 .3'/></body></body>";
     let m = model(text, "");
-    let mut d = Data::new(&m);
-    physics::forward(&m, &mut d).unwrap();
-    let world = World::new(&m, Options::default()).unwrap();
-    let found = world.measure(&m);
+    let mut found = World::new(&m, Options::default()).unwrap().measure(&m);
     assert_eq!((found.nq, found.nv), (m.nq, m.nv));
     assert!((found.mass / m.body_subtreemass[0] - 1.0).abs() < 1e-9, "{found:?}");
-    // The third is a ball.
-    for (j, axis) in found.axes.iter().enumerate().take(2) {
-        assert!((0..3).all(|k| (axis[k] - d.kin.xaxis[j][k]).abs() < 1e-9), "{axis:?} {:?}", d.kin.xaxis[j]);
-    }
-    assert!(found.inertia < 1e-9, "the joint-space inertia is ours: {found:?}");
+    assert!(found.differences(&m).within(1e-9), "{:?}", found.differences(&m));
+    // What is off is noticed.
+    found.axes[1][2] += 1e-6;
+    found.mass *= 1.0 + 1e-7;
+    let off = found.differences(&m);
+    assert!((off.axes - 1e-6).abs() < 1e-9 && (off.mass - 1e-7).abs() < 1e-9, "{off:?}");
+    assert!(!off.within(1e-8));
 }
 
 #[test]

@@ -1,60 +1,102 @@
 //! Which models become a world, and how close it is to the model.
 
 use crate::{Subject, first_line};
-use physics::Data;
-use robohive_rapier::{Options, World};
+use physics::Model;
+use robohive_rapier::{Differences, Options, World, refusals};
+use std::fmt;
+
+/// Largest difference of a world that is its model's.
+const EXACT: f64 = 1e-9;
+
+/// What came of a model.
+enum Outcome {
+    /// Our own loader refuses it.
+    Unread(String),
+    /// Elements that rapier does not support.
+    Refused(Vec<String>),
+    /// A world: its positions and degrees of freedom, whether they are the model's, and how far it is off.
+    Built([usize; 2], bool, Differences),
+}
+
+impl Outcome {
+    fn of(model: &Result<Model, String>) -> Self {
+        let m = match model {
+            Ok(m) => m,
+            Err(error) => return Outcome::Unread(first_line(error).into()),
+        };
+        match World::new(m, Options::default()) {
+            Err(first) => {
+                let all: Vec<String> = refusals(m).iter().map(ToString::to_string).collect();
+                Outcome::Refused(if all.is_empty() { vec![first.to_string()] } else { all })
+            }
+            Ok(world) => {
+                let found = world.measure(m);
+                let same = (found.nq, found.nv) == (m.nq, m.nv);
+                Outcome::Built([m.nq, m.nv], same, found.differences(m))
+            }
+        }
+    }
+
+    fn is_exact(&self) -> bool {
+        matches!(self, Outcome::Built(_, true, off) if off.within(EXACT))
+    }
+}
+
+impl fmt::Display for Outcome {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Outcome::Unread(error) => write!(f, "{error} | | | "),
+            Outcome::Refused(all) => match &all[..] {
+                [one] => write!(f, "{one} | | | "),
+                [one, rest @ ..] => write!(f, "{one}, and {} more | | | ", rest.len()),
+                [] => write!(f, "refused | | | "),
+            },
+            Outcome::Built([nq, nv], same, Differences { mass, axes, inertia, .. }) => {
+                let sizes = if *same { "equal" } else { "differ" };
+                write!(f, "{nq}, {nv} {sizes} | {mass:.0e} | {axes:.0e} | {inertia:.0e}")
+            }
+        }
+    }
+}
 
 /// Prints a row for each model.
 pub fn table(all: &[Subject]) {
     println!("| model | nq, nv | mass | axes | inertia | rapier's own loader |");
     println!("|---|---|---|---|---|---|");
-    let (mut built, mut exact, mut own_stock, mut stock) = (0, 0, 0, 0);
-    let mut largest = [0.0_f64; 3];
-    for subject in all {
-        let theirs = stock_world(subject);
-        let loads = usize::from(theirs == "loads");
-        stock += loads;
-        own_stock += if subject.is_own() { loads } else { 0 };
-        let ours = match &subject.model {
-            Err(error) => format!("| {} | | | ", first_line(error)),
-            Ok(m) => match World::new(m, Options::default()) {
-                Err(refusal) => format!("| {refusal} | | | "),
-                Ok(world) => {
-                    built += 1;
-                    let found = world.measure(m);
-                    let moving: f64 =
-                        (1..m.nbody).filter(|&b| m.body_treeid[b] >= 0).map(|b| m.body_mass[b]).sum();
-                    let mass = if moving > 0.0 { (found.mass / moving - 1.0).abs() } else { found.mass };
-                    let axes = axes_off(m, &found.axes);
-                    let same = (found.nq, found.nv) == (m.nq, m.nv);
-                    let off = [mass, axes, found.inertia];
-                    exact += usize::from(same && off.iter().all(|x| *x < 1e-9));
-                    largest = [0, 1, 2].map(|k| off[k].max(largest[k]));
-                    let (sizes, inertia) = (if same { "equal" } else { "differ" }, found.inertia);
-                    format!("| {}, {} {sizes} | {mass:.0e} | {axes:.0e} | {inertia:.0e} ", m.nq, m.nv)
-                }
-            },
-        };
-        println!("| {} {ours}| {theirs} |", subject.name);
-    }
-    let [mass, axes, inertia] = largest;
+    let outcomes: Vec<(Outcome, String)> = all
+        .iter()
+        .map(|subject| {
+            let (ours, theirs) = (Outcome::of(&subject.model), stock_world(subject));
+            println!("| {} | {ours} | {theirs} |", subject.name);
+            (ours, theirs)
+        })
+        .collect();
+    let count = |what: fn(&Outcome) -> bool| outcomes.iter().filter(|(ours, _)| what(ours)).count();
+    let largest = outcomes.iter().fold([0.0_f64; 3], |most, (ours, _)| match ours {
+        Outcome::Built(_, _, Differences { mass, axes, inertia, .. }) => {
+            [most[0].max(*mass), most[1].max(*axes), most[2].max(*inertia)]
+        }
+        _ => most,
+    });
+    let loads = |own: bool| {
+        let chosen = all.iter().zip(&outcomes).filter(|(subject, _)| subject.is_own() || !own);
+        chosen.filter(|(_, (_, theirs))| theirs == "loads").count()
+    };
     println!(
-        "\nOf {} models: {built} become a world, {exact} with the model's nq and nv, and mass, axes and inertia within 1e-9; the largest \
-         differences are {mass:.0e}, {axes:.0e} and {inertia:.0e}. rapier3d-mjcf loads {stock}, {own_stock} of them own models.",
-        all.len()
+        "\nOf {} models our loader reads {}; {} of these have what rapier does not support, {} become a world, {} with the model's nq \
+         and nv, and mass, axes and inertia within {EXACT:e}; the largest differences are {:.0e}, {:.0e} and {:.0e}. rapier3d-mjcf \
+         loads {}, {} of them own models.",
+        all.len(),
+        count(|o| !matches!(o, Outcome::Unread(_))),
+        count(|o| matches!(o, Outcome::Refused(_))),
+        count(|o| matches!(o, Outcome::Built(..))),
+        count(Outcome::is_exact),
+        largest[0],
+        largest[1],
+        largest[2],
+        loads(false),
+        loads(true)
     );
-}
-
-/// Largest difference of a joint's axis in the world.
-fn axes_off(m: &physics::Model, found: &[[f64; 3]]) -> f64 {
-    let mut d = Data::new(m);
-    if physics::forward(m, &mut d).is_err() {
-        return f64::NAN;
-    }
-    let has_axis = |j: &usize| found[*j] != [0.0; 3];
-    let off = |j: usize| (0..3).map(move |k| (j, k));
-    let differences = (0..m.njnt).filter(has_axis).flat_map(off);
-    differences.map(|(j, k)| (found[j][k] - d.kin.xaxis[j][k]).abs()).fold(0.0, f64::max)
 }
 
 #[cfg(feature = "stock")]
