@@ -16,7 +16,8 @@ const DIGEST: [&str; 2] = ["-p", "robohive-digest"];
 pub const STATIC_TARGET: &str = "x86_64-unknown-linux-gnu";
 /// Flags of the static build: as configured, and the C library inside.
 const STATIC_FLAGS: &str = "-C target-feature=+avx,+crt-static";
-const WEB_TARGET: &str = "wasm32-unknown-unknown";
+/// The target of WebAssembly modules without a system.
+pub const WEB_TARGET: &str = "wasm32-unknown-unknown";
 
 /// The command with TLS, and the library without its default features, here and for WebAssembly where the target is installed.
 pub fn features() -> Outcome {
@@ -131,8 +132,7 @@ fn web_build(profile: &str, flags: &str) -> Result<Option<Missing>, String> {
     let module = ["--lib", "--crate-type", "cdylib", "--no-default-features", "--target", WEB_TARGET];
     digest(&[&["rustc", "--quiet", "--profile", profile][..], &module].concat(), &[], flags)?;
     if !installed("node") {
-        let what = "hashes from WebAssembly (the module is built; node, which runs it, is not installed)";
-        return Ok(Some(Missing::new(what, "install Node.js, https://nodejs.org")));
+        return Ok(Some(node_missing("hashes from WebAssembly")));
     }
     let module = target_folder()?.join(WEB_TARGET).join(profile).join("robohive_digest.wasm");
     succeed(Command::new("node").arg("validation/digest/run.mjs").arg(module))?;
@@ -149,4 +149,10 @@ pub fn web_target_installed() -> Result<bool, String> {
 /// Says that something needs the target.
 pub fn web_target_missing(what: &str) -> Missing {
     Missing::new(format!("{what} (the target is not installed)"), format!("rustup target add {WEB_TARGET}"))
+}
+
+/// Says that something is built and needs node to be run.
+pub fn node_missing(what: &str) -> Missing {
+    let what = format!("{what} (the module is built; node, which runs it, is not installed)");
+    Missing::new(what, "install Node.js, https://nodejs.org")
 }

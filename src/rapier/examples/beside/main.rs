@@ -1,7 +1,7 @@
 //! Rapier beside our own solver, and beside rapier's own loader of MJCF, in tables:
 //!
 //! ```sh
-//! cargo run --release -p robohive-rapier --features stock --example beside -- worlds|motion|speed|piles|bits [CORPUS LIST]
+//! cargo run --release -p robohive-rapier --features stock --example beside -- worlds|motion|speed|piles [CORPUS LIST]
 //! ```
 //!
 //! Own models always; with the folder that holds RoboHive's `envs` and `simhive` and a list of models in it, one path a line,
@@ -18,7 +18,7 @@ use physics::Model;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-const USAGE: &str = "usage: beside worlds|motion|speed|piles|bits [CORPUS LIST]";
+const USAGE: &str = "usage: beside worlds|motion|speed|piles [CORPUS LIST]";
 
 /// Begins the names of this repository's models.
 const OWN: &str = "own ";
@@ -94,7 +94,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         "motion" => motion::table(&subjects(corpus)?)?,
         "speed" => speed::table(&subjects(corpus)?),
         "piles" => speed::piles()?,
-        "bits" => motion::bits()?,
         _ => return Err(USAGE.into()),
     }
     Ok(())

@@ -1,11 +1,10 @@
 //! How far motions drift apart: rapier here, and rapier as its own loader sets it up, from our own solver, which follows MuJoCo
 //! (`validation/results/steps.md`, `robohive.md`).
 
-use crate::scenes::SCENES;
+use crate::scenes::{SCENES, controls, start, steps};
 use crate::{Subject, first_line};
-use physics::{Data, Engine, Model};
+use physics::{Engine, Model};
 use robohive_rapier::{Options, engine};
-use std::error::Error;
 
 /// RoboHive's models whose motion is compared.
 const ROBOHIVE: [&str; 12] = [
@@ -26,33 +25,10 @@ const ROBOHIVE: [&str; 12] = [
 /// Positions of bodies by name, at every step of a second.
 pub type Motion = Vec<Vec<[f64; 3]>>;
 
-/// Controls at a time: sines over half of each control's range, each with a phase of its own. A control without a range has
-/// that of -0.5 to 0.5.
-pub fn controls(m: &Model, time: f64, out: &mut [f64]) {
-    for (i, control) in out.iter_mut().enumerate() {
-        let [low, high] = if m.actuator_ctrllimited[i] { m.actuator_ctrlrange[i] } else { [-0.5, 0.5] };
-        let wave = (3.0 * time + i as f64).sin() - (i as f64).sin();
-        *control = 0.5 * (low + high) + 0.25 * (high - low) * wave;
-    }
-}
-
 /// Names of the bodies that move, with their numbers.
 pub fn bodies(m: &Model) -> Vec<(String, usize)> {
     let named = m.body_names().map(|(id, name)| (name.to_owned(), id.index()));
     named.filter(|(name, b)| !name.is_empty() && m.body_weldid[*b] != 0).collect()
-}
-
-/// The first keyframe, or the reference configuration of a model without any.
-pub fn start(m: &Model) -> Data {
-    let mut d = Data::new(m);
-    if m.nkey > 0 {
-        d.reset_to_key(m, 0).expect("the model has a key");
-    }
-    d
-}
-
-fn steps(m: &Model) -> usize {
-    (1.0 / m.opt.timestep).round() as usize
 }
 
 /// A second of motion, or as much of it as an engine takes.
@@ -133,29 +109,4 @@ fn stock(subject: &Subject, m: &Model, own: &Motion) -> String {
 #[cfg(not(feature = "stock"))]
 fn stock(_: &Subject, _: &Model, _: &Motion) -> String {
     "not asked | |".into()
-}
-
-/// Prints a digest of the state after a second of every scene: the same on every machine, if rapier keeps its promise.
-///
-/// # Errors
-/// A scene does not load or move.
-pub fn bits() -> Result<(), Box<dyn Error>> {
-    for (name, text) in SCENES {
-        let m = mjcf::load_str(text)?.model;
-        let mut mover = engine(Options::default()).start(&m)?;
-        let mut d = start(&m);
-        for _ in 0..steps(&m) {
-            let time = d.time();
-            controls(&m, time, &mut d.state.ctrl);
-            mover.step(&m, &mut d)?;
-        }
-        let mut digest: u64 = 0xcbf2_9ce4_8422_2325;
-        for x in d.state.qpos.iter().chain(&d.state.qvel) {
-            for byte in x.to_bits().to_le_bytes() {
-                digest = (digest ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            }
-        }
-        println!("| {name} | {digest:016x} |");
-    }
-    Ok(())
 }

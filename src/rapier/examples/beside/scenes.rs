@@ -1,4 +1,7 @@
-//! Small scenes, each for one thing that engines do differently.
+//! Small scenes, each for one thing that engines do differently, and how models are driven for a second.
+
+use physics::math::ops::sin;
+use physics::{Data, Model};
 
 /// Name and text.
 pub const SCENES: [(&str, &str); 11] = [
@@ -40,3 +43,27 @@ pub const SCENES: [(&str, &str); 11] = [
         <tendon><spatial name='t'><site site='o'/><site site='i'/></spatial></tendon>
         <actuator><muscle tendon='t' force='200' lengthrange='.1 .5'/></actuator></mujoco>"),
 ];
+
+/// Controls at a time: sines over half of each control's range, each with a phase of its own. A control without a range has
+/// that of -0.5 to 0.5.
+pub fn controls(m: &Model, time: f64, out: &mut [f64]) {
+    for (i, control) in out.iter_mut().enumerate() {
+        let [low, high] = if m.actuator_ctrllimited[i] { m.actuator_ctrlrange[i] } else { [-0.5, 0.5] };
+        let wave = sin(3.0 * time + i as f64) - sin(i as f64);
+        *control = 0.5 * (low + high) + 0.25 * (high - low) * wave;
+    }
+}
+
+/// The first keyframe, or the reference configuration of a model without any.
+pub fn start(m: &Model) -> Data {
+    let mut d = Data::new(m);
+    if m.nkey > 0 {
+        d.reset_to_key(m, 0).expect("the model has a key");
+    }
+    d
+}
+
+/// Steps in a second.
+pub fn steps(m: &Model) -> usize {
+    (1.0 / m.opt.timestep).round() as usize
+}

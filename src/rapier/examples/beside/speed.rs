@@ -1,6 +1,6 @@
 //! Steps a second of both solvers on one thread.
 
-use crate::motion::{controls, start};
+use crate::scenes::{controls, start};
 use crate::{Subject, first_line};
 use physics::{Data, Engine, Model};
 use robohive_rapier::{Options, engine};

@@ -1,6 +1,7 @@
 //! The same models as rapier's own loader sets them up, in single precision as it does.
 
-use crate::motion::{Motion, controls};
+use crate::motion::Motion;
+use crate::scenes::controls;
 use physics::Model;
 use rapier3d::prelude::*;
 use rapier3d_mjcf::{MjcfLoaderOptions, MjcfMultibodyOptions, MjcfRobot};
