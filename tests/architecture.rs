@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 35] = [
+const ORDER: [(&str, &[&str]); 36] = [
     ("robohive-physics", &[]),
     ("robohive-workshop", &["physics"]),
     ("robohive-dataset", &[]),
@@ -44,6 +44,7 @@ const ORDER: [(&str, &[&str]); 35] = [
     ("robohive-record", &["physics", "dataset", "env"]),
     ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),
     ("robohive-teleop", &["physics", "dataset", "protocol", "robot", "env", "agents", "record"]),
+    ("robohive-bevy", &["assets", "rapier", "mjcf", "teleop"]),
     ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",

@@ -69,3 +69,4 @@ pub use reached::Reached;
 pub use session::{JUDGED, Session};
 pub use settings::{ArmSettings, BaseSettings, Gains};
 pub use space_mouse::SpaceMouse;
+pub use trot::Trot;

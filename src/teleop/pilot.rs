@@ -49,7 +49,9 @@ impl Pilot {
         }
         let driven = match control {
             Control::Hand => Driven::Arms(Arm::all_of(env, &mapping.arm, mapping.gains)?),
-            Control::Base => Driven::Base(Box::new(Trot::of(env, mapping.base)?)),
+            Control::Base => {
+                Driven::Base(Box::new(Trot::of(&env.scene().model, &env.scene().data, mapping.base)?))
+            }
             Control::Joints => {
                 Driven::Joints(resting(env)?, mapping.gains.joint, Lead::of(env, mapping.led.as_ref())?)
             }
@@ -114,7 +116,8 @@ impl Pilot {
             }
             Driven::Base(trot) => {
                 let part = motion.pace();
-                trot.step(env, motion.base.map(|x| part * x), env.dt(), &mut self.action);
+                let (scene, wanted) = (env.scene(), motion.base.map(|x| part * x));
+                trot.step(&scene.model, &scene.data, wanted, env.dt(), &mut self.action);
                 if normalized {
                     env.robot().normalize(&env.scene().model, &mut self.action)?;
                 }

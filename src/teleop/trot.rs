@@ -4,7 +4,6 @@
 use crate::error::TeleopError;
 use crate::link::{Link, link};
 use crate::settings::BaseSettings;
-use env::Env;
 use physics::elements::{Element, JointId, SiteId};
 use physics::math::{Vec3, add};
 use physics::model::JointType;
@@ -41,6 +40,24 @@ struct Leg {
 }
 
 /// A four-legged robot that trots. A copy is sufficient to continue an episode from here.
+///
+/// ```
+/// use robohive_teleop::{Mapping, Trot};
+///
+/// let text = assets::FILES.iter().find(|(path, _)| *path == "quadruped/quadruped.xml").ok_or("no robot")?.1;
+/// let model = mjcf::load_str(text)?.model;
+/// let mut data = physics::Data::new(&model);
+/// data.reset_to_key(&model, 0)?;
+/// let mut trot = Trot::of(&model, &data, Mapping::default().base)?;
+/// let mut controls = vec![0.0; model.nu];
+/// for _ in 0..80 {
+///     trot.step(&model, &data, [1.0, 0.0, 0.0], 0.025, &mut controls);
+///     data.state.ctrl.copy_from_slice(&controls);
+///     (0..10).try_for_each(|_| physics::step(&model, &mut data))?;
+/// }
+/// assert!(data.state.qpos[1] > 0.15, "it walks along y");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Trot {
     legs: Vec<Leg>,
@@ -54,12 +71,11 @@ pub struct Trot {
 
 impl Trot {
     /// Finds the legs of a model: three servos each, between its floating torso and a site at the foot. They stand as in the first
-    /// keyframe, or as in the present state without keyframes.
+    /// keyframe, or as in the state of `data` without keyframes.
     ///
     /// # Errors
     /// The model has no such torso, or no such legs.
-    pub fn of(env: &Env, settings: BaseSettings) -> Result<Self, TeleopError> {
-        let (model, data) = (&env.scene().model, &env.scene().data);
+    pub fn of(model: &Model, data: &Data, settings: BaseSettings) -> Result<Self, TeleopError> {
         let root = model.joints().next().filter(|joint| model.joint(*joint).kind() == Some(JointType::Free));
         let Some(root) = root else { return Err(missing("the model has no torso with a free joint")) };
         let torso = model.jnt_bodyid[root.index()];
@@ -83,16 +99,16 @@ impl Trot {
         (self.velocity, self.phase) = ([0.0; 3], 0.0);
     }
 
-    /// Writes the controls of the next `dt` seconds, approaching the commanded velocity: fractions of the largest, -1 to 1.
-    pub fn step(&mut self, env: &Env, wanted: [f64; 3], dt: f64, controls: &mut [f64]) {
+    /// The positions of joints for the next `dt` seconds \[rad\], one of `controls` for each actuator, approaching the velocity `wanted`:
+    /// forward, to the left, counterclockwise, as fractions of the largest, -1 to 1. Nothing of the state of `data` is used.
+    pub fn step(&mut self, model: &Model, data: &Data, wanted: [f64; 3], dt: f64, controls: &mut [f64]) {
         let most = dt / self.settings.ramp;
         for (now, wanted) in self.velocity.iter_mut().zip(wanted) {
             *now += (wanted.clamp(-1.0, 1.0) - *now).clamp(-most, most);
         }
         let pace = self.velocity.iter().fold(0.0_f64, |pace, part| pace.max(part.abs()));
         self.phase = if pace < SLOW { 0.0 } else { (self.phase + dt / self.settings.period).fract() };
-        let model = &env.scene().model;
-        let mut start = env.scene().data.clone();
+        let mut start = data.clone();
         start.state.qpos.copy_from_slice(&self.pose);
         for leg in &self.legs {
             let pose = Pose { position: Some(self.target(leg, pace)), ..Pose::default() };

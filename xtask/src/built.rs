@@ -6,8 +6,8 @@ use std::process::Command;
 /// The profile of all checks, unless they check what is shipped: one compilation serves them.
 pub const PROFILE: &str = "ci";
 
-/// All packages but five that checks of their own build: the renderer that needs a GPU's interface, the clients of devices, and
-/// the second solver, which take minutes to compile (`gpu`, `clients`, `rapier`), the extension module for Python (`python`), and what makes the documentation
+/// All packages but six that checks of their own build: the renderer that needs a GPU's interface, the clients of devices, the
+/// second solver, and the program in Bevy that uses it, which take minutes to compile (`gpu`, `clients`, `rapier`), the extension module for Python (`python`), and what makes the documentation
 /// site (`site`). Encoders come with their networks.
 pub const EVERYTHING: &[&str] = &[
     "--workspace",
@@ -21,6 +21,8 @@ pub const EVERYTHING: &[&str] = &[
     "robohive-clients",
     "--exclude",
     "robohive-rapier",
+    "--exclude",
+    "robohive-bevy",
     "--features",
     "robohive-encoders/networks",
 ];

@@ -11,6 +11,7 @@ pub const INPUTS: &[&str] = &[
     "src/physics",
     "src/rapier",
     "src/env",
+    "src/teleop",
     "src/cli",
     "mjcf",
     "assets",
@@ -24,14 +25,16 @@ pub fn run() -> Outcome {
     let package = ["--profile", PROFILE, "-p", "robohive-rapier"];
     let command = ["--profile", PROFILE, "-p", "robohive-cli", "--features", "robohive-cli/rapier"];
     let stock = [&package[..], &["--features", "robohive-rapier/stock"]].concat();
+    let bevy = ["--profile", PROFILE, "-p", "robohive-bevy"];
     let python = ["--profile", PROFILE, "-p", "robohive-python", "--features", "robohive-python/rapier"];
-    for packages in [&package[..], &stock, &command, &python] {
+    for packages in [&package[..], &stock, &bevy, &command, &python] {
         cargo(&[&["clippy"][..], packages, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     }
     cargo(&[&["test"][..], &package].concat())?;
     for example in ["muscle_arm", "bits"] {
         cargo(&[&["run"][..], &package, &["--example", example]].concat())?;
     }
+    cargo(&[&["run"][..], &bevy].concat())?;
     cargo(&[&["test"][..], &command, &["--test", "solver"]].concat())?;
     let mut doc = Command::new("cargo");
     doc.args(["doc", "--no-deps"]).args(package).env("RUSTDOCFLAGS", "-D warnings");
