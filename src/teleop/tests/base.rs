@@ -1,8 +1,12 @@
 //! A quadruped that trots by velocity, on a virtual clock: how well it follows.
 
+#[path = "../examples/demonstrations/steer.rs"]
+mod steer;
+
 use env::{Arguments, Env, Options, OwnModels};
 use physics::math::{quat_conj, quat_rotate};
 use robohive_teleop::{Control, Input, Mapping, Mark, Motion, Plan, Session};
+use steer::towards_target;
 
 const ID: &str = "hive/QuadrupedWalk-v0";
 
@@ -88,14 +92,7 @@ fn a_person_who_steers_walks_to_the_targets_of_the_task() {
             session.tick(&Input { marks: vec![Mark::Skip], ..Input::default() }).unwrap();
         }
         let taken = (1..=400).find(|_| {
-            let scene = session.env().scene();
-            let target = scene.data.kin.site_xpos[scene.model.site("target").unwrap().index()];
-            let q = &scene.data.state.qpos;
-            let way = [target[0] - q[0], target[1] - q[1], 0.0];
-            let [right, ahead, _] = quat_rotate(quat_conj([q[3], q[4], q[5], q[6]]), way);
-            // Towards it, and round to where it is ahead.
-            let angle = (-right).atan2(ahead);
-            let base = [angle.cos().max(0.0), 0.0, (2.0 * angle).clamp(-1.0, 1.0)];
+            let base = towards_target(session.env());
             let ticked =
                 session.tick(&Input { motion: Motion { base, ..Motion::default() }, marks: vec![] }).unwrap();
             assert!(ticked.finished.is_none(), "seed {seed}: it falls");

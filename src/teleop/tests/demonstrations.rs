@@ -19,7 +19,7 @@ use trial::demonstrate;
 fn tasks_are_solved_by_the_bytes_of_keys_and_of_a_pad() {
     for task in TASKS {
         for speaker in [Speaker::Keys, Speaker::Pad] {
-            let outcome = demonstrate(task, speaker, 3).unwrap();
+            let outcome = demonstrate(task, speaker, 3, &env::Options::default()).unwrap();
             println!("{outcome}");
             assert!(outcome.succeeded >= 2, "{outcome}");
             assert_eq!(outcome.replayed, outcome.succeeded, "{outcome}");

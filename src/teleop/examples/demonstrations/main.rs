@@ -22,7 +22,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("|---|---|---|---|---|---|---|");
     for task in scene::TASKS {
         for speaker in [speaker::Speaker::Keys, speaker::Speaker::Pad] {
-            println!("{}", trial::demonstrate(task, speaker, episodes)?);
+            println!("{}", trial::demonstrate(task, speaker, episodes, &env::Options::default())?);
         }
     }
     Ok(())

@@ -30,9 +30,9 @@ impl Task {
     }
 
     /// Its environment: that of ours, or RoboHive's task of pushing on our scene.
-    pub fn env(self) -> Result<Env, Box<dyn Error>> {
+    pub fn env(self, options: &Options) -> Result<Env, Box<dyn Error>> {
         let range = match self {
-            Task::Reach => return Ok(Env::make("hive/FrankaReach-v0", &OwnModels, &Options::default())?),
+            Task::Reach => return Ok(Env::make("hive/FrankaReach-v0", &OwnModels, options)?),
             Task::Push => "low = [0.5, -0.12, 0.02], high = [0.62, 0.12, 0.02]",
             Task::PickUp => "low = [0.4, -0.1, 0.15], high = [0.6, 0.25, 0.35]",
         };
@@ -45,7 +45,7 @@ impl Task {
         let mut registry = Registry::default();
         registry.add_table(&table)?;
         let spec = registry.spec("franka-v0")?;
-        Ok(Env::build(spec, &OwnModels, &Options::default())?)
+        Ok(Env::build(spec, &OwnModels, options)?)
     }
 }
 

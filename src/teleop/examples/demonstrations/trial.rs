@@ -4,6 +4,7 @@ use super::person::Person;
 use super::scene::Task;
 use super::speaker::{Line, Speaker};
 use dataset::trace::{Layout, Precision, TraceReader};
+use env::{Env, Options};
 use record::{Recorded, Recording};
 use robohive_teleop::{Control, Held, Mapping, Mark, Plan, Session};
 use std::error::Error;
@@ -27,9 +28,16 @@ pub struct Outcome {
 
 impl fmt::Display for Outcome {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Outcome { task, device, episodes, succeeded, replayed, ticks } = self;
-        let (middle, most) = (ticks[ticks.len() / 2], ticks[ticks.len() - 1]);
+        let Outcome { task, device, episodes, succeeded, replayed, .. } = self;
+        let [middle, most] = self.ticks();
         write!(f, "| {task} | {device} | {episodes} | {succeeded} | {replayed} | {middle} | {most} |")
+    }
+}
+
+impl Outcome {
+    /// Ticks of an episode: the median, and the most.
+    pub fn ticks(&self) -> [usize; 2] {
+        [self.ticks[self.ticks.len() / 2], self.ticks[self.ticks.len() - 1]]
     }
 }
 
@@ -37,10 +45,15 @@ impl fmt::Display for Outcome {
 ///
 /// # Errors
 /// The environment, the socket or the file refuse.
-pub fn demonstrate(task: Task, speaker: Speaker, episodes: usize) -> Result<Outcome, Box<dyn Error>> {
+pub fn demonstrate(
+    task: Task,
+    speaker: Speaker,
+    episodes: usize,
+    options: &Options,
+) -> Result<Outcome, Box<dyn Error>> {
     let mut mapping = Mapping::default();
     let plan = Plan { episodes, horizon: PATIENCE, ..Plan::default() };
-    let mut session = Session::new(task.env()?, Control::Hand, &mapping, plan)?;
+    let mut session = Session::new(task.env(options)?, Control::Hand, &mapping, plan)?;
     let (mut line, mut held) = (Line::new(speaker)?, Held::default());
     held.tells_releases(true);
     let path = file(task, speaker);
@@ -68,7 +81,7 @@ pub fn demonstrate(task: Task, speaker: Speaker, episodes: usize) -> Result<Outc
     }
     file.close()?;
     let succeeded = session.counts().1;
-    let replayed = replay(task, &path, episodes)?;
+    let replayed = replay(task.env(options)?, &path, episodes)?;
     std::fs::remove_file(&path)?;
     ticks.sort_unstable();
     Ok(Outcome { task: task.name(), device: speaker.name(), episodes, succeeded, replayed, ticks })
@@ -80,9 +93,8 @@ fn file(task: Task, speaker: Speaker) -> PathBuf {
 }
 
 /// How many recorded episodes end solved when their actions are taken once more, in the observation that was recorded.
-fn replay(task: Task, path: &Path, episodes: usize) -> Result<usize, Box<dyn Error>> {
+fn replay(mut env: Env, path: &Path, episodes: usize) -> Result<usize, Box<dyn Error>> {
     let trace = TraceReader::open(path)?;
-    let mut env = task.env()?;
     let mut alike = 0;
     for episode in 0..episodes {
         let recorded = Recorded::read(&trace, &format!("Trial{episode}"))?;
