@@ -44,7 +44,7 @@ struct Leg {
 /// ```
 /// use robohive_teleop::{Mapping, Trot};
 ///
-/// let text = assets::FILES.iter().find(|(path, _)| *path == "quadruped/quadruped.xml").ok_or("no robot")?.1;
+/// let text = assets::text("quadruped/quadruped.xml").ok_or("no robot")?;
 /// let model = mjcf::load_str(text)?.model;
 /// let mut data = physics::Data::new(&model);
 /// data.reset_to_key(&model, 0)?;

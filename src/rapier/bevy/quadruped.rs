@@ -32,9 +32,8 @@ impl Plugin for QuadrupedPlugin {
 
 /// Inserts the robot, its floor included, and an entity for each of its colliders.
 fn insert(mut commands: Commands, mut physics: ResMut<Physics>) -> Result {
-    let file =
-        assets::FILES.iter().find(|(path, _)| *path == "quadruped/quadruped.xml").ok_or("no quadruped")?;
-    let model = mjcf::load_str(file.1)?.model;
+    let text = assets::text("quadruped/quadruped.xml").ok_or("no quadruped")?;
+    let model = mjcf::load_str(text)?.model;
     let PhysicsWorld { bodies, colliders, multibody_joints, .. } = &mut physics.0;
     let mut robot = Robot::insert(&model, bodies, colliders, multibody_joints)?;
     robot.data.reset_to_key(&model, 0)?;
