@@ -13,6 +13,8 @@
 //! # Ok::<(), mjcf::diagnostic::Diagnostics>(())
 //! ```
 
+mod bones;
+mod myoelbow;
 mod panda;
 mod shape;
 
@@ -38,6 +40,16 @@ const TEXTS: &[(&str, &str)] = files![
     "franka/tasks/reach.xml",
     "grasp/grasp.xml",
     "humanoid/humanoid.xml",
+    "myoelbow/exo.xml",
+    "myoelbow/parts/base.xml",
+    "myoelbow/parts/forearm.xml",
+    "myoelbow/parts/humerus.xml",
+    "myoelbow/parts/look.xml",
+    "myoelbow/parts/muscles.xml",
+    "myoelbow/parts/tendons.xml",
+    "myoelbow/robot.xml",
+    "myoelbow/scene.xml",
+    "myoelbow/tasks/exo.xml",
     "panda/robot.xml",
     "panda/scene.xml",
     "panda/tasks/arm.toml",
@@ -56,7 +68,7 @@ const TEXTS: &[(&str, &str)] = files![
 ];
 
 /// Every mesh, by the folder that it is in.
-const MESHES: &[(&str, &[Shape])] = &[("panda/", panda::MESHES)];
+const MESHES: &[(&str, &[Shape])] = &[("myoelbow/", myoelbow::MESHES), ("panda/", panda::MESHES)];
 
 /// Faces that meet at less than this angle are shaded as one surface \[rad\].
 const CREASE: f64 = 0.6;
@@ -69,13 +81,14 @@ pub fn paths() -> impl Iterator<Item = Cow<'static, str>> {
     TEXTS.iter().map(|(path, _)| Cow::Borrowed(*path)).chain(meshes)
 }
 
-/// Names and paths of the models that stand for themselves: a folder's `scene.xml` has the name of the folder, other models that of their
-/// file. Left out are parts of models (`robot.xml`, folders `parts`), and scenes with what a task adds (folders `tasks`).
+/// Names and paths of the models that stand for themselves: a folder's `scene.xml` by the name of the folder, and in folders without one,
+/// models by the names of their files. Left out are parts of models (folders `parts`), and scenes with what a task adds (folders
+/// `tasks`).
 pub fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
     TEXTS.iter().filter_map(|(path, _)| {
         let (folder, file) = path.strip_suffix(".xml")?.split_once('/')?;
-        let inner = file == "robot" || file.contains('/');
-        (!inner).then_some((if file == "scene" { folder } else { file }, *path))
+        let whole = text(&format!("{folder}/scene.xml")).is_none() && !file.contains('/');
+        (whole || file == "scene").then_some((if whole { file } else { folder }, *path))
     })
 }
 

@@ -26,6 +26,8 @@ mod shapes;
 
 pub use lofts::{Station, extrude, loft, revolve, sweep};
 pub use mesh::Mesh;
+/// Sine and cosine of an angle \[rad\], the same bits on every machine.
+pub use physics::math::ops::sincos;
 pub use profile::Profile;
 pub use shapes::{capsule, cylinder, ellipsoid, rounded_box};
 

@@ -95,7 +95,8 @@ pub fn revolve(line: &[[f64; 2]], count: usize) -> Mesh {
     Mesh::welded(&corners, faces)
 }
 
-/// A profile carried along a path, always across it, without twist: tubes, bones, cables. A size of zero makes a tip.
+/// A profile carried along a path, always across it, without twist: tubes, bones, cables. A size of zero makes a tip. At the first station
+/// the profile's first axis is the x axis made perpendicular to the path, or the y axis where the path begins along x.
 ///
 /// # Panics
 /// There are fewer than two stations.
@@ -103,8 +104,8 @@ pub fn sweep(profile: &Profile, path: &[Station]) -> Mesh {
     assert!(path.len() > 1, "a path has two stations");
     let towards = |from: usize, to: usize| unit_of(sub(path[to].at, path[from].at));
     let last = path.len() - 1;
-    let frame = quat_to_mat(quat_from_z(towards(0, 1)));
-    let mut across = column(&frame, 0);
+    let start = towards(0, 1);
+    let mut across = if start[0].abs() < 0.9 { [1.0, 0.0, 0.0] } else { [0.0, 1.0, 0.0] };
     let mut rings = Vec::new();
     for (index, station) in path.iter().enumerate() {
         let ahead = towards(index.saturating_sub(1), (index + 1).min(last));
