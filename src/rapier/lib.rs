@@ -85,7 +85,7 @@
 //!
 //! # What is not here
 //! Limits, dry friction and equality constraints solved by rapier in the same sweep as contacts; meshes decomposed into convex
-//! parts, since MuJoCo collides hulls; batches (`physics::Batch`) and the viewer under another engine than our own; contacts of a
+//! parts ([`shapes_of`]); batches (`physics::Batch`) and the viewer under another engine than our own; contacts of a
 //! [`Robot`] with other bodies among those of its `Data`; a state of this engine in what
 //! environments pickle, which begin afresh there.
 

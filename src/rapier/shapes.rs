@@ -37,6 +37,11 @@ const HALVINGS: usize = 3;
 /// | mesh | convex hull, as MuJoCo collides it | yes, but for coplanar vertices |
 /// | height field | surface without its base | yes, but open below |
 ///
+/// A mesh is one hull because that is all MJCF says of it: a model has no decomposition into convex parts, and whoever wants a hollow
+/// body to be hollow writes several geoms, of which each is a shape here too, or a signed distance field, which is refused. Nothing is
+/// decomposed here, as contacts would then be others than the model's. A program that wants it for queries of its own gives `mesh_vert` and
+/// `mesh_face` to parry's `SharedShape::convex_decomposition` ([`parry`](crate::parry)).
+///
 /// ```
 /// use parry3d_f64::query;
 ///

@@ -42,22 +42,24 @@ const MODELS: [&str; 11] = [
 pub struct Subject {
     /// Name in the table.
     pub name: String,
-    /// Where rapier's own loader finds it.
+    /// Where loaders find it.
     pub path: PathBuf,
-    /// The model, or why there is none.
-    pub model: Result<Model, String>,
 }
 
 impl Subject {
-    fn read(name: &str, path: PathBuf) -> Self {
+    fn new(name: &str, path: PathBuf) -> Self {
+        Subject { name: name.into(), path }
+    }
+
+    /// The model, or why there is none.
+    pub fn model(&self) -> Result<Model, String> {
         // Three of RoboHive's files are templates.
-        let loaded = mjcf::Loader::default().substitute("OBJECT_NAME", "airplane").load(&path);
-        let model = loaded.map(|loaded| loaded.model).map_err(|error| error.to_string());
-        Subject { name: name.into(), path, model }
+        let loaded = mjcf::Loader::default().substitute("OBJECT_NAME", "airplane").load(&self.path);
+        loaded.map(|loaded| loaded.model).map_err(|error| error.to_string())
     }
 
     fn own(path: &str) -> Self {
-        Subject::read(&format!("{OWN}{path}"), Path::new("assets").join(path).with_extension("xml"))
+        Subject::new(&format!("{OWN}{path}"), Path::new("assets").join(path).with_extension("xml"))
     }
 
     /// Whether it is one of this repository's models.
@@ -76,7 +78,7 @@ fn subjects(corpus: Option<(&str, &str)>) -> std::io::Result<Vec<Subject>> {
     let mut all: Vec<_> = MODELS.map(Subject::own).into();
     if let Some((corpus, list)) = corpus {
         let text = std::fs::read_to_string(list)?;
-        all.extend(text.lines().map(|line| Subject::read(line, Path::new(corpus).join(line))));
+        all.extend(text.lines().map(|line| Subject::new(line, Path::new(corpus).join(line))));
     }
     Ok(all)
 }

@@ -78,7 +78,7 @@ pub fn table(all: &[Subject]) -> std::io::Result<()> {
     for (name, text) in SCENES {
         let path = folder.join(format!("{}.xml", name.replace([' ', ','], "_")));
         std::fs::write(&path, text)?;
-        row(&Subject::read(name, path));
+        row(&Subject::new(name, path));
     }
     let wanted = |s: &&Subject| s.is_own() || ROBOHIVE.iter().any(|name| s.name.contains(name));
     all.iter().filter(wanted).for_each(row);
@@ -86,15 +86,15 @@ pub fn table(all: &[Subject]) -> std::io::Result<()> {
 }
 
 fn row(subject: &Subject) {
-    let m = match &subject.model {
+    let m = match subject.model() {
         Ok(m) => m,
-        Err(error) => return println!("| {} | {} | | | | | |", subject.name, first_line(error)),
+        Err(error) => return println!("| {} | {} | | | | | |", subject.name, first_line(&error)),
     };
-    let own = simulate(m, &Engine::default());
-    let (Ok(own), Ok(other)) = (own, simulate(m, &engine(Options::default()))) else {
+    let own = simulate(&m, &Engine::default());
+    let (Ok(own), Ok(other)) = (own, simulate(&m, &engine(Options::default()))) else {
         return println!("| {} | refused | | | | | |", subject.name);
     };
-    let stock = stock(subject, m, &own);
+    let stock = stock(subject, &m, &own);
     println!("| {} | {} | {stock} |", subject.name, drift(&own, &other, m.opt.timestep));
 }
 

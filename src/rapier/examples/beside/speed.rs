@@ -49,9 +49,9 @@ pub fn table(all: &[Subject]) {
         "| model | nv | own \\[steps/s\\] | rapier \\[steps/s\\] | rapier / own |\n|---|---|---|---|---|"
     );
     for subject in all {
-        match &subject.model {
-            Ok(m) => row(&subject.name, m),
-            Err(error) => println!("| {} | | {} | | |", subject.name, first_line(error)),
+        match subject.model() {
+            Ok(m) => row(&subject.name, &m),
+            Err(error) => println!("| {} | | {} | | |", subject.name, first_line(&error)),
         }
     }
 }
@@ -82,7 +82,8 @@ fn pile(count: usize) -> String {
 /// A pile does not load or move.
 pub fn piles() -> Result<(), Box<dyn Error>> {
     println!(
-        "| bodies | own \\[steps/s\\] | rapier | rapier, contacts kept | contacts own, rapier |\n|---|---|---|---|---|"
+        "| bodies | own \\[steps/s\\] | rapier | contacts kept | stock, single precision | contacts own, rapier, stock |\n\
+         |---|---|---|---|---|---|"
     );
     for count in [100, 1000, 10_000] {
         let m = mjcf::load_str(pile(count))?.model;
@@ -94,11 +95,28 @@ pub fn piles() -> Result<(), Box<dyn Error>> {
             let mut d = Data::new(&m);
             let began = Instant::now();
             (0..steps).try_for_each(|_| mover.step(&m, &mut d))?;
-            Ok::<_, Box<dyn Error>>((f64::from(steps) / began.elapsed().as_secs_f64(), d.con.contact.len()))
+            Ok::<_, Box<dyn Error>>((steps as f64 / began.elapsed().as_secs_f64(), d.con.contact.len()))
         });
         let [own, other, kept] = found;
         let ((own, own_contacts), (other, contacts), (kept, _)) = (own?, other?, kept?);
-        println!("| {count} | {own:.1} | {other:.1} | {kept:.1} | {own_contacts}, {contacts} |");
+        let (stock, stock_contacts) = stock_pile(&m, steps);
+        println!(
+            "| {count} | {own:.1} | {other:.1} | {kept:.1} | {stock} | {own_contacts}, {contacts}, {stock_contacts} |"
+        );
     }
     Ok(())
+}
+
+/// Steps a second of rapier as it is, and its contacts.
+#[cfg(feature = "stock")]
+fn stock_pile(m: &Model, steps: usize) -> (String, usize) {
+    let mut pile = crate::stock::pile(m);
+    let began = Instant::now();
+    let contacts = pile(steps);
+    (format!("{:.1}", steps as f64 / began.elapsed().as_secs_f64()), contacts)
+}
+
+#[cfg(not(feature = "stock"))]
+fn stock_pile(_: &Model, _: usize) -> (String, usize) {
+    ("not asked".into(), 0)
 }

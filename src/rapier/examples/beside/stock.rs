@@ -3,10 +3,44 @@
 use crate::motion::Motion;
 use crate::scenes::controls;
 use physics::Model;
+use physics::model::GeomType;
 use rapier3d::prelude::*;
 use rapier3d_mjcf::{MjcfLoaderOptions, MjcfMultibodyOptions, MjcfRobot};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+
+/// The shape of a geom of a pile.
+fn collider(m: &Model, g: usize) -> Option<ColliderBuilder> {
+    let [a, b, c] = m.geom_size[g].map(|x| x as f32);
+    Some(match GeomType::from_code(m.geom_type[g])? {
+        GeomType::Plane => ColliderBuilder::new(SharedShape::halfspace(Vector::Z)),
+        GeomType::Box => ColliderBuilder::cuboid(a, b, c),
+        GeomType::Sphere => ColliderBuilder::ball(a),
+        GeomType::Capsule => ColliderBuilder::capsule_z(b, a),
+        _ => return None,
+    })
+}
+
+/// A pile of free bodies of one geom each, with rapier's own settings and densities, for some steps; the number of contacts at the end.
+pub fn pile(m: &Model) -> impl FnMut(usize) -> usize {
+    let mut world = PhysicsWorld { gravity: Vector::Z * -9.81, ..PhysicsWorld::default() };
+    world.integration_parameters.dt = m.opt.timestep as f32;
+    for g in 0..m.ngeom {
+        let Some(collider) = collider(m, g) else { continue };
+        let collider = collider.density(1000.0).friction(m.geom_friction[g][0] as f32);
+        let [x, y, z] = m.body_pos[m.geom_bodyid[g] as usize].map(|x| x as f32);
+        if m.geom_bodyid[g] == 0 {
+            world.insert_collider(collider, None);
+        } else {
+            world.insert(RigidBodyBuilder::dynamic().translation(Vector::new(x, y, z)), collider);
+        }
+    }
+    move |steps| {
+        (0..steps).for_each(|_| world.step());
+        let manifolds = world.narrow_phase.contact_pairs().flat_map(|pair| pair.solver_manifolds());
+        manifolds.map(|manifold| manifold.data.solver_contacts.len()).sum()
+    }
+}
 
 /// Loads a model. What the loader says of those it refuses is about files of this machine.
 pub fn load(path: &Path) -> Result<MjcfRobot, String> {

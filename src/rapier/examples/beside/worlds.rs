@@ -2,7 +2,9 @@
 
 use crate::{Subject, first_line};
 use physics::Model;
+use physics::model::NotSimulated;
 use robohive_rapier::{Differences, Options, World, refusals};
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 /// Largest difference of a world that is its model's.
@@ -13,21 +15,21 @@ enum Outcome {
     /// Our own loader refuses it.
     Unread(String),
     /// Elements that rapier does not support.
-    Refused(Vec<String>),
+    Refused(Vec<NotSimulated>),
     /// A world: its positions and degrees of freedom, whether they are the model's, and how far it is off.
     Built([usize; 2], bool, Differences),
 }
 
 impl Outcome {
-    fn of(model: &Result<Model, String>) -> Self {
-        let m = match model {
+    fn of(model: Result<Model, String>) -> Self {
+        let m = &match model {
             Ok(m) => m,
-            Err(error) => return Outcome::Unread(first_line(error).into()),
+            Err(error) => return Outcome::Unread(first_line(&error).into()),
         };
         match World::new(m, Options::default()) {
             Err(first) => {
-                let all: Vec<String> = refusals(m).iter().map(ToString::to_string).collect();
-                Outcome::Refused(if all.is_empty() { vec![first.to_string()] } else { all })
+                let all = refusals(m);
+                Outcome::Refused(if all.is_empty() { vec![first] } else { all })
             }
             Ok(world) => {
                 let found = world.measure(m);
@@ -66,7 +68,7 @@ pub fn table(all: &[Subject]) {
     let outcomes: Vec<(Outcome, String)> = all
         .iter()
         .map(|subject| {
-            let (ours, theirs) = (Outcome::of(&subject.model), stock_world(subject));
+            let (ours, theirs) = (Outcome::of(subject.model()), stock_world(subject));
             println!("| {} | {ours} | {theirs} |", subject.name);
             (ours, theirs)
         })
@@ -97,6 +99,15 @@ pub fn table(all: &[Subject]) {
         loads(false),
         loads(true)
     );
+    let mut asking: BTreeMap<&str, usize> = BTreeMap::new();
+    for (ours, _) in &outcomes {
+        if let Outcome::Refused(all) = ours {
+            let features: BTreeSet<&str> = all.iter().map(|refusal| &refusal.feature[..]).collect();
+            features.into_iter().for_each(|feature| *asking.entry(feature).or_default() += 1);
+        }
+    }
+    println!("\n| asked for | models |\n|---|---|");
+    asking.iter().for_each(|(feature, models)| println!("| {feature} | {models} |"));
 }
 
 #[cfg(feature = "stock")]
