@@ -63,7 +63,7 @@ impl Measures {
     pub fn differences(&self, m: &Model) -> Differences {
         let moves = |b: &usize| m.body_treeid[*b] >= 0;
         let moving: f64 = (1..m.nbody).filter(moves).map(|b| m.body_mass[b]).sum();
-        let mass = if moving > 0.0 { (self.mass / moving - 1.0).abs() } else { self.mass };
+        let mass = if moving > 0.0 { (self.mass / moving - 1.0).abs() } else { self.mass.abs() };
         Differences { mass, axes: self.axes_off(m), inertia: self.inertia }
     }
 

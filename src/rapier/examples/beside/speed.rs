@@ -76,6 +76,9 @@ fn pile(count: usize) -> String {
     text + "</worldbody></mujoco>"
 }
 
+/// Times that each pile falls, of which the fastest counts: what other work on the machine takes is left out.
+const FALLS: usize = 3;
+
 /// Prints a row for each size of a pile: steps a second over the first second and a half of its fall.
 ///
 /// # Errors
@@ -90,33 +93,42 @@ pub fn piles() -> Result<(), Box<dyn Error>> {
         let steps = if count == 10_000 { 40 } else { 300 };
         let kept = engine(Options::default().with_recycling(true));
         let engines = [Engine::default(), engine(Options::default()), kept];
-        let found = engines.map(|engine| {
-            let mut mover = engine.start(&m)?;
-            let mut d = Data::new(&m);
-            let began = Instant::now();
-            (0..steps).try_for_each(|_| mover.step(&m, &mut d))?;
-            Ok::<_, Box<dyn Error>>((steps as f64 / began.elapsed().as_secs_f64(), d.con.contact.len()))
-        });
-        let [own, other, kept] = found;
-        let ((own, own_contacts), (other, contacts), (kept, _)) = (own?, other?, kept?);
-        let (stock, stock_contacts) = stock_pile(&m, steps);
+        let (mut rates, mut contacts) = ([0.0_f64; 4], [0; 4]);
+        for _ in 0..FALLS {
+            for k in 0..4 {
+                let began = Instant::now();
+                contacts[k] = match engines.get(k) {
+                    Some(engine) => fall(&m, engine, steps)?,
+                    None => stock_fall(&m, steps),
+                };
+                rates[k] = rates[k].max(steps as f64 / began.elapsed().as_secs_f64());
+            }
+        }
+        let [own, other, kept, stock] = rates.map(|rate| format!("{rate:.1}"));
+        let stock = if cfg!(feature = "stock") { &stock } else { "not asked" };
+        let [own_contacts, other_contacts, _, stock_contacts] = contacts;
         println!(
-            "| {count} | {own:.1} | {other:.1} | {kept:.1} | {stock} | {own_contacts}, {contacts}, {stock_contacts} |"
+            "| {count} | {own} | {other} | {kept} | {stock} | {own_contacts}, {other_contacts}, {stock_contacts} |"
         );
     }
     Ok(())
 }
 
-/// Steps a second of rapier as it is, and its contacts.
+/// Lets a pile fall for some steps, the making of its world included; contacts at the end.
+fn fall(m: &Model, engine: &Engine, steps: usize) -> Result<usize, Box<dyn Error>> {
+    let mut mover = engine.start(m)?;
+    let mut d = Data::new(m);
+    (0..steps).try_for_each(|_| mover.step(m, &mut d))?;
+    Ok(d.con.contact.len())
+}
+
+/// The same of rapier as it is.
 #[cfg(feature = "stock")]
-fn stock_pile(m: &Model, steps: usize) -> (String, usize) {
-    let mut pile = crate::stock::pile(m);
-    let began = Instant::now();
-    let contacts = pile(steps);
-    (format!("{:.1}", steps as f64 / began.elapsed().as_secs_f64()), contacts)
+fn stock_fall(m: &Model, steps: usize) -> usize {
+    crate::stock::pile(m, steps)
 }
 
 #[cfg(not(feature = "stock"))]
-fn stock_pile(_: &Model, _: usize) -> (String, usize) {
-    ("not asked".into(), 0)
+fn stock_fall(_: &Model, _: usize) -> usize {
+    0
 }

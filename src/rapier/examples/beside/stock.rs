@@ -22,7 +22,7 @@ fn collider(m: &Model, g: usize) -> Option<ColliderBuilder> {
 }
 
 /// A pile of free bodies of one geom each, with rapier's own settings and densities, for some steps; the number of contacts at the end.
-pub fn pile(m: &Model) -> impl FnMut(usize) -> usize {
+pub fn pile(m: &Model, steps: usize) -> usize {
     let mut world = PhysicsWorld { gravity: Vector::Z * -9.81, ..PhysicsWorld::default() };
     world.integration_parameters.dt = m.opt.timestep as f32;
     for g in 0..m.ngeom {
@@ -35,11 +35,9 @@ pub fn pile(m: &Model) -> impl FnMut(usize) -> usize {
             world.insert(RigidBodyBuilder::dynamic().translation(Vector::new(x, y, z)), collider);
         }
     }
-    move |steps| {
-        (0..steps).for_each(|_| world.step());
-        let manifolds = world.narrow_phase.contact_pairs().flat_map(|pair| pair.solver_manifolds());
-        manifolds.map(|manifold| manifold.data.solver_contacts.len()).sum()
-    }
+    (0..steps).for_each(|_| world.step());
+    let manifolds = world.narrow_phase.contact_pairs().flat_map(|pair| pair.solver_manifolds());
+    manifolds.map(|manifold| manifold.data.solver_contacts.len()).sum()
 }
 
 /// Loads a model. What the loader says of those it refuses is about files of this machine.
