@@ -121,7 +121,7 @@ const ORDER: [(&str, &[&str]); 36] = [
             "validation",
         ],
     ),
-    ("robohive-site", &["physics", "mjcf", "env", "viewer"]),
+    ("robohive-site", &["assets", "physics", "mjcf", "env", "viewer"]),
     ("xtask", &[]),
     ("robohive-fuzz", &["physics", "mjcf", "dataset", "random", "robot", "render", "env", "agents"]),
 ];

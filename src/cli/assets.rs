@@ -50,12 +50,12 @@ enum Action {
 /// Write our own models, with the meshes that they name, into a folder
 #[derive(Args)]
 #[command(
-    after_help = "The models of hive/ are part of this program, and their meshes are made when they are needed. As files they open in \
-MuJoCo and in modelling programs, and can be changed. Files of the same names in FOLDER are replaced.
+    after_help = "The models of hive/ are part of this program, and their meshes are made when they are needed: `robohive sim hive/panda/scene.xml`. \
+As files they open in MuJoCo and in modelling programs, and can be changed. Files of the same names in FOLDER are replaced.
 
 Examples:
   robohive assets own models
-  robohive render models/panda/scene.xml --out panda.png"
+  robohive render hive/panda/scene.xml --out panda.png"
 )]
 struct Own {
     /// Where to write them

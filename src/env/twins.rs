@@ -1,5 +1,6 @@
 //! RoboHive's ids on models of our own: the same task, settings and episode, and a model that every machine has.
 
+use crate::pictures::visual::{Encoder, VisualKey};
 use crate::spec::Spec;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -13,8 +14,13 @@ static OURS: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
 /// Settings that name files.
 const FILES: [&str; 2] = ["model_path", "config_path"];
 
-/// The twin of an id on our own model; `None` where we have none for it.
+/// The twin of an id on our own model; `None` where we have none for it, and where networks encode its images, since their weights have to
+/// be downloaded.
 pub(crate) fn twin(spec: &Spec) -> Option<Spec> {
+    let images: Vec<String> = spec.args.get("visual_keys").unwrap_or_default();
+    if images.iter().any(|key| needs_weights(key)) {
+        return None;
+    }
     let ours = |setting: &str| spec.args.get::<String>(setting).map(|path| OURS.get(&path).cloned());
     let mut twin = Spec { id: format!("hive/{}", spec.id), suite: "hive".into(), ..spec.clone() };
     for setting in FILES {
@@ -23,6 +29,10 @@ pub(crate) fn twin(spec: &Spec) -> Option<Spec> {
         }
     }
     Some(twin)
+}
+
+fn needs_weights(key: &str) -> bool {
+    key.parse::<VisualKey>().is_ok_and(|key| !matches!(key.encoder, Encoder::Flat | Encoder::Image))
 }
 
 #[cfg(test)]

@@ -49,7 +49,16 @@ pub fn loader<'a>(path: &'a Path, reading: &Reading) -> Result<(mjcf::Loader, &'
     if path == Path::new(STANDARD_INPUT) {
         return Ok((loader.files(DiskAndInput::new()?), Path::new(LABEL)));
     }
-    Ok((loader, path))
+    match own(path) {
+        Some(own) => Ok((loader.files(::assets::Own), own)),
+        None => Ok((loader, path)),
+    }
+}
+
+/// The place among our own models of a path such as `hive/panda/scene.xml`, where there is such a model.
+pub fn own(path: &Path) -> Option<&Path> {
+    let own = path.strip_prefix("hive").ok()?;
+    ::assets::text(own.to_str()?).map(|_| own)
 }
 
 /// The whole disk, and standard input as a file in the working folder.

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use crate::input::library::{Making, Source};
-use crate::input::loading::{STANDARD_INPUT, load, start};
+use crate::input::loading::{STANDARD_INPUT, load, own, start};
 use crate::input::source::Reading;
 use clap::{Args, ValueHint};
 use env::visual::VisualKey;
@@ -119,6 +119,7 @@ impl SubjectArguments {
         match known {
             Ok(_) => self.environment(),
             Err(_) if self.name == STANDARD_INPUT || Path::new(&self.name).exists() => self.model(),
+            Err(_) if own(Path::new(&self.name)).is_some() => self.model(),
             Err(error) => {
                 Err(Failure::usage(format!("{} is neither a file nor an environment: {error}", self.name)))
             }
