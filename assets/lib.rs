@@ -14,6 +14,8 @@
 //! ```
 
 mod bones;
+mod dkitty;
+mod dynamixel;
 mod myoelbow;
 mod panda;
 mod shape;
@@ -33,6 +35,11 @@ macro_rules! files {
 /// Every text by its path in this folder. Models include others by relative paths.
 const TEXTS: &[(&str, &str)] = files![
     "delays/delays.xml",
+    "dkitty/robot.xml",
+    "dkitty/scene.xml",
+    "dkitty/tasks/stand.toml",
+    "dkitty/tasks/walk.toml",
+    "dkitty/tasks/walk.xml",
     "drape/drape.xml",
     "elbow/elbow.xml",
     "franka/franka_table.xml",
@@ -68,7 +75,8 @@ const TEXTS: &[(&str, &str)] = files![
 ];
 
 /// Every mesh, by the folder that it is in.
-const MESHES: &[(&str, &[Shape])] = &[("myoelbow/", myoelbow::MESHES), ("panda/", panda::MESHES)];
+const MESHES: &[(&str, &[Shape])] =
+    &[("dkitty/", dkitty::MESHES), ("myoelbow/", myoelbow::MESHES), ("panda/", panda::MESHES)];
 
 /// Faces that meet at less than this angle are shaded as one surface \[rad\].
 const CREASE: f64 = 0.6;

@@ -179,8 +179,8 @@ fn distort(m: &mut Draft<'_>, random: &mut Sequence) {
         }
         m.geom_pos[g] = [0; 3].map(|_| random.between(-1.0, 1.0));
         m.geom_margin[g] = random.between(0.0, 0.1);
-        m.geom_contype[g] = (random.next() * 2.0) as i32;
-        m.geom_conaffinity[g] = (random.next() * 2.0) as i32;
+        m.geom_contype[g] = (random.next() * 4.0) as i32;
+        m.geom_conaffinity[g] = (random.next() * 4.0) as i32;
     }
 }
 

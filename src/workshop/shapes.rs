@@ -9,7 +9,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub fn rounded_box(half: Vec3, radius: f64, steps: usize) -> Mesh {
     let radius = half.into_iter().fold(radius, f64::min);
     let section = |sign: f64, step: usize| {
-        let (sine, cosine) = sincos(FRAC_PI_2 * step as f64 / steps as f64);
+        // Exact at the end, where the corners of the flat face are points.
+        let (sine, cosine) =
+            if step == steps { (1.0, 0.0) } else { sincos(FRAC_PI_2 * step as f64 / steps as f64) };
         let inset = radius * (1.0 - cosine);
         let outline = Profile::rounded_rectangle([half[0] - inset, half[1] - inset], radius - inset, steps);
         let height = sign * (half[2] - radius + radius * sine);

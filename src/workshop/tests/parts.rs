@@ -37,6 +37,18 @@ fn a_rounded_box_lies_between_the_box_and_its_core() {
 }
 
 #[test]
+fn rounded_boxes_of_any_size_are_closed() {
+    let millimetres = |count: i32| 0.001 * f64::from(count);
+    for (length, width) in (5..40).flat_map(|length| (5..15).map(move |width| (length, width))) {
+        for (radius, steps) in [(2, 1), (3, 1), (4, 2), (5, 3)] {
+            let half = [length, width, 16].map(millimetres);
+            let mesh = rounded_box(half, millimetres(radius), steps);
+            assert!(mesh.is_closed(), "{half:?}, {radius} mm in {steps} steps");
+        }
+    }
+}
+
+#[test]
 fn a_hole_goes_through_a_plate() {
     let (outline, hole) = (Profile::rounded_rectangle([0.1, 0.05], 0.02, 8), Profile::circle(0.01, 32));
     let holes = [hole.moved([0.05, 0.0]), hole.moved([-0.05, 0.0])];

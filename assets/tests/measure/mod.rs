@@ -1,0 +1,99 @@
+//! What robots are tried with: stands that hold them, and servos that are moved one by one.
+#![allow(dead_code, reason = "each test of a robot uses a part")]
+
+use mjcf::Loader;
+use mjcf::files::Memory;
+use physics::{Data, Model, step};
+use robohive_assets as assets;
+use std::f64::consts::PI;
+
+/// One of our own models.
+pub fn own(path: &str) -> Model {
+    Loader::default().files(assets::Own).load(path).unwrap().model
+}
+
+/// A model whose text names files of our own.
+pub fn scene(text: &str) -> Model {
+    let mut files = Memory::default();
+    for path in assets::paths() {
+        files.insert(&*path, assets::read(&path).unwrap());
+    }
+    files.insert("test.xml", text.as_bytes());
+    Loader::default().files(files).load("test.xml").unwrap().model
+}
+
+/// A body of a robot fixed 1 m above the ground, with other options and bodies beside it.
+pub fn stand(robot: &str, body: &str, options: &str, beside: &str) -> Model {
+    scene(&format!(
+        "<mujoco><compiler autolimits='true'/><option {options}/>
+           <asset><model name='robot' file='{robot}'/></asset>
+           <worldbody><frame pos='0 0 1'><attach model='robot' body='{body}' prefix=''/></frame>{beside}</worldbody>
+         </mujoco>"
+    ))
+}
+
+/// Where the joint of an actuator stands in `qpos`.
+fn place(m: &Model, actuator: usize) -> usize {
+    m.jnt_qposadr[m.actuator_trnid[actuator][0] as usize] as usize
+}
+
+/// Steps for some time \[s\], and tells `seen` of every state.
+pub fn run(m: &Model, d: &mut Data, seconds: f64, mut seen: impl FnMut(&mut Data)) {
+    for _ in 0..(seconds / m.opt.timestep).round() as usize {
+        step(m, d).unwrap();
+        seen(d);
+    }
+}
+
+/// Starts where the servos are told to stay.
+pub fn posed(m: &Model, pose: &[f64]) -> Data {
+    let mut d = Data::new(m);
+    for (actuator, angle) in pose.iter().enumerate() {
+        d.state.qpos[place(m, actuator)] = *angle;
+        d.state.ctrl[actuator] = *angle;
+    }
+    d
+}
+
+/// Sends each servo of `pose` alone to one end of its joint and to the other, 8 s each, the others staying in `pose`, and returns the most that
+/// a joint stays short of what it was told, as a share of its range, with the actuator's number.
+pub fn sweep(m: &Model, pose: &[f64]) -> (f64, usize) {
+    let mut worst = (0.0, 0);
+    for actuator in 0..pose.len() {
+        let [low, high] = m.jnt_range[m.actuator_trnid[actuator][0] as usize];
+        let [least, most] = m.actuator_ctrlrange[actuator];
+        let (low, high) = (low.max(least), high.min(most));
+        let mut d = posed(m, pose);
+        for goal in [low, high] {
+            d.state.ctrl[actuator] = goal;
+            run(m, &mut d, 8.0, |_| ());
+            let short = (d.state.qpos[place(m, actuator)] - goal).abs() / (high - low);
+            if short > worst.0 {
+                worst = (short, actuator);
+            }
+        }
+    }
+    worst
+}
+
+/// Moves each servo of `pose` alone by a sine of 0.5 Hz over half of its range, the others staying in `pose`, and returns the largest error in
+/// the second period, as a share of the amplitude, with the actuator's number.
+pub fn track(m: &Model, pose: &[f64]) -> (f64, usize) {
+    let mut worst = (0.0, 0);
+    for actuator in 0..pose.len() {
+        let [low, high] = m.actuator_ctrlrange[actuator];
+        let (middle, amplitude) = ((low + high) / 2.0, (high - low) / 4.0);
+        let mut start = pose.to_vec();
+        start[actuator] = middle;
+        let mut d = posed(m, &start);
+        run(m, &mut d, 4.0, |d| {
+            let goal = middle + amplitude * (PI * d.time()).sin();
+            let off = (d.state.qpos[place(m, actuator)] - goal).abs() / amplitude;
+            if d.time() > 2.0 && off > worst.0 {
+                worst = (off, actuator);
+            }
+            d.state.ctrl[actuator] = goal;
+        });
+    }
+    worst
+}
