@@ -14,6 +14,7 @@
 //! ```
 
 mod bones;
+mod dclaw;
 mod dkitty;
 mod dynamixel;
 mod myoelbow;
@@ -34,6 +35,11 @@ macro_rules! files {
 
 /// Every text by its path in this folder. Models include others by relative paths.
 const TEXTS: &[(&str, &str)] = files![
+    "dclaw/robot.xml",
+    "dclaw/scene.xml",
+    "dclaw/tasks/ghost.xml",
+    "dclaw/tasks/pose.xml",
+    "dclaw/tasks/valve.xml",
     "delays/delays.xml",
     "dkitty/robot.xml",
     "dkitty/scene.xml",
@@ -75,8 +81,12 @@ const TEXTS: &[(&str, &str)] = files![
 ];
 
 /// Every mesh, by the folder that it is in.
-const MESHES: &[(&str, &[Shape])] =
-    &[("dkitty/", dkitty::MESHES), ("myoelbow/", myoelbow::MESHES), ("panda/", panda::MESHES)];
+const MESHES: &[(&str, &[Shape])] = &[
+    ("dclaw/", dclaw::MESHES),
+    ("dkitty/", dkitty::MESHES),
+    ("myoelbow/", myoelbow::MESHES),
+    ("panda/", panda::MESHES),
+];
 
 /// Faces that meet at less than this angle are shaded as one surface \[rad\].
 const CREASE: f64 = 0.6;
