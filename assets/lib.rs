@@ -20,6 +20,7 @@ mod dynamixel;
 mod myoelbow;
 mod panda;
 mod shape;
+mod trifinger;
 
 use mjcf::files::{FileError, FileProvider};
 use shape::Shape;
@@ -75,6 +76,9 @@ const TEXTS: &[(&str, &str)] = files![
     "scenery/parts/room.xml",
     "scenery/parts/table.xml",
     "servos/servos.xml",
+    "trifinger/robot.xml",
+    "trifinger/scene.xml",
+    "trifinger/tasks/reorient.xml",
     "workbench/workbench.xml",
     "yard/parts/crane.xml",
     "yard/yard.xml",
@@ -86,6 +90,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("dkitty/", dkitty::MESHES),
     ("myoelbow/", myoelbow::MESHES),
     ("panda/", panda::MESHES),
+    ("trifinger/", trifinger::MESHES),
 ];
 
 /// Faces that meet at less than this angle are shaded as one surface \[rad\].
