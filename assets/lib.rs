@@ -17,6 +17,7 @@ mod bones;
 mod dclaw;
 mod dkitty;
 mod dynamixel;
+mod fetch;
 mod myoelbow;
 mod panda;
 mod shape;
@@ -49,6 +50,10 @@ const TEXTS: &[(&str, &str)] = files![
     "dkitty/tasks/walk.xml",
     "drape/drape.xml",
     "elbow/elbow.xml",
+    "fetch/robot.xml",
+    "fetch/scene.xml",
+    "fetch/tasks/arm.toml",
+    "fetch/tasks/reach.xml",
     "franka/franka_table.xml",
     "franka/tasks/arm.toml",
     "franka/tasks/reach.xml",
@@ -88,6 +93,7 @@ const TEXTS: &[(&str, &str)] = files![
 const MESHES: &[(&str, &[Shape])] = &[
     ("dclaw/", dclaw::MESHES),
     ("dkitty/", dkitty::MESHES),
+    ("fetch/", fetch::MESHES),
     ("myoelbow/", myoelbow::MESHES),
     ("panda/", panda::MESHES),
     ("trifinger/", trifinger::MESHES),
