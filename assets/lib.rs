@@ -13,6 +13,7 @@
 //! # Ok::<(), mjcf::diagnostic::Diagnostics>(())
 //! ```
 
+mod adroit;
 mod bones;
 mod dclaw;
 mod dkitty;
@@ -37,6 +38,17 @@ macro_rules! files {
 
 /// Every text by its path in this folder. Models include others by relative paths.
 const TEXTS: &[(&str, &str)] = files![
+    "adroit/parts/bench.xml",
+    "adroit/parts/forearm.xml",
+    "adroit/parts/hand.xml",
+    "adroit/parts/strength.xml",
+    "adroit/robot.xml",
+    "adroit/scene.xml",
+    "adroit/tasks/baoding.xml",
+    "adroit/tasks/door.xml",
+    "adroit/tasks/hammer.xml",
+    "adroit/tasks/pen.xml",
+    "adroit/tasks/relocate.xml",
     "dclaw/robot.xml",
     "dclaw/scene.xml",
     "dclaw/tasks/ghost.xml",
@@ -91,6 +103,7 @@ const TEXTS: &[(&str, &str)] = files![
 
 /// Every mesh, by the folder that it is in.
 const MESHES: &[(&str, &[Shape])] = &[
+    ("adroit/", adroit::MESHES),
     ("dclaw/", dclaw::MESHES),
     ("dkitty/", dkitty::MESHES),
     ("fetch/", fetch::MESHES),
