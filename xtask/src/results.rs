@@ -31,7 +31,7 @@ const SPEAK_OF: [(&str, &[&str]); 24] = [
     ("python_ray", &["src/env", "python"]),
     ("python_speed", &["src/physics", "src/env", "python"]),
     ("quirks", &["src/robot", "src/env/suite"]),
-    ("rapier", &["src/physics", "mjcf", "src/rapier"]),
+    ("rapier", &["src/physics", "mjcf", "src/rapier", "src/env", "src/teleop"]),
     ("robot_configs", &["src/physics", "src/env", "src/robot", "src/wire", "src/hardware"]),
     ("standin", &["src/physics", "mjcf", "python"]),
     ("standin_dm_control", &["src/physics", "mjcf", "python"]),
