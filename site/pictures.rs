@@ -33,5 +33,5 @@ pub fn draw(root: &Path, programs: &Path, folder: &Path) -> Result<(), String> {
     }
     let (reach, sheet) = (place("reach"), place("environments"));
     robohive(&["render", "hive/FrankaReach-v0", "--camera", "front", "--out", &reach, "--size", SIZE])?;
-    robohive(&["gallery", "hive", "--all", "--out", &sheet, "--size", "320x240", "--columns", "2", "--quiet"])
+    robohive(&["gallery", "hive", "--out", &sheet, "--size", "320x240", "--columns", "4", "--quiet"])
 }
