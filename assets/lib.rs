@@ -19,6 +19,7 @@ mod dclaw;
 mod dkitty;
 mod dynamixel;
 mod fetch;
+mod kitchen;
 mod myoelbow;
 mod panda;
 mod shape;
@@ -71,6 +72,12 @@ const TEXTS: &[(&str, &str)] = files![
     "franka/tasks/reach.xml",
     "grasp/grasp.xml",
     "humanoid/humanoid.xml",
+    "kitchen/parts/bench.xml",
+    "kitchen/parts/look.xml",
+    "kitchen/parts/microwave.xml",
+    "kitchen/parts/slide_cabinet.xml",
+    "kitchen/tasks/microwave.xml",
+    "kitchen/tasks/slide_cabinet.xml",
     "myoelbow/exo.xml",
     "myoelbow/parts/base.xml",
     "myoelbow/parts/forearm.xml",
@@ -107,6 +114,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("dclaw/", dclaw::MESHES),
     ("dkitty/", dkitty::MESHES),
     ("fetch/", fetch::MESHES),
+    ("kitchen/", kitchen::MESHES),
     ("myoelbow/", myoelbow::MESHES),
     ("panda/", panda::MESHES),
     ("trifinger/", trifinger::MESHES),
