@@ -19,8 +19,10 @@ mod dclaw;
 mod dkitty;
 mod dynamixel;
 mod fetch;
+mod hand;
 mod kitchen;
 mod myoelbow;
+mod myofinger;
 mod panda;
 mod shape;
 mod trifinger;
@@ -94,6 +96,14 @@ const TEXTS: &[(&str, &str)] = files![
     "myoelbow/robot.xml",
     "myoelbow/scene.xml",
     "myoelbow/tasks/exo.xml",
+    "myofinger/motors.xml",
+    "myofinger/parts/finger.xml",
+    "myofinger/parts/look.xml",
+    "myofinger/parts/stage.xml",
+    "myofinger/parts/tendons.xml",
+    "myofinger/robot.xml",
+    "myofinger/scene.xml",
+    "myofinger/tasks/motors.xml",
     "panda/robot.xml",
     "panda/scene.xml",
     "panda/tasks/arm.toml",
@@ -115,16 +125,7 @@ const TEXTS: &[(&str, &str)] = files![
 ];
 
 /// Every mesh, by the folder that it is in.
-const MESHES: &[(&str, &[Shape])] = &[
-    ("adroit/", adroit::MESHES),
-    ("dclaw/", dclaw::MESHES),
-    ("dkitty/", dkitty::MESHES),
-    ("fetch/", fetch::MESHES),
-    ("kitchen/", kitchen::MESHES),
-    ("myoelbow/", myoelbow::MESHES),
-    ("panda/", panda::MESHES),
-    ("trifinger/", trifinger::MESHES),
-];
+const MESHES: &[(&str, &[Shape])] = &[("adroit/", adroit::MESHES),("dclaw/", dclaw::MESHES),("dkitty/", dkitty::MESHES),("fetch/", fetch::MESHES),("kitchen/", kitchen::MESHES),("myoelbow/", myoelbow::MESHES),("myofinger/", myofinger::MESHES),("panda/", panda::MESHES),("trifinger/", trifinger::MESHES),];
 
 /// Faces that meet at less than this angle are shaded as one surface \[rad\].
 const CREASE: f64 = 0.6;

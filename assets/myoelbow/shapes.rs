@@ -1,7 +1,8 @@
 //! Bones of a torso and its right arm, in the frames of their bodies \[m\]: x forward, y to the left, z up. The arm hangs down; its elbow
 //! is 0.29 m below the shoulder. Sizes are those of an adult of 1.75 m, by eye.
 
-use crate::bones::{knob, long, shaft};
+use crate::bones::{knob, shaft};
+use crate::hand;
 use workshop::{Mesh, Vec3, cylinder, sincos};
 
 /// Where the arm's frame is in the torso's \[m\].
@@ -98,8 +99,8 @@ pub(super) fn ulna() -> Mesh {
         ([-0.012, 0.008, -0.012], [0.011, 0.012]),
         ([-0.01, 0.009, -0.04], [0.0085, 0.0085]),
         ([-0.006, 0.014, -0.13], [0.0062, 0.0065]),
-        ([-0.003, 0.017, -0.225], [0.0055, 0.0055]),
-        ([-0.002, 0.017, -0.243], [0.0075, 0.0075]),
+        hand::ULNA_END[0],
+        hand::ULNA_END[1],
     ]);
     let hook = shaft(&[([-0.016, 0.004, -0.014], [0.009, 0.012]), ([-0.02, 0.004, 0.0], [0.0075, 0.011])]);
     shank.with(&hook)
@@ -111,43 +112,16 @@ pub(super) fn radius() -> Mesh {
         ([0.003, -0.017, -0.02], [0.008, 0.008]),
         ([0.002, -0.014, -0.04], [0.0062, 0.0065]),
         ([0.004, -0.02, -0.12], [0.0065, 0.0065]),
-        ([0.001, -0.018, -0.2], [0.0075, 0.0085]),
-        ([0.0, -0.013, -0.243], [0.01, 0.014]),
+        hand::RADIUS_END[0],
+        hand::RADIUS_END[1],
     ]);
     shank.with(&knob([0.0105, 0.0105, 0.006], [0.003, -0.017, -0.017]))
 }
 
-/// Bones of the wrist, the palm and the fingers, palm forward, fingers down.
+/// Bones of the wrist, the palm and the fingers.
 pub(super) fn hand() -> Mesh {
-    let mut parts = Vec::new();
-    for (row, count) in [(0.0, 4), (1.0, 4)] {
-        for place in 0..count {
-            let side = -0.018 + 0.012 * f64::from(place);
-            parts.push(knob([0.008, 0.0075, 0.008], [0.002, side, -0.258 - 0.013 * row]));
-        }
-    }
-    // Lengths of the metacarpal and three phalanges, and where the first begins and leads.
-    let fingers: [(f64, f64, [f64; 4]); 4] = [
-        (-0.02, -0.013, [0.062, 0.04, 0.024, 0.017]),
-        (-0.006, -0.002, [0.06, 0.044, 0.028, 0.018]),
-        (0.007, 0.008, [0.054, 0.041, 0.026, 0.018]),
-        (0.018, 0.018, [0.049, 0.033, 0.019, 0.016]),
-    ];
-    for (start, spread, lengths) in fingers {
-        let (mut from, mut bend) = ([0.003, start, -0.28], 0.0_f64);
-        for (bone, length) in lengths.into_iter().enumerate() {
-            let (sine, cosine) = sincos(bend);
-            let to = [from[0] + length * sine, from[1] + spread * length / 0.16, from[2] - length * cosine];
-            let thick = [0.0042, 0.0038, 0.0034, 0.003][bone];
-            parts.push(long(from, to, thick, [1.5 * thick, 1.45 * thick]));
-            (from, bend) = (to, bend + 0.2);
-        }
-    }
-    let thumb: [Vec3; 4] =
-        [[0.008, -0.024, -0.268], [0.022, -0.044, -0.298], [0.03, -0.056, -0.324], [0.035, -0.062, -0.345]];
-    for (bone, thick) in [0.0047, 0.0042, 0.0036].into_iter().enumerate() {
-        parts.push(long(thumb[bone], thumb[bone + 1], thick, [1.5 * thick, 1.4 * thick]));
-    }
+    let fingers = (0..4).flat_map(|number| hand::finger(number, &[0.2; 3]));
+    let parts: Vec<Mesh> = hand::wrist().into_iter().chain(fingers).chain(hand::thumb()).collect();
     Mesh::of(&parts)
 }
 

@@ -1,6 +1,8 @@
 //! What robots are tried with: stands that hold them, and servos that are moved one by one.
 #![allow(dead_code, reason = "each test of a robot uses a part")]
 
+pub mod muscles;
+
 use mjcf::Loader;
 use mjcf::files::Memory;
 use physics::{Data, Model, step};

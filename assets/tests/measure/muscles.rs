@@ -1,0 +1,120 @@
+//! What bodies with muscles are tried with: moment arms over the range of a joint, and paths that stay out of bones.
+
+use super::run;
+use physics::elements::BodyId;
+use physics::math::{add_scaled, cross, dot, mul_mat_t_vec, sub};
+use physics::{Data, Model, forward};
+use std::f64::consts::PI;
+use workshop::Mesh;
+
+/// A bone: its name, the body that it is on, and its surface in that body's frame.
+pub type Bone = (&'static str, BodyId, Mesh);
+
+/// The model with its muscles' activations at a pose.
+pub fn flexed(m: &Model, pose: &[f64], act: &[f64]) -> Data {
+    let mut d = Data::new(m);
+    d.state.qpos.copy_from_slice(pose);
+    d.state.act.copy_from_slice(act);
+    forward(m, &mut d).unwrap();
+    d
+}
+
+/// The tendon that an actuator pulls.
+fn tendon(m: &Model, actuator: usize) -> usize {
+    m.actuator_trnid[actuator][0] as usize
+}
+
+/// Moment arms of all actuators about a degree of freedom \[m\]: positive where a pull moves the joint to larger angles.
+pub fn arms(m: &Model, pose: &[f64], dof: usize) -> Vec<f64> {
+    let d = flexed(m, pose, &vec![0.0; m.na]);
+    let arm = |actuator| {
+        let tendon = tendon(m, actuator);
+        let start = m.ten_J_rowadr[tendon] as usize;
+        let row = start..start + m.ten_J_rownnz[tendon] as usize;
+        row.filter(|i| m.ten_J_colind[*i] as usize == dof).map(|i| -d.ten.ten_J[i]).sum()
+    };
+    (0..m.nu).map(arm).collect()
+}
+
+/// Moment arms at 181 angles over the whole range of a joint, all other joints as in `pose`: a row for each angle.
+pub fn arms_over_range(m: &Model, pose: &[f64], dof: usize) -> Vec<Vec<f64>> {
+    let [low, high] = m.jnt_range[dof];
+    let at = |step: i32| {
+        let mut pose = pose.to_vec();
+        pose[dof] = low + (high - low) * f64::from(step) / 180.0;
+        arms(m, &pose, dof)
+    };
+    (0..=180).map(at).collect()
+}
+
+/// The largest change of a moment arm between neighbouring rows \[m\].
+pub fn jump(rows: &[Vec<f64>]) -> f64 {
+    let change =
+        |pair: &[Vec<f64>]| pair[0].iter().zip(&pair[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    rows.windows(2).map(change).fold(0.0, f64::max)
+}
+
+/// Excites the muscles for some time \[s\].
+pub fn excite(m: &Model, d: &mut Data, excited: &[f64], seconds: f64) {
+    d.state.ctrl.copy_from_slice(excited);
+    run(m, d, seconds, |_| ());
+}
+
+/// How often a surface goes round a point: 0 outside, 1 inside (van Oosterom and Strackee, IEEE Transactions on Biomedical
+/// Engineering 30(2), 1983, for the solid angle of a triangle).
+fn winding(mesh: &Mesh, point: [f64; 3]) -> f64 {
+    let corners = mesh.faces().iter().map(|face| face.map(|vertex| sub(mesh.vertices()[vertex], point)));
+    let solid = corners.map(|[a, b, c]| {
+        let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
+        let volume = dot(a, cross(b, c));
+        2.0 * volume.atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
+    });
+    solid.sum::<f64>() / (4.0 * PI)
+}
+
+fn inside(mesh: &Mesh, point: [f64; 3]) -> bool {
+    let [low, high] = mesh.bounds();
+    (0..3).all(|axis| low[axis] < point[axis] && point[axis] < high[axis]) && winding(mesh, point) > 0.5
+}
+
+/// Points of the straight stretches of a muscle's path, 20 each, beyond `near` \[m\] of its ends: near where it is fixed to a bone, its line
+/// may be below the bone's surface. A stretch round a cylinder is shown by its two ends alone; the cylinders are thicker than the
+/// bones in them.
+fn points(m: &Model, d: &Data, muscle: usize, near: f64) -> Vec<[f64; 3]> {
+    let tendon = tendon(m, muscle);
+    let start = d.ten.ten_wrapadr[tendon] as usize;
+    let all = d.ten.wrap_xpos.as_flattened().as_chunks::<3>().0;
+    let path = &all[start..start + d.ten.ten_wrapnum[tendon] as usize];
+    let ends = [path[0], path[path.len() - 1]];
+    let round = &d.ten.wrap_obj.as_flattened()[start..];
+    let straight = path.windows(2).enumerate().filter(|(i, _)| round[*i] < 0 || round[i + 1] < 0);
+    let between = straight.flat_map(|(_, pair)| {
+        (0..20).map(|step| add_scaled(pair[0], sub(pair[1], pair[0]), f64::from(step) / 20.0))
+    });
+    let far =
+        |point: &[f64; 3]| ends.iter().all(|end| dot(sub(*point, *end), sub(*point, *end)) >= near * near);
+    between.filter(far).collect()
+}
+
+/// Asserts that at these poses no muscle passes through a bone, and returns how many points were looked at.
+pub fn stay_outside(m: &Model, bones: &[Bone], near: f64, poses: &[Vec<f64>]) -> usize {
+    let mut looked = 0;
+    for pose in poses {
+        let d = flexed(m, pose, &vec![0.0; m.na]);
+        for muscle in 0..m.nu {
+            for point in points(m, &d, muscle, near) {
+                for (name, body, mesh) in bones {
+                    let local = mul_mat_t_vec(d.body(*body).xmat(), sub(point, *d.body(*body).xpos()));
+                    assert!(!inside(mesh, local), "muscle {muscle} in the {name} at {pose:?}: {local:?}");
+                    looked += 1;
+                }
+            }
+        }
+    }
+    looked
+}
+
+/// A bone of one of our own models.
+pub fn bone(m: &Model, robot: &str, name: &'static str, body: &str) -> Bone {
+    (name, m.body(body).unwrap(), robohive_assets::mesh(&format!("{robot}/{name}.obj")).unwrap())
+}
