@@ -24,6 +24,7 @@ mod kitchen;
 mod myoelbow;
 mod myofinger;
 mod panda;
+mod robotiq;
 mod shape;
 mod trifinger;
 
@@ -104,6 +105,9 @@ const TEXTS: &[(&str, &str)] = files![
     "myofinger/robot.xml",
     "myofinger/scene.xml",
     "myofinger/tasks/motors.xml",
+    "panda/parts/arm.xml",
+    "panda/parts/station.xml",
+    "panda/parts/tool.xml",
     "panda/robot.xml",
     "panda/scene.xml",
     "panda/tasks/arm.toml",
@@ -113,6 +117,12 @@ const TEXTS: &[(&str, &str)] = files![
     "pile/pile.xml",
     "quadruped/quadruped.xml",
     "quadruped/tasks/walk.xml",
+    "robotiq/gripper.xml",
+    "robotiq/parts/gripper.xml",
+    "robotiq/parts/tool.xml",
+    "robotiq/robot.xml",
+    "robotiq/scene.xml",
+    "robotiq/tasks/arm.toml",
     "scenery/parts/room.xml",
     "scenery/parts/table.xml",
     "servos/servos.xml",
@@ -125,7 +135,18 @@ const TEXTS: &[(&str, &str)] = files![
 ];
 
 /// Every mesh, by the folder that it is in.
-const MESHES: &[(&str, &[Shape])] = &[("adroit/", adroit::MESHES),("dclaw/", dclaw::MESHES),("dkitty/", dkitty::MESHES),("fetch/", fetch::MESHES),("kitchen/", kitchen::MESHES),("myoelbow/", myoelbow::MESHES),("myofinger/", myofinger::MESHES),("panda/", panda::MESHES),("trifinger/", trifinger::MESHES),];
+const MESHES: &[(&str, &[Shape])] = &[
+    ("adroit/", adroit::MESHES),
+    ("dclaw/", dclaw::MESHES),
+    ("dkitty/", dkitty::MESHES),
+    ("fetch/", fetch::MESHES),
+    ("kitchen/", kitchen::MESHES),
+    ("myoelbow/", myoelbow::MESHES),
+    ("myofinger/", myofinger::MESHES),
+    ("panda/", panda::MESHES),
+    ("robotiq/", robotiq::MESHES),
+    ("trifinger/", trifinger::MESHES),
+];
 
 /// Faces that meet at less than this angle are shaded as one surface \[rad\].
 const CREASE: f64 = 0.6;

@@ -23,6 +23,8 @@ pub(crate) fn twin(spec: &Spec) -> Option<Spec> {
     }
     let ours = |setting: &str| spec.args.get::<String>(setting).map(|path| OURS.get(&path).cloned());
     let mut twin = Spec { id: format!("hive/{}", spec.id), suite: "hive".into(), ..spec.clone() };
+    // Ours come put together: a robot's folder has the arm with its hand.
+    twin.args.0.remove("reparent");
     for setting in FILES {
         if let Some(path) = ours(setting) {
             twin.args.0.insert(setting.into(), path?.into());
