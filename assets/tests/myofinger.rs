@@ -107,6 +107,21 @@ fn the_tip_presses_as_hard_as_that_of_an_adult() {
     assert!(forces.iter().all(|force| (force / forces[0] - 1.0).abs() < 0.02), "{forces:?} N");
 }
 
+/// Muscles, which only pull, hold the targets of the fixed tasks against gravity: pose and reach.
+#[test]
+fn muscles_can_hold_the_poses_of_tasks() {
+    let m = finger();
+    for (pose, act) in [
+        ([0.0, 0.0, 0.75, 0.75], [0.186, 0.013, 0.013, 0.0, 0.028]),
+        ([0.245, -0.15, 0.646, 0.794], [0.218, 0.082, 0.003, 0.0, 0.029]),
+    ] {
+        let d = flexed(&m, &pose, &act);
+        let short: Vec<f64> =
+            d.actuation.qfrc_actuator.iter().zip(&d.vel.qfrc_bias).map(|(a, b)| a - b).collect();
+        assert!(short.iter().all(|moment| moment.abs() < 0.01), "{pose:?}: {short:?} N m");
+    }
+}
+
 /// Each muscle moves its joints to the end of their range, and the finger comes to rest under all of them.
 #[test]
 fn muscles_move_the_finger_through_its_range() {
