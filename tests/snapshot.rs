@@ -27,13 +27,16 @@ fn run(m: &Model, d: &mut Data) {
     }
 }
 
-/// Everything that 200 steps leave behind, to the bit; tendons that wrap less than before leave old points behind.
+/// Everything that 200 steps leave behind, to the bit. Tendons that wrap less than before leave old points behind, and without
+/// constraints there are no islands, whose arrays then keep what they had.
 fn outcome(m: &Model, d: &Data) -> Vec<(&'static str, Vec<u64>)> {
     let mut arrays = Vec::new();
     d.visit(m, &mut |name, _, values| {
         arrays.push((name, values.to_f64().into_iter().map(f64::to_bits).collect()))
     });
+    let islands = |name: &str| name.contains("island") || name.starts_with("map_");
     arrays.retain(|(name, _)| !["wrap_obj", "wrap_xpos"].contains(name));
+    arrays.retain(|(name, _)| d.island.nisland > 0 || !islands(name));
     arrays
 }
 
@@ -64,7 +67,10 @@ fn restored_simulations_repeat_themselves() {
                 d.restore(&snapshot).unwrap();
                 assert_eq!((d.time(), &d.state.qpos), (saved.0, &saved.1));
                 run(&m, &mut d);
-                assert!(outcome(&m, &d) == there, "{name}, {integrator:?}");
+                let here = outcome(&m, &d);
+                let differ: Vec<_> =
+                    here.iter().zip(&there).filter(|(a, b)| a != b).map(|(a, _)| a.0).collect();
+                assert!(differ.is_empty(), "{name}, {integrator:?}: {differ:?}");
             }
         }
     }

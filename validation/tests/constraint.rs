@@ -95,6 +95,8 @@ fn storage_does_not_matter() {
             // Conjugate gradients stop at their tolerance, far from the solution.
             (m.options_mut().solver, m.options_mut().tolerance) = (Solver::Newton, 1e-8);
         }
+        // Models that limit the iterations, to fewer than MuJoCo's 100, stop short of the solution, as those of others may.
+        let converges = is_own(&path) && m.opt.iterations >= 100;
         for row in 0..r.states().unwrap() {
             let solved = [Jacobian::Dense, Jacobian::Sparse].map(|storage| {
                 m.options_mut().jacobian = storage;
@@ -112,7 +114,7 @@ fn storage_does_not_matter() {
             let mut force = vec![0.0; m.nv];
             mul_inertia_matrix(&m, &r.forward("M", row).unwrap(), &change, &mut force);
             let e = difference(&force, &solved[0].qfrc_constraint);
-            residuals[usize::from(is_own(&path))].take(e, format!("{path:?} {row}"));
+            residuals[usize::from(converges)].take(e, format!("{path:?} {row}"));
             moved = change.iter().fold(moved, |a, x| a.max(x.abs()));
         }
     }

@@ -269,9 +269,9 @@ fn an_interrupted_run_completes_its_video() {
 fn a_gallery_is_the_same_on_any_number_of_threads() {
     let (one, two) = (fresh("one.png"), fresh("two.png"));
     let sheet = |path: &str, threads: &str| {
-        done(&["gallery", "hive", "--size", "40x30", "--threads", threads, "-q", "--out", path])
+        done(&["gallery", "hive/Franka", "--size", "40x30", "--threads", threads, "-q", "--out", path])
     };
-    assert!(sheet(&one, "1").contains("3 environments"));
+    assert!(sheet(&one, "1").contains("4 environments"));
     sheet(&two, "2");
     assert_eq!(decode(&one), decode(&two));
     assert!(colours(&one) > 100);
@@ -280,7 +280,7 @@ fn a_gallery_is_the_same_on_any_number_of_threads() {
     assert!(out.status.success(), "{}", text(&out.stderr));
     let note = text(&out.stderr);
     assert!(note.contains("left out") && note.contains("robohive assets import"), "{note}");
-    let out = robohive(&["gallery", "door", "-q", "--out", &two]);
+    let out = robohive(&["gallery", "SlideClose", "-q", "--out", &two]);
     assert_eq!(out.status.code(), Some(1));
     assert!(text(&out.stderr).contains("no environment to draw"));
 }
