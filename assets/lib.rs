@@ -17,6 +17,7 @@ mod adroit;
 mod bones;
 mod dclaw;
 mod dkitty;
+mod dmanus;
 mod dynamixel;
 mod fetch;
 mod hand;
@@ -64,6 +65,12 @@ const TEXTS: &[(&str, &str)] = files![
     "dkitty/tasks/stand.toml",
     "dkitty/tasks/walk.toml",
     "dkitty/tasks/walk.xml",
+    "dmanus/hand.xml",
+    "dmanus/parts/hand.xml",
+    "dmanus/parts/tool.xml",
+    "dmanus/robot.xml",
+    "dmanus/scene.xml",
+    "dmanus/tasks/arm.toml",
     "drape/drape.xml",
     "elbow/elbow.xml",
     "fetch/robot.xml",
@@ -139,6 +146,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("adroit/", adroit::MESHES),
     ("dclaw/", dclaw::MESHES),
     ("dkitty/", dkitty::MESHES),
+    ("dmanus/", dmanus::MESHES),
     ("fetch/", fetch::MESHES),
     ("kitchen/", kitchen::MESHES),
     ("myoelbow/", myoelbow::MESHES),
