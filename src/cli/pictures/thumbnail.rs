@@ -128,7 +128,7 @@ mod tests {
             env.reset(Some(0)).unwrap();
             env
         };
-        ids.map(make).into()
+        ids.into_iter().map(make).collect()
     }
 
     /// What draws an environment.
