@@ -1,9 +1,10 @@
-//! What the own models and environments must end in and look like in a page: hashes after a number of steps as `hashes.json`,
+//! What the own models, and one environment of each task and model, must end in and look like in a page: hashes after a number of steps as `hashes.json`,
 //! and pictures of these states as raw bytes, R, G, B, A.
 //!
 //! `references FOLDER STEPS WIDTH HEIGHT`
 
 use robohive_web::{Simulation, own_environments, own_models};
+use std::collections::BTreeSet;
 use std::error::Error;
 use std::fs;
 use std::path::Path;
@@ -17,8 +18,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     let [steps, width, height] = numbers[..] else {
         return Err("references FOLDER STEPS WIDTH HEIGHT".into());
     };
+    let mut kinds = BTreeSet::new();
+    let mut is_first = |id: &String| {
+        let spec = env::Registry::builtin().spec(id);
+        spec.is_ok_and(|spec| kinds.insert((spec.task.clone(), spec.args.get::<String>("model_path"))))
+    };
+    let environments: Vec<String> = own_environments().into_iter().filter(&mut is_first).collect();
     let mut rows = Vec::new();
-    for name in own_models().into_iter().chain(own_environments()) {
+    for name in own_models().into_iter().chain(environments) {
         let opened = match name.contains('/') {
             true => Simulation::environment(&name, 3, None),
             false => Simulation::own(&name),
