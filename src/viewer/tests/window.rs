@@ -19,6 +19,14 @@ use std::path::{Path, PathBuf};
 const MIDDLE: Pos2 = pos2(536.0, 280.0);
 
 #[test]
+fn models_of_our_own_go_by_their_names() {
+    let titles: Vec<String> = Source::own().map(|source| source.title()).collect();
+    let names: Vec<&str> = robohive_viewer::own_models().map(|(name, _)| name).collect();
+    assert_eq!(titles, names);
+    assert!(names.contains(&"panda") && names.contains(&"quadruped"), "{names:?}");
+}
+
+#[test]
 fn every_model_of_our_own_is_shown() {
     let mut shown = 0;
     for source in Source::own() {

@@ -21,8 +21,8 @@ pub enum Source {
     File(PathBuf),
     /// A model among files in memory, by its path.
     Among(Arc<Files>, String),
-    /// A model of our own, by its path in `assets/`.
-    Own(&'static str),
+    /// A model of our own: its name, and its path in `assets/`.
+    Own(&'static str, &'static str),
     /// An environment.
     Environment(Recipe),
     /// Recorded episodes of an environment.
@@ -93,7 +93,7 @@ impl fmt::Debug for Recipe {
 impl Source {
     /// Models of our own.
     pub fn own() -> impl Iterator<Item = Source> {
-        own_models().map(|(_, path)| Source::Own(path))
+        own_models().map(|(name, path)| Source::Own(name, path))
     }
 
     /// Environments on models of our own.
@@ -126,9 +126,7 @@ impl Source {
         match self {
             Source::File(path) => path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
             Source::Among(_, path) => path.clone(),
-            Source::Own(path) => {
-                Path::new(path).file_stem().unwrap_or_default().to_string_lossy().into_owned()
-            }
+            Source::Own(name, _) => (*name).to_owned(),
             Source::Environment(recipe) => recipe.id.clone(),
             Source::Episodes(recording) => recording.path.display().to_string(),
             Source::States(states) => states.title(),
@@ -182,7 +180,7 @@ impl Source {
             Source::Program(title) => {
                 Err(format!("{title} is the model of a program, which alone can read it again"))
             }
-            Source::Own(path) => own_loader().load(path).map_err(|errors| errors.to_string()),
+            Source::Own(_, path) => own_loader().load(path).map_err(|errors| errors.to_string()),
         }
     }
 
@@ -193,7 +191,7 @@ impl Source {
     pub(super) fn mjcf(&self) -> Result<String, String> {
         let parsed = match self {
             Source::File(path) => Loader::default().parse(path),
-            Source::Own(path) => own_loader().parse(path),
+            Source::Own(_, path) => own_loader().parse(path),
             Source::States(states) => return states.of.mjcf(),
             _ => return Err(format!("{} is not a file of MJCF or URDF", self.title())),
         };
@@ -210,7 +208,7 @@ impl Source {
             Source::File(path) => std::fs::metadata(path).and_then(|about| about.modified()).ok(),
             Source::States(states) => states.of.changed(),
             Source::Among(..)
-            | Source::Own(_)
+            | Source::Own(..)
             | Source::Environment(_)
             | Source::Episodes(_)
             | Source::Program(_) => None,
