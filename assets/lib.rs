@@ -207,7 +207,8 @@ pub fn write(folder: &Path) -> io::Result<usize> {
     for path in paths() {
         let file = folder.join(&*path);
         file.parent().map_or(Ok(()), std::fs::create_dir_all)?;
-        std::fs::write(&file, read(&path).unwrap_or_default())?;
+        let content = read(&path).ok_or(io::ErrorKind::NotFound)?;
+        std::fs::write(&file, content)?;
         count += 1;
     }
     Ok(count)

@@ -33,7 +33,7 @@ impl Own {
 pub fn own_models(root: &Path) -> Result<Vec<Own>, String> {
     let mut list = Vec::new();
     for (name, path) in assets::models() {
-        let text = assets::text(path).unwrap_or_default();
+        let text = assets::text(path).ok_or_else(|| format!("{path} is no model of our own"))?;
         let camera = text.split_once("<camera name=\"").and_then(|(_, rest)| rest.split_once('"'));
         let folder = path.split('/').next().unwrap_or_default();
         let file = format!("assets/{folder}/README.md");

@@ -328,19 +328,3 @@ pub(super) fn thumb_distal() -> Mesh {
 pub(super) fn thumb_distal_pad() -> Mesh {
     tip(0.0362, [0.0096, 0.0086]).turned([0.0, 0.0, 1.0], -std::f64::consts::FRAC_PI_2)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_few_faces_draw_hand_and_things() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += mesh.faces().len();
-        }
-        assert!(faces < 9000, "{faces}");
-    }
-}

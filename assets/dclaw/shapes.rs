@@ -78,27 +78,3 @@ pub(super) fn foot() -> Mesh {
     let shaft = cylinder(0.0105, [0.034, 0.0385], 0.0, 14);
     plate.with(&servo).with(&shaft)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_few_faces_draw_the_robot() {
-        // How often a mesh is drawn where it is not once.
-        let drawn = |name: &str| match name {
-            "servo" | "horns" | "bracket" => 9,
-            "clamp" => 6,
-            "profile" => 4,
-            "tip" | "rubber" => 3,
-            _ => 1,
-        };
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += drawn(name) * mesh.faces().len();
-        }
-        assert!(faces < 6000, "{faces}");
-    }
-}

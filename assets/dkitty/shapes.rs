@@ -60,27 +60,3 @@ pub(super) fn board() -> Mesh {
 pub(super) fn bracket() -> Mesh {
     dynamixel::bracket(0.0515)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_few_faces_draw_the_robot() {
-        // How often a mesh is drawn where it is not once.
-        let drawn = |name: &str| match name {
-            "servo" | "bracket" | "horns" => 12,
-            "clamp" => 8,
-            "tip" | "rubber" => 4,
-            "plate" => 2,
-            _ => 1,
-        };
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += drawn(name) * mesh.faces().len();
-        }
-        assert!(faces < 6000, "{faces}");
-    }
-}

@@ -75,26 +75,3 @@ pub(super) fn tip() -> Mesh {
 pub(super) fn rubber() -> Mesh {
     dynamixel::rubber().moved(SHORTER)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_few_faces_draw_the_hand() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            let copies = match *name {
-                "servo" | "horns" => 10,
-                "bracket" => 7,
-                "knuckle" | "tip" | "rubber" => 3,
-                _ => 1,
-            };
-            faces += copies * mesh.faces().len();
-        }
-        println!("{faces} triangles");
-        assert!(faces < 6000, "{faces}");
-    }
-}

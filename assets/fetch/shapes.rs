@@ -206,19 +206,3 @@ pub(super) fn finger() -> Mesh {
 pub(super) fn pad() -> Mesh {
     rounded_box([0.028, 0.0011, 0.0115], 0.0008, 1).moved([-0.001, -0.0149, 0.0])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_few_faces_draw_the_robot() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += mesh.faces().len() * if ["finger", "pad"].contains(name) { 2 } else { 1 };
-        }
-        assert!(faces < 6000, "{faces}");
-    }
-}

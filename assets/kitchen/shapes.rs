@@ -155,19 +155,3 @@ pub(super) fn hood() -> Mesh {
     let rim = extrude(&outline.inset(-0.004), &[outline.inset(0.016)], [-0.17, -0.15]);
     Mesh::of([&walls, &middle, &top, &rim])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_of_few_faces() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += mesh.faces().len();
-        }
-        assert!(faces < 6000, "{faces}");
-    }
-}

@@ -141,19 +141,3 @@ pub(super) fn cuff() -> Mesh {
     let motor = cylinder(0.026, [-0.075, -0.048], 0.003, 24).along([0.0, 1.0, 0.0], [0.0; 3]);
     Mesh::of(&[ring(-0.14, 0.04), bar, motor])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn bones_are_closed_and_their_faces_few() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += mesh.faces().len();
-        }
-        assert!(faces < 8500, "{faces}");
-    }
-}

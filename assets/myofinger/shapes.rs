@@ -67,19 +67,3 @@ pub(super) fn distal() -> Mesh {
         [0.0645, 0.001, 0.0036, 0.0085],
     ])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn bones_are_closed_and_their_faces_few() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += mesh.faces().len();
-        }
-        assert!(faces < 3500, "{faces}");
-    }
-}

@@ -213,19 +213,3 @@ pub(super) fn finger() -> Mesh {
 pub(super) fn fingertip() -> Mesh {
     rounded_box([0.0088, 0.0042, 0.0092], 0.0015, 2).moved([0.0, 0.0042, 0.0445])
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_few_faces_draw_the_arm() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += mesh.faces().len();
-        }
-        assert!(faces < 5000, "{faces}");
-    }
-}

@@ -142,20 +142,3 @@ pub(super) fn pad() -> Mesh {
         .collect();
     plate.with(&Mesh::of(&ridges))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_few_faces_draw_the_gripper() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += mesh.faces().len();
-        }
-        println!("{faces} triangles");
-        assert!(faces < 3500, "{faces}");
-    }
-}

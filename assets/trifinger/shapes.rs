@@ -71,19 +71,3 @@ pub(super) fn lower_dark() -> Mesh {
 pub(super) fn tip() -> Mesh {
     capsule(0.01, [0.019, 0.0, -0.143], [0.019, 0.0, -0.16], 16)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::MESHES;
-
-    #[test]
-    fn shapes_are_closed_and_few_faces_draw_the_robot() {
-        let mut faces = 0;
-        for (name, make) in MESHES {
-            let mesh = make();
-            assert!(mesh.is_closed() && mesh.volume() > 0.0, "{name}");
-            faces += mesh.faces().len() * if *name == "hub" { 1 } else { 3 };
-        }
-        assert!(faces < 6000, "{faces}");
-    }
-}

@@ -17,6 +17,7 @@ const FILES: [&str; 2] = ["model_path", "config_path"];
 /// The twin of an id on our own model; `None` where we have none for it, and where networks encode its images, since their weights have to
 /// be downloaded.
 pub(crate) fn twin(spec: &Spec) -> Option<Spec> {
+    // Most ids have no images.
     let images: Vec<String> = spec.args.get("visual_keys").unwrap_or_default();
     if images.iter().any(|key| needs_weights(key)) {
         return None;

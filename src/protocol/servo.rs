@@ -315,7 +315,7 @@ impl fmt::Display for RequestError {
         f.write_str(match self {
             RequestError::Unknown => "the servos' protocol has no instruction for the request",
             RequestError::TooLong => {
-                "a request to so many servos does not fit into one packet of their protocol; use fewer servos on a bus"
+                "the request exceeds the size limit of a packet of this protocol; connect fewer servos to the bus"
             }
         })
     }

@@ -130,7 +130,7 @@ def test_the_arm_follows_a_circle_and_stops_when_the_bridge_dies(headset, robohi
         assert np.abs(at_rest(session) - rest).max() <= 0.01, "nobody sends what the controller does"
         with Bridge(headset, session.address) as bridge:
             eventually(lambda: "the controllers are read" in bridge.said, "another bridge runs")
-            assert np.abs(at_rest(session) - rest).max() <= 0.01, "a clutch that is held begins anew"
+            assert np.abs(at_rest(session) - rest).max() <= 0.01, "a clutch that is held takes the present pose as its new origin"
             lead(headset, session, rest + [0.0, 0.0, 0.04])
             headset.set("right", first=1.0)
             session.wait_for("episode 2")

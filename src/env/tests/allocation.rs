@@ -46,7 +46,7 @@ impl Assets for Imported {
     }
 }
 
-/// Plays the same seeded episode, with so many images; how many allocations its steps and images made.
+/// Plays the same seeded episode and draws `images` images; how many allocations its steps and images made.
 fn allocations(env: &mut Env, images: usize) -> usize {
     let (mut rng, mut action) = (Rng::pcg64(7_u64), vec![0.0; env.action_len()]);
     env.reset(Some(3)).unwrap();
