@@ -2,7 +2,7 @@
 
 mod measure;
 
-use measure::{own, posed, run, stand, sweep, track};
+use measure::{drift, mobility, own, posed, run, slip, stand};
 
 const STRAIGHT: [f64; 9] = [0.0; 9];
 /// How ROBEL's valve tasks start.
@@ -29,11 +29,7 @@ fn it_has_the_robots_mass_and_length() {
 fn every_joint_moves_through_its_range_and_follows_a_sine() {
     let m = stand("dclaw/robot.xml", "dClaw", "timestep='0.0025' cone='elliptic'", "");
     assert_eq!((m.nv, m.nu), (9, 9));
-    let (short, actuator) = sweep(&m, &OPEN);
-    let (off, slowest) = track(&m, &OPEN);
-    println!(
-        "short {short:.4} (actuator {actuator}), sine off by {off:.3} of its amplitude (actuator {slowest})"
-    );
+    let (short, off) = mobility(&m, &OPEN);
     assert!(short < 0.05);
     // Damping of 0.1 N m s/rad against 2 N m/rad lags by 0.05 s: 0.16 of a sine of 0.5 Hz; weight adds to it.
     assert!(off < 0.3);
@@ -41,11 +37,7 @@ fn every_joint_moves_through_its_range_and_follows_a_sine() {
 
 #[test]
 fn it_holds_its_pose_for_ten_seconds() {
-    let m = own("dclaw/scene.xml");
-    let mut d = posed(&m, &OPEN);
-    run(&m, &mut d, 10.0, |_| ());
-    let off = OPEN.iter().zip(&d.state.qpos).map(|(told, angle)| (told - angle).abs()).fold(0.0, f64::max);
-    println!("off by {off:.4} rad after 10 s");
+    let off = drift("dclaw/scene.xml", &OPEN, 0);
     assert!(off < 0.1);
 }
 
@@ -58,16 +50,8 @@ fn fingers_hold_a_cylinder_of_300_grams_by_friction() {
     for tip in [2, 5, 8] {
         d.state.ctrl[tip] = 1.57;
     }
-    let (place, start) = (9, 0.79);
-    // Fingers close before the cylinder is let go.
-    run(&m, &mut d, 1.0, |d| {
-        d.state.qpos[place..place + 7].copy_from_slice(&[0.0, 0.0, start, 1.0, 0.0, 0.0, 0.0]);
-        d.state.qvel[place..].fill(0.0);
-    });
-    run(&m, &mut d, 10.0, |_| ());
-    let height = d.state.qpos[place + 2];
-    println!("slipped by {:.1} mm in 10 s", (start - height) * 1e3);
-    assert!((height - start).abs() < 0.01, "{height}");
+    let slip = slip(&m, &mut d, 0.79, 1.0);
+    assert!(slip < 0.01, "{slip}");
 }
 
 #[test]

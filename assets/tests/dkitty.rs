@@ -2,7 +2,7 @@
 
 mod measure;
 
-use measure::{own, posed, run, stand, sweep, track};
+use measure::{off, own, posed, run, stand, sweep, track};
 use physics::Data;
 
 /// Legs bent as a standing robot has them.
@@ -45,8 +45,7 @@ fn stands(load: f64) -> (f64, f64, f64) {
     d.state.xfrc_applied[torso.index()] = [0.0, 0.0, -load, 0.0, 0.0, 0.0];
     let mut least = f64::INFINITY;
     run(&m, &mut d, 10.0, |d| least = least.min(d.body(torso).xmat()[8]));
-    let sag =
-        BENT.iter().zip(&d.state.qpos[6..]).map(|(told, angle)| (told - angle).abs()).fold(0.0, f64::max);
+    let sag = off(&BENT, &d.state.qpos[6..]);
     (d.body(torso).xpos()[2], least, sag)
 }
 

@@ -3,7 +3,7 @@
 
 mod measure;
 
-use measure::{own, posed, run, stand, sweep, track};
+use measure::{drift, posed, run, stand, sweep, track};
 use physics::math::{Vec3, add, distance, mul_mat_vec};
 use physics::{Data, forward};
 use std::f64::consts::FRAC_PI_2;
@@ -60,11 +60,7 @@ fn its_flange_is_where_the_makers_parameters_put_it() {
 
 #[test]
 fn it_holds_its_pose_for_ten_seconds() {
-    let m = own("panda/scene.xml");
-    let mut d = posed(&m, &READY);
-    run(&m, &mut d, 10.0, |_| ());
-    let off = READY.iter().zip(&d.state.qpos).map(|(told, angle)| (told - angle).abs()).fold(0.0, f64::max);
-    println!("pose off by {off:.5}");
+    let off = drift("panda/scene.xml", &READY, 0);
     assert!(off < 2e-3, "{off}");
 }
 

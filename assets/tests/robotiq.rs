@@ -3,7 +3,7 @@
 
 mod measure;
 
-use measure::{own, posed, run, stand, sweep, track};
+use measure::{drift, own, run, stand, sweep, track};
 use physics::math::{norm, sub};
 use physics::model::Disable;
 use physics::{Data, Model};
@@ -86,11 +86,7 @@ fn it_holds_a_cube_against_a_pull_of_20_newtons() {
 
 #[test]
 fn on_the_panda_it_holds_its_pose_for_ten_seconds() {
-    let m = own("robotiq/scene.xml");
-    let mut d = posed(&m, &READY);
-    run(&m, &mut d, 10.0, |_| ());
-    let off = READY.iter().zip(&d.state.qpos).map(|(told, angle)| (told - angle).abs()).fold(0.0, f64::max);
-    println!("off by {off:.5} rad after 10 s");
+    let off = drift("robotiq/scene.xml", &READY, 0);
     assert!(off < 0.005);
 }
 

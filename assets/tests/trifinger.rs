@@ -2,7 +2,7 @@
 
 mod measure;
 
-use measure::{own, posed, run, stand, sweep, track};
+use measure::{drift, mobility, own, posed, slip, stand};
 use physics::Data;
 
 /// How the robot starts: knees outwards, tips near the middle.
@@ -37,11 +37,7 @@ fn a_task_can_turn_the_cubes_target() {
 fn every_joint_moves_through_its_range_and_follows_a_sine() {
     let m = stand("trifinger/robot.xml", "trifinger", "timestep='0.002'", "");
     assert_eq!((m.nv, m.nu), (9, 9));
-    let (short, actuator) = sweep(&m, &NOMINAL);
-    let (off, slowest) = track(&m, &NOMINAL);
-    println!(
-        "short {short:.4} (actuator {actuator}), sine off by {off:.3} of its amplitude (actuator {slowest})"
-    );
+    let (short, off) = mobility(&m, &NOMINAL);
     // Friction of 2 N m against 20 N m/rad leaves 0.1 rad, and weight adds to it.
     assert!(short < 0.13);
     assert!(off < 0.65);
@@ -49,11 +45,7 @@ fn every_joint_moves_through_its_range_and_follows_a_sine() {
 
 #[test]
 fn it_holds_its_pose_for_ten_seconds() {
-    let m = own("trifinger/scene.xml");
-    let mut d = posed(&m, &NOMINAL);
-    run(&m, &mut d, 10.0, |_| ());
-    let off = NOMINAL.iter().zip(&d.state.qpos).map(|(told, angle)| (told - angle).abs()).fold(0.0, f64::max);
-    println!("off by {off:.4} rad after 10 s");
+    let off = drift("trifinger/scene.xml", &NOMINAL, 0);
     assert!(off < 0.05);
 }
 
@@ -66,14 +58,6 @@ fn fingers_hold_a_cylinder_of_300_grams_by_friction() {
     let pose = |bent: f64| [0.35, 0.7, bent, 0.35, 0.7, bent, 0.35, 0.7, bent];
     let mut d = posed(&m, &pose(-1.4));
     d.state.ctrl.copy_from_slice(&pose(-1.75));
-    let (place, start) = (9, 1.04);
-    // Fingers close before the cylinder is let go.
-    run(&m, &mut d, 2.0, |d| {
-        d.state.qpos[place..place + 7].copy_from_slice(&[0.0, 0.0, start, 1.0, 0.0, 0.0, 0.0]);
-        d.state.qvel[place..].fill(0.0);
-    });
-    run(&m, &mut d, 10.0, |_| ());
-    let height = d.state.qpos[place + 2];
-    println!("slipped by {:.1} mm in 10 s", (start - height) * 1e3);
-    assert!((height - start).abs() < 0.01, "{height}");
+    let slip = slip(&m, &mut d, 1.04, 2.0);
+    assert!(slip < 0.01, "{slip}");
 }

@@ -57,6 +57,46 @@ pub fn posed(m: &Model, pose: &[f64]) -> Data {
     d
 }
 
+/// The largest distance of joints from where their servos are told to be \[rad or m\].
+pub fn off(told: &[f64], found: &[f64]) -> f64 {
+    told.iter().zip(found).map(|(told, angle)| (told - angle).abs()).fold(0.0, f64::max)
+}
+
+/// How far the joints of a model are from the pose in which its servos held it for ten seconds; `first` is the place in `qpos` of the
+/// first joint with a servo.
+pub fn drift(path: &str, pose: &[f64], first: usize) -> f64 {
+    let m = own(path);
+    let mut d = posed(&m, pose);
+    run(&m, &mut d, 10.0, |_| ());
+    let off = off(pose, &d.state.qpos[first..]);
+    println!("off by {off:.5} after 10 s");
+    off
+}
+
+/// What [`sweep`] and [`track`] find of a model, printed.
+pub fn mobility(m: &Model, pose: &[f64]) -> (f64, f64) {
+    let (short, actuator) = sweep(m, pose);
+    let (off, slowest) = track(m, pose);
+    println!(
+        "short {short:.4} (actuator {actuator}), sine off by {off:.3} of its amplitude (actuator {slowest})"
+    );
+    (short, off)
+}
+
+/// How far a free body, the last in `qpos`, slips in ten seconds, after a hand has closed on it for `closing` seconds while it was held
+/// upright at `height` \[m\].
+pub fn slip(m: &Model, d: &mut Data, height: f64, closing: f64) -> f64 {
+    let (pose, velocity) = (m.nq - 7, m.nv - 6);
+    run(m, d, closing, |d| {
+        d.state.qpos[pose..].copy_from_slice(&[0.0, 0.0, height, 1.0, 0.0, 0.0, 0.0]);
+        d.state.qvel[velocity..].fill(0.0);
+    });
+    run(m, d, 10.0, |_| ());
+    let slip = (height - d.state.qpos[pose + 2]).abs();
+    println!("slipped by {:.1} mm in 10 s", slip * 1e3);
+    slip
+}
+
 /// Sends each servo of `pose` alone to one end of its joint and to the other, 8 s each, the others staying in `pose`, and returns the most that
 /// a joint stays short of what it was told, as a share of its range, with the actuator's number.
 pub fn sweep(m: &Model, pose: &[f64]) -> (f64, usize) {
