@@ -118,7 +118,8 @@ pub static STORAGE: Tolerance = Tolerance::new("STORAGE", 2e-13);
 pub static STORAGE_ELSEWHERE: Tolerance = Tolerance::new("STORAGE_ELSEWHERE", 5e-12);
 /// Residual of the equation of motion on models whose solvers converge: rounding of the gradient.
 pub static STATIONARY: Tolerance = Tolerance::new("STATIONARY", 5e-12);
-/// The same on own models that allow the solver fewer iterations than MuJoCo's 100, and stop short of the solution.
+/// The same on own models that allow the solver fewer iterations than MuJoCo's 100, and may stop short of the solution: the
+/// tolerance of 1e-8 at which solvers stop by default.
 pub static STATIONARY_LIMITED: Tolerance = Tolerance::new("STATIONARY_LIMITED", 1e-8);
 /// The same where a solver stops at its tolerance of 1e-8 in cost, or after its last iteration.
 pub static STATIONARY_ELSEWHERE: Tolerance = Tolerance::new("STATIONARY_ELSEWHERE", 1e-5);
