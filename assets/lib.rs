@@ -37,109 +37,8 @@ use std::path::Path;
 use std::sync::Arc;
 use workshop::Mesh;
 
-macro_rules! files {
-    ($($path:literal,)*) => { &[$(($path, include_str!($path)),)*] };
-}
-
-/// Every text by its path in this folder. Models include others by relative paths.
-const TEXTS: &[(&str, &str)] = files![
-    "adroit/parts/bench.xml",
-    "adroit/parts/forearm.xml",
-    "adroit/parts/hand.xml",
-    "adroit/parts/strength.xml",
-    "adroit/robot.xml",
-    "adroit/scene.xml",
-    "adroit/tasks/baoding.xml",
-    "adroit/tasks/door.xml",
-    "adroit/tasks/hammer.xml",
-    "adroit/tasks/pen.xml",
-    "adroit/tasks/relocate.xml",
-    "dclaw/robot.xml",
-    "dclaw/scene.xml",
-    "dclaw/tasks/ghost.xml",
-    "dclaw/tasks/pose.xml",
-    "dclaw/tasks/valve.xml",
-    "delays/delays.xml",
-    "dkitty/robot.xml",
-    "dkitty/scene.xml",
-    "dkitty/tasks/stand.toml",
-    "dkitty/tasks/walk.toml",
-    "dkitty/tasks/walk.xml",
-    "dmanus/hand.xml",
-    "dmanus/parts/hand.xml",
-    "dmanus/parts/tool.xml",
-    "dmanus/robot.xml",
-    "dmanus/scene.xml",
-    "dmanus/tasks/arm.toml",
-    "drape/drape.xml",
-    "elbow/elbow.xml",
-    "fetch/robot.xml",
-    "fetch/scene.xml",
-    "fetch/tasks/arm.toml",
-    "fetch/tasks/reach.xml",
-    "franka/franka_table.xml",
-    "franka/tasks/arm.toml",
-    "franka/tasks/reach.xml",
-    "grasp/grasp.xml",
-    "humanoid/humanoid.xml",
-    "kitchen/parts/bench.xml",
-    "kitchen/parts/counters.xml",
-    "kitchen/parts/hinge_cabinet.xml",
-    "kitchen/parts/hood.xml",
-    "kitchen/parts/kettle.xml",
-    "kitchen/parts/look.xml",
-    "kitchen/parts/microwave.xml",
-    "kitchen/parts/slide_cabinet.xml",
-    "kitchen/parts/stove.xml",
-    "kitchen/scene.xml",
-    "kitchen/tasks/microwave.xml",
-    "kitchen/tasks/slide_cabinet.xml",
-    "myoelbow/exo.xml",
-    "myoelbow/parts/base.xml",
-    "myoelbow/parts/forearm.xml",
-    "myoelbow/parts/humerus.xml",
-    "myoelbow/parts/look.xml",
-    "myoelbow/parts/muscles.xml",
-    "myoelbow/parts/tendons.xml",
-    "myoelbow/robot.xml",
-    "myoelbow/scene.xml",
-    "myoelbow/tasks/exo.xml",
-    "myofinger/motors.xml",
-    "myofinger/parts/finger.xml",
-    "myofinger/parts/look.xml",
-    "myofinger/parts/stage.xml",
-    "myofinger/parts/tendons.xml",
-    "myofinger/robot.xml",
-    "myofinger/scene.xml",
-    "myofinger/tasks/motors.xml",
-    "panda/parts/arm.xml",
-    "panda/parts/station.xml",
-    "panda/parts/tool.xml",
-    "panda/robot.xml",
-    "panda/scene.xml",
-    "panda/tasks/arm.toml",
-    "panda/tasks/pick_place.xml",
-    "panda/tasks/push.xml",
-    "panda/tasks/reach.xml",
-    "pile/pile.xml",
-    "quadruped/quadruped.xml",
-    "quadruped/tasks/walk.xml",
-    "robotiq/gripper.xml",
-    "robotiq/parts/gripper.xml",
-    "robotiq/parts/tool.xml",
-    "robotiq/robot.xml",
-    "robotiq/scene.xml",
-    "robotiq/tasks/arm.toml",
-    "scenery/parts/room.xml",
-    "scenery/parts/table.xml",
-    "servos/servos.xml",
-    "trifinger/robot.xml",
-    "trifinger/scene.xml",
-    "trifinger/tasks/reorient.xml",
-    "workbench/workbench.xml",
-    "yard/parts/crane.xml",
-    "yard/yard.xml",
-];
+/// Every model and config by its path in this folder, as `build.rs` finds them, sorted. Models include others by relative paths.
+const TEXTS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/texts.rs"));
 
 /// Every mesh, by the folder that it is in.
 const MESHES: &[(&str, &[Shape])] = &[
@@ -180,7 +79,7 @@ pub fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
 
 /// The text of a model or a config; `None` where there is none, and for meshes.
 pub fn text(path: &str) -> Option<&'static str> {
-    TEXTS.iter().find(|(own, _)| *own == path).map(|(_, text)| *text)
+    TEXTS.binary_search_by_key(&path, |(own, _)| own).ok().map(|found| TEXTS[found].1)
 }
 
 /// The mesh that an OBJ file holds.
