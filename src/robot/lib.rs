@@ -53,6 +53,7 @@
 
 mod action;
 mod binding;
+mod cast;
 mod compat;
 mod config;
 mod delay;
@@ -73,10 +74,11 @@ mod robot;
 mod symmetric;
 
 pub use binding::free_joint;
+pub use cast::Cast;
 pub use compat::{Compat, QUIRKS, Quirk, UnknownCompat};
 pub use config::{
-    ActuatorConfig, CameraConfig, Config, ConfigError, DeviceConfig, HardwareId, Interface, SensorConfig,
-    Value,
+    ActuatorConfig, CameraConfig, Config, ConfigError, DeviceConfig, Fallen, HardwareId, Interface, Named,
+    NominalPose, Roles, SensorConfig, Value,
 };
 pub use device::{Device, Fault, Record, Registry, Replay, Simulated, Units};
 pub use error::{Part, RobotError};

@@ -14,6 +14,7 @@ pub mod motion;
 pub mod pictures;
 pub mod policies;
 pub mod reference;
+pub mod robots;
 pub mod round_trip;
 pub mod scenes;
 pub mod solver;

@@ -4,7 +4,7 @@ use physics::Model;
 use robohive_validation::reference::{Own, Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
 use robohive_validation::{bits, c_library, collide, demonstrations, draws, environments};
-use robohive_validation::{hulls, laws, pictures, policies, round_trip, scenes, solver, wider};
+use robohive_validation::{hulls, laws, pictures, policies, robots, round_trip, scenes, solver, wider};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -24,6 +24,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation scenes --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation wider --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation quirks [--write README.md]
+       robohive-validation robots [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
        robohive-validation round-trip FOLDER... [--only TEXT] [--write README.md]
 
@@ -50,6 +51,8 @@ bits: counts the values that are MuJoCo's to the last bit. Without a list on the
 not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; with it the exit code is 3 where the C library
 is another than that of the recorded MuJoCo.
 laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES.
+robots: compares our own robots with the numbers that are published of them (published.toml of their folders); fails when one
+differs by more than 2 % or 0.02 rad without a reason.
 hulls: hashes the convex hull of every mesh file (STL, OBJ, MSH) below the folders, one line a mesh; fails when any differs
 from the recorded ones.
 round-trip: writes every model below the folders as MJCF and reads it again; fails when a bit of an array differs, or the
@@ -124,10 +127,21 @@ fn run() -> Result<(), String> {
     if let Some(folder) = a.folders.first().filter(|_| mode.as_deref() != Some("round-trip")) {
         return Err(format!("unknown argument {}\n{USAGE}", folder.display()));
     }
-    let (section, table, verdict) = match mode.as_deref() {
-        None => (a.section.as_str(), status(&a)?, Ok(())),
+    let (section, table, verdict) = measured(mode.as_deref(), &a)?;
+    println!("\n{table}");
+    a.write.as_deref().map_or(Ok(()), |path| replace(path, &markers(section), &table))?;
+    verdict
+}
+
+/// Section, table and verdict of what the first word chooses.
+fn measured<'a>(
+    mode: Option<&str>,
+    a: &'a Arguments,
+) -> Result<(&'a str, String, Result<(), String>), String> {
+    Ok(match mode {
+        None => (a.section.as_str(), status(a)?, Ok(())),
         Some("bits") => {
-            let (table, verdict) = bits(&a)?;
+            let (table, verdict) = bits(a)?;
             ("bits", table, verdict)
         }
         Some("solver") => {
@@ -168,8 +182,12 @@ fn run() -> Result<(), String> {
             let replays = demonstrations::replay(&a.models, file)?;
             ("demonstrations", demonstrations::render(&replays), Ok(()))
         }
+        Some("robots") => {
+            let (table, verdict) = robots::render(&robots::measure()?);
+            ("robots", table, verdict)
+        }
         Some("scenes") => {
-            let (table, verdict) = scenes::render(&assembled(&a)?);
+            let (table, verdict) = scenes::render(&assembled(a)?);
             ("scenes", table, verdict)
         }
         Some("round-trip") => {
@@ -177,7 +195,7 @@ fn run() -> Result<(), String> {
             ("round-trip", table, verdict)
         }
         Some("wider") => {
-            let (table, verdict) = wider_table(&a)?;
+            let (table, verdict) = wider_table(a)?;
             ("wider", table, verdict)
         }
         Some("laws") => {
@@ -188,10 +206,7 @@ fn run() -> Result<(), String> {
             ("laws", table, verdict)
         }
         Some(word) => return Err(format!("unknown command {word}\n{USAGE}")),
-    };
-    println!("\n{table}");
-    a.write.as_deref().map_or(Ok(()), |path| replace(path, &markers(section), &table))?;
-    verdict
+    })
 }
 
 /// Path in the list, model and reference of every chosen model.

@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 24] = [
+const SPEAK_OF: [(&str, &[&str]); 25] = [
     ("bus_time", &["src/protocol", "src/wire", "src/hardware"]),
     ("draws", &["src/random"]),
     ("encoders", &["src/encoders"]),
@@ -33,6 +33,7 @@ const SPEAK_OF: [(&str, &[&str]); 24] = [
     ("quirks", &["src/robot", "src/env/suite"]),
     ("rapier", &["src/physics", "mjcf", "src/rapier", "src/env", "src/teleop"]),
     ("robot_configs", &["src/physics", "src/env", "src/robot", "src/wire", "src/hardware"]),
+    ("robots", &["assets"]),
     ("standin", &["src/physics", "mjcf", "python"]),
     ("standin_dm_control", &["src/physics", "mjcf", "python"]),
     ("standin_myosuite", &["src/physics", "mjcf", "python"]),

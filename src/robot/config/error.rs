@@ -50,6 +50,11 @@ impl<'a> Source<'a> {
 
     /// An error at byte `at`.
     pub(super) fn error(&self, at: usize, message: impl Into<String>) -> ConfigError {
+        ConfigError { file: self.file.to_owned(), position: Some(self.position(at)), message: message.into() }
+    }
+
+    /// Line and column of byte `at`, from 1.
+    pub(super) fn position(&self, at: usize) -> (usize, usize) {
         let mut at = at.min(self.text.len());
         while !self.text.is_char_boundary(at) {
             at -= 1;
@@ -57,8 +62,7 @@ impl<'a> Source<'a> {
         let before = &self.text[..at];
         let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
         let line = before.bytes().filter(|&byte| byte == b'\n').count() + 1;
-        let column = before[line_start..].chars().count() + 1;
-        ConfigError { file: self.file.to_owned(), position: Some((line, column)), message: message.into() }
+        (line, before[line_start..].chars().count() + 1)
     }
 }
 

@@ -30,8 +30,10 @@
 
 mod devices;
 mod error;
+mod fields;
 mod literal;
 mod node;
+mod roles;
 mod schema;
 mod text_literal;
 mod toml_reader;
@@ -40,6 +42,7 @@ mod value;
 
 pub use devices::{ActuatorConfig, CameraConfig, Config, DeviceConfig, HardwareId, Interface, SensorConfig};
 pub use error::ConfigError;
+pub use roles::{Fallen, Named, NominalPose, Roles};
 pub use value::Value;
 
 use std::path::Path;

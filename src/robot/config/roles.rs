@@ -1,0 +1,162 @@
+//! What tasks need of a body, by role: the text of a `roles.toml`.
+
+use super::error::{ConfigError, Source};
+use super::fields::{Fields, Outcome};
+use super::node::{Content, Node};
+use super::toml_reader;
+use std::collections::BTreeMap;
+
+const KEYS: [&str; 9] = ["root", "head", "feet", "palm", "fingertips", "tool", "hardware", "poses", "fallen"];
+
+/// Parts of a robot by their roles, so that one task serves robots whose elements have other names.
+///
+/// ```
+/// use robohive_robot::Roles;
+///
+/// let roles = Roles::from_toml(
+///     "root = 'torso'
+///      feet = ['left_sole', 'right_sole']
+///      [poses.stand]
+///      root_z = 0.9
+///      left_knee = 0.4
+///      [fallen]
+///      height = 0.5
+///      tilt = 1.0",
+///     "biped/roles.toml",
+/// )?;
+/// assert_eq!(roles.feet.as_ref().map(|feet| feet.names.len()), Some(2));
+/// assert_eq!(roles.poses["stand"].joints["left_knee"], 0.4);
+/// # Ok::<(), robohive_robot::ConfigError>(())
+/// ```
+///
+/// | key | meaning |
+/// |---|---|
+/// | `root` | body whose pose and velocity tasks read |
+/// | `head` | body |
+/// | `feet` | sites at the soles, front before hind, left before right |
+/// | `palm` | site in the middle of the palm or between the fingers of a gripper, its z axis the way the palm faces |
+/// | `fingertips` | sites, the thumb first |
+/// | `tool` | site: the tool centre point of an arm |
+/// | `hardware` | path of the [`Config`](super::Config), from the folder of this file |
+/// | `poses.NAME` | a pose: joints and where they are \[rad or m\], the others stay; `root_z` is the height of a free root \[m\] |
+/// | `fallen` | when a robot has fallen: `height` \[m\] of the root over the ground, `tilt` \[rad\] of its z axis from the vertical |
+#[derive(Clone, Debug, PartialEq)]
+pub struct Roles {
+    /// The text, as the caller named it.
+    pub file: String,
+    /// Body whose pose and velocity tasks read.
+    pub root: Option<Named>,
+    /// Body.
+    pub head: Option<Named>,
+    /// Sites at the soles.
+    pub feet: Option<Named>,
+    /// Site in the palm.
+    pub palm: Option<Named>,
+    /// Sites at the tips of the fingers, the thumb first.
+    pub fingertips: Option<Named>,
+    /// Site: the tool centre point.
+    pub tool: Option<Named>,
+    /// Path of the robot's config, from the folder of this file.
+    pub hardware: Option<String>,
+    /// Poses by their names.
+    pub poses: BTreeMap<String, NominalPose>,
+    /// When the robot has fallen.
+    pub fallen: Option<Fallen>,
+}
+
+/// The elements of a role.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Named {
+    /// Names in the model, at least one.
+    pub names: Vec<String>,
+    /// Line and column of the role in the text, from 1.
+    pub position: (usize, usize),
+}
+
+/// A pose that tasks start from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NominalPose {
+    /// Height of a free root \[m\].
+    pub root_z: Option<f64>,
+    /// Where joints are \[rad or m\]; the others stay.
+    pub joints: BTreeMap<String, f64>,
+    /// Line and column of the pose in the text, from 1.
+    pub position: (usize, usize),
+}
+
+/// When a robot has fallen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fallen {
+    /// The root is lower over the ground than this \[m\].
+    pub height: f64,
+    /// The z axis of the root leans more than this from the vertical \[rad\].
+    pub tilt: f64,
+}
+
+impl Roles {
+    /// Reads a `roles.toml`. `file` names the text in errors.
+    ///
+    /// # Errors
+    /// Texts that are no TOML, unknown keys, values of another kind: with line and column.
+    pub fn from_toml(text: &str, file: &str) -> Result<Roles, ConfigError> {
+        let source = Source::new(text, file)?;
+        let root = toml_reader::parse(&source)?;
+        let mut fields = Fields::new(&source, "the list of roles", root, &KEYS)?;
+        Ok(Roles {
+            file: file.to_owned(),
+            root: one(&mut fields, "root")?,
+            head: one(&mut fields, "head")?,
+            feet: several(&mut fields, "feet")?,
+            palm: one(&mut fields, "palm")?,
+            fingertips: several(&mut fields, "fingertips")?,
+            tool: one(&mut fields, "tool")?,
+            hardware: fields.text("hardware")?,
+            poses: poses(&mut fields)?,
+            fallen: fields.take("fallen").map(|node| fallen(&source, node)).transpose()?,
+        })
+    }
+}
+
+/// The element of a role.
+fn one(fields: &mut Fields, role: &str) -> Outcome<Option<Named>> {
+    let Some(at) = fields.place(role) else { return Ok(None) };
+    let name = fields.text(role)?;
+    Ok(name.map(|name| Named { names: vec![name], position: fields.source.position(at) }))
+}
+
+/// The elements of a role, at least one.
+fn several(fields: &mut Fields, role: &str) -> Outcome<Option<Named>> {
+    let Some(at) = fields.place(role) else { return Ok(None) };
+    let items = fields.list(role)?;
+    let name = |node: Node| match node.content {
+        Content::Text(name) => Ok(name),
+        _ => Err(fields.wrong(node.at, role, &format!("has {}, not only names", node.kind()))),
+    };
+    let names = items.into_iter().map(name).collect::<Outcome<Vec<_>>>()?;
+    if names.is_empty() {
+        return Err(fields.wrong(at, role, "is empty; leave it out, or name its sites"));
+    }
+    Ok(Some(Named { names, position: fields.source.position(at) }))
+}
+
+fn poses(fields: &mut Fields) -> Outcome<BTreeMap<String, NominalPose>> {
+    let source = fields.source;
+    let Some(node) = fields.take("poses") else { return Ok(BTreeMap::new()) };
+    let kind = node.kind();
+    let Content::Table(entries) = node.content else {
+        return Err(fields.wrong(node.at, "poses", &format!("is {kind}, not a table of poses")));
+    };
+    let read = |(key, node): (super::node::Key, Node)| {
+        let owner = format!("pose '{}'", key.name);
+        let mut joints = Fields::any(source, &owner, node)?.numbers()?;
+        let pose = NominalPose { root_z: joints.remove("root_z"), joints, position: source.position(key.at) };
+        Ok((key.name, pose))
+    };
+    entries.into_iter().map(read).collect()
+}
+
+fn fallen(source: &Source, node: Node) -> Outcome<Fallen> {
+    let mut fields = Fields::new(source, "'fallen'", node, &["height", "tilt"])?;
+    let mut number = |key: &str| fields.number(key)?.ok_or_else(|| fields.missing(key));
+    Ok(Fallen { height: number("height")?, tilt: number("tilt")? })
+}
