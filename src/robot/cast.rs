@@ -63,6 +63,11 @@ impl Cast<'_> {
         self.one("root", self.roles.root.as_ref(), "body")
     }
 
+    /// Direction that the robot looks and walks in, in the frame of the root.
+    pub fn forward(&self) -> [f64; 3] {
+        self.roles.forward
+    }
+
     /// The head.
     ///
     /// # Errors

@@ -93,7 +93,7 @@ fn a_missing_foot_is_named_with_its_task() {
     let error = roles.cast(&m, "", "walk to a target").feet().unwrap_err().to_string();
     assert_eq!(
         error,
-        "dkitty/roles.toml:3:1: the model has no site 'A:FLfoot' for the role 'feet', which the task 'walk to a target' \
+        "dkitty/roles.toml:4:1: the model has no site 'A:FLfoot' for the role 'feet', which the task 'walk to a target' \
          needs; did you mean 'A:FRfoot'?"
     );
     std::fs::remove_dir_all(&folder).unwrap();

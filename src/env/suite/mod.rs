@@ -23,6 +23,7 @@ mod fatigue;
 pub mod fm;
 pub mod gymnasium;
 pub mod hands;
+pub mod locomotion;
 pub mod multitask;
 pub mod muscle;
 pub mod myobase;
@@ -60,6 +61,10 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("adroit_pen", hands::pen::Pen::new),
         TaskType::new("adroit_relocate", hands::relocate::Relocate::new),
         TaskType::new("adroit_baoding", hands::baoding::Baoding::new),
+        TaskType::new("stand", locomotion::stand::Stand::new),
+        TaskType::new("turn", locomotion::turn::Turn::new),
+        TaskType::new("velocity", locomotion::velocity::Velocity::new),
+        TaskType::new("walk_to", locomotion::walk_to::WalkTo::new),
         TaskType::new("kitchen", multitask::kitchen::Kitchen::new),
         TaskType::new("appliance", multitask::appliance::Appliance::new),
         TaskType::new("muscle_pose", myobase::pose::Pose::new),

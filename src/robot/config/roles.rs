@@ -6,7 +6,8 @@ use super::node::{Content, Node};
 use super::toml_reader;
 use std::collections::BTreeMap;
 
-const KEYS: [&str; 9] = ["root", "head", "feet", "palm", "fingertips", "tool", "hardware", "poses", "fallen"];
+const KEYS: [&str; 10] =
+    ["root", "forward", "head", "feet", "palm", "fingertips", "tool", "hardware", "poses", "fallen"];
 
 /// Parts of a robot by their roles, so that one task serves robots whose elements have other names.
 ///
@@ -32,6 +33,7 @@ const KEYS: [&str; 9] = ["root", "head", "feet", "palm", "fingertips", "tool", "
 /// | key | meaning |
 /// |---|---|
 /// | `root` | body whose pose and velocity tasks read |
+/// | `forward` | axis of the root that points forward: `x` (if left out), `-x`, `y` or `-y` |
 /// | `head` | body |
 /// | `feet` | sites at the soles, front before hind, left before right |
 /// | `palm` | site in the middle of the palm or between the fingers of a gripper, its z axis the way the palm faces |
@@ -46,6 +48,8 @@ pub struct Roles {
     pub file: String,
     /// Body whose pose and velocity tasks read.
     pub root: Option<Named>,
+    /// Direction that the robot looks and walks in, in the frame of the root.
+    pub forward: [f64; 3],
     /// Body.
     pub head: Option<Named>,
     /// Sites at the soles.
@@ -105,6 +109,7 @@ impl Roles {
         Ok(Roles {
             file: file.to_owned(),
             root: one(&mut fields, "root")?,
+            forward: forward(&mut fields)?,
             head: one(&mut fields, "head")?,
             feet: several(&mut fields, "feet")?,
             palm: one(&mut fields, "palm")?,
@@ -122,6 +127,18 @@ fn one(fields: &mut Fields, role: &str) -> Outcome<Option<Named>> {
     let Some(at) = fields.place(role) else { return Ok(None) };
     let name = fields.text(role)?;
     Ok(name.map(|name| Named { names: vec![name], position: fields.source.position(at) }))
+}
+
+/// The axis of the root that points forward.
+fn forward(fields: &mut Fields) -> Outcome<[f64; 3]> {
+    let at = fields.place("forward").unwrap_or_default();
+    match fields.text("forward")?.as_deref() {
+        None | Some("x") => Ok([1.0, 0.0, 0.0]),
+        Some("-x") => Ok([-1.0, 0.0, 0.0]),
+        Some("y") => Ok([0.0, 1.0, 0.0]),
+        Some("-y") => Ok([0.0, -1.0, 0.0]),
+        Some(other) => Err(fields.wrong(at, "forward", &format!("is '{other}', not x, -x, y or -y"))),
+    }
 }
 
 /// The elements of a role, at least one.

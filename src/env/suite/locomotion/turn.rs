@@ -1,0 +1,105 @@
+//! Turning on the spot: the body is to look in another direction, and to stay near where it began.
+
+use super::FRAME_SKIP;
+use super::walker::{BodyArgs, Walker};
+use crate::error::EnvError;
+use crate::rotation::norm;
+use crate::rows::Rows;
+use crate::scene::Scene;
+use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn as Step, Verdict, View};
+use physics::elements::SiteId;
+use physics::math::ops;
+use robot::Keeper;
+use serde::Deserialize;
+
+/// Error of the direction that solves the task \[rad\].
+const NEAR: f64 = 0.15;
+/// Steps in the direction that make a success: 1 s.
+const STEPS: usize = 50;
+
+/// Settings of the task.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Args {
+    body: BodyArgs,
+    /// Smallest and largest angle to turn by, to either side \[rad\].
+    turn_range: [f64; 2],
+    /// How far the body may walk away \[m\].
+    radius: f64,
+}
+
+/// The task.
+#[derive(Clone)]
+pub struct Turn {
+    walker: Walker,
+    target: SiteId,
+    range: [f64; 2],
+    radius: f64,
+}
+
+impl Turn {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// The model does not fill the roles, or has no site `target`.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let target = setup.scene.site("target")?;
+        let walker = Walker::new(&args.body, "turn", setup)?;
+        Ok(Turn { walker, target, range: args.turn_range, radius: args.radius })
+    }
+}
+
+impl Task for Turn {
+    fn defaults(&self) -> Defaults {
+        let weights =
+            [("direction", 1.0), ("upright", 0.5), ("away", 0.5), ("solved", 1.0), ("fallen", 10.0)];
+        let rows = [&Walker::ROWS[..], &["direction_error", "away"]].concat();
+        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
+        Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
+    }
+
+    fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
+        self.walker.initial_pose(pose);
+        Ok(())
+    }
+
+    fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
+        self.walker.start(episode)?;
+        let angle = episode.rng.uniform(self.range[0], self.range[1])?;
+        let side = if episode.rng.uniform(-1.0, 1.0)? < 0.0 { -angle } else { angle };
+        let [x, y] = self.walker.ahead_at_start();
+        let (sine, cosine) = ops::sincos(side);
+        // Far away, so that the direction hardly depends on where the body is.
+        let place = [10.0 * (cosine * x - sine * y), 10.0 * (sine * x + cosine * y), 0.0];
+        episode.scene.overwrite(|m| m.site_pos[self.target.index()] = place)
+    }
+
+    fn act(&mut self, step: &mut Step<'_>) -> Result<(), EnvError> {
+        self.walker.act(step)
+    }
+
+    fn observe(&self, view: &View<'_>, rows: &mut Rows) {
+        let posture = self.walker.observe(view, rows);
+        let [x, y, _] = *view.data.site(self.target).xpos();
+        let [c, s] = posture.ahead;
+        let length = norm(&[x, y]);
+        rows.set("direction_error", "rad", [ops::angle((c * y - s * x) / length, (c * x + s * y) / length)]);
+        rows.set("away", "m", [norm(&posture.place[..2])]);
+    }
+
+    fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
+        let (error, away, up) = (rows["direction_error"][0].abs(), rows["away"][0], rows["up"][2]);
+        let solved = error < NEAR && away < self.radius;
+        let fallen = self.walker.has_fallen(rows["height"][0], up);
+        terms.set("direction", "rad", [-error]);
+        terms.set("upright", "", [up]);
+        terms.set("away", "m", [-away]);
+        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("fallen", "", [-f64::from(fallen)]);
+        Verdict { sparse: f64::from(solved), solved, done: fallen }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.walker.keep(keeper);
+    }
+}

@@ -1,0 +1,137 @@
+//! Following a velocity that changes every few seconds: forward, to the left, and turning.
+
+use super::FRAME_SKIP;
+use super::walker::{BodyArgs, Walker};
+use crate::draws::Rng;
+use crate::error::EnvError;
+use crate::rotation::norm;
+use crate::rows::Rows;
+use crate::scene::Scene;
+use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
+use physics::math::ops;
+use robot::Keeper;
+use serde::Deserialize;
+
+/// Time constant of the mean velocity that is compared with the command \[s\]: about two steps of a gait.
+const MEMORY: f64 = 0.5;
+/// Steps near the command that make a success, of an episode of 1000.
+const STEPS: usize = 600;
+
+/// Settings of the task.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Args {
+    body: BodyArgs,
+    /// Smallest and largest command: forward, to the left \[m/s\], counterclockwise \[rad/s\].
+    command_low: [f64; 3],
+    /// As `command_low`.
+    command_high: [f64; 3],
+    /// Steps from one command to the next.
+    every: usize,
+    /// Errors of the mean velocity that solve the task \[m/s\], and of the mean rate of turning \[rad/s\].
+    near: [f64; 2],
+}
+
+/// The task.
+#[derive(Clone)]
+pub struct Velocity {
+    walker: Walker,
+    low: [f64; 3],
+    high: [f64; 3],
+    every: usize,
+    near: [f64; 2],
+    command: [f64; 3],
+    mean: [f64; 3],
+    since: usize,
+}
+
+impl Velocity {
+    /// The task with these settings.
+    ///
+    /// # Errors
+    /// The model does not fill the roles.
+    pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        if args.every == 0 {
+            return Err(setup.wrong("`every` is 0; a command has to last a step at least"));
+        }
+        Ok(Velocity {
+            walker: Walker::new(&args.body, "velocity", setup)?,
+            low: args.command_low,
+            high: args.command_high,
+            every: args.every,
+            near: args.near,
+            command: [0.0; 3],
+            mean: [0.0; 3],
+            since: 0,
+        })
+    }
+
+    fn draw(&mut self, rng: &mut Rng) -> Result<(), EnvError> {
+        self.since = 0;
+        for part in 0..3 {
+            self.command[part] = rng.uniform(self.low[part], self.high[part])?;
+        }
+        Ok(())
+    }
+}
+
+impl Task for Velocity {
+    fn defaults(&self) -> Defaults {
+        let weights = [("speed", 1.0), ("turning", 0.5), ("upright", 0.5), ("solved", 1.0), ("fallen", 10.0)];
+        let rows = [&Walker::ROWS[..], &["command", "mean_velocity"]].concat();
+        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
+        Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
+    }
+
+    fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
+        self.walker.initial_pose(pose);
+        Ok(())
+    }
+
+    fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
+        self.mean = [0.0; 3];
+        self.walker.start(episode)?;
+        self.draw(episode.rng)
+    }
+
+    fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
+        self.since += 1;
+        if self.since == self.every {
+            self.draw(turn.rng)?;
+        }
+        let posture = self.walker.posture(&turn.scene.model, &turn.scene.data);
+        let now = [posture.velocity[0], posture.velocity[1], posture.turning[2]];
+        for (mean, now) in self.mean.iter_mut().zip(now) {
+            *mean += (now - *mean) * turn.dt / MEMORY;
+        }
+        self.walker.act(turn)
+    }
+
+    fn observe(&self, view: &View<'_>, rows: &mut Rows) {
+        self.walker.observe(view, rows);
+        rows.set("command", "m/s, rad/s", self.command);
+        rows.set("mean_velocity", "m/s, rad/s", self.mean);
+    }
+
+    fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
+        let (command, mean, up) = (&rows["command"], &rows["mean_velocity"], rows["up"][2]);
+        let off = norm(&[mean[0] - command[0], mean[1] - command[1]]);
+        let twist = (mean[2] - command[2]).abs();
+        let solved = off < self.near[0] && twist < self.near[1];
+        let fallen = self.walker.has_fallen(rows["height"][0], up);
+        let tracking = |error: f64, near: f64| ops::exp(-(error / near).powi(2));
+        terms.set("speed", "", [tracking(off, self.near[0])]);
+        terms.set("turning", "", [tracking(twist, self.near[1])]);
+        terms.set("upright", "", [up]);
+        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("fallen", "", [-f64::from(fallen)]);
+        Verdict { sparse: f64::from(solved), solved, done: fallen }
+    }
+
+    fn keep(&mut self, keeper: &mut Keeper) {
+        self.walker.keep(keeper);
+        keeper.numbers(&mut self.command);
+        keeper.numbers(&mut self.mean);
+        keeper.count(&mut self.since);
+    }
+}

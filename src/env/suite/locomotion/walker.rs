@@ -1,0 +1,217 @@
+//! A body with feet, by its roles: how an episode of it starts, what all its tasks observe, and when it has fallen.
+
+use super::push::Push;
+use crate::assets::own_file;
+use crate::error::EnvError;
+use crate::rotation::norm;
+use crate::rows::Rows;
+use crate::task::{Episode, Pose, Setup, Turn, View};
+use physics::elements::{BodyId, SiteId};
+use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops, sub};
+use physics::model::JointType;
+use physics::{Data, Model};
+use robot::{Fallen, Keeper, Roles};
+use serde::Deserialize;
+
+/// Settings of all tasks of a body with feet.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyArgs {
+    /// The roles of the body.
+    roles: String,
+    /// Largest difference of a joint from the standing pose at the start \[rad or m\].
+    #[serde(default)]
+    joint_noise: f64,
+    /// Pushes during the episode.
+    #[serde(default)]
+    push: Option<Push>,
+}
+
+/// A hinge or slide below the root.
+#[derive(Clone, Copy, Debug)]
+struct Bend {
+    position: usize,
+    velocity: usize,
+}
+
+/// A body with feet.
+#[derive(Clone)]
+pub struct Walker {
+    root: BodyId,
+    feet: Vec<SiteId>,
+    forward: Vec3,
+    bends: Vec<Bend>,
+    stand: Vec<f64>,
+    /// Height of the root over the feet when it stands \[m\].
+    pub height: f64,
+    ahead: [f64; 2],
+    fallen: Fallen,
+    noise: f64,
+    push: Option<Push>,
+}
+
+/// Where a body is and how it moves.
+#[derive(Clone, Copy, Debug)]
+pub struct Posture {
+    /// Position of the root \[m\].
+    pub place: Vec3,
+    /// Height of the root over its lowest foot \[m\].
+    pub height: f64,
+    /// Direction that it looks in, in the plane of the ground, of length 1.
+    pub ahead: [f64; 2],
+    /// The world's vertical in the frame of the root: forward, left, up.
+    pub up: Vec3,
+    /// Velocity in the frame of its heading: forward, left, up \[m/s\].
+    pub velocity: Vec3,
+    /// Angular velocity in the same frame \[rad/s\].
+    pub turning: Vec3,
+}
+
+impl Walker {
+    /// Rows that every task observes.
+    pub const ROWS: [&str; 8] =
+        ["height", "up", "velocity", "turning", "joint_pos", "joint_vel", "feet", "last_action"];
+
+    /// Finds the body in the model, for the task called `task`.
+    ///
+    /// # Errors
+    /// The roles cannot be read, or the model does not fill them.
+    pub fn new(args: &BodyArgs, task: &str, setup: &Setup<'_>) -> Result<Self, EnvError> {
+        let path = &args.roles;
+        let bytes = own_file(path).map_or_else(|| setup.assets.read(path), Ok);
+        let bytes = bytes.map_err(|hint| setup.wrong(format!("roles: {path}: {hint}")))?;
+        let roles = Roles::from_toml(&String::from_utf8_lossy(&bytes), path)?;
+        let m = &setup.scene.model;
+        let body = roles.cast(m, "", task);
+        let mut walker = Walker {
+            root: body.root()?,
+            feet: body.feet()?,
+            forward: body.forward(),
+            bends: joints_below(m, body.root()?),
+            stand: m.qpos0.to_vec(),
+            height: 0.0,
+            ahead: [1.0, 0.0],
+            fallen: body.fallen()?,
+            noise: args.joint_noise,
+            push: args.push.clone(),
+        };
+        body.pose("stand", &mut walker.stand)?;
+        let mut standing = Data::new(m);
+        standing.state.qpos.copy_from_slice(&walker.stand);
+        physics::forward(m, &mut standing)?;
+        let posture = walker.posture(m, &standing);
+        (walker.height, walker.ahead) = (posture.height, posture.ahead);
+        Ok(walker)
+    }
+
+    /// Direction that the body looks in at the start, in the plane of the ground, of length 1.
+    pub fn ahead_at_start(&self) -> [f64; 2] {
+        self.ahead
+    }
+
+    /// The standing pose as initial one.
+    pub fn initial_pose(&self, pose: &mut Pose) {
+        pose.qpos.copy_from_slice(&self.stand);
+    }
+
+    /// Starts an episode: the standing pose, joints a little off.
+    ///
+    /// # Errors
+    /// The noise is no range.
+    pub fn start(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
+        for joint in &self.bends {
+            episode.start.qpos[joint.position] += self.noise * episode.rng.uniform(-1.0, 1.0)?;
+        }
+        if let Some(push) = &mut self.push {
+            push.restart();
+        }
+        Ok(())
+    }
+
+    /// Pushes the body, where the settings ask for it.
+    ///
+    /// # Errors
+    /// The push has no range.
+    pub fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
+        match &mut self.push {
+            Some(push) => push.act(self.root, turn),
+            None => Ok(()),
+        }
+    }
+
+    /// Where the body is and how it moves.
+    pub fn posture(&self, m: &Model, d: &Data) -> Posture {
+        let root = self.root.index();
+        let (place, axes) = (d.kin.xpos[root], d.kin.xmat[root]);
+        let lowest =
+            self.feet.iter().map(|foot| d.kin.site_xpos[foot.index()][2]).fold(f64::INFINITY, f64::min);
+        let forward = mul_mat_vec(&axes, self.forward);
+        let along = norm(&forward[..2]).max(f64::MIN_POSITIVE);
+        let ahead = [forward[0] / along, forward[1] / along];
+        let frame: Mat3 = [ahead[0], -ahead[1], 0.0, ahead[1], ahead[0], 0.0, 0.0, 0.0, 1.0];
+        let [x, y, z, u, v, w] = d.vel.cvel[root];
+        let lever = sub(place, d.com.subtree_com[m.body_rootid[root] as usize]);
+        let swing = cross([x, y, z], lever);
+        let vertical = mul_mat_t_vec(&axes, [0.0, 0.0, 1.0]);
+        let left = cross([0.0, 0.0, 1.0], self.forward);
+        let part = |axis: Vec3| (0..3).map(|i| axis[i] * vertical[i]).sum::<f64>();
+        Posture {
+            place,
+            height: place[2] - lowest,
+            ahead,
+            up: [part(self.forward), part(left), vertical[2]],
+            velocity: mul_mat_t_vec(&frame, [u + swing[0], v + swing[1], w + swing[2]]),
+            turning: mul_mat_t_vec(&frame, [x, y, z]),
+        }
+    }
+
+    /// Whether a body has fallen whose root is at this height over its lowest foot \[m\], `up` being the vertical part of its
+    /// vertical axis.
+    pub fn has_fallen(&self, height: f64, up: f64) -> bool {
+        height < self.fallen.height || up < ops::cos(self.fallen.tilt)
+    }
+
+    /// Writes the rows that every task observes, and returns the posture.
+    pub fn observe(&self, view: &View<'_>, rows: &mut Rows) -> Posture {
+        let (d, state) = (view.data, &view.data.state);
+        let posture = self.posture(view.model, d);
+        rows.set("height", "m", [posture.height]);
+        rows.set("up", "", posture.up);
+        rows.set("velocity", "m/s", posture.velocity);
+        rows.set("turning", "rad/s", posture.turning);
+        rows.set("joint_pos", "rad", self.bends.iter().map(|joint| state.qpos[joint.position]));
+        rows.set("joint_vel", "rad/s", self.bends.iter().map(|joint| state.qvel[joint.velocity]));
+        let [c, s] = posture.ahead;
+        let foot = |site: &SiteId| {
+            let [x, y, z] = sub(d.kin.site_xpos[site.index()], posture.place);
+            [c * x + s * y, c * y - s * x, z]
+        };
+        rows.set("feet", "m", self.feet.iter().flat_map(foot));
+        rows.set("last_action", "", state.ctrl.iter().copied());
+        posture
+    }
+
+    /// Writes, or reads, what the body remembers from step to step.
+    pub fn keep(&mut self, keeper: &mut Keeper) {
+        if let Some(push) = &mut self.push {
+            push.keep(keeper);
+        }
+    }
+}
+
+/// Hinges and slides below the root.
+fn joints_below(m: &Model, root: BodyId) -> Vec<Bend> {
+    let scalar = [JointType::Hinge, JointType::Slide].map(|kind| kind as i32);
+    let is_below = |joint: &usize| {
+        let mut body = m.body_parentid[m.jnt_bodyid[*joint] as usize] as usize;
+        while body > root.index() {
+            body = m.body_parentid[body] as usize;
+        }
+        body == root.index()
+    };
+    let of = |joint: usize| Bend {
+        position: m.jnt_qposadr[joint] as usize,
+        velocity: m.jnt_dofadr[joint] as usize,
+    };
+    (0..m.njnt).filter(|&joint| scalar.contains(&m.jnt_type[joint])).filter(is_below).map(of).collect()
+}
