@@ -14,6 +14,7 @@
 //! ```
 
 mod adroit;
+mod allegro;
 mod bones;
 mod dclaw;
 mod dkitty;
@@ -43,6 +44,7 @@ const TEXTS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/texts.rs"));
 /// Every mesh, by the folder that it is in.
 const MESHES: &[(&str, &[Shape])] = &[
     ("adroit/", adroit::MESHES),
+    ("allegro/", allegro::MESHES),
     ("dclaw/", dclaw::MESHES),
     ("dkitty/", dkitty::MESHES),
     ("dmanus/", dmanus::MESHES),
