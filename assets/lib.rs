@@ -21,12 +21,14 @@ mod dkitty;
 mod dmanus;
 mod dynamixel;
 mod fetch;
+mod fingers;
 mod hand;
 mod kitchen;
 mod myoelbow;
 mod myofinger;
 mod panda;
 mod robotiq;
+mod shadow;
 mod shape;
 mod trifinger;
 
@@ -54,6 +56,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("myofinger/", myofinger::MESHES),
     ("panda/", panda::MESHES),
     ("robotiq/", robotiq::MESHES),
+    ("shadow/", shadow::MESHES),
     ("trifinger/", trifinger::MESHES),
 ];
 

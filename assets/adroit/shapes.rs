@@ -2,7 +2,8 @@
 //! thumb's pads face -x. Plates and links are metal, joints dark, pads of a soft plastic. Lengths between joints are the model's;
 //! widths keep to the capsules that collide.
 
-use workshop::{Mesh, Profile, Station, Vec3, cylinder, extrude, loft, revolve, rounded_box, sweep};
+use crate::fingers::{bar, plate, tip};
+use workshop::{Mesh, Profile, Station, Vec3, cylinder, extrude, revolve, rounded_box, sweep};
 
 /// Steps round a joint of a finger.
 const ROUND: usize = 12;
@@ -12,24 +13,6 @@ const Y: Vec3 = [0.0, 1.0, 0.0];
 /// A drum about an axis through `centre`, `half` to either side.
 fn drum(radius: f64, axis: Vec3, centre: Vec3, half: f64) -> Mesh {
     cylinder(radius, [-half, half], 0.0008, ROUND).along(axis, centre)
-}
-
-/// A plate whose outline is drawn in x and z, between two heights of y, its rims cut by `bevel`.
-fn plate(outline: &Profile, [low, high]: [f64; 2], bevel: f64) -> Mesh {
-    let ring = |inset: f64, y: f64| -> Vec<Vec3> {
-        // Towards y, x and z run clockwise.
-        outline.inset(inset).points().iter().rev().map(|[x, z]| [*x, y, *z]).collect()
-    };
-    loft(&[ring(bevel, low), ring(0.0, low + bevel), ring(0.0, high - bevel), ring(bevel, high)])
-}
-
-/// A body along z over rounded rectangles: heights, half widths in x and y, and how far the middle is off in y.
-fn bar(sections: &[(f64, [f64; 2], f64)], corner: f64) -> Mesh {
-    let ring = |(z, half, off): &(f64, [f64; 2], f64)| -> Vec<Vec3> {
-        let outline = Profile::rounded_rectangle(*half, corner, 2);
-        outline.points().iter().map(|[x, y]| [*x, *y + off, *z]).collect()
-    };
-    loft(&sections.iter().map(ring).collect::<Vec<_>>())
 }
 
 /// Two cheeks that hold a joint about x at the height `z`, each reaching `down` along the link.
@@ -52,6 +35,7 @@ fn phalanx(length: f64, [near, far]: [f64; 2]) -> Mesh {
             (length - far, [0.0062, 0.6 * far], 0.001),
         ],
         0.003,
+        2,
     );
     let cheeks = fork(far, length, 1.9 * far, [0.0062, 0.0088]);
     Mesh::of([&tongue, &bones, &cheeks])
@@ -245,28 +229,13 @@ pub(super) fn distal() -> Mesh {
             (0.0255, [0.004, 0.0012], 0.0042),
         ],
         0.0025,
+        2,
     );
     tongue.with(&back)
 }
 
-/// A fingertip: flat at the joint, round at the end, fuller on the side of the palm.
-fn tip(length: f64, [wide, deep]: [f64; 2]) -> Mesh {
-    let round = Profile::superellipse([wide, deep], 2.4, ROUND);
-    let path = [
-        (0.16, 0.7, 0.0),
-        (0.22, 0.9, 0.0),
-        (0.45, 1.0, -0.0004),
-        (0.65, 0.97, -0.0006),
-        (0.82, 0.8, -0.0003),
-        (0.94, 0.5, 0.0004),
-        (1.0, 0.0, 0.0008),
-    ];
-    let stations = path.map(|(at, size, off)| Station { at: [0.0, off, at * length], size: [size; 2] });
-    sweep(&round, &stations)
-}
-
 pub(super) fn distal_pad() -> Mesh {
-    tip(0.031, [0.0074, 0.0068])
+    tip(0.031, [0.0074, 0.0068], ROUND)
 }
 
 /// The thumb's lower link, from the ball in the palm to the hub.
@@ -280,6 +249,7 @@ pub(super) fn thumb_proximal() -> Mesh {
             (0.03, [0.009, 0.0075], 0.0),
         ],
         0.004,
+        2,
     );
     let cheeks = fork(0.0085, 0.038, 0.015, [0.0075, 0.0108]);
     Mesh::of([&ball, &bones, &cheeks])
@@ -311,6 +281,7 @@ pub(super) fn thumb_middle() -> Mesh {
                 (0.026, [0.0075, 0.0055], 0.0008),
             ],
             0.0035,
+            2,
         ),
         &fork(0.0082, 0.032, 0.014, [0.0072, 0.0102]),
     ]);
@@ -326,5 +297,5 @@ pub(super) fn thumb_distal() -> Mesh {
 }
 
 pub(super) fn thumb_distal_pad() -> Mesh {
-    tip(0.0362, [0.0096, 0.0086]).turned([0.0, 0.0, 1.0], -std::f64::consts::FRAC_PI_2)
+    tip(0.0362, [0.0096, 0.0086], ROUND).turned([0.0, 0.0, 1.0], -std::f64::consts::FRAC_PI_2)
 }

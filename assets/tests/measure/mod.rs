@@ -6,6 +6,7 @@ pub mod muscles;
 
 use mjcf::Loader;
 use mjcf::files::Memory;
+use physics::model::TrnType;
 use physics::{Data, Model, step};
 use robohive_assets as assets;
 use std::f64::consts::PI;
@@ -35,9 +36,24 @@ pub fn stand(robot: &str, body: &str, options: &str, beside: &str) -> Model {
     ))
 }
 
-/// Where the joint of an actuator stands in `qpos`.
-fn place(m: &Model, actuator: usize) -> usize {
-    m.jnt_qposadr[m.actuator_trnid[actuator][0] as usize] as usize
+/// The joints that an actuator moves: one, or those whose angles its tendon adds up.
+fn joints(m: &Model, actuator: usize) -> Vec<usize> {
+    let moved = m.actuator_trnid[actuator][0] as usize;
+    if TrnType::from_code(m.actuator_trntype[actuator]) != Some(TrnType::Tendon) {
+        return vec![moved];
+    }
+    let start = m.tendon_adr[moved] as usize;
+    m.wrap_objid[start..start + m.tendon_num[moved] as usize].iter().map(|joint| *joint as usize).collect()
+}
+
+/// Where those joints stand in `qpos`.
+fn places(m: &Model, actuator: usize) -> Vec<usize> {
+    joints(m, actuator).into_iter().map(|joint| m.jnt_qposadr[joint] as usize).collect()
+}
+
+/// The angle or the place that an actuator controls.
+fn angle(m: &Model, d: &Data, actuator: usize) -> f64 {
+    places(m, actuator).into_iter().map(|place| d.state.qpos[place]).sum()
 }
 
 /// Steps for some time \[s\], and tells `seen` of every state.
@@ -48,11 +64,14 @@ pub fn run(m: &Model, d: &mut Data, seconds: f64, mut seen: impl FnMut(&mut Data
     }
 }
 
-/// Starts where the servos are told to stay.
+/// Starts where the servos are told to stay, a tendon's joints alike.
 pub fn posed(m: &Model, pose: &[f64]) -> Data {
     let mut d = Data::new(m);
     for (actuator, angle) in pose.iter().enumerate() {
-        d.state.qpos[place(m, actuator)] = *angle;
+        let places = places(m, actuator);
+        for place in &places {
+            d.state.qpos[*place] = *angle / places.len() as f64;
+        }
         d.state.ctrl[actuator] = *angle;
     }
     d
@@ -103,14 +122,15 @@ pub fn slip(m: &Model, d: &mut Data, height: f64, closing: f64) -> f64 {
 pub fn sweep(m: &Model, pose: &[f64]) -> (f64, usize) {
     let mut worst = (0.0, 0);
     for actuator in 0..pose.len() {
-        let [low, high] = m.jnt_range[m.actuator_trnid[actuator][0] as usize];
+        let ends = joints(m, actuator).into_iter().map(|joint| m.jnt_range[joint]);
+        let [low, high] = ends.fold([0.0; 2], |[low, high], [from, to]| [low + from, high + to]);
         let [least, most] = m.actuator_ctrlrange[actuator];
         let (low, high) = (low.max(least), high.min(most));
         let mut d = posed(m, pose);
         for goal in [low, high] {
             d.state.ctrl[actuator] = goal;
             run(m, &mut d, 8.0, |_| ());
-            let short = (d.state.qpos[place(m, actuator)] - goal).abs() / (high - low);
+            let short = (angle(m, &d, actuator) - goal).abs() / (high - low);
             if short > worst.0 {
                 worst = (short, actuator);
             }
@@ -131,7 +151,7 @@ pub fn track(m: &Model, pose: &[f64]) -> (f64, usize) {
         let mut d = posed(m, &start);
         run(m, &mut d, 4.0, |d| {
             let goal = middle + amplitude * (PI * d.time()).sin();
-            let off = (d.state.qpos[place(m, actuator)] - goal).abs() / amplitude;
+            let off = (angle(m, d, actuator) - goal).abs() / amplitude;
             if d.time() > 2.0 && off > worst.0 {
                 worst = (off, actuator);
             }
