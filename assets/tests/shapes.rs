@@ -7,7 +7,7 @@ use measure::own;
 use physics::model::GeomType;
 
 /// Models, and the triangles that their meshes may have together, copies counted.
-const MOST: [(&str, usize); 13] = [
+const MOST: &[(&str, usize)] = &[
     ("adroit/robot.xml", 10_000),
     ("allegro/robot.xml", 3000),
     ("dclaw/robot.xml", 6000),
