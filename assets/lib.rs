@@ -30,6 +30,7 @@ mod panda;
 mod robotiq;
 mod shadow;
 mod shape;
+mod spot;
 mod trifinger;
 
 use mjcf::files::{FileError, FileProvider};
@@ -57,6 +58,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("panda/", panda::MESHES),
     ("robotiq/", robotiq::MESHES),
     ("shadow/", shadow::MESHES),
+    ("spot/", spot::MESHES),
     ("trifinger/", trifinger::MESHES),
 ];
 

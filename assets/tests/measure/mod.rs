@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test of a robot uses a part")]
 
 pub mod grips;
+pub mod legs;
 pub mod muscles;
 
 use mjcf::Loader;
