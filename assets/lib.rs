@@ -24,6 +24,7 @@ mod fetch;
 mod fingers;
 mod hand;
 mod kitchen;
+mod minicheetah;
 mod myoelbow;
 mod myofinger;
 mod panda;
@@ -53,6 +54,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("dmanus/", dmanus::MESHES),
     ("fetch/", fetch::MESHES),
     ("kitchen/", kitchen::MESHES),
+    ("minicheetah/", minicheetah::MESHES),
     ("myoelbow/", myoelbow::MESHES),
     ("myofinger/", myofinger::MESHES),
     ("panda/", panda::MESHES),

@@ -9,6 +9,7 @@ use physics::model::GeomType;
 /// Models, and the triangles that their meshes may have together, copies counted.
 const MOST: &[(&str, usize)] = &[
 const MOST: [(&str, usize); 12] = [
+const MOST: [(&str, usize); 13] = [
     ("adroit/robot.xml", 10_000),
     ("allegro/robot.xml", 3000),
     ("dclaw/robot.xml", 6000),
@@ -16,6 +17,7 @@ const MOST: [(&str, usize); 12] = [
     ("dmanus/hand.xml", 5000),
     ("fetch/robot.xml", 6000),
     ("kitchen/scene.xml", 14_000),
+    ("minicheetah/robot.xml", 3000),
     ("myoelbow/robot.xml", 8500),
     ("myofinger/robot.xml", 3500),
     ("panda/robot.xml", 5500),

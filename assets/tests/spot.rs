@@ -23,7 +23,7 @@ fn it_has_the_published_mass_and_links() {
 #[test]
 fn every_joint_moves_through_its_range_and_follows_a_sine() {
     let m = hung("spot", OPTIONS);
-    let (short, clashes) = ranges(&m, &FOLDED);
+    let (short, clashes) = ranges(&m, &FOLDED, "");
     let (error, joint) = sines(&m, &FOLDED);
     assert!(short < 0.02, "{short}");
     assert!(clashes.is_empty(), "{clashes:?}");

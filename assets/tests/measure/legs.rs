@@ -72,12 +72,14 @@ pub fn pushed(m: &Model, root: &str, [x, y]: [f64; 2]) -> Stood {
     trial(m, root, &[(1.0, [0.0; 3]), (0.1, [10.0 * x, 10.0 * y, 0.0]), (3.9, [0.0; 3])])
 }
 
-/// Leads each servo of a hanging robot alone from one end of its joint to the other in two seconds, the others staying in `pose`. Returns the
-/// most that a joint stays short of an end, as a share of its range, and the pairs of bodies that touch each other on the way.
-pub fn ranges(m: &Model, pose: &[f64]) -> (f64, BTreeSet<String>) {
+/// Leads each servo of a hanging robot whose joint's name ends with `of` alone from one end of its range to the other in two seconds, the others
+/// staying in `pose`. Returns the most that a joint stays short of an end, as a share of its range, and the pairs of bodies that touch each other on the way.
+pub fn ranges(m: &Model, pose: &[f64], of: &str) -> (f64, BTreeSet<String>) {
     let (mut short, mut clashes) = (0.0f64, BTreeSet::new());
-    for actuator in 0..m.nu {
-        let joint = m.actuator_trnid[actuator][0] as usize;
+    let joint_of = |actuator: usize| m.actuator_trnid[actuator][0] as usize;
+    let named = |actuator: &usize| m.name_of(ObjType::Joint, joint_of(*actuator)).ends_with(of);
+    for actuator in (0..m.nu).filter(named) {
+        let joint = joint_of(actuator);
         let [low, high] = m.jnt_range[joint];
         let at = m.jnt_qposadr[joint] as usize;
         let mut start = pose.to_vec();
