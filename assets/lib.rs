@@ -32,6 +32,7 @@ mod robotiq;
 mod shadow;
 mod shape;
 mod spot;
+mod so101;
 mod trifinger;
 
 use mjcf::files::{FileError, FileProvider};
@@ -61,6 +62,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("robotiq/", robotiq::MESHES),
     ("shadow/", shadow::MESHES),
     ("spot/", spot::MESHES),
+    ("so101/", so101::MESHES),
     ("trifinger/", trifinger::MESHES),
 ];
 

@@ -10,6 +10,7 @@ use physics::model::GeomType;
 const MOST: &[(&str, usize)] = &[
 const MOST: [(&str, usize); 12] = [
 const MOST: [(&str, usize); 13] = [
+const MOST: [(&str, usize); 12] = [
     ("adroit/robot.xml", 10_000),
     ("allegro/robot.xml", 3000),
     ("dclaw/robot.xml", 6000),
@@ -24,6 +25,7 @@ const MOST: [(&str, usize); 13] = [
     ("robotiq/gripper.xml", 4500),
     ("shadow/robot.xml", 3000),
     ("spot/robot.xml", 3000),
+    ("so101/robot.xml", 3000),
     ("trifinger/robot.xml", 6000),
 ];
 

@@ -83,3 +83,31 @@ fn seeded_faults_end_in_errors_or_in_motion_within_limits() {
     let sound = config("");
     rig::strike(|| on_bus(&sound, false), &sound, action);
 }
+
+#[test]
+fn the_so101_reads_and_commands_its_servos_in_joint_angles() {
+    let text = assets::text("so101/tasks/arm.toml").unwrap();
+    let config = Config::from_toml(text, "arm.toml").unwrap();
+    let loaded = robohive_mjcf::Loader::default().files(assets::Own).load("so101/robot.xml").unwrap();
+    let model = loaded.model;
+    let (bench, rigged) = wire::rig(&config, Plant::new(model.clone()).unwrap(), true).unwrap();
+    let rig = Rig::new(model.clone(), bench, rigged[0].links[0].1);
+    let (mut data, mut rng) = (physics::Data::new(&model), random::Generator::pcg64(1_u64));
+    let mut robot = rig.robot(&config).unwrap();
+    robot.reset(&model, &data, &mut rng).unwrap();
+    let goal = [0.3, -0.2, 0.4, 0.9, -0.5, 1.2];
+    let mut clock = rig.clock();
+    for _ in 0..30 {
+        robot.control(&model, &data, &goal, 0.1).unwrap();
+        clock.wait(0.1);
+        robot.sense(&model, &data, &mut rng);
+        robot.write_readings(&mut data);
+    }
+    let bench = rig.bench.lock().unwrap();
+    for (joint, goal) in goal.into_iter().enumerate() {
+        let (found, read) = (bench.plant().position(joint), data.state.qpos[joint]);
+        // A servo counts steps of 1.5 mrad, and yields to the weight of the arm by its stiffness.
+        assert!((found - read).abs() < 1.6e-3, "joint {joint}: at {found}, reads {read}");
+        assert!((found - goal).abs() < 0.06, "joint {joint}: at {found}, told {goal}");
+    }
+}
