@@ -31,8 +31,8 @@ mod panda;
 mod robotiq;
 mod shadow;
 mod shape;
-mod spot;
 mod so101;
+mod spot;
 mod trifinger;
 
 use mjcf::files::{FileError, FileProvider};
@@ -61,8 +61,8 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("panda/", panda::MESHES),
     ("robotiq/", robotiq::MESHES),
     ("shadow/", shadow::MESHES),
-    ("spot/", spot::MESHES),
     ("so101/", so101::MESHES),
+    ("spot/", spot::MESHES),
     ("trifinger/", trifinger::MESHES),
 ];
 
