@@ -1,6 +1,6 @@
 //! Roles in a model, as one task wants them.
 
-use crate::config::{ConfigError, Fallen, Named, NominalPose, Roles};
+use crate::config::{ConfigError, Fallen, Named, NominalPose, Roles, Walk};
 use physics::Model;
 use physics::elements::{BodyId, Element, JointId, SiteId};
 use physics::model::{JointType, Suggestions};
@@ -115,6 +115,16 @@ impl Cast<'_> {
     pub fn fallen(&self) -> Result<Fallen, ConfigError> {
         self.roles.fallen.ok_or_else(|| {
             self.error(None, format!("there is no [fallen], which {}; give its height and tilt", self.need()))
+        })
+    }
+
+    /// How fast the body walks.
+    ///
+    /// # Errors
+    /// The text does not say.
+    pub fn walk(&self) -> Result<Walk, ConfigError> {
+        self.roles.walk.ok_or_else(|| {
+            self.error(None, format!("there is no [walk], which {}; give its speed and turn", self.need()))
         })
     }
 

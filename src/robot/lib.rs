@@ -78,7 +78,7 @@ pub use cast::Cast;
 pub use compat::{Compat, QUIRKS, Quirk, UnknownCompat};
 pub use config::{
     ActuatorConfig, CameraConfig, Config, ConfigError, DeviceConfig, Fallen, HardwareId, Interface, Named,
-    NominalPose, Roles, SensorConfig, Value,
+    NominalPose, Roles, SensorConfig, Value, Walk,
 };
 pub use device::{Device, Fault, Record, Registry, Replay, Simulated, Units};
 pub use error::{Part, RobotError};

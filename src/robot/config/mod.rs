@@ -42,7 +42,7 @@ mod value;
 
 pub use devices::{ActuatorConfig, CameraConfig, Config, DeviceConfig, HardwareId, Interface, SensorConfig};
 pub use error::ConfigError;
-pub use roles::{Fallen, Named, NominalPose, Roles};
+pub use roles::{Fallen, Named, NominalPose, Roles, Walk};
 pub use value::Value;
 
 use std::path::Path;

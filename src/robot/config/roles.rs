@@ -6,8 +6,8 @@ use super::node::{Content, Node};
 use super::toml_reader;
 use std::collections::BTreeMap;
 
-const KEYS: [&str; 10] =
-    ["root", "forward", "head", "feet", "palm", "fingertips", "tool", "hardware", "poses", "fallen"];
+const KEYS: [&str; 11] =
+    ["root", "forward", "head", "feet", "palm", "fingertips", "tool", "hardware", "poses", "fallen", "walk"];
 
 /// Parts of a robot by their roles, so that one task serves robots whose elements have other names.
 ///
@@ -41,6 +41,7 @@ const KEYS: [&str; 10] =
 /// | `tool` | site: the tool centre point of an arm |
 /// | `hardware` | path of the [`Config`](super::Config), from the folder of this file |
 /// | `poses.NAME` | a pose: joints and where they are \[rad or m\], the others stay; `root_z` is the height of a free root \[m\] |
+/// | `walk` | how fast a legged body walks: `speed` \[m/s\], `turn` \[rad/s\] |
 /// | `fallen` | when a robot has fallen: `height` \[m\] of the root over the ground, `tilt` \[rad\] of its z axis from the vertical |
 #[derive(Clone, Debug, PartialEq)]
 pub struct Roles {
@@ -66,6 +67,8 @@ pub struct Roles {
     pub poses: BTreeMap<String, NominalPose>,
     /// When the robot has fallen.
     pub fallen: Option<Fallen>,
+    /// How fast it walks.
+    pub walk: Option<Walk>,
 }
 
 /// The elements of a role.
@@ -97,6 +100,15 @@ pub struct Fallen {
     pub tilt: f64,
 }
 
+/// How fast a legged body walks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Walk {
+    /// Forward \[m/s\].
+    pub speed: f64,
+    /// About the vertical \[rad/s\].
+    pub turn: f64,
+}
+
 impl Roles {
     /// Reads a `roles.toml`. `file` names the text in errors.
     ///
@@ -117,7 +129,9 @@ impl Roles {
             tool: one(&mut fields, "tool")?,
             hardware: fields.text("hardware")?,
             poses: poses(&mut fields)?,
-            fallen: fields.take("fallen").map(|node| fallen(&source, node)).transpose()?,
+            fallen: pair(&mut fields, "fallen", ["height", "tilt"])?
+                .map(|[height, tilt]| Fallen { height, tilt }),
+            walk: pair(&mut fields, "walk", ["speed", "turn"])?.map(|[speed, turn]| Walk { speed, turn }),
         })
     }
 }
@@ -172,8 +186,10 @@ fn poses(fields: &mut Fields) -> Outcome<BTreeMap<String, NominalPose>> {
     entries.into_iter().map(read).collect()
 }
 
-fn fallen(source: &Source, node: Node) -> Outcome<Fallen> {
-    let mut fields = Fields::new(source, "'fallen'", node, &["height", "tilt"])?;
-    let mut number = |key: &str| fields.number(key)?.ok_or_else(|| fields.missing(key));
-    Ok(Fallen { height: number("height")?, tilt: number("tilt")? })
+/// The two numbers of a table.
+fn pair(fields: &mut Fields, key: &str, names: [&'static str; 2]) -> Outcome<Option<[f64; 2]>> {
+    let Some(node) = fields.take(key) else { return Ok(None) };
+    let mut own = Fields::new(fields.source, &format!("'{key}'"), node, &names)?;
+    let mut number = |name: &str| own.number(name)?.ok_or_else(|| own.missing(name));
+    Ok(Some([number(names[0])?, number(names[1])?]))
 }

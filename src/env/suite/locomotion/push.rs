@@ -14,7 +14,8 @@ use std::f64::consts::PI;
 pub struct Push {
     /// Steps of the environment from one push to the next.
     every: usize,
-    /// The change of velocity that a push gives to the whole body \[m/s\], the force lasting one step of the environment.
+    /// The change of velocity that a push gives to the whole body, as a share of its walking speed; the force lasts one step of
+    /// the environment.
     speed: f64,
     /// Steps since the last push.
     #[serde(skip)]
@@ -31,14 +32,14 @@ impl Push {
     ///
     /// # Errors
     /// The generator refuses, which it does not for this range.
-    pub fn act(&mut self, root: BodyId, turn: &mut Turn<'_>) -> Result<(), EnvError> {
+    pub fn act(&mut self, root: BodyId, speed: f64, turn: &mut Turn<'_>) -> Result<(), EnvError> {
         self.since += 1;
         let mut wrench = [0.0; 6];
         if self.since == self.every {
             self.since = 0;
             let mass = turn.scene.model.body_subtreemass[root.index()];
             let (sine, cosine) = ops::sincos(turn.rng.uniform(-PI, PI)?);
-            let force = mass * self.speed / turn.dt;
+            let force = mass * self.speed * speed / turn.dt;
             wrench[..2].copy_from_slice(&[force * cosine, force * sine]);
         }
         turn.scene.data.body_mut(root).set_xfrc_applied(wrench);

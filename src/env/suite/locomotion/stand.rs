@@ -1,7 +1,8 @@
-//! Standing: the body keeps its height and stays where it is, whoever pushes it.
+//! Standing: the body keeps the height that is asked of it, which changes every few seconds, whoever pushes it.
 
 use super::FRAME_SKIP;
-use super::walker::{BodyArgs, Walker};
+use super::walker::{Disturbance, Walker};
+use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
@@ -12,23 +13,34 @@ use robot::Keeper;
 use serde::Deserialize;
 
 /// Share of the standing height by which the root may be off.
-const HEIGHT: f64 = 0.1;
+const NEAR: f64 = 0.05;
 /// Lean that still counts as standing \[rad\].
 const LEAN: f64 = 0.2;
-/// Steps of standing that make a success: 5 s.
-const STEPS: usize = 250;
+/// Steps at the height that make a success, of an episode of 500.
+const STEPS: usize = 300;
 
 /// Settings of the task.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Args {
-    body: BodyArgs,
+    /// The roles of the body.
+    roles: String,
+    #[serde(default)]
+    disturbance: Disturbance,
+    /// Smallest and largest height that is asked for, as shares of the standing height.
+    height_range: [f64; 2],
+    /// Steps from one height to the next.
+    every: usize,
 }
 
 /// The task.
 #[derive(Clone)]
 pub struct Stand {
     walker: Walker,
+    range: [f64; 2],
+    every: usize,
+    wanted: f64,
+    since: usize,
 }
 
 impl Stand {
@@ -37,14 +49,25 @@ impl Stand {
     /// # Errors
     /// The model does not fill the roles.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
-        Ok(Stand { walker: Walker::new(&args.body, "stand", setup)? })
+        if args.every == 0 {
+            return Err(setup.wrong("`every` is 0; a height has to last a step at least"));
+        }
+        let walker = Walker::new(&args.roles, "stand", args.disturbance, setup)?;
+        let range = args.height_range.map(|share| share * walker.height);
+        Ok(Stand { wanted: walker.height, walker, range, every: args.every, since: 0 })
+    }
+
+    fn draw(&mut self, rng: &mut Rng) -> Result<(), EnvError> {
+        (self.since, self.wanted) = (0, rng.uniform(self.range[0], self.range[1])?);
+        Ok(())
     }
 }
 
 impl Task for Stand {
     fn defaults(&self) -> Defaults {
         let weights = [("height", 1.0), ("upright", 1.0), ("still", 0.2), ("solved", 1.0), ("fallen", 10.0)];
-        let defaults = Defaults::new(&Walker::ROWS, &weights, FRAME_SKIP);
+        let rows = [&Walker::ROWS[..], &["height_command"]].concat();
+        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
         Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
     }
 
@@ -54,21 +77,27 @@ impl Task for Stand {
     }
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
-        self.walker.start(episode)
+        self.walker.start(episode)?;
+        self.draw(episode.rng)
     }
 
     fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
+        self.since += 1;
+        if self.since == self.every {
+            self.draw(turn.rng)?;
+        }
         self.walker.act(turn)
     }
 
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         self.walker.observe(view, rows);
+        rows.set("height_command", "m", [self.wanted]);
     }
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
-        let off = (rows["height"][0] / self.walker.height - 1.0).abs();
+        let off = (rows["height"][0] - rows["height_command"][0]).abs() / self.walker.height;
         let upright = rows["up"][2];
-        let solved = off < HEIGHT && upright > ops::cos(LEAN);
+        let solved = off < NEAR && upright > ops::cos(LEAN);
         let fallen = self.walker.has_fallen(rows["height"][0], upright);
         terms.set("height", "", [-off]);
         terms.set("upright", "", [upright]);
@@ -80,5 +109,7 @@ impl Task for Stand {
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.walker.keep(keeper);
+        keeper.number(&mut self.wanted);
+        keeper.count(&mut self.since);
     }
 }

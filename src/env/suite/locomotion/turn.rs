@@ -1,7 +1,7 @@
 //! Turning on the spot: the body is to look in another direction, and to stay near where it began.
 
 use super::FRAME_SKIP;
-use super::walker::{BodyArgs, Walker};
+use super::walker::{Disturbance, Walker};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
@@ -21,10 +21,13 @@ const STEPS: usize = 50;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Args {
-    body: BodyArgs,
+    /// The roles of the body.
+    roles: String,
+    #[serde(default)]
+    disturbance: Disturbance,
     /// Smallest and largest angle to turn by, to either side \[rad\].
     turn_range: [f64; 2],
-    /// How far the body may walk away \[m\].
+    /// How far the body may walk away, in heights of its root.
     radius: f64,
 }
 
@@ -44,8 +47,9 @@ impl Turn {
     /// The model does not fill the roles, or has no site `target`.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let target = setup.scene.site("target")?;
-        let walker = Walker::new(&args.body, "turn", setup)?;
-        Ok(Turn { walker, target, range: args.turn_range, radius: args.radius })
+        let walker = Walker::new(&args.roles, "turn", args.disturbance, setup)?;
+        let radius = args.radius * walker.height;
+        Ok(Turn { walker, target, range: args.turn_range, radius })
     }
 }
 

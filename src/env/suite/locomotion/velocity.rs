@@ -1,7 +1,7 @@
 //! Following a velocity that changes every few seconds: forward, to the left, and turning.
 
 use super::FRAME_SKIP;
-use super::walker::{BodyArgs, Walker};
+use super::walker::{Disturbance, Walker};
 use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
@@ -9,7 +9,7 @@ use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::math::ops;
-use robot::Keeper;
+use robot::{Keeper, Walk};
 use serde::Deserialize;
 
 /// Time constant of the mean velocity that is compared with the command \[s\]: about two steps of a gait.
@@ -21,14 +21,17 @@ const STEPS: usize = 600;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Args {
-    body: BodyArgs,
-    /// Smallest and largest command: forward, to the left \[m/s\], counterclockwise \[rad/s\].
+    /// The roles of the body.
+    roles: String,
+    #[serde(default)]
+    disturbance: Disturbance,
+    /// Smallest command as shares of what the body walks: forward, to the left, turning counterclockwise.
     command_low: [f64; 3],
-    /// As `command_low`.
+    /// Largest command.
     command_high: [f64; 3],
     /// Steps from one command to the next.
     every: usize,
-    /// Errors of the mean velocity that solve the task \[m/s\], and of the mean rate of turning \[rad/s\].
+    /// Errors of the mean velocity and of the mean rate of turning that solve the task, as shares of what the body walks.
     near: [f64; 2],
 }
 
@@ -54,12 +57,15 @@ impl Velocity {
         if args.every == 0 {
             return Err(setup.wrong("`every` is 0; a command has to last a step at least"));
         }
+        let walker = Walker::new(&args.roles, "velocity", args.disturbance, setup)?;
+        let Walk { speed, turn } = walker.walk;
+        let scaled = |[ahead, left, round]: [f64; 3]| [ahead * speed, left * speed, round * turn];
         Ok(Velocity {
-            walker: Walker::new(&args.body, "velocity", setup)?,
-            low: args.command_low,
-            high: args.command_high,
+            walker,
+            low: scaled(args.command_low),
+            high: scaled(args.command_high),
             every: args.every,
-            near: args.near,
+            near: [args.near[0] * speed, args.near[1] * turn],
             command: [0.0; 3],
             mean: [0.0; 3],
             since: 0,

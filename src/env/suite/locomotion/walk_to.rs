@@ -1,7 +1,7 @@
 //! Walking to a place that is marked on the ground.
 
 use super::FRAME_SKIP;
-use super::walker::{BodyArgs, Walker};
+use super::walker::{Disturbance, Walker};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
@@ -19,12 +19,15 @@ const STEPS: usize = 25;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Args {
-    body: BodyArgs,
-    /// Distance of the place \[m\].
+    /// The roles of the body.
+    roles: String,
+    #[serde(default)]
+    disturbance: Disturbance,
+    /// Distance of the place, in heights of the root.
     target_distance_range: [f64; 2],
     /// Direction of the place, from where the body looks at the start, counterclockwise \[rad\].
     target_angle_range: [f64; 2],
-    /// Distance from the place that solves the task \[m\].
+    /// Distance from the place that solves the task, in heights of the root.
     radius: f64,
 }
 
@@ -44,12 +47,14 @@ impl WalkTo {
     /// # Errors
     /// The model does not fill the roles, or has no site `target`.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
+        let walker = Walker::new(&args.roles, "walk to", args.disturbance, setup)?;
+        let height = walker.height;
         Ok(WalkTo {
             target: setup.scene.site("target")?,
-            walker: Walker::new(&args.body, "walk to", setup)?,
-            distance: args.target_distance_range,
+            distance: args.target_distance_range.map(|distance| distance * height),
             angle: args.target_angle_range,
-            radius: args.radius,
+            radius: args.radius * height,
+            walker,
         })
     }
 }

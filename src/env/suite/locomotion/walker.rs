@@ -10,15 +10,13 @@ use physics::elements::{BodyId, SiteId};
 use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops, sub};
 use physics::model::JointType;
 use physics::{Data, Model};
-use robot::{Fallen, Keeper, Roles};
+use robot::{Fallen, Keeper, Roles, Walk};
 use serde::Deserialize;
 
-/// Settings of all tasks of a body with feet.
-#[derive(Clone, Debug, Deserialize)]
+/// What makes episodes differ.
+#[derive(Clone, Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct BodyArgs {
-    /// The roles of the body.
-    roles: String,
+pub struct Disturbance {
     /// Largest difference of a joint from the standing pose at the start \[rad or m\].
     #[serde(default)]
     joint_noise: f64,
@@ -46,6 +44,8 @@ pub struct Walker {
     pub height: f64,
     ahead: [f64; 2],
     fallen: Fallen,
+    /// How fast it walks.
+    pub walk: Walk,
     noise: f64,
     push: Option<Push>,
 }
@@ -72,12 +72,16 @@ impl Walker {
     pub const ROWS: [&str; 8] =
         ["height", "up", "velocity", "turning", "joint_pos", "joint_vel", "feet", "last_action"];
 
-    /// Finds the body in the model, for the task called `task`.
+    /// Finds the body whose roles the file `path` has in the model, for the task called `task`.
     ///
     /// # Errors
     /// The roles cannot be read, or the model does not fill them.
-    pub fn new(args: &BodyArgs, task: &str, setup: &Setup<'_>) -> Result<Self, EnvError> {
-        let path = &args.roles;
+    pub fn new(
+        path: &str,
+        task: &str,
+        disturbance: Disturbance,
+        setup: &Setup<'_>,
+    ) -> Result<Self, EnvError> {
         let bytes = own_file(path).map_or_else(|| setup.assets.read(path), Ok);
         let bytes = bytes.map_err(|hint| setup.wrong(format!("roles: {path}: {hint}")))?;
         let roles = Roles::from_toml(&String::from_utf8_lossy(&bytes), path)?;
@@ -92,8 +96,9 @@ impl Walker {
             height: 0.0,
             ahead: [1.0, 0.0],
             fallen: body.fallen()?,
-            noise: args.joint_noise,
-            push: args.push.clone(),
+            walk: body.walk()?,
+            noise: disturbance.joint_noise,
+            push: disturbance.push,
         };
         body.pose("stand", &mut walker.stand)?;
         let mut standing = Data::new(m);
@@ -134,7 +139,7 @@ impl Walker {
     /// The push has no range.
     pub fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
         match &mut self.push {
-            Some(push) => push.act(self.root, turn),
+            Some(push) => push.act(self.root, self.walk.speed, turn),
             None => Ok(()),
         }
     }
