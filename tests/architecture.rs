@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 36] = [
+const ORDER: [(&str, &[&str]); 37] = [
     ("robohive-physics", &[]),
     ("robohive-workshop", &["physics"]),
     ("robohive-dataset", &[]),
@@ -41,6 +41,7 @@ const ORDER: [(&str, &[&str]); 36] = [
     ("robohive-render-gpu", &["physics", "render"]),
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
     ("robohive-agents", &["dataset", "env"]),
+    ("robohive-control", &["physics", "random", "robot", "env"]),
     ("robohive-record", &["physics", "dataset", "env"]),
     ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),
     ("robohive-teleop", &["physics", "dataset", "protocol", "robot", "env", "agents", "record"]),
@@ -48,7 +49,19 @@ const ORDER: [(&str, &[&str]); 36] = [
     ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
     (
         "robohive-validation",
-        &["assets", "physics", "mjcf", "dataset", "random", "robot", "render", "render_gpu", "env", "agents"],
+        &[
+            "assets",
+            "physics",
+            "mjcf",
+            "dataset",
+            "random",
+            "robot",
+            "render",
+            "render_gpu",
+            "env",
+            "agents",
+            "control",
+        ],
     ),
     ("robohive-clients", &["mjcf", "protocol", "robot", "wire"]),
     ("robohive-digest", &["assets", "physics", "mjcf", "render"]),
@@ -118,6 +131,7 @@ const ORDER: [(&str, &[&str]); 36] = [
             "identify",
             "teleop",
             "agents",
+            "control",
             "validation",
         ],
     ),
@@ -127,7 +141,7 @@ const ORDER: [(&str, &[&str]); 36] = [
 ];
 
 /// What the library may use of others: all of it pure Rust.
-const OTHERS: [(&str, &[&str]); 23] = [
+const OTHERS: [(&str, &[&str]); 24] = [
     ("robohive-assets", &[]),
     ("robohive-physics", &["libm", "rayon"]),
     ("robohive-workshop", &["earcut"]),
@@ -150,6 +164,7 @@ const OTHERS: [(&str, &[&str]); 23] = [
     ("robohive-render-gpu", &["bytemuck", "pollster", "wgpu"]),
     ("robohive-env", &["rayon", "serde", "toml"]),
     ("robohive-agents", &["libm"]),
+    ("robohive-control", &["nalgebra"]),
     ("robohive-record", &[]),
     ("robohive-identify", &["nalgebra", "rayon"]),
     ("robohive-teleop", &["rustix", "toml"]),
@@ -190,6 +205,7 @@ fn crates_depend_on_those_before_them() {
         "env",
         "record",
         "agents",
+        "control",
         "teleop",
         "validation",
         "video",

@@ -1,8 +1,8 @@
 //! `run`: play episodes of an environment.
 
 use crate::failure::Failure;
+use crate::input::actor::{Actor, ActorArguments};
 use crate::input::library::Source;
-use crate::input::policy::policy;
 use crate::interrupt::Interrupt;
 use crate::output::{check_place, keep_input, note_unmapped, recording_file};
 use crate::pictures::film::{Film, FilmArguments};
@@ -10,7 +10,6 @@ use crate::pictures::subject::camera_of;
 use crate::recordings::names::{LayoutName, PrecisionName};
 use crate::robots::live::Live;
 use crate::terminal::{note, show, show_json};
-use agents::Policy;
 use clap::{Args, ValueHint};
 use dataset::trace::is_npz;
 use env::Env;
@@ -38,12 +37,17 @@ plays a recording again.
 
 --video shows one episode after the other, each from the state of its reset, in simulated time: at most 50 frames a second unless --fps says otherwise. The file has its name when the command ends, also by Ctrl-C.
 
+--controller lets a program for this very task act, which sees the state of the simulation and does not learn. It shows that a \
+task can be solved, and how; the line `success` is then what the controller reaches.
+
 --hardware runs the same task on devices: each step is sent to them and waits for its control period, and the model mirrors what \
 they measure. Nothing moves without --arm; --rehearse puts simulated devices behind the real drivers.
 
 Examples:
   robohive run hive/FrankaReach-v0
   robohive run hive/FrankaReach-v0 --policy zero --episodes 20 --seed 7
+  robohive run hive/FrankaReach-v0 --controller list
+  robohive run hive/FrankaReach-v0 --controller reach --episodes 20
   robohive run hive/FrankaReach-v0 --set max_episode_steps=20 --json
   robohive run hive/FrankaReach-v0 --record reach.h5
   robohive run hive/FrankaReach-v0 --episodes 1 --video reach.mp4 --camera front
@@ -54,9 +58,9 @@ pub struct Run {
     /// The environment
     #[command(flatten)]
     source: Source,
-    /// What acts: random, zero, or a file with a policy made for RoboHive by mjrl (a pickle, which is not executed)
-    #[arg(long, value_name = "POLICY", default_value = "random")]
-    policy: String,
+    /// Who acts
+    #[command(flatten)]
+    actor: ActorArguments,
     /// Episodes to play
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     episodes: u32,
@@ -96,12 +100,13 @@ pub struct Run {
 pub fn run(a: &Run) -> Result<(), Failure> {
     if let Some(record) = &a.record {
         check_place(record)?;
-        keep_input(Path::new(&a.policy), record)?;
+        keep_input(Path::new(&a.actor.policy), record)?;
     }
-    let policy = policy(&a.policy)?;
+    let policy = a.actor.policy()?;
     let painters = a.film.painters(a.visual)?;
     let hardware = a.live.hardware(&a.source.id, &a.source.making)?;
     let mut env = a.source.make_on(hardware, painters.clone())?;
+    let Some(mut actor) = a.actor.actor(policy, &env)? else { return Ok(()) };
     let mut recording = a.record.as_ref().map(|_| open_recording(a)).transpose()?;
     let mut film = a.film.film(&env.scene().model, &camera_of(&env), env.dt(), &*painters)?;
     let hidden = a.quiet || a.json || a.film.previews();
@@ -112,7 +117,7 @@ pub fn run(a: &Run) -> Result<(), Failure> {
     for index in 0..a.episodes {
         let seed = a.seed.wrapping_add(u64::from(index));
         let witnesses = Witnesses { recording: recording.as_mut(), film: film.as_mut() };
-        let Some(episode) = play(&mut env, policy.for_episode(seed), seed, witnesses, &interrupt)? else {
+        let Some(episode) = play(&mut env, &mut actor, seed, witnesses, &interrupt)? else {
             break;
         };
         bar.set_message(format!("return {:.2}, {} solved", episode.reward, episode.solved));
@@ -143,12 +148,12 @@ pub fn run(a: &Run) -> Result<(), Failure> {
 fn open_recording(a: &Run) -> Result<Recording, Failure> {
     let path = a.record.as_deref().ok_or_else(|| Failure::usage("--record is needed"))?;
     let settings = a.source.making.changes()?.to_string();
-    let (compat, seed) = (a.source.making.compat.to_string(), a.seed.to_string());
+    let (compat, seed, name) = (a.source.making.compat.to_string(), a.seed.to_string(), a.actor.name());
     let attributes = [
         (record::ID, &a.source.id[..]),
         (record::COMPAT, &compat),
         (record::SETTINGS, settings.trim_end()),
-        ("policy", &a.policy),
+        ("policy", &name),
         ("seed", &seed),
     ];
     let recording = Recording::create(path, a.layout.into(), a.precision.into(), &attributes)?;
@@ -175,7 +180,7 @@ struct Witnesses<'a> {
 /// Plays one episode; `None` if a signal ends it, which is then not recorded.
 fn play(
     env: &mut Env,
-    mut policy: Policy,
+    actor: &mut Actor,
     seed: u64,
     witnesses: Witnesses<'_>,
     interrupt: &Interrupt,
@@ -188,6 +193,7 @@ fn play(
         // A signal ends the motion of a robot to where an episode begins.
         return if interrupt.code().is_some() { Ok(None) } else { Err(Failure::new(error)) };
     }
+    actor.begin(env, seed)?;
     if let Some(film) = &mut film {
         film.begin();
         film.show(&env.scene().model, &env.scene().data, 0.0)?;
@@ -196,7 +202,7 @@ fn play(
         if interrupt.code().is_some() {
             return Ok(None);
         }
-        policy.action(env, &mut action).map_err(Failure::usage)?;
+        actor.act(env, &mut action)?;
         if let Some(record) = &mut record {
             record.row(env, &action)?;
         }
@@ -226,7 +232,7 @@ fn show_result(a: &Run, env: &Env, episodes: &[Summary], seconds: f64) {
     let returns = || episodes.iter().map(|episode| episode.reward);
     if a.json {
         show_json(&json!({
-            "id": a.source.id, "policy": a.policy, "seed": a.seed, "episodes": episodes.len(), "steps": steps,
+            "id": a.source.id, "policy": a.actor.name(), "seed": a.seed, "episodes": episodes.len(), "steps": steps,
             "success_percentage": result.success_percentage, "return": result.reward, "rwd_dense": result.rwd_dense,
             "rwd_sparse": result.rwd_sparse, "returns": returns().collect::<Vec<_>>(), "faults": faults,
             "steps_per_second": speed,
@@ -235,7 +241,7 @@ fn show_result(a: &Run, env: &Env, episodes: &[Summary], seconds: f64) {
     }
     let (low, high) =
         returns().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-    show!("{}: {} episodes, {steps} steps, {} policy", a.source.id, episodes.len(), a.policy);
+    show!("{}: {} episodes, {steps} steps, {}", a.source.id, episodes.len(), a.actor.described());
     if episodes.is_empty() {
         return;
     }

@@ -1,5 +1,6 @@
 //! Models and environments that a command line names.
 
+pub mod actor;
 pub mod library;
 pub mod loading;
 pub mod policy;

@@ -1,0 +1,3 @@
+//! Arms.
+
+pub mod reach;

@@ -1,0 +1,3 @@
+//! Adaptors of controllers to tasks, a folder for each suite and a file for each task.
+
+pub mod arms;
