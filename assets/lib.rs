@@ -27,6 +27,7 @@ mod kitchen;
 mod minicheetah;
 mod myoelbow;
 mod myofinger;
+mod myohand;
 mod panda;
 mod robotiq;
 mod shadow;
@@ -58,6 +59,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("minicheetah/", minicheetah::MESHES),
     ("myoelbow/", myoelbow::MESHES),
     ("myofinger/", myofinger::MESHES),
+    ("myohand/", myohand::MESHES),
     ("panda/", panda::MESHES),
     ("robotiq/", robotiq::MESHES),
     ("shadow/", shadow::MESHES),
