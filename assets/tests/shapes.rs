@@ -8,7 +8,6 @@ use physics::model::GeomType;
 
 /// Models, and the triangles that their meshes may have together, copies counted.
 const MOST: &[(&str, usize)] = &[
-const MOST: [(&str, usize); 12] = [
     ("adroit/robot.xml", 10_000),
     ("allegro/robot.xml", 3000),
     ("dclaw/robot.xml", 6000),
