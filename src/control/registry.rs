@@ -27,12 +27,20 @@ impl Entry {
 }
 
 /// Every controller. Of several that serve an id, the first is the best.
-const ALL: &[Entry] = &[Entry {
-    name: "reach",
-    summary: "inverse kinematics once, then a minimum-jerk motion of the joints",
-    serves: &["reach"],
-    build: |env| Ok(Box::new(tasks::arms::reach::Reach::new(env)?)),
-}];
+const ALL: &[Entry] = &[
+    Entry {
+        name: "reach",
+        summary: "inverse kinematics once, then a minimum-jerk motion of the joints",
+        serves: &["reach"],
+        build: |env| Ok(Box::new(tasks::arms::reach::Reach::new(env)?)),
+    },
+    Entry {
+        name: "trot",
+        summary: "a trot by Raibert's steps, legs by inverse kinematics",
+        serves: &["stand", "turn", "velocity", "walk_to"],
+        build: |env| Ok(Box::new(tasks::locomotion::trot::Trot::new(env)?)),
+    },
+];
 
 /// Every controller.
 pub fn controllers() -> &'static [Entry] {

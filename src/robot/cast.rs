@@ -128,11 +128,11 @@ impl Cast<'_> {
         })
     }
 
-    /// Writes the pose called `name` into `qpos`: every joint that it names, and the height of a free root.
+    /// Writes the pose called `name` into `qpos`: every joint that it names, and the height of the root.
     ///
     /// # Errors
     /// The text has no such pose, or the model not its joints; a joint that turns by a quaternion, or a pose with `root_z`
-    /// whose root is not free.
+    /// whose root has neither a free joint nor a vertical slide.
     pub fn pose(&self, name: &str, qpos: &mut [f64]) -> Result<(), ConfigError> {
         let pose = self.roles.poses.get(name).ok_or_else(|| {
             let known = self.roles.poses.keys().map(String::as_str);
@@ -142,7 +142,8 @@ impl Cast<'_> {
             self.error(None, format!("there is no pose '{name}', which {}; {hint}", self.need()))
         })?;
         if let Some(height) = pose.root_z {
-            qpos[self.free_root(name, pose)? + 2] = height;
+            let (place, offset) = self.vertical(name, pose)?;
+            qpos[place] = height - offset;
         }
         for (joint, &value) in &pose.joints {
             let role = format!("pose '{name}'");
@@ -159,15 +160,30 @@ impl Cast<'_> {
         Ok(())
     }
 
-    /// Where `qpos` has the free joint of the root.
-    fn free_root(&self, name: &str, pose: &NominalPose) -> Result<usize, ConfigError> {
-        let body = self.root()?.index();
-        let joint = usize::try_from(self.model.body_jntadr[body]).ok();
-        let free = joint.filter(|&joint| self.model.jnt_type[joint] == JointType::Free as i32);
-        free.map(|joint| self.model.jnt_qposadr[joint] as usize).ok_or_else(|| {
-            let message = format!("pose '{name}' has 'root_z', but the root of the model has no free joint");
-            self.error(Some(pose.position), message)
-        })
+    /// Where `qpos` has the height of the root, and the height of the root over the ground when 0 stands there.
+    fn vertical(&self, name: &str, pose: &NominalPose) -> Result<(usize, f64), ConfigError> {
+        let m = self.model;
+        let (mut body, mut offset) = (self.root()?.index(), 0.0);
+        while body > 0 {
+            let first = m.body_jntadr[body].max(0) as usize;
+            for joint in first..first + m.body_jntnum[body] as usize {
+                let place = m.jnt_qposadr[joint] as usize;
+                if m.jnt_type[joint] == JointType::Free as i32 {
+                    return Ok((place + 2, offset));
+                }
+                if m.jnt_type[joint] == JointType::Slide as i32 && m.jnt_axis[joint] == [0.0, 0.0, 1.0] {
+                    let above =
+                        std::iter::successors(Some(body), |&body| Some(m.body_parentid[body] as usize));
+                    let heights = above.take_while(|&body| body > 0).map(|body| m.body_pos[body][2]);
+                    return Ok((place, offset + heights.sum::<f64>()));
+                }
+            }
+            offset += m.body_pos[body][2];
+            body = m.body_parentid[body] as usize;
+        }
+        let message =
+            format!("pose '{name}' has 'root_z', but nothing moves the root of the model up and down");
+        Err(self.error(Some(pose.position), message))
     }
 
     fn one<E: Element>(&self, role: &str, named: Option<&Named>, kind: &str) -> Result<E, ConfigError> {

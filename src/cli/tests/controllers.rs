@@ -9,7 +9,11 @@ const ID: &str = "hive/FrankaReach-v0";
 #[test]
 fn a_controller_is_listed_and_solves_the_task() {
     let listed = robohive(&["run", ID, "--controller", "list"]);
-    assert!(listed.status.success() && text(&listed.stdout).starts_with("reach "), "{}", text(&listed.stdout));
+    assert!(
+        listed.status.success() && text(&listed.stdout).starts_with("reach "),
+        "{}",
+        text(&listed.stdout)
+    );
     let run = robohive(&["run", ID, "--controller", "reach", "--episodes", "2", "--quiet"]);
     let said = text(&run.stdout);
     assert!(said.contains("controller reach") && said.contains("success      100.0 %"), "{said}");

@@ -1,3 +1,4 @@
 //! Adaptors of controllers to tasks, a folder for each suite and a file for each task.
 
 pub mod arms;
+pub mod locomotion;

@@ -40,7 +40,7 @@ const KEYS: [&str; 11] =
 /// | `fingertips` | sites, the thumb first |
 /// | `tool` | site: the tool centre point of an arm |
 /// | `hardware` | path of the [`Config`](super::Config), from the folder of this file |
-/// | `poses.NAME` | a pose: joints and where they are \[rad or m\], the others stay; `root_z` is the height of a free root \[m\] |
+/// | `poses.NAME` | a pose: joints and where they are \[rad or m\], the others stay; `root_z` is the height of a root that is free or slides \[m\] |
 /// | `walk` | how fast a legged body walks: `speed` \[m/s\], `turn` \[rad/s\] |
 /// | `fallen` | when a robot has fallen: `height` \[m\] of the root over the ground, `tilt` \[rad\] of its z axis from the vertical |
 #[derive(Clone, Debug, PartialEq)]
@@ -83,7 +83,7 @@ pub struct Named {
 /// A pose that tasks start from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NominalPose {
-    /// Height of a free root \[m\].
+    /// Height of a root that is free or slides \[m\].
     pub root_z: Option<f64>,
     /// Where joints are \[rad or m\]; the others stay.
     pub joints: BTreeMap<String, f64>,

@@ -13,11 +13,11 @@ use robot::Keeper;
 use serde::Deserialize;
 
 /// Share of the standing height by which the root may be off.
-const NEAR: f64 = 0.05;
+const NEAR: f64 = 0.03;
 /// Lean that still counts as standing \[rad\].
 const LEAN: f64 = 0.2;
 /// Steps at the height that make a success, of an episode of 500.
-const STEPS: usize = 300;
+const STEPS: usize = 350;
 
 /// Settings of the task.
 #[derive(Deserialize)]

@@ -1,0 +1,4 @@
+//! Bodies with feet.
+
+mod legs;
+pub mod trot;

@@ -1,0 +1,167 @@
+//! A trot that follows a command: Raibert's steps, legs by inverse kinematics, height and level kept by what the body lacks of them.
+
+use super::legs::Legs;
+use crate::controller::{Controller, command};
+use crate::error::ControlError;
+use crate::maths::{Gait, Steps};
+use env::{Env, Rows};
+use physics::math::{Vec3, ops};
+use robot::{Roles, Walk};
+
+/// Period of the gait in times of a fall from the height of the root, sqrt(h/g).
+const PERIOD: f64 = 2.6;
+/// Height to which feet are lifted, in heights of the root.
+const LIFT: f64 = 0.18;
+/// Balance of a step, in times of a fall.
+const BALANCE: f64 = 0.35;
+/// Share of what the root lacks of its height that a step adds.
+const RAISE: f64 = 0.05;
+/// Share of what the velocity lacks of the command that a step adds.
+const HURRY: f64 = 0.01;
+/// Share of the lean that feet push against.
+const LEVEL: f64 = 0.6;
+/// Most that corrections change, in heights of the root and in shares of the walking speed.
+const MOST: f64 = 0.5;
+/// Acceleration that commands are limited to, in walking speeds a second.
+const RAMP: f64 = 2.0;
+/// Share of the walking speed below which the body stands.
+const STILL: f64 = 0.02;
+
+/// What a task asks of the body.
+type Wish = fn(&Rows, &Walk) -> [f64; 3];
+
+/// The controller.
+pub struct Trot {
+    legs: Legs,
+    steps: Steps,
+    walk: Walk,
+    wish: Wish,
+    forward: Vec3,
+    /// Height of the root over its feet when it stands \[m\].
+    height: f64,
+    /// Velocity that the feet follow now.
+    now: [f64; 3],
+    lacking: [f64; 3],
+    raised: f64,
+    places: Vec<Vec3>,
+    controls: Vec<f64>,
+}
+
+impl Trot {
+    /// The controller for a body with four legs.
+    ///
+    /// # Errors
+    /// A task without roles; a body that has not four feet, or whose legs are not of servos.
+    pub fn new(env: &Env) -> Result<Self, ControlError> {
+        let m = &env.scene().model;
+        let path: Option<String> = env.spec().args.get("roles");
+        let path = path.ok_or_else(|| ControlError::unfit(env, "the setting roles is needed"))?;
+        let text = path.strip_prefix("hive/").and_then(assets::text);
+        let text = text.ok_or_else(|| ControlError::unfit(env, format!("{path} is not there")))?;
+        let unfit = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
+        let roles = Roles::from_toml(text, &path).map_err(unfit)?;
+        let body = roles.cast(m, "", "trot");
+        let (root, feet) = (body.root().map_err(unfit)?, body.feet().map_err(unfit)?);
+        if feet.len() != 4 {
+            return Err(ControlError::unfit(env, format!("a trot needs four feet, not {}", feet.len())));
+        }
+        let mut stand = m.qpos0.to_vec();
+        body.pose("stand", &mut stand).map_err(unfit)?;
+        let mut legs = Legs::new(env, root, &feet, &stand)?;
+        let forward = body.forward();
+        let homes: Vec<Vec3> = legs.homes(m).into_iter().map(|home| turned(home, forward)).collect();
+        let height = -homes.iter().map(|home| home[2]).fold(f64::INFINITY, f64::min);
+        let fall = (height / 9.81).sqrt();
+        let gait = Gait { period: PERIOD * fall, duty: 0.55, lift: LIFT * height, balance: BALANCE * fall };
+        Ok(Trot {
+            steps: Steps::trot(gait, &homes),
+            walk: body.walk().map_err(unfit)?,
+            wish: wish(&env.spec().task),
+            forward,
+            height,
+            now: [0.0; 3],
+            lacking: [0.0; 3],
+            raised: 0.0,
+            places: homes,
+            controls: vec![0.0; m.nu],
+            legs,
+        })
+    }
+
+    /// Velocity that the feet are to follow: the wish, approached at a limited rate, with what the body lacked of it.
+    fn follow(&mut self, rows: &Rows, dt: f64) -> [f64; 3] {
+        let Walk { speed, turn } = self.walk;
+        let (wanted, most) = ((self.wish)(rows, &self.walk), [speed, speed, turn]);
+        let measured = [rows["velocity"][0], rows["velocity"][1], rows["turning"][2]];
+        for i in 0..3 {
+            let step = RAMP * most[i] * dt;
+            self.now[i] += (wanted[i] - self.now[i]).clamp(-step, step);
+            let lacking = self.lacking[i] + HURRY * (self.now[i] - measured[i]);
+            self.lacking[i] = lacking.clamp(-MOST * most[i], MOST * most[i]);
+        }
+        [0, 1, 2].map(|i| self.now[i] + self.lacking[i])
+    }
+}
+
+impl Controller for Trot {
+    fn reset(&mut self, env: &Env, _: u64) -> Result<(), ControlError> {
+        self.legs.restart(&env.scene().model);
+        self.steps.restart();
+        (self.now, self.lacking, self.raised) = ([0.0; 3], [0.0; 3], 0.0);
+        Ok(())
+    }
+
+    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), ControlError> {
+        let (rows, dt) = (env.rows(), env.dt());
+        let velocity = self.follow(rows, dt);
+        let measured = [rows["velocity"][0], rows["velocity"][1], rows["turning"][2]];
+        let Walk { speed, turn } = self.walk;
+        let moves = |v: [f64; 3]| (v[0].abs() + v[1].abs()) / speed + v[2].abs() / turn;
+        if moves(self.now) > STILL || moves(measured) > 0.5 {
+            self.steps.advance(velocity, measured, dt);
+        } else {
+            self.steps.restart();
+        }
+        self.places.clone_from_slice(self.steps.places());
+        let wanted = rows.get("height_command").map_or(self.height, |row| row[0]);
+        let most = MOST * self.height;
+        self.raised = (self.raised + RAISE * (wanted - rows["height"][0])).clamp(-most, most);
+        let [ahead, left, _] = [rows["up"][0], rows["up"][1], rows["up"][2]];
+        let lowered = |&[x, y, z]: &Vec3| {
+            let level = LEVEL * (ahead * x + left * y);
+            back([x, y, z + self.height - wanted - self.raised + level], self.forward)
+        };
+        let feet: Vec<Vec3> = self.places.iter().map(lowered).collect();
+        self.legs.solve(&env.scene().model, &feet, dt, &mut self.controls);
+        command(env, &self.controls, action)
+    }
+}
+
+/// A vector of the root's frame in the frame whose first axis is `forward`.
+fn turned([x, y, z]: Vec3, [c, s, _]: Vec3) -> Vec3 {
+    [c * x + s * y, c * y - s * x, z]
+}
+
+/// The inverse of [`turned`].
+fn back([x, y, z]: Vec3, [c, s, _]: Vec3) -> Vec3 {
+    [c * x - s * y, s * x + c * y, z]
+}
+
+/// The wish of a task: forward, to the left \[m/s\], counterclockwise \[rad/s\].
+fn wish(task: &str) -> Wish {
+    match task {
+        "velocity" => |rows, _| [rows["command"][0], rows["command"][1], rows["command"][2]],
+        "turn" => |rows, walk| [0.0, 0.0, walk.turn * (2.0 * rows["direction_error"][0]).clamp(-1.0, 1.0)],
+        "walk_to" => |rows, walk| {
+            let [ahead, left] = [rows["target_error"][0], rows["target_error"][1]];
+            let angle = ops::angle(left, ahead);
+            let near = (ahead * ahead + left * left).sqrt() / walk.speed;
+            [
+                walk.speed * (1.0 - angle.abs()).clamp(0.0, 1.0) * near.min(1.0),
+                0.0,
+                walk.turn * (2.0 * angle).clamp(-1.0, 1.0),
+            ]
+        },
+        _ => |_, _| [0.0; 3],
+    }
+}
