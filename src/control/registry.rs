@@ -37,7 +37,7 @@ const ALL: &[Entry] = &[
     Entry {
         name: "trot",
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
-        serves: &["stand", "turn", "velocity", "walk_to"],
+        serves: &["chase", "push_box", "stand", "turn", "velocity", "walk_to", "weave"],
         build: |env| Ok(Box::new(tasks::locomotion::trot::Trot::new(env)?)),
     },
 ];

@@ -2,3 +2,4 @@
 
 mod legs;
 pub mod trot;
+mod wish;

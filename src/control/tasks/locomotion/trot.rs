@@ -1,11 +1,12 @@
 //! A trot that follows a command: Raibert's steps, legs by inverse kinematics, height and level kept by what the body lacks of them.
 
 use super::legs::Legs;
+use super::wish::{Facts, Wish, wish};
 use crate::controller::{Controller, command};
 use crate::error::ControlError;
 use crate::maths::{Gait, Steps};
 use env::{Env, Rows};
-use physics::math::{Vec3, ops};
+use physics::math::Vec3;
 use robot::{Roles, Walk};
 
 /// Period of the gait in times of a fall from the height of the root, sqrt(h/g).
@@ -26,9 +27,6 @@ const MOST: f64 = 0.5;
 const RAMP: f64 = 2.0;
 /// Share of the walking speed below which the body stands.
 const STILL: f64 = 0.02;
-
-/// What a task asks of the body.
-type Wish = fn(&Rows, &Walk) -> [f64; 3];
 
 /// The controller.
 pub struct Trot {
@@ -91,7 +89,8 @@ impl Trot {
     /// Velocity that the feet are to follow: the wish, approached at a limited rate, with what the body lacked of it.
     fn follow(&mut self, rows: &Rows, dt: f64) -> [f64; 3] {
         let Walk { speed, turn } = self.walk;
-        let (wanted, most) = ((self.wish)(rows, &self.walk), [speed, speed, turn]);
+        let (wanted, most) =
+            ((self.wish)(&Facts { rows, walk: self.walk, height: self.height }), [speed, speed, turn]);
         let measured = [rows["velocity"][0], rows["velocity"][1], rows["turning"][2]];
         for i in 0..3 {
             let step = RAMP * most[i] * dt;
@@ -145,23 +144,4 @@ fn turned([x, y, z]: Vec3, [c, s, _]: Vec3) -> Vec3 {
 /// The inverse of [`turned`].
 fn back([x, y, z]: Vec3, [c, s, _]: Vec3) -> Vec3 {
     [c * x - s * y, s * x + c * y, z]
-}
-
-/// The wish of a task: forward, to the left \[m/s\], counterclockwise \[rad/s\].
-fn wish(task: &str) -> Wish {
-    match task {
-        "velocity" => |rows, _| [rows["command"][0], rows["command"][1], rows["command"][2]],
-        "turn" => |rows, walk| [0.0, 0.0, walk.turn * (2.0 * rows["direction_error"][0]).clamp(-1.0, 1.0)],
-        "walk_to" => |rows, walk| {
-            let [ahead, left] = [rows["target_error"][0], rows["target_error"][1]];
-            let angle = ops::angle(left, ahead);
-            let near = (ahead * ahead + left * left).sqrt() / walk.speed;
-            [
-                walk.speed * (1.0 - angle.abs()).clamp(0.0, 1.0) * near.min(1.0),
-                0.0,
-                walk.turn * (2.0 * angle).clamp(-1.0, 1.0),
-            ]
-        },
-        _ => |_, _| [0.0; 3],
-    }
 }

@@ -10,12 +10,15 @@
 //! when the body has fallen, as its roles say. Terms of the reward and their weights follow MuJoCo Playground's joystick tasks
 //! (Zakka et al., "MuJoCo Playground", 2025, appendix), with a term that is 1 while the task is solved.
 
+pub mod chase;
 mod push;
+pub mod push_box;
 pub mod stand;
 pub mod turn;
 pub mod velocity;
 pub mod walk_to;
 mod walker;
+pub mod weave;
 
 /// Time steps of the physics in one step of the environment: 0.02 s at the arenas' 2 ms.
 const FRAME_SKIP: usize = 10;

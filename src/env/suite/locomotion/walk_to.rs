@@ -88,10 +88,7 @@ impl Task for WalkTo {
 
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         let posture = self.walker.observe(view, rows);
-        let there = view.data.site(self.target).xpos();
-        let [x, y] = [there[0] - posture.place[0], there[1] - posture.place[1]];
-        let [c, s] = posture.ahead;
-        rows.set("target_error", "m", [c * x + s * y, c * y - s * x]);
+        rows.set("target_error", "m", posture.towards(view.data.site(self.target).xpos()));
     }
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {

@@ -67,6 +67,15 @@ pub struct Posture {
     pub turning: Vec3,
 }
 
+impl Posture {
+    /// Where a point is in the frame of the heading: forward, left \[m\].
+    pub fn towards(&self, point: &Vec3) -> [f64; 2] {
+        let [x, y] = [point[0] - self.place[0], point[1] - self.place[1]];
+        let [c, s] = self.ahead;
+        [c * x + s * y, c * y - s * x]
+    }
+}
+
 impl Walker {
     /// Rows that every task observes.
     pub const ROWS: [&str; 8] =
@@ -112,6 +121,11 @@ impl Walker {
     /// Direction that the body looks in at the start, in the plane of the ground, of length 1.
     pub fn ahead_at_start(&self) -> [f64; 2] {
         self.ahead
+    }
+
+    /// Mass of the body \[kg\].
+    pub fn mass(&self, m: &Model) -> f64 {
+        m.body_subtreemass[m.body_rootid[self.root.index()] as usize]
     }
 
     /// The standing pose as initial one.
