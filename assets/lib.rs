@@ -16,6 +16,7 @@
 mod adroit;
 mod allegro;
 mod bones;
+mod darwin;
 mod dclaw;
 mod dkitty;
 mod dmanus;
@@ -51,6 +52,7 @@ const TEXTS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/texts.rs"));
 const MESHES: &[(&str, &[Shape])] = &[
     ("adroit/", adroit::MESHES),
     ("allegro/", allegro::MESHES),
+    ("darwin/", darwin::MESHES),
     ("dclaw/", dclaw::MESHES),
     ("dkitty/", dkitty::MESHES),
     ("dmanus/", dmanus::MESHES),
