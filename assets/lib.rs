@@ -15,6 +15,7 @@
 
 mod adroit;
 mod allegro;
+mod atlas;
 mod bones;
 mod darwin;
 mod dclaw;
@@ -52,6 +53,7 @@ const TEXTS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/texts.rs"));
 const MESHES: &[(&str, &[Shape])] = &[
     ("adroit/", adroit::MESHES),
     ("allegro/", allegro::MESHES),
+    ("atlas/", atlas::MESHES),
     ("darwin/", darwin::MESHES),
     ("dclaw/", dclaw::MESHES),
     ("dkitty/", dkitty::MESHES),

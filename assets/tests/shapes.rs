@@ -10,6 +10,7 @@ use physics::model::GeomType;
 const MOST: &[(&str, usize)] = &[
     ("adroit/robot.xml", 10_000),
     ("allegro/robot.xml", 3000),
+    ("atlas/robot.xml", 3000),
     ("darwin/robot.xml", 3000),
     ("dclaw/robot.xml", 6000),
     ("dkitty/robot.xml", 6000),
