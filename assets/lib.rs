@@ -16,6 +16,7 @@
 mod adroit;
 mod allegro;
 mod atlas;
+mod arms;
 mod bones;
 mod darwin;
 mod dclaw;
@@ -32,6 +33,7 @@ mod myofinger;
 mod myohand;
 mod panda;
 mod robotiq;
+mod sawyer;
 mod shadow;
 mod shape;
 mod so101;
@@ -66,6 +68,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("myohand/", myohand::MESHES),
     ("panda/", panda::MESHES),
     ("robotiq/", robotiq::MESHES),
+    ("sawyer/", sawyer::MESHES),
     ("shadow/", shadow::MESHES),
     ("so101/", so101::MESHES),
     ("spot/", spot::MESHES),

@@ -1,7 +1,8 @@
 //! What the links of the Panda look like, each in the frame of its body \[m\]. White shells end in drums round the joints; caps, rings
 //! and fingers are dark. Widths are judged from photographs: only the places of the joints are the maker's.
 
-use workshop::{Mesh, Profile, Station, Vec3, cylinder, extrude, revolve, rounded_box, sweep};
+use crate::arms;
+use workshop::{Mesh, Profile, Vec3, cylinder, extrude, rounded_box};
 
 /// Steps round a drum.
 const ROUND: usize = 20;
@@ -10,24 +11,12 @@ const DRUM: f64 = 0.061;
 /// Radius of the tubes between them \[m\].
 const TUBE: f64 = 0.054;
 
-/// A tube along a path: places, and the half widths of its section across the path.
 fn tube(path: &[(Vec3, [f64; 2])]) -> Mesh {
-    let stations: Vec<_> = path.iter().map(|(at, size)| Station { at: *at, size: *size }).collect();
-    sweep(&Profile::superellipse([1.0, 1.0], 2.2, ROUND), &stations)
+    arms::tube(path, ROUND)
 }
 
-/// A drum about an axis through `centre`, from `low` to `high` along it, with softly rounded rims.
-fn drum(radius: f64, axis: Vec3, centre: Vec3, [low, high]: [f64; 2]) -> Mesh {
-    let soft = 0.18 * radius;
-    let line = [
-        [0.0, low],
-        [radius - soft, low],
-        [radius, low + soft],
-        [radius, high - soft],
-        [radius - soft, high],
-        [0.0, high],
-    ];
-    revolve(&line, ROUND).along(axis, centre)
+fn drum(radius: f64, axis: Vec3, centre: Vec3, heights: [f64; 2]) -> Mesh {
+    arms::drum(radius, axis, centre, heights, ROUND)
 }
 
 /// A dark disc on the end of a drum.
