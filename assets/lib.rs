@@ -20,6 +20,7 @@ mod arms;
 mod bones;
 mod darwin;
 mod dclaw;
+mod dhand;
 mod dkitty;
 mod dmanus;
 mod dynamixel;
@@ -58,6 +59,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("atlas/", atlas::MESHES),
     ("darwin/", darwin::MESHES),
     ("dclaw/", dclaw::MESHES),
+    ("dhand/", dhand::MESHES),
     ("dkitty/", dkitty::MESHES),
     ("dmanus/", dmanus::MESHES),
     ("fetch/", fetch::MESHES),

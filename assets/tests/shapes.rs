@@ -9,11 +9,13 @@ use physics::model::GeomType;
 /// Models, and the triangles that their meshes may have together, copies counted.
 const MOST: &[(&str, usize)] = &[
 const MOST: [(&str, usize); 14] = [
+const MOST: [(&str, usize); 15] = [
     ("adroit/robot.xml", 10_000),
     ("allegro/robot.xml", 3000),
     ("atlas/robot.xml", 3000),
     ("darwin/robot.xml", 3000),
     ("dclaw/robot.xml", 6000),
+    ("dhand/robot.xml", 3000),
     ("dkitty/robot.xml", 6000),
     ("dmanus/hand.xml", 5000),
     ("fetch/robot.xml", 6000),
