@@ -19,6 +19,7 @@ mod atlas;
 mod arms;
 mod bones;
 mod darwin;
+mod car;
 mod dclaw;
 mod dhand;
 mod dkitty;
@@ -27,6 +28,7 @@ mod dynamixel;
 mod fetch;
 mod fingers;
 mod hand;
+mod hopper;
 mod kitchen;
 mod minicheetah;
 mod myoelbow;
@@ -37,6 +39,7 @@ mod robotiq;
 mod sawyer;
 mod shadow;
 mod shape;
+mod snake;
 mod so101;
 mod spot;
 mod trifinger;
@@ -58,11 +61,13 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("allegro/", allegro::MESHES),
     ("atlas/", atlas::MESHES),
     ("darwin/", darwin::MESHES),
+    ("car/", car::MESHES),
     ("dclaw/", dclaw::MESHES),
     ("dhand/", dhand::MESHES),
     ("dkitty/", dkitty::MESHES),
     ("dmanus/", dmanus::MESHES),
     ("fetch/", fetch::MESHES),
+    ("hopper/", hopper::MESHES),
     ("kitchen/", kitchen::MESHES),
     ("minicheetah/", minicheetah::MESHES),
     ("myoelbow/", myoelbow::MESHES),
@@ -72,6 +77,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("robotiq/", robotiq::MESHES),
     ("sawyer/", sawyer::MESHES),
     ("shadow/", shadow::MESHES),
+    ("snake/", snake::MESHES),
     ("so101/", so101::MESHES),
     ("spot/", spot::MESHES),
     ("trifinger/", trifinger::MESHES),
