@@ -34,6 +34,7 @@ mod minicheetah;
 mod myoelbow;
 mod myofinger;
 mod myohand;
+mod myolegs;
 mod panda;
 mod robotiq;
 mod sawyer;
@@ -73,6 +74,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("myoelbow/", myoelbow::MESHES),
     ("myofinger/", myofinger::MESHES),
     ("myohand/", myohand::MESHES),
+    ("myolegs/", myolegs::MESHES),
     ("panda/", panda::MESHES),
     ("robotiq/", robotiq::MESHES),
     ("sawyer/", sawyer::MESHES),

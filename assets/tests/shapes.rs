@@ -10,6 +10,7 @@ use physics::model::GeomType;
 const MOST: &[(&str, usize)] = &[
 const MOST: [(&str, usize); 14] = [
 const MOST: [(&str, usize); 15] = [
+const MOST: [(&str, usize); 12] = [
     ("adroit/robot.xml", 10_000),
     ("allegro/robot.xml", 3000),
     ("atlas/robot.xml", 3000),
@@ -28,6 +29,7 @@ const MOST: [(&str, usize); 15] = [
     ("myoelbow/robot.xml", 8500),
     ("myofinger/robot.xml", 3500),
     ("myohand/robot.xml", 3000),
+    ("myolegs/robot.xml", 9500),
     ("panda/robot.xml", 5500),
     ("robotiq/gripper.xml", 4500),
     ("sawyer/robot.xml", 3000),

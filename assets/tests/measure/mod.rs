@@ -3,6 +3,7 @@
 
 pub mod grips;
 pub mod legs;
+pub mod coupled;
 pub mod muscles;
 
 use mjcf::Loader;

@@ -5,6 +5,7 @@ use physics::elements::BodyId;
 use physics::math::{add_scaled, cross, dot, mul_mat_t_vec, sub};
 use physics::{Data, Model, forward};
 use std::f64::consts::PI;
+use std::ops::Range;
 use workshop::Mesh;
 
 /// A bone: its name, the body that it is on, and its surface in that body's frame.
@@ -26,7 +27,11 @@ fn tendon(m: &Model, actuator: usize) -> usize {
 
 /// Moment arms of all actuators about a degree of freedom \[m\]: positive where a pull moves the joint to larger angles.
 pub fn arms(m: &Model, pose: &[f64], dof: usize) -> Vec<f64> {
-    let d = flexed(m, pose, &vec![0.0; m.na]);
+    arms_in(m, &flexed(m, pose, &vec![0.0; m.na]), dof)
+}
+
+/// The same where a model is.
+pub fn arms_in(m: &Model, d: &Data, dof: usize) -> Vec<f64> {
     let arm = |actuator| {
         let tendon = tendon(m, actuator);
         let start = m.ten_J_rowadr[tendon] as usize;
@@ -98,10 +103,21 @@ fn points(m: &Model, d: &Data, muscle: usize, near: f64) -> Vec<[f64; 3]> {
 
 /// Asserts that at these poses no muscle passes through a bone, and returns how many points were looked at.
 pub fn stay_outside(m: &Model, bones: &[Bone], near: f64, poses: &[Vec<f64>]) -> usize {
+    some_stay_outside(m, 0..m.nu, bones, near, poses)
+}
+
+/// The same of some muscles.
+pub fn some_stay_outside(
+    m: &Model,
+    muscles: Range<usize>,
+    bones: &[Bone],
+    near: f64,
+    poses: &[Vec<f64>],
+) -> usize {
     let mut looked = 0;
     for pose in poses {
         let d = flexed(m, pose, &vec![0.0; m.na]);
-        for muscle in 0..m.nu {
+        for muscle in muscles.clone() {
             for point in points(m, &d, muscle, near) {
                 for (name, body, mesh) in bones {
                     let local = mul_mat_t_vec(d.body(*body).xmat(), sub(point, *d.body(*body).xpos()));
