@@ -15,11 +15,11 @@
 
 mod adroit;
 mod allegro;
-mod atlas;
 mod arms;
+mod atlas;
 mod bones;
-mod darwin;
 mod car;
+mod darwin;
 mod dclaw;
 mod dhand;
 mod dkitty;
@@ -31,6 +31,7 @@ mod hand;
 mod hopper;
 mod kitchen;
 mod minicheetah;
+mod myoarm;
 mod myoelbow;
 mod myofinger;
 mod myohand;
@@ -61,8 +62,8 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("adroit/", adroit::MESHES),
     ("allegro/", allegro::MESHES),
     ("atlas/", atlas::MESHES),
-    ("darwin/", darwin::MESHES),
     ("car/", car::MESHES),
+    ("darwin/", darwin::MESHES),
     ("dclaw/", dclaw::MESHES),
     ("dhand/", dhand::MESHES),
     ("dkitty/", dkitty::MESHES),
@@ -71,6 +72,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("hopper/", hopper::MESHES),
     ("kitchen/", kitchen::MESHES),
     ("minicheetah/", minicheetah::MESHES),
+    ("myoarm/", myoarm::MESHES),
     ("myoelbow/", myoelbow::MESHES),
     ("myofinger/", myofinger::MESHES),
     ("myohand/", myohand::MESHES),

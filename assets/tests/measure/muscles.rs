@@ -32,11 +32,18 @@ pub fn arms(m: &Model, pose: &[f64], dof: usize) -> Vec<f64> {
 
 /// The same where a model is.
 pub fn arms_in(m: &Model, d: &Data, dof: usize) -> Vec<f64> {
+    let mut motion = vec![0.0; m.nv];
+    motion[dof] = 1.0;
+    arms_along(m, d, &motion)
+}
+
+/// Moment arms of all actuators, where a model is, about a motion of several joints, given by the speed of each degree of freedom \[m\].
+pub fn arms_along(m: &Model, d: &Data, motion: &[f64]) -> Vec<f64> {
     let arm = |actuator| {
         let tendon = tendon(m, actuator);
         let start = m.ten_J_rowadr[tendon] as usize;
         let row = start..start + m.ten_J_rownnz[tendon] as usize;
-        row.filter(|i| m.ten_J_colind[*i] as usize == dof).map(|i| -d.ten.ten_J[i]).sum()
+        row.map(|i| -d.ten.ten_J[i] * motion[m.ten_J_colind[i] as usize]).sum()
     };
     (0..m.nu).map(arm).collect()
 }
