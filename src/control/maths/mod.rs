@@ -1,10 +1,27 @@
 //! Methods of control, a file for each: models, states and numbers in, motions and controls out. None of them knows an
 //! environment.
 
+/// A matrix, row after row.
+#[cfg(test)]
+macro_rules! dmatrix {
+    ($($($x:expr),+);+) => {{
+        let rows = [$([$($x),+]),+];
+        nalgebra::DMatrix::from_row_slice(rows.len(), rows[0].len(), rows.as_flattened())
+    }};
+}
+
 mod gait;
+mod ilqr;
 mod minimum_jerk;
 mod no_solution;
+mod riccati;
+mod sampling;
+mod simulated;
 
 pub use gait::{Gait, Steps};
-pub use minimum_jerk::MinimumJerk;
+pub use ilqr::{Dynamics, Ilqr, Plan, Quadratic};
+pub use minimum_jerk::{Boundary, MinimumJerk};
 pub use no_solution::NoSolution;
+pub use riccati::{Regulator, continuous, discrete};
+pub use sampling::{Method, Sampler, Settings};
+pub use simulated::{Simulated, linearise};
