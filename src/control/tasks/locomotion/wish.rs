@@ -10,7 +10,11 @@ const PASS: f64 = 1.7;
 /// Distance of the root behind a box from which the box is pushed.
 const BEHIND: f64 = 2.2;
 /// Distance of the root from the line of pushing within which it pushes on.
-const ALIGNED: f64 = 0.3;
+const ALIGNED: f64 = 0.5;
+/// Distance of the box from its place at which the body stops.
+const THERE: f64 = 0.3;
+/// Velocity to the side at that distance, as a share of the walking speed.
+const SIDESTEP: f64 = 0.4;
 
 /// What a wish is made of.
 pub struct Facts<'a> {
@@ -33,9 +37,12 @@ pub fn wish(task: &str) -> Wish {
             let error = facts.rows["direction_error"][0];
             [0.0, 0.0, facts.walk.turn * (2.0 * error).clamp(-1.0, 1.0)]
         },
-        "walk_to" | "chase" => |facts| facts.towards(facts.point("target_error")),
-        "weave" => |facts| facts.towards(facts.around()),
-        "push_box" => |facts| facts.towards(facts.behind()),
+        "walk_to" | "chase" => |facts| {
+            let target = facts.point("target_error");
+            facts.towards(target, length(target))
+        },
+        "weave" => |facts| facts.towards(facts.around(), length(facts.point("target_error"))),
+        "push_box" => |facts| facts.push(),
         _ => |_| [0.0; 3],
     }
 }
@@ -45,11 +52,12 @@ impl Facts<'_> {
         [self.rows[row][0], self.rows[row][1]]
     }
 
-    /// The velocity that brings the body to a point: it turns, and walks as far as it looks there.
-    fn towards(&self, point: [f64; 2]) -> [f64; 3] {
+    /// The velocity that brings the body towards a point: it turns, walks as far as it looks there, and slows down where it is `far`
+    /// from the end of its way no more \[m\].
+    fn towards(&self, point: [f64; 2], far: f64) -> [f64; 3] {
         let Walk { speed, turn } = self.walk;
         let angle = ops::angle(point[1], point[0]);
-        let pace = speed * (1.0 - angle.abs()).clamp(0.0, 1.0) * (length(point) / speed).min(1.0);
+        let pace = speed * (1.0 - angle.abs()).clamp(0.0, 1.0) * (far / speed).min(1.0);
         [pace, 0.0, turn * (2.0 * angle).clamp(-1.0, 1.0)]
     }
 
@@ -67,23 +75,27 @@ impl Facts<'_> {
         [x * along - y * side, y * along + x * side]
     }
 
-    /// The target, with the box before the body; else a point behind the box, or beside it on the way there.
-    fn behind(&self) -> [f64; 2] {
+    /// Towards the target, with the box before the body; else to a point behind the box, or beside it on the way there.
+    fn push(&self) -> [f64; 3] {
         let (load, target) = (self.point("box_error"), self.point("target_error"));
         let way = [target[0] - load[0], target[1] - load[1]];
         let far = length(way);
+        if far < THERE * self.height {
+            return [0.0; 3];
+        }
         let [x, y] = way.map(|part| part / far);
         // The body from the box, along the line of pushing and to the left of it.
-        let (along, left) = (-(x * load[0] + y * load[1]), x * -load[1] + y * load[0]);
+        let (along, left) = (-(x * load[0] + y * load[1]), y * load[0] - x * load[1]);
         let point = |along: f64, left: f64| [load[0] + x * along - y * left, load[1] + y * along + x * left];
         let behind = -BEHIND * self.height;
         if along < 0.0 && left.abs() < ALIGNED * self.height {
-            return target;
+            // Sidesteps to the line, looking along it.
+            let [pace, _, round] = self.towards(way, far);
+            let aside = (-left / (ALIGNED * self.height)).clamp(-1.0, 1.0);
+            return [pace, SIDESTEP * self.walk.speed * aside, round];
         }
-        if along < 0.7 * behind {
-            return point(behind, 0.0);
-        }
-        point(behind, BEHIND * self.height * left.signum())
+        let beside = if along < 0.7 * behind { 0.0 } else { -behind * left.signum() };
+        self.towards(point(behind, beside), self.walk.speed)
     }
 }
 

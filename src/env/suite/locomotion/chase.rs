@@ -84,7 +84,7 @@ impl Chase {
 impl Task for Chase {
     fn defaults(&self) -> Defaults {
         let weights =
-            [("distance", 1.0), ("heading", 0.5), ("upright", 0.5), ("solved", 2.0), ("fallen", 10.0)];
+            [("distance", 1.0), ("heading", 0.5), ("upright", 0.5), ("bonus", 2.0), ("fallen", 10.0)];
         let rows = [&Walker::ROWS[..], &["target_error"]].concat();
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
         Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
@@ -130,7 +130,7 @@ impl Task for Chase {
         terms.set("distance", "m", [-distance]);
         terms.set("heading", "", [if solved { 1.0 } else { error[0] / distance }]);
         terms.set("upright", "", [up]);
-        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("bonus", "", [f64::from(solved)]);
         terms.set("fallen", "", [-f64::from(fallen)]);
         Verdict { sparse: f64::from(solved), solved, done: fallen }
     }

@@ -91,8 +91,7 @@ impl PushBox {
 
 impl Task for PushBox {
     fn defaults(&self) -> Defaults {
-        let weights =
-            [("distance", 1.0), ("reach", 0.5), ("upright", 0.5), ("solved", 2.0), ("fallen", 10.0)];
+        let weights = [("distance", 1.0), ("reach", 0.5), ("upright", 0.5), ("bonus", 2.0), ("fallen", 10.0)];
         let rows = [&Walker::ROWS[..], &["box_error", "target_error"]].concat();
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
         Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
@@ -134,7 +133,7 @@ impl Task for PushBox {
         terms.set("distance", "m", [-distance]);
         terms.set("reach", "m", [-norm(load)]);
         terms.set("upright", "", [up]);
-        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("bonus", "", [f64::from(solved)]);
         terms.set("fallen", "", [-f64::from(fallen)]);
         Verdict { sparse: f64::from(solved), solved, done: fallen }
     }

@@ -65,7 +65,7 @@ impl Stand {
 
 impl Task for Stand {
     fn defaults(&self) -> Defaults {
-        let weights = [("height", 1.0), ("upright", 1.0), ("still", 0.2), ("solved", 1.0), ("fallen", 10.0)];
+        let weights = [("height", 1.0), ("upright", 1.0), ("still", 0.2), ("bonus", 1.0), ("fallen", 10.0)];
         let rows = [&Walker::ROWS[..], &["height_command"]].concat();
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
         Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
@@ -102,7 +102,7 @@ impl Task for Stand {
         terms.set("height", "", [-off]);
         terms.set("upright", "", [upright]);
         terms.set("still", "m/s", [-norm(&rows["velocity"][..2])]);
-        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("bonus", "", [f64::from(solved)]);
         terms.set("fallen", "", [-f64::from(fallen)]);
         Verdict { sparse: f64::from(solved), solved, done: fallen }
     }

@@ -55,8 +55,7 @@ impl Turn {
 
 impl Task for Turn {
     fn defaults(&self) -> Defaults {
-        let weights =
-            [("direction", 1.0), ("upright", 0.5), ("away", 0.5), ("solved", 1.0), ("fallen", 10.0)];
+        let weights = [("direction", 1.0), ("upright", 0.5), ("away", 0.5), ("bonus", 1.0), ("fallen", 10.0)];
         let rows = [&Walker::ROWS[..], &["direction_error", "away"]].concat();
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
         Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
@@ -98,7 +97,7 @@ impl Task for Turn {
         terms.set("direction", "rad", [-error]);
         terms.set("upright", "", [up]);
         terms.set("away", "m", [-away]);
-        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("bonus", "", [f64::from(solved)]);
         terms.set("fallen", "", [-f64::from(fallen)]);
         Verdict { sparse: f64::from(solved), solved, done: fallen }
     }

@@ -83,7 +83,7 @@ impl Velocity {
 
 impl Task for Velocity {
     fn defaults(&self) -> Defaults {
-        let weights = [("speed", 1.0), ("turning", 0.5), ("upright", 0.5), ("solved", 1.0), ("fallen", 10.0)];
+        let weights = [("speed", 1.0), ("turning", 0.5), ("upright", 0.5), ("bonus", 1.0), ("fallen", 10.0)];
         let rows = [&Walker::ROWS[..], &["command", "mean_velocity"]].concat();
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
         Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
@@ -129,7 +129,7 @@ impl Task for Velocity {
         terms.set("speed", "", [tracking(off, self.near[0])]);
         terms.set("turning", "", [tracking(twist, self.near[1])]);
         terms.set("upright", "", [up]);
-        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("bonus", "", [f64::from(solved)]);
         terms.set("fallen", "", [-f64::from(fallen)]);
         Verdict { sparse: f64::from(solved), solved, done: fallen }
     }

@@ -62,7 +62,7 @@ impl WalkTo {
 impl Task for WalkTo {
     fn defaults(&self) -> Defaults {
         let weights =
-            [("distance", 1.0), ("heading", 0.5), ("upright", 0.5), ("solved", 2.0), ("fallen", 10.0)];
+            [("distance", 1.0), ("heading", 0.5), ("upright", 0.5), ("bonus", 2.0), ("fallen", 10.0)];
         let rows = [&Walker::ROWS[..], &["target_error"]].concat();
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
         Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
@@ -99,7 +99,7 @@ impl Task for WalkTo {
         terms.set("distance", "m", [-distance]);
         terms.set("heading", "", [if solved { 1.0 } else { error[0] / distance }]);
         terms.set("upright", "", [up]);
-        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("bonus", "", [f64::from(solved)]);
         terms.set("fallen", "", [-f64::from(fallen)]);
         Verdict { sparse: f64::from(solved), solved, done: fallen }
     }

@@ -75,8 +75,7 @@ impl Weave {
 
 impl Task for Weave {
     fn defaults(&self) -> Defaults {
-        let weights =
-            [("distance", 1.0), ("upright", 0.5), ("touch", 5.0), ("solved", 2.0), ("fallen", 10.0)];
+        let weights = [("distance", 1.0), ("upright", 0.5), ("touch", 5.0), ("bonus", 2.0), ("fallen", 10.0)];
         let rows = [&Walker::ROWS[..], &["target_error", "posts"]].concat();
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
         Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
@@ -122,7 +121,7 @@ impl Task for Weave {
         terms.set("distance", "m", [-distance]);
         terms.set("upright", "", [up]);
         terms.set("touch", "", [-f64::from(touches)]);
-        terms.set("solved", "", [f64::from(solved)]);
+        terms.set("bonus", "", [f64::from(solved)]);
         terms.set("fallen", "", [-f64::from(fallen)]);
         Verdict { sparse: f64::from(solved), solved, done: fallen || touches }
     }
