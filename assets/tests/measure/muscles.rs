@@ -84,8 +84,8 @@ fn winding(mesh: &Mesh, point: [f64; 3]) -> f64 {
     solid.sum::<f64>() / (4.0 * PI)
 }
 
-fn inside(mesh: &Mesh, point: [f64; 3]) -> bool {
-    let [low, high] = mesh.bounds();
+/// Whether a point is in a surface, whose lowest and highest coordinates are given.
+fn inside(mesh: &Mesh, [low, high]: &[[f64; 3]; 2], point: [f64; 3]) -> bool {
     (0..3).all(|axis| low[axis] < point[axis] && point[axis] < high[axis]) && winding(mesh, point) > 0.5
 }
 
@@ -121,14 +121,18 @@ pub fn some_stay_outside(
     near: f64,
     poses: &[Vec<f64>],
 ) -> usize {
+    let bounds: Vec<_> = bones.iter().map(|(.., mesh)| mesh.bounds()).collect();
     let mut looked = 0;
     for pose in poses {
         let d = flexed(m, pose, &vec![0.0; m.na]);
         for muscle in muscles.clone() {
             for point in points(m, &d, muscle, near) {
-                for (name, body, mesh) in bones {
+                for ((name, body, mesh), bounds) in bones.iter().zip(&bounds) {
                     let local = mul_mat_t_vec(d.body(*body).xmat(), sub(point, *d.body(*body).xpos()));
-                    assert!(!inside(mesh, local), "muscle {muscle} in the {name} at {pose:?}: {local:?}");
+                    assert!(
+                        !inside(mesh, bounds, local),
+                        "muscle {muscle} in the {name} at {pose:?}: {local:?}"
+                    );
                     looked += 1;
                 }
             }
