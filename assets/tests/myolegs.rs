@@ -3,6 +3,7 @@
 
 mod measure;
 
+use measure::balance::{Spring, stand};
 use measure::coupled::{arms_about, pose, torque_about};
 use measure::muscles::{bone, flexed, some_stay_outside};
 use physics::Model;
@@ -198,4 +199,24 @@ fn muscles_go_round_bones() {
     ];
     let looked = some_stay_outside(&m, 0..m.nu / 2, &bones, 0.02, &poses);
     assert!(looked > 50_000, "{looked}");
+}
+
+/// Springs that hold a standing body.
+const SPRINGS: [Spring; 7] = [
+    ("hip_flexion", 600.0, 30.0),
+    ("hip_adduction", 600.0, 30.0),
+    ("hip_rotation", 150.0, 30.0),
+    ("knee_angle", 600.0, 30.0),
+    ("ankle_angle", 500.0, 30.0),
+    ("subtalar_angle", 100.0, 10.0),
+    ("mtp_angle", 20.0, 3.0),
+];
+
+/// Muscles alone hold the body up, free to fall, with bent knees, under one and a half times its weight.
+#[test]
+fn legs_carry_more_than_the_body() {
+    let heavy = "<mujoco><include file='myolegs/scene.xml'/><option gravity='0 0 -14.715'/></mujoco>";
+    let (moved, most) = stand(&measure::scene(heavy), &SPRINGS, 3.0);
+    println!("pelvis moved by {:.1} mm in 3 s, largest activation {most:.2}", moved * 1e3);
+    assert!(moved < 0.02, "{moved:.3} m");
 }

@@ -12,7 +12,7 @@ static OURS: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
 });
 
 /// Settings that name files.
-const FILES: [&str; 2] = ["model_path", "config_path"];
+const FILES: [&str; 3] = ["model_path", "config_path", "relief"];
 
 /// The twin of an id on our own model; `None` where we have none for it, and where networks encode its images, since their weights have to
 /// be downloaded.

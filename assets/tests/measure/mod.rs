@@ -1,6 +1,7 @@
 //! What robots are tried with: stands that hold them, and servos that are moved one by one.
 #![allow(dead_code, reason = "each test of a robot uses a part")]
 
+pub mod balance;
 pub mod coupled;
 pub mod grips;
 pub mod legs;

@@ -4,7 +4,6 @@ use super::run;
 use physics::elements::BodyId;
 use physics::math::{add_scaled, cross, dot, mul_mat_t_vec, sub};
 use physics::{Data, Model, forward};
-use std::f64::consts::PI;
 use std::ops::Range;
 use workshop::Mesh;
 
@@ -72,20 +71,31 @@ pub fn excite(m: &Model, d: &mut Data, excited: &[f64], seconds: f64) {
     run(m, d, seconds, |_| ());
 }
 
-/// How often a surface goes round a point: 0 outside, 1 inside (van Oosterom and Strackee, IEEE Transactions on Biomedical
-/// Engineering 30(2), 1983, for the solid angle of a triangle).
-fn winding(mesh: &Mesh, point: [f64; 3]) -> f64 {
-    let corners = mesh.faces().iter().map(|face| face.map(|vertex| sub(mesh.vertices()[vertex], point)));
-    let solid = corners.map(|[a, b, c]| {
-        let [la, lb, lc] = [a, b, c].map(|v| dot(v, v).sqrt());
-        let volume = dot(a, cross(b, c));
-        2.0 * volume.atan2(la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb)
+/// Where an edge passes a height y: its z there. Both faces at an edge get the same bits.
+fn passes([p, q]: [[f64; 3]; 2], y: f64) -> Option<f64> {
+    let [low, high] = if p[1] < q[1] { [p, q] } else { [q, p] };
+    let crossed = low[1] <= y && y < high[1];
+    crossed.then(|| low[2] + (high[2] - low[2]) * (y - low[1]) / (high[1] - low[1]))
+}
+
+/// How often a surface goes round a point: how often a ray along x leaves it, less how often it enters it.
+fn winding(mesh: &Mesh, [x, y, z]: [f64; 3]) -> f64 {
+    let corners = mesh.faces().iter().map(|face| face.map(|vertex| mesh.vertices()[vertex]));
+    let through = corners.filter_map(|[a, b, c]| {
+        let beyond =
+            [[a, b], [b, c], [c, a]].into_iter().filter_map(|edge| passes(edge, y)).filter(|at| z < *at);
+        if beyond.count() != 1 {
+            return None;
+        }
+        let normal = cross(sub(b, a), sub(c, a));
+        let hit = a[0] - (normal[1] * (y - a[1]) + normal[2] * (z - a[2])) / normal[0];
+        (hit > x).then(|| normal[0].signum())
     });
-    solid.sum::<f64>() / (4.0 * PI)
+    through.sum()
 }
 
 /// Whether a point is in a surface, whose lowest and highest coordinates are given.
-fn inside(mesh: &Mesh, [low, high]: &[[f64; 3]; 2], point: [f64; 3]) -> bool {
+fn inside(mesh: &Mesh, [low, high]: [[f64; 3]; 2], point: [f64; 3]) -> bool {
     (0..3).all(|axis| low[axis] < point[axis] && point[axis] < high[axis]) && winding(mesh, point) > 0.5
 }
 
@@ -130,7 +140,7 @@ pub fn some_stay_outside(
                 for ((name, body, mesh), bounds) in bones.iter().zip(&bounds) {
                     let local = mul_mat_t_vec(d.body(*body).xmat(), sub(point, *d.body(*body).xpos()));
                     assert!(
-                        !inside(mesh, bounds, local),
+                        !inside(mesh, *bounds, local),
                         "muscle {muscle} in the {name} at {pose:?}: {local:?}"
                     );
                     looked += 1;

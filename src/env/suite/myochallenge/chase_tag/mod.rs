@@ -2,6 +2,7 @@
 
 mod noise;
 mod opponent;
+mod relief;
 mod repeller;
 mod settings;
 mod start;

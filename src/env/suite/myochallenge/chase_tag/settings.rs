@@ -1,18 +1,16 @@
 //! The settings of tag.
 
 use super::opponent::OpponentArgs;
+use super::relief;
 use super::start::Start;
 use super::terrain::{self, Heights, Terrain};
 use crate::assets::Assets;
 use crate::task::Setup;
-use dataset::Array;
 use random::RandomState;
 use robot::Compat;
 use serde::Deserialize;
 use std::cmp::Ordering;
 
-/// The image of the relief, as the assets name it.
-const RELIEF: &str = "envs/myo/assets/myo_relief.npy";
 /// Farthest that the opponent can be asked to appear from the agent: always possible on its ground \[m\].
 const SPAWN_LIMIT: f64 = 5.0;
 /// Rounding that sums of probabilities may have.
@@ -32,6 +30,8 @@ pub struct Args {
     pub task_choice: Choice,
     /// What it walks on.
     pub terrain: Ground,
+    /// The file of the relief.
+    pub relief: String,
     /// Heights of hills \[m\].
     pub hills_range: [f64; 2],
     /// Heights of rough ground \[m\].
@@ -58,6 +58,7 @@ impl Default for Args {
             min_spawn_distance: 2.0,
             task_choice: Choice::Chase,
             terrain: Ground::Flat,
+            relief: "envs/myo/assets/myo_relief.npy".into(),
             hills_range: [0.0; 2],
             rough_range: [0.0; 2],
             relief_range: [0.0; 2],
@@ -143,11 +144,11 @@ impl Args {
         if m.hfield_nrow.first() != Some(&(side as i32)) || m.hfield_ncol.first() != Some(&(side as i32)) {
             return Err(format!("its model has no height field of {side} times {side} samples"));
         }
-        let image = Array::decode(&assets.read(RELIEF)?).map_err(|message| format!("{RELIEF}: {message}"))?;
+        let image = relief::image(&self.relief, assets)?;
         let heights = Heights { hills: self.hills_range, rough: self.rough_range, relief: self.relief_range };
         let placing = (setup.compat == Compat::RoboHive07).then(|| RandomState::new(0));
-        Terrain::new(heights, &image.values.to_f64(), placing)
+        Terrain::new(heights, &image, placing)
             .map(Some)
-            .map_err(|message| format!("{RELIEF}: {message}"))
+            .map_err(|message| format!("{}: {message}", self.relief))
     }
 }

@@ -15,7 +15,7 @@ pub const LENGTH: f64 = 12.0;
 /// Patches along each side.
 const PATCHES: usize = 3;
 /// Samples along each side of a patch; the last row and column of the ground belong to none.
-const PATCH: usize = SIDE / PATCHES;
+pub(super) const PATCH: usize = SIDE / PATCHES;
 /// Hilly patches at most.
 const HILLY_AT_MOST: usize = 2;
 /// Share of episodes with a relief.
