@@ -33,11 +33,14 @@ fn arm() -> Model {
     measure::own("myoarm/scene.xml")
 }
 
-/// How fast each joint turns when a coordinate does: collarbone and shoulder blade follow the elevation as the model's equalities say,
-/// which the rows of the constraint give.
+/// How fast each joint turns when a coordinate does.
 fn motion(m: &Model, coordinate: usize) -> Vec<f64> {
     let names = ["elv_angle", "shoulder_elv", "shoulder_rot", "elbow_flexion", "pro_sup"];
-    let joint = m.joint(names[coordinate]).unwrap().index();
+    motion_of(m, m.joint(names[coordinate]).unwrap().index())
+}
+
+/// How fast each joint turns when one does, which others follow as the model's equalities say.
+fn motion_of(m: &Model, joint: usize) -> Vec<f64> {
     let mut motion = vec![0.0; m.nv];
     motion[joint] = 1.0;
     for equality in (0..m.neq).filter(|i| m.eq_obj2id[*i] as usize == joint) {
@@ -271,6 +274,88 @@ fn muscles_lift_and_bend_the_arm() {
     ["BIClong", "BICshort", "BRA"].iter().for_each(|name| excited[of(&m, name)] = 0.6);
     excite(&m, &mut d, &excited, 2.0);
     assert!(d.state.qpos[bent] > 0.8 * BENT * PI / 180.0, "{}", d.state.qpos[bent]);
+}
+
+/// The weakest activations, by least squares, with which muscles hold the arm of a pose against gravity.
+fn holding(m: &Model, pose: &[f64]) -> Vec<f64> {
+    let followers: Vec<usize> = (0..m.neq).map(|i| m.eq_obj1id[i] as usize).collect();
+    let free =
+        (0..m.body_dofadr[m.body("Object").unwrap().index()] as usize).filter(|i| !followers.contains(i));
+    let motions: Vec<Vec<f64>> = free.map(|joint| motion_of(m, joint)).collect();
+    let along = |force: &[f64]| -> Vec<f64> {
+        motions.iter().map(|motion| motion.iter().zip(force).map(|(a, b)| a * b).sum()).collect()
+    };
+    let mut act = vec![0.0; m.na];
+    let slack = flexed(m, pose, &act);
+    let lacking: Vec<f64> = slack
+        .vel
+        .qfrc_bias
+        .iter()
+        .zip(&slack.actuation.qfrc_actuator)
+        .map(|(bias, pull)| bias - pull)
+        .collect();
+    let mut lacking = along(&lacking);
+    let pulls: Vec<Vec<f64>> = (0..m.na)
+        .map(|muscle| {
+            act[muscle] = 1.0;
+            let pull = along(&flexed(m, pose, &act).actuation.qfrc_actuator);
+            act[muscle] = 0.0;
+            pull.iter().zip(along(&slack.actuation.qfrc_actuator)).map(|(a, b)| a - b).collect()
+        })
+        .collect();
+    // One muscle after another takes what it can of what is lacking.
+    for _ in 0..1000 {
+        for (muscle, pull) in pulls.iter().enumerate() {
+            let [dot, square] =
+                [&lacking, pull].map(|other| pull.iter().zip(other).map(|(a, b)| a * b).sum::<f64>());
+            let step = (dot - 4e-6 * act[muscle]) / (square + 4e-6);
+            let next = (act[muscle] + step).clamp(0.0, 1.0);
+            lacking.iter_mut().zip(pull).for_each(|(lacking, pull)| *lacking -= pull * (next - act[muscle]));
+            act[muscle] = next;
+        }
+    }
+    act
+}
+
+/// With constant activations, muscles hold the hand over the cube and drawn back, as the key frames of the task have it.
+#[test]
+fn muscles_hold_the_hand_over_the_cube() {
+    let m = measure::own("myoarm/tasks/relocate.xml");
+    for key in 0..2 {
+        let pose = &m.key_qpos[key * m.nq..(key + 1) * m.nq];
+        let act = holding(&m, pose);
+        let mut d = flexed(&m, pose, &act);
+        let palm = |d: &Data| *d.site(m.site("S_grasp").unwrap()).xpos();
+        let start = palm(&d);
+        excite(&m, &mut d, &act, 0.5);
+        let moved = palm(&d).iter().zip(start).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        let most = act.iter().copied().fold(0.0, f64::max);
+        println!("key frame {key}: largest activation {most:.2}, palm moves by {:.1} mm", 1e3 * moved);
+        assert!(most < 0.5 && moved < 0.01, "{key}: {most}, {moved}");
+    }
+}
+
+/// All muscles that lift, pulling at once, turn the arm held to the side or forward by four times what its weight does.
+#[test]
+fn the_shoulder_lifts_more_than_the_arm() {
+    let m = arm();
+    for plane in [0.0, 90.0] {
+        let pose = pose(&m, [plane, 90.0, 0.0, 17.0, 0.0]);
+        let about = |force: &[f64]| motion(&m, 1).iter().zip(force).map(|(a, b)| a * b).sum::<f64>();
+        let slack = flexed(&m, &pose, &vec![0.0; m.na]);
+        let weight = about(&slack.vel.qfrc_bias);
+        let pull = |muscle: usize| {
+            let mut act = vec![0.0; m.na];
+            act[muscle] = 1.0;
+            let pulled = about(&flexed(&m, &pose, &act).actuation.qfrc_actuator);
+            pulled - about(&slack.actuation.qfrc_actuator)
+        };
+        let pulls: Vec<f64> = (0..UPPER).map(pull).collect();
+        let [lift, lower] =
+            [1.0, -1.0].map(|sign| pulls.iter().map(|pull| (sign * pull).max(0.0)).sum::<f64>());
+        println!("plane {plane}: lift {lift:.0} N m, lower {lower:.0}, weight {weight:.1}");
+        assert!(lift > 4.0 * weight && lower > lift, "{plane}: {lift}, {lower}, {weight}");
+    }
 }
 
 /// Moment arms of the shoulder change steadily with the elevation, to the side and forward, up to 120 degrees. The bound is larger than
