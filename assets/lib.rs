@@ -31,6 +31,7 @@ mod hand;
 mod hopper;
 mod kitchen;
 mod minicheetah;
+mod mpl;
 mod myoarm;
 mod myoelbow;
 mod myofinger;
@@ -72,6 +73,7 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("hopper/", hopper::MESHES),
     ("kitchen/", kitchen::MESHES),
     ("minicheetah/", minicheetah::MESHES),
+    ("mpl/", mpl::MESHES),
     ("myoarm/", myoarm::MESHES),
     ("myoelbow/", myoelbow::MESHES),
     ("myofinger/", myofinger::MESHES),

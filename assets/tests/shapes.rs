@@ -21,6 +21,7 @@ const MOST: &[(&str, usize)] = &[
     ("hopper/robot.xml", 2500),
     ("kitchen/scene.xml", 14_000),
     ("minicheetah/robot.xml", 3000),
+    ("mpl/robot.xml", 3000),
     ("myoarm/robot.xml", 8500),
     ("myoelbow/robot.xml", 8500),
     ("myofinger/robot.xml", 3500),
