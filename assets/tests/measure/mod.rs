@@ -120,7 +120,17 @@ pub fn slip(m: &Model, d: &mut Data, height: f64, closing: f64) -> f64 {
     slip
 }
 
-/// Sends each servo of `pose` alone to one end of its joint and to the other, 8 s each, the others staying in `pose`, and returns the most that
+/// Steps until nothing moves by more than 1e-5 rad/s or m/s, for 8 s at most.
+fn settle(m: &Model, d: &mut Data) {
+    for _ in 0..16 {
+        run(m, d, 0.5, |_| ());
+        if d.state.qvel.iter().all(|speed| speed.abs() < 1e-5) {
+            return;
+        }
+    }
+}
+
+/// Sends each servo of `pose` alone to one end of its joint and to the other, at most 8 s each, the others staying in `pose`, and returns the most that
 /// a joint stays short of what it was told, as a share of its range, with the actuator's number.
 pub fn sweep(m: &Model, pose: &[f64]) -> (f64, usize) {
     let mut worst = (0.0, 0);
@@ -132,7 +142,7 @@ pub fn sweep(m: &Model, pose: &[f64]) -> (f64, usize) {
         let mut d = posed(m, pose);
         for goal in [low, high] {
             d.state.ctrl[actuator] = goal;
-            run(m, &mut d, 8.0, |_| ());
+            settle(m, &mut d);
             let short = (angle(m, &d, actuator) - goal).abs() / (high - low);
             if short > worst.0 {
                 worst = (short, actuator);
