@@ -37,6 +37,7 @@ mod myoelbow;
 mod myofinger;
 mod myohand;
 mod myolegs;
+mod objects;
 mod panda;
 mod robotiq;
 mod sawyer;
@@ -79,6 +80,12 @@ const MESHES: &[(&str, &[Shape])] = &[
     ("myofinger/", myofinger::MESHES),
     ("myohand/", myohand::MESHES),
     ("myolegs/", myolegs::MESHES),
+    ("objects/desk/", objects::DESK),
+    ("objects/gadgets/", objects::GADGETS),
+    ("objects/kitchen/", objects::KITCHEN),
+    ("objects/solids/", objects::SOLIDS),
+    ("objects/things/", objects::THINGS),
+    ("objects/toys/", objects::TOYS),
     ("panda/", panda::MESHES),
     ("robotiq/", robotiq::MESHES),
     ("sawyer/", sawyer::MESHES),

@@ -1,23 +1,16 @@
 //! What the car and its trailer look like \[m\]: a pick-up truck on a scale of about 1 to 10. The car's frame is on the ground in the
 //! middle of its rear axle, forward along x; the trailer's on the ground below its hitch, its axle behind it.
 
-use workshop::{Mesh, Profile, Vec3, cylinder, extrude, loft, revolve, rounded_box};
+use crate::shape::{block, hull, side};
+use workshop::{Mesh, Profile, Vec3, cylinder, extrude, revolve, rounded_box};
 
 const Y: Vec3 = [0.0, 1.0, 0.0];
 
-/// A box between two corners, its edges rounded.
-fn block(low: Vec3, high: Vec3, radius: f64) -> Mesh {
-    let half = [0, 1, 2].map(|axis| (high[axis] - low[axis]) / 2.0);
-    rounded_box(half, radius, 1).moved([0, 1, 2].map(|axis| (low[axis] + high[axis]) / 2.0))
-}
-
 /// A body of horizontal sections: height, its ends along x, half its width.
 fn tower(sections: &[[f64; 4]], exponent: f64) -> Mesh {
-    let ring = |[z, rear, front, width]: &[f64; 4]| -> Vec<Vec3> {
-        let outline = Profile::superellipse([(front - rear) / 2.0, *width], exponent, 32);
-        outline.points().iter().map(|[x, y]| [(front + rear) / 2.0 + x, *y, *z]).collect()
-    };
-    loft(&sections.iter().map(ring).collect::<Vec<_>>())
+    let section =
+        |[z, rear, front, width]: &[f64; 4]| [*z, (front - rear) / 2.0, *width, (front + rear) / 2.0, 0.0];
+    hull(2, &sections.iter().map(section).collect::<Vec<_>>(), exponent, 32)
 }
 
 /// The painted body: a side with arches over the wheels, the pillars and roof of the cab, and the walls of the bed.
@@ -40,8 +33,8 @@ pub(super) fn body() -> Mesh {
         [0.235, 0.098],
         [-0.095, 0.098],
     ]);
-    let side = Profile::polygon(&outline);
-    let panel = |low: f64, high: f64| extrude(&side, &[], [-high, -low]).mapped(|[x, z, y]| [x, -y, z]);
+    let flank = Profile::polygon(&outline);
+    let panel = |low: f64, high: f64| side(&flank, [low, high]);
     let floor = block([-0.093, -0.072, 0.05], [0.235, 0.072, 0.066], 0.003);
     let bonnet = tower(
         &[
@@ -59,7 +52,7 @@ pub(super) fn body() -> Mesh {
         let post = |from: f64, to: f64| {
             let foot = [[from, 0.095], [from + 0.008, 0.095], [to + 0.006, 0.15], [to, 0.15]];
             let [a, b] = [sign * 0.0655, sign * 0.0715];
-            extrude(&Profile::polygon(&foot), &[], [-a.max(b), -a.min(b)]).mapped(|[x, z, y]| [x, -y, z])
+            side(&Profile::polygon(&foot), [a.min(b), a.max(b)])
         };
         post(0.072, 0.084).with(&post(0.138, 0.134)).with(&post(0.212, 0.172))
     });

@@ -1,13 +1,9 @@
 //! What the links of the hopper look like, each in the frame of its body \[m\]: its joint at the origin, about y, the link below it.
 
-use workshop::{Mesh, Profile, Vec3, cylinder, extrude, loft, rounded_box};
+use crate::shape::{hull, side};
+use workshop::{Mesh, Profile, Vec3, cylinder, rounded_box};
 
 const Y: Vec3 = [0.0, 1.0, 0.0];
-
-/// A part drawn in the plane of x and z, between two places along y.
-fn side(outline: &Profile, [low, high]: [f64; 2]) -> Mesh {
-    extrude(outline, &[], [-high, -low]).mapped(|[x, z, y]| [x, -y, z])
-}
 
 /// A drum about y.
 fn drum(radius: f64, z: f64, [low, high]: [f64; 2]) -> Mesh {
@@ -21,18 +17,15 @@ fn bar(radii: [f64; 2], length: f64, y: [f64; 2]) -> Mesh {
 
 /// The body over the hip: a shell that widens to its shoulders.
 pub(super) fn torso() -> Mesh {
-    let ring = |[z, x, length, width]: [f64; 4]| -> Vec<Vec3> {
-        let outline = Profile::superellipse([length, width], 3.2, 24);
-        outline.points().iter().map(|[dx, y]| [x + dx, *y, z]).collect()
-    };
-    loft(&[
-        ring([-0.01, 0.0, 0.045, 0.05]),
-        ring([0.03, 0.0, 0.07, 0.07]),
-        ring([0.12, 0.01, 0.085, 0.085]),
-        ring([0.21, 0.015, 0.088, 0.09]),
-        ring([0.245, 0.012, 0.075, 0.08]),
-        ring([0.255, 0.01, 0.055, 0.06]),
-    ])
+    let sections = [
+        [-0.01, 0.045, 0.05, 0.0, 0.0],
+        [0.03, 0.07, 0.07, 0.0, 0.0],
+        [0.12, 0.085, 0.085, 0.01, 0.0],
+        [0.21, 0.088, 0.09, 0.015, 0.0],
+        [0.245, 0.075, 0.08, 0.012, 0.0],
+        [0.255, 0.055, 0.06, 0.01, 0.0],
+    ];
+    hull(2, &sections, 3.2, 24)
 }
 
 /// The window of its sensor, and the band round it.

@@ -1,32 +1,26 @@
 //! What the links of the snake look like, each in the frame of its body \[m\]: its joint at the origin, the link behind it along -x.
 
-use workshop::{Mesh, Profile, Vec3, ellipsoid, loft, revolve};
+use crate::shape::hull;
+use workshop::{Mesh, ellipsoid, revolve};
 
 /// Steps round a link.
 const ROUND: usize = 14;
 
-/// Sections across x, from the back to the front: place along x, half width along y, half height along z, middle along z.
-fn hull(sections: &[[f64; 4]], exponent: f64) -> Mesh {
-    let ring = |[x, width, height, z]: &[f64; 4]| -> Vec<Vec3> {
-        let outline = Profile::superellipse([*width, *height], exponent, ROUND);
-        outline.points().iter().map(|[dy, dz]| [*x, *dy, z + dz]).collect()
-    };
-    loft(&sections.iter().map(ring).collect::<Vec<_>>())
-}
-
 /// The head: flat, with a blunt snout.
 pub(super) fn head() -> Mesh {
     hull(
+        0,
         &[
-            [-0.071, 0.021, 0.021, 0.0],
-            [-0.067, 0.025, 0.0245, 0.0],
-            [-0.03, 0.0265, 0.0245, 0.0],
-            [-0.005, 0.03, 0.024, 0.0],
-            [0.016, 0.028, 0.02, -0.002],
-            [0.034, 0.02, 0.014, -0.005],
-            [0.041, 0.011, 0.008, -0.006],
+            [-0.071, 0.021, 0.021, 0.0, 0.0],
+            [-0.067, 0.025, 0.0245, 0.0, 0.0],
+            [-0.03, 0.0265, 0.0245, 0.0, 0.0],
+            [-0.005, 0.03, 0.024, 0.0, 0.0],
+            [0.016, 0.028, 0.02, 0.0, -0.002],
+            [0.034, 0.02, 0.014, 0.0, -0.005],
+            [0.041, 0.011, 0.008, 0.0, -0.006],
         ],
         2.3,
+        ROUND,
     )
 }
 
@@ -39,26 +33,30 @@ pub(super) fn eyes() -> Mesh {
 /// A link between two joints.
 pub(super) fn link() -> Mesh {
     hull(
+        0,
         &[
-            [-0.071, 0.021, 0.021, 0.0],
-            [-0.067, 0.025, 0.0245, 0.0],
-            [-0.013, 0.025, 0.0245, 0.0],
-            [-0.009, 0.021, 0.021, 0.0],
+            [-0.071, 0.021, 0.021, 0.0, 0.0],
+            [-0.067, 0.025, 0.0245, 0.0, 0.0],
+            [-0.013, 0.025, 0.0245, 0.0, 0.0],
+            [-0.009, 0.021, 0.021, 0.0, 0.0],
         ],
         2.3,
+        ROUND,
     )
 }
 
 /// The stripe round a link.
 pub(super) fn band() -> Mesh {
     hull(
+        0,
         &[
-            [-0.053, 0.0245, 0.024, 0.0],
-            [-0.0515, 0.0262, 0.0256, 0.0],
-            [-0.0285, 0.0262, 0.0256, 0.0],
-            [-0.027, 0.0245, 0.024, 0.0],
+            [-0.053, 0.0245, 0.024, 0.0, 0.0],
+            [-0.0515, 0.0262, 0.0256, 0.0, 0.0],
+            [-0.0285, 0.0262, 0.0256, 0.0, 0.0],
+            [-0.027, 0.0245, 0.024, 0.0, 0.0],
         ],
         2.3,
+        ROUND,
     )
 }
 
@@ -72,14 +70,16 @@ pub(super) fn bellows() -> Mesh {
 /// The last link, with a fin.
 pub(super) fn tail() -> Mesh {
     hull(
+        0,
         &[
-            [-0.098, 0.0012, 0.02, 0.0],
-            [-0.08, 0.0035, 0.022, 0.0],
-            [-0.062, 0.01, 0.0185, 0.0],
-            [-0.035, 0.021, 0.021, 0.0],
-            [-0.013, 0.025, 0.0245, 0.0],
-            [-0.009, 0.021, 0.021, 0.0],
+            [-0.098, 0.0012, 0.02, 0.0, 0.0],
+            [-0.08, 0.0035, 0.022, 0.0, 0.0],
+            [-0.062, 0.01, 0.0185, 0.0, 0.0],
+            [-0.035, 0.021, 0.021, 0.0, 0.0],
+            [-0.013, 0.025, 0.0245, 0.0, 0.0],
+            [-0.009, 0.021, 0.021, 0.0, 0.0],
         ],
         2.2,
+        ROUND,
     )
 }

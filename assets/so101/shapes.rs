@@ -2,24 +2,14 @@
 //! are the base's when all joints are at 0: forward x, left y, up z. The places of servos are the maker's; outlines are judged from
 //! photographs.
 
-use workshop::{Mesh, Profile, Vec3, cylinder, extrude, rounded_box};
+use crate::shape::{block, side};
+use workshop::{Mesh, Profile, Vec3, cylinder, extrude};
 
 /// Half the width of a servo between its horns, and of the cheeks round it \[m\].
 const HORN: f64 = 0.0187;
 /// Thickness of printed cheeks \[m\].
 const CHEEK: f64 = 0.0045;
 const Y: Vec3 = [0.0, 1.0, 0.0];
-
-/// A box between two corners, its edges rounded.
-fn block(low: Vec3, high: Vec3, radius: f64) -> Mesh {
-    let half = [0, 1, 2].map(|axis| (high[axis] - low[axis]) / 2.0);
-    rounded_box(half, radius, 1).moved([0, 1, 2].map(|axis| (low[axis] + high[axis]) / 2.0))
-}
-
-/// A part drawn in the plane of x and z, between two places along y.
-fn side(outline: &Profile, [low, high]: [f64; 2]) -> Mesh {
-    extrude(outline, &[], [-high, -low]).mapped(|[x, z, y]| [x, -y, z])
-}
 
 /// The convex outline of two circles, the first at the origin, seen along y.
 fn bar(to: [f64; 2], radii: [f64; 2]) -> Profile {
