@@ -229,7 +229,11 @@ fn segments_are_as_heavy_as_those_of_an_adult() {
 #[test]
 fn muscles_of_shoulder_and_elbow_go_round_bones() {
     let m = arm();
+    // As the model's `myoarm_torso` is scaled and placed.
+    let torso = robohive_assets::mesh("myoelbow/torso.obj").unwrap();
+    let torso = torso.mapped(|[x, y, z]| [0.95 * x - 0.035, z - 0.01, -0.9 * y]);
     let bones = [
+        ("torso", m.body("thorax").unwrap(), torso),
         bone(&m, "myoarm", "clavicle", "clavicle"),
         bone(&m, "myoarm", "scapula", "scapula"),
         bone(&m, "myoarm", "humerus", "humerus"),
