@@ -186,6 +186,22 @@ fn shoulder_muscles_pull_where_anatomy_says() {
     println!("the smallest is {weakest:.1} mm");
 }
 
+/// The rotator cuff turns the arm the same way whether it is turned inwards or outwards already.
+#[test]
+fn the_rotator_cuff_turns_the_arm_at_every_rotation() {
+    let m = arm();
+    let places = [0.0, 45.0, 90.0].into_iter().flat_map(|plane| [[plane, 0.0], [plane, 60.0]]);
+    for [plane, elevation] in places {
+        for rotation in [-60.0, -30.0, 0.0, 30.0, 60.0] {
+            let arms = about(&m, 2, [plane, elevation, rotation, 20.0, 0.0]);
+            for (name, sign) in [("INFSP", -1.0), ("TMIN", -1.0), ("SUBSC", 1.0)] {
+                let arm = sign * arms[of(&m, name)];
+                assert!(arm > 2.0, "{name} at {plane}, {elevation}, {rotation}: {arm:.1} mm");
+            }
+        }
+    }
+}
+
 /// Elbow flexors of an adult hold 60 to 80 N m at their best angle, extensors 40 to 50.
 #[test]
 fn elbow_muscles_are_as_strong_as_those_of_an_adult() {
@@ -241,7 +257,7 @@ fn muscles_of_shoulder_and_elbow_go_round_bones() {
         bone(&m, "myohand", "ulna", "ulna"),
         bone(&m, "myohand", "radius", "radius"),
     ];
-    let poses: [Angles; 10] = [
+    let poses: [Angles; 15] = [
         [0.0, 0.0, 0.0, 0.0, 0.0],
         [0.0, 0.0, 0.0, 60.0, -60.0],
         [0.0, 0.0, 0.0, 130.0, 60.0],
@@ -252,6 +268,11 @@ fn muscles_of_shoulder_and_elbow_go_round_bones() {
         [90.0, 30.0, 0.0, 90.0, 0.0],
         [90.0, 70.0, 0.0, 60.0, 0.0],
         [90.0, 100.0, 0.0, 0.0, 0.0],
+        [0.0, 20.0, -60.0, 0.0, 0.0],
+        [0.0, 20.0, 60.0, 0.0, 0.0],
+        [45.0, 60.0, 60.0, 30.0, 0.0],
+        [45.0, 60.0, -60.0, 30.0, 0.0],
+        [-30.0, 30.0, 0.0, 30.0, 0.0],
     ];
     let poses = poses.map(|angles| pose(&m, angles));
     let looked = some_stay_outside(&m, 0..UPPER, &bones, 0.02, &poses);
