@@ -3,7 +3,7 @@
 //! eye.
 
 use crate::bones::{knob, long, shaft};
-use workshop::{Mesh, Vec3, sincos};
+use workshop::{Mesh, Vec3, loft, sincos};
 
 /// Both hip bones, the sacrum and the lowest vertebrae.
 pub(super) fn pelvis() -> Mesh {
@@ -18,27 +18,39 @@ pub(super) fn pelvis() -> Mesh {
     Mesh::of(&[right.clone().mirrored(2), right, sacrum])
 }
 
-/// The blade of the ilium as a fan, its crest, the socket of the hip, and the branches of pubis and ischium.
-fn hip_bone() -> Mesh {
-    let crest = [
-        [0.0, 0.008, 0.116],
-        [-0.035, 0.04, 0.115],
-        [-0.074, 0.053, 0.089],
-        [-0.112, 0.046, 0.068],
-        [-0.143, 0.024, 0.046],
-    ];
-    let socket = [-0.064, -0.06, 0.066];
-    // The wing is hollow inside in front; behind, it leaves a notch below.
-    let bow = [[0.0, 0.005], [0.0, 0.004], [0.0, -0.01], [0.006, -0.008], [0.018, -0.004]];
-    let blade = |(end, [up, out]): (Vec3, [f64; 2])| {
-        let at = |share: f64| [0, 1, 2].map(|i| socket[i] + share * (end[i] - socket[i]));
-        let middle = at(0.55);
-        let bowed = [middle[0], middle[1] + up, middle[2] + out];
-        let [x, y, z] = at(0.1);
-        shaft(&[([x, y + up, z], [0.013, 0.01]), (bowed, [0.017, 0.004]), (at(0.97), [0.02, 0.004])])
+/// The crest of the ilium, from the front to the back.
+const CREST: [Vec3; 5] = [
+    [0.0, 0.008, 0.116],
+    [-0.038, 0.042, 0.119],
+    [-0.074, 0.053, 0.089],
+    [-0.112, 0.046, 0.068],
+    [-0.143, 0.024, 0.046],
+];
+
+/// The wing of the ilium, thin and hollow inside: a strip from the socket to each point of the crest.
+fn wing() -> Mesh {
+    // How far the middle of a strip is above and outside of a straight line: there is a notch below the hindmost.
+    let bow = [[0.0, 0.006], [0.0, 0.01], [0.0, -0.008], [0.006, -0.008], [0.02, -0.004]];
+    let strip = |(number, (end, [up, out])): (i32, (Vec3, [f64; 2]))| {
+        let root = [-0.05 - 0.007 * f64::from(number), -0.054 + 0.3 * up, 0.066];
+        let outside = [-0.15 * f64::from(number), 0.0, 1.0];
+        let place = |(share, thick): (f64, f64)| {
+            let bowed = 4.0 * share * (1.0 - share);
+            let line = [0, 1, 2].map(|i| root[i] + share * (end[i] - root[i]));
+            [line[0] + thick * outside[0], line[1] + bowed * up, line[2] + bowed * out + thick * outside[2]]
+        };
+        let shares = [(0.0, 0.009), (0.35, 0.004), (0.7, 0.0025), (1.0, 0.003)];
+        let inner = shares.into_iter().rev().map(|(share, thick)| (share, -thick));
+        shares.into_iter().chain(inner).map(place).collect()
     };
-    let mut parts: Vec<Mesh> = crest.into_iter().zip(bow).map(blade).collect();
-    parts.push(shaft(&crest.map(|at| (at, [0.006, 0.006]))));
+    let strips: Vec<Vec<Vec3>> = (0..).zip(CREST.into_iter().zip(bow)).map(strip).collect();
+    loft(&strips)
+}
+
+/// The wing of the ilium and its crest, the socket of the hip, and the branches of pubis and ischium.
+fn hip_bone() -> Mesh {
+    let mut parts = vec![wing()];
+    parts.push(shaft(&CREST.map(|at| (at, [0.006, 0.006]))));
     parts.push(knob([0.021, 0.02, 0.015], [-0.062, -0.068, 0.058]));
     parts.push(shaft(&[
         ([-0.04, -0.08, 0.056], [0.008, 0.0075]),
@@ -169,13 +181,13 @@ pub(super) fn toes() -> Mesh {
 /// Spine, ribs and breastbone of the trunk, whose origin is that of the pelvis.
 pub(super) fn trunk() -> Mesh {
     let mut spine = Vec::new();
-    for level in 0..20 {
-        let height = 0.062 + 0.026 * f64::from(level);
-        let back =
-            -0.112 - 0.022 * sincos(f64::from(level) * 0.32).0 + 0.0025 * f64::from(level - 10).max(0.0);
-        let wide = 0.021 - 0.0005 * f64::from(level);
-        spine.push(([back, 0.0, height - 0.007], [0.017, wide]));
-        spine.push(([back - 0.004, 0.0, height + 0.008], [0.011, 0.7 * wide]));
+    for level in 0..14 {
+        let number = f64::from(level);
+        let height = 0.066 + 0.042 * number;
+        let back = -0.112 - 0.022 * sincos(0.5 * number).0 + 0.0045 * (number - 7.0).max(0.0);
+        let wide = 0.021 - 0.0008 * number;
+        spine.push(([back, 0.0, height - 0.011], [0.017, wide]));
+        spine.push(([back - 0.004, 0.0, height + 0.012], [0.009, 0.6 * wide]));
     }
     let mut parts = vec![shaft(&spine)];
     for rib in 0..7 {

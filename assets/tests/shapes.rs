@@ -26,7 +26,7 @@ const MOST: &[(&str, usize)] = &[
     ("myoelbow/robot.xml", 8500),
     ("myofinger/robot.xml", 3500),
     ("myohand/robot.xml", 3000),
-    ("myolegs/robot.xml", 9500),
+    ("myolegs/robot.xml", 8500),
     ("panda/robot.xml", 5500),
     ("robotiq/gripper.xml", 4500),
     ("sawyer/robot.xml", 3000),
