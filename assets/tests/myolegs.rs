@@ -7,6 +7,7 @@ use measure::balance::{Spring, stand};
 use measure::coupled::{arms_about, pose, torque_about};
 use measure::muscles::{bone, flexed, some_stay_outside};
 use physics::Model;
+use physics::model::GeomType;
 
 /// Joints of the right leg that muscles move, and their ranges \[degrees\].
 const JOINTS: [(&str, f64, f64); 7] = [
@@ -219,4 +220,28 @@ fn legs_carry_more_than_the_body() {
     let (moved, most) = stand(&measure::scene(heavy), &SPRINGS, 3.0);
     println!("pelvis moved by {:.1} mm in 3 s, largest activation {most:.2}", moved * 1e3);
     assert!(moved < 0.02, "{moved:.3} m");
+}
+
+/// Keyframes obey the equalities; in the first two the soles are on the floor, in the steps 5 cm over it.
+#[test]
+fn poses_fit_the_knees_and_the_floor() {
+    let m = legs();
+    for (key, over) in [0.0, 0.0, 0.05, 0.05].into_iter().enumerate() {
+        let qpos = &m.key_qpos[key * m.nq..(key + 1) * m.nq];
+        let angle = |name: &'static str| (name, qpos[m.jnt_qposadr[m.joint(name).unwrap().index()] as usize]);
+        let expected = pose(&m, &["knee_angle_r", "knee_angle_l"].map(angle));
+        for follower in m.eq_obj1id.iter() {
+            let place = m.jnt_qposadr[*follower as usize] as usize;
+            assert!((qpos[place] - expected[place]).abs() < 1e-4, "key {key}, joint {follower}");
+        }
+        let d = flexed(&m, qpos, &vec![0.0; m.na]);
+        let bottom = |geom: usize| {
+            let [radius, half, _] = m.geom_size[geom];
+            d.kin.geom_xpos[geom][2] - (half * d.kin.geom_xmat[geom][8]).abs() - radius
+        };
+        let feet = (0..m.ngeom)
+            .filter(|geom| m.geom_contype[*geom] == 1 && m.geom_type[*geom] == GeomType::Capsule as i32);
+        let lowest = feet.map(bottom).fold(f64::INFINITY, f64::min);
+        assert!((lowest - over).abs() < 2e-3, "key {key}: {lowest:.4} m");
+    }
 }
