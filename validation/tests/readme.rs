@@ -118,3 +118,37 @@ fn pictures() {
     let [shadows, plain] = ["PSNR", "PSNR without shadows"].map(|before| number(line, before));
     assert!(said(&readme, "pictures").starts_with(&format!("{shadows:.1} dB, {plain:.1} dB;")));
 }
+
+/// The table of ids by suite, RoboHive's own and those on our models.
+fn counts() -> String {
+    let registry = env::Registry::builtin();
+    let mut suites: Vec<(&str, [usize; 2])> = Vec::new();
+    for spec in registry.specs() {
+        // A twin belongs to the suite of the id that it is a twin of.
+        let named = spec.id.strip_prefix("hive/").unwrap_or(&spec.id);
+        let suite = registry.spec(named).map_or(spec.suite.as_str(), |original| original.suite.as_str());
+        let own = usize::from(spec.id.starts_with("hive/"));
+        match suites.iter_mut().find(|(name, _)| *name == suite) {
+            Some((_, counts)) => counts[own] += 1,
+            None => suites.push((suite, [1 - own, own])),
+        }
+    }
+    let row = |(name, [theirs, ours]): &(&str, [usize; 2])| format!("| {name} | {theirs} | {ours} |\n");
+    let rows: String = suites.iter().map(row).collect();
+    let [theirs, ours] = [0, 1].map(|own| suites.iter().map(|(_, counts)| counts[own]).sum::<usize>());
+    format!(
+        "| suite | on models to import | on our own |\n|---|---|---|\n{rows}| all | {theirs} | {ours} |\n"
+    )
+}
+
+#[test]
+fn counts_of_ids_are_those_of_the_registry() {
+    let readme = read("README.md");
+    let (_, rest) = readme.split_once("<!-- counts of ids begin -->\n").expect("a table of ids");
+    let (said, _) = rest.split_once("<!-- counts of ids end -->").expect("its end");
+    let counts = counts();
+    assert!(
+        said == counts,
+        "README.md has other counts of ids than the registry; write between the marks:\n{counts}"
+    );
+}
