@@ -41,6 +41,7 @@ mod spec;
 pub mod suite;
 mod task;
 mod task_type;
+pub mod terrain;
 mod twins;
 mod vector;
 

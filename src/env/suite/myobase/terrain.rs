@@ -4,13 +4,13 @@ use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::scene::Scene;
 use crate::task::Pose;
+use crate::terrain::formulas;
 use physics::Model;
 use physics::elements::GeomId;
-use physics::math::ops;
 use physics::model::GeomType;
 use robot::Compat;
 use serde::Deserialize;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 
 /// The geom that shows the height field.
 const GEOM: &str = "terrain";
@@ -99,8 +99,7 @@ impl Terrain {
     pub fn draw(&mut self, scene: &mut Scene, rng: &mut Rng) -> Result<(), EnvError> {
         match self.relief {
             Relief::Rough => {
-                rng.fill_uniform(-0.5, 0.5, &mut self.heights)?;
-                normalize(&mut self.heights);
+                formulas::noise(&mut self.heights, 0.5, rng)?;
                 self.heights.iter_mut().for_each(|height| *height = ROUGH[0] + ROUGH[1] * *height);
             }
             Relief::Hilly => {
@@ -132,23 +131,13 @@ impl Terrain {
 fn hill(cell: usize) -> f64 {
     match cell.checked_sub(BEFORE_HILLS) {
         None => 1.0,
-        Some(cell) => {
-            let angle = cell as f64 * HILLS * PI / (CELLS - BEFORE_HILLS - 1) as f64;
-            (1.0 + ops::sin(angle + FRAC_PI_2)) / 2.0
-        }
+        Some(cell) => formulas::hill(cell as f64 * HILLS * PI / (CELLS - BEFORE_HILLS - 1) as f64),
     }
 }
 
 /// The height of a cell of the stairs.
 fn stair(cell: usize) -> f64 {
     cell.checked_sub(BEFORE_STAIRS).map_or(0.0, |cell| (cell / STEP) as f64 * RISE)
-}
-
-/// Moves and scales values to the range from 0 to 1.
-fn normalize(values: &mut [f64]) {
-    let lowest = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    values.iter_mut().for_each(|value| *value = (*value - lowest) / (highest - lowest));
 }
 
 #[cfg(test)]

@@ -2,10 +2,10 @@
 
 use crate::draws::Rng;
 use crate::error::EnvError;
-use physics::math::ops;
+use crate::terrain::formulas::{crest, noise, normalize};
 use random::RandomState;
 use robot::Keeper;
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Samples along each side of the ground.
@@ -74,7 +74,7 @@ impl Terrain {
             ));
         }
         let mut relief = image.to_vec();
-        normalise(&mut relief);
+        normalize(&mut relief);
         Ok(Terrain { heights, relief: relief.into(), placing, patch: Box::new([0.0; PATCH * PATCH]) })
     }
 
@@ -125,8 +125,7 @@ impl Terrain {
     }
 
     fn draw_rough(&mut self, rng: &mut Rng) -> Result<(), EnvError> {
-        rng.fill_uniform(-1.0, 1.0, &mut self.patch[..])?;
-        normalise(&mut self.patch[..]);
+        noise(&mut self.patch[..], 1.0, rng)?;
         let height = rng.uniform(self.heights.rough[0], self.heights.rough[1])?;
         self.patch.iter_mut().for_each(|sample| *sample = *sample * height - ROUGH_OFFSET);
         Ok(())
@@ -138,9 +137,9 @@ impl Terrain {
         let step = WAVES * PI / last as f64;
         for (k, sample) in self.patch.iter_mut().rev().enumerate() {
             let phase = if k == last { WAVES * PI } else { k as f64 * step };
-            *sample = ops::sin(phase + FRAC_PI_2) - 1.0;
+            *sample = crest(phase) - 1.0;
         }
-        normalise(&mut self.patch[..]);
+        normalize(&mut self.patch[..]);
         self.patch.iter_mut().for_each(|sample| *sample *= height);
         if rng.random() < 0.5 {
             let straight = *self.patch;
@@ -177,13 +176,6 @@ fn write(ground: &mut [f32], [row, column]: [usize; 2], patch: &Patch) {
         let start = (row * PATCH + k) * SIDE + column * PATCH;
         ground[start..start + PATCH].iter_mut().zip(samples).for_each(|(to, &height)| *to = height as f32);
     }
-}
-
-/// Scales numbers so that they reach from 0 to 1.
-fn normalise(values: &mut [f64]) {
-    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    values.iter_mut().for_each(|value| *value = (*value - low) / (high - low));
 }
 
 #[cfg(test)]
