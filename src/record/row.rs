@@ -30,6 +30,9 @@ impl Sink for Trial<'_> {
     }
 }
 
+/// What `rwd_dict` has of a step beside the terms of the reward.
+const VERDICTS: [&str; 4] = ["dense", "sparse", "solved", "done"];
+
 /// Adds the row of the current state of an environment and of the action that is taken in it.
 ///
 /// # Errors
@@ -50,7 +53,8 @@ pub fn push_row(trial: &mut impl Sink, env: &Env, action: &[f64]) -> Result<(), 
         trial.push(&format!("{folder}solved"), &[], &[verdict.solved])?;
         trial.push(&format!("{folder}done"), &[], &[verdict.done])?;
     }
-    for (row, values) in env.terms().iter() {
+    // A term may be called as a verdict, as `done` of RoboHive's walks: it is recorded once.
+    for (row, values) in env.terms().iter().filter(|(row, _)| !VERDICTS.contains(&row.name())) {
         let shape: &[usize] = if values.len() == 1 { &[] } else { &[values.len()] };
         trial.push(&format!("env_infos/rwd_dict/{}", row.name()), shape, values)?;
     }

@@ -188,10 +188,16 @@ impl Log {
         self.rows("obs_dict", env.rows());
         self.rows("rwd_dict", env.terms());
         let verdict = env.verdict();
-        self.push("rwd_dict/dense", &[env.dense()]);
-        self.push("rwd_dict/sparse", &[verdict.sparse]);
-        self.push("rwd_dict/solved", &[f64::from(verdict.solved)]);
-        self.push("rwd_dict/done", &[f64::from(verdict.done)]);
+        let verdicts = [
+            ("dense", env.dense()),
+            ("sparse", verdict.sparse),
+            ("solved", f64::from(verdict.solved)),
+            ("done", f64::from(verdict.done)),
+        ];
+        // A term may be called as a verdict, as `done` of RoboHive's walks: it is written once.
+        for (name, value) in verdicts.into_iter().filter(|(name, _)| env.terms().get(name).is_none()) {
+            self.push(&format!("rwd_dict/{name}"), &[value]);
+        }
         self.states += 1;
         Ok(())
     }

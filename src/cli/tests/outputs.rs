@@ -127,3 +127,17 @@ fn a_recording_does_not_take_the_place_of_a_folder() {
     assert!(said.contains("this is a folder"), "{said}");
     assert_eq!(names(&folder), ["ball.xml", "episodes.h5"]);
 }
+
+/// A walk whose reward has a term `done` is recorded like any other; `rwd_dict/done` is written once.
+#[test]
+fn a_reward_term_may_be_called_as_a_verdict() {
+    let path = scratch("walk.npz");
+    let name = path.to_str().unwrap();
+    let walk = ["run", "hive/myoLegWalk-v0", "--policy", "zero", "--episodes", "1", "--record", name];
+    let out = robohive(&walk);
+    assert!(out.status.success(), "{}", text(&out.stderr));
+    let archive = NpzReader::open(&path).unwrap();
+    let [fallen, ended] =
+        ["Trial0/env_infos/rwd_dict/done", "Trial0/done"].map(|row| archive.require(row).unwrap());
+    assert!(ended.rows() > 5 && fallen.values.to_f64() == ended.values.to_f64());
+}

@@ -25,9 +25,6 @@ use robot::{Compat, Robot};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// What recordings have of each step beside the terms of the reward.
-const VERDICTS: [&str; 4] = ["dense", "sparse", "solved", "done"];
-
 /// What a step yields beside the observation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
@@ -217,13 +214,6 @@ impl Env {
             Some(keys) => self.places(keys)?,
             None => Vec::new(),
         };
-        if let Some(row) = self.terms.rows().iter().find(|row| VERDICTS.contains(&row.name())) {
-            let message = format!(
-                "the reward term {} has the name of a verdict, beside which it is recorded; rename it",
-                row.name()
-            );
-            return Err(self.spec.wrong(message));
-        }
         if let Some((name, _)) = self.weights.iter().find(|(name, _)| self.terms.get(name).is_none()) {
             let terms: Vec<_> = self.terms.rows().iter().map(|row| row.name()).collect();
             return Err(self

@@ -11,6 +11,7 @@
 //! (Zakka et al., "MuJoCo Playground", 2025, appendix), with a term that is 1 while the task is solved.
 
 pub mod chase;
+mod floor;
 mod push;
 pub mod push_box;
 pub mod stand;

@@ -1,6 +1,7 @@
 //! Walking to a place that is marked on the ground.
 
 use super::FRAME_SKIP;
+use super::floor::{Floor, FloorArgs};
 use super::walker::{Disturbance, Walker};
 use crate::error::EnvError;
 use crate::rotation::norm;
@@ -23,6 +24,9 @@ pub struct Args {
     roles: String,
     #[serde(default)]
     disturbance: Disturbance,
+    /// Ground that is not level.
+    #[serde(default)]
+    ground: Option<FloorArgs>,
     /// Distance of the place, in heights of the root.
     target_distance_range: [f64; 2],
     /// Direction of the place, from where the body looks at the start, counterclockwise \[rad\].
@@ -35,6 +39,7 @@ pub struct Args {
 #[derive(Clone)]
 pub struct WalkTo {
     walker: Walker,
+    floor: Option<Floor>,
     target: SiteId,
     distance: [f64; 2],
     angle: [f64; 2],
@@ -49,11 +54,13 @@ impl WalkTo {
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let walker = Walker::new(&args.roles, "walk to", args.disturbance, setup)?;
         let height = walker.height;
+        let floor = args.ground.as_ref().map(|ground| Floor::new(ground, &walker, setup)).transpose()?;
         Ok(WalkTo {
             target: setup.scene.site("target")?,
             distance: args.target_distance_range.map(|distance| distance * height),
             angle: args.target_angle_range,
             radius: args.radius * height,
+            floor,
             walker,
         })
     }
@@ -75,6 +82,9 @@ impl Task for WalkTo {
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
         self.walker.start(episode)?;
+        if let Some(floor) = &self.floor {
+            floor.start(episode)?;
+        }
         let distance = episode.rng.uniform(self.distance[0], self.distance[1])?;
         let (sine, cosine) = ops::sincos(episode.rng.uniform(self.angle[0], self.angle[1])?);
         let [x, y] = self.walker.ahead_at_start();
