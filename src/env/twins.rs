@@ -14,12 +14,15 @@ static OURS: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
 /// Settings that name files.
 const FILES: [&str; 3] = ["model_path", "config_path", "relief"];
 
-/// The twin of an id on our own model; `None` where we have none for it, and where networks encode its images, since their weights have to
-/// be downloaded.
+/// What RoboHive's model of a hand over a table leaves open, and what ours leaves open besides: an object's name and its file.
+const OBJECT: [&str; 2] = ["OBJECT_NAME", "OBJECT_FILE"];
+
+/// The twin of an id on our own model; `None` where we have none for it, and where it needs files that have to be downloaded: weights of
+/// networks that encode images, and recorded motions.
 pub(crate) fn twin(spec: &Spec) -> Option<Spec> {
     // Most ids have no images.
     let images: Vec<String> = spec.args.get("visual_keys").unwrap_or_default();
-    if images.iter().any(|key| needs_weights(key)) {
+    if images.iter().any(|key| needs_weights(key)) || spec.args.get::<String>("reference").is_some() {
         return None;
     }
     let ours = |setting: &str| spec.args.get::<String>(setting).map(|path| OURS.get(&path).cloned());
@@ -31,7 +34,18 @@ pub(crate) fn twin(spec: &Spec) -> Option<Spec> {
             twin.args.0.insert(setting.into(), path?.into());
         }
     }
+    let mut defined: Vec<Vec<String>> = twin.args.get("define").unwrap_or_default();
+    if let Some(name) = defined.iter().find(|pair| pair[0] == OBJECT[0]).map(|pair| pair[1].clone()) {
+        defined.push(vec![OBJECT[1].into(), object(&name)?]);
+        twin.args.0.insert("define".into(), defined.into());
+    }
     Some(twin)
+}
+
+/// The file of an object of our own, as models of robots name it; `None` where there is none.
+fn object(name: &str) -> Option<String> {
+    let own = |path: &str| path.starts_with("objects/") && path.ends_with(&format!("/{name}.xml"));
+    assets::paths().find(|path| own(path)).map(|path| format!("../../{path}"))
 }
 
 fn needs_weights(key: &str) -> bool {
@@ -72,5 +86,16 @@ mod tests {
             args
         };
         assert_eq!(rest(ours), rest(theirs));
+    }
+
+    #[test]
+    fn twins_with_an_object_name_its_file_and_recorded_motions_have_none() {
+        let registry = Registry::builtin();
+        let mug = registry.spec("hive/MyoHandMugFixed-v0").unwrap();
+        let pairs: Vec<Vec<String>> = mug.args.get("define").unwrap();
+        assert_eq!(pairs, [["OBJECT_NAME", "mug"], ["OBJECT_FILE", "../../objects/kitchen/mug.xml"]]);
+        assert!(
+            registry.spec("MyoHandMugLift-v0").is_ok() && registry.spec("hive/MyoHandMugLift-v0").is_err()
+        );
     }
 }
