@@ -3,6 +3,15 @@
 use crate::controller::Controller;
 use crate::error::ControlError;
 use crate::tasks;
+use crate::tasks::classical::balance::{self, Balance};
+use crate::tasks::classical::ball_on_beam::BallOnBeam;
+use crate::tasks::classical::car_trailer::CarTrailer;
+use crate::tasks::classical::hopper_boom::HopperBoom;
+use crate::tasks::classical::knife_edge::KnifeEdge;
+use crate::tasks::classical::planar_arm::PlanarArm;
+use crate::tasks::classical::swing_up::{self, SwingUp};
+use crate::tasks::classical::tendon_finger::TendonFinger;
+use crate::tasks::classical::unicycle::Unicycle;
 use env::{Env, Spec};
 
 /// A controller that is built in.
@@ -39,6 +48,66 @@ const ALL: &[Entry] = &[
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
         serves: &["chase", "push_box", "stand", "turn", "velocity", "walk_to", "weave"],
         build: |env| Ok(Box::new(tasks::locomotion::trot::Trot::new(env)?)),
+    },
+    Entry {
+        name: "acrobot",
+        summary: "a swing found by iLQR over the model, then a linear-quadratic regulator",
+        serves: &["acrobot"],
+        build: |env| Ok(Box::new(SwingUp::new(env, swing_up::ACROBOT)?)),
+    },
+    Entry {
+        name: "furuta",
+        summary: "a swing found by iLQR over the model, then a linear-quadratic regulator",
+        serves: &["furuta"],
+        build: |env| Ok(Box::new(SwingUp::new(env, swing_up::FURUTA)?)),
+    },
+    Entry {
+        name: "double_pole",
+        summary: "a linear-quadratic regulator of the model's slopes",
+        serves: &["double_pole"],
+        build: |env| Ok(Box::new(Balance::new(env, balance::DOUBLE_POLE)?)),
+    },
+    Entry {
+        name: "ball_on_beam",
+        summary: "a linear-quadratic regulator of a ball that rolls down a slope",
+        serves: &["ball_on_beam"],
+        build: |env| Ok(Box::new(BallOnBeam::new(env)?)),
+    },
+    Entry {
+        name: "car_trailer",
+        summary: "iLQR over the kinematics of wheels that do not slip, from where the car is",
+        serves: &["car_trailer"],
+        build: |env| Ok(Box::new(CarTrailer::new(env)?)),
+    },
+    Entry {
+        name: "unicycle",
+        summary: "steering by polar coordinates",
+        serves: &["unicycle"],
+        build: |env| Ok(Box::new(Unicycle::new(env)?)),
+    },
+    Entry {
+        name: "knife_edge",
+        summary: "a turn towards the point, and speed along the edge",
+        serves: &["knife_edge"],
+        build: |env| Ok(Box::new(KnifeEdge::new(env)?)),
+    },
+    Entry {
+        name: "planar_arm",
+        summary: "a spring at the tip in operational space, straight joints in the freedom that is left",
+        serves: &["planar_arm"],
+        build: |env| Ok(Box::new(PlanarArm::new(env)?)),
+    },
+    Entry {
+        name: "tendon_finger",
+        summary: "springs at the joints, their torques shared among muscles by static optimisation",
+        serves: &["tendon_finger"],
+        build: |env| Ok(Box::new(TendonFinger::new(env)?)),
+    },
+    Entry {
+        name: "hopper_boom",
+        summary: "Raibert's thrust and foot placement",
+        serves: &["hopper_boom"],
+        build: |env| Ok(Box::new(HopperBoom::new(env)?)),
     },
 ];
 

@@ -5,6 +5,7 @@ pub mod c_library;
 pub mod collide;
 pub mod compare;
 pub mod compile;
+pub mod controllers;
 pub mod demonstrations;
 pub mod draws;
 pub mod environments;

@@ -3,7 +3,7 @@
 use physics::Model;
 use robohive_validation::reference::{Own, Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
-use robohive_validation::{bits, c_library, collide, demonstrations, draws, environments};
+use robohive_validation::{bits, c_library, collide, controllers, demonstrations, draws, environments};
 use robohive_validation::{hulls, laws, pictures, policies, robots, round_trip, scenes, solver, wider};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -25,6 +25,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation wider --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation quirks [--write README.md]
        robohive-validation robots [--write README.md]
+       robohive-validation controllers [--suite NAME] [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
        robohive-validation round-trip FOLDER... [--only TEXT] [--write README.md]
 
@@ -53,6 +54,8 @@ is another than that of the recorded MuJoCo.
 laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES.
 robots: compares our own robots with the numbers that are published of them (published.toml of their folders); fails when one
 differs by more than 2 % or 0.02 rad without a reason.
+controllers: runs every controller in the environments that it serves, on 20 seeds, beside zero and random actions; fails when a
+controller solves less than 80 % of them, or the others 5 %.
 hulls: hashes the convex hull of every mesh file (STL, OBJ, MSH) below the folders, one line a mesh; fails when any differs
 from the recorded ones.
 round-trip: writes every model below the folders as MJCF and reads it again; fails when a bit of an array differs, or the
@@ -84,6 +87,7 @@ struct Arguments {
     record: Option<PathBuf>,
     compare: Option<PathBuf>,
     dump: Option<PathBuf>,
+    suite: String,
 }
 
 impl Arguments {
@@ -185,6 +189,10 @@ fn measured<'a>(
         Some("robots") => {
             let (table, verdict) = robots::render(&robots::measure()?);
             ("robots", table, verdict)
+        }
+        Some("controllers") => {
+            let (table, verdict) = controllers::render(&controllers::measure(&a.suite)?);
+            ("controllers", table, verdict)
         }
         Some("scenes") => {
             let (table, verdict) = scenes::render(&assembled(a)?);
@@ -328,6 +336,7 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
             "--brief" => a.brief = true,
             "--record" => a.record = Some(value()?.into()),
             "--dump" => a.dump = Some(value()?.into()),
+            "--suite" => a.suite = value()?,
             "--compare" => a.compare = Some(value()?.into()),
             folder if !folder.starts_with("--") => a.folders.push(folder.into()),
             _ => return Err(format!("unknown argument {word}\n{USAGE}")),

@@ -3,6 +3,7 @@
 //! second derivatives of the dynamics).
 
 use super::NoSolution;
+use super::box_program::minimise;
 use nalgebra::{DMatrix, DVector};
 
 /// Size of the differences that slopes are made of where a system gives none.
@@ -17,8 +18,6 @@ const FACTOR: f64 = 4.0;
 const LEAST: f64 = 1e-8;
 /// Where no improvement is looked for any more.
 const MOST: f64 = 1e8;
-/// Newton steps of the search for the best controls within their bounds.
-const NEWTON: usize = 20;
 
 /// A system from step to step.
 pub trait Dynamics {
@@ -237,7 +236,7 @@ impl Ilqr {
             let twice_control = &effort + b.transpose() * &curvature * b;
             let damped = &twice_control + DMatrix::identity(u.len(), u.len()) * damping;
             let bounds: Vec<_> = self.bounds.iter().zip(u.iter()).map(|([l, h], u)| [l - u, h - u]).collect();
-            let (change, free) = within(&damped, &by_control, &bounds)?;
+            let (change, free) = minimise(&damped, &by_control, &bounds)?;
             let gain = -free * &both;
             slope = by_state
                 + gain.transpose() * (&twice_control * &change + &by_control)
@@ -273,55 +272,6 @@ impl Ilqr {
             (true, false) => Err(NoSolution::new("iLQR", "the lower bound of a control stands first")),
         }
     }
-}
-
-/// The change of the controls within bounds that minimises `change' h change / 2 + g' change`, by projected Newton steps, and the
-/// inverse of `h` on the controls that are not at a bound; `None` where `h` is not positive there.
-fn within(h: &DMatrix<f64>, g: &DVector<f64>, bounds: &[[f64; 2]]) -> Option<(DVector<f64>, DMatrix<f64>)> {
-    let m = g.len();
-    let project = |x: DVector<f64>| {
-        DVector::from_iterator(m, x.iter().zip(bounds).map(|(x, [low, high])| x.clamp(*low, *high)))
-    };
-    let value = |x: &DVector<f64>| 0.5 * (x.transpose() * h * x)[0] + g.dot(x);
-    let mut x = project(DVector::zeros(m));
-    for _ in 0..NEWTON {
-        let (slope, inverse) = (g + h * &x, free_inverse(h, &(g + h * &x), &x, bounds)?);
-        let direction = -(&inverse * slope);
-        let mut share = 1.0;
-        let mut next = project(&x + &direction);
-        while value(&next) > value(&x) && share > 1e-6 {
-            share *= 0.5;
-            next = project(&x + &direction * share);
-        }
-        let moved = (&next - &x).norm();
-        x = next;
-        if moved <= 1e-10 * (1.0 + x.norm()) {
-            break;
-        }
-    }
-    let free = free_inverse(h, &(g + h * &x), &x, bounds)?;
-    Some((x, free))
-}
-
-/// The inverse of `h` among the controls that are free: not at a bound towards which the slope pushes them. Zero elsewhere.
-fn free_inverse(
-    h: &DMatrix<f64>,
-    slope: &DVector<f64>,
-    x: &DVector<f64>,
-    bounds: &[[f64; 2]],
-) -> Option<DMatrix<f64>> {
-    let held =
-        |k: usize| (x[k] <= bounds[k][0] && slope[k] > 0.0) || (x[k] >= bounds[k][1] && slope[k] < 0.0);
-    let free: Vec<usize> = (0..x.len()).filter(|&k| !held(k)).collect();
-    let part = DMatrix::from_fn(free.len(), free.len(), |i, j| h[(free[i], free[j])]);
-    let inverse = part.cholesky()?.inverse();
-    let mut all = DMatrix::zeros(x.len(), x.len());
-    for (i, &row) in free.iter().enumerate() {
-        for (j, &column) in free.iter().enumerate() {
-            all[(row, column)] = inverse[(i, j)];
-        }
-    }
-    Some(all)
 }
 
 #[cfg(test)]

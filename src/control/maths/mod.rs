@@ -10,18 +10,25 @@ macro_rules! dmatrix {
     }};
 }
 
+mod box_program;
 mod gait;
 mod ilqr;
 mod minimum_jerk;
 mod no_solution;
+mod operational_space;
+mod polar_steering;
 mod riccati;
 mod sampling;
 mod simulated;
+mod static_optimisation;
 
 pub use gait::{Gait, Steps};
 pub use ilqr::{Dynamics, Ilqr, Plan, Quadratic};
 pub use minimum_jerk::{Boundary, MinimumJerk};
 pub use no_solution::NoSolution;
+pub use operational_space::operational_torques;
+pub use polar_steering::{PolarSteering, wrap};
 pub use riccati::{Regulator, continuous, discrete};
 pub use sampling::{Method, Sampler, Settings};
 pub use simulated::{Simulated, linearise};
+pub use static_optimisation::activations;

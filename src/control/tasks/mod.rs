@@ -1,4 +1,5 @@
 //! Adaptors of controllers to tasks, a folder for each suite and a file for each task.
 
 pub mod arms;
+pub mod classical;
 pub mod locomotion;

@@ -17,6 +17,7 @@ pub mod arms;
 mod baoding;
 mod bonus;
 mod circling;
+pub mod classical;
 pub mod claws;
 pub mod dclaw;
 mod fatigue;
@@ -44,6 +45,16 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("reach", arms::reach::Reach::new),
         TaskType::new("push", arms::push::Push::new),
         TaskType::new("pick_place", arms::pick_place::PickPlace::new),
+        TaskType::new("acrobot", classical::acrobot::Acrobot::new),
+        TaskType::new("ball_on_beam", classical::ball_on_beam::BallOnBeam::new),
+        TaskType::new("car_trailer", classical::car_trailer::CarTrailer::new),
+        TaskType::new("double_pole", classical::double_pole::DoublePole::new),
+        TaskType::new("furuta", classical::furuta::Furuta::new),
+        TaskType::new("knife_edge", classical::knife_edge::KnifeEdge::new),
+        TaskType::new("hopper_boom", classical::hopper_boom::HopperBoom::new),
+        TaskType::new("planar_arm", classical::planar_arm::PlanarArm::new),
+        TaskType::new("tendon_finger", classical::tendon_finger::TendonFinger::new),
+        TaskType::new("unicycle", classical::unicycle::Unicycle::new),
         TaskType::new("claw_reorient", claws::reorient::Reorient::new),
         TaskType::new("dclaw_pose", dclaw::pose::Posing::new),
         TaskType::new("dclaw_turn", dclaw::turn::Turn::new),
