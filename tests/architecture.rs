@@ -41,7 +41,7 @@ const ORDER: [(&str, &[&str]); 37] = [
     ("robohive-render-gpu", &["physics", "render"]),
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
     ("robohive-agents", &["dataset", "env"]),
-    ("robohive-control", &["physics", "random", "robot", "env"]),
+    ("robohive-control", &["assets", "physics", "random", "robot", "env"]),
     ("robohive-record", &["physics", "dataset", "env"]),
     ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),
     ("robohive-teleop", &["physics", "dataset", "protocol", "robot", "env", "agents", "record"]),

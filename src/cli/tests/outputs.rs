@@ -3,6 +3,7 @@
 mod command;
 
 use command::{robohive, scratch, text};
+use dataset::NpzReader;
 use std::path::{Path, PathBuf};
 
 const BALL: &str = "<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>";
