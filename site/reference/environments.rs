@@ -77,7 +77,9 @@ pub fn environments(root: &Path) -> Result<String, String> {
         );
         for spec in of(suite) {
             let known = sizes.get(&spec.id).ok_or_else(|| lacks(&spec.id))?;
-            if spec.id.starts_with("hive/") && size(&spec.id, &OwnModels).map_err(|error| error.to_string())? != *known {
+            if spec.id.starts_with("hive/")
+                && size(&spec.id, &OwnModels).map_err(|error| error.to_string())? != *known
+            {
                 return Err(lacks(&spec.id));
             }
             let [observation, action] = known;

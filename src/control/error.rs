@@ -26,6 +26,8 @@ pub enum ControlError {
         id: String,
         /// Tasks and ids that it serves.
         serves: &'static [&'static str],
+        /// Number of feet of the bodies that it serves, if it matters.
+        feet: Option<usize>,
         /// Names of controllers that serve the id.
         serving: Vec<&'static str>,
     },
@@ -66,9 +68,10 @@ impl fmt::Display for ControlError {
             ControlError::Unknown { name, id, serving } => {
                 write!(f, "there is no controller {name}; {}", instead(id, serving))
             }
-            ControlError::NotServed { name, id, serves, serving } => {
+            ControlError::NotServed { name, id, serves, feet, serving } => {
                 let serves = serves.join(", ");
-                write!(f, "the controller {name} serves {serves}, not {id}; {}", instead(id, serving))
+                let of = feet.map_or_else(String::new, |feet| format!(" of bodies with {feet} feet"));
+                write!(f, "the controller {name} serves {serves}{of}, not {id}; {}", instead(id, serving))
             }
             ControlError::Unfit { id, message } => write!(f, "{id}: {message}"),
             ControlError::NoSolution(error) => write!(f, "{error}"),

@@ -24,6 +24,8 @@ pub struct Entry {
     pub summary: &'static str,
     /// What it serves: names of tasks, with all their ids and variants, and single ids.
     pub serves: &'static [&'static str],
+    /// Number of feet of the bodies that it serves, if it matters.
+    pub feet: Option<usize>,
     /// Makes it.
     build: fn(&Env) -> Result<Box<dyn Controller>, ControlError>,
 }
@@ -31,9 +33,13 @@ pub struct Entry {
 impl Entry {
     /// Whether it serves an environment.
     pub fn serves(&self, spec: &Spec) -> bool {
-        self.serves.iter().any(|served| *served == spec.task || *served == spec.id)
+        let named = self.serves.iter().any(|served| *served == spec.task || *served == spec.id);
+        named && (self.feet.is_none() || self.feet == tasks::locomotion::feet(spec))
     }
 }
+
+/// Tasks of bodies with feet.
+const LOCOMOTION: &[&str] = &["chase", "push_box", "stand", "turn", "velocity", "walk_to", "weave"];
 
 /// Every controller. Of several that serve an id, the first is the best.
 const ALL: &[Entry] = &[
@@ -41,73 +47,92 @@ const ALL: &[Entry] = &[
         name: "reach",
         summary: "inverse kinematics once, then a minimum-jerk motion of the joints",
         serves: &["reach"],
+        feet: None,
         build: |env| Ok(Box::new(tasks::arms::reach::Reach::new(env)?)),
     },
     Entry {
         name: "trot",
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
-        serves: &["chase", "push_box", "stand", "turn", "velocity", "walk_to", "weave"],
+        serves: LOCOMOTION,
+        feet: Some(4),
         build: |env| Ok(Box::new(tasks::locomotion::trot::Trot::new(env)?)),
     },
     Entry {
         name: "acrobot",
         summary: "a swing found by iLQR over the model, then a linear-quadratic regulator",
         serves: &["acrobot"],
+        feet: None,
         build: |env| Ok(Box::new(SwingUp::new(env, swing_up::ACROBOT)?)),
     },
     Entry {
         name: "furuta",
         summary: "a swing found by iLQR over the model, then a linear-quadratic regulator",
         serves: &["furuta"],
+        feet: None,
         build: |env| Ok(Box::new(SwingUp::new(env, swing_up::FURUTA)?)),
     },
     Entry {
         name: "double_pole",
         summary: "a linear-quadratic regulator of the model's slopes",
         serves: &["double_pole"],
+        feet: None,
         build: |env| Ok(Box::new(Balance::new(env, balance::DOUBLE_POLE)?)),
     },
     Entry {
         name: "ball_on_beam",
         summary: "a linear-quadratic regulator of a ball that rolls down a slope",
         serves: &["ball_on_beam"],
+        feet: None,
         build: |env| Ok(Box::new(BallOnBeam::new(env)?)),
     },
     Entry {
         name: "car_trailer",
         summary: "iLQR over the kinematics of wheels that do not slip, from where the car is",
         serves: &["car_trailer"],
+        feet: None,
         build: |env| Ok(Box::new(CarTrailer::new(env)?)),
     },
     Entry {
         name: "unicycle",
         summary: "steering by polar coordinates",
         serves: &["unicycle"],
+        feet: None,
         build: |env| Ok(Box::new(Unicycle::new(env)?)),
     },
     Entry {
         name: "knife_edge",
         summary: "a turn towards the point, and speed along the edge",
         serves: &["knife_edge"],
+        feet: None,
         build: |env| Ok(Box::new(KnifeEdge::new(env)?)),
     },
     Entry {
         name: "planar_arm",
         summary: "a spring at the tip in operational space, straight joints in the freedom that is left",
         serves: &["planar_arm"],
+        feet: None,
         build: |env| Ok(Box::new(PlanarArm::new(env)?)),
     },
     Entry {
         name: "tendon_finger",
         summary: "springs at the joints, their torques shared among muscles by static optimisation",
         serves: &["tendon_finger"],
+        feet: None,
         build: |env| Ok(Box::new(TendonFinger::new(env)?)),
     },
     Entry {
         name: "hopper_boom",
         summary: "Raibert's thrust and foot placement",
         serves: &["hopper_boom"],
+        feet: None,
         build: |env| Ok(Box::new(HopperBoom::new(env)?)),
+    },
+    Entry {
+        name: "walk",
+        summary: "a walk on two feet by the divergent component of motion, legs by inverse kinematics",
+        serves: LOCOMOTION,
+        feet: Some(2),
+        build: |env| Ok(Box::new(tasks::locomotion::walk::Walk::new(env)?)),
     },
 ];
 
@@ -133,7 +158,8 @@ pub fn make(name: &str, env: &Env) -> Result<Box<dyn Controller>, ControlError> 
     };
     if !entry.serves(spec) {
         let (id, serving) = (spec.id.clone(), names());
-        return Err(ControlError::NotServed { name: entry.name, id, serves: entry.serves, serving });
+        let (name, serves, feet) = (entry.name, entry.serves, entry.feet);
+        return Err(ControlError::NotServed { name, id, serves, feet, serving });
     }
     (entry.build)(env)
 }
@@ -168,5 +194,8 @@ mod tests {
         let other = error("hive/ElbowPose-v0", "reach");
         assert!(other.contains("serves reach, not hive/ElbowPose-v0"), "{other}");
         assert!(other.contains("no controller serves hive/ElbowPose-v0"), "{other}");
+        let feet = error("hive/DarwinTurn-v0", "trot");
+        assert!(feet.contains("of bodies with 4 feet, not hive/DarwinTurn-v0"), "{feet}");
+        assert!(feet.ends_with("hive/DarwinTurn-v0 is served by walk"), "{feet}");
     }
 }

@@ -11,6 +11,7 @@ macro_rules! dmatrix {
 }
 
 mod box_program;
+mod dcm;
 mod gait;
 mod ilqr;
 mod minimum_jerk;
@@ -22,6 +23,7 @@ mod sampling;
 mod simulated;
 mod static_optimisation;
 
+pub use dcm::{Pace, Pendulum};
 pub use gait::{Gait, Steps};
 pub use ilqr::{Dynamics, Ilqr, Plan, Quadratic};
 pub use minimum_jerk::{Boundary, MinimumJerk};

@@ -3,7 +3,7 @@
 use crate::error::ControlError;
 use env::Env;
 use physics::elements::{BodyId, Element, JointId, SiteId};
-use physics::math::{Vec3, add, mul_mat_vec};
+use physics::math::{Vec3, add, cross, dot, mul_mat_vec, quat_mul, sub};
 use physics::model::{JointType, TrnType};
 use physics::position::kinematics::kinematics;
 use physics::{Data, Model};
@@ -23,6 +23,8 @@ struct Servo {
     place: usize,
     /// How long it stays behind a steady motion: damping over stiffness \[s\].
     lag: f64,
+    /// Torque for each radian that the joint is off \[N m/rad\].
+    stiffness: f64,
 }
 
 struct Leg {
@@ -80,6 +82,15 @@ impl Legs {
         kinematics(m, &self.posed.state, &mut self.posed.kin);
     }
 
+    /// Begins where the joints are (nq), so that the first motion is from there.
+    pub fn begin(&mut self, m: &Model, qpos: &[f64]) {
+        self.restart(m);
+        for servo in self.servos.iter().flatten() {
+            self.posed.state.qpos[servo.place] = qpos[servo.place];
+        }
+        kinematics(m, &self.posed.state, &mut self.posed.kin);
+    }
+
     /// Where the feet are in the standing pose, relative to the root \[m\], in its frame.
     pub fn homes(&mut self, m: &Model) -> Vec<Vec3> {
         self.restart(m);
@@ -87,21 +98,24 @@ impl Legs {
         let (here, axes) = (kin.xpos[self.root.index()], kin.xmat[self.root.index()]);
         let home = |leg: &Leg| {
             let there = kin.site_xpos[leg.foot.index()];
-            physics::math::mul_mat_t_vec(&axes, physics::math::sub(there, here))
+            physics::math::mul_mat_t_vec(&axes, sub(there, here))
         };
         self.legs.iter().map(home).collect()
     }
 
-    /// Writes the targets of all servos into `controls` (nu) that bring the feet to `places`, relative to the root in its frame \[m\], within
-    /// `dt` seconds: the positions of joints, and what the servos stay behind their motion. A foot that cannot reach its place goes as
-    /// near as possible.
-    pub fn solve(&mut self, m: &Model, places: &[Vec3], dt: f64, controls: &mut [f64]) {
+    /// Writes the targets of all servos into `controls` (nu) that bring the feet to `poses`, relative to the root in its frame \[m\], within
+    /// `dt` seconds: the positions of joints, and what the servos stay behind their motion. A foot that cannot reach its pose goes as
+    /// near as possible; one without an orientation takes any.
+    pub fn solve(&mut self, m: &Model, poses: &[Pose], dt: f64, controls: &mut [f64]) {
         let before = self.posed.state.qpos.to_vec();
         let root = self.root.index();
         let (here, axes) = (self.posed.kin.xpos[root], self.posed.kin.xmat[root]);
-        for (leg, place) in self.legs.iter().zip(places) {
-            let goal = add(here, mul_mat_vec(&axes, *place));
-            let pose = Pose { position: Some(goal), ..Pose::default() };
+        let turn = self.posed.kin.xquat[root];
+        for (leg, relative) in self.legs.iter().zip(poses) {
+            let pose = Pose {
+                position: relative.position.map(|place| add(here, mul_mat_vec(&axes, place))),
+                orientation: relative.orientation.map(|orientation| quat_mul(turn, orientation)),
+            };
             let search = Search { tolerance: TOLERANCE, max_steps: STEPS, ..Search::default() };
             let reach = Reach { joints: &leg.joints, rest: Some(&self.stand), pull: PULL };
             let found = search.run_within(m, &self.posed, leg.foot, &pose, &reach);
@@ -109,10 +123,27 @@ impl Legs {
             kinematics(m, &self.posed.state, &mut self.posed.kin);
         }
         for (control, servo) in controls.iter_mut().zip(&self.servos) {
-            *control = servo.map_or(0.0, |Servo { place, lag }| {
+            *control = servo.map_or(0.0, |Servo { place, lag, .. }| {
                 let now = self.posed.state.qpos[place];
                 now + lag * (now - before[place]) / dt
             });
+        }
+    }
+}
+
+impl Legs {
+    /// Adds to `controls` (nu) what the servos of a leg are off while they bear the leg's weight and a force of the ground \[N\] on its
+    /// foot at `point`, world frame.
+    pub fn bear(&self, m: &Model, d: &Data, leg: usize, (point, force): (Vec3, Vec3), controls: &mut [f64]) {
+        for joint in &self.legs[leg].joints {
+            let (place, dof) = (m.jnt_qposadr[joint.index()] as usize, m.jnt_dofadr[joint.index()] as usize);
+            let lever = sub(point, d.kin.xanchor[joint.index()]);
+            let torque = d.vel.qfrc_bias[dof] - dot(d.kin.xaxis[joint.index()], cross(lever, force));
+            for (control, servo) in controls.iter_mut().zip(&self.servos) {
+                if let Some(servo) = servo.filter(|servo| servo.place == place && servo.stiffness > 0.0) {
+                    *control += torque / servo.stiffness;
+                }
+            }
         }
     }
 }
@@ -123,7 +154,7 @@ fn servo(m: &Model, actuator: usize) -> Servo {
     let [_, stiffness, damping] = [0, 1, 2].map(|i| -m.actuator_biasprm[actuator][i]);
     let passive = m.dof_damping[m.jnt_dofadr[joint] as usize];
     let lag = if stiffness > 0.0 { (damping + passive) / stiffness } else { 0.0 };
-    Servo { place: m.jnt_qposadr[joint] as usize, lag }
+    Servo { place: m.jnt_qposadr[joint] as usize, lag, stiffness }
 }
 
 /// Hinges and slides on the way from the root to a site.

@@ -1,5 +1,6 @@
 //! A trot that follows a command: Raibert's steps, legs by inverse kinematics, height and level kept by what the body lacks of them.
 
+use super::body::Body;
 use super::legs::Legs;
 use super::wish::{Facts, Wish, wish};
 use crate::controller::{Controller, command};
@@ -7,7 +8,7 @@ use crate::error::ControlError;
 use crate::maths::{Gait, Steps};
 use env::{Env, Rows};
 use physics::math::Vec3;
-use robot::{Roles, Walk};
+use robot::{Pose, Walk};
 
 /// Period of the gait in times of a fall from the height of the root, sqrt(h/g).
 const PERIOD: f64 = 2.6;
@@ -52,28 +53,15 @@ impl Trot {
     /// A task without roles; a body that has not four feet, or whose legs are not of servos.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
         let m = &env.scene().model;
-        let path: Option<String> = env.spec().args.get("roles");
-        let path = path.ok_or_else(|| ControlError::unfit(env, "the setting roles is needed"))?;
-        let text = path.strip_prefix("hive/").and_then(assets::text);
-        let text = text.ok_or_else(|| ControlError::unfit(env, format!("{path} is not there")))?;
-        let unfit = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
-        let roles = Roles::from_toml(text, &path).map_err(unfit)?;
-        let body = roles.cast(m, "", "trot");
-        let (root, feet) = (body.root().map_err(unfit)?, body.feet().map_err(unfit)?);
-        if feet.len() != 4 {
-            return Err(ControlError::unfit(env, format!("a trot needs four feet, not {}", feet.len())));
-        }
-        let mut stand = m.qpos0.to_vec();
-        body.pose("stand", &mut stand).map_err(unfit)?;
+        let Body { root, feet, stand, walk, forward } = Body::new(env, "trot", 4)?;
         let mut legs = Legs::new(env, root, &feet, &stand)?;
-        let forward = body.forward();
         let homes: Vec<Vec3> = legs.homes(m).into_iter().map(|home| turned(home, forward)).collect();
         let height = -homes.iter().map(|home| home[2]).fold(f64::INFINITY, f64::min);
         let fall = (height / 9.81).sqrt();
         let gait = Gait { period: PERIOD * fall, duty: 0.55, lift: LIFT * height, balance: BALANCE * fall };
         Ok(Trot {
             steps: Steps::trot(gait, &homes),
-            walk: body.walk().map_err(unfit)?,
+            walk,
             wish: wish(&env.spec().task),
             forward,
             height,
@@ -128,9 +116,10 @@ impl Controller for Trot {
         let [ahead, left, _] = [rows["up"][0], rows["up"][1], rows["up"][2]];
         let lowered = |&[x, y, z]: &Vec3| {
             let level = LEVEL * (ahead * x + left * y);
-            back([x, y, z + self.height - wanted - self.raised + level], self.forward)
+            let place = back([x, y, z + self.height - wanted - self.raised + level], self.forward);
+            Pose { position: Some(place), orientation: None }
         };
-        let feet: Vec<Vec3> = self.places.iter().map(lowered).collect();
+        let feet: Vec<Pose> = self.places.iter().map(lowered).collect();
         self.legs.solve(&env.scene().model, &feet, dt, &mut self.controls);
         command(env, &self.controls, action)
     }

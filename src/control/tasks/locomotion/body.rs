@@ -1,0 +1,62 @@
+//! The body of a task, by its roles.
+
+use crate::error::ControlError;
+use env::{Env, Spec};
+use physics::elements::{BodyId, SiteId};
+use physics::math::Vec3;
+use robot::{Roles, Walk};
+
+/// A body with feet, as its roles describe it.
+pub struct Body {
+    /// Body whose pose and velocity tasks read.
+    pub root: BodyId,
+    /// Sites at the soles.
+    pub feet: Vec<SiteId>,
+    /// Positions of all joints when it stands (nq).
+    pub stand: Vec<f64>,
+    /// How fast it walks.
+    pub walk: Walk,
+    /// Direction that it looks in, in the frame of the root.
+    pub forward: Vec3,
+}
+
+/// Roles that the row of a task names, and their path.
+fn roles(spec: &Spec) -> Result<Roles, String> {
+    let path: Option<String> = spec.args.get("roles");
+    let path = path.ok_or("the setting roles is needed")?;
+    let text = path.strip_prefix("hive/").and_then(assets::text);
+    let text = text.ok_or_else(|| format!("{path} is not there"))?;
+    Roles::from_toml(text, &path).map_err(|error| error.to_string())
+}
+
+/// Number of feet of the body of a task, if its row names roles that have feet.
+pub fn feet(spec: &Spec) -> Option<usize> {
+    roles(spec).ok()?.feet.map(|feet| feet.names.len())
+}
+
+impl Body {
+    /// The body of a task, for the controller called `name`, which is for bodies with `count` feet.
+    ///
+    /// # Errors
+    /// A task without roles, a model that does not fill them, another number of feet.
+    pub fn new(env: &Env, name: &str, count: usize) -> Result<Self, ControlError> {
+        let m = &env.scene().model;
+        let roles = roles(env.spec()).map_err(|message| ControlError::unfit(env, message))?;
+        let unfit = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
+        let body = roles.cast(m, "", name);
+        let feet = body.feet().map_err(unfit)?;
+        if feet.len() != count {
+            let message = format!("{name} is for bodies with {count} feet, not {}", feet.len());
+            return Err(ControlError::unfit(env, message));
+        }
+        let mut stand = m.qpos0.to_vec();
+        body.pose("stand", &mut stand).map_err(unfit)?;
+        Ok(Body {
+            root: body.root().map_err(unfit)?,
+            feet,
+            stand,
+            walk: body.walk().map_err(unfit)?,
+            forward: body.forward(),
+        })
+    }
+}
