@@ -34,16 +34,18 @@ const RAISE: [f64; 2] = [0.03, 0.1];
 const SETTLE: [f64; 2] = [4.0, 1.5];
 /// Share of the wish that steps are planned for at first: they turn out longer than planned.
 const SHARE: f64 = 0.7;
-/// Share of what the velocity lacks of the wish that an act adds, and most that is added in walking speeds.
-const HURRY: [f64; 2] = [0.005, 0.25];
+/// Share of what the velocity lacks of the wish that an act adds, forward and otherwise.
+const HURRY: [f64; 2] = [0.005, 0.0015];
+/// Most that is added, in walking speeds.
+const HASTE: f64 = 0.25;
 /// Acceleration that commands are limited to, in walking speeds a second.
 const RAMP: f64 = 1.0;
 /// How much of the divergent component's error the centre of pressure moves by, on one foot and on two.
 const GAIN: [f64; 2] = [2.0, 0.5];
 /// How far the centre of pressure moves from the middle of a foot, forward and to the side, in distances of the feet.
 const SOLE: [f64; 2] = [0.43, 0.27];
-/// Share of the difference to what is measured by which position and velocity of the reference are drawn to it.
-const DRAW: [f64; 2] = [0.05, 0.2];
+/// Share of the difference to what is measured by which the reference is drawn to it: its position on both feet, on one, and its velocity.
+const DRAW: [f64; 3] = [0.02, 0.2, 0.2];
 /// The same of the planted feet, and of the heading.
 const SLIP: [f64; 2] = [0.1, 0.05];
 /// Share of the phase's error that an act corrects, and most of it in acts.
@@ -164,11 +166,13 @@ impl Walk {
         }
         let measured = [rows["velocity"][0], rows["velocity"][1], rows["turning"][2]];
         let now = &mut self.now;
-        for (i, most) in [speed, speed, turn].into_iter().enumerate() {
+        for (i, (most, hurry)) in
+            [(speed, HURRY[0]), (speed, HURRY[1]), (turn, HURRY[1])].into_iter().enumerate()
+        {
             let step = RAMP * most * dt;
             now.wanted[i] += (wanted[i] - now.wanted[i]).clamp(-step, step);
-            let lacking = now.lacking[i] + HURRY[0] * (now.wanted[i] - measured[i]);
-            now.lacking[i] = lacking.clamp(-HURRY[1] * most, HURRY[1] * most);
+            let lacking = now.lacking[i] + hurry * (now.wanted[i] - measured[i]);
+            now.lacking[i] = lacking.clamp(-HASTE * most, HASTE * most);
             now.velocity[i] = SHARE * now.wanted[i] + now.lacking[i];
         }
         let usual = if self.stays { self.height } else { CROUCH * self.height };
@@ -187,7 +191,10 @@ impl Walk {
         now.since += dt;
         now.heading += now.velocity[2] * dt;
         now.heading = wrap(now.heading + SLIP[1] * wrap(seen.yaw - now.heading));
-        for ((reference, real), share) in now.reference.iter_mut().zip([seen.mass, seen.velocity]).zip(DRAW) {
+        let position = DRAW[usize::from(now.step.is_some())];
+        let shares = [position, DRAW[2]];
+        for ((reference, real), share) in now.reference.iter_mut().zip([seen.mass, seen.velocity]).zip(shares)
+        {
             *reference = [0, 1].map(|i| reference[i] + share * (real[i] - reference[i]));
         }
         for (planted, foot) in now.planted.iter_mut().zip(&seen.feet) {
