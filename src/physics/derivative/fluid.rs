@@ -1,16 +1,16 @@
 //! Slope of fluid forces over velocity. In the local frame of `fluid` a wrench has a 6x6 Jacobian `B` with respect to
 //! the velocity, so that joint space sees `J'BJ`.
 
-use super::inputs::{DerivativeInputs, add_to_row, is_free_body};
-use crate::math::{
-    Mat3, Spatial, Vec3, cross_matrix, dot, linear, norm, ops, rotational, scale, spatial, spatial_dot,
-};
+use super::inputs::{DerivativeInputs, for_row, is_free_body};
+use crate::math::{Mat3, Spatial, Vec3, cross_matrix, dot, linear, norm, ops, rotational, scale, spatial};
 use crate::model::bounds::MINVAL;
 use crate::model::{Integrator, Model};
 use crate::position::chain::{chain, com_offset, point_column};
 use crate::position::frame::Frame;
 use crate::sleep::Awake;
-use crate::velocity::fluid::{Ellipsoid, FluidShape, inertia_box, pow4, relative_velocity, shapes, square};
+use crate::velocity::fluid::{
+    Ellipsoid, FluidShape, box_face, box_turning, inertia_box, relative_velocity, shapes, square,
+};
 use std::f64::consts::PI;
 
 /// A 6x6 matrix: rows are torque and force, columns angular and linear velocity.
@@ -24,8 +24,9 @@ const TRANSLATION: usize = 3;
 #[derive(Clone, Debug, Default)]
 pub struct FluidScratch {
     dofs: Vec<i32>,
-    columns: Vec<Spatial>,
-    products: Vec<Spatial>,
+    /// Rows of the Jacobian.
+    jac: [Vec<f64>; 6],
+    sums: Vec<f64>,
 }
 
 /// Adds the slopes of the fluid forces of all bodies.
@@ -33,10 +34,15 @@ pub(super) fn add_fluid(m: &Model, inputs: &DerivativeInputs, scratch: &mut Flui
     let (com, vel) = (inputs.com, inputs.vel);
     shapes(m, Awake::EVERYTHING, inputs.kin, |shape, at| {
         let v = relative_velocity(m, com, vel, at);
+        let (density, viscosity) = (m.opt.density, m.opt.viscosity);
         let slope = match shape {
-            FluidShape::InertiaBox => box_slope(inertia_box(m, at.body), &v, m.opt.density, m.opt.viscosity),
+            FluidShape::InertiaBox => {
+                let side = inertia_box(m, at.body);
+                add_block(m, inputs, at, &box_viscous_slope(side, viscosity.max(0.0)), scratch, out);
+                box_quadratic_slope(side, &v, density.max(0.0))
+            }
             FluidShape::Ellipsoid(g) => {
-                let slope = ellipsoid_slope(&Ellipsoid::of_geom(m, g), &v, m.opt.density, m.opt.viscosity);
+                let slope = ellipsoid_slope(&Ellipsoid::of_geom(m, g), &v, density, viscosity);
                 // The symmetric solver of this integrator solves only for free bodies separately.
                 let symmetric = m.opt.integrator == Integrator::Implicitfast;
                 if symmetric && !is_free_body(m, at.body) { symmetrized(&slope) } else { slope }
@@ -50,7 +56,8 @@ fn symmetrized(b: &Block) -> Block {
     std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (b[i][j] + b[j][i])))
 }
 
-/// `out += J'BJ` with the Jacobian of a frame in its own orientation.
+/// `out += J'BJ` with the Jacobian of a frame in its own orientation. As in MuJoCo, to the last bit, the terms of an
+/// entry are added to it one by one, by rows of `B`.
 fn add_block(
     m: &Model,
     inputs: &DerivativeInputs,
@@ -59,44 +66,51 @@ fn add_block(
     scratch: &mut FluidScratch,
     out: &mut [f64],
 ) {
-    let FluidScratch { dofs, columns, products } = scratch;
+    let FluidScratch { dofs, jac, sums } = scratch;
     let offset = com_offset(m, inputs.com, at.body, at.pos);
     dofs.clear();
     dofs.extend(chain(m, at.body).map(|dof| dof as i32));
     dofs.reverse();
-    columns.clear();
-    columns.extend(dofs.iter().map(|&dof| {
+    jac.iter_mut().for_each(Vec::clear);
+    for &dof in &*dofs {
         let axis = rotational(&inputs.com.cdof[dof as usize]);
-        at.local(&spatial(axis, point_column(inputs.com, dof as usize, offset)))
-    }));
-    products.clear();
-    products.extend(columns.iter().map(|c| std::array::from_fn(|i| spatial_dot(&b[i], c))));
-    for (&dof, column) in dofs.iter().zip(&*columns) {
-        add_to_row(m, dof as usize, dofs, |p| spatial_dot(column, &products[p]), out);
+        let column = at.local(&spatial(axis, point_column(inputs.com, dof as usize, offset)));
+        jac.iter_mut().zip(column).for_each(|(row, x)| row.push(x));
+    }
+    sums.resize(dofs.len(), 0.0);
+    for (k, &dof) in dofs.iter().enumerate() {
+        for_row(m, dof as usize, dofs, out, |entry, p| sums[p] = *entry);
+        for (e, &value) in b.as_flattened().iter().enumerate().filter(|(_, value)| **value != 0.0) {
+            let factor = jac[e / 6][k] * value;
+            sums.iter_mut().zip(&jac[e % 6]).for_each(|(sum, x)| *sum += factor * x);
+        }
+        for_row(m, dof as usize, dofs, out, |entry, p| *entry = sums[p]);
     }
 }
 
-/// Slope of `fluid::box_wrench`.
-fn box_slope(side: Vec3, v: &Spatial, density: f64, viscosity: f64) -> Block {
+/// Slope of the viscous part of `fluid::box_wrench`.
+fn box_viscous_slope(side: Vec3, viscosity: f64) -> Block {
     let mut b = [[0.0; 6]; 6];
-    if viscosity > 0.0 {
-        let d = (side[0] + side[1] + side[2]) / 3.0;
-        for k in 0..3 {
-            b[k][k] -= PI * d * d * d * viscosity;
-            b[3 + k][3 + k] -= 3.0 * PI * d * viscosity;
-        }
-    }
-    if density > 0.0 {
-        for k in 0..3 {
-            let (p, q) = (side[(k + 1) % 3], side[(k + 2) % 3]);
-            b[k][k] -= density * side[k] * (pow4(p) + pow4(q)) * 2.0 * v[k].abs() / 64.0;
-            b[3 + k][3 + k] -= density * p * q * v[3 + k].abs();
-        }
+    let d = (side[0] + side[1] + side[2]) / 3.0;
+    for k in 0..3 {
+        b[k][k] = -PI * d * d * d * viscosity;
+        b[3 + k][3 + k] = -3.0 * PI * d * viscosity;
     }
     b
 }
 
-/// Adds `factor * part * diag(column_scale)` to a quadrant of `b`.
+/// Slope of the quadratic part of `fluid::box_wrench`.
+fn box_quadratic_slope(side: Vec3, v: &Spatial, density: f64) -> Block {
+    let mut b = [[0.0; 6]; 6];
+    for k in 0..3 {
+        let [p, q] = box_face(side, k);
+        b[k][k] = -box_turning(side, k, density) * 2.0 * v[k].abs() / 64.0;
+        b[3 + k][3 + k] = -density * p * q * v[3 + k].abs();
+    }
+    b
+}
+
+/// Adds `part * diag(column_scale)` to a quadrant of `b`.
 fn add_quadrant(b: &mut Block, (row, column): (usize, usize), part: &Mat3, column_scale: Vec3) {
     for i in 0..3 {
         for j in 0..3 {
@@ -147,7 +161,8 @@ fn add_added_mass(b: &mut Block, e: &Ellipsoid, v: &Spatial, density: f64) {
 
 /// Slope of the viscous and quadratic drag torque `-w (c + density |k ∘ w|)`.
 fn torque_slope(e: &Ellipsoid, w: Vec3, density: f64, viscosity: f64) -> Mat3 {
-    let k = e.drag_moments();
+    let (largest, middle) = e.broad_axes();
+    let k = e.drag_moments(8.0 / 15.0 * PI * middle * square(largest) * square(largest));
     let size = norm([w[0] * k[0], w[1] * k[1], w[2] * k[2]]).max(MINVAL);
     let gradient: Vec3 = std::array::from_fn(|i| -density / size * w[i] * k[i] * k[i]);
     let d = e.diameter();
@@ -199,12 +214,12 @@ impl Flow {
             let turn = (0..3).fold(0.0, |s, j| s + a[j] * square(l[j]) * (a[i] - a[j]));
             per_area * area_factor * a[i] * l[i] * turn
         });
-        let factor = -quadratic / speed.max(MINVAL);
+        let factor = -quadratic * (1.0 / speed.max(MINVAL));
         let viscous = viscosity * 3.0 * PI * e.diameter();
         std::array::from_fn(|k| {
             let (i, j) = (k / 3, k % 3);
-            let value = factor * l[i] * l[j] - l[i] * area_slope[j];
-            if i == j { value + factor * speed2 - viscous } else { value }
+            let (diagonal, drag) = if i == j { (speed2, viscous) } else { (0.0, 0.0) };
+            factor * (l[i] * l[j] + diagonal) - l[i] * area_slope[j] - drag
         })
     }
 }

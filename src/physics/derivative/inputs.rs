@@ -52,13 +52,13 @@ pub fn row(m: &Model, dof: usize) -> Range<usize> {
     start..start + m.D_rownnz[dof] as usize
 }
 
-/// Adds `value(p)` to entry `(dof, columns[p])` where the pattern has one. Both lists of columns increase.
-pub(super) fn add_to_row(
+/// Calls `f` with entry `(dof, columns[p])`, where the pattern has one, and `p`. Both lists of columns increase.
+pub(super) fn for_row(
     m: &Model,
     dof: usize,
     columns: &[i32],
-    value: impl Fn(usize) -> f64,
     out: &mut [f64],
+    mut f: impl FnMut(&mut f64, usize),
 ) {
     let at = row(m, dof);
     let mut p = 0;
@@ -70,7 +70,7 @@ pub(super) fn add_to_row(
             break;
         }
         if columns[p] == column {
-            *entry += value(p);
+            f(entry, p);
         }
     }
 }
@@ -79,6 +79,6 @@ pub(super) fn add_to_row(
 pub(super) fn add_square(m: &Model, columns: &[i32], values: &[f64], slope: f64, out: &mut [f64]) {
     for (&dof, &value) in columns.iter().zip(values) {
         let factor = value * slope;
-        add_to_row(m, dof as usize, columns, |p| factor * values[p], out);
+        for_row(m, dof as usize, columns, out, |entry, p| *entry += factor * values[p]);
     }
 }

@@ -79,15 +79,25 @@ fn box_wrench(side: Vec3, v: &Spatial, density: f64, viscosity: f64) -> Spatial 
         f = spatial(scale(rotational(v), turn), scale(linear(v), shift));
     }
     if density > 0.0 {
-        // MuJoCo's order of factors, to the last bit: the sides of a face as they are numbered.
-        let fourth = |x: f64| x * x * x * x;
-        for (k, face) in [[1, 2], [0, 2], [0, 1]].into_iter().enumerate() {
-            let [a, b] = face.map(|i| side[i]);
+        for k in 0..3 {
+            let [a, b] = box_face(side, k);
             f[3 + k] -= 0.5 * density * a * b * v[3 + k].abs() * v[3 + k];
-            f[k] -= density * side[k] * (fourth(a) + fourth(b)) * v[k].abs() * v[k] / 64.0;
+            f[k] -= box_turning(side, k, density) * v[k].abs() * v[k] / 64.0;
         }
     }
     f
+}
+
+/// Sides of the face across axis `k`, as they are numbered: MuJoCo's order of factors, to the last bit.
+pub(crate) fn box_face(side: Vec3, k: usize) -> [f64; 2] {
+    [[1, 2], [0, 2], [0, 1]][k].map(|i| side[i])
+}
+
+/// 64 times the coefficient of quadratic drag of a box against rotation about axis `k`.
+pub(crate) fn box_turning(side: Vec3, k: usize, density: f64) -> f64 {
+    let fourth = |x: f64| x * x * x * x;
+    let [a, b] = box_face(side, k);
+    density * side[k] * (fourth(a) + fourth(b))
 }
 
 /// A geom as an ellipsoid with its coefficients of interaction.
@@ -166,7 +176,9 @@ impl Ellipsoid {
         let circulation = scale(cross(normal, l), self.kutta_lift * density * cosine * area);
         let kutta = cross(circulation, l);
 
-        let (diameter, moments) = (self.diameter(), self.drag_moments());
+        let (largest, middle) = self.broad_axes();
+        let max_moment = 8.0 / 15.0 * PI * middle * pow4(largest);
+        let (diameter, moments) = (self.diameter(), self.drag_moments(max_moment));
         let moment: Vec3 = std::array::from_fn(|k| w[k] * moments[k]);
         let linear_drag = viscosity * (3.0 * PI * diameter)
             + density * norm(l) * (area * self.blunt_drag + self.slender_drag * (max_area - area));
@@ -185,7 +197,7 @@ impl Ellipsoid {
     }
 
     /// Largest and middle semi-axis.
-    fn broad_axes(&self) -> (f64, f64) {
+    pub fn broad_axes(&self) -> (f64, f64) {
         let s = self.size;
         let (largest, smallest) = (s[0].max(s[1]).max(s[2]), s[0].min(s[1]).min(s[2]));
         (largest, s[0] + s[1] + s[2] - largest - smallest)
@@ -197,10 +209,10 @@ impl Ellipsoid {
         PI * largest * middle
     }
 
-    /// Coefficients of quadratic drag against rotation about each axis.
-    pub fn drag_moments(&self) -> Vec3 {
-        let (s, (largest, middle)) = (self.size, self.broad_axes());
-        let max_moment = 8.0 / 15.0 * PI * middle * pow4(largest);
+    /// Coefficients of quadratic drag against rotation about each axis. `max_moment`, the largest that a rotation can
+    /// see, is the caller's: MuJoCo multiplies its factors in another order for the force than for its slope.
+    pub fn drag_moments(&self, max_moment: f64) -> Vec3 {
+        let s = self.size;
         std::array::from_fn(|k| {
             let own = 8.0 / 15.0 * PI * s[k] * pow4(s[(k + 1) % 3].max(s[(k + 2) % 3]));
             self.angular_drag * own + self.slender_drag * (max_moment - own)
