@@ -68,6 +68,11 @@ impl Cast<'_> {
         self.roles.forward
     }
 
+    /// Direction that points up when the robot stands, in the frame of the root.
+    pub fn up(&self) -> [f64; 3] {
+        self.roles.up
+    }
+
     /// The head.
     ///
     /// # Errors

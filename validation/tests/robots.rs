@@ -74,7 +74,8 @@ fn check(roles: &Roles, m: &Model) -> Result<(), ConfigError> {
         let ground = feet.iter().map(|foot| d.kin.site_xpos[foot.index()][2]).fold(f64::INFINITY, f64::min);
         let height = d.kin.xpos[root][2] - ground;
         assert!(height > 1.2 * fallen.height, "{}: stands at {height}, {fallen:?}", roles.file);
-        let tilt = d.kin.xmat[root][8].acos();
+        let axes = d.kin.xmat[root];
+        let tilt = (0..3).map(|i| axes[6 + i] * roles.up[i]).sum::<f64>().acos();
         assert!(tilt < 0.5 * fallen.tilt, "{}: leans by {tilt}", roles.file);
     }
     Ok(())

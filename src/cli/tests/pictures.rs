@@ -280,7 +280,7 @@ fn a_gallery_is_the_same_on_any_number_of_threads() {
     assert!(out.status.success(), "{}", text(&out.stderr));
     let note = text(&out.stderr);
     assert!(note.contains("left out") && note.contains("robohive assets import"), "{note}");
-    let out = robohive(&["gallery", "ChaseTag", "-q", "--out", &two]);
+    let out = robohive(&["gallery", "AirplaneFly", "-q", "--out", &two]);
     assert_eq!(out.status.code(), Some(1));
     assert!(text(&out.stderr).contains("no environment to draw"));
 }

@@ -6,8 +6,20 @@ use super::node::{Content, Node};
 use super::toml_reader;
 use std::collections::BTreeMap;
 
-const KEYS: [&str; 11] =
-    ["root", "forward", "head", "feet", "palm", "fingertips", "tool", "hardware", "poses", "fallen", "walk"];
+const KEYS: [&str; 12] = [
+    "root",
+    "forward",
+    "up",
+    "head",
+    "feet",
+    "palm",
+    "fingertips",
+    "tool",
+    "hardware",
+    "poses",
+    "fallen",
+    "walk",
+];
 
 /// Parts of a robot by their roles, so that one task serves robots whose elements have other names.
 ///
@@ -34,6 +46,7 @@ const KEYS: [&str; 11] =
 /// |---|---|
 /// | `root` | body whose pose and velocity tasks read |
 /// | `forward` | axis of the root that points forward: `x` (if left out), `-x`, `y` or `-y` |
+/// | `up` | axis of the root that points up when it stands: `z` (if left out) or `y` |
 /// | `head` | body |
 /// | `feet` | sites at the soles, front before hind, left before right |
 /// | `palm` | site in the middle of the palm or between the fingers of a gripper, its z axis the way the palm faces |
@@ -42,7 +55,7 @@ const KEYS: [&str; 11] =
 /// | `hardware` | path of the [`Config`](super::Config), from the folder of this file |
 /// | `poses.NAME` | a pose: joints and where they are \[rad or m\], the others stay; `root_z` is the height of a root that is free or slides \[m\] |
 /// | `walk` | how fast a legged body walks: `speed` \[m/s\], `turn` \[rad/s\] |
-/// | `fallen` | when a robot has fallen: `height` \[m\] of the root over the ground, `tilt` \[rad\] of its z axis from the vertical |
+/// | `fallen` | when a robot has fallen: `height` \[m\] of the root over the ground, `tilt` \[rad\] of its upward axis from the vertical |
 #[derive(Clone, Debug, PartialEq)]
 pub struct Roles {
     /// The text, as the caller named it.
@@ -51,6 +64,8 @@ pub struct Roles {
     pub root: Option<Named>,
     /// Direction that the robot looks and walks in, in the frame of the root.
     pub forward: [f64; 3],
+    /// Direction that points up when the robot stands, in the frame of the root.
+    pub up: [f64; 3],
     /// Body.
     pub head: Option<Named>,
     /// Sites at the soles.
@@ -96,7 +111,7 @@ pub struct NominalPose {
 pub struct Fallen {
     /// The root is lower over the ground than this \[m\].
     pub height: f64,
-    /// The z axis of the root leans more than this from the vertical \[rad\].
+    /// The upward axis of the root leans more than this from the vertical \[rad\].
     pub tilt: f64,
 }
 
@@ -121,7 +136,8 @@ impl Roles {
         Ok(Roles {
             file: file.to_owned(),
             root: one(&mut fields, "root")?,
-            forward: forward(&mut fields)?,
+            forward: axis(&mut fields, "forward", &["x", "-x", "y", "-y"])?,
+            up: axis(&mut fields, "up", &["z", "y"])?,
             head: one(&mut fields, "head")?,
             feet: several(&mut fields, "feet")?,
             palm: one(&mut fields, "palm")?,
@@ -143,16 +159,16 @@ fn one(fields: &mut Fields, role: &str) -> Outcome<Option<Named>> {
     Ok(name.map(|name| Named { names: vec![name], position: fields.source.position(at) }))
 }
 
-/// The axis of the root that points forward.
-fn forward(fields: &mut Fields) -> Outcome<[f64; 3]> {
-    let at = fields.place("forward").unwrap_or_default();
-    match fields.text("forward")?.as_deref() {
-        None | Some("x") => Ok([1.0, 0.0, 0.0]),
-        Some("-x") => Ok([-1.0, 0.0, 0.0]),
-        Some("y") => Ok([0.0, 1.0, 0.0]),
-        Some("-y") => Ok([0.0, -1.0, 0.0]),
-        Some(other) => Err(fields.wrong(at, "forward", &format!("is '{other}', not x, -x, y or -y"))),
+/// An axis of the root, one of those named; the first where none is given.
+fn axis(fields: &mut Fields, key: &str, names: &[&str]) -> Outcome<[f64; 3]> {
+    let at = fields.place(key).unwrap_or_default();
+    let given = fields.text(key)?;
+    let name = given.as_deref().unwrap_or(names[0]);
+    if !names.contains(&name) {
+        return Err(fields.wrong(at, key, &format!("is '{name}', not one of {}", names.join(", "))));
     }
+    let sign = if name.starts_with('-') { -1.0 } else { 1.0 };
+    Ok(["x", "y", "z"].map(|axis| if name.ends_with(axis) { sign } else { 0.0 }))
 }
 
 /// The elements of a role, at least one.

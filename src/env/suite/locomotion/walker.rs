@@ -38,6 +38,7 @@ pub struct Walker {
     root: BodyId,
     feet: Vec<SiteId>,
     forward: Vec3,
+    up: Vec3,
     bends: Vec<Bend>,
     stand: Vec<f64>,
     /// Height of the root over the feet when it stands \[m\].
@@ -100,6 +101,7 @@ impl Walker {
             root: body.root()?,
             feet: body.feet()?,
             forward: body.forward(),
+            up: body.up(),
             bends: joints_below(m, body.root()?),
             stand: m.qpos0.to_vec(),
             height: 0.0,
@@ -172,13 +174,13 @@ impl Walker {
         let lever = sub(place, d.com.subtree_com[m.body_rootid[root] as usize]);
         let swing = cross([x, y, z], lever);
         let vertical = mul_mat_t_vec(&axes, [0.0, 0.0, 1.0]);
-        let left = cross([0.0, 0.0, 1.0], self.forward);
+        let left = cross(self.up, self.forward);
         let part = |axis: Vec3| (0..3).map(|i| axis[i] * vertical[i]).sum::<f64>();
         Posture {
             place,
             height: place[2] - lowest,
             ahead,
-            up: [part(self.forward), part(left), vertical[2]],
+            up: [part(self.forward), part(left), part(self.up)],
             velocity: mul_mat_t_vec(&frame, [u + swing[0], v + swing[1], w + swing[2]]),
             turning: mul_mat_t_vec(&frame, [x, y, z]),
         }
