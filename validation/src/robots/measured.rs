@@ -38,7 +38,7 @@ impl<'a> Ruler<'a> {
     }
 
     /// The largest distance that joints within their ranges allow \[m\], found by moving one joint after the other, from
-    /// [`STARTS`] postures.
+    /// two dozen postures.
     pub fn largest(&mut self) -> f64 {
         let mut best = 0.0_f64;
         for start in 0..STARTS {
