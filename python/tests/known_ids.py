@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 import robohive
 
-OWN = [id for id in robohive.ids("hive")]
+#: One in five of the ids on models of this project; `robohive check-env` goes over all of them.
+OWN = [id for id in robohive.ids() if id.startswith("hive/")][::5]
 #: One id of each class of RoboHive's, by its recorded reference.
 RECORDED = Path(__file__).parents[2] / "validation" / "reference" / "robohive"
 CLASSES = sorted(path.stem for path in RECORDED.glob("*.npz"))
@@ -18,6 +19,6 @@ def make_or_skip(id: str, **kwargs: object) -> robohive.envs.RoboHiveEnv:
     try:
         return robohive.make(id, **kwargs)
     except FileNotFoundError as error:
-        if id in OWN:
+        if id.startswith("hive/"):
             raise
         pytest.skip(f"not checked: {id} (RoboHive's models are not imported: {error})")
