@@ -34,9 +34,12 @@ pub(crate) fn twin(spec: &Spec) -> Option<Spec> {
             twin.args.0.insert(setting.into(), path?.into());
         }
     }
-    let mut defined: Vec<Vec<String>> = twin.args.get("define").unwrap_or_default();
-    if let Some(name) = defined.iter().find(|pair| pair[0] == OBJECT[0]).map(|pair| pair[1].clone()) {
-        defined.push(vec![OBJECT[1].into(), object(&name)?]);
+    // A `define` that is no list of pairs is refused when the environment is made.
+    let mut defined: Vec<[String; 2]> = twin.args.get("define").unwrap_or_default();
+    if let Some([_, name]) = defined.iter().find(|[from, _]| from == OBJECT[0]) {
+        let file = object(name)?;
+        defined.push([OBJECT[1].into(), file]);
+        let defined: Vec<Vec<String>> = defined.into_iter().map(Vec::from).collect();
         twin.args.0.insert("define".into(), defined.into());
     }
     Some(twin)

@@ -161,7 +161,7 @@ fn one(fields: &mut Fields, role: &str) -> Outcome<Option<Named>> {
 
 /// An axis of the root, one of those named; the first where none is given.
 fn axis(fields: &mut Fields, key: &str, names: &[&str]) -> Outcome<[f64; 3]> {
-    let at = fields.place(key).unwrap_or_default();
+    let at = fields.place(key).unwrap_or(fields.at);
     let given = fields.text(key)?;
     let name = given.as_deref().unwrap_or(names[0]);
     if !names.contains(&name) {

@@ -35,7 +35,7 @@ pub fn measure() -> Result<Vec<Row>, String> {
     let mut rows = Vec::new();
     for path in assets::paths() {
         let Some(folder) = path.strip_suffix("/published.toml") else { continue };
-        let text = assets::text(&path).unwrap_or_default();
+        let text = assets::text(&path).ok_or_else(|| format!("{path} is no text"))?;
         let published: Published = toml::from_str(text).map_err(|error| format!("{path}: {error}"))?;
         let file = format!("{folder}/{}", published.model);
         let loaded =

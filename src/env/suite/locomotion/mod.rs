@@ -12,6 +12,8 @@
 
 pub mod chase;
 mod floor;
+mod interval;
+mod mark;
 mod push;
 pub mod push_box;
 pub mod stand;

@@ -1,13 +1,13 @@
 //! Pushing a box to a place that is marked on the ground.
 
-use super::FRAME_SKIP;
+use super::mark::Mark;
 use super::walker::{Disturbance, Walker};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
-use physics::elements::{BodyId, SiteId};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
+use physics::elements::BodyId;
 use physics::math::ops;
 use physics::model::JointType;
 use robot::Keeper;
@@ -42,14 +42,13 @@ pub struct Args {
 #[derive(Clone)]
 pub struct PushBox {
     walker: Walker,
-    target: SiteId,
+    mark: Mark,
     load: BodyId,
     /// Where `qpos` has the free joint of the box.
     place: usize,
     near: [f64; 2],
     far: [f64; 2],
     angle: [f64; 2],
-    radius: f64,
 }
 
 impl PushBox {
@@ -77,13 +76,12 @@ impl PushBox {
             m.qpos0[place + 2] = half;
         })?;
         Ok(PushBox {
-            target: setup.scene.site("target")?,
+            mark: Mark::new(args.radius, &walker, setup)?,
             load,
             place,
             near: args.box_distance_range.map(|distance| distance * height),
             far: args.target_distance_range.map(|distance| distance * height),
             angle: args.target_angle_range,
-            radius: args.radius * height,
             walker,
         })
     }
@@ -92,9 +90,7 @@ impl PushBox {
 impl Task for PushBox {
     fn defaults(&self) -> Defaults {
         let weights = [("distance", 1.0), ("reach", 0.5), ("upright", 0.5), ("bonus", 2.0), ("fallen", 10.0)];
-        let rows = [&Walker::ROWS[..], &["box_error", "target_error"]].concat();
-        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
-        Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
+        Walker::defaults(&["box_error", "target_error"], &weights, STEPS)
     }
 
     fn initial_pose(&self, scene: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
@@ -111,8 +107,8 @@ impl Task for PushBox {
         let (sine, cosine) = ops::sincos(episode.rng.uniform(self.angle[0], self.angle[1])?);
         let here = [near * x, near * y];
         episode.start.qpos[self.place..self.place + 2].copy_from_slice(&here);
-        let there = [here[0] + far * (cosine * x - sine * y), here[1] + far * (cosine * y + sine * x), 0.0];
-        episode.scene.overwrite(|m| m.site_pos[self.target.index()] = there)
+        let there = [here[0] + far * (cosine * x - sine * y), here[1] + far * (cosine * y + sine * x)];
+        self.mark.put(episode.scene, there)
     }
 
     fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
@@ -122,20 +118,16 @@ impl Task for PushBox {
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         let posture = self.walker.observe(view, rows);
         rows.set("box_error", "m", posture.towards(view.data.body(self.load).xpos()));
-        rows.set("target_error", "m", posture.towards(view.data.site(self.target).xpos()));
+        self.mark.observe(&posture, view, rows);
     }
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
-        let (load, place, up) = (&rows["box_error"], &rows["target_error"], rows["up"][2]);
+        let (load, place) = (&rows["box_error"], &rows["target_error"]);
         let distance = norm(&[place[0] - load[0], place[1] - load[1]]);
-        let solved = distance < self.radius;
-        let fallen = self.walker.has_fallen(rows["height"][0], up);
+        let solved = distance < self.mark.radius;
         terms.set("distance", "m", [-distance]);
         terms.set("reach", "m", [-norm(load)]);
-        terms.set("upright", "", [up]);
-        terms.set("bonus", "", [f64::from(solved)]);
-        terms.set("fallen", "", [-f64::from(fallen)]);
-        Verdict { sparse: f64::from(solved), solved, done: fallen }
+        self.walker.judge(solved, rows, terms)
     }
 
     fn keep(&mut self, keeper: &mut Keeper) {

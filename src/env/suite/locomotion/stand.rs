@@ -1,13 +1,13 @@
 //! Standing: the body keeps the height that is asked of it, which changes every few seconds, whoever pushes it.
 
-use super::FRAME_SKIP;
+use super::interval::Interval;
 use super::walker::{Disturbance, Walker};
 use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::math::ops;
 use robot::Keeper;
 use serde::Deserialize;
@@ -30,7 +30,7 @@ pub struct Args {
     /// Smallest and largest height that is asked for, as shares of the standing height.
     height_range: [f64; 2],
     /// Steps from one height to the next.
-    every: usize,
+    every: Interval,
 }
 
 /// The task.
@@ -38,9 +38,8 @@ pub struct Args {
 pub struct Stand {
     walker: Walker,
     range: [f64; 2],
-    every: usize,
+    every: Interval,
     wanted: f64,
-    since: usize,
 }
 
 impl Stand {
@@ -49,16 +48,13 @@ impl Stand {
     /// # Errors
     /// The model does not fill the roles.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
-        if args.every == 0 {
-            return Err(setup.wrong("`every` is 0; a height has to last a step at least"));
-        }
         let walker = Walker::new(&args.roles, "stand", args.disturbance, setup)?;
         let range = args.height_range.map(|share| share * walker.height);
-        Ok(Stand { wanted: walker.height, walker, range, every: args.every, since: 0 })
+        Ok(Stand { wanted: walker.height, walker, range, every: args.every })
     }
 
     fn draw(&mut self, rng: &mut Rng) -> Result<(), EnvError> {
-        (self.since, self.wanted) = (0, rng.uniform(self.range[0], self.range[1])?);
+        self.wanted = rng.uniform(self.range[0], self.range[1])?;
         Ok(())
     }
 }
@@ -66,9 +62,7 @@ impl Stand {
 impl Task for Stand {
     fn defaults(&self) -> Defaults {
         let weights = [("height", 1.0), ("upright", 1.0), ("still", 0.2), ("bonus", 1.0), ("fallen", 10.0)];
-        let rows = [&Walker::ROWS[..], &["height_command"]].concat();
-        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
-        Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
+        Walker::defaults(&["height_command"], &weights, STEPS)
     }
 
     fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
@@ -78,12 +72,12 @@ impl Task for Stand {
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
         self.walker.start(episode)?;
+        self.every.restart();
         self.draw(episode.rng)
     }
 
     fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
-        self.since += 1;
-        if self.since == self.every {
+        if self.every.passes() {
             self.draw(turn.rng)?;
         }
         self.walker.act(turn)
@@ -96,20 +90,15 @@ impl Task for Stand {
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
         let off = (rows["height"][0] - rows["height_command"][0]).abs() / self.walker.height;
-        let upright = rows["up"][2];
-        let solved = off < NEAR && upright > ops::cos(LEAN);
-        let fallen = self.walker.has_fallen(rows["height"][0], upright);
+        let solved = off < NEAR && rows["up"][2] > ops::cos(LEAN);
         terms.set("height", "", [-off]);
-        terms.set("upright", "", [upright]);
         terms.set("still", "m/s", [-norm(&rows["velocity"][..2])]);
-        terms.set("bonus", "", [f64::from(solved)]);
-        terms.set("fallen", "", [-f64::from(fallen)]);
-        Verdict { sparse: f64::from(solved), solved, done: fallen }
+        self.walker.judge(solved, rows, terms)
     }
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.walker.keep(keeper);
         keeper.number(&mut self.wanted);
-        keeper.count(&mut self.since);
+        self.every.keep(keeper);
     }
 }

@@ -1,13 +1,12 @@
 //! Turning on the spot: the body is to look in another direction, and to stay near where it began.
 
-use super::FRAME_SKIP;
+use super::mark::Mark;
 use super::walker::{Disturbance, Walker};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn as Step, Verdict, View};
-use physics::elements::SiteId;
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn as Step, Verdict, View};
 use physics::math::ops;
 use robot::Keeper;
 use serde::Deserialize;
@@ -35,9 +34,8 @@ pub struct Args {
 #[derive(Clone)]
 pub struct Turn {
     walker: Walker,
-    target: SiteId,
+    mark: Mark,
     range: [f64; 2],
-    radius: f64,
 }
 
 impl Turn {
@@ -46,19 +44,16 @@ impl Turn {
     /// # Errors
     /// The model does not fill the roles, or has no site `target`.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
-        let target = setup.scene.site("target")?;
         let walker = Walker::new(&args.roles, "turn", args.disturbance, setup)?;
-        let radius = args.radius * walker.height;
-        Ok(Turn { walker, target, range: args.turn_range, radius })
+        let mark = Mark::new(args.radius, &walker, setup)?;
+        Ok(Turn { walker, mark, range: args.turn_range })
     }
 }
 
 impl Task for Turn {
     fn defaults(&self) -> Defaults {
         let weights = [("direction", 1.0), ("upright", 0.5), ("away", 0.5), ("bonus", 1.0), ("fallen", 10.0)];
-        let rows = [&Walker::ROWS[..], &["direction_error", "away"]].concat();
-        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
-        Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
+        Walker::defaults(&["direction_error", "away"], &weights, STEPS)
     }
 
     fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
@@ -73,8 +68,8 @@ impl Task for Turn {
         let [x, y] = self.walker.ahead_at_start();
         let (sine, cosine) = ops::sincos(side);
         // Far away, so that the direction hardly depends on where the body is.
-        let place = [10.0 * (cosine * x - sine * y), 10.0 * (sine * x + cosine * y), 0.0];
-        episode.scene.overwrite(|m| m.site_pos[self.target.index()] = place)
+        let place = [10.0 * (cosine * x - sine * y), 10.0 * (sine * x + cosine * y)];
+        self.mark.put(episode.scene, place)
     }
 
     fn act(&mut self, step: &mut Step<'_>) -> Result<(), EnvError> {
@@ -83,7 +78,7 @@ impl Task for Turn {
 
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         let posture = self.walker.observe(view, rows);
-        let [x, y, _] = *view.data.site(self.target).xpos();
+        let [x, y] = self.mark.place(view);
         let [c, s] = posture.ahead;
         let length = norm(&[x, y]);
         rows.set("direction_error", "rad", [ops::angle((c * y - s * x) / length, (c * x + s * y) / length)]);
@@ -91,15 +86,11 @@ impl Task for Turn {
     }
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
-        let (error, away, up) = (rows["direction_error"][0].abs(), rows["away"][0], rows["up"][2]);
-        let solved = error < NEAR && away < self.radius;
-        let fallen = self.walker.has_fallen(rows["height"][0], up);
+        let (error, away) = (rows["direction_error"][0].abs(), rows["away"][0]);
+        let solved = error < NEAR && away < self.mark.radius;
         terms.set("direction", "rad", [-error]);
-        terms.set("upright", "", [up]);
         terms.set("away", "m", [-away]);
-        terms.set("bonus", "", [f64::from(solved)]);
-        terms.set("fallen", "", [-f64::from(fallen)]);
-        Verdict { sparse: f64::from(solved), solved, done: fallen }
+        self.walker.judge(solved, rows, terms)
     }
 
     fn keep(&mut self, keeper: &mut Keeper) {

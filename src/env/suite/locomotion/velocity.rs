@@ -1,13 +1,13 @@
 //! Following a velocity that changes every few seconds: forward, to the left, and turning.
 
-use super::FRAME_SKIP;
+use super::interval::Interval;
 use super::walker::{Disturbance, Walker};
 use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::math::ops;
 use robot::{Keeper, Walk};
 use serde::Deserialize;
@@ -30,7 +30,7 @@ pub struct Args {
     /// Largest command.
     command_high: [f64; 3],
     /// Steps from one command to the next.
-    every: usize,
+    every: Interval,
     /// Errors of the mean velocity and of the mean rate of turning that solve the task, as shares of what the body walks.
     near: [f64; 2],
 }
@@ -41,11 +41,10 @@ pub struct Velocity {
     walker: Walker,
     low: [f64; 3],
     high: [f64; 3],
-    every: usize,
+    every: Interval,
     near: [f64; 2],
     command: [f64; 3],
     mean: [f64; 3],
-    since: usize,
 }
 
 impl Velocity {
@@ -54,9 +53,6 @@ impl Velocity {
     /// # Errors
     /// The model does not fill the roles.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
-        if args.every == 0 {
-            return Err(setup.wrong("`every` is 0; a command has to last a step at least"));
-        }
         let walker = Walker::new(&args.roles, "velocity", args.disturbance, setup)?;
         let Walk { speed, turn } = walker.walk;
         let scaled = |[ahead, left, round]: [f64; 3]| [ahead * speed, left * speed, round * turn];
@@ -68,12 +64,10 @@ impl Velocity {
             near: [args.near[0] * speed, args.near[1] * turn],
             command: [0.0; 3],
             mean: [0.0; 3],
-            since: 0,
         })
     }
 
     fn draw(&mut self, rng: &mut Rng) -> Result<(), EnvError> {
-        self.since = 0;
         for part in 0..3 {
             self.command[part] = rng.uniform(self.low[part], self.high[part])?;
         }
@@ -84,9 +78,7 @@ impl Velocity {
 impl Task for Velocity {
     fn defaults(&self) -> Defaults {
         let weights = [("speed", 1.0), ("turning", 0.5), ("upright", 0.5), ("bonus", 1.0), ("fallen", 10.0)];
-        let rows = [&Walker::ROWS[..], &["command", "mean_velocity"]].concat();
-        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
-        Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
+        Walker::defaults(&["command", "mean_velocity"], &weights, STEPS)
     }
 
     fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
@@ -97,12 +89,12 @@ impl Task for Velocity {
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
         self.mean = [0.0; 3];
         self.walker.start(episode)?;
+        self.every.restart();
         self.draw(episode.rng)
     }
 
     fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
-        self.since += 1;
-        if self.since == self.every {
+        if self.every.passes() {
             self.draw(turn.rng)?;
         }
         let posture = self.walker.posture(&turn.scene.model, &turn.scene.data);
@@ -120,24 +112,20 @@ impl Task for Velocity {
     }
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
-        let (command, mean, up) = (&rows["command"], &rows["mean_velocity"], rows["up"][2]);
+        let (command, mean) = (&rows["command"], &rows["mean_velocity"]);
         let off = norm(&[mean[0] - command[0], mean[1] - command[1]]);
         let twist = (mean[2] - command[2]).abs();
         let solved = off < self.near[0] && twist < self.near[1];
-        let fallen = self.walker.has_fallen(rows["height"][0], up);
         let tracking = |error: f64, near: f64| ops::exp(-(error / near).powi(2));
         terms.set("speed", "", [tracking(off, self.near[0])]);
         terms.set("turning", "", [tracking(twist, self.near[1])]);
-        terms.set("upright", "", [up]);
-        terms.set("bonus", "", [f64::from(solved)]);
-        terms.set("fallen", "", [-f64::from(fallen)]);
-        Verdict { sparse: f64::from(solved), solved, done: fallen }
+        self.walker.judge(solved, rows, terms)
     }
 
     fn keep(&mut self, keeper: &mut Keeper) {
         self.walker.keep(keeper);
         keeper.numbers(&mut self.command);
         keeper.numbers(&mut self.mean);
-        keeper.count(&mut self.since);
+        self.every.keep(keeper);
     }
 }

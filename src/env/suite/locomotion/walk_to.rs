@@ -1,14 +1,12 @@
 //! Walking to a place that is marked on the ground.
 
-use super::FRAME_SKIP;
 use super::floor::{Floor, FloorArgs};
+use super::mark::Mark;
 use super::walker::{Disturbance, Walker};
 use crate::error::EnvError;
-use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
-use physics::elements::SiteId;
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::math::ops;
 use robot::Keeper;
 use serde::Deserialize;
@@ -40,10 +38,9 @@ pub struct Args {
 pub struct WalkTo {
     walker: Walker,
     floor: Option<Floor>,
-    target: SiteId,
+    mark: Mark,
     distance: [f64; 2],
     angle: [f64; 2],
-    radius: f64,
 }
 
 impl WalkTo {
@@ -56,10 +53,9 @@ impl WalkTo {
         let height = walker.height;
         let floor = args.ground.as_ref().map(|ground| Floor::new(ground, &walker, setup)).transpose()?;
         Ok(WalkTo {
-            target: setup.scene.site("target")?,
+            mark: Mark::new(args.radius, &walker, setup)?,
             distance: args.target_distance_range.map(|distance| distance * height),
             angle: args.target_angle_range,
-            radius: args.radius * height,
             floor,
             walker,
         })
@@ -68,11 +64,7 @@ impl WalkTo {
 
 impl Task for WalkTo {
     fn defaults(&self) -> Defaults {
-        let weights =
-            [("distance", 1.0), ("heading", 0.5), ("upright", 0.5), ("bonus", 2.0), ("fallen", 10.0)];
-        let rows = [&Walker::ROWS[..], &["target_error"]].concat();
-        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
-        Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
+        Walker::defaults(&["target_error"], &Mark::WEIGHTS, STEPS)
     }
 
     fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
@@ -88,8 +80,8 @@ impl Task for WalkTo {
         let distance = episode.rng.uniform(self.distance[0], self.distance[1])?;
         let (sine, cosine) = ops::sincos(episode.rng.uniform(self.angle[0], self.angle[1])?);
         let [x, y] = self.walker.ahead_at_start();
-        let place = [distance * (cosine * x - sine * y), distance * (sine * x + cosine * y), 0.0];
-        episode.scene.overwrite(|m| m.site_pos[self.target.index()] = place)
+        let place = [distance * (cosine * x - sine * y), distance * (sine * x + cosine * y)];
+        self.mark.put(episode.scene, place)
     }
 
     fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
@@ -98,20 +90,11 @@ impl Task for WalkTo {
 
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         let posture = self.walker.observe(view, rows);
-        rows.set("target_error", "m", posture.towards(view.data.site(self.target).xpos()));
+        self.mark.observe(&posture, view, rows);
     }
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
-        let (error, up) = (&rows["target_error"], rows["up"][2]);
-        let distance = norm(error);
-        let solved = distance < self.radius;
-        let fallen = self.walker.has_fallen(rows["height"][0], up);
-        terms.set("distance", "m", [-distance]);
-        terms.set("heading", "", [if solved { 1.0 } else { error[0] / distance }]);
-        terms.set("upright", "", [up]);
-        terms.set("bonus", "", [f64::from(solved)]);
-        terms.set("fallen", "", [-f64::from(fallen)]);
-        Verdict { sparse: f64::from(solved), solved, done: fallen }
+        self.mark.reward(&self.walker, rows, terms)
     }
 
     fn keep(&mut self, keeper: &mut Keeper) {

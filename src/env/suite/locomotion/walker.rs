@@ -1,14 +1,16 @@
 //! A body with feet, by its roles: how an episode of it starts, what all its tasks observe, and when it has fallen.
 
+use super::FRAME_SKIP;
 use super::push::Push;
 use crate::assets::own_file;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
-use crate::task::{Episode, Pose, Setup, Turn, View};
+use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
-use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops, sub};
+use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops};
 use physics::model::JointType;
+use physics::position::frame::Frame;
 use physics::{Data, Model};
 use robot::{Fallen, Keeper, Roles, Walk};
 use serde::Deserialize;
@@ -79,8 +81,15 @@ impl Posture {
 
 impl Walker {
     /// Rows that every task observes.
-    pub const ROWS: [&str; 8] =
+    const ROWS: [&str; 8] =
         ["height", "up", "velocity", "turning", "joint_pos", "joint_vel", "feet", "last_action"];
+
+    /// Defaults of a task that observes `own` rows beside those of all, and succeeds if it is solved in more than `steps` steps.
+    pub fn defaults(own: &[&str], weights: &[(&str, f64)], steps: usize) -> Defaults {
+        let rows = [&Self::ROWS[..], own].concat();
+        let defaults = Defaults::new(&rows, weights, FRAME_SKIP).proprio(&["joint_pos", "joint_vel"]);
+        Defaults { success: Success::MoreThan(steps), ..defaults }
+    }
 
     /// Finds the body whose roles the file `path` has in the model, for the task called `task`.
     ///
@@ -170,9 +179,8 @@ impl Walker {
         let along = norm(&forward[..2]).max(f64::MIN_POSITIVE);
         let ahead = [forward[0] / along, forward[1] / along];
         let frame: Mat3 = [ahead[0], -ahead[1], 0.0, ahead[1], ahead[0], 0.0, 0.0, 0.0, 1.0];
-        let [x, y, z, u, v, w] = d.vel.cvel[root];
-        let lever = sub(place, d.com.subtree_com[m.body_rootid[root] as usize]);
-        let swing = cross([x, y, z], lever);
+        let moving = Frame { body: root, pos: place, mat: axes };
+        let [x, y, z, u, v, w] = moving.velocity(m, &d.com, &d.vel.cvel);
         let vertical = mul_mat_t_vec(&axes, [0.0, 0.0, 1.0]);
         let left = cross(self.up, self.forward);
         let part = |axis: Vec3| (0..3).map(|i| axis[i] * vertical[i]).sum::<f64>();
@@ -181,15 +189,20 @@ impl Walker {
             height: place[2] - lowest,
             ahead,
             up: [part(self.forward), part(left), part(self.up)],
-            velocity: mul_mat_t_vec(&frame, [u + swing[0], v + swing[1], w + swing[2]]),
+            velocity: mul_mat_t_vec(&frame, [u, v, w]),
             turning: mul_mat_t_vec(&frame, [x, y, z]),
         }
     }
 
-    /// Whether a body has fallen whose root is at this height over its lowest foot \[m\], `up` being the vertical part of its
-    /// vertical axis.
-    pub fn has_fallen(&self, height: f64, up: f64) -> bool {
-        height < self.fallen.height || up < ops::cos(self.fallen.tilt)
+    /// Writes the terms of the reward that every task has: how upright the body is, whether the task is solved, whether the body has
+    /// fallen, which ends the episode.
+    pub fn judge(&self, solved: bool, rows: &Rows, terms: &mut Rows) -> Verdict {
+        let (height, up) = (rows["height"][0], rows["up"][2]);
+        let fallen = height < self.fallen.height || up < ops::cos(self.fallen.tilt);
+        terms.set("upright", "", [up]);
+        terms.set("bonus", "", [f64::from(solved)]);
+        terms.set("fallen", "", [-f64::from(fallen)]);
+        Verdict { sparse: f64::from(solved), solved, done: fallen }
     }
 
     /// Writes the rows that every task observes, and returns the posture.
@@ -202,10 +215,10 @@ impl Walker {
         rows.set("turning", "rad/s", posture.turning);
         rows.set("joint_pos", "rad", self.bends.iter().map(|joint| state.qpos[joint.position]));
         rows.set("joint_vel", "rad/s", self.bends.iter().map(|joint| state.qvel[joint.velocity]));
-        let [c, s] = posture.ahead;
         let foot = |site: &SiteId| {
-            let [x, y, z] = sub(d.kin.site_xpos[site.index()], posture.place);
-            [c * x + s * y, c * y - s * x, z]
+            let place = d.kin.site_xpos[site.index()];
+            let [ahead, left] = posture.towards(&place);
+            [ahead, left, place[2] - posture.place[2]]
         };
         rows.set("feet", "m", self.feet.iter().flat_map(foot));
         rows.set("last_action", "", state.ctrl.iter().copied());

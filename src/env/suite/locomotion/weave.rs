@@ -1,13 +1,13 @@
 //! Weaving: to a place behind posts that stand in the way, without touching one.
 
-use super::FRAME_SKIP;
+use super::mark::Mark;
 use super::walker::{Disturbance, Walker};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
-use physics::elements::{BodyId, SiteId};
+use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
+use physics::elements::BodyId;
 use robot::Keeper;
 use serde::Deserialize;
 
@@ -39,11 +39,10 @@ pub struct Args {
 #[derive(Clone)]
 pub struct Weave {
     walker: Walker,
-    target: SiteId,
+    mark: Mark,
     posts: Vec<BodyId>,
     spacing: f64,
     aside: f64,
-    radius: f64,
     clearance: f64,
 }
 
@@ -62,11 +61,10 @@ impl Weave {
         let walker = Walker::new(&args.roles, "weave", args.disturbance, setup)?;
         let height = walker.height;
         Ok(Weave {
-            target: setup.scene.site("target")?,
+            mark: Mark::new(args.radius, &walker, setup)?,
             posts,
             spacing: args.spacing * height,
             aside: args.aside * height,
-            radius: args.radius * height,
             clearance: args.clearance * height,
             walker,
         })
@@ -76,9 +74,7 @@ impl Weave {
 impl Task for Weave {
     fn defaults(&self) -> Defaults {
         let weights = [("distance", 1.0), ("upright", 0.5), ("touch", 5.0), ("bonus", 2.0), ("fallen", 10.0)];
-        let rows = [&Walker::ROWS[..], &["target_error", "posts"]].concat();
-        let defaults = Defaults::new(&rows, &weights, FRAME_SKIP);
-        Defaults { success: Success::MoreThan(STEPS), ..defaults }.proprio(&["joint_pos", "joint_vel"])
+        Walker::defaults(&["target_error", "posts"], &weights, STEPS)
     }
 
     fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
@@ -97,8 +93,7 @@ impl Task for Weave {
                 .scene
                 .overwrite(|m| (m.body_pos[post.index()][0], m.body_pos[post.index()][1]) = (px, py))?;
         }
-        let [px, py] = at((self.posts.len() + 1) as f64 * self.spacing, 0.0);
-        episode.scene.overwrite(|m| m.site_pos[self.target.index()] = [px, py, 0.0])
+        self.mark.put(episode.scene, at((self.posts.len() + 1) as f64 * self.spacing, 0.0))
     }
 
     fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
@@ -107,23 +102,20 @@ impl Task for Weave {
 
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         let posture = self.walker.observe(view, rows);
-        rows.set("target_error", "m", posture.towards(view.data.site(self.target).xpos()));
+        self.mark.observe(&posture, view, rows);
         let posts = self.posts.iter().flat_map(|post| posture.towards(view.data.body(*post).xpos()));
         rows.set("posts", "m", posts);
     }
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
-        let (distance, up) = (norm(&rows["target_error"]), rows["up"][2]);
+        let distance = norm(&rows["target_error"]);
         let nearest = rows["posts"].chunks(2).map(norm).fold(f64::INFINITY, f64::min);
         let touches = nearest < self.clearance;
-        let solved = distance < self.radius;
-        let fallen = self.walker.has_fallen(rows["height"][0], up);
+        let solved = distance < self.mark.radius;
         terms.set("distance", "m", [-distance]);
-        terms.set("upright", "", [up]);
         terms.set("touch", "", [-f64::from(touches)]);
-        terms.set("bonus", "", [f64::from(solved)]);
-        terms.set("fallen", "", [-f64::from(fallen)]);
-        Verdict { sparse: f64::from(solved), solved, done: fallen || touches }
+        let verdict = self.walker.judge(solved, rows, terms);
+        Verdict { done: verdict.done || touches, ..verdict }
     }
 
     fn keep(&mut self, keeper: &mut Keeper) {
