@@ -5,6 +5,8 @@
 //! component ξ = x + x'/w moves away from p, ξ' = w (ξ - p), and x follows ξ. Who sets the next foot down where ξ will be, less
 //! what ξ has of it at the start of a regular step, walks regularly from then on.
 
+use physics::math::ops;
+
 /// A centre of mass that moves at one height over a centre of pressure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pendulum {
@@ -36,20 +38,21 @@ impl Pendulum {
 
     /// Where a divergent component is after `time` seconds over a centre of pressure \[m\].
     pub fn later(&self, divergent: f64, pressure: f64, time: f64) -> f64 {
-        pressure + (divergent - pressure) * (self.rate * time).exp()
+        pressure + (divergent - pressure) * ops::exp(self.rate * time)
     }
 
     /// Position \[m\] and velocity \[m/s\] after `time` seconds over a centre of pressure \[m\].
     pub fn moved(&self, [position, velocity]: [f64; 2], pressure: f64, time: f64) -> [f64; 2] {
         let (w, away) = (self.rate, position - pressure);
-        let (cosh, sinh) = ((w * time).cosh(), (w * time).sinh());
+        let growth = ops::exp(w * time);
+        let (cosh, sinh) = ((growth + 1.0 / growth) / 2.0, (growth - 1.0 / growth) / 2.0);
         [pressure + away * cosh + velocity / w * sinh, away * w * sinh + velocity * cosh]
     }
 
     /// The divergent component, from the foot that stands, when a step begins in a walk of equal steps: forward and to the left
     /// \[m\]. `side` is 1 while the right foot stands, -1 while the left one does.
     pub fn begin(&self, pace: &Pace, side: f64) -> [f64; 2] {
-        let growth = (self.rate * pace.period).exp();
+        let growth = ops::exp(self.rate * pace.period);
         let drift = |velocity: f64| velocity * pace.period / (growth - 1.0);
         [drift(pace.velocity[0]), side * pace.width / (growth + 1.0) + drift(pace.velocity[1])]
     }
@@ -57,7 +60,7 @@ impl Pendulum {
     /// Time in which a divergent component comes from `begin` to `now` \[m\] over a centre of pressure at 0 \[s\]. What is on the other
     /// side of the centre of pressure counts as a micrometre.
     pub fn time(&self, now: f64, begin: f64) -> f64 {
-        (now.max(1e-6) / begin.max(1e-6)).ln() / self.rate
+        ops::log(now.max(1e-6) / begin.max(1e-6)) / self.rate
     }
 }
 

@@ -1,6 +1,8 @@
 //! Steering a unicycle to a pose by its polar coordinates (Aicardi, Casalino, Bicchi and Balestrino, Closed loop steering of unicycle-like
 //! vehicles via Lyapunov techniques, IEEE Robotics and Automation Magazine 2, 1995).
 
+use physics::math::ops;
+
 /// Gains of the law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolarSteering {
@@ -18,10 +20,10 @@ impl PolarSteering {
     pub fn command(&self, [x, y, heading]: [f64; 3]) -> [f64; 2] {
         let distance = x.hypot(y);
         // Direction to the origin from its own axis, and from where the vehicle looks.
-        let direction = (-y).atan2(-x);
+        let direction = ops::angle(-y, -x);
         let bearing = wrap(direction - heading);
-        let rate = self.speed * bearing.cos();
-        let ratio = if bearing.abs() < 1e-6 { 1.0 } else { bearing.sin() / bearing };
+        let rate = self.speed * ops::cos(bearing);
+        let ratio = if bearing.abs() < 1e-6 { 1.0 } else { ops::sin(bearing) / bearing };
         let turning = self.bearing * bearing + rate * ratio * (bearing + self.heading * direction);
         [rate * distance, turning]
     }

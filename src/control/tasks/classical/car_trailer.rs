@@ -7,6 +7,7 @@ use crate::error::ControlError;
 use crate::maths::{Dynamics, Ilqr, NoSolution, Plan, Quadratic};
 use env::Env;
 use physics::elements::BodyId;
+use physics::math::ops;
 
 /// Distance between the axles \[m\].
 const BASE: f64 = 0.22;
@@ -39,10 +40,10 @@ impl Kinematics {
     /// Rates of place, heading and angle of the trailer.
     fn rates(x: &[f64]) -> [f64; 4] {
         let (heading, trailer, speed) = (x[2], x[3], x[4]);
-        let turning = speed * x[5].tan() / BASE;
+        let turning = speed * ops::tan(x[5]) / BASE;
         // Speed of the hitch across the trailer turns the trailer.
-        let trailing = (-speed * trailer.sin() - HITCH * turning * trailer.cos()) / TRAILER;
-        [speed * heading.cos(), speed * heading.sin(), turning, trailing - turning]
+        let trailing = (-speed * ops::sin(trailer) - HITCH * turning * ops::cos(trailer)) / TRAILER;
+        [speed * ops::cos(heading), speed * ops::sin(heading), turning, trailing - turning]
     }
 }
 

@@ -5,6 +5,7 @@
 use crate::controller::{Controller, command};
 use crate::error::ControlError;
 use env::Env;
+use physics::math::ops;
 
 /// Speed of the hopper along the circle \[m/s\].
 const SPEED: f64 = 0.8;
@@ -79,7 +80,7 @@ impl Controller for HopperBoom {
         };
         let ahead = speed * self.stance / 2.0 + GAIN * (speed - SPEED);
         let hip = match self.phase {
-            Phase::Flight => (ahead.clamp(-FURTHEST, FURTHEST) / LEG).asin(),
+            Phase::Flight => ops::asin(ahead.clamp(-FURTHEST, FURTHEST) / LEG),
             // The servo follows the leg, so that it swings freely over the foot.
             _ => qpos[2] + env.dt() * qvel[2],
         };

@@ -5,6 +5,7 @@ use crate::controller::{Controller, command};
 use crate::error::ControlError;
 use env::Env;
 use physics::elements::BodyId;
+use physics::math::ops;
 
 /// Speed by offset \[1/s\], and the fastest \[m/s\].
 const SPEED: f64 = 0.6;
@@ -48,7 +49,7 @@ impl Controller for KnifeEdge {
         let distance = offset[0].hypot(offset[1]);
         // Backwards where the point is behind: the angle is the smaller one of both ends.
         let angle = if distance < NEAR { 0.0 } else { (offset[1] / offset[0]).atan() };
-        let wanted = (SPEED * offset[0] * angle.cos()).clamp(-FASTEST, FASTEST);
+        let wanted = (SPEED * offset[0] * ops::cos(angle)).clamp(-FASTEST, FASTEST);
         let push = self.mass * PUSH * (wanted - motion[0]);
         let turn = self.inertia * (STIFFNESS * angle - DAMPING * motion[1]);
         command(env, &[push, turn], action)

@@ -6,6 +6,7 @@ use crate::controller::{Controller, command};
 use crate::error::ControlError;
 use crate::maths::{Ilqr, Plan, Quadratic, Simulated};
 use env::Env;
+use physics::math::ops;
 use std::f64::consts::{PI, TAU};
 
 /// What is looked for, beside the pose.
@@ -116,7 +117,7 @@ impl SwingUp {
         for period in s.periods {
             let rate = TAU * env.dt() * s.hold as f64 / period;
             let first = |t: usize| {
-                self.bounds.iter().map(|bound| FIRST * bound[1] * (rate * t as f64).sin()).collect()
+                self.bounds.iter().map(|bound| FIRST * bound[1] * ops::sin(rate * t as f64)).collect()
             };
             let plan = search.solve(&mut system, &start, (0..s.knots).map(first).collect())?;
             let arrives = plan.states.last().is_some_and(|x| self.balance.regulator.to_pay(x) < s.basin);

@@ -25,7 +25,9 @@ fn roles(spec: &Spec) -> Result<Roles, String> {
     let path: Option<String> = spec.args.get("roles");
     let path = path.ok_or("the setting roles is needed")?;
     let text = path.strip_prefix("hive/").and_then(assets::text);
-    let text = text.ok_or_else(|| format!("{path} is not there"))?;
+    let text = text.ok_or_else(|| {
+        format!("{path} is none of our own models' files (hive/...), whose roles controllers read")
+    })?;
     Roles::from_toml(text, &path).map_err(|error| error.to_string())
 }
 
