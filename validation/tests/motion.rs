@@ -3,7 +3,7 @@
 use robohive_validation::compile::compare_compiled;
 use robohive_validation::motion::{compare_forward, compare_rollout, compare_steps};
 use robohive_validation::reference::{Own, own_models};
-use robohive_validation::tolerance::{COMPILE, OWN_QACC, OWN_STEP};
+use robohive_validation::tolerance::{COMPILE, OWN_QACC, OWN_STEP, OWN_STEP_STIFF, friction_is_stiff};
 use std::path::Path;
 
 /// Every own model.
@@ -40,11 +40,12 @@ fn own_models_accelerate_alike() {
 
 #[test]
 fn own_models_step_alike() {
-    let mut step = OWN_STEP.gauge();
+    let mut steps = [OWN_STEP.gauge(), OWN_STEP_STIFF.gauge()];
     for Own { name, model, reference } in own() {
         let report = compare_steps(&model, &reference).unwrap();
         assert!(report.steps > 100);
-        step.take(report.worst.0, format!("{} step {}", name, report.worst.1));
+        steps[usize::from(friction_is_stiff(&model))]
+            .take(report.worst.0, format!("{} step {}", name, report.worst.1));
         assert_eq!(report.agreeing, report.steps, "{}", name);
     }
 }

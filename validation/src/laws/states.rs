@@ -3,7 +3,9 @@
 use super::law::{Bound, Law, LawError};
 use crate::reference::Reference;
 use crate::solver::CONES;
-use crate::tolerance::{CONVERGED_INVERSE, CONVERGED_STORAGE, ISLANDS, OUTSIDE, SLOPE};
+use crate::tolerance::{
+    CONVERGED_INVERSE, CONVERGED_INVERSE_STIFF, CONVERGED_STORAGE, ISLANDS, OUTSIDE, SLOPE, friction_is_stiff,
+};
 use physics::acceleration::contact_force::contact_force;
 use physics::derivative::{BiasSlope, DerivativeInputs, smooth_force_slope};
 use physics::model::{BiasType, Cone, ConstraintType, Disable, Jacobian, Solver};
@@ -20,6 +22,7 @@ const STATES: usize = 6;
 #[derive(Default)]
 struct Worst {
     inverse: f64,
+    inverse_stiff: f64,
     storage: f64,
     islands: f64,
     pyramids: f64,
@@ -61,6 +64,11 @@ pub(super) fn recorded(on: &str, references: &[Reference]) -> Result<Vec<Law>, L
             worst.inverse,
             &CONVERGED_INVERSE,
         ),
+        law(
+            "the same with friction stiffer than contact (`impratio` above 1)",
+            worst.inverse_stiff,
+            &CONVERGED_INVERSE_STIFF,
+        ),
         law("dense and sparse rows make one acceleration", worst.storage, &CONVERGED_STORAGE),
         law("islands make no difference (converged solver)", worst.islands, &ISLANDS),
         law("pyramidal contacts push", worst.pyramids, &OUTSIDE),
@@ -96,7 +104,8 @@ impl Worst {
             (0.0, 200, 200);
         for cone in CONES {
             m.options_mut().cone = cone;
-            self.inverse = self.inverse.max(inverse(m, start)?);
+            let worst = if friction_is_stiff(m) { &mut self.inverse_stiff } else { &mut self.inverse };
+            *worst = worst.max(inverse(m, start)?);
         }
         let islands = [false, true].map(|off| {
             m.options_mut().disableflags.set(Disable::ISLAND, off);
