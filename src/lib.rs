@@ -21,6 +21,7 @@
 //! | [`physics`] | | models, states and steps; its [`elements`](physics::elements) explain names and views |
 //! | [`mjcf`] | | MJCF and URDF to models; models edited and written |
 //! | `env` | `env` | environments with tasks, one by one and many at once |
+//! | `control` | `control` | controllers that solve tasks without learning, and their mathematics |
 //! | `robot` | `robot` | robots over simulated and real devices |
 //! | `render` | `render` | pictures, depth and segmentation |
 //! | `video` | `video` | pictures and videos as files |
@@ -30,6 +31,8 @@
 //! A module is a crate of its own: `robohive::physics` is the crate `robohive-physics`, whose examples name it
 //! `robohive_physics`. The programs in `examples/` name this crate alone.
 
+#[cfg(feature = "control")]
+pub use control;
 #[cfg(feature = "dataset")]
 pub use dataset;
 #[cfg(feature = "env")]

@@ -46,7 +46,7 @@ const ORDER: [(&str, &[&str]); 37] = [
     ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),
     ("robohive-teleop", &["physics", "dataset", "protocol", "robot", "env", "agents", "record"]),
     ("robohive-bevy", &["assets", "rapier", "mjcf", "teleop"]),
-    ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env"]),
+    ("robohive", &["physics", "mjcf", "dataset", "random", "robot", "render", "video", "env", "control"]),
     (
         "robohive-validation",
         &[
@@ -103,7 +103,7 @@ const ORDER: [(&str, &[&str]); 37] = [
         "robohive-python",
         &[
             "physics", "rapier", "mjcf", "dataset", "random", "robot", "hardware", "library", "render",
-            "video", "viewer", "exchange", "env",
+            "video", "viewer", "exchange", "env", "control",
         ],
     ),
     (

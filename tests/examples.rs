@@ -1,5 +1,7 @@
 //! The examples run, and stay small.
 
+#[path = "../examples/controller.rs"]
+mod controller;
 #[path = "../examples/custom_task.rs"]
 mod custom_task;
 #[path = "../examples/edit_model.rs"]
@@ -27,6 +29,11 @@ fn the_embedded_engine_runs_in_sixty_lines() {
 fn a_policy_is_recorded_and_filmed_in_a_hundred_lines() {
     record_policy::main().unwrap();
     assert!(include_str!("../examples/record_policy.rs").lines().count() <= 100);
+}
+
+#[test]
+fn a_controller_solves_a_task() {
+    controller::main().unwrap();
 }
 
 #[test]
@@ -71,5 +78,5 @@ fn examples_name_this_crate_alone() {
         }
         seen += 1;
     }
-    assert!(seen >= 8, "{seen} examples");
+    assert!(seen >= 9, "{seen} examples");
 }

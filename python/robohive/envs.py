@@ -14,6 +14,7 @@ from gymnasium import spaces
 from numpy.typing import ArrayLike, NDArray
 
 from robohive import _core
+from robohive.control import Controller, controllers
 from robohive.examine import Policy, examine_policy
 from robohive.guests import with_model
 from robohive.live import Ready, asked
@@ -503,6 +504,23 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
             frame_size=frame_size,
             video=os.path.join(output_dir or tempfile.gettempdir(), filename),
         )
+
+    def controller(self, name: str | None = None) -> Controller:
+        """What solves this task without learning.
+
+        Args:
+            name: One of `robohive.control.controllers(env.id)`; the best of them without it.
+
+        Raises:
+            ValueError: there is no such controller, it serves other tasks, or none serves this id.
+        """
+        id = str(self._about["id"])
+        if name is None:
+            serving = controllers(id)
+            if not serving:
+                raise ValueError(f"no controller serves {id}; robohive.control.controllers() lists all")
+            name, _ = serving[0]
+        return Controller(self, name)
 
     def mj_render(self) -> None:
         """Shows the present state in a window, which the first call opens, as RoboHive does.

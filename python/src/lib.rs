@@ -2,6 +2,7 @@
 
 mod actions;
 mod arrays;
+mod control;
 mod data;
 mod env;
 mod exceptions;
@@ -22,6 +23,8 @@ use pyo3::pymodule;
 /// Environments of RoboHive in Rust.
 #[pymodule]
 mod _core {
+    #[pymodule_export]
+    use super::control::{PyController, controllers};
     #[pymodule_export]
     use super::env::PyEnv;
     #[pymodule_export]

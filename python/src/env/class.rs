@@ -298,6 +298,21 @@ impl PyEnv {
         PyEnv::of(py, env, self.request.clone())
     }
 
+    /// Works on the environment with the interpreter's lock released, for a call of this name.
+    ///
+    /// # Errors
+    /// It was closed, or is in a call of another thread.
+    pub fn detached<T: Send>(
+        &self,
+        py: Python<'_>,
+        call: &str,
+        f: impl FnOnce(&mut Env) -> T + Send,
+    ) -> PyResult<T> {
+        let mut taken = self.live.take(py, call)?;
+        let env = &mut taken.env;
+        Ok(py.detach(|| f(env)))
+    }
+
     /// Looks at the environment, for a call of this name.
     ///
     /// # Errors
