@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 26] = [
+const SPEAK_OF: [(&str, &[&str]); 28] = [
     ("bus_time", &["src/protocol", "src/wire", "src/hardware"]),
     ("controllers", &["src/physics", "mjcf", "src/robot", "src/env", "src/control", "assets"]),
     ("draws", &["src/random"]),
@@ -28,6 +28,7 @@ const SPEAK_OF: [(&str, &[&str]); 26] = [
     ("items", &["src/physics", "mjcf", "src/render/scene"]),
     ("pictures", &["src/physics", "mjcf", "src/render"]),
     ("pictures_gpu", &["src/physics", "mjcf", "src/render", "src/render_gpu"]),
+    ("planning", &["src/physics", "src/control", "assets"]),
     ("ppo", &["src/physics", "mjcf", "src/env", "python"]),
     ("python_ray", &["src/env", "python"]),
     ("python_speed", &["src/physics", "src/env", "python"]),
@@ -35,6 +36,7 @@ const SPEAK_OF: [(&str, &[&str]); 26] = [
     ("rapier", &["src/physics", "mjcf", "src/rapier", "src/env", "src/teleop"]),
     ("robot_configs", &["src/physics", "src/env", "src/robot", "src/wire", "src/hardware"]),
     ("robots", &["assets"]),
+    ("robots_speed", &["src/physics", "mjcf", "src/env", "assets"]),
     ("standin", &["src/physics", "mjcf", "python"]),
     ("standin_dm_control", &["src/physics", "mjcf", "python"]),
     ("standin_myosuite", &["src/physics", "mjcf", "python"]),
