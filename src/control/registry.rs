@@ -51,6 +51,20 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::arms::reach::Reach::new(env)?)),
     },
     Entry {
+        name: "muscle_pose",
+        summary: "joints as springs with dampers, whose torques static optimisation shares among the muscles",
+        serves: &["muscle_pose"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::muscles::pose::MusclePose::new(env)?)),
+    },
+    Entry {
+        name: "muscle_reach",
+        summary: "inverse kinematics of all tips once, then as muscle_pose",
+        serves: &["muscle_reach"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::muscles::reach::MuscleReach::new(env)?)),
+    },
+    Entry {
         name: "trot",
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
         serves: LOCOMOTION,
@@ -191,9 +205,9 @@ mod tests {
         };
         let unknown = error("hive/FrankaReach-v0", "rech");
         assert_eq!(unknown, "there is no controller rech; hive/FrankaReach-v0 is served by reach");
-        let other = error("hive/ElbowPose-v0", "reach");
-        assert!(other.contains("serves reach, not hive/ElbowPose-v0"), "{other}");
-        assert!(other.contains("no controller serves hive/ElbowPose-v0"), "{other}");
+        let other = error("hive/QuadrupedWalk-v0", "reach");
+        assert!(other.contains("serves reach, not hive/QuadrupedWalk-v0"), "{other}");
+        assert!(other.contains("no controller serves hive/QuadrupedWalk-v0"), "{other}");
         let feet = error("hive/DarwinTurn-v0", "trot");
         assert!(feet.contains("of bodies with 4 feet, not hive/DarwinTurn-v0"), "{feet}");
         assert!(feet.ends_with("hive/DarwinTurn-v0 is served by walk"), "{feet}");

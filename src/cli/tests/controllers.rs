@@ -21,14 +21,14 @@ fn a_controller_is_listed_and_solves_the_task() {
 
 #[test]
 fn what_serves_the_id_is_said() {
-    let none = robohive(&["run", "hive/ElbowPose-v0", "--controller", "list"]);
-    assert!(text(&none.stdout).contains("no controller serves hive/ElbowPose-v0"), "{}", text(&none.stdout));
+    let none = robohive(&["run", "hive/QuadrupedWalk-v0", "--controller", "list"]);
+    assert!(text(&none.stdout).contains("no controller serves hive/QuadrupedWalk-v0"), "{}", text(&none.stdout));
     let error = |words: &[&str]| {
         let out = robohive(&[&["run"], words].concat());
         assert_eq!(out.status.code(), Some(2));
         text(&out.stderr)
     };
     assert!(error(&[ID, "--controller", "rech"]).contains("is served by reach"));
-    assert!(error(&["hive/ElbowPose-v0", "--controller", "reach"]).contains("serves reach, not"));
+    assert!(error(&["hive/QuadrupedWalk-v0", "--controller", "reach"]).contains("serves reach, not"));
     assert!(error(&[ID, "--controller", "reach", "--policy", "zero"]).contains("cannot be used with"));
 }

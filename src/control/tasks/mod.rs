@@ -3,3 +3,4 @@
 pub mod arms;
 pub mod classical;
 pub mod locomotion;
+pub mod muscles;

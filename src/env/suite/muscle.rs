@@ -174,6 +174,22 @@ pub fn effort(rows: &Rows) -> f64 {
     }
 }
 
+/// The normalised action that gives an actuator of a task of muscles this control, or the nearest one: the inverse of what
+/// [`Muscles::drive`] does where the model has activations.
+pub fn normalized(model: &Model, actuator: usize, control: f64) -> f64 {
+    let [low, high] = model.actuator_ctrlrange[actuator];
+    let action = if model.actuator_gaintype[actuator] == GainType::Muscle as i32 {
+        let [least, most] = [-1.0, 1.0].map(excitation);
+        let excited = control.clamp(least, most);
+        0.5 + ops::log(excited / (1.0 - excited)) / 5.0
+    } else if high > low {
+        (2.0 * control - low - high) / (high - low)
+    } else {
+        control
+    };
+    action.clamp(-1.0, 1.0)
+}
+
 /// A normalised action as an excitation between 0 and 1.
 fn excitation(action: f64) -> f64 {
     1.0 / (1.0 + ops::exp(-5.0 * (action - 0.5)))

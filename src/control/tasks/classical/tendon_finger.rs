@@ -50,6 +50,6 @@ impl Controller for TendonFinger {
                 strength[(joint, muscle)] = data.trn.actuator_moment[place] * m.actuator_gainprm[muscle][0];
             }
         }
-        command(env, activations(&strength, &torques)?.as_slice(), action)
+        command(env, activations(&strength, &torques, &vec![[0.0, 1.0]; m.nu])?.as_slice(), action)
     }
 }

@@ -1,0 +1,5 @@
+//! Limbs that muscles move.
+
+mod limb;
+pub mod pose;
+pub mod reach;
