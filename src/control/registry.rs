@@ -3,6 +3,8 @@
 use crate::controller::Controller;
 use crate::error::ControlError;
 use crate::tasks;
+use crate::tasks::arms::arm::Arm;
+use crate::tasks::arms::moves::Scripted;
 use crate::tasks::classical::balance::{self, Balance};
 use crate::tasks::classical::ball_on_beam::BallOnBeam;
 use crate::tasks::classical::car_trailer::CarTrailer;
@@ -12,6 +14,7 @@ use crate::tasks::classical::planar_arm::PlanarArm;
 use crate::tasks::classical::swing_up::{self, SwingUp};
 use crate::tasks::classical::tendon_finger::TendonFinger;
 use crate::tasks::classical::unicycle::Unicycle;
+use crate::tasks::tabletop::stack::Stack;
 use env::{Env, Spec};
 
 /// A controller that is built in.
@@ -63,6 +66,13 @@ const ALL: &[Entry] = &[
         serves: &["muscle_reach"],
         feet: None,
         build: |env| Ok(Box::new(tasks::muscles::reach::MuscleReach::new(env)?)),
+    },
+    Entry {
+        name: "stack",
+        summary: "grasp and place: inverse kinematics and minimum-jerk moves, one cube on the other",
+        serves: &["stack"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "stack")?, Stack::new(env)?))),
     },
     Entry {
         name: "trot",

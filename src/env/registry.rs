@@ -27,7 +27,7 @@ use toml::Table;
 /// The tables, one for each suite: its name, then one row an id. A row names its task, model and settings, or the id that it
 /// varies (`from`) and what differs. A rule under `variants` adds a variant of every row whose id begins like `from` and ends
 /// like `to`: `from = "myo*"` and `to = "myoSarc*"` make `myoSarcLegWalk-v0` of `myoLegWalk-v0`.
-const TABLES: [&str; 13] = [
+const TABLES: [&str; 14] = [
     include_str!("registry/hive.toml"),
     include_str!("registry/arms.toml"),
     include_str!("registry/classical.toml"),
@@ -41,6 +41,7 @@ const TABLES: [&str; 13] = [
     include_str!("registry/myochallenge.toml"),
     include_str!("registry/myodm.toml"),
     include_str!("registry/quadrupeds.toml"),
+    include_str!("registry/tabletop.toml"),
 ];
 
 /// Tables of ids on models that neither come with this crate nor are imported: a setting names the model.

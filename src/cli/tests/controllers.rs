@@ -22,7 +22,11 @@ fn a_controller_is_listed_and_solves_the_task() {
 #[test]
 fn what_serves_the_id_is_said() {
     let none = robohive(&["run", "hive/QuadrupedWalk-v0", "--controller", "list"]);
-    assert!(text(&none.stdout).contains("no controller serves hive/QuadrupedWalk-v0"), "{}", text(&none.stdout));
+    assert!(
+        text(&none.stdout).contains("no controller serves hive/QuadrupedWalk-v0"),
+        "{}",
+        text(&none.stdout)
+    );
     let error = |words: &[&str]| {
         let out = robohive(&[&["run"], words].concat());
         assert_eq!(out.status.code(), Some(2));

@@ -2,5 +2,8 @@
 
 pub mod arms;
 pub mod classical;
+mod joints;
 pub mod locomotion;
 pub mod muscles;
+mod roles;
+pub mod tabletop;

@@ -15,6 +15,7 @@
 
 pub mod arms;
 mod baoding;
+mod body;
 mod bonus;
 mod circling;
 pub mod classical;
@@ -34,6 +35,7 @@ mod named;
 mod peak_force;
 pub mod quadrupeds;
 pub mod quirks;
+pub mod tabletop;
 
 pub use bonus::bonus;
 
@@ -79,6 +81,7 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("velocity", locomotion::velocity::Velocity::new),
         TaskType::new("walk_to", locomotion::walk_to::WalkTo::new),
         TaskType::new("weave", locomotion::weave::Weave::new),
+        TaskType::new("stack", tabletop::stack::Stack::new),
         TaskType::new("kitchen", multitask::kitchen::Kitchen::new),
         TaskType::new("appliance", multitask::appliance::Appliance::new),
         TaskType::new("muscle_pose", myobase::pose::Pose::new),

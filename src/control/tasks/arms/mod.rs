@@ -1,3 +1,9 @@
-//! Arms.
+//! Arms: reaching, and grasping and placing by scripts of moves.
 
+pub mod arm;
+pub mod frame;
+pub mod grasp;
+pub mod hand;
+pub mod moves;
 pub mod reach;
+mod starts;

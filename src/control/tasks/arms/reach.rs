@@ -1,18 +1,28 @@
-//! Reaching by inverse kinematics: the joints that bring the tip to the target are looked for once, and approached by a
-//! minimum-jerk motion. What the servos lack of the way, under the weight of the arm, is added to their targets step by step.
+//! Reaching by inverse kinematics: the joints that bring the tip to the target are looked for once, from several postures, and the
+//! nearest that were found without a collision on the way are approached by a minimum-jerk motion. What the servos lack of the way, under the weight of the arm, is added to their targets step by step.
 
+use super::starts::posture;
 use crate::controller::{Controller, command};
 use crate::error::ControlError;
 use crate::maths::MinimumJerk;
 use env::Env;
 use physics::elements::{JointId, SiteId};
 use physics::model::TrnType;
+use physics::{Data, Model};
 use robot::{Pose, Search};
+use std::cmp::Ordering;
 
 /// Fastest joint \[rad/s, m/s\].
 const SPEED: f64 = 1.0;
 /// Share of what the joints lack that a step adds to the targets.
 const CORRECTION: f64 = 0.1;
+/// Postures from which the joints are looked for; a search from the present one alone ends where a straight arm cannot bend.
+const STARTS: usize = 12;
+/// Distance from the target at which it is reached \[m\].
+const TOLERANCE: f64 = 1e-3;
+/// Places on the way at which it is looked whether the arm is in something, and depth at which it is \[m\].
+const SAMPLES: usize = 8;
+const INSIDE: f64 = 0.002;
 /// Shortest motion \[s\].
 const SHORTEST: f64 = 0.2;
 
@@ -61,6 +71,26 @@ impl Reach {
         let m = &env.scene().model;
         self.joints.iter().map(|joint| qpos[m.jnt_qposadr[joint.index()] as usize]).collect()
     }
+
+    /// Puts the joints of a state.
+    fn put(&self, m: &Model, data: &mut Data, places: &[f64]) {
+        for (joint, place) in self.joints.iter().zip(places) {
+            data.state.qpos[m.jnt_qposadr[joint.index()] as usize] = *place;
+        }
+    }
+
+    /// At how many of some places on the way things are in each other.
+    fn hits(&self, m: &Model, data: &mut Data, start: &[f64], end: &[f64]) -> Result<usize, ControlError> {
+        let mut hits = 0;
+        for sample in 1..=SAMPLES {
+            let share = sample as f64 / SAMPLES as f64;
+            let places: Vec<f64> = start.iter().zip(end).map(|(a, b)| a + share * (b - a)).collect();
+            self.put(m, data, &places);
+            physics::forward(m, data)?;
+            hits += usize::from(data.con.contact.iter().any(|contact| contact.dist < -INSIDE));
+        }
+        Ok(hits)
+    }
 }
 
 impl Controller for Reach {
@@ -68,10 +98,21 @@ impl Controller for Reach {
         let scene = env.scene();
         let goal = Pose { position: Some(*scene.data.site(self.target).xpos()), ..Pose::default() };
         let reach = robot::Reach { joints: &self.joints, rest: None, pull: 0.0 };
-        let search = Search { tolerance: 1e-3, ..Search::default() };
-        let solution = search.run_within(&scene.model, &scene.data, self.tip, &goal, &reach);
+        let search = Search { tolerance: TOLERANCE, ..Search::default() };
         let start = self.places(env, &scene.data.state.qpos);
-        let end = self.places(env, &solution.qpos);
+        let mut data = scene.data.clone();
+        let mut found = Vec::new();
+        for index in 0..STARTS {
+            let from = if index == 0 { start.clone() } else { posture(&scene.model, &self.joints, index) };
+            self.put(&scene.model, &mut data, &from);
+            let solution = search.run_within(&scene.model, &data, self.tip, &goal, &reach);
+            let end = self.places(env, &solution.qpos);
+            let hits = self.hits(&scene.model, &mut data, &start, &end)?;
+            let way = start.iter().zip(&end).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            found.push(([solution.error.max(TOLERANCE), hits as f64, way], end));
+        }
+        let nearest = found.into_iter().min_by(|(a, _), (b, _)| a.partial_cmp(b).unwrap_or(Ordering::Equal));
+        let end = nearest.map_or_else(|| start.clone(), |(_, end)| end);
         let limits = vec![SPEED; start.len()];
         let duration = MinimumJerk::shortest(&start, &end, &limits).max(SHORTEST);
         self.motion = Some(MinimumJerk::between(&start, &end, duration)?);

@@ -1,10 +1,11 @@
 //! The body of a task, by its roles.
 
 use crate::error::ControlError;
+use crate::tasks::roles::roles;
 use env::{Env, Spec};
 use physics::elements::{BodyId, SiteId};
 use physics::math::Vec3;
-use robot::{Roles, Walk};
+use robot::Walk;
 
 /// A body with feet, as its roles describe it.
 pub struct Body {
@@ -18,17 +19,6 @@ pub struct Body {
     pub walk: Walk,
     /// Direction that it looks in, in the frame of the root.
     pub forward: Vec3,
-}
-
-/// Roles that the row of a task names, and their path.
-fn roles(spec: &Spec) -> Result<Roles, String> {
-    let path: Option<String> = spec.args.get("roles");
-    let path = path.ok_or("the setting roles is needed")?;
-    let text = path.strip_prefix("hive/").and_then(assets::text);
-    let text = text.ok_or_else(|| {
-        format!("{path} is none of our own models' files (hive/...), whose roles controllers read")
-    })?;
-    Roles::from_toml(text, &path).map_err(|error| error.to_string())
 }
 
 /// Number of feet of the body of a task, if its row names roles that have feet.

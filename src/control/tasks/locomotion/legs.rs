@@ -1,8 +1,9 @@
 //! Legs of servos: the joints that bring each foot to a place relative to the root.
 
 use crate::error::ControlError;
+use crate::tasks::joints::{Servo, between};
 use env::Env;
-use physics::elements::{BodyId, Element, JointId, SiteId};
+use physics::elements::{BodyId, JointId, SiteId};
 use physics::math::{Vec3, add, cross, dot, mul_mat_vec, quat_mul, sub};
 use physics::model::{JointType, TrnType};
 use physics::position::kinematics::kinematics;
@@ -15,17 +16,6 @@ const TOLERANCE: f64 = 1e-4;
 const STEPS: usize = 20;
 /// Share of the way to the standing pose that an update goes where the leg has more joints than it needs.
 const PULL: f64 = 0.02;
-
-/// A position servo.
-#[derive(Clone, Copy)]
-struct Servo {
-    /// The place in `qpos` of the joint that it moves.
-    place: usize,
-    /// How long it stays behind a steady motion: damping over stiffness \[s\].
-    lag: f64,
-    /// Torque for each radian that the joint is off \[N m/rad\].
-    stiffness: f64,
-}
 
 struct Leg {
     foot: SiteId,
@@ -53,7 +43,7 @@ impl Legs {
         let mut servos = vec![None; m.nu];
         for actuator in (0..m.nactuator).filter(|&a| m.actuator_trntype[a] == TrnType::Joint as i32) {
             let control = m.actuator_ctrladr[actuator] as usize;
-            servos[control] = Some(servo(m, actuator));
+            servos[control] = Some(Servo::new(m, actuator));
         }
         let leg = |foot: &SiteId| {
             let moved = |joint: &JointId| {
@@ -146,29 +136,6 @@ impl Legs {
             }
         }
     }
-}
-
-/// The servo that an actuator is.
-fn servo(m: &Model, actuator: usize) -> Servo {
-    let joint = m.actuator_trnid[actuator][0] as usize;
-    let [_, stiffness, damping] = [0, 1, 2].map(|i| -m.actuator_biasprm[actuator][i]);
-    let passive = m.dof_damping[m.jnt_dofadr[joint] as usize];
-    let lag = if stiffness > 0.0 { (damping + passive) / stiffness } else { 0.0 };
-    Servo { place: m.jnt_qposadr[joint] as usize, lag, stiffness }
-}
-
-/// Hinges and slides on the way from the root to a site.
-fn between(m: &Model, root: BodyId, site: SiteId) -> Vec<JointId> {
-    let mut body = m.site_bodyid[site.index()] as usize;
-    let mut joints = Vec::new();
-    while body != root.index() && body > 0 {
-        let first = m.body_jntadr[body].max(0) as usize;
-        let own = (first..first + m.body_jntnum[body] as usize).rev();
-        joints.extend(own.filter_map(|joint| JointId::at(m, joint)));
-        body = m.body_parentid[body] as usize;
-    }
-    joints.reverse();
-    joints
 }
 
 /// Puts joints of the root and of the bodies above it where the model has them.

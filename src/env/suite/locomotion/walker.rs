@@ -2,17 +2,16 @@
 
 use super::FRAME_SKIP;
 use super::push::Push;
-use crate::assets::own_file;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
+use crate::suite::body::{Bend, joints_below, read_roles};
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops};
-use physics::model::JointType;
 use physics::position::frame::Frame;
 use physics::{Data, Model};
-use robot::{Fallen, Keeper, Roles, Walk};
+use robot::{Fallen, Keeper, Walk};
 use serde::Deserialize;
 
 /// What makes episodes differ.
@@ -25,13 +24,6 @@ pub struct Disturbance {
     /// Pushes during the episode.
     #[serde(default)]
     push: Option<Push>,
-}
-
-/// A hinge or slide below the root.
-#[derive(Clone, Copy, Debug)]
-struct Bend {
-    position: usize,
-    velocity: usize,
 }
 
 /// A body with feet.
@@ -101,9 +93,7 @@ impl Walker {
         disturbance: Disturbance,
         setup: &Setup<'_>,
     ) -> Result<Self, EnvError> {
-        let bytes = own_file(path).map_or_else(|| setup.assets.read(path), Ok);
-        let bytes = bytes.map_err(|hint| setup.wrong(format!("roles: {path}: {hint}")))?;
-        let roles = Roles::from_toml(&String::from_utf8_lossy(&bytes), path)?;
+        let roles = read_roles(path, setup)?;
         let m = &setup.scene.model;
         let body = roles.cast(m, "", task);
         let mut walker = Walker {
@@ -231,21 +221,4 @@ impl Walker {
             push.keep(keeper);
         }
     }
-}
-
-/// Hinges and slides below the root.
-fn joints_below(m: &Model, root: BodyId) -> Vec<Bend> {
-    let scalar = [JointType::Hinge, JointType::Slide].map(|kind| kind as i32);
-    let is_below = |joint: &usize| {
-        let mut body = m.body_parentid[m.jnt_bodyid[*joint] as usize] as usize;
-        while body > root.index() {
-            body = m.body_parentid[body] as usize;
-        }
-        body == root.index()
-    };
-    let of = |joint: usize| Bend {
-        position: m.jnt_qposadr[joint] as usize,
-        velocity: m.jnt_dofadr[joint] as usize,
-    };
-    (0..m.njnt).filter(|&joint| scalar.contains(&m.jnt_type[joint])).filter(is_below).map(of).collect()
 }

@@ -1,0 +1,196 @@
+//! An arm of servos with a gripper, by the roles of its robot: joints that bring its tool to a frame, and controls that bring joints
+//! where they are to be.
+
+use super::frame::Frame;
+use super::hand::Hand;
+use super::starts::posture;
+use crate::error::ControlError;
+use crate::tasks::joints::{Servo, between};
+use crate::tasks::roles::roles;
+use env::Env;
+use physics::elements::JointId;
+use physics::model::TrnType;
+use physics::{Data, Model};
+use robot::{Pose, Reach, Search};
+
+/// Error at which a frame is reached: distance \[m\] plus weighted angle.
+const TOLERANCE: f64 = 2e-4;
+/// Error at which a frame counts as one that the arm reaches, and that at which one that it does not reach will do.
+const REACHED: f64 = 3e-3;
+const NEAR: f64 = 0.03;
+/// Weight of an angle \[rad\] beside a distance \[m\].
+const ROTATION_WEIGHT: f64 = 0.3;
+/// Damping of the least squares: the square of 0.05 (Buss 2004).
+const DAMPING: f64 = 2.5e-3;
+/// Largest number of updates of a search.
+const STEPS: usize = 150;
+/// Share of the way to the home pose that an update goes where the arm has more joints than it needs.
+const PULL: f64 = 0.02;
+/// Postures from which a frame is looked for that is not found from the present one.
+const STARTS: usize = 8;
+/// Share of what joints lack that a second of control adds to their targets.
+const CORRECTION: f64 = 4.0;
+/// The most that it adds \[rad\].
+const MOST: f64 = 0.15;
+
+/// A joint of the arm.
+#[derive(Clone, Copy)]
+struct Link {
+    joint: JointId,
+    servo: Servo,
+    control: usize,
+}
+
+/// An arm.
+pub struct Arm {
+    /// Its gripper.
+    pub hand: Hand,
+    links: Vec<Link>,
+    joints: Vec<JointId>,
+    home: Vec<f64>,
+    /// What is added to the targets of the servos.
+    correction: Vec<f64>,
+    controls: Vec<f64>,
+}
+
+impl Arm {
+    /// The arm of an environment, for the controller called `name`.
+    ///
+    /// # Errors
+    /// The task names no roles, or the model does not fill them.
+    pub fn new(env: &Env, name: &str) -> Result<Self, ControlError> {
+        let m = &env.scene().model;
+        let roles = roles(env.spec()).map_err(|message| ControlError::unfit(env, message))?;
+        let told = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
+        let body = roles.cast(m, "", name);
+        let mut home = m.qpos0.to_vec();
+        let posture = env.spec().args.get::<String>("pose").unwrap_or_else(|| "home".into());
+        body.pose(&posture, &mut home).map_err(told)?;
+        let (root, tool) = (body.root().map_err(told)?, body.tool().map_err(told)?);
+        let links: Vec<Link> =
+            between(m, root, tool).into_iter().filter_map(|joint| servoed(m, joint)).collect();
+        let joints: Vec<JointId> = links.iter().map(|link| link.joint).collect();
+        let hand = Hand::new(env, &roles, &body, &joints)?;
+        let (links, joints) = links
+            .into_iter()
+            .filter(|link| !hand.is_finger(link.servo.place))
+            .map(|link| (link, link.joint))
+            .unzip();
+        let links: Vec<Link> = links;
+        Ok(Arm { hand, correction: vec![0.0; links.len()], links, joints, home, controls: vec![0.0; m.nu] })
+    }
+
+    /// Begins an episode.
+    pub fn begin(&mut self) {
+        self.correction.fill(0.0);
+    }
+
+    /// Positions of its joints.
+    pub fn places(&self, qpos: &[f64]) -> Vec<f64> {
+        self.links.iter().map(|link| qpos[link.servo.place]).collect()
+    }
+
+    /// Where the tool is.
+    pub fn tool(&self, env: &Env) -> Frame {
+        Frame::of_site(&env.scene().data, self.hand.tool)
+    }
+
+    /// Looks for joints that bring the tool to a frame, from where `data` has them. Returns them and the error that is left.
+    pub fn solve(&self, m: &Model, data: &Data, frame: &Frame) -> (Vec<f64>, f64) {
+        let redundant = self.joints.len() > 6;
+        let rest = redundant.then_some(&self.home[..]);
+        let reach = Reach { joints: &self.joints, rest, pull: PULL };
+        let search = Search {
+            tolerance: TOLERANCE,
+            rotation_weight: ROTATION_WEIGHT,
+            damping: DAMPING,
+            damping_threshold: 0.0,
+            progress_threshold: 1e4,
+            max_steps: STEPS,
+            ..Search::default()
+        };
+        let pose = Pose { position: Some(frame.place), orientation: Some(frame.turn) };
+        let found = search.run_within(m, data, self.hand.tool, &pose, &reach);
+        (self.places(&found.qpos), found.error)
+    }
+
+    /// The frame of several that is reached with the least motion of the joints from where `from` has them, and the joints there.
+    ///
+    /// # Errors
+    /// None of them is reached.
+    pub fn nearest(
+        &self,
+        env: &Env,
+        from: &[f64],
+        frames: &[Frame],
+    ) -> Result<(Frame, Vec<f64>), ControlError> {
+        let m = &env.scene().model;
+        let mut data = env.scene().data.clone();
+        let mut best: Option<(f64, Frame, Vec<f64>)> = None;
+        let mut least = NEAR;
+        for start in 0..STARTS {
+            self.set(&mut data, &self.start(m, from, start));
+            for frame in frames {
+                let (joints, error) = self.solve(m, &data, frame);
+                let way = joints.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                let nearer = best.as_ref().is_none_or(|(least, ..)| way < *least);
+                if (error < REACHED && (nearer || least > REACHED))
+                    || error < least.min(NEAR) && least > REACHED
+                {
+                    best = Some((way, *frame, joints));
+                    least = error;
+                }
+            }
+            if least < REACHED {
+                break;
+            }
+        }
+        best.map(|(_, frame, joints)| (frame, joints)).ok_or_else(|| {
+            let place = frames.first().map_or([0.0; 3], |frame| frame.place).map(|x| (1e3 * x).round() / 1e3);
+            ControlError::unfit(env, format!("the arm cannot bring its tool to {place:?} m"))
+        })
+    }
+
+    /// A posture to begin a search with: the present one, the home pose, then others.
+    fn start(&self, m: &Model, from: &[f64], start: usize) -> Vec<f64> {
+        match start {
+            0 => from.to_vec(),
+            1 => self.places(&self.home),
+            _ => posture(m, &self.joints, start),
+        }
+    }
+
+    /// Puts the joints of a state.
+    pub fn set(&self, data: &mut Data, joints: &[f64]) {
+        for (link, place) in self.links.iter().zip(joints) {
+            data.state.qpos[link.servo.place] = *place;
+        }
+    }
+
+    /// The controls that bring the joints from `now`, where they are to be at present, to `next`, where they are to be a step later, and
+    /// the fingers to an opening.
+    pub fn command(&mut self, env: &Env, now: &[f64], next: &[f64], opening: f64) -> &[f64] {
+        let (qpos, dt) = (&env.scene().data.state.qpos, env.dt());
+        for (k, link) in self.links.iter().enumerate() {
+            let lacks = now[k] - qpos[link.servo.place];
+            self.correction[k] = (self.correction[k] + CORRECTION * dt * lacks).clamp(-MOST, MOST);
+            let lag = link.servo.lag * (next[k] - now[k]) / dt;
+            self.controls[link.control] = next[k] + lag + self.correction[k];
+        }
+        self.hand.command(qpos, opening, &mut self.controls);
+        &self.controls
+    }
+}
+
+/// The position servo of a joint.
+fn servoed(m: &Model, joint: JointId) -> Option<Link> {
+    let place = m.jnt_qposadr[joint.index()] as usize;
+    let moves = |&actuator: &usize| {
+        m.actuator_trntype[actuator] == TrnType::Joint as i32
+            && m.actuator_trnid[actuator][0] == joint.index() as i32
+    };
+    let actuator = (0..m.nactuator).find(moves)?;
+    let servo = Servo::new(m, actuator);
+    debug_assert_eq!(servo.place, place);
+    Some(Link { joint, servo, control: m.actuator_ctrladr[actuator] as usize })
+}

@@ -1,0 +1,43 @@
+//! Joints between two parts of a body, and the servos that move them.
+
+use physics::Model;
+use physics::elements::{BodyId, Element, JointId, SiteId};
+use physics::model::BiasType;
+
+/// An actuator that moves a joint.
+#[derive(Clone, Copy)]
+pub struct Servo {
+    /// The place in `qpos` of the joint that it moves.
+    pub place: usize,
+    /// How long it stays behind a steady motion: damping over stiffness \[s\].
+    pub lag: f64,
+    /// Torque for each radian that the joint is off \[N m/rad\]; 0 for a motor, which is told a torque and not a position.
+    pub stiffness: f64,
+}
+
+impl Servo {
+    /// The servo that an actuator of a joint is.
+    pub fn new(m: &Model, actuator: usize) -> Self {
+        let joint = m.actuator_trnid[actuator][0] as usize;
+        let feeds_back = m.actuator_biastype[actuator] == BiasType::Affine as i32;
+        let [stiffness, damping] =
+            [1, 2].map(|i| if feeds_back { -m.actuator_biasprm[actuator][i] } else { 0.0 });
+        let passive = m.dof_damping[m.jnt_dofadr[joint] as usize];
+        let lag = if stiffness > 0.0 { (damping + passive) / stiffness } else { 0.0 };
+        Servo { place: m.jnt_qposadr[joint] as usize, lag, stiffness }
+    }
+}
+
+/// Hinges and slides on the way from the root to a site, the nearest to the root first.
+pub fn between(m: &Model, root: BodyId, site: SiteId) -> Vec<JointId> {
+    let mut body = m.site_bodyid[site.index()] as usize;
+    let mut joints = Vec::new();
+    while body != root.index() && body > 0 {
+        let first = m.body_jntadr[body].max(0) as usize;
+        let own = (first..first + m.body_jntnum[body] as usize).rev();
+        joints.extend(own.filter_map(|joint| JointId::at(m, joint)));
+        body = m.body_parentid[body] as usize;
+    }
+    joints.reverse();
+    joints
+}

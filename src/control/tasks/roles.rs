@@ -1,0 +1,19 @@
+//! The roles of a task's body.
+
+use env::Spec;
+use robot::Roles;
+
+/// Roles that the row of a task names, or those of the robot in whose folder its model is.
+pub(crate) fn roles(spec: &Spec) -> Result<Roles, String> {
+    let beside = || {
+        let model: String = spec.args.get("model_path")?;
+        let robot = model.strip_prefix("hive/")?.split('/').next()?;
+        Some(format!("hive/{robot}/roles.toml"))
+    };
+    let path = spec.args.get::<String>("roles").or_else(beside).ok_or("the setting roles is needed")?;
+    let text = path.strip_prefix("hive/").and_then(assets::text);
+    let text = text.ok_or_else(|| {
+        format!("{path} is none of our own models' files (hive/...), whose roles controllers read")
+    })?;
+    Roles::from_toml(text, &path).map_err(|error| error.to_string())
+}

@@ -1,0 +1,3 @@
+//! Arms at a table with things on it.
+
+pub mod stack;
