@@ -14,6 +14,9 @@ use crate::tasks::classical::planar_arm::PlanarArm;
 use crate::tasks::classical::swing_up::{self, SwingUp};
 use crate::tasks::classical::tendon_finger::TendonFinger;
 use crate::tasks::classical::unicycle::Unicycle;
+use crate::tasks::deformable::grain_pour::GrainPour;
+use crate::tasks::deformable::rope_straighten::RopeStraighten;
+use crate::tasks::deformable::sponge_press::SpongePress;
 use crate::tasks::tabletop::stack::Stack;
 use env::{Env, Spec};
 
@@ -150,6 +153,27 @@ const ALL: &[Entry] = &[
         serves: &["hopper_boom"],
         feet: None,
         build: |env| Ok(Box::new(HopperBoom::new(env)?)),
+    },
+    Entry {
+        name: "rope_straighten",
+        summary: "a grasp of the loose end, and a pull until the rope is taut",
+        serves: &["rope_straighten"],
+        feet: None,
+        build: |env| Ok(Box::new(RopeStraighten::new(env)?)),
+    },
+    Entry {
+        name: "grain_pour",
+        summary: "a cup that is brought beside the bowl and tilted",
+        serves: &["grain_pour"],
+        feet: None,
+        build: |env| Ok(Box::new(GrainPour::new(env)?)),
+    },
+    Entry {
+        name: "sponge_press",
+        summary: "closed fingers that go down until the depth is right",
+        serves: &["sponge_press"],
+        feet: None,
+        build: |env| Ok(Box::new(SpongePress::new(env)?)),
     },
     Entry {
         name: "walk",

@@ -1,13 +1,13 @@
 //! What an environment asks of a task: where episodes start, what is observed, what is rewarded.
 
-use crate::assets::Assets;
+use crate::assets::{Assets, own_file};
 use crate::draws::Rng;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::spec::Spec;
 use physics::{Data, Model};
-use robot::{Compat, Config, Keeper};
+use robot::{Compat, Config, Keeper, Roles};
 
 /// What a task is built from.
 pub struct Setup<'a> {
@@ -26,6 +26,16 @@ pub struct Setup<'a> {
 }
 
 impl Setup<'_> {
+    /// The roles in the file at `path`, among our own or among [`Setup::assets`].
+    ///
+    /// # Errors
+    /// The file cannot be read, or is no file of roles.
+    pub fn roles(&self, path: &str) -> Result<Roles, EnvError> {
+        let bytes = own_file(path).map_or_else(|| self.assets.read(path), Ok);
+        let bytes = bytes.map_err(|hint| self.wrong(format!("roles: {path}: {hint}")))?;
+        Ok(Roles::from_toml(&String::from_utf8_lossy(&bytes), path)?)
+    }
+
     /// An error about a setting of the environment.
     pub fn wrong(&self, message: impl Into<String>) -> EnvError {
         self.spec.wrong(message)

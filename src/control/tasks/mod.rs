@@ -2,6 +2,7 @@
 
 pub mod arms;
 pub mod classical;
+pub mod deformable;
 mod joints;
 pub mod locomotion;
 pub mod muscles;

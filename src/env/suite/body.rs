@@ -1,12 +1,8 @@
 //! Parts of a body that tasks find by its roles.
 
-use crate::assets::own_file;
-use crate::error::EnvError;
-use crate::task::Setup;
 use physics::Model;
 use physics::elements::BodyId;
 use physics::model::JointType;
-use robot::Roles;
 
 /// A hinge or slide below the root.
 #[derive(Clone, Copy, Debug)]
@@ -15,16 +11,6 @@ pub struct Bend {
     pub position: usize,
     /// Where `qvel` has it.
     pub velocity: usize,
-}
-
-/// Reads the roles that a setting names.
-///
-/// # Errors
-/// The file cannot be read, or is none of roles.
-pub fn read_roles(path: &str, setup: &Setup<'_>) -> Result<Roles, EnvError> {
-    let bytes = own_file(path).map_or_else(|| setup.assets.read(path), Ok);
-    let bytes = bytes.map_err(|hint| setup.wrong(format!("roles: {path}: {hint}")))?;
-    Ok(Roles::from_toml(&String::from_utf8_lossy(&bytes), path)?)
 }
 
 /// Whether a body is below the root, or the root itself.

@@ -21,6 +21,7 @@ mod circling;
 pub mod classical;
 pub mod claws;
 pub mod dclaw;
+pub mod deformable;
 mod fatigue;
 pub mod fm;
 pub mod gymnasium;
@@ -61,6 +62,9 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("dclaw_pose", dclaw::pose::Posing::new),
         TaskType::new("dclaw_turn", dclaw::turn::Turn::new),
         TaskType::new("dclaw_screw", dclaw::screw::Screw::new),
+        TaskType::new("grain_pour", deformable::grain_pour::GrainPour::new),
+        TaskType::new("rope_straighten", deformable::rope_straighten::RopeStraighten::new),
+        TaskType::new("sponge_press", deformable::sponge_press::SpongePress::new),
         TaskType::new("ee_pose", fm::pose::Reach::of_robot),
         TaskType::new("robotiq_pose", fm::pose::Reach::of_robotiq),
         TaskType::new("robotiq_data", fm::data::Recording::new),

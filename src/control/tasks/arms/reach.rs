@@ -38,6 +38,21 @@ pub struct Reach {
     controls: Vec<f64>,
 }
 
+/// The joint that each actuator servos.
+///
+/// # Errors
+/// An actuator that moves no joint.
+pub fn servoed(env: &Env) -> Result<Vec<JointId>, ControlError> {
+    let m = &env.scene().model;
+    let joint = |k: usize| {
+        let moves = m.actuator_trntype[k] == TrnType::Joint as i32;
+        let id = usize::try_from(m.actuator_trnid[k][0]).ok().filter(|_| moves);
+        let joint = id.and_then(|id| m.joints().nth(id));
+        joint.ok_or_else(|| ControlError::unfit(env, format!("actuator {k} servos no joint")))
+    };
+    (0..m.nu).map(joint).collect()
+}
+
 impl Reach {
     /// The controller for an arm whose actuators servo joints.
     ///
@@ -49,16 +64,10 @@ impl Reach {
             let named = env.spec().args.get::<String>(setting);
             named.ok_or_else(|| ControlError::unfit(env, format!("the setting {setting} is needed")))
         };
-        let joint = |k: usize| {
-            let moves = m.actuator_trntype[k] == TrnType::Joint as i32;
-            let id = usize::try_from(m.actuator_trnid[k][0]).ok().filter(|_| moves);
-            let joint = id.and_then(|id| m.joints().nth(id));
-            joint.ok_or_else(|| ControlError::unfit(env, format!("actuator {k} servos no joint")))
-        };
         Ok(Reach {
             tip: scene.site(&name("robot_site_name")?)?,
             target: scene.site(&name("target_site_name")?)?,
-            joints: (0..m.nu).map(joint).collect::<Result<_, _>>()?,
+            joints: servoed(env)?,
             motion: None,
             began: 0.0,
             correction: vec![0.0; m.nu],

@@ -5,7 +5,7 @@ use super::push::Push;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
-use crate::suite::body::{Bend, joints_below, read_roles};
+use crate::suite::body::{Bend, joints_below};
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops};
@@ -93,8 +93,7 @@ impl Walker {
         disturbance: Disturbance,
         setup: &Setup<'_>,
     ) -> Result<Self, EnvError> {
-        let roles = read_roles(path, setup)?;
-        let m = &setup.scene.model;
+        let (roles, m) = (setup.roles(path)?, &setup.scene.model);
         let body = roles.cast(m, "", task);
         let mut walker = Walker {
             root: body.root()?,

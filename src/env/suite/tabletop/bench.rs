@@ -3,7 +3,7 @@
 use super::FRAME_SKIP;
 use crate::error::EnvError;
 use crate::rows::Rows;
-use crate::suite::body::{Bend, is_below, joints_below, read_roles};
+use crate::suite::body::{Bend, is_below, joints_below};
 use crate::suite::classical::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, View};
 use physics::elements::{BodyId, SiteId};
@@ -59,7 +59,7 @@ impl Bench {
     /// # Errors
     /// The roles cannot be read, or the model does not fill them.
     pub fn new(task: &str, start: Start<'_>, setup: &Setup<'_>) -> Result<Self, EnvError> {
-        let roles = read_roles(start.roles, setup)?;
+        let roles = setup.roles(start.roles)?;
         let m = &setup.scene.model;
         let body = roles.cast(m, "", task);
         let root = body.root()?;

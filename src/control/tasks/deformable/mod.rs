@@ -1,0 +1,6 @@
+//! Soft things under the hand of an arm.
+
+pub mod grain_pour;
+mod hand;
+pub mod rope_straighten;
+pub mod sponge_press;
