@@ -85,6 +85,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::locomotion::trot::Trot::new(env)?)),
     },
     Entry {
+        name: "pair_trot",
+        summary: "each of two agents trots by what it observes itself",
+        serves: &["pair_push_box", "pair_swap", "tag"],
+        feet: Some(4),
+        build: |env| Ok(Box::new(tasks::multi_agent::pair_trot::PairTrot::new(env)?)),
+    },
+    Entry {
         name: "acrobot",
         summary: "a swing found by iLQR over the model, then a linear-quadratic regulator",
         serves: &["acrobot"],

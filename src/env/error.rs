@@ -72,6 +72,11 @@ pub enum EnvError {
         /// The value.
         value: f64,
     },
+    /// Actions of agents that do not fit the agents of an environment.
+    Agents {
+        /// Which agent, and what is wrong with its action.
+        message: String,
+    },
     /// A step after the end of an episode that only a reset can continue.
     NeedsReset,
     /// The surroundings of a robot that is hardware could not be prepared for an episode: why.
@@ -168,7 +173,7 @@ impl fmt::Display for EnvError {
                 write!(f, "physics refused the last step, which ended the episode: reset first")
             }
             EnvError::NotReady(why) => write!(f, "the episode cannot begin: {why}"),
-            EnvError::Camera { message } => f.write_str(message),
+            EnvError::Camera { message } | EnvError::Agents { message } => f.write_str(message),
             EnvError::Physics(error) => write!(f, "{error}"),
             EnvError::Config(error) => write!(f, "{error}"),
             EnvError::Edit(error) => write!(f, "{error}"),

@@ -72,6 +72,15 @@ pub struct Rows {
     values: Vec<f64>,
     /// Row written next.
     cursor: usize,
+    /// What names that are written now begin with.
+    prefix: String,
+}
+
+/// The rows whose names begin with a prefix, by the rest of their names: what belongs to one agent of several.
+#[derive(Clone, Copy, Debug)]
+pub struct Part<'a> {
+    rows: &'a Rows,
+    prefix: &'a str,
 }
 
 impl Rows {
@@ -93,7 +102,8 @@ impl Rows {
         let values = values.into_iter().map(|value| *value.borrow());
         match self.rows.get(self.cursor) {
             Some(row) => {
-                assert_eq!(row.name, name.as_ref(), "rows are written in the same order every time");
+                let known = row.name.strip_prefix(&*self.prefix);
+                assert_eq!(known, Some(name.as_ref()), "rows are written in the same order every time");
                 let mut rest = values;
                 for (place, value) in self.values[row.place.clone()].iter_mut().zip(&mut rest) {
                     *place = value;
@@ -103,10 +113,37 @@ impl Rows {
             None => {
                 let start = self.values.len();
                 self.values.extend(values);
-                self.rows.push(Row { name: name.into(), unit, place: start..self.values.len() });
+                let name = if self.prefix.is_empty() {
+                    name.into()
+                } else {
+                    Cow::Owned(format!("{}{}", self.prefix, name.as_ref()))
+                };
+                self.rows.push(Row { name, unit, place: start..self.values.len() });
             }
         }
         self.cursor += 1;
+    }
+
+    /// Writes rows whose names begin with `prefix`; `write` names them without it.
+    ///
+    /// ```
+    /// use robohive_env::Rows;
+    /// let mut rows = Rows::default();
+    /// rows.within("left_", |rows| rows.set("height", "m", [0.3]));
+    /// assert_eq!(rows["left_height"], [0.3]);
+    /// assert_eq!(rows.of("left_")["height"], [0.3]);
+    /// ```
+    pub fn within<T>(&mut self, prefix: &str, write: impl FnOnce(&mut Self) -> T) -> T {
+        let before = self.prefix.len();
+        self.prefix.push_str(prefix);
+        let written = write(self);
+        self.prefix.truncate(before);
+        written
+    }
+
+    /// The rows whose names begin with `prefix`; an empty one is that of all.
+    pub fn of<'a>(&'a self, prefix: &'a str) -> Part<'a> {
+        Part { rows: self, prefix }
     }
 
     /// The rows' names, units and lengths, in order.
@@ -154,6 +191,23 @@ impl Index<&str> for Rows {
     /// The values of a row that is known to exist; [`Rows::get`] asks for others.
     fn index(&self, name: &str) -> &[f64] {
         self.get(name).unwrap_or_else(|| panic!("there is no row named {name}"))
+    }
+}
+
+impl<'a> Part<'a> {
+    /// The values of a row.
+    pub fn get(self, name: &str) -> Option<&'a [f64]> {
+        let named = |row: &&Row| row.name.strip_prefix(self.prefix) == Some(name);
+        self.rows.rows.iter().find(named).map(|row| &self.rows.values[row.place.clone()])
+    }
+}
+
+impl Index<&str> for Part<'_> {
+    type Output = [f64];
+
+    /// The values of a row that is known to exist; [`Part::get`] asks for others.
+    fn index(&self, name: &str) -> &[f64] {
+        self.get(name).unwrap_or_else(|| panic!("there is no row named {}{name}", self.prefix))
     }
 }
 

@@ -6,6 +6,7 @@ use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::spec::Spec;
+use crate::team::Team;
 use physics::{Data, Model};
 use robot::{Compat, Config, Keeper, Roles};
 
@@ -170,6 +171,11 @@ impl Defaults {
 pub trait Task: TaskCopy + Send + Sync {
     /// The settings that an id may leave out.
     fn defaults(&self) -> Defaults;
+
+    /// The agents of a task for several: what each commands, observes and earns.
+    fn team(&self) -> Option<&Team> {
+        None
+    }
 
     /// How a step advances the physics.
     fn timing(&self) -> Timing {

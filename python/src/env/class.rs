@@ -1,5 +1,6 @@
 //! `robohive._core.Env`.
 
+use super::team;
 use crate::actions;
 use crate::arrays;
 use crate::exceptions::exception;
@@ -126,6 +127,16 @@ impl PyEnv {
     /// The observation vector of the present state.
     fn observation<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         self.with(py, "get_obs", |env| Ok(PyArray1::from_slice(py, env.observation())))
+    }
+
+    /// What each agent of an environment for several observes, and what it earns, by name.
+    fn agents<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyDict>, Bound<'py, PyDict>)> {
+        self.with(py, "agents", |env| team::seen(py, env))
+    }
+
+    /// The joint action of one action for each agent, by name.
+    fn join<'py>(&self, py: Python<'py>, actions: &Bound<'_, PyDict>) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        self.with(py, "join", |env| team::join(py, env, actions))
     }
 
     /// The observation dictionary of the present state.
@@ -358,6 +369,7 @@ fn describe<'py>(py: Python<'py>, env: &Env, request: &Request) -> PyResult<Boun
     dict.set_item("share", env.success() == env::Success::Share)?;
     dict.set_item("action_low", PyArray1::from_vec(py, edge(0)))?;
     dict.set_item("action_high", PyArray1::from_vec(py, edge(1)))?;
+    dict.set_item("agents", team::describe(py, env)?)?;
     dict.set_item("warnings", PyString::new(py, &env.warnings().to_string()))?;
     Ok(dict)
 }

@@ -5,6 +5,7 @@ pub mod classical;
 pub mod deformable;
 mod joints;
 pub mod locomotion;
+pub mod multi_agent;
 pub mod muscles;
 mod roles;
 pub mod tabletop;

@@ -9,6 +9,7 @@ use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::spec::{RewardMode, Settings, Spec};
 use crate::task::{Success, Verdict};
+use crate::team::Team;
 use mjcf::diagnostic::Diagnostics;
 use robot::Robot;
 
@@ -102,6 +103,11 @@ impl Env {
     /// Rows of the observation that random actions may leave as they are.
     pub fn resting_rows(&self) -> Vec<String> {
         self.task.resting_rows()
+    }
+
+    /// The agents of an environment for several.
+    pub fn team(&self) -> Option<&Team> {
+        self.task.team()
     }
 
     /// When an episode counts as a success.

@@ -27,6 +27,7 @@ pub mod fm;
 pub mod gymnasium;
 pub mod hands;
 pub mod locomotion;
+pub mod multi_agent;
 pub mod multitask;
 pub mod muscle;
 pub mod myobase;
@@ -86,6 +87,9 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("walk_to", locomotion::walk_to::WalkTo::new),
         TaskType::new("weave", locomotion::weave::Weave::new),
         TaskType::new("stack", tabletop::stack::Stack::new),
+        TaskType::new("pair_push_box", multi_agent::push_box::PushBox::new),
+        TaskType::new("pair_swap", multi_agent::swap::Swap::new),
+        TaskType::new("tag", multi_agent::tag::Tag::new),
         TaskType::new("kitchen", multitask::kitchen::Kitchen::new),
         TaskType::new("appliance", multitask::appliance::Appliance::new),
         TaskType::new("muscle_pose", myobase::pose::Pose::new),

@@ -27,15 +27,16 @@ pub fn feet(spec: &Spec) -> Option<usize> {
 }
 
 impl Body {
-    /// The body of a task, for the controller called `name`, which is for bodies with `count` feet.
+    /// The body of a task whose elements have names that begin with `prefix`, for the controller called `name`, which is for
+    /// bodies with `count` feet.
     ///
     /// # Errors
     /// A task without roles, a model that does not fill them, another number of feet.
-    pub fn new(env: &Env, name: &str, count: usize) -> Result<Self, ControlError> {
+    pub fn new(env: &Env, prefix: &str, name: &str, count: usize) -> Result<Self, ControlError> {
         let m = &env.scene().model;
         let roles = roles(env.spec()).map_err(|message| ControlError::unfit(env, message))?;
         let unfit = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
-        let body = roles.cast(m, "", name);
+        let body = roles.cast(m, prefix, name);
         let feet = body.feet().map_err(unfit)?;
         if feet.len() != count {
             let message = format!("{name} is for bodies with {count} feet, not {}", feet.len());

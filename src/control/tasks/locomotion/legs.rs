@@ -26,7 +26,7 @@ struct Leg {
 pub struct Legs {
     legs: Vec<Leg>,
     root: BodyId,
-    /// The servo of each control.
+    /// The servo of each control that moves the body.
     servos: Vec<Option<Servo>>,
     stand: Vec<f64>,
     /// The body with its root where the model puts it, and its joints as they were found last.
@@ -41,8 +41,13 @@ impl Legs {
     pub fn new(env: &Env, root: BodyId, feet: &[SiteId], stand: &[f64]) -> Result<Self, ControlError> {
         let m = &env.scene().model;
         let mut servos = vec![None; m.nu];
+        let top = m.body_rootid[root.index()];
         for actuator in (0..m.nactuator).filter(|&a| m.actuator_trntype[a] == TrnType::Joint as i32) {
             let control = m.actuator_ctrladr[actuator] as usize;
+            let moved = m.jnt_bodyid[m.actuator_trnid[actuator][0] as usize] as usize;
+            if m.body_rootid[moved] != top {
+                continue;
+            }
             servos[control] = Some(Servo::new(m, actuator));
         }
         let leg = |foot: &SiteId| {
@@ -113,10 +118,10 @@ impl Legs {
             kinematics(m, &self.posed.state, &mut self.posed.kin);
         }
         for (control, servo) in controls.iter_mut().zip(&self.servos) {
-            *control = servo.map_or(0.0, |Servo { place, lag, .. }| {
+            if let Some(Servo { place, lag, .. }) = *servo {
                 let now = self.posed.state.qpos[place];
-                now + lag * (now - before[place]) / dt
-            });
+                *control = now + lag * (now - before[place]) / dt;
+            }
         }
     }
 }

@@ -5,6 +5,6 @@ mod legs;
 mod seen;
 pub mod trot;
 pub mod walk;
-mod wish;
+pub(super) mod wish;
 
 pub use body::feet;

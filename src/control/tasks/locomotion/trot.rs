@@ -6,7 +6,7 @@ use super::wish::{Facts, Wish, wish};
 use crate::controller::{Controller, command};
 use crate::error::ControlError;
 use crate::maths::{Gait, Steps};
-use env::{Env, Rows};
+use env::{Env, Part};
 use physics::math::Vec3;
 use robot::{Pose, Walk};
 
@@ -29,12 +29,11 @@ const RAMP: f64 = 2.0;
 /// Share of the walking speed below which the body stands.
 const STILL: f64 = 0.02;
 
-/// The controller.
-pub struct Trot {
+/// A body that trots at a wanted velocity.
+pub struct Trotter {
     legs: Legs,
     steps: Steps,
     walk: Walk,
-    wish: Wish,
     forward: Vec3,
     /// Height of the root over its feet when it stands \[m\].
     height: f64,
@@ -43,43 +42,50 @@ pub struct Trot {
     lacking: [f64; 3],
     raised: f64,
     places: Vec<Vec3>,
-    controls: Vec<f64>,
 }
 
-impl Trot {
-    /// The controller for a body with four legs.
+impl Trotter {
+    /// The body with four legs whose elements have names that begin with `prefix`.
     ///
     /// # Errors
     /// A task without roles; a body that has not four feet, or whose legs are not of servos.
-    pub fn new(env: &Env) -> Result<Self, ControlError> {
+    pub fn new(env: &Env, prefix: &str) -> Result<Self, ControlError> {
         let m = &env.scene().model;
-        let Body { root, feet, stand, walk, forward } = Body::new(env, "trot", 4)?;
+        let Body { root, feet, stand, walk, forward } = Body::new(env, prefix, "trot", 4)?;
         let mut legs = Legs::new(env, root, &feet, &stand)?;
         let homes: Vec<Vec3> = legs.homes(m).into_iter().map(|home| turned(home, forward)).collect();
         let height = -homes.iter().map(|home| home[2]).fold(f64::INFINITY, f64::min);
         let fall = (height / 9.81).sqrt();
         let gait = Gait { period: PERIOD * fall, duty: 0.55, lift: LIFT * height, balance: BALANCE * fall };
-        Ok(Trot {
+        Ok(Trotter {
             steps: Steps::trot(gait, &homes),
             walk,
-            wish: wish(&env.spec().task),
             forward,
             height,
             now: [0.0; 3],
             lacking: [0.0; 3],
             raised: 0.0,
             places: homes,
-            controls: vec![0.0; m.nu],
             legs,
         })
     }
 
-    /// Velocity that the feet are to follow: the wish, approached at a limited rate, with what the body lacked of it.
-    fn follow(&mut self, rows: &Rows, dt: f64) -> [f64; 3] {
+    /// Stands, as at the beginning of an episode.
+    pub fn restart(&mut self, env: &Env) {
+        self.legs.restart(&env.scene().model);
+        self.steps.restart();
+        (self.now, self.lacking, self.raised) = ([0.0; 3], [0.0; 3], 0.0);
+    }
+
+    /// What a wish is made of.
+    pub fn facts<'a>(&self, rows: Part<'a>) -> Facts<'a> {
+        Facts { rows, walk: self.walk, height: self.height }
+    }
+
+    /// Velocity that the feet are to follow: what is wanted, approached at a limited rate, with what the body lacked of it.
+    fn follow(&mut self, wanted: [f64; 3], measured: [f64; 3], dt: f64) -> [f64; 3] {
         let Walk { speed, turn } = self.walk;
-        let (wanted, most) =
-            ((self.wish)(&Facts { rows, walk: self.walk, height: self.height }), [speed, speed, turn]);
-        let measured = [rows["velocity"][0], rows["velocity"][1], rows["turning"][2]];
+        let most = [speed, speed, turn];
         for i in 0..3 {
             let step = RAMP * most[i] * dt;
             self.now[i] += (wanted[i] - self.now[i]).clamp(-step, step);
@@ -88,20 +94,13 @@ impl Trot {
         }
         [0, 1, 2].map(|i| self.now[i] + self.lacking[i])
     }
-}
 
-impl Controller for Trot {
-    fn reset(&mut self, env: &Env, _: u64) -> Result<(), ControlError> {
-        self.legs.restart(&env.scene().model);
-        self.steps.restart();
-        (self.now, self.lacking, self.raised) = ([0.0; 3], [0.0; 3], 0.0);
-        Ok(())
-    }
-
-    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), ControlError> {
-        let (rows, dt) = (env.rows(), env.dt());
-        let velocity = self.follow(rows, dt);
+    /// Writes the controls of the body into `controls` (nu) by which it trots at `wanted`: forward, to the left \[m/s\],
+    /// counterclockwise \[rad/s\]. `rows` is what the body observes.
+    pub fn trot(&mut self, env: &Env, rows: Part<'_>, wanted: [f64; 3], controls: &mut [f64]) {
+        let dt = env.dt();
         let measured = [rows["velocity"][0], rows["velocity"][1], rows["turning"][2]];
+        let velocity = self.follow(wanted, measured, dt);
         let Walk { speed, turn } = self.walk;
         let moves = |v: [f64; 3]| (v[0].abs() + v[1].abs()) / speed + v[2].abs() / turn;
         if moves(self.now) > STILL || moves(measured) > 0.5 {
@@ -120,7 +119,38 @@ impl Controller for Trot {
             Pose { position: Some(place), orientation: None }
         };
         let feet: Vec<Pose> = self.places.iter().map(lowered).collect();
-        self.legs.solve(&env.scene().model, &feet, dt, &mut self.controls);
+        self.legs.solve(&env.scene().model, &feet, dt, controls);
+    }
+}
+
+/// The controller.
+pub struct Trot {
+    body: Trotter,
+    wish: Wish,
+    controls: Vec<f64>,
+}
+
+impl Trot {
+    /// The controller for a body with four legs.
+    ///
+    /// # Errors
+    /// As [`Trotter::new`].
+    pub fn new(env: &Env) -> Result<Self, ControlError> {
+        let controls = vec![0.0; env.scene().model.nu];
+        Ok(Trot { body: Trotter::new(env, "")?, wish: wish(&env.spec().task), controls })
+    }
+}
+
+impl Controller for Trot {
+    fn reset(&mut self, env: &Env, _: u64) -> Result<(), ControlError> {
+        self.body.restart(env);
+        Ok(())
+    }
+
+    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), ControlError> {
+        let rows = env.rows().of("");
+        let wanted = (self.wish)(&self.body.facts(rows));
+        self.body.trot(env, rows, wanted, &mut self.controls);
         command(env, &self.controls, action)
     }
 }

@@ -125,7 +125,7 @@ impl Walk {
     /// A task without roles; a body that has not two feet, or whose legs are not of servos.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
         let m = &env.scene().model;
-        let Body { root, feet, stand, walk, .. } = Body::new(env, "walk", 2)?;
+        let Body { root, feet, stand, walk, .. } = Body::new(env, "", "walk", 2)?;
         let mut legs = Legs::new(env, root, &feet, &stand)?;
         let homes = legs.homes(m);
         let mut posed = Data::new(m);
@@ -160,7 +160,7 @@ impl Walk {
     /// Approaches the wish, and the height; returns the height of the root over the feet that the legs are to have.
     fn follow(&mut self, rows: &Rows, dt: f64) -> f64 {
         let Speed { speed, turn } = self.speed;
-        let wanted = (self.wish)(&Facts { rows, walk: self.speed, height: self.height });
+        let wanted = (self.wish)(&Facts { rows: rows.of(""), walk: self.speed, height: self.height });
         if self.is_on_both() {
             (self.now.wanted, self.now.lacking) = ([0.0; 3], [0.0; 3]);
         }

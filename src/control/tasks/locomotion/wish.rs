@@ -1,7 +1,7 @@
 //! What tasks ask of a body that walks: the velocity that would do it, from what is observed. Points are in the frame of the heading:
 //! forward, left \[m\]; lengths are in heights of the root.
 
-use env::Rows;
+use env::Part;
 use physics::math::ops;
 use robot::Walk;
 
@@ -19,7 +19,7 @@ const SIDESTEP: f64 = 0.4;
 /// What a wish is made of.
 pub struct Facts<'a> {
     /// The observation.
-    pub rows: &'a Rows,
+    pub rows: Part<'a>,
     /// How fast the body walks.
     pub walk: Walk,
     /// Height of the root \[m\].
@@ -48,13 +48,13 @@ pub fn wish(task: &str) -> Wish {
 }
 
 impl Facts<'_> {
-    fn point(&self, row: &str) -> [f64; 2] {
+    pub fn point(&self, row: &str) -> [f64; 2] {
         [self.rows[row][0], self.rows[row][1]]
     }
 
     /// The velocity that brings the body towards a point: it turns, walks as far as it looks there, and slows down where it is `far`
     /// from the end of its way no more \[m\].
-    fn towards(&self, point: [f64; 2], far: f64) -> [f64; 3] {
+    pub fn towards(&self, point: [f64; 2], far: f64) -> [f64; 3] {
         let Walk { speed, turn } = self.walk;
         let angle = ops::angle(point[1], point[0]);
         let pace = speed * (1.0 - angle.abs()).clamp(0.0, 1.0) * (far / speed).min(1.0);
@@ -99,6 +99,7 @@ impl Facts<'_> {
     }
 }
 
-fn length([x, y]: [f64; 2]) -> f64 {
+/// Length of a vector in the plane.
+pub fn length([x, y]: [f64; 2]) -> f64 {
     (x * x + y * y).sqrt()
 }

@@ -73,8 +73,8 @@ impl Task for Chase {
         Walker::defaults(&["target_error"], &Mark::WEIGHTS, STEPS)
     }
 
-    fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
-        self.walker.initial_pose(pose);
+    fn initial_pose(&self, scene: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
+        self.walker.initial_pose(&scene.model, pose);
         Ok(())
     }
 

@@ -13,15 +13,15 @@
 pub mod chase;
 mod floor;
 mod interval;
-mod mark;
+pub(super) mod mark;
 mod push;
 pub mod push_box;
 pub mod stand;
 pub mod turn;
 pub mod velocity;
 pub mod walk_to;
-mod walker;
+pub(super) mod walker;
 pub mod weave;
 
 /// Time steps of the physics in one step of the environment: 0.02 s at the arenas' 2 ms.
-const FRAME_SKIP: usize = 10;
+pub(super) const FRAME_SKIP: usize = 10;

@@ -94,7 +94,7 @@ impl Task for PushBox {
     }
 
     fn initial_pose(&self, scene: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
-        self.walker.initial_pose(pose);
+        self.walker.initial_pose(&scene.model, pose);
         pose.qpos[self.place + 2] = scene.model.qpos0[self.place + 2];
         Ok(())
     }

@@ -65,8 +65,8 @@ impl Task for Stand {
         Walker::defaults(&["height_command"], &weights, STEPS)
     }
 
-    fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
-        self.walker.initial_pose(pose);
+    fn initial_pose(&self, scene: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
+        self.walker.initial_pose(&scene.model, pose);
         Ok(())
     }
 

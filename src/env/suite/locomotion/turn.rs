@@ -56,8 +56,8 @@ impl Task for Turn {
         Walker::defaults(&["direction_error", "away"], &weights, STEPS)
     }
 
-    fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
-        self.walker.initial_pose(pose);
+    fn initial_pose(&self, scene: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
+        self.walker.initial_pose(&scene.model, pose);
         Ok(())
     }
 

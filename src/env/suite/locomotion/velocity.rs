@@ -81,8 +81,8 @@ impl Task for Velocity {
         Walker::defaults(&["command", "mean_velocity"], &weights, STEPS)
     }
 
-    fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
-        self.walker.initial_pose(pose);
+    fn initial_pose(&self, scene: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
+        self.walker.initial_pose(&scene.model, pose);
         Ok(())
     }
 

@@ -7,9 +7,11 @@ use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::suite::body::{Bend, joints_below};
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
-use physics::elements::{BodyId, SiteId};
-use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops};
+use physics::elements::{BodyId, Element, SiteId};
+use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops, quat_mul};
+use physics::model::{JointType, ObjType};
 use physics::position::frame::Frame;
+use physics::position::kinematics::kinematics;
 use physics::{Data, Model};
 use robot::{Fallen, Keeper, Walk};
 use serde::Deserialize;
@@ -26,14 +28,39 @@ pub struct Disturbance {
     push: Option<Push>,
 }
 
+/// Share of an axis along the vertical below which it is level, and by which it may miss it.
+const LEVEL: f64 = 1e-6;
+
+/// What moves the root in the world.
+#[derive(Clone, Copy, Debug)]
+enum Carrier {
+    /// A free joint, with its place in `qpos`.
+    Free(usize),
+    /// A slide along, or a hinge about, an axis (world frame): its place in `qpos`, and where it is at 0.
+    Along {
+        place: usize,
+        axis: Vec3,
+        zero: Vec3,
+    },
+    About {
+        place: usize,
+        axis: Vec3,
+    },
+}
+
 /// A body with feet.
 #[derive(Clone)]
 pub struct Walker {
+    /// What names of its elements, rows and terms begin with.
+    prefix: String,
     root: BodyId,
     feet: Vec<SiteId>,
     forward: Vec3,
     up: Vec3,
     bends: Vec<Bend>,
+    carriers: Vec<Carrier>,
+    /// Controls of the body.
+    controls: Vec<usize>,
     stand: Vec<f64>,
     /// Height of the root over the feet when it stands \[m\].
     pub height: f64,
@@ -73,7 +100,7 @@ impl Posture {
 
 impl Walker {
     /// Rows that every task observes.
-    const ROWS: [&str; 8] =
+    pub const ROWS: [&str; 8] =
         ["height", "up", "velocity", "turning", "joint_pos", "joint_vel", "feet", "last_action"];
 
     /// Defaults of a task that observes `own` rows beside those of all, and succeeds if it is solved in more than `steps` steps.
@@ -93,14 +120,32 @@ impl Walker {
         disturbance: Disturbance,
         setup: &Setup<'_>,
     ) -> Result<Self, EnvError> {
+        Self::among_others("", path, task, disturbance, setup)
+    }
+
+    /// The same of a body among others: the names of its elements begin with `prefix`, and those of its rows and terms are to be
+    /// written within it ([`Rows::within`]).
+    ///
+    /// # Errors
+    /// As [`Walker::new`].
+    pub fn among_others(
+        prefix: &str,
+        path: &str,
+        task: &str,
+        disturbance: Disturbance,
+        setup: &Setup<'_>,
+    ) -> Result<Self, EnvError> {
         let (roles, m) = (setup.roles(path)?, &setup.scene.model);
-        let body = roles.cast(m, "", task);
+        let body = roles.cast(m, prefix, task);
         let mut walker = Walker {
+            prefix: prefix.into(),
             root: body.root()?,
             feet: body.feet()?,
             forward: body.forward(),
             up: body.up(),
             bends: joints_below(m, body.root()?),
+            carriers: carriers(m, body.root()?),
+            controls: controls(m, prefix),
             stand: m.qpos0.to_vec(),
             height: 0.0,
             ahead: [1.0, 0.0],
@@ -128,9 +173,53 @@ impl Walker {
         m.body_subtreemass[m.body_rootid[self.root.index()] as usize]
     }
 
-    /// The standing pose as initial one.
-    pub fn initial_pose(&self, pose: &mut Pose) {
-        pose.qpos.copy_from_slice(&self.stand);
+    /// The standing pose as initial one; what is not of the body stays as it is.
+    pub fn initial_pose(&self, m: &Model, pose: &mut Pose) {
+        let top = m.body_rootid[self.root.index()];
+        for joint in m.joints().filter(|joint| m.body_rootid[m.jnt_bodyid[joint.index()] as usize] == top) {
+            let range = m.joint(joint).qpos_range();
+            pose.qpos[range.clone()].copy_from_slice(&self.stand[range]);
+        }
+    }
+
+    /// Puts the body at a place on the ground \[m\], turned counterclockwise by `yaw` \[rad\] from where the model has it look.
+    pub fn put(&self, start: &mut Pose, [x, y]: [f64; 2], yaw: f64) {
+        let (s, c) = ops::sincos(yaw / 2.0);
+        for carrier in &self.carriers {
+            match *carrier {
+                Carrier::Free(place) => {
+                    start.qpos[place..place + 2].copy_from_slice(&[x, y]);
+                    let before = [3, 4, 5, 6].map(|k| self.stand[place + k]);
+                    start.qpos[place + 3..place + 7].copy_from_slice(&quat_mul([c, 0.0, 0.0, s], before));
+                }
+                Carrier::Along { place, axis, zero } => {
+                    start.qpos[place] = axis[0] * (x - zero[0]) + axis[1] * (y - zero[1]);
+                }
+                Carrier::About { place, axis } => start.qpos[place] = axis[2] * yaw,
+            }
+        }
+    }
+
+    /// Whether the body touches `other` body, or what hangs on it.
+    pub fn touches(&self, view: &View<'_>, other: BodyId) -> bool {
+        let m = view.model;
+        let tops = [self.root, other].map(|body| m.body_rootid[body.index()]);
+        view.data.contacts().any(|contact| {
+            let [a, b] = contact
+                .geoms()
+                .map(|geom| geom.map(|geom| m.body_rootid[m.geom_bodyid[geom.index()] as usize]));
+            [[a, b], [b, a]].contains(&tops.map(Some))
+        })
+    }
+
+    /// The body that is its root.
+    pub fn root(&self) -> BodyId {
+        self.root
+    }
+
+    /// What the names of its elements, rows and terms begin with.
+    pub fn prefix(&self) -> &str {
+        &self.prefix
     }
 
     /// Starts an episode: the standing pose, joints a little off.
@@ -186,7 +275,8 @@ impl Walker {
     /// Writes the terms of the reward that every task has: how upright the body is, whether the task is solved, whether the body has
     /// fallen, which ends the episode.
     pub fn judge(&self, solved: bool, rows: &Rows, terms: &mut Rows) -> Verdict {
-        let (height, up) = (rows["height"][0], rows["up"][2]);
+        let own = rows.of(&self.prefix);
+        let (height, up) = (own["height"][0], own["up"][2]);
         let fallen = height < self.fallen.height || up < ops::cos(self.fallen.tilt);
         terms.set("upright", "", [up]);
         terms.set("bonus", "", [f64::from(solved)]);
@@ -210,7 +300,7 @@ impl Walker {
             [ahead, left, place[2] - posture.place[2]]
         };
         rows.set("feet", "m", self.feet.iter().flat_map(foot));
-        rows.set("last_action", "", state.ctrl.iter().copied());
+        rows.set("last_action", "", self.controls.iter().map(|&control| state.ctrl[control]));
         posture
     }
 
@@ -220,4 +310,36 @@ impl Walker {
             push.keep(keeper);
         }
     }
+}
+
+/// Controls of the actuators whose names begin with a prefix.
+fn controls(m: &Model, prefix: &str) -> Vec<usize> {
+    let own = |&actuator: &usize| m.name_of(ObjType::Actuator, actuator).starts_with(prefix);
+    (0..m.nactuator).filter(own).map(|actuator| m.actuator_ctrladr[actuator] as usize).collect()
+}
+
+/// Joints that move the root over the ground and about the vertical: of the root, and of the bodies above it.
+fn carriers(m: &Model, root: BodyId) -> Vec<Carrier> {
+    let mut standing = Data::new(m);
+    standing.state.qpos.copy_from_slice(&m.qpos0);
+    kinematics(m, &standing.state, &mut standing.kin);
+    let mut carriers = Vec::new();
+    let mut body = root.index();
+    while body > 0 {
+        for joint in m.body(BodyId::at(m, body).unwrap_or(root)).joints() {
+            let (place, id) = (m.joint(joint).qpos_range().start, joint.index());
+            let axis = standing.kin.xaxis[id];
+            let kind = m.jnt_type[id];
+            if kind == JointType::Free as i32 {
+                carriers.push(Carrier::Free(place));
+            } else if kind == JointType::Slide as i32 && axis[2].abs() < LEVEL {
+                let zero = m.body_pos[m.jnt_bodyid[id] as usize];
+                carriers.push(Carrier::Along { place, axis, zero });
+            } else if kind == JointType::Hinge as i32 && axis[2].abs() > 1.0 - LEVEL {
+                carriers.push(Carrier::About { place, axis });
+            }
+        }
+        body = m.body_parentid[body] as usize;
+    }
+    carriers
 }

@@ -77,8 +77,8 @@ impl Task for Weave {
         Walker::defaults(&["target_error", "posts"], &weights, STEPS)
     }
 
-    fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
-        self.walker.initial_pose(pose);
+    fn initial_pose(&self, scene: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
+        self.walker.initial_pose(&scene.model, pose);
         Ok(())
     }
 

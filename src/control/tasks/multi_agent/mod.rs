@@ -1,0 +1,4 @@
+//! Several agents, each controlled by what it observes itself.
+
+pub mod pair_trot;
+mod wish;
