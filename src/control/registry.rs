@@ -92,6 +92,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::multi_agent::pair_trot::PairTrot::new(env)?)),
     },
     Entry {
+        name: "pair_arms",
+        summary: "two arms follow a plan of minimum-jerk motions, stage by stage",
+        serves: &["carry_tray", "hand_over"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::multi_agent::pair_arms::PairArms::new(env)?)),
+    },
+    Entry {
         name: "acrobot",
         summary: "a swing found by iLQR over the model, then a linear-quadratic regulator",
         serves: &["acrobot"],

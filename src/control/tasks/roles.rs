@@ -1,6 +1,7 @@
 //! The roles of a task's body.
 
-use env::Spec;
+use crate::error::ControlError;
+use env::{Env, Spec};
 use robot::Roles;
 
 /// Roles that the row of a task names, or those of the robot in whose folder its model is.
@@ -16,4 +17,12 @@ pub(crate) fn roles(spec: &Spec) -> Result<Roles, String> {
         format!("{path} is none of our own models' files (hive/...), whose roles controllers read")
     })?;
     Roles::from_toml(text, &path).map_err(|error| error.to_string())
+}
+
+/// Roles of the robot of an environment.
+///
+/// # Errors
+/// A task without roles, or a file that is none of roles.
+pub(crate) fn roles_of(env: &Env) -> Result<Roles, ControlError> {
+    roles(env.spec()).map_err(|message| ControlError::unfit(env, message))
 }

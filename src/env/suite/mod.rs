@@ -87,6 +87,8 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("walk_to", locomotion::walk_to::WalkTo::new),
         TaskType::new("weave", locomotion::weave::Weave::new),
         TaskType::new("stack", tabletop::stack::Stack::new),
+        TaskType::new("carry_tray", multi_agent::carry_tray::CarryTray::new),
+        TaskType::new("hand_over", multi_agent::hand_over::HandOver::new),
         TaskType::new("pair_push_box", multi_agent::push_box::PushBox::new),
         TaskType::new("pair_swap", multi_agent::swap::Swap::new),
         TaskType::new("tag", multi_agent::tag::Tag::new),

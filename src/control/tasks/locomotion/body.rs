@@ -1,7 +1,7 @@
 //! The body of a task, by its roles.
 
 use crate::error::ControlError;
-use crate::tasks::roles::roles;
+use crate::tasks::roles::{roles, roles_of};
 use env::{Env, Spec};
 use physics::elements::{BodyId, SiteId};
 use physics::math::Vec3;
@@ -34,7 +34,7 @@ impl Body {
     /// A task without roles, a model that does not fill them, another number of feet.
     pub fn new(env: &Env, prefix: &str, name: &str, count: usize) -> Result<Self, ControlError> {
         let m = &env.scene().model;
-        let roles = roles(env.spec()).map_err(|message| ControlError::unfit(env, message))?;
+        let roles = roles_of(env)?;
         let unfit = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
         let body = roles.cast(m, prefix, name);
         let feet = body.feet().map_err(unfit)?;

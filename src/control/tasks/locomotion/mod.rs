@@ -1,7 +1,7 @@
 //! Bodies with feet.
 
 mod body;
-mod legs;
+pub(super) mod legs;
 mod seen;
 pub mod trot;
 pub mod walk;

@@ -1,12 +1,13 @@
 //! Two bodies with feet, each of them an agent.
 
+use super::part::{Part, team};
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::suite::locomotion::FRAME_SKIP;
 use crate::suite::locomotion::walker::{Disturbance, Posture, Walker};
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
-use crate::team::{Agent, Stakes, Team, prefix};
+use crate::team::{Stakes, Team, prefix};
 use robot::Keeper;
 
 /// The two bodies, which are of the same kind.
@@ -16,18 +17,6 @@ pub struct Bodies<'a> {
     pub roles: &'a str,
     /// What makes episodes of both differ.
     pub disturbance: &'a Disturbance,
-}
-
-/// What an agent observes and earns.
-pub struct Part<'a> {
-    /// Its name.
-    pub name: &'a str,
-    /// Rows beside those of every body with feet.
-    pub rows: &'a [&'a str],
-    /// Weights of terms of its own.
-    pub own: &'a [(&'a str, f64)],
-    /// Weights of terms that both have.
-    pub shared: &'a [(&'a str, f64)],
 }
 
 /// Two bodies.
@@ -55,12 +44,8 @@ impl Pair {
             let disturbance = bodies.disturbance.clone();
             Walker::among_others(&prefix(part.name), bodies.roles, task, disturbance, setup)
         };
-        let agent = |part: &Part<'_>| {
-            let rows = [&Walker::ROWS[..], &["mate_error"], part.rows].concat();
-            Ok::<_, EnvError>(Agent::new(part.name, setup.scene, &rows, &[])?.earning(part.own, part.shared))
-        };
         let [a, b] = &parts;
-        let team = Team::new(vec![agent(a)?, agent(b)?], stakes);
+        let team = team(&parts, &Walker::ROWS, stakes, setup.scene)?;
         Ok(Pair { walkers: [walker(a)?, walker(b)?], team })
     }
 

@@ -1,6 +1,7 @@
 //! Two bodies that push a box to a place that is marked on the ground; it is too heavy for one of them.
 
-use super::pair::{Bodies, Pair, Part};
+use super::pair::{Bodies, Pair};
+use super::part::Part;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;

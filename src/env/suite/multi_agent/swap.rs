@@ -1,6 +1,7 @@
 //! Two bodies that look at each other and are to swap their places without touching.
 
-use super::pair::{Bodies, Pair, Part};
+use super::pair::{Bodies, Pair};
+use super::part::Part;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;

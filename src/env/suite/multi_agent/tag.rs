@@ -1,6 +1,7 @@
 //! Tag on a round field: a chaser is to come within reach of an evader, which loses as well when it leaves the field or falls.
 
-use super::pair::{Bodies, Pair, Part};
+use super::pair::{Bodies, Pair};
+use super::part::Part;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
