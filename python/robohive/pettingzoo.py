@@ -13,6 +13,7 @@ they compete. It needs the package `pettingzoo`.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -112,7 +113,7 @@ class TeamEnv(ParallelEnv[str, Floats, NDArray[np.float32]]):
         return observations, self._infos(info)
 
     def step(
-        self, actions: dict[str, ArrayLike]
+        self, actions: Mapping[str, ArrayLike]
     ) -> tuple[
         dict[str, Floats], dict[str, float], dict[str, bool], dict[str, bool], dict[str, dict[str, Any]]
     ]:
@@ -127,7 +128,7 @@ class TeamEnv(ParallelEnv[str, Floats, NDArray[np.float32]]):
         """
         if not self.agents:
             return {}, {}, {}, {}, {}
-        joint = self.joint._core.join(actions)
+        joint = self.joint._core.join(dict(actions))
         _, _, terminated, truncated, info = self.joint.step(joint)
         observations, rewards = self.joint._core.agents()
         if "fault" in info:

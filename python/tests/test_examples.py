@@ -27,6 +27,13 @@ def test_vector_rollout():
     assert printed.startswith("40 steps in ")
 
 
+def test_agents():
+    pytest.importorskip("pettingzoo")
+    printed = run("agents.py", "--steps", "20")
+    chaser, evader = (float(found) for found in re.findall(r"return (-?[\d.]+)", printed))
+    assert chaser == -evader != 0, "what one wins the other loses"
+
+
 def test_notebook():
     nbformat = pytest.importorskip("nbformat")
     nbclient = pytest.importorskip("nbclient")

@@ -64,7 +64,7 @@ pub use pictures::rendering::{RenderMode, RenderModeError, Rendering};
 pub use pictures::visual;
 pub use registry::Registry;
 pub use robot::Compat;
-pub use rows::{Name, Part, Row, Rows};
+pub use rows::{Name, OwnRows, Row, Rows};
 pub use scene::Scene;
 pub use spec::{RewardMode, Settings, Spec};
 pub use task::{Defaults, Episode, Pose, Setup, Success, Task, TaskCopy, Timing, Turn, Verdict, View};

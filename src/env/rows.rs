@@ -78,7 +78,7 @@ pub struct Rows {
 
 /// The rows whose names begin with a prefix, by the rest of their names: what belongs to one agent of several.
 #[derive(Clone, Copy, Debug)]
-pub struct Part<'a> {
+pub struct OwnRows<'a> {
     rows: &'a Rows,
     prefix: &'a str,
 }
@@ -142,8 +142,8 @@ impl Rows {
     }
 
     /// The rows whose names begin with `prefix`; an empty one is that of all.
-    pub fn of<'a>(&'a self, prefix: &'a str) -> Part<'a> {
-        Part { rows: self, prefix }
+    pub fn of<'a>(&'a self, prefix: &'a str) -> OwnRows<'a> {
+        OwnRows { rows: self, prefix }
     }
 
     /// The rows' names, units and lengths, in order.
@@ -194,7 +194,7 @@ impl Index<&str> for Rows {
     }
 }
 
-impl<'a> Part<'a> {
+impl<'a> OwnRows<'a> {
     /// The values of a row.
     pub fn get(self, name: &str) -> Option<&'a [f64]> {
         let named = |row: &&Row| row.name.strip_prefix(self.prefix) == Some(name);
@@ -202,10 +202,10 @@ impl<'a> Part<'a> {
     }
 }
 
-impl Index<&str> for Part<'_> {
+impl Index<&str> for OwnRows<'_> {
     type Output = [f64];
 
-    /// The values of a row that is known to exist; [`Part::get`] asks for others.
+    /// The values of a row that is known to exist; [`OwnRows::get`] asks for others.
     fn index(&self, name: &str) -> &[f64] {
         self.get(name).unwrap_or_else(|| panic!("there is no row named {}{name}", self.prefix))
     }

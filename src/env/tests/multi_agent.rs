@@ -135,14 +135,20 @@ impl Assets for Footless {
 
 #[test]
 fn missing_roles_and_missing_bodies_are_errors() {
-    let error = |assets: &dyn Assets, changes: &str| {
+    let error_of = |id: &str, assets: &dyn Assets, changes: &str| {
         let options = Options::default().with_changes(changes.parse().unwrap());
-        MultiEnv::make("hive/DKittyPairPushBox-v0", assets, &options).err().unwrap().to_string()
+        MultiEnv::make(id, assets, &options).err().unwrap().to_string()
     };
+    let error = |assets: &dyn Assets, changes| error_of("hive/DKittyPairPushBox-v0", assets, changes);
     let feet = error(&Footless, "roles = 'footless.toml'");
     assert!(feet.contains("footless.toml: there is no role 'feet', which the task"), "{feet}");
     let alone = error(&OwnModels, "model_path = 'hive/locomotion/tasks/box.xml'");
     assert!(alone.contains("the agent left commands nothing"), "{alone}");
     let unknown = error(&OwnModels, "rolls = 'hive/dkitty/roles.toml'");
     assert!(unknown.contains("rolls"), "{unknown}");
+    let legs = error_of("hive/PandaPairHandOver-v0", &OwnModels, "roles = 'hive/dkitty/roles.toml'");
+    assert!(
+        legs.contains("hive/dkitty/roles.toml") && legs.contains("which the task 'hand over' needs"),
+        "{legs}"
+    );
 }

@@ -6,7 +6,7 @@ use super::wish::{Facts, Wish, wish};
 use crate::controller::{Controller, command};
 use crate::error::ControlError;
 use crate::maths::{Gait, Steps};
-use env::{Env, Part};
+use env::{Env, OwnRows};
 use physics::math::Vec3;
 use robot::{Pose, Walk};
 
@@ -78,7 +78,7 @@ impl Trotter {
     }
 
     /// What a wish is made of.
-    pub fn facts<'a>(&self, rows: Part<'a>) -> Facts<'a> {
+    pub fn facts<'a>(&self, rows: OwnRows<'a>) -> Facts<'a> {
         Facts { rows, walk: self.walk, height: self.height }
     }
 
@@ -97,7 +97,7 @@ impl Trotter {
 
     /// Writes the controls of the body into `controls` (nu) by which it trots at `wanted`: forward, to the left \[m/s\],
     /// counterclockwise \[rad/s\]. `rows` is what the body observes.
-    pub fn trot(&mut self, env: &Env, rows: Part<'_>, wanted: [f64; 3], controls: &mut [f64]) {
+    pub fn trot(&mut self, env: &Env, rows: OwnRows<'_>, wanted: [f64; 3], controls: &mut [f64]) {
         let dt = env.dt();
         let measured = [rows["velocity"][0], rows["velocity"][1], rows["turning"][2]];
         let velocity = self.follow(wanted, measured, dt);

@@ -1,7 +1,7 @@
 //! What tasks ask of a body that walks: the velocity that would do it, from what is observed. Points are in the frame of the heading:
 //! forward, left \[m\]; lengths are in heights of the root.
 
-use env::Part;
+use env::OwnRows;
 use physics::math::ops;
 use robot::Walk;
 
@@ -19,7 +19,7 @@ const SIDESTEP: f64 = 0.4;
 /// What a wish is made of.
 pub struct Facts<'a> {
     /// The observation.
-    pub rows: Part<'a>,
+    pub rows: OwnRows<'a>,
     /// How fast the body walks.
     pub walk: Walk,
     /// Height of the root \[m\].

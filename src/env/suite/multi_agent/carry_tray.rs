@@ -56,7 +56,8 @@ impl CarryTray {
     /// The task with these settings.
     ///
     /// # Errors
-    /// As [`Arms::new`]; the model has no body `ball` with a free joint, or no geom `tray`.
+    /// The model does not fill the roles of `left` and `right`; it lacks a body `load` with a free joint and a geom `tray`, a site on it
+    /// for each arm (`left_grip`), a body `ball` with a free joint, or a site `target`.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let part = |name| Part {
             name,

@@ -46,7 +46,8 @@ impl HandOver {
     /// The task with these settings.
     ///
     /// # Errors
-    /// As [`Arms::new`].
+    /// The model does not fill the roles of `left` and `right`; it lacks a body `load` with a free joint, a site on it for each arm
+    /// (`left_grip`), or a site `target`.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let part = |name| Part {
             name,
