@@ -52,3 +52,42 @@ impl Controller for PairTrot {
         command(env, &self.controls, action)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tasks::multi_agent::wish::push_from;
+    use env::{Options, OwnModels};
+
+    const ALONE: Wish = |facts| push_from(facts, 0.0, 1.0);
+    const STANDING: Wish = |_| [0.0; 3];
+
+    /// Distance of the box from its place at the end of an episode \[m\].
+    fn left_over(wishes: Option<[Wish; 2]>) -> f64 {
+        let mut env = Env::make("hive/DKittyPairPushBox-v0", &OwnModels, &Options::default()).unwrap();
+        let (mut pair, mut action) = (PairTrot::new(&env).unwrap(), vec![0.0; env.action_len()]);
+        if let Some(wishes) = wishes {
+            pair.agents.iter_mut().zip(wishes).for_each(|(agent, wish)| agent.wish = wish);
+        }
+        env.reset(Some(0)).unwrap();
+        pair.reset(&env, 0).unwrap();
+        loop {
+            pair.act(&env, &mut action).unwrap();
+            let step = env.step(&action).unwrap();
+            assert!(!step.terminated, "nobody falls");
+            if step.truncated {
+                return -env.terms()["distance"][0];
+            }
+        }
+    }
+
+    /// One body pushes the middle of the box while the other stands.
+    #[test]
+    fn the_box_is_too_heavy_for_one() {
+        assert!(left_over(None) < 0.25, "two bring it to the mark");
+        for wishes in [[ALONE, STANDING], [STANDING, ALONE]] {
+            let distance = left_over(Some(wishes));
+            assert!(distance > 0.4, "one alone brings it to {distance} m from its place");
+        }
+    }
+}

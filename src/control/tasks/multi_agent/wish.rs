@@ -34,19 +34,26 @@ pub fn wish(task: &str, agent: &str) -> Wish {
 fn push(facts: &Facts<'_>) -> [f64; 3] {
     let (load, target) = (facts.point("box_error"), facts.point("target_error"));
     let mate = facts.point("mate_error");
+    let [x, y] = [target[0] - load[0], target[1] - load[1]];
+    let far = length([x, y]);
+    // How far the body is ahead of the other, and to the left of it.
+    let (lead, beside) = (-(x * mate[0] + y * mate[1]) / far, y * mate[0] - x * mate[1]);
+    push_from(facts, ASIDE * beside.signum(), (1.0 - lead / LEAD).clamp(0.0, 1.0))
+}
+
+/// Along the line from the box to its place, so far to the left of it \[m\], at a share of the pace.
+pub fn push_from(facts: &Facts<'_>, aside: f64, share: f64) -> [f64; 3] {
+    let (load, target) = (facts.point("box_error"), facts.point("target_error"));
     let way = [target[0] - load[0], target[1] - load[1]];
     let far = length(way);
     if far < THERE {
         return [0.0; 3];
     }
-    let [x, y] = way.map(|part| part / far);
-    // The body from the box, to the left of the line of pushing; how far it is ahead of the other, and to the left of it.
-    let left = y * load[0] - x * load[1];
-    let (lead, beside) = (-(x * mate[0] + y * mate[1]), y * mate[0] - x * mate[1]);
+    // The body from the box, to the left of the line of pushing.
+    let left = (way[1] * load[0] - way[0] * load[1]) / far;
     let [pace, _, round] = facts.towards(way, far);
-    let aside = ((ASIDE * beside.signum() - left) / ALIGNED).clamp(-1.0, 1.0);
-    let patience = (1.0 - lead / LEAD).clamp(0.0, 1.0);
-    [pace * patience, SIDESTEP * facts.walk.speed * aside, round]
+    let sidestep = ((aside - left) / ALIGNED).clamp(-1.0, 1.0);
+    [pace * share, SIDESTEP * facts.walk.speed * sidestep, round]
 }
 
 /// Towards the place, to the right past a body that comes along the way.

@@ -7,7 +7,7 @@ use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::suite::body::{Bend, joints_below};
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
-use physics::elements::{BodyId, Element, SiteId};
+use physics::elements::{BodyId, JointId, SiteId};
 use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops, quat_mul};
 use physics::model::{JointType, ObjType};
 use physics::position::frame::Frame;
@@ -323,23 +323,22 @@ fn carriers(m: &Model, root: BodyId) -> Vec<Carrier> {
     let mut standing = Data::new(m);
     standing.state.qpos.copy_from_slice(&m.qpos0);
     kinematics(m, &standing.state, &mut standing.kin);
-    let mut carriers = Vec::new();
-    let mut body = root.index();
-    while body > 0 {
-        for joint in m.body(BodyId::at(m, body).unwrap_or(root)).joints() {
-            let (place, id) = (m.joint(joint).qpos_range().start, joint.index());
-            let axis = standing.kin.xaxis[id];
-            let kind = m.jnt_type[id];
-            if kind == JointType::Free as i32 {
-                carriers.push(Carrier::Free(place));
-            } else if kind == JointType::Slide as i32 && axis[2].abs() < LEVEL {
-                let zero = m.body_pos[m.jnt_bodyid[id] as usize];
-                carriers.push(Carrier::Along { place, axis, zero });
-            } else if kind == JointType::Hinge as i32 && axis[2].abs() > 1.0 - LEVEL {
-                carriers.push(Carrier::About { place, axis });
-            }
+    let above = std::iter::successors(Some(root.index()), |&body| Some(m.body_parentid[body] as usize));
+    let above: Vec<usize> = above.take_while(|&body| body > 0).collect();
+    let carrier = |joint: JointId| {
+        let (place, id) = (m.joint(joint).qpos_range().start, joint.index());
+        let (kind, axis, body) = (m.jnt_type[id], standing.kin.xaxis[id], m.jnt_bodyid[id] as usize);
+        if !above.contains(&body) {
+            None
+        } else if kind == JointType::Free as i32 {
+            Some(Carrier::Free(place))
+        } else if kind == JointType::Slide as i32 && axis[2].abs() < LEVEL {
+            Some(Carrier::Along { place, axis, zero: m.body_pos[body] })
+        } else if kind == JointType::Hinge as i32 && axis[2].abs() > 1.0 - LEVEL {
+            Some(Carrier::About { place, axis })
+        } else {
+            None
         }
-        body = m.body_parentid[body] as usize;
-    }
-    carriers
+    };
+    m.joints().filter_map(carrier).collect()
 }
