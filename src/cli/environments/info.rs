@@ -4,6 +4,7 @@ use crate::failure::Failure;
 use crate::input::library::Source;
 use crate::terminal::{show, show_json};
 use clap::Args;
+use env::team::{Agent, Team};
 use env::visual::{Channel, VisualKey};
 use env::{Env, Registry, Row, Success};
 use serde_json::{Value, json};
@@ -83,6 +84,14 @@ fn describe(env: &Env) {
         let unit = env.terms().rows().iter().find(|row| row.name() == name).map_or("", Row::unit);
         show!("  {weight:>10} x {name:<24} {unit}");
     }
+    for agent in env.team().map_or(&[][..], Team::agents) {
+        let observes: Vec<_> = agent.observes().map(|(name, _)| name).collect();
+        let earns: Vec<_> = agent.earns().iter().map(|(term, weight)| format!("{weight} x {term}")).collect();
+        let (commands, len) = (agent.commands().len(), agent.observation(env.rows()).len());
+        show!("agent        {}: {commands} values of the action", agent.name());
+        show!("  observes   {len} values: {}", observes.join(", "));
+        show!("  earns      {}", earns.join(", "));
+    }
     let success = match env.success() {
         Success::MoreThan(steps) => format!("solved in more than {steps} steps"),
         Success::Share => "share of the steps in which it is solved".into(),
@@ -120,5 +129,11 @@ fn describe_json(env: &Env, value: &mut Value) {
     let image =
         |key: &VisualKey| json!({"key": key.to_string(), "shape": key.shape(), "values": values(key)});
     value["images"] = env.visual_keys().iter().map(image).collect();
+    let agent = |agent: &Agent| {
+        let observes: Vec<_> =
+            agent.observes().map(|(name, row)| json!({"name": name, "row": row})).collect();
+        json!({"name": agent.name(), "action": agent.commands(), "observation": observes, "reward": agent.earns()})
+    };
+    value["agents"] = env.team().map_or(&[][..], Team::agents).iter().map(agent).collect();
     value["reward"] = json!({"terms": rows(env.terms().rows()), "weights": env.weights()});
 }
