@@ -17,7 +17,9 @@ use crate::tasks::classical::unicycle::Unicycle;
 use crate::tasks::deformable::grain_pour::GrainPour;
 use crate::tasks::deformable::rope_straighten::RopeStraighten;
 use crate::tasks::deformable::sponge_press::SpongePress;
+use crate::tasks::tabletop::insert::Insert;
 use crate::tasks::tabletop::stack::Stack;
+use crate::tasks::tabletop::zip::Zip;
 use env::{Env, Spec};
 
 /// A controller that is built in.
@@ -76,6 +78,20 @@ const ALL: &[Entry] = &[
         serves: &["stack"],
         feet: None,
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "stack")?, Stack::new(env)?))),
+    },
+    Entry {
+        name: "insert",
+        summary: "grasp and place: a peg along the faces of its hole",
+        serves: &["insert"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "insert")?, Insert::new(env)?))),
+    },
+    Entry {
+        name: "zip",
+        summary: "grasp and pull: the slider along the teeth",
+        serves: &["zip"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "zip")?, Zip::new(env)?))),
     },
     Entry {
         name: "trot",

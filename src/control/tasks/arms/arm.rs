@@ -114,16 +114,9 @@ impl Arm {
         (self.places(&found.qpos), found.error)
     }
 
-    /// The frame of several that is reached with the least motion of the joints from where `from` has them, and the joints there.
-    ///
-    /// # Errors
-    /// None of them is reached.
-    pub fn nearest(
-        &self,
-        env: &Env,
-        from: &[f64],
-        frames: &[Frame],
-    ) -> Result<(Frame, Vec<f64>), ControlError> {
+    /// The frame of several that is reached with the least motion of the joints from where `from` has them, and the joints there; `None`
+    /// where the arm comes near none of them.
+    pub fn nearest(&self, env: &Env, from: &[f64], frames: &[Frame]) -> Option<(Frame, Vec<f64>)> {
         let m = &env.scene().model;
         let mut data = env.scene().data.clone();
         let mut best: Option<(f64, Frame, Vec<f64>)> = None;
@@ -145,10 +138,7 @@ impl Arm {
                 break;
             }
         }
-        best.map(|(_, frame, joints)| (frame, joints)).ok_or_else(|| {
-            let place = frames.first().map_or([0.0; 3], |frame| frame.place).map(|x| (1e3 * x).round() / 1e3);
-            ControlError::unfit(env, format!("the arm cannot bring its tool to {place:?} m"))
-        })
+        best.map(|(_, frame, joints)| (frame, joints))
     }
 
     /// A posture to begin a search with: the present one, the home pose, then others.

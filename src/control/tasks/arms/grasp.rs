@@ -1,11 +1,11 @@
-//! Grasping a thing and placing it: approach, grasp, lift, carry, lower, release, retreat.
+//! Grasping a thing, carrying it and letting it go: approach, reach, grasp, carry in steps, release, retreat.
 
 use super::arm::Arm;
 use super::frame::Frame;
 use super::moves::Move;
 use env::Env;
-use physics::math::scale;
-use std::f64::consts::FRAC_PI_2;
+use physics::math::{Vec3, ops, quat_rotate, scale};
+use std::f64::consts::TAU;
 
 /// Speed at which things are touched and set down, as a share of full speed.
 const CAREFUL: f64 = 0.25;
@@ -13,100 +13,116 @@ const CAREFUL: f64 = 0.25;
 const GRIP: f64 = 0.35;
 /// Gap on each side between the fingers and what they are about to grasp, at most \[m\].
 const ROOM: f64 = 0.02;
+/// Least distance of fingers from what a thing stands on \[m\].
+const CLEAR: f64 = 0.004;
 
-/// What is grasped, and how high it is carried.
+/// What is grasped.
 #[derive(Clone, Copy, Debug)]
 pub struct Load {
     /// Its width between the fingers \[m\].
     pub width: f64,
-    /// How far from the grasp the hand begins to approach \[m\].
+    /// How far from the grasp the fingertips begin to approach \[m\].
     pub above: f64,
-    /// How high over its goal the thing arrives \[m\].
-    pub over: f64,
-    /// How far from the thing the arm goes at the end \[m\].
+    /// How far from the thing the hand goes at the end \[m\].
     pub away: f64,
 }
 
-/// The phases of grasping and placing.
+/// A step of carrying, on a straight line.
+#[derive(Clone, Debug)]
+pub struct Carry {
+    /// Where the tool goes: the nearest of these frames.
+    pub to: Vec<Frame>,
+    /// Speed, as a share of full speed.
+    pub speed: f64,
+    /// How long the arm waits then \[s\].
+    pub pause: f64,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Phase {
     Approach,
     Reach,
     Grasp,
-    Lift,
-    Carry,
-    Lower,
-    Release,
+    Carry(usize),
     Retreat,
     Over,
 }
 
-/// Grasps a thing and places it.
+/// Grasps a thing, carries it and lets it go.
 #[derive(Clone, Debug)]
-pub struct GraspPlace {
+pub struct Grasp {
     load: Load,
     phase: Phase,
 }
 
-impl GraspPlace {
+impl Grasp {
     /// The phases for a load.
     pub fn new(load: Load) -> Self {
-        GraspPlace { load, phase: Phase::Approach }
+        Grasp { load, phase: Phase::Approach }
     }
 
-    /// The next move. `grasps` are frames of the tool that hold the thing, `thing` is where it is, and `goals` are where it may be placed.
+    /// The next move. `grasps` are frames of the tool that hold the thing, `carry` says the steps by their numbers, as long as there are.
     pub fn next(
         &mut self,
         env: &Env,
         arm: &Arm,
-        thing: &Frame,
         grasps: impl Fn() -> Vec<Frame>,
-        goals: impl Fn() -> Vec<Frame>,
+        carry: impl Fn(usize) -> Option<Carry>,
     ) -> Option<Move> {
-        use Phase::{Approach, Carry, Grasp, Lift, Lower, Over, Reach, Release, Retreat};
         let tool = arm.tool(env);
-        let over = |frame: &Frame| frame.moved([0.0, 0.0, self.load.over]);
         let back = |frame: &Frame, way: f64| frame.moved(scale(arm.hand.pointing(frame.turn), -way));
-        let held = tool.within(thing);
-        // The tool may have come to stand on either side of the thing: of all grasps and goals the nearest is taken.
-        let placed = || goals().iter().map(|goal| goal.with(&held)).collect::<Vec<_>>();
         let open = arm.hand.opening(self.load.width + 2.0 * ROOM);
-        let (to, straight, opening, speed, pause, next) = match self.phase {
-            Approach => {
-                let to = grasps().iter().map(|frame| back(frame, self.load.above)).collect();
-                (to, false, open, 1.0, 0.1, Reach)
+        let (to, opening, speed, pause, next) = match self.phase {
+            Phase::Approach => {
+                let away = self.load.above + arm.hand.depth;
+                (grasps().iter().map(|frame| back(frame, away)).collect(), open, 1.0, 0.1, Phase::Reach)
             }
-            Reach => {
-                let nearest = grasps();
-                (nearest, true, open, CAREFUL, 0.15, Grasp)
-            }
-            Grasp => (vec![tool], true, 0.0, CAREFUL, GRIP, Lift),
-            Lift => {
-                let height = placed().iter().map(|frame| over(frame).place[2]).fold(tool.place[2], f64::max);
-                (vec![tool.moved([0.0, 0.0, height - tool.place[2]])], true, 0.0, 0.5, 0.0, Carry)
-            }
-            Carry => (placed().iter().map(over).collect(), true, 0.0, 0.7, 0.3, Lower),
-            Lower => (placed(), true, 0.0, CAREFUL, 0.2, Release),
-            Release => (vec![tool], true, open, CAREFUL, GRIP, Retreat),
-            Retreat => (vec![back(&tool, self.load.away)], true, open, 0.5, 0.0, Over),
-            Over => return None,
+            Phase::Reach => (grasps(), open, CAREFUL, 0.15, Phase::Grasp),
+            Phase::Grasp => (vec![tool], 0.0, CAREFUL, GRIP, Phase::Carry(0)),
+            Phase::Carry(step) => match carry(step) {
+                Some(Carry { to, speed, pause }) => (to, 0.0, speed, pause, Phase::Carry(step + 1)),
+                None => (vec![tool], open, CAREFUL, GRIP, Phase::Retreat),
+            },
+            Phase::Retreat => (vec![back(&tool, self.load.away)], open, 0.5, 0.0, Phase::Over),
+            Phase::Over => return None,
         };
+        let straight = self.phase != Phase::Approach;
         self.phase = next;
         Some(Move { to, straight, opening, speed, pause })
     }
 }
 
+/// The steps that place a thing which the tool holds at one of `goals`: up, over the goal by `over` \[m\], and down.
+pub fn place(tool: &Frame, thing: &Frame, goals: &[Frame], over: f64, step: usize) -> Option<Carry> {
+    let held = tool.within(thing);
+    let there = goals.iter().map(|goal| goal.with(&held));
+    let up = |frame: Frame| frame.moved([0.0, 0.0, over]);
+    match step {
+        0 => {
+            let height = there.map(|frame| up(frame).place[2]).fold(tool.place[2], f64::max);
+            let lift = tool.moved([0.0, 0.0, height - tool.place[2]]);
+            Some(Carry { to: vec![lift], speed: 0.5, pause: 0.0 })
+        }
+        1 => Some(Carry { to: there.map(up).collect(), speed: 0.7, pause: 0.3 }),
+        2 => Some(Carry { to: there.collect(), speed: CAREFUL, pause: 0.2 }),
+        _ => None,
+    }
+}
+
+/// The step that draws what the tool holds along a line \[m\].
+pub fn draw(tool: &Frame, way: Vec3, step: usize) -> Option<Carry> {
+    (step == 0).then(|| Carry { to: vec![tool.moved(way)], speed: CAREFUL, pause: 0.2 })
+}
+
 /// Frames of the tool that hold a thing from above at `thing`'s origin, which is `half` \[m\] over what it stands on: with fingers
 /// along its x axis, or with `square` along its y axis as well.
 pub fn from_above(arm: &Arm, thing: &Frame, width: f64, half: f64, square: bool) -> Vec<Frame> {
-    /// Least distance of fingers from what the thing stands on \[m\].
-    const CLEAR: f64 = 0.004;
-    let x = physics::math::quat_rotate(thing.turn, [1.0, 0.0, 0.0]);
-    let yaw = physics::math::ops::atan2(x[1], x[0]);
+    let x = quat_rotate(thing.turn, [1.0, 0.0, 0.0]);
+    let yaw = ops::atan2(x[1], x[0]);
     let height = (arm.hand.depth + CLEAR - half).max(0.0);
     let count = if square { 4 } else { 2 };
     let grasp = |k: usize| {
-        let (sine, cosine) = physics::math::ops::sincos(yaw + k as f64 * FRAC_PI_2 * 4.0 / count as f64);
+        let (sine, cosine) = ops::sincos(yaw + k as f64 * TAU / count as f64);
         let hold = arm.hand.around(thing.place, width, [0.0, 0.0, -1.0], [cosine, sine, 0.0]);
         hold.moved([0.0, 0.0, height])
     };

@@ -89,11 +89,13 @@ impl<S: Script> Scripted<S> {
             Some(path) => path.at(now),
             None => self.arm.places(&scene.data.state.qpos),
         };
-        let (end, there) = self.arm.nearest(env, &from, &step.to)?;
         let mut data = scene.data.clone();
         self.arm.set(&mut data, &from);
         physics::forward(&scene.model, &mut data)?;
         let begin = Frame::of_site(&data, self.arm.hand.tool);
+        // An arm that does not reach what has fallen away stays.
+        let near = self.arm.nearest(env, &from, &step.to);
+        let (end, there) = near.unwrap_or_else(|| (begin, from.clone()));
         let length = distance(begin.place, end.place);
         let mut joints = vec![(0.0, from)];
         if step.straight {

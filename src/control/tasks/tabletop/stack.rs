@@ -3,19 +3,21 @@
 use crate::error::ControlError;
 use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::frame::Frame;
-use crate::tasks::arms::grasp::{GraspPlace, Load, from_above};
+use crate::tasks::arms::grasp::{Grasp, Load, from_above, place};
 use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
 use physics::elements::BodyId;
 
 /// Clearance of the cube over the other one when it is let go \[m\].
 const CLEAR: f64 = 0.001;
+/// How high over its place the cube arrives \[m\].
+const OVER: f64 = 0.015;
 
 pub struct Stack {
     cube: BodyId,
     base: BodyId,
     half: f64,
-    pick: GraspPlace,
+    grasp: Grasp,
 }
 
 impl Stack {
@@ -27,8 +29,8 @@ impl Stack {
         let scene = env.scene();
         let (cube, base) = (scene.body("cube_a")?, scene.body("cube_b")?);
         let half = scene.model.geom_size[scene.geom("cube_a")?.index()][0];
-        let load = Load { width: 2.0 * half, above: 0.05, over: 0.015, away: 0.04 };
-        Ok(Stack { cube, base, half, pick: GraspPlace::new(load) })
+        let load = Load { width: 2.0 * half, above: 0.05, away: 0.04 };
+        Ok(Stack { cube, base, half, grasp: Grasp::new(load) })
     }
 }
 
@@ -42,8 +44,8 @@ impl Script for Stack {
         let (data, half) = (&env.scene().data, self.half);
         let (cube, base) = (Frame::of_body(data, self.cube), Frame::of_body(data, self.base));
         let grasps = || from_above(arm, &cube, 2.0 * half, half, true);
-        let goal =
-            || vec![Frame { place: base.place, turn: cube.turn }.moved([0.0, 0.0, 2.0 * half + CLEAR])];
-        Ok(self.pick.next(env, arm, &cube, grasps, goal))
+        let goal = Frame { place: base.place, turn: cube.turn }.moved([0.0, 0.0, 2.0 * half + CLEAR]);
+        let carry = |step| place(&arm.tool(env), &cube, &[goal], OVER, step);
+        Ok(self.grasp.next(env, arm, grasps, carry))
     }
 }

@@ -28,6 +28,8 @@ pub struct Start<'a> {
 pub struct Bench {
     tool: SiteId,
     bends: Vec<Bend>,
+    /// Places of hinges that are no fingers'.
+    hinges: Vec<usize>,
     /// Places of the fingers' joints, and where they are when closed and open.
     fingers: Vec<(usize, [f64; 2])>,
     home: Vec<f64>,
@@ -70,10 +72,16 @@ impl Bench {
         let fingers = roles.poses.get("open").into_iter().flat_map(|pose| pose.joints.keys());
         let places =
             fingers.filter_map(|name| m.joint(name)).map(|joint| m.jnt_qposadr[joint.index()] as usize);
+        let fingers: Vec<(usize, [f64; 2])> =
+            places.map(|place| (place, [closed[place], home[place]])).collect();
+        let hinge = |joint: &usize| m.jnt_type[*joint] == JointType::Hinge as i32;
+        let below = (0..m.njnt).filter(|&joint| is_below(m, root, m.jnt_bodyid[joint] as usize));
+        let hinges = below.filter(hinge).map(|joint| m.jnt_qposadr[joint] as usize);
         Ok(Bench {
+            hinges: hinges.filter(|place| !fingers.iter().any(|(finger, _)| finger == place)).collect(),
             tool: body.tool()?,
             bends: joints_below(m, root),
-            fingers: places.map(|place| (place, [closed[place], home[place]])).collect(),
+            fingers,
             home,
             own: (0..m.ngeom).map(|geom| is_below(m, root, m.geom_bodyid[geom] as usize)).collect(),
             noise: start.noise,
@@ -90,11 +98,8 @@ impl Bench {
     /// # Errors
     /// The noise is no range.
     pub fn start(&self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
-        for joint in &self.bends {
-            let off = self.noise * episode.rng.uniform(-1.0, 1.0)?;
-            if !self.fingers.iter().any(|(place, _)| *place == joint.position) {
-                episode.start.qpos[joint.position] += off;
-            }
+        for place in &self.hinges {
+            episode.start.qpos[*place] += self.noise * episode.rng.uniform(-1.0, 1.0)?;
         }
         Ok(())
     }

@@ -10,10 +10,14 @@
 //! condition holds, `bonus` at the end, `penalty` where something was lost.
 
 mod bench;
+pub mod insert;
 mod place;
 pub mod stack;
+pub mod zip;
 
 /// Time steps of the physics in one step of the environment: 0.02 s at the stations' 2 ms.
 const FRAME_SKIP: usize = 10;
 /// How long a condition is to hold \[s\].
 const HOLD: f64 = 0.5;
+/// Speed at which a thing is at rest \[m/s\].
+const REST: f64 = 0.02;

@@ -6,7 +6,8 @@
 //! station, turned by any angle, at least `apart` from each other.
 
 use super::bench::{Bench, Loose, Start};
-use super::{HOLD, place};
+use super::place::{self, Area};
+use super::{HOLD, REST};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
@@ -21,8 +22,6 @@ use std::f64::consts::PI;
 
 /// How far the height of the cube may be off \[m\].
 const HEIGHT: f64 = 0.005;
-/// Speed at which a cube is at rest \[m/s\].
-const REST: f64 = 0.02;
 
 /// Settings of the task.
 #[derive(Clone, Deserialize)]
@@ -34,8 +33,8 @@ pub struct Args {
     pose: Option<String>,
     /// Largest difference of a joint from that pose at the start \[rad\].
     joint_noise: f64,
-    /// Where cubes start: least and greatest x and y \[m\].
-    area: [[f64; 2]; 2],
+    /// Where cubes start.
+    area: Area,
     /// Least distance between the cubes at the start \[m\].
     apart: f64,
 }
