@@ -17,6 +17,7 @@ use crate::tasks::classical::unicycle::Unicycle;
 use crate::tasks::deformable::grain_pour::GrainPour;
 use crate::tasks::deformable::rope_straighten::RopeStraighten;
 use crate::tasks::deformable::sponge_press::SpongePress;
+use crate::tasks::tabletop::drawer::Drawer;
 use crate::tasks::tabletop::insert::Insert;
 use crate::tasks::tabletop::stack::Stack;
 use crate::tasks::tabletop::zip::Zip;
@@ -78,6 +79,13 @@ const ALL: &[Entry] = &[
         serves: &["stack"],
         feet: None,
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "stack")?, Stack::new(env)?))),
+    },
+    Entry {
+        name: "drawer",
+        summary: "grasp and pull, then grasp and place: a drawer by its handle, a brick into it",
+        serves: &["drawer"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "drawer")?, Drawer::new(env)?))),
     },
     Entry {
         name: "insert",

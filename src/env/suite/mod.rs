@@ -86,6 +86,7 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("velocity", locomotion::velocity::Velocity::new),
         TaskType::new("walk_to", locomotion::walk_to::WalkTo::new),
         TaskType::new("weave", locomotion::weave::Weave::new),
+        TaskType::new("drawer", tabletop::drawer::Drawer::new),
         TaskType::new("insert", tabletop::insert::Insert::new),
         TaskType::new("stack", tabletop::stack::Stack::new),
         TaskType::new("carry_tray", multi_agent::carry_tray::CarryTray::new),

@@ -10,6 +10,7 @@
 //! condition holds, `bonus` at the end, `penalty` where something was lost.
 
 mod bench;
+pub mod drawer;
 pub mod insert;
 mod place;
 pub mod stack;
