@@ -7,6 +7,10 @@ use robohive::{Env, OwnModels};
 /// Episodes played.
 const EPISODES: u64 = 5;
 
+/// Plays the episodes.
+///
+/// # Errors
+/// An environment or a controller refuses.
 pub fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut env = Env::make("hive/FrankaReach-v0", &OwnModels, &Options::default())?;
     // Those that serve the id, the best first.
