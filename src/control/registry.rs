@@ -16,6 +16,7 @@ use crate::tasks::classical::tendon_finger::TendonFinger;
 use crate::tasks::classical::unicycle::Unicycle;
 use crate::tasks::deformable::grain_pour::GrainPour;
 use crate::tasks::deformable::rope_straighten::RopeStraighten;
+use crate::tasks::deformable::rope_wrap::RopeWrap;
 use crate::tasks::deformable::sponge_press::SpongePress;
 use crate::tasks::tabletop::drawer::Drawer;
 use crate::tasks::tabletop::insert::Insert;
@@ -198,6 +199,13 @@ const ALL: &[Entry] = &[
         serves: &["rope_straighten"],
         feet: None,
         build: |env| Ok(Box::new(RopeStraighten::new(env)?)),
+    },
+    Entry {
+        name: "rope_wrap",
+        summary: "a grasp of the loose end, which is led round the peg and let go of",
+        serves: &["rope_wrap"],
+        feet: None,
+        build: |env| Ok(Box::new(RopeWrap::new(env)?)),
     },
     Entry {
         name: "grain_pour",

@@ -65,6 +65,7 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("dclaw_screw", dclaw::screw::Screw::new),
         TaskType::new("grain_pour", deformable::grain_pour::GrainPour::new),
         TaskType::new("rope_straighten", deformable::rope_straighten::RopeStraighten::new),
+        TaskType::new("rope_wrap", deformable::rope_wrap::RopeWrap::new),
         TaskType::new("sponge_press", deformable::sponge_press::SpongePress::new),
         TaskType::new("ee_pose", fm::pose::Reach::of_robot),
         TaskType::new("robotiq_pose", fm::pose::Reach::of_robotiq),

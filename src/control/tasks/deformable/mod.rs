@@ -3,4 +3,6 @@
 pub mod grain_pour;
 mod hand;
 pub mod rope_straighten;
+pub mod rope_wrap;
 pub mod sponge_press;
+mod strand;

@@ -8,7 +8,9 @@
 
 mod bench;
 pub(super) mod grain_pour;
+mod rope;
 pub(super) mod rope_straighten;
+pub(super) mod rope_wrap;
 pub(super) mod sponge_press;
 
 /// Time steps of the physics in one step of the environment: 0.08 s at 2 ms.

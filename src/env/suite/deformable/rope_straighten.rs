@@ -5,22 +5,20 @@
 //! line through the ends \[m\]; `grasp`, the distance from the fingertips to the loose end \[m\]; `held`, for how long it has been straight
 //! \[s\]. Dense reward: the stretch, minus ten times the bend, minus the distance to the loose end; one more while it is straight, 100
 //! at the end. Sparse reward: 1 while it is straight. Solved: the ends 95 % of the length apart and every place within 2 cm of
-//! the line for 0.5 s. At the start the rope is an arc with a wave on it, which spans 80 to 92 % of its length.
+//! the line for 0.5 s. At the start the rope is an arc with a wave on it, which spans 78 to 90 % of its length.
 
 use super::FRAME_SKIP;
 use super::bench::{Arm, Bench};
-use crate::draws::Ranges;
+use super::rope::{Rope, Shapes};
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::suite::classical::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::Data;
-use physics::elements::{BodyId, SiteId};
-use physics::math::{Vec3, cross, norm, ops, scale, sub};
+use physics::math::{cross, norm, scale, sub};
 use robot::Keeper;
 use serde::Deserialize;
-use std::f64::consts::TAU;
 
 /// Settings of the task.
 #[derive(Deserialize)]
@@ -33,22 +31,16 @@ pub struct Args {
     bend: f64,
     /// For how long it is to be straight \[s\].
     hold: f64,
-    /// Shapes at the start: direction from end to end, turn of the arc to either side, largest turn of the wave \[rad\].
-    shapes: Ranges,
+    shapes: Shapes,
 }
 
 /// The task.
 #[derive(Clone)]
 pub struct RopeStraighten {
     bench: Bench,
-    links: Vec<BodyId>,
-    /// Where `qpos` has the joint before each link.
-    joints: Vec<usize>,
-    end: SiteId,
-    length: f64,
+    rope: Rope,
     stretch: f64,
     bend: f64,
-    shapes: Ranges,
     straight: Hold,
 }
 
@@ -56,52 +48,26 @@ impl RopeStraighten {
     /// The task with these settings.
     ///
     /// # Errors
-    /// Roles, or a rope of links `rope_0` … on ball joints with the site `rope_end`, are missing; shapes that no rope has.
+    /// Roles or the rope are missing; shapes that no rope has.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
-        let turns = [args.shapes.low[1], args.shapes.high[1], args.shapes.high[2]];
-        if !turns.iter().all(|turn| (0.0..TAU).contains(turn)) {
-            return Err(setup.wrong("shapes: the turns of arc and wave are 0 or more, and below a full turn"));
-        }
-        let (bench, m) = (Bench::new(&args.arm, "straighten a rope", setup)?, &setup.scene.model);
-        let links: Vec<BodyId> = (0..).map_while(|k| m.body(&format!("rope_{k}"))).collect();
-        let ball = |link: &BodyId| {
-            let joint = m.body(*link).joints().next().map(|joint| m.joint(joint).qpos_range());
-            joint.filter(|place| place.len() == 4).map(|place| place.start)
-        };
-        let joints: Option<Vec<usize>> = links.iter().map(ball).collect();
-        let joints = joints.filter(|joints| joints.len() > 1);
-        let joints =
-            joints.ok_or_else(|| setup.wrong("the scene needs bodies rope_0, rope_1 … on ball joints"))?;
-        let mut task = RopeStraighten {
-            bench,
-            links,
-            joints,
-            end: setup.scene.site("rope_end")?,
-            length: 0.0,
+        Ok(RopeStraighten {
+            bench: Bench::new(&args.arm, "straighten a rope", setup)?,
+            rope: Rope::new(args.shapes, setup)?,
             stretch: args.stretch,
             bend: args.bend,
-            shapes: args.shapes,
             straight: Hold::new(args.hold),
-        };
-        let places: Vec<Vec3> = task.places(&setup.scene.data).collect();
-        task.length = places.windows(2).map(|pair| norm(sub(pair[1], pair[0]))).sum();
-        Ok(task)
-    }
-
-    /// Where the rope is, from its first end to its last \[m\].
-    fn places(&self, data: &Data) -> impl Iterator<Item = Vec3> {
-        let joints = self.links.iter().map(|link| *data.body(*link).xpos());
-        joints.chain([*data.site(self.end).xpos()])
+        })
     }
 
     /// Distance of the ends as a share of the length, and the largest distance from the line through them \[m\].
     fn shape(&self, data: &Data) -> [f64; 2] {
-        let (first, last) = (*data.body(self.links[0]).xpos(), *data.site(self.end).xpos());
+        let (first, last) = (*data.body(self.rope.links[0]).xpos(), self.rope.end(data));
         let way = sub(last, first);
         let span = norm(way).max(f64::MIN_POSITIVE);
         let along = scale(way, 1.0 / span);
-        let bend = self.places(data).map(|place| norm(cross(along, sub(place, first)))).fold(0.0, f64::max);
-        [span / self.length, bend]
+        let bend =
+            self.rope.places(data).map(|place| norm(cross(along, sub(place, first)))).fold(0.0, f64::max);
+        [span / self.rope.length, bend]
     }
 
     fn is_straight(&self, [stretch, bend]: [f64; 2]) -> bool {
@@ -130,18 +96,7 @@ impl Task for RopeStraighten {
     }
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
-        let [towards, arc, wave] = self.shapes.draw(episode.rng)?;
-        let arc = if episode.rng.uniform(0.0, 1.0)? < 0.5 { -arc } else { arc };
-        let heading = |k: usize| {
-            let share = k as f64 / (self.links.len() - 1) as f64;
-            towards + arc * (share - 0.5) + wave * ops::sin(TAU * share)
-        };
-        let mut before = 0.0;
-        for (k, &joint) in self.joints.iter().enumerate() {
-            let (sine, cosine) = ops::sincos((heading(k) - before) / 2.0);
-            episode.start.qpos[joint..joint + 4].copy_from_slice(&[cosine, 0.0, 0.0, sine]);
-            before = heading(k);
-        }
+        self.rope.lay(episode.rng, episode.start)?;
         self.straight.begin();
         Ok(())
     }
@@ -154,9 +109,9 @@ impl Task for RopeStraighten {
 
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         let shape = self.shape(view.data);
-        let grasp = norm(sub(*view.data.site(self.end).xpos(), self.bench.tip(view)));
+        let grasp = norm(sub(self.rope.end(view.data), self.bench.tip(view)));
         self.bench.observe(view, rows);
-        rows.set("rope", "m", self.places(view.data).flatten());
+        rows.set("rope", "m", self.rope.places(view.data).flatten());
         rows.set("stretch", "", [shape[0]]);
         rows.set("bend", "m", [shape[1]]);
         rows.set("grasp", "m", [grasp]);
