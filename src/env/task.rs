@@ -7,8 +7,11 @@ use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::spec::Spec;
 use crate::team::Team;
+use physics::elements::BodyId;
+use physics::model::JointType;
 use physics::{Data, Model};
 use robot::{Compat, Config, Keeper, Roles};
+use std::ops::Range;
 
 /// What a task is built from.
 pub struct Setup<'a> {
@@ -35,6 +38,18 @@ impl Setup<'_> {
         let bytes = own_file(path).map_or_else(|| self.assets.read(path), Ok);
         let bytes = bytes.map_err(|hint| self.wrong(format!("roles: {path}: {hint}")))?;
         Ok(Roles::from_toml(&String::from_utf8_lossy(&bytes), path)?)
+    }
+
+    /// A body on a free joint, and where `qpos` has that.
+    ///
+    /// # Errors
+    /// The model has no such body, or its body has another joint or none.
+    pub fn loose_body(&self, name: &str) -> Result<(BodyId, Range<usize>), EnvError> {
+        let (m, body) = (&self.scene.model, self.scene.body(name)?);
+        let mut joints = m.body(body).joints();
+        let free = joints.find(|joint| m.jnt_type[joint.index()] == JointType::Free as i32);
+        let free = free.ok_or_else(|| self.wrong(format!("the body {name} needs a free joint")))?;
+        Ok((body, m.joint(free).qpos_range()))
     }
 
     /// An error about a setting of the environment.

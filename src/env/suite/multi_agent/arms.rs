@@ -4,16 +4,12 @@ use super::part::{Part, team};
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::suite::locomotion::FRAME_SKIP;
-use crate::task::{Defaults, Episode, Pose, Setup, Success, View};
+use crate::task::{Episode, Pose, Setup, View};
 use crate::team::{Stakes, Team, prefix};
 use physics::elements::{BodyId, JointId, SiteId};
 use physics::math::{Vec3, mul_mat_t_vec, sub};
 use physics::{Data, Model};
 use std::ops::Range;
-
-/// Steps in which a task is solved that make a success: 0.5 s.
-pub const STEPS: usize = 25;
 
 /// Name of the body that the arms move.
 const LOAD: &str = "load";
@@ -99,18 +95,8 @@ impl Arms {
             Arm::new(part.name, m, scene, &cast)
         };
         let arms = [arm(&parts[0])?, arm(&parts[1])?];
-        let load = scene.body(LOAD)?;
-        let pose = m.body(load).joints().map(|joint| m.joint(joint).qpos_range()).find(|it| it.len() == 7);
-        let pose = pose.ok_or_else(|| setup.wrong(format!("the body `{LOAD}` needs a free joint")))?;
+        let (load, pose) = setup.loose_body(LOAD)?;
         Ok(Arms { arms, team, load, pose, target: scene.site("target")?, home, noise })
-    }
-
-    /// Defaults of a task.
-    pub fn defaults(&self) -> Defaults {
-        let own = |arm: &Arm| ["joint_pos", "joint_vel"].map(|row| format!("{}{row}", arm.prefix));
-        let proprio = self.arms.iter().flat_map(own).collect();
-        let defaults = Defaults::new(&self.team.obs_keys(), &self.team.weights(), FRAME_SKIP);
-        Defaults { success: Success::MoreThan(STEPS), proprio_keys: Some(proprio), ..defaults }
     }
 
     /// Arms at home with open grippers as initial pose.

@@ -1,7 +1,10 @@
 //! Two arms that carry a tray, with a ball on it, to a place in the air, and keep it level.
+//!
+//! Each observes the way from the middle of the tray to the ball (`ball_error` \[m\]) and the upward normal of the tray (`tray_up`), in
+//! the frame of its base.
 
 use super::arms::{Arms, vector};
-use super::part::Part;
+use super::part::{Part, STEPS, defaults};
 use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rows::Rows;
@@ -67,14 +70,13 @@ impl CarryTray {
         };
         let parts = [part("left"), part("right")];
         let arms = Arms::new((&args.roles, args.joint_noise), "carry a tray", &parts, setup)?;
-        let (scene, m) = (&*setup.scene, &setup.scene.model);
-        let ball = scene.body("ball")?;
-        let pose = m.body(ball).joints().map(|joint| m.joint(joint).qpos_range()).find(|it| it.len() == 7);
-        let [x, y, _] = m.geom_size[scene.geom("tray")?.index()];
+        let (ball, pose) = setup.loose_body("ball")?;
+        let tray = setup.scene.geom("tray")?;
+        let [x, y, _] = setup.scene.model.geom_size[tray.index()];
         Ok(CarryTray {
             arms,
             ball,
-            pose: pose.ok_or_else(|| setup.wrong("the body `ball` needs a free joint"))?,
+            pose,
             half: [x, y],
             start: args.load_range,
             on_it: args.ball_range,
@@ -94,7 +96,7 @@ impl CarryTray {
 
 impl Task for CarryTray {
     fn defaults(&self) -> Defaults {
-        self.arms.defaults()
+        defaults(&self.arms.team, STEPS)
     }
 
     fn team(&self) -> Option<&Team> {

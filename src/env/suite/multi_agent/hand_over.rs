@@ -1,7 +1,9 @@
 //! A bar that one arm takes from the table and hands over to the other, which brings it to a place in the air.
+//!
+//! Each observes the direction of the bar, from the left grip to the right one (`load_axis`), in the frame of its base.
 
 use super::arms::{Arms, vector};
-use super::part::Part;
+use super::part::{Part, STEPS, defaults};
 use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rows::Rows;
@@ -68,7 +70,7 @@ impl HandOver {
 
 impl Task for HandOver {
     fn defaults(&self) -> Defaults {
-        self.arms.defaults()
+        defaults(&self.arms.team, STEPS)
     }
 
     fn team(&self) -> Option<&Team> {

@@ -4,9 +4,8 @@ use super::part::{Part, team};
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::suite::locomotion::FRAME_SKIP;
 use crate::suite::locomotion::walker::{Disturbance, Posture, Walker};
-use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
+use crate::task::{Episode, Pose, Setup, Turn, Verdict, View};
 use crate::team::{Stakes, Team, prefix};
 use robot::Keeper;
 
@@ -47,17 +46,6 @@ impl Pair {
         let [a, b] = &parts;
         let team = team(&parts, &Walker::ROWS, stakes, setup.scene)?;
         Ok(Pair { walkers: [walker(a)?, walker(b)?], team })
-    }
-
-    /// Defaults of a task that succeeds if it is solved in more than `steps` steps.
-    pub fn defaults(&self, steps: usize) -> Defaults {
-        let proprio: Vec<String> = self
-            .walkers
-            .iter()
-            .flat_map(|walker| ["joint_pos", "joint_vel"].map(|row| format!("{}{row}", walker.prefix())))
-            .collect();
-        let defaults = Defaults::new(&self.team.obs_keys(), &self.team.weights(), FRAME_SKIP);
-        Defaults { success: Success::MoreThan(steps), proprio_keys: Some(proprio), ..defaults }
     }
 
     /// The standing poses as initial one.

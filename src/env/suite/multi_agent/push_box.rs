@@ -1,7 +1,10 @@
 //! Two bodies that push a box to a place that is marked on the ground; it is too heavy for one of them.
+//!
+//! Each observes where box and mark are (`box_error`, `target_error` \[m\]) and the direction of the box's y axis (`box_turn`), in the frame
+//! of its heading: forward, left.
 
 use super::pair::{Bodies, Pair};
-use super::part::Part;
+use super::part::{Part, STEPS, defaults};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
@@ -14,9 +17,6 @@ use physics::math::ops;
 use robot::Keeper;
 use serde::Deserialize;
 use std::ops::Range;
-
-/// Steps with the box at the place that make a success: 0.5 s.
-const STEPS: usize = 25;
 
 /// Settings of the task.
 #[derive(Deserialize)]
@@ -65,10 +65,7 @@ impl PushBox {
         let bodies = Bodies { roles: &args.roles, disturbance: &args.disturbance };
         let parts = [part("left"), part("right")];
         let pair = Pair::new(&bodies, "push a box together", parts, Stakes::Shared, setup)?;
-        let load = setup.scene.body("box")?;
-        let m = &setup.scene.model;
-        let pose = m.body(load).joints().map(|joint| m.joint(joint).qpos_range()).find(|it| it.len() == 7);
-        let pose = pose.ok_or_else(|| setup.wrong("the body `box` needs a free joint"))?;
+        let (load, pose) = setup.loose_body("box")?;
         Ok(PushBox {
             load,
             pose,
@@ -84,7 +81,7 @@ impl PushBox {
 
 impl Task for PushBox {
     fn defaults(&self) -> Defaults {
-        self.pair.defaults(STEPS)
+        defaults(&self.pair.team, STEPS)
     }
 
     fn team(&self) -> Option<&Team> {

@@ -1,7 +1,9 @@
 //! Two bodies that look at each other and are to swap their places without touching.
+//!
+//! Each observes where it is to go (`target_error` \[m\]), in the frame of its heading: forward, left.
 
 use super::pair::{Bodies, Pair};
-use super::part::Part;
+use super::part::{Part, STEPS, defaults};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
@@ -11,9 +13,6 @@ use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use crate::team::{Stakes, Team};
 use robot::Keeper;
 use serde::Deserialize;
-
-/// Steps with both bodies at their places that make a success: 0.5 s.
-const STEPS: usize = 25;
 
 /// Settings of the task.
 #[derive(Deserialize)]
@@ -68,7 +67,7 @@ impl Swap {
 
 impl Task for Swap {
     fn defaults(&self) -> Defaults {
-        self.pair.defaults(STEPS)
+        defaults(&self.pair.team, STEPS)
     }
 
     fn team(&self) -> Option<&Team> {

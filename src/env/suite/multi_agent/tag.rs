@@ -1,7 +1,10 @@
 //! Tag on a round field: a chaser is to come within reach of an evader, which loses as well when it leaves the field or falls.
+//!
+//! Each observes where the centre of the field is (`centre_error` \[m\]), in the frame of its heading: forward, left. What one earns the
+//! other pays.
 
 use super::pair::{Bodies, Pair};
-use super::part::Part;
+use super::part::{Part, defaults};
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
@@ -65,7 +68,7 @@ impl Tag {
 impl Task for Tag {
     fn defaults(&self) -> Defaults {
         // The episode ends in the step that catches the evader.
-        self.pair.defaults(0)
+        defaults(&self.pair.team, 0)
     }
 
     fn team(&self) -> Option<&Team> {
