@@ -8,7 +8,7 @@
 
 `robohive.ids("multi_agent")` lists the ids. Each is an environment of Gymnasium too (`robohive.make`): the action has the
 actions of all agents one after the other, the reward is the sum of theirs where they cooperate, and that of the first where
-they compete. It needs the package `pettingzoo`.
+they compete. It needs `pip install robohive[pettingzoo]`.
 """
 
 from __future__ import annotations
