@@ -152,3 +152,31 @@ fn missing_roles_and_missing_bodies_are_errors() {
         "{legs}"
     );
 }
+
+/// Roots on slides in a frame that is turned (D'Kitty), and on a free joint (Spot).
+#[test]
+fn bodies_begin_where_the_task_puts_them() {
+    let near = |a: &[f64], b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9);
+    let (mut swap, mut tag) = (make("hive/DKittyPairSwap-v0"), make("hive/SpotTag-v0"));
+    let mut turned = Vec::new();
+    for seed in 0..5 {
+        swap.reset(Some(seed)).unwrap();
+        for agent in ["left_", "right_"] {
+            let rows = swap.env().rows().of(agent);
+            assert!(near(&rows["target_error"], &rows["mate_error"]), "each is to go where the other is");
+            assert!((1.6..2.05).contains(&rows["mate_error"][0]), "they look at each other");
+        }
+        tag.reset(Some(seed)).unwrap();
+        let (chaser, evader) = (tag.env().rows().of("chaser_"), tag.env().rows().of("evader_"));
+        assert!(
+            near(&evader["centre_error"], &[0.0; 2]) && near(&chaser["centre_error"], &chaser["mate_error"])
+        );
+        let [x, y] = [chaser["mate_error"][0], chaser["mate_error"][1]];
+        assert!((2.5..3.5).contains(&x.hypot(y)) && (y / x).atan().abs() < 0.8, "{x}, {y}");
+        turned.push((y / x).atan());
+    }
+    assert!(
+        turned.iter().any(|angle| *angle > 0.1) && turned.iter().any(|angle| *angle < -0.1),
+        "{turned:?}"
+    );
+}
