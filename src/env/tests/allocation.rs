@@ -50,7 +50,9 @@ impl Assets for Imported {
 fn allocations(env: &mut Env, images: usize) -> usize {
     let (mut rng, mut action) = (Rng::pcg64(7_u64), vec![0.0; env.action_len()]);
     env.reset(Some(3)).unwrap();
-    let drawn = if env.visual_keys().iter().any(|key| key.is_encoded()) { 0 } else { images };
+    // The surfaces of flexes are made for each picture, as features are.
+    let made = env.scene().model.nflex > 0 || env.visual_keys().iter().any(|key| key.is_encoded());
+    let drawn = if made { 0 } else { images };
     if drawn > 0 {
         env.exteroception().unwrap();
     }
