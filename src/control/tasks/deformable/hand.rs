@@ -52,6 +52,8 @@ pub struct Hand {
     step: usize,
     began: f64,
     from: Move,
+    /// Where the hand was told to be last.
+    at: Move,
     controls: Vec<f64>,
 }
 
@@ -76,6 +78,7 @@ impl Hand {
             step: 0,
             began: 0.0,
             from,
+            at: from,
             controls: vec![0.0; joints.len()],
             joints,
         })
@@ -98,6 +101,7 @@ impl Hand {
         self.told.state.qpos.copy_from_slice(&data.state.qpos);
         self.from =
             Move { tip: self.tip(env), turn: self.turn(env), fingers: 0.0, seconds: 0.0, patience: 0.0 };
+        self.at = self.from;
         (self.plan, self.step, self.began) = (plan, 0, data.time());
     }
 
@@ -109,6 +113,7 @@ impl Hand {
 
     /// Follows another plan from where the hand was told to be last.
     pub fn go_on(&mut self, env: &Env, plan: Vec<Move>) {
+        self.from = self.at;
         (self.plan, self.step, self.began) = (plan, 0, env.scene().data.time());
     }
 
@@ -137,13 +142,14 @@ impl Hand {
             let profile = MinimumJerk::between(&[0.0], &[1.0], to.seconds)?;
             profile.position(env.scene().data.time() + env.dt() - self.began, &mut share);
         }
-        self.follow(env, &between(&self.from, &to, share[0]));
+        self.at = between(&self.from, &to, share[0]);
+        self.follow(env);
         command(env, &self.controls, action)
     }
 
-    /// Finds the joints for a place of the hand.
-    fn follow(&mut self, env: &Env, at: &Move) {
-        let m = &env.scene().model;
+    /// Finds the joints for where the hand is told to be.
+    fn follow(&mut self, env: &Env) {
+        let (m, at) = (&env.scene().model, self.at);
         let goal = Pose { position: Some(at.tip), orientation: Some(at.turn) };
         let arm = &self.joints[..self.joints.len() - FINGERS];
         let reach = Reach { joints: arm, rest: Some(&self.rest), pull: PULL };

@@ -168,10 +168,6 @@ impl Task for GrainPour {
         self.done.judge(rows["held"][0], self.is_done(shares), false, terms)
     }
 
-    fn constant_rows(&self) -> Vec<String> {
-        Vec::new()
-    }
-
     fn resting_rows(&self) -> Vec<String> {
         ["poured", "spilled", "held"].map(String::from).to_vec()
     }
