@@ -5,6 +5,7 @@ use crate::error::ControlError;
 use crate::tasks;
 use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::moves::Scripted;
+use crate::tasks::arms::pick_place::PickPlace;
 use crate::tasks::classical::balance::{self, Balance};
 use crate::tasks::classical::ball_on_beam::BallOnBeam;
 use crate::tasks::classical::car_trailer::CarTrailer;
@@ -80,6 +81,16 @@ const ALL: &[Entry] = &[
         serves: &["stack"],
         feet: None,
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "stack")?, Stack::new(env)?))),
+    },
+    Entry {
+        name: "pick_place",
+        summary: "grasp and place: an object across a narrow side, over the walls of the bins",
+        serves: &["hive/FrankaPickPlaceFixed-v0"],
+        feet: None,
+        build: |env| {
+            let arm = Scripted::new(Arm::new(env, "pick_place")?, PickPlace::new(env)?);
+            Ok(Box::new(arm.with_pace(tasks::arms::pick_place::HASTY)))
+        },
     },
     Entry {
         name: "drawer",

@@ -47,6 +47,12 @@ fn actions_repeat_and_stay_within_bounds() {
     }
 }
 
+#[test]
+fn the_panda_carries_its_object_into_the_other_bin() {
+    let id = "hive/FrankaPickPlaceFixed-v0";
+    assert!(play(id, 0, true).0 && !play(id, 0, false).0, "{id}");
+}
+
 /// Its arm starts straight, and searches from there end with the elbow in the table.
 #[test]
 fn the_fetch_reaches_over_its_table() {

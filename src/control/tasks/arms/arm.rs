@@ -30,8 +30,8 @@ const PULL: f64 = 0.02;
 const STARTS: usize = 8;
 /// Share of what joints lack that a second of control adds to their targets.
 const CORRECTION: f64 = 4.0;
-/// The most that it adds \[rad\].
-const MOST: f64 = 0.15;
+/// The most that it adds, and the most that joints may lack for it \[rad\].
+const MOST: f64 = 0.1;
 
 /// A joint of the arm.
 #[derive(Clone, Copy)]
@@ -163,7 +163,10 @@ impl Arm {
         let (qpos, dt) = (&env.scene().data.state.qpos, env.dt());
         for (k, link) in self.links.iter().enumerate() {
             let lacks = now[k] - qpos[link.servo.place];
-            self.correction[k] = (self.correction[k] + CORRECTION * dt * lacks).clamp(-MOST, MOST);
+            // Of a joint that is far behind, as its robot's limits of velocity make it, nothing can be learnt.
+            if lacks.abs() < MOST {
+                self.correction[k] = (self.correction[k] + CORRECTION * dt * lacks).clamp(-MOST, MOST);
+            }
             let lag = link.servo.lag * (next[k] - now[k]) / dt;
             self.controls[link.control] = next[k] + lag + self.correction[k];
         }

@@ -7,10 +7,6 @@ use env::Env;
 use physics::math::{Vec3, ops, quat_rotate, scale};
 use std::f64::consts::TAU;
 
-/// Speed at which things are touched and set down, as a share of full speed.
-const CAREFUL: f64 = 0.25;
-/// Seconds in which fingers close, or open.
-const GRIP: f64 = 0.35;
 /// Gap on each side between the fingers and what they are about to grasp, at most \[m\].
 const ROOM: f64 = 0.02;
 /// Least distance of fingers from what a thing stands on \[m\].
@@ -25,7 +21,12 @@ pub struct Load {
     pub above: f64,
     /// How far from the thing the hand goes at the end \[m\].
     pub away: f64,
+    /// Speed at which it is touched, as a share of full speed, and seconds in which fingers close or open.
+    pub touch: [f64; 2],
 }
+
+/// The touch of an arm that has time.
+pub const GENTLE: [f64; 2] = [0.25, 0.35];
 
 /// A step of carrying, on a straight line.
 #[derive(Clone, Debug)]
@@ -61,6 +62,11 @@ impl Grasp {
         Grasp { load, phase: Phase::Approach }
     }
 
+    /// Whether the hand has not begun to approach.
+    pub fn is_new(&self) -> bool {
+        self.phase == Phase::Approach
+    }
+
     /// The next move. `grasps` are frames of the tool that hold the thing, `carry` says the steps by their numbers, as long as there are.
     pub fn next(
         &mut self,
@@ -72,23 +78,31 @@ impl Grasp {
         let tool = arm.tool(env);
         let back = |frame: &Frame, way: f64| frame.moved(scale(arm.hand.pointing(frame.turn), -way));
         let open = arm.hand.opening(self.load.width + 2.0 * ROOM);
+        let [careful, grip] = self.load.touch;
         let (to, opening, speed, pause, next) = match self.phase {
             Phase::Approach => {
                 let away = self.load.above + arm.hand.depth;
-                (grasps().iter().map(|frame| back(frame, away)).collect(), open, 1.0, 0.1, Phase::Reach)
+                (
+                    grasps().iter().map(|frame| back(frame, away)).collect(),
+                    open,
+                    1.0,
+                    0.3 * grip,
+                    Phase::Reach,
+                )
             }
-            Phase::Reach => (grasps(), open, CAREFUL, 0.15, Phase::Grasp),
-            Phase::Grasp => (vec![tool], 0.0, CAREFUL, GRIP, Phase::Carry(0)),
+            Phase::Reach => (grasps(), open, careful, 0.4 * grip, Phase::Grasp),
+            Phase::Grasp => (vec![tool], 0.0, careful, grip, Phase::Carry(0)),
             Phase::Carry(step) => match carry(step) {
                 Some(Carry { to, speed, pause }) => (to, 0.0, speed, pause, Phase::Carry(step + 1)),
-                None => (vec![tool], open, CAREFUL, GRIP, Phase::Retreat),
+                None => (vec![tool], open, careful, grip, Phase::Retreat),
             },
             Phase::Retreat => (vec![back(&tool, self.load.away)], open, 0.5, 0.0, Phase::Over),
             Phase::Over => return None,
         };
         let straight = self.phase != Phase::Approach;
+        let precise = self.phase == Phase::Reach;
         self.phase = next;
-        Some(Move { to, straight, opening, speed, pause })
+        Some(Move { to, straight, opening, speed, pause, precise })
     }
 }
 
@@ -104,14 +118,14 @@ pub fn place(tool: &Frame, thing: &Frame, goals: &[Frame], over: f64, step: usiz
             Some(Carry { to: vec![lift], speed: 0.5, pause: 0.0 })
         }
         1 => Some(Carry { to: there.map(up).collect(), speed: 0.7, pause: 0.3 }),
-        2 => Some(Carry { to: there.collect(), speed: CAREFUL, pause: 0.2 }),
+        2 => Some(Carry { to: there.collect(), speed: GENTLE[0], pause: 0.2 }),
         _ => None,
     }
 }
 
 /// The step that draws what the tool holds along a line \[m\].
 pub fn draw(tool: &Frame, way: Vec3, step: usize) -> Option<Carry> {
-    (step == 0).then(|| Carry { to: vec![tool.moved(way)], speed: CAREFUL, pause: 0.2 })
+    (step == 0).then(|| Carry { to: vec![tool.moved(way)], speed: GENTLE[0], pause: 0.2 })
 }
 
 /// Frames of the tool that hold a thing from above at `thing`'s origin, which is `half` \[m\] over what it stands on: with fingers

@@ -5,5 +5,6 @@ pub mod frame;
 pub mod grasp;
 pub mod hand;
 pub mod moves;
+pub mod pick_place;
 pub mod reach;
 mod starts;

@@ -10,9 +10,21 @@ use physics::math::distance;
 
 /// Distance between the frames of a line at which joints are looked for \[m\].
 const SPACING: f64 = 0.01;
-/// The fastest joint \[rad/s\] and tool \[m/s\] at full speed.
-const JOINT_SPEED: f64 = 1.5;
-const TOOL_SPEED: f64 = 0.5;
+/// How an arm moves at full speed.
+#[derive(Clone, Copy, Debug)]
+pub struct Pace {
+    /// Speed of its fastest joint \[rad/s\].
+    pub joint: f64,
+    /// Speed of its tool \[m/s\].
+    pub tool: f64,
+    /// What joints may lack at the end of a move that is not to be precise \[rad\].
+    pub near: f64,
+}
+
+/// An arm that has time.
+const CALM: Pace = Pace { joint: 1.5, tool: 0.5, near: 0.02 };
+/// How long an arm waits for joints that lack more \[s\].
+const PATIENCE: f64 = 0.4;
 /// Shortest move \[s\].
 const SHORTEST: f64 = 0.1;
 
@@ -29,6 +41,8 @@ pub struct Move {
     pub speed: f64,
     /// How long the arm waits then \[s\].
     pub pause: f64,
+    /// Whether the arm waits until its joints have come, whatever its pace.
+    pub precise: bool,
 }
 
 /// Says what an arm does next.
@@ -54,6 +68,8 @@ struct Path {
     progress: MinimumJerk,
     began: f64,
     ends: f64,
+    /// What joints may lack at the end \[rad\].
+    near: f64,
 }
 
 impl Path {
@@ -74,12 +90,26 @@ pub struct Scripted<S> {
     script: S,
     path: Option<Path>,
     opening: f64,
+    pace: Pace,
 }
 
 impl<S: Script> Scripted<S> {
     /// The controller.
     pub fn new(arm: Arm, script: S) -> Self {
-        Scripted { arm, script, path: None, opening: 1.0 }
+        Scripted { arm, script, path: None, opening: 1.0, pace: CALM }
+    }
+
+    /// The same at another pace.
+    pub fn with_pace(self, pace: Pace) -> Self {
+        Scripted { pace, ..self }
+    }
+
+    /// Whether a move has been made: its time has passed, and joints that limits of velocity hold back have come, or will not.
+    fn is_over(&self, env: &Env, path: &Path, now: f64) -> bool {
+        let there = path.at(now);
+        let each = self.arm.places(&env.scene().data.state.qpos);
+        let lacks = each.iter().zip(&there).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        now > path.ends - 1e-9 && (lacks < path.near || now > path.ends + PATIENCE)
     }
 
     fn start(&mut self, env: &Env, step: &Move) -> Result<(), ControlError> {
@@ -104,26 +134,27 @@ impl<S: Script> Scripted<S> {
                 let frame = begin.towards(&end, k as f64 / count as f64);
                 let (place, _) = self.arm.solve(&scene.model, &data, &frame);
                 self.arm.set(&mut data, &place);
-                extend(&mut joints, place, length / count as f64);
+                self.extend(&mut joints, place, length / count as f64);
             }
         } else {
-            extend(&mut joints, there, length);
+            self.extend(&mut joints, there, length);
         }
         let full = joints[joints.len() - 1].0;
         let seconds = MinimumJerk::shortest(&[0.0], &[full], &[step.speed]).max(SHORTEST);
         let progress = MinimumJerk::between(&[0.0], &[full], seconds)?;
         self.opening = step.opening;
-        self.path = Some(Path { joints, progress, began: now, ends: now + seconds + step.pause });
+        let near = if step.precise { CALM.near } else { self.pace.near };
+        self.path = Some(Path { joints, progress, began: now, ends: now + seconds + step.pause, near });
         Ok(())
     }
-}
 
-/// Adds joints to a way, which take the tool `length` \[m\] farther.
-fn extend(joints: &mut Vec<(f64, Vec<f64>)>, next: Vec<f64>, length: f64) {
-    let (passed, last) = &joints[joints.len() - 1];
-    let farthest = last.iter().zip(&next).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    let seconds = (farthest / JOINT_SPEED).max(length / TOOL_SPEED).max(f64::MIN_POSITIVE);
-    joints.push((passed + seconds, next));
+    /// Adds joints to a way, which take the tool `length` \[m\] farther.
+    fn extend(&self, joints: &mut Vec<(f64, Vec<f64>)>, next: Vec<f64>, length: f64) {
+        let (passed, last) = &joints[joints.len() - 1];
+        let farthest = last.iter().zip(&next).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let seconds = (farthest / self.pace.joint).max(length / self.pace.tool).max(f64::MIN_POSITIVE);
+        joints.push((passed + seconds, next));
+    }
 }
 
 impl<S: Script> Controller for Scripted<S> {
@@ -136,7 +167,7 @@ impl<S: Script> Controller for Scripted<S> {
     fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), ControlError> {
         let now = env.scene().data.time();
         // Rounding of the time is no reason to wait for another step.
-        if self.path.as_ref().is_none_or(|path| now > path.ends - 1e-9)
+        if self.path.as_ref().is_none_or(|path| self.is_over(env, path, now))
             && let Some(step) = self.script.next(env, &self.arm)?
         {
             self.start(env, &step)?;

@@ -3,7 +3,7 @@
 use crate::error::ControlError;
 use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::frame::Frame;
-use crate::tasks::arms::grasp::{Grasp, Load, draw, from_above, place};
+use crate::tasks::arms::grasp::{GENTLE, Grasp, Load, draw, from_above, place};
 use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
 use physics::elements::{BodyId, SiteId};
@@ -41,8 +41,8 @@ impl Drawer {
             drawer: scene.body("desk_drawer")?,
             handle: scene.site("desk_drawer")?,
             brick: scene.body("block")?,
-            pull: Grasp::new(Load { width: HANDLE, above: 0.06, away: 0.06 }),
-            grasp: Grasp::new(Load { width: BRICK, above: 0.05, away: 0.12 }),
+            pull: Grasp::new(Load { width: HANDLE, above: 0.06, away: 0.06, touch: GENTLE }),
+            grasp: Grasp::new(Load { width: BRICK, above: 0.05, away: 0.12, touch: GENTLE }),
         })
     }
 }

@@ -3,7 +3,7 @@
 use crate::error::ControlError;
 use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::frame::Frame;
-use crate::tasks::arms::grasp::{Grasp, Load, from_above, place};
+use crate::tasks::arms::grasp::{GENTLE, Grasp, Load, from_above, place};
 use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
 use physics::elements::{BodyId, SiteId};
@@ -37,7 +37,7 @@ impl Insert {
         let (peg, board) = (scene.body("peg")?, scene.body("board")?);
         let geom = scene.model.body_geomadr[peg.index()].max(0) as usize;
         let width = 2.0 * scene.model.geom_size[geom][0];
-        let grasp = Grasp::new(Load { width, above: 0.06, away: 0.05 });
+        let grasp = Grasp::new(Load { width, above: 0.06, away: 0.05, touch: GENTLE });
         Ok(Insert { peg, board, bottom: scene.site("board_bottom")?, width, grasp })
     }
 }

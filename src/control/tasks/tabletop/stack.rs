@@ -3,7 +3,7 @@
 use crate::error::ControlError;
 use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::frame::Frame;
-use crate::tasks::arms::grasp::{Grasp, Load, from_above, place};
+use crate::tasks::arms::grasp::{GENTLE, Grasp, Load, from_above, place};
 use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
 use physics::elements::BodyId;
@@ -29,7 +29,7 @@ impl Stack {
         let scene = env.scene();
         let (cube, base) = (scene.body("cube_a")?, scene.body("cube_b")?);
         let half = scene.model.geom_size[scene.geom("cube_a")?.index()][0];
-        let load = Load { width: 2.0 * half, above: 0.05, away: 0.04 };
+        let load = Load { width: 2.0 * half, above: 0.05, away: 0.04, touch: GENTLE };
         Ok(Stack { cube, base, half, grasp: Grasp::new(load) })
     }
 }

@@ -3,7 +3,7 @@
 use crate::error::ControlError;
 use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::frame::Frame;
-use crate::tasks::arms::grasp::{Grasp, Load, draw, from_above};
+use crate::tasks::arms::grasp::{GENTLE, Grasp, Load, draw, from_above};
 use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
 use physics::elements::{BodyId, SiteId};
@@ -37,7 +37,7 @@ impl Zip {
             zip: scene.body("zip")?,
             pull: scene.site("zip_pull")?,
             slider: (m.jnt_qposadr[slider] as usize, m.jnt_range[slider][1]),
-            grasp: Grasp::new(Load { width: WIDTH, above: 0.04, away: 0.04 }),
+            grasp: Grasp::new(Load { width: WIDTH, above: 0.04, away: 0.04, touch: GENTLE }),
         })
     }
 }

@@ -1,0 +1,116 @@
+//! Picking and placing: where the object comes to rest is simulated ahead, and it is grasped from above across a narrow side, carried over
+//! the walls of the bins, and held at the target.
+
+use super::arm::Arm;
+use super::frame::Frame;
+use super::grasp::{Carry, Grasp, Load, from_above};
+use super::moves::{Move, Pace, Script};
+use crate::error::ControlError;
+use env::Env;
+use physics::elements::{BodyId, Element, SiteId};
+use physics::math::{Vec3, add_scaled, dot, mul_mat_t_vec, ops, quat_from_axis_angle, sub};
+use physics::{Data, Model};
+use std::f64::consts::PI;
+
+/// Time in which objects come to rest \[s\].
+const FALL: f64 = 1.2;
+/// Directions that are compared.
+const DIRECTIONS: usize = 12;
+/// Width up to which one is as good as another \[m\].
+const WIDE: f64 = 0.062;
+/// How high over the target the object passes the walls \[m\].
+const OVER: f64 = 0.06;
+/// How high over the target it is held, still over the walls \[m\].
+const HELD: f64 = 0.03;
+/// Speed of fingers that touch, as a share of full speed, and seconds in which they close: an episode lasts 4 s.
+const QUICK: [f64; 2] = [0.9, 0.16];
+/// Commands ahead of the limits of velocity, which then decide.
+pub const HASTY: Pace = Pace { joint: 3.5, tool: 3.0, near: 0.06 };
+
+pub struct PickPlace {
+    object: BodyId,
+    site: SiteId,
+    target: SiteId,
+    grasp: Grasp,
+    /// The objects at rest, when they have fallen into the bin.
+    rest: Option<Box<Data>>,
+}
+
+impl PickPlace {
+    /// The script for the object and the target of the environment.
+    ///
+    /// # Errors
+    /// Settings without their names.
+    pub fn new(env: &Env) -> Result<Self, ControlError> {
+        let scene = env.scene();
+        let name = |setting: &str| {
+            let named = env.spec().args.get::<String>(setting);
+            named.ok_or_else(|| ControlError::unfit(env, format!("the setting {setting} is needed")))
+        };
+        let site = scene.site(&name("object_site_name")?)?;
+        let target = scene.site(&name("target_site_name")?)?;
+        let body = scene.model.site_bodyid[site.index()] as usize;
+        let object = BodyId::at(&scene.model, body)
+            .ok_or_else(|| ControlError::unfit(env, "the site of the object is on no body"))?;
+        let load = Load { width: 0.07, above: 0.04, away: 0.0, touch: QUICK };
+        Ok(PickPlace { object, site, target, grasp: Grasp::new(load), rest: None })
+    }
+}
+
+impl Script for PickPlace {
+    fn begin(&mut self, env: &Env, _: &Arm) -> Result<(), ControlError> {
+        *self = PickPlace::new(env)?;
+        let scene = env.scene();
+        let mut rest = Box::new(scene.data.clone());
+        while rest.time() < scene.data.time() + FALL {
+            physics::step(&scene.model, &mut rest)?;
+        }
+        self.rest = Some(rest);
+        Ok(())
+    }
+
+    fn next(&mut self, env: &Env, arm: &Arm) -> Result<Option<Move>, ControlError> {
+        let (m, data) = (&env.scene().model, &env.scene().data);
+        let fallen = self.rest.as_deref().filter(|_| self.grasp.is_new()).unwrap_or(data);
+        let boxes =
+            (0..DIRECTIONS).map(|k| around(m, fallen, self.object, PI * k as f64 / DIRECTIONS as f64));
+        let least = boxes.clone().map(|(_, width, _)| width).fold(f64::INFINITY, f64::min);
+        let grasps = || {
+            let narrow = boxes.clone().filter(|(_, width, _)| *width <= least.max(WIDE));
+            narrow.flat_map(|(frame, width, half)| from_above(arm, &frame, width, half, false)).collect()
+        };
+        let tool = arm.tool(env);
+        let way = sub(data.kin.site_xpos[self.target.index()], data.kin.site_xpos[self.site.index()]);
+        let carry = |step| match step {
+            0 => Some(tool.moved([0.0, 0.0, way[2] + OVER])),
+            _ => Some(tool.moved([way[0], way[1], way[2] + HELD])),
+        };
+        let carry = |step| {
+            carry(step).map(|to| Carry { to: vec![to], speed: if step == 0 { 0.5 } else { 1.0 }, pause: 0.0 })
+        };
+        Ok(self.grasp.next(env, arm, grasps, carry))
+    }
+}
+
+/// The box round a body's geoms, with its x axis level: its middle, its width along x and half its height \[m\].
+fn around(m: &Model, data: &Data, body: BodyId, yaw: f64) -> (Frame, f64, f64) {
+    let along = |direction: Vec3| {
+        let geoms = (0..m.ngeom).filter(|&geom| m.geom_bodyid[geom] as usize == body.index());
+        let ends = |geom: usize| {
+            let [x, y, z, a, b, c] = m.geom_aabb[geom];
+            let local = mul_mat_t_vec(&data.kin.geom_xmat[geom], direction);
+            let middle = dot(data.kin.geom_xpos[geom], direction) + dot([x, y, z], local);
+            let half = dot([a, b, c], local.map(f64::abs));
+            [middle - half, middle + half]
+        };
+        geoms.map(ends).reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]).unwrap_or([0.0; 2])
+    };
+    let (sine, cosine) = ops::sincos(yaw);
+    let axes = [[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]];
+    let [x, y, z] = axes.map(along);
+    let middles = [x, y, z].map(|[low, high]| 0.5 * (low + high));
+    let place =
+        axes.into_iter().zip(middles).fold([0.0; 3], |sum, (axis, middle)| add_scaled(sum, axis, middle));
+    let turn = quat_from_axis_angle(axes[2], yaw);
+    (Frame { place, turn }, x[1] - x[0], 0.5 * (z[1] - z[0]))
+}
