@@ -55,7 +55,7 @@ laws: measures laws of mechanics, on states of the own models and of those in th
 robots: compares our own robots with the numbers that are published of them (published.toml of their folders); fails when one
 differs by more than 2 % or 0.02 rad without a reason.
 controllers: runs every controller in the environments that it serves, on 20 seeds, beside zero and random actions; fails when a
-controller solves less than 80 % of them, or the others 5 %.
+controller solves less than 80 % of them, or the others 5 %. With --suite of one suite, whose section --write replaces.
 hulls: hashes the convex hull of every mesh file (STL, OBJ, MSH) below the folders, one line a mesh; fails when any differs
 from the recorded ones.
 round-trip: writes every model below the folders as MJCF and reads it again; fails when a bit of an array differs, or the
@@ -192,7 +192,7 @@ fn measured<'a>(
         }
         Some("controllers") => {
             let (table, verdict) = controllers::render(&controllers::measure(&a.suite)?);
-            ("controllers", table, verdict)
+            (if a.suite.is_empty() { "controllers" } else { &a.suite }, table, verdict)
         }
         Some("scenes") => {
             let (table, verdict) = scenes::render(&assembled(a)?);
