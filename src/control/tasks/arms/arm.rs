@@ -71,12 +71,6 @@ impl Arm {
             between(m, root, tool).into_iter().filter_map(|joint| servoed(m, joint)).collect();
         let joints: Vec<JointId> = links.iter().map(|link| link.joint).collect();
         let hand = Hand::new(env, &roles, &body, &joints)?;
-        let (links, joints) = links
-            .into_iter()
-            .filter(|link| !hand.is_finger(link.servo.place))
-            .map(|link| (link, link.joint))
-            .unzip();
-        let links: Vec<Link> = links;
         Ok(Arm { hand, correction: vec![0.0; links.len()], links, joints, home, controls: vec![0.0; m.nu] })
     }
 
@@ -119,22 +113,19 @@ impl Arm {
     pub fn nearest(&self, env: &Env, from: &[f64], frames: &[Frame]) -> Option<(Frame, Vec<f64>)> {
         let m = &env.scene().model;
         let mut data = env.scene().data.clone();
-        let mut best: Option<(f64, Frame, Vec<f64>)> = None;
-        let mut least = NEAR;
+        let mut best: Option<([f64; 2], Frame, Vec<f64>)> = None;
         for start in 0..STARTS {
             self.set(&mut data, &self.start(m, from, start));
             for frame in frames {
                 let (joints, error) = self.solve(m, &data, frame);
                 let way = joints.iter().zip(from).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-                let nearer = best.as_ref().is_none_or(|(least, ..)| way < *least);
-                if (error < REACHED && (nearer || least > REACHED))
-                    || error < least.min(NEAR) && least > REACHED
-                {
-                    best = Some((way, *frame, joints));
-                    least = error;
+                // Of frames that are reached the nearest counts, of others the error.
+                let rank = [error.max(REACHED), way];
+                if error < NEAR && best.as_ref().is_none_or(|(least, ..)| rank < *least) {
+                    best = Some((rank, *frame, joints));
                 }
             }
-            if least < REACHED {
+            if best.as_ref().is_some_and(|([error, _], ..)| *error <= REACHED) {
                 break;
             }
         }
@@ -177,13 +168,10 @@ impl Arm {
 
 /// The position servo of a joint.
 fn servoed(m: &Model, joint: JointId) -> Option<Link> {
-    let place = m.jnt_qposadr[joint.index()] as usize;
     let moves = |&actuator: &usize| {
         m.actuator_trntype[actuator] == TrnType::Joint as i32
             && m.actuator_trnid[actuator][0] == joint.index() as i32
     };
     let actuator = (0..m.nactuator).find(moves)?;
-    let servo = Servo::new(m, actuator);
-    debug_assert_eq!(servo.place, place);
-    Some(Link { joint, servo, control: m.actuator_ctrladr[actuator] as usize })
+    Some(Link { joint, servo: Servo::new(m, actuator), control: m.actuator_ctrladr[actuator] as usize })
 }

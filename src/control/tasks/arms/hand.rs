@@ -78,6 +78,8 @@ impl Hand {
             Finger { place, closed: closed[place], open: open[place] }
         };
         let fingers: Vec<Finger> = moving.iter().map(finger).collect();
+        let first =
+            moving.first().ok_or_else(|| unfit("the pose `open` of the roles names no joint".into()))?;
         let last = joints.last().ok_or_else(|| unfit("no actuator moves the tool".into()))?;
         let mut posed = Data::new(m);
         posed.state.qpos.copy_from_slice(&open);
@@ -85,8 +87,8 @@ impl Hand {
         let frame = posed.kin.site_xmat[tool.index()];
         let out = sub(posed.kin.site_xpos[tool.index()], posed.kin.xanchor[last.index()]);
         let approach = nearest_axis(mul_mat_t_vec(&frame, out));
-        let axis = mul_mat_t_vec(&frame, posed.kin.xaxis[moving[0].index()]);
-        let slides = m.jnt_type[moving[0].index()] == JointType::Slide as i32;
+        let axis = mul_mat_t_vec(&frame, posed.kin.xaxis[first.index()]);
+        let slides = m.jnt_type[first.index()] == JointType::Slide as i32;
         let close = nearest_axis(if slides { axis } else { cross(axis, approach) });
         let depth = reach_beyond(m, &posed, tool, &moving, mul_mat_vec(&frame, approach));
         let tips = roles.fingertips.as_ref().map(|_| body.fingertips()).transpose().map_err(told)?;
@@ -94,11 +96,6 @@ impl Hand {
             Hand { tool, depth, approach, close, drives: drives(m, &fingers), fingers, gaps: Vec::new() };
         hand.gaps = (0..SAMPLES).map(|k| hand.gap(m, &mut posed, tips.as_deref(), k)).collect();
         Ok(hand)
-    }
-
-    /// Joints of the arm, which moves the hand: those of `joints` that are no fingers'.
-    pub fn is_finger(&self, place: usize) -> bool {
-        self.fingers.iter().any(|finger| finger.place == place)
     }
 
     fn gap(&self, m: &Model, posed: &mut Data, tips: Option<&[SiteId]>, sample: usize) -> Gap {

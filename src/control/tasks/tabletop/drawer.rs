@@ -41,7 +41,7 @@ impl Drawer {
             drawer: scene.body("desk_drawer")?,
             handle: scene.site("desk_drawer")?,
             brick: scene.body("block")?,
-            pull: Grasp::new(Load { width: HANDLE, above: 0.06, away: 0.06, touch: GENTLE }),
+            pull: Grasp::new(Load { width: HANDLE, above: 0.06, away: 0.1, touch: GENTLE }),
             grasp: Grasp::new(Load { width: BRICK, above: 0.05, away: 0.12, touch: GENTLE }),
         })
     }
