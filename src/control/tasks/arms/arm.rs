@@ -175,3 +175,34 @@ fn servoed(m: &Model, joint: JointId) -> Option<Link> {
     let actuator = (0..m.nactuator).find(moves)?;
     Some(Link { joint, servo: Servo::new(m, actuator), control: m.actuator_ctrladr[actuator] as usize })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tasks::arms::grasp::from_above;
+    use env::{Env, Options, OwnModels};
+    use physics::math::{distance, dot};
+
+    /// The four arms differ in the axes of their tools, in the number of joints and in what moves their fingers.
+    #[test]
+    fn every_arm_brings_its_fingers_to_either_side_of_a_thing() {
+        for robot in ["Panda", "Sawyer", "Fetch", "SO101"] {
+            let id = format!("hive/{robot}Stack-v0");
+            let mut env = Env::make(&id, &OwnModels, &Options::default()).unwrap();
+            env.reset(Some(1)).unwrap();
+            let (arm, scene) = (Arm::new(&env, "test").unwrap(), env.scene());
+            let thing = Frame { place: [0.05, 0.46, 0.82], turn: [1.0, 0.0, 0.0, 0.0] };
+            let frames = from_above(&arm, &thing, 0.03, 0.1, true);
+            let from = arm.places(&scene.data.state.qpos);
+            let (frame, joints) = arm.nearest(&env, &from, &frames).unwrap_or_else(|| panic!("{id}"));
+            let mut data = scene.data.clone();
+            arm.set(&mut data, &joints);
+            physics::forward(&scene.model, &mut data).unwrap();
+            let tool = Frame::of_site(&data, arm.hand.tool);
+            assert!(distance(tool.place, frame.place) < 1e-3, "{id}: {:?}", tool.place);
+            assert!(dot(arm.hand.pointing(tool.turn), [0.0, 0.0, -1.0]) > 0.9999, "{id}: {:?}", tool.turn);
+            let [narrow, wide] = [0.01, 0.03].map(|width| arm.hand.opening(width));
+            assert!(0.0 < narrow && narrow < wide && wide < 1.0, "{id}: {narrow}, {wide}");
+        }
+    }
+}
