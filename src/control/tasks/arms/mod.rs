@@ -5,6 +5,7 @@ pub mod frame;
 pub mod grasp;
 pub mod hand;
 pub mod moves;
+mod named;
 pub mod pick_place;
 pub mod reach;
 mod starts;

@@ -5,6 +5,7 @@ use super::arm::Arm;
 use super::frame::Frame;
 use super::grasp::{Carry, Grasp, Load, from_above};
 use super::moves::{Move, Pace, Script};
+use super::named::site;
 use crate::error::ControlError;
 use env::Env;
 use physics::elements::{BodyId, Element, SiteId};
@@ -43,12 +44,7 @@ impl PickPlace {
     /// Settings without their names.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
         let scene = env.scene();
-        let name = |setting: &str| {
-            let named = env.spec().args.get::<String>(setting);
-            named.ok_or_else(|| ControlError::unfit(env, format!("the setting {setting} is needed")))
-        };
-        let site = scene.site(&name("object_site_name")?)?;
-        let target = scene.site(&name("target_site_name")?)?;
+        let (site, target) = (site(env, "object_site_name")?, site(env, "target_site_name")?);
         let body = scene.model.site_bodyid[site.index()] as usize;
         let object = BodyId::at(&scene.model, body)
             .ok_or_else(|| ControlError::unfit(env, "the site of the object is on no body"))?;

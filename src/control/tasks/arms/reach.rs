@@ -1,6 +1,7 @@
 //! Reaching by inverse kinematics: the joints that bring the tip to the target are looked for once, from several postures, and the
 //! nearest that were found without a collision on the way are approached by a minimum-jerk motion. What the servos lack of the way, under the weight of the arm, is added to their targets step by step.
 
+use super::named::site;
 use super::starts::posture;
 use crate::controller::{Controller, command};
 use crate::error::ControlError;
@@ -59,14 +60,10 @@ impl Reach {
     /// # Errors
     /// An actuator that moves no joint; settings without the names of tip and target.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
-        let (scene, m) = (env.scene(), &env.scene().model);
-        let name = |setting: &str| {
-            let named = env.spec().args.get::<String>(setting);
-            named.ok_or_else(|| ControlError::unfit(env, format!("the setting {setting} is needed")))
-        };
+        let m = &env.scene().model;
         Ok(Reach {
-            tip: scene.site(&name("robot_site_name")?)?,
-            target: scene.site(&name("target_site_name")?)?,
+            tip: site(env, "robot_site_name")?,
+            target: site(env, "target_site_name")?,
             joints: servoed(env)?,
             motion: None,
             began: 0.0,
