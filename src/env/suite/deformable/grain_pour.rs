@@ -107,14 +107,7 @@ impl GrainPour {
 
 impl Task for GrainPour {
     fn defaults(&self) -> Defaults {
-        let weights = [
-            ("poured", 1.0),
-            ("spilled", -2.0),
-            ("reach", -1.0),
-            ("held", 1.0),
-            ("bonus", 100.0),
-            ("penalty", 0.0),
-        ];
+        let weights = [("poured", 1.0), ("spilled", -2.0), ("reach", -1.0), ("held", 1.0), ("bonus", 100.0)];
         let rows =
             ["arm_pos", "arm_vel", "tip", "grains", "bowl", "cup", "cup_up", "poured", "spilled", "held"];
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP).proprio(&["arm_pos", "arm_vel"]);

@@ -99,14 +99,7 @@ impl RopeWrap {
 
 impl Task for RopeWrap {
     fn defaults(&self) -> Defaults {
-        let weights = [
-            ("winding", 1.0),
-            ("grasp", -1.0),
-            ("touched", -0.1),
-            ("held", 1.0),
-            ("bonus", 100.0),
-            ("penalty", 0.0),
-        ];
+        let weights = [("winding", 1.0), ("grasp", -1.0), ("touched", -0.1), ("held", 1.0), ("bonus", 100.0)];
         let rows = ["arm_pos", "arm_vel", "tip", "rope", "peg", "winding", "grasp", "touched", "held"];
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP).proprio(&["arm_pos", "arm_vel"]);
         Defaults { success: Success::MoreThan(0), ..defaults }

@@ -98,7 +98,7 @@ fn mean(places: &[Vec3]) -> Vec3 {
 
 impl Task for SpongePress {
     fn defaults(&self) -> Defaults {
-        let weights = [("depth", -10.0), ("reach", -1.0), ("held", 1.0), ("bonus", 100.0), ("penalty", 0.0)];
+        let weights = [("depth", -10.0), ("reach", -1.0), ("held", 1.0), ("bonus", 100.0)];
         let rows = ["arm_pos", "arm_vel", "tip", "sponge", "top", "depth", "depth_error", "held"];
         let defaults = Defaults::new(&rows, &weights, FRAME_SKIP).proprio(&["arm_pos", "arm_vel"]);
         Defaults { success: Success::MoreThan(0), ..defaults }
