@@ -26,6 +26,7 @@ mod fatigue;
 pub mod fm;
 pub mod gymnasium;
 pub mod hands;
+mod hold;
 pub mod locomotion;
 pub mod multi_agent;
 pub mod multitask;

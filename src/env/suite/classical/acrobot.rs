@@ -7,9 +7,9 @@
 //! both links, -1 to 1, one more while the tip is up, 100 at the end. Sparse reward: 1 while the tip is up. Solved: the tip is
 //! above 1.9 of 2 m over the shoulder for 1 s, which ends the episode. Episodes start hanging, each joint within 0.1 rad, and last 20 s.
 
-use super::hold::Hold;
 use crate::error::EnvError;
 use crate::rows::Rows;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Setup, Success, Task, Turn, Verdict, View};
 use physics::Data;
 use physics::elements::{BodyId, SiteId};

@@ -8,9 +8,9 @@
 //! it falls. Sparse reward: 1 while it is there. Solved: within 2 cm of the mark for 2 s, which ends the episode. Ball and mark start
 //! anywhere within 0.4 m of the middle, 0.15 m or more apart; an episode lasts 15 s.
 
-use super::hold::Hold;
 use crate::error::EnvError;
 use crate::rows::Rows;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Setup, Success, Task, Turn, Verdict, View};
 use physics::Data;
 use physics::elements::{BodyId, SiteId};

@@ -9,10 +9,10 @@
 //! episode. Episodes start 0.6 to 1.2 m before the bay, 0.4 m to either side, car within 0.5 rad, trailer within 0.3 rad, and last 30 s.
 
 use super::ground::{at_origin, pose, put, spread, velocity};
-use super::hold::Hold;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::Data;
 use physics::elements::BodyId;

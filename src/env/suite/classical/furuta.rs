@@ -7,9 +7,9 @@
 //! pendulum's angle, one more while it is upright, 100 at the end. Sparse reward: 1 while it is upright. Solved: less than 0.1 rad
 //! from upright for 2 s, which ends the episode. Episodes start hanging, within 0.1 rad, the arm anywhere, and last 10 s.
 
-use super::hold::Hold;
 use crate::error::EnvError;
 use crate::rows::Rows;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Setup, Success, Task, Turn, Verdict, View};
 use physics::Data;
 use physics::math::ops;

@@ -8,10 +8,10 @@
 //! for 2 s, which ends the episode. Episodes start at rest, at any heading, the point 1 to 2 m away in any direction, and last 20 s.
 
 use super::ground::{pose, put, velocity};
-use super::hold::Hold;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::ops;

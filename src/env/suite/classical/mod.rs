@@ -7,7 +7,6 @@ pub(super) mod car_trailer;
 pub(super) mod double_pole;
 pub(super) mod furuta;
 mod ground;
-pub(in crate::suite) mod hold;
 pub(super) mod hopper_boom;
 pub(super) mod knife_edge;
 pub(super) mod planar_arm;

@@ -8,10 +8,10 @@
 //! distance \[m\], one more while there, 100 at the end. Sparse reward: 1 while there. Solved: within 2 cm for 1 s, which ends the
 //! episode. Episodes start with joints within 0.6 rad, the target anywhere 0.3 to 0.8 m from the base within 2 rad, at least 0.15 m from the tip, and last 8 s.
 
-use super::hold::Hold;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Setup, Success, Task, Turn, Verdict, View};
 use physics::elements::SiteId;
 use physics::math::{ops, sub};

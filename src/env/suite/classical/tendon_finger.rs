@@ -9,9 +9,9 @@
 //! taken. Solved: every joint within 0.08 rad for 1 s, which ends the episode. Episodes start hanging, within 0.2 rad, wanted angles
 //! between 0.4 and 1.1 rad, and last 6 s.
 
-use super::hold::Hold;
 use crate::error::EnvError;
 use crate::rows::Rows;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Setup, Success, Task, Turn, Verdict, View};
 use robot::Keeper;
 use serde::Deserialize;

@@ -9,10 +9,10 @@
 //! 5 cm and 5 degrees of the origin, looking along x, for 0.5 s, which ends the episode. Episodes start 0.8 to 1.5 m away in any direction, at any heading, and last 20 s.
 
 use super::ground::{at_origin, pose, put, velocity};
-use super::hold::Hold;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::ops;

@@ -13,7 +13,7 @@ use super::rope::{Rope, Shapes};
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::suite::classical::hold::Hold;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::Data;
 use physics::math::{cross, norm, scale, sub};

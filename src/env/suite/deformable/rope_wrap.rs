@@ -15,7 +15,7 @@ use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::suite::classical::hold::Hold;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::{norm, ops, sub};

@@ -4,7 +4,7 @@ use super::FRAME_SKIP;
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::suite::body::{Bend, is_below, joints_below};
-use crate::suite::classical::hold::Hold;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::{Vec3, column, ops};

@@ -11,7 +11,7 @@ use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
-use crate::suite::classical::hold::Hold;
+use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::{BodyId, SiteId};
 use physics::math::{Vec3, column, mul_mat_t_vec, sub};
