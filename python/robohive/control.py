@@ -22,6 +22,8 @@ from numpy.typing import NDArray
 from robohive import _core
 from robohive.whole_numbers import whole
 
+__all__ = ["Controller", "controllers"]
+
 if TYPE_CHECKING:
     from robohive.envs import RoboHiveEnv
 
