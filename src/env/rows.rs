@@ -195,6 +195,15 @@ impl Index<&str> for Rows {
 }
 
 impl<'a> OwnRows<'a> {
+    /// The values of a row that is known to exist, for as long as the rows are there.
+    ///
+    /// # Panics
+    /// There is no such row; [`OwnRows::get`] asks for others.
+    #[track_caller]
+    pub fn row(self, name: &str) -> &'a [f64] {
+        self.get(name).unwrap_or_else(|| panic!("there is no row named {}{name}", self.prefix))
+    }
+
     /// The values of a row.
     pub fn get(self, name: &str) -> Option<&'a [f64]> {
         let named = |row: &&Row| row.name.strip_prefix(self.prefix) == Some(name);
@@ -207,7 +216,7 @@ impl Index<&str> for OwnRows<'_> {
 
     /// The values of a row that is known to exist; [`OwnRows::get`] asks for others.
     fn index(&self, name: &str) -> &[f64] {
-        self.get(name).unwrap_or_else(|| panic!("there is no row named {}{name}", self.prefix))
+        self.row(name)
     }
 }
 

@@ -114,7 +114,8 @@ pub static CONTACT: Tolerance = Tolerance::new("CONTACT", 2e-14);
 pub static OWN_QACC: Tolerance = Tolerance::new("OWN_QACC", 5e-14);
 /// Positions after one step from a recorded state: last bits of positions of order one.
 pub static OWN_STEP: Tolerance = Tolerance::new("OWN_STEP", 2e-14);
-/// The same where friction is stiff: the same last bits, through a Hessian whose condition number is ten times as large.
+/// The same where friction is stiff: the same last bits, through a Hessian whose condition number grows with `impratio`,
+/// which is 10 on these models.
 pub static OWN_STEP_STIFF: Tolerance = Tolerance::new("OWN_STEP_STIFF", 1e-13);
 /// Rollouts of integrators that are implicit in velocity, for as long as the twin stays within [`ROLLOUT_ABSOLUTE`].
 pub static IMPLICIT_ROLLOUT: Tolerance = Tolerance::new("IMPLICIT_ROLLOUT", 1e-11);

@@ -1,4 +1,4 @@
-//! How often a search by sampling can plan: `cargo run --release -p robohive-control --example planning` prints a row for each kind of
+//! How often a search by sampling can plan: `cargo run --profile ci -p robohive-control --example planning` prints a row for each kind of
 //! task that MuJoCo MPC publishes settings of, with its horizon, time step, spline points, noise and rollouts, on our model of that
 //! kind, by one thread and by two. The motion is warm: every plan starts from the state that the one before it led to.
 

@@ -16,6 +16,8 @@ use serde::Deserialize;
 
 /// Part of its peak force that a muscle keeps in sarcopenia.
 const SARCOPENIA: f64 = 0.5;
+/// The muscle that is left without control in a tendon transfer, and the one that takes it over.
+pub const TRANSFER: [&str; 2] = ["EIP", "EPL"];
 /// Bound of the rows of muscle velocity \[m/s\] and force \[kN\].
 const OBSERVED_BOUND: f64 = 100.0;
 /// Time steps of the physics in one step of a muscle task, where the id does not say.
@@ -84,7 +86,8 @@ impl Muscles {
             }
             Condition::Fatigue => State::Fatigue(Fatigue::new(model, setup.compat)),
             Condition::Reafferentation => {
-                State::Transfer { to: setup.scene.actuator("EPL")?, from: setup.scene.actuator("EIP")? }
+                let [from, to] = TRANSFER.map(|name| setup.scene.actuator(name));
+                State::Transfer { to: to?, from: from? }
             }
         };
         let mapped = na > 0 && setup.spec.settings()?.0.normalize_act;

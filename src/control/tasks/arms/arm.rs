@@ -6,7 +6,7 @@ use super::hand::Hand;
 use super::starts::posture;
 use crate::error::ControlError;
 use crate::tasks::joints::{Servo, between};
-use crate::tasks::roles::roles;
+use crate::tasks::roles::roles_of;
 use env::Env;
 use physics::elements::JointId;
 use physics::model::TrnType;
@@ -60,7 +60,7 @@ impl Arm {
     /// The task names no roles, or the model does not fill them.
     pub fn new(env: &Env, name: &str) -> Result<Self, ControlError> {
         let m = &env.scene().model;
-        let roles = roles(env.spec()).map_err(|message| ControlError::unfit(env, message))?;
+        let roles = roles_of(env)?;
         let told = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
         let body = roles.cast(m, "", name);
         let mut home = m.qpos0.to_vec();

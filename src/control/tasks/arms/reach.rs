@@ -1,5 +1,6 @@
 //! Reaching by inverse kinematics: the joints that bring the tip to the target are looked for once, from several postures, and the
-//! nearest that were found without a collision on the way are approached by a minimum-jerk motion. What the servos lack of the way, under the weight of the arm, is added to their targets step by step.
+//! nearest that were found without a collision on the way are approached by a minimum-jerk motion. What the servos lack of the way,
+//! under the weight of the arm, is added to their targets step by step.
 
 use super::named::site;
 use super::starts::posture;

@@ -11,10 +11,13 @@ const STEP: f64 = 1.324_717_957_244_746;
 /// The posture number `index` of a sequence that is spread evenly over the middle of the ranges of joints \[rad, m\] (Roberts, The unreasonable
 /// effectiveness of quasirandom sequences, 2018).
 pub fn posture(m: &Model, joints: &[JointId], index: usize) -> Vec<f64> {
-    let place = |(k, joint): (usize, &JointId)| {
+    let mut step = 1.0;
+    let place = |joint: &JointId| {
         let [low, high] = m.jnt_range[joint.index()];
-        let share = (0.5 + index as f64 * STEP.powi(-(k as i32) - 1)).fract();
+        // A product of its own has the same bits everywhere.
+        step /= STEP;
+        let share = (0.5 + index as f64 * step).fract();
         low + (0.5 + MIDDLE * (share - 0.5)) * (high - low)
     };
-    joints.iter().enumerate().map(place).collect()
+    joints.iter().map(place).collect()
 }

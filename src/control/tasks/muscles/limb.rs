@@ -5,7 +5,7 @@ use crate::controller::command;
 use crate::error::ControlError;
 use crate::maths::activations;
 use env::Env;
-use env::suite::muscle::normalized;
+use env::suite::muscle::{Condition, TRANSFER, normalized};
 use nalgebra::{DMatrix, DVector};
 use physics::Model;
 use physics::actuation::muscle::Muscle;
@@ -21,8 +21,6 @@ const PATIENCE: f64 = 120.0;
 const MOST: f64 = 0.5;
 /// Error below which an angle lacks something \[rad\].
 const NEAR: f64 = 0.2;
-/// The muscle that loses its control in a tendon transfer, and the one that gets it.
-const TRANSFER: [&str; 2] = ["EIP", "EPL"];
 /// How much further controls go than the activations that they are to bring, against the lag.
 const LEAD: f64 = 1.0;
 
@@ -69,14 +67,12 @@ impl Limb {
                 ));
             }
         }
-        let condition: Option<String> = env.spec().args.get("muscle_condition");
-        let transfer = match condition.as_deref() {
-            Some("reafferentation") => Some(TRANSFER.map(|name| env.scene().actuator(name))),
+        let transfer = match env.spec().args.get("muscle_condition") {
+            Some(Condition::Reafferentation) => {
+                let [from, to] = TRANSFER.map(|name| env.scene().actuator(name));
+                Some([from?.index(), to?.index()])
+            }
             _ => None,
-        };
-        let transfer = match transfer {
-            Some([from, to]) => Some([from?.index(), to?.index()]),
-            None => None,
         };
         Ok(Limb { lacked: vec![0.0; m.nv], controls: vec![0.0; m.nu], transfer })
     }

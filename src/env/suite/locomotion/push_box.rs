@@ -9,7 +9,6 @@ use crate::scene::Scene;
 use crate::task::{Defaults, Episode, Pose, Setup, Task, Turn, Verdict, View};
 use physics::elements::BodyId;
 use physics::math::ops;
-use physics::model::JointType;
 use robot::Keeper;
 use serde::Deserialize;
 
@@ -59,14 +58,12 @@ impl PushBox {
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let walker = Walker::new(&args.roles, "push a box", args.disturbance, setup)?;
         let (height, body) = (walker.height, walker.mass(&setup.scene.model));
-        let load = setup.scene.body("box")?;
+        let (load, pose) = setup.loose_body("box")?;
         let m = &setup.scene.model;
-        let joint = usize::try_from(m.body_jntadr[load.index()]).ok();
-        let joint = joint.filter(|&joint| m.jnt_type[joint] == JointType::Free as i32);
-        let (Some(joint), 1) = (joint, m.body_geomnum[load.index()]) else {
-            return Err(setup.wrong("the body `box` needs a free joint and one geom"));
-        };
-        let (place, geom) = (m.jnt_qposadr[joint] as usize, m.body_geomadr[load.index()] as usize);
+        if m.body_geomnum[load.index()] != 1 {
+            return Err(setup.wrong("the body `box` needs one geom"));
+        }
+        let (place, geom) = (pose.start, m.body_geomadr[load.index()] as usize);
         let (half, mass) = (HALF * height, MASS * body);
         let inertia = mass * (2.0 * half).powi(2) / 6.0;
         setup.scene.model.edit(|m| {

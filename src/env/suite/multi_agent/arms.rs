@@ -4,6 +4,7 @@ use super::part::{Part, team};
 use crate::error::EnvError;
 use crate::rows::Rows;
 use crate::scene::Scene;
+use crate::suite::body::is_below;
 use crate::task::{Episode, Pose, Setup, View};
 use crate::team::{Stakes, Team, prefix};
 use physics::elements::{BodyId, JointId, SiteId};
@@ -118,13 +119,13 @@ impl Arms {
 
     /// Whether an arm holds the load: two parts of it touch the load.
     fn holds(&self, view: &View<'_>, arm: &Arm) -> bool {
-        let mut parts = self.touching(view).filter(|&body| self.is_part(view.model, arm, body));
+        let mut parts = self.touching(view).filter(|&body| is_below(view.model, arm.root, body));
         parts.next().is_some_and(|first| parts.any(|body| body != first))
     }
 
     /// Whether nothing but the arm of a number touches the load.
     pub fn alone(&self, view: &View<'_>, number: usize) -> bool {
-        self.touching(view).all(|body| self.is_part(view.model, &self.arms[number], body))
+        self.touching(view).all(|body| is_below(view.model, self.arms[number].root, body))
     }
 
     /// Bodies that touch the load, as often as they do.
@@ -138,13 +139,6 @@ impl Arms {
                 _ => None,
             }
         })
-    }
-
-    fn is_part(&self, m: &Model, arm: &Arm, mut body: usize) -> bool {
-        while body > arm.root.index() {
-            body = m.body_parentid[body] as usize;
-        }
-        body == arm.root.index()
     }
 
     /// Writes the rows of each arm; `more` adds those of the task, in the frame of a body.
@@ -171,7 +165,7 @@ impl Arms {
 
     /// A row of the arm of a number.
     pub fn row<'a>(&'a self, rows: &'a Rows, number: usize, name: &str) -> &'a [f64] {
-        rows.of(&self.arms[number].prefix).get(name).unwrap_or_default()
+        rows.of(&self.arms[number].prefix).row(name)
     }
 
     /// Writes each arm's own terms: how far its tool is from its grip.

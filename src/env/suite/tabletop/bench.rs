@@ -155,11 +155,8 @@ impl Loose {
     /// # Errors
     /// There is none, or it has no free joint.
     pub fn new(name: &str, setup: &Setup<'_>) -> Result<Self, EnvError> {
-        let (body, m) = (setup.scene.body(name)?, &setup.scene.model);
-        let joint = usize::try_from(m.body_jntadr[body.index()]).ok();
-        let joint = joint.filter(|&joint| m.jnt_type[joint] == JointType::Free as i32);
-        let joint = joint.ok_or_else(|| setup.wrong(format!("the body `{name}` needs a free joint")))?;
-        Ok(Loose { body, place: m.jnt_qposadr[joint] as usize })
+        let (body, pose) = setup.loose_body(name)?;
+        Ok(Loose { body, place: pose.start })
     }
 
     /// Puts it at a place of the table \[m\], turned about the vertical \[rad\]. Its height and what else turns it stay those of the model.
