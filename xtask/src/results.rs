@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 28] = [
+const SPEAK_OF: [(&str, &[&str]); 29] = [
     ("bus_time", &["src/protocol", "src/wire", "src/hardware"]),
     ("controllers", &["src/physics", "mjcf", "src/robot", "src/env", "src/control", "assets"]),
     ("draws", &["src/random"]),
@@ -43,6 +43,7 @@ const SPEAK_OF: [(&str, &[&str]); 28] = [
     ("standin_suite", &["src/physics", "mjcf", "python"]),
     ("standin_sysid", &["src/physics", "mjcf", "python"]),
     ("standin_tests", &["src/physics", "mjcf", "python"]),
+    ("task_scenes", &["src/physics", "mjcf", "assets"]),
     ("web", &["src/physics", "mjcf", "src/render", "src/viewer", "web"]),
 ];
 /// What most tables speak of.

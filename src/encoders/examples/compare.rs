@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p robohive-encoders --features networks --example compare -- FOLDER ENCODER \[REPEATS\]
 //!
-//! FOLDER is one that `validation/reference/encoders.py` wrote for ENCODER. Fails when an encoding differs from torch's by more
+//! FOLDER is one that `validation/reference/encoders/record.py` wrote for ENCODER. Fails when an encoding differs from torch's by more
 //! than 1e-4 of the root mean square of its numbers, when the files with weights give different bits, or when batches
 //! or threads change bits.
 

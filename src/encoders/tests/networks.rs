@@ -1,5 +1,5 @@
 //! Networks, most of them of few channels, resizing and preparation, beside what torch, torchvision, timm and Pillow made of the same
-//! numbers (`validation/reference/encoder_oracles.py`).
+//! numbers (`validation/reference/encoders/oracles.py`).
 
 use robohive_encoders::networks::{Network, Resnet, ResnetShape, Transformer, TransformerShape};
 use robohive_encoders::prepare::prepare;

@@ -1,4 +1,4 @@
-//! Files of few tensors that torch and safetensors wrote (`validation/reference/encoder_oracles.py`).
+//! Files of few tensors that torch and safetensors wrote (`validation/reference/encoders/oracles.py`).
 
 use robohive_encoders::weights::{Naming, Parameter, Parameters, WeightFile};
 use robohive_encoders::{Encoder, EncoderError, Encoding, Profile};

@@ -1,6 +1,6 @@
 """Records small oracles of torch, torchvision, timm and Pillow for the tests of the encoders.
 
-    python validation/reference/encoder_oracles.py src/encoders/tests/files
+    python validation/reference/encoders/oracles.py src/encoders/tests/files
 
 Writes `oracle.json`: features of networks of a few channels, whose weights and input follow from `number`; digests of Pillow's
 resized bytes; prepared pictures at a few places. And files of few tensors as `torch.save` and safetensors write them.

@@ -1,8 +1,8 @@
 """Records what torch, torchvision and timm make of seeded pictures with the encoders of RoboHive, and has it compared.
 
     pip install torch torchvision timm safetensors
-    python validation/reference/encoders.py FOLDER --compare target/release/examples/compare --write validation/results/encoders.md
-    python validation/reference/encoders.py FOLDER --only vc1s
+    python validation/reference/encoders/record.py FOLDER --compare target/release/examples/compare --write validation/results/encoders.md
+    python validation/reference/encoders/record.py FOLDER --only vc1s
 
 For each encoder a network with seeded random weights, its batch normalisation calibrated on noise, is written into FOLDER:
 as `torch.save` writes the published checkpoint (`weights.pt`), in the form before PyTorch 1.6 (`legacy.pt`) and as
