@@ -139,13 +139,7 @@ impl Cast<'_> {
     /// The text has no such pose, or the model not its joints; a joint that turns by a quaternion, or a pose with `root_z`
     /// whose root has neither a free joint nor a vertical slide.
     pub fn pose(&self, name: &str, qpos: &mut [f64]) -> Result<(), ConfigError> {
-        let pose = self.roles.poses.get(name).ok_or_else(|| {
-            let known = self.roles.poses.keys().map(String::as_str);
-            let near = Suggestions::default().nearest(name, known);
-            let hint =
-                near.map_or_else(|| format!("add [poses.{name}]"), |near| format!("there is '{near}'"));
-            self.error(None, format!("there is no pose '{name}', which {}; {hint}", self.need()))
-        })?;
+        let pose = self.named(name)?;
         if let Some(height) = pose.root_z {
             let (place, offset) = self.vertical(name, pose)?;
             qpos[place] = height - offset;
@@ -163,6 +157,26 @@ impl Cast<'_> {
             qpos[self.model.jnt_qposadr[id.index()] as usize] = value;
         }
         Ok(())
+    }
+
+    /// The joints that the pose called `name` names, in the order of their names.
+    ///
+    /// # Errors
+    /// The text has no such pose, or the model not its joints.
+    pub fn joints_of(&self, name: &str) -> Result<Vec<JointId>, ConfigError> {
+        let pose = self.named(name)?;
+        let role = format!("pose '{name}'");
+        pose.joints.keys().map(|joint| self.find(&role, pose.position, joint, "joint")).collect()
+    }
+
+    fn named(&self, name: &str) -> Result<&NominalPose, ConfigError> {
+        self.roles.poses.get(name).ok_or_else(|| {
+            let known = self.roles.poses.keys().map(String::as_str);
+            let near = Suggestions::default().nearest(name, known);
+            let hint =
+                near.map_or_else(|| format!("add [poses.{name}]"), |near| format!("there is '{near}'"));
+            self.error(None, format!("there is no pose '{name}', which {}; {hint}", self.need()))
+        })
     }
 
     /// Where `qpos` has the height of the root, and the height of the root over the ground when 0 stands there.

@@ -10,6 +10,7 @@ use crate::tasks::roles::roles_of;
 use env::Env;
 use physics::elements::JointId;
 use physics::model::TrnType;
+use physics::position::kinematics::kinematics;
 use physics::{Data, Model};
 use robot::{Pose, Reach, Search};
 
@@ -50,7 +51,6 @@ pub struct Arm {
     home: Vec<f64>,
     /// What is added to the targets of the servos.
     correction: Vec<f64>,
-    controls: Vec<f64>,
 }
 
 impl Arm {
@@ -59,10 +59,18 @@ impl Arm {
     /// # Errors
     /// The task names no roles, or the model does not fill them.
     pub fn new(env: &Env, name: &str) -> Result<Self, ControlError> {
+        Arm::of_several(env, "", name)
+    }
+
+    /// The same of several, whose elements have names that begin with `prefix`.
+    ///
+    /// # Errors
+    /// As [`Arm::new`].
+    pub fn of_several(env: &Env, prefix: &str, name: &str) -> Result<Self, ControlError> {
         let m = &env.scene().model;
         let roles = roles_of(env)?;
         let told = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
-        let body = roles.cast(m, "", name);
+        let body = roles.cast(m, prefix, name);
         let mut home = m.qpos0.to_vec();
         let posture = env.spec().args.get::<String>("pose").unwrap_or_else(|| "home".into());
         body.pose(&posture, &mut home).map_err(told)?;
@@ -71,7 +79,7 @@ impl Arm {
             between(m, root, tool).into_iter().filter_map(|joint| servoed(m, joint)).collect();
         let joints: Vec<JointId> = links.iter().map(|link| link.joint).collect();
         let hand = Hand::new(env, &roles, &body, &joints)?;
-        Ok(Arm { hand, correction: vec![0.0; links.len()], links, joints, home, controls: vec![0.0; m.nu] })
+        Ok(Arm { hand, correction: vec![0.0; links.len()], links, joints, home })
     }
 
     /// Begins an episode.
@@ -82,6 +90,14 @@ impl Arm {
     /// Positions of its joints.
     pub fn places(&self, qpos: &[f64]) -> Vec<f64> {
         self.links.iter().map(|link| qpos[link.servo.place]).collect()
+    }
+
+    /// Where the tool is when the arm is at home.
+    pub fn home(&self, m: &Model) -> Frame {
+        let mut posed = Data::new(m);
+        posed.state.qpos.copy_from_slice(&self.home);
+        kinematics(m, &posed.state, &mut posed.kin);
+        Frame::of_site(&posed, self.hand.tool)
     }
 
     /// Where the tool is.
@@ -148,9 +164,9 @@ impl Arm {
         }
     }
 
-    /// The controls that bring the joints from `now`, where they are to be at present, to `next`, where they are to be a step later, and
-    /// the fingers to an opening.
-    pub fn command(&mut self, env: &Env, now: &[f64], next: &[f64], opening: f64) -> &[f64] {
+    /// Writes the controls of the arm into `controls` (nu), which bring the joints from `now`, where they are to be at present, to `next`,
+    /// where they are to be a step later, and the fingers to an opening.
+    pub fn command(&mut self, env: &Env, now: &[f64], next: &[f64], opening: f64, controls: &mut [f64]) {
         let (qpos, dt) = (&env.scene().data.state.qpos, env.dt());
         for (k, link) in self.links.iter().enumerate() {
             let lacks = now[k] - qpos[link.servo.place];
@@ -159,10 +175,9 @@ impl Arm {
                 self.correction[k] = (self.correction[k] + CORRECTION * dt * lacks).clamp(-MOST, MOST);
             }
             let lag = link.servo.lag * (next[k] - now[k]) / dt;
-            self.controls[link.control] = next[k] + lag + self.correction[k];
+            controls[link.control] = next[k] + lag + self.correction[k];
         }
-        self.hand.command(qpos, opening, &mut self.controls);
-        &self.controls
+        self.hand.command(qpos, opening, controls);
     }
 }
 

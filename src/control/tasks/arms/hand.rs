@@ -71,8 +71,7 @@ impl Hand {
         let (mut open, mut closed) = (m.qpos0.to_vec(), m.qpos0.to_vec());
         body.pose("open", &mut open).map_err(told)?;
         body.pose("closed", &mut closed).map_err(told)?;
-        let named = roles.poses.get("open").into_iter().flat_map(|pose| pose.joints.keys());
-        let moving: Vec<JointId> = named.filter_map(|name| m.joint(name)).collect();
+        let moving = body.joints_of("open").map_err(told)?;
         let finger = |joint: &JointId| {
             let place = m.jnt_qposadr[joint.index()] as usize;
             Finger { place, closed: closed[place], open: open[place] }

@@ -91,12 +91,13 @@ pub struct Scripted<S> {
     path: Option<Path>,
     opening: f64,
     pace: Pace,
+    controls: Vec<f64>,
 }
 
 impl<S: Script> Scripted<S> {
     /// The controller.
     pub fn new(arm: Arm, script: S) -> Self {
-        Scripted { arm, script, path: None, opening: 1.0, pace: CALM }
+        Scripted { arm, script, path: None, opening: 1.0, pace: CALM, controls: Vec::new() }
     }
 
     /// The same at another pace.
@@ -161,6 +162,7 @@ impl<S: Script> Controller for Scripted<S> {
     fn reset(&mut self, env: &Env, _: u64) -> Result<(), ControlError> {
         self.arm.begin();
         (self.path, self.opening) = (None, 1.0);
+        self.controls.resize(env.scene().model.nu, 0.0);
         self.script.begin(env, &self.arm)
     }
 
@@ -174,7 +176,7 @@ impl<S: Script> Controller for Scripted<S> {
         }
         let path = self.path.as_ref().ok_or_else(|| ControlError::unfit(env, "the script has no moves"))?;
         let (here, there) = (path.at(now), path.at(now + env.dt()));
-        let controls = self.arm.command(env, &here, &there, self.opening);
-        command(env, controls, action)
+        self.arm.command(env, &here, &there, self.opening, &mut self.controls);
+        command(env, &self.controls, action)
     }
 }
