@@ -15,7 +15,7 @@ import sys
 import numpy as np
 import torch
 import torchvision
-from encoders import transform
+from record import transform
 from PIL import Image
 from safetensors.torch import save_file
 from timm.models.vision_transformer import VisionTransformer
