@@ -114,6 +114,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "zip")?, Zip::new(env)?))),
     },
     Entry {
+        name: "swim",
+        summary: "a wave along the body of a snake, bent to the side to which it turns",
+        serves: LOCOMOTION,
+        feet: Some(0),
+        build: |env| Ok(Box::new(tasks::locomotion::swim::Swim::new(env)?)),
+    },
+    Entry {
         name: "trot",
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
         serves: LOCOMOTION,

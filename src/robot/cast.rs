@@ -133,6 +133,11 @@ impl Cast<'_> {
         })
     }
 
+    /// How fast the body swims; `None` for one that has feet.
+    pub fn swim(&self) -> Option<Walk> {
+        self.roles.swim
+    }
+
     /// Writes the pose called `name` into `qpos`: every joint that it names, and the height of the root.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use super::node::{Content, Node};
 use super::toml_reader;
 use std::collections::BTreeMap;
 
-const KEYS: [&str; 12] = [
+const KEYS: [&str; 13] = [
     "root",
     "forward",
     "up",
@@ -19,6 +19,7 @@ const KEYS: [&str; 12] = [
     "poses",
     "fallen",
     "walk",
+    "swim",
 ];
 
 /// Parts of a robot by their roles, so that one task serves robots whose elements have other names.
@@ -55,6 +56,7 @@ const KEYS: [&str; 12] = [
 /// | `hardware` | path of the [`Config`](super::Config), from the folder of this file |
 /// | `poses.NAME` | a pose: joints and where they are \[rad or m\], the others stay; `root_z` is the height of a root that is free or slides \[m\] |
 /// | `walk` | how fast a legged body walks: `speed` \[m/s\], `turn` \[rad/s\] |
+/// | `swim` | the same of a body without feet that swims at one depth |
 /// | `fallen` | when a robot has fallen: `height` \[m\] of the root over the ground, `tilt` \[rad\] of its upward axis from the vertical |
 #[derive(Clone, Debug, PartialEq)]
 pub struct Roles {
@@ -84,6 +86,8 @@ pub struct Roles {
     pub fallen: Option<Fallen>,
     /// How fast it walks.
     pub walk: Option<Walk>,
+    /// How fast it swims.
+    pub swim: Option<Walk>,
 }
 
 /// The elements of a role.
@@ -115,7 +119,7 @@ pub struct Fallen {
     pub tilt: f64,
 }
 
-/// How fast a legged body walks.
+/// How fast a body walks or swims.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Walk {
     /// Forward \[m/s\].
@@ -147,9 +151,14 @@ impl Roles {
             poses: poses(&mut fields)?,
             fallen: pair(&mut fields, "fallen", ["height", "tilt"])?
                 .map(|[height, tilt]| Fallen { height, tilt }),
-            walk: pair(&mut fields, "walk", ["speed", "turn"])?.map(|[speed, turn]| Walk { speed, turn }),
+            walk: velocity(&mut fields, "walk")?,
+            swim: velocity(&mut fields, "swim")?,
         })
     }
+}
+
+fn velocity(fields: &mut Fields, key: &str) -> Outcome<Option<Walk>> {
+    Ok(pair(fields, key, ["speed", "turn"])?.map(|[speed, turn]| Walk { speed, turn }))
 }
 
 /// The element of a role.

@@ -21,9 +21,9 @@ pub struct Body {
     pub forward: Vec3,
 }
 
-/// Number of feet of the body of a task, if its row names roles that have feet.
+/// Number of feet of the body of a task, if its row names roles; 0 for one that has none.
 pub fn feet(spec: &Spec) -> Option<usize> {
-    roles(spec).ok()?.feet.map(|feet| feet.names.len())
+    Some(roles(spec).ok()?.feet.map_or(0, |feet| feet.names.len()))
 }
 
 impl Body {

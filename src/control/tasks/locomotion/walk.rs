@@ -37,7 +37,7 @@ const SHARE: f64 = 0.7;
 /// Share of what the velocity lacks of the wish that an act adds, forward and otherwise.
 const HURRY: [f64; 2] = [0.02, 0.0015];
 /// Most that is added, in walking speeds.
-const HASTE: f64 = 0.35;
+const HASTE: f64 = 0.2;
 /// Acceleration that commands are limited to, in walking speeds a second.
 const RAMP: f64 = 1.0;
 /// How much of the divergent component's error the centre of pressure moves by, on one foot and on two.

@@ -13,6 +13,8 @@ const BEHIND: f64 = 2.2;
 const ALIGNED: f64 = 0.5;
 /// Distance of the box from its place at which the body stops.
 const THERE: f64 = 0.3;
+/// Share of the walking speed at which the body pushes.
+const PACE: f64 = 0.5;
 /// Velocity to the side at that distance, as a share of the walking speed.
 const SIDESTEP: f64 = 0.4;
 
@@ -92,7 +94,7 @@ impl Facts<'_> {
             // Sidesteps to the line, looking along it.
             let [pace, _, round] = self.towards(way, far);
             let aside = (-left / (ALIGNED * self.height)).clamp(-1.0, 1.0);
-            return [pace, SIDESTEP * self.walk.speed * aside, round];
+            return [PACE * pace, SIDESTEP * self.walk.speed * aside, round];
         }
         let beside = if along < 0.7 * behind { 0.0 } else { -behind * left.signum() };
         self.towards(point(behind, beside), self.walk.speed)

@@ -4,6 +4,8 @@
 //! rows name the arena and what stands in it: `define = [["ROBOT", "spot"], ["TOP", "body"]]`. What follows is the same for
 //! all of them.
 //!
+//! A body that swims has no feet and does not fall; its tasks count lengths in quarters of it.
+//!
 //! Observed: `height` of the root over the lowest foot \[m\]; `up`, the vertical in the frame of the root (forward, left, up);
 //! `velocity` \[m/s\] and `turning` \[rad/s\] in the frame of the heading; `joint_pos`, `joint_vel`; `feet`, relative to the root in
 //! the frame of the heading \[m\]; `last_action`, the controls; and what the task adds. A step lasts 0.02 s, and an episode ends

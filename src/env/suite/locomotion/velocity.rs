@@ -12,8 +12,6 @@ use physics::math::ops;
 use robot::{Keeper, Walk};
 use serde::Deserialize;
 
-/// Time constant of the mean velocity that is compared with the command \[s\]: about two steps of a gait.
-const MEMORY: f64 = 0.5;
 /// Steps near the command that make a success, of an episode of 1000.
 const STEPS: usize = 600;
 
@@ -33,6 +31,13 @@ pub struct Args {
     every: Interval,
     /// Errors of the mean velocity and of the mean rate of turning that solve the task, as shares of what the body walks.
     near: [f64; 2],
+    /// Time constant of the mean velocity that is compared with the command \[s\]: about two steps of a gait, if left out.
+    #[serde(default = "two_steps")]
+    memory: f64,
+}
+
+fn two_steps() -> f64 {
+    0.5
 }
 
 /// The task.
@@ -43,6 +48,7 @@ pub struct Velocity {
     high: [f64; 3],
     every: Interval,
     near: [f64; 2],
+    memory: f64,
     command: [f64; 3],
     mean: [f64; 3],
 }
@@ -54,6 +60,9 @@ impl Velocity {
     /// The model does not fill the roles.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
         let walker = Walker::new(&args.roles, "velocity", args.disturbance, setup)?;
+        if args.memory.is_nan() || args.memory <= 0.0 {
+            return Err(setup.wrong(format!("memory is a positive time, not {} s", args.memory)));
+        }
         let Walk { speed, turn } = walker.walk;
         let scaled = |[ahead, left, round]: [f64; 3]| [ahead * speed, left * speed, round * turn];
         Ok(Velocity {
@@ -62,6 +71,7 @@ impl Velocity {
             high: scaled(args.command_high),
             every: args.every,
             near: [args.near[0] * speed, args.near[1] * turn],
+            memory: args.memory,
             command: [0.0; 3],
             mean: [0.0; 3],
         })
@@ -100,7 +110,7 @@ impl Task for Velocity {
         let posture = self.walker.posture(&turn.scene.model, &turn.scene.data);
         let now = [posture.velocity[0], posture.velocity[1], posture.turning[2]];
         for (mean, now) in self.mean.iter_mut().zip(now) {
-            *mean += (now - *mean) * turn.dt / MEMORY;
+            *mean += (now - *mean) * turn.dt / self.memory;
         }
         self.walker.act(turn)
     }

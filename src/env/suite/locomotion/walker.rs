@@ -1,14 +1,14 @@
-//! A body with feet, by its roles: how an episode of it starts, what all its tasks observe, and when it has fallen.
+//! A body with feet, or one that swims, by its roles: how an episode of it starts, what all its tasks observe, and when it has fallen.
 
 use super::FRAME_SKIP;
 use super::push::Push;
 use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
-use crate::suite::body::{Bend, joints_below};
+use crate::suite::body::{Bend, is_below, joints_below};
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
 use physics::elements::{BodyId, JointId, SiteId};
-use physics::math::{Mat3, Vec3, cross, mul_mat_t_vec, mul_mat_vec, ops, quat_mul};
+use physics::math::{Mat3, Vec3, cross, distance, mul_mat_t_vec, mul_mat_vec, ops, quat_mul};
 use physics::model::{JointType, ObjType};
 use physics::position::frame::Frame;
 use physics::position::kinematics::kinematics;
@@ -48,7 +48,7 @@ enum Carrier {
     },
 }
 
-/// A body with feet.
+/// A body with feet, or one that swims and has none.
 #[derive(Clone)]
 pub struct Walker {
     /// What names of its elements, rows and terms begin with.
@@ -62,11 +62,12 @@ pub struct Walker {
     /// Controls of the body.
     controls: Vec<usize>,
     stand: Vec<f64>,
-    /// Height of the root over the feet when it stands \[m\].
+    /// Height of the root over the feet when it stands; of a body that swims, a quarter of its length behind the root \[m\].
     pub height: f64,
     ahead: [f64; 2],
-    fallen: Fallen,
-    /// How fast it walks.
+    /// When it has fallen; what swims does not.
+    fallen: Option<Fallen>,
+    /// How fast it walks or swims.
     pub walk: Walk,
     noise: f64,
     push: Option<Push>,
@@ -77,7 +78,7 @@ pub struct Walker {
 pub struct Posture {
     /// Position of the root \[m\].
     pub place: Vec3,
-    /// Height of the root over its lowest foot \[m\].
+    /// Height of the root over its lowest foot, 0 for a body without feet \[m\].
     pub height: f64,
     /// Direction that it looks in, in the plane of the ground, of length 1.
     pub ahead: [f64; 2],
@@ -137,10 +138,14 @@ impl Walker {
     ) -> Result<Self, EnvError> {
         let (roles, m) = (setup.roles(path)?, &setup.scene.model);
         let body = roles.cast(m, prefix, task);
+        let (feet, fallen, walk) = match body.swim() {
+            Some(swim) => (Vec::new(), None, swim),
+            None => (body.feet()?, Some(body.fallen()?), body.walk()?),
+        };
         let mut walker = Walker {
             prefix: prefix.into(),
             root: body.root()?,
-            feet: body.feet()?,
+            feet,
             forward: body.forward(),
             up: body.up(),
             bends: joints_below(m, body.root()?),
@@ -149,18 +154,29 @@ impl Walker {
             stand: m.qpos0.to_vec(),
             height: 0.0,
             ahead: [1.0, 0.0],
-            fallen: body.fallen()?,
-            walk: body.walk()?,
+            fallen,
+            walk,
             noise: disturbance.joint_noise,
             push: disturbance.push,
         };
-        body.pose("stand", &mut walker.stand)?;
+        if body.swim().is_none() {
+            body.pose("stand", &mut walker.stand)?;
+        }
         let mut standing = Data::new(m);
         standing.state.qpos.copy_from_slice(&walker.stand);
         physics::forward(m, &mut standing)?;
         let posture = walker.posture(m, &standing);
-        (walker.height, walker.ahead) = (posture.height, posture.ahead);
+        walker.ahead = posture.ahead;
+        walker.height = if walker.feet.is_empty() { walker.tail(m, &standing) / 4.0 } else { posture.height };
         Ok(walker)
+    }
+
+    /// Distance from the root to the body below it that is farthest away \[m\].
+    fn tail(&self, m: &Model, d: &Data) -> f64 {
+        let below = m.bodies().filter(|&body| is_below(m, self.root, body.index()));
+        below
+            .map(|body| distance(d.kin.xpos[body.index()], d.kin.xpos[self.root.index()]))
+            .fold(0.0, f64::max)
     }
 
     /// Direction that the body looks in at the start, in the plane of the ground, of length 1.
@@ -251,8 +267,7 @@ impl Walker {
     pub fn posture(&self, m: &Model, d: &Data) -> Posture {
         let root = self.root.index();
         let (place, axes) = (d.kin.xpos[root], d.kin.xmat[root]);
-        let lowest =
-            self.feet.iter().map(|foot| d.kin.site_xpos[foot.index()][2]).fold(f64::INFINITY, f64::min);
+        let lowest = self.feet.iter().map(|foot| d.kin.site_xpos[foot.index()][2]).reduce(f64::min);
         let forward = mul_mat_vec(&axes, self.forward);
         let along = norm(&forward[..2]).max(f64::MIN_POSITIVE);
         let ahead = [forward[0] / along, forward[1] / along];
@@ -264,7 +279,7 @@ impl Walker {
         let part = |axis: Vec3| (0..3).map(|i| axis[i] * vertical[i]).sum::<f64>();
         Posture {
             place,
-            height: place[2] - lowest,
+            height: place[2] - lowest.unwrap_or(place[2]),
             ahead,
             up: [part(self.forward), part(left), part(self.up)],
             velocity: mul_mat_t_vec(&frame, [u, v, w]),
@@ -277,7 +292,7 @@ impl Walker {
     pub fn judge(&self, solved: bool, rows: &Rows, terms: &mut Rows) -> Verdict {
         let own = rows.of(&self.prefix);
         let (height, up) = (own["height"][0], own["up"][2]);
-        let fallen = height < self.fallen.height || up < ops::cos(self.fallen.tilt);
+        let fallen = self.fallen.is_some_and(|fallen| height < fallen.height || up < ops::cos(fallen.tilt));
         terms.set("upright", "", [up]);
         terms.set("bonus", "", [f64::from(solved)]);
         terms.set("fallen", "", [-f64::from(fallen)]);
