@@ -19,6 +19,10 @@ fn masses_and_counts_are_those_written_down() {
     assert!((rope - 0.0384).abs() < 1e-12 && links == 24, "{rope} {links}");
     let (sponge, nodes) = mass(&load("sponge_press"), "sponge_");
     assert!((sponge - 0.12).abs() < 1e-12 && nodes == 8, "{sponge} {nodes}");
+    let (cloth, points) = mass(&load("cloth_fold"), "cloth_");
+    assert!((cloth - 0.03).abs() < 1e-12 && points == 49, "{cloth} {points}");
+    let (rods, count) = mass(&load("cloth_fold"), "rod_");
+    assert!((rods - 0.04).abs() < 1e-12 && count == 2, "{rods} {count}");
     let (grains, count) = mass(&load("grain_pour"), "grain");
     let one = 1200.0 * 4.0 / 3.0 * std::f64::consts::PI * 0.006_f64.powi(3);
     assert!((grains - 100.0 * one).abs() < 1e-12 && count == 100, "{grains} {count}");

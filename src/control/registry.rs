@@ -15,6 +15,9 @@ use crate::tasks::classical::planar_arm::PlanarArm;
 use crate::tasks::classical::swing_up::{self, SwingUp};
 use crate::tasks::classical::tendon_finger::TendonFinger;
 use crate::tasks::classical::unicycle::Unicycle;
+use crate::tasks::deformable::cloth_fold::ClothFold;
+use crate::tasks::deformable::cloth_hang::ClothHang;
+use crate::tasks::deformable::cloth_spread::ClothSpread;
 use crate::tasks::deformable::grain_pour::GrainPour;
 use crate::tasks::deformable::rope_straighten::RopeStraighten;
 use crate::tasks::deformable::rope_wrap::RopeWrap;
@@ -224,6 +227,27 @@ const ALL: &[Entry] = &[
         serves: &["rope_wrap"],
         feet: None,
         build: |env| Ok(Box::new(RopeWrap::new(env)?)),
+    },
+    Entry {
+        name: "cloth_fold",
+        summary: "grasp and place: one side of a cloth in an arc onto the other",
+        serves: &["cloth_fold"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "cloth_fold")?, ClothFold::new(env)?))),
+    },
+    Entry {
+        name: "cloth_hang",
+        summary: "grasp and place: one side of a cloth over a bar, with the cloth behind",
+        serves: &["cloth_hang"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "cloth_hang")?, ClothHang::new(env)?))),
+    },
+    Entry {
+        name: "cloth_spread",
+        summary: "grasp and place: one side of a cloth to where the cloth is taut",
+        serves: &["cloth_spread"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "cloth_spread")?, ClothSpread::new(env)?))),
     },
     Entry {
         name: "grain_pour",

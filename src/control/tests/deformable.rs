@@ -15,7 +15,15 @@ fn every_task_has_a_controller() {
     let tasks: std::collections::BTreeSet<&str> = specs.map(|spec| spec.task.as_str()).collect();
     assert_eq!(
         tasks.into_iter().collect::<Vec<_>>(),
-        ["grain_pour", "rope_straighten", "rope_wrap", "sponge_press"]
+        [
+            "cloth_fold",
+            "cloth_hang",
+            "cloth_spread",
+            "grain_pour",
+            "rope_straighten",
+            "rope_wrap",
+            "sponge_press"
+        ]
     );
 }
 
@@ -76,4 +84,33 @@ fn grains_are_poured_and_none_is_lost() {
     });
     assert!(solved, "{id} is not solved");
     assert!(!play(id, 0, false).0, "{id} is solved by zero actions");
+}
+
+/// A cloth of 7 by 7 points, 30 mm apart, on a felt 1 mm thick: while it is handled no edge is stretched by more than a tenth, and no point is
+/// pressed through the felt.
+#[test]
+fn cloths_are_handled_and_keep_their_shape() {
+    for id in ["hive/ClothFold-v0", "hive/ClothHang-v0", "hive/ClothSpread-v0"] {
+        let (solved, actions) = watch(id, 2, true, |env| {
+            let places = env.rows()["cloth"].as_chunks::<3>().0;
+            assert_eq!(places.len(), 49);
+            let lowest = places.iter().map(|place| place[2]).fold(f64::INFINITY, f64::min);
+            assert!(lowest > TABLE, "{id}: a point of the cloth is {lowest} m up");
+            let stretch = stretch(places);
+            assert!(stretch < 0.1, "{id}: an edge is stretched by {stretch}");
+        });
+        assert!(solved, "{id} is not solved");
+        assert!(actions.iter().all(|value| (-1.0..=1.0).contains(value)), "{id}");
+        assert!(!play(id, 2, false).0, "{id} is solved by zero actions");
+    }
+}
+
+/// The largest share by which a point of a cloth is farther than 30 mm from the next in its row or its column.
+fn stretch(places: &[[f64; 3]]) -> f64 {
+    let length = |a: usize, b: usize| {
+        (0..3).map(|i| (places[a][i] - places[b][i]).powi(2)).sum::<f64>().sqrt() / 0.03 - 1.0
+    };
+    let rows = (0..49).filter(|k| k % 7 < 6).map(|k| length(k, k + 1));
+    let columns = (0..42).map(|k| length(k, k + 7));
+    rows.chain(columns).fold(0.0, f64::max)
 }

@@ -6,7 +6,7 @@ use super::hand::Hand;
 use super::starts::posture;
 use crate::error::ControlError;
 use crate::tasks::joints::{Servo, between};
-use crate::tasks::roles::roles_of;
+use crate::tasks::roles::{of_arm, roles_of};
 use env::Env;
 use physics::elements::JointId;
 use physics::model::TrnType;
@@ -72,7 +72,7 @@ impl Arm {
         let told = |error: robot::ConfigError| ControlError::unfit(env, error.to_string());
         let body = roles.cast(m, prefix, name);
         let mut home = m.qpos0.to_vec();
-        let posture = env.spec().args.get::<String>("pose").unwrap_or_else(|| "home".into());
+        let posture = of_arm(env.spec(), "pose").unwrap_or_else(|| "home".into());
         body.pose(&posture, &mut home).map_err(told)?;
         let (root, tool) = (body.root().map_err(told)?, body.tool().map_err(told)?);
         let links: Vec<Link> =

@@ -67,6 +67,11 @@ impl Grasp {
         self.phase == Phase::Approach
     }
 
+    /// Whether the fingers have closed, and not opened again.
+    pub fn is_carrying(&self) -> bool {
+        matches!(self.phase, Phase::Carry(_))
+    }
+
     /// The next move. `grasps` are frames of the tool that hold the thing, `carry` says the steps by their numbers, as long as there are.
     pub fn next(
         &mut self,

@@ -1,7 +1,11 @@
 //! Soft things under the hand of an arm.
 
+pub mod cloth_fold;
+pub mod cloth_hang;
+pub mod cloth_spread;
 pub mod grain_pour;
 mod hand;
+mod rods;
 pub mod rope_straighten;
 pub mod rope_wrap;
 pub mod sponge_press;

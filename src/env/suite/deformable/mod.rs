@@ -1,4 +1,4 @@
-//! Soft things under the hand of an arm: a rope, a sponge, grains. Models of our own (`assets/deformable`), and for each task a controller of
+//! Soft things under the hand of an arm: a rope, a sponge, grains, a cloth. Models of our own (`assets/deformable`), and for each task a controller of
 //! `robohive-control` that solves it.
 //!
 //! Every task observes `arm_pos` and `arm_vel`, joints and fingers \[rad, m; rad/s, m/s\], and `tip`, the place between the fingertips
@@ -7,6 +7,10 @@
 //! task has been solved for as long as it asks.
 
 mod bench;
+mod cloth;
+pub(super) mod cloth_fold;
+pub(super) mod cloth_hang;
+pub(super) mod cloth_spread;
 pub(super) mod grain_pour;
 mod rope;
 pub(super) mod rope_straighten;
