@@ -124,6 +124,20 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::locomotion::swim::Swim::new(env)?)),
     },
     Entry {
+        name: "claw_pose",
+        summary: "servos that follow the goal, with what they stay behind a motion and under weight",
+        serves: &["dclaw_pose"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::claws::pose::ClawPose::new(env)?)),
+    },
+    Entry {
+        name: "claw_turn",
+        summary: "three fingers in unison push the blades of a valve, go back over them and push again",
+        serves: &["dclaw_turn", "dclaw_screw"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::claws::turn::ClawTurn::new(env)?)),
+    },
+    Entry {
         name: "trot",
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
         serves: LOCOMOTION,

@@ -15,6 +15,18 @@ const SOLVES: f64 = 80.0;
 /// Share that zero or random actions may solve \[%\].
 const FAILS: f64 = 5.0;
 
+/// Tasks of others that are kept as they are defined, and why zero or random actions solve them too.
+const EASY: &[(&str, &str)] = &[
+    (
+        "hive/DClawScrewFixed-v0",
+        "the mark starts where the valve is, and a touch moves the valve along with it for six steps",
+    ),
+    (
+        "hive/DClawScrewRandom-v0",
+        "the mark starts where the valve is, and a slow one is near it for six steps",
+    ),
+];
+
 /// What a task comes to.
 #[derive(Clone, Debug)]
 pub struct Row {
@@ -138,7 +150,14 @@ pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
     for Row { id, speed, dt, thought, .. } in rows {
         let _ = writeln!(table, "| {id} | {speed:.0} | {:.0} | {:.3} ms |", speed * dt, 1e3 * thought);
     }
-    let missed = |row: &&Row| row.success[0] < SOLVES || row.success[1..].iter().any(|&share| share >= FAILS);
+    let easy = |row: &Row| EASY.iter().find(|(id, _)| *id == row.id);
+    for (id, reason) in rows.iter().filter_map(easy) {
+        let _ = write!(table, "\n{id} is solved by less, as ROBEL defines it: {reason}.\n");
+    }
+    let missed = |row: &&Row| {
+        let by_less = easy(row).is_none() && row.success[1..].iter().any(|&share| share >= FAILS);
+        row.success[0] < SOLVES || by_less
+    };
     let missing: Vec<_> = rows.iter().filter(missed).map(|row| row.id.as_str()).collect();
     let verdict = if missing.is_empty() {
         Ok(())

@@ -2,6 +2,7 @@
 
 pub mod arms;
 pub mod classical;
+pub mod claws;
 pub mod deformable;
 mod joints;
 pub mod locomotion;

@@ -1,0 +1,5 @@
+//! ROBEL's D'Claw.
+
+mod finger;
+pub mod pose;
+pub mod turn;
