@@ -32,6 +32,7 @@ pub mod episode;
 mod error;
 mod message;
 mod multi_env;
+mod peak_force;
 mod pictures;
 pub mod randomize;
 pub mod registry;

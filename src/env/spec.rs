@@ -2,7 +2,7 @@
 
 use crate::arguments::Arguments;
 use crate::error::EnvError;
-use crate::randomize::VisualRandomization;
+use crate::randomize::{PhysicsRandomization, VisualRandomization};
 use physics::model::Suggestions;
 use robot::ActionMode;
 use serde::Deserialize;
@@ -53,6 +53,9 @@ pub struct Settings {
     /// What changes in the look of the scene from episode to episode.
     #[serde(default)]
     pub visual_randomization: Option<VisualRandomization>,
+    /// What changes in the physics of the scene from episode to episode.
+    #[serde(default)]
+    pub physics_randomization: Option<PhysicsRandomization>,
     /// Which reward a step returns.
     #[serde(default)]
     pub reward_mode: RewardMode,
@@ -100,7 +103,7 @@ fn position() -> String {
 }
 
 /// Names of [`Settings`].
-const SETTINGS: [&str; 19] = [
+const SETTINGS: [&str; 20] = [
     "model_path",
     "define",
     "reparent",
@@ -112,6 +115,7 @@ const SETTINGS: [&str; 19] = [
     "proprio_keys_wt",
     "visual_keys",
     "visual_randomization",
+    "physics_randomization",
     "reward_mode",
     "frame_skip",
     "normalize_act",
@@ -307,6 +311,8 @@ mod tests {
         assert!(said.contains("there is no dens in `reward_mode`; did you mean dense?"), "{said}");
         let said = common("visual_randomization = { ligths = [] }");
         assert!(said.contains("did you mean lights?"), "{said}");
+        let said = common("physics_randomization = { mases = [] }");
+        assert!(said.contains("did you mean masses?"), "{said}");
     }
 
     #[test]

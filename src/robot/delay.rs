@@ -39,8 +39,21 @@ impl Delay {
         }
     }
 
-    /// Writes it, or reads one of as many steps.
+    /// Makes readings of another age, at most as old as when it was made.
+    pub(crate) fn set_steps(&mut self, steps: usize) {
+        self.steps = steps.min(self.oldest());
+    }
+
+    /// The age that there is memory for, in time steps.
+    fn oldest(&self) -> usize {
+        self.times.len() - self.jitter - 2
+    }
+
+    /// Writes it, or reads one that was made for as many steps.
     pub(crate) fn keep(&mut self, keeper: &mut Keeper) {
+        let mut steps = self.steps;
+        keeper.count(&mut steps);
+        self.set_steps(steps);
         keeper.numbers(&mut self.times);
         keeper.numbers(&mut self.values);
         let (mut newest, mut filled) = (self.newest, self.filled);

@@ -198,6 +198,14 @@ impl Robot {
         self.delay.is_some()
     }
 
+    /// Changes how old readings are, up to the [`Options::delay_steps`] that the robot was made with; nothing where it was made
+    /// without a delay.
+    pub fn set_delay_steps(&mut self, steps: usize) {
+        if let Some(delay) = &mut self.delay {
+            delay.set_steps(steps);
+        }
+    }
+
     /// Begins an episode at the state of `truth`, after a forward pass: devices move to its positions, and all readings
     /// of the history are of this state. Of simulated devices they are drawn one after the other, as RoboHive draws
     /// them.

@@ -10,7 +10,7 @@ use crate::pictures::eyes::Eyes;
 use crate::pictures::rendering::Rendering;
 use crate::pictures::sight::Sight;
 use crate::pictures::visual::{VisualKey, parse_keys};
-use crate::randomize::Look;
+use crate::randomize::Randomized;
 use crate::registry::Registry;
 use crate::rows::Rows;
 use crate::scene::Scene;
@@ -73,8 +73,8 @@ pub struct Env {
     pub(crate) visual_keys: Arc<[VisualKey]>,
     pub(crate) eyes: Eyes,
     pub(crate) sight: Sight,
-    /// What changes in the look of the scene, where anything does.
-    pub(crate) look: Option<Look>,
+    /// What changes in the scene from episode to episode.
+    pub(crate) randomized: Randomized,
     pub(crate) rendering: Rendering,
     /// What [`Env::render`] drew.
     pub(crate) rendered: Picture,
@@ -154,10 +154,9 @@ impl Env {
         let cameras = scene.model.camera_names().map(|(_, name)| name);
         let visual_keys =
             parse_keys(&settings.visual_keys, cameras).map_err(|error| spec.wrong(error.to_string()))?;
-        let look = settings.visual_randomization.as_ref();
-        let look = look
-            .map(|config| Look::new(config, &scene.model, options.seed))
-            .transpose()
+        let visual = settings.visual_randomization.as_ref();
+        let mechanics = settings.physics_randomization.as_ref();
+        let randomized = Randomized::new(visual, mechanics, &scene.model, options.seed)
             .map_err(|message| spec.wrong(message))?;
         // A name that is wrong fails here rather than at the first picture.
         Camera::named(&scene.model, &options.rendering.camera)?;
@@ -167,7 +166,7 @@ impl Env {
             weights: weights.unwrap_or_else(|| defaults.weights.clone()),
             eyes: Eyes::new(&visual_keys, &scene.model, options.networks.clone())?,
             sight: sight(&defaults, options),
-            look,
+            randomized,
             rendering: options.rendering.clone(),
             rendered: Picture::default(),
             live: hardware.map(|it| Live::new(it, config.as_ref(), &visual_keys)).transpose()?,
@@ -258,7 +257,7 @@ impl Env {
             visual_keys: self.visual_keys.clone(),
             eyes: self.eyes.fork(),
             sight: self.sight.clone(),
-            look: self.look.clone(),
+            randomized: self.randomized.clone(),
             rendering: self.rendering.clone(),
             rendered: Picture::default(),
             obs_places: self.obs_places.clone(),
@@ -280,9 +279,7 @@ impl Env {
     pub fn seed(&mut self, seed: u64) {
         self.rng = Rng::pcg64(seed);
         self.task.seed(seed);
-        if let Some(look) = &mut self.look {
-            look.seed(seed);
-        }
+        self.randomized.seed(seed);
     }
 
     /// Starts an episode and returns its first observation. A seed restarts all draws first.
@@ -296,6 +293,7 @@ impl Env {
         self.steps = 0;
         self.faulty = false;
         self.start.clone_from(&self.initial);
+        self.randomized.undo(&mut self.scene)?;
         let mut episode = Episode {
             scene: &mut self.scene,
             rng: &mut self.rng,
@@ -303,9 +301,7 @@ impl Env {
             initial: &self.initial,
         };
         self.task.reset(&mut episode)?;
-        if let Some(look) = &mut self.look {
-            look.draw(&mut self.scene)?;
-        }
+        self.randomize()?;
         self.robot.clip_reset(&mut self.start.qpos, &mut self.start.qvel);
         self.scene.reset();
         self.scene.data.state.qpos.copy_from_slice(&self.start.qpos);

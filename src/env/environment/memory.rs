@@ -2,7 +2,6 @@
 
 use super::env::Env;
 use crate::error::EnvError;
-use crate::randomize::Look;
 use crate::scene::Scene;
 use physics::Snapshot;
 use physics::table::Slice;
@@ -48,9 +47,10 @@ impl Env {
         let mut unknown = None;
         self.scene.overwrite(|m| {
             for (name, values) in &edits {
-                let fits = match name.strip_prefix("stat.") {
-                    Some(name) => m.stat.assign(name, values),
-                    None => m.assign(name, values),
+                let fits = match name.split_once('.') {
+                    Some(("stat", name)) => m.stat.assign(name, values),
+                    Some(("opt", name)) => m.opt.assign(name, values),
+                    _ => m.assign(name, values),
                 };
                 if fits != Some(true) {
                     unknown = Some(name.clone());
@@ -83,9 +83,7 @@ impl Env {
         self.robot.restore(&robot);
         keeper.generator(&mut self.rng);
         self.task.keep(keeper);
-        if let Some(look) = &mut self.look {
-            Look::keep(look, keeper);
-        }
+        self.randomized.keep(keeper);
         self.rows.keep(keeper);
         self.terms.keep(keeper);
         keeper.number(&mut self.verdict.sparse);
@@ -98,11 +96,12 @@ impl Env {
     }
 }
 
-/// Every number of the model that a reset may write: arrays and statistics.
+/// Every number of the model that a reset may write: arrays, statistics and options.
 fn numbers(scene: &Scene) -> Edits {
     let mut numbers = Vec::new();
     scene.model.visit(&mut |name, _, values| numbers.push((name.to_string(), values.to_f64())));
     scene.model.stat.visit(&mut |name, values| numbers.push((format!("stat.{name}"), values.to_f64())));
+    scene.model.opt.visit(&mut |name, values| numbers.push((format!("opt.{name}"), values.to_f64())));
     numbers
 }
 

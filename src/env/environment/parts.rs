@@ -61,11 +61,14 @@ pub(crate) fn build_robot(
     compat: Compat,
     hardware: Option<&Hardware>,
 ) -> Result<Robot, EnvError> {
+    let oldest_reading =
+        settings.physics_randomization.as_ref().map_or(0, |physics| physics.oldest_reading());
     let options = robot::Options::default()
         .with_mode(settings.action_mode().map_err(|message| spec.wrong(message))?)
         .with_normalized(settings.normalize_act)
         .with_noise_scale(settings.noise_scale)
         .with_compat(compat)
+        .with_delay_steps(oldest_reading)
         .with_hardware(hardware.is_some());
     Ok(match hardware {
         Some(hardware) => Robot::with_devices(model, config, options, &hardware.registry)?,

@@ -4,7 +4,7 @@
 use super::env::{Env, Past};
 use crate::draws::Rng;
 use crate::error::EnvError;
-use crate::randomize::{Look, LookState};
+use crate::randomize::RandomizedState;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::task::{Task, Verdict};
@@ -21,7 +21,7 @@ pub struct EnvState {
     pub(crate) task: Box<dyn Task>,
     pub(crate) robot: Memory,
     pub(crate) rng: Rng,
-    pub(crate) look: Option<LookState>,
+    pub(crate) randomized: RandomizedState,
     pub(crate) rows: Rows,
     pub(crate) terms: Rows,
     pub(crate) verdict: Verdict,
@@ -154,7 +154,7 @@ impl Env {
             task: self.task.clone(),
             robot: self.robot.memory(),
             rng: self.rng.clone(),
-            look: self.look.as_ref().map(Look::state),
+            randomized: self.randomized.state(),
             rows: self.rows.clone(),
             terms: self.terms.clone(),
             verdict: self.verdict,
@@ -182,9 +182,7 @@ impl Env {
         self.task = state.task.clone();
         self.robot.restore(&state.robot);
         self.rng = state.rng.clone();
-        if let (Some(look), Some(state)) = (&mut self.look, &state.look) {
-            look.restore(state);
-        }
+        self.randomized.restore(&state.randomized);
         self.rows.clone_from(&state.rows);
         self.terms.clone_from(&state.terms);
         (self.verdict, self.dense) = (state.verdict, state.dense);

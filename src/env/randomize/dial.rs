@@ -1,32 +1,41 @@
-//! One thing in the look of a scene that every reset draws, and how it is written into a model.
+//! One thing that every reset draws, and how its values are drawn.
 
-use super::config::Pattern;
-use super::texture::{Fill, fill};
 use crate::draws::Rng;
-use physics::math::{Quat, Vec3, add, mul_mat, norm, ops, quat_mul, quat_to_mat, scale};
-use physics::model::Draft;
-use physics::{Model, model::TrackMode};
-use random::RandomError;
+use crate::error::EnvError;
+use crate::rows::Rows;
+use crate::scene::Scene;
+use physics::Model;
+use physics::math::{Quat, Vec3, norm, ops, scale};
+use physics::model::{Draft, ObjType};
 
 /// Most values that a dial has.
 pub(super) const WIDTH: usize = 9;
+/// How often a place is drawn that is too near to others.
+const ATTEMPTS: usize = 1000;
 
-/// What is written, by the number of the element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Target {
-    TexturePixels(usize),
-    MaterialColor(usize),
-    LightPosition(usize),
-    LightDirection(usize),
-    LightColor(usize),
-    LightOn(usize),
-    LightShadow(usize),
-    CameraPosition(usize),
-    CameraTurn(usize),
-    CameraFovy(usize),
-    BodyColor(usize),
-    BodyPosition(usize),
-    BodyTurn(usize),
+/// What the values of a dial are written to.
+pub(crate) trait Target: Clone + PartialEq {
+    /// The setting of an environment that asks for draws of this kind.
+    const SETTING: &'static str;
+    /// Which descendant of an environment's seed they are drawn from.
+    const STREAM: u64;
+
+    /// Whether two targets are one, so that the later takes the place of the earlier.
+    fn turns_same(&self, other: &Self) -> bool {
+        self == other
+    }
+
+    /// Gives back what `base` has, where [`Target::write`] changes what it finds.
+    fn restore(&self, base: &Model, m: &mut Draft<'_>);
+
+    /// Writes values into a model; what they are added to is that of `base`.
+    fn write(&self, values: &[f64], base: &Model, m: &mut Draft<'_>);
+
+    /// Lets a change of this kind write into the model of a scene.
+    ///
+    /// # Errors
+    /// The model refuses it.
+    fn change(scene: &mut Scene, write: impl FnOnce(&mut Draft<'_>)) -> Result<(), EnvError>;
 }
 
 /// How values are drawn.
@@ -36,116 +45,100 @@ pub(super) enum Draws {
     Uniform(Vec<[f64; 2]>),
     /// One with this probability, otherwise zero.
     Chance(f64),
-    /// A pattern, two colours, the squares of a checker and the seed of a noise.
-    Pixels { patterns: Vec<Pattern>, color: [[f64; 2]; 3], squares: [f64; 2] },
+    /// One of the whole numbers from the first to the last.
+    Whole([u64; 2]),
+    /// Each uniform between two bounds, at a distance from what dials drew that are turned before.
+    Apart { bounds: Vec<[f64; 2]>, distance: f64, others: Vec<String> },
+    /// The number of a pattern, two colours, the squares of a checker and the seed of a noise.
+    Pixels { patterns: Vec<u8>, color: [[f64; 2]; 3], squares: [f64; 2] },
 }
 
 /// One thing that is drawn at every reset.
 #[derive(Clone, Debug)]
-pub(super) struct Dial {
+pub(super) struct Dial<T> {
     /// `light/NAME/pos` and the like.
     pub name: String,
     /// What the values are measured in.
     pub unit: &'static str,
-    pub target: Target,
+    pub target: T,
     pub draws: Draws,
 }
 
-impl Dial {
+impl<T> Dial<T> {
     /// How many values it has.
-    pub fn width(&self) -> usize {
+    pub(super) fn width(&self) -> usize {
         match &self.draws {
-            Draws::Uniform(bounds) => bounds.len(),
-            Draws::Chance(_) => 1,
+            Draws::Uniform(bounds) | Draws::Apart { bounds, .. } => bounds.len(),
+            Draws::Chance(_) | Draws::Whole(_) => 1,
             Draws::Pixels { .. } => WIDTH,
         }
     }
 
-    /// Draws its values.
-    pub fn draw(&self, rng: &mut Rng, values: &mut [f64]) -> Result<(), RandomError> {
+    /// Draws its values; `drawn` are those of the dials before.
+    ///
+    /// # Errors
+    /// No place is far enough from the others: a message.
+    pub(super) fn draw(&self, rng: &mut Rng, drawn: &Rows, values: &mut [f64]) -> Result<(), String> {
+        let wrong = |error: random::RandomError| error.to_string();
         match &self.draws {
-            Draws::Uniform(bounds) => {
-                for (value, [low, high]) in values.iter_mut().zip(bounds) {
-                    *value = rng.uniform(*low, *high)?;
+            Draws::Uniform(bounds) => uniform(rng, bounds, values)?,
+            Draws::Chance(probability) => values[0] = f64::from(rng.random() < *probability),
+            Draws::Whole([low, high]) => values[0] = rng.integer(*low..=*high).map_err(wrong)? as f64,
+            Draws::Apart { bounds, distance, others } => {
+                let near = |values: &[f64]| {
+                    let places = others.iter().filter_map(|other| drawn.get(other));
+                    places.into_iter().any(|place| {
+                        let square = place.iter().zip(values).map(|(a, b)| (a - b) * (a - b)).sum::<f64>();
+                        square < distance * distance
+                    })
+                };
+                uniform(rng, bounds, values)?;
+                let mut attempts = 1;
+                while near(values) {
+                    if attempts == ATTEMPTS {
+                        return Err(format!(
+                            "{} found no place {distance} m from the {} before it in {ATTEMPTS} draws; widen the range, or \
+                             lower the distance",
+                            self.name,
+                            others.len()
+                        ));
+                    }
+                    uniform(rng, bounds, values)?;
+                    attempts += 1;
                 }
             }
-            Draws::Chance(probability) => values[0] = f64::from(rng.random() < *probability),
             Draws::Pixels { patterns, color, squares } => {
-                values[0] = f64::from(*rng.choose(patterns)? as u8);
+                values[0] = f64::from(*rng.choose(patterns).map_err(wrong)?);
                 for (value, [low, high]) in values[1..7].iter_mut().zip(color.iter().chain(color)) {
-                    *value = rng.uniform(*low, *high)?;
+                    *value = rng.uniform(*low, *high).map_err(wrong)?;
                 }
-                values[7] = rng.uniform(squares[0], squares[1])?.round();
-                values[8] = f64::from(rng.integer(0..u32::MAX)?);
+                values[7] = rng.uniform(squares[0], squares[1]).map_err(wrong)?.round();
+                values[8] = f64::from(rng.integer(0..u32::MAX).map_err(wrong)?);
             }
         }
         Ok(())
     }
+}
 
-    /// Writes values into a model; what they do not change looks as in `base`.
-    pub fn write(&self, values: &[f64], base: &Model, m: &mut Draft<'_>) {
-        let three = || [values[0], values[1], values[2]];
-        let color = || std::array::from_fn(|k| values[k] as f32);
-        match self.target {
-            Target::TexturePixels(texture) => fill(base, texture, &Fill::of(values), &mut m.tex_data),
-            Target::MaterialColor(material) => m.mat_rgba[material] = color(),
-            Target::LightPosition(light) => {
-                if follows(base.light_mode[light]) {
-                    m.light_pos0[light] = add(base.light_pos0[light], three());
-                    m.light_poscom0[light] = add(base.light_poscom0[light], three());
-                } else {
-                    m.light_pos[light] = add(base.light_pos[light], three());
-                }
-            }
-            Target::LightDirection(light) => {
-                if follows(base.light_mode[light]) {
-                    m.light_dir0[light] = leaning(base.light_dir0[light], three());
-                } else {
-                    m.light_dir[light] = leaning(base.light_dir[light], three());
-                }
-            }
-            Target::LightColor(light) => m.light_diffuse[light] = three().map(|x| x as f32),
-            Target::LightOn(light) => m.light_active[light] = values[0] > 0.0,
-            Target::LightShadow(light) => m.light_castshadow[light] = values[0] > 0.0,
-            Target::CameraPosition(camera) => {
-                if follows(base.cam_mode[camera]) {
-                    m.cam_pos0[camera] = add(base.cam_pos0[camera], three());
-                    m.cam_poscom0[camera] = add(base.cam_poscom0[camera], three());
-                } else {
-                    m.cam_pos[camera] = add(base.cam_pos[camera], three());
-                }
-            }
-            Target::CameraTurn(camera) => {
-                let turn = rotation(three());
-                m.cam_quat[camera] = quat_mul(base.cam_quat[camera], turn);
-                m.cam_mat0[camera] = mul_mat(&base.cam_mat0[camera], &quat_to_mat(turn));
-            }
-            Target::CameraFovy(camera) => m.cam_fovy[camera] = values[0],
-            Target::BodyColor(body) => {
-                for geom in (0..base.ngeom).filter(|&geom| base.geom_bodyid[geom] == body as i32) {
-                    m.geom_rgba[geom] = color();
-                }
-            }
-            Target::BodyPosition(body) => m.body_pos[body] = add(base.body_pos[body], three()),
-            Target::BodyTurn(body) => m.body_quat[body] = quat_mul(base.body_quat[body], rotation(three())),
-        }
+fn uniform(rng: &mut Rng, bounds: &[[f64; 2]], values: &mut [f64]) -> Result<(), String> {
+    for (value, [low, high]) in values.iter_mut().zip(bounds) {
+        *value = rng.uniform(*low, *high).map_err(|error| error.to_string())?;
     }
+    Ok(())
 }
 
-/// Whether an element follows its body without turning with it, and then stands where its offsets in the world say.
-fn follows(mode: i32) -> bool {
-    mode == TrackMode::Track as i32 || mode == TrackMode::Trackcom as i32
+/// What a kind of elements is called in the names of dials and in messages.
+pub(super) fn word(kind: ObjType) -> String {
+    format!("{kind:?}").to_lowercase()
 }
 
-/// A unit vector with something added; as it was where nothing is left.
-fn leaning(direction: Vec3, change: Vec3) -> Vec3 {
-    let changed = add(direction, change);
-    let length = norm(changed);
-    if length > f64::EPSILON { scale(changed, 1.0 / length) } else { direction }
+/// The first three values.
+pub(super) fn three(values: &[f64]) -> Vec3 {
+    [values[0], values[1], values[2]]
 }
 
 /// The quaternion of a rotation vector \[deg\].
-fn rotation(degrees: Vec3) -> Quat {
+pub(super) fn rotation(degrees: Vec3) -> Quat {
     let vector = degrees.map(f64::to_radians);
     let angle = norm(vector);
     if angle == 0.0 {

@@ -1,8 +1,8 @@
 //! Fatigue: muscles that lose force as they work.
 
 use crate::error::EnvError;
+use crate::peak_force::{PEAK_FORCE, peak_force};
 use crate::scene::Scene;
-use crate::suite::peak_force::{PEAK_FORCE, peak_force};
 use physics::math::ops;
 use physics::model::GainType;
 use physics::{Data, Model};

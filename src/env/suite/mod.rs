@@ -35,7 +35,6 @@ pub mod myobase;
 pub mod myochallenge;
 pub mod myodm;
 mod named;
-mod peak_force;
 pub mod quadrupeds;
 pub mod quirks;
 pub mod tabletop;

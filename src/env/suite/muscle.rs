@@ -1,11 +1,11 @@
 //! Muscles: how actions drive them, and the conditions that weaken or rewire them.
 
 use crate::error::EnvError;
+use crate::peak_force::{PEAK_FORCE, peak_force};
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::suite::fatigue::Fatigue;
-use crate::suite::peak_force::{PEAK_FORCE, peak_force};
 use crate::task::{Defaults, Setup, Turn, View};
 use physics::Model;
 use physics::elements::ActuatorId;

@@ -191,6 +191,8 @@ const INDEPENDENT: &[A] = &[
     A::actuator_ctrllimited,
     A::actuator_ctrlrange,
     A::actuator_lengthrange,
+    A::actuator_delay,
+    A::sensor_delay,
     A::sensor_cutoff,
     A::sensor_noise,
     A::sensor_user,

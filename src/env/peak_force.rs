@@ -5,7 +5,7 @@ use physics::Model;
 /// Where a muscle's parameters hold its peak force \[N\]; negative where it follows from the model.
 pub const PEAK_FORCE: usize = 2;
 /// Where they hold the scale from which such a peak force follows.
-const FORCE_SCALE: usize = 3;
+pub const FORCE_SCALE: usize = 3;
 
 /// The force \[N\] that a muscle can exert at most.
 pub fn peak_force(model: &Model, actuator: usize) -> f64 {

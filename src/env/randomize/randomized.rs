@@ -1,0 +1,99 @@
+//! All that an environment draws of its scene: physics, then the look.
+
+use super::drawn::DrawnState;
+use super::mechanics::Mechanics;
+use super::visual::Look;
+use super::{PhysicsRandomization, VisualRandomization};
+use crate::error::EnvError;
+use crate::scene::Scene;
+use physics::Model;
+use robot::Keeper;
+
+/// What changes in the scene of an environment from episode to episode, where anything does.
+#[derive(Clone)]
+pub(crate) struct Randomized {
+    pub(crate) look: Option<Look>,
+    pub(crate) mechanics: Option<Mechanics>,
+}
+
+/// What was drawn, and where the sequences of draws stand.
+#[derive(Clone)]
+pub(crate) struct RandomizedState {
+    look: Option<DrawnState>,
+    mechanics: Option<DrawnState>,
+}
+
+impl Randomized {
+    /// Finds what the settings name in a model.
+    ///
+    /// # Errors
+    /// A name or range that is wrong.
+    pub(crate) fn new(
+        visual: Option<&VisualRandomization>,
+        physics: Option<&PhysicsRandomization>,
+        model: &Model,
+        seed: u64,
+    ) -> Result<Self, String> {
+        Ok(Randomized {
+            look: visual.map(|config| Look::new(config, model, seed)).transpose()?,
+            mechanics: physics.map(|config| Mechanics::new(config, model, seed)).transpose()?,
+        })
+    }
+
+    /// Restarts the draws.
+    pub(crate) fn seed(&mut self, seed: u64) {
+        self.look.iter_mut().for_each(|look| look.seed(seed));
+        self.mechanics.iter_mut().for_each(|mechanics| mechanics.seed(seed));
+    }
+
+    /// Takes the physics that was drawn last out of the model, so that the task of the next episode begins with the model as it is
+    /// without it.
+    ///
+    /// # Errors
+    /// The model refuses it.
+    pub(crate) fn undo(&self, scene: &mut Scene) -> Result<(), EnvError> {
+        self.mechanics.as_ref().map_or(Ok(()), |mechanics| mechanics.undo(scene))
+    }
+
+    /// Draws what an episode of the environment `id` has, which the task lets start at the positions `start`.
+    ///
+    /// # Errors
+    /// There is no such draw; the model refuses it.
+    pub(crate) fn draw(&mut self, id: &str, scene: &mut Scene, start: &mut [f64]) -> Result<(), EnvError> {
+        if let Some(mechanics) = &mut self.mechanics {
+            mechanics.begin(id, scene, start)?;
+        }
+        if let Some(look) = &mut self.look {
+            look.draw(id, scene)?;
+        }
+        Ok(())
+    }
+
+    /// Age of the robot's readings that was drawn \[time steps\].
+    pub(crate) fn reading_age(&self) -> Option<usize> {
+        self.mechanics.as_ref()?.reading_age()
+    }
+
+    /// Writes what was drawn and where the sequences of draws stand, or reads it; the model is kept elsewhere.
+    pub(crate) fn keep(&mut self, keeper: &mut Keeper) {
+        self.look.iter_mut().for_each(|look| look.keep(keeper));
+        self.mechanics.iter_mut().for_each(|mechanics| mechanics.keep(keeper));
+    }
+
+    pub(crate) fn state(&self) -> RandomizedState {
+        RandomizedState {
+            look: self.look.as_ref().map(Look::state),
+            mechanics: self.mechanics.as_ref().map(Mechanics::state),
+        }
+    }
+
+    /// Takes over a state whose model has been taken over already.
+    pub(crate) fn restore(&mut self, state: &RandomizedState) {
+        if let (Some(look), Some(state)) = (&mut self.look, &state.look) {
+            look.restore(state);
+        }
+        if let (Some(mechanics), Some(state)) = (&mut self.mechanics, &state.mechanics) {
+            mechanics.restore(state);
+        }
+    }
+}
