@@ -2,7 +2,7 @@
 
 use crate::SEED;
 use crate::error::RecordError;
-use crate::row::{Sink, push_row, set_look};
+use crate::row::{Sink, push_row, set_drawn};
 use dataset::trace::{TraceError, Trial};
 use dataset::{Array, Dtype, Scalar, Values};
 use env::Env;
@@ -49,7 +49,7 @@ impl Kept {
     /// The environment's rows changed their shape.
     pub fn row(&mut self, env: &Env, action: &[f64]) -> Result<(), RecordError> {
         if self.rows == 0 {
-            set_look(self, env)?;
+            set_drawn(self, env)?;
         }
         self.rows += 1;
         Ok(push_row(self, env, action)?)
@@ -73,7 +73,7 @@ impl Kept {
         }
         self.rows = self.rows.min(rows);
         if self.rows == 0 {
-            // The first row brings what was drawn of the look.
+            // The first row brings what was drawn.
             self.whole.clear();
         }
     }

@@ -28,5 +28,7 @@ pub const SEED: &str = "seed";
 pub const STATE: &str = "env_infos/state/";
 /// The datasets of a trial that hold what was drawn of the look of its scene.
 pub const LOOK: &str = "visual_randomization/";
+/// The datasets of a trial that hold what was drawn of the physics of its scene.
+pub const MECHANICS: &str = "physics_randomization/";
 /// The datasets of a trial that hold its images.
 const IMAGES: &str = "env_infos/visual_dict/";

@@ -1,10 +1,10 @@
 //! Trials of a recording, as a replay needs them.
 
 use crate::error::RecordError;
-use crate::{SEED, STATE};
+use crate::{LOOK, MECHANICS, SEED, STATE};
 use dataset::trace::{Entry, Layout, TraceError, TraceReader};
 use dataset::{Dtype, F16, Values};
-use env::{Env, WorldState};
+use env::{Env, EnvError, Rows, WorldState};
 
 /// A dataset of numbers: rows, each of the same width.
 pub struct Column {
@@ -49,7 +49,13 @@ pub struct Recorded {
     pub observations: Option<Column>,
     /// Rewards, one a row.
     pub rewards: Option<Column>,
+    /// What the reset drew of the look and of the physics of the scene, by name.
+    look: Drawn,
+    mechanics: Drawn,
 }
+
+/// Names and values of what was drawn.
+type Drawn = Vec<(String, Vec<f64>)>;
 
 impl Recorded {
     /// Reads a trial of either layout.
@@ -81,12 +87,26 @@ impl Recorded {
             state,
             observations: source.column("observations")?,
             rewards: source.column("rewards")?,
+            look: source.drawn(LOOK)?,
+            mechanics: source.drawn(MECHANICS)?,
         })
     }
 
     /// A part of the states.
     pub fn part(&self, name: &str) -> Option<&Column> {
         self.state.iter().find(|(part, _)| *part == name).map(|(_, column)| column)
+    }
+
+    /// Gives an environment the physics and the look that the recorded reset drew, where its own reset drew others; whether it did.
+    ///
+    /// # Errors
+    /// The environment draws other things.
+    pub fn restore_drawn(&self, env: &mut Env) -> Result<bool, EnvError> {
+        let mechanics = other_draws(&self.mechanics, env.mechanics(), "physics_randomization")?;
+        let look = other_draws(&self.look, env.look(), "visual_randomization")?;
+        mechanics.as_ref().map_or(Ok(()), |drawn| env.set_mechanics(drawn))?;
+        look.as_ref().map_or(Ok(()), |drawn| env.set_look(drawn))?;
+        Ok(mechanics.is_some() || look.is_some())
     }
 
     /// The first recorded state, where it differs from the environment's own by more than its precision. What the
@@ -126,6 +146,12 @@ impl Source<'_> {
         Ok(Some(Column { width, dtype: array.values.dtype(), values: array.values.to_f64() }))
     }
 
+    /// All that stands below a name.
+    fn drawn(&self, folder: &str) -> Result<Drawn, RecordError> {
+        let below = self.entries.iter().filter_map(|entry| Some((entry, entry.key.strip_prefix(folder)?)));
+        below.map(|(entry, name)| Ok((name.to_owned(), self.trace.read(entry)?.values.to_f64()))).collect()
+    }
+
     /// RoboSet's columns of arm and hand side by side.
     fn arm_and_hand(&self, part: &str) -> Result<Option<Column>, RecordError> {
         let arm = self.column(&format!("data/{part}_arm"))?;
@@ -147,6 +173,26 @@ impl Source<'_> {
             }
         }
     }
+}
+
+/// What was recorded, in the order of an environment's own draws; `None` where it drew the same.
+fn other_draws(recorded: &Drawn, own: Option<&Rows>, setting: &str) -> Result<Option<Rows>, EnvError> {
+    if recorded.is_empty() {
+        return Ok(None);
+    }
+    let foreign =
+        |what: String| EnvError::ForeignState { message: format!("the recording's {setting} {what}") };
+    let own = own.ok_or_else(|| foreign("is not among the settings of this environment".into()))?;
+    let mut values = Vec::new();
+    for (row, _) in own.iter() {
+        let drawn = recorded.iter().find(|(name, drawn)| name == row.name() && drawn.len() == row.len());
+        let (_, drawn) =
+            drawn.ok_or_else(|| foreign(format!("has no row {}, which is drawn here", row.name())))?;
+        values.extend(drawn);
+    }
+    let mut drawn = own.clone();
+    drawn.assign(&values);
+    Ok((&drawn != own).then_some(drawn))
 }
 
 /// A number as a dataset of a type holds it.

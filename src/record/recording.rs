@@ -3,7 +3,7 @@
 use crate::SEED;
 use crate::error::RecordError;
 use crate::kept::Kept;
-use crate::row::{push_row, set_look};
+use crate::row::{push_row, set_drawn};
 use dataset::trace::{Layout, Precision, Recorder, Trial};
 use dataset::{Array, Values};
 use env::Env;
@@ -95,7 +95,7 @@ impl EpisodeRecording<'_> {
             env.exteroception()?;
         }
         if self.rows == 0 {
-            set_look(&mut self.trial, env)?;
+            set_drawn(&mut self.trial, env)?;
         }
         self.rows += 1;
         Ok(push_row(&mut self.trial, env, action)?)

@@ -1,6 +1,6 @@
 //! What a recording has of a state: names and values.
 
-use crate::{IMAGES, LOOK, STATE};
+use crate::{IMAGES, LOOK, MECHANICS, STATE};
 use dataset::trace::{TraceError, Trial};
 use dataset::{Array, Scalar, Values};
 use env::{Env, Pixels, WorldState};
@@ -96,15 +96,18 @@ fn push_images(trial: &mut impl Sink, env: &Env) -> Result<(), TraceError> {
     Ok(())
 }
 
-/// Adds what the reset drew of the look of the scene.
+/// Adds what the reset drew of look and physics of the scene.
 ///
 /// # Errors
 /// The sink refuses it.
-pub fn set_look(trial: &mut impl Sink, env: &Env) -> Result<(), TraceError> {
-    env.look().into_iter().flat_map(|look| look.iter()).try_for_each(|(row, values)| {
-        let array = Array { shape: vec![values.len()], values: Values::F64(values.to_vec()) };
-        trial.set(&format!("{LOOK}{}", row.name()), &array)
-    })
+pub fn set_drawn(trial: &mut impl Sink, env: &Env) -> Result<(), TraceError> {
+    for (folder, drawn) in [(LOOK, env.look()), (MECHANICS, env.mechanics())] {
+        for (row, values) in drawn.into_iter().flat_map(|drawn| drawn.iter()) {
+            let array = Array { shape: vec![values.len()], values: Values::F64(values.to_vec()) };
+            trial.set(&format!("{folder}{}", row.name()), &array)?;
+        }
+    }
+    Ok(())
 }
 
 /// The parts of the state, bodies and sites a row each; NaN where the model has no such part, as the original writes it.

@@ -89,6 +89,7 @@ impl Trajectory {
         let recorded = Recorded::read(trace, trial).map_err(TrajectoryError::Episode)?;
         let refused = |error: EnvError| TrajectoryError::Episode(error.into());
         env.reset(recorded.seed.or(Some(0))).map_err(refused)?;
+        recorded.restore_drawn(env).map_err(refused)?;
         if let Some(world) = recorded.start(env) {
             env.set_world(&world).map_err(refused)?;
         }

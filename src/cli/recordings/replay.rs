@@ -15,7 +15,9 @@ use std::path::PathBuf;
 #[derive(Args)]
 #[command(
     after_help = "A trial starts from the reset with its recorded seed, where it has one, which also restores what resets \
-change in the model; then its first recorded state is set, unless the reset gave it already, to the recorded precision. \
+change in the model; what it drew by physics_randomization and visual_randomization \
+comes back where the reset drew something else; then its \
+first recorded state is set, unless the reset gave it already, to the recorded precision. \
 Its actions follow. For each trial there is the distance between the last recorded state and the replayed one, \
 |qpos| [rad, m] and |qvel| [rad/s, m/s], and over all rows the greatest difference of an observation and of the reward; \
 a histogram counts trials by |qpos|. A recording in full precision, made by this program, is replayed exactly.
@@ -172,6 +174,7 @@ fn replay(
         note(&format!("{name} holds neither a seed nor a state: it starts from a reset with seed 0"));
     }
     env.reset(trial.seed.or(if drawn { seed } else { Some(0) })).map_err(Failure::new)?;
+    let redrawn = trial.restore_drawn(env).map_err(|error| fail(0, &error))?;
     let start = trial.start(env);
     if let Some(world) = &start {
         env.set_world(world).map_err(|error| fail(0, &error))?;
@@ -193,7 +196,7 @@ fn replay(
     Ok(Outcome {
         trial: name.to_owned(),
         steps,
-        from_seed: drawn && start.is_none(),
+        from_seed: drawn && start.is_none() && !redrawn,
         qpos: last("qpos", &state.qpos),
         qvel: last("qvel", &state.qvel),
         observations: rows.observations,

@@ -4,6 +4,8 @@ mod command;
 
 use command::{command, robohive, scratch, text};
 use dataset::trace::TraceReader;
+use env::{Arguments, Env, Options, OwnModels};
+use record::Recorded;
 use serde_json::Value;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
@@ -198,4 +200,44 @@ fn signals_leave_every_finished_episode() {
         let json = replay(&path, &["--trials", "2"]);
         assert_eq!(json["trials"][0]["qpos"], 0.0);
     }
+}
+
+#[test]
+fn physics_that_was_drawn_is_recorded_and_comes_back() {
+    let path = scratch("drawn.h5");
+    let factor = "factor = { low = [0.5], high = [2] }";
+    let drawn = format!("physics_randomization={{ masses = [{{ {factor} }}], friction = [{{ {factor} }}] }}");
+    record(&path, &["--episodes", "2", "--set", &drawn]);
+    let replayed = replay(&path, &[]);
+    for trial in replayed["trials"].as_array().unwrap() {
+        assert_eq!(
+            (&trial["qpos"], &trial["observations"]),
+            (&Value::from(0.0), &Value::from(0.0)),
+            "{trial}"
+        );
+    }
+    let trace = TraceReader::open(&path).unwrap();
+    let masses: Vec<_> = ["Trial0", "Trial1"]
+        .map(|trial| values(&trace, trial, "physics_randomization/body/link5/mass"))
+        .concat();
+    assert!(masses[0] != masses[1] && masses.iter().all(|factor| (0.5..2.0).contains(factor)), "{masses:?}");
+
+    // From another seed, by what was recorded alone.
+    let options = Options::default().with_changes(drawn.parse::<Arguments>().unwrap());
+    let mut env = Env::make(ID, &OwnModels, &options).unwrap();
+    env.reset(Some(77)).unwrap();
+    let recorded = Recorded::read(&trace, "Trial1").unwrap();
+    assert!(recorded.restore_drawn(&mut env).unwrap());
+    assert!(!recorded.restore_drawn(&mut env).unwrap(), "it is there already");
+    let start = recorded.start(&env).unwrap();
+    env.set_world(&start).unwrap();
+    let mut step = 0;
+    while let Some(action) = recorded.actions.row(step).filter(|action| action.iter().all(|x| !x.is_nan())) {
+        env.step(action).unwrap();
+        step += 1;
+    }
+    assert_eq!(recorded.part("qpos").unwrap().last().unwrap(), env.scene().data.state.qpos);
+    let mut other = Env::make(ID, &OwnModels, &Options::default()).unwrap();
+    let error = recorded.restore_drawn(&mut other).unwrap_err().to_string();
+    assert!(error.contains("physics_randomization is not among the settings"), "{error}");
 }

@@ -53,7 +53,11 @@ impl Env {
             // Offsets of cameras and lights that follow are derived anew with the rest.
             look.write(&mut self.scene)?;
         }
-        self.see_drawn()
+        self.see_drawn()?;
+        self.write_rows();
+        self.judge();
+        self.gather();
+        Ok(())
     }
 
     /// Draws physics and look of the episode that begins.
