@@ -66,6 +66,17 @@ def test_looks_are_copied():
         assert not np.array_equal(looks[0], looks[1])
 
 
+def test_drawn_physics_is_copied():
+    factor = {"low": [0.5], "high": [2]}
+    drawn = {"masses": [{"factor": factor}], "gravity": {"low": [0, 0, -12], "high": [0, 0, -8]}}
+    env = robohive.make("hive/FrankaReach-v0", physics_randomization=drawn)
+    advance(env)
+    pickled, copied = pickle.loads(pickle.dumps(env)), copy.deepcopy(env)
+    expected = goes_on(env)
+    assert data_equivalence(goes_on(pickled), expected, exact=True)
+    assert data_equivalence(goes_on(copied), expected, exact=True)
+
+
 def test_settings_and_options_travel():
     env = robohive.make("hive/FrankaReach-v0", reward_mode="sparse", render_mode="rgb_array", width=32, height=24)
     env.reset(seed=0)

@@ -293,7 +293,7 @@ impl Env {
         self.steps = 0;
         self.faulty = false;
         self.start.clone_from(&self.initial);
-        self.randomized.undo(&mut self.scene)?;
+        self.randomized.undo(&mut self.scene);
         let mut episode = Episode {
             scene: &mut self.scene,
             rng: &mut self.rng,

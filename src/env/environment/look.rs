@@ -41,6 +41,7 @@ impl Env {
     /// # Errors
     /// It has other rows than this environment draws.
     pub fn set_mechanics(&mut self, drawn: &Rows) -> Result<(), EnvError> {
+        self.randomized.settle(&mut self.scene)?;
         let Some(mechanics) = &mut self.randomized.mechanics else {
             let message = "this environment has no physics_randomization".into();
             return Err(EnvError::ForeignState { message });

@@ -94,17 +94,6 @@ impl<T: Target> Drawn<T> {
         })
     }
 
-    /// Takes what was drawn last out of the model; nothing before the first draw.
-    ///
-    /// # Errors
-    /// The model refuses it.
-    pub(crate) fn undo(&self, scene: &mut Scene) -> Result<(), EnvError> {
-        if self.rows.rows().is_empty() {
-            return Ok(());
-        }
-        T::change(scene, |m| self.dials.iter().for_each(|dial| dial.target.restore(&self.base, m)))
-    }
-
     /// The dials with what was drawn last.
     pub(super) fn turned(&self) -> impl Iterator<Item = (&T, &[f64])> {
         self.dials.iter().zip(self.rows.iter()).map(|(dial, (_, values))| (&dial.target, values))

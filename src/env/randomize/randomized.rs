@@ -1,7 +1,7 @@
 //! All that an environment draws of its scene: physics, then the look.
 
 use super::drawn::DrawnState;
-use super::mechanics::Mechanics;
+use super::mechanics::{Given, Mechanics};
 use super::visual::Look;
 use super::{PhysicsRandomization, VisualRandomization};
 use crate::error::EnvError;
@@ -14,6 +14,8 @@ use robot::Keeper;
 pub(crate) struct Randomized {
     pub(crate) look: Option<Look>,
     pub(crate) mechanics: Option<Mechanics>,
+    /// The model as it was made, and the statistics that its file gives, where physics changes.
+    made: Option<(Model, Given)>,
 }
 
 /// What was drawn, and where the sequences of draws stand.
@@ -37,6 +39,10 @@ impl Randomized {
         Ok(Randomized {
             look: visual.map(|config| Look::new(config, model, seed)).transpose()?,
             mechanics: physics.map(|config| Mechanics::new(config, model, seed)).transpose()?,
+            made: match physics {
+                Some(_) => Some((model.clone(), Given::of(model).map_err(|error| error.to_string())?)),
+                None => None,
+            },
         })
     }
 
@@ -46,13 +52,11 @@ impl Randomized {
         self.mechanics.iter_mut().for_each(|mechanics| mechanics.seed(seed));
     }
 
-    /// Takes the physics that was drawn last out of the model, so that the task of the next episode begins with the model as it is
-    /// without it.
-    ///
-    /// # Errors
-    /// The model refuses it.
-    pub(crate) fn undo(&self, scene: &mut Scene) -> Result<(), EnvError> {
-        self.mechanics.as_ref().map_or(Ok(()), |mechanics| mechanics.undo(scene))
+    /// Makes the model what it was, so that no episode depends on those before it: what is derived of a draw would keep their poses.
+    pub(crate) fn undo(&self, scene: &mut Scene) {
+        if let Some((made, _)) = &self.made {
+            scene.model = made.clone();
+        }
     }
 
     /// Draws what an episode of the environment `id` has, which the task lets start at the positions `start`.
@@ -60,6 +64,7 @@ impl Randomized {
     /// # Errors
     /// There is no such draw; the model refuses it.
     pub(crate) fn draw(&mut self, id: &str, scene: &mut Scene, start: &mut [f64]) -> Result<(), EnvError> {
+        self.settle(scene)?;
         if let Some(mechanics) = &mut self.mechanics {
             mechanics.begin(id, scene, start)?;
         }
@@ -67,6 +72,14 @@ impl Randomized {
             look.draw(id, scene)?;
         }
         Ok(())
+    }
+
+    /// Lets statistics of the model follow from what a task wrote, before physics is drawn or shown.
+    ///
+    /// # Errors
+    /// The model cannot be what its numbers say.
+    pub(crate) fn settle(&self, scene: &mut Scene) -> Result<(), EnvError> {
+        self.made.as_ref().map_or(Ok(()), |(_, given)| given.settle(scene))
     }
 
     /// Age of the robot's readings that was drawn \[time steps\].

@@ -145,7 +145,7 @@ pub(super) fn drop_caches(caches: &mut Caches, written: Written) {
 }
 
 /// Statistics that follow from the arrays before the edit under way.
-fn computed_statistic(m: &Model) -> Result<Statistic, EditError> {
+pub(super) fn computed_statistic(m: &Model) -> Result<Statistic, EditError> {
     if let Some(known) = m.caches.statistic.get() {
         return Ok(known.clone());
     }

@@ -9,7 +9,7 @@ pub use error::EditError;
 
 use crate::model::{Arrays, Draft, Instances, Model, Options, Statistic, Visual};
 use crate::table::Slice;
-use consequences::{Consequences, check, drop_caches};
+use consequences::{Consequences, check, computed_statistic, drop_caches};
 use written::Written;
 
 impl Model {
@@ -52,6 +52,15 @@ impl Model {
         let mut edited = self.clone();
         edited.edit(change)?;
         Ok(edited)
+    }
+
+    /// The statistics that follow from the arrays, whatever [`Arrays::stat`] says, which a file may give and [`Model::overwrite`]
+    /// leaves as it was. Computed once for numbers that do not change.
+    ///
+    /// # Errors
+    /// The compiled structure cannot represent the numbers.
+    pub fn computed_statistic(&self) -> Result<Statistic, EditError> {
+        computed_statistic(self)
     }
 
     /// Writes numbers and derives nothing from them, as programs do that write into MuJoCo's `mjModel`: bounds, frames

@@ -20,7 +20,8 @@ use serde::Deserialize;
 /// `names` are names of the model's elements, where a `*` at the end stands for any ending; without `names` all elements of
 /// the kind are meant, those without a name too. Of each entry, only what is given changes; an element that several entries
 /// of one kind name follows the last of them, and entries of different kinds act together, as `masses` and `sizes` on one mass. A task draws first, from
-/// the model as it is without this setting; factors apply to what it leaves, and a place that is drawn here is the last word.
+/// the model as it is without this setting; factors apply to what it leaves. What a task places at the very end
+/// of a reset stays there.
 ///
 /// Whatever the compiler derives from what changes is derived again: masses of subtrees, inverse weights, lengths, bounds of
 /// geoms and bodies. What it fills in where a text gives nothing stays: friction of explicit pairs, damping from damping ratios,

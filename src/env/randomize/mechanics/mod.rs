@@ -7,6 +7,7 @@
 
 mod choice;
 mod config;
+mod given;
 mod place;
 mod size;
 mod target;
@@ -15,6 +16,8 @@ pub use config::{
     ActuatorRange, FrictionRange, JointRange, Keeps, LayoutRange, MassRange, PhysicsRandomization,
     SensorRange, SizeRange,
 };
+
+pub(crate) use given::Given;
 
 use super::drawn::Drawn;
 use crate::error::EnvError;
