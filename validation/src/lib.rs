@@ -9,6 +9,7 @@ pub mod controllers;
 pub mod demonstrations;
 pub mod draws;
 pub mod environments;
+pub mod episodes;
 pub mod hulls;
 pub mod laws;
 pub mod motion;

@@ -3,7 +3,9 @@
 use physics::Model;
 use robohive_validation::reference::{Own, Reference, own_models, recorded};
 use robohive_validation::status::{Row, measure, open, render};
-use robohive_validation::{bits, c_library, collide, controllers, demonstrations, draws, environments};
+use robohive_validation::{
+    bits, c_library, collide, controllers, demonstrations, draws, environments, episodes,
+};
 use robohive_validation::{hulls, laws, pictures, policies, robots, round_trip, scenes, solver, wider};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -14,6 +16,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation solver --problems FOLDER [--references FOLDER] [--only TEXT] [--write README.md]
        robohive-validation collide [--from FILE] [--write README.md] [--section NAME]
        robohive-validation laws [--write README.md]
+       robohive-validation laws --episodes N [--suite NAME] [--only TEXT] [--threads N] [--write README.md]
        robohive-validation draws [--write README.md]
        robohive-validation environments --models FOLDER --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation policies --models FOLDER --policies FOLDER [--only TEXT] [--write README.md]
@@ -51,7 +54,10 @@ draws: makes every recorded random draw with all seeds and compares it with nump
 bits: counts the values that are MuJoCo's to the last bit. Without a list on the own models, where it fails when the table is
 not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; with it the exit code is 3 where the C library
 is another than that of the recorded MuJoCo.
-laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES.
+laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES. With --episodes or
+--suite it plays so many episodes (200) of random actions of every id on a model of our own and counts those that physics ended, NaN,
+bodies that were lost, and how far soft things were stretched; fails when a law is broken. With --suite of one suite, whose section
+--write replaces.
 robots: compares our own robots with the numbers that are published of them (published.toml of their folders); fails when one
 differs by more than 2 % or 0.02 rad without a reason.
 controllers: runs every controller in the environments that it serves, on 20 seeds, beside zero and random actions; fails when a
@@ -88,6 +94,8 @@ struct Arguments {
     compare: Option<PathBuf>,
     dump: Option<PathBuf>,
     suite: String,
+    episodes: Option<u64>,
+    threads: usize,
 }
 
 impl Arguments {
@@ -206,15 +214,23 @@ fn measured<'a>(
             let (table, verdict) = wider_table(a)?;
             ("wider", table, verdict)
         }
-        Some("laws") => {
-            let references: Vec<_> =
-                recorded().map_err(|e| e.to_string())?.into_iter().map(|(_, reference)| reference).collect();
-            let laws = laws::measure("models", &references, laws::Piles::All).map_err(|e| e.to_string())?;
-            let (table, verdict) = laws::render(&laws);
-            ("laws", table, verdict)
-        }
+        Some("laws") => laws(a)?,
         Some(word) => return Err(format!("unknown command {word}\n{USAGE}")),
     })
+}
+
+/// What holds of own and recorded models; or of episodes, where those are asked for.
+fn laws(a: &Arguments) -> Result<(&str, String, Result<(), String>), String> {
+    if !a.suite.is_empty() || a.episodes.is_some() {
+        let count = a.episodes.unwrap_or(episodes::EPISODES);
+        let (table, verdict) = episodes::render(&episodes::measure(&a.suite, &a.only, count, a.threads)?);
+        return Ok((if a.suite.is_empty() { "episodes" } else { &a.suite }, table, verdict));
+    }
+    let recorded = recorded().map_err(|e| e.to_string())?;
+    let references: Vec<_> = recorded.into_iter().map(|(_, reference)| reference).collect();
+    let laws = laws::measure("models", &references, laws::Piles::All).map_err(|e| e.to_string())?;
+    let (table, verdict) = laws::render(&laws);
+    Ok(("laws", table, verdict))
 }
 
 /// Path in the list, model and reference of every chosen model.
@@ -337,12 +353,18 @@ fn parse(mut words: impl Iterator<Item = String>) -> Result<Arguments, String> {
             "--record" => a.record = Some(value()?.into()),
             "--dump" => a.dump = Some(value()?.into()),
             "--suite" => a.suite = value()?,
+            "--episodes" => a.episodes = Some(number(&word, &value()?)?),
+            "--threads" => a.threads = number(&word, &value()?)?,
             "--compare" => a.compare = Some(value()?.into()),
             folder if !folder.starts_with("--") => a.folders.push(folder.into()),
             _ => return Err(format!("unknown argument {word}\n{USAGE}")),
         }
     }
     Ok(a)
+}
+
+fn number<T: std::str::FromStr>(word: &str, value: &str) -> Result<T, String> {
+    value.parse().map_err(|_| format!("{word} {value}: a whole number is expected\n{USAGE}"))
 }
 
 /// Replaces what stands between the markers of `path`.

@@ -26,6 +26,7 @@ const SPEAK_OF: [(&str, &[&str]); 29] = [
     ("gymnasium", &["src/physics", "mjcf", "src/env"]),
     ("identify", &["src/physics", "mjcf", "src/identify"]),
     ("items", &["src/physics", "mjcf", "src/render/scene"]),
+    ("laws", &["src/physics", "mjcf", "src/robot", "src/env", "assets"]),
     ("pictures", &["src/physics", "mjcf", "src/render"]),
     ("pictures_gpu", &["src/physics", "mjcf", "src/render", "src/render_gpu"]),
     ("planning", &["src/physics", "src/control", "assets"]),
