@@ -1,9 +1,9 @@
 //! Domain randomisation: what differs from episode to episode in the look of a scene (`visual_randomization`) and in its
 //! physics (`physics_randomization`).
 //!
-//! A configuration names elements of the model and ranges; each thing that changes is a dial ([`Dial`](dial::Dial)) with a
-//! target, and all dials of a kind are drawn at every reset ([`Drawn`]). Draws come from streams of their own, so that a task draws the same with and without
-//! them; they are written into this environment's copy of the model, and kept to be recorded and restored.
+//! A configuration names elements of the model and ranges; all that it names is drawn at every reset. Draws come from streams of
+//! their own, so that a task draws the same with and without them; they are written into this environment's copy of the model, and
+//! kept to be recorded and restored ([`Env::look`](crate::Env::look), [`Env::mechanics`](crate::Env::mechanics)).
 
 mod choice;
 mod dial;

@@ -4,7 +4,7 @@
 use mjcf::Loader;
 use mjcf::files::Memory;
 use physics::Model;
-use robohive_env::{AssetError, Assets, Env, EnvError, Options, Registry};
+use robohive_env::{AssetError, Assets, Autoreset, Env, EnvError, Options, Registry, VecEnv};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -263,6 +263,23 @@ fn every_episode_is_drawn_and_comes_back() {
     }
     let error = make("").unwrap().set_mechanics(&drawn).unwrap_err().to_string();
     assert!(error.contains("physics_randomization"), "{error}");
+}
+
+#[test]
+fn environments_of_a_batch_draw_as_single_ones_do() {
+    let env = varied(RANGES).unwrap();
+    for threads in [1, 2] {
+        let mut envs = VecEnv::new(&env, 3, Autoreset::Disabled, threads).unwrap();
+        envs.reset(Some(5)).unwrap();
+        let actions = vec![0.3; 9];
+        let rows = envs.step(&actions).unwrap().to_vec();
+        for (seed, (own, row)) in (5..).zip(envs.envs().zip(rows.chunks(rows.len() / 3))) {
+            let mut single = varied(RANGES).unwrap();
+            single.reset(Some(seed)).unwrap();
+            single.step(&actions[..3]).unwrap();
+            assert_eq!((own.mechanics(), row), (single.mechanics(), single.observation()));
+        }
+    }
 }
 
 #[test]

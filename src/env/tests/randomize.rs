@@ -58,6 +58,8 @@ fn every_episode_looks_different_and_moves_the_same() {
     assert_ne!(plain, pictures);
     assert_ne!(pictures[0], pictures[1]);
     assert_eq!(play(&mut varied).0, pictures, "the seed decides the look");
+    let mut both = make(&format!("{EVERYTHING}\n[physics_randomization]")).unwrap();
+    assert_eq!(play(&mut both), (pictures, same), "physics that does not change leaves the look");
 }
 
 #[test]
