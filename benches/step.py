@@ -1,6 +1,7 @@
 """Steps per second beside MuJoCo 3.12.0's C `mj_step` on one thread, and where the time goes on both sides.
 
-    python benches/step.py [--corpus FOLDER | --deformables MUJOCO] [--only TEXT] [--stages] [--jitter] [--write FILE]
+    python benches/step.py [--corpus FOLDER | --deformables MUJOCO | --tasks MODELS LIST] [--only TEXT] [--stages] [--jitter]
+                           [--write FILE]
 
 Both sides run the same trajectory: keyframe 0 or `qpos0`, 500 steps under the smooth seeded controls of
 `validation/reference/record.py`, a new row of them every HOLD steps (MuJoCo gets them as `nstep`), then all over
@@ -10,8 +11,9 @@ Jitter takes a longer sequence, so that p99.9 leaves out more than the first ste
 `motion` is the largest difference of `qpos` after one pass: the proof of equal work.
 
 Own models always; RoboHive's with `--corpus`, the folder that holds its `envs` and `simhive` (a copy is made). With
-`--deformables` instead the scenes with flexes of a checkout of MuJoCo's repository. Needs `mujoco` and `numpy`, Linux,
-and the command built with `cargo build --profile dist`.
+`--deformables` instead the scenes with flexes of a checkout of MuJoCo's repository, with `--tasks` those of our own tasks,
+as `validation/reference/task_scenes.py` writes and lists them. Needs `mujoco` and `numpy`, Linux, and the command built with
+`cargo build --profile dist`.
 """
 
 import argparse
@@ -235,6 +237,8 @@ def main():
     models.add_argument("--corpus", type=pathlib.Path, help="folder with RoboHive's envs and simhive")
     models.add_argument("--deformables", metavar="MUJOCO", type=pathlib.Path,
                         help="checkout of MuJoCo's repository, whose scenes with flexes are measured instead")
+    models.add_argument("--tasks", nargs=2, metavar=("MODELS", "LIST"), type=pathlib.Path,
+                        help="scenes of our own tasks: their folder, and the list of their paths in it")
     parser.add_argument("--only", default="", help="models whose path contains this")
     parser.add_argument("--stages", action="store_true", help="time of each stage on both sides")
     parser.add_argument("--jitter", action="store_true", help="p99.9 of step time over the median on both sides; wants an idle core")
@@ -251,6 +255,8 @@ def main():
             paths += [pathlib.Path(copy) / name for name in ROBOHIVE]
         if args.deformables:
             paths = [args.deformables / "model" / "flex" / f"{name}.xml" for name in DEFORMABLES]
+        if args.tasks:
+            paths = [args.tasks[0] / line for line in args.tasks[1].read_text().split()]
         rows = {}
         for path in (path for path in paths if args.only in str(path)):
             row = rows[path.stem] = compare(path, record.load(path), args)
