@@ -10,7 +10,7 @@ use physics::{Data, Model};
 use render::picture::Channels;
 use render::scene::{Effects, SceneOptions};
 use render::{Painters, Settings};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use video::{FRAME_RATES, VideoFormat, VideoWriter};
 
@@ -83,10 +83,7 @@ impl FilmArguments {
             Ok(Player::new(Screen::require(choice, "write a file with --video FILE.mp4")?, rate))
         });
         let player = player.transpose()?;
-        let open = |path: &PathBuf| {
-            VideoWriter::create(path, (size.width as u32, size.height as u32), rate).map_err(Failure::usage)
-        };
-        let video = self.video.as_ref().map(open).transpose()?;
+        let video = self.video.as_ref().map(|path| open(path, size, rate)).transpose()?;
         Ok(Some(Film { drawing, video, player, rate, shown: 0, path: self.video.clone() }))
     }
 
@@ -118,6 +115,10 @@ impl FilmArguments {
     }
 }
 
+fn open(path: &Path, size: Size, rate: f64) -> Result<VideoWriter, Failure> {
+    VideoWriter::create(path, (size.width as u32, size.height as u32), rate).map_err(Failure::usage)
+}
+
 /// Most frames a second where the rate is not chosen: what GIF can show.
 const MOST: f64 = 50.0;
 
@@ -145,6 +146,15 @@ pub struct Film {
 }
 
 impl Film {
+    /// A video of what `drawing` draws at this size, `rate` frames a second, in a file.
+    ///
+    /// # Errors
+    /// The file cannot be written, or not in this size.
+    pub fn to_file(path: &Path, drawing: Drawing, size: Size, rate: f64) -> Result<Self, Failure> {
+        let video = open(path, size, rate)?;
+        Ok(Film { drawing, video: Some(video), player: None, rate, shown: 0, path: Some(path.into()) })
+    }
+
     /// What is shown begins again at time 0.
     pub fn begin(&mut self) {
         self.shown = 0;

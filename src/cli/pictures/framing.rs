@@ -57,6 +57,12 @@ impl Body {
         Ok(body)
     }
 
+    /// Adds what another state shows.
+    pub fn join(&mut self, other: Body) {
+        self.corners.extend(other.corners);
+        self.parts.extend(other.parts);
+    }
+
     /// Adds what an item shows.
     fn add(&mut self, model: &Model, data: &Data, item: &Item) {
         let before = self.corners.len();

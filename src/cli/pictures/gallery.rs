@@ -6,6 +6,7 @@ use crate::pictures::drawing::frame;
 use crate::pictures::look::Size;
 use crate::pictures::preview::{Choice, Screen};
 use crate::pictures::renderer::RendererArguments;
+use crate::pictures::solved::{clip, solve};
 use crate::pictures::subject::are_related;
 use crate::pictures::thumbnail::thumbnail;
 use crate::terminal::{listed, note, show};
@@ -23,11 +24,12 @@ use video::{Sheet, write_png};
     after_help = "Every environment is reset with the same seed and drawn from the first camera that it, or an id \
 with the same task and model, observes, else from a three-quarter view in which what moves fills the picture; its id \
 stands below. Ids that run one task on one model are a family, of which the first is drawn, or all \
-with --all. Environments whose models are not imported are left out, and a note says so. The sheet does not depend on \
+with --all. With --solved each is drawn when its controller has solved it, and those without a controller are left out. Environments whose models are not imported are left out, and a note says so. The sheet does not depend on \
 the number of threads.
 
 Examples:
   robohive gallery hive --out sheet.png
+  robohive gallery KnifeEdge --solved --clips clips --size 160x120 --out solved.png
   robohive gallery Franka --all --columns 4 --size 160x120 --out franka.png"
 )]
 pub struct Gallery {
@@ -37,6 +39,12 @@ pub struct Gallery {
     /// Draw all ids instead of the first of each family
     #[arg(long)]
     all: bool,
+    /// Draw each environment when its controller has solved it, and only those that have one
+    #[arg(long)]
+    solved: bool,
+    /// Write a video of each solved episode (.mp4) into this folder, too
+    #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath, requires = "solved")]
+    clips: Option<PathBuf>,
     /// Pictures in a row [default: about as many as there are rows]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     columns: Option<u32>,
@@ -77,6 +85,8 @@ enum Outcome {
     Drawn(Picture),
     /// Its files are not there.
     Missing(String),
+    /// Its controller does not solve it.
+    Unsolved,
     Failed(String),
 }
 
@@ -89,22 +99,31 @@ pub fn run(a: &Gallery) -> Result<(), Failure> {
         }
     };
     let specs = chosen(a)?;
+    if let Some(folder) = &a.clips {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| Failure::new(format!("{}: {error}", folder.display())))?;
+    }
     let outcomes = draw_all(a, &specs)?;
     let drawn = outcomes.iter().filter(|outcome| matches!(outcome, Outcome::Drawn(_))).count();
     let columns = a.columns.unwrap_or_else(|| (drawn as f64).sqrt().ceil().max(1.0) as u32);
     let cell = (a.size.width as u32, a.size.height as u32);
     let mut sheet = Sheet::new(columns, cell).map_err(Failure::usage)?;
-    let (mut missing, mut failed) = (Vec::new(), Vec::new());
+    let (mut missing, mut unsolved, mut failed) = (Vec::new(), Vec::new(), Vec::new());
     for (spec, outcome) in specs.iter().zip(&outcomes) {
         match outcome {
             Outcome::Drawn(picture) => sheet.add(&frame(picture)?, &spec.id).map_err(Failure::usage)?,
             Outcome::Missing(why) => missing.push((&spec.id, why)),
+            Outcome::Unsolved => unsolved.push(&spec.id),
             Outcome::Failed(why) => failed.push(format!("{}: {why}", spec.id)),
         }
     }
     if let Some((_, why)) = missing.first() {
         let ids = listed(missing.iter().map(|(id, _)| id), 4);
         note(&format!("left out, since their models are not here: {ids}; {why}"));
+    }
+    if !unsolved.is_empty() {
+        let ids = listed(unsolved.iter(), unsolved.len());
+        note(&format!("left out, since their controllers do not solve them from seed {}: {ids}", a.seed));
     }
     if drawn > 0 {
         let image = sheet.image().map_err(Failure::usage)?;
@@ -131,9 +150,15 @@ fn chosen(a: &Gallery) -> Result<Vec<&'static Spec>, Failure> {
     let wanted = |spec: &&Spec| if in_suite { spec.suite == filter } else { spec.id.contains(filter) };
     let mut found: Vec<&Spec> = Vec::new();
     for spec in specs.iter().filter(wanted) {
+        if a.solved && control::serving(spec).next().is_none() {
+            continue;
+        }
         if a.all || !found.iter().any(|other| are_related(spec, other)) {
             found.push(spec);
         }
+    }
+    if found.is_empty() && a.solved && specs.iter().any(|spec| wanted(&spec)) {
+        return Err(Failure::usage(format!("no controller serves any of {filter:?}")));
     }
     if found.is_empty() {
         return Err(Failure::usage(format!(
@@ -159,8 +184,9 @@ fn draw_all(a: &Gallery, specs: &[&Spec]) -> Result<Vec<Outcome>, Failure> {
             let Some(spec) = specs.get(place) else { return outcomes };
             bar.set_message(spec.id.clone());
             let outcome = match Env::make(&spec.id, &assets, &options) {
-                Ok(env) => draw(a, env, &*painters)
-                    .map_or_else(|failure| Outcome::Failed(failure.to_string()), Outcome::Drawn),
+                Ok(env) => {
+                    draw(a, env, &*painters).unwrap_or_else(|failure| Outcome::Failed(failure.to_string()))
+                }
                 Err(error @ EnvError::MissingFile { .. }) => Outcome::Missing(error.to_string()),
                 Err(error) => Outcome::Failed(error.to_string()),
             };
@@ -177,10 +203,14 @@ fn draw_all(a: &Gallery, specs: &[&Spec]) -> Result<Vec<Outcome>, Failure> {
     Ok(outcomes.into_iter().map(|(_, outcome)| outcome).collect())
 }
 
-/// The picture of an environment after a reset.
-fn draw(a: &Gallery, mut env: Env, painters: &dyn Painters) -> Result<Picture, Failure> {
-    env.reset(Some(a.seed)).map_err(Failure::new)?;
-    thumbnail(&env, a.size, painters)
+/// The picture of an environment after a reset, or when it is solved.
+fn draw(a: &Gallery, mut env: Env, painters: &dyn Painters) -> Result<Outcome, Failure> {
+    let solved = match &a.clips {
+        _ if !a.solved => env.reset(Some(a.seed)).map_err(Failure::new).map(|_| true)?,
+        Some(folder) => clip(folder, &mut env, a.seed, a.size, painters)?,
+        None => solve(&mut env, a.seed, |_| Ok(()))?,
+    };
+    if solved { thumbnail(&env, a.size, painters).map(Outcome::Drawn) } else { Ok(Outcome::Unsolved) }
 }
 
 fn progress(environments: usize) -> ProgressBar {

@@ -10,6 +10,7 @@ pub mod preview;
 pub mod render;
 pub mod render_requests;
 pub mod renderer;
+pub mod solved;
 pub mod studio;
 pub mod subject;
 pub mod thumbnail;

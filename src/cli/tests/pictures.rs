@@ -284,3 +284,25 @@ fn a_gallery_is_the_same_on_any_number_of_threads() {
     assert_eq!(out.status.code(), Some(1));
     assert!(text(&out.stderr).contains("no environment to draw"));
 }
+
+#[test]
+fn solved_episodes_are_drawn_at_their_end_and_filmed() {
+    let (start, end, clips) = (fresh("start.png"), fresh("end.png"), fresh("clips"));
+    let size = ["--size", "64x48", "-q"];
+    done(&[&["gallery", "KnifeEdge", "--out", &start][..], &size].concat());
+    let said =
+        done(&[&["gallery", "KnifeEdge", "--solved", "--clips", &clips, "--out", &end][..], &size].concat());
+    assert!(said.contains("1 environments"), "{said}");
+    assert_ne!(decode(&start), decode(&end));
+    let film = std::fs::read(format!("{clips}/hive_KnifeEdgeReach-v0.mp4")).unwrap();
+    assert!(film.len() > 2000 && film[4..8] == *b"ftyp");
+
+    // Farther than the body comes in its time.
+    let far = ["--set", "target_distance_range=[40, 41]"];
+    let out = robohive(&[&["gallery", "DKittyWalkTo", "--solved", "--out", &end][..], &size, &far].concat());
+    assert_eq!(out.status.code(), Some(1));
+    assert!(text(&out.stderr).contains("do not solve them from seed 0"), "{}", text(&out.stderr));
+    let none = refused(&["gallery", "AirplaneFly", "--solved", "--out", &end]);
+    assert!(none.contains("no controller serves any of \"AirplaneFly\""), "{none}");
+    assert!(refused(&["gallery", "KnifeEdge", "--clips", &clips, "--out", &end]).contains("--solved"));
+}
