@@ -20,6 +20,7 @@ use crate::tasks::deformable::cloth_hang::ClothHang;
 use crate::tasks::deformable::cloth_spread::ClothSpread;
 use crate::tasks::deformable::grain_pour::GrainPour;
 use crate::tasks::deformable::rope_straighten::RopeStraighten;
+use crate::tasks::deformable::rope_thread::RopeThread;
 use crate::tasks::deformable::rope_wrap::RopeWrap;
 use crate::tasks::deformable::sponge_press::SpongePress;
 use crate::tasks::tabletop::drawer::Drawer;
@@ -234,6 +235,13 @@ const ALL: &[Entry] = &[
         serves: &["rope_straighten"],
         feet: None,
         build: |env| Ok(Box::new(RopeStraighten::new(env)?)),
+    },
+    Entry {
+        name: "rope_thread",
+        summary: "grasp and place: the stiff tip of a rope before a ring, and straight through",
+        serves: &["rope_thread"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "rope_thread")?, RopeThread::new(env)?))),
     },
     Entry {
         name: "rope_wrap",

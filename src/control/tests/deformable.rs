@@ -21,6 +21,7 @@ fn every_task_has_a_controller() {
             "cloth_spread",
             "grain_pour",
             "rope_straighten",
+            "rope_thread",
             "rope_wrap",
             "sponge_press"
         ]
@@ -28,10 +29,10 @@ fn every_task_has_a_controller() {
 }
 
 /// A rope of 0.48 m whose joints hold it together by themselves keeps its length to rounding, and sinks into the table by less than half of
-/// its radius of 5 mm, while it is pulled taut and led round a peg.
+/// its radius of 5 mm, while it is pulled taut, led round a peg and threaded.
 #[test]
 fn ropes_keep_their_length_and_stay_on_the_table() {
-    for id in ["hive/RopeStraighten-v0", "hive/RopeWrap-v0"] {
+    for id in ["hive/RopeStraighten-v0", "hive/RopeThread-v0", "hive/RopeWrap-v0"] {
         let solved = watch(id, 0, true, |env| {
             let places = env.rows()["rope"].as_chunks::<3>().0;
             let pieces =

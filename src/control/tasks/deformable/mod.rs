@@ -7,6 +7,7 @@ pub mod grain_pour;
 mod hand;
 mod rods;
 pub mod rope_straighten;
+pub mod rope_thread;
 pub mod rope_wrap;
 pub mod sponge_press;
 mod strand;

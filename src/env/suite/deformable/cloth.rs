@@ -141,6 +141,9 @@ fn cells(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> usize {
         let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
             (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
         };
+        if cross(a, b, c) == 0.0 {
+            continue;
+        }
         let span = |i: usize, most: usize| {
             let [first, last] = [a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i])];
             first.max(0.0) as usize..(last.ceil() as usize).min(most)

@@ -14,6 +14,7 @@ pub(super) mod cloth_spread;
 pub(super) mod grain_pour;
 mod rope;
 pub(super) mod rope_straighten;
+pub(super) mod rope_thread;
 pub(super) mod rope_wrap;
 pub(super) mod sponge_press;
 

@@ -68,6 +68,22 @@ impl Rope {
     pub fn lay(&self, rng: &mut Rng, pose: &mut Pose) -> Result<(), EnvError> {
         let [towards, arc, wave] = self.shapes.draw(rng)?;
         let arc = if rng.uniform(0.0, 1.0)? < 0.5 { -arc } else { arc };
+        self.bend([towards, arc, wave], pose);
+        Ok(())
+    }
+
+    /// Lays it to one side or the other, in a shape that is drawn, with its loose end turned back to the middle.
+    ///
+    /// # Errors
+    /// Shapes that are no ranges.
+    pub fn lay_aside(&self, rng: &mut Rng, pose: &mut Pose) -> Result<(), EnvError> {
+        let [towards, arc, wave] = self.shapes.draw(rng)?;
+        let side = if rng.uniform(0.0, 1.0)? < 0.5 { -1.0 } else { 1.0 };
+        self.bend([side * towards, -side * arc, side * wave], pose);
+        Ok(())
+    }
+
+    fn bend(&self, [towards, arc, wave]: [f64; 3], pose: &mut Pose) {
         let heading = |k: usize| {
             let share = k as f64 / (self.links.len() - 1) as f64;
             towards + arc * (share - 0.5) + wave * ops::sin(TAU * share)
@@ -78,6 +94,5 @@ impl Rope {
             pose.qpos[joint..joint + 4].copy_from_slice(&[cosine, 0.0, 0.0, sine]);
             before = heading(k);
         }
-        Ok(())
     }
 }
