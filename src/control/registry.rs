@@ -139,6 +139,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::claws::turn::ClawTurn::new(env)?)),
     },
     Entry {
+        name: "reorient",
+        summary: "model-predictive control by sampling, which turns a thing in the hand and keeps it there",
+        serves: &["reorient"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::in_hand::reorient::Reorient::new(env)?)),
+    },
+    Entry {
         name: "trot",
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
         serves: LOCOMOTION,

@@ -27,7 +27,7 @@ use toml::Table;
 /// The tables, one for each suite: its name, then one row an id. A row names its task, model and settings, or the id that it
 /// varies (`from`) and what differs. A rule under `variants` adds a variant of every row whose id begins like `from` and ends
 /// like `to`: `from = "myo*"` and `to = "myoSarc*"` make `myoSarcLegWalk-v0` of `myoLegWalk-v0`.
-const TABLES: [&str; 16] = [
+const TABLES: [&str; 17] = [
     include_str!("registry/hive.toml"),
     include_str!("registry/arms.toml"),
     include_str!("registry/classical.toml"),
@@ -36,6 +36,7 @@ const TABLES: [&str; 16] = [
     include_str!("registry/deformable.toml"),
     include_str!("registry/fm.toml"),
     include_str!("registry/hands.toml"),
+    include_str!("registry/in_hand.toml"),
     include_str!("registry/locomotion.toml"),
     include_str!("registry/multi_agent.toml"),
     include_str!("registry/multitask.toml"),

@@ -109,6 +109,12 @@ impl Sampler {
         self.noise = Generator::pcg64(seed);
     }
 
+    /// Plans to give the same controls (nu) throughout, each within its range.
+    pub fn hold(&mut self, controls: &[f64]) {
+        let held = self.bounds.iter().zip(controls).map(|([low, high], control)| control.clamp(*low, *high));
+        self.plan = held.collect::<Vec<_>>().repeat(self.settings.knots);
+    }
+
     fn widest(&self) -> Vec<f64> {
         let each = self.bounds.iter().map(|[low, high]| self.settings.noise * (high - low) / 2.0);
         each.collect::<Vec<_>>().repeat(self.settings.knots)
@@ -284,6 +290,20 @@ mod tests {
     fn threads_change_no_bit() {
         let method = Method::CrossEntropy { elites: 4 };
         assert_eq!(swing(method, 1), swing(method, 3));
+    }
+
+    #[test]
+    fn a_held_plan_gives_the_same_controls_within_their_range() {
+        let model = mjcf::load_str(PENDULUM).unwrap().model;
+        let method = Method::Predictive;
+        let settings = Settings { method, samples: 8, steps: 10, knots: 3, noise: 0.5, threads: 1, seed: 0 };
+        let mut sampler = Sampler::new(&model, settings).unwrap();
+        let mut given = [0.0];
+        for (held, expected) in [(2.0, 2.0), (-7.0, -5.0)] {
+            sampler.hold(&[held]);
+            sampler.controls(4.5, &mut given);
+            assert_eq!(given, [expected]);
+        }
     }
 
     #[test]

@@ -4,6 +4,7 @@ pub mod arms;
 pub mod classical;
 pub mod claws;
 pub mod deformable;
+pub mod in_hand;
 mod joints;
 pub mod locomotion;
 pub mod multi_agent;

@@ -27,6 +27,7 @@ pub mod fm;
 pub mod gymnasium;
 pub mod hands;
 mod hold;
+pub mod in_hand;
 pub mod locomotion;
 pub mod multi_agent;
 pub mod multitask;
@@ -84,6 +85,7 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("adroit_pen", hands::pen::Pen::new),
         TaskType::new("adroit_relocate", hands::relocate::Relocate::new),
         TaskType::new("adroit_baoding", hands::baoding::Baoding::new),
+        TaskType::new("reorient", in_hand::reorient::Reorient::new),
         TaskType::new("chase", locomotion::chase::Chase::new),
         TaskType::new("push_box", locomotion::push_box::PushBox::new),
         TaskType::new("stand", locomotion::stand::Stand::new),

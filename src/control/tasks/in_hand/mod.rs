@@ -1,0 +1,4 @@
+//! Hands that move things: plans by sampling, a cost for each task.
+
+pub mod reorient;
+mod search;
