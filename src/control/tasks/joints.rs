@@ -2,7 +2,7 @@
 
 use physics::Model;
 use physics::elements::{BodyId, Element, JointId, SiteId};
-use physics::model::BiasType;
+use physics::model::{BiasType, TrnType};
 
 /// An actuator that moves a joint.
 #[derive(Clone, Copy)]
@@ -26,6 +26,16 @@ impl Servo {
         let lag = if stiffness > 0.0 { (damping + passive) / stiffness } else { 0.0 };
         Servo { place: m.jnt_qposadr[joint] as usize, lag, stiffness }
     }
+}
+
+/// The control of the actuator that moves a joint, and its servo.
+pub fn servo_of(m: &Model, joint: JointId) -> Option<(usize, Servo)> {
+    let moves = |&actuator: &usize| {
+        m.actuator_trntype[actuator] == TrnType::Joint as i32
+            && m.actuator_trnid[actuator][0] == joint.index() as i32
+    };
+    let actuator = (0..m.nactuator).find(moves)?;
+    Some((m.actuator_ctrladr[actuator] as usize, Servo::new(m, actuator)))
 }
 
 /// Hinges and slides on the way from the root to a site, the nearest to the root first.

@@ -5,11 +5,10 @@ use super::frame::Frame;
 use super::hand::Hand;
 use super::starts::posture;
 use crate::error::ControlError;
-use crate::tasks::joints::{Servo, between};
+use crate::tasks::joints::{Servo, between, servo_of};
 use crate::tasks::roles::{of_arm, roles_of};
 use env::Env;
 use physics::elements::JointId;
-use physics::model::TrnType;
 use physics::position::kinematics::kinematics;
 use physics::{Data, Model};
 use robot::{Pose, Reach, Search};
@@ -75,8 +74,8 @@ impl Arm {
         let posture = of_arm(env.spec(), "pose").unwrap_or_else(|| "home".into());
         body.pose(&posture, &mut home).map_err(told)?;
         let (root, tool) = (body.root().map_err(told)?, body.tool().map_err(told)?);
-        let links: Vec<Link> =
-            between(m, root, tool).into_iter().filter_map(|joint| servoed(m, joint)).collect();
+        let link = |joint| servo_of(m, joint).map(|(control, servo)| Link { joint, servo, control });
+        let links: Vec<Link> = between(m, root, tool).into_iter().filter_map(link).collect();
         let joints: Vec<JointId> = links.iter().map(|link| link.joint).collect();
         let hand = Hand::new(env, &roles, &body, &joints)?;
         Ok(Arm { hand, correction: vec![0.0; links.len()], links, joints, home })
@@ -179,16 +178,6 @@ impl Arm {
         }
         self.hand.command(qpos, opening, controls);
     }
-}
-
-/// The position servo of a joint.
-fn servoed(m: &Model, joint: JointId) -> Option<Link> {
-    let moves = |&actuator: &usize| {
-        m.actuator_trntype[actuator] == TrnType::Joint as i32
-            && m.actuator_trnid[actuator][0] == joint.index() as i32
-    };
-    let actuator = (0..m.nactuator).find(moves)?;
-    Some(Link { joint, servo: Servo::new(m, actuator), control: m.actuator_ctrladr[actuator] as usize })
 }
 
 #[cfg(test)]

@@ -1,12 +1,10 @@
 //! A finger that hangs down: a joint that swings it sideways, two that bend it outwards, and the servos that move them.
 
 use crate::error::ControlError;
-use crate::tasks::joints::{Servo, between};
+use crate::tasks::joints::{Servo, between, servo_of};
 use env::Env;
-use physics::Model;
 use physics::elements::{BodyId, JointId, SiteId};
 use physics::math::{Vec3, cross, distance, dot, ops};
-use physics::model::TrnType;
 
 /// A joint, its servo, and which way it turns.
 struct Part {
@@ -45,11 +43,11 @@ impl Finger {
         let direction = ops::atan2(top[1], top[0]);
         let (sine, cosine) = ops::sincos(direction);
         let part = |(joint, towards): (JointId, Vec3)| {
-            let control = servo_of(m, joint)?;
+            let (control, servo) = servo_of(m, joint).filter(|(_, servo)| servo.stiffness > 0.0)?;
             let moves = cross(data.kin.xaxis[joint.index()], [0.0, 0.0, -1.0]);
             let dof = m.jnt_dofadr[joint.index()] as usize;
             let sense = dot(moves, towards).signum();
-            Some(Part { dof, control, servo: Servo::new(m, control), sense, before: 0.0 })
+            Some(Part { dof, control, servo, sense, before: 0.0 })
         };
         let (round, out) = ([-sine, cosine, 0.0], [cosine, sine, 0.0]);
         let [swing, upper, lower] = joints;
@@ -90,12 +88,4 @@ impl Finger {
             part.before = angle;
         }
     }
-}
-
-/// The actuator that servos a joint.
-fn servo_of(m: &Model, joint: JointId) -> Option<usize> {
-    let moves = |&k: &usize| {
-        m.actuator_trntype[k] == TrnType::Joint as i32 && m.actuator_trnid[k][0] as usize == joint.index()
-    };
-    (0..m.nu).find(moves).filter(|&k| Servo::new(m, k).stiffness > 0.0)
 }
