@@ -241,7 +241,9 @@ const ALL: &[Entry] = &[
         summary: "a grasp of the loose end, and a pull until the rope is taut",
         serves: &["rope_straighten"],
         feet: None,
-        build: |env| Ok(Box::new(RopeStraighten::new(env)?)),
+        build: |env| {
+            Ok(Box::new(Scripted::new(Arm::new(env, "rope_straighten")?, RopeStraighten::new(env)?)))
+        },
     },
     Entry {
         name: "rope_thread",
@@ -255,7 +257,7 @@ const ALL: &[Entry] = &[
         summary: "a grasp of the loose end, which is led round the peg and let go of",
         serves: &["rope_wrap"],
         feet: None,
-        build: |env| Ok(Box::new(RopeWrap::new(env)?)),
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "rope_wrap")?, RopeWrap::new(env)?))),
     },
     Entry {
         name: "cloth_fold",
@@ -283,14 +285,14 @@ const ALL: &[Entry] = &[
         summary: "a cup that is brought beside the bowl and tilted",
         serves: &["grain_pour"],
         feet: None,
-        build: |env| Ok(Box::new(GrainPour::new(env)?)),
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "grain_pour")?, GrainPour::new(env)?))),
     },
     Entry {
         name: "sponge_press",
         summary: "closed fingers that go down until the depth is right",
         serves: &["sponge_press"],
         feet: None,
-        build: |env| Ok(Box::new(SpongePress::new(env)?)),
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "sponge_press")?, SpongePress::default()))),
     },
     Entry {
         name: "walk",

@@ -6,10 +6,12 @@ use crate::controller::{Controller, command};
 use crate::error::ControlError;
 use crate::maths::MinimumJerk;
 use env::Env;
-use physics::math::distance;
+use physics::math::{distance, norm, quat_difference};
 
 /// Distance between the frames of a line at which joints are looked for \[m\].
 const SPACING: f64 = 0.01;
+/// Angle between such frames, where the tool only turns \[rad\].
+const TURN: f64 = 0.1;
 /// How an arm moves at full speed.
 #[derive(Clone, Copy, Debug)]
 pub struct Pace {
@@ -43,6 +45,13 @@ pub struct Move {
     pub pause: f64,
     /// Whether the arm waits until its joints have come, whatever its pace.
     pub precise: bool,
+}
+
+impl Move {
+    /// A straight move whose end is waited for.
+    pub fn precise(to: Frame, opening: f64, speed: f64, pause: f64) -> Self {
+        Move { to: vec![to], straight: true, opening, speed, pause, precise: true }
+    }
 }
 
 /// Says what an arm does next.
@@ -130,7 +139,10 @@ impl<S: Script> Scripted<S> {
         let length = distance(begin.place, end.place);
         let mut joints = vec![(0.0, from)];
         if step.straight {
-            let count = (length / SPACING).ceil().max(1.0) as usize;
+            let turn = norm(quat_difference(end.turn, begin.turn));
+            // What stays where it is turns there, and all else turns on its way.
+            let pieces = if length < SPACING { turn / TURN } else { length / SPACING };
+            let count = pieces.ceil().max(1.0) as usize;
             for k in 1..=count {
                 let frame = begin.towards(&end, k as f64 / count as f64);
                 let (place, _) = self.arm.solve(&scene.model, &data, &frame);

@@ -44,7 +44,7 @@ pub struct Reach {
 ///
 /// # Errors
 /// An actuator that moves no joint.
-pub fn servoed(env: &Env) -> Result<Vec<JointId>, ControlError> {
+fn servoed(env: &Env) -> Result<Vec<JointId>, ControlError> {
     let m = &env.scene().model;
     let joint = |k: usize| {
         let moves = m.actuator_trntype[k] == TrnType::Joint as i32;

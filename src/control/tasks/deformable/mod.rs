@@ -4,7 +4,6 @@ pub mod cloth_fold;
 pub mod cloth_hang;
 pub mod cloth_spread;
 pub mod grain_pour;
-mod hand;
 mod rods;
 pub mod rope_straighten;
 pub mod rope_thread;

@@ -1,10 +1,10 @@
 //! Wrapping a rope round a peg: its loose end is grasped and led round the peg in short straight motions, nearer as less of it is free; over
 //! the part that comes from the post it is lifted, and beyond it let go of.
 
-use super::hand::{Hand, Move, down};
-use super::strand::Strand;
-use crate::controller::Controller;
+use super::strand::{Strand, down};
 use crate::error::ControlError;
+use crate::tasks::arms::arm::Arm;
+use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
 use physics::elements::BodyId;
 use physics::math::{Vec3, add, norm, ops, sub};
@@ -16,34 +16,35 @@ const RADIUS: f64 = 0.02;
 const SLACK: f64 = 0.88;
 /// How far beyond a full turn it is led \[rad\].
 const BEYOND: f64 = 0.7;
-/// Angle from one motion to the next \[rad\], and how long one takes \[s\].
-const STEP: (f64, f64) = (0.4, 0.7);
+/// Angle from one move to the next \[rad\], and its speed as a share of full speed.
+const STEP: (f64, f64) = (0.4, 0.6);
 /// How far it is lifted, and within which angle from the part that it is lifted over \[m, rad\].
 const LIFT: (f64, f64) = (0.035, 0.6);
-/// How far over the table it is led otherwise \[m\].
-const LOW: f64 = 0.005;
+/// How far over the table it is led otherwise, and let go of at half of that \[m\].
+const LOW: f64 = 0.01;
 /// How far the hand rises when it has let go \[m\].
 const AWAY: f64 = 0.12;
 
-/// The controller.
 pub struct RopeWrap {
-    hand: Hand,
     strand: Strand,
     peg: BodyId,
+    /// What is left to do.
+    plan: std::vec::IntoIter<Move>,
 }
 
 impl RopeWrap {
-    /// The controller for an arm, a rope and a body `peg`.
+    /// The script for the rope and the body `peg` of the environment.
     ///
     /// # Errors
-    /// An element is missing.
+    /// It has none.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
-        Ok(RopeWrap { hand: Hand::new(env)?, strand: Strand::new(env)?, peg: env.scene().body("peg")? })
+        let plan = Vec::new().into_iter();
+        Ok(RopeWrap { strand: Strand::new(env)?, peg: env.scene().body("peg")?, plan })
     }
 }
 
-impl Controller for RopeWrap {
-    fn reset(&mut self, env: &Env, _: u64) -> Result<(), ControlError> {
+impl Script for RopeWrap {
+    fn begin(&mut self, env: &Env, arm: &Arm) -> Result<(), ControlError> {
         let grip = self.strand.grip(env);
         let peg = *env.scene().data.body(self.peg).xpos();
         let to_post = sub(grip.first, peg);
@@ -63,23 +64,22 @@ impl Controller for RopeWrap {
             [peg[0] + free * cosine, peg[1] + free * sine, grip.place[2] + height]
         };
         // The fingers open across the rope, which points away from the peg, and the wrist turns with it from one end of its range.
-        let turn = |angle: f64| down(grip.along - FRAC_PI_2 + angle);
-        let towards = |tip, turn, fingers, seconds| Move { tip, turn, fingers, seconds, patience: 0.5 };
-        let mut plan = self.strand.grasp(&grip, turn(0.0));
+        let closing = |angle: f64| grip.along - FRAC_PI_2 + angle;
+        let mut plan = self.strand.grasp(arm, &grip, closing(0.0));
         let count = (round / STEP.0).ceil();
         for k in 1..=count as usize {
             let angle = round * k as f64 / count;
-            plan.push(towards(at(angle), turn(angle), 0.0, STEP.1));
+            plan.push(Move::precise(down(arm, at(angle), closing(angle)), 0.0, STEP.1, 0.0));
         }
-        let last = add(at(round), [0.0, 0.0, -LOW]);
-        plan.push(towards(last, turn(round), 0.0, 0.5));
-        plan.push(towards(last, turn(round), Strand::OPEN, 0.5));
-        plan.push(towards(add(last, [0.0, 0.0, AWAY]), turn(round), Strand::OPEN, 1.0));
-        self.hand.begin(env, plan);
+        let last = down(arm, add(at(round), [0.0, 0.0, -LOW / 2.0]), closing(round));
+        plan.push(Move::precise(last, 0.0, 0.5, 0.2));
+        plan.push(Move::precise(last, Strand::OPEN, 0.5, 0.4));
+        plan.push(Move::precise(last.moved([0.0, 0.0, AWAY]), Strand::OPEN, 0.5, 0.0));
+        self.plan = plan.into_iter();
         Ok(())
     }
 
-    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), ControlError> {
-        self.hand.act(env, action)
+    fn next(&mut self, _: &Env, _: &Arm) -> Result<Option<Move>, ControlError> {
+        Ok(self.plan.next())
     }
 }

@@ -1,8 +1,9 @@
 //! Pressing a sponge: the closed fingers come down on the middle of its upper face, and go on until the depth is right.
 
-use super::hand::{Hand, Move, down};
-use crate::controller::Controller;
 use crate::error::ControlError;
+use crate::tasks::arms::arm::Arm;
+use crate::tasks::arms::frame::Frame;
+use crate::tasks::arms::moves::{Move, Script};
 use env::Env;
 use physics::math::{Vec3, add};
 
@@ -10,47 +11,37 @@ use physics::math::{Vec3, add};
 const ABOVE: f64 = 0.05;
 /// How far the fingers reach below the place between the fingertips \[m\].
 const BELOW: f64 = 0.008;
-/// Share of the error of the depth that is made up for in a step.
-const GAIN: f64 = 0.15;
-/// How far a step goes at most \[m\].
-const FASTEST: f64 = 0.003;
+/// Share of the error of the depth that is made up for in a move.
+const GAIN: f64 = 0.25;
+/// How far a move goes at most \[m\].
+const FASTEST: f64 = 0.005;
 
-/// The controller.
+#[derive(Default)]
 pub struct SpongePress {
-    hand: Hand,
+    /// Where the tool was told to be last, from over the sponge.
+    told: Option<Frame>,
+    moves: usize,
 }
 
-impl SpongePress {
-    /// The controller for an arm.
-    ///
-    /// # Errors
-    /// An element is missing.
-    pub fn new(env: &Env) -> Result<Self, ControlError> {
-        Ok(SpongePress { hand: Hand::new(env)? })
-    }
-}
-
-impl Controller for SpongePress {
-    fn reset(&mut self, env: &Env, _: u64) -> Result<(), ControlError> {
+impl Script for SpongePress {
+    fn begin(&mut self, env: &Env, arm: &Arm) -> Result<(), ControlError> {
         let top: Vec3 = std::array::from_fn(|i| env.rows()["top"][i]);
-        let over = |height: f64| Move {
-            tip: add(top, [0.0, 0.0, BELOW + height]),
-            turn: down(0.0),
-            fingers: 0.0,
-            seconds: 1.5,
-            patience: 1.0,
-        };
-        self.hand.begin(env, vec![over(ABOVE), over(0.0)]);
+        let place = add(top, [0.0, 0.0, BELOW + ABOVE]);
+        let above = arm.hand.around(place, 0.0, [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]);
+        *self = SpongePress { told: Some(above), moves: 0 };
         Ok(())
     }
 
-    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), ControlError> {
-        if let Some(last) = self.hand.at_rest(env) {
-            let further = (GAIN * env.rows()["depth_error"][0]).clamp(-FASTEST, FASTEST);
-            let next =
-                Move { tip: add(last.tip, [0.0, 0.0, -further]), seconds: env.dt(), patience: 0.0, ..last };
-            self.hand.go_on(env, vec![next]);
-        }
-        self.hand.act(env, action)
+    fn next(&mut self, env: &Env, _: &Arm) -> Result<Option<Move>, ControlError> {
+        let Some(told) = self.told else { return Ok(None) };
+        let further = match self.moves {
+            0 => 0.0,
+            1 => ABOVE,
+            _ => (GAIN * env.rows()["depth_error"][0]).clamp(-FASTEST, FASTEST),
+        };
+        let to = told.moved([0.0, 0.0, -further]);
+        let pressing = self.moves > 1;
+        (self.told, self.moves) = (Some(to), self.moves + 1);
+        Ok(Some(Move { precise: !pressing, ..Move::precise(to, 0.0, 0.5, if pressing { 0.0 } else { 0.2 }) }))
     }
 }

@@ -1,15 +1,19 @@
 //! The loose end of a rope: where it is taken, and how.
 
-use super::hand::Move;
 use crate::error::ControlError;
+use crate::tasks::arms::arm::Arm;
+use crate::tasks::arms::frame::Frame;
+use crate::tasks::arms::moves::Move;
 use env::Env;
 use physics::elements::{BodyId, SiteId};
-use physics::math::{Quat, Vec3, add, norm, ops, scale, sub};
+use physics::math::{Vec3, add, norm, ops, scale, sub};
 
 /// How far over the rope the hand comes \[m\].
 const ABOVE: f64 = 0.08;
 /// How far over the middle of the rope the fingertips hold it \[m\].
 const OVER: f64 = 0.005;
+/// Width of the rope \[m\].
+const WIDTH: f64 = 0.01;
 /// Which link is held, from the loose end: the fingers are to have rope on both sides.
 const HELD: usize = 2;
 
@@ -34,8 +38,8 @@ pub struct Grip {
 }
 
 impl Strand {
-    /// Opening of each finger around the rope \[m\].
-    pub const OPEN: f64 = 0.02;
+    /// Opening of the gripper around the rope, 0 to 1.
+    pub const OPEN: f64 = 0.5;
 
     /// The rope of an environment.
     ///
@@ -67,13 +71,23 @@ impl Strand {
         }
     }
 
-    /// Motions that take it, with the hand turned so.
-    pub fn grasp(&self, grip: &Grip, turn: Quat) -> Vec<Move> {
-        let towards = |tip, fingers, seconds| Move { tip, turn, fingers, seconds, patience: 1.0 };
+    /// Moves that take it, with fingers that close along the direction at `angle` in the plane of the table \[rad\].
+    pub fn grasp(&self, arm: &Arm, grip: &Grip, angle: f64) -> Vec<Move> {
+        let hold = down(arm, grip.place, angle);
+        let above = hold.moved([0.0, 0.0, ABOVE]);
+        let towards =
+            |to, opening, speed, pause| Move { straight: false, ..Move::precise(to, opening, speed, pause) };
         vec![
-            towards(add(grip.place, [0.0, 0.0, ABOVE]), Self::OPEN, 1.5),
-            towards(grip.place, Self::OPEN, 1.0),
-            towards(grip.place, 0.0, 0.4),
+            towards(above, Self::OPEN, 1.0, 0.2),
+            Move::precise(hold, Self::OPEN, 0.25, 0.4),
+            Move::precise(hold, 0.0, 1.0, 0.4),
         ]
     }
+}
+
+/// The tool with its fingertips at a place, the hand pointing down and fingers that close along the direction at `angle` in the plane of the
+/// table \[rad\].
+pub fn down(arm: &Arm, place: Vec3, angle: f64) -> Frame {
+    let (sine, cosine) = ops::sincos(angle);
+    arm.hand.around(place, WIDTH, [0.0, 0.0, -1.0], [cosine, sine, 0.0])
 }
