@@ -146,6 +146,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::in_hand::reorient::Reorient::new(env)?)),
     },
     Entry {
+        name: "pen",
+        summary: "as reorient, for a pen that is to point as another one does",
+        serves: &["adroit_pen"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::in_hand::pen::Pen::new(env)?)),
+    },
+    Entry {
         name: "trot",
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
         serves: LOCOMOTION,

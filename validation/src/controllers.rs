@@ -25,6 +25,10 @@ const EASY: &[(&str, &str)] = &[
         "hive/DClawScrewRandom-v0",
         "the mark starts where the valve is, and a slow one is near it for six steps",
     ),
+    (
+        "hive/pen-v1",
+        "the target may be near the pen, and a pen that rolls or falls points its way for six steps",
+    ),
 ];
 
 /// What a task comes to.
@@ -152,7 +156,7 @@ pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
     }
     let easy = |row: &Row| EASY.iter().find(|(id, _)| *id == row.id);
     for (id, reason) in rows.iter().filter_map(easy) {
-        let _ = write!(table, "\n{id} is solved by less, as ROBEL defines it: {reason}.\n");
+        let _ = write!(table, "\n{id} is solved by less, as RoboHive or ROBEL defines it: {reason}.\n");
     }
     let missed = |row: &&Row| {
         let by_less = easy(row).is_none() && row.success[1..].iter().any(|&share| share >= FAILS);

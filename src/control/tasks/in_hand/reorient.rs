@@ -8,7 +8,7 @@ use physics::Data;
 use physics::elements::BodyId;
 use physics::math::{Quat, Vec3, norm, ops, quat_conj, quat_mul, sub};
 
-const SIZES: Sizes = Sizes { samples: 40, horizon: 0.4, step: 0.01, knots: 5, noise: 0.2 };
+const SIZES: Sizes = Sizes { samples: 40, horizon: 0.4, step: 0.01, every: 0.05, knots: 5, noise: 0.2 };
 /// Cost of a squared distance from its place \[1/m²\].
 const PLACE: f64 = 200.0;
 /// Distance at which a thing is about to be lost \[m\], and its cost.

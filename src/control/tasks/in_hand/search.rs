@@ -9,9 +9,6 @@ use crate::maths::{Method, Sampler, Settings};
 use env::Env;
 use physics::{Data, Snapshot};
 
-/// Time from one plan to the next \[s\].
-const EVERY: f64 = 0.05;
-
 /// Sizes of a search.
 #[derive(Clone, Copy)]
 pub struct Sizes {
@@ -20,6 +17,8 @@ pub struct Sizes {
     /// How far plans look ahead, and their time step \[s\].
     pub horizon: f64,
     pub step: f64,
+    /// Time from one plan to the next \[s\].
+    pub every: f64,
     pub knots: usize,
     /// Deviation of the noise, as a share of half the range of a control.
     pub noise: f64,
@@ -40,7 +39,7 @@ pub struct Search {
 impl Search {
     /// A search of these sizes.
     pub fn new(env: &Env, sizes: Sizes) -> Self {
-        let every = ((EVERY / env.dt()).round() as usize).max(1);
+        let every = ((sizes.every / env.dt()).round() as usize).max(1);
         let controls = vec![0.0; env.scene().model.nu];
         Search { sizes, sampler: None, every, since: 0, state: Snapshot::default(), controls }
     }
@@ -50,7 +49,7 @@ impl Search {
     /// # Errors
     /// An actuator without a range.
     pub fn begin(&mut self, env: &Env, seed: u64) -> Result<(), ControlError> {
-        let Sizes { samples, horizon, step, knots, noise } = self.sizes;
+        let Sizes { samples, horizon, step, knots, noise, .. } = self.sizes;
         let mut model = env.scene().model.clone();
         model.options_mut().timestep = step;
         let steps = (horizon / step).round() as usize;
