@@ -302,6 +302,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "sponge_press")?, SpongePress::default()))),
     },
     Entry {
+        name: "muscle_stand",
+        summary: "accelerations of mass, root and feet; static optimisation shares their forces among muscles and the ground",
+        serves: &["hive/MuscleLegsStand-v0"],
+        feet: Some(2),
+        build: |env| Ok(Box::new(tasks::muscles::stand::MuscleStand::new(env)?)),
+    },
+    Entry {
         name: "walk",
         summary: "a walk on two feet by the divergent component of motion, legs by inverse kinematics",
         serves: LOCOMOTION,

@@ -6,6 +6,44 @@ use nalgebra::{DMatrix, DVector};
 /// Most Newton steps.
 const NEWTON: usize = 20;
 
+/// A convex quadratic function.
+pub trait Convex {
+    fn value(&self, x: &DVector<f64>) -> f64;
+
+    fn slope(&self, x: &DVector<f64>) -> DVector<f64>;
+
+    /// Where the function is least when coordinates other than `free` stay as they are: the values of these. `None` where it is not
+    /// convex.
+    fn target(&self, free: &[usize], x: &DVector<f64>) -> Option<DVector<f64>>;
+}
+
+/// `x' h x / 2 + g' x`.
+struct Quadratic<'a> {
+    h: &'a DMatrix<f64>,
+    g: &'a DVector<f64>,
+}
+
+impl Quadratic<'_> {
+    fn part(&self, places: &[usize]) -> DMatrix<f64> {
+        DMatrix::from_fn(places.len(), places.len(), |i, j| self.h[(places[i], places[j])])
+    }
+}
+
+impl Convex for Quadratic<'_> {
+    fn value(&self, x: &DVector<f64>) -> f64 {
+        0.5 * x.dot(&(self.h * x)) + self.g.dot(x)
+    }
+
+    fn slope(&self, x: &DVector<f64>) -> DVector<f64> {
+        self.g + self.h * x
+    }
+
+    fn target(&self, free: &[usize], x: &DVector<f64>) -> Option<DVector<f64>> {
+        let step = self.part(free).cholesky()?.solve(&self.slope(x).select_rows(free));
+        Some(x.select_rows(free) - step)
+    }
+}
+
 /// The point `x` within bounds that minimises `x' h x / 2 + g' x`, by projected Newton steps, and the
 /// inverse of `h` on the coordinates that are not at a bound; `None` where `h` is not positive there.
 pub fn minimise(
@@ -13,18 +51,35 @@ pub fn minimise(
     g: &DVector<f64>,
     bounds: &[[f64; 2]],
 ) -> Option<(DVector<f64>, DMatrix<f64>)> {
-    let m = g.len();
+    let program = Quadratic { h, g };
+    let x = least(&program, bounds)?;
+    let free = free(&program.slope(&x), &x, bounds);
+    let inverse = program.part(&free).cholesky()?.inverse();
+    let mut all = DMatrix::zeros(x.len(), x.len());
+    for (i, &row) in free.iter().enumerate() {
+        for (j, &column) in free.iter().enumerate() {
+            all[(row, column)] = inverse[(i, j)];
+        }
+    }
+    Some((x, all))
+}
+
+/// The point within bounds where a function is least, by projected Newton steps; `None` where it is not convex.
+pub fn least(program: &impl Convex, bounds: &[[f64; 2]]) -> Option<DVector<f64>> {
     let project = |x: DVector<f64>| {
-        DVector::from_iterator(m, x.iter().zip(bounds).map(|(x, [low, high])| x.clamp(*low, *high)))
+        DVector::from_iterator(x.len(), x.iter().zip(bounds).map(|(x, [low, high])| x.clamp(*low, *high)))
     };
-    let value = |x: &DVector<f64>| 0.5 * (x.transpose() * h * x)[0] + g.dot(x);
-    let mut x = project(DVector::zeros(m));
+    let mut x = project(DVector::zeros(bounds.len()));
     for _ in 0..NEWTON {
-        let (slope, inverse) = (g + h * &x, free_inverse(h, &(g + h * &x), &x, bounds)?);
-        let direction = -(&inverse * slope);
+        let free = free(&program.slope(&x), &x, bounds);
+        let mut direction = DVector::zeros(x.len());
+        for (&k, goal) in free.iter().zip(&program.target(&free, &x)?) {
+            direction[k] = goal - x[k];
+        }
+        let before = program.value(&x);
         let mut share = 1.0;
         let mut next = project(&x + &direction);
-        while value(&next) > value(&x) && share > 1e-6 {
+        while program.value(&next) > before && share > 1e-6 {
             share *= 0.5;
             next = project(&x + &direction * share);
         }
@@ -34,29 +89,14 @@ pub fn minimise(
             break;
         }
     }
-    let free = free_inverse(h, &(g + h * &x), &x, bounds)?;
-    Some((x, free))
+    Some(x)
 }
 
-/// The inverse of `h` among the coordinates that are free: not at a bound towards which the slope pushes them. Zero elsewhere.
-fn free_inverse(
-    h: &DMatrix<f64>,
-    slope: &DVector<f64>,
-    x: &DVector<f64>,
-    bounds: &[[f64; 2]],
-) -> Option<DMatrix<f64>> {
+/// The coordinates that are free: not at a bound towards which the slope pushes them.
+fn free(slope: &DVector<f64>, x: &DVector<f64>, bounds: &[[f64; 2]]) -> Vec<usize> {
     let held =
         |k: usize| (x[k] <= bounds[k][0] && slope[k] > 0.0) || (x[k] >= bounds[k][1] && slope[k] < 0.0);
-    let free: Vec<usize> = (0..x.len()).filter(|&k| !held(k)).collect();
-    let part = DMatrix::from_fn(free.len(), free.len(), |i, j| h[(free[i], free[j])]);
-    let inverse = part.cholesky()?.inverse();
-    let mut all = DMatrix::zeros(x.len(), x.len());
-    for (i, &row) in free.iter().enumerate() {
-        for (j, &column) in free.iter().enumerate() {
-            all[(row, column)] = inverse[(i, j)];
-        }
-    }
-    Some(all)
+    (0..x.len()).filter(|&k| !held(k)).collect()
 }
 
 #[cfg(test)]

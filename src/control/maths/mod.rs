@@ -33,4 +33,4 @@ pub use polar_steering::{PolarSteering, wrap};
 pub use riccati::{Regulator, continuous, discrete};
 pub use sampling::{Method, Sampler, Settings};
 pub use simulated::{Simulated, linearise};
-pub use static_optimisation::activations;
+pub use static_optimisation::{activations, activations_to};

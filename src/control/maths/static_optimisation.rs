@@ -2,7 +2,7 @@
 //! based criterion of muscle force prediction in locomotion, Journal of Biomechanics 14, 1981, with squares for their cubes).
 
 use super::NoSolution;
-use super::box_program::minimise;
+use super::box_program::{Convex, least};
 use nalgebra::{DMatrix, DVector};
 
 /// Weight of the squared torques that are missed, over that of the squared activations, once `strength` is scaled to one.
@@ -18,6 +18,19 @@ pub fn activations(
     torques: &DVector<f64>,
     bounds: &[[f64; 2]],
 ) -> Result<DVector<f64>, NoSolution> {
+    activations_to(EXACTNESS, strength, torques, bounds)
+}
+
+/// The same with another weight of the squared torques that are missed.
+///
+/// # Errors
+/// As [`activations`].
+pub fn activations_to(
+    exactness: f64,
+    strength: &DMatrix<f64>,
+    torques: &DVector<f64>,
+    bounds: &[[f64; 2]],
+) -> Result<DVector<f64>, NoSolution> {
     let wrong = |message: &str| NoSolution::new("static optimisation", message);
     if strength.nrows() != torques.len() || strength.ncols() != bounds.len() {
         return Err(wrong("there is a torque for each joint, and a range for each muscle"));
@@ -26,12 +39,42 @@ pub fn activations(
     if !(scale > 0.0 && scale.is_finite()) {
         return Err(wrong("no muscle makes a torque"));
     }
-    let (strength, torques) = (strength / scale, torques / scale);
-    let muscles = strength.ncols();
-    let curvature = DMatrix::identity(muscles, muscles) + strength.transpose() * &strength * EXACTNESS;
-    let slope = -(strength.transpose() * torques * EXACTNESS);
-    let found = minimise(&curvature, &slope, bounds);
-    found.map(|(activations, _)| activations).ok_or_else(|| wrong("the muscles' strengths are not finite"))
+    let missed = Missed { strength: strength / scale, torques: torques / scale, effort: 1.0 / exactness };
+    least(&missed, bounds).ok_or_else(|| wrong("the muscles' strengths are not finite"))
+}
+
+/// Half the square of the torques that activations miss, and of the activations with the weight `effort`.
+struct Missed {
+    strength: DMatrix<f64>,
+    torques: DVector<f64>,
+    effort: f64,
+}
+
+impl Missed {
+    fn rest(&self, x: &DVector<f64>) -> DVector<f64> {
+        &self.torques - &self.strength * x
+    }
+}
+
+impl Convex for Missed {
+    fn value(&self, x: &DVector<f64>) -> f64 {
+        0.5 * (self.rest(x).norm_squared() + self.effort * x.norm_squared())
+    }
+
+    fn slope(&self, x: &DVector<f64>) -> DVector<f64> {
+        x * self.effort - self.strength.tr_mul(&self.rest(x))
+    }
+
+    /// There are more muscles than joints: the equations are as many as joints.
+    fn target(&self, free: &[usize], x: &DVector<f64>) -> Option<DVector<f64>> {
+        let strength = self.strength.select_columns(free);
+        let left = self.rest(x) + &strength * x.select_rows(free);
+        let mut square = &strength * strength.transpose();
+        for joint in 0..square.nrows() {
+            square[(joint, joint)] += self.effort;
+        }
+        Some(strength.tr_mul(&square.cholesky()?.solve(&left)))
+    }
 }
 
 #[cfg(test)]

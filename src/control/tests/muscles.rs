@@ -1,4 +1,4 @@
-//! Controllers of limbs that muscles move.
+//! Controllers of limbs that muscles move, and of legs.
 
 use env::{Env, Options, OwnModels};
 use robohive_control::make;
@@ -44,4 +44,16 @@ fn five_tips_and_one_reach_their_targets() {
         let (count, _) = solved(id, "muscle_reach", 0);
         assert!(count > 10, "{id} is solved in {count} steps");
     }
+}
+
+/// Two legs keep the heights that are asked of them through pushes, and do the same again.
+#[test]
+fn legs_stand() {
+    let id = "hive/MuscleLegsStand-v0";
+    for seed in [0, 1] {
+        let (count, action) = solved(id, "muscle_stand", seed);
+        assert!(count > 350, "{id} is solved in {count} steps");
+        assert!(action.iter().all(|value| (-1.0..=1.0).contains(value)), "{id}");
+    }
+    assert!(solved(id, "muscle_stand", 1).1 == solved(id, "muscle_stand", 1).1, "{id} differs");
 }

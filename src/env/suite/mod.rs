@@ -20,6 +20,7 @@ mod bonus;
 mod circling;
 pub mod classical;
 pub mod claws;
+pub mod coupling;
 pub mod dclaw;
 pub mod deformable;
 mod fatigue;

@@ -1,8 +1,8 @@
 //! Bodies with feet.
 
-mod body;
+pub(super) mod body;
 pub(super) mod legs;
-mod seen;
+pub(super) mod seen;
 pub mod swim;
 pub mod trot;
 pub mod walk;

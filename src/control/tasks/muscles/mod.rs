@@ -2,4 +2,7 @@
 
 mod limb;
 pub mod pose;
+mod pulls;
 pub mod reach;
+mod soles;
+pub mod stand;

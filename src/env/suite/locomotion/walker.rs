@@ -6,6 +6,7 @@ use crate::error::EnvError;
 use crate::rotation::norm;
 use crate::rows::Rows;
 use crate::suite::body::{Bend, is_below, joints_below};
+use crate::suite::coupling::{Coupling, follow};
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Turn, Verdict, View};
 use physics::elements::{BodyId, JointId, SiteId};
 use physics::math::{Mat3, Vec3, cross, distance, mul_mat_t_vec, mul_mat_vec, ops, quat_mul};
@@ -58,6 +59,7 @@ pub struct Walker {
     forward: Vec3,
     up: Vec3,
     bends: Vec<Bend>,
+    couplings: Vec<Coupling>,
     carriers: Vec<Carrier>,
     /// Controls of the body.
     controls: Vec<usize>,
@@ -149,6 +151,7 @@ impl Walker {
             forward: body.forward(),
             up: body.up(),
             bends: joints_below(m, body.root()?),
+            couplings: Coupling::all(m),
             carriers: carriers(m, body.root()?),
             controls: controls(m, prefix),
             stand: m.qpos0.to_vec(),
@@ -162,6 +165,7 @@ impl Walker {
         if body.swim().is_none() {
             body.pose("stand", &mut walker.stand)?;
         }
+        follow(&walker.couplings, &mut walker.stand);
         let mut standing = Data::new(m);
         standing.state.qpos.copy_from_slice(&walker.stand);
         physics::forward(m, &mut standing)?;
@@ -246,6 +250,7 @@ impl Walker {
         for joint in &self.bends {
             episode.start.qpos[joint.position] += self.noise * episode.rng.uniform(-1.0, 1.0)?;
         }
+        follow(&self.couplings, &mut episode.start.qpos);
         if let Some(push) = &mut self.push {
             push.restart();
         }
