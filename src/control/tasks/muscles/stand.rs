@@ -34,7 +34,7 @@ const FOOT: [f64; 2] = [100.0, 20.0];
 const JOINT: [f64; 2] = [40.0, 12.0];
 const LOOSE: f64 = 0.03;
 /// Rate at which the wanted height changes \[m/s\].
-const LOWER: f64 = 0.05;
+const LOWER: f64 = 0.1;
 /// Weight of missed forces over activations.
 const EXACTNESS: f64 = 1e6;
 
