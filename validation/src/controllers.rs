@@ -5,6 +5,7 @@ use agents::Policy;
 use control::{Controller, Entry};
 use env::episode::{Summary, evaluate};
 use env::{Env, Options, OwnModels, Registry};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
@@ -14,6 +15,9 @@ const EPISODES: u64 = 20;
 const SOLVES: f64 = 80.0;
 /// Share that zero or random actions may solve \[%\].
 const FAILS: f64 = 5.0;
+
+/// Tables that are written: of successes, and of speeds.
+const TABLES: usize = 2;
 
 /// Tasks of others that are kept as they are defined, and why zero or random actions solve them too.
 const EASY: &[(&str, &str)] = &[
@@ -66,14 +70,15 @@ struct Played {
     thought: Duration,
 }
 
-/// Every id on a model of our own that a controller serves, of one suite or of all. Ids that add pictures to another one are left out.
+/// Every id on a model of our own that a controller serves and that contains `only`, of one suite or of all. Ids that add pictures to
+/// another one are left out.
 ///
 /// # Errors
-/// There is no such suite; an environment or a controller that fails, with its id.
-pub fn measure(suite: &str) -> Result<Vec<Row>, String> {
+/// There is no such id; an environment or a controller that fails, with its id.
+pub fn measure(suite: &str, only: &str) -> Result<Vec<Row>, String> {
     let own = |spec: &&env::Spec| {
         let model: Option<String> = spec.args.get("model_path");
-        let wanted = suite.is_empty() || spec.suite == suite;
+        let wanted = (suite.is_empty() || spec.suite == suite) && spec.id.contains(only);
         wanted && model.is_some_and(|path| path.starts_with("hive/")) && !spec.args.contains("visual_keys")
     };
     let mut rows = Vec::new();
@@ -82,7 +87,10 @@ pub fn measure(suite: &str) -> Result<Vec<Row>, String> {
             rows.push(row(&spec.id, entry).map_err(|error| format!("{}: {error}", spec.id))?);
         }
     }
-    if rows.is_empty() { Err(format!("no controller serves an id of the suite {suite:?}")) } else { Ok(rows) }
+    if rows.is_empty() {
+        return Err(format!("no controller serves an id of the suite {suite:?} that contains {only:?}"));
+    }
+    Ok(rows)
 }
 
 fn row(id: &str, entry: &'static Entry) -> Result<Row, String> {
@@ -169,4 +177,55 @@ pub fn render(rows: &[Row]) -> (String, Result<(), String>) {
         Err(format!("not solved by their controllers, or by less: {}", missing.join(", ")))
     };
     (table, verdict)
+}
+
+/// A written text of tables in which the rows and reasons of `newer` replace or join those of `older`, in the order of the registry.
+pub fn joined(older: &str, newer: &str) -> String {
+    let [older, newer]: [Vec<&str>; 2] = [older, newer].map(|text| text.trim().split("\n\n").collect());
+    let tables = (0..TABLES).map(|k| {
+        let [kept, measured] =
+            [&older, &newer].map(|text| text.get(k).map_or(Vec::new(), |table| rows_of(table)));
+        let head = newer.get(k).map_or("", |table| table).lines().take(2);
+        let row = |id: &str| measured.iter().chain(&kept).find(|(of, _)| *of == id).map(|(_, line)| *line);
+        let specs = Registry::builtin().specs().iter();
+        head.chain(specs.filter_map(|spec| row(&spec.id))).collect::<Vec<_>>().join("\n")
+    });
+    let reasons: BTreeSet<_> = older.iter().skip(TABLES).chain(newer.iter().skip(TABLES)).collect();
+    tables.chain(reasons.into_iter().map(|reason| (*reason).to_owned())).collect::<Vec<_>>().join("\n\n")
+        + "\n"
+}
+
+/// Rows of a Markdown table, each with its first cell.
+fn rows_of(table: &str) -> Vec<(&str, &str)> {
+    let rows = table.lines().skip(2);
+    rows.filter_map(|line| Some((line.strip_prefix("| ")?.split(" |").next()?, line))).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(id: &str, success: f64) -> Row {
+        let suite = "classical".to_owned();
+        Row {
+            id: id.into(),
+            suite,
+            controller: "c",
+            success: [success, 0.0, 0.0],
+            speed: 10.0,
+            dt: 0.1,
+            thought: 0.0,
+        }
+    }
+
+    #[test]
+    fn measured_rows_replace_written_ones_and_others_stay() {
+        let (furuta, acrobot) = ("hive/FurutaPendulum-v0", "hive/Acrobot-v0");
+        let older = render(&[row(furuta, 90.0)]).0;
+        let joined = joined(&older, &render(&[row(acrobot, 100.0), row(furuta, 95.0)]).0);
+        assert_eq!(joined, render(&[row(acrobot, 100.0), row(furuta, 95.0)]).0);
+        let kept = super::joined(&joined, &render(&[row(acrobot, 40.0)]).0);
+        assert_eq!(kept, render(&[row(acrobot, 40.0), row(furuta, 95.0)]).0);
+        assert_eq!(super::joined("", &older), older);
+    }
 }

@@ -7,6 +7,7 @@ use robohive_validation::{
     bits, c_library, collide, controllers, demonstrations, draws, environments, episodes,
 };
 use robohive_validation::{hulls, laws, pictures, policies, robots, round_trip, scenes, solver, wider};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -28,7 +29,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation wider --models FOLDER --list FILE --references FOLDER [--only TEXT] [--write README.md]
        robohive-validation quirks [--write README.md]
        robohive-validation robots [--write README.md]
-       robohive-validation controllers [--suite NAME] [--write README.md]
+       robohive-validation controllers [--suite NAME] [--only TEXT] [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
        robohive-validation round-trip FOLDER... [--only TEXT] [--write README.md]
 
@@ -61,7 +62,8 @@ bodies that were lost, and how far soft things were stretched; fails when a law 
 robots: compares our own robots with the numbers that are published of them (published.toml of their folders); fails when one
 differs by more than 2 % or 0.02 rad without a reason.
 controllers: runs every controller in the environments that it serves, on 20 seeds, beside zero and random actions; fails when a
-controller solves less than 80 % of them, or the others 5 %. With --suite of one suite, whose section --write replaces.
+controller solves less than 80 % of them, or the others 5 %. With --suite of one suite, whose section --write replaces; with
+--only of ids that contain TEXT, whose rows alone it replaces.
 hulls: hashes the convex hull of every mesh file (STL, OBJ, MSH) below the folders, one line a mesh; fails when any differs
 from the recorded ones.
 round-trip: writes every model below the folders as MJCF and reads it again; fails when a bit of an array differs, or the
@@ -199,8 +201,15 @@ fn measured<'a>(
             ("robots", table, verdict)
         }
         Some("controllers") => {
-            let (table, verdict) = controllers::render(&controllers::measure(&a.suite)?);
-            (if a.suite.is_empty() { "controllers" } else { &a.suite }, table, verdict)
+            let (table, verdict) = controllers::render(&controllers::measure(&a.suite, &a.only)?);
+            let section = if a.suite.is_empty() { "controllers" } else { &a.suite };
+            let table = match &a.write {
+                Some(path) if !a.only.is_empty() => {
+                    controllers::joined(&section_of(path, &markers(section))?, &table)
+                }
+                _ => table,
+            };
+            (section, table, verdict)
         }
         Some("scenes") => {
             let (table, verdict) = scenes::render(&assembled(a)?);
@@ -369,12 +378,22 @@ fn number<T: std::str::FromStr>(word: &str, value: &str) -> Result<T, String> {
 
 /// Replaces what stands between the markers of `path`.
 fn replace(path: &Path, markers: &[String; 2], table: &str) -> Result<(), String> {
+    let (text, place) = marked(path, markers)?;
+    let new = format!("{}\n{table}{}", &text[..place.start], &text[place.end..]);
+    std::fs::write(path, new).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// What stands between the markers of a file.
+fn section_of(path: &Path, markers: &[String; 2]) -> Result<String, String> {
+    marked(path, markers).map(|(text, place)| text[place].to_owned())
+}
+
+/// The text of a file, and where in it the text between the markers is.
+fn marked(path: &Path, markers: &[String; 2]) -> Result<(String, Range<usize>), String> {
     let text = std::fs::read_to_string(path).map_err(|e| format!("{}: {e}", path.display()))?;
     let [begin, end] = [0, 1].map(|k| text.find(&markers[k]));
-    let (Some(begin), Some(end)) = (begin, end) else {
-        return Err(format!("{}: the markers {markers:?} are missing", path.display()));
-    };
-    let head = &text[..begin + markers[0].len()];
-    let new = format!("{head}\n{table}{}", &text[end..]);
-    std::fs::write(path, new).map_err(|e| format!("{}: {e}", path.display()))
+    match (begin, end) {
+        (Some(begin), Some(end)) if begin < end => Ok((text, begin + markers[0].len()..end)),
+        _ => Err(format!("{}: the markers {markers:?} are missing", path.display())),
+    }
 }
