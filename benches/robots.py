@@ -25,7 +25,7 @@ import compile as compiling
 import step
 
 RUNS = 3
-SUITES = ["hive", "classical", "locomotion", "tabletop", "deformable", "multi_agent"]
+SUITES = ["hive", "classical", "locomotion", "tabletop", "deformable", "in_hand", "multi_agent"]
 # Bounds of cold compiles and first steps [s].
 COMPILE, FIRST = 0.150, 0.300
 BEGIN, END = "<!-- robots begin -->", "<!-- robots end -->"

@@ -6,7 +6,7 @@
     python task_scenes.py --models MODELS --list LIST --out REFERENCES [--robohive PROGRAM]
 
 A scene that several robots share names them by words (`ROBOT`), for which each environment gives its own. MuJoCo knows no such
-words: the scene and the files that it includes are written again beside the originals, with the words replaced. LIST becomes
+words: the scene and the texts that it names are written again beside the originals, with the words replaced. LIST becomes
 one path a line, relative to MODELS, of every scene of an environment whose id begins with `hive/`; REFERENCES gets an archive
 of each, as `record.py` makes them.
 """
@@ -23,7 +23,7 @@ from record import record
 
 STATES = 10
 STEPS = 300
-INCLUDE = re.compile(r'(<include\s+file=")([^"]+)(")')
+NAMED = re.compile(r'(<(?:include|model)\b[^>]*?\bfile=")([^"]+)(")')
 
 
 def arguments(doc):
@@ -48,15 +48,17 @@ def scenes(program):
 
 
 def replaced(path, words):
-    """The path of a file whose words are replaced, and those of the files that it includes; written if any is in them."""
+    """The path of a file whose words are replaced, and those of the texts that it names; written if any is in them."""
     text = original = path.read_text()
     for word, replacement in words:
         text = text.replace(word, replacement)
 
-    def included(match):
+    def named(match):
+        if not (path.parent / match[2]).exists():  # relative to the file that names this one: a part of a robot, without words
+            return match[0]
         return match[1] + str(Path(match[2]).with_name(replaced(path.parent / match[2], words).name)) + match[3]
 
-    text = INCLUDE.sub(included, text)
+    text = NAMED.sub(named, text)
     if text == original:
         return path
     suffix = re.sub(r"\W", "_", words[0][1])
