@@ -15,7 +15,7 @@ const FOLDER: &str = "validation/results";
 const MADE: &str = "Made from commit ";
 
 /// Tables that speak of other code than [`ENGINE`], with that code.
-const SPEAK_OF: [(&str, &[&str]); 29] = [
+const SPEAK_OF: [(&str, &[&str]); 30] = [
     ("bus_time", &["src/protocol", "src/wire", "src/hardware"]),
     ("controllers", &["src/physics", "mjcf", "src/robot", "src/env", "src/control", "assets"]),
     ("draws", &["src/random"]),
