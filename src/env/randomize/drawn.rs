@@ -14,7 +14,7 @@ use robot::Keeper;
 pub(crate) struct Drawn<T> {
     pub(super) dials: Vec<Dial<T>>,
     /// The model before anything was drawn.
-    pub(super) base: Model,
+    pub(super) base: Box<Model>,
     rng: Rng,
     rows: Rows,
 }
@@ -22,14 +22,14 @@ pub(crate) struct Drawn<T> {
 /// What was drawn, and where the sequence of draws stands.
 #[derive(Clone)]
 pub(crate) struct DrawnState {
-    base: Model,
+    base: Box<Model>,
     rng: Rng,
     rows: Rows,
 }
 
 impl<T: Target> Drawn<T> {
     pub(super) fn of(dials: Vec<Dial<T>>, model: &Model, seed: u64) -> Self {
-        Drawn { dials, base: model.clone(), rng: stream(seed, T::STREAM), rows: Rows::default() }
+        Drawn { dials, base: Box::new(model.clone()), rng: stream(seed, T::STREAM), rows: Rows::default() }
     }
 
     /// Restarts the draws.

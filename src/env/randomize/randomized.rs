@@ -15,7 +15,7 @@ pub(crate) struct Randomized {
     pub(crate) look: Option<Look>,
     pub(crate) mechanics: Option<Mechanics>,
     /// The model as it was made, and the statistics that its file gives, where physics changes.
-    made: Option<(Model, Given)>,
+    made: Option<Box<(Model, Given)>>,
 }
 
 /// What was drawn, and where the sequences of draws stand.
@@ -40,7 +40,9 @@ impl Randomized {
             look: visual.map(|config| Look::new(config, model, seed)).transpose()?,
             mechanics: physics.map(|config| Mechanics::new(config, model, seed)).transpose()?,
             made: match physics {
-                Some(_) => Some((model.clone(), Given::of(model).map_err(|error| error.to_string())?)),
+                Some(_) => {
+                    Some(Box::new((model.clone(), Given::of(model).map_err(|error| error.to_string())?)))
+                }
                 None => None,
             },
         })
@@ -54,8 +56,8 @@ impl Randomized {
 
     /// Makes the model what it was, so that no episode depends on those before it: what is derived of a draw would keep their poses.
     pub(crate) fn undo(&self, scene: &mut Scene) {
-        if let Some((made, _)) = &self.made {
-            scene.model = made.clone();
+        if let Some(made) = &self.made {
+            scene.model = made.0.clone();
         }
     }
 
@@ -79,7 +81,7 @@ impl Randomized {
     /// # Errors
     /// The model cannot be what its numbers say.
     pub(crate) fn settle(&self, scene: &mut Scene) -> Result<(), EnvError> {
-        self.made.as_ref().map_or(Ok(()), |(_, given)| given.settle(scene))
+        self.made.as_ref().map_or(Ok(()), |made| made.1.settle(scene))
     }
 
     /// Age of the robot's readings that was drawn \[time steps\].

@@ -43,7 +43,7 @@ impl Mechanics {
     /// No place is far enough from others; the model refuses what was drawn.
     pub(crate) fn begin(&mut self, id: &str, scene: &mut Scene, start: &mut [f64]) -> Result<(), EnvError> {
         // With what the task drew itself.
-        self.base = scene.model.clone();
+        (*self.base).clone_from(&scene.model);
         self.draw(id, scene)?;
         for body in self.dials.iter().filter_map(|dial| dial.target.grown(&self.base)) {
             let deeper = body.depth(&scene.model, start) - body.depth(&self.base, start);

@@ -119,45 +119,51 @@ impl Cloth {
     /// Area that it covers, seen from above, as a share of its own.
     pub fn covered(&self, data: &Data) -> f64 {
         let area = |places: &[Vec3]| {
-            let flat = |place: &Vec3| [place[0] / CELL, place[1] / CELL];
-            cells(&places.iter().map(flat).collect::<Vec<_>>(), &self.triangles)
+            cells(places.len(), |point| [0, 1].map(|i| places[point][i] / CELL), &self.triangles)
         };
         area(self.places(data)) as f64 / area(&self.flat).max(1) as f64
     }
 }
 
-/// Cells of unit side whose middles are in a triangle at least.
-fn cells(points: &[[f64; 2]], triangles: &[[usize; 3]]) -> usize {
+/// Words of a row of cells.
+const WORDS: usize = 16;
+
+/// Cells of unit side whose middles are in a triangle at least, of points within as many cells as a row has.
+fn cells(count: usize, point: impl Fn(usize) -> [f64; 2], triangles: &[[usize; 3]]) -> usize {
     let bounds = |i: usize| {
-        let along = points.iter().map(|point| point[i]);
+        let along = (0..count).map(|k| point(k)[i]);
         let [low, high] =
             [along.clone().fold(f64::INFINITY, f64::min), along.fold(f64::NEG_INFINITY, f64::max)];
-        (low.floor(), (high - low).clamp(0.0, 1e3).ceil() as usize + 1)
+        (low.floor(), (high - low).clamp(0.0, (64 * WORDS) as f64 - 2.0).ceil() as usize + 1)
     };
     let [(left, width), (low, height)] = [bounds(0), bounds(1)];
-    let mut covered = vec![false; width * height];
-    for corners in triangles {
-        let [a, b, c] = corners.map(|corner| [points[corner][0] - left, points[corner][1] - low]);
-        let cross = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
-            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
-        };
-        if cross(a, b, c) == 0.0 {
-            continue;
-        }
-        let span = |i: usize, most: usize| {
-            let [first, last] = [a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i])];
-            first.max(0.0) as usize..(last.ceil() as usize).min(most)
-        };
-        for row in span(1, height) {
+    let cross =
+        |p: [f64; 2], q: [f64; 2], r: [f64; 2]| (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+    let mut covered = 0;
+    for row in 0..height {
+        let mut line = [0u64; WORDS];
+        for corners in triangles {
+            let [a, b, c] = corners.map(|corner| {
+                let [x, y] = point(corner);
+                [x - left, y - low]
+            });
+            let span = |i: usize, most: usize| {
+                let [first, last] = [a[i].min(b[i]).min(c[i]), a[i].max(b[i]).max(c[i])];
+                first.max(0.0) as usize..(last.ceil() as usize).min(most)
+            };
+            if !span(1, height).contains(&row) || cross(a, b, c) == 0.0 {
+                continue;
+            }
             for column in span(0, width) {
                 let middle = [column as f64 + 0.5, row as f64 + 0.5];
                 let sides = [cross(a, b, middle), cross(b, c, middle), cross(c, a, middle)];
                 let within = sides.iter().all(|side| *side >= 0.0) || sides.iter().all(|side| *side <= 0.0);
-                covered[row * width + column] |= within;
+                line[column / 64] |= u64::from(within) << (column % 64);
             }
         }
+        covered += line.iter().map(|word| word.count_ones() as usize).sum::<usize>();
     }
-    covered.iter().filter(|covered| **covered).count()
+    covered
 }
 
 #[cfg(test)]
@@ -169,9 +175,9 @@ mod tests {
     fn covered_cells_are_counted_once() {
         let square = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]];
         let triangles = [[0, 1, 2], [0, 3, 2]];
-        assert_eq!(cells(&square, &triangles), 100);
+        assert_eq!(cells(4, |k| square[k], &triangles), 100);
         let folded = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [10.0, 0.0]];
-        assert_eq!(cells(&folded, &triangles), 55);
-        assert_eq!(cells(&[[0.2, 0.2]; 4], &triangles), 0);
+        assert_eq!(cells(4, |k| folded[k], &triangles), 55);
+        assert_eq!(cells(4, |_| [0.2, 0.2], &triangles), 0);
     }
 }

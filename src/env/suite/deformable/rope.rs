@@ -51,7 +51,7 @@ impl Rope {
     }
 
     /// Where its ends and the joints between its links are, from the first end to the last \[m\].
-    pub fn places(&self, data: &Data) -> impl Iterator<Item = Vec3> {
+    pub fn places(&self, data: &Data) -> impl DoubleEndedIterator<Item = Vec3> {
         let joints = self.links.iter().map(|link| *data.body(*link).xpos());
         joints.chain([self.end(data)])
     }

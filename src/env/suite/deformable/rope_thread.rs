@@ -75,21 +75,19 @@ impl RopeThread {
     /// Length beyond the ring \[m\]: from the loose end to where the rope crosses its plane, if that is in the hole.
     fn length(&self, m: &Model, data: &Data) -> f64 {
         let ((middle, axis), radius) = (self.through(data), m.site_size[self.hole.index()][0]);
-        let mut places: Vec<Vec3> = self.rope.places(data).collect();
-        places.reverse();
-        let mut length = 0.0;
-        for pair in places.windows(2) {
-            let [beyond, before] = [pair[0], pair[1]].map(|place| dot(axis, sub(place, middle)));
+        let (mut length, mut last) = (0.0, self.rope.end(data));
+        for place in self.rope.places(data).rev().skip(1) {
+            let [beyond, before] = [last, place].map(|place| dot(axis, sub(place, middle)));
             if beyond <= 0.0 {
                 return 0.0;
             }
-            let (link, way) = (distance(pair[0], pair[1]), sub(pair[1], pair[0]));
+            let (link, way) = (distance(last, place), sub(place, last));
             if before <= 0.0 {
                 let share = beyond / (beyond - before);
-                let inside = distance(add_scaled(pair[0], way, share), middle) < radius;
+                let inside = distance(add_scaled(last, way, share), middle) < radius;
                 return if inside { length + share * link } else { 0.0 };
             }
-            length += link;
+            (length, last) = (length + link, place);
         }
         0.0
     }
