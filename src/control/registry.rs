@@ -53,7 +53,7 @@ impl Entry {
     }
 }
 
-/// Tasks of bodies with feet.
+/// Tasks of the suite `locomotion`, of which each body has those that its feet, or their lack, allow.
 const LOCOMOTION: &[&str] = &["chase", "push_box", "stand", "turn", "velocity", "walk_to", "weave"];
 
 /// Every controller. Of several that serve an id, the first is the best.

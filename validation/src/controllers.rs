@@ -1,6 +1,7 @@
 //! Tasks and the controllers that solve them, beside actions that are zero or random: successes on the same seeds, and the speed of the
 //! environments.
 
+use crate::own_ids::own_ids;
 use agents::Policy;
 use control::{Controller, Entry};
 use env::episode::{Summary, evaluate};
@@ -76,13 +77,8 @@ struct Played {
 /// # Errors
 /// There is no such id; an environment or a controller that fails, with its id.
 pub fn measure(suite: &str, only: &str) -> Result<Vec<Row>, String> {
-    let own = |spec: &&env::Spec| {
-        let model: Option<String> = spec.args.get("model_path");
-        let wanted = (suite.is_empty() || spec.suite == suite) && spec.id.contains(only);
-        wanted && model.is_some_and(|path| path.starts_with("hive/")) && !spec.args.contains("visual_keys")
-    };
     let mut rows = Vec::new();
-    for spec in Registry::builtin().specs().iter().filter(own) {
+    for spec in own_ids(suite, only) {
         if let Some(entry) = control::serving(spec).next() {
             rows.push(row(&spec.id, entry).map_err(|error| format!("{}: {error}", spec.id))?);
         }

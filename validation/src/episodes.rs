@@ -4,8 +4,9 @@
 mod soft;
 mod things;
 
+use crate::own_ids::own_ids;
 use agents::Policy;
-use env::{Env, Options, OwnModels, Registry, Spec};
+use env::{Env, Options, OwnModels, Spec};
 use soft::Soft;
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -53,12 +54,7 @@ impl Row {
 /// # Errors
 /// There is no such suite; an environment that fails, with its id.
 pub fn measure(suite: &str, only: &str, episodes: u64, threads: usize) -> Result<Vec<Row>, String> {
-    let own = |spec: &&Spec| {
-        let model: Option<String> = spec.args.get("model_path");
-        let wanted = (suite.is_empty() || spec.suite == suite) && spec.id.contains(only);
-        wanted && model.is_some_and(|path| path.starts_with("hive/")) && !spec.args.contains("visual_keys")
-    };
-    let specs: Vec<_> = Registry::builtin().specs().iter().filter(own).collect();
+    let specs: Vec<_> = own_ids(suite, only).collect();
     if specs.is_empty() {
         return Err(format!("no id of the suite {suite:?} contains {only:?}"));
     }

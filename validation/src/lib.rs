@@ -13,6 +13,7 @@ pub mod episodes;
 pub mod hulls;
 pub mod laws;
 pub mod motion;
+mod own_ids;
 pub mod pictures;
 pub mod policies;
 pub mod reference;

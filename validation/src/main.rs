@@ -56,9 +56,9 @@ bits: counts the values that are MuJoCo's to the last bit. Without a list on the
 not that of results/bits.md. That table needs RUSTFLAGS=\"--cfg system_math\"; with it the exit code is 3 where the C library
 is another than that of the recorded MuJoCo.
 laws: measures laws of mechanics, on states of the own models and of those in the folder ROBOHIVE_REFERENCES. With --episodes or
---suite it plays so many episodes (200) of random actions of every id on a model of our own and counts those that physics ended, NaN,
-bodies that were lost, and how far soft things were stretched; fails when a law is broken. With --suite of one suite, whose section
---write replaces.
+--suite it runs episodes of random actions instead, 200 unless --episodes says otherwise, of every id on a model of our own or of one
+suite, whose section --write replaces. It counts episodes that physics ended, NaN, bodies that were lost, and how far soft things were
+stretched; fails when a law is broken.
 robots: compares our own robots with the numbers that are published of them (published.toml of their folders); fails when one
 differs by more than 2 % or 0.02 rad without a reason.
 controllers: runs every controller in the environments that it serves, on 20 seeds, beside zero and random actions; fails when a

@@ -205,8 +205,11 @@ fn draw_all(a: &Gallery, specs: &[&Spec]) -> Result<Vec<Outcome>, Failure> {
 
 /// The picture of an environment after a reset, or when it is solved.
 fn draw(a: &Gallery, mut env: Env, painters: &dyn Painters) -> Result<Outcome, Failure> {
+    if !a.solved {
+        env.reset(Some(a.seed)).map_err(Failure::new)?;
+        return thumbnail(&env, a.size, painters).map(Outcome::Drawn);
+    }
     let solved = match &a.clips {
-        _ if !a.solved => env.reset(Some(a.seed)).map_err(Failure::new).map(|_| true)?,
         Some(folder) => clip(folder, &mut env, a.seed, a.size, painters)?,
         None => solve(&mut env, a.seed, |_| Ok(()))?,
     };

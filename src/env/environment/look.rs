@@ -51,7 +51,7 @@ impl Env {
             self.robot.set_delay_steps(age);
         }
         if let Some(look) = &self.randomized.look {
-            // Offsets of cameras and lights that follow are derived anew with the rest.
+            // The edit of the physics has recomputed where cameras and lights are that follow a body, without what was drawn for them.
             look.write(&mut self.scene)?;
         }
         self.see_drawn()?;

@@ -3,7 +3,7 @@
 use crate::error::EnvError;
 use crate::task::{Pose, Setup};
 use physics::elements::BodyId;
-use physics::math::{Vec3, add, norm, ops, quat_from_axis_angle, scale, sub};
+use physics::math::{Vec3, add, norm, ops, quat_from_axis_angle, quat_rotate, scale, sub};
 use physics::{Data, Model};
 
 /// Side of the cells in which the covered area is counted \[m\].
@@ -84,9 +84,11 @@ impl Cloth {
         norm(sub(self.flat[self.side], self.flat[0]))
     }
 
-    /// Lays it where `moved` takes its points from where they lie flat, as seen from the middle \[m\]; its rods stay level.
-    pub fn lay(&self, pose: &mut Pose, moved: impl Fn(Vec3) -> Vec3) {
-        let middle = self.flat[self.flat.len() / 2];
+    /// Lays it in the shape to which `shaped` takes its points from where they lie flat, as seen from the middle \[m\], turned by `turn` \[rad\]
+    /// and moved by `x` and `y` \[m\]; its rods stay level.
+    pub fn lay(&self, pose: &mut Pose, [x, y, turn]: [f64; 3], shaped: impl Fn(Vec3) -> Vec3) {
+        let (middle, turn) = (self.flat[self.flat.len() / 2], quat_from_axis_angle([0.0, 0.0, 1.0], turn));
+        let moved = |place: Vec3| add(quat_rotate(turn, shaped(place)), [x, y, 0.0]);
         let ways: Vec<Vec3> =
             self.flat.iter().map(|&place| sub(add(middle, moved(sub(place, middle))), place)).collect();
         let mut slide = |joint: usize, way: Vec3| (0..3).for_each(|i| pose.qpos[joint + i] += way[i]);

@@ -17,7 +17,7 @@ use crate::scene::Scene;
 use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::Data;
-use physics::math::{distance, quat_from_axis_angle, quat_rotate};
+use physics::math::distance;
 use robot::Keeper;
 use serde::Deserialize;
 
@@ -84,12 +84,8 @@ impl Task for ClothFold {
     }
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
-        let [x, y, turn] = self.places.draw(episode.rng)?;
-        let turn = quat_from_axis_angle([0.0, 0.0, 1.0], turn);
-        self.cloth.lay(episode.start, |place| {
-            let [a, b, c] = quat_rotate(turn, place);
-            [a + x, b + y, c]
-        });
+        let place = self.places.draw(episode.rng)?;
+        self.cloth.lay(episode.start, place, |flat| flat);
         self.folded.begin();
         Ok(())
     }

@@ -113,7 +113,7 @@ impl Task for ClothHang {
         let body = episode.scene.model.geom_bodyid[self.bar.0.index()] as usize;
         let place = add(self.bar.1, [aside, 0.0, up]);
         episode.scene.model.edit(|m| m.body_pos[body] = place)?;
-        self.cloth.lay(episode.start, |place| add(place, [x, y, 0.0]));
+        self.cloth.lay(episode.start, [x, y, 0.0], |flat| flat);
         self.hung.begin();
         Ok(())
     }

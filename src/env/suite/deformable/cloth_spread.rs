@@ -16,7 +16,7 @@ use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
-use physics::math::{Vec3, distance, quat_from_axis_angle, quat_rotate};
+use physics::math::distance;
 use robot::Keeper;
 use serde::Deserialize;
 
@@ -80,16 +80,14 @@ impl Task for ClothSpread {
     }
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
-        let [x, y, turn] = self.places.draw(episode.rng)?;
+        let place = self.places.draw(episode.rng)?;
         let row = (3.0 * episode.rng.uniform(0.0, 1.0)?).floor().min(2.0) - 1.0;
-        let (fold, turn) = (row * self.cloth.spacing(), quat_from_axis_angle([0.0, 0.0, 1.0], turn));
-        self.cloth.lay(episode.start, |[along, across, _]| {
+        let fold = row * self.cloth.spacing();
+        self.cloth.lay(episode.start, place, |[along, across, _]| {
             let over = fold - along;
             // The fold itself is at half the height.
             let up = LAYERS * (over / self.cloth.spacing()).clamp(-0.5, 0.5) + LAYERS / 2.0;
-            let folded: Vec3 = [fold + over.abs(), across, up];
-            let [a, b, c] = quat_rotate(turn, folded);
-            [a + x, b + y, c]
+            [fold + over.abs(), across, up]
         });
         self.spread.begin();
         Ok(())
