@@ -40,7 +40,7 @@ const ORDER: [(&str, &[&str]); 37] = [
     ("robohive-render", &["physics"]),
     ("robohive-render-gpu", &["physics", "render"]),
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
-    ("robohive-agents", &["dataset", "env"]),
+    ("robohive-agents", &["dataset", "random", "env"]),
     ("robohive-control", &["assets", "physics", "random", "robot", "env"]),
     ("robohive-record", &["physics", "dataset", "env"]),
     ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),

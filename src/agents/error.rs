@@ -30,6 +30,15 @@ pub enum PolicyError {
         /// What does not fit.
         message: String,
     },
+    /// There is nothing to learn from a reward.
+    Reward {
+        /// The environment's id.
+        id: String,
+        /// The reward.
+        reward: f64,
+        /// The step of the episode that gave it, from 1.
+        step: usize,
+    },
     /// The environment cannot say what it is asked.
     Env(EnvError),
 }
@@ -57,6 +66,12 @@ impl fmt::Display for PolicyError {
             }
             PolicyError::Content { path: None, message } => write!(f, "the policy: {message}"),
             PolicyError::Foreign { id, message } => write!(f, "the policy is not one for {id}: {message}"),
+            PolicyError::Reward { id, reward, step } => {
+                write!(
+                    f,
+                    "{id} gave the reward {reward} at step {step} of an episode; rewards must be finite"
+                )
+            }
             PolicyError::Env(error) => write!(f, "{error}"),
         }
     }

@@ -1,7 +1,7 @@
 //! Policies: what chooses actions in RoboHive's environments.
 //!
 //! [`Policy::open`] reads a policy that was trained for the original; [`Policy::action`] asks it what to do in the present
-//! state of an environment. Agents see observations and rewards, never the model or the state of the physics.
+//! state of an environment; [`learn`] trains one. Agents see observations and rewards, never the model or the state of the physics.
 //!
 //! ```
 //! use robohive_agents::Policy;
@@ -17,7 +17,9 @@
 //! ```
 
 mod error;
+pub mod learn;
 mod mjrl;
+pub mod nets;
 mod network;
 mod observation;
 mod policy;

@@ -1,0 +1,110 @@
+//! Proximal policy optimisation (Schulman et al., 2017, equation 7 and algorithm 1), with the value function apart from the policy.
+
+use super::actor::Actor;
+use super::batch::Batch;
+use super::shuffle::Minibatches;
+use crate::nets::{Adam, Tape, clip, gaussian};
+use random::{BitGenerator, Generator};
+
+/// Settings of an update of the policy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ppo {
+    /// Passes over the batch.
+    pub epochs: usize,
+    /// Steps of the batch in a step of the optimiser.
+    pub batch: usize,
+    /// Size of a step of the optimiser.
+    pub rate: f32,
+    /// How far the ratio of densities counts beyond 1, to either side.
+    pub clip: f32,
+    /// Weight of the entropy.
+    pub entropy: f32,
+    /// Longest gradient.
+    pub longest: f64,
+    /// Divergence from the policy that collected, beyond which no further pass is made.
+    pub divergence: f64,
+}
+
+/// What an update did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Update {
+    /// Mean divergence of the policy that collected from the new one.
+    pub divergence: f64,
+    /// Mean entropy of the new policy.
+    pub entropy: f64,
+    /// Share of the samples of the last pass whose ratio was beyond the clip.
+    pub clipped: f64,
+    /// Passes made.
+    pub epochs: usize,
+}
+
+/// Improves a policy by a batch that it collected.
+pub fn update(
+    ppo: &Ppo,
+    actor: &mut Actor,
+    adam: &mut Adam,
+    batch: &Batch,
+    rng: &mut Generator<impl BitGenerator>,
+) -> Update {
+    let (actions, mut tape) = (actor.actions(), Tape::default());
+    actor.means(&batch.input, &mut tape);
+    let (old_means, old_log_std) = (tape.output().to_vec(), actor.parts().1.to_vec());
+    let old: Vec<f32> = rows(&old_means, &batch.actions, actions)
+        .map(|(mean, action)| gaussian::log_density(mean, &old_log_std, action))
+        .collect();
+    let mut batches = Minibatches::new(batch.steps(), ppo.batch);
+    let mut gradient = vec![0.0; actor.parameters.len()];
+    let mut outcome = Update::default();
+    for _ in 0..ppo.epochs {
+        batches.shuffle(rng);
+        let mut clipped = 0;
+        for chosen in batches.iter() {
+            actor.means(&batches.gather(chosen, &batch.input), &mut tape);
+            let (taken, log_std) = (batches.gather(chosen, &batch.actions), actor.parts().1);
+            let mut slopes = vec![0.0; taken.len()];
+            let mut by_log_std = vec![-ppo.entropy; actions];
+            let steps =
+                rows(tape.output(), &taken, actions).zip(slopes.chunks_exact_mut(actions)).zip(chosen);
+            for (((mean, action), by_mean), &step) in steps {
+                let advantage = batch.advantages[step] as f32;
+                let ratio = crate::nets::exp(gaussian::log_density(mean, log_std, action) - old[step]);
+                let beyond = if advantage > 0.0 { ratio > 1.0 + ppo.clip } else { ratio < 1.0 - ppo.clip };
+                clipped += usize::from(beyond);
+                if !beyond {
+                    let weight = -advantage * ratio / chosen.len() as f32;
+                    gaussian::add_slopes(weight, [mean, log_std], action, [by_mean, &mut by_log_std]);
+                }
+            }
+            gradient.fill(0.0);
+            let (by_net, last) = gradient.split_at_mut(actor.net.parameters());
+            actor.net.backward(actor.parts().0, &tape, &slopes, by_net);
+            last.copy_from_slice(&by_log_std);
+            clip(&mut gradient, ppo.longest);
+            adam.step(ppo.rate, 0.0, &gradient, &mut actor.parameters);
+            actor.limit();
+        }
+        outcome.epochs += 1;
+        outcome.clipped = clipped as f64 / batch.steps().max(1) as f64;
+        outcome.divergence = divergence(actor, [&old_means, &old_log_std], batch);
+        if outcome.divergence > ppo.divergence {
+            break;
+        }
+    }
+    outcome.entropy = f64::from(gaussian::entropy(actor.parts().1));
+    outcome
+}
+
+/// The mean divergence of a policy, given by its means on the batch and its deviations, from the present one.
+pub(super) fn divergence(actor: &Actor, [means, log_std]: [&[f32]; 2], batch: &Batch) -> f64 {
+    let (actions, mut tape) = (actor.actions(), Tape::default());
+    actor.means(&batch.input, &mut tape);
+    let pairs = rows(means, tape.output(), actions);
+    let each =
+        pairs.map(|(old, new)| f64::from(gaussian::divergence([old, log_std], [new, actor.parts().1])));
+    each.sum::<f64>() / batch.steps().max(1) as f64
+}
+
+/// Rows of two matrices side by side.
+fn rows<'a>(a: &'a [f32], b: &'a [f32], width: usize) -> impl Iterator<Item = (&'a [f32], &'a [f32])> {
+    a.chunks_exact(width).zip(b.chunks_exact(width))
+}
