@@ -23,6 +23,7 @@ use crate::tasks::deformable::rope_straighten::RopeStraighten;
 use crate::tasks::deformable::rope_thread::RopeThread;
 use crate::tasks::deformable::rope_wrap::RopeWrap;
 use crate::tasks::deformable::sponge_press::SpongePress;
+use crate::tasks::deformable::sponge_wipe::SpongeWipe;
 use crate::tasks::tabletop::drawer::Drawer;
 use crate::tasks::tabletop::insert::Insert;
 use crate::tasks::tabletop::stack::Stack;
@@ -300,6 +301,13 @@ const ALL: &[Entry] = &[
         serves: &["sponge_press"],
         feet: None,
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "sponge_press")?, SpongePress::default()))),
+    },
+    Entry {
+        name: "sponge_wipe",
+        summary: "a sponge that is pressed on the board and led over all marks, to and fro",
+        serves: &["sponge_wipe"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "sponge_wipe")?, SpongeWipe::default()))),
     },
     Entry {
         name: "muscle_stand",

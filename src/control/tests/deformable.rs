@@ -23,7 +23,8 @@ fn every_task_has_a_controller() {
             "rope_straighten",
             "rope_thread",
             "rope_wrap",
-            "sponge_press"
+            "sponge_press",
+            "sponge_wipe"
         ]
     );
 }
@@ -63,6 +64,35 @@ fn a_sponge_is_pressed_and_not_torn() {
     assert!(solved, "{id} is not solved");
     assert!(!play(id, 3, false).0, "{id} is solved by zero actions");
     assert!(actions == press(|_| ()).1, "{id} acts otherwise in the same episode");
+}
+
+/// Marks go, and do not come back, only in states in which the sponge presses by 4 N, never by more than 40 N. An environment that goes on from a
+/// saved state knows which are gone.
+#[test]
+fn marks_are_wiped_by_a_sponge_that_presses() {
+    let id = "hive/SpongeWipe-v0";
+    let (mut before, mut kept, mut after) = (1.0, None, Vec::new());
+    let (solved, _) = watch(id, 1, true, |env| {
+        let (remaining, force) = (env.rows()["remaining"][0], env.rows()["force"][0]);
+        assert!(remaining == before || remaining < before && force >= 4.0, "{remaining} {before} {force} N");
+        assert!(force <= 40.0, "{force} N");
+        let gone = env.rows()["wiped"].iter().filter(|wiped| **wiped == 1.0).count();
+        assert_eq!(gone as f64, (15.0 * (1.0 - remaining)).round());
+        before = remaining;
+        if kept.is_none() && remaining < 0.5 {
+            kept = Some((env.state(), env.rows()["wiped"].to_vec()));
+        }
+        after = env.rows()["wiped"].to_vec();
+    });
+    assert!(solved && after == [1.0; 15], "{id} is not solved");
+    let (state, wiped) = kept.unwrap();
+    let mut env = env::Env::make(id, &env::OwnModels, &env::Options::default()).unwrap();
+    env.reset(Some(2)).unwrap();
+    env.set_state(&state).unwrap();
+    assert_eq!(env.rows()["wiped"], wiped);
+    env.step(&vec![0.0; env.action_len()]).unwrap();
+    assert!(env.rows()["wiped"].iter().zip(&wiped).all(|(now, before)| now >= before), "a mark came back");
+    assert!(!play(id, 1, false).0, "{id} is solved by zero actions");
 }
 
 /// Every grain is over the table or beside it over the floor, and all are counted: in the bowl, spilled, or over its rim.

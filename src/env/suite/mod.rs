@@ -73,6 +73,7 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("rope_thread", deformable::rope_thread::RopeThread::new),
         TaskType::new("rope_wrap", deformable::rope_wrap::RopeWrap::new),
         TaskType::new("sponge_press", deformable::sponge_press::SpongePress::new),
+        TaskType::new("sponge_wipe", deformable::sponge_wipe::SpongeWipe::new),
         TaskType::new("ee_pose", fm::pose::Reach::of_robot),
         TaskType::new("robotiq_pose", fm::pose::Reach::of_robotiq),
         TaskType::new("robotiq_data", fm::data::Recording::new),

@@ -9,4 +9,5 @@ pub mod rope_straighten;
 pub mod rope_thread;
 pub mod rope_wrap;
 pub mod sponge_press;
+pub mod sponge_wipe;
 mod strand;

@@ -17,6 +17,7 @@ pub(super) mod rope_straighten;
 pub(super) mod rope_thread;
 pub(super) mod rope_wrap;
 pub(super) mod sponge_press;
+pub(super) mod sponge_wipe;
 
 /// Time steps of the physics in one step of the environment: 0.08 s at 2 ms.
 const FRAME_SKIP: usize = 40;
