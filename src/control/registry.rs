@@ -19,6 +19,7 @@ use crate::tasks::deformable::cloth_fold::ClothFold;
 use crate::tasks::deformable::cloth_hang::ClothHang;
 use crate::tasks::deformable::cloth_spread::ClothSpread;
 use crate::tasks::deformable::grain_pour::GrainPour;
+use crate::tasks::deformable::grain_scoop::GrainScoop;
 use crate::tasks::deformable::rope_straighten::RopeStraighten;
 use crate::tasks::deformable::rope_thread::RopeThread;
 use crate::tasks::deformable::rope_wrap::RopeWrap;
@@ -294,6 +295,13 @@ const ALL: &[Entry] = &[
         serves: &["grain_pour"],
         feet: None,
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "grain_pour")?, GrainPour::new(env)?))),
+    },
+    Entry {
+        name: "grain_scoop",
+        summary: "a scoop that goes in nose first, along the floor of the tray, nose up and out",
+        serves: &["grain_scoop"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "grain_scoop")?, GrainScoop::new(env)?))),
     },
     Entry {
         name: "sponge_press",

@@ -20,6 +20,7 @@ fn every_task_has_a_controller() {
             "cloth_hang",
             "cloth_spread",
             "grain_pour",
+            "grain_scoop",
             "rope_straighten",
             "rope_thread",
             "rope_wrap",
@@ -93,6 +94,24 @@ fn marks_are_wiped_by_a_sponge_that_presses() {
     env.step(&vec![0.0; env.action_len()]).unwrap();
     assert!(env.rows()["wiped"].iter().zip(&wiped).all(|(now, before)| now >= before), "a mark came back");
     assert!(!play(id, 1, false).0, "{id} is solved by zero actions");
+}
+
+/// What is in the scoop in the end came from the tray, and is as high as is wanted.
+#[test]
+fn grains_are_scooped_and_carried_up() {
+    let id = "hive/GrainScoop-v0";
+    let mut last = (0, 0.0, 0.0);
+    let (solved, _) = watch(id, 0, true, |env| {
+        let rows = env.rows();
+        let grains = rows["grains"].as_chunks::<3>().0;
+        assert_eq!(grains.len(), 80);
+        // The rim of the tray is 34 mm over the table, and the inside of the scoop 32 mm high.
+        let high = grains.iter().filter(|grain| grain[2] > TABLE + 0.034 + 0.05 - 0.032).count();
+        last = (high, rows["scooped"][0], rows["height"][0]);
+    });
+    assert!(solved && last.1 >= 0.125 && last.2 >= 0.05, "{id} is not solved: {last:?}");
+    assert!(last.0 as f64 >= 80.0 * last.1 - 0.5, "{last:?}");
+    assert!(!play(id, 0, false).0, "{id} is solved by zero actions");
 }
 
 /// Every grain is over the table or beside it over the floor, and all are counted: in the bowl, spilled, or over its rim.

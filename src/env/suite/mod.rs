@@ -69,6 +69,7 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("cloth_hang", deformable::cloth_hang::ClothHang::new),
         TaskType::new("cloth_spread", deformable::cloth_spread::ClothSpread::new),
         TaskType::new("grain_pour", deformable::grain_pour::GrainPour::new),
+        TaskType::new("grain_scoop", deformable::grain_scoop::GrainScoop::new),
         TaskType::new("rope_straighten", deformable::rope_straighten::RopeStraighten::new),
         TaskType::new("rope_thread", deformable::rope_thread::RopeThread::new),
         TaskType::new("rope_wrap", deformable::rope_wrap::RopeWrap::new),

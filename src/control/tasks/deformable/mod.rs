@@ -4,6 +4,8 @@ pub mod cloth_fold;
 pub mod cloth_hang;
 pub mod cloth_spread;
 pub mod grain_pour;
+pub mod grain_scoop;
+mod held;
 mod rods;
 pub mod rope_straighten;
 pub mod rope_thread;

@@ -9,6 +9,7 @@
 
 use super::FRAME_SKIP;
 use super::bench::{Arm, Bench};
+use super::grain::{Grains, Vessel, Whereabouts};
 use crate::draws::Ranges;
 use crate::error::EnvError;
 use crate::rotation::norm;
@@ -16,14 +17,11 @@ use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
-use physics::Data;
-use physics::elements::{BodyId, SiteId};
-use physics::math::{Vec3, sub};
+use physics::elements::BodyId;
+use physics::math::sub;
+use physics::{Data, Model};
 use robot::Keeper;
 use serde::Deserialize;
-
-/// How far a grain starts from its place in the scene at most, along each axis \[m\].
-const JITTER: f64 = 3e-4;
 
 /// Settings of the task.
 #[derive(Deserialize)]
@@ -45,12 +43,8 @@ pub struct Args {
 pub struct GrainPour {
     bench: Bench,
     cup: BodyId,
-    bowl: BodyId,
-    /// The inside of the bowl.
-    inside: SiteId,
-    grains: Vec<BodyId>,
-    /// Where `qpos` has the free joint of each grain.
-    joints: Vec<usize>,
+    bowl: Vessel,
+    grains: Grains,
     poured: f64,
     spilled: f64,
     places: Ranges<2>,
@@ -63,22 +57,11 @@ impl GrainPour {
     /// # Errors
     /// Roles, cup, bowl or grains, free bodies whose names begin with `grain`, are missing.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
-        let (bench, m) = (Bench::new(&args.arm, "pour grains", setup)?, &setup.scene.model);
-        let named = m.body_names().filter(|(_, name)| name.starts_with("grain"));
-        let grains: Vec<BodyId> = named.map(|(id, _)| id).collect();
-        let free = |grain: &BodyId| {
-            let joint = m.body(*grain).joints().next().map(|joint| m.joint(joint).qpos_range());
-            joint.filter(|place| place.len() == 7).map(|place| place.start)
-        };
-        let joints: Option<Vec<usize>> = grains.iter().map(free).collect();
-        let joints = joints.filter(|joints| !joints.is_empty());
         Ok(GrainPour {
-            bench,
+            bench: Bench::new(&args.arm, "pour grains", setup)?,
             cup: setup.scene.body("cup")?,
-            bowl: setup.scene.body("bowl")?,
-            inside: setup.scene.site("bowl")?,
-            grains,
-            joints: joints.ok_or_else(|| setup.wrong("the scene needs free bodies named grain…"))?,
+            bowl: Vessel::new("bowl", setup)?,
+            grains: Grains::new(setup)?,
             poured: args.poured,
             spilled: args.spilled,
             places: args.places,
@@ -87,17 +70,10 @@ impl GrainPour {
     }
 
     /// Shares of the grains in the bowl, and neither there nor above its rim.
-    fn shares(&self, scene: (&physics::Model, &Data)) -> [f64; 2] {
-        let (half, middle) = (scene.0.site_size[self.inside.index()], *scene.1.site(self.inside).xpos());
-        let mut count = [0_usize; 2];
-        for grain in &self.grains {
-            let [x, y, z] = sub(*scene.1.body(*grain).xpos(), middle);
-            let (over, within) = (z > half[2], x.abs() < half[0] && y.abs() < half[1]);
-            // Where grains are heaped, those over the rim count for nothing yet.
-            count[0] += usize::from(within && !over);
-            count[1] += usize::from(!within && !over);
-        }
-        count.map(|count| count as f64 / self.grains.len() as f64)
+    fn shares(&self, m: &Model, data: &Data) -> [f64; 2] {
+        // Where grains are heaped, those over the rim count for nothing yet.
+        [Whereabouts::Inside, Whereabouts::Beside]
+            .map(|wanted| self.grains.share(data, |grain| self.bowl.whereabouts(grain, m, data) == wanted))
     }
 
     fn is_done(&self, [poured, spilled]: [f64; 2]) -> bool {
@@ -121,32 +97,26 @@ impl Task for GrainPour {
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
         let place = self.places.draw(episode.rng)?;
-        let body = self.bowl.index();
-        episode.scene.model.edit(|m| m.body_pos[body][..2].copy_from_slice(&place))?;
-        for &joint in &self.joints {
-            for place in &mut episode.start.qpos[joint..joint + 3] {
-                *place += episode.rng.uniform(-JITTER, JITTER)?;
-            }
-        }
+        self.bowl.put(place, episode)?;
+        self.grains.jitter(episode.rng, episode.start)?;
         self.done.begin();
         Ok(())
     }
 
     fn act(&mut self, turn: &mut Turn<'_>) -> Result<(), EnvError> {
-        let done = self.is_done(self.shares((&turn.scene.model, &turn.scene.data)));
+        let done = self.is_done(self.shares(&turn.scene.model, &turn.scene.data));
         self.done.leave(done);
         Ok(())
     }
 
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
-        let shares = self.shares((view.model, view.data));
-        let (cup, bowl) = (view.data.body(self.cup), *view.data.site(self.inside).xpos());
-        let way: Vec3 = sub(bowl, *cup.xpos());
+        let shares = self.shares(view.model, view.data);
+        let (cup, bowl) = (view.data.body(self.cup), self.bowl.middle(view.data));
         let axes = cup.xmat();
         self.bench.observe(view, rows);
-        rows.set("grains", "m", self.grains.iter().flat_map(|grain| view.data.kin.xpos[grain.index()]));
+        self.grains.observe(view, rows);
         rows.set("bowl", "m", bowl);
-        rows.set("cup", "m", way);
+        rows.set("cup", "m", sub(bowl, *cup.xpos()));
         rows.set("cup_up", "", [axes[2], axes[5], axes[8]]);
         rows.set("poured", "", [shares[0]]);
         rows.set("spilled", "", [shares[1]]);
