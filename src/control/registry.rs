@@ -18,6 +18,7 @@ use crate::tasks::classical::unicycle::Unicycle;
 use crate::tasks::deformable::cloth_fold::ClothFold;
 use crate::tasks::deformable::cloth_hang::ClothHang;
 use crate::tasks::deformable::cloth_spread::ClothSpread;
+use crate::tasks::deformable::grain_flatten::GrainFlatten;
 use crate::tasks::deformable::grain_pour::GrainPour;
 use crate::tasks::deformable::grain_scoop::GrainScoop;
 use crate::tasks::deformable::rope_straighten::RopeStraighten;
@@ -302,6 +303,13 @@ const ALL: &[Entry] = &[
         serves: &["grain_scoop"],
         feet: None,
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "grain_scoop")?, GrainScoop::new(env)?))),
+    },
+    Entry {
+        name: "grain_flatten",
+        summary: "a blade that is led to and fro at three heights",
+        serves: &["grain_flatten"],
+        feet: None,
+        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "grain_flatten")?, GrainFlatten::new(env)?))),
     },
     Entry {
         name: "sponge_press",

@@ -19,6 +19,7 @@ fn every_task_has_a_controller() {
             "cloth_fold",
             "cloth_hang",
             "cloth_spread",
+            "grain_flatten",
             "grain_pour",
             "grain_scoop",
             "rope_straighten",
@@ -112,6 +113,25 @@ fn grains_are_scooped_and_carried_up() {
     assert!(solved && last.1 >= 0.125 && last.2 >= 0.05, "{id} is not solved: {last:?}");
     assert!(last.0 as f64 >= 80.0 * last.1 - 0.5, "{last:?}");
     assert!(!play(id, 0, false).0, "{id} is solved by zero actions");
+}
+
+/// A heap of 64 grains of 12 mm stays one when it is left alone, and is one layer when it is solved.
+#[test]
+fn grains_are_flattened_and_stay_a_heap_otherwise() {
+    let id = "hive/GrainFlatten-v0";
+    let spread = |env: &env::Env| {
+        let heights: Vec<f64> = env.rows()["grains"].chunks(3).map(|place| place[2]).collect();
+        let mean = heights.iter().sum::<f64>() / heights.len() as f64;
+        (heights.iter().map(|height| (height - mean).powi(2)).sum::<f64>() / heights.len() as f64).sqrt()
+    };
+    let mut last = f64::INFINITY;
+    let (solved, _) = watch(id, 0, true, |env| {
+        last = spread(env);
+        assert!((last - env.rows()["spread"][0]).abs() < 1e-12);
+    });
+    assert!(solved && last < 0.0025, "{id}: {last} m");
+    let left = watch(id, 0, false, |env| last = spread(env)).0;
+    assert!(!left && last > 0.003, "{id}: {last} m by zero actions");
 }
 
 /// Every grain is over the table or beside it over the floor, and all are counted: in the bowl, spilled, or over its rim.

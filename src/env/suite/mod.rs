@@ -68,6 +68,7 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("cloth_fold", deformable::cloth_fold::ClothFold::new),
         TaskType::new("cloth_hang", deformable::cloth_hang::ClothHang::new),
         TaskType::new("cloth_spread", deformable::cloth_spread::ClothSpread::new),
+        TaskType::new("grain_flatten", deformable::grain_flatten::GrainFlatten::new),
         TaskType::new("grain_pour", deformable::grain_pour::GrainPour::new),
         TaskType::new("grain_scoop", deformable::grain_scoop::GrainScoop::new),
         TaskType::new("rope_straighten", deformable::rope_straighten::RopeStraighten::new),

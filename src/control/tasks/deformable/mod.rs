@@ -3,6 +3,7 @@
 pub mod cloth_fold;
 pub mod cloth_hang;
 pub mod cloth_spread;
+pub mod grain_flatten;
 pub mod grain_pour;
 pub mod grain_scoop;
 mod held;

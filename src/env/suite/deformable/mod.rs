@@ -12,6 +12,7 @@ pub(super) mod cloth_fold;
 pub(super) mod cloth_hang;
 pub(super) mod cloth_spread;
 mod grain;
+pub(super) mod grain_flatten;
 pub(super) mod grain_pour;
 pub(super) mod grain_scoop;
 mod rope;
