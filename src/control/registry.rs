@@ -108,7 +108,7 @@ const ALL: &[Entry] = &[
     },
     Entry {
         name: "insert",
-        summary: "grasp and place: a peg along the faces of its hole",
+        summary: "grasp and place: a peg, or a plug, along the faces of its hole",
         serves: &["insert"],
         feet: None,
         build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "insert")?, Insert::new(env)?))),

@@ -113,16 +113,21 @@ impl Grasp {
 
 /// The steps that place a thing which the tool holds at one of `goals`: up, over the goal by `over` \[m\], and down.
 pub fn place(tool: &Frame, thing: &Frame, goals: &[Frame], over: f64, step: usize) -> Option<Carry> {
+    put(tool, thing, goals, [0.0, 0.0, over], step)
+}
+
+/// The same for goals that are approached from another side: up, beside the goal by `beside` \[m\], and along that way.
+pub fn put(tool: &Frame, thing: &Frame, goals: &[Frame], beside: Vec3, step: usize) -> Option<Carry> {
     let held = tool.within(thing);
     let there = goals.iter().map(|goal| goal.with(&held));
-    let up = |frame: Frame| frame.moved([0.0, 0.0, over]);
+    let away = |frame: Frame| frame.moved(beside);
     match step {
         0 => {
-            let height = there.map(|frame| up(frame).place[2]).fold(tool.place[2], f64::max);
+            let height = there.map(|frame| away(frame).place[2]).fold(tool.place[2], f64::max);
             let lift = tool.moved([0.0, 0.0, height - tool.place[2]]);
             Some(Carry { to: vec![lift], speed: 0.5, pause: 0.0 })
         }
-        1 => Some(Carry { to: there.map(up).collect(), speed: 0.7, pause: 0.3 }),
+        1 => Some(Carry { to: there.map(away).collect(), speed: 0.7, pause: 0.3 }),
         2 => Some(Carry { to: there.collect(), speed: GENTLE[0], pause: 0.2 }),
         _ => None,
     }

@@ -1,6 +1,7 @@
 //! Arms: reaching, and grasping and placing by scripts of moves.
 
 pub mod arm;
+pub mod extent;
 pub mod follower;
 pub mod frame;
 pub mod grasp;

@@ -61,7 +61,7 @@ impl Stack {
         let cubes = [Loose::new("cube_a", setup)?, Loose::new("cube_b", setup)?];
         let half = setup.scene.model.geom_size[setup.scene.geom("cube_a")?.index()][0];
         let floor = setup.scene.data.body(cubes[1].body).xpos()[2] - 2.0 * half;
-        if !place::fits(&args.area, args.apart) {
+        if !place::fits([&args.area; 2], args.apart) {
             return Err(setup.wrong("apart is more than the area is wide"));
         }
         Ok(Stack { bench, cubes, half, floor, args, hold: Hold::new(HOLD) })
@@ -96,7 +96,7 @@ impl Task for Stack {
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
         self.hold.begin();
         self.bench.start(episode)?;
-        let places = place::apart(episode.rng, &self.args.area, self.args.apart)?;
+        let places = place::apart(episode.rng, [&self.args.area; 2], self.args.apart)?;
         for (cube, place) in self.cubes.into_iter().zip(places) {
             let yaw = episode.rng.uniform(-PI, PI)?;
             cube.put(episode, place, yaw);
