@@ -165,7 +165,7 @@ const ALL: &[Entry] = &[
     Entry {
         name: "pair_trot",
         summary: "each of two agents trots by what it observes itself",
-        serves: &["pair_push_box", "pair_swap", "tag"],
+        serves: &["pair_pass_ball", "pair_push_box", "pair_swap", "tag"],
         feet: Some(4),
         build: |env| Ok(Box::new(tasks::multi_agent::pair_trot::PairTrot::new(env)?)),
     },
@@ -175,6 +175,13 @@ const ALL: &[Entry] = &[
         serves: &["carry_tray", "hand_over"],
         feet: None,
         build: |env| Ok(Box::new(tasks::multi_agent::pair_arms::PairArms::new(env)?)),
+    },
+    Entry {
+        name: "pair_hands",
+        summary: "one hand tips what it holds into the other",
+        serves: &["hand_pass"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::multi_agent::pair_hands::PairHands::new(env)?)),
     },
     Entry {
         name: "acrobot",

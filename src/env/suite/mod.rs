@@ -103,6 +103,8 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("carry_tray", multi_agent::carry_tray::CarryTray::new),
         TaskType::new("hand_over", multi_agent::hand_over::HandOver::new),
         TaskType::new("pair_push_box", multi_agent::push_box::PushBox::new),
+        TaskType::new("hand_pass", multi_agent::hand_pass::HandPass::new),
+        TaskType::new("pair_pass_ball", multi_agent::pass_ball::PassBall::new),
         TaskType::new("pair_swap", multi_agent::swap::Swap::new),
         TaskType::new("tag", multi_agent::tag::Tag::new),
         TaskType::new("zip", tabletop::zip::Zip::new),

@@ -1,5 +1,6 @@
 //! What an agent asks of its body: a velocity, from what it observes. Points are in the frame of the heading: forward, left \[m\].
 
+use super::ball::play;
 use crate::tasks::locomotion::wish::{Facts, Wish, length};
 
 /// Distance of a pusher from the middle of the line of pushing \[m\].
@@ -24,6 +25,7 @@ pub fn wish(task: &str, agent: &str) -> Wish {
     match (task, agent) {
         ("pair_push_box", _) => push,
         ("pair_swap", _) => pass,
+        ("pair_pass_ball", _) => play,
         ("tag", "chaser") => |facts| facts.towards(facts.point("mate_error"), f64::INFINITY),
         ("tag", "evader") => flee,
         _ => |_| [0.0; 3],
