@@ -156,6 +156,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::in_hand::pen::Pen::new(env)?)),
     },
     Entry {
+        name: "soft_ball",
+        summary: "a hand that closes until a soft ball is as narrow as asked for",
+        serves: &["soft_ball"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::in_hand::soft_ball::SoftBall::new(env)?)),
+    },
+    Entry {
         name: "trot",
         summary: "a trot by Raibert's steps, legs by inverse kinematics",
         serves: LOCOMOTION,

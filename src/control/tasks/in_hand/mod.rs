@@ -1,5 +1,6 @@
-//! Hands that move things: plans by sampling, a cost for each task.
+//! Hands that move things: plans by sampling, a cost for each task. A soft ball is squeezed by what is measured of it.
 
 pub mod pen;
 pub mod reorient;
 mod search;
+pub mod soft_ball;

@@ -1,6 +1,8 @@
-//! In-hand manipulation: hands that turn what lies in them.
+//! In-hand manipulation: hands that turn and squeeze what lies in them.
 //!
 //! No task names a hand. Each finds palm, fingertips and the pose that cradles a thing by the roles of the hand (`roles.toml` of its
 //! folder), and its registry rows name the hand: `define = [["HAND", "allegro"]]`. A thing lies at the site `cradle`.
 
+mod hand;
 pub mod reorient;
+pub mod soft_ball;

@@ -10,6 +10,7 @@
 //! the hand in the pose `cradle` of its roles, joints and the thing a little off; the goal is a turn about the vertical of `turn`
 //! rad, either way.
 
+use super::hand::{Hand, about_z, either_way};
 use crate::error::EnvError;
 use crate::rotation::{norm, turn_between};
 use crate::rows::Rows;
@@ -17,8 +18,7 @@ use crate::scene::Scene;
 use crate::suite::hold::Hold;
 use crate::task::{Defaults, Episode, Pose, Setup, Success, Task, Turn, Verdict, View};
 use physics::elements::BodyId;
-use physics::math::{Quat, Vec3, add, ops, quat_mul};
-use physics::model::JointType;
+use physics::math::{Quat, Vec3, cross, dot, ops, quat_mul, quat_rotate, scale};
 use physics::{Data, Model};
 use robot::Keeper;
 use serde::Deserialize;
@@ -46,6 +46,8 @@ pub struct Args {
     within: [f64; 2],
     /// Distance from its place at which a thing is dropped \[m\].
     dropped: f64,
+    /// The axis of a round thing, in its frame: turns about it do not count.
+    axis: Option<Vec3>,
 }
 
 /// The task.
@@ -56,10 +58,7 @@ pub struct Reorient {
     place: Range<usize>,
     velocity: usize,
     target: BodyId,
-    /// Joints of the hand: their places in `qpos` and `qvel`.
-    joints: Vec<[usize; 2]>,
-    /// The hand in its cradle, the thing at its place (nq).
-    home: Vec<f64>,
+    hand: Hand,
     args: Args,
     hold: Hold,
 }
@@ -70,37 +69,26 @@ impl Reorient {
     /// # Errors
     /// The model does not fill the roles, or lacks a thing on a free joint, a target, or a cradle; ranges that are none.
     pub fn new(args: Args, setup: &mut Setup<'_>) -> Result<Self, EnvError> {
-        let roles = setup.roles(&args.roles)?;
+        let mut hand = Hand::new(&args.roles, args.joint_noise, "reorient", setup)?;
         let (object, place) = setup.loose_body("object")?;
-        let m = &setup.scene.model;
-        let mut home = m.qpos0.to_vec();
-        roles.cast(m, "", "reorient").pose("cradle", &mut home)?;
-        let scene = &setup.scene;
-        let [cradle, show] =
-            ["cradle", "show"].map(|name| scene.site(name).map(|site| *scene.data.site(site).xpos()));
-        let lies = add(cradle?, m.body_pos[object.index()]);
-        home[place.start..place.start + 3].copy_from_slice(&lies);
-        let moves = |joint: &usize| m.jnt_type[*joint] != JointType::Free as i32;
-        let joints = (0..m.njnt).filter(moves);
+        hand.put(&setup.scene.model, object, &place);
         if !(args.turn[0] > args.within[0] && args.turn[1] >= args.turn[0]) {
             return Err(
                 setup.wrong("turn needs two angles, the second not below the first, both beyond within")
             );
         }
-        let (velocity, target) = (m.body_dofadr[object.index()] as usize, scene.body("target")?);
-        let joints = joints.map(|j| [m.jnt_qposadr[j] as usize, m.jnt_dofadr[j] as usize]).collect();
-        let show = show?;
-        setup.scene.overwrite(|m| m.body_pos[target.index()] = show)?;
-        Ok(Reorient { object, place, velocity, target, joints, home, args, hold: Hold::new(HOLD) })
+        let velocity = setup.scene.model.body_dofadr[object.index()] as usize;
+        let target = hand.show("target", setup)?;
+        Ok(Reorient { object, place, velocity, target, hand, args, hold: Hold::new(HOLD) })
     }
 
     /// What the thing lacks: the offset from its place \[m\], and the turn that is left, as axis times angle \[rad\].
     fn lacks(&self, m: &Model, data: &Data) -> [Vec3; 2] {
         let object = data.body(self.object);
-        let (angle, axis) = turn_between(*object.xquat(), m.body_quat[self.target.index()]);
-        let angle = if angle > PI { angle - TAU } else { angle };
-        let place = &self.home[self.place.start..];
-        [[0, 1, 2].map(|i| object.xpos()[i] - place[i]), axis.map(|component| angle * component)]
+        let (own, target) = (*object.xquat(), m.body_quat[self.target.index()]);
+        let left = self.args.axis.map_or_else(|| turn(own, target), |axis| tilt(own, target, axis));
+        let place = &self.hand.home[self.place.start..];
+        [[0, 1, 2].map(|i| object.xpos()[i] - place[i]), left]
     }
 
     /// Whether the thing is as it is to be.
@@ -135,16 +123,14 @@ impl Task for Reorient {
     }
 
     fn initial_pose(&self, _: &Scene, pose: &mut Pose) -> Result<(), EnvError> {
-        pose.qpos.copy_from_slice(&self.home);
+        pose.qpos.copy_from_slice(&self.hand.home);
         Ok(())
     }
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
         self.hold.begin();
         let rng = &mut *episode.rng;
-        for [place, _] in &self.joints {
-            episode.start.qpos[*place] += self.args.joint_noise * rng.uniform(-1.0, 1.0)?;
-        }
+        self.hand.shake(rng, &mut episode.start.qpos)?;
         let [away, yaw] = self.args.place_noise;
         let object = &mut episode.start.qpos[self.place.clone()];
         for coordinate in &mut object[..2] {
@@ -153,9 +139,7 @@ impl Task for Reorient {
         let own: Quat = std::array::from_fn(|k| object[3 + k]);
         let start = quat_mul(about_z(yaw * rng.uniform(-1.0, 1.0)?), own);
         object[3..].copy_from_slice(&start);
-        let angle = rng.uniform(self.args.turn[0], self.args.turn[1])?;
-        let sense = if rng.uniform(0.0, 1.0)? < 0.5 { -1.0 } else { 1.0 };
-        let target = quat_mul(about_z(sense * angle), start);
+        let target = quat_mul(about_z(either_way(self.args.turn, rng)?), start);
         episode.scene.overwrite(|m| m.body_quat[self.target.index()] = target)
     }
 
@@ -168,15 +152,13 @@ impl Task for Reorient {
     fn observe(&self, view: &View<'_>, rows: &mut Rows) {
         let (m, data) = (view.model, view.data);
         let [offset, turn] = self.lacks(m, data);
-        rows.set("joint_pos", "rad", self.joints.iter().map(|[place, _]| data.state.qpos[*place]));
-        rows.set("joint_vel", "rad/s", self.joints.iter().map(|[_, dof]| data.state.qvel[*dof]));
+        self.hand.observe(view, rows);
         rows.set("object_offset", "m", offset);
         rows.set("object_quat", "", *data.body(self.object).xquat());
         rows.set("object_vel", "m/s, rad/s", &data.state.qvel[self.velocity..self.velocity + 6]);
         rows.set("target_quat", "", m.body_quat[self.target.index()]);
         rows.set("turn_left", "rad", turn);
         rows.set("held", "s", [self.hold.seconds(self.is_there(m, data), view.dt)]);
-        rows.set("last_action", "", data.state.ctrl.iter().copied());
     }
 
     fn reward(&self, _: &View<'_>, rows: &Rows, terms: &mut Rows) -> Verdict {
@@ -195,8 +177,17 @@ impl Task for Reorient {
     }
 }
 
-/// A turn about the vertical \[rad\].
-fn about_z(angle: f64) -> Quat {
-    let (sine, cosine) = ops::sincos(angle / 2.0);
-    [cosine, 0.0, 0.0, sine]
+/// The shortest turn from one orientation to another, as axis times angle \[rad\].
+fn turn(from: Quat, to: Quat) -> Vec3 {
+    let (angle, axis) = turn_between(from, to);
+    let angle = if angle > PI { angle - TAU } else { angle };
+    axis.map(|component| angle * component)
+}
+
+/// The shortest turn after which an axis points as in another orientation, as axis times angle \[rad\].
+fn tilt(from: Quat, to: Quat, axis: Vec3) -> Vec3 {
+    let [a, b] = [from, to].map(|quat| quat_rotate(quat, axis));
+    let normal = cross(a, b);
+    let sine = norm(&normal);
+    scale(normal, ops::atan2(sine, dot(a, b)) / sine.max(1e-12))
 }
