@@ -156,6 +156,13 @@ const ALL: &[Entry] = &[
         build: |env| Ok(Box::new(tasks::in_hand::pen::Pen::new(env)?)),
     },
     Entry {
+        name: "baoding",
+        summary: "as reorient, for two balls that are to go round each other",
+        serves: &["hand_baoding"],
+        feet: None,
+        build: |env| Ok(Box::new(tasks::in_hand::baoding::Baoding::new(env)?)),
+    },
+    Entry {
         name: "soft_ball",
         summary: "a hand that closes until a soft ball is as narrow as asked for",
         serves: &["soft_ball"],

@@ -20,6 +20,16 @@ fn a_cube_is_turned() {
     solves_and_doing_nothing_does_not(&[(allegro, 1), (shadow, 1), ("hive/AdroitCubeReorient-v0", 1)]);
 }
 
+#[test]
+fn two_balls_go_round_each_other() {
+    solves_and_doing_nothing_does_not(&[("hive/ShadowBaoding-v0", 0), ("hive/AdroitBaoding-v0", 0)]);
+}
+
+#[test]
+fn a_pen_in_the_palm_is_turned() {
+    solves_and_doing_nothing_does_not(&[("hive/ShadowPenReorient-v0", 0)]);
+}
+
 /// Zero actions turn the pen far enough on one seed of five, as RoboHive defines the task; on this seed they do not.
 #[test]
 fn a_pen_is_turned_and_actions_repeat() {

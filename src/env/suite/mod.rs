@@ -90,6 +90,7 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("adroit_relocate", hands::relocate::Relocate::new),
         TaskType::new("adroit_baoding", hands::baoding::Baoding::new),
         TaskType::new("reorient", in_hand::reorient::Reorient::new),
+        TaskType::new("hand_baoding", in_hand::baoding::Baoding::new),
         TaskType::new("soft_ball", in_hand::soft_ball::SoftBall::new),
         TaskType::new("chase", locomotion::chase::Chase::new),
         TaskType::new("push_box", locomotion::push_box::PushBox::new),

@@ -6,7 +6,7 @@ use crate::error::ControlError;
 use env::Env;
 use physics::Data;
 use physics::elements::BodyId;
-use physics::math::{Quat, Vec3, norm, ops, quat_conj, quat_mul, sub};
+use physics::math::{Quat, Vec3, cross, dot, norm, ops, quat_conj, quat_mul, quat_rotate, sub};
 
 const SIZES: Sizes = Sizes { samples: 40, horizon: 0.4, step: 0.01, every: 0.05, knots: 5, noise: 0.2 };
 /// Cost of a squared distance from its place \[1/m²\].
@@ -21,6 +21,8 @@ pub struct Reorient {
     target: BodyId,
     /// Where the thing was put \[m\].
     home: Vec3,
+    /// The axis of a round thing, in its frame.
+    axis: Option<Vec3>,
 }
 
 impl Reorient {
@@ -30,7 +32,13 @@ impl Reorient {
     /// No thing, or no target.
     pub fn new(env: &Env) -> Result<Self, ControlError> {
         let (object, target) = (env.scene().body("object")?, env.scene().body("target")?);
-        Ok(Reorient { search: Search::new(env, SIZES), object, target, home: [0.0; 3] })
+        Ok(Reorient {
+            search: Search::new(env, SIZES),
+            object,
+            target,
+            home: [0.0; 3],
+            axis: env.spec().args.get("axis"),
+        })
     }
 }
 
@@ -42,18 +50,23 @@ impl Controller for Reorient {
 
     fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), ControlError> {
         let target = env.scene().model.body_quat[self.target.index()];
-        let (object, home) = (self.object, self.home);
+        let (object, home, axis) = (self.object, self.home, self.axis);
         let cost = |data: &Data| {
             let object = data.body(object);
             let away = norm(sub(*object.xpos(), home));
-            angle(target, *object.xquat()) + PLACE * away * away + LOSS * f64::from(away > FAR)
+            let left = angle(target, *object.xquat(), axis);
+            left + PLACE * away * away + LOSS * f64::from(away > FAR)
         };
         self.search.act(env, cost, action)
     }
 }
 
-/// The angle between two orientations \[rad\].
-fn angle(a: Quat, b: Quat) -> f64 {
+/// The angle between two orientations, or between an axis in the one and in the other \[rad\].
+fn angle(a: Quat, b: Quat, axis: Option<Vec3>) -> f64 {
+    if let Some(axis) = axis {
+        let [a, b] = [a, b].map(|quat| quat_rotate(quat, axis));
+        return ops::atan2(norm(cross(a, b)), dot(a, b));
+    }
     let [w, x, y, z] = quat_mul(a, quat_conj(b));
     2.0 * ops::atan2(norm([x, y, z]), w.abs())
 }

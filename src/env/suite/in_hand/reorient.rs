@@ -8,7 +8,7 @@
 //! of MuJoCo Playground's LeapCubeReorient (Zakka et al., "MuJoCo Playground", 2025) and of Gymnasium-Robotics' hands; OpenAI's hand
 //! had 0.4 rad ("Learning dexterous in-hand manipulation", International Journal of Robotics Research 39, 2020). Episodes start with
 //! the hand in the pose `cradle` of its roles, joints and the thing a little off; the goal is a turn about the vertical of `turn`
-//! rad, either way.
+//! rad, either way. Of a thing that is round about an `axis`, such as a pen, only where that points counts.
 
 use super::hand::{Hand, about_z, either_way};
 use crate::error::EnvError;
