@@ -27,7 +27,7 @@ fn two_balls_go_round_each_other() {
 
 #[test]
 fn a_pen_in_the_palm_is_turned() {
-    solves_and_doing_nothing_does_not(&[("hive/ShadowPenReorient-v0", 0)]);
+    solves_and_doing_nothing_does_not(&[("hive/AdroitPenReorient-v0", 0)]);
 }
 
 /// Zero actions turn the pen far enough on one seed of five, as RoboHive defines the task; on this seed they do not.

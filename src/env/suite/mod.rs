@@ -47,7 +47,7 @@ use crate::task_type::TaskType;
 
 /// Every task, suite by suite.
 pub(crate) fn tasks() -> Vec<TaskType> {
-    vec![
+    let mut tasks = vec![
         TaskType::new("reach", arms::reach::Reach::new),
         TaskType::new("push", arms::push::Push::new),
         TaskType::new("pick_place", arms::pick_place::PickPlace::new),
@@ -112,6 +112,18 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("zip", tabletop::zip::Zip::new),
         TaskType::new("kitchen", multitask::kitchen::Kitchen::new),
         TaskType::new("appliance", multitask::appliance::Appliance::new),
+        TaskType::new("free_walk", quadrupeds::free_walk::FreeWalk::new),
+        TaskType::new("kitty_walk", quadrupeds::walk::Walk::new),
+        TaskType::new("kitty_orient", quadrupeds::orient::Orient::new),
+        TaskType::new("kitty_stand", quadrupeds::stand::Stand::new),
+    ];
+    tasks.extend(of_muscles());
+    tasks
+}
+
+/// Tasks of bodies that muscles move.
+fn of_muscles() -> Vec<TaskType> {
+    vec![
         TaskType::new("muscle_pose", myobase::pose::Pose::new),
         TaskType::new("muscle_reach", myobase::reach::Reach::new),
         TaskType::new("key_turn", myobase::key_turn::KeyTurn::new),
@@ -126,9 +138,5 @@ pub(crate) fn tasks() -> Vec<TaskType> {
         TaskType::new("chase_tag", myochallenge::chase_tag::ChaseTag::new),
         TaskType::new("relocate_object", myochallenge::relocate::Relocate::new),
         TaskType::new("track", myodm::track::Track::new),
-        TaskType::new("free_walk", quadrupeds::free_walk::FreeWalk::new),
-        TaskType::new("kitty_walk", quadrupeds::walk::Walk::new),
-        TaskType::new("kitty_orient", quadrupeds::orient::Orient::new),
-        TaskType::new("kitty_stand", quadrupeds::stand::Stand::new),
     ]
 }
