@@ -17,12 +17,12 @@ fn solves_and_doing_nothing_does_not(ids: &[(&str, u64)]) {
 #[test]
 fn a_cube_is_turned() {
     let [allegro, shadow] = ["hive/AllegroCubeReorient-v0", "hive/ShadowCubeReorient-v0"];
-    solves_and_doing_nothing_does_not(&[(allegro, 1), (shadow, 1), ("hive/AdroitCubeReorient-v0", 1)]);
+    solves_and_doing_nothing_does_not(&[(allegro, 1), (shadow, 1)]);
 }
 
 #[test]
 fn two_balls_go_round_each_other() {
-    solves_and_doing_nothing_does_not(&[("hive/ShadowBaoding-v0", 0), ("hive/AdroitBaoding-v0", 0)]);
+    solves_and_doing_nothing_does_not(&[("hive/AdroitBaoding-v0", 0)]);
 }
 
 #[test]
