@@ -21,6 +21,7 @@ use crate::tasks::deformable::cloth_spread::ClothSpread;
 use crate::tasks::deformable::grain_flatten::GrainFlatten;
 use crate::tasks::deformable::grain_pour::GrainPour;
 use crate::tasks::deformable::grain_scoop::GrainScoop;
+use crate::tasks::deformable::held::Attempts;
 use crate::tasks::deformable::rope_straighten::RopeStraighten;
 use crate::tasks::deformable::rope_thread::RopeThread;
 use crate::tasks::deformable::rope_wrap::RopeWrap;
@@ -323,14 +324,21 @@ const ALL: &[Entry] = &[
         summary: "a scoop that goes in nose first, along the floor of the tray, nose up and out",
         serves: &["grain_scoop"],
         feet: None,
-        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "grain_scoop")?, GrainScoop::new(env)?))),
+        build: |env| {
+            Ok(Box::new(Scripted::new(Arm::new(env, "grain_scoop")?, Attempts::new(GrainScoop::new(env)?))))
+        },
     },
     Entry {
         name: "grain_flatten",
         summary: "a blade that is led to and fro at three heights",
         serves: &["grain_flatten"],
         feet: None,
-        build: |env| Ok(Box::new(Scripted::new(Arm::new(env, "grain_flatten")?, GrainFlatten::new(env)?))),
+        build: |env| {
+            Ok(Box::new(Scripted::new(
+                Arm::new(env, "grain_flatten")?,
+                Attempts::new(GrainFlatten::new(env)?),
+            )))
+        },
     },
     Entry {
         name: "sponge_press",

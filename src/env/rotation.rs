@@ -10,9 +10,15 @@
 
 use physics::math::{Mat3, Quat, Vec3, ops};
 use physics::math::{quat_conj, quat_from_axis_angle, quat_mul};
+use std::f64::consts::TAU;
 
 /// The cosine of the middle angle is below this in gimbal lock.
 const GIMBAL_LOCK: f64 = 4.0 * f64::EPSILON;
+
+/// The shorter way round of a turn: the angle within half a turn of zero \[rad\].
+pub fn shorter(turn: f64) -> f64 {
+    turn - TAU * (turn / TAU).round()
+}
 
 /// The quaternion of a rotation about x, then about the new y, then about the new z \[rad\].
 pub fn quat_of_euler(euler: Vec3) -> Quat {

@@ -136,9 +136,8 @@ impl Job<'_> {
                 return Ok(played);
             }
             self.actor.means(&input, &mut tape);
-            let mut means = tape.output().chunks_exact(self.actor.actions());
-            for slot in slots.iter_mut().filter(|slot| slot.episode.is_some()) {
-                let mean = means.next().unwrap_or_default();
+            let means = tape.output().chunks_exact(self.actor.actions());
+            for (slot, mean) in slots.iter_mut().filter(|slot| slot.episode.is_some()).zip(means) {
                 played.extend(self.step(slot, mean)?);
             }
         }

@@ -1,10 +1,9 @@
 //! Flattening grains: the blade is led to and fro over the tray at three heights, the lowest a little over one layer of grains, and lifted.
 
-use super::held::Held;
+use super::held::{Held, Work};
 use crate::error::ControlError;
-use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::frame::Frame;
-use crate::tasks::arms::moves::{Move, Script};
+use crate::tasks::arms::moves::Move;
 use env::Env;
 use physics::elements::{BodyId, SiteId};
 use physics::math::{add, quat_rotate, scale};
@@ -25,9 +24,6 @@ pub struct GrainFlatten {
     tray: SiteId,
     /// Diameter of a grain \[m\].
     grain: f64,
-    held: Option<Held>,
-    /// What is left to do, the last first.
-    plan: Vec<Move>,
 }
 
 impl GrainFlatten {
@@ -42,10 +38,16 @@ impl GrainFlatten {
         let geom = geom.and_then(|(id, _)| usize::try_from(m.body_geomadr[id.index()]).ok());
         let geom = geom.ok_or_else(|| ControlError::unfit(env, "the scene has no grains"))?;
         let (blade, tray) = (scene.body("blade")?, scene.site("tray")?);
-        Ok(GrainFlatten { blade, tray, grain: 2.0 * m.geom_size[geom][0], held: None, plan: Vec::new() })
+        Ok(GrainFlatten { blade, tray, grain: 2.0 * m.geom_size[geom][0] })
+    }
+}
+
+impl Work for GrainFlatten {
+    fn body(&self) -> BodyId {
+        self.blade
     }
 
-    fn plan(&mut self, held: &Held, env: &Env) {
+    fn plan(&self, held: &Held, env: &Env) -> Vec<Move> {
         let half = env.scene().model.site_size[self.tray.index()];
         let tray = Frame::of_site(&env.scene().data, self.tray);
         let ahead = quat_rotate(held.frame.turn, [0.0, 1.0, 0.0]);
@@ -56,32 +58,13 @@ impl GrainFlatten {
         let end = half[1] - WALL * self.grain;
         let over = |to, pause| Move::precise(to, 0.0, SPEED[0], pause);
         let within = |to| Move::precise(to, 0.0, SPEED[1], 0.0);
-        self.plan = vec![over(at(-end, CARRY), 0.0)];
+        let mut plan = vec![over(at(-end, CARRY), 0.0)];
         let mut side = -end;
         for height in HEIGHTS.map(|height| height * self.grain) {
-            self.plan.extend([side, -side].map(|before| within(at(before, height))));
+            plan.extend([side, -side].map(|before| within(at(before, height))));
             side = -side;
         }
-        self.plan.extend([0.0, PAUSE].map(|pause| over(at(side, CARRY), pause)));
-        self.plan.reverse();
-    }
-}
-
-impl Script for GrainFlatten {
-    fn begin(&mut self, env: &Env, arm: &Arm) -> Result<(), ControlError> {
-        let held = Held::new(self.blade, env, arm);
-        self.held = Some(held);
-        self.plan(&held, env);
-        Ok(())
-    }
-
-    fn next(&mut self, env: &Env, _: &Arm) -> Result<Option<Move>, ControlError> {
-        if let Some(held) = self.held
-            && self.plan.is_empty()
-            && env.rows()["held"][0] == 0.0
-        {
-            self.plan(&held, env);
-        }
-        Ok(self.plan.pop())
+        plan.extend([0.0, PAUSE].map(|pause| over(at(side, CARRY), pause)));
+        plan
     }
 }

@@ -1,10 +1,9 @@
 //! Scooping grains: nose first into the tray, level along its floor to the wall in front, nose up there, and straight up.
 
-use super::held::Held;
+use super::held::{Held, Work};
 use crate::error::ControlError;
-use crate::tasks::arms::arm::Arm;
 use crate::tasks::arms::frame::Frame;
-use crate::tasks::arms::moves::{Move, Script};
+use crate::tasks::arms::moves::Move;
 use env::Env;
 use physics::elements::{BodyId, SiteId};
 use physics::math::{add, ops, quat_mul, quat_rotate, scale, sub};
@@ -27,9 +26,6 @@ pub struct GrainScoop {
     /// Insides of the scoop and of the tray.
     scoop: SiteId,
     tray: SiteId,
-    held: Option<Held>,
-    /// What is left to do, the last first.
-    plan: Vec<Move>,
 }
 
 impl GrainScoop {
@@ -40,10 +36,16 @@ impl GrainScoop {
     pub fn new(env: &Env) -> Result<Self, ControlError> {
         let scene = env.scene();
         let (body, scoop, tray) = (scene.body("scoop")?, scene.site("scoop")?, scene.site("tray")?);
-        Ok(GrainScoop { body, scoop, tray, held: None, plan: Vec::new() })
+        Ok(GrainScoop { body, scoop, tray })
+    }
+}
+
+impl Work for GrainScoop {
+    fn body(&self) -> BodyId {
+        self.body
     }
 
-    fn plan(&mut self, held: &Held, env: &Env) {
+    fn plan(&self, held: &Held, env: &Env) -> Vec<Move> {
         let m = &env.scene().model;
         let [middle, half, wide] =
             [m.site_pos[self.scoop.index()], m.site_size[self.scoop.index()], m.site_size[self.tray.index()]];
@@ -64,7 +66,7 @@ impl GrainScoop {
         let (nose, back) = (1.0, -1.0);
         let over = |to, pause| Move::precise(to, 0.0, SPEED[0], pause);
         let within = |to| Move::precise(to, 0.0, SPEED[1], 0.0);
-        self.plan = vec![
+        vec![
             over(at(nose, enter, CARRY, down), 0.0),
             within(at(nose, enter, LOW, down)),
             within(at(nose, f64::midpoint(enter, end), LOW, less)),
@@ -73,26 +75,6 @@ impl GrainScoop {
             within(at(back, end - length, LOW, up)),
             within(at(back, end - length, CARRY, up)),
             over(at(back, end - length, CARRY, up), PAUSE),
-        ];
-        self.plan.reverse();
-    }
-}
-
-impl Script for GrainScoop {
-    fn begin(&mut self, env: &Env, arm: &Arm) -> Result<(), ControlError> {
-        let held = Held::new(self.body, env, arm);
-        self.held = Some(held);
-        self.plan(&held, env);
-        Ok(())
-    }
-
-    fn next(&mut self, env: &Env, _: &Arm) -> Result<Option<Move>, ControlError> {
-        if let Some(held) = self.held
-            && self.plan.is_empty()
-            && env.rows()["held"][0] == 0.0
-        {
-            self.plan(&held, env);
-        }
-        Ok(self.plan.pop())
+        ]
     }
 }

@@ -6,7 +6,7 @@ pub mod cloth_spread;
 pub mod grain_flatten;
 pub mod grain_pour;
 pub mod grain_scoop;
-mod held;
+pub mod held;
 mod rods;
 pub mod rope_straighten;
 pub mod rope_thread;

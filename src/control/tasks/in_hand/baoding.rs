@@ -4,11 +4,11 @@
 use super::search::{Search, Sizes};
 use crate::controller::Controller;
 use crate::error::ControlError;
+use crate::maths::wrap;
 use env::Env;
 use physics::Data;
 use physics::elements::BodyId;
 use physics::math::{Vec3, add, norm, ops, scale, sub};
-use std::f64::consts::TAU;
 
 const SIZES: Sizes = Sizes { samples: 40, horizon: 0.4, step: 0.01, every: 0.05, knots: 5, noise: 0.2 };
 /// Cost of a squared distance of a ball from the middle of both places \[1/m²\].
@@ -51,8 +51,7 @@ impl Controller for Baoding {
         let cost = |data: &Data| {
             let [first, second] = balls.map(|ball| *data.body(ball).xpos());
             let [x, y, _] = sub(second, first);
-            let turn = wanted - ops::atan2(y, x);
-            let left = turn - TAU * (turn / TAU).round();
+            let left = wrap(wanted - ops::atan2(y, x));
             let away = [first, second].map(|place| norm(sub(place, middle)));
             let place = PLACE * away.iter().map(|away| away * away).sum::<f64>();
             left.abs() + place + LOSS * f64::from(away[0].max(away[1]) > FAR)

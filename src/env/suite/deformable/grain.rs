@@ -41,6 +41,16 @@ impl Grains {
         Ok(Grains { bodies, joints, radius: m.geom_size[geom][0] })
     }
 
+    /// Puts a vessel, and the grains that lie in it, somewhere on the table \[m\], and moves each a little.
+    ///
+    /// # Errors
+    /// A place that is no number.
+    pub fn put(&self, vessel: &Vessel, place: [f64; 2], episode: &mut Episode<'_>) -> Result<(), EnvError> {
+        let way = vessel.put(place, episode)?;
+        self.shift(way, episode.start);
+        self.jitter(episode.rng, episode.start)
+    }
+
     /// Moves each a fraction of a millimetre that is drawn.
     ///
     /// # Errors
@@ -55,7 +65,7 @@ impl Grains {
     }
 
     /// Moves all of them along the table \[m\].
-    pub fn shift(&self, way: [f64; 2], pose: &mut Pose) {
+    fn shift(&self, way: [f64; 2], pose: &mut Pose) {
         for &joint in &self.joints {
             for (place, way) in pose.qpos[joint..].iter_mut().zip(way) {
                 *place += way;

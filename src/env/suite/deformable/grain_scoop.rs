@@ -120,9 +120,7 @@ impl Task for GrainScoop {
 
     fn reset(&mut self, episode: &mut Episode<'_>) -> Result<(), EnvError> {
         let place = self.places.draw(episode.rng)?;
-        let way = self.tray.put(place, episode)?;
-        self.grains.shift(way, episode.start);
-        self.grains.jitter(episode.rng, episode.start)?;
+        self.grains.put(&self.tray, place, episode)?;
         self.done.begin();
         Ok(())
     }

@@ -13,6 +13,7 @@ use super::bench::{Arm, Bench};
 use super::rope::{Rope, Shapes};
 use crate::draws::Ranges;
 use crate::error::EnvError;
+use crate::rotation::shorter;
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::suite::hold::Hold;
@@ -75,7 +76,7 @@ impl RopeWrap {
             let turn = before.map_or(0.0, |before| angle - before);
             before = Some(angle);
             // The shorter way from one place to the next.
-            turn - TAU * (turn / TAU).round()
+            shorter(turn)
         });
         turns.sum()
     }

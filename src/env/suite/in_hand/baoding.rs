@@ -11,7 +11,7 @@
 
 use super::hand::{Hand, about_z, either_way};
 use crate::error::EnvError;
-use crate::rotation::norm;
+use crate::rotation::{norm, shorter};
 use crate::rows::Rows;
 use crate::scene::Scene;
 use crate::suite::hold::Hold;
@@ -21,7 +21,6 @@ use physics::elements::BodyId;
 use physics::math::{Vec3, ops, scale, sub};
 use robot::Keeper;
 use serde::Deserialize;
-use std::f64::consts::TAU;
 use std::ops::Range;
 
 /// How long the balls are to stay as they are to be \[s\].
@@ -98,8 +97,7 @@ impl Baoding {
 
     /// The shorter turn from a bearing to the wanted one \[rad\].
     fn left(&self, bearing: f64) -> f64 {
-        let turn = self.wanted - bearing;
-        turn - TAU * (turn / TAU).round()
+        shorter(self.wanted - bearing)
     }
 
     /// Where the balls were put \[m\].
