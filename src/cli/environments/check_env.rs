@@ -19,7 +19,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 other seeds, and returns to a saved state. The table counts those that keep the contract, suite by suite.
 
 Examples:
-  robohive check-env hive locomotion classical           suites; all of them without a name
+  robohive check-env classical multi_agent --steps 200   suites; all of them without a name
   robohive check-env hive/FrankaReach-v0                 one id
   robohive check-env hive/FrankaReach_v2d-v0 --visual    images too"
 )]
