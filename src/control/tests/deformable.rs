@@ -1,10 +1,12 @@
 //! Controllers of the suite `deformable`: they solve their tasks, doing nothing does not, their episodes repeat, and what they handle obeys
 //! its laws meanwhile.
 
+mod idle;
 mod playing;
 
 use env::Registry;
-use playing::{solved_by_nothing, watch};
+use idle::solved_by_nothing;
+use playing::watch;
 
 /// Height of the table's top \[m\].
 const TABLE: f64 = 0.76;

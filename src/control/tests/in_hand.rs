@@ -1,8 +1,10 @@
 //! Hands turn what lies in them by sampled plans.
 
+mod idle;
 mod playing;
 
-use playing::{play, solved_by_nothing, watch};
+use idle::solved_by_nothing;
+use playing::{play, watch};
 
 /// Few seeds, as every step of an episode takes tens of simulated plans.
 fn solves_and_doing_nothing_does_not(ids: &[(&str, u64)]) {

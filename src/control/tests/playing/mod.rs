@@ -8,18 +8,7 @@ pub fn play(id: &str, seed: u64, controlled: bool) -> (bool, Vec<f64>) {
     watch(id, seed, controlled, |_| ())
 }
 
-/// Whether zero actions solve the episode in as many steps as `actions`, of an episode that was played, took.
-pub fn solved_by_nothing(id: &str, seed: u64, actions: &[f64]) -> bool {
-    let mut env = Env::make(id, &OwnModels, &Options::default()).unwrap();
-    let nothing = vec![0.0; env.action_len()];
-    env.reset(Some(seed)).unwrap();
-    (0..actions.len() / nothing.len()).any(|_| {
-        env.step(&nothing).unwrap();
-        env.verdict().solved
-    })
-}
-
-/// The same as [`play`], and shows the environment after every step.
+/// The same, and shows the environment after every step.
 pub fn watch(id: &str, seed: u64, controlled: bool, mut each: impl FnMut(&Env)) -> (bool, Vec<f64>) {
     let mut env = Env::make(id, &OwnModels, &Options::default()).unwrap();
     let name = serving(env.spec()).next().unwrap_or_else(|| panic!("no controller serves {id}")).name;
