@@ -23,6 +23,13 @@ pub enum PolicyError {
         /// What is wrong.
         message: String,
     },
+    /// A run cannot be made or gone on with.
+    Run {
+        /// Its folder, or a file there.
+        path: PathBuf,
+        /// What is wrong.
+        message: String,
+    },
     /// The policy is one for another environment.
     Foreign {
         /// The environment's id.
@@ -48,6 +55,10 @@ impl PolicyError {
         PolicyError::Content { path: None, message: message.into() }
     }
 
+    pub(crate) fn run(path: &std::path::Path, message: impl fmt::Display) -> Self {
+        PolicyError::Run { path: path.into(), message: message.to_string() }
+    }
+
     /// The same error about a file.
     pub(crate) fn within(self, file: &std::path::Path) -> Self {
         match self {
@@ -65,6 +76,7 @@ impl fmt::Display for PolicyError {
                 write!(f, "the policy {}: {message}", path.display())
             }
             PolicyError::Content { path: None, message } => write!(f, "the policy: {message}"),
+            PolicyError::Run { path, message } => write!(f, "the run {}: {message}", path.display()),
             PolicyError::Foreign { id, message } => write!(f, "the policy is not one for {id}: {message}"),
             PolicyError::Reward { id, reward, step } => {
                 write!(

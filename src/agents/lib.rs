@@ -16,6 +16,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod archive;
 mod error;
 pub mod learn;
 mod mjrl;
@@ -23,6 +24,7 @@ pub mod nets;
 mod network;
 mod observation;
 mod policy;
+pub mod run;
 
 pub use error::PolicyError;
 pub use network::{Layer, Network};

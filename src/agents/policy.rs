@@ -1,16 +1,14 @@
 //! What chooses actions.
 
+use crate::archive::{self, Archive};
 use crate::error::PolicyError;
+use crate::learn::{Actor, Card};
 use crate::mjrl;
+use crate::nets::Tape;
 use crate::network::Network;
 use crate::observation::Shown;
 use env::{Env, Rng};
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
-
-/// Most bytes of a file. Those of RoboHive's policies have less than one MiB.
-const MAX_BYTES: u64 = 64 << 20;
 
 /// A policy.
 #[derive(Clone)]
@@ -20,8 +18,10 @@ pub enum Policy {
     Zero,
     /// Actions drawn uniformly from the action space.
     Random(Box<Rng>),
-    /// The mean action of a Gaussian policy.
+    /// The mean action of a Gaussian policy of the original.
     Mean(Box<Mean>),
+    /// The mean action of a policy that was trained here.
+    Trained(Box<Trained>),
 }
 
 /// The mean of a Gaussian policy as a function of what is observed.
@@ -31,6 +31,14 @@ pub struct Mean {
     /// What it is shown, in environments of an id.
     shown: Option<(String, Shown)>,
     input: Vec<f64>,
+}
+
+/// The mean action of a trained policy, with the bits that it has in training.
+#[derive(Clone)]
+pub struct Trained {
+    actor: Actor,
+    card: Card,
+    tape: Tape,
 }
 
 impl Policy {
@@ -44,20 +52,13 @@ impl Policy {
         Policy::Mean(Box::new(Mean { network, shown: None, input: Vec::new() }))
     }
 
-    /// Reads a policy from a file: a pickle of mjrl's Gaussian policies, which is not executed.
+    /// Reads a policy from a file: one that [`learn`](crate::learn) wrote, or a pickle of mjrl's Gaussian policies, which is not executed.
     ///
     /// # Errors
     /// The file cannot be read, or holds no policy that is understood.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, PolicyError> {
         let path = path.as_ref();
-        let fail = |error| PolicyError::File { path: path.into(), error };
-        let mut bytes = Vec::new();
-        let file = File::open(path).map_err(fail)?;
-        file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(fail)?;
-        if bytes.len() as u64 > MAX_BYTES {
-            let message = format!("it has more than {} MiB, and no policy has", MAX_BYTES >> 20);
-            return Err(PolicyError::content(message).within(path));
-        }
+        let bytes = archive::read(path)?;
         Self::parse(&bytes).map_err(|error| error.within(path))
     }
 
@@ -66,7 +67,13 @@ impl Policy {
     /// # Errors
     /// The bytes hold no policy that is understood.
     pub fn parse(bytes: &[u8]) -> Result<Self, PolicyError> {
-        Ok(Self::mean(mjrl::read(bytes)?))
+        if !archive::is_archive(bytes) {
+            return Ok(Self::mean(mjrl::read(bytes)?));
+        }
+        let archive = Archive::parse(bytes)?;
+        let card = Card::of(&archive)?;
+        let actor = card.actor(&archive)?;
+        Ok(Policy::Trained(Box::new(Trained { actor, card, tape: Tape::default() })))
     }
 
     /// The policy at the start of an episode: random actions are those of its seed.
@@ -91,7 +98,30 @@ impl Policy {
             Policy::Zero => action.fill(0.0),
             Policy::Random(rng) => env.random_action(rng, action)?,
             Policy::Mean(mean) => mean.action(env, action)?,
+            Policy::Trained(trained) => trained.action(env, action)?,
         }
+        Ok(())
+    }
+}
+
+impl Trained {
+    /// What its file says of it.
+    pub fn card(&self) -> &Card {
+        &self.card
+    }
+
+    fn action(&mut self, env: &Env, action: &mut [f64]) -> Result<(), PolicyError> {
+        let sizes = [env.observation().len(), action.len()];
+        if sizes != [self.card.observed, self.card.actions] {
+            let Card { id, observed, actions, .. } = &self.card;
+            let [seen, taken] = sizes;
+            let message = format!(
+                "it was trained on {id} and takes {observed} observed numbers to {actions} actions; here are {seen} and {taken}"
+            );
+            return Err(PolicyError::Foreign { id: env.spec().id.clone(), message });
+        }
+        self.actor.means(&self.actor.normalized(env.observation()), &mut self.tape);
+        action.iter_mut().zip(self.tape.output()).for_each(|(to, from)| *to = f64::from(*from));
         Ok(())
     }
 }

@@ -7,6 +7,8 @@ use crate::environments::info::Info;
 use crate::environments::list::List;
 use crate::environments::rollout::Rollout;
 use crate::environments::run::Run;
+use crate::learning::evaluate::Evaluate;
+use crate::learning::train::Train;
 use crate::models::bench::Bench;
 use crate::models::check::Check;
 use crate::models::compile::Compile;
@@ -58,6 +60,10 @@ pub enum Command {
     Info(Info),
     /// Play episodes of an environment
     Run(Run),
+    /// Learn a policy from episodes of an environment
+    Train(Train),
+    /// Say how often a policy succeeds, beside zero and random actions
+    Evaluate(Evaluate),
     /// Drive an environment by hand, and record demonstrations
     Teleop(Box<Teleop>),
     /// Draw a model or an environment

@@ -1,5 +1,5 @@
 //! The `robohive` command: one subcommand a file, in parts that build on those before them: `input` (models and
-//! environments by name), `pictures`, `recordings`, `models`, `robots` (devices), `environments`; `assets`, `teleop`, `view`,
+//! environments by name), `pictures`, `recordings`, `models`, `robots` (devices), `environments`, `learning`; `assets`, `teleop`, `view`,
 //! `web` and `shell` beside them.
 
 // Comments of arguments are what `--help` prints, where brackets are units and defaults.
@@ -11,6 +11,7 @@ mod environments;
 mod failure;
 mod input;
 mod interrupt;
+mod learning;
 mod models;
 mod output;
 mod pictures;
@@ -32,6 +33,8 @@ fn main() -> ExitCode {
         Command::List(a) => environments::list::run(&a),
         Command::Info(a) => environments::info::run(&a),
         Command::Run(a) => environments::run::run(&a),
+        Command::Train(a) => learning::train::run(&a),
+        Command::Evaluate(a) => learning::evaluate::run(&a),
         Command::Render(a) => pictures::render::run(&a),
         Command::Gallery(a) => pictures::gallery::run(&a),
         Command::Teleop(a) => teleop::run(&a),

@@ -1,5 +1,6 @@
 //! A Gaussian policy: a network gives the mean action, and deviations are parameters that do not depend on the state.
 
+use crate::archive::{Entry, Numbers};
 use crate::nets::{Activation, Mlp, Running, Tape};
 use random::{BitGenerator, Generator};
 
@@ -36,6 +37,15 @@ impl Actor {
         let mut parameters = net.draw(LAST, rng);
         parameters.extend((0..actions).map(|_| log_std));
         Actor { net, seen: Running::new(observed), parameters, least_log_std: f32::NEG_INFINITY }
+    }
+
+    /// All that is learnt, by names.
+    pub(crate) fn entries(&mut self) -> Vec<Entry<'_>> {
+        let (layers, log_std) = self.net.entries(&mut self.parameters);
+        let mut entries: Vec<_> = layers.into_iter().map(|entry| entry.of("layers")).collect();
+        entries.push(Entry::new("log_std", Numbers::F32(log_std)));
+        entries.extend(self.seen.entries().map(|entry| entry.of("observed")));
+        entries.into_iter().map(|entry| entry.of("policy")).collect()
     }
 
     /// Number of actions.

@@ -1,9 +1,11 @@
 //! Returns and advantages of episodes (Schulman et al., 2016, equation 16).
 
 use super::rollout::Episode;
+use serde::{Deserialize, Serialize};
 
 /// How far rewards count.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Horizon {
     /// Discount of a step.
     pub gamma: f64,

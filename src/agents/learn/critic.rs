@@ -1,8 +1,10 @@
 //! The expected return of a state: a network fitted to returns, which are normalised by all that were seen.
 
 use super::shuffle::Minibatches;
+use crate::archive::Entry;
 use crate::nets::{Activation, Adam, Mlp, Running, Tape, clip};
 use random::{BitGenerator, Generator};
+use serde::{Deserialize, Serialize};
 
 /// A value function in training.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,7 +20,8 @@ pub struct Critic {
 }
 
 /// How it is fitted.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Fit {
     /// Passes over the samples.
     pub epochs: usize,
@@ -42,6 +45,15 @@ impl Critic {
         let net = Mlp::new(&widths, activation, false);
         let parameters = net.draw(1.0, rng);
         Critic { returns: Running::new(1), adam: Adam::new(net.parameters()), parameters, net }
+    }
+
+    /// All that is learnt, by names.
+    pub(crate) fn entries(&mut self) -> Vec<Entry<'_>> {
+        let (layers, _) = self.net.entries(&mut self.parameters);
+        let mut entries: Vec<_> = layers.into_iter().map(|entry| entry.of("layers")).collect();
+        entries.extend(self.returns.entries().map(|entry| entry.of("returns")));
+        entries.extend(self.adam.entries().map(|entry| entry.of("adam")));
+        entries.into_iter().map(|entry| entry.of("values")).collect()
     }
 
     /// Expected returns of normalised observations.

@@ -7,11 +7,13 @@ use super::critic::{Critic, Fit};
 use super::npg::{self, Npg};
 use super::ppo::{self, Ppo, Update};
 use super::rollout::{Choice, Collector, Episode};
+use crate::archive::{Entry, Numbers};
 use crate::error::PolicyError;
 use crate::nets::{Activation, Adam};
 use env::episode::{Evaluation, evaluate};
 use env::{Env, Rng};
 use random::SeedSequence;
+use serde::{Deserialize, Serialize};
 use std::thread;
 
 /// What the numbers that are drawn for an iteration are for. Those of episodes have keys of another length.
@@ -20,8 +22,9 @@ const POLICY: u64 = 1;
 const VALUES: u64 = 2;
 
 /// How a policy is improved.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[non_exhaustive]
+#[serde(rename_all = "snake_case")]
 pub enum Algorithm {
     /// Proximal policy optimisation.
     Ppo(Ppo),
@@ -30,7 +33,8 @@ pub enum Algorithm {
 }
 
 /// Settings of a training.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Settings {
     /// How the policy is improved.
     pub algorithm: Algorithm,
@@ -51,8 +55,8 @@ pub struct Settings {
 /// A training in progress.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Learner {
-    settings: Settings,
-    seed: u64,
+    pub(super) settings: Settings,
+    pub(super) seed: u64,
     /// The policy.
     pub actor: Actor,
     /// The value function.
@@ -71,6 +75,8 @@ pub struct Learner {
 pub struct Iteration {
     /// What its episodes, with drawn actions, add up to.
     pub evaluation: Evaluation,
+    /// Deviation, most and least of their returns.
+    pub spread: [f64; 3],
     /// Their mean number of steps.
     pub length: f64,
     /// Episodes that physics ended.
@@ -135,11 +141,30 @@ impl Learner {
         let summaries: Vec<_> = episodes.iter().map(|episode| episode.summary.clone()).collect();
         Ok(Iteration {
             evaluation: evaluate(&summaries, collector.success()),
+            spread: spread(summaries.iter().map(|summary| summary.reward)),
             length: batch.steps() as f64 / episodes.len().max(1) as f64,
             faults: summaries.iter().filter(|summary| summary.faulty).count(),
             update,
             explained,
         })
+    }
+
+    /// All that decides how it goes on, by names, but for the settings and the seed.
+    pub(super) fn entries(&mut self) -> Vec<Entry<'_>> {
+        let mut entries = self.actor.entries();
+        entries.extend(self.critic.entries());
+        entries.extend(self.adam.entries().map(|entry| entry.of("policy.adam")));
+        let counts = [
+            ("iterations", &mut self.iterations),
+            ("episodes", &mut self.episodes),
+            ("samples", &mut self.samples),
+        ];
+        entries.extend(
+            counts.map(|(name, count)| {
+                Entry::new(name, Numbers::U64(std::slice::from_mut(count))).of("training")
+            }),
+        );
+        entries
     }
 
     fn collect(&mut self, collector: &mut Collector) -> Result<Vec<Episode>, PolicyError> {
@@ -153,6 +178,15 @@ impl Learner {
     fn see(&mut self, episodes: &[Episode]) {
         episodes.iter().for_each(|episode| self.actor.seen.observe(&episode.observations));
     }
+}
+
+/// Deviation, most and least of numbers.
+fn spread(numbers: impl Iterator<Item = f64> + Clone) -> [f64; 3] {
+    let count = numbers.clone().count().max(1) as f64;
+    let mean = numbers.clone().sum::<f64>() / count;
+    let variance = numbers.clone().map(|number| (number - mean) * (number - mean)).sum::<f64>() / count;
+    let most = numbers.clone().fold(f64::NEG_INFINITY, f64::max);
+    [variance.sqrt(), most, numbers.fold(f64::INFINITY, f64::min)]
 }
 
 /// The generator of these draws of a run.

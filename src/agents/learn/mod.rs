@@ -27,15 +27,18 @@
 mod actor;
 mod advantage;
 mod batch;
+mod checkpoint;
 mod critic;
 mod learner;
 mod npg;
 mod ppo;
+mod preset;
 mod rollout;
 mod shuffle;
 
 pub use actor::Actor;
 pub use advantage::Horizon;
+pub use checkpoint::Card;
 pub use critic::{Critic, Fit};
 pub use learner::{Algorithm, Iteration, Learner, Settings};
 pub use npg::Npg;

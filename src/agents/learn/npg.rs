@@ -4,6 +4,7 @@ use super::actor::Actor;
 use super::batch::Batch;
 use super::ppo::{Update, divergence};
 use crate::nets::{Tape, gaussian};
+use serde::{Deserialize, Serialize};
 
 /// Steps of conjugate gradients, and the squared residual at which they end.
 const STEPS: usize = 10;
@@ -12,7 +13,8 @@ const RESIDUAL: f64 = 1e-10;
 const DAMPING: f64 = 1e-4;
 
 /// Settings of an update.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Npg {
     /// Size of a step δ: twice the divergence that it makes, to second order.
     pub step: f64,

@@ -5,9 +5,11 @@ use super::batch::Batch;
 use super::shuffle::Minibatches;
 use crate::nets::{Adam, Tape, clip, gaussian};
 use random::{BitGenerator, Generator};
+use serde::{Deserialize, Serialize};
 
 /// Settings of an update of the policy.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
 pub struct Ppo {
     /// Passes over the batch.
     pub epochs: usize,

@@ -3,9 +3,12 @@
 //! Exponentials are our own, of additions and products alone, so that they have the same bits on every machine and the compiler makes vectors of
 //! them.
 
+use serde::{Deserialize, Serialize};
+
 /// A function of one number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq, Serialize)]
 #[non_exhaustive]
+#[serde(rename_all = "snake_case")]
 pub enum Activation {
     /// The hyperbolic tangent.
     Tanh,

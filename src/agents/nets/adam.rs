@@ -1,5 +1,7 @@
 //! Adam, with decoupled weight decay (Kingma and Ba, 2015, algorithm 1; Loshchilov and Hutter, 2019, algorithm 2).
 
+use crate::archive::{Entry, Numbers};
+
 /// Decay of the averages, and what keeps a step finite.
 const DECAY: [f32; 2] = [0.9, 0.999];
 const FLOOR: f32 = 1e-8;
@@ -18,6 +20,15 @@ impl Adam {
     /// Before the first step of `parameters` numbers.
     pub fn new(parameters: usize) -> Self {
         Adam { steps: 0, mean: vec![0.0; parameters], square: vec![0.0; parameters] }
+    }
+
+    /// All that it is, by names.
+    pub(crate) fn entries(&mut self) -> [Entry<'_>; 3] {
+        [
+            Entry::new("steps", Numbers::U64(std::slice::from_mut(&mut self.steps))),
+            Entry::new("mean", Numbers::F32(&mut self.mean)),
+            Entry::new("square", Numbers::F32(&mut self.square)),
+        ]
     }
 
     /// Moves the parameters down the gradient by steps of the size `rate`, and shrinks them by `rate * decay`.

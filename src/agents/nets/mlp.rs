@@ -6,6 +6,7 @@
 use super::activation::Activation;
 use super::kernel::{View, add_product};
 use super::layer_norm;
+use crate::archive::{Entry, Numbers};
 use random::{BitGenerator, Generator};
 use std::ops::Range;
 
@@ -81,6 +82,19 @@ impl Mlp {
     /// Number of parameters.
     pub fn parameters(&self) -> usize {
         self.layers[self.layers.len() - 1].bias.end
+    }
+
+    /// The parameters by layers, and what follows them.
+    pub(crate) fn entries<'a>(&self, mut parameters: &'a mut [f32]) -> (Vec<Entry<'a>>, &'a mut [f32]) {
+        let mut entries = Vec::new();
+        for (k, layer) in self.layers.iter().enumerate() {
+            let (weight, rest) = parameters.split_at_mut(layer.weight.len());
+            let (bias, rest) = rest.split_at_mut(layer.bias.len());
+            entries.push(Entry::matrix(format!("{k}.weight"), layer.inputs, Numbers::F32(weight)));
+            entries.push(Entry::new(format!("{k}.bias"), Numbers::F32(bias)));
+            parameters = rest;
+        }
+        (entries, parameters)
     }
 
     /// Draws parameters: weights uniformly within `±1/√inputs`, those of the last layer `last` times as large; nothing is added.

@@ -1,5 +1,7 @@
 //! Mean and deviation of all that was seen so far, by which what is seen is normalised.
 
+use crate::archive::{Entry, Numbers};
+
 /// Largest normalised value; the smallest is its negative.
 const LIMIT: f64 = 10.0;
 /// Added to a variance.
@@ -44,6 +46,15 @@ impl Running {
                 *squares += away * (value - *mean);
             }
         }
+    }
+
+    /// All that it is, by names.
+    pub(crate) fn entries(&mut self) -> [Entry<'_>; 3] {
+        [
+            Entry::new("count", Numbers::F64(std::slice::from_mut(&mut self.count))),
+            Entry::new("mean", Numbers::F64(&mut self.mean)),
+            Entry::new("squares", Numbers::F64(&mut self.squares)),
+        ]
     }
 
     /// Standard deviations; 1 where fewer than two vectors were seen.

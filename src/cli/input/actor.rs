@@ -14,7 +14,7 @@ const LIST: &str = "list";
 /// Who acts.
 #[derive(Args)]
 pub struct ActorArguments {
-    /// What acts: random, zero, or a file with a policy made for RoboHive by mjrl (a pickle, which is not executed)
+    /// What acts: random, zero, or a file with a policy: one that `train` wrote, or one made for RoboHive by mjrl (a pickle, which is not executed)
     #[arg(long, value_name = "POLICY", default_value = "random")]
     pub policy: String,
     /// A controller that solves the task without learning acts instead; `list` shows those that serve ID

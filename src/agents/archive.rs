@@ -1,0 +1,194 @@
+//! Named numbers in a safetensors file, with a card in its metadata that says what they are.
+//!
+//! What is kept lists its parts once, as [`Entry`]s that borrow the numbers in their places; writing reads there, and reading fills them.
+
+use crate::error::PolicyError;
+use safetensors::tensor::{Dtype, SafeTensors, TensorView};
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::Path;
+
+/// Most bytes of a file.
+const MAX_BYTES: u64 = 64 << 20;
+/// The card's name in the metadata. One name alone, as metadata have no order and equal numbers are to make equal files.
+const CARD: &str = "robohive";
+
+/// Numbers in their place.
+pub(crate) enum Numbers<'a> {
+    F32(&'a mut [f32]),
+    F64(&'a mut [f64]),
+    U64(&'a mut [u64]),
+}
+
+/// Numbers with their name and shape.
+pub(crate) struct Entry<'a> {
+    name: String,
+    shape: Vec<usize>,
+    numbers: Numbers<'a>,
+}
+
+impl<'a> Entry<'a> {
+    /// A vector.
+    pub fn new(name: impl Into<String>, numbers: Numbers<'a>) -> Self {
+        let shape = vec![numbers.len()];
+        Entry { name: name.into(), shape, numbers }
+    }
+
+    /// A matrix of so many rows.
+    pub fn matrix(name: impl Into<String>, rows: usize, numbers: Numbers<'a>) -> Self {
+        let shape = vec![rows, numbers.len() / rows];
+        Entry { name: name.into(), shape, numbers }
+    }
+
+    /// The same as a part of something.
+    #[must_use]
+    pub fn of(mut self, whole: &str) -> Self {
+        self.name = format!("{whole}.{}", self.name);
+        self
+    }
+}
+
+impl Numbers<'_> {
+    fn len(&self) -> usize {
+        match self {
+            Numbers::F32(numbers) => numbers.len(),
+            Numbers::F64(numbers) => numbers.len(),
+            Numbers::U64(numbers) => numbers.len(),
+        }
+    }
+
+    fn kind(&self) -> Dtype {
+        match self {
+            Numbers::F32(_) => Dtype::F32,
+            Numbers::F64(_) => Dtype::F64,
+            Numbers::U64(_) => Dtype::U64,
+        }
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        match self {
+            Numbers::F32(numbers) => numbers.iter().flat_map(|x| x.to_le_bytes()).collect(),
+            Numbers::F64(numbers) => numbers.iter().flat_map(|x| x.to_le_bytes()).collect(),
+            Numbers::U64(numbers) => numbers.iter().flat_map(|x| x.to_le_bytes()).collect(),
+        }
+    }
+
+    /// Takes as many numbers as there are; whether all are finite.
+    fn fill(&mut self, bytes: &[u8]) -> bool {
+        match self {
+            Numbers::F32(numbers) => {
+                let (words, _) = bytes.as_chunks();
+                numbers.iter_mut().zip(words).for_each(|(x, word)| *x = f32::from_le_bytes(*word));
+                numbers.iter().all(|x| x.is_finite())
+            }
+            Numbers::F64(numbers) => {
+                let (words, _) = bytes.as_chunks();
+                numbers.iter_mut().zip(words).for_each(|(x, word)| *x = f64::from_le_bytes(*word));
+                numbers.iter().all(|x| x.is_finite())
+            }
+            Numbers::U64(numbers) => {
+                let (words, _) = bytes.as_chunks();
+                numbers.iter_mut().zip(words).for_each(|(x, word)| *x = u64::from_le_bytes(*word));
+                true
+            }
+        }
+    }
+}
+
+/// Writes a file, which has its name only when it is complete: whatever ends the process, there is the file as it was before or as it is now.
+pub(crate) fn write(path: &Path, card: String, entries: &[Entry<'_>]) -> Result<(), PolicyError> {
+    let parts: Vec<_> = entries.iter().map(|entry| (entry, entry.numbers.bytes())).collect();
+    let content = |error: safetensors::SafeTensorError| PolicyError::content(error.to_string()).within(path);
+    let views = parts.iter().map(|(entry, bytes)| {
+        let view = TensorView::new(entry.numbers.kind(), entry.shape.clone(), bytes)?;
+        Ok((&entry.name[..], view))
+    });
+    let views = views.collect::<Result<Vec<_>, _>>().map_err(content)?;
+    let metadata = HashMap::from([(CARD.to_owned(), card)]);
+    let bytes = safetensors::serialize(views, Some(metadata)).map_err(content)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        let message = format!(
+            "its networks make a file of more than {} MiB: make hidden layers narrower",
+            MAX_BYTES >> 20
+        );
+        return Err(PolicyError::content(message).within(path));
+    }
+    let unfinished = path.with_extension("unfinished");
+    let keep = || {
+        let mut file = File::create(&unfinished)?;
+        file.write_all(&bytes)?;
+        file.sync_all()?;
+        std::fs::rename(&unfinished, path)
+    };
+    keep().map_err(|error| PolicyError::File { path: path.into(), error })
+}
+
+/// The bytes of a file.
+pub(crate) fn read(path: &Path) -> Result<Vec<u8>, PolicyError> {
+    let fail = |error| PolicyError::File { path: path.into(), error };
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(fail)?;
+    file.take(MAX_BYTES + 1).read_to_end(&mut bytes).map_err(fail)?;
+    if bytes.len() as u64 > MAX_BYTES {
+        let message = format!("it has more than {} MiB, and no policy has", MAX_BYTES >> 20);
+        return Err(PolicyError::content(message).within(path));
+    }
+    Ok(bytes)
+}
+
+/// Whether bytes are those of a safetensors file: the length of a header, and JSON.
+pub(crate) fn is_archive(bytes: &[u8]) -> bool {
+    let length = bytes.first_chunk().map_or(u64::MAX, |word| u64::from_le_bytes(*word));
+    length <= bytes.len() as u64 && bytes.get(8) == Some(&b'{')
+}
+
+/// The contents of a file.
+pub(crate) struct Archive<'a> {
+    tensors: SafeTensors<'a>,
+    card: String,
+    /// Bytes of all tensors.
+    pub size: usize,
+}
+
+impl<'a> Archive<'a> {
+    /// Reads the header.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, PolicyError> {
+        let content = |error: safetensors::SafeTensorError| {
+            PolicyError::content(format!("it is no safetensors file: {error}"))
+        };
+        let (_, header) = SafeTensors::read_metadata(bytes).map_err(content)?;
+        let tensors = SafeTensors::deserialize(bytes).map_err(content)?;
+        let card = header.metadata().as_ref().and_then(|names| names.get(CARD)).cloned();
+        let card = card.ok_or_else(|| {
+            PolicyError::content(format!("its metadata have no {CARD:?}: it was not written by `train`"))
+        })?;
+        Ok(Archive { tensors, card, size: bytes.len() })
+    }
+
+    /// What the card says.
+    pub fn card(&self) -> &str {
+        &self.card
+    }
+
+    /// Fills all entries.
+    pub fn fill(&self, entries: Vec<Entry<'_>>) -> Result<(), PolicyError> {
+        for Entry { name, shape, mut numbers } in entries {
+            let tensor = self.tensors.tensor(&name);
+            let tensor = tensor.map_err(|_| PolicyError::content(format!("it has no tensor {name:?}")))?;
+            if tensor.shape() != shape || tensor.dtype() != numbers.kind() {
+                let message = format!(
+                    "the tensor {name:?} is {:?} of {:?}, and {:?} of {shape:?} is needed",
+                    tensor.dtype(),
+                    tensor.shape(),
+                    numbers.kind(),
+                );
+                return Err(PolicyError::content(message));
+            }
+            if !numbers.fill(tensor.data()) {
+                return Err(PolicyError::content(format!("the tensor {name:?} holds NaN or infinities")));
+            }
+        }
+        Ok(())
+    }
+}

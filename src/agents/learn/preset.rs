@@ -1,0 +1,93 @@
+//! Settings to begin with.
+
+use super::advantage::Horizon;
+use super::critic::Fit;
+use super::learner::{Algorithm, Settings};
+use super::npg::Npg;
+use super::ppo::Ppo;
+use crate::nets::Activation;
+
+impl Settings {
+    /// The natural policy gradient with the networks and steps of RoboHive's baselines (AgentHive).
+    pub fn npg() -> Self {
+        Settings {
+            algorithm: Algorithm::Npg(Npg { step: 0.1 }),
+            episodes: 96,
+            horizon: Horizon { gamma: 0.995, lambda: 0.97 },
+            hidden: [vec![32, 32], vec![128, 128]],
+            activation: Activation::Tanh,
+            log_std: [-0.25, -1.0],
+            fit: Fit { epochs: 2, batch: 64, rate: 1e-3, longest: 0.5 },
+        }
+    }
+
+    /// Proximal policy optimisation for tasks of some hundred steps.
+    pub fn ppo() -> Self {
+        let (epochs, batch, rate, longest) = (10, 64, 3e-4, 0.5);
+        let ([clip, entropy], divergence) = ([0.2, 0.0], 0.03);
+        Settings {
+            algorithm: Algorithm::Ppo(Ppo { epochs, batch, rate, clip, entropy, longest, divergence }),
+            episodes: 32,
+            horizon: Horizon { gamma: 0.97, lambda: 0.95 },
+            hidden: [vec![64, 64], vec![64, 64]],
+            activation: Activation::Tanh,
+            log_std: [-0.5, -2.0],
+            fit: Fit { epochs, batch, rate, longest },
+        }
+    }
+
+    /// Refuses what no training can be made of.
+    ///
+    /// # Errors
+    /// What is wrong, in words.
+    pub fn check(&self) -> Result<(), String> {
+        let Settings { episodes, horizon: Horizon { gamma, lambda }, hidden, log_std, fit, .. } = self;
+        let share = |name: &str, value: f64| match (0.0..=1.0).contains(&value) {
+            true => Ok(()),
+            false => Err(format!("{name} must be from 0 to 1, and is {value}")),
+        };
+        let positive = |name: &str, value: f64| match value > 0.0 && value.is_finite() {
+            true => Ok(()),
+            false => Err(format!("{name} must be above 0, and is {value}")),
+        };
+        share("horizon.gamma", *gamma)?;
+        share("horizon.lambda", *lambda)?;
+        positive("episodes", *episodes as f64)?;
+        for (name, fit) in [("fit.rate", f64::from(fit.rate)), ("fit.longest", fit.longest)] {
+            positive(name, fit)?;
+        }
+        positive("fit.batch", fit.batch as f64)?;
+        match self.algorithm {
+            Algorithm::Npg(npg) => positive("algorithm.npg.step", npg.step)?,
+            Algorithm::Ppo(ppo) => {
+                for (name, value) in [
+                    ("rate", f64::from(ppo.rate)),
+                    ("batch", ppo.batch as f64),
+                    ("epochs", ppo.epochs as f64),
+                    ("clip", f64::from(ppo.clip)),
+                    ("longest", ppo.longest),
+                    ("divergence", ppo.divergence),
+                ] {
+                    positive(&format!("algorithm.ppo.{name}"), value)?;
+                }
+            }
+        }
+        if log_std.iter().any(|log| !log.is_finite()) || log_std[0] < log_std[1] {
+            return Err(format!(
+                "log_std must be a start and a least value not above it, and is {log_std:?}"
+            ));
+        }
+        let widths = hidden.iter().flatten();
+        match widths.copied().find(|width| !(1..=WIDEST).contains(width)) {
+            Some(width) => Err(format!("hidden layers must be 1 to {WIDEST} wide, and one is {width}")),
+            None if hidden.iter().any(|layers| layers.len() > DEEPEST) => {
+                Err(format!("there can be at most {DEEPEST} hidden layers"))
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// Most numbers of a hidden layer, and most layers.
+const WIDEST: usize = 4096;
+const DEEPEST: usize = 16;

@@ -1,0 +1,135 @@
+//! Trainings in folders, which can be interrupted and gone on with.
+//!
+//! A run is a folder: `run.toml` says what is trained and how, `log.csv` and `log.jsonl` have a row for each iteration, `checkpoint.safetensors` is
+//! where it goes on, and `policy.safetensors` is what acts. Rows after the last checkpoint are made again when it goes on: with the same numbers.
+
+mod config;
+mod log;
+
+pub use config::Config;
+pub use log::{COLUMNS, Row};
+
+use crate::error::PolicyError;
+use crate::learn::{Collector, Learner};
+use env::Env;
+use log::Log;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Files of the folder.
+const CONFIG: &str = "run.toml";
+const CHECKPOINT: &str = "checkpoint.safetensors";
+const POLICY: &str = "policy.safetensors";
+
+/// A training in a folder.
+pub struct Run {
+    folder: PathBuf,
+    config: Config,
+    learner: Learner,
+    collector: Collector,
+    log: Log,
+    /// Iterations when the last checkpoint was written.
+    kept: u64,
+}
+
+impl Run {
+    /// Begins a run in a new or empty folder, on environments like `env`: `count` for each of `threads` threads.
+    ///
+    /// # Errors
+    /// The folder holds something or cannot be written; settings make no sense; the environment is hardware.
+    pub fn create(folder: &Path, config: Config, env: &Env, sizes: [usize; 2]) -> Result<Self, PolicyError> {
+        let fail = |error| PolicyError::run(folder, error);
+        std::fs::create_dir_all(folder).map_err(fail)?;
+        if std::fs::read_dir(folder).map_err(fail)?.next().is_some() {
+            let message = "it is not empty: name another folder, or go on with the run that is there";
+            return Err(PolicyError::run(folder, message));
+        }
+        config.learning.check().map_err(|message| PolicyError::run(folder, message))?;
+        let learner = Learner::new(config.learning.clone(), config.seed, env);
+        let collector = Collector::new(env, sizes[0], sizes[1])?;
+        config.write(&folder.join(CONFIG))?;
+        let log = Log::open(folder, 0)?;
+        let mut run = Run { folder: folder.into(), config, learner, collector, log, kept: 0 };
+        run.keep()?;
+        Ok(run)
+    }
+
+    /// What the run in a folder is of.
+    ///
+    /// # Errors
+    /// There is no run.
+    pub fn config_of(folder: &Path) -> Result<Config, PolicyError> {
+        Config::read(&folder.join(CONFIG))
+    }
+
+    /// Goes on with the run in a folder, from its last checkpoint.
+    ///
+    /// # Errors
+    /// There is no run; the environment is not its; the files cannot be read or written.
+    pub fn resume(folder: &Path, env: &Env, sizes: [usize; 2]) -> Result<Self, PolicyError> {
+        let config = Self::config_of(folder)?;
+        let learner = Learner::resume(&folder.join(CHECKPOINT), env)?;
+        let collector = Collector::new(env, sizes[0], sizes[1])?;
+        let kept = learner.iterations;
+        let log = Log::open(folder, kept)?;
+        Ok(Run { folder: folder.into(), config, learner, collector, log, kept })
+    }
+
+    /// What is trained, and how.
+    pub fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// Iterations made.
+    pub fn iterations(&self) -> u64 {
+        self.learner.iterations
+    }
+
+    /// Whether all iterations are made.
+    pub fn is_finished(&self) -> bool {
+        self.iterations() >= self.config.iterations
+    }
+
+    /// Makes more iterations than was planned.
+    ///
+    /// # Errors
+    /// The configuration cannot be written.
+    pub fn extend(&mut self, iterations: u64) -> Result<(), PolicyError> {
+        self.config.iterations = iterations;
+        self.config.write(&self.folder.join(CONFIG))
+    }
+
+    /// Makes an iteration and logs it; keeps the state when it is time for that, or all iterations are made.
+    ///
+    /// # Errors
+    /// An environment fails or gives a reward that is not finite; files cannot be written.
+    pub fn iterate(&mut self) -> Result<Row, PolicyError> {
+        let began = Instant::now();
+        let iteration = self.learner.iterate(&mut self.collector)?;
+        let row = Row::new(&self.learner, &iteration, began.elapsed().as_secs_f64());
+        self.log.add(&row)?;
+        if self.iterations().is_multiple_of(self.config.keep_every.max(1)) || self.is_finished() {
+            self.keep()?;
+        }
+        Ok(row)
+    }
+
+    /// Keeps the state, if it is not kept already.
+    ///
+    /// # Errors
+    /// Files cannot be written.
+    pub fn keep(&mut self) -> Result<(), PolicyError> {
+        if self.kept == self.iterations() && self.folder.join(CHECKPOINT).exists() {
+            return Ok(());
+        }
+        self.learner.save_policy(&self.config.id, &self.folder.join(POLICY))?;
+        self.learner.save(&self.config.id, &self.folder.join(CHECKPOINT))?;
+        self.kept = self.iterations();
+        Ok(())
+    }
+
+    /// The file of the policy.
+    pub fn policy(&self) -> PathBuf {
+        self.folder.join(POLICY)
+    }
+}

@@ -1,0 +1,127 @@
+//! Runs in folders: what an interruption changes, what the files hold, and what is refused.
+
+use agents::learn::{Algorithm, Settings};
+use agents::run::{COLUMNS, Config, Run};
+use agents::{Policy, PolicyError};
+use env::{Env, Options, OwnModels};
+use robohive_agents as agents;
+use std::path::{Path, PathBuf};
+
+const ID: &str = "hive/myoElbowPose1D6MRandom-v0";
+
+fn env(id: &str) -> Env {
+    Env::make(id, &OwnModels, &Options::default()).unwrap()
+}
+
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    _ = std::fs::remove_dir_all(&folder);
+    folder
+}
+
+fn config(mut learning: Settings) -> Config {
+    (learning.episodes, learning.hidden) = (4, [vec![8, 8], vec![8]]);
+    let environment = env::Arguments::default();
+    Config { id: ID.into(), seed: 3, iterations: 4, keep_every: 2, compat: None, environment, learning }
+}
+
+/// The log without the times.
+fn rows(folder: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(folder.join("log.csv")).unwrap();
+    text.lines().map(|line| line.rsplit_once(',').unwrap().0.to_owned()).collect()
+}
+
+fn bytes(folder: &Path, file: &str) -> Vec<u8> {
+    std::fs::read(folder.join(file)).unwrap()
+}
+
+/// Three iterations, of which the third comes after the last checkpoint, and then a process that ends.
+#[test]
+fn an_interrupted_run_ends_in_the_same_bits() {
+    for (name, learning) in [("npg", Settings::npg()), ("ppo", Settings::ppo())] {
+        let (whole, parts) = (folder(&format!("{name}_whole")), folder(&format!("{name}_parts")));
+        let mut run = Run::create(&whole, config(learning.clone()), &env(ID), [4, 1]).unwrap();
+        while !run.is_finished() {
+            run.iterate().unwrap();
+        }
+        let mut run = Run::create(&parts, config(learning), &env(ID), [2, 2]).unwrap();
+        (0..3).for_each(|_| _ = run.iterate().unwrap());
+        drop(run);
+        assert_eq!(rows(&parts).len(), 4, "a header and three rows");
+        let mut run = Run::resume(&parts, &env(ID), [3, 2]).unwrap();
+        assert_eq!(run.iterations(), 2);
+        while !run.is_finished() {
+            let row = run.iterate().unwrap();
+            assert!(row.get("kl_dist") > 0.0 && row.get("stoc_pol_std") > 0.0, "{row:?}");
+        }
+        for file in ["checkpoint.safetensors", "policy.safetensors", "run.toml"] {
+            assert!(bytes(&whole, file) == bytes(&parts, file), "{name}: {file}");
+        }
+        assert_eq!(rows(&whole), rows(&parts));
+        assert_eq!(rows(&whole)[0].split(',').count() + 1, COLUMNS.len());
+        let lines = std::fs::read_to_string(parts.join("log.jsonl")).unwrap();
+        assert!(
+            lines.lines().count() == 4 && lines.lines().all(|line| line.contains("\"success_percentage\":"))
+        );
+    }
+}
+
+#[test]
+fn the_policy_of_a_run_acts_as_it_did_in_training() {
+    let place = folder("acts");
+    let mut run = Run::create(&place, config(Settings::npg()), &env(ID), [4, 1]).unwrap();
+    run.iterate().unwrap();
+    run.keep().unwrap();
+    let mut env = env(ID);
+    env.reset(Some(1)).unwrap();
+    let actions = [run.policy(), place.join("checkpoint.safetensors")].map(|file| {
+        let mut action = vec![0.0; env.action_len()];
+        Policy::open(file).unwrap().action(&env, &mut action).unwrap();
+        action
+    });
+    assert_eq!(actions[0], actions[1], "a checkpoint is a policy too");
+    assert!(actions[0].iter().any(|value| *value != 0.0));
+    let Policy::Trained(trained) = Policy::open(run.policy()).unwrap() else { panic!("a trained policy") };
+    let Algorithm::Npg(npg) = trained.card().settings.algorithm else { panic!("by NPG") };
+    assert!(npg.step == 0.1 && trained.card().iterations == 1 && trained.card().samples > 0);
+    let other = self::env("hive/FrankaReach-v0");
+    let error = Policy::open(run.policy()).unwrap().action(&other, &mut vec![0.0; other.action_len()]);
+    assert!(error.unwrap_err().to_string().contains("trained on hive/myoElbowPose1D6MRandom-v0"));
+}
+
+#[test]
+fn what_is_no_run_is_refused() {
+    let place = folder("refused");
+    let says = |error: PolicyError| error.to_string();
+    let resumed = |place: &Path, id: &str| Run::resume(place, &env(id), [1, 1]).map(drop).map_err(says);
+    assert!(resumed(&place, ID).unwrap_err().contains("run.toml"));
+    let mut run = Run::create(&place, config(Settings::ppo()), &env(ID), [1, 1]).unwrap();
+    run.keep().unwrap();
+    let again = Run::create(&place, config(Settings::ppo()), &env(ID), [1, 1]).map(drop).map_err(says);
+    assert!(again.unwrap_err().contains("not empty"));
+    assert!(resumed(&place, "hive/ElbowPose-v0").unwrap_err().contains("it was trained on hive/myoElbow"));
+    let file = place.join("checkpoint.safetensors");
+    let whole = std::fs::read(&file).unwrap();
+    for cut in [0, 7, 9, 200, whole.len() - 1] {
+        std::fs::write(&file, &whole[..cut]).unwrap();
+        let why = resumed(&place, ID).unwrap_err();
+        assert!(
+            why.contains("checkpoint.safetensors") && why.contains("no safetensors file"),
+            "{cut}: {why}"
+        );
+    }
+    let policy = bytes(&place, "policy.safetensors");
+    std::fs::write(&file, policy).unwrap();
+    assert!(resumed(&place, ID).unwrap_err().contains("has no tensor \"values.layers.0.weight\""));
+    let text = std::fs::read_to_string(place.join("run.toml")).unwrap();
+    for (from, to, why) in [
+        ("gamma = 0.97", "gamma = 1.97", "horizon.gamma must be from 0 to 1, and is 1.97"),
+        ("gamma = 0.97", "gama = 0.97", "unknown field `gama`"),
+        ("[8, 8]", "[8, 0]", "hidden layers must be 1 to 4096 wide, and one is 0"),
+    ] {
+        assert!(text.contains(from), "{text}");
+        std::fs::write(place.join("run.toml"), text.replace(from, to)).unwrap();
+        let error = Run::config_of(&place).map_err(says).unwrap_err();
+        assert!(error.contains(why) && error.contains("run.toml"), "{error}");
+    }
+}
