@@ -163,7 +163,7 @@ const OTHERS: [(&str, &[&str]); 24] = [
     ("robohive-render", &["font8x8", "rayon", "wide"]),
     ("robohive-render-gpu", &["bytemuck", "pollster", "wgpu"]),
     ("robohive-env", &["rayon", "serde", "toml"]),
-    ("robohive-agents", &["libm"]),
+    ("robohive-agents", &["libm", "safetensors", "serde", "serde_json", "toml"]),
     ("robohive-control", &["nalgebra"]),
     ("robohive-record", &[]),
     ("robohive-identify", &["nalgebra", "rayon"]),

@@ -36,11 +36,8 @@ impl Settings {
         }
     }
 
-    /// Refuses what no training can be made of.
-    ///
-    /// # Errors
-    /// What is wrong, in words.
-    pub fn check(&self) -> Result<(), String> {
+    /// Refuses what no training can be made of, in words.
+    pub(crate) fn check(&self) -> Result<(), String> {
         let Settings { episodes, horizon: Horizon { gamma, lambda }, hidden, log_std, fit, .. } = self;
         let share = |name: &str, value: f64| match (0.0..=1.0).contains(&value) {
             true => Ok(()),

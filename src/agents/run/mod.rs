@@ -2,6 +2,33 @@
 //!
 //! A run is a folder: `run.toml` says what is trained and how, `log.csv` and `log.jsonl` have a row for each iteration, `checkpoint.safetensors` is
 //! where it goes on, and `policy.safetensors` is what acts. Rows after the last checkpoint are made again when it goes on: with the same numbers.
+//!
+//! ```
+//! use robohive_agents::{Policy, learn::Settings, run::{Config, Run}};
+//! # use env as robohive_env;
+//! use robohive_env::{Env, Options, OwnModels};
+//!
+//! let env = Env::make("hive/myoElbowPose1D6MRandom-v0", &OwnModels, &Options::default())?;
+//! let config = Config {
+//!     id: env.spec().id.clone(),
+//!     seed: 1,
+//!     iterations: 1,
+//!     keep_every: 1,
+//!     compat: None,
+//!     environment: Default::default(),
+//!     learning: Settings { episodes: 2, ..Settings::npg() },
+//! };
+//! let folder = std::env::temp_dir().join(format!("robohive-run-{}", std::process::id()));
+//! // Two environments side by side, on one thread.
+//! let mut run = Run::create(&folder, config, &env, [2, 1])?;
+//! while !run.is_finished() {
+//!     let row = run.iterate()?;
+//!     assert!(row.get("num_samples") == 400.0 && row.get("kl_dist") > 0.0);
+//! }
+//! assert!(matches!(Policy::open(run.policy())?, Policy::Trained(_)));
+//! # std::fs::remove_dir_all(folder)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod config;
 mod log;
