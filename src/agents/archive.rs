@@ -35,7 +35,7 @@ impl<'a> Entry<'a> {
         Entry { name: name.into(), shape, numbers }
     }
 
-    /// A matrix of so many rows.
+    /// A matrix with `rows` rows, stored row by row.
     pub fn matrix(name: impl Into<String>, rows: usize, numbers: Numbers<'a>) -> Self {
         let shape = vec![rows, numbers.len() / rows];
         Entry { name: name.into(), shape, numbers }

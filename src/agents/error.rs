@@ -23,7 +23,7 @@ pub enum PolicyError {
         /// What is wrong.
         message: String,
     },
-    /// A run cannot be made or gone on with.
+    /// A run cannot be made or resumed.
     Run {
         /// Its folder, or a file there.
         path: PathBuf,

@@ -21,9 +21,9 @@ pub struct Card {
     pub format: String,
     /// Id of the environment.
     pub id: String,
-    /// Numbers that are observed, and actions.
+    /// Length of an observation.
     pub observed: usize,
-    /// Number of actions.
+    /// Length of an action.
     pub actions: usize,
     /// Seed of the training.
     pub seed: u64,
@@ -50,6 +50,16 @@ impl Learner {
             engine: env!("CARGO_PKG_VERSION").into(),
             settings: self.settings.clone(),
         }
+    }
+
+    /// How it is trained.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Its seed.
+    pub fn seed(&self) -> u64 {
+        self.seed
     }
 
     /// Writes all of it into a file, which [`Learner::resume`] and, as a policy, [`Policy::open`](crate::Policy::open) read.

@@ -21,6 +21,9 @@ pub struct Config {
     /// Whose behaviour environments have.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub compat: Option<String>,
+    /// What moves the environment; our own pipeline where nothing is said.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub solver: Option<String>,
     /// Settings of the environment that differ.
     #[serde(default)]
     pub environment: Arguments,

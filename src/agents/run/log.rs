@@ -90,8 +90,18 @@ impl Log {
 /// Opens a file with its header and its first `rows` lines after it.
 fn begin(path: PathBuf, header: &str, rows: u64) -> Result<(PathBuf, File), PolicyError> {
     let open = || {
-        let old = if rows == 0 { String::new() } else { std::fs::read_to_string(&path)? };
-        let lines = old.strip_prefix(header).unwrap_or(&old).lines().take(rows as usize);
+        let old = if rows == 0 { header.to_owned() } else { std::fs::read_to_string(&path)? };
+        let wrong = |message: String| std::io::Error::other(message);
+        let old = old
+            .strip_prefix(header)
+            .ok_or_else(|| wrong("its first line does not name the columns".into()))?;
+        let lines = old.lines().take(rows as usize);
+        let found = lines.clone().count() as u64;
+        if found < rows {
+            return Err(wrong(format!(
+                "it has {found} rows, and the checkpoint is of iteration {rows}: restore the file"
+            )));
+        }
         let kept: String =
             std::iter::once(header.to_owned()).chain(lines.map(|line| format!("{line}\n"))).collect();
         let unfinished = path.with_extension("unfinished");

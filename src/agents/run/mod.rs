@@ -1,4 +1,4 @@
-//! Trainings in folders, which can be interrupted and gone on with.
+//! Trainings in folders, which can be interrupted and resumed.
 //!
 //! A run is a folder: `run.toml` says what is trained and how, `log.csv` and `log.jsonl` have a row for each iteration, `checkpoint.safetensors` is
 //! where it goes on, and `policy.safetensors` is what acts. Rows after the last checkpoint are made again when it goes on: with the same numbers.
@@ -15,6 +15,7 @@
 //!     iterations: 1,
 //!     keep_every: 1,
 //!     compat: None,
+//!     solver: None,
 //!     environment: Default::default(),
 //!     learning: Settings { episodes: 2, ..Settings::npg() },
 //! };
@@ -68,7 +69,7 @@ impl Run {
         let fail = |error| PolicyError::run(folder, error);
         std::fs::create_dir_all(folder).map_err(fail)?;
         if std::fs::read_dir(folder).map_err(fail)?.next().is_some() {
-            let message = "it is not empty: name another folder, or go on with the run that is there";
+            let message = "it is not empty: name another folder, or resume the run that is there";
             return Err(PolicyError::run(folder, message));
         }
         config.learning.check().map_err(|message| PolicyError::run(folder, message))?;
@@ -96,6 +97,10 @@ impl Run {
     pub fn resume(folder: &Path, env: &Env, sizes: [usize; 2]) -> Result<Self, PolicyError> {
         let config = Self::config_of(folder)?;
         let learner = Learner::resume(&folder.join(CHECKPOINT), env)?;
+        if (learner.settings(), learner.seed()) != (&config.learning, config.seed) {
+            let message = "its seed or [learning] differs from the checkpoint's: undo the change, or train from a copy of the file";
+            return Err(PolicyError::run(&folder.join(CONFIG), message));
+        }
         let collector = Collector::new(env, sizes[0], sizes[1])?;
         let kept = learner.iterations;
         let log = Log::open(folder, kept)?;

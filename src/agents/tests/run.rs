@@ -22,7 +22,16 @@ fn folder(name: &str) -> PathBuf {
 fn config(mut learning: Settings) -> Config {
     (learning.episodes, learning.hidden) = (4, [vec![8, 8], vec![8]]);
     let environment = env::Arguments::default();
-    Config { id: ID.into(), seed: 3, iterations: 4, keep_every: 2, compat: None, environment, learning }
+    Config {
+        id: ID.into(),
+        seed: 3,
+        iterations: 4,
+        keep_every: 2,
+        compat: None,
+        solver: None,
+        environment,
+        learning,
+    }
 }
 
 /// The log without the times.
@@ -100,6 +109,19 @@ fn what_is_no_run_is_refused() {
     let again = Run::create(&place, config(Settings::ppo()), &env(ID), [1, 1]).map(drop).map_err(says);
     assert!(again.unwrap_err().contains("not empty"));
     assert!(resumed(&place, "hive/ElbowPose-v0").unwrap_err().contains("it was trained on hive/myoElbow"));
+    let text = std::fs::read_to_string(place.join("run.toml")).unwrap();
+    for (from, to) in [("seed = 3", "seed = 4"), ("gamma = 0.97", "gamma = 0.9")] {
+        std::fs::write(place.join("run.toml"), text.replace(from, to)).unwrap();
+        assert!(resumed(&place, ID).unwrap_err().contains("differs from the checkpoint's"), "{to}");
+    }
+    std::fs::write(place.join("run.toml"), &text).unwrap();
+    run.iterate().unwrap();
+    run.keep().unwrap();
+    let log = std::fs::read_to_string(place.join("log.csv")).unwrap();
+    std::fs::write(place.join("log.csv"), format!("{}\n", log.lines().next().unwrap())).unwrap();
+    assert!(resumed(&place, ID).unwrap_err().contains("it has 0 rows, and the checkpoint is of iteration 1"));
+    std::fs::write(place.join("log.csv"), &log[1..]).unwrap();
+    assert!(resumed(&place, ID).unwrap_err().contains("does not name the columns"));
     let file = place.join("checkpoint.safetensors");
     let whole = std::fs::read(&file).unwrap();
     for cut in [0, 7, 9, 200, whole.len() - 1] {
@@ -113,7 +135,6 @@ fn what_is_no_run_is_refused() {
     let policy = bytes(&place, "policy.safetensors");
     std::fs::write(&file, policy).unwrap();
     assert!(resumed(&place, ID).unwrap_err().contains("has no tensor \"values.layers.0.weight\""));
-    let text = std::fs::read_to_string(place.join("run.toml")).unwrap();
     for (from, to, why) in [
         ("gamma = 0.97", "gamma = 1.97", "horizon.gamma must be from 0 to 1, and is 1.97"),
         ("gamma = 0.97", "gama = 0.97", "unknown field `gama`"),

@@ -28,6 +28,22 @@ impl SolverArgument {
         self.solver == Solver::Own
     }
 
+    /// Its name.
+    pub fn name(self) -> String {
+        self.solver.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+
+    /// The engine of a name.
+    ///
+    /// # Errors
+    /// There is none of this name.
+    pub fn named(name: &str) -> Result<Self, Failure> {
+        let solver = Solver::from_str(name, false);
+        solver
+            .map(|solver| SolverArgument { solver })
+            .map_err(|error| Failure::usage(format!("the solver {name:?}: {error}")))
+    }
+
     /// The engine.
     ///
     /// # Errors

@@ -1,14 +1,15 @@
-//! `train`: learn a policy, in a folder that can be gone on with.
+//! `train`: learn a policy, in a folder from which it can be resumed.
 
 use crate::failure::Failure;
 use crate::input::library::Making;
+use crate::input::solver::SolverArgument;
 use crate::interrupt::Interrupt;
 use crate::terminal::{note, show};
 use agents::PolicyError;
 use agents::learn::Settings;
 use agents::run::{Config, Row, Run};
 use clap::{Args, ValueEnum, ValueHint};
-use env::Env;
+use env::{Compat, Env};
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -20,14 +21,14 @@ const SIDE_BY_SIDE: usize = 16;
 #[derive(Args)]
 #[command(
     after_help = "A run is a folder. run.toml says what is trained and how: edit a copy and give it instead of ID. log.csv and \
-log.jsonl have a row for each iteration; checkpoint.safetensors is where the run goes on; policy.safetensors is what acts: \
+log.jsonl have a row for each iteration; checkpoint.safetensors is where the run resumes; policy.safetensors is what acts: \
 `robohive run ID --policy FOLDER/policy.safetensors`.
 
 The seed decides everything: the same run makes the same bits on any number of threads, and a run that was interrupted, by Ctrl-C or \
-by the loss of the machine, and gone on with by --resume ends as one that was not.
+by the loss of the machine, and resumed by --resume ends as one that was not.
 
-Algorithms: npg, the natural policy gradient (Kakade, 2001; Rajeswaran et al., 2017), with the settings of RoboHive's baselines; ppo, \
-proximal policy optimisation (Schulman et al., 2017).
+Algorithms: npg, the natural policy gradient (Kakade, 2001; Rajeswaran et al., 2017), with the networks, episodes and steps of \
+MyoSuite's published runs; ppo, proximal policy optimisation (Schulman et al., 2017).
 
 Examples:
   robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 2 --out elbow
@@ -57,7 +58,7 @@ pub struct Train {
     /// Folder of the run, new or empty [default: ID with the seed]
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath, conflicts_with = "resume")]
     out: Option<PathBuf>,
-    /// Go on with the run in this folder
+    /// Resume the run in this folder
     #[arg(long, value_name = "FOLDER", value_hint = ValueHint::DirPath)]
     resume: Option<PathBuf>,
     /// Threads; 0 for as many as there are cores. They make no difference to what is learnt
@@ -98,13 +99,13 @@ pub fn run(a: &Train) -> Result<(), Failure> {
     match interrupt.code().filter(|_| !run.is_finished()) {
         None => Ok(()),
         Some(code) => {
-            let message = format!("interrupted; go on by `robohive train --resume {}`", folder.display());
+            let message = format!("interrupted; resume it by `robohive train --resume {}`", folder.display());
             Err(Failure { code, ..Failure::new(message) })
         }
     }
 }
 
-/// The run to make or to go on with, and its folder.
+/// The run to make or to resume, and its folder.
 fn open(a: &Train) -> Result<(PathBuf, Run), Failure> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let sizes = [SIDE_BY_SIDE, if a.threads == 0 { cores } else { a.threads }];
@@ -123,13 +124,20 @@ fn open(a: &Train) -> Result<(PathBuf, Run), Failure> {
 
 /// What is to be trained, and how.
 fn config(a: &Train) -> Result<Config, Failure> {
-    let what = a.what.as_deref().unwrap_or_default();
+    let what = a.what.as_deref().ok_or_else(|| Failure::usage("ID or CONFIG is needed"))?;
     let mut config = if what.ends_with(".toml") {
         Config::read(Path::new(what)).map_err(failure)?
     } else {
-        let (compat, environment) = (Some(a.making.compat.to_string()), a.making.changes()?);
-        let learning = Settings::npg();
-        Config { id: what.into(), seed: 1, iterations: 100, keep_every: 10, compat, environment, learning }
+        Config {
+            id: what.into(),
+            seed: 1,
+            iterations: 100,
+            keep_every: 10,
+            compat: Some(a.making.compat.to_string()),
+            solver: Some(a.making.solver.name()),
+            environment: a.making.changes()?,
+            learning: Settings::npg(),
+        }
     };
     match a.algo {
         None => {}
@@ -142,17 +150,26 @@ fn config(a: &Train) -> Result<Config, Failure> {
     Ok(config)
 }
 
-/// The environment of a configuration.
+/// The environment of a configuration, which says how it is made; what is given beside it must be the same.
 fn make(a: &Train, config: &Config) -> Result<Env, Failure> {
     let mut making = a.making.clone();
     if let Some(compat) = &config.compat {
         making.compat = compat.parse().map_err(Failure::usage)?;
     }
-    let given = making.changes()?;
-    if given != config.environment && given != env::Arguments::default() {
-        return Err(Failure::usage(
-            "--set belongs to a run from its beginning: change [environment] in a copy of run.toml",
-        ));
+    if let Some(solver) = &config.solver {
+        making.solver = SolverArgument::named(solver)?;
+    }
+    let (given, none) = (making.changes()?, env::Arguments::default());
+    for (option, differs) in [
+        ("--set", given != none && given != config.environment),
+        ("--compat", ![Compat::Fixed, making.compat].contains(&a.making.compat)),
+        ("--solver", !a.making.solver.is_own() && making.solver.is_own()),
+    ] {
+        if differs {
+            let message =
+                format!("{option} belongs to a run from its beginning: change it in a copy of run.toml");
+            return Err(Failure::usage(message));
+        }
     }
     let library = making.assets()?;
     let options = making.options()?.with_changes(config.environment.clone());
