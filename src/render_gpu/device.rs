@@ -28,6 +28,9 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// What it is.
     pub adapter: Adapter,
+    /// Whether it is reached through OpenGL, for which wgpu 30 writes no shader that says which samples of a pixel it covers
+    /// (drivers refuse the assignment to `gl_SampleMask`), and makes no texture of one layer that can be read as layers.
+    pub is_opengl: bool,
     complaint: Complaint,
 }
 
@@ -63,8 +66,10 @@ impl Gpu {
                 lost.note(GpuError::Lost { message });
             }
         });
-        let known = Adapter::from(&adapter.get_info());
-        Ok(Gpu { device: device.clone(), queue: queue.clone(), adapter: known, complaint })
+        let info = adapter.get_info();
+        let is_opengl = info.backend == wgpu::Backend::Gl;
+        let (device, queue) = (device.clone(), queue.clone());
+        Ok(Gpu { device, queue, adapter: Adapter::from(&info), is_opengl, complaint })
     }
 
     /// Whether the driver has complained since it was last asked.

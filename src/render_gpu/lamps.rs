@@ -83,7 +83,7 @@ impl Lamps {
                 binding: 0,
                 visibility: ShaderStages::FRAGMENT,
                 ty: BindingType::Texture {
-                    sample_type: TextureSampleType::Depth,
+                    sample_type: TextureSampleType::Float { filterable: false },
                     view_dimension: TextureViewDimension::D2Array,
                     multisampled: false,
                 },
@@ -122,7 +122,11 @@ impl Lamps {
 fn create(gpu: &Gpu, layout: &BindGroupLayout, side: u32, layers: u32) -> Maps {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("shadow maps"),
-        size: Extent3d { width: side, height: side, depth_or_array_layers: layers },
+        size: Extent3d {
+            width: side,
+            height: side,
+            depth_or_array_layers: layers.max(if gpu.is_opengl { 2 } else { 1 }),
+        },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,

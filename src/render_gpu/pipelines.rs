@@ -182,6 +182,10 @@ const LAID: BlendComponent = BlendComponent {
     operation: BlendOperation::Add,
 };
 
+/// What paints mirrored surfaces, cut off at the mirror's plane in each sample, or in each pixel where a GPU cannot do that.
+const BY_SAMPLES: &str = "paint_mirrored";
+const BY_PIXELS: &str = "paint_mirrored_pixels";
+
 fn recipe(kind: Kind) -> Recipe {
     let surface = |fragment: &'static str, blend: Option<BlendState>, writes_depth: bool| Recipe {
         layout: 1,
@@ -197,8 +201,8 @@ fn recipe(kind: Kind) -> Recipe {
     match kind {
         Kind::Base => surface("paint", None, true),
         Kind::Reflective => surface("paint", Some(SUM), true),
-        Kind::Mirrored => surface("paint_mirrored", None, true),
-        Kind::MirroredBlend => surface("paint_mirrored", Some(OVER), false),
+        Kind::Mirrored => surface(BY_SAMPLES, None, true),
+        Kind::MirroredBlend => surface(BY_SAMPLES, Some(OVER), false),
         Kind::Lamp => Recipe { layout: 2, ..surface("paint_lamp", Some(SUM), false) },
         Kind::Blend => surface("paint", Some(OVER), false),
         Kind::Item => Recipe { vertex: "listed", fragment: Some("write_item"), ..plain },
@@ -280,7 +284,7 @@ fn create(
         multisample: wgpu::MultisampleState { count: samples, ..wgpu::MultisampleState::default() },
         fragment: fragment.map(|entry| wgpu::FragmentState {
             module,
-            entry_point: Some(entry),
+            entry_point: Some(if entry == BY_SAMPLES && gpu.is_opengl { BY_PIXELS } else { entry }),
             compilation_options: options.clone(),
             targets: &targets,
         }),

@@ -74,7 +74,8 @@ struct Light {
 @group(1) @binding(1) var cube_texture: texture_cube<f32>;
 @group(1) @binding(2) var flat_sampler: sampler;
 @group(1) @binding(3) var cube_sampler: sampler;
-@group(2) @binding(0) var shadow_maps: texture_depth_2d_array;
+// Depths; as a depth texture they could not be read without a comparison in OpenGL.
+@group(2) @binding(0) var shadow_maps: texture_2d_array<f32>;
 
 struct Corner {
     @location(0) position: vec3f,
@@ -248,6 +249,15 @@ fn paint_mirrored(in: Lit) -> Mirrored {
     return Mirrored(shade(in, current.fog.rgb), samples);
 }
 
+// The same by the middles of pixels.
+@fragment
+fn paint_mirrored_pixels(in: Lit) -> @location(0) vec4f {
+    if dot(current.mirror, vec4f(in.world, 1.0)) < 0.0 {
+        discard;
+    }
+    return shade(in, current.fog.rgb);
+}
+
 // Opacity from which on a surface takes the light of lamps that cast shadows: 252 in eight bits.
 const OPAQUE = 251.5 / 255.0;
 
@@ -259,7 +269,7 @@ fn is_reached(world: vec3f) -> bool {
     if !(at.w > 0.0 && place.x >= 1.0 && place.y >= 1.0 && place.x < last && place.y < last) {
         return true;
     }
-    let nearest = textureLoad(shadow_maps, vec2i(place), i32(current.counts.z), 0);
+    let nearest = textureLoad(shadow_maps, vec2i(place), i32(current.counts.z), 0).x;
     let depth = clamp(at.z / at.w, 0.0, 1.0);
     let offset = current.window.w;
     return select(nearest + offset >= depth, depth + offset >= nearest, current.window.z != 0.0);

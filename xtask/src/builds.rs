@@ -2,7 +2,7 @@
 //! steps the models of `validation/digest`, draws their pictures and compares its hashes with the recorded ones. And the
 //! builds with fewer features.
 
-use crate::built::PROFILE;
+use crate::built::{PROFILE, SAME_FEATURES};
 use crate::command::{cargo, installed, output, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ pub const WEB_TARGET: &str = "wasm32-unknown-unknown";
 
 /// The command with TLS, and the library without its default features, here and for WebAssembly where the target is installed.
 pub fn features() -> Outcome {
-    let tls = ["-p", "robohive-cli", "--features", "robohive-cli/tls"];
+    let tls = [&["-p", "robohive-cli", "--features", "robohive-cli/tls"][..], &SAME_FEATURES].concat();
     cargo(
         &[&["clippy", "--profile", PROFILE, "--all-targets"], &tls[..], &["--", "-D", "warnings"]].concat(),
     )?;

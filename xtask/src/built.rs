@@ -27,6 +27,26 @@ pub const EVERYTHING: &[&str] = &[
     "robohive-encoders/networks",
 ];
 
+/// What makes any selection of packages need the same features of other people's crates as [`EVERYTHING`], so that it compiles
+/// none of them again.
+pub const SAME_FEATURES: [&str; 2] = ["-p", "workspace-hack"];
+
+/// What draws by a GPU and opens windows, with the command that has both.
+pub const GRAPHICS: &[&str] = &[
+    "-p",
+    "workspace-hack",
+    "-p",
+    "robohive-render-gpu",
+    "-p",
+    "robohive-validation",
+    "-p",
+    "robohive-viewer",
+    "-p",
+    "robohive-cli",
+    "--features",
+    "robohive-validation/gpu,robohive-viewer/window,robohive-cli/gpu,robohive-cli/window",
+];
+
 /// Builds rustdoc's pages of [`EVERYTHING`].
 ///
 /// # Errors

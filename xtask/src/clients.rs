@@ -10,7 +10,7 @@ pub const INPUTS: &[&str] =
 
 /// Lints the tests with other people's clients, and runs them.
 pub fn run() -> Outcome {
-    let package = ["--profile", PROFILE, "-p", "robohive-clients"];
+    let package = ["--profile", PROFILE, "-p", "robohive-clients", "-p", "workspace-hack"];
     cargo(&[&["clippy"][..], &package, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     cargo(&[&["test"][..], &package].concat())
 }

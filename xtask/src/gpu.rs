@@ -1,6 +1,7 @@
 //! The GPU renderer, where the machine has a GPU or a driver that stands in for one.
 
-use crate::command::{output, succeed};
+use crate::built::{GRAPHICS, PROFILE};
+use crate::command::{cargo, output};
 use crate::outcome::{Missing, Outcome};
 use std::process::Command;
 
@@ -10,27 +11,20 @@ const ABSENT: &str = "not checked: there is no GPU";
 /// What decides the pictures and the comparison.
 pub const INPUTS: &[&str] = &["src", "mjcf", "assets", "validation"];
 
-/// Lints what is built for it alone, runs its tests, and sees from what they print whether anything was drawn.
+/// Lints what draws by a GPU or opens windows, runs the tests of the renderer and the command's pictures by a GPU, and sees from
+/// what they print whether anything was drawn.
 pub fn run() -> Outcome {
-    let packages = ["-p", "robohive-render-gpu", "-p", "robohive-validation", "-p", "robohive-cli"];
-    let features = ["--features", "robohive-validation/gpu,robohive-cli/gpu"];
-    let mut lint = Command::new("cargo");
-    lint.args(["clippy", "--profile", crate::built::PROFILE, "--all-targets"]).args(packages).args(features);
-    succeed(lint.args(["--", "-D", "warnings"]))?;
-    let renderer = ["-p", "robohive-render-gpu"].as_slice();
-    let command = ["-p", "robohive-cli", "--features", "robohive-cli/gpu", "--test", "gpu"].as_slice();
-    drawn(&[renderer, command])
+    let clippy = ["clippy", "--profile", PROFILE, "--all-targets"];
+    cargo(&[&clippy[..], GRAPHICS, &["--", "-D", "warnings"]].concat())?;
+    cargo(&[&["test", "--doc", "--quiet", "--profile", PROFILE], GRAPHICS].concat())?;
+    drawn(&["--lib", "--test", "beside_cpu", "--test", "shader", "--test", "gpu"])
 }
 
-/// Runs tests that draw by a GPU, and sees from what they print whether there was one.
-pub fn drawn(all: &[&[&str]]) -> Outcome {
-    let mut absent = false;
-    for tests in all {
-        let mut test = Command::new("cargo");
-        test.args(["test", "--profile", crate::built::PROFILE]).args(*tests).args(["--", "--nocapture"]);
-        absent |= output(&mut test)?.0.contains(ABSENT);
-    }
-    if !absent {
+/// Runs programs of tests that draw by a GPU, and sees from what they print whether there was one.
+pub fn drawn(names: &[&str]) -> Outcome {
+    let mut test = Command::new("cargo");
+    test.args(["test", "--profile", PROFILE]).args(GRAPHICS).args(names).args(["--", "--nocapture"]);
+    if !output(&mut test)?.0.contains(ABSENT) {
         return Ok(Vec::new());
     }
     Ok(vec![Missing::new(

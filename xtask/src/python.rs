@@ -1,6 +1,6 @@
 //! The Python package: its wheel, built and installed into an environment of its own, and its tests there.
 
-use crate::built::PROFILE;
+use crate::built::{PROFILE, SAME_FEATURES};
 use crate::command::{cargo, installed, output, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
 use std::path::{Path, PathBuf};
@@ -46,14 +46,14 @@ pub fn run() -> Outcome {
     let types = ["-m", "basedpyright", "--project", "python/pyproject.toml", "--pythonpath"];
     succeed(Command::new(&python).args(types).arg(&python))?;
     let robohive = command()?;
-    let tests = ["-m", "pytest", "-q", "python/tests"];
+    let tests = ["-m", "pytest", "-q", "-n", "logical", "--dist", "loadscope", "python/tests"];
     succeed(Command::new(&python).args(tests).env("ROBOHIVE_COMMAND", robohive))?;
     Ok(unchecked(&python))
 }
 
 /// The `robohive` command, built, which sessions of tests run.
 fn command() -> Result<PathBuf, String> {
-    cargo(&["build", "--quiet", "--profile", PROFILE, "-p", "robohive-cli"])?;
+    cargo(&[&["build", "--quiet", "--profile", PROFILE, "-p", "robohive-cli"][..], &SAME_FEATURES].concat())?;
     Ok(target_folder()?.join(PROFILE).join(format!("robohive{}", std::env::consts::EXE_SUFFIX)))
 }
 

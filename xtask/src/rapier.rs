@@ -1,7 +1,7 @@
 //! The second solver, whose engine takes minutes to compile, and the command with it.
 
 use crate::builds::{WEB_TARGET, node_missing, web_target_installed, web_target_missing};
-use crate::built::PROFILE;
+use crate::built::{PROFILE, SAME_FEATURES};
 use crate::command::{cargo, installed, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
 use std::process::Command;
@@ -19,25 +19,45 @@ pub const INPUTS: &[&str] = &[
     "python/src/request.rs",
 ];
 
-/// Lints it, with stock rapier beside it and in what can have it, runs its tests and examples, documents it, asks the command for
-/// it, and compares its hashes of small scenes with the recorded ones, here and in WebAssembly.
+/// The second solver with stock rapier beside it, and what can have it: built as one, so that nothing is compiled twice.
+const PACKAGES: &[&str] = &[
+    "-p",
+    "workspace-hack",
+    "-p",
+    "robohive-rapier",
+    "-p",
+    "robohive-bevy",
+    "-p",
+    "robohive-cli",
+    "-p",
+    "robohive-python",
+    "--features",
+    "robohive-rapier/stock,robohive-cli/rapier,robohive-python/rapier",
+];
+
+/// Programs that say whether they computed what they should: two examples, and the one in Bevy.
+const PROGRAMS: [&str; 3] = ["examples/muscle_arm", "examples/bits", "quadruped"];
+
+/// Lints it and what can have it, runs its tests and programs, documents it, asks the command for it, and compares its hashes of
+/// small scenes with the recorded ones, here and in WebAssembly.
 pub fn run() -> Outcome {
+    let of_all =
+        |verb: &[&str], rest: &[&str]| cargo(&[verb, &["--profile", PROFILE], PACKAGES, rest].concat());
+    of_all(&["clippy"], &["--all-targets", "--", "-D", "warnings"])?;
+    of_all(
+        &["test"],
+        &["--lib", "--test", "contacts", "--test", "corrections", "--test", "motion", "--test", "robot"],
+    )?;
+    of_all(&["test", "--doc"], &[])?;
+    of_all(&["test"], &["--test", "solver"])?;
+    of_all(&["build"], &["--example", "muscle_arm", "--example", "bits", "--bin", "quadruped"])?;
+    let folder = target_folder()?.join(PROFILE);
+    for program in PROGRAMS {
+        succeed(&mut Command::new(folder.join(format!("{program}{}", std::env::consts::EXE_SUFFIX))))?;
+    }
     let package = ["--profile", PROFILE, "-p", "robohive-rapier"];
-    let command = ["--profile", PROFILE, "-p", "robohive-cli", "--features", "robohive-cli/rapier"];
-    let stock = [&package[..], &["--features", "robohive-rapier/stock"]].concat();
-    let bevy = ["--profile", PROFILE, "-p", "robohive-bevy"];
-    let python = ["--profile", PROFILE, "-p", "robohive-python", "--features", "robohive-python/rapier"];
-    for packages in [&package[..], &stock, &bevy, &command, &python] {
-        cargo(&[&["clippy"][..], packages, &["--all-targets", "--", "-D", "warnings"]].concat())?;
-    }
-    cargo(&[&["test"][..], &package].concat())?;
-    for example in ["muscle_arm", "bits"] {
-        cargo(&[&["run"][..], &package, &["--example", example]].concat())?;
-    }
-    cargo(&[&["run"][..], &bevy].concat())?;
-    cargo(&[&["test"][..], &command, &["--test", "solver"]].concat())?;
     let mut doc = Command::new("cargo");
-    doc.args(["doc", "--no-deps"]).args(package).env("RUSTDOCFLAGS", "-D warnings");
+    doc.args(["doc", "--no-deps"]).args(package).args(SAME_FEATURES).env("RUSTDOCFLAGS", "-D warnings");
     succeed(&mut doc)?;
     Ok(web_bits(&package)?.into_iter().collect())
 }

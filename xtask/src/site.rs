@@ -1,7 +1,7 @@
 //! The documentation site: one folder of files that any static host serves. Its links are checked, and the code on its pages
 //! is compiled or run.
 
-use crate::built::{EVERYTHING, PROFILE, document};
+use crate::built::{PROFILE, SAME_FEATURES, document};
 use crate::command::{cargo, installed, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
 use crate::python;
@@ -48,7 +48,7 @@ const PROGRAMS: [&str; 6] =
 
 /// Lints and tests what builds the site, with the programs of its pages, then builds and checks the site.
 pub fn run() -> Outcome {
-    let package = ["--profile", PROFILE, "-p", "robohive-site"];
+    let package = [&["--profile", PROFILE, "-p", "robohive-site"][..], &SAME_FEATURES].concat();
     cargo(&[&["clippy"][..], &package, &["--all-targets", "--", "-D", "warnings"]].concat())?;
     cargo(&[&["test", "--quiet"][..], &package].concat())?;
     build(&target_folder()?.join("site/html"))
@@ -57,9 +57,8 @@ pub fn run() -> Outcome {
 /// Builds the site into a folder and checks it.
 pub fn build(site: &Path) -> Outcome {
     let target = target_folder()?;
-    cargo(&["build", "--profile", PROFILE, "-p", "robohive-site"])?;
-    // The command as its own tests have it: built for the site alone it would be compiled again, with most of what it uses.
-    cargo(&[&["test", "--no-run", "--profile", PROFILE], EVERYTHING, &["--test", "help"]].concat())?;
+    let programs = ["build", "--profile", PROFILE, "-p", "robohive-site", "-p", "robohive-cli"];
+    cargo(&[&programs[..], &SAME_FEATURES].concat())?;
     document()?;
     let api = target.join("site/api");
     published(&target.join("doc"), &api)?;

@@ -1,7 +1,6 @@
-//! The window: built, linted and driven without a display. It has twice the dependencies of everything else, so that no other
-//! check builds it.
+//! The window, driven without a display; what it is built of is linted with the GPU renderer (`gpu`).
 
-use crate::built::PROFILE;
+use crate::built::{GRAPHICS, PROFILE};
 use crate::command::cargo;
 use crate::gpu;
 use crate::outcome::Outcome;
@@ -9,16 +8,10 @@ use crate::outcome::Outcome;
 /// What decides what the window shows and does.
 pub const INPUTS: &[&str] = &["src", "mjcf", "assets"];
 
-/// Lints the window and the command that opens it, and runs the tests of both.
+/// Runs the tests of the window and of the command that opens it.
 pub fn run() -> Outcome {
-    let packages = ["-p", "robohive-viewer", "-p", "robohive-cli"];
-    let features = ["--features", "robohive-viewer/window,robohive-cli/window"];
-    let clippy = ["clippy", "--profile", PROFILE];
-    cargo(&[&clippy[..], &packages, &features, &["--all-targets", "--", "-D", "warnings"]].concat())?;
-    let test = ["test", "--profile", PROFILE];
-    let viewer = ["-p", "robohive-viewer", "--features", "robohive-viewer/window"];
-    cargo(&[&test[..], &viewer, &["--lib", "--test", "window", "--test", "served"]].concat())?;
-    let command = ["-p", "robohive-cli", "--features", "robohive-cli/window", "--bin", "robohive"];
-    cargo(&[&test[..], &command, &["view::"]].concat())?;
-    gpu::drawn(&[&[&viewer[..], &["--test", "painters"]].concat()])
+    let test = [&["test", "--profile", PROFILE][..], GRAPHICS].concat();
+    cargo(&[&test[..], &["--lib", "--test", "window", "--test", "served"]].concat())?;
+    cargo(&[&test[..], &["--bin", "robohive", "view::"]].concat())?;
+    gpu::drawn(&["--test", "painters"])
 }
