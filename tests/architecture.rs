@@ -21,7 +21,7 @@ const FUNCTION: usize = 80;
 const ARGUMENTS: usize = 7;
 
 /// Every crate with the crates of this repository that it may depend on. What stands in no row does not exist.
-const ORDER: [(&str, &[&str]); 37] = [
+const ORDER: [(&str, &[&str]); 38] = [
     ("robohive-physics", &[]),
     ("robohive-workshop", &["physics"]),
     ("robohive-dataset", &[]),
@@ -137,6 +137,7 @@ const ORDER: [(&str, &[&str]); 37] = [
     ),
     ("robohive-site", &["assets", "physics", "mjcf", "env", "viewer"]),
     ("xtask", &[]),
+    ("workspace-hack", &[]),
     ("robohive-fuzz", &["physics", "mjcf", "dataset", "random", "robot", "render", "env", "agents"]),
 ];
 

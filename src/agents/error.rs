@@ -37,6 +37,13 @@ pub enum PolicyError {
         /// What does not fit.
         message: String,
     },
+    /// A teacher does not show what is to be learnt.
+    Teacher {
+        /// The environment's id.
+        id: String,
+        /// What it does instead.
+        message: String,
+    },
     /// There is nothing to learn from a reward.
     Reward {
         /// The environment's id.
@@ -78,6 +85,7 @@ impl fmt::Display for PolicyError {
             PolicyError::Content { path: None, message } => write!(f, "the policy: {message}"),
             PolicyError::Run { path, message } => write!(f, "the run {}: {message}", path.display()),
             PolicyError::Foreign { id, message } => write!(f, "the policy is not one for {id}: {message}"),
+            PolicyError::Teacher { id, message } => write!(f, "the teacher of {id}: {message}"),
             PolicyError::Reward { id, reward, step } => {
                 write!(
                     f,

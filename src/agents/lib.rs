@@ -25,6 +25,7 @@ mod network;
 mod observation;
 mod policy;
 pub mod run;
+pub mod statistics;
 
 pub use error::PolicyError;
 pub use network::{Layer, Network};

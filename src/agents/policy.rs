@@ -2,7 +2,7 @@
 
 use crate::archive::{self, Archive};
 use crate::error::PolicyError;
-use crate::learn::{Actor, Card};
+use crate::learn::{Actor, Card, Teacher};
 use crate::mjrl;
 use crate::nets::Tape;
 use crate::network::Network;
@@ -101,6 +101,17 @@ impl Policy {
             Policy::Trained(trained) => trained.action(env, action)?,
         }
         Ok(())
+    }
+}
+
+impl Teacher for Policy {
+    fn begin(&mut self, _: &Env, seed: u64) -> Result<(), PolicyError> {
+        *self = self.for_episode(seed);
+        Ok(())
+    }
+
+    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), PolicyError> {
+        self.action(env, action)
     }
 }
 

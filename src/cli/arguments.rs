@@ -8,6 +8,7 @@ use crate::environments::list::List;
 use crate::environments::rollout::Rollout;
 use crate::environments::run::Run;
 use crate::learning::evaluate::Evaluate;
+use crate::learning::report::Report;
 use crate::learning::train::Train;
 use crate::models::bench::Bench;
 use crate::models::check::Check;
@@ -64,6 +65,8 @@ pub enum Command {
     Train(Train),
     /// Say how often a policy succeeds, beside zero and random actions
     Evaluate(Evaluate),
+    /// Say what several runs reached, with 95 % intervals over seeds
+    Report(Report),
     /// Drive an environment by hand, and record demonstrations
     Teleop(Box<Teleop>),
     /// Draw a model or an environment

@@ -35,6 +35,7 @@ fn main() -> ExitCode {
         Command::Run(a) => environments::run::run(&a),
         Command::Train(a) => learning::train::run(&a),
         Command::Evaluate(a) => learning::evaluate::run(&a),
+        Command::Report(a) => learning::report::run(&a),
         Command::Render(a) => pictures::render::run(&a),
         Command::Gallery(a) => pictures::gallery::run(&a),
         Command::Teleop(a) => teleop::run(&a),

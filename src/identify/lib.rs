@@ -57,4 +57,5 @@ pub use parameter::{Parameter, Prior};
 pub use patch::{fragment, patched};
 pub use quantity::Quantity;
 pub use report::report;
+pub use svg::{Curve, plot};
 pub use uncertainty::Direction;

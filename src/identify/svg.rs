@@ -10,14 +10,16 @@ const MARGIN: f64 = 8.0;
 /// Points of a curve at most.
 const POINTS: usize = 700;
 
-/// A curve: its colour, and its points.
-pub(crate) struct Curve<'a> {
+/// A curve of a plot.
+pub struct Curve<'a> {
+    /// Its colour, as CSS has it.
     pub colour: &'a str,
+    /// Its points.
     pub points: Vec<[f64; 2]>,
 }
 
-/// A plot of curves; points that are not finite are left out.
-pub(crate) fn plot(curves: &[Curve<'_>]) -> String {
+/// A plot of curves as an `svg` element, which is a file as well; points that are not finite are left out.
+pub fn plot(curves: &[Curve<'_>]) -> String {
     let finite = |point: &&[f64; 2]| point[0].is_finite() && point[1].is_finite();
     let all: Vec<[f64; 2]> = curves.iter().flat_map(|c| c.points.iter().filter(finite).copied()).collect();
     if all.is_empty() {
@@ -34,7 +36,7 @@ pub(crate) fn plot(curves: &[Curve<'_>]) -> String {
     let down = |y: f64| MARGIN + (high - y) / (high - low) * (height - MARGIN - BOTTOM);
     let foot = height - BOTTOM;
     let mut text = format!(
-        "<svg viewBox=\"0 0 {width} {height}\" width=\"{width}\" role=\"img\"><path d=\"M{LEFT} {MARGIN}V{foot}H{}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" role=\"img\"><path d=\"M{LEFT} {MARGIN}V{foot}H{}\" \
          fill=\"none\" stroke=\"#999\"/>",
         width - MARGIN
     );

@@ -5,11 +5,12 @@
 use crate::built::{PROFILE, SAME_FEATURES};
 use crate::command::{cargo, installed, output, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
+use crate::passed::NO_TESTS;
 use std::path::PathBuf;
 use std::process::Command;
 
 /// What decides the hashes, and what the static command is built of.
-pub const INPUTS: &[&str] = &["src", "mjcf", "assets", "validation/digest"];
+pub const INPUTS: &[&str] = &["src", NO_TESTS, "mjcf", "assets", "validation/digest"];
 
 const DIGEST: [&str; 2] = ["-p", "robohive-digest"];
 /// The target is named, so that flags hold for what is built, and not for procedural macros.

@@ -38,6 +38,7 @@ use built::{EVERYTHING, PROFILE};
 use check::{Check, Rules, run_all};
 use command::cargo;
 use outcome::Outcome;
+use passed::NO_TESTS;
 use std::process::ExitCode;
 
 const QUICK: [Check; 5] = [
@@ -66,7 +67,7 @@ const LONG: [Check; 13] = [
 ];
 
 /// What decides what the page shows and does.
-const PAGE_INPUTS: &[&str] = &["src", "mjcf", "assets", "web", "xtask/src/web"];
+const PAGE_INPUTS: &[&str] = &["src", NO_TESTS, "mjcf", "assets", "web", "xtask/src/web"];
 
 /// What only a release needs: it installs or builds much.
 const RELEASE: [Check; 4] = [

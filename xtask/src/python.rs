@@ -3,11 +3,12 @@
 use crate::built::{PROFILE, SAME_FEATURES};
 use crate::command::{cargo, installed, output, succeed, target_folder};
 use crate::outcome::{Missing, Outcome};
+use crate::passed::NO_TESTS;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// What the package is made of.
-pub const INPUTS: &[&str] = &["python", "src", "mjcf", "assets", "README.md", "THIRD_PARTY.md"];
+pub const INPUTS: &[&str] = &["python", "src", NO_TESTS, "mjcf", "assets", "README.md", "THIRD_PARTY.md"];
 
 /// The oldest Python that the wheel is for.
 const OLDEST: &str =

@@ -4,14 +4,22 @@
 
 use crate::command::target_folder;
 use crate::outcome::{Missing, Outcome};
+use crate::passed::NO_TESTS;
 use std::process::Command;
 
 /// Exit code of `robohive-validation bits` where the C library's functions are others.
 const OTHER_LIBRARY: i32 = 3;
 
 /// What decides the comparison.
-pub const INPUTS: &[&str] =
-    &["src", "mjcf", "assets", "validation/src", "validation/reference/own", "validation/results/bits.md"];
+pub const INPUTS: &[&str] = &[
+    "src",
+    NO_TESTS,
+    "mjcf",
+    "assets",
+    "validation/src",
+    "validation/reference/own",
+    "validation/results/bits.md",
+];
 
 /// Builds the engine on the C library's functions, apart from other builds, and compares.
 pub fn run() -> Outcome {

@@ -3,7 +3,10 @@
 use super::actor::Actor;
 use super::advantage::Horizon;
 use super::batch::Batch;
+use super::cloning::{self, Cloning};
 use super::critic::{Critic, Fit};
+use super::dapg::{self, Dapg};
+use super::demonstrations::Demonstrations;
 use super::npg::{self, Npg};
 use super::ppo::{self, Ppo, Update};
 use super::rollout::{Choice, Collector, Episode};
@@ -20,6 +23,7 @@ use std::thread;
 const START: u64 = 0;
 const POLICY: u64 = 1;
 const VALUES: u64 = 2;
+const CLONE: u64 = 3;
 
 /// How a policy is improved.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -30,6 +34,27 @@ pub enum Algorithm {
     Ppo(Ppo),
     /// The natural policy gradient.
     Npg(Npg),
+    /// Behaviour cloning: episodes are played to see what became of it, and only demonstrations are learnt from.
+    Cloning(Cloning),
+    /// The natural policy gradient with demonstrations.
+    Dapg(Dapg),
+}
+
+impl Algorithm {
+    /// Its name in short.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Algorithm::Ppo(_) => "ppo",
+            Algorithm::Npg(_) => "npg",
+            Algorithm::Cloning(_) => "bc",
+            Algorithm::Dapg(_) => "dapg",
+        }
+    }
+
+    /// Whether it learns from demonstrations.
+    pub fn needs_demonstrations(&self) -> bool {
+        matches!(self, Algorithm::Cloning(_) | Algorithm::Dapg(_))
+    }
 }
 
 /// Settings of a training.
@@ -62,6 +87,7 @@ pub struct Learner {
     /// The value function.
     pub critic: Critic,
     adam: Adam,
+    demonstrations: Option<Demonstrations>,
     /// Iterations, episodes and steps so far.
     pub iterations: u64,
     /// Episodes played.
@@ -97,28 +123,49 @@ impl Learner {
         actor.least_log_std = *least;
         let critic = Critic::new(observed, values, *activation, &mut rng);
         let adam = Adam::new(actor.parameters.len());
-        Learner { settings, seed, actor, critic, adam, iterations: 0, episodes: 0, samples: 0 }
+        let demonstrations = None;
+        Learner {
+            settings,
+            seed,
+            actor,
+            critic,
+            adam,
+            demonstrations,
+            iterations: 0,
+            episodes: 0,
+            samples: 0,
+        }
+    }
+
+    /// Learns from these demonstrations, too. Before the first iteration the policy is cloned from them where the algorithm says so.
+    pub fn teach(&mut self, demonstrations: Demonstrations) {
+        self.demonstrations = Some(demonstrations);
     }
 
     /// Collects episodes and learns from them, on two threads if the collector has more than one.
     ///
     /// # Errors
-    /// An environment fails, or gives a reward that is not finite.
+    /// An environment fails, or gives a reward that is not finite; an algorithm that learns from demonstrations has none.
     pub fn iterate(&mut self, collector: &mut Collector) -> Result<Iteration, PolicyError> {
+        if self.settings.algorithm.needs_demonstrations() && self.demonstrations.is_none() {
+            return Err(PolicyError::content("it learns from demonstrations, and there are none"));
+        }
         if self.iterations == 0 {
-            // What is observed is normalised from the first update on.
-            let episodes = self.collect(collector)?;
-            self.see(&episodes);
+            self.prepare(collector)?;
         }
         let episodes = self.collect(collector)?;
         let batch = Batch::new(&episodes, &self.actor, &self.critic, self.settings.horizon);
+        let shown = self.demonstrations.as_ref().map(|shown| shown.batch(&self.actor)).unwrap_or_default();
         let (settings, seed, iteration) = (&self.settings, self.seed, self.iterations);
         let (actor, critic, adam) = (&mut self.actor, &mut self.critic, &mut self.adam);
-        let mut improve = || match &settings.algorithm {
-            Algorithm::Ppo(ppo) => {
-                ppo::update(ppo, actor, adam, &batch, &mut generator(seed, &[iteration, POLICY, 0]))
+        let mut improve = || {
+            let mut rng = generator(seed, &[iteration, POLICY, 0]);
+            match &settings.algorithm {
+                Algorithm::Ppo(ppo) => ppo::update(ppo, actor, adam, &batch, &mut rng),
+                Algorithm::Npg(npg) => npg::update(npg, actor, &batch),
+                Algorithm::Cloning(cloning) => cloning::update(cloning, actor, adam, &shown, &mut rng),
+                Algorithm::Dapg(dapg) => dapg::update(dapg, iteration, actor, &batch, &shown),
             }
-            Algorithm::Npg(npg) => npg::update(npg, actor, &batch),
         };
         let mut fit = || {
             critic.fit(
@@ -136,7 +183,10 @@ impl Learner {
         } else {
             (improve(), fit())
         };
-        self.see(&episodes);
+        // A clone is shown the same observations again, and has no use for other ones.
+        if !matches!(self.settings.algorithm, Algorithm::Cloning(_)) {
+            self.see(&episodes);
+        }
         self.iterations += 1;
         let summaries: Vec<_> = episodes.iter().map(|episode| episode.summary.clone()).collect();
         Ok(Iteration {
@@ -149,7 +199,25 @@ impl Learner {
         })
     }
 
-    /// All that decides how it goes on, by names, but for the settings and the seed.
+    /// Finds how observations are to be normalised, from demonstrations or else from episodes that are not learnt from, and clones the
+    /// policy where the algorithm begins with that.
+    fn prepare(&mut self, collector: &mut Collector) -> Result<(), PolicyError> {
+        let Some(demonstrations) = &self.demonstrations else {
+            let episodes = self.collect(collector)?;
+            self.see(&episodes);
+            return Ok(());
+        };
+        self.actor.seen.observe(demonstrations.observations());
+        if let Algorithm::Dapg(Dapg { cloning, .. }) = &self.settings.algorithm {
+            let (shown, mut rng) = (demonstrations.batch(&self.actor), generator(self.seed, &[CLONE]));
+            // With an optimiser of its own: that of the policy has seen nothing when the first gradient comes.
+            let mut adam = Adam::new(self.actor.parameters.len());
+            cloning::update(cloning, &mut self.actor, &mut adam, &shown, &mut rng);
+        }
+        Ok(())
+    }
+
+    /// All that decides how it goes on, by names, but for the settings, the seed and demonstrations.
     pub(super) fn entries(&mut self) -> Vec<Entry<'_>> {
         let mut entries = self.actor.entries();
         entries.extend(self.critic.entries());

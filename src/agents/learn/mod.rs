@@ -1,4 +1,5 @@
-//! Learning from episodes: the natural policy gradient and proximal policy optimisation.
+//! Learning from episodes, by the natural policy gradient and proximal policy optimisation, and from demonstrations: behaviour
+//! cloning, and the natural policy gradient with demonstrations.
 //!
 //! ```
 //! use robohive_agents::learn::{Algorithm, Collector, Fit, Horizon, Learner, Npg, Settings};
@@ -28,7 +29,10 @@ mod actor;
 mod advantage;
 mod batch;
 mod checkpoint;
+mod cloning;
 mod critic;
+mod dapg;
+mod demonstrations;
 mod learner;
 mod npg;
 mod ppo;
@@ -39,7 +43,10 @@ mod shuffle;
 pub use actor::Actor;
 pub use advantage::Horizon;
 pub use checkpoint::Card;
+pub use cloning::Cloning;
 pub use critic::{Critic, Fit};
+pub use dapg::Dapg;
+pub use demonstrations::{Demonstrations, Lessons, Teacher};
 pub use learner::{Algorithm, Iteration, Learner, Settings};
 pub use npg::Npg;
 pub use ppo::{Ppo, Update};

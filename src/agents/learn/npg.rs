@@ -22,21 +22,34 @@ pub struct Npg {
 
 /// Improves a policy by a batch that it collected, by a step along the natural gradient.
 pub fn update(npg: &Npg, actor: &mut Actor, batch: &Batch) -> Update {
-    let mut tape = Tape::default();
-    actor.means(&batch.input, &mut tape);
-    let (old_means, old_log_std) = (tape.output().to_vec(), actor.parts().1.to_vec());
     let weights: Vec<f64> = batch.advantages.iter().map(|a| a / batch.steps().max(1) as f64).collect();
-    let gradient = gradient(actor, &tape, batch, &weights);
+    climb(npg.step, actor, [&batch.input, &batch.actions], &weights, batch.steps())
+}
+
+/// Makes actions likelier by their weights, by a step of a size along the natural gradient. The divergence that it gives is the mean
+/// over the first `own` of them.
+pub(super) fn climb(
+    step: f64,
+    actor: &mut Actor,
+    [input, taken]: [&[f32]; 2],
+    weights: &[f64],
+    own: usize,
+) -> Update {
+    let mut tape = Tape::default();
+    actor.means(input, &mut tape);
+    let (old_means, old_log_std) = (tape.output().to_vec(), actor.parts().1.to_vec());
+    let gradient = gradient(actor, &tape, taken, weights);
     let direction = solve(|v| fisher_product(actor, &tape, v), &gradient);
     let along = dot(&gradient, &direction);
     if along > 0.0 {
-        let length = (npg.step / along).sqrt();
+        let length = (step / along).sqrt();
         let moves = actor.parameters.iter_mut().zip(&direction);
         moves.for_each(|(parameter, move_)| *parameter += (length * move_) as f32);
         actor.limit();
     }
+    let (observed, actions) = (actor.net.inputs(), actor.actions());
     Update {
-        divergence: divergence(actor, [&old_means, &old_log_std], batch),
+        divergence: divergence(actor, [&old_means[..own * actions], &old_log_std], &input[..own * observed]),
         entropy: f64::from(gaussian::entropy(actor.parts().1)),
         clipped: 0.0,
         epochs: 1,
@@ -44,11 +57,11 @@ pub fn update(npg: &Npg, actor: &mut Actor, batch: &Batch) -> Update {
 }
 
 /// The sum of the slopes of the logarithms of the densities of all actions by the parameters, each with its weight.
-pub(super) fn gradient(actor: &Actor, tape: &Tape, batch: &Batch, weights: &[f64]) -> Vec<f64> {
+pub(super) fn gradient(actor: &Actor, tape: &Tape, taken: &[f32], weights: &[f64]) -> Vec<f64> {
     let (actions, log_std) = (actor.actions(), actor.parts().1);
-    let mut slopes = vec![0.0; batch.actions.len()];
+    let mut slopes = vec![0.0; taken.len()];
     let mut by_log_std = vec![0.0; actions];
-    let taken = batch.actions.chunks_exact(actions).zip(tape.output().chunks_exact(actions));
+    let taken = taken.chunks_exact(actions).zip(tape.output().chunks_exact(actions));
     for (((action, mean), by_mean), weight) in taken.zip(slopes.chunks_exact_mut(actions)).zip(weights) {
         gaussian::add_slopes(*weight as f32, [mean, log_std], action, [by_mean, &mut by_log_std]);
     }
@@ -137,7 +150,7 @@ mod tests {
             let mut other = actor.clone();
             let moves = other.parameters.iter_mut().zip(&direction);
             moves.for_each(|(parameter, move_)| *parameter += (share * move_) as f32);
-            divergence(&other, old, &batch)
+            divergence(&other, old, &batch.input)
         };
         let difference = (moved(0.05) + moved(-0.05)) / 0.0025;
         assert!(

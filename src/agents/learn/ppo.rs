@@ -87,7 +87,7 @@ pub fn update(
         }
         outcome.epochs += 1;
         outcome.clipped = clipped as f64 / batch.steps().max(1) as f64;
-        outcome.divergence = divergence(actor, [&old_means, &old_log_std], batch);
+        outcome.divergence = divergence(actor, [&old_means, &old_log_std], &batch.input);
         if outcome.divergence > ppo.divergence {
             break;
         }
@@ -96,14 +96,14 @@ pub fn update(
     outcome
 }
 
-/// The mean divergence of a policy, given by its means on the batch and its deviations, from the present one.
-pub(super) fn divergence(actor: &Actor, [means, log_std]: [&[f32]; 2], batch: &Batch) -> f64 {
+/// The mean divergence of a policy, given by its means of these observations and its deviations, from the present one.
+pub(super) fn divergence(actor: &Actor, [means, log_std]: [&[f32]; 2], input: &[f32]) -> f64 {
     let (actions, mut tape) = (actor.actions(), Tape::default());
-    actor.means(&batch.input, &mut tape);
+    actor.means(input, &mut tape);
     let pairs = rows(means, tape.output(), actions);
     let each =
         pairs.map(|(old, new)| f64::from(gaussian::divergence([old, log_std], [new, actor.parts().1])));
-    each.sum::<f64>() / batch.steps().max(1) as f64
+    each.sum::<f64>() / tape.rows().max(1) as f64
 }
 
 /// Rows of two matrices side by side.

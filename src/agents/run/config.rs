@@ -1,7 +1,7 @@
 //! What is trained, and how: a TOML file.
 
 use crate::error::PolicyError;
-use crate::learn::Settings;
+use crate::learn::{Lessons, Settings};
 use env::Arguments;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
@@ -27,8 +27,21 @@ pub struct Config {
     /// Settings of the environment that differ.
     #[serde(default)]
     pub environment: Arguments,
+    /// Who shows how it is done, where it is learnt from demonstrations.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub teacher: Option<Teaching>,
     /// How it is learnt.
     pub learning: Settings,
+}
+
+/// Who shows how it is done, and how often.
+#[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Teaching {
+    /// A controller's name, or the file of a policy.
+    pub by: String,
+    /// Which demonstrations are asked for.
+    pub lessons: Lessons,
 }
 
 impl Config {

@@ -87,6 +87,27 @@ impl Log {
     }
 }
 
+/// The rows of the log in a folder.
+pub(super) fn read(folder: &Path) -> Result<Vec<Row>, PolicyError> {
+    let path = folder.join("log.csv");
+    let text = std::fs::read_to_string(&path).map_err(|error| PolicyError::run(&path, error))?;
+    let mut lines = text.lines();
+    if lines.next() != Some(&COLUMNS.join(",")) {
+        return Err(PolicyError::run(&path, "its first line does not name the columns"));
+    }
+    let row = |(index, line): (usize, &str)| {
+        let wrong = || {
+            let message =
+                format!("line {}: a row is {} numbers, and this is {line:?}", index + 2, COLUMNS.len());
+            PolicyError::run(&path, message)
+        };
+        let numbers =
+            line.split(',').map(str::parse).collect::<Result<Vec<f64>, _>>().map_err(|_| wrong())?;
+        numbers.try_into().map(Row).map_err(|_| wrong())
+    };
+    lines.enumerate().map(row).collect()
+}
+
 /// Opens a file with its header and its first `rows` lines after it.
 fn begin(path: PathBuf, header: &str, rows: u64) -> Result<(PathBuf, File), PolicyError> {
     let open = || {

@@ -1,7 +1,7 @@
 //! Trainings in folders, which can be interrupted and resumed.
 //!
 //! A run is a folder: `run.toml` says what is trained and how, `log.csv` and `log.jsonl` have a row for each iteration, `checkpoint.safetensors` is
-//! where it goes on, and `policy.safetensors` is what acts. Rows after the last checkpoint are made again when it goes on: with the same numbers.
+//! where it goes on, `demonstrations.safetensors` is what it learns from besides, and `policy.safetensors` is what acts. Rows after the last checkpoint are made again when it goes on: with the same numbers.
 //!
 //! ```
 //! use robohive_agents::{Policy, learn::Settings, run::{Config, Run}};
@@ -17,6 +17,7 @@
 //!     compat: None,
 //!     solver: None,
 //!     environment: Default::default(),
+//!     teacher: None,
 //!     learning: Settings { episodes: 2, ..Settings::npg() },
 //! };
 //! let folder = std::env::temp_dir().join(format!("robohive-run-{}", std::process::id()));
@@ -34,11 +35,11 @@
 mod config;
 mod log;
 
-pub use config::Config;
+pub use config::{Config, Teaching};
 pub use log::{COLUMNS, Row};
 
 use crate::error::PolicyError;
-use crate::learn::{Collector, Learner};
+use crate::learn::{Collector, Demonstrations, Learner};
 use env::Env;
 use log::Log;
 use std::path::{Path, PathBuf};
@@ -48,6 +49,7 @@ use std::time::Instant;
 const CONFIG: &str = "run.toml";
 const CHECKPOINT: &str = "checkpoint.safetensors";
 const POLICY: &str = "policy.safetensors";
+const DEMONSTRATIONS: &str = "demonstrations.safetensors";
 
 /// A training in a folder.
 pub struct Run {
@@ -82,6 +84,20 @@ impl Run {
         Ok(run)
     }
 
+    /// Lets the run learn from demonstrations in environments like `env`, and keeps them in its folder.
+    ///
+    /// # Errors
+    /// The run has begun; the file cannot be written.
+    pub fn teach(&mut self, env: &Env, mut demonstrations: Demonstrations) -> Result<(), PolicyError> {
+        if self.iterations() > 0 {
+            let message = "it has begun without these demonstrations: begin another run with them";
+            return Err(PolicyError::run(&self.folder, message));
+        }
+        demonstrations.save(env, &self.folder.join(DEMONSTRATIONS))?;
+        self.learner.teach(demonstrations);
+        Ok(())
+    }
+
     /// What the run in a folder is of.
     ///
     /// # Errors
@@ -90,16 +106,32 @@ impl Run {
         Config::read(&folder.join(CONFIG))
     }
 
+    /// What each iteration of the run in a folder was like.
+    ///
+    /// # Errors
+    /// There is no log, or it is damaged.
+    pub fn rows_of(folder: &Path) -> Result<Vec<Row>, PolicyError> {
+        log::read(folder)
+    }
+
+    /// The file of the policy of the run in a folder.
+    pub fn policy_of(folder: &Path) -> PathBuf {
+        folder.join(POLICY)
+    }
+
     /// Goes on with the run in a folder, from its last checkpoint.
     ///
     /// # Errors
     /// There is no run; the environment is not its; the files cannot be read or written.
     pub fn resume(folder: &Path, env: &Env, sizes: [usize; 2]) -> Result<Self, PolicyError> {
         let config = Self::config_of(folder)?;
-        let learner = Learner::resume(&folder.join(CHECKPOINT), env)?;
+        let mut learner = Learner::resume(&folder.join(CHECKPOINT), env)?;
         if (learner.settings(), learner.seed()) != (&config.learning, config.seed) {
             let message = "its seed or [learning] differs from the checkpoint's: undo the change, or train from a copy of the file";
             return Err(PolicyError::run(&folder.join(CONFIG), message));
+        }
+        if config.learning.algorithm.needs_demonstrations() {
+            learner.teach(Demonstrations::open(env, &folder.join(DEMONSTRATIONS))?);
         }
         let collector = Collector::new(env, sizes[0], sizes[1])?;
         let kept = learner.iterations;
@@ -162,6 +194,6 @@ impl Run {
 
     /// The file of the policy.
     pub fn policy(&self) -> PathBuf {
-        self.folder.join(POLICY)
+        Self::policy_of(&self.folder)
     }
 }

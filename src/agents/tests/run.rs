@@ -1,6 +1,6 @@
 //! Runs in folders: what an interruption changes, what the files hold, and what is refused.
 
-use agents::learn::{Algorithm, Settings};
+use agents::learn::{Algorithm, Demonstrations, Lessons, Settings};
 use agents::run::{COLUMNS, Config, Run};
 use agents::{Policy, PolicyError};
 use env::{Env, Options, OwnModels};
@@ -30,6 +30,7 @@ fn config(mut learning: Settings) -> Config {
         compat: None,
         solver: None,
         environment,
+        teacher: None,
         learning,
     }
 }
@@ -44,16 +45,32 @@ fn bytes(folder: &Path, file: &str) -> Vec<u8> {
     std::fs::read(folder.join(file)).unwrap()
 }
 
+/// Shows what is to be learnt, where it is learnt from that: which poses an elbow reaches by itself.
+fn teach(run: &mut Run) {
+    if run.config().learning.algorithm.needs_demonstrations() {
+        let (mut env, lessons) = (env(ID), Lessons { episodes: 2, noise: 0.1 });
+        let shown = Demonstrations::play(&mut env, &mut Policy::Zero, lessons, 3, |_| ()).unwrap();
+        run.teach(&env, shown).unwrap();
+    }
+}
+
 /// Three iterations, of which the third comes after the last checkpoint, and then a process that ends.
 #[test]
 fn an_interrupted_run_ends_in_the_same_bits() {
-    for (name, learning) in [("npg", Settings::npg()), ("ppo", Settings::ppo())] {
+    for (name, learning) in [
+        ("npg", Settings::npg()),
+        ("ppo", Settings::ppo()),
+        ("bc", Settings::cloning()),
+        ("dapg", Settings::dapg()),
+    ] {
         let (whole, parts) = (folder(&format!("{name}_whole")), folder(&format!("{name}_parts")));
         let mut run = Run::create(&whole, config(learning.clone()), &env(ID), [4, 1]).unwrap();
+        teach(&mut run);
         while !run.is_finished() {
             run.iterate().unwrap();
         }
         let mut run = Run::create(&parts, config(learning), &env(ID), [2, 2]).unwrap();
+        teach(&mut run);
         (0..3).for_each(|_| _ = run.iterate().unwrap());
         drop(run);
         assert_eq!(rows(&parts).len(), 4, "a header and three rows");

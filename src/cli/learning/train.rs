@@ -1,5 +1,6 @@
 //! `train`: learn a policy, in a folder from which it can be resumed.
 
+use super::teacher::{TeacherArguments, teach};
 use crate::failure::Failure;
 use crate::input::library::Making;
 use crate::input::solver::SolverArgument;
@@ -28,13 +29,18 @@ The seed decides everything: the same run makes the same bits on any number of t
 by the loss of the machine, and resumed by --resume ends as one that was not.
 
 Algorithms: npg, the natural policy gradient (Kakade, 2001; Rajeswaran et al., 2017), with the networks, episodes and steps of \
-MyoSuite's published runs; ppo, proximal policy optimisation (Schulman et al., 2017).
+MyoSuite's published runs; ppo, proximal policy optimisation (Schulman et al., 2017); bc, behaviour cloning of a teacher; dapg, the \
+natural policy gradient with demonstrations (Rajeswaran et al., 2018).
+
+A teacher is a controller (`robohive run ID --controller list`) or a policy. Its successful episodes are kept in the folder, as \
+demonstrations.safetensors, so that a run resumes without it.
 
 Examples:
   robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 2 --out elbow
   robohive train --resume elbow --iterations 3
   robohive train elbow/run.toml --seed 2 --out elbow2
-  robohive train hive/FrankaReach-v0 --algo ppo --iterations 1 --out reach --quiet"
+  robohive train hive/FrankaReach-v0 --algo ppo --iterations 1 --out reach --quiet
+  robohive train hive/FrankaReach-v0 --algo bc --teacher reach --demonstrations 5 --iterations 1 --out clone"
 )]
 pub struct Train {
     /// Id of the environment, or the run.toml of a run to make again
@@ -46,6 +52,9 @@ pub struct Train {
     /// How it is learnt [default: npg, or what CONFIG says]
     #[arg(long, value_name = "NAME", conflicts_with = "resume")]
     algo: Option<AlgorithmName>,
+    /// Who shows how it is done
+    #[command(flatten)]
+    teacher: TeacherArguments,
     /// Seed of the run [default: 1, or what CONFIG says]
     #[arg(long, value_name = "SEED", conflicts_with = "resume")]
     seed: Option<u64>,
@@ -76,6 +85,10 @@ pub enum AlgorithmName {
     Npg,
     /// Proximal policy optimisation
     Ppo,
+    /// Behaviour cloning: only from demonstrations
+    Bc,
+    /// The natural policy gradient with demonstrations
+    Dapg,
 }
 
 /// Runs the command.
@@ -118,7 +131,12 @@ fn open(a: &Train) -> Result<(PathBuf, Run), Failure> {
     let name = format!("{}-seed{}", config.id.replace('/', "-"), config.seed);
     let folder = a.out.clone().unwrap_or_else(|| name.into());
     let env = make(a, &config)?;
-    let run = Run::create(&folder, config, &env, sizes).map_err(failure)?;
+    // Demonstrations come first: a teacher that fails leaves no folder.
+    let demonstrations = teach(&config, &env, a.quiet)?;
+    let mut run = Run::create(&folder, config, &env, sizes).map_err(failure)?;
+    if let Some(demonstrations) = demonstrations {
+        run.teach(&env, demonstrations).map_err(failure)?;
+    }
     Ok((folder, run))
 }
 
@@ -136,6 +154,7 @@ fn config(a: &Train) -> Result<Config, Failure> {
             compat: Some(a.making.compat.to_string()),
             solver: Some(a.making.solver.name()),
             environment: a.making.changes()?,
+            teacher: None,
             learning: Settings::npg(),
         }
     };
@@ -143,7 +162,10 @@ fn config(a: &Train) -> Result<Config, Failure> {
         None => {}
         Some(AlgorithmName::Npg) => config.learning = Settings::npg(),
         Some(AlgorithmName::Ppo) => config.learning = Settings::ppo(),
+        Some(AlgorithmName::Bc) => config.learning = Settings::cloning(),
+        Some(AlgorithmName::Dapg) => config.learning = Settings::dapg(),
     }
+    config.teacher = a.teacher.given(config.teacher);
     config.seed = a.seed.unwrap_or(config.seed);
     config.iterations = a.iterations.unwrap_or(config.iterations);
     config.keep_every = a.keep_every.unwrap_or(config.keep_every);
@@ -152,13 +174,7 @@ fn config(a: &Train) -> Result<Config, Failure> {
 
 /// The environment of a configuration, which says how it is made; what is given beside it must be the same.
 fn make(a: &Train, config: &Config) -> Result<Env, Failure> {
-    let mut making = a.making.clone();
-    if let Some(compat) = &config.compat {
-        making.compat = compat.parse().map_err(Failure::usage)?;
-    }
-    if let Some(solver) = &config.solver {
-        making.solver = SolverArgument::named(solver)?;
-    }
+    let making = made(a.making.clone(), config)?;
     let (given, none) = (making.changes()?, env::Arguments::default());
     for (option, differs) in [
         ("--set", given != none && given != config.environment),
@@ -171,6 +187,26 @@ fn make(a: &Train, config: &Config) -> Result<Env, Failure> {
             return Err(Failure::usage(message));
         }
     }
+    environment(making, config)
+}
+
+/// How a configuration says that its environment is made.
+fn made(mut making: Making, config: &Config) -> Result<Making, Failure> {
+    if let Some(compat) = &config.compat {
+        making.compat = compat.parse().map_err(Failure::usage)?;
+    }
+    if let Some(solver) = &config.solver {
+        making.solver = SolverArgument::named(solver)?;
+    }
+    Ok(making)
+}
+
+/// The environment of a configuration.
+///
+/// # Errors
+/// There is none of its id, or it cannot be made.
+pub fn environment(making: Making, config: &Config) -> Result<Env, Failure> {
+    let making = made(making, config)?;
     let library = making.assets()?;
     let options = making.options()?.with_changes(config.environment.clone());
     Env::make(&config.id, &library, &options).map_err(Failure::usage)

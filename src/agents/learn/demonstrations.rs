@@ -1,0 +1,227 @@
+//! What a teacher did: steps to learn from before and beside one's own.
+
+use super::actor::Actor;
+use super::batch::Batch;
+use crate::archive::{self, Archive, Entry, Numbers};
+use crate::error::PolicyError;
+use env::episode::Summary;
+use env::{Env, Rng, Success};
+use random::SeedSequence;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// What the file calls itself.
+const FORMAT: &str = "robohive-demonstrations-1";
+/// What the numbers that are drawn for an episode are for. Keys of four numbers are those of demonstrations alone.
+const RESET: u64 = 0;
+const NOISE: u64 = 1;
+/// Episodes that a teacher may play for each that succeeds.
+const ATTEMPTS: u64 = 10;
+
+/// Who shows how a task is done. A teacher may see all of an environment.
+pub trait Teacher {
+    /// Prepares for an episode, which has been reset with a seed.
+    ///
+    /// # Errors
+    /// The teacher is none for this environment.
+    fn begin(&mut self, env: &Env, seed: u64) -> Result<(), PolicyError>;
+
+    /// Chooses an action for the present state.
+    ///
+    /// # Errors
+    /// The teacher is none for this environment, or does not know what to do.
+    fn act(&mut self, env: &Env, action: &mut [f64]) -> Result<(), PolicyError>;
+}
+
+/// Which demonstrations are asked for.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct Lessons {
+    /// Episodes that succeed.
+    pub episodes: u64,
+    /// Deviation of what is added to the actions that are taken, not to those that are remembered: the teacher shows how it gets back on
+    /// its way (Laskey et al., 2017).
+    pub noise: f64,
+}
+
+/// Steps of episodes in which a teacher succeeded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Demonstrations {
+    /// What was observed before each step, `[steps × observed]`.
+    observations: Vec<f64>,
+    /// What the teacher would have done, `[steps × actions]`.
+    actions: Vec<f32>,
+    /// Steps of each episode.
+    lengths: Vec<u64>,
+    /// Episodes that the teacher played.
+    pub played: u64,
+}
+
+/// What a file says of the numbers in it.
+#[derive(Deserialize, Serialize)]
+#[serde(deny_unknown_fields)]
+struct Label {
+    format: String,
+    id: String,
+    sizes: [usize; 2],
+    steps: usize,
+    episodes: usize,
+    played: u64,
+}
+
+impl Demonstrations {
+    /// Has a teacher play until it has succeeded as often as is asked for, and tells of each episode. The seed decides how episodes
+    /// begin.
+    ///
+    /// # Errors
+    /// The teacher succeeds in less than one of ten episodes, or cannot act; the environment fails.
+    pub fn play(
+        env: &mut Env,
+        teacher: &mut dyn Teacher,
+        lessons: Lessons,
+        seed: u64,
+        mut tell: impl FnMut(&Self),
+    ) -> Result<Self, PolicyError> {
+        if !(lessons.noise >= 0.0 && lessons.noise.is_finite()) {
+            let message = format!("the noise of its actions must not be below 0, and is {}", lessons.noise);
+            return Err(PolicyError::Teacher { id: env.spec().id.clone(), message });
+        }
+        let mut kept =
+            Demonstrations { observations: Vec::new(), actions: Vec::new(), lengths: Vec::new(), played: 0 };
+        while (kept.lengths.len() as u64) < lessons.episodes {
+            if kept.played >= ATTEMPTS * lessons.episodes {
+                let (found, played) = (kept.lengths.len(), kept.played);
+                return Err(PolicyError::Teacher {
+                    id: env.spec().id.clone(),
+                    message: format!(
+                        "it succeeded in {found} of {played} episodes, and {} are asked for",
+                        lessons.episodes
+                    ),
+                });
+            }
+            kept.episode(env, teacher, lessons.noise, seed)?;
+            tell(&kept);
+        }
+        Ok(kept)
+    }
+
+    /// Plays an episode, and keeps its steps if it is a success; where a task counts a share of solved steps, if it ends solved.
+    fn episode(
+        &mut self,
+        env: &mut Env,
+        teacher: &mut dyn Teacher,
+        noise: f64,
+        seed: u64,
+    ) -> Result<(), PolicyError> {
+        let draws = |purpose: u64| SeedSequence::with_spawn_key(seed, vec![self.played, purpose, 0, 0]);
+        let [low, high] = draws(RESET).generate_state::<2>().map(u64::from);
+        let (start, mut rng) = (high << 32 | low, Rng::pcg64(draws(NOISE)));
+        self.played += 1;
+        env.reset(Some(start))?;
+        teacher.begin(env, start)?;
+        let (from, steps) = (self.actions.len(), self.observations.len());
+        let (mut summary, mut action) = (Summary::default(), vec![0.0; env.action_len()]);
+        while !(summary.terminated || summary.truncated) {
+            teacher.act(env, &mut action)?;
+            self.observations.extend_from_slice(env.observation());
+            self.actions.extend(action.iter().map(|value| *value as f32));
+            action.iter_mut().for_each(|value| *value += noise * rng.standard_normal());
+            let step = env.step(&action)?;
+            summary.add(env, &step);
+        }
+        let length = (self.actions.len() - from) / env.action_len().max(1);
+        let succeeded = match env.success() {
+            Success::MoreThan(steps) => summary.solved > steps,
+            Success::Share => env.verdict().solved,
+        };
+        if succeeded {
+            self.lengths.push(length as u64);
+        } else {
+            self.actions.truncate(from);
+            self.observations.truncate(steps);
+        }
+        Ok(())
+    }
+
+    /// Number of episodes, and of steps in all of them.
+    pub fn sizes(&self) -> [usize; 2] {
+        [self.lengths.len(), self.lengths.iter().sum::<u64>() as usize]
+    }
+
+    /// What was observed, row after row.
+    pub(super) fn observations(&self) -> &[f64] {
+        &self.observations
+    }
+
+    /// The steps as a policy normalises them now, without advantages and returns.
+    pub(super) fn batch(&self, actor: &Actor) -> Batch {
+        let input = actor.normalized(&self.observations);
+        Batch { input, actions: self.actions.clone(), ..Batch::default() }
+    }
+
+    /// Writes them into a file.
+    ///
+    /// # Errors
+    /// The file cannot be written, or would be too large.
+    pub fn save(&mut self, env: &Env, path: &Path) -> Result<(), PolicyError> {
+        let [episodes, steps] = self.sizes();
+        let label = Label {
+            format: FORMAT.into(),
+            id: env.spec().id.clone(),
+            sizes: [env.observation().len(), env.action_len()],
+            steps,
+            episodes,
+            played: self.played,
+        };
+        let label = serde_json::to_string(&label).map_err(|error| PolicyError::content(error.to_string()))?;
+        archive::write(path, label, &self.entries(steps))
+    }
+
+    /// Reads what [`Demonstrations::save`] wrote of an environment like `env`.
+    ///
+    /// # Errors
+    /// The file cannot be read, holds no demonstrations, or some of another environment.
+    pub fn open(env: &Env, path: &Path) -> Result<Self, PolicyError> {
+        let bytes = archive::read(path)?;
+        let fill = || {
+            let archive = Archive::parse(&bytes)?;
+            let wrong = |error| PolicyError::content(format!("its card is not understood: {error}"));
+            let label: Label = serde_json::from_str(archive.card()).map_err(wrong)?;
+            if label.format != FORMAT {
+                let message = format!("its format is {:?}, and {FORMAT:?} is understood", label.format);
+                return Err(PolicyError::content(message));
+            }
+            let (id, sizes) = (&env.spec().id, [env.observation().len(), env.action_len()]);
+            if (&label.id, label.sizes) != (id, sizes) {
+                let message = format!("it holds demonstrations in {}", label.id);
+                return Err(PolicyError::Foreign { id: id.clone(), message });
+            }
+            let numbers = label.steps.checked_mul(8 * sizes[0].max(1));
+            if numbers.is_none_or(|bytes| bytes > archive.size) || label.episodes > archive.size {
+                return Err(PolicyError::content("its card says of more steps than the file holds"));
+            }
+            let mut read = Demonstrations {
+                observations: vec![0.0; label.steps * sizes[0]],
+                actions: vec![0.0; label.steps * sizes[1]],
+                lengths: vec![0; label.episodes],
+                played: label.played,
+            };
+            archive.fill(read.entries(label.steps))?;
+            if read.lengths.iter().try_fold(0_u64, |sum, steps| sum.checked_add(*steps))
+                != Some(label.steps as u64)
+            {
+                return Err(PolicyError::content("the lengths of its episodes do not add up to its steps"));
+            }
+            Ok(read)
+        };
+        fill().map_err(|error: PolicyError| error.within(path))
+    }
+
+    fn entries(&mut self, steps: usize) -> Vec<Entry<'_>> {
+        vec![
+            Entry::matrix("observations", steps.max(1), Numbers::F64(&mut self.observations)),
+            Entry::matrix("actions", steps.max(1), Numbers::F32(&mut self.actions)),
+            Entry::new("lengths", Numbers::U64(&mut self.lengths)),
+        ]
+    }
+}

@@ -1,0 +1,284 @@
+//! `report`: what several runs reached, with intervals over seeds.
+
+use super::playing::Playing;
+use super::train::environment;
+use crate::failure::{Failure, unwritable};
+use crate::input::library::Making;
+use crate::output::check_place;
+use crate::terminal::{note, show, show_json};
+use agents::Policy;
+use agents::run::{Config, Row, Run};
+use agents::statistics::{bootstrap, interquartile_mean, profile};
+use clap::{Args, ValueHint};
+use env::episode::evaluate;
+use identify::{Curve, plot};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Seed of what the bootstrap draws.
+const SEED: u64 = 0;
+/// Success \[%\] that counts as learnt.
+const LEARNT: f64 = 90.0;
+/// Success \[%\] above which a performance profile counts runs.
+const THRESHOLDS: [f64; 10] = [0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0, 90.0];
+/// Colours of algorithms (Okabe and Ito, "Color universal design", 2008).
+const COLOURS: [&str; 6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"];
+
+/// Say what several runs reached, with 95 % intervals over seeds
+#[derive(Args)]
+#[command(
+    after_help = "Runs of one environment and one algorithm are seeds of one row. Each run's policy, that of its last checkpoint, plays the same \
+episodes by its mean action; so do zero and random actions, which are the floor. The row has the interquartile mean over its seeds, and its \
+interval by a stratified bootstrap (Agarwal et al., 2021); three seeds are few, and one says nothing of others.
+
+Examples:
+  robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 1 --seed 1 --out elbow1
+  robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 1 --seed 2 --out elbow2
+  robohive report elbow1 elbow2 --episodes 10 --html elbow.html"
+)]
+pub struct Report {
+    /// Folders of runs
+    #[arg(required = true, value_name = "RUN", value_hint = ValueHint::DirPath)]
+    runs: Vec<PathBuf>,
+    /// How environments are made
+    #[command(flatten)]
+    making: Making,
+    /// Which episodes are played
+    #[command(flatten)]
+    playing: Playing,
+    /// Write a page with the table and learning curves, without scripts
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    html: Option<PathBuf>,
+    /// Print one JSON object instead
+    #[arg(long)]
+    json: bool,
+    /// Show no progress
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// A run of a seed.
+struct Seed {
+    config: Config,
+    rows: Vec<Row>,
+    /// Success of its policy \[%\].
+    success: f64,
+}
+
+/// Runs of one environment and one algorithm.
+struct Group {
+    id: String,
+    algorithm: &'static str,
+    seeds: Vec<Seed>,
+    /// Success of zero and of random actions \[%\].
+    floors: [f64; 2],
+}
+
+impl Group {
+    fn scores(&self) -> Vec<f64> {
+        self.seeds.iter().map(|seed| seed.success).collect()
+    }
+
+    fn interval(&self) -> [f64; 2] {
+        bootstrap(&[self.scores()], interquartile_mean, SEED)
+    }
+
+    /// Steps after which each seed first succeeded in 90 % of an iteration's episodes.
+    fn learnt(&self) -> Vec<Option<f64>> {
+        let first =
+            |seed: &Seed| seed.rows.iter().find(|row| row.get("success_percentage") >= LEARNT).copied();
+        self.seeds.iter().map(|seed| first(seed).map(|row| row.get("num_samples"))).collect()
+    }
+
+    /// Most steps of a seed, and hours of all of them.
+    fn cost(&self) -> [f64; 2] {
+        let last = self.seeds.iter().filter_map(|seed| seed.rows.last());
+        let seconds = self.seeds.iter().flat_map(|seed| &seed.rows).map(|row| row.get("time"));
+        [last.map(|row| row.get("num_samples")).fold(0.0, f64::max), seconds.sum::<f64>() / 3600.0]
+    }
+}
+
+/// Runs the command.
+pub fn run(a: &Report) -> Result<(), Failure> {
+    a.html.as_deref().map_or(Ok(()), check_place)?;
+    let groups = groups(a)?;
+    let tasks: Vec<_> = groups.iter().map(Group::scores).collect();
+    let overall = (interquartile_mean(&tasks.concat()), bootstrap(&tasks, interquartile_mean, SEED));
+    if let Some(file) = &a.html {
+        std::fs::write(file, page(&groups)).map_err(unwritable(file))?;
+    }
+    if a.json {
+        show_json(&as_json(a, &groups, overall));
+        return Ok(());
+    }
+    show!("{} episodes from seed {}, by mean actions", a.playing.episodes, a.playing.seed);
+    show!(
+        "{:>9}  {:>16}  {:>5}  {:>12}  {:>12}  {:>7}  {:>14}  run",
+        "success",
+        "95 % interval",
+        "seeds",
+        "steps",
+        "90 % after",
+        "hours",
+        "zero, random"
+    );
+    for group in &groups {
+        let ([low, high], [steps, hours]) = (group.interval(), group.cost());
+        let interval = if group.seeds.len() > 1 { format!("{low:.1} to {high:.1} %") } else { "-".into() };
+        let floors = format!("{:.0}, {:.0} %", group.floors[0], group.floors[1]);
+        show!(
+            "{:>7.1} %  {interval:>16}  {:>5}  {steps:>12}  {:>12}  {hours:>7.2}  {floors:>14}  {} {}",
+            interquartile_mean(&group.scores()),
+            group.seeds.len(),
+            first(&group.learnt()),
+            group.id,
+            group.algorithm
+        );
+    }
+    if groups.len() > 1 {
+        let (mean, [low, high]) = overall;
+        show!("all          {mean:.1} %, {low:.1} to {high:.1} %, the interquartile mean over all runs");
+    }
+    if let Some(file) = &a.html {
+        note(&format!("{} has the learning curves", file.display()));
+    }
+    Ok(())
+}
+
+/// The median of the steps after which seeds had learnt, in words where not all have.
+fn first(learnt: &[Option<f64>]) -> String {
+    let mut known: Vec<f64> = learnt.iter().flatten().copied().collect();
+    known.sort_by(f64::total_cmp);
+    match known.len() {
+        0 => "never".into(),
+        found if found == learnt.len() => known[found / 2].to_string(),
+        found => format!("{found} of {}", learnt.len()),
+    }
+}
+
+/// Reads the runs, and plays their policies and the floors.
+fn groups(a: &Report) -> Result<Vec<Group>, Failure> {
+    let mut groups: BTreeMap<(String, &'static str), Group> = BTreeMap::new();
+    let bar = if a.quiet || a.json { ProgressBar::hidden() } else { ProgressBar::new(0) };
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} episodes, {eta} left");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.inc_length(a.runs.len() as u64 * u64::from(a.playing.episodes));
+    for folder in &a.runs {
+        let config = Run::config_of(folder).map_err(Failure::usage)?;
+        let rows = Run::rows_of(folder).map_err(Failure::usage)?;
+        let policy = Policy::open(Run::policy_of(folder)).map_err(Failure::usage)?;
+        let env = environment(a.making.clone(), &config)?;
+        let success = |policy: &Policy| -> Result<f64, Failure> {
+            let episodes = a.playing.play(&env, policy, &bar)?;
+            Ok(evaluate(&episodes, env.success()).success_percentage)
+        };
+        let (id, algorithm) = (config.id.clone(), config.learning.algorithm.name());
+        let group = match groups.entry((id.clone(), algorithm)) {
+            std::collections::btree_map::Entry::Occupied(group) => group.into_mut(),
+            std::collections::btree_map::Entry::Vacant(place) => {
+                bar.inc_length(2 * u64::from(a.playing.episodes));
+                let floors = [success(&Policy::Zero)?, success(&Policy::random(0))?];
+                place.insert(Group { id, algorithm, seeds: Vec::new(), floors })
+            }
+        };
+        if let Some(other) = group.seeds.iter().find(|seed| seed.config.seed == config.seed) {
+            let message = format!(
+                "{}: a run of {} by {algorithm} with seed {} is here already: leave one out",
+                folder.display(),
+                other.config.id,
+                config.seed
+            );
+            return Err(Failure::usage(message));
+        }
+        group.seeds.push(Seed { success: success(&policy)?, config, rows });
+    }
+    bar.finish_and_clear();
+    Ok(groups.into_values().collect())
+}
+
+fn as_json(a: &Report, groups: &[Group], (mean, interval): (f64, [f64; 2])) -> serde_json::Value {
+    let rows = groups.iter().map(|group| {
+        let [steps, hours] = group.cost();
+        json!({
+            "id": group.id,
+            "algorithm": group.algorithm,
+            "seeds": group.seeds.iter().map(|seed| seed.config.seed).collect::<Vec<_>>(),
+            "success_percentages": group.scores(),
+            "interquartile_mean": interquartile_mean(&group.scores()),
+            "interval": (group.seeds.len() > 1).then(|| group.interval()),
+            "num_samples": steps,
+            "num_samples_to_90": group.learnt(),
+            "hours": hours,
+            "zero": group.floors[0],
+            "random": group.floors[1],
+        })
+    });
+    let scores: Vec<f64> = groups.iter().flat_map(Group::scores).collect();
+    json!({
+        "episodes": a.playing.episodes,
+        "seed": a.playing.seed,
+        "rows": rows.collect::<Vec<_>>(),
+        "interquartile_mean": mean,
+        "interval": interval,
+        "profile": { "thresholds": THRESHOLDS, "shares": profile(&scores, &THRESHOLDS) },
+    })
+}
+
+/// The table, and for each environment success over steps, a curve for each seed.
+fn page(groups: &[Group]) -> String {
+    let mut text = String::from(
+        "<!DOCTYPE html><html lang=en><head><meta charset=utf-8><title>Runs</title><style>body{font:15px/1.45 \
+         system-ui,sans-serif;max-width:62em;margin:2em auto;padding:0 1em}table{border-collapse:collapse}td,th{padding:.2em \
+         .7em;border-bottom:1px solid #ddd;text-align:right}svg text{font-size:11px}</style></head><body><h1>Runs</h1><table>\
+         <tr><th>environment</th><th>algorithm</th><th>success [%]</th><th>95 % interval</th><th>seeds</th><th>steps</th>\
+         <th>zero [%]</th><th>random [%]</th></tr>",
+    );
+    for group in groups {
+        let ([low, high], [steps, _]) = (group.interval(), group.cost());
+        let mean = interquartile_mean(&group.scores());
+        // Writing into a text cannot fail.
+        let _ = write!(
+            text,
+            "<tr><td>{}</td><td>{}</td><td>{mean:.1}</td><td>{low:.1} to {high:.1}</td><td>{}</td><td>{steps}</td>\
+             <td>{:.1}</td><td>{:.1}</td></tr>",
+            group.id,
+            group.algorithm,
+            group.seeds.len(),
+            group.floors[0],
+            group.floors[1]
+        );
+    }
+    text += "</table>";
+    for (id, groups) in by_environment(groups) {
+        let _ = write!(
+            text,
+            "<h2>{id}</h2><p>Success of an iteration's episodes [%], whose actions are drawn, over steps: "
+        );
+        let mut curves = Vec::new();
+        for (group, colour) in groups.iter().zip(COLOURS.iter().cycle()) {
+            let _ = write!(text, "<span style=\"color:{colour}\">&#9644; {}</span> ", group.algorithm);
+            curves.extend(group.seeds.iter().map(|seed| {
+                Curve {
+                    colour,
+                    points: seed
+                        .rows
+                        .iter()
+                        .map(|row| ["num_samples", "success_percentage"].map(|c| row.get(c)))
+                        .collect(),
+                }
+            }));
+        }
+        text = text + "</p>" + &plot(&curves);
+    }
+    text + "</body></html>\n"
+}
+
+/// The groups of each environment.
+fn by_environment(groups: &[Group]) -> BTreeMap<&str, Vec<&Group>> {
+    let mut found: BTreeMap<&str, Vec<&Group>> = BTreeMap::new();
+    groups.iter().for_each(|group| found.entry(&group.id).or_default().push(group));
+    found
+}

@@ -1,0 +1,69 @@
+//! Who shows a training how its task is done.
+
+use crate::failure::Failure;
+use crate::input::actor::teacher;
+use agents::learn::{Demonstrations, Lessons};
+use agents::run::{Config, Teaching};
+use clap::Args;
+use env::Env;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Demonstrations where nothing is said, and the deviation of what disturbs them.
+const DEFAULT: Lessons = Lessons { episodes: 50, noise: 0.05 };
+
+/// Options of demonstrations.
+#[derive(Args)]
+pub struct TeacherArguments {
+    /// Who shows how it is done, for bc and dapg: a controller's name, or the file of a policy
+    #[arg(long, value_name = "NAME|FILE", conflicts_with = "resume")]
+    teacher: Option<String>,
+    /// Episodes in which the teacher succeeds [default: 50, or what CONFIG says]
+    #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u64).range(1..))]
+    demonstrations: Option<u64>,
+    /// Deviation of what is added to the teacher's actions when they are taken, so that it shows how to get back on its way
+    /// [default: 0.05, or what CONFIG says]
+    #[arg(long, value_name = "X", conflicts_with = "resume")]
+    demonstration_noise: Option<f64>,
+}
+
+impl TeacherArguments {
+    /// What is asked for, in place of what a configuration says.
+    pub fn given(&self, config: Option<Teaching>) -> Option<Teaching> {
+        let by = self.teacher.clone().or(config.as_ref().map(|teaching| teaching.by.clone()))?;
+        let Lessons { episodes, noise } = config.map_or(DEFAULT, |teaching| teaching.lessons);
+        let lessons = Lessons {
+            episodes: self.demonstrations.unwrap_or(episodes),
+            noise: self.demonstration_noise.unwrap_or(noise),
+        };
+        Some(Teaching { by, lessons })
+    }
+}
+
+/// The demonstrations of a configuration, played now; none where nothing is learnt from them.
+///
+/// # Errors
+/// There is no teacher where one is needed, or one where none is; it fails.
+pub fn teach(config: &Config, env: &Env, quiet: bool) -> Result<Option<Demonstrations>, Failure> {
+    let needed = config.learning.algorithm.needs_demonstrations();
+    let Teaching { by, lessons } = match (&config.teacher, needed) {
+        (None, false) => return Ok(None),
+        (None, true) => {
+            return Err(Failure::usage("bc and dapg learn from a teacher: add --teacher NAME|FILE"));
+        }
+        (Some(_), false) => {
+            return Err(Failure::usage(
+                "only bc and dapg learn from a teacher: add --algo bc or --algo dapg",
+            ));
+        }
+        (Some(teaching), true) => teaching,
+    };
+    let mut env = env.fork().map_err(Failure::new)?;
+    let mut teacher = teacher(by, &env)?;
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} demonstrations, {eta} left");
+    let bar = if quiet { ProgressBar::hidden() } else { ProgressBar::new(lessons.episodes) };
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    let tell = |kept: &Demonstrations| bar.set_position(kept.sizes()[0] as u64);
+    let played = Demonstrations::play(&mut env, &mut teacher, *lessons, config.seed, tell);
+    bar.finish_and_clear();
+    played.map(Some).map_err(Failure::usage)
+}
