@@ -2,7 +2,6 @@
 
 use super::actor::Actor;
 use super::batch::Batch;
-use super::npg;
 use super::ppo::{Update, divergence};
 use super::shuffle::Minibatches;
 use crate::nets::{Adam, Tape, clip, gaussian};
@@ -23,7 +22,8 @@ pub struct Cloning {
     pub longest: f64,
 }
 
-/// Makes demonstrations likelier.
+/// Brings means nearer to what was demonstrated, by least squares, and gives the deviations that are left: both are the most likely
+/// ones, since deviations do not depend on the state.
 pub fn update(
     cloning: &Cloning,
     actor: &mut Actor,
@@ -31,29 +31,46 @@ pub fn update(
     shown: &Batch,
     rng: &mut Generator<impl BitGenerator>,
 ) -> Update {
+    let (actions, parameters) = (actor.actions(), actor.net.parameters());
     let mut tape = Tape::default();
     actor.means(&shown.input, &mut tape);
     let (old_means, old_log_std) = (tape.output().to_vec(), actor.parts().1.to_vec());
-    let mut batches = Minibatches::new(shown.actions.len() / actor.actions(), cloning.batch);
+    let mut batches = Minibatches::new(shown.actions.len() / actions, cloning.batch);
+    let mut gradient = vec![0.0; actor.parameters.len()];
     for _ in 0..cloning.epochs {
         batches.shuffle(rng);
         for rows in batches.iter() {
-            let (input, actions) = (batches.gather(rows, &shown.input), batches.gather(rows, &shown.actions));
-            actor.means(&input, &mut tape);
-            let weights = vec![-1.0 / rows.len() as f64; rows.len()];
-            let slopes = npg::gradient(actor, &tape, &actions, &weights);
-            let mut gradient: Vec<f32> = slopes.iter().map(|slope| *slope as f32).collect();
+            actor.means(&batches.gather(rows, &shown.input), &mut tape);
+            let (wanted, share) = (batches.gather(rows, &shown.actions), 1.0 / rows.len() as f32);
+            let pairs = tape.output().iter().zip(&wanted);
+            let slopes: Vec<f32> = pairs.map(|(mean, action)| (mean - action) * share).collect();
+            gradient.fill(0.0);
+            actor.net.backward(actor.parts().0, &tape, &slopes, &mut gradient[..parameters]);
             clip(&mut gradient, cloning.longest);
             adam.step(cloning.rate, 0.0, &gradient, &mut actor.parameters);
-            actor.limit();
         }
     }
+    actor.means(&shown.input, &mut tape);
+    let log_std = log_deviations(tape.output(), &shown.actions, actions);
+    actor.parameters[parameters..].copy_from_slice(&log_std);
+    actor.limit();
     Update {
         divergence: divergence(actor, [&old_means, &old_log_std], &shown.input),
         entropy: f64::from(gaussian::entropy(actor.parts().1)),
         clipped: 0.0,
         epochs: cloning.epochs,
     }
+}
+
+/// Logarithms of the root mean squares of what means are away from actions, for each of `width` actions.
+fn log_deviations(means: &[f32], actions: &[f32], width: usize) -> Vec<f32> {
+    let steps = (actions.len() / width).max(1) as f64;
+    let squares = |k: usize| {
+        let pairs = means.iter().zip(actions).skip(k).step_by(width);
+        pairs.map(|(mean, action)| f64::from(mean - action).powi(2)).sum::<f64>()
+    };
+    // Where all are met, the least deviation of the policy limits what is left.
+    (0..width).map(|k| (0.5 * libm::log((squares(k) / steps).max(f64::MIN_POSITIVE))) as f32).collect()
 }
 
 #[cfg(test)]

@@ -57,7 +57,7 @@ pub(super) fn climb(
 }
 
 /// The sum of the slopes of the logarithms of the densities of all actions by the parameters, each with its weight.
-pub(super) fn gradient(actor: &Actor, tape: &Tape, taken: &[f32], weights: &[f64]) -> Vec<f64> {
+fn gradient(actor: &Actor, tape: &Tape, taken: &[f32], weights: &[f64]) -> Vec<f64> {
     let (actions, log_std) = (actor.actions(), actor.parts().1);
     let mut slopes = vec![0.0; taken.len()];
     let mut by_log_std = vec![0.0; actions];

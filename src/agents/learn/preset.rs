@@ -46,12 +46,12 @@ impl Settings {
         Settings { algorithm: Algorithm::Cloning(cloning), log_std: [-0.5, -4.0], ..ppo }
     }
 
-    /// The natural policy gradient with demonstrations: the policy's network, 200 episodes an iteration, the step size, the weights and the cloning
-    /// are those of the published runs on hands.
+    /// The natural policy gradient with demonstrations: the policy's network, 200 episodes an iteration, deviations, the step size, the weights and the
+    /// cloning are those of the published runs on hands.
     pub fn dapg() -> Self {
         let cloning = Cloning { epochs: 5, batch: 32, rate: 1e-3, longest: 10.0 };
         let dapg = Dapg { step: 0.05, weight: 0.01, decay: 0.95, cloning };
-        Settings { algorithm: Algorithm::Dapg(dapg), episodes: 200, ..Self::npg() }
+        Settings { algorithm: Algorithm::Dapg(dapg), episodes: 200, log_std: [0.0, -3.0], ..Self::npg() }
     }
 
     /// Refuses what no training can be made of, in words.

@@ -92,7 +92,7 @@ fn a_clone_acts_as_its_teacher() {
     let before = learner.iterate(&mut collector).unwrap();
     (0..3).for_each(|_| _ = learner.iterate(&mut collector).unwrap());
     let after = learner.iterate(&mut collector).unwrap();
-    assert!(after.update.entropy < before.update.entropy - 1.0, "{before:?} {after:?}");
+    assert!(after.update.entropy < before.update.entropy - 0.2, "{before:?} {after:?}");
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("clone.safetensors");
     learner.save_policy(ID, &path).unwrap();
     let (mut clone, mut env, mut away) = (Policy::open(&path).unwrap(), self::env(ID), 0.0_f64);
