@@ -82,8 +82,9 @@ impl Group {
         self.seeds.iter().map(|seed| seed.success).collect()
     }
 
-    fn interval(&self) -> [f64; 2] {
-        bootstrap(&[self.scores()], interquartile_mean, SEED)
+    /// The interval of the mean over seeds; none where one seed says nothing of others.
+    fn interval(&self) -> Option<[f64; 2]> {
+        (self.seeds.len() > 1).then(|| bootstrap(&[self.scores()], interquartile_mean, SEED))
     }
 
     /// Steps after which each seed first succeeded in 90 % of an iteration's episodes.
@@ -106,7 +107,9 @@ pub fn run(a: &Report) -> Result<(), Failure> {
     a.html.as_deref().map_or(Ok(()), check_place)?;
     let groups = groups(a)?;
     let tasks: Vec<_> = groups.iter().map(Group::scores).collect();
-    let overall = (interquartile_mean(&tasks.concat()), bootstrap(&tasks, interquartile_mean, SEED));
+    let seeds = tasks.iter().any(|scores| scores.len() > 1);
+    let interval = seeds.then(|| bootstrap(&tasks, interquartile_mean, SEED));
+    let overall = (interquartile_mean(&tasks.concat()), interval);
     if let Some(file) = &a.html {
         std::fs::write(file, page(&groups)).map_err(unwritable(file))?;
     }
@@ -126,8 +129,8 @@ pub fn run(a: &Report) -> Result<(), Failure> {
         "zero, random"
     );
     for group in &groups {
-        let ([low, high], [steps, hours]) = (group.interval(), group.cost());
-        let interval = if group.seeds.len() > 1 { format!("{low:.1} to {high:.1} %") } else { "-".into() };
+        let [steps, hours] = group.cost();
+        let interval = text(group.interval());
         let floors = format!("{:.0}, {:.0} %", group.floors[0], group.floors[1]);
         show!(
             "{:>7.1} %  {interval:>16}  {:>5}  {steps:>12}  {:>12}  {hours:>7.2}  {floors:>14}  {} {}",
@@ -139,13 +142,18 @@ pub fn run(a: &Report) -> Result<(), Failure> {
         );
     }
     if groups.len() > 1 {
-        let (mean, [low, high]) = overall;
-        show!("all          {mean:.1} %, {low:.1} to {high:.1} %, the interquartile mean over all runs");
+        let (mean, interval) = overall;
+        show!("{mean:>7.1} %  {:>16}  the interquartile mean over all runs", text(interval));
     }
     if let Some(file) = &a.html {
         note(&format!("{} has the learning curves", file.display()));
     }
     Ok(())
+}
+
+/// An interval \[%\] in words.
+fn text(interval: Option<[f64; 2]>) -> String {
+    interval.map_or("-".into(), |[low, high]| format!("{low:.1} to {high:.1} %"))
 }
 
 /// The median of the steps after which seeds had learnt, in words where not all have.
@@ -199,7 +207,7 @@ fn groups(a: &Report) -> Result<Vec<Group>, Failure> {
     Ok(groups.into_values().collect())
 }
 
-fn as_json(a: &Report, groups: &[Group], (mean, interval): (f64, [f64; 2])) -> serde_json::Value {
+fn as_json(a: &Report, groups: &[Group], (mean, interval): (f64, Option<[f64; 2]>)) -> serde_json::Value {
     let rows = groups.iter().map(|group| {
         let [steps, hours] = group.cost();
         json!({
@@ -208,7 +216,7 @@ fn as_json(a: &Report, groups: &[Group], (mean, interval): (f64, [f64; 2])) -> s
             "seeds": group.seeds.iter().map(|seed| seed.config.seed).collect::<Vec<_>>(),
             "success_percentages": group.scores(),
             "interquartile_mean": interquartile_mean(&group.scores()),
-            "interval": (group.seeds.len() > 1).then(|| group.interval()),
+            "interval": group.interval(),
             "num_samples": steps,
             "num_samples_to_90": group.learnt(),
             "hours": hours,
@@ -237,12 +245,12 @@ fn page(groups: &[Group]) -> String {
          <th>zero [%]</th><th>random [%]</th></tr>",
     );
     for group in groups {
-        let ([low, high], [steps, _]) = (group.interval(), group.cost());
+        let ([steps, _], interval) = (group.cost(), self::text(group.interval()));
         let mean = interquartile_mean(&group.scores());
         // Writing into a text cannot fail.
         let _ = write!(
             text,
-            "<tr><td>{}</td><td>{}</td><td>{mean:.1}</td><td>{low:.1} to {high:.1}</td><td>{}</td><td>{steps}</td>\
+            "<tr><td>{}</td><td>{}</td><td>{mean:.1}</td><td>{interval}</td><td>{}</td><td>{steps}</td>\
              <td>{:.1}</td><td>{:.1}</td></tr>",
             group.id,
             group.algorithm,
