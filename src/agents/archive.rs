@@ -10,7 +10,7 @@ use std::io::{Read, Write};
 use std::path::Path;
 
 /// Most bytes of a file.
-const MAX_BYTES: u64 = 64 << 20;
+pub(crate) const MAX_BYTES: u64 = 64 << 20;
 /// The card's name in the metadata. One name alone, as metadata have no order and equal numbers are to make equal files.
 const CARD: &str = "robohive";
 
@@ -109,7 +109,7 @@ pub(crate) fn write(path: &Path, card: String, entries: &[Entry<'_>]) -> Result<
     let bytes = safetensors::serialize(views, Some(metadata)).map_err(content)?;
     if bytes.len() as u64 > MAX_BYTES {
         let message = format!(
-            "its networks make a file of more than {} MiB: make hidden layers narrower",
+            "it would have more than {} MiB: make hidden layers narrower, or ask for fewer demonstrations",
             MAX_BYTES >> 20
         );
         return Err(PolicyError::content(message).within(path));

@@ -74,7 +74,7 @@ impl Demonstrations {
     /// begin.
     ///
     /// # Errors
-    /// The teacher succeeds in less than one of ten episodes, or cannot act; the environment fails.
+    /// The teacher succeeds in less than one of ten episodes, or cannot act; more than 64 MiB are asked for; the environment fails.
     pub fn play(
         env: &mut Env,
         teacher: &mut dyn Teacher,
@@ -82,24 +82,28 @@ impl Demonstrations {
         seed: u64,
         mut tell: impl FnMut(&Self),
     ) -> Result<Self, PolicyError> {
+        let id = env.spec().id.clone();
+        let refuse = |message: String| Err(PolicyError::Teacher { id: id.clone(), message });
         if !(lessons.noise >= 0.0 && lessons.noise.is_finite()) {
-            let message = format!("the noise of its actions must not be below 0, and is {}", lessons.noise);
-            return Err(PolicyError::Teacher { id: env.spec().id.clone(), message });
+            return refuse(format!("the noise of its actions must not be below 0, and is {}", lessons.noise));
+        }
+        if lessons.episodes == 0 {
+            return refuse("at least one demonstration is needed".into());
         }
         let mut kept =
             Demonstrations { observations: Vec::new(), actions: Vec::new(), lengths: Vec::new(), played: 0 };
         while (kept.lengths.len() as u64) < lessons.episodes {
             if kept.played >= ATTEMPTS * lessons.episodes {
-                let (found, played) = (kept.lengths.len(), kept.played);
-                return Err(PolicyError::Teacher {
-                    id: env.spec().id.clone(),
-                    message: format!(
-                        "it succeeded in {found} of {played} episodes, and {} are asked for",
-                        lessons.episodes
-                    ),
-                });
+                let (found, played, asked) = (kept.lengths.len(), kept.played, lessons.episodes);
+                return refuse(format!(
+                    "it succeeded in {found} of {played} episodes, and {asked} are asked for"
+                ));
             }
             kept.episode(env, teacher, lessons.noise, seed)?;
+            if kept.bytes() > archive::MAX_BYTES {
+                let (found, most) = (kept.lengths.len(), archive::MAX_BYTES >> 20);
+                return refuse(format!("{found} demonstrations have more than {most} MiB: ask for fewer"));
+            }
             tell(&kept);
         }
         Ok(kept)
@@ -146,6 +150,11 @@ impl Demonstrations {
     /// Number of episodes, and of steps in all of them.
     pub fn sizes(&self) -> [usize; 2] {
         [self.lengths.len(), self.lengths.iter().sum::<u64>() as usize]
+    }
+
+    /// Size of what a file holds.
+    fn bytes(&self) -> u64 {
+        (8 * self.observations.len() + 4 * self.actions.len() + 8 * self.lengths.len()) as u64
     }
 
     /// What was observed, row after row.

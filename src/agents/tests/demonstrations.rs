@@ -59,6 +59,8 @@ fn who_fails_is_no_teacher() {
     assert!(why.contains("hive/Acrobot-v0: it succeeded in 0 of 10 episodes, and 1 are asked for"), "{why}");
     let why = play(ID, &mut Policy::Zero, 1, f64::NAN, 1).unwrap_err();
     assert!(why.contains("the noise of its actions"), "{why}");
+    let why = play(ID, &mut Policy::Zero, 0, 0.0, 1).unwrap_err();
+    assert!(why.contains("at least one demonstration"), "{why}");
 }
 
 #[test]

@@ -28,14 +28,24 @@ pub struct TeacherArguments {
 
 impl TeacherArguments {
     /// What is asked for, in place of what a configuration says.
-    pub fn given(&self, config: Option<Teaching>) -> Option<Teaching> {
-        let by = self.teacher.clone().or(config.as_ref().map(|teaching| teaching.by.clone()))?;
+    ///
+    /// # Errors
+    /// Demonstrations of nobody.
+    pub fn given(&self, config: Option<Teaching>) -> Result<Option<Teaching>, Failure> {
+        let Some(by) = self.teacher.clone().or(config.as_ref().map(|teaching| teaching.by.clone())) else {
+            return match (self.demonstrations, self.demonstration_noise) {
+                (None, None) => Ok(None),
+                _ => Err(Failure::usage(
+                    "--demonstrations and --demonstration-noise are a teacher's: add --teacher NAME|FILE",
+                )),
+            };
+        };
         let Lessons { episodes, noise } = config.map_or(DEFAULT, |teaching| teaching.lessons);
         let lessons = Lessons {
             episodes: self.demonstrations.unwrap_or(episodes),
             noise: self.demonstration_noise.unwrap_or(noise),
         };
-        Some(Teaching { by, lessons })
+        Ok(Some(Teaching { by, lessons }))
     }
 }
 

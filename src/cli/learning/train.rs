@@ -165,7 +165,7 @@ fn config(a: &Train) -> Result<Config, Failure> {
         Some(AlgorithmName::Bc) => config.learning = Settings::cloning(),
         Some(AlgorithmName::Dapg) => config.learning = Settings::dapg(),
     }
-    config.teacher = a.teacher.given(config.teacher);
+    config.teacher = a.teacher.given(config.teacher)?;
     config.seed = a.seed.unwrap_or(config.seed);
     config.iterations = a.iterations.unwrap_or(config.iterations);
     config.keep_every = a.keep_every.unwrap_or(config.keep_every);
