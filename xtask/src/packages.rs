@@ -18,8 +18,8 @@ pub fn run() -> Outcome {
     remove(&folder)?;
     // A dirty tree is what a change under way has.
     let pack = ["package", "--quiet", "--workspace", "--no-verify", "--allow-dirty", "--target-dir"];
-    // It is not published, and neither is what it depends on, which cargo then looks for in vain.
-    let exclude = ["--exclude", "robohive-web-app"];
+    // They are not published, and neither is what they depend on, which cargo then looks for in vain.
+    let exclude = ["--exclude", "robohive-web-app", "--exclude", "robohive-python"];
     succeed(Command::new("cargo").args(pack).arg(&folder).args(exclude))?;
     let crates = unpack(&folder.join("package"))?;
     println!("{} archives: {}", crates.len(), crates.join(", "));
