@@ -1,9 +1,10 @@
 // The module in node: hashes and pictures of own models and environments after steps, the interface, bad input.
 //   node node.mjs FOLDER REFERENCES STEPS WIDTH HEIGHT
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
-import { tmpdir } from "node:os";
+import { availableParallelism, tmpdir } from "node:os";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
+import { Worker } from "node:worker_threads";
 import { brotliCompressSync, constants } from "node:zlib";
 import assert from "node:assert/strict";
 import { boxMesh, zip } from "./zip.mjs";
@@ -11,7 +12,7 @@ import { boxMesh, zip } from "./zip.mjs";
 /** Most bytes of the module as a host that compresses sends it. */
 const MOST = 4e6;
 
-const [folder, references, steps, ...sides] = process.argv.slice(2);
+const [folder, references, , ...sides] = process.argv.slice(2);
 const [width, height] = sides.map(Number);
 const module = await readFile(`${folder}/engine_bg.wasm`);
 const packed = brotliCompressSync(module, { params: { [constants.BROTLI_PARAM_QUALITY]: 9, [constants.BROTLI_PARAM_SIZE_HINT]: module.length } });
@@ -24,17 +25,12 @@ const { Files, Simulation, ownModels, ownEnvironments } = await load();
 const native = JSON.parse(await readFile(`${references}/hashes.json`, "utf8"));
 const [names, known] = [Object.keys(native), new Set([...ownModels(), ...ownEnvironments()])];
 assert.ok(names.every((name) => known.has(name)) && ownModels().every((name) => name in native));
-for (const name of names) {
-  const simulation = name.includes("/") ? Simulation.environment(name, 3n) : Simulation.own(name);
-  const began = performance.now();
-  const taken = simulation.step(Number(steps));
-  const seconds = (performance.now() - began) / 1000;
-  assert.equal(`${taken} ${simulation.hash()}`, native[name], name);
-  const picture = Buffer.from(simulation.draw(width, height));
-  assert.ok(picture.equals(await readFile(`${references}/${name.replace("/", "-")}.rgba`)), `${name} looks as native`);
-  console.log(`${name}: the native hash and picture after ${taken} steps, ${Math.round(taken / seconds)} steps a second`);
-  simulation.free();
-}
+const count = availableParallelism();
+await Promise.all(Array.from({ length: count }, (_, k) => {
+  const mine = names.filter((_, place) => place % count === k);
+  const worker = new Worker(new URL("natives.mjs", import.meta.url), { workerData: { folder, references, width, height, mine } });
+  return new Promise((done, failed) => worker.on("error", failed).on("exit", done));
+}));
 
 // A model in two files, and what is missing without the second.
 const files = new Files();
