@@ -35,9 +35,9 @@ episodes by its mean action; so do zero and random actions, which are the floor.
 interval by a stratified bootstrap (Agarwal et al., 2021); three seeds are few, and one says nothing of others.
 
 Examples:
-  robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 1 --seed 1 --out elbow1
-  robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 1 --seed 2 --out elbow2
-  robohive report elbow1 elbow2 --episodes 10 --html elbow.html"
+  robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 1 --seed 1 --out seed1
+  robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 1 --seed 2 --out seed2
+  robohive report seed1 seed2 --episodes 10 --html elbow.html"
 )]
 pub struct Report {
     /// Folders of runs
