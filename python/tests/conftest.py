@@ -1,11 +1,8 @@
 """What tests share."""
 
-import fcntl
 import os
 import shutil
 import subprocess
-import tempfile
-from pathlib import Path
 
 import pytest
 import robohive
@@ -19,14 +16,6 @@ def env():
     env.reset(seed=0)
     yield env
     env.close()
-
-
-@pytest.fixture(autouse=True)
-def alone(request):
-    """Keeps other processes of the same run from testing beside a window, which loses key presses when it waits for a core."""
-    with open(Path(tempfile.gettempdir()) / "robohive-windows.lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX if "windows" in request.node.path.parts else fcntl.LOCK_SH)
-        yield
 
 
 @pytest.fixture(scope="session")

@@ -34,6 +34,18 @@ pub fn installed(program: &str) -> bool {
     Command::new(program).arg("--version").output().is_ok()
 }
 
+/// What tells cargo to run the programs of tests of the package in a folder, among those of all packages that are selected.
+pub fn tests_of(folder: &str) -> Result<Vec<String>, String> {
+    let tests = PathBuf::from(folder).join("tests");
+    let entries = std::fs::read_dir(&tests).map_err(|error| format!("{}: {error}", tests.display()))?;
+    let programs = entries.flatten().map(|entry| entry.path());
+    let programs = programs.filter(|path| {
+        path.join("main.rs").is_file() || path.extension().is_some_and(|extension| extension == "rs")
+    });
+    let names = programs.filter_map(|path| path.file_stem().map(|name| name.to_string_lossy().into_owned()));
+    Ok(names.flat_map(|name| ["--test".to_owned(), name]).collect())
+}
+
 /// Where cargo puts what it builds.
 pub fn target_folder() -> Result<PathBuf, String> {
     let (text, _) =

@@ -1,7 +1,7 @@
 //! The GPU renderer, where the machine has a GPU or a driver that stands in for one.
 
 use crate::built::{GRAPHICS, PROFILE};
-use crate::command::{cargo, output};
+use crate::command::{cargo, output, tests_of};
 use crate::outcome::{Missing, Outcome};
 use std::process::Command;
 
@@ -17,7 +17,9 @@ pub fn run() -> Outcome {
     let clippy = ["clippy", "--profile", PROFILE, "--all-targets"];
     cargo(&[&clippy[..], GRAPHICS, &["--", "-D", "warnings"]].concat())?;
     cargo(&[&["test", "--doc", "--quiet", "--profile", PROFILE], GRAPHICS].concat())?;
-    drawn(&["--lib", "--test", "beside_cpu", "--test", "shader", "--test", "gpu"])
+    let renderer = tests_of("src/render_gpu")?;
+    let renderer: Vec<&str> = renderer.iter().map(String::as_str).collect();
+    drawn(&[&["--lib", "--test", "gpu"], &renderer[..]].concat())
 }
 
 /// Runs programs of tests that draw by a GPU, and sees from what they print whether there was one.

@@ -2,7 +2,7 @@
 
 use crate::builds::{WEB_TARGET, node_missing, web_target_installed, web_target_missing};
 use crate::built::{PROFILE, SAME_FEATURES};
-use crate::command::{cargo, installed, succeed, target_folder};
+use crate::command::{cargo, installed, succeed, target_folder, tests_of};
 use crate::outcome::{Missing, Outcome};
 use std::process::Command;
 
@@ -44,10 +44,9 @@ pub fn run() -> Outcome {
     let of_all =
         |verb: &[&str], rest: &[&str]| cargo(&[verb, &["--profile", PROFILE], PACKAGES, rest].concat());
     of_all(&["clippy"], &["--all-targets", "--", "-D", "warnings"])?;
-    of_all(
-        &["test"],
-        &["--lib", "--test", "contacts", "--test", "corrections", "--test", "motion", "--test", "robot"],
-    )?;
+    let tests = tests_of("src/rapier")?;
+    let tests: Vec<&str> = tests.iter().map(String::as_str).collect();
+    of_all(&["test"], &[&["--lib"], &tests[..]].concat())?;
     of_all(&["test", "--doc"], &[])?;
     of_all(&["test"], &["--test", "solver"])?;
     of_all(&["build"], &["--example", "muscle_arm", "--example", "bits", "--bin", "quadruped"])?;

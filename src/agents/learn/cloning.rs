@@ -2,30 +2,15 @@
 
 use super::actor::Actor;
 use super::batch::Batch;
+use super::fit::Fit;
 use super::ppo::{Update, divergence};
-use super::shuffle::Minibatches;
-use crate::nets::{Adam, Tape, clip, gaussian};
+use crate::nets::{Adam, Tape, gaussian};
 use random::{BitGenerator, Generator};
-use serde::{Deserialize, Serialize};
-
-/// Settings of an update.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Cloning {
-    /// Passes over the demonstrations.
-    pub epochs: usize,
-    /// Their steps in a step of the optimiser.
-    pub batch: usize,
-    /// Size of a step of the optimiser.
-    pub rate: f32,
-    /// Longest gradient.
-    pub longest: f64,
-}
 
 /// Brings means nearer to what was demonstrated, by least squares, and gives the deviations that are left: both are the most likely
 /// ones, since deviations do not depend on the state.
 pub fn update(
-    cloning: &Cloning,
+    fit: &Fit,
     actor: &mut Actor,
     adam: &mut Adam,
     shown: &Batch,
@@ -35,21 +20,7 @@ pub fn update(
     let mut tape = Tape::default();
     actor.means(&shown.input, &mut tape);
     let (old_means, old_log_std) = (tape.output().to_vec(), actor.parts().1.to_vec());
-    let mut batches = Minibatches::new(shown.actions.len() / actions, cloning.batch);
-    let mut gradient = vec![0.0; actor.parameters.len()];
-    for _ in 0..cloning.epochs {
-        batches.shuffle(rng);
-        for rows in batches.iter() {
-            actor.means(&batches.gather(rows, &shown.input), &mut tape);
-            let (wanted, share) = (batches.gather(rows, &shown.actions), 1.0 / rows.len() as f32);
-            let pairs = tape.output().iter().zip(&wanted);
-            let slopes: Vec<f32> = pairs.map(|(mean, action)| (mean - action) * share).collect();
-            gradient.fill(0.0);
-            actor.net.backward(actor.parts().0, &tape, &slopes, &mut gradient[..parameters]);
-            clip(&mut gradient, cloning.longest);
-            adam.step(cloning.rate, 0.0, &gradient, &mut actor.parameters);
-        }
-    }
+    fit.least_squares(&actor.net, &mut actor.parameters, adam, [&shown.input, &shown.actions], rng);
     actor.means(&shown.input, &mut tape);
     let log_std = log_deviations(tape.output(), &shown.actions, actions);
     actor.parameters[parameters..].copy_from_slice(&log_std);
@@ -58,7 +29,7 @@ pub fn update(
         divergence: divergence(actor, [&old_means, &old_log_std], &shown.input),
         entropy: f64::from(gaussian::entropy(actor.parts().1)),
         clipped: 0.0,
-        epochs: cloning.epochs,
+        epochs: fit.epochs,
     }
 }
 
@@ -89,8 +60,8 @@ mod tests {
         let mut actor = Actor::new([1, 1], &[16, 16], Activation::Tanh, 0.0, &mut rng);
         actor.least_log_std = -3.0;
         let mut adam = Adam::new(actor.parameters.len());
-        let cloning = Cloning { epochs: 40, batch: 64, rate: 3e-3, longest: 10.0 };
-        let done = update(&cloning, &mut actor, &mut adam, &shown, &mut rng);
+        let fit = Fit { epochs: 40, batch: 64, rate: 3e-3, longest: 10.0 };
+        let done = update(&fit, &mut actor, &mut adam, &shown, &mut rng);
         let (places, mut tape) = ([-0.8, -0.2, 0.3, 0.9], Tape::default());
         actor.means(&places, &mut tape);
         for (x, mean) in places.iter().zip(tape.output()) {

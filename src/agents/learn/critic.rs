@@ -1,10 +1,9 @@
 //! The expected return of a state: a network fitted to returns, which are normalised by all that were seen.
 
-use super::shuffle::Minibatches;
+use super::fit::Fit;
 use crate::archive::Entry;
-use crate::nets::{Activation, Adam, Mlp, Running, Tape, clip};
+use crate::nets::{Activation, Adam, Mlp, Running, Tape};
 use random::{BitGenerator, Generator};
-use serde::{Deserialize, Serialize};
 
 /// A value function in training.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,20 +16,6 @@ pub struct Critic {
     pub parameters: Vec<f32>,
     /// Its optimiser.
     pub adam: Adam,
-}
-
-/// How it is fitted.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
-#[serde(deny_unknown_fields)]
-pub struct Fit {
-    /// Passes over the samples.
-    pub epochs: usize,
-    /// Samples of a step.
-    pub batch: usize,
-    /// Size of a step.
-    pub rate: f32,
-    /// Longest gradient.
-    pub longest: f64,
 }
 
 impl Critic {
@@ -80,21 +65,7 @@ impl Critic {
         self.returns.observe(returns);
         let (mean, deviation) = self.scale();
         let wanted: Vec<f32> = returns.iter().map(|value| ((value - mean) / deviation) as f32).collect();
-        let (mut tape, mut gradient) = (Tape::default(), vec![0.0; self.net.parameters()]);
-        let mut batches = Minibatches::new(returns.len(), fit.batch);
-        for _ in 0..fit.epochs {
-            batches.shuffle(rng);
-            for rows in batches.iter() {
-                self.net.forward(&self.parameters, &batches.gather(rows, input), &mut tape);
-                let share = 1.0 / rows.len() as f32;
-                let pairs = tape.output().iter().zip(rows);
-                let slopes: Vec<f32> = pairs.map(|(value, &row)| (value - wanted[row]) * share).collect();
-                gradient.fill(0.0);
-                self.net.backward(&self.parameters, &tape, &slopes, &mut gradient);
-                clip(&mut gradient, fit.longest);
-                self.adam.step(fit.rate, 0.0, &gradient, &mut self.parameters);
-            }
-        }
+        fit.least_squares(&self.net, &mut self.parameters, &mut self.adam, [input, &wanted], rng);
         explained
     }
 

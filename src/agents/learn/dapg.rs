@@ -1,9 +1,9 @@
-//! The natural policy gradient with demonstrations beside what the policy collects (Rajeswaran et al., 2018, equation 5): cloning first,
-//! and then a share in every gradient that fades.
+//! The natural policy gradient with demonstrations beside what the policy collects (Rajeswaran et al., 2018, section IV): cloning first, and
+//! then a share in every gradient that fades.
 
 use super::actor::Actor;
 use super::batch::Batch;
-use super::cloning::Cloning;
+use super::fit::Fit;
 use super::npg;
 use super::ppo::Update;
 use serde::{Deserialize, Serialize};
@@ -19,7 +19,7 @@ pub struct Dapg {
     /// What becomes λ₁ of it from one iteration to the next.
     pub decay: f64,
     /// How the policy is cloned before the first iteration.
-    pub cloning: Cloning,
+    pub cloning: Fit,
 }
 
 /// Improves a policy by a batch that it collected in an iteration, from 0, and by demonstrations.
@@ -51,7 +51,7 @@ mod tests {
         let advantages = (0..400).map(|k| if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
         let batch = Batch { input, actions, advantages, returns: vec![0.0; 400] };
         let shown = Batch { actions: vec![0.4; shown.len()], input: shown, ..Batch::default() };
-        let cloning = Cloning { epochs: 0, batch: 1, rate: 1e-3, longest: 1.0 };
+        let cloning = Fit { epochs: 0, batch: 1, rate: 1e-3, longest: 1.0 };
         let dapg = Dapg { step: 0.05, weight: 1.0, decay: 0.5, cloning };
         let actor = Actor::new([1, 1], &[8], Activation::Tanh, -0.5, &mut Generator::pcg64(1_u64));
         let moved = |iteration: u64| {

@@ -3,10 +3,11 @@
 use super::actor::Actor;
 use super::advantage::Horizon;
 use super::batch::Batch;
-use super::cloning::{self, Cloning};
-use super::critic::{Critic, Fit};
+use super::cloning;
+use super::critic::Critic;
 use super::dapg::{self, Dapg};
 use super::demonstrations::Demonstrations;
+use super::fit::Fit;
 use super::npg::{self, Npg};
 use super::ppo::{self, Ppo, Update};
 use super::rollout::{Choice, Collector, Episode};
@@ -35,7 +36,7 @@ pub enum Algorithm {
     /// The natural policy gradient.
     Npg(Npg),
     /// Behaviour cloning: episodes are played to see what became of it, and only demonstrations are learnt from.
-    Cloning(Cloning),
+    Cloning(Fit),
     /// The natural policy gradient with demonstrations.
     Dapg(Dapg),
 }
@@ -147,15 +148,22 @@ impl Learner {
     /// # Errors
     /// An environment fails, or gives a reward that is not finite; an algorithm that learns from demonstrations has none.
     pub fn iterate(&mut self, collector: &mut Collector) -> Result<Iteration, PolicyError> {
-        if self.settings.algorithm.needs_demonstrations() && self.demonstrations.is_none() {
-            return Err(PolicyError::content("it learns from demonstrations, and there are none"));
+        let taught = self.settings.algorithm.needs_demonstrations();
+        if taught != self.demonstrations.is_some() {
+            let message = if taught {
+                "it learns from demonstrations, and there are none"
+            } else {
+                "it does not learn from demonstrations"
+            };
+            return Err(PolicyError::content(message));
         }
         if self.iterations == 0 {
             self.prepare(collector)?;
         }
         let episodes = self.collect(collector)?;
         let batch = Batch::new(&episodes, &self.actor, &self.critic, self.settings.horizon);
-        let shown = self.demonstrations.as_ref().map(|shown| shown.batch(&self.actor)).unwrap_or_default();
+        // Without demonstrations the algorithm is one that has no use for them.
+        let shown = self.demonstrations.as_ref().map_or(Batch::default(), |shown| shown.batch(&self.actor));
         let (settings, seed, iteration) = (&self.settings, self.seed, self.iterations);
         let (actor, critic, adam) = (&mut self.actor, &mut self.critic, &mut self.adam);
         let mut improve = || {

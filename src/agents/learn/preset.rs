@@ -1,9 +1,8 @@
 //! Settings to begin with.
 
 use super::advantage::Horizon;
-use super::cloning::Cloning;
-use super::critic::Fit;
 use super::dapg::Dapg;
+use super::fit::Fit;
 use super::learner::{Algorithm, Settings};
 use super::npg::Npg;
 use super::ppo::Ppo;
@@ -41,15 +40,15 @@ impl Settings {
 
     /// Behaviour cloning, with episodes enough to see what it comes to.
     pub fn cloning() -> Self {
-        let cloning = Cloning { epochs: 20, batch: 64, rate: 1e-3, longest: 10.0 };
+        let cloning = Fit { epochs: 20, batch: 64, rate: 1e-3, longest: 10.0 };
         let ppo = Self::ppo();
         Settings { algorithm: Algorithm::Cloning(cloning), log_std: [-0.5, -4.0], ..ppo }
     }
 
-    /// The natural policy gradient with demonstrations: the policy's network, 200 episodes an iteration, deviations, the step size, the weights and the
-    /// cloning are those of the published runs on hands.
+    /// The natural policy gradient with demonstrations: the policy's network, 200 episodes an iteration, the step size, the weights and the cloning are
+    /// those of the published runs on hands; the rest is our choice.
     pub fn dapg() -> Self {
-        let cloning = Cloning { epochs: 5, batch: 32, rate: 1e-3, longest: 10.0 };
+        let cloning = Fit { epochs: 5, batch: 32, rate: 1e-3, longest: 10.0 };
         let dapg = Dapg { step: 0.05, weight: 0.01, decay: 0.95, cloning };
         Settings { algorithm: Algorithm::Dapg(dapg), episodes: 200, log_std: [0.0, -3.0], ..Self::npg() }
     }
@@ -68,25 +67,23 @@ impl Settings {
         share("horizon.gamma", *gamma)?;
         share("horizon.lambda", *lambda)?;
         positive("episodes", *episodes as f64)?;
-        for (name, fit) in [("fit.rate", f64::from(fit.rate)), ("fit.longest", fit.longest)] {
-            positive(name, fit)?;
-        }
-        positive("fit.batch", fit.batch as f64)?;
+        let fits = |name: &str, fit: Fit| {
+            positive(&format!("{name}.rate"), f64::from(fit.rate))?;
+            positive(&format!("{name}.longest"), fit.longest)?;
+            positive(&format!("{name}.batch"), fit.batch as f64)
+        };
+        fits("fit", *fit)?;
         match self.algorithm {
             Algorithm::Npg(npg) => positive("algorithm.npg.step", npg.step)?,
             Algorithm::Cloning(cloning) => {
                 positive("algorithm.cloning.epochs", cloning.epochs as f64)?;
-                positive("algorithm.cloning.batch", cloning.batch as f64)?;
-                positive("algorithm.cloning.rate", f64::from(cloning.rate))?;
-                positive("algorithm.cloning.longest", cloning.longest)?;
+                fits("algorithm.cloning", cloning)?;
             }
             Algorithm::Dapg(dapg) => {
                 share("algorithm.dapg.decay", dapg.decay)?;
                 positive("algorithm.dapg.step", dapg.step)?;
                 positive("algorithm.dapg.weight", dapg.weight)?;
-                positive("algorithm.dapg.cloning.batch", dapg.cloning.batch as f64)?;
-                positive("algorithm.dapg.cloning.rate", f64::from(dapg.cloning.rate))?;
-                positive("algorithm.dapg.cloning.longest", dapg.cloning.longest)?;
+                fits("algorithm.dapg.cloning", dapg.cloning)?;
             }
             Algorithm::Ppo(ppo) => {
                 for (name, value) in [

@@ -8,7 +8,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Steps whose hash is compared with the native one, and sides of the picture that is.
+/// Steps of a model whose hash is compared with the native one (an environment makes at most those of an episode), and sides of the
+/// picture that is.
 const STEPS: &str = "1000";
 const SIDES: [&str; 2] = ["320", "240"];
 
