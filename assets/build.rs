@@ -1,4 +1,4 @@
-//! Lists the models and configs of all folders, so that a file that is added belongs to the crate.
+//! Lists the models and configs of all folders, and the trained policies, so that a file that is added belongs to the crate.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs, io};
@@ -7,33 +7,36 @@ fn main() -> io::Result<()> {
     let root = PathBuf::from(env::var_os("CARGO_MANIFEST_DIR").ok_or(io::ErrorKind::NotFound)?);
     let out = PathBuf::from(env::var_os("OUT_DIR").ok_or(io::ErrorKind::NotFound)?);
     println!("cargo::rerun-if-changed={}", root.display());
-    let mut files = Vec::new();
-    for entry in fs::read_dir(&root)? {
-        let path = entry?.path();
-        if path.is_dir() {
-            texts(&path, &mut files)?;
-        }
-    }
-    let mut rows: Vec<_> =
-        files.iter().filter_map(|file| Some((name(file.strip_prefix(&root).ok()?)?, file))).collect();
-    rows.sort();
-    let rows = rows.iter().map(|(name, file)| format!("    ({name:?}, include_str!({file:?})),\n"));
-    fs::write(out.join("texts.rs"), format!("&[\n{}]\n", rows.collect::<String>()))
+    // The manifest of the crate is in no folder.
+    let texts = files(&root, &["xml", "toml"])?.into_iter().filter(|(name, _)| name.contains('/'));
+    let texts = texts.map(|(name, file)| format!("    ({name:?}, include_str!({file:?})),\n"));
+    fs::write(out.join("texts.rs"), format!("&[\n{}]\n", texts.collect::<String>()))?;
+    let policies = files(&root.join("policies"), &["safetensors"])?.into_iter();
+    let policies = policies.map(|(name, file)| {
+        let id = name.trim_end_matches(".safetensors");
+        format!("    ({id:?}, include_bytes!({file:?})),\n")
+    });
+    fs::write(out.join("policies.rs"), format!("&[\n{}]\n", policies.collect::<String>()))
 }
 
-/// A path as models write it.
-fn name(path: &Path) -> Option<String> {
-    Some(path.to_str()?.replace('\\', "/"))
+/// The files below a folder that have one of these extensions, by their paths there as models write them, sorted.
+fn files(folder: &Path, extensions: &[&str]) -> io::Result<Vec<(String, PathBuf)>> {
+    let mut found = Vec::new();
+    find(folder, extensions, &mut found)?;
+    let name = |file: &Path| Some(file.strip_prefix(folder).ok()?.to_str()?.replace('\\', "/"));
+    let mut named: Vec<_> = found.into_iter().filter_map(|file| Some((name(&file)?, file))).collect();
+    named.sort();
+    Ok(named)
 }
 
-/// Appends the models and configs below a folder.
-fn texts(folder: &Path, files: &mut Vec<PathBuf>) -> io::Result<()> {
+/// Appends the files below a folder that have one of these extensions.
+fn find(folder: &Path, extensions: &[&str], found: &mut Vec<PathBuf>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {
-            texts(&path, files)?;
-        } else if path.extension().is_some_and(|extension| extension == "xml" || extension == "toml") {
-            files.push(path);
+            find(&path, extensions, found)?;
+        } else if path.extension().is_some_and(|own| extensions.iter().any(|extension| own == *extension)) {
+            found.push(path);
         }
     }
     Ok(())

@@ -1,5 +1,5 @@
-//! Our own models, for programs that carry them along: their texts, the meshes that they name, and the configs of their robots. What each
-//! shows, and where its numbers come from, stands in the README of its folder.
+//! Our own models, for programs that carry them along: their texts, the meshes that they name, the configs of their robots, and policies that
+//! were trained in their environments. What each shows, and where its numbers come from, stands in the README of its folder.
 //!
 //! Meshes are not stored. The file `shapes.rs` of a folder says how each is made (with `robohive_workshop`), and [`Own`] makes it when a
 //! model is compiled that names it. [`write()`] puts all files into a folder, for programs that read disks.
@@ -57,10 +57,13 @@ use std::sync::Arc;
 use workshop::Mesh;
 
 /// Every model and config by its path in this folder, as `build.rs` finds them, sorted. Models include others by relative paths.
-const TEXTS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/texts.rs"));
+static TEXTS: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/texts.rs"));
+
+/// Every trained policy by the id of its environment, as `build.rs` finds them in the folder `policies`, sorted.
+static POLICIES: &[(&str, &[u8])] = include!(concat!(env!("OUT_DIR"), "/policies.rs"));
 
 /// Every mesh, by the folder that it is in.
-const MESHES: &[(&str, &[Shape])] = &[
+static MESHES: &[(&str, &[Shape])] = &[
     ("adroit/", adroit::MESHES),
     ("allegro/", allegro::MESHES),
     ("atlas/", atlas::MESHES),
@@ -121,6 +124,16 @@ pub fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
 /// The text of a model or a config; `None` where there is none, and for meshes.
 pub fn text(path: &str) -> Option<&'static str> {
     TEXTS.binary_search_by_key(&path, |(own, _)| own).ok().map(|found| TEXTS[found].1)
+}
+
+/// Ids of environments that a trained policy is shipped for, sorted.
+pub fn policies() -> impl Iterator<Item = &'static str> {
+    POLICIES.iter().map(|(id, _)| *id)
+}
+
+/// The trained policy for the environments of an id, a safetensors file; `None` where none is shipped.
+pub fn policy(id: &str) -> Option<&'static [u8]> {
+    POLICIES.binary_search_by_key(&id, |(own, _)| own).ok().map(|found| POLICIES[found].1)
 }
 
 /// The mesh that an OBJ file holds.

@@ -40,7 +40,7 @@ const ORDER: [(&str, &[&str]); 38] = [
     ("robohive-render", &["physics"]),
     ("robohive-render-gpu", &["physics", "render"]),
     ("robohive-env", &["assets", "physics", "mjcf", "dataset", "random", "robot", "render"]),
-    ("robohive-agents", &["dataset", "random", "env"]),
+    ("robohive-agents", &["assets", "dataset", "random", "env"]),
     ("robohive-control", &["assets", "physics", "random", "robot", "env"]),
     ("robohive-record", &["physics", "dataset", "env"]),
     ("robohive-identify", &["physics", "mjcf", "dataset", "random"]),
@@ -102,8 +102,8 @@ const ORDER: [(&str, &[&str]); 38] = [
     (
         "robohive-python",
         &[
-            "physics", "rapier", "mjcf", "dataset", "random", "robot", "hardware", "library", "render",
-            "video", "viewer", "exchange", "env", "control",
+            "assets", "physics", "rapier", "mjcf", "dataset", "random", "robot", "hardware", "library",
+            "render", "video", "viewer", "exchange", "env", "agents", "control",
         ],
     ),
     (

@@ -19,6 +19,7 @@ from robohive.examine import Policy, examine_policy
 from robohive.guests import with_model
 from robohive.live import Ready, asked
 from robohive.paths import success, truncate
+from robohive.policy import TrainedPolicy
 from robohive.screen import Screen
 from robohive.simulation import Simulation
 from robohive.whole_numbers import whole
@@ -521,6 +522,19 @@ class RoboHiveEnv(gymnasium.Env[Floats, NDArray[np.float32]]):
                 raise ValueError(f"no controller serves {id}; robohive.control.controllers() lists all")
             name, _ = serving[0]
         return Controller(self, name)
+
+    def policy(self, file: str | os.PathLike[str] | None = None) -> TrainedPolicy:
+        """What was trained for this task.
+
+        Args:
+            file: A policy that `robohive train` wrote, or a pickle of mjrl; the policy that is shipped for this id
+                (`robohive.policy.policies()`) without it.
+
+        Raises:
+            ValueError: none is shipped for this id, or the file holds no policy.
+            OSError: the file cannot be read.
+        """
+        return TrainedPolicy(self, file)
 
     def mj_render(self) -> None:
         """Shows the present state in a window, which the first call opens, as RoboHive does.

@@ -11,6 +11,7 @@ mod infos;
 mod live;
 mod mujoco;
 mod own_state;
+mod policy;
 mod request;
 mod settings;
 mod turns;
@@ -29,6 +30,8 @@ mod _core {
     use super::env::PyEnv;
     #[pymodule_export]
     use super::film::write_video;
+    #[pymodule_export]
+    use super::policy::{PyPolicy, policies};
     #[pymodule_export]
     use super::vector::PyVecEnv;
     #[pymodule_export]

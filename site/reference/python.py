@@ -1,7 +1,7 @@
 """The Python interface as Markdown, from the sources of the package, without importing it.
 
 python site/reference/python.py FOLDER PART prints the part of the package in FOLDER: environments, control,
-pettingzoo, collect, data, ray or mujoco.
+policy, pettingzoo, collect, data, ray or mujoco.
 """
 
 from __future__ import annotations

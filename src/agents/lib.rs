@@ -29,4 +29,4 @@ pub mod statistics;
 
 pub use error::PolicyError;
 pub use network::{Layer, Network};
-pub use policy::Policy;
+pub use policy::{Mean, Policy, Trained};

@@ -7,6 +7,7 @@ use crate::mjrl;
 use crate::nets::Tape;
 use crate::network::Network;
 use crate::observation::Shown;
+use env::episode::Summary;
 use env::{Env, Rng};
 use std::path::Path;
 
@@ -62,6 +63,14 @@ impl Policy {
         Self::parse(&bytes).map_err(|error| error.within(path))
     }
 
+    /// The policy that is shipped for the environments of an id; `None` where none is.
+    ///
+    /// # Errors
+    /// The policy is one of another version.
+    pub fn shipped(id: &str) -> Result<Option<Self>, PolicyError> {
+        assets::policy(id).map(Self::parse).transpose()
+    }
+
     /// Reads a policy from the bytes of a file.
     ///
     /// # Errors
@@ -83,6 +92,22 @@ impl Policy {
             Policy::Random(_) => Policy::random(seed),
             other => other.clone(),
         }
+    }
+
+    /// Plays an episode, from a reset with this seed to its end.
+    ///
+    /// # Errors
+    /// The environment cannot be reset or stepped; the policy is one for another.
+    pub fn play(&self, env: &mut Env, seed: u64) -> Result<Summary, PolicyError> {
+        let (mut policy, mut action) = (self.for_episode(seed), vec![0.0; env.action_len()]);
+        let mut summary = Summary::default();
+        env.reset(Some(seed))?;
+        while !(summary.terminated || summary.truncated) {
+            policy.action(env, &mut action)?;
+            let step = env.step(&action)?;
+            summary.add(env, &step);
+        }
+        Ok(summary)
     }
 
     /// Chooses an action for the present state of an environment.

@@ -20,6 +20,7 @@ pub mod reference;
 pub mod robots;
 pub mod round_trip;
 pub mod scenes;
+pub mod shipped;
 pub mod solver;
 mod stage_list;
 pub mod stages;

@@ -6,7 +6,9 @@ use robohive_validation::status::{Row, measure, open, render};
 use robohive_validation::{
     bits, c_library, collide, controllers, demonstrations, draws, environments, episodes,
 };
-use robohive_validation::{hulls, laws, pictures, policies, robots, round_trip, scenes, solver, wider};
+use robohive_validation::{
+    hulls, laws, pictures, policies, robots, round_trip, scenes, shipped, solver, wider,
+};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -30,6 +32,7 @@ const USAGE: &str = "usage: robohive-validation --models FOLDER --list FILE --re
        robohive-validation quirks [--write README.md]
        robohive-validation robots [--write README.md]
        robohive-validation controllers [--suite NAME] [--only TEXT] [--write README.md]
+       robohive-validation shipped [--only TEXT] [--write README.md]
        robohive-validation hulls FOLDER... [--record FILE | --compare FILE]
        robohive-validation round-trip FOLDER... [--only TEXT] [--write README.md]
 
@@ -64,6 +67,8 @@ differs by more than 2 % or 0.02 rad without a reason.
 controllers: runs every controller in the environments that it serves, on 20 seeds, beside zero and random actions; fails when a
 controller solves less than 80 % of them, or the others 5 %. With --suite of one suite, whose section --write replaces; with
 --only of ids that contain TEXT, whose rows alone it replaces.
+shipped: plays 200 episodes of every policy that is shipped, beside zero and random actions; fails when one solves less than 80 % of them,
+or no more than these do.
 hulls: hashes the convex hull of every mesh file (STL, OBJ, MSH) below the folders, one line a mesh; fails when any differs
 from the recorded ones.
 round-trip: writes every model below the folders as MJCF and reads it again; fails when a bit of an array differs, or the
@@ -180,6 +185,10 @@ fn measured<'a>(
             let (table, verdict) = policies::render(&policies::run(&a.models, &a.policies, &a.only)?);
             ("policies", table, verdict)
         }
+        Some("shipped") => {
+            let (table, verdict) = shipped::render(&shipped::measure(&a.only)?);
+            ("shipped", table, verdict)
+        }
         Some("pictures") => {
             let (table, verdict) = pictures::measure(&a.pictures())?;
             ("pictures", table, verdict)
@@ -200,17 +209,7 @@ fn measured<'a>(
             let (table, verdict) = robots::render(&robots::measure()?);
             ("robots", table, verdict)
         }
-        Some("controllers") => {
-            let (table, verdict) = controllers::render(&controllers::measure(&a.suite, &a.only)?);
-            let section = if a.suite.is_empty() { "controllers" } else { &a.suite };
-            let table = match &a.write {
-                Some(path) if !a.only.is_empty() => {
-                    controllers::joined(&section_of(path, &markers(section))?, &table)
-                }
-                _ => table,
-            };
-            (section, table, verdict)
-        }
+        Some("controllers") => by_controllers(a)?,
         Some("scenes") => {
             let (table, verdict) = scenes::render(&assembled(a)?);
             ("scenes", table, verdict)
@@ -226,6 +225,19 @@ fn measured<'a>(
         Some("laws") => laws(a)?,
         Some(word) => return Err(format!("unknown command {word}\n{USAGE}")),
     })
+}
+
+/// What controllers solve; with `--only`, beside the rows that are written.
+fn by_controllers(a: &Arguments) -> Result<(&str, String, Result<(), String>), String> {
+    let (table, verdict) = controllers::render(&controllers::measure(&a.suite, &a.only)?);
+    let section = if a.suite.is_empty() { "controllers" } else { &a.suite };
+    let table = match &a.write {
+        Some(path) if !a.only.is_empty() => {
+            controllers::joined(&section_of(path, &markers(section))?, &table)
+        }
+        _ => table,
+    };
+    Ok((section, table, verdict))
 }
 
 /// What holds of own and recorded models; or of episodes, where those are asked for.

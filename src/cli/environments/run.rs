@@ -45,6 +45,7 @@ they measure. Nothing moves without --arm; --rehearse puts simulated devices beh
 
 Examples:
   robohive run hive/FrankaReach-v0
+  robohive run hive/FrankaReach-v0 --policy best
   robohive run hive/FrankaReach-v0 --policy zero --episodes 20 --seed 7
   robohive run hive/FrankaReach-v0 --controller list
   robohive run hive/FrankaReach-v0 --controller reach --episodes 20
@@ -102,12 +103,12 @@ pub fn run(a: &Run) -> Result<(), Failure> {
         check_place(record)?;
         keep_input(Path::new(&a.actor.policy), record)?;
     }
-    let policy = a.actor.policy()?;
+    let policy = a.actor.policy(&a.source.id)?;
     let painters = a.film.painters(a.visual)?;
     let hardware = a.live.hardware(&a.source.id, &a.source.making)?;
     let mut env = a.source.make_on(hardware, painters.clone())?;
     let Some(mut actor) = a.actor.actor(policy, &env)? else { return Ok(()) };
-    let mut recording = a.record.as_ref().map(|_| open_recording(a)).transpose()?;
+    let mut recording = a.record.as_ref().map(|_| open_recording(a, &env)).transpose()?;
     let mut film = a.film.film(&env.scene().model, &camera_of(&env), env.dt(), &*painters)?;
     let hidden = a.quiet || a.json || a.film.previews();
     let bar = if hidden { ProgressBar::hidden() } else { progress(a.episodes) };
@@ -145,10 +146,10 @@ pub fn run(a: &Run) -> Result<(), Failure> {
 }
 
 /// Makes the file of `--record`.
-fn open_recording(a: &Run) -> Result<Recording, Failure> {
+fn open_recording(a: &Run, env: &Env) -> Result<Recording, Failure> {
     let path = a.record.as_deref().ok_or_else(|| Failure::usage("--record is needed"))?;
     let settings = a.source.making.changes()?.to_string();
-    let (compat, seed, name) = (a.source.making.compat.to_string(), a.seed.to_string(), a.actor.name());
+    let (compat, seed, name) = (a.source.making.compat.to_string(), a.seed.to_string(), a.actor.name(env));
     let attributes = [
         (record::ID, &a.source.id[..]),
         (record::COMPAT, &compat),
@@ -232,7 +233,7 @@ fn show_result(a: &Run, env: &Env, episodes: &[Summary], seconds: f64) {
     let returns = || episodes.iter().map(|episode| episode.reward);
     if a.json {
         show_json(&json!({
-            "id": a.source.id, "policy": a.actor.name(), "seed": a.seed, "episodes": episodes.len(), "steps": steps,
+            "id": a.source.id, "policy": a.actor.name(env), "seed": a.seed, "episodes": episodes.len(), "steps": steps,
             "success_percentage": result.success_percentage, "return": result.reward, "rwd_dense": result.rwd_dense,
             "rwd_sparse": result.rwd_sparse, "returns": returns().collect::<Vec<_>>(), "faults": faults,
             "steps_per_second": speed,
@@ -241,7 +242,7 @@ fn show_result(a: &Run, env: &Env, episodes: &[Summary], seconds: f64) {
     }
     let (low, high) =
         returns().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-    show!("{}: {} episodes, {steps} steps, {}", a.source.id, episodes.len(), a.actor.described());
+    show!("{}: {} episodes, {steps} steps, {}", a.source.id, episodes.len(), a.actor.described(env));
     if episodes.is_empty() {
         return;
     }

@@ -1,8 +1,8 @@
 //! What acts in an environment: a policy, or a controller.
 
 use crate::failure::Failure;
-use crate::input::policy::policy;
-use crate::terminal::show;
+use crate::input::policy::{BEST, policy, shipped};
+use crate::terminal::{note, show};
 use agents::learn::Teacher;
 use agents::{Policy, PolicyError};
 use clap::Args;
@@ -15,7 +15,8 @@ const LIST: &str = "list";
 /// Who acts.
 #[derive(Args)]
 pub struct ActorArguments {
-    /// What acts: random, zero, or a file with a policy: one that `train` wrote, or one made for RoboHive by mjrl (a pickle, which is not executed)
+    /// What acts: best, the policy that is shipped for ID or else the controller that serves it best; random; zero; or a file with a policy: one that
+    /// `train` wrote, or one made for RoboHive by mjrl (a pickle, which is not executed)
     #[arg(long, value_name = "POLICY", default_value = "random")]
     pub policy: String,
     /// A controller that solves the task without learning acts instead; `list` shows those that serve ID
@@ -24,37 +25,58 @@ pub struct ActorArguments {
 }
 
 impl ActorArguments {
-    /// What recordings say acted.
-    pub fn name(&self) -> String {
-        self.controller.as_ref().map_or_else(|| self.policy.clone(), |name| format!("controller {name}"))
+    /// What recordings say acts in an environment.
+    pub fn name(&self, env: &Env) -> String {
+        self.controller(env).map_or_else(|| self.policy.clone(), |name| format!("controller {name}"))
     }
 
     /// The same in a sentence.
-    pub fn described(&self) -> String {
-        self.controller.as_ref().map_or_else(|| format!("{} policy", self.policy), |_| self.name())
+    pub fn described(&self, env: &Env) -> String {
+        self.controller(env).map_or_else(|| format!("{} policy", self.policy), |_| self.name(env))
     }
 
-    /// The policy, read; it fits its environment or not when it first acts. `None` where a controller is to act.
+    /// The controller that acts: the one that was named, or that stands in for a policy that is not shipped.
+    fn controller(&self, env: &Env) -> Option<&str> {
+        let stands_in = || {
+            let wanted = self.policy == BEST && assets::policy(&env.spec().id).is_none();
+            wanted.then(|| control::serving(env.spec()).next()).flatten().map(|entry| entry.name)
+        };
+        self.controller.as_deref().or_else(stands_in)
+    }
+
+    /// The policy for the environments of an id, read; it fits them or not when it first acts. `None` where a controller is to act.
     ///
     /// # Errors
     /// The file cannot be read, or holds no policy.
-    pub fn policy(&self) -> Result<Option<Policy>, Failure> {
-        if self.controller.is_some() { Ok(None) } else { policy(&self.policy).map(Some) }
+    pub fn policy(&self, id: &str) -> Result<Option<Policy>, Failure> {
+        match (&self.controller, &self.policy[..]) {
+            (Some(_), _) => Ok(None),
+            (None, BEST) => shipped(id),
+            (None, name) => policy(name, id).map(Some),
+        }
     }
 
-    /// What acts in an environment: the policy, or the controller that was named. `None` where it was asked only which there are,
-    /// which is then shown.
+    /// What acts in an environment: the policy, or a controller. `None` where it was asked only which controllers there are, which are then
+    /// shown.
     ///
     /// # Errors
-    /// There is no such controller, or it serves other environments.
+    /// There is no such controller, or it serves other environments; there is neither a policy nor a controller.
     pub fn actor(&self, policy: Option<Policy>, env: &Env) -> Result<Option<Actor>, Failure> {
         if let Some(policy) = policy {
             return Ok(Some(Actor::Policy { now: policy.clone(), policy }));
         }
-        let name = self.controller.as_deref().unwrap_or(LIST);
+        let id = &env.spec().id;
+        let name = self.controller(env).ok_or_else(|| {
+            Failure::usage(format!(
+                "no policy is shipped for {id}, and no controller serves it; `robohive train {id}` trains a policy"
+            ))
+        })?;
         if name == LIST {
             show_controllers(env);
             return Ok(None);
+        }
+        if self.controller.is_none() {
+            note(&format!("no policy is shipped for {id}: the controller {name} acts"));
         }
         control::make(name, env).map(|controller| Some(Actor::Controller(controller))).map_err(Failure::usage)
     }

@@ -3,7 +3,7 @@
 use super::playing::{Playing, interval};
 use crate::failure::Failure;
 use crate::input::library::Making;
-use crate::input::policy::policy;
+use crate::input::policy::{BEST, policy};
 use crate::terminal::{show, show_json};
 use agents::Policy;
 use clap::{Args, ValueHint};
@@ -21,12 +21,13 @@ episodes: several tasks are solved by standing still, so that a success says som
 The interval is Wilson's for a share of episodes; where a task counts a share of solved steps, it is left out.
 
 Examples:
+  robohive evaluate best hive/myoElbowPose1D6MRandom-v0
   robohive train hive/myoElbowPose1D6MRandom-v0 --iterations 1 --out trained
   robohive evaluate trained/policy.safetensors --episodes 20
   robohive evaluate trained/policy.safetensors --episodes 20 --json"
 )]
 pub struct Evaluate {
-    /// A policy that `train` wrote, or a pickle of mjrl
+    /// A policy that `train` wrote, or a pickle of mjrl; best, the one that is shipped for ID
     #[arg(value_name = "POLICY", value_hint = ValueHint::FilePath)]
     policy: String,
     /// Id of the environment [default: what the policy was trained on]
@@ -48,12 +49,18 @@ pub struct Evaluate {
 
 /// Runs the command.
 pub fn run(a: &Evaluate) -> Result<(), Failure> {
-    let policy = policy(&a.policy)?;
+    let given = a.id.as_deref();
+    let policy = match (&a.policy[..], given) {
+        (BEST, None) => {
+            return Err(Failure::usage("best is the policy that is shipped for an id: give an ID after it"));
+        }
+        (name, id) => policy(name, id.unwrap_or_default())?,
+    };
     let trained = match &policy {
         Policy::Trained(trained) => Some(trained.card().id.clone()),
         _ => None,
     };
-    let id = a.id.clone().or(trained).ok_or_else(|| {
+    let id = given.map(str::to_owned).or(trained).ok_or_else(|| {
         Failure::usage(format!("{} does not say what it was trained on: give an ID after it", a.policy))
     })?;
     let env = a.making.make(&id)?;

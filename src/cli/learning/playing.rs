@@ -1,8 +1,8 @@
 //! Episodes that say how good a policy is: the same ones for every policy.
 
 use crate::failure::Failure;
-use agents::Policy;
 use agents::statistics::wilson;
+use agents::{Policy, PolicyError};
 use clap::Args;
 use env::Env;
 use env::episode::Summary;
@@ -33,14 +33,14 @@ impl Playing {
         let threads = if self.threads == 0 { cores } else { self.threads }.min(self.episodes as usize);
         let next = AtomicU32::new(0);
         let work = |mut env: Env| -> Result<Vec<(u32, Summary)>, Failure> {
-            let (mut played, mut action) = (Vec::new(), vec![0.0; env.action_len()]);
+            let mut played = Vec::new();
             loop {
                 let index = next.fetch_add(1, Ordering::Relaxed);
                 if index >= self.episodes {
                     return Ok(played);
                 }
                 let seed = self.seed.wrapping_add(u64::from(index));
-                played.push((index, episode(&mut env, policy.for_episode(seed), seed, &mut action)?));
+                played.push((index, policy.play(&mut env, seed).map_err(failed)?));
                 bar.inc(1);
             }
         };
@@ -55,15 +55,12 @@ impl Playing {
     }
 }
 
-fn episode(env: &mut Env, mut policy: Policy, seed: u64, action: &mut [f64]) -> Result<Summary, Failure> {
-    env.reset(Some(seed)).map_err(Failure::new)?;
-    let mut summary = Summary::default();
-    while !(summary.terminated || summary.truncated) {
-        policy.action(env, action).map_err(Failure::usage)?;
-        let step = env.step(action).map_err(Failure::new)?;
-        summary.add(env, &step);
+/// A policy for another environment is a wrong argument.
+fn failed(error: PolicyError) -> Failure {
+    match error {
+        PolicyError::Env(_) => Failure::new(error),
+        error => Failure::usage(error),
     }
-    Ok(summary)
 }
 
 /// The 95 % interval of a share of `count` episodes \[%\].

@@ -73,7 +73,7 @@ pub struct Teleop {
     /// How a glove's sensors map to the joints of a hand (TOML); required for gloves
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub calibration: Option<PathBuf>,
-    /// What acts until you take over, by any motion or by p: random, zero, or a file with a policy, as for `robohive run`
+    /// What acts until you take over, by any motion or by p: best, random, zero, or a file with a policy, as for `robohive run`
     #[arg(long, value_name = "POLICY")]
     pub policy: Option<String>,
     /// What is driven; a glove or a leader arm always drives joints

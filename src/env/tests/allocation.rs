@@ -10,7 +10,7 @@
 //! ```
 
 use mjcf::Loader;
-use robohive_env::{AssetError, Assets, Env, Options, Registry, Rng};
+use robohive_env::{Arguments, AssetError, Assets, Env, Options, Registry, Rng, Spec};
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 use std::alloc::System;
 use std::collections::BTreeSet;
@@ -49,6 +49,22 @@ impl Assets for Imported {
 /// Whether images are made anew each time, so that they are not counted: the surfaces of flexes, and features.
 fn makes_images(env: &Env) -> bool {
     env.scene().model.nflex > 0 || env.visual_keys().iter().any(|key| key.is_encoded())
+}
+
+/// Settings that make the images of an id small: their pixels take the time, and make no difference to what is allocated when. What a network
+/// encodes keeps its size.
+fn small_images(spec: &Spec) -> Arguments {
+    let small = |key: &String| match key.ends_with("d") {
+        true => key.replace(":224x224:", ":32x32:"),
+        false => key.clone(),
+    };
+    match spec.args.get::<Vec<String>>("visual_keys") {
+        Some(keys) => {
+            let keys: Vec<_> = keys.iter().map(small).collect();
+            Arguments::default().with("visual_keys", keys).unwrap()
+        }
+        None => Arguments::default(),
+    }
 }
 
 /// Plays the same seeded episode and draws `images` images; how many allocations its steps and images made.
@@ -100,7 +116,8 @@ fn main() {
             left += 1;
             continue;
         }
-        let mut env = Env::make(&spec.id, &assets, &Options::default()).unwrap();
+        let options = Options::default().with_changes(small_images(spec));
+        let mut env = Env::make(&spec.id, &assets, &options).unwrap();
         // Where no images are counted, an id on a model of our own makes the steps of the one without images.
         if own && !imported && makes_images(&env) && !bare.insert(kind) {
             left += 1;
