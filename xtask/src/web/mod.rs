@@ -16,7 +16,7 @@ use std::process::Command;
 /// What the module is compiled for.
 const TARGET: &str = "wasm32-unknown-unknown";
 /// How modules are built.
-const PROFILE: &str = "release";
+const PROFILE: &str = "page";
 /// The modules: the package, the name of its script, and what it compiles to.
 const MODULES: [(&str, &str, &str); 2] = [
     ("robohive-web", "engine", "robohive_web.wasm"),
