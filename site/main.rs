@@ -24,7 +24,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What stands in the place of the viewer's own page in a build without it.
+/// What stands in the place of each page with an engine in a build without it.
 const NO_ENGINE: &str = "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>RoboHive</title>\
                          <p>This build of the site has no engine: <code>cargo xtask web</code> builds one.</p></html>\n";
 
@@ -110,7 +110,10 @@ fn build(request: &Request) -> Result<Vec<(String, Vec<Block>)>, String> {
     book.build().map_err(|error| format!("{error:#}"))?;
     match package {
         Some(package) => copy(package, &request.site.join("live"), &|_| true)?,
-        None => save(&request.site.join("live/index.html"), NO_ENGINE.as_bytes())?,
+        None => stage::names(root, "web/page")?
+            .iter()
+            .filter(|name| name.ends_with(".html"))
+            .try_for_each(|name| save(&request.site.join("live").join(name), NO_ENGINE.as_bytes()))?,
     }
     if let Some(api) = &request.api {
         copy(api, &request.site.join("api"), &|path| !path.ends_with("src"))?;
