@@ -4,9 +4,10 @@
 //! threads: registers hold several elements at once, never several parts of one sum, and nothing is fused. So its bits are the same everywhere.
 
 use std::array::from_fn;
+use wide::f32x8;
 
-/// Rows and columns of a block of the product, which stays in registers during the sum.
-const ROWS: usize = 4;
+/// Rows of a block of the product, which stays in registers during the sum; a row of it is a vector.
+const ROWS: usize = 8;
 const COLUMNS: usize = 8;
 
 /// A matrix whose element of row `i` and column `k` is at `i * strides[0] + k * strides[1]`.
@@ -62,31 +63,49 @@ fn add_strip<const R: usize>(
 ) {
     let columns = strip.len() / R;
     packed.clear();
-    packed.extend((0..b.len() / columns).map(|k| from_fn(|row| a.at(first + row, k))));
-    let vectors = columns / COLUMNS * COLUMNS;
-    for column in (0..vectors).step_by(COLUMNS) {
-        add_block::<R, COLUMNS>(packed, b, column, strip);
+    packed.resize(b.len() / columns, [0.0; R]);
+    for (k, column) in packed.iter_mut().enumerate() {
+        for (row, value) in column.iter_mut().enumerate() {
+            *value = a.at(first + row, k);
+        }
     }
-    for column in vectors..columns {
-        add_block::<R, 1>(packed, b, column, strip);
+    let whole = columns / COLUMNS * COLUMNS;
+    for column in (0..whole).step_by(COLUMNS) {
+        add_block(packed, b, [column, COLUMNS], strip, |row| {
+            row.first_chunk().map_or(f32x8::ZERO, |row| f32x8::new(*row))
+        });
+    }
+    if whole < columns {
+        add_block(packed, b, [whole, columns - whole], strip, padded);
     }
 }
 
-/// Adds `C` columns, from `first` on, of `R` rows of the product to `strip`.
-fn add_block<const R: usize, const C: usize>(a: &[[f32; R]], b: &[f32], first: usize, strip: &mut [f32]) {
+/// Adds `count` columns, from `first` on, of `R` rows of the product to `strip`.
+#[inline(always)]
+fn add_block<const R: usize>(
+    a: &[[f32; R]],
+    b: &[f32],
+    [first, count]: [usize; 2],
+    strip: &mut [f32],
+    load: impl Fn(&[f32]) -> f32x8,
+) {
     let columns = strip.len() / R;
-    let mut sums: [[f32; C]; R] = from_fn(|row| from_fn(|k| strip[row * columns + first + k]));
-    for (a, b) in a.iter().zip(b[first..].chunks(columns)) {
-        let Some(b) = b.first_chunk::<C>() else { return };
-        for (sums, a) in sums.iter_mut().zip(a) {
-            for (sum, b) in sums.iter_mut().zip(b) {
-                *sum += a * b;
-            }
+    let place = |row: usize| row * columns + first..row * columns + first + count;
+    let mut sums: [f32x8; R] = from_fn(|row| load(&strip[place(row)]));
+    for (k, a) in a.iter().enumerate() {
+        let b = load(&b[place(k)]);
+        for row in 0..R {
+            sums[row] += f32x8::splat(a[row]) * b;
         }
     }
     for (row, sums) in sums.iter().enumerate() {
-        strip[row * columns + first..][..C].copy_from_slice(sums);
+        strip[place(row)].copy_from_slice(&sums.as_array()[..count]);
     }
+}
+
+/// Less numbers than a vector has, and zeros.
+fn padded(row: &[f32]) -> f32x8 {
+    f32x8::new(from_fn(|k| row.get(k).copied().unwrap_or(0.0)))
 }
 
 #[cfg(test)]
